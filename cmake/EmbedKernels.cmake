@@ -1,0 +1,17 @@
+# Writes OUTPUT, a C++ file that holds every file of SOURCES (paths below ROOT) as a string.
+# The text goes in as bytes: no quoting rule and no limit on literals to trip over.
+set(body "")
+set(table "")
+set(index 0)
+list(SORT SOURCES)
+foreach(source IN LISTS SOURCES)
+    file(RELATIVE_PATH name ${ROOT} ${source})
+    file(READ ${source} hex HEX)
+    string(LENGTH "${hex}" digits)
+    math(EXPR size "${digits} / 2")
+    string(REGEX REPLACE "(..)" "'\\\\x\\1'," bytes "${hex}")
+    string(APPEND body "constexpr char file${index}[] = {${bytes}'\\0'};\n")
+    string(APPEND table "    {\"${name}\", {file${index}, ${size}}},\n")
+    math(EXPR index "${index} + 1")
+endforeach()
+file(WRITE ${OUTPUT} "#include \"kernels/embedded_kernels.hpp\"\n\nnamespace wedge {\nnamespace {\n\n${body}\nconstexpr EmbeddedKernel table[] = {\n${table}};\n\n} // namespace\n\nstd::span<const EmbeddedKernel> embeddedKernels() { return table; }\n\n} // namespace wedge\n")

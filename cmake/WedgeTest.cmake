@@ -1,0 +1,8 @@
+# wedge_test(NAME LIBRARIES...): builds tests/NAME.cpp (doctest) against LIBRARIES and registers it with CTest.
+function(wedge_test name)
+    add_executable(${name} ${name}.cpp)
+    target_link_libraries(${name} PRIVATE wedge_test_main ${ARGN} wedge_options)
+    add_test(NAME ${name} COMMAND ${name})
+    # OpenCL drivers cache compiled kernels per process; a shared core count keeps CTest from oversubscribing.
+    set_tests_properties(${name} PROPERTIES TIMEOUT 600 ENVIRONMENT "WEDGE_TEST_DATA=${CMAKE_SOURCE_DIR}/data;WEDGE_BUILD_DIR=${CMAKE_BINARY_DIR}")
+endfunction()

@@ -1,0 +1,42 @@
+// The bounding volume hierarchy as it lies in device memory: 8-wide nodes and blocks of triangles, both
+// as structures of arrays, so that one ray tests 8 boxes or a block of triangles with one vector each.
+#ifndef WEDGE_SHARED_BVH_TYPES_H
+#define WEDGE_SHARED_BVH_TYPES_H
+
+#include "compat.h"
+
+/// Children of a node.
+#define WEDGE_BVH_WIDTH 8
+/// Triangles of a block.
+#define WEDGE_BLOCK_SIZE 4
+/// A child reference is an inner node's index, or, with this bit, a leaf: LEAF | firstBlock << 3 | blockCount.
+/// A leaf of no blocks is an empty slot.
+#define WEDGE_BVH_LEAF 0x80000000u
+#define WEDGE_BVH_MAX_LEAF_BLOCKS 7
+/// Marks an unused lane of a block, and the primitive of a ray that hit nothing.
+#define WEDGE_NO_TRIANGLE 0xffffffffu
+/// Traversal stack entries; the builder guarantees that no traversal needs more.
+#define WEDGE_BVH_STACK 96
+
+WEDGE_SHARED_BEGIN
+
+/// Unused slots have lo = +1e30 and hi = -1e30 (no ray enters them) and child = WEDGE_BVH_LEAF.
+typedef struct {
+    float loX[WEDGE_BVH_WIDTH], hiX[WEDGE_BVH_WIDTH];
+    float loY[WEDGE_BVH_WIDTH], hiY[WEDGE_BVH_WIDTH];
+    float loZ[WEDGE_BVH_WIDTH], hiZ[WEDGE_BVH_WIDTH];
+    uint child[WEDGE_BVH_WIDTH];
+    uint padding[WEDGE_BVH_WIDTH];
+} BvhNode;
+
+/// v0 is the first vertex, e1 = v1 - v0, e2 = v2 - v0; unused lanes are all zero with triangle = WEDGE_NO_TRIANGLE.
+typedef struct {
+    float v0x[WEDGE_BLOCK_SIZE], v0y[WEDGE_BLOCK_SIZE], v0z[WEDGE_BLOCK_SIZE];
+    float e1x[WEDGE_BLOCK_SIZE], e1y[WEDGE_BLOCK_SIZE], e1z[WEDGE_BLOCK_SIZE];
+    float e2x[WEDGE_BLOCK_SIZE], e2y[WEDGE_BLOCK_SIZE], e2z[WEDGE_BLOCK_SIZE];
+    uint triangle[WEDGE_BLOCK_SIZE];
+} TriangleBlock;
+
+WEDGE_SHARED_END
+
+#endif
