@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace wedge::image {
+
+/// An output file that appears whole or not at all: bytes go to a temporary file in the same directory, and commit()
+/// renames it. Without a commit the destructor removes the temporary file, and a file that was there stays as it was.
+/// A path that leads to a device or a pipe (/dev/stdout) is written directly, as it cannot be replaced.
+class AtomicFile {
+public:
+    /// Creates the temporary file. Throws Error where the directory is missing or not writable, or the path is a
+    /// directory or a file that may not be written.
+    explicit AtomicFile(const std::string& path);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    /// Appends the bytes. Throws Error where they do not fit (disk full, file size limit).
+    void write(std::string_view bytes);
+
+    /// Makes the bytes safe on disk and gives them the final name. Throws Error where that fails. Call once, last.
+    void commit();
+
+    /// Where the bytes go before commit(), for writers that open files by name.
+    const std::string& tempPath() const { return tempPath_; }
+
+private:
+    [[noreturn]] void fail(const std::string& what, int error) const;
+    void closeFile();
+
+    std::string path_; // as the user gave it, for messages
+    std::string target_; // with symbolic links followed: the file behind a link is replaced, not the link
+    std::string tempPath_;
+    int file_ = -1;
+    bool direct_ = false;
+};
+
+/// Throws the Error that writing the path would end in, as far as can be told now: call it before the work starts.
+/// Leaves no trace.
+void checkWritable(const std::string& path);
+
+} // namespace wedge::image
