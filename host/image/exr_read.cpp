@@ -93,7 +93,10 @@ LayeredImage readExr(const std::string& path)
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {
-        failToRead(path, "EXR image", error.what());
+        // OpenEXR names the file as well, which the user need not read twice.
+        const std::string reason = error.what();
+        const std::size_t named = reason.find(path + "\". ");
+        failToRead(path, "EXR image", named == std::string::npos ? reason : reason.substr(named + path.size() + 3));
     }
 }
 
