@@ -1,0 +1,102 @@
+#pragma once
+
+#include "host/device/cl_error.h"
+#include "host/device/device.h"
+#include "host/device/memory_plan.h"
+#include "host/device/opencl.h"
+#include "host/device/queue.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace wedge::device {
+
+/// `count` elements of T in device memory, uninitialised. Copies share the memory. Transfers are recorded by the
+/// queue as "upload NAME", "download NAME" and "fill NAME", wait, and throw Error where they leave the buffer.
+///
+/// CPU devices get no CL_MEM_ALLOC_HOST_PTR: transfers between a span and a buffer copy once there either way.
+template <class T>
+class Buffer {
+    static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> && !std::is_same_v<T, bool>);
+
+public:
+    /// name: what errors and records call it. A count of 0 allocates one element, for kernels to have an argument.
+    /// Throws Error if the device does not allocate so much at once.
+    Buffer(const Device& device, std::size_t count, std::string name)
+        : name_(std::move(name))
+        , size_(count)
+    {
+        const DeviceInfo& info = device.info();
+        // Tested here because some drivers abort the program.
+        if (count > info.maxAllocation / sizeof(T)) {
+            throw Error(fmt::format("buffer {} of {} elements on {}", name_, count, info.name),
+                fmt::format("{:.1f} MiB, the limit is {}", static_cast<double>(count) * sizeof(T) / 1048576.0,
+                    mebibytes(info.maxAllocation)),
+                "render a smaller image or crop, or choose a device with more memory");
+        }
+        const std::size_t bytes = std::max<std::size_t>(count, 1) * sizeof(T);
+        checked(fmt::format("buffer {} ({})", name_, mebibytes(bytes)), info.name,
+            [&] { buffer_ = cl::Buffer(device.context(), CL_MEM_READ_WRITE, bytes); });
+    }
+
+    /// Copies values to the elements from `offset` on.
+    void upload(TimedQueue& queue, std::span<const T> values, std::size_t offset = 0)
+    {
+        requireInside("upload to", values.size(), offset);
+        queue.write("upload " + name_, buffer_, offset * sizeof(T), values.size_bytes(), values.data());
+    }
+
+    /// Copies the elements from `offset` on to values, after all that was launched before.
+    void download(TimedQueue& queue, std::span<T> values, std::size_t offset = 0) const
+    {
+        requireInside("download from", values.size(), offset);
+        queue.read("download " + name_, buffer_, offset * sizeof(T), values.size_bytes(), values.data());
+    }
+
+    /// All elements, as download() copies them.
+    std::vector<T> downloadAll(TimedQueue& queue) const
+    {
+        std::vector<T> values(size_);
+        download(queue, values);
+        return values;
+    }
+
+    /// Sets all elements to value.
+    void fill(TimedQueue& queue, T value)
+    {
+        if constexpr (std::has_single_bit(sizeof(T)) && sizeof(T) <= 128) {
+            queue.fill("fill " + name_, buffer_, bytes(), &value, sizeof(T));
+        } else {
+            // OpenCL fills with patterns of 1, 2, 4 ... 128 bytes only.
+            const std::vector<T> values(size_, value);
+            queue.write("fill " + name_, buffer_, 0, bytes(), values.data());
+        }
+    }
+
+    std::size_t size() const { return size_; }
+    std::size_t bytes() const { return size_ * sizeof(T); }
+    const std::string& name() const { return name_; }
+    const cl::Buffer& cl() const { return buffer_; }
+
+private:
+    void requireInside(const char* action, std::size_t count, std::size_t offset) const
+    {
+        if (offset > size_ || count > size_ - offset) {
+            throw Error(fmt::format("{} buffer {} of {} elements", action, name_, size_),
+                fmt::format("{} elements at {}", count, offset), "this is a fault in wedge, please report it");
+        }
+    }
+
+    std::string name_;
+    std::size_t size_ = 0;
+    cl::Buffer buffer_;
+};
+
+} // namespace wedge::device

@@ -1,0 +1,156 @@
+#include "host/device/device.h"
+
+#include "host/device/cl_error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <functional>
+#include <optional>
+
+namespace wedge::device {
+namespace {
+
+struct Candidate {
+    DeviceInfo info;
+    cl::Device device;
+};
+
+std::vector<cl::Platform> platforms()
+{
+    std::vector<cl::Platform> found;
+    try {
+        cl::Platform::get(&found);
+    } catch (const cl::Error&) {
+        found.clear(); // the loader reports "no platform" as an error
+    }
+    return found;
+}
+
+std::vector<Candidate> candidates()
+{
+    std::vector<Candidate> all;
+    for (const cl::Platform& platform : platforms()) {
+        std::vector<cl::Device> devices;
+        try {
+            platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
+        } catch (const cl::Error&) {
+            continue; // a platform without devices is an error too, and a broken one must not hide the others
+        }
+        for (const cl::Device& device : devices) {
+            all.push_back({ queryDevice(platform, device, static_cast<unsigned>(all.size())), device });
+        }
+    }
+    return all;
+}
+
+std::string lowered(std::string text)
+{
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+using Test = std::function<bool(const DeviceInfo&)>;
+
+Test isOfType(DeviceType type)
+{
+    return [type](const DeviceInfo& info) { return info.type == type; };
+}
+
+std::optional<Candidate> firstUsable(const std::vector<Candidate>& all, const Test& test)
+{
+    for (const Candidate& candidate : all) {
+        if (candidate.info.unusable.empty() && test(candidate.info)) {
+            return candidate;
+        }
+    }
+    return std::nullopt;
+}
+
+/// The first test that any device meets decides.
+std::optional<Candidate> firstUsable(const std::vector<Candidate>& all, const std::vector<Test>& preferences)
+{
+    for (const Test& test : preferences) {
+        if (auto found = firstUsable(all, test)) {
+            return found;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<Candidate> select(const std::vector<Candidate>& all, const std::string& selector)
+{
+    if (selector.empty()) {
+        return firstUsable(all,
+            std::vector<Test> {
+                isOfType(DeviceType::Gpu), isOfType(DeviceType::Cpu), [](const auto&) { return true; } });
+    }
+    const std::string wanted = lowered(selector);
+    if (wanted == "cpu" || wanted == "gpu") {
+        return firstUsable(all, isOfType(wanted == "cpu" ? DeviceType::Cpu : DeviceType::Gpu));
+    }
+    std::size_t index = 0;
+    const char* end = wanted.data() + wanted.size();
+    if (const auto [stop, status] = std::from_chars(wanted.data(), end, index); stop == end) {
+        return status == std::errc() && index < all.size() ? std::optional(all[index]) : std::nullopt;
+    }
+    const auto holds = [wanted](const std::string& text) { return lowered(text).find(wanted) != std::string::npos; };
+    return firstUsable(all,
+        std::vector<Test> { [holds](const DeviceInfo& info) { return holds(info.name); },
+            [holds](const DeviceInfo& info) { return holds(info.platform); } });
+}
+
+std::string described(const std::vector<Candidate>& all)
+{
+    std::string text;
+    for (const Candidate& candidate : all) {
+        const DeviceInfo& info = candidate.info;
+        text += fmt::format("{}{} = {} ({}{})", text.empty() ? "" : ", ", info.index, info.name,
+            deviceTypeName(info.type), info.unusable.empty() ? "" : ", unusable: " + info.unusable);
+    }
+    return text;
+}
+
+} // namespace
+
+std::vector<DeviceInfo> listDevices()
+{
+    std::vector<DeviceInfo> infos;
+    for (Candidate& candidate : candidates()) {
+        infos.push_back(std::move(candidate.info));
+    }
+    return infos;
+}
+
+Device Device::open(const std::string& selector)
+{
+    const std::vector<Candidate> all = candidates();
+    if (all.empty()) {
+        throw Error("OpenCL device", "none found",
+            "install an OpenCL driver, such as the package pocl-opencl-icd for the CPU, or your GPU vendor's");
+    }
+    std::optional<Candidate> chosen = select(all, selector);
+    if (!chosen) {
+        throw Error("no such OpenCL device", selector.empty() ? "any" : selector,
+            "choose cpu, gpu, an index or part of a name of: " + described(all));
+    }
+    if (!chosen->info.unusable.empty()) {
+        throw Error(
+            "OpenCL device " + chosen->info.name, chosen->info.unusable, "choose another of: " + described(all));
+    }
+    return Device(std::move(chosen->info), std::move(chosen->device));
+}
+
+Device::Device(DeviceInfo info, cl::Device device)
+    : info_(std::move(info))
+    , device_(std::move(device))
+{
+    checked("opening the device", info_.name, [this] {
+        context_ = cl::Context(device_);
+        info_.hostTimers = probeHostTimers(context_, device_);
+    });
+}
+
+} // namespace wedge::device

@@ -1,0 +1,90 @@
+#include "host/device/memory_plan.h"
+
+#include "host/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace wedge::device {
+namespace {
+
+constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+constexpr const char* wayOut =
+    "render a smaller image with --size, a part of it with --crop, or choose a device with more "
+    "memory with --device";
+
+std::uint64_t saturatingAdd(std::uint64_t a, std::uint64_t b) { return b > most - a ? most : a + b; }
+std::uint64_t saturatingMul(std::uint64_t a, std::uint64_t b) { return b != 0 && a > most / b ? most : a * b; }
+
+} // namespace
+
+std::string mebibytes(std::uint64_t bytes)
+{
+    return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1024.0 * 1024.0));
+}
+
+void MemoryPlan::add(std::string name, std::uint64_t bytes) { parts_.push_back({ std::move(name), bytes }); }
+
+void MemoryPlan::addItems(std::string name, std::uint64_t count, std::uint64_t bytesEach)
+{
+    add(std::move(name), saturatingMul(count, bytesEach));
+}
+
+std::uint64_t MemoryPlan::total() const
+{
+    std::uint64_t sum = 0;
+    for (const Part& part : parts_) {
+        sum = saturatingAdd(sum, part.bytes);
+    }
+    return sum;
+}
+
+std::string MemoryPlan::table() const
+{
+    std::vector<Part> sorted = parts_;
+    std::stable_sort(sorted.begin(), sorted.end(), [](const Part& a, const Part& b) { return a.bytes > b.bytes; });
+    sorted.push_back({ "total", total() });
+    std::size_t width = 0;
+    for (const Part& part : sorted) {
+        width = std::max(width, part.name.size());
+    }
+    std::string text;
+    for (const Part& part : sorted) {
+        text += fmt::format("{:<{}}  {:>12}\n", part.name, width, mebibytes(part.bytes));
+    }
+    return text;
+}
+
+const MemoryPlan::Part& MemoryPlan::largest() const
+{
+    return *std::max_element(
+        parts_.begin(), parts_.end(), [](const Part& a, const Part& b) { return a.bytes < b.bytes; });
+}
+
+void MemoryPlan::check(const DeviceInfo& device, std::uint64_t userLimitBytes) const
+{
+    if (parts_.empty()) {
+        return;
+    }
+    const Part& part = largest();
+    const std::uint64_t reserve = device.globalMemory / (device.unifiedMemory ? 5 : 10);
+    const std::uint64_t deviceLimit = device.globalMemory - reserve;
+    const bool limitedByUser = userLimitBytes != 0 && userLimitBytes < deviceLimit;
+    const std::uint64_t limit = limitedByUser ? userLimitBytes : deviceLimit;
+    const std::string needed =
+        fmt::format("{}, the most of it for {} ({})", mebibytes(total()), part.name, mebibytes(part.bytes));
+    if (total() > limit) {
+        throw Error(fmt::format("memory needed on {} exceeds the {} {}", device.name, mebibytes(limit),
+                        limitedByUser ? "that are allowed" : "that it has to give"),
+            needed, wayOut);
+    }
+    if (part.bytes > device.maxAllocation) {
+        throw Error(fmt::format("memory needed on {} has a buffer above its limit of {}", device.name,
+                        mebibytes(device.maxAllocation)),
+            needed, wayOut);
+    }
+}
+
+} // namespace wedge::device

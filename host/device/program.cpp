@@ -1,0 +1,185 @@
+#include "host/device/program.h"
+
+#include "host/device/cl_error.h"
+#include "host/device/source.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+#include <string_view>
+
+namespace wedge::device {
+namespace {
+
+/// The first line of a compiler's log that speaks of an error; else its first line that is not blank.
+std::string firstError(const std::string& log)
+{
+    std::string fallback = "no message from the compiler";
+    bool anyLine = false;
+    for (std::string_view rest = log; !rest.empty();) {
+        const auto length = std::min(rest.find('\n'), rest.size());
+        std::string line(rest.substr(0, length));
+        rest.remove_prefix(std::min(length + 1, rest.size()));
+        line.erase(0, std::min(line.find_first_not_of(" \t\r"), line.size()));
+        line.erase(line.find_last_not_of(" \t\r\0") + 1);
+        std::string lower = line;
+        std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+        if (lower.find("error") != std::string::npos) {
+            return line;
+        }
+        if (!anyLine && !line.empty()) {
+            fallback = line;
+            anyLine = true;
+        }
+    }
+    return fallback;
+}
+
+/// Writes text to a new file in the temporary folder and returns its path, or "" if that cannot be done.
+std::string writeTemporary(const std::string& text)
+{
+    std::error_code failed;
+    const std::filesystem::path folder = std::filesystem::temp_directory_path(failed);
+    std::string path = ((failed ? std::filesystem::path("/tmp") : folder) / "wedge-build-XXXXXX.txt").string();
+    const int file = ::mkstemps(path.data(), 4);
+    if (file < 0) {
+        return "";
+    }
+    std::string_view rest = text;
+    while (!rest.empty()) {
+        const auto written = ::write(file, rest.data(), rest.size());
+        if (written <= 0) {
+            break;
+        }
+        rest.remove_prefix(static_cast<std::size_t>(written));
+    }
+    ::close(file);
+    return rest.empty() ? path : "";
+}
+
+/// The environment's settings for a driver's compiler, which a binary depends on as on the options: without them
+/// someone who compares two settings would measure one binary twice.
+std::string compilerEnvironment()
+{
+    std::vector<std::string> settings;
+    for (char** variable = environ; variable != nullptr && *variable != nullptr; ++variable) {
+        if (std::string_view(*variable).starts_with("POCL_")) {
+            settings.emplace_back(*variable);
+        }
+    }
+    std::sort(settings.begin(), settings.end());
+    return fmt::format("{}", fmt::join(settings, "\n"));
+}
+
+void requirePlain(const std::string& text)
+{
+    if (text.find_first_of(" \t\n\"'\\") != std::string::npos) {
+        throw Error("build option", text, "write defines without blanks and quotes, which drivers split differently");
+    }
+}
+
+} // namespace
+
+ProgramLibrary::ProgramLibrary(const Device& device, BuildOptions options)
+    : device_(device)
+    , options_(std::move(options))
+    , disk_(ProgramCache::fromEnvironment())
+{
+    for (const auto& [name, value] : options_.defines) {
+        requirePlain(name);
+        requirePlain(value);
+    }
+}
+
+cl::Program& ProgramLibrary::program(const std::string& file)
+{
+    const auto found = programs_.find(file);
+    return found != programs_.end() ? found->second : programs_.emplace(file, obtain(file)).first->second;
+}
+
+Kernel ProgramLibrary::kernel(const std::string& file, const std::string& name)
+{
+    return Kernel(device_, program(file), file, name);
+}
+
+std::string ProgramLibrary::optionsString() const
+{
+    std::string text = "-cl-std=CL1.2";
+    if (options_.fastMath) {
+        text += " -cl-fast-relaxed-math";
+    }
+    for (const auto& [name, value] : options_.defines) {
+        text += value.empty() ? fmt::format(" -D{}", name) : fmt::format(" -D{}={}", name, value);
+    }
+    return text;
+}
+
+cl::Program ProgramLibrary::obtain(const std::string& file)
+{
+    const std::string source = flattenKernel(options_.kernelDir, file).text;
+    const std::string key = cacheKey(source);
+    if (const auto binary = disk_.load(key)) {
+        if (cl::Program program; load(*binary, program)) {
+            ++loaded_;
+            return program;
+        }
+    }
+    cl::Program program = compile(file, source);
+    ++compiled_;
+    try {
+        disk_.store(key, program.getInfo<CL_PROGRAM_BINARIES>().at(0));
+    } catch (const cl::Error&) {
+        // A driver that hands out no binaries costs a compilation next time and nothing now.
+    }
+    return program;
+}
+
+cl::Program ProgramLibrary::compile(const std::string& file, const std::string& source)
+{
+    return checked("program " + file, device_.info().name, [&] {
+        cl::Program program(device_.context(), source);
+        try {
+            program.build(device_.cl(), optionsString().c_str());
+        } catch (const cl::Error& error) {
+            if (error.err() != CL_BUILD_PROGRAM_FAILURE) {
+                throw;
+            }
+            reportFailure(file, source, program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_.cl()));
+        }
+        return program;
+    });
+}
+
+bool ProgramLibrary::load(const ProgramCache::Binary& binary, cl::Program& program)
+{
+    try {
+        program = cl::Program(device_.context(), { device_.cl() }, cl::Program::Binaries { binary });
+        program.build(device_.cl(), optionsString().c_str());
+        return true;
+    } catch (const cl::Error&) {
+        return false; // drivers may refuse binaries at any time; the source is at hand
+    }
+}
+
+std::string ProgramLibrary::cacheKey(const std::string& source) const
+{
+    const DeviceInfo& info = device_.info();
+    return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", info.platform, info.platformVersion, info.name,
+        info.vendor, info.deviceVersion, info.driver, optionsString(), compilerEnvironment(), source);
+}
+
+void ProgramLibrary::reportFailure(const std::string& file, const std::string& source, const std::string& log) const
+{
+    const std::string report =
+        writeTemporary(fmt::format("program: {}\ndevice: {} ({}, driver {})\noptions: {}\n\n{}\n\n{}", file,
+            device_.info().name, device_.info().platform, device_.info().driver, optionsString(), log, source));
+    throw Error(fmt::format("program {} does not build on {} with {}", file, device_.info().name, optionsString()),
+        firstError(log),
+        report.empty() ? "correct the kernel" : "correct the kernel; whole log and source are in " + report);
+}
+
+} // namespace wedge::device

@@ -1,0 +1,131 @@
+#include "host/device/program_cache.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+namespace wedge::device {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view extension = ".clbin";
+constexpr std::size_t maxEntries = 300;
+
+/// What an entry begins with; the key and the binary follow.
+struct Header {
+    char magic[8] = { 'w', 'e', 'd', 'g', 'e', 'b', 'i', '1' };
+    std::uint64_t keyBytes = 0;
+    std::uint64_t binaryBytes = 0;
+    std::uint64_t binaryHash = 0;
+};
+
+/// 64-bit FNV-1a (Fowler, Noll, Vo). It only names files and notices damage; the key itself is compared in full.
+template <class Bytes>
+std::uint64_t hash(const Bytes& bytes)
+{
+    std::uint64_t value = 0xcbf29ce484222325u;
+    for (const auto byte : bytes) {
+        value = (value ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
+    }
+    return value;
+}
+
+} // namespace
+
+ProgramCache::ProgramCache(fs::path folder)
+    : folder_(std::move(folder))
+{
+}
+
+ProgramCache ProgramCache::fromEnvironment()
+{
+    if (const char* chosen = std::getenv("WEDGE_CACHE_DIR")) {
+        return ProgramCache(chosen);
+    }
+    if (const char* caches = std::getenv("XDG_CACHE_HOME"); caches != nullptr && *caches != '\0') {
+        return ProgramCache(fs::path(caches) / "wedge");
+    }
+    const char* home = std::getenv("HOME");
+    return ProgramCache(home != nullptr && *home != '\0' ? fs::path(home) / ".cache" / "wedge" : fs::path());
+}
+
+fs::path ProgramCache::entry(std::string_view key) const
+{
+    return folder_.empty() ? fs::path() : folder_ / fmt::format("{:016x}{}", hash(key), extension);
+}
+
+std::optional<ProgramCache::Binary> ProgramCache::load(std::string_view key) const
+{
+    if (folder_.empty()) {
+        return std::nullopt;
+    }
+    std::ifstream stream(entry(key), std::ios::binary);
+    const std::string all((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+    Header header;
+    if (all.size() < sizeof(header)) {
+        return std::nullopt;
+    }
+    const Header expected;
+    std::memcpy(&header, all.data(), sizeof(header));
+    const std::string_view body = std::string_view(all).substr(sizeof(header));
+    if (std::memcmp(header.magic, expected.magic, sizeof(header.magic)) != 0 || header.keyBytes != key.size()
+        || body.size() < key.size() || header.binaryBytes != body.size() - key.size() || !body.starts_with(key)) {
+        return std::nullopt;
+    }
+    const std::string_view binary = body.substr(key.size());
+    if (binary.empty() || hash(binary) != header.binaryHash) {
+        return std::nullopt;
+    }
+    return Binary(binary.begin(), binary.end());
+}
+
+void ProgramCache::store(std::string_view key, const Binary& binary) const
+{
+    if (folder_.empty() || binary.empty()) {
+        return;
+    }
+    std::error_code ignored;
+    fs::create_directories(folder_, ignored);
+    const fs::path target = entry(key);
+    fs::path aside = target;
+    aside += fmt::format(".{}", ::getpid());
+    Header header;
+    header.keyBytes = key.size();
+    header.binaryBytes = binary.size();
+    header.binaryHash = hash(binary);
+    std::ofstream stream(aside, std::ios::binary);
+    stream.write(reinterpret_cast<const char*>(&header), sizeof(header));
+    stream.write(key.data(), static_cast<std::streamsize>(key.size()));
+    stream.write(reinterpret_cast<const char*>(binary.data()), static_cast<std::streamsize>(binary.size()));
+    stream.close();
+    if (stream) {
+        fs::rename(aside, target, ignored);
+        dropOldest();
+    } else {
+        fs::remove(aside, ignored);
+    }
+}
+
+void ProgramCache::dropOldest() const
+{
+    std::error_code ignored;
+    std::vector<std::pair<fs::file_time_type, fs::path>> entries;
+    for (fs::directory_iterator it(folder_, ignored), end; it != end; it.increment(ignored)) {
+        if (it->path().extension() == extension) {
+            entries.emplace_back(it->last_write_time(ignored), it->path());
+        }
+    }
+    std::sort(entries.begin(), entries.end());
+    for (std::size_t i = 0; i + maxEntries < entries.size(); ++i) {
+        fs::remove(entries[i].second, ignored);
+    }
+}
+
+} // namespace wedge::device

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace wedge::device {
+
+/// A .cl file with its includes put in place.
+struct FlatSource {
+    std::string text;
+    std::vector<std::string> files; ///< what it was made of, in order of first appearance, as #line names them
+};
+
+/// Reads `file` (relative to kernels/) and puts each `#include "x.h"` in place, with `#line` directives so that the
+/// compiler's messages name the real file and line. An include is looked for in the including file's folder, then in
+/// kernels/. Each file comes in once a program, at its first include, whatever conditionals stand around it;
+/// `#include <...>` stays as it is.
+///
+/// kernelDir: a folder that is looked in before the embedded sources, file by file; "" for the embedded ones alone.
+/// Throws Error for a missing file or folder, and for files that include each other, with the including file and line.
+FlatSource flattenKernel(const std::string& kernelDir, const std::string& file);
+
+} // namespace wedge::device

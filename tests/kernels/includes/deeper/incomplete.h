@@ -1,0 +1,2 @@
+// line 1
+#include "absent.h"

@@ -1,0 +1,2 @@
+#include "deeper/bottom.h"
+#define LEFT 10

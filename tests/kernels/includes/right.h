@@ -1,0 +1,2 @@
+#include "deeper/bottom.h"
+#define RIGHT 100
