@@ -10,7 +10,7 @@
 #include <cctype>
 #include <filesystem>
 #include <memory>
-#include <stb_image.h>
+#include <stb/stb_image.h>
 
 namespace wedge::image {
 
