@@ -1,0 +1,24 @@
+// Traces rays from a buffer, for tests and benchmarks of the traversal.
+#include "traverse.h"
+
+/// rays: 8 floats a ray, ox oy oz tMin dx dy dz tMax. hits: one a ray. One work-item a ray; more do nothing.
+__kernel void traceClosest(__global const float* restrict rays, __global Hit* restrict hits,
+    __global const BvhNode* restrict nodes, __global const TriangleBlock* restrict blocks, uint count)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    const float8 ray = vload8(i, rays);
+    hits[i] = closestHit(nodes, blocks, vec3(ray.s0, ray.s1, ray.s2), vec3(ray.s4, ray.s5, ray.s6), ray.s3, ray.s7);
+}
+
+/// As traceClosest; occluded: 1 for each ray that hits anything, 0 for the others.
+__kernel void traceAny(__global const float* restrict rays, __global uint* restrict occluded,
+    __global const BvhNode* restrict nodes, __global const TriangleBlock* restrict blocks, uint count)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
+        return;
+    const float8 ray = vload8(i, rays);
+    occluded[i] = anyHit(nodes, blocks, vec3(ray.s0, ray.s1, ray.s2), vec3(ray.s4, ray.s5, ray.s6), ray.s3, ray.s7);
+}
