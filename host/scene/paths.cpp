@@ -1,0 +1,80 @@
+#include "host/scene/paths.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "host/error.h"
+
+namespace wedge::scene {
+namespace fs = std::filesystem;
+
+std::string expandVariables(const std::string& text, const std::string& where)
+{
+    std::string out;
+    std::size_t at = 0;
+    for (;;) {
+        const std::size_t begin = text.find("${", at);
+        out += text.substr(at, begin == std::string::npos ? begin : begin - at);
+        if (begin == std::string::npos)
+            return out;
+        const std::size_t end = text.find('}', begin);
+        if (end == std::string::npos)
+            throw Error(where + ": path has '${' without '}'", text, "close the name of the variable with '}'");
+        const std::string name = text.substr(begin + 2, end - begin - 2);
+        const char* value = std::getenv(name.c_str());
+        if (value == nullptr)
+            throw Error(where + ": environment variable is not set", name,
+                fmt::format("set it to the folder that '{}' stands for", text.substr(begin, end + 1 - begin)));
+        out += value;
+        at = end + 1;
+    }
+}
+
+fs::path resolvePath(const std::string& text, const fs::path& folder, const std::string& where)
+{
+    std::string expanded = expandVariables(text, where);
+    std::replace(expanded.begin(), expanded.end(), '\\', '/');
+    const fs::path path(expanded);
+    return path.is_absolute() ? path : (folder / path).lexically_normal();
+}
+
+std::string readFile(const fs::path& path, const std::string& kind, std::uintmax_t limit)
+{
+    std::error_code code;
+    const fs::file_status status = fs::status(path, code);
+    if (!fs::exists(status))
+        throw Error(kind + " not found", path.string(), "check the path");
+    if (fs::is_directory(status))
+        throw Error(kind + " is a folder", path.string(), "name a file in it");
+    if (!fs::is_regular_file(status))
+        throw Error(kind + " is not a regular file", path.string(), "copy it to a regular file first");
+    const std::uintmax_t size = fs::file_size(path, code);
+    if (!code && size > limit)
+        throw Error(kind + " is larger than " + std::to_string(limit) + " bytes",
+            fmt::format("{} ({} bytes)", path.string(), size), "split it or simplify it");
+    std::ifstream stream(path, std::ios::binary);
+    std::string text(code ? 0 : static_cast<std::size_t>(size), '\0');
+    if (stream)
+        stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (code || !stream)
+        throw Error(kind + " cannot be read", fmt::format("{} ({})", path.string(), std::strerror(errno)),
+            "check its permissions");
+    return text;
+}
+
+std::string lowerCase(std::string text)
+{
+    std::transform(
+        text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+std::string lowerExtension(const fs::path& path) { return lowerCase(path.extension().string()); }
+
+} // namespace wedge::scene

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+/// What is to be rendered, as plain data in world space. Units: metres, radiance in W/(m^2 sr), linear Rec.709.
+namespace wedge::scene {
+
+/// An 8-bit image. Its colour multiplies the material's constant of the same name.
+struct Texture {
+    std::string path;
+    int width = 0, height = 0;
+    std::vector<std::uint32_t> rgba; ///< width x height, sRGB-encoded, R in the low byte, row 0 = bottom (v = 0)
+};
+
+enum class SpecularModel { Phong, BlinnPhong };
+
+struct Material {
+    std::string name;
+    glm::vec3 diffuse { 0.5f }, specular { 0.0f }, emission { 0.0f };
+    float exponent = 1.0f; ///< of the specular lobe, at least 0
+    SpecularModel specularModel = SpecularModel::BlinnPhong;
+    /// Indices into Scene::textures; -1 = none.
+    int diffuseTexture = -1, specularTexture = -1, exponentTexture = -1, emissionTexture = -1;
+};
+
+enum class LightProfile { Uniform, Gaussian };
+
+/// A parallelogram of corners centre +- halfU +- halfV that emits towards cross(halfU, halfV).
+struct AreaLight {
+    std::string name;
+    glm::vec3 centre { 0.0f }, halfU { 1.0f, 0.0f, 0.0f }, halfV { 0.0f, 0.0f, 1.0f };
+    glm::vec3 radiance { 1.0f }; ///< at the centre; a Gaussian falls off from there, to exp(-cut^2/2) at an edge
+    LightProfile profile = LightProfile::Gaussian;
+    float cut = 2.0f; ///< half extent in standard deviations; a uniform light ignores it
+    bool twoSided = false, visible = true;
+};
+
+struct PointLight {
+    glm::vec3 position { 0.0f }, intensity { 1.0f }; ///< W/sr
+};
+
+struct DirectionalLight {
+    glm::vec3 direction { 0.0f, -1.0f, 0.0f }; ///< the way the light travels, unit length
+    glm::vec3 irradiance { 1.0f }; ///< W/m^2 on a surface that faces the light
+};
+
+struct Camera {
+    glm::vec3 eye { 0.0f, 0.0f, 5.0f }, lookAt { 0.0f }, up { 0.0f, 1.0f, 0.0f };
+    float verticalFov = 45.0f; ///< degrees
+};
+
+/// All triangles of all instances. Counter-clockwise seen from the side the geometric normal points to.
+struct Geometry {
+    std::vector<float> positions; ///< 3 a vertex, world space, finite
+    std::vector<float> normals; ///< 3 a vertex, unit length; the zero vector = use the geometric normal
+    std::vector<float> texcoords; ///< 2 a vertex; v = 0 is the bottom of the image
+    std::vector<std::uint32_t> indices; ///< 3 a triangle
+    std::vector<std::uint32_t> materialIds, objectIds; ///< 1 a triangle; an object id is at least 1, 0 = background
+    std::vector<std::string> objectNames; ///< of object id i at [i - 1]
+};
+
+/// What a scene file may set and the command line may override.
+struct Settings {
+    int width = 640, height = 480;
+    std::uint32_t seed = 0;
+    std::optional<std::string> method; ///< mc, aaf or maaf
+    std::optional<int> spp, maxSpp, bounces;
+    std::optional<float> mu;
+};
+
+struct Scene {
+    std::string path;
+    Geometry geometry;
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+    std::vector<AreaLight> areaLights;
+    std::vector<PointLight> pointLights;
+    std::vector<DirectionalLight> directionalLights;
+    glm::vec3 background { 0.0f }; ///< radiance where a camera ray hits nothing; it lights nothing
+    Camera camera;
+    Settings settings;
+    std::vector<std::string> warnings; ///< one line each, for the user
+};
+
+/// An axis-aligned box; empty when lo > hi.
+struct Bounds {
+    glm::vec3 lo { 1e30f }, hi { -1e30f };
+    bool empty() const { return lo.x > hi.x; }
+};
+
+/// Counts for `wedge info`.
+struct Summary {
+    std::size_t triangles = 0, vertices = 0, objects = 0, materials = 0, textures = 0;
+    std::size_t areaLights = 0, pointLights = 0, directionalLights = 0;
+    std::size_t geometryBytes = 0, textureBytes = 0;
+    Bounds bounds;
+};
+
+/// Image sides go from 1 to this.
+constexpr int maxImageSide = 32768;
+
+/// Reads a scene file (.toml, docs/scene-format.md) or a bare mesh (.obj), which gets a camera that frames it, an
+/// area light above and a floor. Throws Error naming file, line and value for anything that cannot be rendered.
+Scene loadScene(const std::string& path);
+
+/// The box around all triangles; lights do not count.
+Bounds sceneBounds(const Scene& scene);
+
+Summary summary(const Scene& scene);
+
+} // namespace wedge::scene

@@ -1,0 +1,138 @@
+#include "host/scene/scene_sections.h"
+
+#include <limits>
+#include <utility>
+
+#include "host/scene/camera_framing.h"
+#include "host/scene/validate.h"
+
+namespace wedge::scene {
+namespace {
+
+/// A quad is a corner and two edges, or a centre and two half edges.
+void readQuadShape(TableReader& table, AreaLight& light)
+{
+    if (table.has("corner")) {
+        const glm::vec3 corner = *table.vector("corner");
+        light.halfU = 0.5f * table.require("edge1", table.vector("edge1"));
+        light.halfV = 0.5f * table.require("edge2", table.vector("edge2"));
+        light.centre = corner + light.halfU + light.halfV;
+    } else if (table.has("centre")) {
+        light.centre = *table.vector("centre");
+        light.halfU = table.require("half_u", table.vector("half_u"));
+        light.halfV = table.require("half_v", table.vector("half_v"));
+    } else {
+        table.failHere("has no shape", "quad", "give corner, edge1 and edge2, or centre, half_u and half_v");
+    }
+}
+
+void readQuad(TableReader& table, Scene& scene)
+{
+    AreaLight light;
+    light.name = table.text("name").value_or("");
+    readQuadShape(table, light);
+    light.radiance = table.require("radiance", table.colour("radiance"));
+    if (table.choice("profile", { "gaussian", "uniform" }).value_or("gaussian") == "uniform")
+        light.profile = LightProfile::Uniform;
+    light.cut = static_cast<float>(table.number("cut").value_or(double { light.cut }));
+    if (table.boolean("flip").value_or(false))
+        std::swap(light.halfU, light.halfV);
+    light.twoSided = table.boolean("two_sided").value_or(light.twoSided);
+    light.visible = table.boolean("visible").value_or(light.visible);
+    checkAreaLight(light, table.where("type"), scene.warnings);
+    scene.areaLights.push_back(light);
+}
+
+void readPoint(TableReader& table, Scene& scene)
+{
+    PointLight light;
+    light.position = table.require("position", table.vector("position"));
+    light.intensity = table.require("intensity", table.colour("intensity"));
+    scene.pointLights.push_back(light);
+}
+
+void readDirectional(TableReader& table, Scene& scene)
+{
+    DirectionalLight light;
+    const glm::dvec3 direction(table.require("direction", table.vector("direction")));
+    if (!(glm::length(direction) > 0.0))
+        table.fail("direction", "is zero", "[0, 0, 0]", "give the way the light travels");
+    light.direction = glm::vec3(glm::normalize(direction));
+    light.irradiance = table.require("irradiance", table.colour("irradiance"));
+    scene.directionalLights.push_back(light);
+}
+
+} // namespace
+
+void readImage(TableReader& root, Scene& scene)
+{
+    auto table = root.table("image");
+    if (!table)
+        return;
+    Settings& s = scene.settings;
+    s.width = static_cast<int>(table->integer("width", 1, maxImageSide).value_or(s.width));
+    s.height = static_cast<int>(table->integer("height", 1, maxImageSide).value_or(s.height));
+    table->finish();
+}
+
+void readIntegrator(TableReader& root, Scene& scene)
+{
+    auto table = root.table("integrator");
+    if (!table)
+        return;
+    const auto count = [&](const char* key, std::int64_t least, std::int64_t most) -> std::optional<int> {
+        const auto value = table->integer(key, least, most);
+        return value ? std::optional(static_cast<int>(*value)) : std::nullopt;
+    };
+    Settings& s = scene.settings;
+    s.method = table->choice("method", { "mc", "aaf", "maaf" });
+    s.spp = count("spp", 1, 1 << 24);
+    s.maxSpp = count("max_spp", 1, 1 << 24);
+    s.bounces = count("bounces", 0, 1024);
+    if (const auto mu = table->number("mu", 1e-3, 1e3))
+        s.mu = static_cast<float>(*mu);
+    s.seed =
+        static_cast<std::uint32_t>(table->integer("seed", 0, std::numeric_limits<std::uint32_t>::max()).value_or(0));
+    table->finish();
+}
+
+void readBackground(TableReader& root, Scene& scene)
+{
+    auto table = root.table("background");
+    if (!table)
+        return;
+    scene.background = table->require("radiance", table->colour("radiance"));
+    table->finish();
+}
+
+void readLights(TableReader& root, Scene& scene)
+{
+    for (TableReader& table : root.tables("light")) {
+        const std::string type = table.require("type", table.choice("type", { "quad", "point", "directional" }));
+        if (type == "quad")
+            readQuad(table, scene);
+        else if (type == "point")
+            readPoint(table, scene);
+        else
+            readDirectional(table, scene);
+        table.finish();
+    }
+}
+
+void readCamera(TableReader& root, Scene& scene)
+{
+    auto table = root.table("camera");
+    if (!table) {
+        scene.camera = frameBounds(sceneBounds(scene), double(scene.settings.width) / scene.settings.height);
+        return;
+    }
+    Camera& camera = scene.camera;
+    camera.eye = table->require("eye", table->vector("eye"));
+    camera.lookAt = table->require("look_at", table->vector("look_at"));
+    camera.up = table->vector("up").value_or(camera.up);
+    camera.verticalFov = static_cast<float>(table->number("fov").value_or(double { camera.verticalFov }));
+    table->finish();
+    checkCamera(camera, root.where("camera"));
+}
+
+} // namespace wedge::scene

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "host/scene/scene.h"
+#include "host/scene/toml_reader.h"
+
+namespace wedge::scene {
+
+// Each reads one kind of table of a scene file into the scene, and throws Error for what is wrong in it.
+
+void readImage(TableReader& root, Scene& scene);
+void readIntegrator(TableReader& root, Scene& scene);
+void readBackground(TableReader& root, Scene& scene);
+void readLights(TableReader& root, Scene& scene);
+/// Without a [camera], one that frames the scene's meshes: read those and [image] first.
+void readCamera(TableReader& root, Scene& scene);
+
+} // namespace wedge::scene

@@ -1,0 +1,99 @@
+#include "host/scene/smooth_normals.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <unordered_map>
+
+namespace wedge::scene {
+namespace {
+
+struct PositionHash {
+    std::size_t operator()(const glm::vec3& p) const
+    {
+        std::size_t hash = 0;
+        for (int i = 0; i < 3; ++i)
+            hash = (hash ^ std::bit_cast<std::uint32_t>(p[i] + 0.0f)) * 0x9e3779b97f4a7c15ull; // + 0: -0 is 0
+        return hash ^ hash >> 29;
+    }
+};
+
+/// What a corner brings to its position: its triangle's unit normal (double: tiny triangles) and its angle.
+struct CornerPlane {
+    glm::dvec3 normal { 0.0 };
+    double angle = 0.0;
+};
+
+std::vector<CornerPlane> cornerPlanes(const Mesh& mesh)
+{
+    std::vector<CornerPlane> planes(mesh.corners.size());
+    for (std::size_t t = 0; t < mesh.corners.size(); t += 3) {
+        glm::dvec3 p[3];
+        for (std::size_t i = 0; i < 3; ++i)
+            p[i] = mesh.positions[static_cast<std::size_t>(mesh.corners[t + i].position)];
+        const glm::dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
+        const double length = glm::length(normal);
+        if (!(length > 0.0))
+            continue;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const glm::dvec3 a = glm::normalize(p[(i + 1) % 3] - p[i]);
+            const glm::dvec3 b = glm::normalize(p[(i + 2) % 3] - p[i]);
+            planes[t + i] = { normal / length, std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0)) };
+        }
+    }
+    return planes;
+}
+
+/// The corners at each distinct position.
+std::vector<std::vector<std::size_t>> cornersByPosition(const Mesh& mesh)
+{
+    std::unordered_map<glm::vec3, std::size_t, PositionHash> slots;
+    std::vector<std::vector<std::size_t>> groups;
+    for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
+        const glm::vec3 position = mesh.positions[static_cast<std::size_t>(mesh.corners[c].position)];
+        const auto [slot, isNew] = slots.emplace(position, groups.size());
+        if (isNew)
+            groups.emplace_back();
+        groups[slot->second].push_back(c);
+    }
+    return groups;
+}
+
+} // namespace
+
+void smoothNormals(Mesh& mesh, float maxAngle)
+{
+    const std::vector<CornerPlane> planes = cornerPlanes(mesh);
+    // A little slack lets an angle given exactly, such as 90, include the edges that have it.
+    const double limit = std::cos(double { maxAngle } * std::numbers::pi / 180.0) - 1e-6;
+    for (const std::vector<std::size_t>& group : cornersByPosition(mesh)) {
+        const std::size_t firstNew = mesh.normals.size();
+        for (const std::size_t c : group) {
+            if (mesh.corners[c].normal >= 0 || planes[c].angle <= 0.0)
+                continue;
+            glm::dvec3 sum(0.0);
+            for (const std::size_t other : group) {
+                if (glm::dot(planes[c].normal, planes[other].normal) >= limit)
+                    sum += planes[other].angle * planes[other].normal;
+            }
+            if (glm::length(sum) < 1e-6) // opposite planes cancel
+                sum = planes[c].normal;
+            const glm::vec3 normal(glm::normalize(sum));
+            const auto begin = mesh.normals.begin() + static_cast<std::ptrdiff_t>(firstNew);
+            const auto known = std::find(begin, mesh.normals.end(), normal);
+            mesh.corners[c].normal = static_cast<int>(known - mesh.normals.begin());
+            if (known == mesh.normals.end())
+                mesh.normals.push_back(normal);
+        }
+    }
+}
+
+void flattenNormals(Mesh& mesh)
+{
+    mesh.normals.clear();
+    for (MeshCorner& corner : mesh.corners)
+        corner.normal = -1;
+}
+
+} // namespace wedge::scene

@@ -1,0 +1,297 @@
+#include "host/scene/toml_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "host/error.h"
+#include "host/scene/paths.h"
+
+namespace wedge::scene {
+namespace {
+
+/// A node as it could stand in the file, on one line and not too long.
+std::string shown(const toml::node& node)
+{
+    std::ostringstream out;
+    node.visit([&](const auto& n) { out << n; });
+    std::string text = out.str();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text.size() > 60 ? text.substr(0, 57) + "..." : text;
+}
+
+/// Number of letters to insert, delete or replace to turn a into b (Levenshtein).
+std::size_t editDistance(const std::string& a, const std::string& b)
+{
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t { 0 });
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({ replaced, row[j] + 1, row[j + 1] + 1 });
+        }
+    }
+    return row.back();
+}
+
+std::string lettersOnly(std::string text)
+{
+    std::erase_if(text, [](char c) { return c == '_' || c == '-'; });
+    return lowerCase(text);
+}
+
+} // namespace
+
+std::string nearest(const std::string& word, const std::set<std::string>& candidates)
+{
+    const std::string plain = lettersOnly(word);
+    std::string best;
+    std::size_t bestDistance = plain.size() / 3 + 1;
+    for (const std::string& candidate : candidates) {
+        const std::size_t distance = editDistance(plain, lettersOnly(candidate));
+        if (distance <= bestDistance && (best.empty() || distance < bestDistance)) {
+            best = candidate;
+            bestDistance = distance;
+        }
+    }
+    return best;
+}
+
+toml::table parseToml(const std::string& text, const std::filesystem::path& file)
+{
+    try {
+        return toml::parse(text, file.string());
+    } catch (const toml::parse_error& error) {
+        const toml::source_position at = error.source().begin;
+        throw Error(fmt::format("scene file {}:{}:{}: not valid TOML", file.string(), at.line, at.column),
+            std::string(error.description()), "correct this line");
+    }
+}
+
+TableReader::TableReader(const toml::table& table, const std::filesystem::path& file, std::string name)
+    : table_(&table)
+    , file_(file)
+    , name_(std::move(name))
+{
+}
+
+const toml::node* TableReader::find(const std::string& key)
+{
+    known_.insert(key);
+    return table_->get(key);
+}
+
+bool TableReader::has(const std::string& key) { return find(key) != nullptr; }
+
+bool TableReader::isList(const std::string& key)
+{
+    const toml::node* node = find(key);
+    return node != nullptr && node->is_array();
+}
+
+bool TableReader::isBoolean(const std::string& key)
+{
+    const toml::node* node = find(key);
+    return node != nullptr && node->is_boolean();
+}
+
+std::string TableReader::position(const toml::node& node) const
+{
+    const toml::source_position at = node.source().begin;
+    return fmt::format("scene file {}:{}:{}", file_.string(), at.line, at.column);
+}
+
+std::string TableReader::where(const std::string& key) const
+{
+    const toml::node* node = table_->get(key);
+    return position(node == nullptr ? *table_ : *node);
+}
+
+void TableReader::fail(
+    const std::string& key, const std::string& what, const std::string& value, const std::string& remedy) const
+{
+    throw Error(fmt::format("{}: {} of {} {}", where(key), key, name_, what), value, remedy);
+}
+
+void TableReader::failHere(const std::string& what, const std::string& value, const std::string& remedy) const
+{
+    throw Error(fmt::format("{}: {} {}", position(*table_), name_, what), value, remedy);
+}
+
+void TableReader::missing(const std::string& key) const
+{
+    failHere("lacks a key", key, fmt::format("add '{} = ...'", key));
+}
+
+void TableReader::wrongType(const std::string& key, const toml::node& node, const std::string& wanted) const
+{
+    fail(key, "must be " + wanted, shown(node), fmt::format("give {} as {}", key, wanted));
+}
+
+double TableReader::finite(const std::string& key, const toml::node& node, double least, double most) const
+{
+    const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!value)
+        wrongType(key, node, "a number");
+    if (!std::isfinite(*value))
+        fail(key, "is not finite", shown(node), "give a finite number");
+    if (*value < least || *value > most)
+        fail(key, "is out of range", shown(node), fmt::format("use {:g} to {:g}", least, most));
+    return *value;
+}
+
+std::optional<double> TableReader::number(const std::string& key, double least, double most)
+{
+    const toml::node* node = find(key);
+    return node == nullptr ? std::nullopt : std::optional(finite(key, *node, least, most));
+}
+
+std::optional<std::int64_t> TableReader::integer(const std::string& key, std::int64_t least, std::int64_t most)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    const std::optional<std::int64_t> value = node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
+    if (!value)
+        wrongType(key, *node, "a whole number");
+    if (*value < least || *value > most)
+        fail(key, "is out of range", shown(*node), fmt::format("use {} to {}", least, most));
+    return value;
+}
+
+std::optional<bool> TableReader::boolean(const std::string& key)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    if (!node->is_boolean())
+        wrongType(key, *node, "true or false");
+    return node->value<bool>();
+}
+
+std::optional<std::string> TableReader::text(const std::string& key)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    if (!node->is_string())
+        wrongType(key, *node, "a text in quotes");
+    return node->value<std::string>();
+}
+
+std::optional<std::string> TableReader::choice(const std::string& key, const std::vector<std::string>& choices)
+{
+    const std::optional<std::string> value = text(key);
+    if (value && std::find(choices.begin(), choices.end(), *value) == choices.end())
+        fail(key, "is unknown", fmt::format("'{}'", *value), fmt::format("use one of: {}", fmt::join(choices, ", ")));
+    return value;
+}
+
+std::optional<std::vector<double>> TableReader::numbers(const std::string& key, std::size_t least, std::size_t most)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    const std::string wanted =
+        least == most ? fmt::format("{} numbers", most) : fmt::format("{} to {} numbers", least, most);
+    if (!node->is_array())
+        wrongType(key, *node, "a list of " + wanted);
+    std::vector<double> values;
+    appendNumbers(key, *node, 0, values);
+    if (values.size() < least || values.size() > most)
+        fail(key, "must have " + wanted, shown(*node), fmt::format("give {} as [..] of {}", key, wanted));
+    return values;
+}
+
+void TableReader::appendNumbers(
+    const std::string& key, const toml::node& node, int depth, std::vector<double>& out) const
+{
+    for (const toml::node& element : *node.as_array()) {
+        if (element.is_array() && depth == 0)
+            appendNumbers(key, element, 1, out);
+        else
+            out.push_back(finite(key, element, -1e30, 1e30));
+    }
+}
+
+std::optional<glm::vec3> TableReader::vector(const std::string& key)
+{
+    const std::optional<std::vector<double>> v = numbers(key, 3, 3);
+    return v ? std::optional(glm::vec3((*v)[0], (*v)[1], (*v)[2])) : std::nullopt;
+}
+
+std::optional<glm::vec3> TableReader::colour(const std::string& key)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    const glm::vec3 value =
+        node->is_number() ? glm::vec3(static_cast<float>(finite(key, *node, -1e30, 1e30))) : *vector(key);
+    if (value.x < 0.0f || value.y < 0.0f || value.z < 0.0f)
+        fail(key, "is negative", shown(*node), "use numbers of at least 0");
+    return value;
+}
+
+std::optional<std::filesystem::path> TableReader::path(const std::string& key)
+{
+    const std::optional<std::string> value = text(key);
+    if (!value)
+        return std::nullopt;
+    if (value->empty())
+        fail(key, "is empty", "''", "name a file");
+    return resolvePath(*value, file_.parent_path(), where(key));
+}
+
+std::vector<TableReader> TableReader::tables(const std::string& key)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return {};
+    const std::string name = name_ == "the scene" ? key : fmt::format("{}.{}", name_, key);
+    if (const toml::table* one = node->as_table())
+        return { TableReader(*one, file_, name) };
+    if (!node->is_array())
+        wrongType(key, *node, "a table");
+    std::vector<TableReader> readers;
+    for (const toml::node& element : *node->as_array()) {
+        if (!element.is_table())
+            throw Error(fmt::format("{}: entry of {} is not a table", position(element), name), shown(element),
+                "write it as { key = value, ... }");
+        readers.emplace_back(*element.as_table(), file_, name);
+    }
+    return readers;
+}
+
+std::optional<TableReader> TableReader::table(const std::string& key)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    if (!node->is_table())
+        wrongType(key, *node, fmt::format("one table, [{}]", key));
+    return tables(key).front();
+}
+
+void TableReader::finish() const
+{
+    for (const auto& [key, node] : *table_) {
+        const std::string name(key.str());
+        if (known_.contains(name))
+            continue;
+        const toml::source_position at = key.source().begin;
+        const std::string near = nearest(name, known_);
+        throw Error(fmt::format("scene file {}:{}:{}: unknown key in {}", file_.string(), at.line, at.column, name_),
+            fmt::format("'{}'", name),
+            near.empty() ? fmt::format("use one of: {}", fmt::join(known_, ", "))
+                         : fmt::format("did you mean '{}'?", near));
+    }
+}
+
+} // namespace wedge::scene

@@ -1,0 +1,170 @@
+// The scenes in data/, the generated ones, and the external ones where WEDGE_DATA has them.
+
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "data/generator/light_level.h"
+#include "data/generator/scene_writer.h"
+#include "scene_support.h"
+
+using namespace scene_test;
+using wedge::scene::loadScene;
+using wedge::scene::Scene;
+
+namespace {
+
+/// What every scene that is to be rendered must hold.
+void checkSound(const Scene& s)
+{
+    const auto& g = s.geometry;
+    const std::size_t triangles = g.indices.size() / 3, vertices = g.positions.size() / 3;
+    CHECK(g.normals.size() == 3 * vertices);
+    CHECK(g.texcoords.size() == 2 * vertices);
+    REQUIRE(g.materialIds.size() == triangles);
+    REQUIRE(g.objectIds.size() == triangles);
+    std::size_t wrong = 0, degenerate = 0, turned = 0;
+    for (std::size_t t = 0; t < triangles; ++t) {
+        wrong += g.materialIds[t] >= s.materials.size() || g.objectIds[t] < 1 || g.objectIds[t] > g.objectNames.size();
+        const glm::vec3 a = corner(g, t, 0);
+        const glm::vec3 normal = glm::cross(corner(g, t, 1) - a, corner(g, t, 2) - a);
+        degenerate += !(glm::length(normal) > 0.0f);
+        for (std::size_t i = 0; i < 3; ++i) {
+            wrong += g.indices[3 * t + i] >= vertices;
+            turned += glm::dot(normal, vectorAt(g.normals, g.indices[3 * t + i])) < 0.0f;
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(degenerate == 0);
+    CHECK(turned == 0); // no shading normal points to the other side
+    for (const auto& light : s.areaLights) {
+        const glm::vec3 facing = glm::cross(light.halfU, light.halfV);
+        CHECK(glm::dot(facing, s.camera.lookAt - light.centre) > 0.0f); // shines on what the camera looks at
+    }
+}
+
+/// The camera's middle ray and the light's distance must make sense for a scene to show anything.
+void checkGenerated(const wedge::generator::GeneratedScene& made, std::size_t published)
+{
+    const TemporaryFolder folder;
+    wedge::generator::writeScene(made, folder.path("out"));
+    const Scene s = loadScene(folder.path("out/" + made.name + ".toml"));
+    CAPTURE(made.name);
+    CHECK(s.warnings.empty());
+    checkSound(s);
+    const double count = static_cast<double>(s.geometry.indices.size()) / 3.0;
+    CHECK(count == static_cast<double>(made.mesh.triangles()));
+    CHECK(std::abs(count - static_cast<double>(published)) <= 0.02 * static_cast<double>(published));
+    REQUIRE(s.areaLights.size() == 1);
+    CHECK(s.areaLights[0].cut == 2.0f);
+    CHECK(s.areaLights[0].profile == wedge::scene::LightProfile::Gaussian);
+    CHECK(glm::length(s.areaLights[0].radiance - made.light.radiance) < 1e-4f * glm::length(made.light.radiance));
+    CHECK(s.settings.width == 640);
+    CHECK(s.settings.height == 480);
+}
+
+} // namespace
+
+TEST_CASE("generated scenes: the paper's sizes within 2 %, sound, and readable without a warning")
+{
+    checkGenerated(wedge::generator::makeGrids(), 200);
+    checkGenerated(wedge::generator::makeBench(), 309'000);
+    checkGenerated(wedge::generator::makeTentacles(), 145'000);
+    checkGenerated(wedge::generator::makeSpheres(), 72'000);
+}
+
+TEST_CASE("generated scenes are the same in every run")
+{
+    CHECK(wedge::generator::makeBench().mesh.text() == wedge::generator::makeBench().mesh.text());
+    CHECK(wedge::generator::makeTentacles().mesh.text() == wedge::generator::makeTentacles().mesh.text());
+}
+
+TEST_CASE("a generated scene that cannot be written is told")
+{
+    const TemporaryFolder folder;
+    const std::string file = folder.write("file", "");
+    CHECK_THROWS_AS(wedge::generator::writeScene(wedge::generator::makeGrids(), file + "/out"), wedge::Error);
+}
+
+TEST_CASE("light level: a far light is a point light, a wide uniform one has Lambert's closed form")
+{
+    wedge::scene::AreaLight far;
+    far.centre = { 0, 100, 0 };
+    far.halfU = { 0.5f, 0, 0 };
+    far.halfV = { 0, 0, 0.5f };
+    // The Gaussian's integral: 2 pi sigma^2 erf(cut / sqrt 2)^2, sigma = 0.25.
+    const double mass = 2.0 * 3.14159265358979 * 0.0625 * std::pow(std::erf(std::sqrt(2.0)), 2.0);
+    CHECK(
+        wedge::generator::irradianceOfUnit(far, { 0, 0, 0 }, { 0, 1, 0 }) == doctest::Approx(mass / 1e4).epsilon(1e-3));
+    // A parallel square of half side a above its middle at height h: 4 a / sqrt(h^2 + a^2) atan(a / sqrt(h^2 + a^2)).
+    wedge::scene::AreaLight wide = far;
+    wide.profile = wedge::scene::LightProfile::Uniform;
+    wide.centre = { 0, 1, 0 };
+    wide.halfU = { 1, 0, 0 };
+    wide.halfV = { 0, 0, 1 };
+    const double expected = 4.0 / std::sqrt(2.0) * std::atan(1.0 / std::sqrt(2.0));
+    CHECK(
+        wedge::generator::irradianceOfUnit(wide, { 0, 0, 0 }, { 0, 1, 0 }) == doctest::Approx(expected).epsilon(1e-3));
+}
+
+TEST_CASE("the hand-made scenes")
+{
+    const std::string folder = dataFolder() + "/scenes/";
+    const Scene cornell = loadScene(folder + "cornell.toml");
+    CHECK(cornell.warnings.empty());
+    CHECK(cornell.geometry.indices.size() == 3 * 34);
+    CHECK(cornell.areaLights.at(0).profile == wedge::scene::LightProfile::Uniform);
+    checkSound(cornell);
+    for (std::size_t t = 0; t < 10; ++t) { // the room's faces look into the room
+        const glm::vec3 a = corner(cornell.geometry, t, 0);
+        const glm::vec3 b = corner(cornell.geometry, t, 1), c = corner(cornell.geometry, t, 2);
+        CHECK(glm::dot(glm::cross(b - a, c - a), glm::vec3(0, 1, 0) - a) > 0.0f);
+    }
+
+    const Scene materials = loadScene(folder + "materials.toml");
+    CHECK(materials.warnings.empty());
+    CHECK(materials.textures.size() == 2);
+    CHECK(materials.areaLights.size() == 2);
+    CHECK(materials.pointLights.size() == 1);
+    CHECK(materials.directionalLights.size() == 1);
+    checkSound(materials);
+
+    const Scene penumbra = loadScene(folder + "penumbra.toml");
+    CHECK(penumbra.warnings.empty());
+    checkSound(penumbra);
+    const auto& light = penumbra.areaLights.at(0);
+    const wedge::scene::Bounds bounds = wedge::scene::sceneBounds(penumbra);
+    CHECK(light.centre.y / (light.centre.y - bounds.hi.y) - 1.0f == 1.0f); // the slope its comment states
+    CHECK(light.halfU.x / light.cut == 0.25f);
+    for (std::size_t i = 0; i < 6; ++i) // the occluder's edge is at x = 0
+        CHECK(vectorAt(penumbra.geometry.positions, penumbra.geometry.indices[6 + i]).x <= 0.0f);
+}
+
+TEST_CASE("the external scenes")
+{
+    const std::string folder = dataFolder() + "/external/";
+    const char* const data = std::getenv("WEDGE_DATA");
+    for (const char* name : { "grids", "spheres" }) {
+        for (const char* cut : { "", "_cut2" }) {
+            const std::string file = folder + "aaf2012_" + name + cut + ".toml";
+            REQUIRE(std::filesystem::exists(file));
+            if (data == nullptr) {
+                CHECK(contains(errorOf(file), "environment variable is not set: WEDGE_DATA"));
+                continue;
+            }
+            if (!std::filesystem::exists(std::string(data) + "/aaf2012_" + name)) {
+                MESSAGE("skipped, WEDGE_DATA does not hold it: " << file);
+                continue;
+            }
+            const Scene s = loadScene(file);
+            CAPTURE(file);
+            CHECK(s.warnings.empty());
+            CHECK(s.geometry.indices.size() / 3 == (std::string(name) == "grids" ? 254 : 41446));
+            CHECK(s.areaLights.at(0).cut == (*cut == '\0' ? 1.0f : 2.0f));
+            const auto& light = s.areaLights[0];
+            CHECK(glm::dot(glm::cross(light.halfU, light.halfV), -light.centre) > 0.0f); // towards the scene
+        }
+    }
+    if (data == nullptr)
+        MESSAGE("the meshes of the external scenes were not read: WEDGE_DATA is not set");
+}

@@ -1,0 +1,346 @@
+// Scene files: every section, good and bad.
+
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "scene_support.h"
+
+using namespace scene_test;
+using wedge::scene::LightProfile;
+using wedge::scene::loadScene;
+using wedge::scene::Scene;
+using wedge::scene::SpecularModel;
+
+namespace {
+
+const char* const triangleObj = "o tri\nv 0 0 0\nv 1 0 0\nv 0 0 -1\nvn 0 1 0\nf 1//1 2//1 3//1\n";
+const std::string mesh = "[[mesh]]\nfile = \"m.obj\"\n";
+
+/// Loads a scene file's text next to a mesh m.obj of one triangle that faces +y.
+Scene load(const std::string& toml)
+{
+    const TemporaryFolder folder;
+    folder.write("m.obj", triangleObj);
+    return loadScene(folder.write("s.toml", toml));
+}
+
+std::string error(const std::string& toml)
+{
+    const TemporaryFolder folder;
+    folder.write("m.obj", triangleObj);
+    return errorOf(folder.write("s.toml", toml));
+}
+
+glm::vec3 normalOf(const Scene& scene, std::size_t triangle)
+{
+    const auto& g = scene.geometry;
+    const glm::vec3 a = corner(g, triangle, 0);
+    return glm::normalize(glm::cross(corner(g, triangle, 1) - a, corner(g, triangle, 2) - a));
+}
+
+} // namespace
+
+TEST_CASE("a scene file with every section")
+{
+    const Scene s = load(R"(
+[camera]
+eye = [1, 2, 3]
+look_at = [0, 0.5, 0]
+up = [0, 0, 1]
+fov = 30
+[image]
+width = 320
+height = 200
+[background]
+radiance = [0.1, 0.2, 0.3]
+[integrator]
+method = "aaf"
+spp = 16
+max_spp = 64
+bounces = 2
+mu = 1.5
+seed = 4294967295
+[[material]]
+name = "shiny"
+model = "phong"
+diffuse = 0.25
+specular = [0.1, 0.2, 0.3]
+emission = 1
+exponent = 80
+[[mesh]]
+file = "m.obj"
+material = "shiny"
+[[light]]
+type = "quad"
+name = "key"
+corner = [-1, 4, -2]
+edge1 = [2, 0, 0]
+edge2 = [0, 0, 4]
+radiance = [1, 2, 3]
+cut = 3
+two_sided = true
+visible = false
+[[light]]
+type = "quad"
+centre = [0, 4, 0]
+half_u = [1, 0, 0]
+half_v = [0, 0, 2]
+flip = true
+radiance = 5
+profile = "uniform"
+[[light]]
+type = "point"
+position = [1, 2, 3]
+intensity = 7
+[[light]]
+type = "directional"
+direction = [0, -2, 0]
+irradiance = [1, 1, 0.5]
+)");
+    CHECK(s.warnings.empty());
+    CHECK(s.camera.eye == glm::vec3(1, 2, 3));
+    CHECK(s.camera.lookAt == glm::vec3(0, 0.5f, 0));
+    CHECK(s.camera.up == glm::vec3(0, 0, 1));
+    CHECK(s.camera.verticalFov == 30.0f);
+    CHECK(s.settings.width == 320);
+    CHECK(s.settings.height == 200);
+    CHECK(s.background == glm::vec3(0.1f, 0.2f, 0.3f));
+    CHECK(*s.settings.method == "aaf");
+    CHECK(*s.settings.spp == 16);
+    CHECK(*s.settings.maxSpp == 64);
+    CHECK(*s.settings.bounces == 2);
+    CHECK(*s.settings.mu == 1.5f);
+    CHECK(s.settings.seed == 4294967295u);
+    const auto& m = s.materials.at(s.geometry.materialIds.at(0));
+    CHECK(m.name == "shiny");
+    CHECK(m.specularModel == SpecularModel::Phong);
+    CHECK(m.diffuse == glm::vec3(0.25f));
+    CHECK(m.specular == glm::vec3(0.1f, 0.2f, 0.3f));
+    CHECK(m.emission == glm::vec3(1.0f));
+    CHECK(m.exponent == 80.0f);
+    REQUIRE(s.areaLights.size() == 2);
+    const auto& key = s.areaLights[0];
+    CHECK(key.name == "key");
+    CHECK(key.centre == glm::vec3(0, 4, 0));
+    CHECK(key.halfU == glm::vec3(1, 0, 0));
+    CHECK(key.halfV == glm::vec3(0, 0, 2));
+    CHECK(key.radiance == glm::vec3(1, 2, 3));
+    CHECK(key.profile == LightProfile::Gaussian);
+    CHECK(key.cut == 3.0f);
+    CHECK(key.twoSided);
+    CHECK_FALSE(key.visible);
+    const auto& other = s.areaLights[1];
+    CHECK(other.profile == LightProfile::Uniform);
+    CHECK(glm::cross(other.halfU, other.halfV).y > 0.0f); // flipped
+    CHECK(glm::cross(key.halfU, key.halfV).y < 0.0f);
+    REQUIRE(s.pointLights.size() == 1);
+    CHECK(s.pointLights[0].position == glm::vec3(1, 2, 3));
+    CHECK(s.pointLights[0].intensity == glm::vec3(7.0f));
+    REQUIRE(s.directionalLights.size() == 1);
+    CHECK(s.directionalLights[0].direction == glm::vec3(0, -1, 0));
+    CHECK(s.directionalLights[0].irradiance == glm::vec3(1, 1, 0.5f));
+}
+
+TEST_CASE("defaults: settings unset, camera frames the mesh, warnings for what is missing")
+{
+    const Scene s = load(mesh);
+    CHECK_FALSE(s.settings.method.has_value());
+    CHECK_FALSE(s.settings.spp.has_value());
+    CHECK(s.settings.width == 640);
+    CHECK(s.settings.height == 480);
+    CHECK(glm::length(s.camera.lookAt - glm::vec3(0.5f, 0, -0.5f)) < 1e-6f);
+    CHECK(warns(s, "no light"));
+    const Scene empty = load("");
+    CHECK(warns(empty, "no mesh"));
+    CHECK(wedge::scene::sceneBounds(empty).empty());
+}
+
+TEST_CASE("unknown keys are told with their place and the nearest known key")
+{
+    CHECK(error("[camera]\neye = [0, 0, 1]\nlookat = [0, 0, 0]\nlook_at = [0, 0, 0]\n")
+        == "scene file s.toml:3:1: unknown key in camera: 'lookat': did you mean 'look_at'?");
+    CHECK(error("[image]\nwidth = 3\n  widht = 4\n")
+        == "scene file s.toml:3:3: unknown key in image: 'widht': did you mean 'width'?");
+    CHECK(contains(error("[cameras]\n"), "s.toml:1:2: unknown key in the scene: 'cameras': did you mean 'camera'?"));
+    CHECK(contains(error("[[light]]\ntype='point'\nposition=[0,0,0]\nintensity=1\nprofile='uniform'\n"),
+        "s.toml:5:1: unknown key in light: 'profile': use one of: intensity, position, type"));
+    CHECK(contains(error(mesh + "colour = 1\n"), "unknown key in mesh: 'colour'"));
+    CHECK(contains(error(mesh + "instances = [{ translate = [1, 0, 0] }]\n"), "unknown key in mesh.instances"));
+    CHECK(contains(error("[[material]]\nname='a'\ndifuse=1\n"), "did you mean 'diffuse'?"));
+    CHECK(contains(error("[integrator]\nSpp = 3\n"), "did you mean 'spp'?"));
+    CHECK(contains(error("[background]\nradiance=0\nqqqqqq=0\n"), "use one of: radiance"));
+}
+
+TEST_CASE("wrong types and values are told with their place")
+{
+    CHECK(error("[image]\nwidth = 3.5\n")
+        == "scene file s.toml:2:9: width of image must be a whole number: 3.5: give width as a whole number");
+    CHECK(error("[image]\nwidth = 0\n") == "scene file s.toml:2:9: width of image is out of range: 0: use 1 to 32768");
+    CHECK(contains(error("[image]\nheight = 100000\n"), "s.toml:2:10: height of image is out of range: 100000"));
+    CHECK(contains(error("[image]\nheight = -4\n"), "out of range: -4"));
+    CHECK(contains(error("image = 3\n"), "s.toml:1:9: image of the scene must be one table, [image]: 3"));
+    CHECK(contains(error("mesh = [3]\n"), "s.toml:1:9: entry of mesh is not a table: 3"));
+    CHECK(contains(error("[background]\nradiance = [1, 2]\n"), "radiance of background must have 3 numbers: [ 1, 2 ]"));
+    CHECK(contains(error("[background]\nradiance = [1, 2, 'x']\n"), "must be a number: 'x'"));
+    CHECK(contains(error("[background]\nradiance = [1, nan, 2]\n"), "radiance of background is not finite: nan"));
+    CHECK(contains(error("[background]\nradiance = inf\n"), "is not finite: inf"));
+    CHECK(contains(error("[background]\nradiance = [0, -1, 0]\n"), "radiance of background is negative"));
+    CHECK(contains(error("[background]\n"), "s.toml:1:1: background lacks a key: radiance: add 'radiance = ...'"));
+    CHECK(contains(error("[integrator]\nmethod = 'magic'\n"), "method of integrator is unknown: 'magic': use one of"));
+    CHECK(contains(error("[integrator]\nmu = 0\n"), "mu of integrator is out of range"));
+    CHECK(contains(error("[integrator]\nseed = -1\n"), "seed of integrator is out of range"));
+    CHECK(contains(error("[[material]]\nname='a'\nexponent=-1\n"), "exponent of material is out of range"));
+    CHECK(contains(error("[[material]]\nname='a'\n[[material]]\nname='a'\n"), "s.toml:4:6: name of material is taken"));
+    CHECK(contains(error("[[material]]\ndiffuse=1\n"), "material lacks a key: name"));
+    CHECK(
+        contains(error("[[material]]\nname='a'\ndiffuse_texture='no.png'\n"), "s.toml:3:17: texture of the material"));
+    CHECK(contains(error("x = \n"), "s.toml:1:5: not valid TOML"));
+    CHECK(contains(error("a = 1\na = 2\n"), "s.toml:2"));
+    CHECK(contains(error(std::string("\0\1\2\3", 4)), "s.toml:1:1: not valid TOML"));
+}
+
+TEST_CASE("cameras that see nothing")
+{
+    CHECK(contains(error("[camera]\neye = [1, 2, 3]\nlook_at = [1, 2, 3]\n"),
+        "scene file s.toml:1:1: camera looks nowhere, eye and look_at are equal: [1, 2, 3]: move one of the two"));
+    CHECK(contains(error("[camera]\neye = [0, 1, 0]\nlook_at = [0, 0, 0]\n"), "camera's up is zero or along its view"));
+    CHECK(contains(error("[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\nup = [0, 0, 0]\n"), "camera's up is zero"));
+    for (const char* fov : { "0", "180", "-3" })
+        CHECK(contains(error(std::string("[camera]\neye=[0,0,1]\nlook_at=[0,0,0]\nfov=") + fov), "field of view"));
+    CHECK(contains(error("[camera]\neye = [0, nan, 1]\nlook_at = [0, 0, 0]\n"), "eye of camera is not finite"));
+    CHECK(contains(error("[camera]\nlook_at = [0, 0, 0]\n"), "camera lacks a key: eye"));
+}
+
+TEST_CASE("lights that cannot shine")
+{
+    const std::string quad = "[[light]]\ntype = 'quad'\nradiance = 1\ncentre = [0, 1, 0]\n";
+    CHECK(contains(error(quad + "half_u = [1, 0, 0]\nhalf_v = [2, 0, 0]\n"), "s.toml:2:8: area light has no area"));
+    CHECK(contains(error(quad + "half_u = [0, 0, 0]\nhalf_v = [2, 0, 0]\n"), "area light has no area"));
+    CHECK(contains(error(quad + "half_u = [1, 0, 0]\n"), "light lacks a key: half_v"));
+    const std::string whole = quad + "half_u = [1, 0, 0]\nhalf_v = [0, 0, 1]\n";
+    CHECK(contains(error(whole + "cut = 0\n"), "light's cut is out of range: 0"));
+    CHECK(contains(error(whole + "cut = 100\n"), "light's cut is out of range: 100"));
+    CHECK(contains(error(whole + "profile = 'round'\n"), "profile of light is unknown: 'round'"));
+    CHECK(contains(error(whole + "halfU = 1\n"), "did you mean 'half_u'?"));
+    CHECK(contains(error("[[light]]\ntype = 'quad'\nradiance = 1\n"), "light has no shape"));
+    CHECK(contains(error("[[light]]\ntype = 'sun'\n"), "type of light is unknown: 'sun'"));
+    CHECK(contains(error("[[light]]\nradiance = 1\n"), "light lacks a key: type"));
+    CHECK(contains(
+        error("[[light]]\ntype='directional'\ndirection=[0,0,0]\nirradiance=1\n"), "direction of light is zero"));
+    CHECK(warns(load(quad + "half_u = [1, 0, 0]\nhalf_v = [1, 0, 1]\n"), "not at right angles"));
+}
+
+TEST_CASE("meshes that cannot be found or chosen")
+{
+    CHECK(contains(error("[[mesh]]\nfile = 'none.obj'\n"), "mesh file not found: none.obj"));
+    CHECK(contains(error("[[mesh]]\nfile = 'a.fbx'\n"), "s.toml:2:8: file of mesh has an unknown format"));
+    CHECK(contains(error("[[mesh]]\nfile = ''\n"), "file of mesh is empty"));
+    CHECK(contains(error("[[mesh]]\nsmooth = true\n"), "mesh lacks a key: file"));
+    CHECK(contains(error(mesh + "material = 'red'\n[[material]]\nname = 'rad'\n"),
+        "s.toml:3:12: material of mesh is unknown: 'red': did you mean 'rad'?"));
+    CHECK(contains(error(mesh + "smooth = 200\n"), "smooth of mesh is out of range"));
+    CHECK(contains(error(mesh + "smooth = 'yes'\n"), "smooth of mesh must be a number"));
+    CHECK(contains(errorOf("/nowhere/s.toml"), "scene file not found"));
+}
+
+TEST_CASE("environment variables in paths")
+{
+    const TemporaryFolder folder;
+    folder.write("m.obj", triangleObj);
+    ::setenv("WEDGE_SCENE_TEST_FOLDER", folder.path("").c_str(), 1);
+    ::unsetenv("WEDGE_SCENE_TEST_UNSET");
+    const TemporaryFolder elsewhere;
+    const auto withPath = [&](const std::string& path) {
+        return elsewhere.write("s.toml", "[[mesh]]\nfile = '" + path + "'\n");
+    };
+    CHECK(loadScene(withPath("${WEDGE_SCENE_TEST_FOLDER}/m.obj")).geometry.indices.size() == 3);
+    CHECK(errorOf(withPath("${WEDGE_SCENE_TEST_UNSET}/m.obj"))
+        == "scene file s.toml:2:8: environment variable is not set: WEDGE_SCENE_TEST_UNSET: set it to the folder that "
+           "'${WEDGE_SCENE_TEST_UNSET}' stands for");
+    CHECK(contains(errorOf(withPath("${WEDGE/m.obj")), "path has '${' without '}'"));
+}
+
+TEST_CASE("transforms: steps in order, matrices row by row, mirrors keep the outside out")
+{
+    const auto first = [](const std::string& keys) {
+        const Scene s = load(mesh + keys);
+        return corner(s.geometry, 0, 1); // (1, 0, 0) before
+    };
+    const auto near = [](const glm::vec3& a, const glm::vec3& b) { return glm::length(a - b) < 1e-5f; };
+    CHECK(near(first("transform = { translate = [1, 2, 3] }\n"), { 2, 2, 3 }));
+    CHECK(near(first("transform = { rotate = [0, 0, 2, 90] }\n"), { 0, 1, 0 }));
+    CHECK(near(first("transform = { rotate = [0, 1, 0, 90] }\n"), { 0, 0, -1 }));
+    CHECK(near(first("transform = { scale = 3 }\n"), { 3, 0, 0 }));
+    CHECK(near(first("transform = { scale = [2, 3, 4] }\n"), { 2, 0, 0 }));
+    CHECK(near(first("transform = [{ translate = [1, 0, 0] }, { scale = 3 }]\n"), { 6, 0, 0 }));
+    CHECK(near(first("transform = [{ scale = 3 }, { translate = [1, 0, 0] }]\n"), { 4, 0, 0 }));
+    CHECK(near(first("transform = { matrix = [0,-1,0,5, 1,0,0,6, 0,0,1,7, 0,0,0,1] }\n"), { 5, 7, 7 }));
+    CHECK(near(first("transform = { matrix = [[0,-1,0,5], [1,0,0,6], [0,0,1,7], [0,0,0,1]] }\n"), { 5, 7, 7 }));
+
+    const Scene mirrored = load(mesh + "transform = { scale = [-1, 1, 1] }\n");
+    CHECK(near(normalOf(mirrored, 0), { 0, 1, 0 }));
+    CHECK(near(vectorAt(mirrored.geometry.normals, 0), { 0, 1, 0 }));
+    // Normals go by the inverse transpose: under a shear y += x the plane y = 0 tilts to y = x.
+    const Scene sheared = load(mesh + "transform = { matrix = [1,0,0,0, 1,1,0,0, 0,0,1,0, 0,0,0,1] }\n");
+    CHECK(near(vectorAt(sheared.geometry.normals, 0), glm::normalize(glm::vec3(-1, 1, 0))));
+    CHECK(near(normalOf(sheared, 0), glm::normalize(glm::vec3(-1, 1, 0))));
+
+    CHECK(contains(error(mesh + "transform = { scale = 0 }\n"), "mesh.transform squeezes the mesh flat"));
+    CHECK(contains(error(mesh + "transform = { rotate = [0, 0, 0, 3] }\n"), "has no axis"));
+    CHECK(
+        contains(error(mesh + "transform = { rotate = [0, 0, 3] }\n"), "rotate of mesh.transform must have 4 numbers"));
+    CHECK(contains(error(mesh + "transform = { matrix = [1, 2, 3] }\n"), "must have 16 numbers"));
+    CHECK(contains(error(mesh + "transform = { matrix = [1,0,0,0, 0,1,0,0, 0,0,1,0, 1,0,0,1] }\n"), "is projective"));
+    CHECK(contains(error(mesh + "transform = { scale = 2, translate = [1, 0, 0] }\n"), "must have one key"));
+    CHECK(contains(error(mesh + "transform = {}\n"), "must have one key"));
+    CHECK(contains(error(mesh + "transform = { scale = 1e13 }\n"), "s.toml:2:8: a coordinate is beyond 1e12: 1e+13"));
+}
+
+TEST_CASE("instances: copies with ids, names and materials of their own")
+{
+    const Scene s = load(R"([[material]]
+name = "a"
+[[material]]
+name = "b"
+[[mesh]]
+name = "first"
+file = "m.obj"
+material = "a"
+transform = { scale = 2 }
+instances = [{ transform = { translate = [10, 0, 0] } }, { name = "own", material = "b" }]
+[[mesh]]
+file = "m.obj"
+[[mesh.instance]]
+[[mesh.instance]]
+transform = { translate = [0, 5, 0] }
+)");
+    const auto& g = s.geometry;
+    REQUIRE(g.indices.size() == 12);
+    CHECK(g.objectIds == std::vector<std::uint32_t> { 1, 2, 3, 4 });
+    CHECK(g.objectNames == std::vector<std::string> { "first/0/tri", "first/own/tri", "0/tri", "1/tri" });
+    CHECK(corner(g, 0, 1) == glm::vec3(12, 0, 0)); // the mesh's transform, then the instance's
+    CHECK(corner(g, 1, 1) == glm::vec3(2, 0, 0));
+    CHECK(corner(g, 2, 1) == glm::vec3(1, 0, 0));
+    CHECK(corner(g, 3, 1) == glm::vec3(1, 5, 0));
+    CHECK(s.materials[g.materialIds[0]].name == "a");
+    CHECK(s.materials[g.materialIds[1]].name == "b");
+    CHECK(s.materials[g.materialIds[2]].name == "grey");
+    CHECK(load(mesh + "instances = []\n").geometry.indices.empty());
+}
+
+TEST_CASE("bounds and summary")
+{
+    const Scene s =
+        load(mesh + "transform = { translate = [1, 2, 3] }\n[[light]]\ntype='point'\nposition=[0,9,0]\nintensity=1\n");
+    const wedge::scene::Summary sum = wedge::scene::summary(s);
+    CHECK(sum.bounds.lo == glm::vec3(1, 2, 2));
+    CHECK(sum.bounds.hi == glm::vec3(2, 2, 3));
+    CHECK(sum.triangles == 1);
+    CHECK(sum.vertices == 3);
+    CHECK(sum.objects == 1);
+    CHECK(sum.materials == 1);
+    CHECK(sum.pointLights == 1);
+    CHECK(sum.areaLights == 0);
+    CHECK(sum.geometryBytes == 3 * (3 + 3 + 2) * 4 + 5 * 4);
+}
