@@ -38,8 +38,8 @@ WEDGE_FN LaneMask dropFirstLane(LaneMask lanes) { return lanes & (lanes - 1); }
 typedef struct {
     Vec3 origin, direction;
     float tMin, tMax; ///< hits have tMin < t <= tMax
-    Vec3 reciprocal; ///< 1 / direction, at most 1e30
-    Vec3 nearOffset, farOffset; ///< t of a near or far plane p = p reciprocal + offset
+    Vec3 nearScale, nearOffset; ///< t of a near plane p = p scale + offset, rounded towards earlier
+    Vec3 farScale, farOffset; ///< the same of the far planes, towards later
     uint nearX, nearY, nearZ, farX, farY, farZ; ///< where these planes start in a node, in floats
 } TraversalRay;
 
@@ -50,16 +50,11 @@ WEDGE_FN float boundedReciprocal(float x) { return 1.0f / (fabs(x) < 1e-30f ? co
 WEDGE_FN bool prepareRay(TraversalRay* ray, float unit, Vec3 origin, Vec3 direction, float tMin, float tMax)
 {
 #pragma OPENCL FP_CONTRACT ON
-    tMin = WEDGE_MAX(tMin, 0.0f);
-    // 0 times a finite number is 0, and anything else is NaN.
-    const float sum = origin.x + origin.y + origin.z + direction.x + direction.y + direction.z;
-    if (!(sum * 0.0f == 0.0f) || !(tMin < tMax))
-        return false;
     origin = vecScale(origin, unit);
     direction = vecScale(direction, unit);
     ray->origin = origin;
     ray->direction = direction;
-    ray->tMin = tMin;
+    ray->tMin = WEDGE_MAX(tMin, 0.0f);
     // The float before tMax, or before infinity.
     ray->tMax = as_float(as_uint(tMax) - 1u);
     const Vec3 r = vec3(boundedReciprocal(direction.x), boundedReciprocal(direction.y), boundedReciprocal(direction.z));
@@ -67,9 +62,10 @@ WEDGE_FN bool prepareRay(TraversalRay* ray, float unit, Vec3 origin, Vec3 direct
     const Vec3 slack = vec3(fabs(offset.x) * WEDGE_WIDEN_ORIGIN + fabs(r.x) * WEDGE_WIDEN_PLANE,
         fabs(offset.y) * WEDGE_WIDEN_ORIGIN + fabs(r.y) * WEDGE_WIDEN_PLANE,
         fabs(offset.z) * WEDGE_WIDEN_ORIGIN + fabs(r.z) * WEDGE_WIDEN_PLANE);
-    ray->reciprocal = r;
+    ray->nearScale = r;
     ray->nearOffset = vecSub(offset, slack);
-    ray->farOffset = vecAdd(offset, slack);
+    ray->farScale = vecScale(r, WEDGE_WIDEN_T);
+    ray->farOffset = vecMad(slack, offset, WEDGE_WIDEN_T);
     // loX hiX loY hiY loZ hiZ lie WEDGE_BVH_WIDTH floats apart; rays against an axis enter through hi.
     ray->nearX = r.x < 0.0f ? WEDGE_BVH_WIDTH : 0;
     ray->nearY = (r.y < 0.0f ? 3 : 2) * WEDGE_BVH_WIDTH;
@@ -77,25 +73,27 @@ WEDGE_FN bool prepareRay(TraversalRay* ray, float unit, Vec3 origin, Vec3 direct
     ray->farX = WEDGE_BVH_WIDTH - ray->nearX;
     ray->farY = 5 * WEDGE_BVH_WIDTH - ray->nearY;
     ray->farZ = 9 * WEDGE_BVH_WIDTH - ray->nearZ;
-    return true;
+    // 0 times a finite number is 0, and times anything else NaN. Last, since it is not what the tests wait for.
+    const float sum = origin.x + origin.y + origin.z + direction.x + direction.y + direction.z;
+    return sum * 0.0f == 0.0f && ray->tMin < tMax;
 }
 
-/// The children of a node that the ray enters before t = tCull, and where it enters each. Boxes are widened by
-/// rounding errors, so fusing multiply-adds, or not, changes no result.
+/// The children of a node that the ray enters by t = tCull, and where it enters each. Boxes are widened by more than
+/// their roundings, so fusing multiply-adds, or not, loses no hit.
 WEDGE_FN LaneMask intersectBoxes(__global const BvhNode* node, const TraversalRay* ray, float tCull, float8* tEnter)
 {
 #pragma OPENCL FP_CONTRACT ON
     __global const float* planes = node->loX;
-    const float8 nearX = vload8(0, planes + ray->nearX) * ray->reciprocal.x + ray->nearOffset.x;
-    const float8 nearY = vload8(0, planes + ray->nearY) * ray->reciprocal.y + ray->nearOffset.y;
-    const float8 nearZ = vload8(0, planes + ray->nearZ) * ray->reciprocal.z + ray->nearOffset.z;
-    const float8 farX = vload8(0, planes + ray->farX) * ray->reciprocal.x + ray->farOffset.x;
-    const float8 farY = vload8(0, planes + ray->farY) * ray->reciprocal.y + ray->farOffset.y;
-    const float8 farZ = vload8(0, planes + ray->farZ) * ray->reciprocal.z + ray->farOffset.z;
+    const float8 nearX = vload8(0, planes + ray->nearX) * ray->nearScale.x + ray->nearOffset.x;
+    const float8 nearY = vload8(0, planes + ray->nearY) * ray->nearScale.y + ray->nearOffset.y;
+    const float8 nearZ = vload8(0, planes + ray->nearZ) * ray->nearScale.z + ray->nearOffset.z;
+    const float8 farX = vload8(0, planes + ray->farX) * ray->farScale.x + ray->farOffset.x;
+    const float8 farY = vload8(0, planes + ray->farY) * ray->farScale.y + ray->farOffset.y;
+    const float8 farZ = vload8(0, planes + ray->farZ) * ray->farScale.z + ray->farOffset.z;
     const float8 nearXY = WEDGE_MAX(nearX, nearY), nearZ0 = WEDGE_MAX(nearZ, (float8)(ray->tMin));
     const float8 farXY = WEDGE_MIN(farX, farY), farZ0 = WEDGE_MIN(farZ, (float8)(tCull));
     const float8 enter = WEDGE_MAX(nearXY, nearZ0);
-    const float8 leave = WEDGE_MIN(farXY, farZ0) * WEDGE_WIDEN_T;
+    const float8 leave = WEDGE_MIN(farXY, farZ0);
     *tEnter = enter;
     return laneMask(enter <= leave);
 }
@@ -110,6 +108,7 @@ WEDGE_FN float smallestLane(float8 x)
 /// Intersects a block and replaces hit where one of its triangles is hit at tMin < t <= hit->t; of equal t the smaller
 /// index wins, so that the order of blocks does not show. Returns whether anything was hit.
 /// The triangle test is that of Möller and Trumbore in the form that tests the signed volumes before it divides.
+/// Multiply-adds are not fused here (compat.h): fused, three times as many rays slip through shared edges.
 WEDGE_FN bool intersectBlock(__global const TriangleBlock* block, const TraversalRay* ray, Hit* hit)
 {
     const Vec3 o = ray->origin, d = ray->direction;
@@ -120,16 +119,18 @@ WEDGE_FN bool intersectBlock(__global const TriangleBlock* block, const Traversa
     const float8 nx = e1y * e2z - e1z * e2y, ny = e1z * e2x - e1x * e2z, nz = e1x * e2y - e1y * e2x;
     const float8 volume = nx * d.x + ny * d.y + nz * d.z;
     const int8 sign = as_int8(volume) & (int)0x80000000;
+    const int8 opposite = sign ^ (int)0x80000000;
     const float8 size = as_float8(as_int8(volume) ^ sign);
     const float8 u = as_float8(as_int8(rx * e2x + ry * e2y + rz * e2z) ^ sign);
-    const float8 v = as_float8(as_int8(-(rx * e1x + ry * e1y + rz * e1z)) ^ sign);
+    const float8 v = as_float8(as_int8(rx * e1x + ry * e1y + rz * e1z) ^ opposite);
     const float8 w = as_float8(as_int8(nx * cx + ny * cy + nz * cz) ^ sign);
-    const int8 inside = (u >= 0.0f) & (v >= 0.0f) & (u + v <= size) & (w > size * ray->tMin) & (w <= size * hit->t);
+    // Widened, for ties: the decision is that of the rounded t below, the one that is returned and compared.
+    const float tFar = hit->t * WEDGE_WIDEN_T;
+    const int8 inside = (u >= 0.0f) & (v >= 0.0f) & (u + v <= size) & (w > size * ray->tMin) & (w <= size * tFar);
     if (laneMask(inside) == 0)
         return false;
     const float8 inverse = 1.0f / size;
     const float8 t = w * inverse;
-    // Again, for the rounded t: it is the one that is returned and compared.
     const int8 in = inside & (t > ray->tMin) & (t <= hit->t);
     if (laneMask(in) == 0)
         return false;

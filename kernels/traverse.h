@@ -12,6 +12,7 @@ WEDGE_FN void traverse(__global const BvhNode* restrict nodes, __global const Tr
 {
     uint stack[WEDGE_BVH_STACK];
     float enters[WEDGE_BVH_STACK]; // where the ray enters each
+    float tCull = hit->t * WEDGE_WIDEN_T; // beyond this nothing matters any more
     int depth = 0;
     uint current = 0;
     for (;;) {
@@ -20,10 +21,11 @@ WEDGE_FN void traverse(__global const BvhNode* restrict nodes, __global const Tr
             for (uint left = current & 7u; left != 0; left--, block++)
                 if (intersectBlock(block, ray, hit) && any)
                     return;
+            tCull = hit->t * WEDGE_WIDEN_T;
         } else {
             __global const BvhNode* node = nodes + current;
             float8 tEnter;
-            LaneMask lanes = intersectBoxes(node, ray, hit->t, &tEnter);
+            LaneMask lanes = intersectBoxes(node, ray, tCull, &tEnter);
             if (lanes) {
                 uint lane = firstLane(lanes);
                 lanes = dropFirstLane(lanes);
@@ -63,7 +65,7 @@ WEDGE_FN void traverse(__global const BvhNode* restrict nodes, __global const Tr
             if (depth == 0)
                 return;
             depth--;
-        } while (enters[depth] > hit->t * WEDGE_WIDEN_T);
+        } while (enters[depth] > tCull);
         current = stack[depth];
     }
 }
