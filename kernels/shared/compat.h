@@ -5,7 +5,8 @@
 #ifndef WEDGE_SHARED_COMPAT_H
 #define WEDGE_SHARED_COMPAT_H
 
-#ifdef __OPENCL_VERSION__
+// Drivers define the first, clang as a linter of a plain target only the second.
+#if defined(__OPENCL_VERSION__) || defined(__OPENCL_C_VERSION__)
 
 #define WEDGE_SHARED_BEGIN
 #define WEDGE_SHARED_END

@@ -1,0 +1,180 @@
+#include "host/render/device_scene.h"
+
+#include "host/render/quadrature.h"
+#include "kernels/shared/bsdf.h"
+
+#include <array>
+#include <cmath>
+
+namespace wedge::render {
+namespace {
+
+shared::Vec3 toVec3(glm::vec3 v) { return shared::vec3(v.x, v.y, v.z); }
+
+std::uint32_t textureId(int index) { return index < 0 ? WEDGE_NO_TEXTURE : static_cast<std::uint32_t>(index); }
+
+/// The mean of the profile over one axis: its integral over [-1, 1], halved.
+double profileMean(const scene::AreaLight& light)
+{
+    if (light.profile == scene::LightProfile::Uniform) {
+        return 1.0;
+    }
+    const double cut = light.cut;
+    return std::sqrt(std::acos(-1.0) / 2.0) * std::erf(cut / std::sqrt(2.0)) / cut;
+}
+
+std::vector<shared::MaterialData> materialData(const scene::Scene& scene)
+{
+    std::vector<shared::MaterialData> out;
+    for (const scene::Material& m : scene.materials) {
+        shared::MaterialData d {};
+        d.diffuse = toVec3(m.diffuse);
+        d.specular = toVec3(m.specular);
+        d.emission = toVec3(m.emission);
+        d.exponent = m.exponent;
+        d.specularModel
+            = m.specularModel == scene::SpecularModel::Phong ? WEDGE_SPECULAR_PHONG : WEDGE_SPECULAR_BLINN_PHONG;
+        d.diffuseTexture = textureId(m.diffuseTexture);
+        d.specularTexture = textureId(m.specularTexture);
+        d.exponentTexture = textureId(m.exponentTexture);
+        d.emissionTexture = textureId(m.emissionTexture);
+        out.push_back(d);
+    }
+    return out;
+}
+
+std::size_t texelCount(const scene::Scene& scene)
+{
+    std::size_t count = 0;
+    for (const scene::Texture& t : scene.textures) {
+        count += t.rgba.size();
+    }
+    return count;
+}
+
+std::vector<shared::DeltaLight> deltaLightData(const scene::Scene& scene)
+{
+    std::vector<shared::DeltaLight> out;
+    for (const scene::PointLight& light : scene.pointLights) {
+        out.push_back({ toVec3(light.position), 0, toVec3(light.intensity), 0 });
+    }
+    for (const scene::DirectionalLight& light : scene.directionalLights) {
+        out.push_back({ toVec3(-light.direction), 1, toVec3(light.irradiance), 0 });
+    }
+    return out;
+}
+
+std::array<float, 256> srgbTable()
+{
+    std::array<float, 256> table {};
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        const double v = static_cast<double>(i) / 255.0;
+        table[i] = static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+    }
+    return table;
+}
+
+std::vector<float> quadratureData(const scene::AreaLight& light)
+{
+    std::vector<float> out;
+    for (const auto count : { WEDGE_COARSE_NODES, WEDGE_FINE_NODES }) {
+        for (const Node& node : profileRule(light.profile, light.cut, static_cast<int>(count))) {
+            out.push_back(static_cast<float>(node.position));
+            out.push_back(static_cast<float>(node.weight));
+        }
+    }
+    return out;
+}
+
+} // namespace
+
+shared::AreaLight deviceLight(const scene::AreaLight& light)
+{
+    const double halfU = glm::length(light.halfU);
+    const double halfV = glm::length(light.halfV);
+    const glm::vec3 normal = glm::cross(light.halfU, light.halfV);
+    const double area = 4.0 * glm::length(normal);
+    const double mean = profileMean(light);
+    const bool gaussian = light.profile == scene::LightProfile::Gaussian;
+    shared::AreaLight d {};
+    d.centre = toVec3(light.centre);
+    d.halfU = toVec3(light.halfU);
+    d.halfV = toVec3(light.halfV);
+    d.normal = toVec3(glm::normalize(normal));
+    d.cut = gaussian ? light.cut : 1.0f;
+    d.erfCut = static_cast<float>(std::erf(d.cut / std::sqrt(2.0)));
+    // A uniform light counts as a Gaussian cut at one standard deviation, side 2 sigma as in A_l = (2 sigma)^2.
+    d.sigma = static_cast<float>(std::sqrt(halfU * halfV) / d.cut);
+    d.profile = gaussian ? WEDGE_PROFILE_GAUSSIAN : WEDGE_PROFILE_UNIFORM;
+    d.power = toVec3(light.radiance * static_cast<float>(area * mean * mean));
+    d.radiance = toVec3(light.radiance);
+    d.twoSided = light.twoSided ? 1 : 0;
+    d.visible = light.visible ? 1 : 0;
+    return d;
+}
+
+void DeviceScene::plan(device::MemoryPlan& plan, const scene::Scene& scene, const bvh::Bvh& bvh)
+{
+    const scene::Geometry& g = scene.geometry;
+    plan.addItems("BVH nodes", bvh.nodes.size(), sizeof(shared::BvhNode));
+    plan.addItems("triangle blocks", bvh.blocks.size(), sizeof(shared::TriangleBlock));
+    plan.addItems("vertices", g.positions.size() + g.normals.size() + g.texcoords.size(), sizeof(float));
+    plan.addItems("triangles", g.indices.size() + g.materialIds.size() + g.objectIds.size(), sizeof(std::uint32_t));
+    plan.addItems("textures", texelCount(scene), sizeof(std::uint32_t));
+}
+
+DeviceScene::DeviceScene(const scene::Scene& scene, const bvh::Bvh& bvh, const device::Device& device,
+    device::TimedQueue& queue)
+    : nodes(device, bvh.nodes.size(), "BVH nodes")
+    , blocks(device, bvh.blocks.size(), "triangle blocks")
+    , positions(device, scene.geometry.positions.size(), "positions")
+    , normals(device, scene.geometry.normals.size(), "normals")
+    , texcoords(device, scene.geometry.texcoords.size(), "texture coordinates")
+    , indices(device, scene.geometry.indices.size(), "indices")
+    , materialIds(device, scene.geometry.materialIds.size(), "material ids")
+    , objectIds(device, scene.geometry.objectIds.size(), "object ids")
+    , materials(device, scene.materials.size(), "materials")
+    , textures(device, scene.textures.size(), "textures")
+    , texels(device, texelCount(scene), "texels")
+    , srgbToLinear(device, 256, "sRGB table")
+    , areaLights(device, scene.areaLights.size(), "area lights")
+    , deltaLights(device, scene.pointLights.size() + scene.directionalLights.size(), "point and directional lights")
+{
+    const scene::Geometry& g = scene.geometry;
+    nodes.upload(queue, bvh.nodes);
+    blocks.upload(queue, bvh.blocks);
+    positions.upload(queue, g.positions);
+    normals.upload(queue, g.normals);
+    texcoords.upload(queue, g.texcoords);
+    indices.upload(queue, g.indices);
+    materialIds.upload(queue, g.materialIds);
+    objectIds.upload(queue, g.objectIds);
+    materials.upload(queue, materialData(scene));
+    std::vector<shared::TextureData> infos;
+    std::size_t offset = 0;
+    for (const scene::Texture& t : scene.textures) {
+        infos.push_back({ static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(t.width),
+            static_cast<std::uint32_t>(t.height), 0 });
+        texels.upload(queue, t.rgba, offset);
+        offset += t.rgba.size();
+    }
+    textures.upload(queue, infos);
+    srgbToLinear.upload(queue, srgbTable());
+    for (const scene::AreaLight& light : scene.areaLights) {
+        areaLightList.push_back(deviceLight(light));
+        const std::vector<float> rule = quadratureData(light);
+        quadratures.emplace_back(device, rule.size(), "light quadrature");
+        quadratures.back().upload(queue, rule);
+    }
+    areaLights.upload(queue, areaLightList);
+    const std::vector<shared::DeltaLight> delta = deltaLightData(scene);
+    deltaLights.upload(queue, delta);
+    deltaLightCount = static_cast<std::uint32_t>(delta.size());
+    const scene::Bounds bounds = scene::sceneBounds(scene);
+    diameter = bounds.empty() ? 1.0f : glm::length(bounds.hi - bounds.lo);
+    for (const scene::Material& m : scene.materials) {
+        specular = specular || m.specular.r + m.specular.g + m.specular.b > 0.0f;
+    }
+}
+
+} // namespace wedge::render

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "bvh/bvh.h"
+#include "host/device/buffer.h"
+#include "host/device/memory_plan.h"
+#include "host/scene/scene.h"
+#include "kernels/shared/bvh_types.h"
+#include "kernels/shared/light.h"
+#include "kernels/shared/material.h"
+
+#include <vector>
+
+namespace wedge::render {
+
+/// The light as kernels take it: profile integrated, axes, standard deviations.
+shared::AreaLight deviceLight(const scene::AreaLight& light);
+
+/// The scene on the device: hierarchy, geometry, materials, textures, lights.
+class DeviceScene {
+public:
+    /// Adds what the scene will take to the plan.
+    static void plan(device::MemoryPlan& plan, const scene::Scene& scene, const bvh::Bvh& bvh);
+
+    /// Uploads everything. Throws Error from the device.
+    DeviceScene(const scene::Scene& scene, const bvh::Bvh& bvh, const device::Device& device, device::TimedQueue& queue);
+
+    device::Buffer<shared::BvhNode> nodes;
+    device::Buffer<shared::TriangleBlock> blocks;
+    device::Buffer<float> positions, normals, texcoords;
+    device::Buffer<std::uint32_t> indices, materialIds, objectIds;
+    device::Buffer<shared::MaterialData> materials;
+    device::Buffer<shared::TextureData> textures;
+    device::Buffer<std::uint32_t> texels;
+    device::Buffer<float> srgbToLinear;
+    device::Buffer<shared::AreaLight> areaLights;
+    device::Buffer<shared::DeltaLight> deltaLights;
+
+    std::vector<shared::AreaLight> areaLightList; ///< the same as areaLights, for kernels that take one by value
+    std::vector<device::Buffer<float>> quadratures; ///< one a light: coarse nodes, then fine, (position, weight)
+    std::uint32_t deltaLightCount = 0;
+    float diameter = 0; ///< metres, diagonal of the bounds
+    bool specular = false; ///< some material reflects specularly
+};
+
+} // namespace wedge::render

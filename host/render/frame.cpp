@@ -1,0 +1,152 @@
+#include "host/render/frame.h"
+
+#include "kernels/shared/filter_params.h"
+
+#include <cmath>
+#include <numeric>
+
+namespace wedge::render {
+namespace {
+
+std::uint64_t strideFor(std::uint64_t width)
+{
+    const std::uint64_t blocks = (width + WEDGE_BLOCK_PIXELS - 1) / WEDGE_BLOCK_PIXELS;
+    return blocks * WEDGE_BLOCK_PIXELS + WEDGE_ROW_PADDING;
+}
+
+/// A step near the golden section of count and coprime to it, so that consecutive groups take distant tiles.
+std::uint32_t tileStep(std::uint32_t count)
+{
+    std::uint32_t step = std::max(1u, static_cast<std::uint32_t>(0.618034 * count));
+    while (std::gcd(step, count) != 1) {
+        ++step;
+    }
+    return step;
+}
+
+constexpr std::uint64_t frameFloats = 3 * 9 + 3; // vectors and scalars of Frame
+constexpr std::uint64_t frameInts = 3;
+constexpr std::uint64_t slopePlanes = 4;
+
+std::uint64_t termFloats(bool specular, bool analysed)
+{
+    const std::uint64_t channels = specular ? 2 : 1;
+    return 2 * channels + channels + (analysed ? 2 + 1 + 2 * channels + 2 + 3 * slopePlanes + 1 : 0);
+}
+
+shared::Vec3 toVec3(glm::vec3 v) { return shared::vec3(v.x, v.y, v.z); }
+
+} // namespace
+
+PlaneLayout::PlaneLayout(int imageWidth, int imageHeight)
+    : width(static_cast<std::uint32_t>(imageWidth))
+    , height(static_cast<std::uint32_t>(imageHeight))
+    , stride(static_cast<std::uint32_t>(strideFor(width)))
+    , size(static_cast<std::uint64_t>(stride) * height + 2 * WEDGE_ROW_PADDING)
+{
+}
+
+void Frame::plan(device::MemoryPlan& plan, const PlaneLayout& layout)
+{
+    plan.addItems("G-buffer and result", layout.size * (frameFloats + frameInts), 4);
+}
+
+Frame::Frame(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& planes)
+    : layout(planes)
+    , position(device, 3 * planes.size, "position")
+    , normal(device, 3 * planes.size, "normal")
+    , origin(device, 3 * planes.size, "origin")
+    , depth(device, planes.size, "depth")
+    , pixelSize(device, planes.size, "pixel size")
+    , diffuse(device, 3 * planes.size, "diffuse")
+    , specular(device, 3 * planes.size, "specular")
+    , emission(device, 3 * planes.size, "emission")
+    , gloss(device, planes.size, "gloss")
+    , objectId(device, planes.size, "object id")
+    , rays(device, planes.size, "rays")
+    , direct(device, 3 * planes.size, "direct")
+    , directNoisy(device, 3 * planes.size, "direct noisy")
+    , beauty(device, 3 * planes.size, "beauty")
+    , samples(device, planes.size, "samples")
+{
+    // Padding is read by gathers: it has to be finite, and objectId 0 there stays for good.
+    for (device::Buffer<float>* b : { &position, &normal, &origin, &depth, &pixelSize, &diffuse, &specular, &emission, &gloss }) {
+        b->fill(queue, 0.0f);
+    }
+    objectId.fill(queue, 0u);
+    clear(queue);
+}
+
+void Frame::clear(device::TimedQueue& queue)
+{
+    direct.fill(queue, 0.0f);
+    directNoisy.fill(queue, 0.0f);
+    samples.fill(queue, 0u);
+    rays.fill(queue, 0u);
+}
+
+void Term::plan(device::MemoryPlan& plan, const PlaneLayout& layout, bool specular, bool analysed)
+{
+    plan.addItems("samples and analysis of a light", layout.size * (termFloats(specular, analysed) + 2), 4);
+}
+
+Term::Term(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, bool specular, bool withAnalysis)
+    : analysed(withAnalysis)
+    , sums(device, layout.size * (specular ? 4 : 2), "sums")
+    , value(device, layout.size * (specular ? 2 : 1), "value")
+    , taken(device, layout.size, "samples taken")
+    , wanted(device, layout.size, "samples wanted")
+    , slopes(device, withAnalysis ? 2 * layout.size : 0, "slopes")
+    , beta(device, withAnalysis ? layout.size : 0, "filter width")
+    , rowsFiltered(device, withAnalysis ? value.size() : 0, "rows filtered")
+    , filtered(device, withAnalysis ? value.size() : 0, "filtered")
+    , rowsEffective(device, withAnalysis ? layout.size : 0, "effective count of rows")
+    , effective(device, withAnalysis ? layout.size : 0, "effective count")
+    , logSlopes(device, withAnalysis ? slopePlanes * layout.size : 0, "log slopes")
+    , spreadRows(device, withAnalysis ? slopePlanes * layout.size : 0, "slopes spread along rows")
+    , spread(device, withAnalysis ? slopePlanes * layout.size : 0, "slopes spread")
+    , demand(device, withAnalysis ? layout.size : 0, "demand")
+    , histogramCounts(device, WEDGE_DEMAND_STRIPES * WEDGE_DEMAND_BINS, "demand histogram")
+    , histogramPixels(device, WEDGE_DEMAND_STRIPES, "shaded pixels")
+    , binCounts(device, WEDGE_DEMAND_BINS, "demand bins")
+    , histogramSums(device, WEDGE_DEMAND_STRIPES * WEDGE_DEMAND_BINS, "demand sums")
+    , binSums(device, WEDGE_DEMAND_BINS, "demand bin sums")
+    , countScale(device, 1, "count scale")
+{
+    for (device::Buffer<float>* b : { &sums, &value, &slopes, &beta, &rowsFiltered, &filtered, &rowsEffective, &effective, &logSlopes, &spreadRows, &spread, &demand }) {
+        b->fill(queue, 0.0f);
+    }
+    taken.fill(queue, 0u);
+    wanted.fill(queue, 0u);
+}
+
+shared::FrameParams frameParams(const scene::Scene& scene, const PlaneLayout& layout, const image::Window& window, std::uint32_t seed)
+{
+    const scene::Camera& camera = scene.camera;
+    const glm::vec3 forward = glm::normalize(camera.lookAt - camera.eye);
+    const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
+    const glm::vec3 down = -glm::cross(right, forward);
+    // Pixels are square: the vertical field of view sets the step in both directions.
+    const float step = 2.0f * std::tan(0.5f * glm::radians(camera.verticalFov)) / static_cast<float>(layout.height);
+    shared::FrameParams p {};
+    p.width = layout.width;
+    p.height = layout.height;
+    p.stride = layout.stride;
+    p.planeSize = static_cast<std::uint32_t>(layout.size);
+    p.x0 = static_cast<std::uint32_t>(window.x0);
+    p.y0 = static_cast<std::uint32_t>(window.y0);
+    p.x1 = static_cast<std::uint32_t>(window.x1);
+    p.y1 = static_cast<std::uint32_t>(window.y1);
+    p.tilesX = (p.x1 - p.x0 + WEDGE_TILE - 1) / WEDGE_TILE;
+    p.tileCount = p.tilesX * ((p.y1 - p.y0 + WEDGE_TILE - 1) / WEDGE_TILE);
+    p.tileStep = tileStep(p.tileCount);
+    p.seed = seed;
+    p.eye = toVec3(camera.eye);
+    p.forward = toVec3(forward);
+    p.right = toVec3(right * step);
+    p.down = toVec3(down * step);
+    p.background = toVec3(scene.background);
+    return p;
+}
+
+} // namespace wedge::render

@@ -1,0 +1,231 @@
+#include "host/render/layers.h"
+
+#include "host/error.h"
+#include "host/render/metadata.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace wedge::render {
+namespace {
+
+constexpr const char* widthLayer = "filterWidth";
+
+image::Window outputWindow(const Settings& settings)
+{
+    const bool whole = settings.crop.width() == 0 || settings.crop.height() == 0;
+    return whole ? image::Window { 0, 0, settings.width, settings.height } : settings.crop;
+}
+
+/// Copies planes of the frame to channels of the image over the output's window.
+class LayerReader {
+public:
+    LayerReader(Renderer& renderer, const image::Window& window, image::LayeredImage& image)
+        : renderer_(renderer)
+        , window_(window)
+        , image_(image)
+        , objectId_(renderer.frame().objectId.downloadAll(renderer.queue()))
+    {
+    }
+
+    const Frame& frame() const { return renderer_.frame(); }
+
+    enum class Where { Everywhere, OnSurfaces }; ///< OnSurfaces: 0 where nothing was hit
+
+    /// One channel a letter of `letters`, from consecutive planes.
+    void vector(const std::string& layer, const char* letters, const device::Buffer<float>& planes, Where where)
+    {
+        const std::vector<float> values = planes.downloadAll(renderer_.queue());
+        for (std::size_t k = 0; letters[k] != '\0'; ++k) {
+            const std::size_t offset = k * frame().layout.size;
+            channel(layer + letters[k], where, [&](std::size_t i) { return values[offset + i]; });
+        }
+    }
+
+    void depth()
+    {
+        const std::vector<float> values = frame().depth.downloadAll(renderer_.queue());
+        channel("depth.Z", Where::Everywhere, [&](std::size_t i) { return values[i]; });
+    }
+
+    void samples()
+    {
+        const std::vector<std::uint32_t> values = frame().samples.downloadAll(renderer_.queue());
+        channel("samples.Y", Where::OnSurfaces, [&](std::size_t i) { return static_cast<float>(values[i]); });
+    }
+
+    void rays()
+    {
+        const std::vector<std::uint32_t> values = frame().rays.downloadAll(renderer_.queue());
+        channel("rays.Y", Where::Everywhere, [&](std::size_t i) { return 1.0f + static_cast<float>(values[i]); });
+    }
+
+    void objectId()
+    {
+        channel("objectId.I", Where::Everywhere, [&](std::size_t i) { return static_cast<float>(objectId_[i]); });
+        image_.channels.back().integer = true;
+    }
+
+    /// Lights that an early stop kept from being analysed have widths of 0.
+    void filterWidths()
+    {
+        const std::size_t lights = renderer_.scene().areaLights.size();
+        const std::vector<float> pixelSize = frame().pixelSize.downloadAll(renderer_.queue());
+        const std::vector<float> none(frame().layout.size, 0.0f);
+        for (std::size_t light = 0; light < lights; ++light) {
+            const bool known = light < renderer_.lightPlanes().size() && !renderer_.lightPlanes()[light].beta.empty();
+            const std::vector<float>& beta = known ? renderer_.lightPlanes()[light].beta : none;
+            const std::string name = lights == 1 ? widthLayer : fmt::format("{}{}", widthLayer, light + 1);
+            channel(name + ".world", Where::OnSurfaces, [&](std::size_t i) { return beta[i]; });
+            channel(name + ".pixels", Where::OnSurfaces,
+                [&](std::size_t i) { return pixelSize[i] > 0 ? beta[i] / pixelSize[i] : 0.0f; });
+        }
+    }
+
+private:
+    template <class Value>
+    void channel(const std::string& name, Where where, const Value& value)
+    {
+        image::Channel out { name, {}, false };
+        out.values.reserve(static_cast<std::size_t>(window_.width()) * window_.height());
+        for (int y = window_.y0; y < window_.y1; ++y) {
+            for (int x = window_.x0; x < window_.x1; ++x) {
+                const std::size_t i = shared::pixelIndex(
+                    static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), frame().layout.stride);
+                out.values.push_back(where == Where::Everywhere || objectId_[i] != 0 ? value(i) : 0.0f);
+            }
+        }
+        image_.channels.push_back(std::move(out));
+    }
+
+    Renderer& renderer_;
+    image::Window window_;
+    image::LayeredImage& image_;
+    std::vector<std::uint32_t> objectId_;
+};
+
+using Where = LayerReader::Where;
+
+struct Layer {
+    LayerInfo info;
+    void (*read)(LayerReader& reader);
+};
+
+const std::vector<Layer>& layerTable()
+{
+    static const std::vector<Layer> table = {
+        { { "albedo", "R G B: diffuse reflectance with its texture, 0 on a miss" },
+            [](LayerReader& r) { r.vector("albedo.", "RGB", r.frame().diffuse, Where::OnSurfaces); } },
+        { { "normal", "X Y Z: unit shading normal in world space on the viewer's side, 0 on a miss" },
+            [](LayerReader& r) { r.vector("normal.", "XYZ", r.frame().normal, Where::OnSurfaces); } },
+        { { "position", "X Y Z: point hit in world space, metres, 0 on a miss" },
+            [](LayerReader& r) { r.vector("position.", "XYZ", r.frame().position, Where::OnSurfaces); } },
+        { { "depth", "Z: distance along the ray, metres, to a surface or a visible light; +inf on a miss" },
+            [](LayerReader& r) { r.depth(); } },
+        { { "emission", "R G B: radiance of emitting surfaces, lights and background seen directly" },
+            [](LayerReader& r) { r.vector("emission.", "RGB", r.frame().emission, Where::Everywhere); } },
+        { { "direct", "R G B: radiance reflected from lights, filtered; beauty = emission + direct" },
+            [](LayerReader& r) { r.vector("direct.", "RGB", r.frame().direct, Where::OnSurfaces); } },
+        { { "directNoisy", "R G B: the same before the filter" },
+            [](LayerReader& r) { r.vector("directNoisy.", "RGB", r.frame().directNoisy, Where::OnSurfaces); } },
+        { { "samples", "Y: samples taken of all area lights together" }, [](LayerReader& r) { r.samples(); } },
+        { { "rays", "Y: rays traced for the pixel, the camera's included" }, [](LayerReader& r) { r.rays(); } },
+        { { widthLayer,
+              "world, pixels: standard deviation of the filter in metres and in pixels (method aaf; with "
+              "several area lights filterWidth1, filterWidth2, ...)" },
+            [](LayerReader& r) { r.filterWidths(); } },
+        { { "objectId", "I: number of the object hit, from 1; 0 on a miss" }, [](LayerReader& r) { r.objectId(); } },
+    };
+    return table;
+}
+
+/// Why the layer cannot be made; "" if it can.
+std::string obstacle(const std::string& layer, const Settings& settings, const scene::Scene& scene)
+{
+    if (layer != widthLayer) {
+        return "";
+    }
+    if (settings.method != Method::AxisAligned) {
+        return "method " + methodName(settings.method) + " has no filter";
+    }
+    return scene.areaLights.empty() ? "the scene has no area light" : "";
+}
+
+std::vector<std::string> split(const std::string& list)
+{
+    std::vector<std::string> parts;
+    for (std::size_t at = 0; at <= list.size();) {
+        const std::size_t comma = std::min(list.find(',', at), list.size());
+        parts.push_back(list.substr(at, comma - at));
+        at = comma + 1;
+    }
+    return parts;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name)
+{
+    return std::ranges::find(names, name) != names.end();
+}
+
+} // namespace
+
+const std::vector<LayerInfo>& knownLayers()
+{
+    static const std::vector<LayerInfo> infos = [] {
+        std::vector<LayerInfo> out;
+        for (const Layer& layer : layerTable()) {
+            out.push_back(layer.info);
+        }
+        return out;
+    }();
+    return infos;
+}
+
+std::vector<std::string> selectLayers(const std::string& list, const Settings& settings, const scene::Scene& scene)
+{
+    std::vector<std::string> known;
+    for (const LayerInfo& info : knownLayers()) {
+        known.push_back(info.name);
+    }
+    const std::vector<std::string> wanted = list.empty() ? std::vector<std::string> {} : split(list);
+    for (const std::string& name : wanted) {
+        if (name != "all" && !contains(known, name)) {
+            throw UsageError("unknown layer", name, fmt::format("choose all or some of: {}", fmt::join(known, ", ")));
+        }
+        if (const std::string why = obstacle(name, settings, scene); !why.empty()) {
+            throw UsageError("layer cannot be made, " + why, name, "leave it out of --layers");
+        }
+    }
+    std::vector<std::string> selected;
+    for (const std::string& name : known) {
+        const bool inAll = contains(wanted, "all") && obstacle(name, settings, scene).empty();
+        if (inAll || contains(wanted, name)) {
+            selected.push_back(name);
+        }
+    }
+    return selected;
+}
+
+bool needLightPlanes(const std::vector<std::string>& layers) { return contains(layers, widthLayer); }
+
+image::LayeredImage readLayers(Renderer& renderer, const Settings& settings, const FrameStatistics& statistics,
+    const std::vector<std::string>& layers)
+{
+    image::LayeredImage image;
+    image.width = settings.width;
+    image.height = settings.height;
+    image.window = outputWindow(settings);
+    image.metadata = frameMetadata(renderer, settings, statistics);
+    LayerReader reader(renderer, image.window, image);
+    reader.vector("", "RGB", reader.frame().beauty, Where::Everywhere);
+    for (const Layer& layer : layerTable()) {
+        if (contains(layers, layer.info.name)) {
+            layer.read(reader);
+        }
+    }
+    return image;
+}
+
+} // namespace wedge::render

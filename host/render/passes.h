@@ -1,0 +1,80 @@
+#pragma once
+
+#include "host/device/program.h"
+#include "host/device/queue.h"
+#include "host/image/image.h"
+#include "kernels/shared/filter_params.h"
+#include "kernels/shared/frame.h"
+
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace wedge::render {
+
+/// The passes of a frame: one kernel dispatch each, with a name, a kind and a region of pixels.
+///
+/// A rehearsal launches every kernel at its full size over no pixels at all: drivers compile at the first launch of a
+/// size, which must not land in anybody's timing.
+class Passes {
+public:
+    Passes(device::ProgramLibrary& library, device::TimedQueue& queue)
+        : library_(library)
+        , queue_(queue)
+    {
+    }
+
+    device::TimedQueue& queue() { return queue_; }
+    void setRehearsal(bool on) { rehearsal_ = on; }
+    bool rehearsal() const { return rehearsal_; }
+
+    /// A pass over the tiles of frame's rectangle. The kernel takes FrameParams first and firstGroup last.
+    template<class... Args>
+    void tiles(std::string_view pass, device::PassKind kind, const std::string& file, const std::string& kernel,
+        shared::FrameParams frame, double workUnits, const Args&... args)
+    {
+        device::Kernel& k = find(file, kernel);
+        const std::size_t local = localSize(k, WEDGE_TILE_PIXELS);
+        const std::size_t groups = static_cast<std::size_t>(frame.tileCount) * (WEDGE_TILE_PIXELS / local);
+        if (rehearsal_) {
+            frame.tileCount = 0;
+        }
+        k.setArgs(frame, args..., std::uint32_t { 0 });
+        queue_.launchTiled(pass, kind, k, groups, local, k.argCount() - 1, rehearsal_ ? 0.0 : workUnits);
+    }
+
+    /// A pass over blocks of 16 pixels of a row (`across` = 16), or over pixels (`across` = 1). The kernel takes
+    /// Params, which have the rectangle, first.
+    template<class Params, class... Args>
+    void rows(std::string_view pass, device::PassKind kind, const std::string& file, const std::string& kernel,
+        Params params, std::uint32_t across, const Args&... args)
+    {
+        device::Kernel& k = find(file, kernel);
+        const std::size_t columns = (params.x1 - params.x0 + across - 1) / across;
+        const std::size_t lines = params.y1 - params.y0;
+        if (rehearsal_) {
+            params.x1 = params.x0;
+        }
+        k.setArgs(params, args...);
+        const std::size_t localX = across == 1 ? 16 : 4;
+        queue_.launch2D(pass, kind, k, columns, lines, localX, localSize(k, 64) / localX);
+    }
+
+    /// The kernel, compiled when first asked for; one instance a name.
+    device::Kernel& find(const std::string& file, const std::string& kernel);
+
+private:
+    /// The largest power of two that the kernel allows, at most `most`.
+    static std::size_t localSize(const device::Kernel& kernel, std::size_t most);
+
+    device::ProgramLibrary& library_;
+    device::TimedQueue& queue_;
+    std::map<std::string, device::Kernel> kernels_;
+    bool rehearsal_ = false;
+};
+
+/// window grown by `margin` pixels on each side, x then rounded outwards to whole blocks, all inside width x height
+/// (x1 may end inside a block).
+image::Window blockWindow(const image::Window& window, int margin, int width, int height);
+
+} // namespace wedge::render

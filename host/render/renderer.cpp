@@ -1,0 +1,239 @@
+#include "host/render/renderer.h"
+
+#include "host/render/effects/soft_shadows.h"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+
+namespace wedge::render {
+
+using device::PassKind;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+bool needsAnalysis(const Settings& settings) { return settings.method == Method::AxisAligned; }
+
+bool hasSpecular(const scene::Scene& scene)
+{
+    return std::ranges::any_of(scene.materials, [](const scene::Material& m) { return m.specular.r + m.specular.g + m.specular.b > 0; });
+}
+
+image::Window outputWindow(const Settings& settings)
+{
+    const bool whole = settings.crop.width() == 0 || settings.crop.height() == 0;
+    return whole ? image::Window { 0, 0, settings.width, settings.height } : settings.crop;
+}
+
+device::BuildOptions programOptions(const scene::Scene& scene, const Options& options)
+{
+    device::BuildOptions out;
+    if (hasSpecular(scene)) {
+        out.defines.emplace_back("WEDGE_SPECULAR", "1");
+    }
+    out.fastMath = options.fastMath;
+    out.kernelDir = options.kernelDir;
+    return out;
+}
+
+} // namespace
+
+double FrameStatistics::milliseconds(PassKind kind) const
+{
+    return std::accumulate(passes.begin(), passes.end(), 0.0, [&](double sum, const device::PassRecord& r) { return sum + (r.kind == kind ? r.milliseconds : 0.0); });
+}
+
+double FrameStatistics::milliseconds(const std::string& pass) const
+{
+    return std::accumulate(passes.begin(), passes.end(), 0.0, [&](double sum, const device::PassRecord& r) { return sum + (r.name == pass ? r.milliseconds : 0.0); });
+}
+
+double FrameStatistics::overheadFraction() const
+{
+    const double overhead = milliseconds(PassKind::Analysis) + milliseconds(PassKind::Filter) + milliseconds(PassKind::Composite);
+    return deviceMilliseconds > 0 ? overhead / deviceMilliseconds : 0.0;
+}
+
+Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Options options)
+    : scene_(scene)
+    , device_(device)
+    , options_(std::move(options))
+    , bvh_(bvh::build({ scene.geometry.positions, scene.geometry.indices }, options_.bvh))
+    , queue_(device, options_.blameLaunches)
+    , programs_(std::make_unique<device::ProgramLibrary>(device, programOptions(scene, options_)))
+    , passes_(std::make_unique<Passes>(*programs_, queue_))
+{
+}
+
+device::MemoryPlan Renderer::plan(const Settings& settings) const
+{
+    const PlaneLayout layout(settings.width, settings.height);
+    device::MemoryPlan plan;
+    DeviceScene::plan(plan, scene_, bvh_);
+    Frame::plan(plan, layout);
+    Term::plan(plan, layout, hasSpecular(scene_), needsAnalysis(settings));
+    return plan;
+}
+
+void Renderer::allocate(const Settings& settings)
+{
+    validate(settings);
+    plan(settings).check(device_.info(), options_.memoryLimit);
+    if (!deviceScene_) {
+        deviceScene_ = std::make_unique<DeviceScene>(scene_, bvh_, device_, queue_);
+    }
+    const PlaneLayout layout(settings.width, settings.height);
+    if (!frame_ || !(frame_->layout == layout)) {
+        term_.reset();
+        frame_.reset();
+        frame_ = std::make_unique<Frame>(device_, queue_, layout);
+    }
+    if (!term_ || term_->analysed < needsAnalysis(settings)) {
+        term_.reset();
+        term_ = std::make_unique<Term>(device_, queue_, layout, deviceScene_->specular, needsAnalysis(settings));
+    }
+}
+
+void Renderer::rehearse(const Settings& settings)
+{
+    const Clock::time_point start = Clock::now();
+    allocate(settings);
+    passes_->setRehearsal(true);
+    queue_.setProgress({});
+    queue_.setCancelFlag(nullptr);
+    renderPasses(settings, false);
+    queue_.finish();
+    passes_->setRehearsal(false);
+    queue_.takeRecords();
+    setupSeconds_ = secondsSince(start);
+}
+
+double Renderer::workUnits(const Settings& settings) const
+{
+    return 1.0 + (scene_.pointLights.empty() && scene_.directionalLights.empty() ? 0.0 : 1.0)
+        + static_cast<double>(scene_.areaLights.size()) * settings.spp;
+}
+
+FrameStatistics Renderer::render(const Settings& settings, const Control& control, bool keepLights)
+{
+    allocate(settings);
+    queue_.takeRecords();
+    std::atomic<bool> stop { false };
+    const double total = workUnits(settings);
+    const Clock::time_point start = Clock::now();
+    queue_.setCancelFlag(&stop);
+    queue_.setProgress([&](double done) {
+        if ((control.cancel != nullptr && control.cancel->load()) || (control.timeLimitSeconds > 0 && secondsSince(start) > control.timeLimitSeconds)) {
+            stop = true;
+        }
+        if (control.progress) {
+            control.progress(std::clamp(done / total, 0.0, 1.0));
+        }
+    });
+    FrameStatistics statistics;
+    statistics.complete = renderPasses(settings, keepLights);
+    queue_.finish();
+    statistics.wallMilliseconds = 1e3 * secondsSince(start);
+    queue_.setCancelFlag(nullptr);
+    queue_.setProgress({});
+    statistics.passes = queue_.takeRecords();
+    for (const device::PassRecord& record : statistics.passes) {
+        statistics.deviceMilliseconds += record.milliseconds;
+    }
+    statistics.memoryBytes = plan(settings).total();
+    countWork(settings, statistics);
+    return statistics;
+}
+
+bool Renderer::renderPasses(const Settings& settings, bool keepLights)
+{
+    const image::Window output = outputWindow(settings);
+    const image::Window whole { 0, 0, settings.width, settings.height };
+    const bool analysed = needsAnalysis(settings);
+    const image::Window sampled = analysed ? blockWindow(output, settings.maxRadius, settings.width, settings.height) : output;
+    const shared::FrameParams fullFrame = frameParams(scene_, frame_->layout, whole, settings.seed);
+    const shared::FrameParams sampledFrame = frameParams(scene_, frame_->layout, sampled, settings.seed);
+
+    frame_->clear(queue_);
+    lightPlanes_.clear();
+    bool complete = primaryPass(analysed ? fullFrame : sampledFrame);
+    SoftShadows shadows(*passes_, *deviceScene_, *frame_, *term_, settings, fullFrame, sampledFrame, output);
+    for (std::uint32_t light = 0; complete && light < deviceScene_->areaLightList.size(); ++light) {
+        complete = shadows.render(light);
+        if (keepLights) {
+            lightPlanes_.push_back({ analysed ? term_->beta.downloadAll(queue_) : std::vector<float>(), term_->taken.downloadAll(queue_) });
+        }
+    }
+    if (complete && deviceScene_->deltaLightCount > 0) {
+        complete = deltaLightPass(sampledFrame);
+    }
+    shared::AnalysisParams all {};
+    const image::Window blocks = blockWindow(output, 0, settings.width, settings.height);
+    all.x0 = static_cast<std::uint32_t>(blocks.x0);
+    all.y0 = static_cast<std::uint32_t>(blocks.y0);
+    all.x1 = static_cast<std::uint32_t>(blocks.x1);
+    all.y1 = static_cast<std::uint32_t>(blocks.y1);
+    all.stride = fullFrame.stride;
+    all.planeSize = fullFrame.planeSize;
+    passes_->rows("composite", PassKind::Composite, "composite.cl", "addEmission", all, WEDGE_BLOCK_PIXELS,
+        frame_->emission, frame_->direct, frame_->objectId, frame_->beauty);
+    return complete;
+}
+
+bool Renderer::primaryPass(const shared::FrameParams& params)
+{
+    const DeviceScene& s = *deviceScene_;
+    Frame& f = *frame_;
+    try {
+        passes_->tiles("primary rays", PassKind::Trace, "primary.cl", "primary", params, 1.0, s.nodes, s.blocks,
+            s.positions, s.normals, s.texcoords, s.indices, s.materialIds, s.objectIds, s.materials, s.textures,
+            s.texels, s.srgbToLinear, s.areaLights, static_cast<std::uint32_t>(s.areaLightList.size()), f.position,
+            f.normal, f.origin, f.objectId, f.depth, f.pixelSize, f.diffuse, f.specular, f.emission, f.gloss);
+    } catch (const device::Cancelled&) {
+        return false;
+    }
+    return true;
+}
+
+bool Renderer::deltaLightPass(const shared::FrameParams& params)
+{
+    const DeviceScene& s = *deviceScene_;
+    Frame& f = *frame_;
+    try {
+        passes_->tiles("point lights", PassKind::Trace, "delta_lights.cl", "deltaLights", params, 1.0, s.deltaLights,
+            s.deltaLightCount, s.diameter, s.nodes, s.blocks, f.position, f.normal, f.origin, f.objectId, f.gloss,
+            f.diffuse, f.specular, f.direct, f.directNoisy, f.rays);
+    } catch (const device::Cancelled&) {
+        return false;
+    }
+    return true;
+}
+
+void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
+{
+    const std::vector<std::uint32_t> samples = frame_->samples.downloadAll(queue_);
+    const std::vector<std::uint32_t> rays = frame_->rays.downloadAll(queue_);
+    const std::vector<std::uint32_t> objects = frame_->objectId.downloadAll(queue_);
+    const image::Window output = outputWindow(settings);
+    std::uint64_t total = 0;
+    for (int y = output.y0; y < output.y1; ++y) {
+        for (int x = output.x0; x < output.x1; ++x) {
+            const std::size_t i = shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), frame_->layout.stride);
+            statistics.shadedPixels += objects[i] != 0 ? 1 : 0;
+            total += objects[i] != 0 ? samples[i] : 0;
+        }
+    }
+    statistics.primaryRays = settings.method == Method::AxisAligned
+        ? static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height)
+        : static_cast<std::uint64_t>(output.width()) * static_cast<std::uint64_t>(output.height());
+    statistics.shadowRays = std::accumulate(rays.begin(), rays.end(), std::uint64_t { 0 });
+    const double lights = static_cast<double>(std::max<std::size_t>(1, scene_.areaLights.size()));
+    statistics.sppMean = statistics.shadedPixels > 0 ? static_cast<double>(total) / static_cast<double>(statistics.shadedPixels) / lights : 0.0;
+    queue_.takeRecords();
+}
+
+} // namespace wedge::render

@@ -1,0 +1,108 @@
+#pragma once
+
+#include "bvh/bvh.h"
+#include "host/device/memory_plan.h"
+#include "host/device/program.h"
+#include "host/render/device_scene.h"
+#include "host/render/frame.h"
+#include "host/render/passes.h"
+#include "host/render/settings.h"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wedge::render {
+
+/// What stays the same from frame to frame.
+struct Options {
+    std::string kernelDir; ///< kernels to use in place of the embedded ones, "" for none
+    bool fastMath = false;
+    bool blameLaunches = false; ///< waits for each launch, so that a device error names the right kernel
+    std::uint64_t memoryLimit = 0; ///< bytes on the device, 0: the device's own limit
+    bvh::Config bvh;
+};
+
+/// How a render is watched and stopped.
+struct Control {
+    std::function<void(double fraction)> progress; ///< called now and then with what is done, 0 to 1
+    const std::atomic<bool>* cancel = nullptr; ///< set from elsewhere: stop soon
+    double timeLimitSeconds = 0; ///< stop sampling after this long; 0: never
+};
+
+/// Widths and counts of one light, for the layers; planes as on the device.
+struct LightPlanes {
+    std::vector<float> beta;
+    std::vector<std::uint32_t> taken;
+};
+
+/// What a frame cost and took.
+struct FrameStatistics {
+    bool complete = true; ///< false: stopped early; the image is made of what was sampled until then
+    double wallMilliseconds = 0; ///< from the first launch to the last result, on the host's clock
+    double deviceMilliseconds = 0; ///< sum of the passes
+    std::vector<device::PassRecord> passes;
+    std::uint64_t shadedPixels = 0;
+    double sppMean = 0; ///< samples a shaded pixel and area light
+    std::uint64_t primaryRays = 0, shadowRays = 0;
+    std::uint64_t memoryBytes = 0;
+
+    /// Analysis, filter and composite as a fraction of the device's time.
+    double overheadFraction() const;
+    double milliseconds(device::PassKind kind) const;
+    double milliseconds(const std::string& pass) const;
+};
+
+/// Renders frames of one scene on one device. Construction builds the hierarchy, the programs and the scene's buffers;
+/// render() may be called any number of times with other settings.
+class Renderer {
+public:
+    Renderer(const scene::Scene& scene, const device::Device& device, Options options = {});
+
+    /// Device memory that a frame of these settings takes, before anything of it is allocated.
+    device::MemoryPlan plan(const Settings& settings) const;
+
+    /// Renders; the result stays on the device until the next call. Throws Error if memory does not suffice or the
+    /// device fails. keepLights: fills lightPlanes() for the width layers.
+    FrameStatistics render(const Settings& settings, const Control& control = {}, bool keepLights = false);
+
+    /// Launches all kernels of these settings at full size over nothing, so that no compilation falls into render().
+    void rehearse(const Settings& settings);
+
+    const scene::Scene& scene() const { return scene_; }
+    const bvh::Bvh& hierarchy() const { return bvh_; }
+    const device::Device& device() const { return device_; }
+    std::string buildOptions() const { return programs_->optionsString(); }
+    double setupSeconds() const { return setupSeconds_; }
+
+    /// Of the last frame.
+    const Frame& frame() const { return *frame_; }
+    const std::vector<LightPlanes>& lightPlanes() const { return lightPlanes_; }
+    device::TimedQueue& queue() { return queue_; }
+
+private:
+    void allocate(const Settings& settings);
+    bool renderPasses(const Settings& settings, bool keepLights);
+    bool primaryPass(const shared::FrameParams& params);
+    bool deltaLightPass(const shared::FrameParams& params);
+    void countWork(const Settings& settings, FrameStatistics& statistics);
+    double workUnits(const Settings& settings) const;
+
+    const scene::Scene& scene_;
+    device::Device device_;
+    Options options_;
+    bvh::Bvh bvh_;
+    device::TimedQueue queue_;
+    std::unique_ptr<device::ProgramLibrary> programs_;
+    std::unique_ptr<Passes> passes_;
+    std::unique_ptr<DeviceScene> deviceScene_;
+    std::unique_ptr<Frame> frame_;
+    std::unique_ptr<Term> term_;
+    std::vector<LightPlanes> lightPlanes_;
+    double setupSeconds_ = 0;
+};
+
+} // namespace wedge::render

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "host/image/metrics.h"
+#include "host/render/renderer.h"
+#include "host/render/settings.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wedge::render {
+
+/// What is reported besides the frames themselves.
+struct ReportExtras {
+    double loadMilliseconds = 0; ///< reading the scene, not part of any frame
+    std::string reference; ///< path, where there is one
+    std::optional<image::Comparison> error; ///< of the last frame against the reference
+};
+
+/// All rays of the frame, by the pixels that it shows.
+double raysPerPixel(const FrameStatistics& statistics, const Settings& settings);
+
+/// Rays a second of the tracing passes' device time, in millions; 0 where nothing was timed.
+double megaraysPerSecond(const FrameStatistics& statistics);
+
+/// The report that docs/command-line.md describes, as JSON text of several lines. Quantities that are not finite are
+/// null.
+std::string jsonReport(const Renderer& renderer, const Settings& settings, const std::vector<FrameStatistics>& frames,
+    const ReportExtras& extras);
+
+} // namespace wedge::render

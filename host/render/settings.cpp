@@ -1,0 +1,132 @@
+#include "host/render/settings.h"
+
+#include "host/error.h"
+#include "kernels/shared/frame.h"
+#include "kernels/shared/wedge.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace wedge::render {
+namespace {
+
+// Where the default setting was tuned, and how width and count go together from there.
+constexpr float referenceSpp = 28.0f;
+constexpr float referenceMu = 2.0f;
+// Bias of a kernel of width beta grows as beta^2, its noise as 1 / (beta sqrt n): both stay in step if beta ~ n^-1/6.
+constexpr float widthExponent = 1.0f / 6.0f;
+constexpr int largestSpp = 1 << 20;
+
+void requireRange(bool inRange, const std::string& what, const std::string& value, const std::string& range)
+{
+    if (!inRange) {
+        throw UsageError(what + " is out of range", value, "give " + range);
+    }
+}
+
+} // namespace
+
+Settings monteCarlo(int spp)
+{
+    Settings s;
+    s.method = Method::MonteCarlo;
+    s.shading = Shading::Inside;
+    s.sampling = Sampling::Uniform;
+    s.filtering = Filtering::None;
+    s.spp = spp;
+    s.maxSpp = std::max(spp, s.maxSpp);
+    return s;
+}
+
+Settings axisAligned(std::optional<int> spp, std::optional<float> mu)
+{
+    Settings s;
+    if (spp) {
+        s.spp = *spp;
+        s.mu = mu.value_or(referenceMu * std::pow(static_cast<float>(*spp) / referenceSpp, widthExponent));
+    } else if (mu) {
+        s.mu = *mu;
+        const float count = referenceSpp * (*mu / referenceMu) * (*mu / referenceMu);
+        s.spp = static_cast<int>(std::lround(std::clamp(count, static_cast<float>(WEDGE_FIRST_PASS_RAYS), 1e5f)));
+    }
+    s.maxSpp = std::max(s.maxSpp, 10 * s.spp);
+    return s;
+}
+
+Settings asPublished(float mu)
+{
+    Settings s;
+    s.published = true;
+    s.sampler = Sampler::Stratified;
+    s.shading = Shading::Separate;
+    s.counts = Counts::Spectrum;
+    s.slopes = Slopes::Published;
+    s.oblique = false;
+    s.narrower = false;
+    s.mu = mu;
+    s.fillRadius = 5;
+    s.fillSigma = 0.0f;
+    // The thesis caps nothing explicitly; 100 suits its mu of 2, and counts grow with the square of mu.
+    s.maxSpp = static_cast<int>(std::lround(std::clamp(100.0f * std::max(1.0f, mu * mu / 4.0f), 100.0f, 1e5f)));
+    return s;
+}
+
+void validate(const Settings& s)
+{
+    const auto text = [](auto value) { return fmt::format("{}", value); };
+    requireRange(s.width >= 1 && s.height >= 1 && s.width <= 32768 && s.height <= 32768, "image size",
+        fmt::format("{}x{}", s.width, s.height), "a width and a height from 1 to 32768");
+    requireRange(s.crop.width() >= 0 && s.crop.height() >= 0 && s.crop.x0 >= 0 && s.crop.y0 >= 0 && s.crop.x1 <= s.width
+            && s.crop.y1 <= s.height,
+        "crop", fmt::format("{},{},{},{}", s.crop.x0, s.crop.y0, s.crop.x1, s.crop.y1),
+        fmt::format("x0,y0,x1,y1 with x0 < x1 and y0 < y1 inside {}x{}", s.width, s.height));
+    requireRange(s.spp >= 1 && s.spp <= largestSpp, "samples a pixel", text(s.spp), "a whole number from 1 to 1048576");
+    requireRange(s.maxSpp >= 1 && s.maxSpp <= largestSpp, "largest sample count", text(s.maxSpp), "a whole number from 1 to 1048576");
+    requireRange(std::isfinite(s.mu) && s.mu >= 0.01f && s.mu <= 1000.0f, "mu", text(s.mu), "a number from 0.01 to 1000");
+    requireRange(s.k > 0 && s.alpha > 0 && s.cut > 0, "filter constants", fmt::format("k {} alpha {} cut {}", s.k, s.alpha, s.cut), "positive numbers");
+    requireRange(s.normalDegrees >= 0 && s.normalDegrees <= 180, "normal test", text(s.normalDegrees), "degrees from 0 to 180");
+    requireRange(s.maxRadius >= 1 && s.maxRadius <= WEDGE_MAX_RADIUS, "kernel radius", text(s.maxRadius), fmt::format("pixels from 1 to {}", WEDGE_MAX_RADIUS));
+    requireRange(s.fillRadius >= 0 && s.fillRadius <= static_cast<int>(WEDGE_ROW_PADDING), "slope spreading radius", text(s.fillRadius), fmt::format("pixels from 0 to {}", WEDGE_ROW_PADDING));
+    requireRange(s.filtering != Filtering::Fixed || s.fixedWidth > 0, "fixed filter width", text(s.fixedWidth), "pixels above 0");
+    if (s.method == Method::AxisAligned) {
+        requireRange(s.maxSpp >= static_cast<int>(WEDGE_FIRST_PASS_RAYS) && s.spp >= static_cast<int>(WEDGE_FIRST_PASS_RAYS),
+            "samples a pixel", fmt::format("{} (at most {})", s.spp, s.maxSpp), "9 or more: the first pass takes 9");
+        requireRange(s.shading != Shading::Inside || s.counts != Counts::Variance || s.sampling == Sampling::Uniform,
+            "adaptive counts", "from variance, with the cosine inside the filtered term", "counts from the spectrum, or uniform ones");
+    }
+}
+
+std::string methodName(Method method) { return method == Method::MonteCarlo ? "mc" : "aaf"; }
+
+std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
+{
+    const auto number = [](auto value) { return fmt::format("{}", value); };
+    constexpr const char* shadings[] = { "separate", "inside", "ratio" };
+    constexpr const char* filters[] = { "none", "fixed", "adaptive" };
+    std::vector<std::pair<std::string, std::string>> out = {
+        { "method", methodName(s.method) },
+        { "setting", s.published ? "as published" : "default" },
+        { "sampler", s.sampler == Sampler::Sobol ? "owen-sobol" : "stratified" },
+        { "shading", shadings[static_cast<int>(s.shading)] },
+        { "sampling", s.sampling == Sampling::Uniform ? "uniform" : "adaptive" },
+        { "filter", filters[static_cast<int>(s.filtering)] },
+        { "spp", number(s.spp) },
+        { "maxSpp", number(s.maxSpp) },
+    };
+    if (s.method == Method::AxisAligned) {
+        out.insert(out.end(),
+            { { "counts", s.counts == Counts::Spectrum ? "spectrum" : "variance" },
+                { "slopes", s.slopes == Slopes::Published ? "published" : "smoothed" }, { "mu", number(s.mu) },
+                { "k", number(s.k) }, { "alpha", number(s.alpha) }, { "oblique", number(s.oblique) },
+                { "narrower", number(s.narrower) }, { "normalDegrees", number(s.normalDegrees) },
+                { "cut", number(s.cut) }, { "maxRadius", number(s.maxRadius) } });
+    }
+    if (s.filtering == Filtering::Fixed) {
+        out.emplace_back("fixedWidth", number(s.fixedWidth));
+    }
+    return out;
+}
+
+} // namespace wedge::render

@@ -1,0 +1,179 @@
+// From the first pass's slopes to filter widths.
+//
+// Published (thesis section 3.6): an unoccluded pixel takes the mean distances of the occluded pixels within 5
+// pixels. Default: s_min is eroded over 3x3 pixels of the same object, smoothed in the logarithm, and spread to
+// unoccluded pixels with Gaussian weights, so that the widths have no border of their own.
+#include "shared/filter_params.h"
+#include "shared/wedge.h"
+#include "vector16.h"
+
+/// Weight of spread slopes below which a pixel counts as far from any shadow.
+#define WEDGE_LEAST_SPREAD 1e-4f
+
+/// 3x3 minimum of s_min over occluded pixels of the same object; 0 where there is none.
+__kernel void erodeSlopes(AnalysisParams p, __global const float* restrict slopes, __global const uint* restrict objectId,
+                          __global float* restrict eroded)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const uint16 object = loadIdBlock(objectId, i);
+    float16 least = (float16)(2.0f * WEDGE_SLOPE_MAX);
+    for (int dy = y > 0u ? -1 : 0; dy <= (y + 1u < p.height ? 1 : 0); ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+            const int j = i + dy * (int)p.stride + dx;
+            const float16 slope = loadBlock(slopes, j);
+            const int16 taken = (slope > 0.0f) & (loadIdBlock(objectId, j) == object) & (object != 0u);
+            least = taken ? min16(least, slope) : least;
+        }
+    }
+    vstore16(least <= WEDGE_SLOPE_MAX ? least : (float16)(0.0f), 0, eroded + i);
+}
+
+/// 3x3 mean of log2 s over the pixels of the same object that have a slope. out planes: log2 of the slope, weight
+/// (1 where there is one, else 0).
+__kernel void smoothSlopes(AnalysisParams p, __global const float* restrict eroded, __global const uint* restrict objectId,
+                           __global float* restrict logSlopes)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const uint16 object = loadIdBlock(objectId, i);
+    const int16 has = (loadBlock(eroded, i) > 0.0f) & (object != 0u);
+    float16 sum = (float16)(0.0f);
+    float16 count = (float16)(0.0f);
+    if (any(has)) {
+        for (int dy = y > 0u ? -1 : 0; dy <= (y + 1u < p.height ? 1 : 0); ++dy) {
+            for (int dx = -1; dx <= 1; ++dx) {
+                const int j = i + dy * (int)p.stride + dx;
+                const float16 slope = loadBlock(eroded, j);
+                const int16 taken = (slope > 0.0f) & (loadIdBlock(objectId, j) == object);
+                sum += taken ? log2Block(slope) : (float16)(0.0f);
+                count += taken ? (float16)(1.0f) : (float16)(0.0f);
+            }
+        }
+    }
+    vstore16(has ? sum / count : (float16)(0.0f), 0, logSlopes + i);
+    vstore16(has ? (float16)(1.0f) : (float16)(0.0f), 0, logSlopes + p.planeSize + i);
+}
+
+/// Distances of the published fallback: planes d1 w, d2_max w, d2_min w, w with w = 1 at occluded pixels, else 0;
+/// d1 = receiver to the light's centre in metres, d2 = d1 / (1 + s) (3.4).
+__kernel void publishedDistances(AnalysisParams p, __global const float* restrict slopes,
+                                 __global const float* restrict position, __global const uint* restrict objectId,
+                                 __global float* restrict distances)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const float16 sMin = loadBlock(slopes, i);
+    const float16 sMax = loadBlock(slopes + p.planeSize, i);
+    const Vec3x16 toLight = sub16(splat3(p.lightCentre), loadVecBlock(position, p.planeSize, i));
+    const int16 occluded = (sMin > 0.0f) & (loadIdBlock(objectId, i) != 0u);
+    const float16 w = occluded ? (float16)(1.0f) : (float16)(0.0f);
+    const float16 d1 = occluded ? sqrt(dot16(toLight, toLight)) : (float16)(0.0f);
+    vstore16(d1, 0, distances + i);
+    vstore16(d1 / (1.0f + sMin), 0, distances + p.planeSize + i);
+    vstore16(d1 / (1.0f + sMax), 0, distances + 2u * p.planeSize + i);
+    vstore16(w, 0, distances + 3u * p.planeSize + i);
+}
+
+/// One direction of a separable weighted sum over `planes` planes whose last is the weight (values arrive multiplied
+/// by their weights). element: 1 for rows, the stride for columns.
+WEDGE_FN void spreadLine(AnalysisParams p, uint x, uint y, int element, int before, int after, uint planes,
+                         __global const float* in, __global float* out)
+{
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const int radius = (int)p.fillRadius;
+    for (uint plane = 0u; plane < planes; ++plane) {
+        __global const float* source = in + plane * p.planeSize;
+        float16 sum = loadBlock(source, i);
+        for (int k = 1; k <= radius; ++k) {
+            const float w = exp2((float)(k * k) * p.fillScale);
+            sum += k <= before ? w * loadBlock(source, i - k * element) : (float16)(0.0f);
+            sum += k <= after ? w * loadBlock(source, i + k * element) : (float16)(0.0f);
+        }
+        vstore16(sum, 0, out + plane * p.planeSize + i);
+    }
+}
+
+__kernel void spreadRows(AnalysisParams p, uint planes, __global const float* restrict in, __global float* restrict out)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x < p.x1 && y < p.y1) {
+        spreadLine(p, x, y, 1, (int)p.fillRadius, (int)p.fillRadius, planes, in, out);
+    }
+}
+
+__kernel void spreadColumns(AnalysisParams p, uint planes, __global const float* restrict in, __global float* restrict out)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x < p.x1 && y < p.y1) {
+        spreadLine(p, x, y, (int)p.stride, (int)y, (int)(p.height - 1u - y), planes, in, out);
+    }
+}
+
+/// Widths of the default setting, metres: from the pixel's own smoothed slope, else from what spread to it, else 0
+/// (nothing near is in shadow). -1 where the pixel sees nothing of the light. fixedWidth replaces the analysis.
+__kernel void widths(AnalysisParams p, __global const float* restrict logSlopes, __global const float* restrict spread,
+                     __global const uint* restrict objectId, __global const float* restrict pixelSize,
+                     __global const float* restrict sums, __global float* restrict beta)
+{
+    const uint x = p.x0 + get_global_id(0);
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const uint i = pixelIndex(x, y, p.stride);
+    const float own = logSlopes[p.planeSize + i];
+    const float near = spread[p.planeSize + i];
+    const bool has = own > 0.0f || near > WEDGE_LEAST_SPREAD;
+    const float logSlope = own > 0.0f ? logSlopes[i] : spread[i] / fmax(near, WEDGE_LEAST_SPREAD);
+    const float slope = exp(0.69314718f * logSlope);
+    const float analysed = has ? filterWidth(slope, p.sigma, pixelSize[i], p.k, p.mu, p.alpha) : 0.0f;
+    const float wide = p.fixedWidth > 0.0f ? p.fixedWidth * pixelSize[i] : analysed;
+    beta[i] = objectId[i] != 0u && sums[i] > 0.0f ? wide : -1.0f;
+}
+
+/// Widths (3.13) and sample counts (3.21) of the published setting; distances: the sums of publishedDistances over
+/// the window. A pixel with no occluded one near keeps the first pass's samples and is not filtered.
+__kernel void publishedWidths(AnalysisParams p, __global const float* restrict slopes,
+                              __global const float* restrict distances, __global const uint* restrict objectId,
+                              __global const float* restrict pixelSize, __global const float* restrict sums,
+                              __global float* restrict beta, __global uint* restrict wanted)
+{
+    const uint x = p.x0 + get_global_id(0);
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const uint i = pixelIndex(x, y, p.stride);
+    const uint size = p.planeSize;
+    const bool lit = objectId[i] != 0u && sums[i] > 0.0f;
+    const bool occluded = slopes[i] > 0.0f;
+    const bool near = distances[3u * size + i] > 0.0f;
+    const float farthest = fmax(distances[size + i], 1e-20f);
+    const float nearest = fmax(distances[2u * size + i], 1e-20f);
+    const float spreadMin = clamp(distances[i] / farthest - 1.0f, WEDGE_SLOPE_MIN, WEDGE_SLOPE_MAX);
+    const float spreadMax = clamp(distances[i] / nearest - 1.0f, WEDGE_SLOPE_MIN, WEDGE_SLOPE_MAX);
+    const float sMin = occluded ? slopes[i] : spreadMin;
+    const float sMax = occluded ? slopes[size + i] : spreadMax;
+    const bool filtered = occluded || near;
+    const float analysed = filtered ? filterWidth(sMin, p.sigma, pixelSize[i], p.k, p.mu, p.alpha) : 0.0f;
+    const float wide = p.fixedWidth > 0.0f ? p.fixedWidth * pixelSize[i] : analysed;
+    beta[i] = lit ? wide : -1.0f;
+    const float count = filtered && lit ? sampleCount(sMin, sMax, pixelSize[i], p.lightSize, p.mu, p.alpha) : 0.0f;
+    const float bounded = fmin(fmax(count, (float)WEDGE_FIRST_PASS_RAYS), (float)p.countCap);
+    wanted[i] = objectId[i] != 0u ? (uint)(bounded + 0.5f) : 0u;
+}

@@ -1,0 +1,180 @@
+// From filtered terms to radiance: each light's value times its unshadowed shading and the surface's reflectance,
+// added up over lights, then with what surfaces and background emit.
+#include "light_sample.h"
+#include "shared/filter_params.h"
+#include "vector16.h"
+
+/// The fine one serves receivers nearer to the light's centre than this many of its largest half extents.
+#define WEDGE_NEAR_LIGHT 3.0f
+
+/// Geometry terms of 16 receivers and one point of the light, 1/m^2; see geometryTerm().
+WEDGE_FN float16 geometryTerm16(Vec3x16 normal, Vec3x16 d, Vec3 lightNormal, uint twoSided)
+{
+    const float16 receiver = dot16(normal, d);
+    const float16 emitter = -(d.x * lightNormal.x + d.y * lightNormal.y + d.z * lightNormal.z);
+    const float16 facing = twoSided != 0u ? fabs(emitter) : emitter;
+    const float16 squared = dot16(d, d);
+    const int16 lit = (receiver > 0.0f) & (facing > 0.0f);
+    return lit ? receiver * facing / (squared * squared) : (float16)(0.0f);
+}
+
+/// Profile-weighted mean of the geometry term over the light by tensor-product Gauss quadrature. nodes: coordinate
+/// and weight of each of `count` nodes of one axis, the weights summing to 1. *edge: lanes where the light is partly
+/// below a horizon, so that the integrand has a kink.
+WEDGE_FN float16 unshadowedDiffuse(AreaLight light, Vec3x16 position, Vec3x16 normal, __global const float* nodes,
+                                   uint count, int16* edge)
+{
+    float16 sum = (float16)(0.0f);
+    int16 someZero = (int16)(0);
+    int16 someLit = (int16)(0);
+    for (uint a = 0u; a < count; ++a) {
+        for (uint b = 0u; b < count; ++b) {
+            const Vec3 point = lightPoint(light.centre, light.halfU, light.halfV, nodes[2u * a], nodes[2u * b]);
+            const float16 g = geometryTerm16(normal, sub16(splat3(point), position), light.normal, light.twoSided);
+            someZero |= g == 0.0f;
+            someLit |= g > 0.0f;
+            sum += nodes[2u * a + 1u] * nodes[2u * b + 1u] * g;
+        }
+    }
+    *edge = someZero & someLit;
+    return sum;
+}
+
+/// The same mean of lobe times geometry term, one receiver.
+WEDGE_FN float unshadowedSpecular(AreaLight light, Receiver r, __global const float* nodes, uint count)
+{
+    float sum = 0.0f;
+    for (uint a = 0u; a < count; ++a) {
+        for (uint b = 0u; b < count; ++b) {
+            const Vec3 point = lightPoint(light.centre, light.halfU, light.halfV, nodes[2u * a], nodes[2u * b]);
+            const Vec3 d = vecSub(point, r.position);
+            const float g = geometryTerm(r.normal, d, light.normal, light.twoSided);
+            if (g > 0.0f) {
+                sum += nodes[2u * a + 1u] * nodes[2u * b + 1u] * specularWeight(r, d, g);
+            }
+        }
+    }
+    return sum;
+}
+
+/// Adds light's value times `shading` (already times the reflectance) to planes of radiance.
+WEDGE_FN void addBlock(__global float* planes, uint size, int i, float16 value, Vec3x16 shading)
+{
+    vstore16(loadBlock(planes, i) + value * shading.x, 0, planes + i);
+    vstore16(loadBlock(planes + size, i) + value * shading.y, 0, planes + size + i);
+    vstore16(loadBlock(planes + 2u * size, i) + value * shading.z, 0, planes + 2u * size + i);
+}
+
+/// One light's diffuse reflection.
+/// in      value: filtered; noisy: not filtered; nodes: the coarse quadrature's (coordinate, weight) pairs, then the
+///         fine one's
+///         taken: the samples of value
+/// in out  direct, directNoisy (3 planes each), samples (of all lights)
+__kernel void addDiffuse(AnalysisParams p, SampleParams params, AreaLight light,
+                       __global const float* restrict nodes, __global const float* restrict position,
+                       __global const float* restrict normal, __global const uint* restrict objectId,
+                       __global const float* restrict diffuse, __global const float* restrict value,
+                       __global const float* restrict noisy, __global const uint* restrict taken,
+                       __global float* restrict direct, __global float* restrict directNoisy,
+                       __global uint* restrict samples)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const uint size = p.planeSize;
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const int16 surface = loadIdBlock(objectId, i) != 0u;
+    if (!any(surface)) {
+        return;
+    }
+    vstore16(loadIdBlock(samples, i) + loadIdBlock(taken, i), 0, samples + i);
+    const Vec3x16 at = loadVecBlock(position, size, i);
+    const Vec3x16 facing = loadVecBlock(normal, size, i);
+    float16 shading = (float16)(1.0f);
+    if (params.shading == WEDGE_SHADING_SEPARATE) {
+        shading = geometryTerm16(facing, sub16(splat3(light.centre), at), light.normal, light.twoSided);
+    } else if (params.shading == WEDGE_SHADING_RATIO) {
+        int16 hard;
+        shading = unshadowedDiffuse(light, at, facing, nodes, WEDGE_COARSE_NODES, &hard);
+        const Vec3x16 toLight = sub16(splat3(light.centre), at);
+        const float extent = fmax(vecLength(light.halfU), vecLength(light.halfV)) * WEDGE_NEAR_LIGHT;
+        hard |= dot16(toLight, toLight) < extent * extent;
+        hard &= surface;
+        if (any(hard)) {
+            int16 unused;
+            const float16 fine = unshadowedDiffuse(light, at, facing, nodes + 2u * WEDGE_COARSE_NODES, WEDGE_FINE_NODES, &unused);
+            shading = hard ? fine : shading;
+        }
+    }
+    shading = surface ? shading * WEDGE_INV_PI : (float16)(0.0f);
+    const Vec3x16 kd = loadVecBlock(diffuse, size, i);
+    Vec3x16 reflected;
+    reflected.x = shading * kd.x * light.power.x;
+    reflected.y = shading * kd.y * light.power.y;
+    reflected.z = shading * kd.z * light.power.z;
+    addBlock(direct, size, i, loadBlock(value, i), reflected);
+    addBlock(directNoisy, size, i, loadBlock(noisy, i), reflected);
+}
+
+/// One receiver's unshadowed specular shading in the way of the term.
+WEDGE_FN float specularShading(SampleParams params, AreaLight light, Receiver r, __global const float* nodes)
+{
+    if (params.shading == WEDGE_SHADING_INSIDE) {
+        return 1.0f;
+    }
+    if (params.shading == WEDGE_SHADING_RATIO) {
+        return unshadowedSpecular(light, r, nodes + 2u * WEDGE_COARSE_NODES, WEDGE_FINE_NODES);
+    }
+    const Vec3 d = vecSub(light.centre, r.position);
+    const float g = geometryTerm(r.normal, d, light.normal, light.twoSided);
+    return g > 0.0f ? specularWeight(r, d, g) : 0.0f;
+}
+
+/// One light's specular reflection; value and noisy hold the specular term in their second plane.
+__kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light, FrameParams frame,
+                          __global const float* restrict nodes, __global const float* restrict position,
+                          __global const float* restrict normal, __global const uint* restrict objectId,
+                          __global const float* restrict gloss, __global const float* restrict specular,
+                          __global const float* restrict value, __global const float* restrict noisy,
+                          __global float* restrict direct, __global float* restrict directNoisy)
+{
+    const uint x = p.x0 + get_global_id(0);
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const uint size = p.planeSize;
+    const uint i = pixelIndex(x, y, p.stride);
+    const Vec3 ks = loadVec(specular, size, i);
+    if (objectId[i] == 0u || !(ks.x + ks.y + ks.z > 0.0f)) {
+        return;
+    }
+    Receiver r;
+    r.position = loadVec(position, size, i);
+    r.normal = loadVec(normal, size, i);
+    r.view = vecNormalize(vecSub(frame.eye, r.position));
+    r.gloss = gloss[i];
+    const Vec3 reflected = vecScale(vecMul(ks, light.power), specularShading(params, light, r, nodes));
+    storeVec(direct, size, i, vecMad(loadVec(direct, size, i), reflected, value[size + i]));
+    storeVec(directNoisy, size, i, vecMad(loadVec(directNoisy, size, i), reflected, noisy[size + i]));
+}
+
+/// beauty = emission + direct, at misses emission alone (3 planes each).
+__kernel void addEmission(AnalysisParams p, __global const float* restrict emission, __global const float* restrict direct,
+                          __global const uint* restrict objectId, __global float* restrict beauty)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const int16 surface = loadIdBlock(objectId, i) != 0u;
+    for (uint plane = 0u; plane < 3u; ++plane) {
+        const int j = i + (int)(plane * p.planeSize);
+        const float16 reflected = surface ? loadBlock(direct, j) : (float16)(0.0f);
+        vstore16(loadBlock(emission, j) + reflected, 0, beauty + j);
+    }
+}

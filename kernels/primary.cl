@@ -1,0 +1,104 @@
+// The primary pass: one ray through each pixel's centre, and what it hits, into the G-buffer.
+//
+// in   frame, BVH, surfaces, area lights (the camera sees those that are visible)
+// out  position, normal, origin (3 planes each), objectId (0: nothing to shade), depth (ray distance, +inf on a
+//      miss), pixelSize (projected edge of the pixel on the surface, metres), diffuse, specular, emission (3 each;
+//      emission holds background and light radiance where nothing is shaded), gloss (exponent; negative: Phong)
+#include "pixel.h"
+#include "shared/bsdf.h"
+#include "shared/light.h"
+#include "surface.h"
+#include "traverse.h"
+
+/// Cosine that the projected pixel size does not go below, against infinities at grazing views.
+#define WEDGE_MIN_VIEW_COSINE 0.01f
+
+typedef struct {
+    float t;        ///< along the camera direction; +inf where no light is hit
+    Vec3 radiance;
+} LightHit;
+
+/// Nearest visible area light along the ray.
+static LightHit hitLights(__global const AreaLight* lights, uint count, Vec3 eye, Vec3 direction)
+{
+    LightHit hit;
+    hit.t = INFINITY;
+    hit.radiance = vec3(0.0f, 0.0f, 0.0f);
+    for (uint i = 0; i < count; ++i) {
+        const AreaLight light = lights[i];
+        const float facing = vecDot(light.normal, direction);
+        const float t = vecDot(light.normal, vecSub(light.centre, eye)) / facing;
+        if (light.visible == 0u || facing == 0.0f || !(t > 0.0f) || !(t < hit.t)) {
+            continue;
+        }
+        // Local coordinates from the two edges' cross products, so that the quad may be a parallelogram.
+        const Vec3 d = vecSub(vecMad(eye, direction, t), light.centre);
+        const Vec3 n = vecCross(light.halfU, light.halfV);
+        const float scale = 1.0f / vecDot(n, n);
+        const float a = vecDot(vecCross(d, light.halfV), n) * scale;
+        const float b = vecDot(vecCross(light.halfU, d), n) * scale;
+        if (fabs(a) <= 1.0f && fabs(b) <= 1.0f) {
+            hit.t = t;
+            const float emits = facing < 0.0f || light.twoSided != 0u ? 1.0f : 0.0f;
+            hit.radiance = vecScale(light.radiance, emits * lightProfile(a, b, light.profile, light.cut));
+        }
+    }
+    return hit;
+}
+
+__kernel void primary(FrameParams frame, __global const BvhNode* restrict nodes,
+                      __global const TriangleBlock* restrict blocks, __global const float* restrict positions,
+                      __global const float* restrict normals, __global const float* restrict texcoords,
+                      __global const uint* restrict indices, __global const uint* restrict materialIds,
+                      __global const uint* restrict objectIds, __global const MaterialData* restrict materials,
+                      __global const TextureData* restrict textures, __global const uint* restrict texels,
+                      __global const float* restrict srgbToLinear, __global const AreaLight* restrict lights,
+                      uint lightCount, __global float* restrict position, __global float* restrict normal,
+                      __global float* restrict origin, __global uint* restrict objectId, __global float* restrict depth,
+                      __global float* restrict pixelSize, __global float* restrict diffuse,
+                      __global float* restrict specular, __global float* restrict emission,
+                      __global float* restrict gloss, uint firstGroup)
+{
+    uint x, y;
+    if (!tilePixel(frame, firstGroup, &x, &y)) {
+        return;
+    }
+    const uint i = pixelIndex(x, y, frame.stride);
+    const uint size = frame.planeSize;
+    const Vec3 direction = cameraDirection(frame.forward, frame.right, frame.down, (float)frame.width,
+                                           (float)frame.height, (float)x + 0.5f, (float)y + 0.5f);
+    const float length = vecLength(direction);
+    const LightHit seen = hitLights(lights, lightCount, frame.eye, direction);
+    const Hit hit = closestHit(nodes, blocks, frame.eye, direction, 0.0f, seen.t);
+    if (hit.triangle == WEDGE_NO_TRIANGLE) {
+        objectId[i] = 0u;
+        depth[i] = seen.t * length;
+        storeVec(emission, size, i, seen.t < INFINITY ? seen.radiance : frame.background);
+        return;
+    }
+    SurfaceData data;
+    data.positions = positions;
+    data.normals = normals;
+    data.texcoords = texcoords;
+    data.indices = indices;
+    data.materialIds = materialIds;
+    data.materials = materials;
+    data.textures = textures;
+    data.texels = texels;
+    data.srgbToLinear = srgbToLinear;
+    const Surface s = surfaceAt(data, hit, direction);
+    // Solid angle of a pixel off the axis: area / distance^2 times the cosine to the image plane, cos^3 in all.
+    const float axis = 1.0f / length;
+    const float solidAngle = vecLength(vecCross(frame.right, frame.down)) * axis * axis * axis;
+    const float cosine = fmax(fabs(vecDot(s.geometric, direction)) * axis, WEDGE_MIN_VIEW_COSINE);
+    storeVec(position, size, i, s.position);
+    storeVec(normal, size, i, s.normal);
+    storeVec(origin, size, i, s.origin);
+    objectId[i] = objectIds[hit.triangle];
+    depth[i] = hit.t * length;
+    pixelSize[i] = hit.t * length * sqrt(solidAngle / cosine);
+    storeVec(diffuse, size, i, s.diffuse);
+    storeVec(specular, size, i, s.specular);
+    storeVec(emission, size, i, s.emission);
+    gloss[i] = s.specularModel == WEDGE_SPECULAR_PHONG ? -s.exponent : s.exponent;
+}

@@ -1,0 +1,128 @@
+// Lights as the kernels see them, and the measure on an area light.
+#ifndef WEDGE_SHARED_LIGHT_H
+#define WEDGE_SHARED_LIGHT_H
+
+#include "rng.h"
+#include "vec.h"
+
+#define WEDGE_PROFILE_UNIFORM 0u
+#define WEDGE_PROFILE_GAUSSIAN 1u
+
+/// Points of the light nearer to it than this fraction of the shadow ray do not count as occluders: they are the
+/// light's own housing or the light itself.
+#define WEDGE_SHADOW_RAY_END 0.9999f
+
+/// How a light's samples are weighted and what is filtered (docs/soft-shadows.md).
+#define WEDGE_SHADING_SEPARATE 0u ///< h = mean visibility, shaded with the light's centre (the thesis)
+#define WEDGE_SHADING_INSIDE 1u   ///< the shaded radiance itself, cosine inside (Fig. 3.11a; plain Monte Carlo)
+#define WEDGE_SHADING_RATIO 2u    ///< visibility weighted by the shading, times the unshadowed shading
+
+#define WEDGE_SAMPLER_SOBOL 0u
+#define WEDGE_SAMPLER_STRATIFIED 1u
+
+/// Nodes an axis of the coarse and of the fine quadrature over a light.
+#define WEDGE_COARSE_NODES 5u
+#define WEDGE_FINE_NODES 12u
+
+WEDGE_SHARED_BEGIN
+
+/// A planar quad light. Local coordinates (a, b) in [-1, 1]^2 map to centre + a halfU + b halfV.
+typedef struct {
+    Vec3 centre;
+    float sigma;     ///< metres: standard deviation of the profile, geometric mean of the two axes
+    Vec3 halfU;      ///< metres
+    float cut;       ///< half extent in standard deviations (Gaussian)
+    Vec3 halfV;      ///< metres
+    float erfCut;    ///< erf(cut / sqrt 2): the Gaussian's mass inside the cut, one axis
+    Vec3 normal;     ///< unit, the side that emits
+    uint profile;    ///< WEDGE_PROFILE_*
+    Vec3 power;      ///< W/sr: radiance at the centre times the integral of the profile over the quad
+    uint twoSided;   ///< 1: both sides emit
+    Vec3 radiance;   ///< W/(m^2 sr) at the centre
+    uint visible;    ///< 1: the camera sees it
+} AreaLight;
+
+/// A point light (directional = 0: vector is its position, colour its intensity in W/sr) or a directional one
+/// (directional = 1: vector points towards the light, unit; colour is its irradiance in W/m^2).
+typedef struct {
+    Vec3 vector;
+    uint directional;
+    Vec3 colour;
+    uint padding;
+} DeltaLight;
+
+/// How a light is sampled and weighted.
+typedef struct {
+    uint shading;      ///< WEDGE_SHADING_*
+    uint sampler;   ///< WEDGE_SAMPLER_*
+    uint light;     ///< index of the light, part of the random seed
+    uint firstPass; ///< samples of a first pass with strata of its own; 0: none
+} SampleParams;
+
+/// Inverse error function for |x| < 1 (Giles, Approximating the erfinv function, 2010; single precision).
+WEDGE_FN float erfInverse(float x)
+{
+    float w = -log((1.0f - x) * (1.0f + x));
+    float p;
+    if (w < 5.0f) {
+        w = w - 2.5f;
+        p = 2.81022636e-08f;
+        p = 3.43273939e-07f + p * w;
+        p = -3.5233877e-06f + p * w;
+        p = -4.39150654e-06f + p * w;
+        p = 0.00021858087f + p * w;
+        p = -0.00125372503f + p * w;
+        p = -0.00417768164f + p * w;
+        p = 0.246640727f + p * w;
+        p = 1.50140941f + p * w;
+    } else {
+        w = sqrt(w) - 3.0f;
+        p = -0.000200214257f;
+        p = 0.000100950558f + p * w;
+        p = 0.00134934322f + p * w;
+        p = -0.00367342844f + p * w;
+        p = 0.00573950773f + p * w;
+        p = -0.0076224613f + p * w;
+        p = 0.00943887047f + p * w;
+        p = 1.00167406f + p * w;
+        p = 2.83297682f + p * w;
+    }
+    return p * x;
+}
+
+/// Local light coordinate in [-1, 1] of the uniform number u in [0, 1), distributed as the light's profile.
+WEDGE_FN float lightCoordinate(float u, uint profile, float cut, float erfCut)
+{
+    const float x = 2.0f * u - 1.0f;
+    return profile == WEDGE_PROFILE_GAUSSIAN ? 1.41421356f * erfInverse(x * erfCut) / cut : x;
+}
+
+/// The light's profile at local coordinates (a, b), 1 at the centre.
+WEDGE_FN float lightProfile(float a, float b, uint profile, float cut)
+{
+    return profile == WEDGE_PROFILE_GAUSSIAN ? exp(-0.5f * cut * cut * (a * a + b * b)) : 1.0f;
+}
+
+/// The point of the light at local coordinates (a, b), metres.
+WEDGE_FN Vec3 lightPoint(Vec3 centre, Vec3 halfU, Vec3 halfV, float a, float b)
+{
+    return vecMad(vecMad(centre, halfU, a), halfV, b);
+}
+
+/// The geometry term of receiver normal n and light normal m over the vector d from receiver to light (metres):
+/// cos cos / d^2 in 1/m^2, 0 where the light is below the receiver's horizon or turned away from it.
+WEDGE_FN float geometryTerm(Vec3 n, Vec3 d, Vec3 m, uint twoSided)
+{
+    const float receiver = vecDot(n, d);
+    const float emitter = -vecDot(m, d);
+    const float facing = twoSided != 0u ? fabs(emitter) : emitter;
+    const float squared = vecDot(d, d);
+    if (!(receiver > 0.0f) || !(facing > 0.0f)) {
+        return 0.0f;
+    }
+    return receiver * facing / (squared * squared);
+}
+
+WEDGE_SHARED_END
+
+#endif

@@ -1,0 +1,122 @@
+// From a ray's hit to the surface that is shaded: position, normals, ray origin, material.
+#ifndef WEDGE_SURFACE_H
+#define WEDGE_SURFACE_H
+
+#include "shared/hit.h"
+#include "texture.h"
+
+/// Rounding errors of a hit point and of the next ray's triangle test, in units of the last place of the largest
+/// coordinate involved.
+#define WEDGE_ORIGIN_ULPS 32.0f
+#define WEDGE_ULP 5.96046448e-8f
+
+/// The scene's geometry and materials.
+typedef struct {
+    __global const float* positions;  ///< 3 a vertex
+    __global const float* normals;    ///< 3 a vertex, zero: use the geometric normal
+    __global const float* texcoords;  ///< 2 a vertex
+    __global const uint* indices;     ///< 3 a triangle
+    __global const uint* materialIds; ///< 1 a triangle
+    __global const MaterialData* materials;
+    __global const TextureData* textures;
+    __global const uint* texels;
+    __global const float* srgbToLinear; ///< 256 entries
+} SurfaceData;
+
+typedef struct {
+    Vec3 position;  ///< metres, on the triangle
+    Vec3 origin;    ///< where rays start: position lifted off the surface on the viewer's side
+    Vec3 normal;    ///< unit shading normal on the viewer's side
+    Vec3 geometric; ///< unit geometric normal on the viewer's side
+    Vec3 diffuse, specular, emission;
+    float exponent;
+    uint specularModel;
+} Surface;
+
+WEDGE_FN Vec3 loadVertex(__global const float* data, uint vertex)
+{
+    return vec3(data[3u * vertex], data[3u * vertex + 1u], data[3u * vertex + 2u]);
+}
+
+/// How far p lies below the tangent plane of a vertex, along that plane's normal; 0 where it lies above.
+WEDGE_FN Vec3 liftToTangentPlane(Vec3 p, Vec3 vertex, Vec3 normal)
+{
+    return vecScale(normal, -fmin(0.0f, vecDot(vecSub(p, vertex), normal)));
+}
+
+/// Ray origin of point p = (a, b, c weighted by barycentrics): lifted onto the curved surface that the vertex
+/// normals suggest, so that a coarse mesh does not shadow itself at the terminator (Hanika, Hacking the Shadow
+/// Terminator, Ray Tracing Gems II, 2021), then off the plane by the rounding error of everything that made p:
+/// a bound from the coordinates themselves instead of one global distance.
+WEDGE_FN Vec3 rayOrigin(Vec3 p, Vec3 geometric, Vec3 a, Vec3 b, Vec3 c, Vec3 na, Vec3 nb, Vec3 nc, bool smooth, float u, float v)
+{
+    Vec3 lifted = p;
+    if (smooth) {
+        lifted = vecMad(lifted, liftToTangentPlane(p, a, na), 1.0f - u - v);
+        lifted = vecMad(lifted, liftToTangentPlane(p, b, nb), u);
+        lifted = vecMad(lifted, liftToTangentPlane(p, c, nc), v);
+    }
+    const float x = fmax(fmax(fabs(a.x), fabs(b.x)), fabs(c.x));
+    const float y = fmax(fmax(fabs(a.y), fabs(b.y)), fabs(c.y));
+    const float z = fmax(fmax(fabs(a.z), fabs(b.z)), fabs(c.z));
+    const float error = WEDGE_ORIGIN_ULPS * WEDGE_ULP
+        * (fabs(geometric.x) * x + fabs(geometric.y) * y + fabs(geometric.z) * z + 0.125f * fmax(fmax(x, y), z));
+    return vecMad(lifted, geometric, error);
+}
+
+/// Surface hit by a ray of the given direction (any length).
+WEDGE_FN Surface surfaceAt(SurfaceData data, Hit hit, Vec3 direction)
+{
+    Surface s;
+    const uint ia = data.indices[3u * hit.triangle];
+    const uint ib = data.indices[3u * hit.triangle + 1u];
+    const uint ic = data.indices[3u * hit.triangle + 2u];
+    const Vec3 a = loadVertex(data.positions, ia);
+    const Vec3 b = loadVertex(data.positions, ib);
+    const Vec3 c = loadVertex(data.positions, ic);
+    const float wa = 1.0f - hit.u - hit.v;
+    const Vec3 ab = vecSub(b, a);
+    const Vec3 ac = vecSub(c, a);
+    s.position = vecMad(vecMad(a, ab, hit.u), ac, hit.v);
+    Vec3 geometric = vecNormalize(vecCross(ab, ac));
+    const float side = vecDot(geometric, direction) > 0.0f ? -1.0f : 1.0f;
+    geometric = vecScale(geometric, side);
+
+    // Vertex normals follow the winding in well-made files and do not in others: each is turned to the viewer's side.
+    Vec3 na = loadVertex(data.normals, ia);
+    Vec3 nb = loadVertex(data.normals, ib);
+    Vec3 nc = loadVertex(data.normals, ic);
+    na = vecScale(na, vecDot(na, geometric) < 0.0f ? -1.0f : 1.0f);
+    nb = vecScale(nb, vecDot(nb, geometric) < 0.0f ? -1.0f : 1.0f);
+    nc = vecScale(nc, vecDot(nc, geometric) < 0.0f ? -1.0f : 1.0f);
+    const Vec3 interpolated = vecMad(vecMad(vecScale(na, wa), nb, hit.u), nc, hit.v);
+    const bool smooth = vecDot(interpolated, interpolated) > 1e-12f;
+    s.normal = smooth ? vecNormalize(interpolated) : geometric;
+    s.geometric = geometric;
+    s.origin = rayOrigin(s.position, geometric, a, b, c, na, nb, nc, smooth, hit.u, hit.v);
+
+    const MaterialData material = data.materials[data.materialIds[hit.triangle]];
+    s.diffuse = material.diffuse;
+    s.specular = material.specular;
+    s.emission = material.emission;
+    s.exponent = material.exponent;
+    s.specularModel = material.specularModel;
+    const float tu = data.texcoords[2u * ia] * wa + data.texcoords[2u * ib] * hit.u + data.texcoords[2u * ic] * hit.v;
+    const float tv = data.texcoords[2u * ia + 1u] * wa + data.texcoords[2u * ib + 1u] * hit.u
+        + data.texcoords[2u * ic + 1u] * hit.v;
+    if (material.diffuseTexture != WEDGE_NO_TEXTURE) {
+        s.diffuse = vecMul(s.diffuse, sampleTexture(data.textures, data.texels, data.srgbToLinear, material.diffuseTexture, tu, tv));
+    }
+    if (material.specularTexture != WEDGE_NO_TEXTURE) {
+        s.specular = vecMul(s.specular, sampleTexture(data.textures, data.texels, data.srgbToLinear, material.specularTexture, tu, tv));
+    }
+    if (material.emissionTexture != WEDGE_NO_TEXTURE) {
+        s.emission = vecMul(s.emission, sampleTexture(data.textures, data.texels, data.srgbToLinear, material.emissionTexture, tu, tv));
+    }
+    if (material.exponentTexture != WEDGE_NO_TEXTURE) {
+        s.exponent *= sampleTexture(data.textures, data.texels, data.srgbToLinear, material.exponentTexture, tu, tv).x;
+    }
+    return s;
+}
+
+#endif
