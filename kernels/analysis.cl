@@ -94,11 +94,17 @@ WEDGE_FN void spreadLine(AnalysisParams p, uint x, uint y, int element, int befo
 {
     const int i = (int)pixelIndex(x, y, p.stride);
     const int radius = (int)p.fillRadius;
+    const float first = exp2(p.fillScale);
+    const float ratio = first * first;
     for (uint plane = 0u; plane < planes; ++plane) {
         __global const float* source = in + plane * p.planeSize;
         float16 sum = loadBlock(source, i);
+        // exp2(k^2 s) for k = 1, 2, ... by its two ratios: each weight is the one before times step, step shrinks.
+        float w = 1.0f;
+        float step = first;
         for (int k = 1; k <= radius; ++k) {
-            const float w = exp2((float)(k * k) * p.fillScale);
+            w *= step;
+            step *= ratio;
             sum += k <= before ? w * loadBlock(source, i - k * element) : (float16)(0.0f);
             sum += k <= after ? w * loadBlock(source, i + k * element) : (float16)(0.0f);
         }

@@ -63,19 +63,19 @@ WEDGE_FN float largestOf(float16 v)
     return c.x > c.y ? c.x : c.y;
 }
 
-/// 2^x for x in [-126, 126], relative error below 1e-6: the minimax polynomial of degree 5 on the fraction.
+/// 2^x for x up to 126, relative error below 3e-6; below -126 it is 2^-126. Adding 1.5 * 2^23 leaves the nearest
+/// whole number in the low bits of the sum; a minimax polynomial of degree 4 does the rest in [-1/2, 1/2].
 WEDGE_FN float16 exp2Block(float16 x)
 {
-    const float16 clamped = max16(x, (float16)(-126.0f));
-    const int16 whole = convert_int16_rtn(clamped);
-    const float16 f = clamped - convert_float16(whole);
-    float16 p = (float16)(1.87757649e-3f);
-    p = p * f + 8.98934054e-3f;
-    p = p * f + 5.58263177e-2f;
-    p = p * f + 2.40153617e-1f;
-    p = p * f + 6.93153073e-1f;
-    p = p * f + 9.99999925e-1f;
-    return as_float16(as_int16(p) + (whole << 23));
+    const float16 bounded = max16(x, (float16)(-126.0f));
+    const float16 shifted = bounded + 12582912.0f;
+    const float16 f = bounded - (shifted - 12582912.0f);
+    float16 p = (float16)(9.57010132e-03f);
+    p = p * f + 5.59178603e-02f;
+    p = p * f + 2.40247448e-01f;
+    p = p * f + 6.93121815e-01f;
+    p = p * f + 9.99999261e-01f;
+    return as_float16(as_int16(p) + (as_int16(shifted) << 23));
 }
 
 /// log2 x for normal x > 0, absolute error below 1e-4: the exponent plus (m - 1) times the minimax polynomial of
