@@ -1,0 +1,16 @@
+# Checks by other tools than doctest: scripts/install_dependencies.sh test installs them.
+
+add_test(NAME kernel_lint COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/kernel_lint.sh ${CMAKE_SOURCE_DIR}/kernels)
+add_test(NAME oclgrind_frame COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/oclgrind_frame.sh $<TARGET_FILE:wedge>
+                                     ${CMAKE_SOURCE_DIR})
+set_tests_properties(kernel_lint oclgrind_frame PROPERTIES TIMEOUT 600)
+
+# The tests of the shared maths once more, under the sanitizers, whatever the build type: device code cannot be run
+# under them. With casts of floats out of range, which on devices give any value at all.
+add_executable(shared_maths_sanitized main.cpp kernel_rng_test.cpp kernel_maths_test.cpp)
+target_compile_options(shared_maths_sanitized PRIVATE -O1 -g -fno-omit-frame-pointer -fno-sanitize-recover=all
+                                                      -fsanitize=address,undefined,float-cast-overflow)
+target_link_options(shared_maths_sanitized PRIVATE -fsanitize=address,undefined)
+target_link_libraries(shared_maths_sanitized PRIVATE doctest::doctest wedge_shared wedge_options)
+add_test(NAME shared_maths_sanitized COMMAND shared_maths_sanitized)
+set_tests_properties(shared_maths_sanitized PROPERTIES TIMEOUT 600)

@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# oclgrind_frame.sh WEDGE SOURCES: renders tiny frames with the program WEDGE on Oclgrind, a simulated device that
+# notices accesses out of bounds, data races, diverging barriers and wrong calls of OpenCL. Fails if its log says
+# anything (its exit status is always 0), or if some kernel never ran.
+#
+# Without optimisation, since Oclgrind 21.10 does not know intrinsics that the optimiser puts in. Without
+# --uninitialized, which in this version takes constants that an earlier kernel stored for uninitialised.
+set -euo pipefail
+wedge=${1:?oclgrind_frame.sh: error: no program: name wedge}
+sources=${2:?oclgrind_frame.sh: error: no source folder: name the one above kernels/ and data/}
+
+if ! command -v oclgrind >/dev/null; then
+    echo "oclgrind_frame: oclgrind is missing: run scripts/install_dependencies.sh test" >&2
+    exit 1
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+# Cached binaries would hide the build options below; an empty name means no cache.
+export WEDGE_CACHE_DIR=
+
+# Renders one frame; its name, then the arguments of wedge render. Leaves NAME.log and NAME.out.
+simulate() {
+    local name=$1
+    shift
+    oclgrind --build-options -cl-opt-disable --data-races --check-api --inst-counts --max-errors 20 \
+        --log "$work/$name.log" "$wedge" render "$@" --layers all -o "$work/$name.exr" >"$work/$name.out" 2>&1
+}
+
+check() {
+    if ! simulate "$@" || ! grep -q "Oclgrind" "$work/$1.out" || [ ! -s "$work/$1.exr" ] || [ -s "$work/$1.log" ]; then
+        echo "oclgrind_frame: failed: $*" >&2
+        cat "$work/$1.log" >&2
+        grep -v '^ *[0-9]\|^Instructions\|^$' "$work/$1.out" >&2
+        return 1
+    fi
+    echo "$1: nothing to report"
+}
+
+# The check itself must fail where a kernel writes past the end of a buffer.
+checkSabotaged() {
+    cp -r "$sources/kernels" "$work/kernels"
+    sed -i 's/objectId\[i\] = /objectId[i + frame.planeSize] = /' "$work/kernels/primary.cl"
+    if cmp -s "$sources/kernels/primary.cl" "$work/kernels/primary.cl"; then
+        echo "oclgrind_frame: primary.cl no longer has the line to sabotage: name another" >&2
+        return 1
+    fi
+    simulate sabotaged "$scenes/penumbra.toml" --size 9x7 --method mc --spp 1 --kernel-dir "$work/kernels" || true
+    if ! grep -q "Invalid write" "$work/sabotaged.log"; then
+        echo "oclgrind_frame: a write past the end went unnoticed" >&2
+        return 1
+    fi
+}
+
+checkAllKernelsRan() {
+    local kernel missing=0
+    for kernel in $(grep -hoP '__kernel void \K\w+' $(ls "$sources"/kernels/*.cl | grep -v _test.cl)); do
+        grep -qF "kernel '$kernel'" "$work"/*.out || { echo "oclgrind_frame: kernel never ran: $kernel" >&2; missing=1; }
+    done
+    return $missing
+}
+
+# Odd sizes, so that tiles and vectors reach over the border. The materials have textures, gloss, two area lights, a
+# point light and a directional one.
+scenes=$sources/data/scenes
+check plain "$scenes/materials.toml" --size 19x13 --method mc --spp 1
+check filtered "$scenes/materials.toml" --size 19x13 --method aaf --spp 10
+check cropped "$scenes/penumbra.toml" --size 33x17 --crop 5,3,22,12 --method aaf --counts variance --spp 10
+check published "$scenes/penumbra.toml" --size 9x7 --method aaf --as-published
+check fixed "$scenes/penumbra.toml" --size 9x7 --method aaf --sampling uniform --filter fixed --spp 9
+check one_pixel "$scenes/penumbra.toml" --size 1x1 --method aaf --spp 9
+checkSabotaged
+checkAllKernelsRan
