@@ -94,9 +94,10 @@ WEDGE_FN void gatherTap(FilterParams p, GatherBlock b, int j, float steps, __glo
     const float16 w = taken ? exp2Block(squared * scale) : (float16)(0.0f);
     sum->weight += w;
     sum->squared += w * w;
-    sum->first += w * loadBlock(value, j);
+    // Not the weight alone: 0 times a NaN would let it in.
+    sum->first += taken ? w * loadBlock(value, j) : (float16)(0.0f);
 #ifdef WEDGE_SPECULAR
-    sum->second += w * loadBlock(value + p.planeSize, j);
+    sum->second += taken ? w * loadBlock(value + p.planeSize, j) : (float16)(0.0f);
 #endif
 }
 

@@ -112,7 +112,8 @@ WEDGE_FN uint permuteIndex(uint i, uint length, uint seed)
         i &= mask;
         i ^= i >> 5;
     } while (i >= length);
-    return (i + seed) % length;
+    // Reduced first: i + seed may wrap around, which would send two elements to one place.
+    return (i + seed % length) % length;
 }
 
 /// Point i of n jittered samples in [0,1)^2: a grid of columns x rows strata with columns = round(sqrt n) and
