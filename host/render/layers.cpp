@@ -133,8 +133,8 @@ const std::vector<Layer>& layerTable()
         { { "samples", "Y: samples taken of all area lights together" }, [](LayerReader& r) { r.samples(); } },
         { { "rays", "Y: rays traced for the pixel, the camera's included" }, [](LayerReader& r) { r.rays(); } },
         { { widthLayer,
-              "world, pixels: standard deviation of the filter in metres and in pixels (method aaf; with "
-              "several area lights filterWidth1, filterWidth2, ...)" },
+              "world, pixels: standard deviation of the filter in metres and in pixels, 0 where the light does not "
+              "reach (method aaf; with several area lights filterWidth1, filterWidth2, ...)" },
             [](LayerReader& r) { r.filterWidths(); } },
         { { "objectId", "I: number of the object hit, from 1; 0 on a miss" }, [](LayerReader& r) { r.objectId(); } },
     };

@@ -1,0 +1,112 @@
+#include "host/app/commands.h"
+#include "host/app/values.h"
+#include "host/image/atomic_file.h"
+#include "host/image/colour.h"
+#include "host/image/metrics.h"
+#include "host/image/png.h"
+#include "host/image/read_image.h"
+
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace wedge::app {
+namespace {
+
+struct CompareOptions {
+    std::string image, reference, errorMap;
+    std::optional<std::size_t> metric;
+    bool json = false;
+};
+
+using image::RgbImage;
+
+struct Metric {
+    const char* name;
+    double (*measure)(const RgbImage& image, const RgbImage& reference);
+    const char* unit;
+};
+
+constexpr Metric metrics[] = {
+    { "rmse", image::rmse, "" },
+    { "relmse", image::relMse, "" },
+    { "psnr", image::psnr, " dB" },
+    { "ssim", image::ssim, "" },
+    { "flip", [](const RgbImage& a, const RgbImage& b) { return image::flip(a, b).mean; }, "" },
+};
+
+std::vector<std::string> metricNames()
+{
+    std::vector<std::string> names;
+    for (const Metric& metric : metrics) {
+        names.emplace_back(metric.name);
+    }
+    return names;
+}
+
+/// FLIP's error as grey, black where nobody sees a difference.
+void writeErrorMap(const std::string& path, const RgbImage& a, const RgbImage& b)
+{
+    const image::FlipResult flip = image::flip(a, b);
+    RgbImage map { flip.width, flip.height, {} };
+    for (const float error : flip.error) {
+        // The error itself is to be the PNG's value, so the sRGB curve of the writer is undone.
+        map.rgb.insert(map.rgb.end(), 3, image::decodeSrgb(error));
+    }
+    image::writePng(path, map);
+}
+
+int compare(const CompareOptions& options)
+{
+    if (!options.errorMap.empty()) {
+        image::checkWritable(options.errorMap);
+    }
+    const RgbImage a = image::readImage(options.image);
+    const RgbImage b = image::readImage(options.reference);
+    image::requireSameSize(a, b);
+    nlohmann::ordered_json json;
+    for (std::size_t i = 0; i < std::size(metrics); ++i) {
+        if (options.metric && *options.metric != i) {
+            continue;
+        }
+        const double value = metrics[i].measure(a, b);
+        json[metrics[i].name] = value;
+        if (!options.json) {
+            options.metric ? fmt::print("{:.9g}\n", value)
+                           : fmt::print("{:<7} {:.6g}{}\n", metrics[i].name, value, metrics[i].unit);
+        }
+    }
+    if (options.json) {
+        fmt::print("{}\n", json.dump(2));
+    }
+    if (!options.errorMap.empty()) {
+        writeErrorMap(options.errorMap, a, b);
+    }
+    return 0;
+}
+
+} // namespace
+
+void addCompareCommand(CLI::App& parser, Action& action)
+{
+    CLI::App* command = parser.add_subcommand("compare", "Measure how far an image is from a reference");
+    const auto options = std::make_shared<CompareOptions>();
+    command->add_option("IMAGE", options->image, "Image: .exr, .png or .hdr")->type_name("")->required();
+    command->add_option("REFERENCE", options->reference, "What it should be")->type_name("")->required();
+    command
+        ->add_option_function<std::string>(
+            "--metric",
+            [options](const std::string& text) { options->metric = choice("--metric", text, metricNames()); },
+            "Print this number alone")
+        ->type_name("rmse|relmse|psnr|ssim|flip")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    command->add_flag("--json", options->json, "Print JSON; a value that is not finite is null");
+    command->add_option("--error-map", options->errorMap, "Write where FLIP sees the error, as a grey PNG")
+        ->type_name("FILE");
+    command->callback([options, &action] { action = [options] { return compare(*options); }; });
+}
+
+} // namespace wedge::app

@@ -1,0 +1,122 @@
+#include "host/app/commands.h"
+#include "host/app/render_options.h"
+#include "host/app/render_settings.h"
+#include "host/device/memory_plan.h"
+#include "host/render/device_scene.h"
+#include "host/render/frame.h"
+#include "host/scene/scene.h"
+
+#include <algorithm>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace wedge::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Facts {
+    scene::Scene scene;
+    scene::Summary summary;
+    bvh::Statistics bvh;
+    render::Settings settings;
+    device::MemoryPlan memory;
+};
+
+/// What a frame of the scene's own settings would take, asked without a device.
+device::MemoryPlan memoryPlan(const scene::Scene& scene, const bvh::Bvh& hierarchy, const render::Settings& settings)
+{
+    const bool specular = std::ranges::any_of(
+        scene.materials, [](const scene::Material& m) { return m.specular.r + m.specular.g + m.specular.b > 0; });
+    const render::PlaneLayout layout(settings.width, settings.height);
+    device::MemoryPlan plan;
+    render::DeviceScene::plan(plan, scene, hierarchy);
+    render::Frame::plan(plan, layout);
+    render::Term::plan(plan, layout, specular, settings.method == render::Method::AxisAligned);
+    return plan;
+}
+
+Facts gather(const std::string& path)
+{
+    Facts facts;
+    facts.scene = scene::loadScene(path);
+    facts.summary = scene::summary(facts.scene);
+    const bvh::Bvh hierarchy =
+        bvh::build({ facts.scene.geometry.positions, facts.scene.geometry.indices }, bvh::Config());
+    facts.bvh = hierarchy.statistics;
+    facts.settings = resolveSettings(RenderOptions(), facts.scene);
+    facts.memory = memoryPlan(facts.scene, hierarchy, facts.settings);
+    return facts;
+}
+
+void printJson(const Facts& f)
+{
+    const scene::Summary& s = f.summary;
+    const bvh::Statistics& b = f.bvh;
+    Json json = { { "path", f.scene.path }, { "triangles", s.triangles }, { "vertices", s.vertices },
+        { "objects", s.objects }, { "materials", s.materials }, { "textures", s.textures },
+        { "area_lights", s.areaLights }, { "point_lights", s.pointLights },
+        { "directional_lights", s.directionalLights }, { "geometry_bytes", s.geometryBytes },
+        { "texture_bytes", s.textureBytes } };
+    if (!s.bounds.empty()) {
+        json["bounds"] = { { s.bounds.lo.x, s.bounds.lo.y, s.bounds.lo.z },
+            { s.bounds.hi.x, s.bounds.hi.y, s.bounds.hi.z } };
+    }
+    json["width"] = f.settings.width;
+    json["height"] = f.settings.height;
+    json["memory_bytes"] = f.memory.total();
+    json["bvh"] = { { "nodes", b.nodes }, { "blocks", b.blocks }, { "triangles", b.triangles },
+        { "degenerate", b.degenerate }, { "skipped", b.skipped }, { "depth", b.depth }, { "sah_cost", b.sahCost },
+        { "bytes", b.bytes }, { "build_ms", 1e3 * b.buildSeconds } };
+    json["warnings"] = f.scene.warnings;
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+void printText(const Facts& f)
+{
+    const scene::Summary& s = f.summary;
+    const bvh::Statistics& b = f.bvh;
+    fmt::print("scene      {}\n", f.scene.path);
+    fmt::print("triangles  {} ({} vertices, {})\n", s.triangles, s.vertices, device::mebibytes(s.geometryBytes));
+    fmt::print("objects    {}\n", s.objects);
+    for (std::size_t i = 0; i < f.scene.geometry.objectNames.size(); ++i) {
+        fmt::print("           {} {}\n", i + 1, f.scene.geometry.objectNames[i]);
+    }
+    fmt::print("materials  {}, textures {} ({})\n", s.materials, s.textures, device::mebibytes(s.textureBytes));
+    fmt::print("lights     {} area, {} point, {} directional\n", s.areaLights, s.pointLights, s.directionalLights);
+    if (!s.bounds.empty()) {
+        fmt::print("bounds     [{:g}, {:g}, {:g}] to [{:g}, {:g}, {:g}] m\n", s.bounds.lo.x, s.bounds.lo.y,
+            s.bounds.lo.z, s.bounds.hi.x, s.bounds.hi.y, s.bounds.hi.z);
+    }
+    fmt::print("bvh        {} nodes, {} blocks, {}, depth {}, SAH cost {:.2f}, built in {:.1f} ms\n", b.nodes, b.blocks,
+        device::mebibytes(b.bytes), b.depth, b.sahCost, 1e3 * b.buildSeconds);
+    fmt::print("           {} triangles without area, {} left out\n", b.degenerate, b.skipped);
+    fmt::print("memory on the device at {}x{}\n{}", f.settings.width, f.settings.height, f.memory.table());
+}
+
+int info(const std::string& path, bool json)
+{
+    const Facts facts = gather(path);
+    for (const std::string& warning : facts.scene.warnings) {
+        fmt::print(stderr, "wedge: warning: {}\n", warning);
+    }
+    json ? printJson(facts) : printText(facts);
+    return 0;
+}
+
+} // namespace
+
+void addInfoCommand(CLI::App& parser, Action& action)
+{
+    CLI::App* command = parser.add_subcommand("info", "Say what is in a scene and what it takes");
+    const auto path = std::make_shared<std::string>();
+    const auto json = std::make_shared<bool>(false);
+    command->add_option("SCENE", *path, "Scene file (.toml) or mesh (.obj)")->type_name("")->required();
+    command->add_flag("--json", *json, "Print JSON");
+    command->callback([path, json, &action] { action = [path, json] { return info(*path, *json); }; });
+}
+
+} // namespace wedge::app

@@ -1,0 +1,51 @@
+#include "host/app/interrupt.h"
+
+#include "host/app/commands.h"
+
+#include <array>
+#include <csignal>
+
+#include <unistd.h>
+
+namespace wedge::app {
+namespace {
+
+constexpr std::array<int, 2> watched = { SIGINT, SIGTERM };
+
+std::atomic<bool> interrupted { false };
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch it");
+std::array<struct sigaction, watched.size()> previous;
+
+extern "C" void onSignal(int)
+{
+    if (interrupted.exchange(true)) {
+        _exit(statusInterrupted);
+    }
+}
+
+} // namespace
+
+InterruptGuard::InterruptGuard()
+{
+    struct sigaction action = {};
+    action.sa_handler = onSignal;
+    action.sa_flags = SA_RESTART; // drivers don't expect interrupted system calls
+    sigemptyset(&action.sa_mask);
+    for (std::size_t i = 0; i < watched.size(); ++i) {
+        sigaction(watched[i], nullptr, &previous[i]);
+        if (previous[i].sa_handler != SIG_IGN) {
+            sigaction(watched[i], &action, nullptr);
+        }
+    }
+}
+
+InterruptGuard::~InterruptGuard()
+{
+    for (std::size_t i = 0; i < watched.size(); ++i) {
+        sigaction(watched[i], &previous[i], nullptr);
+    }
+}
+
+const std::atomic<bool>& InterruptGuard::flag() const { return interrupted; }
+
+} // namespace wedge::app

@@ -1,0 +1,112 @@
+// The program: parse the command line, run the command, turn whatever goes wrong into one line and an exit status.
+#include "host/app/commands.h"
+#include "host/error.h"
+#include "host/render/metadata.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <new>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace {
+
+using namespace wedge;
+using namespace wedge::app;
+
+constexpr const char* commandList = "name one: render, compare, devices, info";
+
+/// "see wedge render --help", or of wedge itself where no command was named.
+std::string hint(const CLI::App& parser, int argc, char** argv)
+{
+    const bool named = argc > 1
+        && !parser.get_subcommands([&](const CLI::App* command) { return command->get_name() == argv[1]; }).empty();
+    return fmt::format("see wedge {}--help", named ? std::string(argv[1]) + " " : "");
+}
+
+/// The first argument of a wrong call that nobody expected.
+std::string firstExtra(const CLI::App& parser)
+{
+    const std::vector<std::string> extras = parser.remaining(true);
+    return extras.empty() ? "" : extras.front();
+}
+
+/// The parser's complaint in the form of all errors. Its messages begin with the option's name.
+UsageError usageError(const CLI::App& parser, const CLI::ParseError& error)
+{
+    const std::string text = error.what();
+    const std::string name = text.substr(0, text.find_first_of(": "));
+    if (const std::string extra = firstExtra(parser); !extra.empty()) {
+        if (extra[0] == '-') {
+            return { "unknown option", extra, "leave it out or correct it" };
+        }
+        const bool isCommand = parser.get_subcommands().empty();
+        return isCommand ? UsageError("unknown command", extra, commandList)
+                         : UsageError("unexpected argument", extra, "leave it out");
+    }
+    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+        return { "argument is missing", name, "give it" };
+    }
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+        return { "option has no value or too many", name, "give it one value" };
+    }
+    return { "wrong call", text, "correct it" };
+}
+
+int fail(const std::string& message, int status)
+{
+    std::string line = message;
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    std::fflush(stdout);
+    fmt::print(stderr, "wedge: error: {}\n", line);
+    return status;
+}
+
+int runCommand(CLI::App& parser, Action& action, int argc, char** argv)
+{
+    try {
+        try {
+            parser.parse(argc, argv);
+        } catch (const CLI::Success& request) {
+            return parser.exit(request); // --help, --version
+        } catch (const CLI::ParseError& error) {
+            throw usageError(parser, error);
+        }
+        if (!action) {
+            throw UsageError("command", "none given", commandList);
+        }
+        return action();
+    } catch (const UsageError& error) {
+        return fail(fmt::format("{}; {}", error.what(), hint(parser, argc, argv)), statusWrongCall);
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    try {
+        CLI::App parser("wedge renders scenes with soft shadows from few samples, on any OpenCL device.", "wedge");
+        parser.set_version_flag("--version", std::string("wedge ") + render::version());
+        parser.get_formatter()->column_width(32);
+        Action action;
+        addRenderCommand(parser, action);
+        addCompareCommand(parser, action);
+        addDevicesCommand(parser, action);
+        addInfoCommand(parser, action);
+        return runCommand(parser, action, argc, argv);
+    } catch (const Error& error) {
+        return fail(error.what(), statusFailure);
+    } catch (const std::bad_alloc&) {
+        return fail("host memory: exhausted: render a smaller image or a smaller scene", statusFailure);
+    } catch (const std::exception& error) {
+        return fail(fmt::format("unexpected failure: {}: this is a fault in wedge, please report it", error.what()),
+            statusFailure);
+    } catch (...) {
+        return fail("unexpected failure: unknown: this is a fault in wedge, please report it", statusFailure);
+    }
+}

@@ -1,0 +1,47 @@
+#include "host/app/reference.h"
+
+#include "host/error.h"
+#include "host/image/read_image.h"
+
+#include <fmt/format.h>
+
+namespace wedge::app {
+namespace {
+
+image::RgbImage cut(const image::RgbImage& image, const image::Window& window)
+{
+    image::RgbImage out { window.width(), window.height(), {} };
+    out.rgb.reserve(static_cast<std::size_t>(out.width) * out.height * 3);
+    for (int y = window.y0; y < window.y1; ++y) {
+        const auto row = image.rgb.begin() + (static_cast<std::ptrdiff_t>(y) * image.width + window.x0) * 3;
+        out.rgb.insert(out.rgb.end(), row, row + static_cast<std::ptrdiff_t>(out.width) * 3);
+    }
+    return out;
+}
+
+} // namespace
+
+image::RgbImage readReference(const std::string& path, const render::Settings& settings)
+{
+    image::RgbImage image = image::readImage(path);
+    const image::Window& crop = settings.crop;
+    const bool cropped = crop.width() > 0;
+    if (image.width == settings.width && image.height == settings.height) {
+        return cropped ? cut(image, crop) : image;
+    }
+    if (cropped && image.width == crop.width() && image.height == crop.height()) {
+        return image;
+    }
+    throw Error("reference " + path + " has another size than the image",
+        fmt::format("{}x{} and {}x{}", image.width, image.height, settings.width, settings.height),
+        "render with --size of the reference, or give another reference");
+}
+
+std::string describe(const image::Comparison& c)
+{
+    const std::string invalid = c.invalidPixels > 0 ? fmt::format("  invalid pixels {}", c.invalidPixels) : "";
+    return fmt::format("rmse {:.5g}  relmse {:.5g}  psnr {:.2f} dB  ssim {:.4f}  flip {:.4f}{}", c.rmse, c.relMse,
+        c.psnr, c.ssim, c.flip, invalid);
+}
+
+} // namespace wedge::app

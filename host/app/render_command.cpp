@@ -1,0 +1,209 @@
+#include "host/app/commands.h"
+#include "host/app/interrupt.h"
+#include "host/app/outputs.h"
+#include "host/app/pass_table.h"
+#include "host/app/progress_line.h"
+#include "host/app/reference.h"
+#include "host/app/render_options.h"
+#include "host/app/render_settings.h"
+#include "host/error.h"
+#include "host/render/layers.h"
+#include "host/render/report.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace wedge::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start)
+{
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// One call of `wedge render`, step by step.
+class RenderJob {
+public:
+    explicit RenderJob(const RenderOptions& options)
+        : options_(options)
+        , outputs_(planOutputs(options.outputs, options.scene))
+        , progress_(!options.quiet)
+    {
+    }
+
+    int run();
+
+private:
+    void checkCall() const;
+    void load();
+    void prepare();
+    void render();
+    void finish();
+
+    template <class... Args>
+    void say(fmt::format_string<Args...> format, Args&&... args) const
+    {
+        if (!options_.quiet) {
+            fmt::print(format, std::forward<Args>(args)...);
+        }
+    }
+
+    const RenderOptions& options_;
+    std::vector<Output> outputs_;
+    ProgressLine progress_;
+    scene::Scene scene_;
+    render::ReportExtras extras_;
+    render::Settings settings_;
+    std::vector<std::string> layers_;
+    std::optional<image::RgbImage> reference_;
+    std::unique_ptr<render::Renderer> renderer_;
+    render::FrameStatistics statistics_;
+    bool interrupted_ = false;
+    double fraction_ = 0;
+};
+
+int RenderJob::run()
+{
+    checkCall();
+    load();
+    prepare();
+    render();
+    finish();
+    return interrupted_ ? statusInterrupted : 0;
+}
+
+/// What can be refused before any work.
+void RenderJob::checkCall() const
+{
+    if (options_.quiet && options_.verbose) {
+        throw UsageError("options contradict each other", "--quiet --verbose", "give one of them");
+    }
+    if (options_.devices.size() > 1) {
+        throw UsageError("several devices cannot render one image yet", options_.devices[1], "give one --device");
+    }
+    const bool anyExr = std::ranges::any_of(outputs_, [](const Output& o) { return o.format == ImageFormat::Exr; });
+    if (!options_.layers.empty() && !anyExr) {
+        throw UsageError("layers have no file to go to", options_.layers, "add an output that ends in .exr");
+    }
+    if (!options_.kernelDir.empty() && !std::filesystem::is_directory(options_.kernelDir)) {
+        throw Error("kernel folder", options_.kernelDir, "name an existing folder");
+    }
+    if (std::ranges::any_of(outputs_, [&](const Output& o) { return o.path == options_.report; })) {
+        throw UsageError("report and image have one name", options_.report, "give each a name of its own");
+    }
+    requireWritable(outputs_, options_.report);
+}
+
+void RenderJob::load()
+{
+    const Clock::time_point start = Clock::now();
+    progress_.show("reading " + options_.scene);
+    scene_ = scene::loadScene(options_.scene);
+    extras_.loadMilliseconds = millisecondsSince(start);
+    progress_.clear();
+    if (!options_.quiet) {
+        for (const std::string& warning : scene_.warnings) {
+            fmt::print(stderr, "wedge: warning: {}\n", warning);
+        }
+    }
+    settings_ = resolveSettings(options_, scene_);
+    layers_ = render::selectLayers(options_.layers, settings_, scene_);
+    if (!options_.reference.empty()) {
+        reference_ = readReference(options_.reference, settings_);
+        extras_.reference = options_.reference;
+    }
+}
+
+void RenderJob::prepare()
+{
+    const device::Device device = device::Device::open(options_.devices.empty() ? "" : options_.devices[0]);
+    render::Options options;
+    options.kernelDir = options_.kernelDir;
+    options.fastMath = options_.fastMath;
+    options.memoryLimit = options_.memoryLimitBytes;
+    progress_.show("building the hierarchy");
+    renderer_ = std::make_unique<render::Renderer>(scene_, device, options);
+    progress_.clear();
+
+    const device::MemoryPlan plan = renderer_->plan(settings_);
+    say("scene {}: {} triangles\n", scene_.path, scene_.geometry.indices.size() / 3);
+    say("device {} ({})\n", device.info().name, device.info().platform);
+    if (options_.verbose) {
+        for (const auto& [name, value] : render::describe(settings_)) {
+            say("{} {}\n", name, value);
+        }
+        say("device memory\n{}", plan.table());
+    } else {
+        say("device memory {}\n", device::mebibytes(plan.total()));
+    }
+    std::fflush(stdout);
+    progress_.show("building kernels");
+    renderer_->rehearse(settings_);
+    progress_.clear();
+}
+
+void RenderJob::render()
+{
+    // Before this, an interrupt simply ends the program: there is nothing yet to write.
+    const InterruptGuard guard;
+    if (options_.verbose) {
+        say("kernels ready after {:.1f} s\n", renderer_->setupSeconds());
+        std::fflush(stdout);
+    }
+    render::Control control;
+    control.cancel = &guard.flag();
+    control.timeLimitSeconds = options_.timeLimitSeconds;
+    control.progress = [this](double fraction) {
+        fraction_ = fraction;
+        progress_.update(fraction);
+    };
+    statistics_ = renderer_->render(settings_, control, render::needLightPlanes(layers_));
+    progress_.clear();
+    interrupted_ = !statistics_.complete && guard.flag();
+    if (!statistics_.complete) {
+        fmt::print(stderr, "wedge: {} at {:.0f} %: writing what is there\n",
+            interrupted_ ? "interrupted" : "time limit reached", 100 * fraction_);
+    }
+    const image::LayeredImage image = render::readLayers(*renderer_, settings_, statistics_, layers_);
+    if (reference_) {
+        extras_.error = image::compare(image::beauty(image), *reference_);
+    }
+    writeOutputs(outputs_, image, options_.exposureStops);
+    if (!options_.report.empty()) {
+        writeText(options_.report, render::jsonReport(*renderer_, settings_, { statistics_ }, extras_));
+    }
+}
+
+void RenderJob::finish()
+{
+    say("\n{}", passTable(statistics_, settings_));
+    if (extras_.error) {
+        say("error against {}: {}\n", extras_.reference, describe(*extras_.error));
+    }
+    for (const Output& output : outputs_) {
+        say("wrote {}\n", output.path);
+    }
+    if (!options_.report.empty()) {
+        say("wrote {}\n", options_.report);
+    }
+}
+
+} // namespace
+
+void addRenderCommand(CLI::App& parser, Action& action)
+{
+    CLI::App* command = parser.add_subcommand("render", "Render a scene to an image");
+    const auto options = std::make_shared<RenderOptions>();
+    addRenderOptions(*command, *options);
+    command->callback([options, &action] { action = [options] { return RenderJob(*options).run(); }; });
+}
+
+} // namespace wedge::app

@@ -1,0 +1,145 @@
+#include "host/app/render_options.h"
+
+#include "host/app/values.h"
+#include "host/render/layers.h"
+
+#include <functional>
+#include <limits>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace wedge::app {
+namespace {
+
+using Setter = std::function<void(const std::string&)>;
+
+constexpr std::int64_t mostSamples = 1 << 20;
+constexpr const char* whatGroup = "What is rendered";
+constexpr const char* howGroup = "How";
+constexpr const char* ablationGroup = "Parts of the method, one by one";
+constexpr const char* talkGroup = "What is said";
+
+/// An option of one value; of several uses the last one counts, so that a script can append to a command.
+void addValue(CLI::App& parser, const std::string& group, const std::string& name, const std::string& type,
+    const std::string& help, const Setter& set)
+{
+    parser.add_option_function<std::string>(name, set, help)
+        ->type_name(type)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
+        ->group(group);
+}
+
+/// An option that chooses among the values of an enumeration, named in their order.
+template <class Enum>
+void addChoice(CLI::App& parser, const std::string& group, const std::string& name,
+    const std::vector<std::string>& names, const std::string& help, std::optional<Enum>& target)
+{
+    std::string type;
+    for (const std::string& each : names) {
+        type += (type.empty() ? "" : "|") + each;
+    }
+    addValue(parser, group, name, type, help,
+        [name, names, &target](const std::string& text) { target = static_cast<Enum>(choice(name, text, names)); });
+}
+
+/// An option that may be used several times, one value each.
+void addList(CLI::App& parser, const std::string& group, const std::string& name, const std::string& type,
+    const std::string& help, std::vector<std::string>& target)
+{
+    parser.add_option(name, target, help)->type_name(type)->allow_extra_args(false)->group(group);
+}
+
+void addFrameOptions(CLI::App& parser, RenderOptions& o)
+{
+    addList(parser, whatGroup, "-o,--output", "FILE",
+        "Image to write, .exr (linear, with layers) or .png (sRGB); may be given several times. Default: the scene's "
+        "name with .exr, in the current folder",
+        o.outputs);
+    addValue(parser, whatGroup, "--size", "WxH", "Image size in pixels",
+        [&o](const std::string& text) { o.size = imageSize("--size", text); });
+    addValue(parser, whatGroup, "--crop", "x0,y0,x1,y1", "Render these pixels only, x1 and y1 excluded",
+        [&o](const std::string& text) { o.crop = cropWindow("--crop", text); });
+    addValue(parser, whatGroup, "--layers", "LIST",
+        "Layers to add to the EXR: all, or names separated by commas, listed below",
+        [&o](const std::string& text) { o.layers = text; });
+    addValue(parser, whatGroup, "--exposure", "STOPS", "Multiply PNGs by 2^STOPS", [&o](const std::string& text) {
+        o.exposureStops = static_cast<float>(finiteNumber("--exposure", text, -64, 64));
+    });
+    addValue(parser, whatGroup, "--reference", "FILE", "Compare with this image (.exr, .png or .hdr) of the same size",
+        [&o](const std::string& text) { o.reference = text; });
+    addValue(parser, whatGroup, "--report", "FILE", "Write a report as JSON",
+        [&o](const std::string& text) { o.report = text; });
+}
+
+void addMethodOptions(CLI::App& parser, RenderOptions& o)
+{
+    addChoice(parser, howGroup, "--method", { "mc", "aaf" },
+        "mc: plain Monte Carlo; aaf: axis-aligned filtering, the default", o.method);
+    parser.add_flag("--as-published", o.asPublished, "aaf as it was published, without later improvements")
+        ->group(howGroup);
+    addValue(parser, howGroup, "--spp", "N", "Samples a pixel and area light, their mean with adaptive sampling",
+        [&o](const std::string& text) { o.spp = static_cast<int>(wholeNumber("--spp", text, 1, mostSamples)); });
+    addValue(parser, howGroup, "--max-spp", "N", "Most samples of a pixel",
+        [&o](const std::string& text) { o.maxSpp = static_cast<int>(wholeNumber("--max-spp", text, 1, mostSamples)); });
+    addValue(parser, howGroup, "--mu", "X", "Sampling beyond the critical rate: larger filters less and samples more",
+        [&o](const std::string& text) { o.mu = static_cast<float>(finiteNumber("--mu", text, 0.01, 1000)); });
+    addValue(parser, howGroup, "--seed", "N", "Seed of the random numbers", [&o](const std::string& text) {
+        o.seed = static_cast<std::uint32_t>(wholeNumber("--seed", text, 0, std::numeric_limits<std::uint32_t>::max()));
+    });
+}
+
+void addDeviceOptions(CLI::App& parser, RenderOptions& o)
+{
+    addList(parser, howGroup, "--device", "SELECTOR", "cpu, gpu, an index from `wedge devices`, or part of a name",
+        o.devices);
+    addValue(parser, howGroup, "--time-limit", "S", "Stop sampling after so many seconds and write what is there",
+        [&o](const std::string& text) { o.timeLimitSeconds = positiveNumber("--time-limit", text, 1e9); });
+    addValue(parser, howGroup, "--memory-limit", "MIB", "Use no more than so much of the device's memory",
+        [&o](const std::string& text) {
+            o.memoryLimitBytes = static_cast<std::uint64_t>(wholeNumber("--memory-limit", text, 1, 1 << 30)) << 20;
+        });
+    addValue(parser, howGroup, "--kernel-dir", "DIR", "Kernels to use in place of the built-in ones",
+        [&o](const std::string& text) { o.kernelDir = text; });
+    parser.add_flag("--fast-math", o.fastMath, "Let the device's compiler relax floating-point rules")->group(howGroup);
+}
+
+void addAblationOptions(CLI::App& parser, RenderOptions& o)
+{
+    addChoice(parser, ablationGroup, "--sampling", { "uniform", "adaptive" }, "Samples of each pixel", o.sampling);
+    addChoice(parser, ablationGroup, "--filter", { "none", "fixed", "adaptive" }, "Width of the filter", o.filter);
+    addValue(parser, ablationGroup, "--filter-width", "PX", "Width for --filter fixed, standard deviation in pixels",
+        [&o](const std::string& text) {
+            o.filterWidth = static_cast<float>(positiveNumber("--filter-width", text, 1000));
+        });
+    addChoice(parser, ablationGroup, "--falloff", { "separate", "inside", "ratio" },
+        "Where cosine and distance go: outside the filtered term, inside, or as a ratio", o.falloff);
+    addChoice(parser, ablationGroup, "--sampler", { "sobol", "stratified" }, "Points on a light", o.sampler);
+    addChoice(
+        parser, ablationGroup, "--counts", { "spectrum", "variance" }, "What adaptive counts come from", o.counts);
+}
+
+std::string footer()
+{
+    std::string text = "Layers of an EXR besides the beauty (R G B):\n";
+    for (const render::LayerInfo& layer : render::knownLayers()) {
+        text += fmt::format("  {:<12} {}\n", layer.name, layer.meaning);
+    }
+    return text + "\nExit status: 0 done, 1 failure, 2 wrong call, 130 interrupted (what was there is written).\n";
+}
+
+} // namespace
+
+void addRenderOptions(CLI::App& parser, RenderOptions& options)
+{
+    parser.add_option("SCENE", options.scene, "Scene file (.toml) or mesh (.obj)")->type_name("")->required();
+    addFrameOptions(parser, options);
+    addMethodOptions(parser, options);
+    addDeviceOptions(parser, options);
+    addAblationOptions(parser, options);
+    parser.add_flag("--quiet", options.quiet, "Say nothing but errors")->group(talkGroup);
+    parser.add_flag("--verbose", options.verbose, "Say more: memory by buffer, the settings")->group(talkGroup);
+    parser.footer(footer());
+}
+
+} // namespace wedge::app

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "host/image/image.h"
+#include "host/render/settings.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace wedge::app {
+
+/// What `wedge render` was called with; empty where an option was not given.
+struct RenderOptions {
+    std::string scene;
+    std::vector<std::string> outputs;
+    std::optional<render::Method> method;
+    bool asPublished = false;
+    std::optional<int> spp, maxSpp;
+    std::optional<float> mu;
+    std::optional<std::pair<int, int>> size;
+    std::optional<image::Window> crop;
+    std::optional<std::uint32_t> seed;
+    std::string layers;
+    std::vector<std::string> devices;
+    std::string reference, report;
+    double timeLimitSeconds = 0; ///< 0: none
+    std::uint64_t memoryLimitBytes = 0; ///< 0: the device's
+    std::string kernelDir;
+    bool fastMath = false;
+    bool quiet = false, verbose = false;
+    float exposureStops = 0; ///< of PNGs
+
+    // Ablations.
+    std::optional<render::Sampling> sampling;
+    std::optional<render::Filtering> filter;
+    std::optional<float> filterWidth; ///< pixels
+    std::optional<render::Shading> falloff;
+    std::optional<render::Sampler> sampler;
+    std::optional<render::Counts> counts;
+};
+
+/// Adds the options to the subcommand's parser; parsing fills `options`, which must outlive it.
+void addRenderOptions(CLI::App& parser, RenderOptions& options);
+
+} // namespace wedge::app

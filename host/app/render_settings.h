@@ -1,0 +1,12 @@
+#pragma once
+
+#include "host/app/render_options.h"
+#include "host/scene/scene.h"
+
+namespace wedge::app {
+
+/// The settings of the frame: options before what the scene file says, that before the defaults. Throws UsageError
+/// for options that contradict each other or have no effect together, and for values out of range.
+render::Settings resolveSettings(const RenderOptions& options, const scene::Scene& scene);
+
+} // namespace wedge::app

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "host/image/image.h"
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Values of options from their text. All throw UsageError, which names the option, the text and what is allowed.
+namespace wedge::app {
+
+/// A whole number in decimal digits, from least to most.
+std::int64_t wholeNumber(const std::string& option, const std::string& text, std::int64_t least, std::int64_t most);
+
+/// A number above 0 and at most `most`.
+double positiveNumber(const std::string& option, const std::string& text, double most);
+/// A number from least to most.
+double finiteNumber(const std::string& option, const std::string& text, double least, double most);
+
+/// "640x480": sides from 1 to scene::maxImageSide.
+std::pair<int, int> imageSize(const std::string& option, const std::string& text);
+
+/// "x0,y0,x1,y1" with 0 <= x0 < x1 and 0 <= y0 < y1; whether it lies inside the image is not known here.
+image::Window cropWindow(const std::string& option, const std::string& text);
+
+/// The index of text among choices.
+std::size_t choice(const std::string& option, const std::string& text, const std::vector<std::string>& choices);
+
+} // namespace wedge::app

@@ -1,0 +1,239 @@
+// Wrong calls and broken input: one clear line that names the value, the right exit status, no file left behind.
+#include "tests/app_testing.h"
+
+#include <cmath>
+
+namespace wedge::app::test {
+namespace {
+
+constexpr int failure = 1, wrongCall = 2;
+
+/// Runs the program and checks how it refuses; what the folder holds stays as it was.
+void checkRefused(const Workplace& place, const Arguments& arguments, int status, const std::string& value)
+{
+    std::string call = "wedge";
+    for (const std::string& argument : arguments) {
+        call += " " + argument;
+    }
+    CAPTURE(call);
+    const std::vector<std::string> before = place.files();
+    const Outcome outcome = place.run(arguments);
+    CAPTURE(outcome.err);
+    CHECK(outcome.status == status);
+    CHECK(outcome.err.rfind("wedge: error: ", 0) == 0);
+    CHECK(std::ranges::count(outcome.err, '\n') == 1);
+    CHECK(outcome.err.back() == '\n');
+    CHECK(contains(outcome.err, value));
+    CHECK(contains(outcome.err, "--help") == (status == wrongCall));
+    CHECK(place.files() == before);
+}
+
+/// `wedge render SCENE ARGUMENTS`, small.
+void checkRenderRefused(
+    const Workplace& place, const std::string& scene, Arguments more, int status, const std::string& value)
+{
+    Arguments arguments = { "render", scene, "-o", "a.exr" };
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    checkRefused(place, arguments, status, value);
+}
+
+const std::string camera = "[camera]\neye = [0, 1, 3]\nlook_at = [0, 0, 0]\n";
+const std::string quad = "[[mesh]]\nfile = \"" + scenes + "/meshes/quad.obj\"\n";
+const std::string light =
+    "[[light]]\ntype = \"quad\"\ncentre = [0, 3, 0]\nhalf_u = [1, 0, 0]\nhalf_v = [0, 0, 1]\nradiance = 1\n";
+
+TEST_CASE("wrong calls")
+{
+    const Workplace place;
+    checkRefused(place, {}, wrongCall, "render, compare, devices, info");
+    checkRefused(place, { "paint" }, wrongCall, "paint");
+    checkRefused(place, { "--bogus" }, wrongCall, "--bogus");
+    checkRefused(place, { "render" }, wrongCall, "SCENE");
+    checkRefused(place, { "compare", "a.exr" }, wrongCall, "REFERENCE");
+    checkRefused(place, { "compare", "a.exr", "b.exr", "--metric", "beauty" }, wrongCall, "beauty");
+    checkRefused(place, { "devices", "all" }, wrongCall, "all");
+    checkRefused(place, { "info" }, wrongCall, "SCENE");
+    checkRenderRefused(place, box, { "--bogus", "3" }, wrongCall, "--bogus");
+    checkRenderRefused(place, box, { "other.toml" }, wrongCall, "other.toml");
+    checkRenderRefused(place, box, { "--quiet", "--verbose" }, wrongCall, "--verbose");
+    checkRenderRefused(place, box, { "--device", "cpu", "--device", "gpu" }, wrongCall, "gpu");
+    checkRenderRefused(place, box, { "-o", "a.exr" }, wrongCall, "a.exr");
+    checkRenderRefused(place, box, { "--report", "a.exr" }, wrongCall, "a.exr");
+    checkRenderRefused(place, box, { "--spp" }, wrongCall, "--spp");
+}
+
+TEST_CASE("values out of range")
+{
+    const Workplace place;
+    for (const char* size : { "0x0", "100000x100000", "640", "640x", "x", "640x480x3", "-4x4", "6 4x4", "1e2x4", "" }) {
+        checkRenderRefused(place, box, { "--size", size }, wrongCall, *size == 0 ? "(empty)" : size);
+    }
+    for (const char* crop : { "0,0,0,0", "5,5,4,6", "-1,0,4,4", "0,0,4", "0,0,4,4,4", "a,0,4,4", "0,0,9999,4" }) {
+        checkRenderRefused(place, box, { "--crop", crop }, wrongCall, crop);
+    }
+    for (const char* spp : { "0", "-3", "many", "1.5", "99999999999999999999" }) {
+        checkRenderRefused(place, box, { "--spp", spp }, wrongCall, spp);
+        checkRenderRefused(place, box, { "--max-spp", spp }, wrongCall, spp);
+    }
+    for (const char* mu : { "0", "-1", "nan", "inf", "x" }) {
+        checkRenderRefused(place, box, { "--mu", mu }, wrongCall, mu);
+        checkRenderRefused(place, box, { "--time-limit", mu }, wrongCall, mu);
+    }
+    checkRenderRefused(place, box, { "--seed", "4294967296" }, wrongCall, "4294967296");
+    checkRenderRefused(place, box, { "--method", "maaf" }, wrongCall, "maaf");
+    checkRenderRefused(place, box, { "--filter", "soft" }, wrongCall, "soft");
+    checkRenderRefused(place, box, { "--layers", "albedo,colour" }, wrongCall, "colour");
+    checkRenderRefused(place, box, { "--layers", "albedo,," }, wrongCall, "unknown layer");
+}
+
+TEST_CASE("options that contradict each other")
+{
+    const Workplace place;
+    checkRenderRefused(place, box, { "--method", "mc", "--mu", "2" }, wrongCall, "--mu");
+    checkRenderRefused(place, box, { "--method", "mc", "--as-published" }, wrongCall, "--as-published");
+    checkRenderRefused(place, box, { "--method", "mc", "--layers", "filterWidth" }, wrongCall, "filterWidth");
+    checkRenderRefused(place, box, { "--filter-width", "3" }, wrongCall, "--filter-width");
+    checkRenderRefused(place, box, { "--as-published", "--spp", "20" }, wrongCall, "--spp 20");
+    checkRenderRefused(place, box, { "--spp", "4" }, wrongCall, "4"); // the first pass alone takes 9
+    checkRefused(place, { "render", box, "-o", "a.png", "--layers", "albedo" }, wrongCall, "albedo");
+    checkRefused(place, { "render", box, "-o", "a.jpeg" }, wrongCall, "a.jpeg");
+}
+
+TEST_CASE("scenes that cannot be read")
+{
+    const Workplace place;
+    std::string binary("\x7f"
+                       "ELF\0\1\2\3",
+        8);
+    binary += std::string(3000, '\xfe');
+    place.write("binary.toml", binary);
+    place.write("binary.obj", binary);
+    place.write("key.toml", camera + "[sky]\ncolour = 1\n");
+    place.write("nested.toml", "[camera]\neye = [0, 1, 3]\nlook_at = [0, 0, 0]\nzoom = 4\n");
+    place.write("cut.toml", "[camera]\neye = [0, 1,");
+    place.write("nomesh.toml", camera + "[[mesh]]\nfile = \"gone.obj\"\n" + light);
+    place.write("flat.toml",
+        camera + quad
+            + "[[light]]\ntype = \"quad\"\ncentre = [0, 3, 0]\nhalf_u = [1, 0, 0]\nhalf_v = [2, 0, 0]\nradiance = 1\n");
+    place.write("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+    place.write("nan.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n");
+    place.write("scene.txt", "a scene");
+    for (const char* command : { "render", "info" }) {
+        checkRefused(place, { command, "missing.toml" }, failure, "missing.toml");
+        checkRefused(place, { command, "missing.obj" }, failure, "missing.obj");
+        checkRefused(place, { command, "." }, failure, ".");
+        checkRefused(place, { command, "scene.txt" }, failure, "scene.txt");
+        checkRefused(place, { command, "binary.toml" }, failure, "binary.toml");
+        checkRefused(place, { command, "binary.obj" }, failure, "binary.obj");
+        checkRefused(place, { command, "key.toml" }, failure, "sky");
+        checkRefused(place, { command, "key.toml" }, failure, "key.toml:4:");
+        checkRefused(place, { command, "nested.toml" }, failure, "nested.toml:4:1");
+        checkRefused(place, { command, "cut.toml" }, failure, "cut.toml:2:");
+        checkRefused(place, { command, "nomesh.toml" }, failure, "gone.obj");
+        checkRefused(place, { command, "flat.toml" }, failure, "[2, 0, 0]");
+        checkRefused(place, { command, "index.obj" }, failure, "index.obj:4");
+        checkRefused(place, { command, "nan.obj" }, failure, "nan.obj:2");
+    }
+}
+
+TEST_CASE("outputs that cannot be written are refused before the scene is read")
+{
+    const Workplace place;
+    std::filesystem::create_directory(place.path() / "folder.exr");
+    const std::string scene = "missing.toml";
+    checkRefused(place, { "render", scene, "-o", "gone/a.exr" }, failure, "gone/a.exr");
+    checkRefused(place, { "render", scene, "-o", "folder.exr" }, failure, "folder.exr");
+    checkRefused(place, { "render", scene, "-o", "" }, wrongCall, "empty");
+    checkRefused(place, { "render", scene, "--report", "gone/r.json" }, failure, "gone/r.json");
+    checkRefused(place, { "compare", "a.exr", "b.exr", "--error-map", "gone/m.png" }, failure, "gone/m.png");
+    // The superuser may write anywhere except where there is no file system to write to.
+    checkRefused(place, { "render", scene, "-o", "/proc/a.exr" }, failure, "/proc/a.exr");
+    if (geteuid() != 0) {
+        std::filesystem::permissions(
+            place.path(), std::filesystem::perms::owner_write, std::filesystem::perm_options::remove);
+        checkRefused(place, { "render", scene, "-o", "a.exr" }, failure, "a.exr");
+    }
+}
+
+TEST_CASE("devices and memory")
+{
+    const Workplace place;
+    checkRenderRefused(place, box, { "--device", "abacus" }, failure, "abacus");
+    checkRenderRefused(place, box, { "--device", "999" }, failure, "999");
+    checkRenderRefused(place, box, { "--memory-limit", "1" }, failure, "1.0 MiB");
+    checkRenderRefused(place, box, { "--size", "32768x32768" }, failure, "MiB");
+    checkRenderRefused(place, box, { "--kernel-dir", "gone" }, failure, "gone");
+    setenv("OCL_ICD_VENDORS", "/nowhere", 1);
+    checkRenderRefused(place, box, {}, failure, "none found");
+    checkRefused(place, { "devices" }, failure, "none found");
+    unsetenv("OCL_ICD_VENDORS");
+}
+
+TEST_CASE("references that do not fit")
+{
+    const Workplace place;
+    const Outcome made =
+        place.run({ "render", box, "--quiet", "--size", "16x12", "--method", "mc", "--spp", "1", "-o", "ref.exr" });
+    REQUIRE_MESSAGE(made.status == 0, made.err);
+    place.write("broken.exr", "\x76\x2f\x31\x01 and no more");
+    place.write("ref.txt", "an image");
+    checkRenderRefused(place, box, { "--size", "20x12", "--reference", "ref.exr" }, failure, "16x12 and 20x12");
+    checkRenderRefused(place, box, { "--reference", "gone.exr" }, failure, "gone.exr");
+    checkRenderRefused(place, box, { "--reference", "broken.exr" }, failure, "broken.exr");
+    checkRenderRefused(place, box, { "--reference", "ref.txt" }, failure, "ref.txt");
+    checkRefused(place, { "compare", "ref.exr", "gone.exr" }, failure, "gone.exr");
+    const Outcome small =
+        place.run({ "render", box, "--quiet", "--size", "8x8", "--method", "mc", "--spp", "1", "-o", "small.exr" });
+    REQUIRE(small.status == 0);
+    checkRefused(place, { "compare", "ref.exr", "small.exr" }, failure, "16x12 and 8x8");
+    // A crop is compared with its part of a full reference, or with a reference of its own size.
+    for (const char* reference : { "ref.exr", "small.exr" }) {
+        const Outcome crop = place.run({ "render", box, "--quiet", "--size", "16x12", "--crop", "4,2,12,10", "--method",
+            "mc", "--spp", "1", "--reference", reference, "-o", "crop.exr" });
+        CHECK_MESSAGE(crop.status == 0, crop.err);
+    }
+}
+
+TEST_CASE("a kernel that does not compile is one line of ours, whatever the driver says itself")
+{
+    const Workplace place;
+    place.write("primary.cl", "__kernel void primary(int a) { return nonsense; }\n");
+    const Outcome outcome = place.run({ "render", box, "--kernel-dir", ".", "-o", "a.exr" });
+    CHECK(outcome.status == failure);
+    const std::size_t line = outcome.err.rfind("wedge: error: ");
+    REQUIRE(line != std::string::npos);
+    CHECK(contains(outcome.err.substr(line), "primary.cl"));
+    CHECK(outcome.err.find('\n', line) == outcome.err.size() - 1);
+    CHECK_FALSE(place.has("a.exr"));
+}
+
+TEST_CASE("unusual scenes render")
+{
+    const Workplace place;
+    place.write("wall.toml", "[camera]\neye = [0, 0, 0]\nlook_at = [0, 0, -1]\n" + quad + light); // eye on the surface
+    place.write("empty.toml", camera + "[background]\nradiance = 2\n");
+    place.write("dark.toml", camera + quad);
+    place.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    for (const std::string scene : { "wall.toml", "empty.toml", "dark.toml", "mesh.obj" }) {
+        for (const Arguments& method :
+            { Arguments { "--method", "mc", "--spp", "2" }, { "--method", "aaf" }, { "--as-published" } }) {
+            CAPTURE(scene);
+            Arguments arguments = { "render", scene, "--quiet", "--size", "17x5", "--layers", "all", "-o", "u.exr" };
+            arguments.insert(arguments.end(), method.begin(), method.end());
+            const Outcome outcome = place.run(arguments);
+            REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+            const image::LayeredImage image = place.exr("u.exr");
+            for (const char* channel : { "R", "G", "B" }) {
+                CHECK(std::ranges::all_of(values(image, channel), [](float v) { return std::isfinite(v) && v >= 0; }));
+            }
+        }
+    }
+    const Outcome one = place.run({ "render", box, "--quiet", "--size", "1x1", "-o", "one.exr" });
+    CHECK_MESSAGE(one.status == 0, one.err);
+    const Outcome warned = place.run({ "render", "empty.toml", "--size", "4x4", "-o", "e.exr" });
+    CHECK(contains(warned.err, "wedge: warning: "));
+    CHECK(values(place.exr("e.exr"), "G").front() == 2.0f);
+}
+
+} // namespace
+} // namespace wedge::app::test

@@ -1,0 +1,200 @@
+// The program's commands end to end: what they print and report, precedence, and renders that are stopped.
+#include "tests/app_testing.h"
+
+#include "host/image/read_image.h"
+
+#include <cmath>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+namespace wedge::app::test {
+namespace {
+
+TEST_CASE("the report has what scripts read")
+{
+    const Workplace place;
+    render(place, box, { "--method", "mc", "--spp", "64" });
+    std::filesystem::rename(place.path() / "a.exr", place.path() / "ref.exr");
+    const image::LayeredImage image =
+        render(place, box, { "--spp", "16", "--reference", "ref.exr", "--report", "r.json" });
+    const nlohmann::json report = nlohmann::json::parse(place.text("r.json"));
+    CHECK(report.at("wedge") == WEDGE_TEST_VERSION);
+    CHECK(report.at("device").at("name") == textOf(image, "device"));
+    CHECK(report.at("device").at("build_options") == textOf(image, "buildOptions"));
+    CHECK(report.at("scene").at("triangles") == 34);
+    CHECK(report.at("scene").at("area_lights") == 1);
+    CHECK(report.at("scene").at("bvh").at("triangles") == 34);
+    CHECK(report.at("scene").at("memory_bytes") > 64 * 48 * 30 * 4);
+    CHECK(report.at("method").at("method") == "aaf");
+    CHECK(report.at("method").at("spp") == 16);
+    CHECK(report.at("method").at("oblique").is_boolean());
+    CHECK(report.at("setup").at("kernels_ms") > 0);
+    REQUIRE(report.at("frames").size() == 1);
+    const nlohmann::json& frame = report.at("frames").at(0);
+    CHECK(frame.at("complete") == true);
+    CHECK(frame.at("spp_mean").get<double>() == doctest::Approx(16).epsilon(0.1));
+    CHECK(frame.at("rays").at("primary") == 64 * 48);
+    CHECK(frame.at("rays_per_pixel").get<double>()
+        == doctest::Approx((64.0 * 48 + frame.at("rays").at("shadow").get<double>()) / (64 * 48)));
+    double total = 0, overhead = 0;
+    for (const nlohmann::json& pass : frame.at("passes")) {
+        const std::string kind = pass.at("kind");
+        CHECK(std::set<std::string> { "trace", "analysis", "filter", "composite", "transfer" }.count(kind) == 1);
+        CHECK(pass.at("bytes").is_number());
+        total += pass.at("ms").get<double>();
+        overhead += kind != "trace" && kind != "transfer" ? pass.at("ms").get<double>() : 0.0;
+    }
+    CHECK(frame.at("total_ms").get<double>() == doctest::Approx(total));
+    CHECK(frame.at("overhead_fraction").get<double>() == doctest::Approx(overhead / total));
+    CHECK(frame.at("wall_ms") > 0);
+    CHECK(frame.at("memory_bytes") == report.at("scene").at("memory_bytes"));
+
+    // The same numbers as `wedge compare` gives.
+    const Outcome compared = place.run({ "compare", "a.exr", "ref.exr", "--json" });
+    REQUIRE(compared.status == 0);
+    const nlohmann::json numbers = nlohmann::json::parse(compared.out);
+    for (const char* metric : { "rmse", "relmse", "psnr", "ssim", "flip" }) {
+        CHECK(report.at("error").at(metric).get<double>() == numbers.at(metric).get<double>());
+    }
+    CHECK(report.at("error").at("rmse") > 0);
+}
+
+TEST_CASE("the pass table and the error are printed, and nothing goes to stderr without a terminal")
+{
+    const Workplace place;
+    const std::string scene = scenes + "/penumbra.toml";
+    REQUIRE(
+        place.run({ "render", scene, "--size", "64x48", "--method", "mc", "--spp", "9", "-o", "r.exr" }).status == 0);
+    const Outcome outcome = place.run({ "render", scene, "--size", "64x48", "--reference", "r.exr" });
+    CHECK(outcome.status == 0);
+    CHECK(outcome.err == "");
+    for (const std::string part : { "primary rays", "first pass", "second pass", "filter", "composite", "device time",
+             "wall clock", "overhead", "Mrays/s", "rmse", "flip", "wrote penumbra.exr" }) {
+        CAPTURE(part);
+        CHECK(contains(outcome.out, part));
+    }
+    CHECK(place.files() == std::vector<std::string> { "penumbra.exr", "r.exr" }); // named after the scene
+}
+
+TEST_CASE("the command line goes before the scene file")
+{
+    const Workplace place;
+    place.write("s.toml",
+        "[image]\nwidth = 24\nheight = 16\n[integrator]\nmethod = \"mc\"\nspp = 3\nseed = 7\n"
+        "[camera]\neye = [0, 1, 3]\nlook_at = [0, 0, 0]\n"
+        "[[mesh]]\nfile = \""
+            + scenes
+            + "/meshes/quad.obj\"\n"
+              "[[light]]\ntype = \"quad\"\ncentre = [0, 3, 0]\nhalf_u = [1, 0, 0]\nhalf_v = [0, 0, 1]\nradiance = 1\n");
+    const auto described = [&](const Arguments& more) {
+        Arguments arguments = { "render", "s.toml", "--quiet", "-o", "a.exr" };
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = place.run(arguments);
+        REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+        const image::LayeredImage image = place.exr("a.exr");
+        return std::to_string(image.width) + "x" + std::to_string(image.height) + " " + textOf(image, "method") + " "
+            + textOf(image, "method.spp") + " " + textOf(image, "seed");
+    };
+    CHECK(described({}) == "24x16 mc 3 7");
+    CHECK(described({ "--size", "20x10", "--spp", "5", "--seed", "8" }) == "20x10 mc 5 8");
+    CHECK(described({ "--method", "aaf", "--spp", "4", "--spp", "11" }) == "24x16 aaf 11 7"); // the last one counts
+}
+
+/// Waits until the program says that its kernels are ready and it renders, gives it time for some samples, interrupts.
+void interruptRendering(const Workplace& place, pid_t process)
+{
+    siginfo_t ended {};
+    while (!contains(place.said(), "kernels ready") && ended.si_pid == 0) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1000));
+    kill(process, SIGINT);
+}
+
+TEST_CASE("an interrupt writes what is there")
+{
+    const Workplace place;
+    const Arguments endless = { "render", box, "--method", "mc", "--spp", "1000000", "--size", "256x256", "--verbose",
+        "-o", "i.exr" };
+    const Outcome outcome = place.run(endless, [&](pid_t process) { interruptRendering(place, process); });
+    CHECK(outcome.status == 130);
+    CHECK(contains(outcome.err, "wedge: interrupted at"));
+    CHECK(contains(outcome.err, "writing what is there"));
+    const image::LayeredImage image = place.exr("i.exr");
+    CHECK(image.width == 256);
+    CHECK(std::get<int>(image.metadata.at("complete")) == 0);
+    CHECK(std::ranges::any_of(values(image, "G"), [](float v) { return v > 0.01f; }));
+    CHECK(std::ranges::all_of(values(image, "G"), [](float v) { return std::isfinite(v); }));
+    CHECK(place.files() == std::vector<std::string> { "i.exr" });
+}
+
+TEST_CASE("a time limit writes what is there and succeeds")
+{
+    const Workplace place;
+    for (const std::string method : { "mc", "aaf" }) {
+        CAPTURE(method);
+        const Outcome outcome = place.run({ "render", box, "--method", method, "--spp", "1000000", "--size", "256x256",
+            "--time-limit", "0.5", "--quiet", "-o", "t.exr" });
+        CHECK(outcome.status == 0);
+        CHECK(contains(outcome.err, "wedge: time limit reached at"));
+        const image::LayeredImage image = place.exr("t.exr");
+        CHECK(std::get<int>(image.metadata.at("complete")) == 0);
+        CHECK(std::ranges::any_of(values(image, "G"), [](float v) { return v > 0.01f; }));
+        CHECK(std::ranges::all_of(values(image, "G"), [](float v) { return std::isfinite(v); }));
+    }
+}
+
+TEST_CASE("devices, info, version and help")
+{
+    const Workplace place;
+    CHECK(place.run({ "--version" }).out == std::string("wedge ") + WEDGE_TEST_VERSION + "\n");
+    const Outcome help = place.run({ "render", "--help" });
+    CHECK(help.status == 0);
+    CHECK(contains(help.out, "--as-published"));
+    CHECK(contains(help.out, "filterWidth"));
+
+    const Outcome devices = place.run({ "devices", "--json" });
+    CHECK(devices.status == 0);
+    const nlohmann::json list = nlohmann::json::parse(devices.out);
+    REQUIRE(list.size() >= 1);
+    CHECK(list[0].at("index") == 0);
+    CHECK(contains(place.run({ "devices" }).out, list[0].at("name")));
+
+    const Outcome info = place.run({ "info", box, "--json" });
+    CHECK(info.status == 0);
+    const nlohmann::json facts = nlohmann::json::parse(info.out);
+    CHECK(facts.at("triangles") == 34);
+    CHECK(facts.at("area_lights") == 1);
+    CHECK(facts.at("width") == 512);
+    CHECK(facts.at("bvh").at("triangles") == 34);
+    CHECK(contains(place.run({ "info", box }).out, "SAH cost"));
+    // What `info` foretells is what a render takes.
+    render(place, box, { "--size", "512x512", "--crop", "0,0,8,8", "--spp", "9", "--report", "r.json" });
+    CHECK(
+        nlohmann::json::parse(place.text("r.json")).at("frames").at(0).at("memory_bytes") == facts.at("memory_bytes"));
+}
+
+TEST_CASE("compare prints one number, all, or a map")
+{
+    const Workplace place;
+    render(place, box, { "--method", "mc", "--spp", "4" });
+    const Outcome same = place.run({ "compare", "a.exr", "a.exr", "--metric", "rmse" });
+    CHECK(same.status == 0);
+    CHECK(same.out == "0\n");
+    CHECK(nlohmann::json::parse(place.run({ "compare", "a.exr", "a.exr", "--json" }).out).at("psnr").is_null());
+    std::filesystem::rename(place.path() / "a.exr", place.path() / "b.exr");
+    render(place, box, { "--method", "mc", "--spp", "4", "--seed", "1" });
+    const Outcome other = place.run({ "compare", "a.exr", "b.exr", "--error-map", "map.png" });
+    CHECK(other.status == 0);
+    for (const char* metric : { "rmse", "relmse", "psnr", "ssim", "flip" }) {
+        CHECK(contains(other.out, metric));
+    }
+    const image::RgbImage map = image::readImage(place.path() / "map.png");
+    CHECK(map.width == 64);
+    CHECK(*std::ranges::max_element(map.rgb) > 0);
+}
+
+} // namespace
+} // namespace wedge::app::test

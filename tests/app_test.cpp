@@ -1,0 +1,212 @@
+// Images of the program end to end on a real device: what is in them, and that the same comes again.
+#include "tests/app_testing.h"
+
+#include "host/image/read_image.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+namespace wedge::app::test {
+namespace {
+
+bool sameBits(const std::vector<float>& a, const std::vector<float>& b)
+{
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+bool sameBits(const image::LayeredImage& a, const image::LayeredImage& b)
+{
+    return a.channels.size() == b.channels.size()
+        && std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(),
+            [](const auto& x, const auto& y) { return x.name == y.name && sameBits(x.values, y.values); });
+}
+
+/// The part of a whole image's channel that a window covers.
+std::vector<float> cut(const image::LayeredImage& image, const std::string& channel, const image::Window& window)
+{
+    const std::vector<float>& all = values(image, channel);
+    std::vector<float> out;
+    for (int y = window.y0; y < window.y1; ++y) {
+        for (int x = window.x0; x < window.x1; ++x) {
+            out.push_back(all[static_cast<std::size_t>(y) * image.width + x]);
+        }
+    }
+    return out;
+}
+
+std::array<float, 3> transformed(const std::array<float, 16>& m, const std::array<float, 3>& p, bool divide)
+{
+    std::array<float, 4> out {};
+    for (std::size_t k = 0; k < 4; ++k) {
+        out[k] = p[0] * m[k] + p[1] * m[4 + k] + p[2] * m[8 + k] + m[12 + k];
+    }
+    const float w = divide ? out[3] : 1.0f;
+    return { out[0] / w, out[1] / w, out[2] / w };
+}
+
+TEST_CASE("all layers of a frame fit together")
+{
+    const Workplace place;
+    const image::LayeredImage image =
+        render(place, materials, { "--layers", "all", "-o", "a.png", "--report", "r.json" });
+    CHECK(image.width == 64);
+    CHECK(image.height == 48);
+    CHECK(image.window == image::Window { 0, 0, 64, 48 });
+    const std::set<std::string> expected = { "R", "G", "B", "albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y",
+        "normal.Z", "position.X", "position.Y", "position.Z", "depth.Z", "emission.R", "emission.G", "emission.B",
+        "direct.R", "direct.G", "direct.B", "directNoisy.R", "directNoisy.G", "directNoisy.B", "samples.Y", "rays.Y",
+        "filterWidth1.world", "filterWidth1.pixels", "filterWidth2.world", "filterWidth2.pixels", "objectId.I" };
+    std::set<std::string> found;
+    for (const image::Channel& channel : image.channels) {
+        found.insert(channel.name);
+    }
+    CHECK(found == expected);
+
+    std::size_t misses = 0, filtered = 0;
+    double rays = 0;
+    std::map<std::string, std::size_t> wrong; // pixels that break a rule, by the rule
+    for (std::size_t i = 0; i < 64 * 48; ++i) {
+        const auto at = [&](const std::string& channel) { return values(image, channel)[i]; };
+        const bool miss = at("objectId.I") == 0;
+        misses += miss;
+        rays += at("rays.Y");
+        for (const std::string c : { "R", "G", "B" }) {
+            wrong["beauty = emission + direct"] += at(c) != at("emission." + c) + at("direct." + c);
+            wrong["radiance is finite and not negative"] += !std::isfinite(at(c)) || at(c) < 0;
+            wrong["nothing reflected on a miss"] += miss && at("direct." + c) != 0;
+        }
+        const float squared =
+            at("normal.X") * at("normal.X") + at("normal.Y") * at("normal.Y") + at("normal.Z") * at("normal.Z");
+        wrong["normals are unit, 0 on a miss"] += std::abs(squared - (miss ? 0.0f : 1.0f)) > 1e-4f;
+        wrong["depth is infinite on a miss"] += miss != (at("depth.Z") == std::numeric_limits<float>::infinity());
+        wrong["surfaces are sampled"] += (at("samples.Y") == 0) != miss;
+        // Widths are 0 where a light does not reach, and both lights see pixels of one size.
+        const float first = at("filterWidth1.world"), second = at("filterWidth2.world");
+        wrong["no filter on a miss"] += miss && (first != 0 || second != 0);
+        wrong["widths in both units"] += (first > 0) != (at("filterWidth1.pixels") > 0);
+        if (first > 0 && second > 0) {
+            ++filtered;
+            const float sizes = first / at("filterWidth1.pixels") * at("filterWidth2.pixels") / second;
+            wrong["pixels of one size"] += std::abs(sizes - 1.0f) > 1e-5f;
+        }
+    }
+    CHECK(filtered > 1000);
+    for (const auto& [rule, pixels] : wrong) {
+        CAPTURE(rule);
+        CHECK(pixels == 0);
+    }
+    const nlohmann::json counted = nlohmann::json::parse(place.text("r.json")).at("frames").at(0).at("rays");
+    CHECK(rays == counted.at("primary").get<double>() + counted.at("shadow").get<double>());
+    CHECK(misses > 100);
+    CHECK(misses < 64 * 48 / 2);
+    CHECK(values(image, "direct.R") != values(image, "directNoisy.R"));
+
+    const image::RgbImage png = image::readImage(place.path() / "a.png");
+    REQUIRE(png.width == 64);
+    REQUIRE(png.height == 48);
+    double largest = 0;
+    for (std::size_t i = 0; i < 64 * 48; ++i) {
+        const float shown = std::clamp(values(image, "G")[i], 0.0f, 1.0f);
+        largest = std::max(largest, std::abs(double { shown } - png.rgb[3 * i + 1]));
+    }
+    CHECK(largest < 0.006); // half a step of 8 bits where the sRGB curve is steepest towards linear
+}
+
+TEST_CASE("positions, depths and the camera's matrices agree")
+{
+    const Workplace place;
+    const image::LayeredImage image = render(place, materials, { "--layers", "position,depth,objectId" });
+    const auto toCamera = std::get<std::array<float, 16>>(image.metadata.at("worldToCamera"));
+    const auto toNdc = std::get<std::array<float, 16>>(image.metadata.at("worldToNDC"));
+    // The scene's camera: eye (0, 2.2, 6.2), looking at (0, 0.8, 0), which is 6.3561 m ahead.
+    const std::array<float, 3> target = transformed(toCamera, { 0, 0.8f, 0 }, false);
+    CHECK(target[0] == doctest::Approx(0).epsilon(1e-5));
+    CHECK(target[1] == doctest::Approx(0).epsilon(1e-5));
+    CHECK(target[2] == doctest::Approx(6.3561).epsilon(1e-4));
+    CHECK(transformed(toCamera, { 1, 0.8f, 0 }, false)[0] == doctest::Approx(1)); // x right
+    CHECK(transformed(toCamera, { 0, 1.8f, 0 }, false)[1] > 0.9f); // y up
+    std::size_t hits = 0;
+    double worstImage = 0, worstDepth = 0;
+    for (std::size_t i = 0; i < 64 * 48; ++i) {
+        if (values(image, "objectId.I")[i] == 0) {
+            continue;
+        }
+        ++hits;
+        const std::array<float, 3> p = { values(image, "position.X")[i], values(image, "position.Y")[i],
+            values(image, "position.Z")[i] };
+        const std::array<float, 3> ndc = transformed(toNdc, p, true);
+        const double x = static_cast<double>(i % 64) + 0.5, y = static_cast<double>(i / 64) + 0.5;
+        worstImage = std::max({ worstImage, std::abs(64.0 * ndc[0] - x), std::abs(48.0 * ndc[1] - y) });
+        const std::array<float, 3> c = transformed(toCamera, p, false);
+        const double distance = std::hypot(c[0], c[1], c[2]);
+        worstDepth = std::max(worstDepth, std::abs(distance - values(image, "depth.Z")[i]));
+    }
+    CHECK(hits > 1000);
+    CHECK(worstImage < 0.01); // pixels
+    CHECK(worstDepth < 1e-4); // metres
+}
+
+TEST_CASE("metadata tells how the image was made")
+{
+    const Workplace place;
+    const image::LayeredImage image = render(place, box, { "--method", "mc", "--spp", "12", "--seed", "4000000000" });
+    CHECK(image.channels.size() == 3); // without --layers, the beauty alone
+    CHECK(textOf(image, "wedgeVersion") == WEDGE_TEST_VERSION);
+    CHECK(textOf(image, "seed") == "4000000000");
+    CHECK(textOf(image, "method") == "mc");
+    CHECK(textOf(image, "method.sampler") == "owen-sobol");
+    CHECK(textOf(image, "device") != "");
+    CHECK(textOf(image, "driver") != "");
+    CHECK(contains(textOf(image, "buildOptions"), "-cl-std=CL1.2"));
+    CHECK(contains(textOf(image, "depthConvention"), "along the ray"));
+    CHECK(std::get<float>(image.metadata.at("samplesPerPixel")) == 12.0f);
+    CHECK(std::get<float>(image.metadata.at("renderTimeSeconds")) > 0.0f);
+    CHECK(std::get<int>(image.metadata.at("complete")) == 1);
+}
+
+TEST_CASE("two runs give the same bits, another seed does not")
+{
+    const Workplace place;
+    for (const Arguments& method : { Arguments { "--method", "mc", "--spp", "8" }, { "--spp", "12" } }) {
+        const auto with = [&](const char* seed) {
+            Arguments arguments = { "--layers", "all", "--seed", seed };
+            arguments.insert(arguments.end(), method.begin(), method.end());
+            return render(place, materials, arguments);
+        };
+        const image::LayeredImage first = with("1");
+        CHECK(sameBits(first, with("1")));
+        CHECK_FALSE(sameBits(values(first, "direct.R"), values(with("2"), "direct.R")));
+    }
+}
+
+TEST_CASE("a crop has the bits of the whole image")
+{
+    const Workplace place;
+    const image::Window window { 17, 9, 50, 40 };
+    const std::vector<Arguments> methods = { { "--method", "mc", "--spp", "8" }, { "--spp", "12" },
+        { "--as-published", "--max-spp", "40" }, { "--filter", "fixed", "--sampling", "uniform", "--spp", "12" } };
+    for (const Arguments& method : methods) {
+        CAPTURE(method.front());
+        Arguments arguments = { "--layers", "all", "--size", "90x70" };
+        arguments.insert(arguments.end(), method.begin(), method.end());
+        const image::LayeredImage whole = render(place, materials, arguments);
+        arguments.insert(arguments.end(), { "--crop", "17,9,50,40" });
+        const image::LayeredImage part = render(place, materials, arguments);
+        CHECK(part.width == 90);
+        CHECK(part.height == 70);
+        CHECK(part.window == window);
+        REQUIRE(part.channels.size() == whole.channels.size());
+        for (const image::Channel& channel : part.channels) {
+            CAPTURE(channel.name);
+            CHECK(sameBits(channel.values, cut(whole, channel.name, window)));
+        }
+    }
+}
+
+} // namespace
+} // namespace wedge::app::test
