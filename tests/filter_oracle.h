@@ -1,0 +1,293 @@
+// Images for the gather of filter.cl, and the gather in double.
+#pragma once
+
+#include "kernels/shared/filter_params.h"
+#include "tests/render_support.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+namespace wedge::test {
+
+/// What filter.cl reads.
+struct FilterImage {
+    shared::FilterParams params {};
+    Planes<float> value, beta, position, normal;
+    Planes<std::uint32_t> objectId;
+
+    FilterImage(int width, int height, std::size_t channels)
+        : FilterImage(render::PlaneLayout(width, height), channels)
+    {
+    }
+    explicit FilterImage(const render::PlaneLayout& layout, std::size_t channels)
+        : value(layout, channels, 0.0f)
+        , beta(layout, 1, 0.0f)
+        , position(layout, 3, 0.0f)
+        , normal(layout, 3, 0.0f)
+        , objectId(layout, 1, 0u)
+    {
+    }
+    int width() const { return static_cast<int>(value.layout.width); }
+    int height() const { return static_cast<int>(value.layout.height); }
+};
+
+struct FilterResult {
+    Planes<float> value, effective;
+};
+
+enum class Shape {
+    Flat, ///< a plane across the view, one object
+    Tilted, ///< a plane at a slant
+    Steps, ///< blocks of two depths, some of them objects of their own
+    Rough, ///< positions, normals and objects at random
+};
+
+inline glm::dvec3 toGlm(shared::Vec3 v) { return { v.x, v.y, v.z }; }
+inline shared::Vec3 toShared(glm::dvec3 v)
+{
+    return shared::vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
+}
+
+inline glm::dvec3 rayOf(const shared::FilterParams& p, int x, int y)
+{
+    return toGlm(p.forward) + (x + 0.5 - 0.5 * p.width) * toGlm(p.right) + (y + 0.5 - 0.5 * p.height) * toGlm(p.down);
+}
+
+/// A camera at 3 m above the floor looking down at a slant; values in [0, 1]; widths of no, few and many pixels.
+inline FilterImage randomImage(int width, int height, Shape shape, unsigned seed, std::size_t channels = 1)
+{
+    FilterImage image(width, height, channels);
+    std::mt19937 random(seed);
+    shared::FilterParams& p = image.params;
+    p.eye = shared::vec3(0.2f, 3, 0.1f);
+    const glm::dvec3 forward = glm::normalize(glm::dvec3(0.15, -1, -0.1)),
+                     right = glm::normalize(glm::cross(forward, glm::dvec3(0, 0, -1)));
+    p.forward = toShared(forward);
+    p.right = toShared(right * 0.0173);
+    p.down = toShared(-glm::cross(right, forward) * 0.0173);
+    p.lightCentre = shared::vec3(0.7f, 4, -0.5f);
+    p.lightNormal = toShared(glm::normalize(glm::dvec3(0.1, -1, 0.2)));
+    p.normalCosine = 0.9848f;
+    p.cut = 3;
+    p.oblique = p.narrower = 1;
+    p.maxRadius = WEDGE_MAX_RADIUS;
+    p.width = p.x1 = static_cast<std::uint32_t>(width);
+    p.height = p.y1 = static_cast<std::uint32_t>(height);
+    p.stride = image.value.layout.stride;
+    p.planeSize = static_cast<std::uint32_t>(image.value.layout.size);
+    const float widths[] = { 0, -1, 1e-6f, 0.02f, 0.06f, 0.11f, 0.25f, 1e4f };
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const bool raised = shape == Shape::Steps && ((x / 9) + (y / 7)) % 3 == 0;
+            const glm::dvec3 up =
+                shape == Shape::Tilted ? glm::normalize(glm::dvec3(0.5, 1, -0.3)) : glm::dvec3(0, 1, 0);
+            const glm::dvec3 ray = rayOf(p, x, y), eye = toGlm(p.eye);
+            const double t = ((raised ? 0.3 : 0.0) - glm::dot(up, eye)) / glm::dot(up, ray);
+            glm::dvec3 at = eye + t * ray, n = up;
+            std::uint32_t object = 1 + (raised && x % 2 == 0 ? 1u : 0u);
+            if (shape == Shape::Rough) {
+                at += 0.1 * unitVector(random);
+                n = glm::normalize(n + 0.12 * unitVector(random));
+                object = static_cast<std::uint32_t>(random() % 4);
+            }
+            image.position.setVector(x, y, at);
+            image.normal.setVector(x, y, n);
+            image.objectId.at(x, y) = object;
+            image.beta.at(x, y) = shape == Shape::Flat ? widths[3 + random() % 3] : widths[random() % 8];
+            for (std::size_t c = 0; c < channels; ++c)
+                image.value.at(x, y, c) = static_cast<float>(uniform(random));
+        }
+    return image;
+}
+
+/// The picture seen in a mirror: the pixels change places, and the camera's axis turns round.
+inline FilterImage mirrored(const FilterImage& image, bool vertical)
+{
+    FilterImage out = image;
+    shared::Vec3& axis = vertical ? out.params.down : out.params.right;
+    axis = shared::vecScale(axis, -1.0f);
+    const int width = image.width(), height = image.height();
+    const auto turn = [&](auto& to, const auto& from, std::size_t planes) {
+        for (std::size_t plane = 0; plane < planes; ++plane)
+            for (int y = 0; y < height; ++y)
+                for (int x = 0; x < width; ++x)
+                    to.at(vertical ? x : width - 1 - x, vertical ? height - 1 - y : y, plane) = from.at(x, y, plane);
+    };
+    turn(out.value, image.value, 1);
+    turn(out.beta, image.beta, 1);
+    turn(out.position, image.position, 3);
+    turn(out.normal, image.normal, 3);
+    turn(out.objectId, image.objectId, 1);
+    return out;
+}
+
+/// The same scene in other units.
+inline FilterImage scaled(const FilterImage& image, float factor)
+{
+    FilterImage out = image;
+    for (float& x : out.position.values)
+        x *= factor;
+    for (float& b : out.beta.values)
+        b *= b > 0 ? factor : 1.0f;
+    out.params.eye = shared::vecScale(out.params.eye, factor);
+    out.params.lightCentre = shared::vecScale(out.params.lightCentre, factor);
+    return out;
+}
+
+/// Filtered values and effective counts in double. uncertain: pixels where a rounding decides what is gathered, here
+/// or in the pass before.
+struct OracleResult {
+    int width = 0, channels = 1;
+    std::vector<double> values, counts;
+    std::vector<bool> doubtful;
+    std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * width + x); }
+    double value(int x, int y, int c) const
+    {
+        return values[index(x, y) * static_cast<std::size_t>(channels) + static_cast<std::size_t>(c)];
+    }
+    double effective(int x, int y) const { return counts[index(x, y)]; }
+    bool uncertain(int x, int y) const { return doubtful[index(x, y)]; }
+};
+
+/// The gather's geometry as its definition has it, for one pixel.
+class GatherGeometry {
+public:
+    GatherGeometry(const FilterImage& image, int x, int y)
+        : image_(image)
+        , position_(image.position.vector(x, y))
+        , slant_(toGlm(image.params.lightNormal))
+    {
+        const shared::FilterParams& p = image.params;
+        if (p.oblique != 0) {
+            const glm::dvec3 l = glm::normalize(toGlm(p.lightCentre) - position_);
+            const double cosine = glm::dot(l, toGlm(p.lightNormal));
+            slant_ = l / std::copysign(std::max(std::fabs(cosine), 0.05), cosine);
+        }
+    }
+
+    /// Squared distance across the light's rays (methods: e = D - l (D.n)/(l.n), or along the normal).
+    double squared(glm::dvec3 d) const
+    {
+        const glm::dvec3 e = d - slant_ * glm::dot(d, toGlm(image_.params.lightNormal));
+        return glm::dot(e, e);
+    }
+
+    /// Pixels along image step `step` that `reach` metres on the tangent plane take, not rounded.
+    double pixels(int x, int y, shared::Vec3 step, double reach) const
+    {
+        const glm::dvec3 fromEye = position_ - toGlm(image_.params.eye), n = image_.normal.vector(x, y);
+        const double z = glm::dot(fromEye, toGlm(image_.params.forward)), facing = glm::dot(n, fromEye);
+        const double bounded = std::copysign(std::max(std::fabs(facing), 0.05 * glm::length(fromEye)), facing);
+        const glm::dvec3 moved = z * toGlm(step) - fromEye * (z * glm::dot(n, toGlm(step)) / bounded);
+        return reach / std::max(std::sqrt(squared(moved)), 1e-20);
+    }
+
+private:
+    const FilterImage& image_;
+    glm::dvec3 position_, slant_;
+};
+
+/// One pass. in: values (channels a pixel) and counts of the pass before, with its doubts.
+inline OracleResult gatherLine(const FilterImage& image, const OracleResult& in, int dx, int dy)
+{
+    const shared::FilterParams& p = image.params;
+    const int width = image.width(), height = image.height();
+    OracleResult out = in;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const double beta = image.beta.at(x, y);
+            if (!(beta > 0) || image.objectId.at(x, y) == 0)
+                continue;
+            const GatherGeometry geometry(image, x, y);
+            const double exactRadius = geometry.pixels(x, y, dx != 0 ? p.right : p.down, p.cut * beta);
+            const int radius =
+                static_cast<int>(std::clamp(std::ceil(exactRadius), 1.0, static_cast<double>(p.maxRadius)));
+            bool doubt = false;
+            double weights = 0, squares = 0, sums[2] = { 0, 0 };
+            for (int k = -radius - 1; k <= radius + 1; ++k) {
+                const int qx = x + k * dx, qy = y + k * dy;
+                if (qx < 0 || qy < 0 || qx >= width || qy >= height)
+                    continue;
+                const double there = image.beta.at(qx, qy);
+                const double facing = glm::dot(image.normal.vector(x, y), image.normal.vector(qx, qy));
+                if (k != 0 && (image.objectId.at(qx, qy) != image.objectId.at(x, y) || !(there >= 0)))
+                    continue;
+                const double squared = geometry.squared(image.position.vector(qx, qy) - image.position.vector(x, y));
+                const double limit = p.cut * p.cut * beta * beta;
+                const bool nearRadius = std::fabs(exactRadius - std::round(exactRadius)) < 1e-3 * exactRadius;
+                if (k != 0 && (std::fabs(squared / limit - 1) < 1e-3 || std::fabs(facing - p.normalCosine) < 1e-5))
+                    doubt = true;
+                if (k != 0 && (facing < p.normalCosine || squared > limit))
+                    continue;
+                doubt |= (nearRadius && std::abs(k) >= radius && radius < static_cast<int>(p.maxRadius))
+                    || in.uncertain(qx, qy);
+                if (std::abs(k) > radius)
+                    continue;
+                const double width1 = p.narrower != 0 && there > 0 && k != 0 ? std::min(beta, there) : beta;
+                const double w = k == 0 ? 1.0 : std::exp(-0.5 * squared / (width1 * width1));
+                weights += w;
+                squares += w * w;
+                for (int c = 0; c < in.channels; ++c)
+                    sums[c] += w * in.value(qx, qy, c);
+            }
+            const std::size_t i = out.index(x, y);
+            for (int c = 0; c < in.channels; ++c)
+                out.values[i * static_cast<std::size_t>(in.channels) + static_cast<std::size_t>(c)] = sums[c] / weights;
+            out.counts[i] = in.counts[i] * weights * weights / squares;
+            out.doubtful[i] = out.doubtful[i] || doubt;
+        }
+    return out;
+}
+
+inline OracleResult oracleRows(const FilterImage& image)
+{
+    OracleResult in;
+    in.width = image.width();
+    in.channels = static_cast<int>(image.value.values.size() / image.value.layout.size);
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) {
+            for (int c = 0; c < in.channels; ++c)
+                in.values.push_back(image.value.at(x, y, static_cast<std::size_t>(c)));
+            in.counts.push_back(1);
+            in.doubtful.push_back(false);
+        }
+    return gatherLine(image, in, 1, 0);
+}
+
+inline OracleResult oracleColumns(const FilterImage& image, const OracleResult& rows)
+{
+    return gatherLine(image, rows, 0, 1);
+}
+
+/// The reference that the two passes stand for: one gather over all pixels within maxRadius, in row order.
+inline std::vector<double> oracleSquare(const FilterImage& image)
+{
+    const shared::FilterParams& p = image.params;
+    std::vector<double> out;
+    const int radius = static_cast<int>(p.maxRadius);
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) {
+            const GatherGeometry geometry(image, x, y);
+            double weights = 0, sum = 0;
+            for (int qy = std::max(0, y - radius); qy < std::min(image.height(), y + radius + 1); ++qy)
+                for (int qx = std::max(0, x - radius); qx < std::min(image.width(), x + radius + 1); ++qx) {
+                    const double beta = image.beta.at(x, y), there = image.beta.at(qx, qy);
+                    const double facing = glm::dot(image.normal.vector(x, y), image.normal.vector(qx, qy));
+                    const double squared =
+                        geometry.squared(image.position.vector(qx, qy) - image.position.vector(x, y));
+                    if (image.objectId.at(qx, qy) != image.objectId.at(x, y) || facing < p.normalCosine
+                        || squared > p.cut * p.cut * beta * beta)
+                        continue;
+                    const double width = p.narrower != 0 ? std::min(beta, there) : beta;
+                    const double w = std::exp(-0.5 * squared / (width * width));
+                    weights += w;
+                    sum += w * image.value.at(qx, qy);
+                }
+            out.push_back(sum / weights);
+        }
+    return out;
+}
+
+} // namespace wedge::test

@@ -1,0 +1,295 @@
+// analysis.cl alone: slopes to widths, against the same in double.
+#include "kernels/shared/filter_params.h"
+#include "kernels/shared/wedge.h"
+#include "tests/render_support.h"
+
+#include <algorithm>
+#include <functional>
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+constexpr std::uint32_t block = WEDGE_BLOCK_PIXELS;
+
+/// First-pass results of a made-up image: two objects and holes, slopes at some of the pixels.
+struct Slopes {
+    shared::AnalysisParams params {};
+    Planes<float> slopes, position, pixelSize, sums;
+    Planes<std::uint32_t> objectId;
+
+    Slopes(int width, int height, unsigned seed, double occluded)
+        : Slopes(render::PlaneLayout(width, height))
+    {
+        std::mt19937 random(seed);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                objectId.at(x, y) = random() % 9 == 0 ? 0 : 1 + static_cast<std::uint32_t>(x / 13 + y / 11) % 2;
+                const bool has = uniform(random) < occluded && objectId.at(x, y) != 0;
+                const double sMin = std::pow(10.0, uniform(random, -4, 2));
+                slopes.at(x, y) = has ? static_cast<float>(sMin) : 0.0f;
+                slopes.at(x, y, 1) = has ? static_cast<float>(sMin * (1 + uniform(random, 0, 3))) : 0.0f;
+                position.setVector(x, y, { 0.1 * x, 0.3 * uniform(random), 0.1 * y });
+                pixelSize.at(x, y) = static_cast<float>(uniform(random, 0.005, 0.02));
+                sums.at(x, y) = random() % 10 == 0 ? 0.0f : 9.0f;
+            }
+    }
+    explicit Slopes(const render::PlaneLayout& layout)
+        : slopes(layout, 2, 0.0f)
+        , position(layout, 3, 0.0f)
+        , pixelSize(layout, 1, 0.0f)
+        , sums(layout, 2, 0.0f)
+        , objectId(layout, 1, 0u)
+    {
+        params.x1 = params.width = layout.width;
+        params.y1 = params.height = layout.height;
+        params.stride = layout.stride;
+        params.planeSize = static_cast<std::uint32_t>(layout.size);
+        params.sigma = 0.25f;
+        params.lightSize = 0.5f;
+        params.k = 3;
+        params.mu = 2;
+        params.alpha = 1;
+        params.fillRadius = 5;
+        params.countCap = 100;
+        params.lightCentre = shared::vec3(1, 4, 1.5f);
+    }
+    const render::PlaneLayout& layout() const { return slopes.layout; }
+    int width() const { return static_cast<int>(layout().width); }
+    int height() const { return static_cast<int>(layout().height); }
+};
+
+class Analysis {
+public:
+    explicit Analysis(const device::Device& device)
+        : bench(device)
+    {
+    }
+    template <class... Args>
+    void launch(const std::string& kernel, const shared::AnalysisParams& p, std::uint32_t across, const Args&... args)
+    {
+        bench.passes.rows("analysis", device::PassKind::Analysis, "analysis.cl", kernel, p, across, args...);
+    }
+    Planes<float> eroded(const Slopes& in)
+    {
+        const auto out = bench.filled(in.layout().size, 0.0f);
+        launch("erodeSlopes", in.params, block, bench.buffer(in.slopes.values), bench.buffer(in.objectId.values), out);
+        return planesOf(in.layout(), bench.read(out));
+    }
+    Planes<float> smoothed(const Slopes& in)
+    {
+        const auto out = bench.filled(4 * in.layout().size, 0.0f);
+        launch("smoothSlopes", in.params, block, bench.buffer(in.slopes.values), bench.buffer(in.objectId.values), out);
+        return planesOf(in.layout(), bench.read(out));
+    }
+    Planes<float> spread(const Slopes& in, const Planes<float>& from, std::uint32_t planes)
+    {
+        const auto rows = bench.filled(from.values.size(), 0.0f), out = bench.filled(from.values.size(), 0.0f);
+        launch("spreadRows", in.params, block, planes, bench.buffer(from.values), rows);
+        launch("spreadColumns", in.params, block, planes, rows, out);
+        return planesOf(in.layout(), bench.read(out));
+    }
+
+    KernelBench bench;
+};
+
+/// Calls visit(qx, qy) for the pixels of the image within `radius` of (x, y).
+void around(const Slopes& in, int x, int y, int radius, const std::function<void(int, int)>& visit)
+{
+    for (int qy = std::max(0, y - radius); qy <= std::min(in.height() - 1, y + radius); ++qy)
+        for (int qx = std::max(0, x - radius); qx <= std::min(in.width() - 1, x + radius); ++qx)
+            visit(qx, qy);
+}
+
+template <class Visit>
+void everyPixel(const Slopes& in, const Visit& visit)
+{
+    for (int y = 0; y < in.height(); ++y)
+        for (int x = 0; x < in.width(); ++x)
+            visit(x, y);
+}
+
+/// The sizes and densities that every kernel here is tried with, degenerate first.
+std::vector<Slopes> cases()
+{
+    return { Slopes(1, 1, 1, 1.0), Slopes(1, 19, 2, 0.5), Slopes(33, 1, 3, 0.5), Slopes(20, 11, 4, 0.0),
+        Slopes(47, 29, 5, 1.0), Slopes(47, 29, 6, 0.3), Slopes(32, 16, 7, 0.03) };
+}
+
+} // namespace
+
+TEST_CASE("erodeSlopes takes the least slope of the same object within 3x3")
+{
+    onEveryDevice([](const device::Device& device) {
+        Analysis analysis(device);
+        for (const Slopes& in : cases()) {
+            const Planes<float> found = analysis.eroded(in);
+            everyPixel(in, [&](int x, int y) {
+                float least = 0;
+                around(in, x, y, 1, [&](int qx, int qy) {
+                    const float s = in.slopes.at(qx, qy);
+                    if (s > 0 && in.objectId.at(x, y) != 0 && in.objectId.at(qx, qy) == in.objectId.at(x, y))
+                        least = least > 0 ? std::min(least, s) : s;
+                });
+                REQUIRE(found.at(x, y) == least);
+            });
+        }
+    });
+}
+
+TEST_CASE("smoothSlopes averages the logarithm over the object's slopes within 3x3, where there is one")
+{
+    onEveryDevice([](const device::Device& device) {
+        Analysis analysis(device);
+        for (const Slopes& in : cases()) {
+            const Planes<float> found = analysis.smoothed(in);
+            everyPixel(in, [&](int x, int y) {
+                double sum = 0, count = 0;
+                around(in, x, y, 1, [&](int qx, int qy) {
+                    if (in.slopes.at(qx, qy) > 0 && in.objectId.at(qx, qy) == in.objectId.at(x, y)) {
+                        sum += std::log2(in.slopes.at(qx, qy));
+                        count += 1;
+                    }
+                });
+                const bool has = in.slopes.at(x, y) > 0 && in.objectId.at(x, y) != 0;
+                REQUIRE(found.at(x, y, 1) == (has ? 1.0f : 0.0f));
+                REQUIRE(std::fabs(found.at(x, y) - (has ? sum / count : 0.0)) < 1e-3);
+            });
+        }
+    });
+}
+
+TEST_CASE("spreadRows and spreadColumns sum a window, plain or with Gaussian weights, the same on both sides")
+{
+    onEveryDevice([](const device::Device& device) {
+        Analysis analysis(device);
+        for (Slopes in : cases())
+            for (const float sigma : { 0.0f, 2.5f }) {
+                in.params.fillRadius = 7;
+                in.params.fillScale = sigma > 0 ? -0.5f * 1.44269504f / (sigma * sigma) : 0.0f;
+                Planes<float> from(in.layout(), 2, 0.0f);
+                std::mt19937 random(11);
+                everyPixel(in, [&](int x, int y) {
+                    from.at(x, y) = static_cast<float>(uniform(random, -3, 3));
+                    from.at(x, y, 1) = static_cast<float>(random() % 2);
+                });
+                const Planes<float> found = analysis.spread(in, from, 2);
+                everyPixel(in, [&](int x, int y) {
+                    double sums[2] = { 0, 0 };
+                    around(in, x, y, 7, [&](int qx, int qy) {
+                        const double d = (qx - x) * (qx - x) + (qy - y) * (qy - y);
+                        const double w = sigma > 0 ? std::exp(-0.5 * d / (sigma * sigma)) : 1.0;
+                        sums[0] += w * from.at(qx, qy);
+                        sums[1] += w * from.at(qx, qy, 1);
+                    });
+                    REQUIRE(std::fabs(found.at(x, y) - sums[0]) < 2e-4);
+                    REQUIRE(std::fabs(found.at(x, y, 1) - sums[1]) < 1e-4);
+                });
+            }
+    });
+}
+
+TEST_CASE("widths are (3.13) of the pixel's own slope, else of what spread to it; 0 far from shadows, -1 without light")
+{
+    onEveryDevice([](const device::Device& device) {
+        Analysis analysis(device);
+        for (Slopes in : cases())
+            for (const float fixedWidth : { 0.0f, 2.5f }) {
+                in.params.fixedWidth = fixedWidth;
+                in.params.fillScale = -0.05f;
+                const Planes<float> logs = analysis.smoothed(in), spread = analysis.spread(in, logs, 2);
+                const auto out = analysis.bench.filled(in.layout().size, -7.0f);
+                analysis.launch("widths", in.params, 1, analysis.bench.buffer(logs.values),
+                    analysis.bench.buffer(spread.values), analysis.bench.buffer(in.objectId.values),
+                    analysis.bench.buffer(in.pixelSize.values), analysis.bench.buffer(in.sums.values), out);
+                const Planes<float> beta = planesOf(in.layout(), analysis.bench.read(out));
+                everyPixel(in, [&](int x, int y) {
+                    const double d = in.pixelSize.at(x, y), own = logs.at(x, y, 1), near = spread.at(x, y, 1);
+                    const double s = std::exp2(own > 0 ? logs.at(x, y) : spread.at(x, y) / near);
+                    double expected = std::max(0.25 * s, (1 + s) * d) / 6;
+                    expected = own > 0 || near > 1e-4 ? expected : 0.0;
+                    expected = fixedWidth > 0 ? fixedWidth * d : expected;
+                    if (in.objectId.at(x, y) == 0 || !(in.sums.at(x, y) > 0))
+                        expected = -1;
+                    REQUIRE(beta.at(x, y) == doctest::Approx(expected).epsilon(1e-4));
+                });
+            }
+    });
+}
+
+TEST_CASE("the published fallback: mean distances within 5 pixels, then (3.13) and (3.21)")
+{
+    onEveryDevice([](const device::Device& device) {
+        Analysis analysis(device);
+        KernelBench& bench = analysis.bench;
+        for (const Slopes& in : cases()) {
+            const auto distances = bench.filled(4 * in.layout().size, 0.0f);
+            analysis.launch("publishedDistances", in.params, block, bench.buffer(in.slopes.values),
+                bench.buffer(in.position.values), bench.buffer(in.objectId.values), distances);
+            const Planes<float> spread = analysis.spread(in, planesOf(in.layout(), bench.read(distances)), 4);
+            const auto betaOut = bench.filled(in.layout().size, -7.0f);
+            const auto wantedOut = bench.filled(in.layout().size, 777u);
+            analysis.launch("publishedWidths", in.params, 1, bench.buffer(in.slopes.values),
+                bench.buffer(spread.values), bench.buffer(in.objectId.values), bench.buffer(in.pixelSize.values),
+                bench.buffer(in.sums.values), betaOut, wantedOut);
+            const Planes<float> beta = planesOf(in.layout(), bench.read(betaOut));
+            const Planes<std::uint32_t> wanted = planesOf(in.layout(), bench.read(wantedOut));
+            everyPixel(in, [&](int x, int y) {
+                double d1 = 0, farthest = 0, nearest = 0;
+                around(in, x, y, 5, [&](int qx, int qy) {
+                    if (in.slopes.at(qx, qy) > 0) {
+                        const double d = glm::length(in.position.vector(qx, qy) - glm::dvec3(1, 4, 1.5));
+                        d1 += d;
+                        farthest += d / (1.0 + in.slopes.at(qx, qy));
+                        nearest += d / (1.0 + in.slopes.at(qx, qy, 1));
+                    }
+                });
+                const bool own = in.slopes.at(x, y) > 0, lit = in.objectId.at(x, y) != 0 && in.sums.at(x, y) > 0;
+                const double sMin = own ? in.slopes.at(x, y) : std::clamp(d1 / farthest - 1, 1e-4, 1e3);
+                const double sMax = own ? in.slopes.at(x, y, 1) : std::clamp(d1 / nearest - 1, 1e-4, 1e3);
+                const double d = in.pixelSize.at(x, y);
+                const double width = d1 > 0 ? std::max(0.25 * sMin, (1 + sMin) * d) / 6 : 0.0;
+                // Distances are floats: s = d1/d2 - 1 has lost digits where it is small.
+                const double slack = d1 > 0 ? 1e-5 * (1 + 1 / sMin) : 1e-5;
+                REQUIRE(beta.at(x, y) == doctest::Approx(lit ? width : -1.0).epsilon(slack));
+                const double exact =
+                    4 * std::pow(1 + 2 * sMax / sMin, 2) * std::pow(2 * (2 / sMin) * d / 0.5 + 1 / (1 + sMin), 2);
+                const double count = d1 > 0 && lit ? std::clamp(exact, 9.0, 100.0) : 9.0;
+                const double tolerance = 0.51 + 4 * slack * count;
+                if (in.objectId.at(x, y) == 0)
+                    REQUIRE(wanted.at(x, y) == 0);
+                else
+                    REQUIRE(std::fabs(wanted.at(x, y) - count) <= tolerance);
+            });
+        }
+    });
+}
+
+TEST_CASE("an occluder at the receiver or at the light gives widths and counts within bounds")
+{
+    onEveryDevice([](const device::Device& device) {
+        Analysis analysis(device);
+        KernelBench& bench = analysis.bench;
+        Slopes in(2, 1, 1, 1.0);
+        for (int x = 0; x < 2; ++x) {
+            const float s = x == 0 ? WEDGE_SLOPE_MIN : WEDGE_SLOPE_MAX;
+            in.objectId.at(x, 0) = 1;
+            in.slopes.at(x, 0) = in.slopes.at(x, 0, 1) = s;
+            in.sums.at(x, 0) = 9;
+            in.pixelSize.at(x, 0) = 0.01f;
+        }
+        const auto none = bench.filled(4 * in.layout().size, 0.0f);
+        const auto beta = bench.filled(in.layout().size, -7.0f);
+        const auto wanted = bench.filled(in.layout().size, 777u);
+        analysis.launch("publishedWidths", in.params, 1, bench.buffer(in.slopes.values), none,
+            bench.buffer(in.objectId.values), bench.buffer(in.pixelSize.values), bench.buffer(in.sums.values), beta,
+            wanted);
+        const Planes<float> widths = planesOf(in.layout(), bench.read(beta));
+        const Planes<std::uint32_t> counts = planesOf(in.layout(), bench.read(wanted));
+        CHECK(widths.at(0, 0) == doctest::Approx(0.01 * 1.0001 / 6)); // the pixel's own bandlimit
+        CHECK(widths.at(1, 0) == doctest::Approx(0.25 * 1e3 / 6));
+        CHECK(counts.at(0, 0) == 100);
+        CHECK(counts.at(1, 0) == 9);
+    });
+}

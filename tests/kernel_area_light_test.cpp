@@ -1,0 +1,258 @@
+// area_light.cl alone: slopes of the first pass, visibility of both, against closed forms and the same samples on the
+// host.
+#include "tests/trace_support.h"
+
+#include <algorithm>
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+shared::SampleParams sampling(std::uint32_t shading, std::uint32_t sampler, std::uint32_t light = 0)
+{
+    return { shading, sampler, light, WEDGE_FIRST_PASS_RAYS };
+}
+
+/// A floor below a light at y = 4, plates at the heights given: [x0, x1] each.
+struct Plate {
+    float y, x0, x1;
+};
+scene::Scene floorAndPlates(
+    const std::vector<Plate>& plates, scene::LightProfile profile = scene::LightProfile::Gaussian)
+{
+    SceneBuilder b;
+    b.quad({ 0, 0, 0 }, { 0, 0, 20 }, { 20, 0, 0 });
+    for (const Plate& p : plates) {
+        b.newObject();
+        b.quad({ 0.5f * (p.x0 + p.x1), p.y, 0 }, { 0, 0, 20 }, { 0.5f * (p.x1 - p.x0), 0, 0 });
+    }
+    b.light({ 0, 4, 0 }, { 0.5f, 0, 0 }, { 0, 0, 0.5f }, profile, 10);
+    b.camera({ 0, 0.9f, 0 }, { 0, 0, 0 }, { 0, 0, -1 }, 90);
+    return b.scene;
+}
+
+/// What the first `count` samples of a pixel come to, with the host's traversal.
+struct HostSum {
+    double weights = 0, visible = 0;
+    std::uint32_t rays = 0;
+};
+
+class HostSamples {
+public:
+    explicit HostSamples(TracedScene& traced)
+        : traced_(traced)
+        , position_(traced.read(traced.frame.position))
+        , normal_(traced.read(traced.frame.normal))
+        , origin_(traced.read(traced.frame.origin))
+    {
+    }
+
+    HostSum operator()(const shared::SampleParams& p, int x, int y, std::uint32_t wanted) const
+    {
+        const shared::FrameParams& f = traced_.params;
+        const shared::AreaLight& light = traced_.onDevice.areaLightList[p.light];
+        const std::uint32_t seed = shared::hashCombine(shared::hashCombine(f.seed, p.light),
+            static_cast<std::uint32_t>(y) * f.width + static_cast<std::uint32_t>(x));
+        HostSum sum;
+        for (std::uint32_t k = 0; k < wanted; ++k) {
+            shared::Vec2 u = shared::sobolOwen(k, seed);
+            if (p.sampler == WEDGE_SAMPLER_STRATIFIED)
+                u = k < p.firstPass ? shared::stratified(k, p.firstPass, seed)
+                                    : shared::stratified(k - p.firstPass, wanted - p.firstPass, shared::hashUint(seed));
+            const shared::Vec3 point = shared::lightPoint(light.centre, light.halfU, light.halfV,
+                shared::lightCoordinate(u.x, light.profile, light.cut, light.erfCut),
+                shared::lightCoordinate(u.y, light.profile, light.cut, light.erfCut));
+            const float g = shared::geometryTerm(
+                at(normal_, x, y), shared::vecSub(point, at(position_, x, y)), light.normal, light.twoSided);
+            if (!(g > 0))
+                continue;
+            const double weight = p.shading == WEDGE_SHADING_SEPARATE ? 1.0 : g;
+            const shared::Vec3 origin = at(origin_, x, y);
+            ++sum.rays;
+            sum.weights += weight;
+            sum.visible +=
+                bvh::anyHit(traced_.hierarchy, { origin, 0, shared::vecSub(point, origin), WEDGE_SHADOW_RAY_END })
+                ? 0.0
+                : weight;
+        }
+        return sum;
+    }
+
+private:
+    static shared::Vec3 at(const Planes<float>& planes, int x, int y)
+    {
+        return shared::vec3(planes.at(x, y), planes.at(x, y, 1), planes.at(x, y, 2));
+    }
+
+    TracedScene& traced_;
+    Planes<float> position_, normal_, origin_;
+};
+
+/// Uploads the same count for each pixel.
+void want(TracedScene& traced, std::uint32_t count) { traced.wanted.fill(traced.bench.queue, count); }
+
+} // namespace
+
+TEST_CASE("no surface and no occluder: no rays and no slopes")
+{
+    onEveryDevice([](const device::Device& device) {
+        SceneBuilder b;
+        b.light({ 0, 4, 0 }, { 1, 0, 0 }, { 0, 0, 1 }, scene::LightProfile::Uniform, 1);
+        TracedScene empty(b.scene, device, 5, 3);
+        empty.primary();
+        empty.firstPass(sampling(WEDGE_SHADING_RATIO, WEDGE_SAMPLER_SOBOL));
+        const auto rays = empty.read(empty.frame.rays), taken = empty.read(empty.taken);
+        empty.everyPixel([&](int x, int y) {
+            REQUIRE(rays.at(x, y) == 0);
+            REQUIRE(taken.at(x, y) == 0);
+        });
+        TracedScene open(floorAndPlates({}), device, 12, 9);
+        open.primary();
+        open.firstPass(sampling(WEDGE_SHADING_SEPARATE, WEDGE_SAMPLER_SOBOL));
+        const auto slopes = open.read(open.slopes), value = open.read(open.value), sums = open.read(open.sums);
+        const auto openTaken = open.read(open.taken);
+        open.everyPixel([&](int x, int y) {
+            REQUIRE(slopes.at(x, y) == 0.0f);
+            REQUIRE(slopes.at(x, y, 1) == 0.0f);
+            REQUIRE(value.at(x, y) == 1.0f);
+            REQUIRE(sums.at(x, y) == 9.0f);
+            REQUIRE(openTaken.at(x, y) == 9);
+        });
+    });
+}
+
+TEST_CASE("slopes are d1/d2 - 1 of the nearest occluder on each ray")
+{
+    onEveryDevice([](const device::Device& device) {
+        // One plate over all: the same slope for each ray. With a second plate above it: still that of the lower one.
+        for (const std::vector<Plate>& plates :
+            { std::vector<Plate> { { 1, -20, 20 } }, { { 1, -20, 20 }, { 3, -20, 20 } } }) {
+            TracedScene traced(floorAndPlates(plates), device, 24, 18);
+            traced.primary();
+            traced.firstPass(sampling(WEDGE_SHADING_RATIO, WEDGE_SAMPLER_STRATIFIED));
+            const auto slopes = traced.read(traced.slopes), value = traced.read(traced.value);
+            traced.everyPixel([&](int x, int y) {
+                REQUIRE(slopes.at(x, y) == doctest::Approx(1.0 / 3).epsilon(1e-4));
+                REQUIRE(slopes.at(x, y, 1) == doctest::Approx(1.0 / 3).epsilon(1e-4));
+                REQUIRE(value.at(x, y) == 0.0f);
+            });
+        }
+        // Two plates side by side: least and largest slope where the rays part.
+        scene::Scene edge = floorAndPlates({ { 1, -20, 0 }, { 2, 0, 20 } });
+        edge.camera.verticalFov = 20;
+        TracedScene traced(edge, device, 48, 9);
+        traced.primary();
+        traced.firstPass(sampling(WEDGE_SHADING_RATIO, WEDGE_SAMPLER_STRATIFIED));
+        const auto slopes = traced.read(traced.slopes);
+        unsigned both = 0;
+        traced.everyPixel([&](int x, int y) {
+            const double lo = slopes.at(x, y), hi = slopes.at(x, y, 1);
+            REQUIRE((std::fabs(lo - 1.0 / 3) < 1e-4 || std::fabs(lo - 1) < 3e-4));
+            REQUIRE((std::fabs(hi - 1.0 / 3) < 1e-4 || std::fabs(hi - 1) < 3e-4));
+            REQUIRE(lo <= hi);
+            both += hi - lo > 0.5 ? 1 : 0;
+        });
+        CHECK(both > 20);
+    });
+}
+
+TEST_CASE("both passes see what the same samples see on the host, with each sampler and shading")
+{
+    onEveryDevice([](const device::Device& device) {
+        TracedScene traced(smallScene(), device, 40, 30);
+        traced.primary();
+        const HostSamples host(traced);
+        const auto id = traced.read(traced.frame.objectId);
+        for (const std::uint32_t light : { 0u, 1u })
+            for (const std::uint32_t sampler : { WEDGE_SAMPLER_SOBOL, WEDGE_SAMPLER_STRATIFIED })
+                for (const std::uint32_t shading :
+                    { WEDGE_SHADING_SEPARATE, WEDGE_SHADING_INSIDE, WEDGE_SHADING_RATIO }) {
+                    const shared::SampleParams p = sampling(shading, sampler, light);
+                    traced.frame.rays.fill(traced.bench.queue, 0u);
+                    want(traced, 21);
+                    traced.firstPass(p);
+                    // In slices, as the renderer does; the last asks for more than is wanted.
+                    traced.secondPass(p, 14);
+                    traced.secondPass(p, 500);
+                    const auto sums = traced.read(traced.sums), value = traced.read(traced.value);
+                    const auto taken = traced.read(traced.taken), rays = traced.read(traced.frame.rays);
+                    unsigned differ = 0, partly = 0, shaded = 0;
+                    traced.everyPixel([&](int x, int y) {
+                        if (id.at(x, y) == 0)
+                            return;
+                        ++shaded;
+                        const HostSum expected = host(p, x, y, 21);
+                        REQUIRE(taken.at(x, y) == 21);
+                        REQUIRE(rays.at(x, y) == expected.rays);
+                        REQUIRE(sums.at(x, y) == doctest::Approx(expected.weights).epsilon(1e-4));
+                        partly += expected.rays < 21 && expected.rays > 0 ? 1 : 0;
+                        // A logarithm of another library may move a sample across an edge.
+                        if (std::fabs(sums.at(x, y, 1) - expected.visible) > 1e-4 * expected.weights) {
+                            ++differ;
+                            return;
+                        }
+                        // Divided by the whole number of samples taken, or by the weights of those above the horizon.
+                        double mean = shading == WEDGE_SHADING_INSIDE ? expected.visible / 21 : 0;
+                        if (shading != WEDGE_SHADING_INSIDE && expected.weights > 0)
+                            mean = expected.visible / expected.weights;
+                        REQUIRE(value.at(x, y) == doctest::Approx(mean).epsilon(1e-4));
+                    });
+                    CHECK(differ <= shaded / 200);
+                    CHECK(partly > 0);
+                }
+    });
+}
+
+TEST_CASE("slices of any length give the same bits, and pixels that want no more keep what they have")
+{
+    onEveryDevice([](const device::Device& device) {
+        TracedScene traced(smallScene(), device, 33, 21);
+        traced.primary();
+        const shared::SampleParams p = sampling(WEDGE_SHADING_RATIO, WEDGE_SAMPLER_SOBOL);
+        std::vector<std::vector<float>> results;
+        for (const std::vector<std::uint32_t>& slices :
+            { std::vector<std::uint32_t> { 40 }, { 10, 11, 37, 40 }, { 9, 9, 40, 40 } }) {
+            want(traced, 40);
+            traced.firstPass(p);
+            for (const std::uint32_t last : slices)
+                traced.secondPass(p, last);
+            results.push_back(traced.bench.read(traced.sums));
+        }
+        CHECK(results[1] == results[0]);
+        CHECK(results[2] == results[0]);
+        want(traced, 9);
+        traced.firstPass(p);
+        const std::vector<float> before = traced.bench.read(traced.sums);
+        traced.secondPass(p, 400);
+        CHECK(traced.bench.read(traced.sums) == before);
+    });
+}
+
+TEST_CASE("with gloss the specular sums hold the lobe's weights of the same samples")
+{
+    onEveryDevice([](const device::Device& device) {
+        scene::Scene scene = smallScene();
+        scene.materials[0].specular = glm::vec3(0.3f);
+        scene.materials[0].exponent = 20;
+        TracedScene traced(scene, device, 30, 22, { { "WEDGE_SPECULAR", "1" } });
+        traced.primary();
+        const auto id = traced.read(traced.frame.objectId);
+        for (const std::uint32_t shading : { WEDGE_SHADING_SEPARATE, WEDGE_SHADING_INSIDE, WEDGE_SHADING_RATIO }) {
+            traced.firstPass(sampling(shading, WEDGE_SAMPLER_SOBOL));
+            const auto sums = traced.read(traced.sums), value = traced.read(traced.value);
+            traced.everyPixel([&](int x, int y) {
+                if (id.at(x, y) == 0)
+                    return;
+                REQUIRE(sums.at(x, y, 3) <= sums.at(x, y, 2));
+                // Where every ray is free, or none, both terms agree on it.
+                if (sums.at(x, y, 1) == sums.at(x, y))
+                    REQUIRE(sums.at(x, y, 3) == sums.at(x, y, 2));
+                if (sums.at(x, y, 1) == 0.0f)
+                    REQUIRE(sums.at(x, y, 3) == 0.0f);
+                if (shading == WEDGE_SHADING_SEPARATE)
+                    REQUIRE(value.at(x, y, 1) == value.at(x, y));
+            });
+        }
+    });
+}

@@ -1,0 +1,245 @@
+// composite.cl alone: terms to radiance, against integrals over the light in double.
+#include "host/render/device_scene.h"
+#include "host/render/quadrature.h"
+#include "kernels/shared/bsdf.h"
+#include "tests/render_oracles.h"
+#include "tests/render_support.h"
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+/// Receivers scattered around a light at y = 2, with made-up terms.
+struct Receivers {
+    shared::AnalysisParams params {};
+    Planes<float> position, normal, diffuse, specular, gloss, value, noisy;
+    Planes<std::uint32_t> objectId, taken;
+
+    Receivers(int width, int height, unsigned seed)
+        : Receivers(render::PlaneLayout(width, height))
+    {
+        std::mt19937 random(seed);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                objectId.at(x, y) = random() % 6 == 0 && width > 1 ? 0 : 1;
+                position.setVector(x, y, { uniform(random, -3, 3), uniform(random, -1, 1.5), uniform(random, -3, 3) });
+                normal.setVector(x, y, glm::normalize(glm::dvec3(0, 0.7, 0) + unitVector(random)));
+                diffuse.setVector(x, y, { uniform(random), uniform(random), uniform(random) });
+                specular.setVector(x, y,
+                    random() % 4 == 0 ? glm::dvec3(0) : glm::dvec3(uniform(random), uniform(random), uniform(random)));
+                gloss.at(x, y) = static_cast<float>(uniform(random, 1, 20) * (random() % 2 == 0 ? 1 : -1));
+                for (std::size_t c = 0; c < 2; ++c) {
+                    value.at(x, y, c) = static_cast<float>(uniform(random));
+                    noisy.at(x, y, c) = static_cast<float>(uniform(random));
+                }
+                taken.at(x, y) = objectId.at(x, y) != 0 ? 9 + static_cast<std::uint32_t>(random() % 90) : 0;
+            }
+    }
+    explicit Receivers(const render::PlaneLayout& layout)
+        : position(layout, 3, 0.0f)
+        , normal(layout, 3, 0.0f)
+        , diffuse(layout, 3, 0.0f)
+        , specular(layout, 3, 0.0f)
+        , gloss(layout, 1, 0.0f)
+        , value(layout, 2, 0.0f)
+        , noisy(layout, 2, 0.0f)
+        , objectId(layout, 1, 0u)
+        , taken(layout, 1, 0u)
+    {
+        params.x1 = layout.width;
+        params.y1 = layout.height;
+        params.stride = layout.stride;
+        params.planeSize = static_cast<std::uint32_t>(layout.size);
+    }
+    const render::PlaneLayout& layout() const { return position.layout; }
+    template <class Visit>
+    void everyPixel(const Visit& visit) const
+    {
+        for (int y = 0; y < static_cast<int>(layout().height); ++y)
+            for (int x = 0; x < static_cast<int>(layout().width); ++x)
+                visit(x, y);
+    }
+};
+
+scene::AreaLight lamp(scene::LightProfile profile, bool twoSided)
+{
+    scene::AreaLight light;
+    light.centre = { 0.2f, 2, -0.1f };
+    light.halfU = { 0.4f, 0.1f, 0 };
+    light.halfV = { 0, 0, 0.6f };
+    light.radiance = { 5, 4, 3 };
+    light.profile = profile;
+    light.twoSided = twoSided;
+    return light;
+}
+
+std::vector<float> nodesOf(const scene::AreaLight& light)
+{
+    std::vector<float> out;
+    for (const unsigned count : { WEDGE_COARSE_NODES, WEDGE_FINE_NODES })
+        for (const render::Node& node : render::profileRule(light.profile, light.cut, static_cast<int>(count))) {
+            out.push_back(static_cast<float>(node.position));
+            out.push_back(static_cast<float>(node.weight));
+        }
+    return out;
+}
+
+/// Integral over the light of radiance 1 times profile, geometry term and, in the specular case, the lobe.
+struct Integral {
+    double value = 0;
+    bool horizon = false; ///< part of the light does not light the receiver
+};
+template <class Lobe>
+Integral overLight(const scene::AreaLight& light, glm::dvec3 at, glm::dvec3 n, const Lobe& lobe)
+{
+    constexpr int steps = 72;
+    Integral out;
+    bool dark = false, lit = false;
+    for (int i = 0; i < steps; ++i)
+        for (int k = 0; k < steps; ++k) {
+            const double a = 2 * (i + 0.5) / steps - 1, b = 2 * (k + 0.5) / steps - 1;
+            const glm::dvec3 d = pointOf(light, a, b) - at;
+            const double g = geometry(n, d, lightNormal(light), light.twoSided);
+            (g > 0 ? lit : dark) = true;
+            out.value += g > 0 ? profileAt(light, a, b) * g * lobe(d) : 0.0;
+        }
+    out.value *= lightArea(light) / (steps * steps);
+    out.horizon = lit && dark;
+    return out;
+}
+
+shared::Vec3 narrowed(glm::dvec3 v)
+{
+    return shared::vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
+}
+
+} // namespace
+
+TEST_CASE("addDiffuse: value times unshadowed shading times reflectance, in each way of shading")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        for (const auto& [width, height] : { std::pair(1, 1), { 37, 5 } })
+            for (const bool twoSided : { false, true })
+                for (const std::uint32_t shading :
+                    { WEDGE_SHADING_SEPARATE, WEDGE_SHADING_INSIDE, WEDGE_SHADING_RATIO }) {
+                    const scene::AreaLight light =
+                        lamp(twoSided ? scene::LightProfile::Uniform : scene::LightProfile::Gaussian, twoSided);
+                    const shared::AreaLight made = render::deviceLight(light);
+                    const Receivers in(width, height, 3);
+                    const auto direct = bench.filled(3 * in.layout().size, 0.5f),
+                               noisy = bench.filled(3 * in.layout().size, 0.25f);
+                    const auto samples = bench.filled(in.layout().size, 100u);
+                    bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addDiffuse", in.params,
+                        WEDGE_BLOCK_PIXELS, shared::SampleParams { shading, 0, 0, 9 }, made,
+                        bench.buffer(nodesOf(light)), bench.buffer(in.position.values), bench.buffer(in.normal.values),
+                        bench.buffer(in.objectId.values), bench.buffer(in.diffuse.values),
+                        bench.buffer(in.value.values), bench.buffer(in.noisy.values), bench.buffer(in.taken.values),
+                        direct, noisy, samples);
+                    const Planes<float> found = planesOf(in.layout(), bench.read(direct));
+                    const Planes<float> foundNoisy = planesOf(in.layout(), bench.read(noisy));
+                    const Planes<std::uint32_t> counts = planesOf(in.layout(), bench.read(samples));
+                    CAPTURE(shading);
+                    CAPTURE(twoSided);
+                    in.everyPixel([&](int x, int y) {
+                        const bool surface = in.objectId.at(x, y) != 0;
+                        REQUIRE(counts.at(x, y) == 100 + (surface ? in.taken.at(x, y) : 0));
+                        const glm::dvec3 at = in.position.vector(x, y), n = in.normal.vector(x, y);
+                        const Integral integral = overLight(light, at, n, [](glm::dvec3) { return 1.0; });
+                        double shade = made.power.y;
+                        double tolerance = 1e-4;
+                        if (shading == WEDGE_SHADING_SEPARATE) {
+                            shade *= geometry(n, glm::dvec3(light.centre) - at, lightNormal(light), twoSided);
+                        } else if (shading == WEDGE_SHADING_RATIO) {
+                            shade = 4 * integral.value;
+                            // A horizon across the light is a kink that a smooth rule sees roughly.
+                            tolerance = integral.horizon ? 0.02 : 2e-3;
+                        }
+                        const double reflected = surface ? shade * in.diffuse.at(x, y, 1) / 3.14159265358979 : 0.0;
+                        const double slack = tolerance * (reflected + (integral.horizon ? 0.3 : 1e-3));
+                        REQUIRE(std::fabs(found.at(x, y, 1) - 0.5 - in.value.at(x, y) * reflected) <= slack);
+                        REQUIRE(std::fabs(foundNoisy.at(x, y, 1) - 0.25 - in.noisy.at(x, y) * reflected) <= slack);
+                    });
+                }
+    });
+}
+
+TEST_CASE("addSpecular: the second term times the lobe's unshadowed shading times reflectance")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device, { { "WEDGE_SPECULAR", "1" } });
+        const scene::AreaLight light = lamp(scene::LightProfile::Gaussian, false);
+        const shared::AreaLight made = render::deviceLight(light);
+        Receivers in(33, 6, 4);
+        std::mt19937 random(5);
+        in.everyPixel([&](int x, int y) {
+            // About the mirror direction, so that there is a highlight to speak of.
+            const glm::dvec3 at = in.position.vector(x, y), eye(0.5, 1, 6);
+            in.normal.setVector(x, y,
+                glm::normalize(glm::normalize(eye - at) + glm::normalize(glm::dvec3(light.centre) - at)
+                    + 0.4 * unitVector(random)));
+        });
+        shared::FrameParams frame {};
+        frame.eye = shared::vec3(0.5f, 1, 6);
+        for (const std::uint32_t shading : { WEDGE_SHADING_SEPARATE, WEDGE_SHADING_INSIDE, WEDGE_SHADING_RATIO }) {
+            const auto direct = bench.filled(3 * in.layout().size, 0.5f),
+                       noisy = bench.filled(3 * in.layout().size, 0.25f);
+            bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addSpecular", in.params, 1,
+                shared::SampleParams { shading, 0, 0, 9 }, made, frame, bench.buffer(nodesOf(light)),
+                bench.buffer(in.position.values), bench.buffer(in.normal.values), bench.buffer(in.objectId.values),
+                bench.buffer(in.gloss.values), bench.buffer(in.specular.values), bench.buffer(in.value.values),
+                bench.buffer(in.noisy.values), direct, noisy);
+            const Planes<float> found = planesOf(in.layout(), bench.read(direct));
+            const Planes<float> foundNoisy = planesOf(in.layout(), bench.read(noisy));
+            CAPTURE(shading);
+            unsigned bright = 0;
+            in.everyPixel([&](int x, int y) {
+                const glm::dvec3 at = in.position.vector(x, y), n = in.normal.vector(x, y);
+                const glm::dvec3 view = glm::normalize(glm::dvec3(0.5, 1, 6) - at);
+                const float gloss = in.gloss.at(x, y);
+                const auto lobe = [&](glm::dvec3 d) {
+                    return static_cast<double>(
+                        shared::specularLobe(narrowed(n), narrowed(view), narrowed(glm::normalize(d)), std::fabs(gloss),
+                            gloss < 0 ? WEDGE_SPECULAR_PHONG : WEDGE_SPECULAR_BLINN_PHONG));
+                };
+                double shade = made.power.z, slack = 1e-4;
+                if (shading == WEDGE_SHADING_SEPARATE) {
+                    const glm::dvec3 d = glm::dvec3(light.centre) - at;
+                    const double g = geometry(n, d, lightNormal(light), false);
+                    shade *= g > 0 ? g * lobe(d) : 0.0;
+                } else if (shading == WEDGE_SHADING_RATIO) {
+                    const Integral integral = overLight(light, at, n, lobe);
+                    shade = 3 * integral.value;
+                    slack = integral.horizon ? 0.02 : 4e-3;
+                }
+                const double reflected = in.objectId.at(x, y) != 0 ? shade * in.specular.at(x, y, 2) : 0.0;
+                bright += reflected > 0.01 ? 1 : 0;
+                REQUIRE(
+                    std::fabs(found.at(x, y, 2) - 0.5 - in.value.at(x, y, 1) * reflected) <= slack * (reflected + 0.3));
+                REQUIRE(std::fabs(foundNoisy.at(x, y, 2) - 0.25 - in.noisy.at(x, y, 1) * reflected)
+                    <= slack * (reflected + 0.3));
+            });
+            CHECK(bright > 30);
+        }
+    });
+}
+
+TEST_CASE("addEmission: emission and reflection on surfaces, emission alone elsewhere")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        const Receivers in(37, 5, 6);
+        const auto emission = bench.buffer(in.position.values), direct = bench.buffer(in.diffuse.values);
+        const auto beauty = bench.filled(3 * in.layout().size, -7.0f);
+        bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addEmission", in.params,
+            WEDGE_BLOCK_PIXELS, emission, direct, bench.buffer(in.objectId.values), beauty);
+        const Planes<float> found = planesOf(in.layout(), bench.read(beauty));
+        in.everyPixel([&](int x, int y) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                const float reflected = in.objectId.at(x, y) != 0 ? in.diffuse.at(x, y, c) : 0.0f;
+                REQUIRE(found.at(x, y, c) == in.position.at(x, y, c) + reflected);
+            }
+        });
+    });
+}

@@ -1,0 +1,308 @@
+// primary.cl and surface.h alone: what a camera ray finds, against the host's traversal and closed forms.
+#include "tests/trace_support.h"
+
+#include <algorithm>
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+glm::vec3 corner(const scene::Geometry& g, std::uint32_t triangle, std::size_t which)
+{
+    const std::size_t v = 3 * std::size_t { g.indices[3 * triangle + which] };
+    return { g.positions[v], g.positions[v + 1], g.positions[v + 2] };
+}
+
+glm::dvec3 faceNormal(const scene::Geometry& g, std::uint32_t triangle)
+{
+    const glm::dvec3 a = corner(g, triangle, 0), b = corner(g, triangle, 1), c = corner(g, triangle, 2);
+    return glm::normalize(glm::cross(b - a, c - a));
+}
+
+double linear(std::uint32_t byte)
+{
+    const double v = byte / 255.0;
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
+/// Bilinear look-up with repetition, channel 0 to 2.
+double texel(const scene::Texture& t, double u, double v, int channel)
+{
+    const double x = (u - std::floor(u)) * t.width - 0.5, y = (v - std::floor(v)) * t.height - 0.5;
+    const auto at = [&](double i, double k) {
+        const int px = (static_cast<int>(i) + t.width) % t.width, py = (static_cast<int>(k) + t.height) % t.height;
+        return linear((t.rgba[static_cast<std::size_t>(py * t.width + px)] >> (8 * channel)) & 255u);
+    };
+    const double fx = x - std::floor(x), fy = y - std::floor(y);
+    const double low = at(std::floor(x), std::floor(y)) * (1 - fx) + at(std::floor(x) + 1, std::floor(y)) * fx;
+    const double high = at(std::floor(x), std::floor(y) + 1) * (1 - fx) + at(std::floor(x) + 1, std::floor(y) + 1) * fx;
+    return low * (1 - fy) + high * fy;
+}
+
+} // namespace
+
+TEST_CASE("nothing there: no object, the background, infinitely far")
+{
+    onEveryDevice([](const device::Device& device) {
+        SceneBuilder b;
+        b.scene.background = { 0.25f, 0.5f, 1.0f };
+        TracedScene traced(b.scene, device, 9, 5);
+        traced.primary();
+        const auto id = traced.read(traced.frame.objectId);
+        const auto depth = traced.read(traced.frame.depth), emission = traced.read(traced.frame.emission);
+        traced.everyPixel([&](int x, int y) {
+            REQUIRE(id.at(x, y) == 0);
+            REQUIRE(depth.at(x, y) == infinity);
+            REQUIRE(emission.vector(x, y) == glm::dvec3(0.25, 0.5, 1.0));
+        });
+    });
+}
+
+TEST_CASE("the G-buffer holds what the host's traversal finds")
+{
+    onEveryDevice([](const device::Device& device) {
+        TracedScene traced(smallScene(), device, 61, 47);
+        traced.primary();
+        const auto id = traced.read(traced.frame.objectId);
+        const auto depth = traced.read(traced.frame.depth), position = traced.read(traced.frame.position);
+        const auto normal = traced.read(traced.frame.normal), diffuse = traced.read(traced.frame.diffuse);
+        const scene::Geometry& g = traced.scene.geometry;
+        unsigned hits = 0, differ = 0;
+        traced.everyPixel([&](int x, int y) {
+            const bvh::Ray ray = traced.cameraRay(x, y);
+            const shared::Hit hit = bvh::closestHit(traced.hierarchy, ray);
+            if (hit.triangle == WEDGE_NO_TRIANGLE || id.at(x, y) == 0 || g.objectIds[hit.triangle] != id.at(x, y)) {
+                // Rays through an edge may go either way.
+                differ += hit.triangle == WEDGE_NO_TRIANGLE && id.at(x, y) == 0 ? 0 : 1;
+                return;
+            }
+            ++hits;
+            const glm::dvec3 eye(ray.origin.x, ray.origin.y, ray.origin.z),
+                d(ray.direction.x, ray.direction.y, ray.direction.z);
+            const glm::dvec3 n = normal.vector(x, y), at = position.vector(x, y);
+            REQUIRE(glm::length(at - (eye + static_cast<double>(hit.t) * d)) < 1e-5);
+            REQUIRE(depth.at(x, y) == doctest::Approx(hit.t * glm::length(d)).epsilon(1e-5));
+            REQUIRE(std::fabs(glm::length(n) - 1) < 1e-5);
+            glm::dvec3 expected = faceNormal(g, hit.triangle);
+            expected *= glm::dot(expected, d) > 0 ? -1.0 : 1.0;
+            if (id.at(x, y) == 4) // the smooth sphere
+                expected = glm::normalize(at - glm::dvec3(0, 0.35, 0.7));
+            REQUIRE(glm::length(n - expected) < (id.at(x, y) == 4 ? 0.02 : 1e-5));
+            REQUIRE(diffuse.at(x, y) == 0.8f);
+        });
+        CHECK(hits > 1500);
+        CHECK(differ <= 3);
+    });
+}
+
+TEST_CASE("normals and origins are on the viewer's side, whichever way the triangle was wound")
+{
+    onEveryDevice([](const device::Device& device) {
+        for (const float side : { 1.0f, -1.0f }) {
+            SceneBuilder b;
+            b.quad({ 0, 0, 0 }, { 2, 0, 0 }, { 0, side * 2, 0 });
+            b.camera({ 0, 0, 3 }, { 0, 0, 0 });
+            TracedScene traced(b.scene, device, 8, 8);
+            traced.primary();
+            const auto normal = traced.read(traced.frame.normal), origin = traced.read(traced.frame.origin);
+            CHECK(normal.at(4, 4, 2) == doctest::Approx(1));
+            CHECK(origin.at(4, 4, 2) > 0.0f);
+            CHECK(origin.at(4, 4, 2) < 1e-5f);
+        }
+    });
+}
+
+TEST_CASE("pixelSize: a plane across the view has distance times the pixel's step everywhere")
+{
+    onEveryDevice([](const device::Device& device) {
+        SceneBuilder b;
+        b.quad({ 0, 0, -1 }, { 50, 0, 0 }, { 0, 50, 0 });
+        b.camera({ 0, 0, 4 }, { 0, 0, 0 }, { 0, 1, 0 }, 80);
+        TracedScene traced(b.scene, device, 40, 30);
+        traced.primary();
+        const auto size = traced.read(traced.frame.pixelSize);
+        const double expected = 5 * 2 * std::tan(40 * 3.14159265358979 / 180) / 30;
+        traced.everyPixel([&](int x, int y) { REQUIRE(size.at(x, y) == doctest::Approx(expected).epsilon(1e-5)); });
+    });
+}
+
+TEST_CASE("pixelSize: on a slanted plane, the root of the area that the pixel's corners span there")
+{
+    onEveryDevice([](const device::Device& device) {
+        SceneBuilder b;
+        b.quad({ 0, 0, 0 }, { 0, 0, 100 }, { 100, 0, 0 });
+        b.camera({ 0, 1, 2 }, { 0, 0.2f, 0 });
+        TracedScene traced(b.scene, device, 64, 48);
+        traced.primary();
+        const auto size = traced.read(traced.frame.pixelSize);
+        for (int y = 24; y < 48; y += 3)
+            for (int x = 0; x < 64; x += 7) {
+                const auto onFloor = [&](double px, double py) {
+                    const glm::dvec3 d =
+                        glm::dvec3(traced.params.forward.x, traced.params.forward.y, traced.params.forward.z)
+                        + (px - 32) * glm::dvec3(traced.params.right.x, traced.params.right.y, traced.params.right.z)
+                        + (py - 24) * glm::dvec3(traced.params.down.x, traced.params.down.y, traced.params.down.z);
+                    return glm::dvec3(0, 1, 2) - d / d.y;
+                };
+                const glm::dvec3 a = onFloor(x, y), c = onFloor(x + 1, y + 1), e = onFloor(x + 1, y),
+                                 f = onFloor(x, y + 1);
+                const double area = 0.5 * glm::length(glm::cross(c - a, f - e));
+                REQUIRE(size.at(x, y) == doctest::Approx(std::sqrt(area)).epsilon(0.01));
+            }
+    });
+}
+
+TEST_CASE("textures are bilinear, repeated, and linear after the sRGB curve")
+{
+    onEveryDevice([](const device::Device& device) {
+        SceneBuilder b;
+        b.quad({ 0, 0, 0 }, { 2, 0, 0 }, { 0, 2, 0 });
+        scene::Texture texture;
+        texture.width = 5;
+        texture.height = 3;
+        std::mt19937 random(3);
+        for (int i = 0; i < 15; ++i)
+            texture.rgba.push_back(static_cast<std::uint32_t>(random()));
+        // One that stands before it, so that offsets matter.
+        b.scene.textures = { texture, texture };
+        b.scene.textures[0].rgba[4] ^= 0xffffffu;
+        b.scene.materials[0].diffuse = { 1, 0.5f, 0.25f };
+        b.scene.materials[0].diffuseTexture = 1;
+        b.scene.materials[0].emission = { 2, 2, 2 };
+        b.scene.materials[0].emissionTexture = 0;
+        for (const float offset : { 0.0f, -1.3f, 1000.5f }) {
+            scene::Scene scene = b.scene;
+            for (std::size_t i = 0; i < scene.geometry.texcoords.size(); ++i)
+                scene.geometry.texcoords[i] = scene.geometry.texcoords[i] * 3 + offset;
+            TracedScene traced(scene, device, 33, 25);
+            traced.primary();
+            const auto diffuse = traced.read(traced.frame.diffuse), emission = traced.read(traced.frame.emission);
+            const auto position = traced.read(traced.frame.position);
+            const auto id = traced.read(traced.frame.objectId);
+            double worst = 0;
+            traced.everyPixel([&](int x, int y) {
+                if (id.at(x, y) == 0)
+                    return;
+                const double u = (0.5 + position.at(x, y) / 4) * 3 + offset,
+                             v = (0.5 + position.at(x, y, 1) / 4) * 3 + offset;
+                worst = std::max(worst, std::fabs(diffuse.at(x, y, 1) - 0.5 * texel(scene.textures[1], u, v, 1)));
+                worst = std::max(worst, std::fabs(emission.at(x, y, 2) - 2 * texel(scene.textures[0], u, v, 2)));
+            });
+            CAPTURE(offset);
+            CHECK(worst < (offset > 100 ? 5e-3 : 2e-4));
+        }
+    });
+}
+
+TEST_CASE("visible lights are seen with their profile, from their emitting side, and hide what is behind them")
+{
+    onEveryDevice([](const device::Device& device) {
+        for (const float facing : { 1.0f, -1.0f })
+            for (const bool twoSided : { false, true }) {
+                SceneBuilder b;
+                b.quad({ 0, 0, -2 }, { 9, 0, 0 }, { 0, 9, 0 });
+                scene::AreaLight& light =
+                    b.light({ 0, 0, 1 }, { 0.5f, 0, 0 }, { 0, facing * 0.25f, 0 }, scene::LightProfile::Gaussian, 6);
+                light.visible = true;
+                light.twoSided = twoSided;
+                b.camera({ 0, 0, 4 }, { 0, 0, 0 });
+                TracedScene traced(b.scene, device, 64, 48);
+                traced.primary();
+                const auto id = traced.read(traced.frame.objectId);
+                const auto emission = traced.read(traced.frame.emission), depth = traced.read(traced.frame.depth);
+                unsigned seen = 0;
+                traced.everyPixel([&](int x, int y) {
+                    const bvh::Ray ray = traced.cameraRay(x, y);
+                    const double t = -3 / ray.direction.z, px = t * ray.direction.x, py = t * ray.direction.y;
+                    if (std::fabs(std::fabs(px) - 0.5) < 1e-4 || std::fabs(std::fabs(py) - 0.25) < 1e-4)
+                        return;
+                    const bool inside = std::fabs(px) < 0.5 && std::fabs(py) < 0.25;
+                    REQUIRE((id.at(x, y) == 0) == inside);
+                    if (!inside)
+                        return;
+                    ++seen;
+                    const double profile = std::exp(-0.5 * 4 * (px * px / 0.25 + py * py / 0.0625));
+                    REQUIRE(
+                        emission.at(x, y) == doctest::Approx(facing > 0 || twoSided ? 6 * profile : 0).epsilon(1e-4));
+                    REQUIRE(depth.at(x, y) == doctest::Approx(3 * shared::vecLength(ray.direction)).epsilon(1e-5));
+                });
+                CHECK(seen > 100);
+            }
+    });
+}
+
+TEST_CASE("rays that leave a surface do not come back to its triangle, at any scale and anywhere")
+{
+    onEveryDevice([](const device::Device& device) {
+        const std::string folder = kernelDir().empty() ? WEDGE_TEST_KERNELS : kernelDir();
+        for (const float scale : { 1e-3f, 1.0f, 1e5f })
+            for (const float away : { 0.0f, 30.0f, 1000.0f }) {
+                std::mt19937 random(17);
+                SceneBuilder b;
+                std::vector<float> rays;
+                constexpr std::uint32_t count = 1500;
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    const glm::dvec3 centre = static_cast<double>(scale)
+                        * (40 * uniform(random) * unitVector(random) + static_cast<double>(away) * unitVector(random));
+                    glm::dvec3 v[3];
+                    const double stretch = std::pow(10.0, uniform(random, -1.5, 0)); // thin ones too
+                    const glm::dvec3 along = unitVector(random), across = unitVector(random);
+                    for (glm::dvec3& p : v)
+                        p = centre
+                            + static_cast<double>(scale)
+                                * (along * uniform(random, -1, 1) + stretch * across * uniform(random, -1, 1));
+                    b.triangle(v[0], v[1], v[2]);
+                    const double wa = uniform(random), wb = (1 - wa) * uniform(random);
+                    const glm::dvec3 target = wa * v[0] + wb * v[1] + (1 - wa - wb) * v[2];
+                    const glm::dvec3 from = target + 2.0 * static_cast<double>(scale) * unitVector(random),
+                                     d = 2.0 * (target - from);
+                    for (const double c : { from.x, from.y, from.z, 0.0, d.x, d.y, d.z, 1.0 })
+                        rays.push_back(static_cast<float>(c));
+                }
+                std::vector<float> directions;
+                for (int k = 0; k < 48; ++k) {
+                    const glm::dvec3 d = unitVector(random);
+                    for (const double c : { d.x, d.y, d.z })
+                        directions.push_back(static_cast<float>(c));
+                }
+                KernelBench bench(device, {}, folder);
+                const bvh::Bvh hierarchy = bvh::build({ b.scene.geometry.positions, b.scene.geometry.indices });
+                const render::DeviceScene s(b.scene, hierarchy, device, bench.queue);
+                const auto triangle = bench.filled(count, 0u), returns = bench.filled(count, 0u);
+                const auto points = bench.filled(6 * count, 0.0f);
+                device::Kernel kernel = bench.library.kernel("self_hit.cl", "selfHit");
+                const auto rayBuffer = bench.buffer(rays), directionBuffer = bench.buffer(directions);
+                kernel.setArgs(s.nodes, s.blocks, s.positions, s.normals, s.texcoords, s.indices, s.materialIds,
+                    s.materials, s.textures, s.texels, s.srgbToLinear, rayBuffer, count, directionBuffer,
+                    std::uint32_t { 48 }, 8 * scale, triangle, returns, points);
+                bench.queue.launch("self hits", device::PassKind::Trace, kernel, count, 16);
+                const auto hit = bench.read(triangle), again = bench.read(returns);
+                const auto at = bench.read(points);
+                unsigned hits = 0, selfHits = 0;
+                double farthest = 0;
+                for (std::size_t i = 0; i < count; ++i) {
+                    if (hit[i] == WEDGE_NO_TRIANGLE)
+                        continue;
+                    ++hits;
+                    selfHits += again[i];
+                    double largest = 0, squared = 0;
+                    for (std::size_t k = 0; k < 3; ++k) {
+                        for (std::size_t c = 0; c < 3; ++c)
+                            largest = std::max<double>(
+                                largest, std::fabs(corner(b.scene.geometry, hit[i], c)[static_cast<int>(k)]));
+                        squared += std::pow(at[6 * i + 3 + k] - at[6 * i + k], 2);
+                    }
+                    farthest = std::max(farthest, std::sqrt(squared) / largest);
+                }
+                CAPTURE(scale);
+                CAPTURE(away);
+                CHECK(hits > count * 8 / 10);
+                CHECK(selfHits == 0);
+                // A few tens of roundings, and no distance of its own.
+                CHECK(farthest < 8e-6);
+            }
+    });
+}

@@ -1,0 +1,54 @@
+// Rays that leave a surface in all directions above it: does any come back to the triangle that it started from?
+#include "surface.h"
+#include "traverse.h"
+
+/// rays: 8 floats each, as in trace_test.cl; directions: 3 floats each, unit.
+/// out: triangle hit first and how many of the rays from there hit it again; points: position and origin (6 floats).
+__kernel void selfHit(__global const BvhNode* restrict nodes, __global const TriangleBlock* restrict blocks,
+                      __global const float* restrict positions, __global const float* restrict normals,
+                      __global const float* restrict texcoords, __global const uint* restrict indices,
+                      __global const uint* restrict materialIds, __global const MaterialData* restrict materials,
+                      __global const TextureData* restrict textures, __global const uint* restrict texels,
+                      __global const float* restrict srgbToLinear, __global const float* restrict rays, uint count,
+                      __global const float* restrict directions, uint directionCount, float length,
+                      __global uint* restrict triangle, __global uint* restrict returns, __global float* restrict points)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count) {
+        return;
+    }
+    const float8 ray = vload8(i, rays);
+    const Vec3 toward = vec3(ray.s4, ray.s5, ray.s6);
+    const Hit hit = closestHit(nodes, blocks, vec3(ray.s0, ray.s1, ray.s2), toward, ray.s3, ray.s7);
+    triangle[i] = hit.triangle;
+    returns[i] = 0u;
+    if (hit.triangle == WEDGE_NO_TRIANGLE) {
+        return;
+    }
+    SurfaceData data;
+    data.positions = positions;
+    data.normals = normals;
+    data.texcoords = texcoords;
+    data.indices = indices;
+    data.materialIds = materialIds;
+    data.materials = materials;
+    data.textures = textures;
+    data.texels = texels;
+    data.srgbToLinear = srgbToLinear;
+    const Surface s = surfaceAt(data, hit, toward);
+    points[6u * i] = s.position.x;
+    points[6u * i + 1u] = s.position.y;
+    points[6u * i + 2u] = s.position.z;
+    points[6u * i + 3u] = s.origin.x;
+    points[6u * i + 4u] = s.origin.y;
+    points[6u * i + 5u] = s.origin.z;
+    for (uint k = 0u; k < directionCount; ++k) {
+        Vec3 d = vec3(directions[3u * k], directions[3u * k + 1u], directions[3u * k + 2u]);
+        const float side = vecDot(d, s.geometric);
+        if (fabs(side) < 1e-4f) {
+            continue;
+        }
+        d = vecScale(d, side < 0.0f ? -length : length);
+        returns[i] += closestHit(nodes, blocks, s.origin, d, 0.0f, 0.9999f).triangle == hit.triangle ? 1u : 0u;
+    }
+}

@@ -1,0 +1,316 @@
+// What the tests of kernels and of rendering share: devices, planes in their padded layout, small scenes.
+#pragma once
+
+#include "host/device/buffer.h"
+#include "host/device/program.h"
+#include "host/device/queue.h"
+#include "host/render/frame.h"
+#include "host/render/passes.h"
+#include "host/render/renderer.h"
+#include "host/scene/scene.h"
+#include "tests/device_testing.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace wedge::test {
+
+using Defines = std::vector<std::pair<std::string, std::string>>;
+
+/// Kernels to test in place of the embedded ones; "" unless WEDGE_TEST_KERNEL_DIR names a folder.
+inline std::string kernelDir()
+{
+    const char* folder = std::getenv("WEDGE_TEST_KERNEL_DIR");
+    return folder != nullptr ? folder : "";
+}
+
+/// Calls test(device) for every usable device.
+template <class Test>
+void onEveryDevice(const Test& test)
+{
+    for (const device::Device& device : usableDevices()) {
+        CAPTURE(device.info().name);
+        test(device);
+    }
+}
+
+/// A device with a queue and the means to launch kernels as the renderer does.
+class KernelBench {
+public:
+    explicit KernelBench(const device::Device& on, const Defines& defines = {}, const std::string& folder = kernelDir())
+        : device(on)
+        , queue(on)
+        , library(on, { defines, false, folder })
+        , passes(library, queue)
+    {
+    }
+
+    /// A buffer that holds the values.
+    template <class T>
+    device::Buffer<T> buffer(const std::vector<T>& values)
+    {
+        device::Buffer<T> out(device, values.size(), "values");
+        if (!values.empty())
+            out.upload(queue, std::span<const T>(values));
+        return out;
+    }
+
+    /// `count` elements, each `value`.
+    template <class T>
+    device::Buffer<T> filled(std::size_t count, T value)
+    {
+        return buffer(std::vector<T>(count, value));
+    }
+
+    template <class T>
+    std::vector<T> read(const device::Buffer<T>& from)
+    {
+        return from.downloadAll(queue);
+    }
+
+    device::Device device;
+    device::TimedQueue queue;
+    device::ProgramLibrary library;
+    render::Passes passes;
+};
+
+/// Planes of one value a pixel in the layout of kernels/shared/frame.h, padding included.
+template <class T>
+class Planes {
+public:
+    Planes(const render::PlaneLayout& planeLayout, std::size_t count, T initial)
+        : layout(planeLayout)
+        , values(count * planeLayout.size, initial)
+    {
+    }
+    std::size_t index(int x, int y, std::size_t plane = 0) const
+    {
+        return plane * layout.size
+            + shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), layout.stride);
+    }
+    T& at(int x, int y, std::size_t plane = 0) { return values[index(x, y, plane)]; }
+    const T& at(int x, int y, std::size_t plane = 0) const { return values[index(x, y, plane)]; }
+    void setVector(int x, int y, glm::dvec3 v) requires std::is_same_v<T, float>
+    {
+        for (int k = 0; k < 3; ++k)
+            at(x, y, static_cast<std::size_t>(k)) = static_cast<float>(v[k]);
+    }
+    glm::dvec3 vector(int x, int y) const { return { at(x, y), at(x, y, 1), at(x, y, 2) }; }
+
+    render::PlaneLayout layout;
+    std::vector<T> values;
+};
+
+/// The same over values that a device wrote.
+template <class T>
+Planes<T> planesOf(const render::PlaneLayout& layout, std::vector<T> values)
+{
+    Planes<T> out(layout, 0, T {});
+    out.values = std::move(values);
+    return out;
+}
+
+inline double uniform(std::mt19937& random, double lo = 0, double hi = 1)
+{
+    return lo + (hi - lo) * (static_cast<double>(random()) + 0.5) / 4294967296.0;
+}
+
+inline glm::dvec3 unitVector(std::mt19937& random)
+{
+    for (;;) {
+        const glm::dvec3 v(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
+        const double length = glm::length(v);
+        if (length > 0.01 && length <= 1)
+            return v / length;
+    }
+}
+
+/// A scene put together in code. Objects are numbered from 1, in the order of newObject().
+class SceneBuilder {
+public:
+    SceneBuilder()
+    {
+        scene.materials.emplace_back();
+        scene.materials[0].diffuse = { 0.8f, 0.7f, 0.6f };
+    }
+
+    void newObject() { scene.geometry.objectNames.push_back("object"); }
+
+    void triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c, std::uint32_t material = 0)
+    {
+        for (const glm::vec3& v : { a, b, c })
+            vertex(v, glm::vec3(0), 0, 0);
+        close(material);
+    }
+
+    /// A parallelogram with its normal along cross(halfU, halfV), texture coordinates 0 to 1 along both.
+    void quad(glm::vec3 centre, glm::vec3 halfU, glm::vec3 halfV, std::uint32_t material = 0)
+    {
+        const float corners[6][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, -1 }, { 1, 1 }, { -1, 1 } };
+        for (int i = 0; i < 6; ++i) {
+            const float u = corners[i][0], v = corners[i][1];
+            vertex(centre + u * halfU + v * halfV, glm::vec3(0), 0.5f + 0.5f * u, 0.5f + 0.5f * v);
+            if (i % 3 == 2)
+                close(material);
+        }
+    }
+
+    void box(glm::vec3 lo, glm::vec3 hi, std::uint32_t material = 0)
+    {
+        const glm::vec3 c = 0.5f * (lo + hi), h = 0.5f * (hi - lo);
+        for (int axis = 0; axis < 3; ++axis)
+            for (const float side : { -1.0f, 1.0f }) {
+                glm::vec3 out(0), u(0), v(0);
+                out[axis] = side * h[axis];
+                u[(axis + 1) % 3] = side * h[(axis + 1) % 3];
+                v[(axis + 2) % 3] = h[(axis + 2) % 3];
+                quad(c + out, u, v, material);
+            }
+    }
+
+    /// A sphere with smooth normals.
+    void sphere(glm::vec3 centre, float radius, int rings = 12, std::uint32_t material = 0)
+    {
+        const auto at = [](int ring, int sector, int rs) {
+            const double theta = 3.14159265358979 * ring / rs, phi = 3.14159265358979 * sector / rs;
+            return glm::vec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
+        };
+        for (int ring = 0; ring < rings; ++ring)
+            for (int sector = 0; sector < 2 * rings; ++sector) {
+                const glm::vec3 a = at(ring, sector, rings), b = at(ring, sector + 1, rings);
+                const glm::vec3 c = at(ring + 1, sector + 1, rings), d = at(ring + 1, sector, rings);
+                for (const glm::vec3& n : { a, b, c, a, c, d }) {
+                    vertex(centre + radius * n, n, 0, 0);
+                    if (vertices() % 3 == 0)
+                        close(material);
+                }
+            }
+    }
+
+    scene::AreaLight& light(
+        glm::vec3 centre, glm::vec3 halfU, glm::vec3 halfV, scene::LightProfile profile, float radiance)
+    {
+        scene::AreaLight light;
+        light.centre = centre;
+        light.halfU = halfU;
+        light.halfV = halfV;
+        light.profile = profile;
+        light.radiance = glm::vec3(radiance);
+        light.visible = false;
+        scene.areaLights.push_back(light);
+        return scene.areaLights.back();
+    }
+
+    void camera(glm::vec3 eye, glm::vec3 lookAt, glm::vec3 up = { 0, 1, 0 }, float fov = 45)
+    {
+        scene.camera = { eye, lookAt, up, fov };
+    }
+
+    scene::Scene scene;
+
+private:
+    std::size_t vertices() const { return scene.geometry.positions.size() / 3; }
+
+    void vertex(glm::vec3 p, glm::vec3 n, float u, float v)
+    {
+        scene::Geometry& g = scene.geometry;
+        g.positions.insert(g.positions.end(), { p.x, p.y, p.z });
+        g.normals.insert(g.normals.end(), { n.x, n.y, n.z });
+        g.texcoords.insert(g.texcoords.end(), { u, v });
+        g.indices.push_back(static_cast<std::uint32_t>(vertices() - 1));
+    }
+
+    /// Makes the last three vertices a triangle.
+    void close(std::uint32_t material)
+    {
+        if (scene.geometry.objectNames.empty())
+            newObject();
+        scene.geometry.materialIds.push_back(material);
+        scene.geometry.objectIds.push_back(static_cast<std::uint32_t>(scene.geometry.objectNames.size()));
+    }
+};
+
+/// A floor with two boxes, a slanted plate and a sphere under two area lights of different kinds and colours.
+inline scene::Scene smallScene()
+{
+    SceneBuilder b;
+    b.newObject();
+    b.quad({ 0, 0, 0 }, { 0, 0, 4 }, { 4, 0, 0 });
+    b.newObject();
+    b.box({ -1.2f, 0, -0.4f }, { -0.7f, 0.9f, 0.1f });
+    b.newObject();
+    b.quad({ 0.6f, 0.8f, 0 }, { 0.1f, 0.05f, 0.4f }, { 0.4f, -0.1f, 0 });
+    b.newObject();
+    b.sphere({ 0, 0.35f, 0.7f }, 0.35f);
+    b.light({ 0.2f, 3, 0.3f }, { 0.5f, 0, 0 }, { 0, 0, 0.5f }, scene::LightProfile::Gaussian, 20).radiance = { 20, 18,
+        15 };
+    b.light({ -2, 2.5f, 1 }, { 0, 0, 0.3f }, { 0.2f, -0.2f, 0 }, scene::LightProfile::Uniform, 15).twoSided = true;
+    b.camera({ 0, 2.2f, 4 }, { 0, 0.3f, 0 });
+    b.scene.background = { 0.1f, 0.2f, 0.3f };
+    return b.scene;
+}
+
+/// Renders one scene with one device's default and WEDGE_TEST_KERNEL_DIR's kernels.
+inline render::Options renderOptions()
+{
+    render::Options options;
+    options.kernelDir = kernelDir();
+    return options;
+}
+
+/// R, G, B of the pixels of window, row by row, from the planes of a frame.
+inline std::vector<float> pixels(render::Renderer& renderer, const device::Buffer<float>& planes, image::Window window)
+{
+    const std::vector<float> values = planes.downloadAll(renderer.queue());
+    const render::PlaneLayout& layout = renderer.frame().layout;
+    const std::size_t count = values.size() / layout.size;
+    std::vector<float> out;
+    for (int y = window.y0; y < window.y1; ++y)
+        for (int x = window.x0; x < window.x1; ++x)
+            for (std::size_t plane = 0; plane < count; ++plane)
+                out.push_back(values[plane * layout.size
+                    + shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), layout.stride)]);
+    return out;
+}
+
+/// The beauty of the whole frame, rendered with these settings.
+inline std::vector<float> renderPixels(render::Renderer& renderer, const render::Settings& settings)
+{
+    renderer.render(settings);
+    return pixels(renderer, renderer.frame().beauty, { 0, 0, settings.width, settings.height });
+}
+
+inline render::Settings sized(render::Settings settings, int width, int height)
+{
+    settings.width = width;
+    settings.height = height;
+    return settings;
+}
+
+/// Root of the mean squared difference.
+inline double rmse(std::span<const float> a, std::span<const float> b)
+{
+    REQUIRE(a.size() == b.size());
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        sum += (static_cast<double>(a[i]) - b[i]) * (static_cast<double>(a[i]) - b[i]);
+    return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+/// How many values are NaN or infinite.
+inline std::size_t notFinite(std::span<const float> values)
+{
+    std::size_t count = 0;
+    for (const float v : values)
+        count += std::isfinite(v) ? 0 : 1;
+    return count;
+}
+
+} // namespace wedge::test

@@ -1,0 +1,96 @@
+// A scene on a device with its G-buffer, for tests of the kernels that trace rays.
+#pragma once
+
+#include "bvh/host_traverse.h"
+#include "host/render/device_scene.h"
+#include "kernels/shared/light.h"
+#include "kernels/shared/wedge.h"
+#include "tests/render_support.h"
+
+#include <string>
+#include <vector>
+
+namespace wedge::test {
+
+/// One scene's buffers, and the tracing kernels over them as the renderer launches them.
+class TracedScene {
+public:
+    TracedScene(
+        const scene::Scene& sceneData, const device::Device& device, int width, int height, const Defines& defines = {})
+        : scene(sceneData)
+        , bench(device, defines)
+        , hierarchy(bvh::build({ scene.geometry.positions, scene.geometry.indices }))
+        , onDevice(scene, hierarchy, device, bench.queue)
+        , layout(width, height)
+        , frame(device, bench.queue, layout)
+        , params(render::frameParams(scene, layout, { 0, 0, width, height }, 5))
+        , specular(!defines.empty())
+        , sums(device, layout.size * (specular ? 4 : 2), "sums")
+        , value(device, layout.size * (specular ? 2 : 1), "value")
+        , slopes(device, layout.size * 2, "slopes")
+        , taken(device, layout.size, "taken")
+        , wanted(device, layout.size, "wanted")
+    {
+        for (device::Buffer<float>* b : { &sums, &value, &slopes })
+            b->fill(bench.queue, 0.0f);
+        taken.fill(bench.queue, 0u);
+        wanted.fill(bench.queue, 0u);
+    }
+
+    void primary()
+    {
+        bench.passes.tiles("primary", device::PassKind::Trace, "primary.cl", "primary", params, 1.0, onDevice.nodes,
+            onDevice.blocks, onDevice.positions, onDevice.normals, onDevice.texcoords, onDevice.indices,
+            onDevice.materialIds, onDevice.objectIds, onDevice.materials, onDevice.textures, onDevice.texels,
+            onDevice.srgbToLinear, onDevice.areaLights, static_cast<std::uint32_t>(onDevice.areaLightList.size()),
+            frame.position, frame.normal, frame.origin, frame.objectId, frame.depth, frame.pixelSize, frame.diffuse,
+            frame.specular, frame.emission, frame.gloss);
+    }
+    void firstPass(const shared::SampleParams& p)
+    {
+        bench.passes.tiles("first", device::PassKind::Trace, "area_light.cl", "firstPass", params, 1.0, p,
+            onDevice.areaLightList[p.light], onDevice.nodes, onDevice.blocks, frame.position, frame.normal,
+            frame.origin, frame.objectId, frame.gloss, sums, taken, value, slopes, frame.rays);
+    }
+    void secondPass(const shared::SampleParams& p, std::uint32_t last)
+    {
+        bench.passes.tiles("second", device::PassKind::Trace, "area_light.cl", "secondPass", params, 1.0, p,
+            onDevice.areaLightList[p.light], onDevice.nodes, onDevice.blocks, frame.position, frame.normal,
+            frame.origin, frame.objectId, frame.gloss, wanted, last, sums, taken, value, frame.rays);
+    }
+    template <class T>
+    Planes<T> read(const device::Buffer<T>& buffer)
+    {
+        return planesOf(layout, bench.read(buffer));
+    }
+
+    /// The ray through the pixel's centre.
+    bvh::Ray cameraRay(int x, int y) const
+    {
+        const shared::Vec3 d =
+            shared::cameraDirection(params.forward, params.right, params.down, static_cast<float>(params.width),
+                static_cast<float>(params.height), static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+        return { params.eye, 0.0f, d, std::numeric_limits<float>::infinity() };
+    }
+
+    template <class Visit>
+    void everyPixel(const Visit& visit) const
+    {
+        for (int y = 0; y < static_cast<int>(layout.height); ++y)
+            for (int x = 0; x < static_cast<int>(layout.width); ++x)
+                visit(x, y);
+    }
+
+    const scene::Scene scene;
+    KernelBench bench;
+    bvh::Bvh hierarchy;
+    render::DeviceScene onDevice;
+    render::PlaneLayout layout;
+    render::Frame frame;
+    shared::FrameParams params;
+    bool specular;
+    device::Buffer<float> sums, value, slopes;
+    device::Buffer<std::uint32_t> taken, wanted;
+};
+
+} // namespace wedge::test
