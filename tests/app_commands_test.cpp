@@ -105,7 +105,8 @@ TEST_CASE("the command line goes before the scene file")
 void interruptRendering(const Workplace& place, pid_t process)
 {
     siginfo_t ended {};
-    while (!contains(place.said(), "kernels ready") && ended.si_pid == 0) {
+    // Bounded, so that a program that never says so fails the test instead of running for ever.
+    for (int i = 0; i < 9000 && !contains(place.said(), "kernels ready") && ended.si_pid == 0; ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT);
     }
