@@ -20,11 +20,13 @@ fingerprint() { # SCENE ARGUMENT...
 render() { # SCENE NAME ARGUMENT...
     local scene=$1 name=$1_$2
     shift 2
-    local inputs reference=()
+    local inputs
+    local -a reference=() compared=()
     if [ "$name" != "${scene}_reference" ]; then
         reference=(--reference "out/${scene}_reference.exr")
+        compared=("$(cat "out/.made/${scene}_reference")")
     fi
-    inputs=$(fingerprint "$scene" "$@" "$(cat "out/.made/${scene}_reference" 2>/dev/null)")
+    inputs=$(fingerprint "$scene" "$size" "$@" "${compared[@]}")
     echo
     if [ -f "out/$name.exr" ] && [ -f "out/$name.png" ] && [ -f "out/$name.txt" ] && [ -f "out/$name.json" ] &&
         [ "$(cat "out/.made/$name" 2>/dev/null)" = "$inputs" ]; then

@@ -17,6 +17,6 @@ if [ -f "$cache" ] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$(pwd -P)" "$ca
 fi
 # Written last of all, so its absence also tells of an interrupted configuration. Later changes are Ninja's to notice.
 if [ ! -f build/release/build.ninja ]; then
-    cmake --preset release
+    cmake --preset release --log-level=WARNING
 fi
 cmake --build --preset release ${1:+--target "$@"}
