@@ -6,6 +6,8 @@
 
 /// The fine one serves receivers nearer to the light's centre than this many of its largest half extents.
 #define WEDGE_NEAR_LIGHT 3.0f
+/// The coarse one serves lobes whose squared width is at least the light's squared angular half extent over this.
+#define WEDGE_COARSE_LOBE 2.0f
 
 /// Geometry terms of 16 receivers and one point of the light, 1/m^2; see geometryTerm().
 WEDGE_FN float16 geometryTerm16(Vec3x16 normal, Vec3x16 d, Vec3 lightNormal, uint twoSided)
@@ -125,7 +127,12 @@ WEDGE_FN float specularShading(SampleParams params, AreaLight light, Receiver r,
         return 1.0f;
     }
     if (params.shading == WEDGE_SHADING_RATIO) {
-        return unshadowedSpecular(light, r, nodes + 2u * WEDGE_COARSE_NODES, WEDGE_FINE_NODES);
+        // A lobe of exponent m is about 1/sqrt(m) wide: the coarse rule does for a light that is small beside it.
+        const Vec3 toLight = vecSub(light.centre, r.position);
+        const float extent = fmax(vecDot(light.halfU, light.halfU), vecDot(light.halfV, light.halfV));
+        const bool wide = extent * fmax(r.lobe.exponent, 1.0f) < WEDGE_COARSE_LOBE * vecDot(toLight, toLight);
+        return wide ? unshadowedSpecular(light, r, nodes, WEDGE_COARSE_NODES)
+                    : unshadowedSpecular(light, r, nodes + 2u * WEDGE_COARSE_NODES, WEDGE_FINE_NODES);
     }
     const Vec3 d = vecSub(light.centre, r.position);
     const float g = geometryTerm(r.normal, d, light.normal, light.twoSided);
@@ -155,7 +162,7 @@ __kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light
     r.position = loadVec(position, size, i);
     r.normal = loadVec(normal, size, i);
     r.view = vecNormalize(vecSub(frame.eye, r.position));
-    r.gloss = gloss[i];
+    r.lobe = glossLobe(gloss[i]);
     const Vec3 reflected = vecScale(vecMul(ks, light.power), specularShading(params, light, r, nodes));
     storeVec(direct, size, i, vecMad(loadVec(direct, size, i), reflected, value[size + i]));
     storeVec(directNoisy, size, i, vecMad(loadVec(directNoisy, size, i), reflected, noisy[size + i]));

@@ -28,7 +28,6 @@ __kernel void deltaLights(FrameParams frame, __global const DeltaLight* restrict
     const Receiver r = loadReceiver(frame, 0u, x, y, i, position, normal, origin, gloss);
     const Vec3 kd = loadVec(diffuse, frame.planeSize, i);
     const Vec3 ks = loadVec(specular, frame.planeSize, i);
-    const uint model = r.gloss < 0.0f ? WEDGE_SPECULAR_PHONG : WEDGE_SPECULAR_BLINN_PHONG;
     Vec3 radiance = vec3(0.0f, 0.0f, 0.0f);
     for (uint k = 0u; k < lightCount; ++k) {
         const DeltaLight light = lights[k];
@@ -44,7 +43,7 @@ __kernel void deltaLights(FrameParams frame, __global const DeltaLight* restrict
             continue;
         }
         const float falloff = light.directional != 0u ? cosine : cosine / vecDot(toLight, toLight);
-        const Vec3 reflected = vecMad(vecScale(kd, WEDGE_INV_PI), ks, specularLobe(r.normal, r.view, l, fabs(r.gloss), model));
+        const Vec3 reflected = vecMad(vecScale(kd, WEDGE_INV_PI), ks, lobeValue(r.lobe, r.normal, r.view, l));
         radiance = vecMad(radiance, vecMul(reflected, light.colour), falloff);
     }
     storeVec(direct, frame.planeSize, i, vecAdd(loadVec(direct, frame.planeSize, i), radiance));

@@ -12,7 +12,7 @@ typedef struct {
     Vec3 position; ///< what is shaded
     Vec3 normal;   ///< unit
     Vec3 view;     ///< unit, to the eye
-    float gloss;   ///< exponent; negative: Phong
+    Lobe lobe;     ///< of the specular reflection
     uint seed;     ///< of this pixel and light
 } Receiver;
 
@@ -21,6 +21,12 @@ typedef struct {
     float diffuse;  ///< weight of the sample's visibility in the diffuse term, 0: no ray is needed
     float specular; ///< the same in the specular term
 } LightSample;
+
+/// The lobe of a gloss plane's value: its exponent, negative for Phong.
+WEDGE_FN Lobe glossLobe(float gloss)
+{
+    return makeLobe(fabs(gloss), gloss < 0.0f ? WEDGE_SPECULAR_PHONG : WEDGE_SPECULAR_BLINN_PHONG);
+}
 
 WEDGE_FN Receiver loadReceiver(FrameParams frame, uint light, uint x, uint y, uint i,
                                __global const float* position, __global const float* normal,
@@ -31,7 +37,7 @@ WEDGE_FN Receiver loadReceiver(FrameParams frame, uint light, uint x, uint y, ui
     r.position = loadVec(position, frame.planeSize, i);
     r.normal = loadVec(normal, frame.planeSize, i);
     r.view = vecNormalize(vecSub(frame.eye, r.position));
-    r.gloss = gloss[i];
+    r.lobe = glossLobe(gloss[i]);
     r.seed = hashCombine(hashCombine(frame.seed, light), y * frame.width + x);
     return r;
 }
@@ -39,8 +45,7 @@ WEDGE_FN Receiver loadReceiver(FrameParams frame, uint light, uint x, uint y, ui
 /// Weight of the light's point at vector d from the receiver in the specular term.
 WEDGE_FN float specularWeight(Receiver r, Vec3 d, float geometry)
 {
-    const uint model = r.gloss < 0.0f ? WEDGE_SPECULAR_PHONG : WEDGE_SPECULAR_BLINN_PHONG;
-    return geometry * specularLobe(r.normal, r.view, vecNormalize(d), fabs(r.gloss), model);
+    return geometry * lobeValue(r.lobe, r.normal, r.view, vecNormalize(d));
 }
 
 /// Position in [0,1)^2 of sample `index` of `count`.

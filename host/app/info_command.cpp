@@ -2,11 +2,9 @@
 #include "host/app/render_options.h"
 #include "host/app/render_settings.h"
 #include "host/device/memory_plan.h"
-#include "host/render/device_scene.h"
-#include "host/render/frame.h"
+#include "host/render/renderer.h"
 #include "host/scene/scene.h"
 
-#include <algorithm>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -27,18 +25,6 @@ struct Facts {
 };
 
 /// What a frame of the scene's own settings would take, asked without a device.
-device::MemoryPlan memoryPlan(const scene::Scene& scene, const bvh::Bvh& hierarchy, const render::Settings& settings)
-{
-    const bool specular = std::ranges::any_of(
-        scene.materials, [](const scene::Material& m) { return m.specular.r + m.specular.g + m.specular.b > 0; });
-    const render::PlaneLayout layout(settings.width, settings.height);
-    device::MemoryPlan plan;
-    render::DeviceScene::plan(plan, scene, hierarchy);
-    render::Frame::plan(plan, layout);
-    render::Term::plan(plan, layout, specular, settings.method == render::Method::AxisAligned);
-    return plan;
-}
-
 Facts gather(const std::string& path)
 {
     Facts facts;
@@ -48,7 +34,7 @@ Facts gather(const std::string& path)
         bvh::build({ facts.scene.geometry.positions, facts.scene.geometry.indices }, bvh::Config());
     facts.bvh = hierarchy.statistics;
     facts.settings = resolveSettings(RenderOptions(), facts.scene);
-    facts.memory = memoryPlan(facts.scene, hierarchy, facts.settings);
+    facts.memory = render::Renderer::plan(facts.scene, hierarchy, facts.settings);
     return facts;
 }
 

@@ -15,7 +15,6 @@ using render::Method;
 using render::Sampling;
 
 constexpr int defaultMonteCarloSpp = 64;
-constexpr int mostSamples = 1 << 20; // that settings may ask for; a preset's cap of ten times the mean may go beyond
 
 Method resolveMethod(const RenderOptions& options, const scene::Scene& scene)
 {
@@ -100,7 +99,7 @@ render::Settings resolveSettings(const RenderOptions& o, const scene::Scene& sce
     s.sampler = o.sampler.value_or(s.sampler);
     if (method == Method::AxisAligned) {
         const std::optional<int> most = o.maxSpp ? o.maxSpp : file.maxSpp;
-        s.maxSpp = most.value_or(std::min(s.maxSpp, mostSamples));
+        s.maxSpp = most.value_or(s.maxSpp);
         applyAblations(o, s);
     }
     render::validate(s);

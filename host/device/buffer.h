@@ -39,7 +39,7 @@ public:
             throw Error(fmt::format("buffer {} of {} elements on {}", name_, count, info.name),
                 fmt::format("{:.1f} MiB, the limit is {}", static_cast<double>(count) * sizeof(T) / 1048576.0,
                     mebibytes(info.maxAllocation)),
-                "render a smaller image or crop, or choose a device with more memory");
+                "render a smaller image, or choose a device with more memory");
         }
         const std::size_t bytes = std::max<std::size_t>(count, 1) * sizeof(T);
         checked(fmt::format("buffer {} ({})", name_, mebibytes(bytes)), info.name,

@@ -88,7 +88,7 @@ std::string_view remedyFor(cl_int code)
     case CL_MEM_OBJECT_ALLOCATION_FAILURE:
     case CL_OUT_OF_HOST_MEMORY:
     case CL_OUT_OF_RESOURCES:
-        return "render a smaller image or crop, close programs that use the device's memory, or choose another device";
+        return "render a smaller image, close programs that use the device's memory, or choose another device";
     case CL_INVALID_COMMAND_QUEUE:
         return "the driver has dropped the queue, as a watchdog does after seconds in one launch; choose another "
                "device or update its driver";

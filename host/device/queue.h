@@ -86,8 +86,12 @@ public:
     /// Finishes; the device time of all records since they were last taken.
     double deviceMilliseconds();
 
-    /// Called between the batches of launchTiled() with the work units finished since the queue was made.
-    void setProgress(std::function<void(double workUnitsDone)> progress) { progress_ = std::move(progress); }
+    /// Called between the batches of launchTiled() with the work units finished since this call.
+    void setProgress(std::function<void(double workUnitsDone)> progress)
+    {
+        progress_ = std::move(progress);
+        workUnitsDone_ = 0.0;
+    }
     /// Watched by launchTiled(); nullptr for none. Must outlive its use here.
     void setCancelFlag(const std::atomic<bool>* flag) { cancel_ = flag; }
     /// How long a batch of launchTiled() should take; watchdogs kill launches of seconds. 100 unless set.

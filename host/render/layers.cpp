@@ -13,12 +13,6 @@ namespace {
 
 constexpr const char* widthLayer = "filterWidth";
 
-image::Window outputWindow(const Settings& settings)
-{
-    const bool whole = settings.crop.width() == 0 || settings.crop.height() == 0;
-    return whole ? image::Window { 0, 0, settings.width, settings.height } : settings.crop;
-}
-
 /// Copies planes of the frame to channels of the image over the output's window.
 class LayerReader {
 public:

@@ -23,12 +23,6 @@ bool hasSpecular(const scene::Scene& scene)
     return std::ranges::any_of(scene.materials, [](const scene::Material& m) { return m.specular.r + m.specular.g + m.specular.b > 0; });
 }
 
-image::Window outputWindow(const Settings& settings)
-{
-    const bool whole = settings.crop.width() == 0 || settings.crop.height() == 0;
-    return whole ? image::Window { 0, 0, settings.width, settings.height } : settings.crop;
-}
-
 device::BuildOptions programOptions(const scene::Scene& scene, const Options& options)
 {
     device::BuildOptions out;
@@ -69,13 +63,13 @@ Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Opti
 {
 }
 
-device::MemoryPlan Renderer::plan(const Settings& settings) const
+device::MemoryPlan Renderer::plan(const scene::Scene& scene, const bvh::Bvh& bvh, const Settings& settings)
 {
     const PlaneLayout layout(settings.width, settings.height);
     device::MemoryPlan plan;
-    DeviceScene::plan(plan, scene_, bvh_);
+    DeviceScene::plan(plan, scene, bvh);
     Frame::plan(plan, layout);
-    Term::plan(plan, layout, hasSpecular(scene_), needsAnalysis(settings));
+    Term::plan(plan, layout, hasSpecular(scene), needsAnalysis(settings));
     return plan;
 }
 

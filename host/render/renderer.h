@@ -63,7 +63,8 @@ public:
     Renderer(const scene::Scene& scene, const device::Device& device, Options options = {});
 
     /// Device memory that a frame of these settings takes, before anything of it is allocated.
-    device::MemoryPlan plan(const Settings& settings) const;
+    static device::MemoryPlan plan(const scene::Scene& scene, const bvh::Bvh& bvh, const Settings& settings);
+    device::MemoryPlan plan(const Settings& settings) const { return plan(scene_, bvh_, settings); }
 
     /// Renders; the result stays on the device until the next call. Throws Error if memory does not suffice or the
     /// device fails. keepLights: fills lightPlanes() for the width layers.

@@ -51,7 +51,8 @@ Settings axisAligned(std::optional<int> spp, std::optional<float> mu)
         const float count = referenceSpp * (*mu / referenceMu) * (*mu / referenceMu);
         s.spp = static_cast<int>(std::lround(std::clamp(count, static_cast<float>(WEDGE_FIRST_PASS_RAYS), 1e5f)));
     }
-    s.maxSpp = std::max(s.maxSpp, 10 * s.spp);
+    // A pixel may take ten times the mean, but no more than validate() accepts.
+    s.maxSpp = std::max(s.maxSpp, std::min(10 * std::min(s.spp, largestSpp), largestSpp));
     return s;
 }
 
@@ -96,6 +97,12 @@ void validate(const Settings& s)
         requireRange(s.shading != Shading::Inside || s.counts != Counts::Variance || s.sampling == Sampling::Uniform,
             "adaptive counts", "from variance, with the cosine inside the filtered term", "counts from the spectrum, or uniform ones");
     }
+}
+
+image::Window outputWindow(const Settings& s)
+{
+    const bool whole = s.crop.width() == 0 || s.crop.height() == 0;
+    return whole ? image::Window { 0, 0, s.width, s.height } : s.crop;
 }
 
 std::string methodName(Method method) { return method == Method::MonteCarlo ? "mc" : "aaf"; }

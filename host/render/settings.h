@@ -97,7 +97,10 @@ Settings axisAligned(std::optional<int> spp = {}, std::optional<float> mu = {});
 /// Axis-aligned filtering as thesis chapter 3 has it.
 Settings asPublished(float mu = 2.0f);
 
-/// Throws Error or UsageError if a value is out of its range.
+/// The pixels that a frame of these settings produces: the crop, or all.
+image::Window outputWindow(const Settings& settings);
+
+/// Throws UsageError if a value is out of its range.
 void validate(const Settings& settings);
 
 /// "aaf" and the like.

@@ -22,16 +22,40 @@ WEDGE_FN float specularNormalization(float exponent, uint model)
     return (exponent + 2.0f) * (exponent + 4.0f) * (0.125f * WEDGE_INV_PI) / (pow(2.0f, -0.5f * exponent) + exponent);
 }
 
-/// The specular lobe in 1/sr for unit vectors: n normal, v to the viewer, l to the light, both above n's horizon.
-WEDGE_FN float specularLobe(Vec3 n, Vec3 v, Vec3 l, float exponent, uint model)
+/// A specular lobe with what does not depend on directions worked out once.
+typedef struct {
+    float exponent;
+    uint model; ///< WEDGE_SPECULAR_*
+    float normalization;
+    float leastCosine; ///< below it the lobe is under 1e-7 of its peak and counts as 0: most of a scene's directions
+} Lobe;
+
+WEDGE_FN Lobe makeLobe(float exponent, uint model)
+{
+    Lobe lobe;
+    lobe.exponent = exponent;
+    lobe.model = model;
+    lobe.normalization = specularNormalization(exponent, model);
+    lobe.leastCosine = exp(-16.118096f / fmax(exponent, 1e-3f));
+    return lobe;
+}
+
+/// The lobe in 1/sr for unit vectors: n normal, v to the viewer, l to the light, both above n's horizon.
+WEDGE_FN float lobeValue(Lobe lobe, Vec3 n, Vec3 v, Vec3 l)
 {
     float c;
-    if (model == WEDGE_SPECULAR_PHONG) {
+    if (lobe.model == WEDGE_SPECULAR_PHONG) {
         c = 2.0f * vecDot(n, v) * vecDot(n, l) - vecDot(v, l);
     } else {
         c = vecDot(n, vecNormalize(vecAdd(v, l)));
     }
-    return c > 0.0f ? specularNormalization(exponent, model) * pow(c, exponent) : 0.0f;
+    return c > lobe.leastCosine ? lobe.normalization * pow(c, lobe.exponent) : 0.0f;
+}
+
+/// The same for a lobe that is used once.
+WEDGE_FN float specularLobe(Vec3 n, Vec3 v, Vec3 l, float exponent, uint model)
+{
+    return lobeValue(makeLobe(exponent, model), n, v, l);
 }
 
 WEDGE_SHARED_END
