@@ -1,0 +1,97 @@
+#include "benchmarks/common/fingerprint.h"
+
+#include <fmt/format.h>
+
+namespace wedge::benchmark {
+namespace {
+
+void add(Fingerprint& f, const glm::vec3& v)
+{
+    f.add(v.x);
+    f.add(v.y);
+    f.add(v.z);
+}
+
+void add(Fingerprint& f, const scene::Material& m)
+{
+    add(f, m.diffuse);
+    add(f, m.specular);
+    add(f, m.emission);
+    f.add(m.exponent);
+    f.add(static_cast<int>(m.specularModel));
+    for (const int texture : { m.diffuseTexture, m.specularTexture, m.exponentTexture, m.emissionTexture }) {
+        f.add(texture);
+    }
+}
+
+void add(Fingerprint& f, const scene::AreaLight& l)
+{
+    for (const glm::vec3& v : { l.centre, l.halfU, l.halfV, l.radiance }) {
+        add(f, v);
+    }
+    f.add(static_cast<int>(l.profile));
+    f.add(l.cut);
+    f.add(l.twoSided);
+    f.add(l.visible);
+}
+
+void addLights(Fingerprint& f, const scene::Scene& scene)
+{
+    for (const scene::AreaLight& light : scene.areaLights) {
+        add(f, light);
+    }
+    for (const scene::PointLight& light : scene.pointLights) {
+        add(f, light.position);
+        add(f, light.intensity);
+    }
+    for (const scene::DirectionalLight& light : scene.directionalLights) {
+        add(f, light.direction);
+        add(f, light.irradiance);
+    }
+}
+
+} // namespace
+
+void Fingerprint::bytes(const void* data, std::size_t count)
+{
+    const auto* byte = static_cast<const unsigned char*>(data);
+    for (std::size_t i = 0; i < count; ++i) {
+        state_ = (state_ ^ byte[i]) * 0x100000001b3u;
+    }
+}
+
+void Fingerprint::add(std::string_view text)
+{
+    add(text.size());
+    bytes(text.data(), text.size());
+}
+
+std::string Fingerprint::text() const { return fmt::format("{:016x}", state_); }
+
+void add(Fingerprint& f, const scene::Scene& scene)
+{
+    const scene::Geometry& g = scene.geometry;
+    for (const std::vector<float>* floats : { &g.positions, &g.normals, &g.texcoords }) {
+        f.add(std::span<const float>(*floats));
+    }
+    for (const std::vector<std::uint32_t>* ids : { &g.indices, &g.materialIds, &g.objectIds }) {
+        f.add(std::span<const std::uint32_t>(*ids));
+    }
+    for (const scene::Material& material : scene.materials) {
+        add(f, material);
+    }
+    for (const scene::Texture& texture : scene.textures) {
+        f.add(texture.width);
+        f.add(texture.height);
+        f.add(std::span<const std::uint32_t>(texture.rgba));
+    }
+    f.add(scene.areaLights.size());
+    f.add(scene.pointLights.size());
+    addLights(f, scene);
+    for (const glm::vec3& v : { scene.background, scene.camera.eye, scene.camera.lookAt, scene.camera.up }) {
+        add(f, v);
+    }
+    f.add(scene.camera.verticalFov);
+}
+
+} // namespace wedge::benchmark

@@ -1,0 +1,125 @@
+#include "benchmarks/common/references.h"
+
+#include "benchmarks/common/fingerprint.h"
+#include "host/device/source.h"
+#include "host/error.h"
+#include "host/image/exr.h"
+#include "host/image/metrics.h"
+#include "host/render/layers.h"
+#include "host/render/metadata.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace wedge::benchmark {
+namespace {
+
+constexpr const char* noiseKey = "referenceNoise";
+constexpr const char* kernelsKey = "referenceKernels";
+
+std::string kernelFingerprint()
+{
+    Fingerprint f;
+    for (const char* file : { "primary.cl", "area_light.cl", "delta_lights.cl", "composite.cl" }) {
+        f.add(device::flattenKernel("", file).text);
+    }
+    return f.text();
+}
+
+std::string pathOf(const render::Renderer& renderer, const render::Settings& settings, const std::string& folder,
+    const std::string& name)
+{
+    Fingerprint f;
+    add(f, renderer.scene());
+    for (const auto& [key, value] : render::describe(settings)) {
+        f.add(key);
+        f.add(value);
+    }
+    f.add(settings.width);
+    f.add(settings.height);
+    f.add(settings.seed);
+    f.add(render::version());
+    return (std::filesystem::path(folder) / fmt::format("{}_{}.exr", name, f.text())).string();
+}
+
+image::RgbImage half(render::Renderer& renderer, render::Settings settings, std::uint32_t index)
+{
+    settings.spp /= 2;
+    settings.maxSpp = std::max(settings.maxSpp, settings.spp);
+    settings.seed = 2 * settings.seed + index;
+    const render::FrameStatistics statistics = renderer.render(settings);
+    return beautyOf(renderer, settings, statistics);
+}
+
+image::LayeredImage layered(const Reference& reference)
+{
+    const image::RgbImage& from = reference.image;
+    image::LayeredImage out;
+    out.width = from.width;
+    out.height = from.height;
+    out.window = { 0, 0, from.width, from.height };
+    const std::size_t pixels = from.rgb.size() / 3;
+    const char* names[] = { "R", "G", "B" };
+    for (std::size_t c = 0; c < 3; ++c) {
+        image::Channel channel { names[c], std::vector<float>(pixels) };
+        for (std::size_t i = 0; i < pixels; ++i) {
+            channel.values[i] = from.rgb[3 * i + c];
+        }
+        out.channels.push_back(std::move(channel));
+    }
+    out.metadata[noiseKey] = static_cast<float>(reference.noise);
+    out.metadata[kernelsKey] = kernelFingerprint();
+    return out;
+}
+
+Reference readBack(const std::string& path, int spp)
+{
+    const image::LayeredImage file = image::readExr(path);
+    const auto noise = file.metadata.find(noiseKey);
+    const auto kernels = file.metadata.find(kernelsKey);
+    if (noise == file.metadata.end() || kernels == file.metadata.end()) {
+        throw Error("reference " + path, "was not written by a benchmark", "delete it");
+    }
+    return { image::beauty(file, path), std::get<float>(noise->second), spp, path, true,
+        std::get<std::string>(kernels->second) != kernelFingerprint() };
+}
+
+} // namespace
+
+image::RgbImage beautyOf(
+    render::Renderer& renderer, const render::Settings& settings, const render::FrameStatistics& statistics)
+{
+    image::RgbImage image = image::beauty(render::readLayers(renderer, settings, statistics, {}));
+    if (!std::ranges::all_of(image.rgb, [](float v) { return std::isfinite(v); })) {
+        throw Error("rendered image", "has a value that is not finite", "this is a fault in wedge, please report it");
+    }
+    return image;
+}
+
+Reference obtainReference(
+    render::Renderer& renderer, const render::Settings& settings, const std::string& folder, const std::string& name)
+{
+    const std::string path = pathOf(renderer, settings, folder, name);
+    if (std::filesystem::exists(path)) {
+        return readBack(path, settings.spp);
+    }
+    Reference out { half(renderer, settings, 0), 0, settings.spp, path };
+    const image::RgbImage second = half(renderer, settings, 1);
+    // Both halves have the error e; their difference has sqrt 2 e, their mean e / sqrt 2.
+    // As the file keeps it, so that a later run reports the same.
+    out.noise = static_cast<float>(0.5 * image::rmse(out.image, second));
+    std::ranges::transform(
+        out.image.rgb, second.rgb, out.image.rgb.begin(), [](float a, float b) { return 0.5f * (a + b); });
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed) {
+        throw Error("folder for references", folder, failed.message() + ", name another one");
+    }
+    image::writeExr(path, layered(out));
+    return out;
+}
+
+} // namespace wedge::benchmark

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "benchmarks/common/claims.h"
+#include "benchmarks/soft_shadows/run.h"
+
+#include <vector>
+
+namespace wedge::benchmark {
+
+/// "soft_shadows.<scene>.<quantity>"; docs/benchmarks.md lists the quantities.
+std::vector<Claim> claimsOf(const SceneResult& result);
+
+/// All numbers behind the claims and the plots; docs/benchmarks.md has the schema.
+Json dataOf(const SceneResult& result);
+
+/// The whole result file.
+Json resultsOf(const std::vector<SceneResult>& results, const std::vector<std::string>& skipped, const Plan& plan,
+    const device::DeviceInfo& device);
+
+} // namespace wedge::benchmark
