@@ -237,7 +237,8 @@ private:
     }
 };
 
-/// A floor with two boxes, a slanted plate and a sphere under two area lights of different kinds and colours.
+/// A floor with a box, a slanted plate, a sphere and a row of slats, under two area lights of different kinds and
+/// colours.
 inline scene::Scene smallScene()
 {
     SceneBuilder b;
@@ -246,13 +247,17 @@ inline scene::Scene smallScene()
     b.newObject();
     b.box({ -1.2f, 0, -0.4f }, { -0.7f, 0.9f, 0.1f });
     b.newObject();
-    b.quad({ 0.6f, 0.8f, 0 }, { 0.1f, 0.05f, 0.4f }, { 0.4f, -0.1f, 0 });
+    b.quad({ 0.7f, 0.9f, 0 }, { 0.1f, 0.05f, 0.5f }, { 0.5f, -0.1f, 0 });
     b.newObject();
     b.sphere({ 0, 0.35f, 0.7f }, 0.35f);
+    b.newObject();
+    for (int i = 0; i < 4; ++i)
+        b.box({ -0.6f + 0.3f * static_cast<float>(i), 0.6f, -1.2f },
+            { -0.45f + 0.3f * static_cast<float>(i), 0.65f, 0.3f });
     b.light({ 0.2f, 3, 0.3f }, { 0.5f, 0, 0 }, { 0, 0, 0.5f }, scene::LightProfile::Gaussian, 20).radiance = { 20, 18,
         15 };
     b.light({ -2, 2.5f, 1 }, { 0, 0, 0.3f }, { 0.2f, -0.2f, 0 }, scene::LightProfile::Uniform, 15).twoSided = true;
-    b.camera({ 0, 2.2f, 4 }, { 0, 0.3f, 0 });
+    b.camera({ 0, 2.0f, 2.8f }, { 0, 0.3f, 0 });
     b.scene.background = { 0.1f, 0.2f, 0.3f };
     return b.scene;
 }

@@ -1,0 +1,75 @@
+// Error against mu and samples, and the mean count.
+#include "tests/render_support.h"
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+constexpr int width = 72, height = 54;
+
+/// RMS error over three seeds.
+double errorOf(render::Renderer& renderer, render::Settings settings, const std::vector<float>& reference)
+{
+    double sum = 0;
+    for (std::uint32_t seed = 1; seed <= 3; ++seed) {
+        settings.seed = seed;
+        sum += std::pow(rmse(renderPixels(renderer, sized(settings, width, height)), reference), 2);
+    }
+    return std::sqrt(sum / 3);
+}
+
+} // namespace
+
+TEST_CASE("error falls with mu in both settings, and with samples; the filter pays")
+{
+    onEveryDevice([](const device::Device& device) {
+        const scene::Scene scene = smallScene();
+        render::Renderer renderer(scene, device, renderOptions());
+        const std::vector<float> reference = renderPixels(renderer, sized(render::monteCarlo(2048), width, height));
+        for (const bool published : { true, false }) {
+            CAPTURE(published);
+            // The published setting shades with the light's centre: its limit is the Monte Carlo image that does so
+            // too.
+            render::Settings limit = sized(render::monteCarlo(2048), width, height);
+            limit.shading = published ? render::Shading::Separate : render::Shading::Inside;
+            const std::vector<float> converged = renderPixels(renderer, limit);
+            double before = 1e9;
+            for (const float mu : { 1.0f, 2.0f, 4.0f }) {
+                const render::Settings settings = published ? render::asPublished(mu) : render::axisAligned({}, mu);
+                const double error = errorOf(renderer, settings, converged);
+                MESSAGE(std::string(published ? "published" : "default") << " mu " << mu << ": RMS error " << error);
+                CHECK(error < 0.97 * before);
+                before = error;
+            }
+        }
+        double before = 1e9;
+        for (const int spp : { 9, 28, 100 }) {
+            const double filtered = errorOf(renderer, render::axisAligned(spp), reference);
+            const double plain = errorOf(renderer, render::monteCarlo(spp), reference);
+            MESSAGE(spp << " samples: RMS error " << filtered << ", plain " << plain);
+            CHECK(filtered < 0.9 * before);
+            CHECK(filtered < plain);
+            before = filtered;
+        }
+    });
+}
+
+TEST_CASE("the mean count of the default setting is the one asked for, within 1 %")
+{
+    onEveryDevice([](const device::Device& device) {
+        scene::Scene one = smallScene();
+        one.areaLights.resize(1);
+        render::Renderer renderer(one, device, renderOptions());
+        for (const int spp : { 12, 28, 64, 200 }) {
+            const render::FrameStatistics s = renderer.render(sized(render::axisAligned(spp), width, height));
+            CAPTURE(spp);
+            CHECK(s.sppMean == doctest::Approx(spp).epsilon(0.01));
+            CHECK(s.complete);
+        }
+        const scene::Scene two = smallScene();
+        render::Renderer both(two, device, renderOptions());
+        CHECK(both.render(sized(render::axisAligned(28), width, height)).sppMean == doctest::Approx(28).epsilon(0.01));
+        CHECK(both.render(sized(render::monteCarlo(7), width, height)).sppMean == doctest::Approx(7));
+    });
+}

@@ -1,0 +1,196 @@
+// What must not change an image: repetition, batches, crops, the company of other lights.
+#include "tests/render_support.h"
+
+#include <cstring>
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+constexpr int width = 75, height = 53;
+
+struct Named {
+    std::string name;
+    render::Settings settings;
+};
+
+std::vector<Named> methods()
+{
+    std::vector<Named> out = { { "mc", render::monteCarlo(13) }, { "aaf", render::axisAligned(16) },
+        { "published", render::asPublished() } };
+    for (Named& m : out)
+        m.settings = sized(m.settings, width, height);
+    return out;
+}
+
+bool sameBits(const std::vector<float>& a, const std::vector<float>& b)
+{
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+/// smallScene() with gloss, a texture, and a point light.
+scene::Scene richScene()
+{
+    scene::Scene scene = smallScene();
+    scene.materials[0].specular = { 0.1f, 0.2f, 0.1f };
+    scene.materials[0].exponent = 15;
+    scene.textures.push_back({ "", 2, 2, { 0xff8040u, 0xffffffu, 0x306090u, 0xc0c0c0u } });
+    scene.materials[0].diffuseTexture = 0;
+    scene.pointLights.push_back({ { 1, 3, 2 }, { 2, 2, 2 } });
+    return scene;
+}
+
+} // namespace
+
+TEST_CASE("two runs, other frames in between, and another renderer give the same bits")
+{
+    onEveryDevice([](const device::Device& device) {
+        const scene::Scene scene = richScene();
+        render::Renderer renderer(scene, device, renderOptions()), other(scene, device, renderOptions());
+        for (const Named& m : methods()) {
+            CAPTURE(m.name);
+            const std::vector<float> first = renderPixels(renderer, m.settings);
+            render::Settings different = sized(render::axisAligned(40), 33, 90);
+            different.seed = 4;
+            renderer.render(different);
+            CHECK(sameBits(renderPixels(renderer, m.settings), first));
+            CHECK(sameBits(renderPixels(other, m.settings), first));
+            render::Settings seeded = m.settings;
+            seeded.seed = 1;
+            CHECK_FALSE(sameBits(renderPixels(renderer, seeded), first));
+        }
+    });
+}
+
+TEST_CASE("the size of batches and a rehearsal change nothing")
+{
+    onEveryDevice([](const device::Device& device) {
+        const scene::Scene scene = richScene();
+        render::Renderer renderer(scene, device, renderOptions()), rehearsed(scene, device, renderOptions());
+        for (const Named& m : methods()) {
+            CAPTURE(m.name);
+            renderer.queue().setTargetMilliseconds(100);
+            const std::vector<float> expected = renderPixels(renderer, m.settings);
+            renderer.queue().setTargetMilliseconds(0.01);
+            CHECK(sameBits(renderPixels(renderer, m.settings), expected));
+            rehearsed.rehearse(m.settings);
+            CHECK(sameBits(renderPixels(rehearsed, m.settings), expected));
+        }
+    });
+}
+
+TEST_CASE("any crop has the bits of the whole image")
+{
+    onEveryDevice([](const device::Device& device) {
+        const scene::Scene scene = richScene();
+        render::Renderer renderer(scene, device, renderOptions());
+        const image::Window crops[] = { { 0, 0, 1, 1 }, { width - 1, height - 1, width, height },
+            { width - 1, 0, width, 1 }, { 13, 7, 42, 31 }, { 33, 0, 34, height }, { 0, 20, width, 21 },
+            { 50, 40, 75, 53 } };
+        for (const Named& m : methods()) {
+            CAPTURE(m.name);
+            const std::vector<float> whole = renderPixels(renderer, m.settings);
+            for (const image::Window& crop : crops) {
+                // Another seed first, so that what is left over from the whole image does not help.
+                render::Settings settings = m.settings;
+                settings.seed = 77;
+                renderer.render(settings);
+                settings.seed = m.settings.seed;
+                settings.crop = crop;
+                renderer.render(settings);
+                const std::vector<float> part = pixels(renderer, renderer.frame().beauty, crop);
+                std::vector<float> expected;
+                for (int y = crop.y0; y < crop.y1; ++y)
+                    for (int x = crop.x0; x < crop.x1; ++x)
+                        for (int c = 0; c < 3; ++c)
+                            expected.push_back(whole[static_cast<std::size_t>(3 * (y * width + x) + c)]);
+                CAPTURE(crop.x0);
+                CAPTURE(crop.y0);
+                CHECK(sameBits(part, expected));
+            }
+        }
+    });
+}
+
+TEST_CASE("two lights give the sum of each: every light is a term of its own")
+{
+    onEveryDevice([](const device::Device& device) {
+        scene::Scene both = smallScene(), first = both, second = both;
+        // Dark and not gone: a light's place in the list is part of its random numbers.
+        first.areaLights[1].radiance = second.areaLights[0].radiance = glm::vec3(0);
+        render::Renderer together(both, device, renderOptions()), one(first, device, renderOptions()),
+            two(second, device, renderOptions());
+        for (const Named& m : methods()) {
+            CAPTURE(m.name);
+            const image::Window all { 0, 0, width, height };
+            const auto direct = [&](render::Renderer& r) {
+                r.render(m.settings);
+                return pixels(r, r.frame().direct, all);
+            };
+            const std::vector<float> sum = direct(together), a = direct(one), b = direct(two);
+            unsigned wrong = 0;
+            for (std::size_t i = 0; i < sum.size(); ++i)
+                wrong += sum[i] == a[i] + b[i] ? 0 : 1;
+            CHECK(wrong == 0);
+            CHECK(rmse(a, b) > 0.03);
+        }
+    });
+}
+
+TEST_CASE("aaf without filter and with uniform counts is the plain image of the same samples")
+{
+    onEveryDevice([](const device::Device& device) {
+        const scene::Scene scene = richScene();
+        render::Renderer renderer(scene, device, renderOptions());
+        render::Settings unfiltered = sized(render::axisAligned(20), width, height);
+        unfiltered.filtering = render::Filtering::None;
+        unfiltered.sampling = render::Sampling::Uniform;
+        const std::vector<float> plain = renderPixels(renderer, sized(render::monteCarlo(20), width, height));
+        render::Settings inside = unfiltered;
+        inside.shading = render::Shading::Inside;
+        CHECK(sameBits(renderPixels(renderer, inside), plain));
+        // In the other ways of shading, filtered and unfiltered are one where nothing is filtered.
+        for (const render::Shading shading : { render::Shading::Ratio, render::Shading::Separate }) {
+            unfiltered.shading = shading;
+            renderer.render(unfiltered);
+            const image::Window all { 0, 0, width, height };
+            CHECK(sameBits(
+                pixels(renderer, renderer.frame().direct, all), pixels(renderer, renderer.frame().directNoisy, all)));
+        }
+    });
+}
+
+TEST_CASE("a pixel without a kernel keeps its own Monte Carlo value")
+{
+    onEveryDevice([](const device::Device& device) {
+        scene::Scene scene = smallScene();
+        scene.areaLights.resize(1);
+        render::Renderer renderer(scene, device, renderOptions());
+        for (const Named& m : methods()) {
+            if (m.settings.method == render::Method::MonteCarlo)
+                continue;
+            CAPTURE(m.name);
+            renderer.render(m.settings, {}, true);
+            const image::Window all { 0, 0, width, height };
+            const auto direct = pixels(renderer, renderer.frame().direct, all),
+                       noisy = pixels(renderer, renderer.frame().directNoisy, all);
+            const std::vector<float>& beta = renderer.lightPlanes().at(0).beta;
+            unsigned without = 0, changed = 0;
+            for (int y = 0; y < height; ++y)
+                for (int x = 0; x < width; ++x) {
+                    const std::size_t i = static_cast<std::size_t>(3 * (y * width + x));
+                    const std::size_t at = shared::pixelIndex(
+                        static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), renderer.frame().layout.stride);
+                    const bool same = std::memcmp(&direct[i], &noisy[i], 3 * sizeof(float)) == 0;
+                    changed += same ? 0 : 1;
+                    if (!(beta[at] > 0)) {
+                        ++without;
+                        REQUIRE(same);
+                    }
+                }
+            CHECK(without > 50);
+            CHECK(changed > 200);
+        }
+    });
+}
