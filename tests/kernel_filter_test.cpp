@@ -237,6 +237,24 @@ TEST_CASE("the padding beyond the right border is not read")
     });
 }
 
+TEST_CASE("rows below the image are not read")
+{
+    onEveryDevice([](const device::Device& device) {
+        FilterRun filter(device);
+        // The last rows of a larger image lie below; then the same rows hold nothing.
+        FilterImage image = randomImage(21, 30, Shape::Flat, 13), cut = image;
+        for (int y = 22; y < 30; ++y)
+            for (int x = 0; x < 21; ++x)
+                cut.objectId.at(x, y) = 0;
+        image.params.height = image.params.y1 = 22;
+        cut.params = image.params;
+        const FilterResult found = filter(image), expected = filter(cut);
+        for (int y = 0; y < 22; ++y)
+            for (int x = 0; x < 21; ++x)
+                REQUIRE(found.value.at(x, y) == expected.value.at(x, y));
+    });
+}
+
 TEST_CASE("windows are symmetric: a mirrored image gives the mirrored result")
 {
     onEveryDevice([](const device::Device& device) {

@@ -15,8 +15,11 @@ namespace {
 // Where the default setting was tuned, and how width and count go together from there.
 constexpr float referenceSpp = 28.0f;
 constexpr float referenceMu = 2.0f;
-// Bias of a kernel of width beta grows as beta^2, its noise as 1 / (beta sqrt n): both stay in step if beta ~ n^-1/6.
-constexpr float widthExponent = 1.0f / 6.0f;
+// Bias of a kernel of width beta grows as beta^2; its noise falls with beta and, faster than plain Monte Carlo's, with
+// the count: widths that keep both in step go as a power of the count. Measured from 9 to 112 samples on two scenes, with
+// about five samples of the first pass, which it spends where nothing is in shadow, left out.
+constexpr float widthExponent = 1.0f / 3.0f;
+constexpr float evenSamples = 5.0f;
 constexpr int largestSpp = 1 << 20;
 
 void requireRange(bool inRange, const std::string& what, const std::string& value, const std::string& range)
@@ -45,7 +48,8 @@ Settings axisAligned(std::optional<int> spp, std::optional<float> mu)
     Settings s;
     if (spp) {
         s.spp = *spp;
-        s.mu = mu.value_or(referenceMu * std::pow(static_cast<float>(*spp) / referenceSpp, widthExponent));
+        const float budget = std::max(1.0f, static_cast<float>(*spp) - evenSamples) / (referenceSpp - evenSamples);
+        s.mu = mu.value_or(referenceMu * std::pow(budget, widthExponent));
     } else if (mu) {
         s.mu = *mu;
         const float count = referenceSpp * (*mu / referenceMu) * (*mu / referenceMu);
