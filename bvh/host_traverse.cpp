@@ -32,19 +32,31 @@ bool entersBox(const shared::BvhNode& node, unsigned slot, const Ray& ray, doubl
     return enter <= leave * (1 + 1e-6);
 }
 
+/// v with its axes turned so that axis `last` comes last.
+Vec3 turned(Vec3 v, int last)
+{
+    return last == 0 ? shared::vec3(v.y, v.z, v.x) : last == 1 ? shared::vec3(v.z, v.x, v.y) : v;
+}
+
 /// The triangle test of kernels/intersect.h for one lane, in the same floats.
 bool hitsLane(const shared::TriangleBlock& block, unsigned lane, const Ray& ray, Hit& hit)
 {
-    const Vec3 e1 = shared::vec3(block.e1x[lane], block.e1y[lane], block.e1z[lane]);
-    const Vec3 e2 = shared::vec3(block.e2x[lane], block.e2y[lane], block.e2z[lane]);
-    const Vec3 c = vecSub(shared::vec3(block.v0x[lane], block.v0y[lane], block.v0z[lane]), ray.origin);
-    const Vec3 r = vecCross(c, ray.direction), normal = vecCross(e1, e2);
-    const float volume = vecDot(normal, ray.direction);
-    const float sign = std::copysign(1.0f, volume), size = std::fabs(volume);
-    const float u = sign * vecDot(r, e2), v = -sign * vecDot(r, e1), w = sign * vecDot(normal, c);
-    if (!(u >= 0 && v >= 0 && u + v <= size && size > 0))
+    const float x = std::fabs(ray.direction.x), y = std::fabs(ray.direction.y), z = std::fabs(ray.direction.z);
+    const int last = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    const Vec3 direction = turned(ray.direction, last), origin = turned(ray.origin, last);
+    const float shearX = direction.x / direction.z, shearY = direction.y / direction.z;
+    const Vec3 a = vecSub(turned(shared::vec3(block.v0x[lane], block.v0y[lane], block.v0z[lane]), last), origin);
+    const Vec3 b = vecSub(turned(shared::vec3(block.v1x[lane], block.v1y[lane], block.v1z[lane]), last), origin);
+    const Vec3 c = vecSub(turned(shared::vec3(block.v2x[lane], block.v2y[lane], block.v2z[lane]), last), origin);
+    const float ax = a.x - shearX * a.z, ay = a.y - shearY * a.z;
+    const float bx = b.x - shearX * b.z, by = b.y - shearY * b.z;
+    const float cx = c.x - shearX * c.z, cy = c.y - shearY * c.z;
+    const float u = ax * cy - ay * cx, v = bx * ay - by * ax, w = cx * by - cy * bx;
+    const float sum = u + v + w;
+    if (!((std::min({ u, v, w }) >= 0 || std::max({ u, v, w }) <= 0) && sum != 0))
         return false;
-    const float inverse = 1.0f / size, t = w * inverse;
+    const Vec3 normal = vecCross(vecSub(b, a), vecSub(c, a));
+    const float t = vecDot(normal, a) / vecDot(normal, direction), inverse = 1.0f / sum;
     const std::uint32_t triangle = block.triangle[lane];
     const bool nearer = t < hit.t || (t == hit.t && triangle < hit.triangle);
     if (!(t > std::max(0.0f, ray.tMin) && t < ray.tMax && nearer))

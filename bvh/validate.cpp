@@ -131,16 +131,15 @@ private:
     void checkLane(const TriangleBlock& block, unsigned lane, const Bounds& bounds)
     {
         const float v0[3] = { block.v0x[lane], block.v0y[lane], block.v0z[lane] };
-        const float e1[3] = { block.e1x[lane], block.e1y[lane], block.e1z[lane] };
-        const float e2[3] = { block.e2x[lane], block.e2y[lane], block.e2z[lane] };
+        const float v1[3] = { block.v1x[lane], block.v1y[lane], block.v1z[lane] };
+        const float v2[3] = { block.v2x[lane], block.v2y[lane], block.v2z[lane] };
         const std::uint32_t triangle = block.triangle[lane];
         const bool unused = triangle == WEDGE_NO_TRIANGLE;
         if (!unused && triangle >= triangleVisits_.size())
             return problem("a lane refers to a triangle that is not there", triangle);
         if (!unused)
             triangleVisits_[triangle]++;
-        const bool flat = std::all_of(e1, e1 + 3, [](float x) { return x == 0; })
-            && std::all_of(e2, e2 + 3, [](float x) { return x == 0; });
+        const bool flat = std::equal(v0, v0 + 3, v1) && std::equal(v0, v0 + 3, v2);
         if (unused && !(flat && v0[0] == 0 && v0[1] == 0 && v0[2] == 0))
             problem("an unused lane is not zero in a leaf at triangle", triangle);
         if (unused)
@@ -150,7 +149,7 @@ private:
                         c = vertex(triangle, 2, axis) * unit_;
             if (std::min({ a, b, c }) < bounds.lo[axis] || std::max({ a, b, c }) > bounds.hi[axis])
                 problem("a leaf's box does not contain triangle", triangle);
-            if (v0[axis] != a || (!flat && (e1[axis] != b - a || e2[axis] != c - a)))
+            if (v0[axis] != a || (!flat && (v1[axis] != b || v2[axis] != c)))
                 problem("a lane has other vertices than triangle", triangle);
         }
     }

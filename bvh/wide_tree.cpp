@@ -207,7 +207,7 @@ private:
         return degenerate;
     }
 
-    /// Returns true if the triangle is degenerate: then its edges stay 0, so that it is never hit.
+    /// Returns true if the triangle is degenerate: then all its vertices are the first, so that it is never hit.
     bool emitTriangle(TriangleBlock& out, unsigned lane, std::uint32_t triangle) const
     {
         float v[3][3];
@@ -222,15 +222,16 @@ private:
         out.v0y[lane] = v[0][1];
         out.v0z[lane] = v[0][2];
         out.triangle[lane] = triangle;
-        if (isDegenerate(e1, e2))
-            return true;
-        out.e1x[lane] = e1[0];
-        out.e1y[lane] = e1[1];
-        out.e1z[lane] = e1[2];
-        out.e2x[lane] = e2[0];
-        out.e2y[lane] = e2[1];
-        out.e2z[lane] = e2[2];
-        return false;
+        const bool degenerate = isDegenerate(e1, e2);
+        const float* v1 = degenerate ? v[0] : v[1];
+        const float* v2 = degenerate ? v[0] : v[2];
+        out.v1x[lane] = v1[0];
+        out.v1y[lane] = v1[1];
+        out.v1z[lane] = v1[2];
+        out.v2x[lane] = v2[0];
+        out.v2y[lane] = v2[1];
+        out.v2z[lane] = v2[2];
+        return degenerate;
     }
 
     BinaryNode* tree_;

@@ -41,9 +41,18 @@ typedef struct {
     Vec3 nearScale, nearOffset; ///< t of a near plane p = p scale + offset, rounded towards earlier
     Vec3 farScale, farOffset; ///< the same of the far planes, towards later
     uint nearX, nearY, nearZ, farX, farY, farZ; ///< where these planes start in a node, in floats
+    Vec3 testOrigin, testDirection; ///< in the axes of the triangle test, whose z is the direction's largest
+    float shearX, shearY; ///< x and y of the direction over its z
+    uint axisX, axisY, axisZ; ///< where these coordinates start in a vertex of a block, in floats
 } TraversalRay;
 
 WEDGE_FN float boundedReciprocal(float x) { return 1.0f / (fabs(x) < 1e-30f ? copysign(1e-30f, x) : x); }
+
+/// v with its axes turned so that the largest of the direction comes last.
+WEDGE_FN Vec3 turnAxes(Vec3 v, bool largestX, bool largestY)
+{
+    return largestX ? vec3(v.y, v.z, v.x) : largestY ? vec3(v.z, v.x, v.y) : v;
+}
 
 /// Prepares the ray origin + t direction, tMin < t < tMax; a negative tMin counts as 0. unit: that of the root node.
 /// Returns false where it can hit nothing: a component is not finite or the interval is empty.
@@ -66,6 +75,15 @@ WEDGE_FN bool prepareRay(TraversalRay* ray, float unit, Vec3 origin, Vec3 direct
     ray->nearOffset = vecSub(offset, slack);
     ray->farScale = vecScale(r, WEDGE_WIDEN_T);
     ray->farOffset = vecMad(slack, offset, WEDGE_WIDEN_T);
+    const bool largestX = fabs(direction.x) >= fabs(direction.y) && fabs(direction.x) >= fabs(direction.z);
+    const bool largestY = !largestX && fabs(direction.y) >= fabs(direction.z);
+    ray->axisX = (largestX ? 1 : largestY ? 2 : 0) * WEDGE_BLOCK_SIZE;
+    ray->axisY = (largestX ? 2 : largestY ? 0 : 1) * WEDGE_BLOCK_SIZE;
+    ray->axisZ = (largestX ? 0 : largestY ? 1 : 2) * WEDGE_BLOCK_SIZE;
+    ray->testOrigin = turnAxes(origin, largestX, largestY);
+    ray->testDirection = turnAxes(direction, largestX, largestY);
+    ray->shearX = ray->testDirection.x / ray->testDirection.z;
+    ray->shearY = ray->testDirection.y / ray->testDirection.z;
     // loX hiX loY hiY loZ hiZ lie WEDGE_BVH_WIDTH floats apart; rays against an axis enter through hi.
     ray->nearX = r.x < 0.0f ? WEDGE_BVH_WIDTH : 0;
     ray->nearY = (r.y < 0.0f ? 3 : 2) * WEDGE_BVH_WIDTH;
@@ -105,35 +123,51 @@ WEDGE_FN float smallestLane(float8 x)
     return WEDGE_MIN(two.x, two.y);
 }
 
+/// Vertices relative to the ray's origin, in the axes of the test, then sheared along z so that the ray is the z axis.
+typedef struct {
+    float8 x, y;
+} ShearedVertices;
+
+WEDGE_FN ShearedVertices shear(const TraversalRay* ray, __global const float* vertex, float8* px, float8* py, float8* pz)
+{
+    *px = vload8(0, vertex + ray->axisX) - ray->testOrigin.x;
+    *py = vload8(0, vertex + ray->axisY) - ray->testOrigin.y;
+    *pz = vload8(0, vertex + ray->axisZ) - ray->testOrigin.z;
+    ShearedVertices v;
+    v.x = *px - ray->shearX * *pz;
+    v.y = *py - ray->shearY * *pz;
+    return v;
+}
+
 /// Intersects a block and replaces hit where one of its triangles is hit at tMin < t <= hit->t; of equal t the smaller
 /// index wins, so that the order of blocks does not show. Returns whether anything was hit.
-/// The triangle test is that of Möller and Trumbore in the form that tests the signed volumes before it divides.
-/// Multiply-adds are not fused here (compat.h): fused, three times as many rays slip through shared edges.
+/// The test is watertight (Woop, Benthin and Wald, Watertight Ray/Triangle Intersection, JCGT 2013): the side on which
+/// the ray passes an edge is the sign of a difference of two products of vertices that all triangles share. Rounding
+/// may make that difference 0, and then both sides count, but it never turns the sign; fused, it could.
 WEDGE_FN bool intersectBlock(__global const TriangleBlock* block, const TraversalRay* ray, Hit* hit)
 {
-    const Vec3 o = ray->origin, d = ray->direction;
-    const float8 cx = vload8(0, block->v0x) - o.x, cy = vload8(0, block->v0y) - o.y, cz = vload8(0, block->v0z) - o.z;
-    const float8 e1x = vload8(0, block->e1x), e1y = vload8(0, block->e1y), e1z = vload8(0, block->e1z);
-    const float8 e2x = vload8(0, block->e2x), e2y = vload8(0, block->e2y), e2z = vload8(0, block->e2z);
-    const float8 rx = cy * d.z - cz * d.y, ry = cz * d.x - cx * d.z, rz = cx * d.y - cy * d.x;
-    const float8 nx = e1y * e2z - e1z * e2y, ny = e1z * e2x - e1x * e2z, nz = e1x * e2y - e1y * e2x;
-    const float8 volume = nx * d.x + ny * d.y + nz * d.z;
-    const int8 sign = as_int8(volume) & (int)0x80000000;
-    const int8 opposite = sign ^ (int)0x80000000;
-    const float8 size = as_float8(as_int8(volume) ^ sign);
-    const float8 u = as_float8(as_int8(rx * e2x + ry * e2y + rz * e2z) ^ sign);
-    const float8 v = as_float8(as_int8(rx * e1x + ry * e1y + rz * e1z) ^ opposite);
-    const float8 w = as_float8(as_int8(nx * cx + ny * cy + nz * cz) ^ sign);
-    // Widened, for ties: the decision is that of the rounded t below, the one that is returned and compared.
-    const float tFar = hit->t * WEDGE_WIDEN_T;
-    const int8 inside = (u >= 0.0f) & (v >= 0.0f) & (u + v <= size) & (w > size * ray->tMin) & (w <= size * tFar);
+    float8 ax, ay, az, bx, by, bz, cx, cy, cz;
+    const ShearedVertices a = shear(ray, block->v0x, &ax, &ay, &az);
+    const ShearedVertices b = shear(ray, block->v1x, &bx, &by, &bz);
+    const ShearedVertices c = shear(ray, block->v2x, &cx, &cy, &cz);
+    const float8 u = a.x * c.y - a.y * c.x;
+    const float8 v = b.x * a.y - b.y * a.x;
+    const float8 w = c.x * b.y - c.y * b.x;
+    const float8 least = WEDGE_MIN(WEDGE_MIN(u, v), w), most = WEDGE_MAX(WEDGE_MAX(u, v), w);
+    const float8 sum = u + v + w;
+    const int8 inside = ((least >= 0.0f) | (most <= 0.0f)) & (sum != 0.0f);
     if (laneMask(inside) == 0)
         return false;
-    const float8 inverse = 1.0f / size;
-    const float8 t = w * inverse;
+    // t is that of the plane: next to a triangle it is surer of its sign than what the three sides interpolate.
+    const float8 e1x = bx - ax, e1y = by - ay, e1z = bz - az;
+    const float8 e2x = cx - ax, e2y = cy - ay, e2z = cz - az;
+    const float8 nx = e1y * e2z - e1z * e2y, ny = e1z * e2x - e1x * e2z, nz = e1x * e2y - e1y * e2x;
+    const Vec3 d = ray->testDirection;
+    const float8 t = (nx * ax + ny * ay + nz * az) / (nx * d.x + ny * d.y + nz * d.z);
     const int8 in = inside & (t > ray->tMin) & (t <= hit->t);
     if (laneMask(in) == 0)
         return false;
+    const float8 inverse = 1.0f / sum;
     const float8 candidate = in ? t : (float8)(INFINITY);
     const float nearest = smallestLane(candidate);
     const uint lane = firstLane(laneMask(candidate == nearest));

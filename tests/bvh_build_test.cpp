@@ -164,6 +164,6 @@ TEST_CASE("The validator sees a broken hierarchy")
     CHECK(broken([](bvh::Bvh& b) { b.nodes.push_back(b.nodes[1]); }));
     CHECK(broken([](bvh::Bvh& b) { b.blocks.pop_back(); }));
     CHECK(broken([](bvh::Bvh& b) { b.blocks[5].triangle[0] = b.blocks[6].triangle[0]; }));
-    CHECK(broken([](bvh::Bvh& b) { b.blocks[5].e2y[0] *= 2; }));
+    CHECK(broken([](bvh::Bvh& b) { b.blocks[5].v2y[0] *= 2; }));
     CHECK(broken([](bvh::Bvh& b) { b.nodes[0].unit *= 2; }));
 }

@@ -243,33 +243,24 @@ TEST_CASE("Hits depend neither on the hierarchy nor on the run")
     });
 }
 
-TEST_CASE("Of rays aimed at the vertices and edges that triangles share, few slip through, and of others hardly any")
+TEST_CASE("No ray slips through where triangles share a vertex or an edge")
 {
     // From above at the waves; the square's rim is left out. A quarter aims at vertices and edges.
     const TestMesh mesh = waves(40);
     std::mt19937 random(23);
     std::vector<Ray> rays;
-    std::vector<bool> onEdge;
-    while (rays.size() < 20000) {
+    while (rays.size() < 100000) {
         bool edge = false;
         const Vec3 target = pointOn(mesh, random, &edge);
         if (std::max(std::fabs(target.x), std::fabs(target.z)) > 0.94f)
             continue;
         const Vec3 origin = vec3(0.3f * static_cast<float>(random() % 5), 3, 0.1f * static_cast<float>(random() % 7));
         rays.push_back({ origin, 0, vecSub(target, origin), infinity });
-        onEdge.push_back(edge);
     }
     const bvh::Bvh hierarchy = bvh::build(mesh.view());
     onEveryDevice([&](Tracer& tracer) {
-        std::size_t misses = 0, insideMisses = 0;
         const std::vector<Hit> hits = tracer.closest(hierarchy, rays);
-        for (std::size_t i = 0; i < rays.size(); i++) {
-            const bool miss = hits[i].triangle == WEDGE_NO_TRIANGLE;
-            misses += miss;
-            insideMisses += miss && !onEdge[i];
-        }
-        CHECK(misses <= rays.size() / 50);
-        CHECK(insideMisses <= 2); // within rounding of an edge by chance
+        CHECK(std::ranges::count(hits, WEDGE_NO_TRIANGLE, &Hit::triangle) == 0);
     });
 }
 

@@ -30,11 +30,13 @@ typedef struct {
     uint padding[WEDGE_BVH_WIDTH - 1];
 } BvhNode;
 
-/// In the root's unit: v0 is the first vertex, e1 = v1 - v0, e2 = v2 - v0; unused lanes are all zero with triangle = WEDGE_NO_TRIANGLE.
+/// Vertices, in the root's unit: triangles that share one have the same floats there, which the watertight test
+/// relies on. A triangle without area has its first vertex three times; unused lanes are all zero with
+/// triangle = WEDGE_NO_TRIANGLE.
 typedef struct {
     float v0x[WEDGE_BLOCK_SIZE], v0y[WEDGE_BLOCK_SIZE], v0z[WEDGE_BLOCK_SIZE];
-    float e1x[WEDGE_BLOCK_SIZE], e1y[WEDGE_BLOCK_SIZE], e1z[WEDGE_BLOCK_SIZE];
-    float e2x[WEDGE_BLOCK_SIZE], e2y[WEDGE_BLOCK_SIZE], e2z[WEDGE_BLOCK_SIZE];
+    float v1x[WEDGE_BLOCK_SIZE], v1y[WEDGE_BLOCK_SIZE], v1z[WEDGE_BLOCK_SIZE];
+    float v2x[WEDGE_BLOCK_SIZE], v2y[WEDGE_BLOCK_SIZE], v2z[WEDGE_BLOCK_SIZE];
     uint triangle[WEDGE_BLOCK_SIZE];
 } TriangleBlock;
 
