@@ -45,9 +45,10 @@ bool hitsLane(const shared::TriangleBlock& block, unsigned lane, const Ray& ray,
     const int last = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
     const Vec3 direction = turned(ray.direction, last), origin = turned(ray.origin, last);
     const float shearX = direction.x / direction.z, shearY = direction.y / direction.z;
-    const Vec3 a = vecSub(turned(shared::vec3(block.v0x[lane], block.v0y[lane], block.v0z[lane]), last), origin);
-    const Vec3 b = vecSub(turned(shared::vec3(block.v1x[lane], block.v1y[lane], block.v1z[lane]), last), origin);
-    const Vec3 c = vecSub(turned(shared::vec3(block.v2x[lane], block.v2y[lane], block.v2z[lane]), last), origin);
+    const Vec3 v0 = turned(shared::vec3(block.v0x[lane], block.v0y[lane], block.v0z[lane]), last);
+    const Vec3 v1 = turned(shared::vec3(block.v1x[lane], block.v1y[lane], block.v1z[lane]), last);
+    const Vec3 v2 = turned(shared::vec3(block.v2x[lane], block.v2y[lane], block.v2z[lane]), last);
+    const Vec3 a = vecSub(v0, origin), b = vecSub(v1, origin), c = vecSub(v2, origin);
     const float ax = a.x - shearX * a.z, ay = a.y - shearY * a.z;
     const float bx = b.x - shearX * b.z, by = b.y - shearY * b.z;
     const float cx = c.x - shearX * c.z, cy = c.y - shearY * c.z;
@@ -55,7 +56,7 @@ bool hitsLane(const shared::TriangleBlock& block, unsigned lane, const Ray& ray,
     const float sum = u + v + w;
     if (!((std::min({ u, v, w }) >= 0 || std::max({ u, v, w }) <= 0) && sum != 0))
         return false;
-    const Vec3 normal = vecCross(vecSub(b, a), vecSub(c, a));
+    const Vec3 normal = vecCross(vecSub(v1, v0), vecSub(v2, v0));
     const float t = vecDot(normal, a) / vecDot(normal, direction), inverse = 1.0f / sum;
     const std::uint32_t triangle = block.triangle[lane];
     const bool nearer = t < hit.t || (t == hit.t && triangle < hit.triangle);

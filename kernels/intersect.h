@@ -139,6 +139,12 @@ WEDGE_FN ShearedVertices shear(const TraversalRay* ray, __global const float* ve
     return v;
 }
 
+/// One coordinate of the edges between two vertices.
+WEDGE_FN float8 edge(uint axis, __global const float* from, __global const float* to)
+{
+    return vload8(0, to + axis) - vload8(0, from + axis);
+}
+
 /// Intersects a block and replaces hit where one of its triangles is hit at tMin < t <= hit->t; of equal t the smaller
 /// index wins, so that the order of blocks does not show. Returns whether anything was hit.
 /// The test is watertight (Woop, Benthin and Wald, Watertight Ray/Triangle Intersection, JCGT 2013): the side on which
@@ -158,9 +164,11 @@ WEDGE_FN bool intersectBlock(__global const TriangleBlock* block, const Traversa
     const int8 inside = ((least >= 0.0f) | (most <= 0.0f)) & (sum != 0.0f);
     if (laneMask(inside) == 0)
         return false;
-    // t is that of the plane: next to a triangle it is surer of its sign than what the three sides interpolate.
-    const float8 e1x = bx - ax, e1y = by - ay, e1z = bz - az;
-    const float8 e2x = cx - ax, e2y = cy - ay, e2z = cz - az;
+    // t is that of the plane: next to a triangle it is surer of its sign than what the three sides interpolate. The
+    // normal is the triangle's own, not that of the rounded differences to the origin.
+    const float8 e1x = edge(ray->axisX, block->v0x, block->v1x), e2x = edge(ray->axisX, block->v0x, block->v2x);
+    const float8 e1y = edge(ray->axisY, block->v0x, block->v1x), e2y = edge(ray->axisY, block->v0x, block->v2x);
+    const float8 e1z = edge(ray->axisZ, block->v0x, block->v1x), e2z = edge(ray->axisZ, block->v0x, block->v2x);
     const float8 nx = e1y * e2z - e1z * e2y, ny = e1z * e2x - e1x * e2z, nz = e1x * e2y - e1y * e2x;
     const Vec3 d = ray->testDirection;
     const float8 t = (nx * ax + ny * ay + nz * az) / (nx * d.x + ny * d.y + nz * d.z);
