@@ -57,6 +57,25 @@ inline std::string errorOf(const std::string& file)
     return "";
 }
 
+inline const char* const triangleObj = "o tri\nv 0 0 0\nv 1 0 0\nv 0 0 -1\nvn 0 1 0\nf 1//1 2//1 3//1\n";
+inline const std::string mesh = "[[mesh]]\nfile = \"m.obj\"\n";
+
+/// Loads a scene file's text next to a mesh m.obj of one triangle that faces +y.
+inline wedge::scene::Scene load(const std::string& toml)
+{
+    const TemporaryFolder folder;
+    folder.write("m.obj", triangleObj);
+    return wedge::scene::loadScene(folder.write("s.toml", toml));
+}
+
+/// What loading it fails with.
+inline std::string error(const std::string& toml)
+{
+    const TemporaryFolder folder;
+    folder.write("m.obj", triangleObj);
+    return errorOf(folder.write("s.toml", toml));
+}
+
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// Whether any warning of the scene holds the text.

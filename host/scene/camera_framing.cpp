@@ -9,8 +9,14 @@ namespace {
 
 glm::vec3 centreOf(const Bounds& bounds) { return 0.5f * bounds.lo + 0.5f * bounds.hi; }
 
-/// Half the box's diagonal, never zero.
-float radiusOf(const Bounds& bounds) { return std::max(0.5f * glm::length(bounds.hi - bounds.lo), 1e-6f); }
+/// Half the box's diagonal, but never so small that points around the box are not told apart from its centre.
+float radiusOf(const Bounds& bounds)
+{
+    float farthest = 0.0f;
+    for (int axis = 0; axis < 3; ++axis)
+        farthest = std::max({ farthest, std::abs(bounds.lo[axis]), std::abs(bounds.hi[axis]) });
+    return std::max({ 0.5f * glm::length(bounds.hi - bounds.lo), 1e-6f, 1e-6f * farthest });
+}
 
 void addFloor(Scene& scene, const Bounds& bounds)
 {

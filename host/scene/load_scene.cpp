@@ -43,6 +43,7 @@ void loadBareMesh(const std::filesystem::path& path, Scene& scene)
     if (mesh.hasNameless)
         scene.warnings.push_back("mesh file " + path.string() + ": some faces have no material, grey is used");
     scene.textures = textures.take();
+    checkBareMesh(sceneBounds(scene), "mesh file " + path.string());
     furnish(scene);
 }
 

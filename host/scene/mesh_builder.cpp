@@ -8,12 +8,10 @@
 #include <fmt/format.h>
 
 #include "host/error.h"
+#include "host/scene/validate.h"
 
 namespace wedge::scene {
 namespace {
-
-/// Products of two edges and a distance must stay finite in single precision.
-constexpr double maxCoordinate = 1e12;
 
 struct CornerHash {
     std::size_t operator()(const MeshCorner& c) const

@@ -69,9 +69,9 @@ struct Geometry {
 struct Settings {
     int width = 640, height = 480;
     std::uint32_t seed = 0;
-    std::optional<std::string> method; ///< mc, aaf or maaf
-    std::optional<int> spp, maxSpp, bounces;
-    std::optional<float> mu;
+    std::optional<std::string> method; ///< mc or aaf
+    std::optional<int> spp, maxSpp; ///< 1 to maxSamples
+    std::optional<float> mu; ///< leastMu to mostMu
 };
 
 struct Scene {
@@ -102,8 +102,10 @@ struct Summary {
     Bounds bounds;
 };
 
-/// Image sides go from 1 to this.
+/// Image sides go from 1 to this, samples a pixel too, and mu from least to most: what the renderer accepts.
 constexpr int maxImageSide = 32768;
+constexpr int maxSamples = 1 << 20;
+constexpr double leastMu = 0.01, mostMu = 1000.0;
 
 /// Reads a scene file (.toml, docs/scene-format.md) or a bare mesh (.obj), which gets a camera that frames it, an
 /// area light above and a floor. Throws Error naming file, line and value for anything that cannot be rendered.

@@ -1,7 +1,10 @@
 #include "host/scene/scene_sections.h"
 
+#include <cmath>
 #include <limits>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "host/scene/camera_framing.h"
 #include "host/scene/validate.h"
@@ -9,18 +12,29 @@
 namespace wedge::scene {
 namespace {
 
+/// A point in the scene, with coordinates that the renderer can take.
+std::optional<glm::vec3> point(TableReader& table, const char* key)
+{
+    const std::optional<glm::vec3> p = table.vector(key);
+    for (int axis = 0; p && axis < 3; ++axis) {
+        if (!(std::abs((*p)[axis]) <= maxCoordinate))
+            table.fail(key, "has a coordinate beyond 1e12", fmt::format("{:g}", (*p)[axis]), "scale the scene down");
+    }
+    return p;
+}
+
 /// A quad is a corner and two edges, or a centre and two half edges.
 void readQuadShape(TableReader& table, AreaLight& light)
 {
     if (table.has("corner")) {
-        const glm::vec3 corner = *table.vector("corner");
-        light.halfU = 0.5f * table.require("edge1", table.vector("edge1"));
-        light.halfV = 0.5f * table.require("edge2", table.vector("edge2"));
+        const glm::vec3 corner = *point(table, "corner");
+        light.halfU = 0.5f * table.require("edge1", point(table, "edge1"));
+        light.halfV = 0.5f * table.require("edge2", point(table, "edge2"));
         light.centre = corner + light.halfU + light.halfV;
     } else if (table.has("centre")) {
-        light.centre = *table.vector("centre");
-        light.halfU = table.require("half_u", table.vector("half_u"));
-        light.halfV = table.require("half_v", table.vector("half_v"));
+        light.centre = *point(table, "centre");
+        light.halfU = table.require("half_u", point(table, "half_u"));
+        light.halfV = table.require("half_v", point(table, "half_v"));
     } else {
         table.failHere("has no shape", "quad", "give corner, edge1 and edge2, or centre, half_u and half_v");
     }
@@ -46,7 +60,7 @@ void readQuad(TableReader& table, Scene& scene)
 void readPoint(TableReader& table, Scene& scene)
 {
     PointLight light;
-    light.position = table.require("position", table.vector("position"));
+    light.position = table.require("position", point(table, "position"));
     light.intensity = table.require("intensity", table.colour("intensity"));
     scene.pointLights.push_back(light);
 }
@@ -80,16 +94,17 @@ void readIntegrator(TableReader& root, Scene& scene)
     auto table = root.table("integrator");
     if (!table)
         return;
-    const auto count = [&](const char* key, std::int64_t least, std::int64_t most) -> std::optional<int> {
-        const auto value = table->integer(key, least, most);
+    const auto count = [&](const char* key) -> std::optional<int> {
+        const auto value = table->integer(key, 1, maxSamples);
         return value ? std::optional(static_cast<int>(*value)) : std::nullopt;
     };
     Settings& s = scene.settings;
-    s.method = table->choice("method", { "mc", "aaf", "maaf" });
-    s.spp = count("spp", 1, 1 << 24);
-    s.maxSpp = count("max_spp", 1, 1 << 24);
-    s.bounces = count("bounces", 0, 1024);
-    if (const auto mu = table->number("mu", 1e-3, 1e3))
+    s.method = table->choice("method", { "mc", "aaf" });
+    s.spp = count("spp");
+    s.maxSpp = count("max_spp");
+    if (s.spp && s.maxSpp && *s.maxSpp < *s.spp)
+        table->fail("max_spp", "is below spp", fmt::format("{} and {}", *s.maxSpp, *s.spp), "raise it or lower spp");
+    if (const auto mu = table->number("mu", leastMu, mostMu))
         s.mu = static_cast<float>(*mu);
     s.seed =
         static_cast<std::uint32_t>(table->integer("seed", 0, std::numeric_limits<std::uint32_t>::max()).value_or(0));
@@ -127,12 +142,13 @@ void readCamera(TableReader& root, Scene& scene)
         return;
     }
     Camera& camera = scene.camera;
-    camera.eye = table->require("eye", table->vector("eye"));
-    camera.lookAt = table->require("look_at", table->vector("look_at"));
+    camera.eye = table->require("eye", point(*table, "eye"));
+    camera.lookAt = table->require("look_at", point(*table, "look_at"));
     camera.up = table->vector("up").value_or(camera.up);
     camera.verticalFov = static_cast<float>(table->number("fov").value_or(double { camera.verticalFov }));
     table->finish();
     checkCamera(camera, root.where("camera"));
+    camera.up = glm::vec3(glm::normalize(glm::dvec3(camera.up))); // its length may be beyond single precision
 }
 
 } // namespace wedge::scene
