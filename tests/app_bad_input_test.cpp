@@ -99,6 +99,47 @@ TEST_CASE("options that contradict each other")
     checkRefused(place, { "render", box, "-o", "a.jpeg" }, wrongCall, "a.jpeg");
 }
 
+TEST_CASE("sample counts that contradict each other, and those of a scene file")
+{
+    const Workplace place;
+    const auto file = [&](const std::string& name, const std::string& integrator) {
+        place.write(name,
+            "[image]\nwidth = 8\nheight = 6\n" + camera + quad + "material = \"m\"\n" + light
+                + "[[material]]\nname = \"m\"\n[integrator]\n" + integrator);
+    };
+    file("many.toml", "spp = 1048577\n");
+    file("mu.toml", "mu = 0.001\n");
+    file("few.toml", "spp = 8\n");
+    file("fewest.toml", "max_spp = 8\n");
+    file("crossed.toml", "spp = 30\nmax_spp = 20\n");
+    file("mean.toml", "spp = 30\n");
+    file("most.toml", "max_spp = 20\n");
+    checkRenderRefused(place, box, { "--spp", "40", "--max-spp", "20" }, wrongCall, "--max-spp 20 and --spp 40");
+    checkRenderRefused(place, box, { "--max-spp", "4" }, wrongCall, "4");
+    for (const char* command : { "render", "info" }) {
+        checkRefused(place, { command, "many.toml" }, failure, "many.toml:19:7");
+        checkRefused(place, { command, "mu.toml" }, failure, "mu.toml:19:6");
+        checkRefused(place, { command, "crossed.toml" }, failure, "crossed.toml:20:11");
+        checkRefused(place, { command, "few.toml" }, failure, "scene file few.toml: spp is too low for method aaf: 8");
+        checkRefused(place, { command, "fewest.toml" }, failure, "scene file fewest.toml: max_spp is too low");
+    }
+    checkRenderRefused(
+        place, "mean.toml", { "--max-spp", "20" }, wrongCall, "--max-spp 20 and the scene file's spp 30");
+    checkRenderRefused(place, "most.toml", { "--spp", "30" }, wrongCall, "the scene file's max_spp 20 and --spp 30");
+    checkRenderRefused(place, "few.toml", { "--as-published", "--sampling", "uniform" }, failure, "few.toml");
+    // What is overridden or has no effect is not refused.
+    const std::vector<Arguments> fine = { { "few.toml", "--as-published" }, { "few.toml", "--spp", "9" },
+        { "few.toml", "--method", "mc" }, { "fewest.toml", "--method", "mc" }, { "fewest.toml", "--max-spp", "50" },
+        { "mean.toml", "--as-published", "--max-spp", "20" }, { "most.toml", "--spp", "20" } };
+    for (const Arguments& call : fine) {
+        CAPTURE(call[0]);
+        Arguments arguments = { "render", "--quiet", "-o", "a.exr" };
+        arguments.insert(arguments.end(), call.begin(), call.end());
+        const Outcome outcome = place.run(arguments);
+        CHECK_MESSAGE(outcome.status == 0, outcome.err);
+    }
+}
+
 TEST_CASE("scenes that cannot be read")
 {
     const Workplace place;

@@ -1,4 +1,5 @@
 #include "host/app/commands.h"
+#include "host/app/reference.h"
 #include "host/app/values.h"
 #include "host/image/atomic_file.h"
 #include "host/image/colour.h"
@@ -79,6 +80,14 @@ int compare(const CompareOptions& options)
                            : fmt::print("{:<7} {:.6g}{}\n", metrics[i].name, value, metrics[i].unit);
         }
     }
+    const std::size_t invalid = image::countInvalidPixels(a, b);
+    if (!options.metric) {
+        json["invalid_pixels"] = invalid;
+        if (!options.json) {
+            fmt::print("invalid pixels {}\n", invalid);
+        }
+    }
+    warnOfInvalidPixels(invalid, a);
     if (options.json) {
         fmt::print("{}\n", json.dump(2));
     }

@@ -37,6 +37,16 @@ image::RgbImage readReference(const std::string& path, const render::Settings& s
         "render with --size of the reference, or give another reference");
 }
 
+void warnOfInvalidPixels(std::size_t invalid, const image::RgbImage& image)
+{
+    if (invalid > 0) {
+        fmt::print(stderr,
+            "wedge: warning: pixels that are not finite in the image or the reference: {} of {}: rmse, relmse and psnr "
+            "leave them out\n",
+            invalid, static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    }
+}
+
 std::string describe(const image::Comparison& c)
 {
     const std::string invalid = c.invalidPixels > 0 ? fmt::format("  invalid pixels {}", c.invalidPixels) : "";

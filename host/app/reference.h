@@ -12,6 +12,9 @@ namespace wedge::app {
 /// crop is then cut out. Throws Error for other sizes, and where it cannot be read.
 image::RgbImage readReference(const std::string& path, const render::Settings& settings);
 
+/// Warns on stderr where there are invalid pixels, of how many the image has in all.
+void warnOfInvalidPixels(std::size_t invalid, const image::RgbImage& image);
+
 /// "rmse 0.0123  relmse ...", one line without its end.
 std::string describe(const image::Comparison& comparison);
 

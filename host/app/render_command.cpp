@@ -175,6 +175,9 @@ void RenderJob::render()
     const image::LayeredImage image = render::readLayers(*renderer_, settings_, statistics_, layers_);
     if (reference_) {
         extras_.error = image::compare(image::beauty(image), *reference_);
+        if (!options_.quiet) {
+            warnOfInvalidPixels(extras_.error->invalidPixels, *reference_);
+        }
     }
     writeOutputs(outputs_, image, options_.exposureStops);
     if (!options_.report.empty()) {

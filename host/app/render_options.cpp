@@ -2,6 +2,7 @@
 
 #include "host/app/values.h"
 #include "host/render/layers.h"
+#include "host/scene/scene.h"
 
 #include <functional>
 #include <limits>
@@ -14,7 +15,6 @@ namespace {
 
 using Setter = std::function<void(const std::string&)>;
 
-constexpr std::int64_t mostSamples = 1 << 20;
 constexpr const char* whatGroup = "What is rendered";
 constexpr const char* howGroup = "How";
 constexpr const char* ablationGroup = "Parts of the method, one by one";
@@ -79,11 +79,14 @@ void addMethodOptions(CLI::App& parser, RenderOptions& o)
     parser.add_flag("--as-published", o.asPublished, "aaf as it was published, without later improvements")
         ->group(howGroup);
     addValue(parser, howGroup, "--spp", "N", "Samples a pixel and area light, their mean with adaptive sampling",
-        [&o](const std::string& text) { o.spp = static_cast<int>(wholeNumber("--spp", text, 1, mostSamples)); });
-    addValue(parser, howGroup, "--max-spp", "N", "Most samples of a pixel",
-        [&o](const std::string& text) { o.maxSpp = static_cast<int>(wholeNumber("--max-spp", text, 1, mostSamples)); });
+        [&o](const std::string& text) { o.spp = static_cast<int>(wholeNumber("--spp", text, 1, scene::maxSamples)); });
+    addValue(parser, howGroup, "--max-spp", "N", "Most samples of a pixel", [&o](const std::string& text) {
+        o.maxSpp = static_cast<int>(wholeNumber("--max-spp", text, 1, scene::maxSamples));
+    });
     addValue(parser, howGroup, "--mu", "X", "Sampling beyond the critical rate: larger filters less and samples more",
-        [&o](const std::string& text) { o.mu = static_cast<float>(finiteNumber("--mu", text, 0.01, 1000)); });
+        [&o](const std::string& text) {
+            o.mu = static_cast<float>(finiteNumber("--mu", text, scene::leastMu, scene::mostMu));
+        });
     addValue(parser, howGroup, "--seed", "N", "Seed of the random numbers", [&o](const std::string& text) {
         o.seed = static_cast<std::uint32_t>(wholeNumber("--seed", text, 0, std::numeric_limits<std::uint32_t>::max()));
     });

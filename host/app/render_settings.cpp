@@ -1,6 +1,7 @@
 #include "host/app/render_settings.h"
 
 #include "host/error.h"
+#include "kernels/shared/wedge.h"
 
 #include <algorithm>
 
@@ -24,13 +25,7 @@ Method resolveMethod(const RenderOptions& options, const scene::Scene& scene)
     if (options.asPublished || !scene.settings.method) {
         return Method::AxisAligned;
     }
-    const std::string& name = *scene.settings.method;
-    for (const Method method : { Method::MonteCarlo, Method::AxisAligned }) {
-        if (name == render::methodName(method)) {
-            return method;
-        }
-    }
-    throw Error("scene file " + scene.path + ": method is not available", name, "choose one with --method mc|aaf");
+    return *scene.settings.method == render::methodName(Method::MonteCarlo) ? Method::MonteCarlo : Method::AxisAligned;
 }
 
 /// Options that plain Monte Carlo has no use for are mistakes, not wishes to ignore.
@@ -47,20 +42,27 @@ void refuseFilterOptions(const RenderOptions& o)
     }
 }
 
-render::Settings preset(const RenderOptions& o, const scene::Settings& file, Method method)
+/// The mu of the thesis: 3, more conservative, where the light is not a Gaussian or the cosine is filtered along, and
+/// else 2 (section 3.7, "Extensions", Fig. 3.11).
+float publishedMu(const RenderOptions& o, const scene::Scene& scene)
 {
-    const std::optional<int> spp = o.spp ? o.spp : file.spp;
-    const std::optional<float> mu = o.mu ? o.mu : file.mu;
+    const bool uniform = std::ranges::any_of(
+        scene.areaLights, [](const scene::AreaLight& light) { return light.profile == scene::LightProfile::Uniform; });
+    return uniform || o.falloff == render::Shading::Inside ? 3.0f : 2.0f;
+}
+
+render::Settings preset(const RenderOptions& o, const scene::Scene& scene, Method method)
+{
+    const std::optional<int> spp = o.spp ? o.spp : scene.settings.spp;
+    const std::optional<float> mu = o.mu ? o.mu : scene.settings.mu;
     if (method == Method::MonteCarlo) {
         return render::monteCarlo(spp.value_or(defaultMonteCarloSpp));
     }
-    if (!o.asPublished) {
-        return render::axisAligned(spp, mu);
-    }
-    render::Settings settings = mu ? render::asPublished(*mu) : render::asPublished();
-    settings.spp = spp.value_or(settings.spp);
-    return settings;
+    return o.asPublished ? render::asPublished(mu.value_or(publishedMu(o, scene))) : render::axisAligned(spp, mu);
 }
+
+/// Whether the mean count is given, and not what follows from the spectrum.
+bool meanIsGiven(const render::Settings& s) { return s.sampling == Sampling::Uniform || s.counts == Counts::Variance; }
 
 void applyAblations(const RenderOptions& o, render::Settings& s)
 {
@@ -76,9 +78,46 @@ void applyAblations(const RenderOptions& o, render::Settings& s)
     if (o.counts && s.sampling == Sampling::Uniform) {
         throw UsageError("option has no effect with uniform sampling", "--counts", "leave it out");
     }
-    if (o.spp && s.sampling == Sampling::Adaptive && s.counts == Counts::Spectrum) {
+    if (o.spp && !meanIsGiven(s)) {
         throw UsageError("option has no effect where counts follow from the spectrum", fmt::format("--spp {}", *o.spp),
             "set --mu, or add --counts variance or --sampling uniform");
+    }
+}
+
+/// A count from the scene file that suits no aaf, whose first pass alone takes so many.
+void requireFirstPass(const std::string& key, const std::optional<int>& count, const scene::Scene& scene)
+{
+    constexpr int least = WEDGE_FIRST_PASS_RAYS;
+    if (count && *count < least) {
+        throw Error(fmt::format("scene file {}: {} is too low for method aaf", scene.path, key),
+            fmt::format("{}", *count), fmt::format("give {} or more, or method mc", least));
+    }
+}
+
+/// The counts of method aaf: those of the file are looked at only where no option overrides them and they have an
+/// effect.
+void applyCounts(const RenderOptions& o, const scene::Scene& scene, render::Settings& s)
+{
+    const scene::Settings& file = scene.settings;
+    if (!o.maxSpp) {
+        requireFirstPass("max_spp", file.maxSpp, scene);
+    }
+    const std::optional<int> most = o.maxSpp ? o.maxSpp : file.maxSpp;
+    s.maxSpp = most.value_or(s.maxSpp);
+    if (!meanIsGiven(s)) {
+        s.spp = render::Settings().spp; // not used
+        return;
+    }
+    if (!o.spp) {
+        requireFirstPass("spp", file.spp, scene);
+    }
+    const std::optional<int> mean = o.spp ? o.spp : file.spp;
+    s.spp = mean.value_or(s.spp);
+    if (mean && most && *most < *mean) {
+        throw UsageError("most samples of a pixel are below their mean",
+            fmt::format("{} {} and {} {}", o.maxSpp ? "--max-spp" : "the scene file's max_spp", *most,
+                o.spp ? "--spp" : "the scene file's spp", *mean),
+            "raise --max-spp or lower --spp");
     }
 }
 
@@ -91,16 +130,15 @@ render::Settings resolveSettings(const RenderOptions& o, const scene::Scene& sce
     if (method == Method::MonteCarlo) {
         refuseFilterOptions(o);
     }
-    render::Settings s = preset(o, file, method);
+    render::Settings s = preset(o, scene, method);
     s.width = o.size ? o.size->first : file.width;
     s.height = o.size ? o.size->second : file.height;
     s.crop = o.crop.value_or(s.crop);
     s.seed = o.seed.value_or(file.seed);
     s.sampler = o.sampler.value_or(s.sampler);
     if (method == Method::AxisAligned) {
-        const std::optional<int> most = o.maxSpp ? o.maxSpp : file.maxSpp;
-        s.maxSpp = most.value_or(s.maxSpp);
         applyAblations(o, s);
+        applyCounts(o, scene, s);
     }
     render::validate(s);
     return s;

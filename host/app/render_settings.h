@@ -6,7 +6,8 @@
 namespace wedge::app {
 
 /// The settings of the frame: options before what the scene file says, that before the defaults. Throws UsageError
-/// for options that contradict each other or have no effect together, and for values out of range.
+/// for options that contradict each other or have no effect together, and for values out of range; Error for counts in
+/// the scene file that its method cannot have.
 render::Settings resolveSettings(const RenderOptions& options, const scene::Scene& scene);
 
 } // namespace wedge::app

@@ -9,10 +9,9 @@
 
 namespace wedge::image {
 
-namespace {
-
 std::size_t countInvalidPixels(const RgbImage& image, const RgbImage& reference)
 {
+    requireSameSize(image, reference);
     const auto isFinite = [](float value) { return std::isfinite(value); };
     std::size_t count = 0;
     for (std::size_t i = 0; i < image.rgb.size(); i += 3)
@@ -20,8 +19,6 @@ std::size_t countInvalidPixels(const RgbImage& image, const RgbImage& reference)
             || !std::all_of(&reference.rgb[i], &reference.rgb[i] + 3, isFinite);
     return count;
 }
-
-} // namespace
 
 void requireSameSize(const RgbImage& image, const RgbImage& reference)
 {

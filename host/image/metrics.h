@@ -10,7 +10,7 @@ namespace wedge::image {
 /// All metrics take linear images of one size, the image first and the reference second, and throw Error with both
 /// sizes where these differ. A pixel with a NaN or infinite channel in either image is invalid: rmse, relMse and psnr
 /// leave it out (and are NaN where no pixel is left), while ssim and flip, which look at neighbourhoods, see it as a
-/// display shows it (clipped, NaN black). compare() counts the invalid pixels.
+/// display shows it (clipped, NaN black). countInvalidPixels() counts them.
 
 /// Root of the mean over pixels and channels of (a - b)^2, on linear values.
 double rmse(const RgbImage& image, const RgbImage& reference);
@@ -55,6 +55,9 @@ struct Comparison {
     std::size_t invalidPixels = 0;
 };
 Comparison compare(const RgbImage& image, const RgbImage& reference);
+
+/// The number of pixels that are invalid in either image.
+std::size_t countInvalidPixels(const RgbImage& image, const RgbImage& reference);
 
 /// Throws Error with both sizes where they differ, and std::logic_error where an image is empty or contradicts itself.
 void requireSameSize(const RgbImage& image, const RgbImage& reference);
