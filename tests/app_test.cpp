@@ -87,6 +87,10 @@ TEST_CASE("all layers of a frame fit together")
         wrong["surfaces are sampled"] += (at("samples.Y") == 0) != miss;
         // Widths are 0 where a light does not reach, and both lights see pixels of one size.
         const float first = at("filterWidth1.world"), second = at("filterWidth2.world");
+        for (const char* width : { "1.world", "1.pixels", "2.world", "2.pixels" }) {
+            wrong["widths are finite and not negative"] +=
+                !(at(std::string("filterWidth") + width) >= 0 && std::isfinite(at(std::string("filterWidth") + width)));
+        }
         wrong["no filter on a miss"] += miss && (first != 0 || second != 0);
         wrong["widths in both units"] += (first > 0) != (at("filterWidth1.pixels") > 0);
         if (first > 0 && second > 0) {
