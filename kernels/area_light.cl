@@ -19,7 +19,9 @@ WEDGE_FN void storeTerm(SampleParams params, uint size, uint i, float4 sum, uint
 #ifdef WEDGE_SPECULAR
     sums[2u * size + i] = sum.z;
     sums[3u * size + i] = sum.w;
-    value[size + i] = termValue(params.shading, sum.z, sum.w, taken);
+    // A lobe that no sample reached says nothing; 0 would darken the highlights of neighbours that gather it.
+    const bool reached = sum.z > 0.0f || params.shading == WEDGE_SHADING_INSIDE;
+    value[size + i] = reached ? termValue(params.shading, sum.z, sum.w, taken) : value[i];
 #endif
     takenPlane[i] = taken;
 }

@@ -8,6 +8,8 @@
 #define WEDGE_NEAR_LIGHT 3.0f
 /// The coarse one serves lobes whose squared width is at least the light's squared angular half extent over this.
 #define WEDGE_COARSE_LOBE 2.0f
+/// Lobes sharper than this, in the same measure, fall between the fine rule's nodes.
+#define WEDGE_SHARP_LOBE 40.0f
 
 /// Geometry terms of 16 receivers and one point of the light, 1/m^2; see geometryTerm().
 WEDGE_FN float16 geometryTerm16(Vec3x16 normal, Vec3x16 d, Vec3 lightNormal, uint twoSided)
@@ -121,7 +123,8 @@ __kernel void addDiffuse(AnalysisParams p, SampleParams params, AreaLight light,
 }
 
 /// One receiver's unshadowed specular shading in the way of the term.
-WEDGE_FN float specularShading(SampleParams params, AreaLight light, Receiver r, __global const float* nodes)
+/// sampled: the mean weight of the samples taken, which is what such a lobe falls back on.
+WEDGE_FN float specularShading(SampleParams params, AreaLight light, Receiver r, __global const float* nodes, float sampled)
 {
     if (params.shading == WEDGE_SHADING_INSIDE) {
         return 1.0f;
@@ -130,8 +133,11 @@ WEDGE_FN float specularShading(SampleParams params, AreaLight light, Receiver r,
         // A lobe of exponent m is about 1/sqrt(m) wide: the coarse rule does for a light that is small beside it.
         const Vec3 toLight = vecSub(light.centre, r.position);
         const float extent = fmax(vecDot(light.halfU, light.halfU), vecDot(light.halfV, light.halfV));
-        const bool wide = extent * fmax(r.lobe.exponent, 1.0f) < WEDGE_COARSE_LOBE * vecDot(toLight, toLight);
-        return wide ? unshadowedSpecular(light, r, nodes, WEDGE_COARSE_NODES)
+        const float lobes = extent * fmax(r.lobe.exponent, 1.0f) / vecDot(toLight, toLight);
+        if (lobes > WEDGE_SHARP_LOBE) {
+            return sampled;
+        }
+        return lobes < WEDGE_COARSE_LOBE ? unshadowedSpecular(light, r, nodes, WEDGE_COARSE_NODES)
                     : unshadowedSpecular(light, r, nodes + 2u * WEDGE_COARSE_NODES, WEDGE_FINE_NODES);
     }
     const Vec3 d = vecSub(light.centre, r.position);
@@ -139,12 +145,14 @@ WEDGE_FN float specularShading(SampleParams params, AreaLight light, Receiver r,
     return g > 0.0f ? specularWeight(r, d, g) : 0.0f;
 }
 
-/// One light's specular reflection; value and noisy hold the specular term in their second plane.
+/// One light's specular reflection; value and noisy hold the specular term in their second plane,
+/// sums its weights in the third.
 __kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light, FrameParams frame,
                           __global const float* restrict nodes, __global const float* restrict position,
                           __global const float* restrict normal, __global const uint* restrict objectId,
                           __global const float* restrict gloss, __global const float* restrict specular,
                           __global const float* restrict value, __global const float* restrict noisy,
+                          __global const float* restrict sums, __global const uint* restrict taken,
                           __global float* restrict direct, __global float* restrict directNoisy)
 {
     const uint x = p.x0 + get_global_id(0);
@@ -163,7 +171,8 @@ __kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light
     r.normal = loadVec(normal, size, i);
     r.view = vecNormalize(vecSub(frame.eye, r.position));
     r.lobe = glossLobe(gloss[i]);
-    const Vec3 reflected = vecScale(vecMul(ks, light.power), specularShading(params, light, r, nodes));
+    const float sampled = taken[i] > 0u ? sums[2u * size + i] / (float)taken[i] : 0.0f;
+    const Vec3 reflected = vecScale(vecMul(ks, light.power), specularShading(params, light, r, nodes, sampled));
     storeVec(direct, size, i, vecMad(loadVec(direct, size, i), reflected, value[size + i]));
     storeVec(directNoisy, size, i, vecMad(loadVec(directNoisy, size, i), reflected, noisy[size + i]));
 }

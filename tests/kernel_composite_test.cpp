@@ -189,7 +189,8 @@ TEST_CASE("addSpecular: the second term times the lobe's unshadowed shading time
                 shared::SampleParams { shading, 0, 0, 9 }, made, frame, bench.buffer(nodesOf(light)),
                 bench.buffer(in.position.values), bench.buffer(in.normal.values), bench.buffer(in.objectId.values),
                 bench.buffer(in.gloss.values), bench.buffer(in.specular.values), bench.buffer(in.value.values),
-                bench.buffer(in.noisy.values), direct, noisy);
+                bench.buffer(in.noisy.values), bench.filled(4 * in.layout().size, 0.6f),
+                bench.buffer(std::vector<std::uint32_t>(in.layout().size, 3)), direct, noisy);
             const Planes<float> found = planesOf(in.layout(), bench.read(direct));
             const Planes<float> foundNoisy = planesOf(in.layout(), bench.read(noisy));
             CAPTURE(shading);
@@ -222,6 +223,31 @@ TEST_CASE("addSpecular: the second term times the lobe's unshadowed shading time
             });
             CHECK(bright > 30);
         }
+    });
+}
+
+TEST_CASE("addSpecular: lobes too sharp for the quadrature take the mean weight of the samples")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device, { { "WEDGE_SPECULAR", "1" } });
+        const scene::AreaLight light = lamp(scene::LightProfile::Gaussian, false);
+        const shared::AreaLight made = render::deviceLight(light);
+        const Receivers in(33, 6, 4);
+        const std::vector<float> sharp(in.gloss.values.size(), 1e6f);
+        const auto direct = bench.filled(3 * in.layout().size, 0.0f), noisy = bench.filled(3 * in.layout().size, 0.0f);
+        bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addSpecular", in.params, 1,
+            shared::SampleParams { WEDGE_SHADING_RATIO, 0, 0, 9 }, made, shared::FrameParams {},
+            bench.buffer(nodesOf(light)), bench.buffer(in.position.values), bench.buffer(in.normal.values),
+            bench.buffer(in.objectId.values), bench.buffer(sharp), bench.buffer(in.specular.values),
+            bench.buffer(in.value.values), bench.buffer(in.noisy.values), bench.filled(4 * in.layout().size, 0.6f),
+            bench.buffer(std::vector<std::uint32_t>(in.layout().size, 3)), direct, noisy);
+        const Planes<float> found = planesOf(in.layout(), bench.read(direct));
+        in.everyPixel([&](int x, int y) {
+            const double expected = in.objectId.at(x, y) != 0
+                ? in.specular.at(x, y, 1) * made.power.y * (0.6 / 3) * in.value.at(x, y, 1)
+                : 0.0;
+            REQUIRE(found.at(x, y, 1) == doctest::Approx(expected).epsilon(1e-5));
+        });
     });
 }
 

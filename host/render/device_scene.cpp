@@ -118,9 +118,14 @@ void DeviceScene::plan(device::MemoryPlan& plan, const scene::Scene& scene, cons
     const scene::Geometry& g = scene.geometry;
     plan.addItems("BVH nodes", bvh.nodes.size(), sizeof(shared::BvhNode));
     plan.addItems("triangle blocks", bvh.blocks.size(), sizeof(shared::TriangleBlock));
-    plan.addItems("vertices", g.positions.size() + g.normals.size() + g.texcoords.size(), sizeof(float));
-    plan.addItems("triangles", g.indices.size() + g.materialIds.size() + g.objectIds.size(), sizeof(std::uint32_t));
-    plan.addItems("textures", texelCount(scene), sizeof(std::uint32_t));
+    plan.addItems("positions", g.positions.size(), sizeof(float));
+    plan.addItems("normals", g.normals.size(), sizeof(float));
+    plan.addItems("texture coordinates", g.texcoords.size(), sizeof(float));
+    plan.addItems("indices", g.indices.size(), sizeof(std::uint32_t));
+    plan.addItems("material ids", g.materialIds.size(), sizeof(std::uint32_t));
+    plan.addItems("object ids", g.objectIds.size(), sizeof(std::uint32_t));
+    plan.addItems("materials", scene.materials.size(), sizeof(shared::MaterialData));
+    plan.addItems("texels", texelCount(scene), sizeof(std::uint32_t));
 }
 
 DeviceScene::DeviceScene(const scene::Scene& scene, const bvh::Bvh& bvh, const device::Device& device,

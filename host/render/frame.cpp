@@ -24,14 +24,18 @@ std::uint32_t tileStep(std::uint32_t count)
     return step;
 }
 
-constexpr std::uint64_t frameFloats = 3 * 9 + 3; // vectors and scalars of Frame
-constexpr std::uint64_t frameInts = 3;
 constexpr std::uint64_t slopePlanes = 4;
 
-std::uint64_t termFloats(bool specular, bool analysed)
+struct PlannedPlanes {
+    const char* name;
+    std::uint64_t planes;
+};
+
+void planPlanes(device::MemoryPlan& plan, const PlaneLayout& layout, std::initializer_list<PlannedPlanes> buffers)
 {
-    const std::uint64_t channels = specular ? 2 : 1;
-    return 2 * channels + channels + (analysed ? 2 + 1 + 2 * channels + 2 + 3 * slopePlanes + 1 : 0);
+    for (const PlannedPlanes& buffer : buffers) {
+        plan.addItems(buffer.name, layout.size, 4 * buffer.planes);
+    }
 }
 
 shared::Vec3 toVec3(glm::vec3 v) { return shared::vec3(v.x, v.y, v.z); }
@@ -48,7 +52,10 @@ PlaneLayout::PlaneLayout(int imageWidth, int imageHeight)
 
 void Frame::plan(device::MemoryPlan& plan, const PlaneLayout& layout)
 {
-    plan.addItems("G-buffer and result", layout.size * (frameFloats + frameInts), 4);
+    planPlanes(plan, layout,
+        { { "position", 3 }, { "normal", 3 }, { "origin", 3 }, { "depth", 1 }, { "pixel size", 1 }, { "diffuse", 3 },
+            { "specular", 3 }, { "emission", 3 }, { "gloss", 1 }, { "object id", 1 }, { "rays", 1 }, { "direct", 3 },
+            { "direct noisy", 3 }, { "beauty", 3 }, { "samples", 1 } });
 }
 
 Frame::Frame(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& planes)
@@ -87,7 +94,14 @@ void Frame::clear(device::TimedQueue& queue)
 
 void Term::plan(device::MemoryPlan& plan, const PlaneLayout& layout, bool specular, bool analysed)
 {
-    plan.addItems("samples and analysis of a light", layout.size * (termFloats(specular, analysed) + 2), 4);
+    const std::uint64_t channels = specular ? 2 : 1;
+    planPlanes(plan, layout, { { "sums", 2 * channels }, { "value", channels }, { "samples taken", 1 }, { "samples wanted", 1 } });
+    if (analysed) {
+        planPlanes(plan, layout,
+            { { "slopes", 2 }, { "filter width", 1 }, { "rows filtered", channels }, { "filtered", channels },
+                { "effective count of rows", 1 }, { "effective count", 1 }, { "log slopes", slopePlanes },
+                { "slopes spread along rows", slopePlanes }, { "slopes spread", slopePlanes }, { "demand", 1 } });
+    }
 }
 
 Term::Term(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, bool specular, bool withAnalysis)

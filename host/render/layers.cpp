@@ -62,7 +62,8 @@ public:
         image_.channels.back().integer = true;
     }
 
-    /// Lights that an early stop kept from being analysed have widths of 0.
+    /// 0 where the light does not reach (the analysis has -1 there), and of lights that an early stop kept from being
+    /// analysed.
     void filterWidths()
     {
         const std::size_t lights = renderer_.scene().areaLights.size();
@@ -72,9 +73,9 @@ public:
             const bool known = light < renderer_.lightPlanes().size() && !renderer_.lightPlanes()[light].beta.empty();
             const std::vector<float>& beta = known ? renderer_.lightPlanes()[light].beta : none;
             const std::string name = lights == 1 ? widthLayer : fmt::format("{}{}", widthLayer, light + 1);
-            channel(name + ".world", Where::OnSurfaces, [&](std::size_t i) { return beta[i]; });
+            channel(name + ".world", Where::OnSurfaces, [&](std::size_t i) { return std::max(0.0f, beta[i]); });
             channel(name + ".pixels", Where::OnSurfaces,
-                [&](std::size_t i) { return pixelSize[i] > 0 ? beta[i] / pixelSize[i] : 0.0f; });
+                [&](std::size_t i) { return pixelSize[i] > 0 ? std::max(0.0f, beta[i]) / pixelSize[i] : 0.0f; });
         }
     }
 

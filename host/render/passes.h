@@ -6,6 +6,8 @@
 #include "kernels/shared/filter_params.h"
 #include "kernels/shared/frame.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
@@ -44,26 +46,47 @@ public:
     }
 
     /// A pass over blocks of 16 pixels of a row (`across` = 16), or over pixels (`across` = 1). The kernel takes
-    /// Params, which have the rectangle, first.
+    /// Params, which have the rectangle, first. Large images go in bands of rows, so that no launch is long. The pass is
+    /// recorded as moving its buffers once, which is the least it can.
     template<class Params, class... Args>
     void rows(std::string_view pass, device::PassKind kind, const std::string& file, const std::string& kernel,
         Params params, std::uint32_t across, const Args&... args)
     {
         device::Kernel& k = find(file, kernel);
         const std::size_t columns = (params.x1 - params.x0 + across - 1) / across;
-        const std::size_t lines = params.y1 - params.y0;
+        const std::size_t local = localSize(k, 64);
+        const std::size_t localX = std::min<std::size_t>(local, across == 1 ? 16 : 4);
+        const std::uint32_t first = params.y0, end = params.y1;
+        const std::uint32_t band = std::max(16u, bandPixels / std::max(1u, params.x1 - params.x0));
         if (rehearsal_) {
             params.x1 = params.x0;
         }
-        k.setArgs(params, args...);
-        const std::size_t localX = across == 1 ? 16 : 4;
-        queue_.launch2D(pass, kind, k, columns, lines, localX, localSize(k, 64) / localX);
+        for (std::uint32_t y = first; y < end; y += std::min(band, end - y)) {
+            params.y0 = y;
+            params.y1 = y + std::min(band, end - y);
+            k.setArgs(params, args...);
+            queue_.launch2D(pass, kind, k, columns, params.y1 - params.y0, localX, local / localX);
+        }
+        const std::uint64_t touched = (std::uint64_t { 0 } + ... + bufferBytes(args));
+        queue_.addBytes(pass, kind, touched);
     }
 
     /// The kernel, compiled when first asked for; one instance a name.
     device::Kernel& find(const std::string& file, const std::string& kernel);
 
 private:
+    static constexpr std::uint32_t bandPixels = 1u << 21;
+
+    template<class T>
+    static std::uint64_t bufferBytes(const T& argument)
+    {
+        if constexpr (device::HoldsBuffer<T>) {
+            return argument.bytes();
+        } else {
+            return 0;
+        }
+    }
+
     /// The largest power of two that the kernel allows, at most `most`.
     static std::size_t localSize(const device::Kernel& kernel, std::size_t most);
 

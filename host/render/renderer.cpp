@@ -159,7 +159,7 @@ bool Renderer::renderPasses(const Settings& settings, bool keepLights)
     for (std::uint32_t light = 0; complete && light < deviceScene_->areaLightList.size(); ++light) {
         complete = shadows.render(light);
         if (keepLights) {
-            lightPlanes_.push_back({ analysed ? term_->beta.downloadAll(queue_) : std::vector<float>(), term_->taken.downloadAll(queue_) });
+            lightPlanes_.push_back({ shadows.analysed() ? term_->beta.downloadAll(queue_) : std::vector<float>() });
         }
     }
     if (complete && deviceScene_->deltaLightCount > 0) {

@@ -33,10 +33,9 @@ struct Control {
     double timeLimitSeconds = 0; ///< stop sampling after this long; 0: never
 };
 
-/// Widths and counts of one light, for the layers; planes as on the device.
+/// Filter widths of one light, for the layers, a plane as on the device; empty if the light was not analysed.
 struct LightPlanes {
     std::vector<float> beta;
-    std::vector<std::uint32_t> taken;
 };
 
 /// What a frame cost and took.

@@ -132,7 +132,10 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
                 { "slopes", s.slopes == Slopes::Published ? "published" : "smoothed" }, { "mu", number(s.mu) },
                 { "k", number(s.k) }, { "alpha", number(s.alpha) }, { "oblique", number(s.oblique) },
                 { "narrower", number(s.narrower) }, { "normalDegrees", number(s.normalDegrees) },
-                { "cut", number(s.cut) }, { "maxRadius", number(s.maxRadius) } });
+                { "cut", number(s.cut) }, { "maxRadius", number(s.maxRadius) },
+                { "fillSigma", number(s.fillSigma) }, { "fillRadius", number(s.fillRadius) },
+                { "countExponent", number(s.countExponent) }, { "varianceFloor", number(s.varianceFloor) },
+                { "varianceSpread", number(s.varianceSpread) } });
     }
     if (s.filtering == Filtering::Fixed) {
         out.emplace_back("fixedWidth", number(s.fixedWidth));

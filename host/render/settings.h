@@ -82,8 +82,8 @@ struct Settings {
 
     float fillSigma = 6.0f; ///< pixels: how slopes spread to unoccluded pixels (Slopes::Smoothed)
     int fillRadius = 16; ///< pixels
-    float countExponent = 0.4f; ///< counts ~ (variance / gathered pixels)^this
-    float varianceFloor = 0.004f; ///< least variance assumed where there are slopes
+    float countExponent = 0.5f; ///< counts ~ (variance / gathered pixels)^this
+    float varianceFloor = 0.001f; ///< least variance assumed where there are slopes
     float varianceSpread = 0.25f; ///< least fraction of the neighbourhood's largest variance
 };
 

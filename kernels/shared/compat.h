@@ -11,7 +11,7 @@
 #define WEDGE_SHARED_BEGIN
 #define WEDGE_SHARED_END
 #define WEDGE_FN static inline
-// Identical bits on every device and on the host for + - * / sqrt: no fused multiply-adds in shared maths.
+// Identical bits on every device and on the host for + - *: no fused multiply-adds in shared maths.
 #pragma OPENCL FP_CONTRACT OFF
 
 #else

@@ -56,9 +56,6 @@ WEDGE_FN uint scrambleReversed(uint x, uint seed)
     return x;
 }
 
-/// First Sobol dimension of index i with its bits reversed: i itself.
-WEDGE_FN uint sobolFirstReversed(uint i) { return i; }
-
 /// Second Sobol dimension of index i as a 32-bit fraction. Its generator matrix is Pascal's triangle modulo 2,
 /// a Kronecker power of [1 1; 0 1], so five butterfly steps multiply by it.
 WEDGE_FN uint sobolSecond(uint i)
@@ -77,7 +74,8 @@ WEDGE_FN uint sobolSecond(uint i)
 WEDGE_FN Vec2 sobolOwen(uint i, uint seed)
 {
     const uint index = reverseBits(scrambleReversed(reverseBits(i), seed));
-    const uint x = reverseBits(scrambleReversed(sobolFirstReversed(index), hashUint(seed ^ 0x68bc21ebu)));
+    // The first dimension of index i, bits reversed, is i itself.
+    const uint x = reverseBits(scrambleReversed(index, hashUint(seed ^ 0x68bc21ebu)));
     const uint y = reverseBits(scrambleReversed(reverseBits(sobolSecond(index)), hashUint(seed ^ 0x02e5be93u)));
     return vec2(toUnitFloat(x), toUnitFloat(y));
 }

@@ -99,7 +99,12 @@ bool SoftShadows::secondPass(std::uint32_t from)
     const double units = std::max(1.0, static_cast<double>(settings_.spp) - from);
     try {
         for (std::uint32_t last = from; last < most;) {
-            const double share = std::min(slice, most - last) / static_cast<double>(most - from);
+            // Most pixels are done at twice the mean; the slices up to the cap count for what little is left.
+            const double knee = std::min<double>(most, std::max(2.0 * settings_.spp, from + 1.0));
+            const auto done = [&](double n) {
+                return 0.9 * std::min(n - from, knee - from) / (knee - from) + 0.1 * (n - from) / (most - from);
+            };
+            const double share = done(std::min(last + slice, most)) - done(last);
             last += std::min(slice, most - last);
             passes_.tiles(plain ? "shadow rays" : "second pass", PassKind::Trace, "area_light.cl", "secondPass",
                 sampledFrame_, units * share, sampleParams(), light(), scene_.nodes, scene_.blocks, frame_.position,
@@ -232,7 +237,7 @@ void SoftShadows::shade(const device::Buffer<float>& value)
     if (scene_.specular) {
         passes_.rows("composite", PassKind::Composite, "composite.cl", "addSpecular", p, 1, sampleParams(), light(),
             fullFrame_, scene_.quadratures[index_], frame_.position, frame_.normal, frame_.objectId, frame_.gloss,
-            frame_.specular, value, term_.value, frame_.direct, frame_.directNoisy);
+            frame_.specular, value, term_.value, term_.sums, term_.taken, frame_.direct, frame_.directNoisy);
     }
 }
 

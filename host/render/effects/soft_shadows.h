@@ -20,6 +20,9 @@ public:
     /// sampling; what was sampled until then is filtered and added all the same.
     bool render(std::uint32_t index);
 
+    /// Whether the last light got widths: not so in plain Monte Carlo, nor if its first pass was cancelled.
+    bool analysed() const { return analysed_; }
+
 private:
     bool sample();
     bool firstPass();
