@@ -188,6 +188,13 @@ TEST_CASE("two runs give the same bits, another seed does not")
     }
 }
 
+TEST_CASE("checking each launch changes no bit")
+{
+    const Workplace place;
+    CHECK(sameBits(
+        render(place, materials, { "--spp", "12" }), render(place, materials, { "--spp", "12", "--check-launches" })));
+}
+
 TEST_CASE("a crop has the bits of the whole image")
 {
     const Workplace place;

@@ -128,6 +128,7 @@ void RenderJob::prepare()
     render::Options options;
     options.kernelDir = options_.kernelDir;
     options.fastMath = options_.fastMath;
+    options.blameLaunches = options_.checkLaunches;
     options.memoryLimit = options_.memoryLimitBytes;
     progress_.show("building the hierarchy");
     renderer_ = std::make_unique<render::Renderer>(scene_, device, options);

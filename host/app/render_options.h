@@ -33,6 +33,7 @@ struct RenderOptions {
     std::uint64_t memoryLimitBytes = 0; ///< 0: the device's
     std::string kernelDir;
     bool fastMath = false;
+    bool checkLaunches = false;
     bool quiet = false, verbose = false;
     float exposureStops = 0; ///< of PNGs
 

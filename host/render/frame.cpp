@@ -147,10 +147,7 @@ shared::FrameParams frameParams(const scene::Scene& scene, const PlaneLayout& la
     p.height = layout.height;
     p.stride = layout.stride;
     p.planeSize = static_cast<std::uint32_t>(layout.size);
-    p.x0 = static_cast<std::uint32_t>(window.x0);
-    p.y0 = static_cast<std::uint32_t>(window.y0);
-    p.x1 = static_cast<std::uint32_t>(window.x1);
-    p.y1 = static_cast<std::uint32_t>(window.y1);
+    setRectangle(p, window);
     p.tilesX = (p.x1 - p.x0 + WEDGE_TILE - 1) / WEDGE_TILE;
     p.tileCount = p.tilesX * ((p.y1 - p.y0 + WEDGE_TILE - 1) / WEDGE_TILE);
     p.tileStep = tileStep(p.tileCount);

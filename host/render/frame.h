@@ -2,8 +2,8 @@
 
 #include "host/device/buffer.h"
 #include "host/device/memory_plan.h"
-#include "host/scene/scene.h"
 #include "host/image/image.h"
+#include "host/scene/scene.h"
 #include "kernels/shared/frame.h"
 
 #include <cstddef>
@@ -50,7 +50,8 @@ public:
     static void plan(device::MemoryPlan& plan, const PlaneLayout& layout, bool specular, bool analysed);
 
     /// channels: 1 (diffuse) or 2 (diffuse and specular). analysed: with the buffers of analysis and filter.
-    Term(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, bool specular, bool analysed);
+    Term(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, bool specular,
+        bool analysed);
 
     bool analysed;
     device::Buffer<float> sums; ///< two planes a channel: weights, weights of visible samples
@@ -67,7 +68,18 @@ public:
     device::Buffer<float> histogramSums, binSums, countScale;
 };
 
+/// Sets the rectangle x0, y0, x1, y1 that a kernel's parameters have to window, which lies inside the image.
+template <class Params>
+void setRectangle(Params& params, const image::Window& window)
+{
+    params.x0 = static_cast<std::uint32_t>(window.x0);
+    params.y0 = static_cast<std::uint32_t>(window.y0);
+    params.x1 = static_cast<std::uint32_t>(window.x1);
+    params.y1 = static_cast<std::uint32_t>(window.y1);
+}
+
 /// The frame's constants for the pixels of `window`, tiles included.
-shared::FrameParams frameParams(const scene::Scene& scene, const PlaneLayout& layout, const image::Window& window, std::uint32_t seed);
+shared::FrameParams frameParams(
+    const scene::Scene& scene, const PlaneLayout& layout, const image::Window& window, std::uint32_t seed);
 
 } // namespace wedge::render

@@ -167,10 +167,7 @@ bool Renderer::renderPasses(const Settings& settings, bool keepLights)
     }
     shared::AnalysisParams all {};
     const image::Window blocks = blockWindow(output, 0, settings.width, settings.height);
-    all.x0 = static_cast<std::uint32_t>(blocks.x0);
-    all.y0 = static_cast<std::uint32_t>(blocks.y0);
-    all.x1 = static_cast<std::uint32_t>(blocks.x1);
-    all.y1 = static_cast<std::uint32_t>(blocks.y1);
+    setRectangle(all, blocks);
     all.stride = fullFrame.stride;
     all.planeSize = fullFrame.planeSize;
     passes_->rows("composite", PassKind::Composite, "composite.cl", "addEmission", all, WEDGE_BLOCK_PIXELS,

@@ -123,10 +123,7 @@ bool SoftShadows::secondPass(std::uint32_t from)
 shared::AnalysisParams SoftShadows::analysisParams(const image::Window& window) const
 {
     shared::AnalysisParams p {};
-    p.x0 = static_cast<std::uint32_t>(window.x0);
-    p.y0 = static_cast<std::uint32_t>(window.y0);
-    p.x1 = static_cast<std::uint32_t>(window.x1);
-    p.y1 = static_cast<std::uint32_t>(window.y1);
+    setRectangle(p, window);
     p.width = fullFrame_.width;
     p.height = fullFrame_.height;
     p.stride = fullFrame_.stride;

@@ -25,10 +25,7 @@ shared::FilterParams filterParams(const Settings& settings, const shared::FrameP
     p.height = frame.height;
     p.stride = frame.stride;
     p.planeSize = frame.planeSize;
-    p.x0 = static_cast<std::uint32_t>(window.x0);
-    p.y0 = static_cast<std::uint32_t>(window.y0);
-    p.x1 = static_cast<std::uint32_t>(window.x1);
-    p.y1 = static_cast<std::uint32_t>(window.y1);
+    setRectangle(p, window);
     return p;
 }
 
