@@ -26,7 +26,7 @@ WEDGE_FN void storeTerm(SampleParams params, uint size, uint i, float4 sum, uint
     takenPlane[i] = taken;
 }
 
-__kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light, __global const BvhNode* restrict nodes,
+__kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light, __global const TraversalNode* restrict nodes,
                         __global const TriangleBlock* restrict blocks, __global const float* restrict position,
                         __global const float* restrict normal, __global const float* restrict origin,
                         __global const uint* restrict objectId, __global const float* restrict gloss,
@@ -69,7 +69,7 @@ __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light,
     rays[i] += traced;
 }
 
-__kernel void secondPass(FrameParams frame, SampleParams params, AreaLight light, __global const BvhNode* restrict nodes,
+__kernel void secondPass(FrameParams frame, SampleParams params, AreaLight light, __global const TraversalNode* restrict nodes,
                          __global const TriangleBlock* restrict blocks, __global const float* restrict position,
                          __global const float* restrict normal, __global const float* restrict origin,
                          __global const uint* restrict objectId, __global const float* restrict gloss,

@@ -9,7 +9,7 @@
 #define WEDGE_FAR_DIAMETERS 4.0f
 
 __kernel void deltaLights(FrameParams frame, __global const DeltaLight* restrict lights, uint lightCount,
-                          float sceneDiameter, __global const BvhNode* restrict nodes,
+                          float sceneDiameter, __global const TraversalNode* restrict nodes,
                           __global const TriangleBlock* restrict blocks, __global const float* restrict position,
                           __global const float* restrict normal, __global const float* restrict origin,
                           __global const uint* restrict objectId, __global const float* restrict gloss,

@@ -46,7 +46,7 @@ static LightHit hitLights(__global const AreaLight* lights, uint count, Vec3 eye
     return hit;
 }
 
-__kernel void primary(FrameParams frame, __global const BvhNode* restrict nodes,
+__kernel void primary(FrameParams frame, __global const TraversalNode* restrict nodes,
                       __global const TriangleBlock* restrict blocks, __global const float* restrict positions,
                       __global const float* restrict normals, __global const float* restrict texcoords,
                       __global const uint* restrict indices, __global const uint* restrict materialIds,

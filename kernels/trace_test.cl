@@ -3,7 +3,7 @@
 
 /// rays: 8 floats a ray, ox oy oz tMin dx dy dz tMax. hits: one a ray. One work-item a ray; more do nothing.
 __kernel void traceClosest(__global const float* restrict rays, __global Hit* restrict hits,
-    __global const BvhNode* restrict nodes, __global const TriangleBlock* restrict blocks, uint count)
+    __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks, uint count)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)
@@ -14,7 +14,7 @@ __kernel void traceClosest(__global const float* restrict rays, __global Hit* re
 
 /// As traceClosest; occluded: 1 for each ray that hits anything, 0 for the others.
 __kernel void traceAny(__global const float* restrict rays, __global uint* restrict occluded,
-    __global const BvhNode* restrict nodes, __global const TriangleBlock* restrict blocks, uint count)
+    __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks, uint count)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count)

@@ -4,7 +4,7 @@
 
 /// rays: 8 floats each, as in trace_test.cl; directions: 3 floats each, unit.
 /// out: triangle hit first and how many of the rays from there hit it again; points: position and origin (6 floats).
-__kernel void selfHit(__global const BvhNode* restrict nodes, __global const TriangleBlock* restrict blocks,
+__kernel void selfHit(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
                       __global const float* restrict positions, __global const float* restrict normals,
                       __global const float* restrict texcoords, __global const uint* restrict indices,
                       __global const uint* restrict materialIds, __global const MaterialData* restrict materials,
