@@ -1,5 +1,5 @@
-// The bounding volume hierarchy as it lies in device memory: 8-wide nodes and blocks of triangles, both
-// as structures of arrays, so that one ray tests 8 boxes or a block of triangles with one vector each.
+// The bounding volume hierarchy as it lies in device memory: 8-wide or 4-wide nodes and blocks of triangles, all
+// as structures of arrays, so that one ray tests a node's boxes or a block of triangles with one vector each.
 #ifndef WEDGE_SHARED_BVH_TYPES_H
 #define WEDGE_SHARED_BVH_TYPES_H
 
@@ -7,6 +7,8 @@
 
 /// Children of a node.
 #define WEDGE_BVH_WIDTH 8
+/// Children of a node of the narrow tree, which the scalar family of traversals walks.
+#define WEDGE_BVH_NARROW_WIDTH 4
 /// Triangles of a block: one vector of 8, which measured faster than 4 for single rays (docs/bvh.md).
 #define WEDGE_BLOCK_SIZE 8
 /// A child reference is an inner node's index, or, with this bit, a leaf: LEAF | firstBlock << 3 | blockCount.
@@ -29,6 +31,16 @@ typedef struct {
     float unit; ///< of the root: coordinates here are the mesh's times this power of two, and lie within +-1
     uint padding[WEDGE_BVH_WIDTH - 1];
 } BvhNode;
+
+/// A node of the narrow tree: half as wide, over the same blocks, with references and empty slots of the same form.
+typedef struct {
+    float loX[WEDGE_BVH_NARROW_WIDTH], hiX[WEDGE_BVH_NARROW_WIDTH];
+    float loY[WEDGE_BVH_NARROW_WIDTH], hiY[WEDGE_BVH_NARROW_WIDTH];
+    float loZ[WEDGE_BVH_NARROW_WIDTH], hiZ[WEDGE_BVH_NARROW_WIDTH];
+    uint child[WEDGE_BVH_NARROW_WIDTH];
+    float unit; ///< of the root, as in BvhNode
+    uint padding[WEDGE_BVH_NARROW_WIDTH - 1];
+} BvhNode4;
 
 /// Vertices, in the root's unit: triangles that share one have the same floats there, which the watertight test
 /// relies on. A triangle without area has its first vertex three times; unused lanes are all zero with
