@@ -1,0 +1,388 @@
+// Packets of 16 rays through the 8-wide hierarchy: one shaft around all rays is tested against the 8 boxes of a node,
+// then the 16 rays against each box that the shaft meets, and against each triangle.
+#ifndef WEDGE_PACKET_WIDE_H
+#define WEDGE_PACKET_WIDE_H
+
+#include "traverse_wide.h"
+
+WEDGE_FN float smallestOf16(float16 x) { return smallestLane(WEDGE_MIN(x.lo, x.hi)); }
+WEDGE_FN float largestOf16(float16 x)
+{
+    const float8 eight = WEDGE_MAX(x.lo, x.hi);
+    const float4 four = WEDGE_MAX(eight.lo, eight.hi);
+    const float2 two = WEDGE_MAX(four.lo, four.hi);
+    return WEDGE_MAX(two.x, two.y);
+}
+
+/// Whether the comparison holds in any lane.
+WEDGE_FN bool anyLane(int16 comparison)
+{
+    const ulong2 bytes = as_ulong2(convert_char16(comparison));
+    return (bytes.x | bytes.y) != 0;
+}
+
+/// A coordinate of 16 rays, and what the box and triangle tests need of it. All in the units of the hierarchy.
+typedef struct {
+    float16 origin, direction;
+    float16 nearScale, nearOffset, farScale, farOffset; ///< as in TraversalRay
+} PacketAxis;
+
+/// One axis of the shaft: points of all rays at t lie between lowOrigin + t lowDirection and highOrigin + t
+/// highDirection, and each of the two ends bounds t by a plane of a box: from below or from above.
+typedef struct {
+    float nearScale, nearOffset; ///< t >= plane scale + offset
+    float farScale, farOffset;   ///< t <= plane scale + offset; infinite where directions differ in sign
+    float turnedScale, turnedOffset; ///< a second t >=, of the high plane, where directions differ in sign
+    uint nearPlane, farPlane; ///< in floats from the node's start
+} ShaftAxis;
+
+typedef struct {
+    ShaftAxis x, y, z;
+    float tMin;
+    bool turned; ///< the directions of an axis differ in sign
+} Shaft;
+
+/// 16 rays with their state. Lanes without a ray have tFar < 0.
+typedef struct {
+    PacketAxis x, y, z;
+    float16 tMin, tFar, u, v;
+    uint16 triangle;
+    float16 shearX, shearY; ///< as in TraversalRay
+    int16 axis; ///< of the largest component of the direction: 0, 1, 2
+} TraversalPacket;
+
+WEDGE_FN PacketAxis packetAxis(float16 origin, float16 direction)
+{
+#pragma OPENCL FP_CONTRACT ON
+    PacketAxis a;
+    a.origin = origin;
+    a.direction = direction;
+    const float16 bounded = fabs(direction) < 1e-30f ? copysign((float16)(1e-30f), direction) : direction;
+    const float16 r = 1.0f / bounded;
+    const float16 offset = -origin * r;
+    const float16 slack = fabs(offset) * WEDGE_WIDEN_ORIGIN + fabs(r) * WEDGE_WIDEN_PLANE;
+    a.nearScale = r;
+    a.nearOffset = offset - slack;
+    a.farScale = r * WEDGE_WIDEN_T;
+    a.farOffset = offset * WEDGE_WIDEN_T + slack;
+    return a;
+}
+
+/// start: that of the low planes of the axis in a node, in floats. live: the lanes that count.
+WEDGE_FN ShaftAxis shaftAxis(const PacketAxis* a, int16 live, uint start, bool* turned)
+{
+#pragma OPENCL FP_CONTRACT ON
+    const float big = 3e38f;
+    const float lowOrigin = smallestOf16(live ? a->origin : (float16)(big));
+    const float highOrigin = largestOf16(live ? a->origin : (float16)(-big));
+    const float lowScale = smallestOf16(live ? a->nearScale : (float16)(big));
+    const float highScale = largestOf16(live ? a->nearScale : (float16)(-big));
+    ShaftAxis s;
+    s.turnedScale = 0.0f;
+    s.turnedOffset = 0.0f;
+    if (lowScale > 0.0f || highScale < 0.0f) {
+        const bool up = lowScale > 0.0f;
+        // The slowest ray that starts farthest ahead bounds where the shaft enters; negative values do not matter.
+        const float nearScale = up ? lowScale : highScale, nearOrigin = up ? highOrigin : lowOrigin;
+        const float farScale = up ? highScale : lowScale, farOrigin = up ? lowOrigin : highOrigin;
+        const float nearOffset = -nearOrigin * nearScale, farOffset = -farOrigin * farScale;
+        s.nearScale = nearScale;
+        s.nearOffset = nearOffset - (fabs(nearOffset) * WEDGE_WIDEN_ORIGIN + fabs(nearScale) * WEDGE_WIDEN_PLANE);
+        s.farScale = farScale * WEDGE_WIDEN_T;
+        s.farOffset = farOffset * WEDGE_WIDEN_T + fabs(farOffset) * WEDGE_WIDEN_ORIGIN + fabs(farScale) * WEDGE_WIDEN_PLANE;
+        s.nearPlane = start + (up ? 0 : WEDGE_BVH_WIDTH);
+        s.farPlane = start + (up ? WEDGE_BVH_WIDTH : 0);
+        return s;
+    }
+    *turned = true;
+    // lowScale is now the reciprocal of the negative direction nearest to 0, and the fastest rays spread the shaft.
+    const float down = smallestOf16(live ? a->direction : (float16)(big));
+    const float up = largestOf16(live ? a->direction : (float16)(-big));
+    const float highScale2 = boundedReciprocal(WEDGE_MAX(up, 1e-30f)), lowScale2 = boundedReciprocal(WEDGE_MIN(down, -1e-30f));
+    const float nearOffset = -highOrigin * highScale2, turnedOffset = -lowOrigin * lowScale2;
+    s.nearScale = highScale2;
+    s.nearOffset = nearOffset - (fabs(nearOffset) * WEDGE_WIDEN_ORIGIN + fabs(highScale2) * WEDGE_WIDEN_PLANE);
+    s.nearPlane = start;
+    s.turnedScale = lowScale2;
+    s.turnedOffset = turnedOffset - (fabs(turnedOffset) * WEDGE_WIDEN_ORIGIN + fabs(lowScale2) * WEDGE_WIDEN_PLANE);
+    s.farScale = 0.0f;
+    s.farOffset = INFINITY;
+    s.farPlane = start + WEDGE_BVH_WIDTH;
+    return s;
+}
+
+/// Where a shaft meets the slabs of 8 boxes along one axis.
+typedef struct {
+    float8 near, far, turned;
+} ShaftSlab;
+
+/// Where the shaft enters the slab between the low and the high planes of 8 boxes at the earliest and leaves it at the
+/// latest, from planes chosen by the shaft's direction.
+WEDGE_FN ShaftSlab intersectSlab(const ShaftAxis* a, float8 nearPlane, float8 farPlane)
+{
+#pragma OPENCL FP_CONTRACT ON
+    ShaftSlab slab;
+    slab.near = nearPlane * a->nearScale + a->nearOffset;
+    slab.far = farPlane * a->farScale + a->farOffset;
+    slab.turned = farPlane * a->turnedScale + a->turnedOffset;
+    return slab;
+}
+
+WEDGE_FN LaneMask intersectSlabs(const Shaft* shaft, ShaftSlab x, ShaftSlab y, ShaftSlab z, float tCull, float8* tEnter)
+{
+    const float8 nearXY = WEDGE_MAX(x.near, y.near), nearZ0 = WEDGE_MAX(z.near, (float8)(shaft->tMin));
+    const float8 farXY = WEDGE_MIN(x.far, y.far), farZ0 = WEDGE_MIN(z.far, (float8)(tCull));
+    float8 enter = WEDGE_MAX(nearXY, nearZ0);
+    if (shaft->turned) {
+        // The one order of operands that lets a NaN pass.
+        enter = WEDGE_MAX(x.turned, enter);
+        enter = WEDGE_MAX(y.turned, enter);
+        enter = WEDGE_MAX(z.turned, enter);
+    }
+    *tEnter = enter;
+    return laneMask(enter <= WEDGE_MIN(farXY, farZ0));
+}
+
+/// The children of a node that the shaft enters by t = tCull, and where it enters each at the earliest.
+WEDGE_FN LaneMask shaftBoxes(__global const BvhNode* node, const Shaft* shaft, float tCull, float8* tEnter)
+{
+    __global const float* planes = node->loX;
+    const ShaftSlab x = intersectSlab(&shaft->x, vload8(0, planes + shaft->x.nearPlane), vload8(0, planes + shaft->x.farPlane));
+    const ShaftSlab y = intersectSlab(&shaft->y, vload8(0, planes + shaft->y.nearPlane), vload8(0, planes + shaft->y.farPlane));
+    const ShaftSlab z = intersectSlab(&shaft->z, vload8(0, planes + shaft->z.nearPlane), vload8(0, planes + shaft->z.farPlane));
+    return intersectSlabs(shaft, x, y, z, tCull, tEnter);
+}
+
+/// The slab of the shaft and the bounds of 8 triangles along one axis.
+WEDGE_FN ShaftSlab triangleSlab(const ShaftAxis* a, bool nearIsLow, __global const float* v0, __global const float* v1,
+    __global const float* v2)
+{
+    const float8 p = vload8(0, v0), q = vload8(0, v1), r = vload8(0, v2);
+    const float8 low = WEDGE_MIN(WEDGE_MIN(p, q), r), high = WEDGE_MAX(WEDGE_MAX(p, q), r);
+    return intersectSlab(a, nearIsLow ? low : high, nearIsLow ? high : low);
+}
+
+/// The triangles of a block whose boxes the shaft enters by t = tCull.
+WEDGE_FN LaneMask shaftTriangles(__global const TriangleBlock* block, const Shaft* shaft, float tCull)
+{
+    const ShaftSlab x = triangleSlab(&shaft->x, shaft->x.nearPlane == 0, block->v0x, block->v1x, block->v2x);
+    const ShaftSlab y = triangleSlab(&shaft->y, shaft->y.nearPlane == 2 * WEDGE_BVH_WIDTH, block->v0y, block->v1y, block->v2y);
+    const ShaftSlab z = triangleSlab(&shaft->z, shaft->z.nearPlane == 4 * WEDGE_BVH_WIDTH, block->v0z, block->v1z, block->v2z);
+    float8 tEnter;
+    return intersectSlabs(shaft, x, y, z, tCull, &tEnter);
+}
+
+/// The rays that enter the box of a node's child by their tFar. FP_CONTRACT as in intersectBoxes.
+WEDGE_FN bool raysMeetBox(__global const BvhNode* node, uint child, const TraversalPacket* p, const Shaft* shaft)
+{
+#pragma OPENCL FP_CONTRACT ON
+    __global const float* planes = node->loX + child;
+    float16 nearX = planes[shaft->x.nearPlane], farX = planes[shaft->x.farPlane];
+    float16 nearY = planes[shaft->y.nearPlane], farY = planes[shaft->y.farPlane];
+    float16 nearZ = planes[shaft->z.nearPlane], farZ = planes[shaft->z.farPlane];
+    if (shaft->turned) {
+        // Planes by the sign of each ray; nearPlane is the low one on an axis with both.
+        const float16 lowX = node->loX[child], highX = node->hiX[child];
+        const float16 lowY = node->loY[child], highY = node->hiY[child];
+        const float16 lowZ = node->loZ[child], highZ = node->hiZ[child];
+        nearX = p->x.nearScale < 0.0f ? highX : lowX;
+        farX = p->x.nearScale < 0.0f ? lowX : highX;
+        nearY = p->y.nearScale < 0.0f ? highY : lowY;
+        farY = p->y.nearScale < 0.0f ? lowY : highY;
+        nearZ = p->z.nearScale < 0.0f ? highZ : lowZ;
+        farZ = p->z.nearScale < 0.0f ? lowZ : highZ;
+    }
+    const float16 ax = nearX * p->x.nearScale + p->x.nearOffset, bx = farX * p->x.farScale + p->x.farOffset;
+    const float16 ay = nearY * p->y.nearScale + p->y.nearOffset, by = farY * p->y.farScale + p->y.farOffset;
+    const float16 az = nearZ * p->z.nearScale + p->z.nearOffset, bz = farZ * p->z.farScale + p->z.farOffset;
+    const float16 nearXY = WEDGE_MAX(ax, ay), nearZ0 = WEDGE_MAX(az, p->tMin);
+    const float16 farXY = WEDGE_MIN(bx, by), farZ0 = WEDGE_MIN(bz, p->tFar * WEDGE_WIDEN_T);
+    return anyLane(WEDGE_MAX(nearXY, nearZ0) <= WEDGE_MIN(farXY, farZ0));
+}
+
+/// The axes of the triangle test, which the rays of a traversal share.
+typedef struct {
+    uint x, y, z; ///< where their coordinates start in a vertex of a block, in floats
+    const PacketAxis *raysX, *raysY, *raysZ;
+} TestAxes;
+
+/// Intersects the triangle in one lane of a block with 16 rays: intersectBlock with the roles exchanged, operation by
+/// operation, so that both find the same hits to the last bit. Returns whether any ray hit it.
+WEDGE_FN bool intersectTriangle(__global const TriangleBlock* block, uint lane, const TestAxes* axes, TraversalPacket* p, const bool any)
+{
+    __global const float *v0 = block->v0x + lane, *v1 = block->v1x + lane, *v2 = block->v2x + lane;
+    const float16 ox = axes->raysX->origin, oy = axes->raysY->origin, oz = axes->raysZ->origin;
+    const float16 ax = v0[axes->x] - ox, ay = v0[axes->y] - oy, az = v0[axes->z] - oz;
+    const float16 bx = v1[axes->x] - ox, by = v1[axes->y] - oy, bz = v1[axes->z] - oz;
+    const float16 cx = v2[axes->x] - ox, cy = v2[axes->y] - oy, cz = v2[axes->z] - oz;
+    const float16 sax = ax - p->shearX * az, say = ay - p->shearY * az;
+    const float16 sbx = bx - p->shearX * bz, sby = by - p->shearY * bz;
+    const float16 scx = cx - p->shearX * cz, scy = cy - p->shearY * cz;
+    const float16 u = sax * scy - say * scx;
+    const float16 v = sbx * say - sby * sax;
+    const float16 w = scx * sby - scy * sbx;
+    const float16 least = WEDGE_MIN(WEDGE_MIN(u, v), w), most = WEDGE_MAX(WEDGE_MAX(u, v), w);
+    const float16 sum = u + v + w;
+    const int16 inside = ((least >= 0.0f) | (most <= 0.0f)) & (sum != 0.0f);
+    if (!anyLane(inside))
+        return false;
+    const float e1x = v1[axes->x] - v0[axes->x], e2x = v2[axes->x] - v0[axes->x];
+    const float e1y = v1[axes->y] - v0[axes->y], e2y = v2[axes->y] - v0[axes->y];
+    const float e1z = v1[axes->z] - v0[axes->z], e2z = v2[axes->z] - v0[axes->z];
+    const float nx = e1y * e2z - e1z * e2y, ny = e1z * e2x - e1x * e2z, nz = e1x * e2y - e1y * e2x;
+    const float16 t = (nx * ax + ny * ay + nz * az)
+        / (nx * axes->raysX->direction + ny * axes->raysY->direction + nz * axes->raysZ->direction);
+    const uint triangle = block->triangle[lane];
+    const int16 nearer = (t < p->tFar) | ((t == p->tFar) & (triangle < p->triangle));
+    const int16 hit = inside & (t > p->tMin) & nearer;
+    if (!anyLane(hit))
+        return false;
+    if (any) {
+        p->tFar = hit ? (float16)(-1.0f) : p->tFar;
+        return true;
+    }
+    const float16 inverse = 1.0f / sum;
+    p->tFar = hit ? t : p->tFar;
+    p->u = hit ? u * inverse : p->u;
+    p->v = hit ? v * inverse : p->v;
+    p->triangle = hit ? (uint16)(triangle) : p->triangle;
+    return true;
+}
+
+/// Walks the hierarchy with the rays of a packet whose direction is largest along axes->z. With any, a ray that hit
+/// something has tFar < 0.
+WEDGE_FN void traversePacket(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
+    const Shaft* shaft, const TestAxes* axes, TraversalPacket* p, const bool any)
+{
+    uint stack[WEDGE_BVH_STACK];
+    float enters[WEDGE_BVH_STACK];
+    float tCull = largestOf16(p->tFar) * WEDGE_WIDEN_T;
+    int depth = 0;
+    uint current = 0;
+    for (;;) {
+        if (current & WEDGE_BVH_LEAF) {
+            __global const TriangleBlock* block = blocks + ((current & ~WEDGE_BVH_LEAF) >> 3);
+            bool found = false;
+            for (uint left = current & 7u; left != 0; left--, block++) {
+                LaneMask lanes = shaftTriangles(block, shaft, tCull);
+                for (; lanes; lanes = dropFirstLane(lanes))
+                    found |= intersectTriangle(block, firstLane(lanes), axes, p, any);
+            }
+            if (found) {
+                tCull = largestOf16(p->tFar) * WEDGE_WIDEN_T;
+                if (any && tCull < 0.0f)
+                    return;
+            }
+        } else {
+            __global const BvhNode* node = nodes + current;
+            float8 tEnter;
+            LaneMask lanes = shaftBoxes(node, shaft, tCull, &tEnter);
+            float t[WEDGE_BVH_WIDTH];
+            vstore8(tEnter, 0, t);
+            const int base = depth;
+            for (; lanes; lanes = dropFirstLane(lanes)) {
+                const uint lane = firstLane(lanes);
+                if (!raysMeetBox(node, lane, p, shaft))
+                    continue;
+                // Farthest first, so that the nearest is on top.
+                int place = depth++;
+                for (; place > base && enters[place - 1] < t[lane]; place--) {
+                    stack[place] = stack[place - 1];
+                    enters[place] = enters[place - 1];
+                }
+                stack[place] = node->child[lane];
+                enters[place] = t[lane];
+            }
+        }
+        do {
+            if (depth == 0)
+                return;
+            depth--;
+        } while (enters[depth] > tCull);
+        current = stack[depth];
+    }
+}
+
+WEDGE_FN void loadPacket(const RayPacket* packet, float unit, TraversalPacket* p)
+{
+    p->x = packetAxis(vload16(0, packet->originX) * unit, vload16(0, packet->directionX) * unit);
+    p->y = packetAxis(vload16(0, packet->originY) * unit, vload16(0, packet->directionY) * unit);
+    p->z = packetAxis(vload16(0, packet->originZ) * unit, vload16(0, packet->directionZ) * unit);
+    const float16 tMin = vload16(0, packet->tMin), tMax = vload16(0, packet->tMax);
+    p->tMin = WEDGE_MAX(tMin, (float16)(0.0f));
+    // 0 times a finite number is 0, and times anything else NaN.
+    const float16 sum = p->x.origin + p->y.origin + p->z.origin + p->x.direction + p->y.direction + p->z.direction;
+    const int16 valid = (sum * 0.0f == 0.0f) & (p->tMin < tMax);
+    // The float before tMax, or before infinity.
+    p->tFar = valid ? as_float16(as_uint16(tMax) - 1u) : (float16)(-1.0f);
+    p->u = (float16)(0.0f);
+    p->v = (float16)(0.0f);
+    p->triangle = (uint16)(WEDGE_NO_TRIANGLE);
+    const float16 dx = fabs(p->x.direction), dy = fabs(p->y.direction), dz = fabs(p->z.direction);
+    const int16 largestX = (dx >= dy) & (dx >= dz);
+    const int16 largestY = ~largestX & (dy >= dz);
+    p->axis = largestX ? (int16)(0) : largestY ? (int16)(1) : (int16)(2);
+    const float16 x = largestX ? p->y.direction : largestY ? p->z.direction : p->x.direction;
+    const float16 y = largestX ? p->z.direction : largestY ? p->x.direction : p->y.direction;
+    const float16 z = largestX ? p->x.direction : largestY ? p->y.direction : p->z.direction;
+    p->shearX = x / z;
+    p->shearY = y / z;
+}
+
+/// Sends the rays through the hierarchy, those of each largest axis of the direction together: nearly always all.
+WEDGE_FN void tracePacket(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
+    TraversalPacket* p, const bool any)
+{
+    const int16 valid = p->tFar >= 0.0f;
+    const float16 tFar = p->tFar;
+    float16 result = tFar;
+    for (int axis = 0; axis < 3; axis++) {
+        const int16 live = valid & (p->axis == axis);
+        if (!anyLane(live))
+            continue;
+        p->tFar = live ? tFar : (float16)(-1.0f);
+        TestAxes axes;
+        axes.x = (axis == 0 ? 1 : axis == 1 ? 2 : 0) * WEDGE_BLOCK_SIZE;
+        axes.y = (axis == 0 ? 2 : axis == 1 ? 0 : 1) * WEDGE_BLOCK_SIZE;
+        axes.z = axis * WEDGE_BLOCK_SIZE;
+        axes.raysX = axis == 0 ? &p->y : axis == 1 ? &p->z : &p->x;
+        axes.raysY = axis == 0 ? &p->z : axis == 1 ? &p->x : &p->y;
+        axes.raysZ = axis == 0 ? &p->x : axis == 1 ? &p->y : &p->z;
+        Shaft shaft;
+        shaft.turned = false;
+        shaft.x = shaftAxis(&p->x, live, 0, &shaft.turned);
+        shaft.y = shaftAxis(&p->y, live, 2 * WEDGE_BVH_WIDTH, &shaft.turned);
+        shaft.z = shaftAxis(&p->z, live, 4 * WEDGE_BVH_WIDTH, &shaft.turned);
+        shaft.tMin = smallestOf16(live ? p->tMin : (float16)(3e38f));
+        traversePacket(nodes, blocks, &shaft, &axes, p, any);
+        result = live ? p->tFar : result;
+    }
+    p->tFar = result;
+}
+
+/// closestHit() of each lane. A lane without a ray hits nothing.
+WEDGE_FN void closestHits(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
+    const RayPacket* packet, PacketHits* hits)
+{
+    TraversalPacket p;
+    loadPacket(packet, nodes->unit, &p);
+    tracePacket(nodes, blocks, &p, false);
+    const float16 tMax = vload16(0, packet->tMax);
+    vstore16(p.triangle == WEDGE_NO_TRIANGLE ? tMax : p.tFar, 0, hits->t);
+    vstore16(p.u, 0, hits->u);
+    vstore16(p.v, 0, hits->v);
+    vstore16(p.triangle, 0, hits->triangle);
+}
+
+/// anyHit() of each lane: 1 or 0.
+WEDGE_FN void anyHits(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
+    const RayPacket* packet, uint* occluded)
+{
+    TraversalPacket p;
+    loadPacket(packet, nodes->unit, &p);
+    const int16 valid = p.tFar >= 0.0f;
+    tracePacket(nodes, blocks, &p, true);
+    vstore16(valid & (p.tFar < 0.0f) ? (uint16)(1u) : (uint16)(0u), 0, occluded);
+}
+
+#endif
