@@ -8,17 +8,17 @@
 /// The node that this family of traversals walks.
 typedef BvhNode TraversalNode;
 
-/// Walks the hierarchy front to back, and writes the nearest hit, or, with any, the first one it comes across.
+/// Walks the subtree of a reference (0: all) front to back, and writes the nearest hit, or, with any, the first one it comes across.
 /// Nodes and leaves take turns in one flat loop, which is faster here than a loop over nodes that ends in a loop
 /// over leaves. The builder guarantees that the stack suffices.
 WEDGE_FN void traverse(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
-    const TraversalRay* ray, const bool any, Hit* hit)
+    uint reference, const TraversalRay* ray, const bool any, Hit* hit)
 {
     uint stack[WEDGE_BVH_STACK];
     float enters[WEDGE_BVH_STACK]; // where the ray enters each
     float tCull = hit->t * WEDGE_WIDEN_T; // beyond this nothing matters any more
     int depth = 0;
-    uint current = 0;
+    uint current = reference;
     for (;;) {
         if (current & WEDGE_BVH_LEAF) {
             __global const TriangleBlock* block = blocks + ((current & ~WEDGE_BVH_LEAF) >> 3);
@@ -72,41 +72,6 @@ WEDGE_FN void traverse(__global const TraversalNode* restrict nodes, __global co
         } while (enters[depth] > tCull);
         current = stack[depth];
     }
-}
-
-/// The nearest hit of origin + t direction, tMin < t < tMax, on either face of the triangles; of hits at equal t the
-/// one of the smallest index. The direction may have any length. A negative tMin counts as 0; a ray with a NaN or
-/// infinity (but in tMax) or a zero direction hits nothing. On a miss triangle is WEDGE_NO_TRIANGLE and t = tMax.
-WEDGE_FN Hit closestHit(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
-    Vec3 origin, Vec3 direction, float tMin, float tMax)
-{
-    Hit hit;
-    hit.t = tMax;
-    hit.u = 0.0f;
-    hit.v = 0.0f;
-    hit.triangle = WEDGE_NO_TRIANGLE;
-    TraversalRay ray;
-    if (!prepareRay(&ray, nodes->unit, origin, direction, tMin, tMax))
-        return hit;
-    hit.t = ray.tMax;
-    traverse(nodes, blocks, &ray, false, &hit);
-    if (hit.triangle == WEDGE_NO_TRIANGLE)
-        hit.t = tMax;
-    return hit;
-}
-
-/// Whether any triangle lies at tMin < t < tMax; the conditions of closestHit.
-WEDGE_FN bool anyHit(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks, Vec3 origin,
-    Vec3 direction, float tMin, float tMax)
-{
-    TraversalRay ray;
-    if (!prepareRay(&ray, nodes->unit, origin, direction, tMin, tMax))
-        return false;
-    Hit hit;
-    hit.t = ray.tMax;
-    hit.triangle = WEDGE_NO_TRIANGLE;
-    traverse(nodes, blocks, &ray, true, &hit);
-    return hit.triangle != WEDGE_NO_TRIANGLE;
 }
 
 #endif
