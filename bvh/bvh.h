@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace wedge::bvh {
@@ -23,8 +25,25 @@ struct Config {
     unsigned bins = 32;
     /// Blocks a leaf may hold; 1 to WEDGE_BVH_MAX_LEAF_BLOCKS.
     unsigned maxLeafBlocks = WEDGE_BVH_MAX_LEAF_BLOCKS;
+    /// Whether to sort triangles along a Morton curve and split runs of it instead of triangles: several times faster
+    /// to build, slower to trace.
+    bool mortonRuns = false;
+    /// References that spatial splits may add, as a share of the triangles; 0 for none. Not with mortonRuns.
+    float extraReferences = 0;
 };
 inline constexpr unsigned maxBins = 32;
+
+/// What a hierarchy is for: meshes that change from frame to frame, a picture, or many rays through one mesh.
+enum class Mode { Fast, Default, Quality };
+
+/// The mode called "fast", "default" or "quality"; none for other names.
+std::optional<Mode> parseMode(std::string_view name);
+
+/// Its name, as parseMode takes it.
+std::string_view modeName(Mode mode);
+
+/// The configuration of a mode; Mode::Default gives Config{}.
+Config config(Mode mode);
 
 /// Coordinates beyond this are refused like infinities: products of three edges must stay within a float's range.
 inline constexpr float maxCoordinate = 1e18f;

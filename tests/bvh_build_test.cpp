@@ -46,6 +46,18 @@ TEST_CASE("The hierarchy is valid for every configuration")
                 checkValid(bvh::build(mesh.view(), { cost, bins, blocks }), mesh);
 }
 
+TEST_CASE("Modes have names, and nothing else is one")
+{
+    for (const bvh::Mode mode : { bvh::Mode::Fast, bvh::Mode::Default, bvh::Mode::Quality })
+        CHECK(bvh::parseMode(bvh::modeName(mode)) == mode);
+    CHECK(bvh::parseMode("fast") == bvh::Mode::Fast);
+    CHECK(bvh::parseMode("quality") == bvh::Mode::Quality);
+    for (const char* name : { "", "Fast", "high", "default " })
+        CHECK_FALSE(bvh::parseMode(name));
+    CHECK(bvh::config(bvh::Mode::Fast).mortonRuns);
+    CHECK(bvh::config(bvh::Mode::Quality).extraReferences > 0);
+}
+
 TEST_CASE("An empty mesh has a root without children")
 {
     const bvh::Bvh hierarchy = bvh::build({});
