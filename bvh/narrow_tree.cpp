@@ -9,8 +9,15 @@ namespace wedge::bvh {
 namespace {
 
 using detail::Box;
+using detail::Float4;
 using shared::BvhNode;
 using shared::BvhNode4;
+
+Box slotBox(const BvhNode& node, unsigned slot)
+{
+    return { Float4 { node.loX[slot], node.loY[slot], node.loZ[slot], 0 },
+        Float4 { node.hiX[slot], node.hiY[slot], node.hiZ[slot], 0 } };
+}
 
 /// Some of the children of a wide node, and their box.
 struct Group {
@@ -40,9 +47,7 @@ struct Grouping {
     {
         for (unsigned slot = 0; slot < WEDGE_BVH_WIDTH; slot++)
             if (node.child[slot] != WEDGE_BVH_LEAF)
-                groups[count++] = { { slot }, 1,
-                    { { node.loX[slot], node.loY[slot], node.loZ[slot], 0 },
-                        { node.hiX[slot], node.hiY[slot], node.hiZ[slot], 0 } } };
+                groups[count++] = Group { { slot }, 1, slotBox(node, slot) };
         while (count > WEDGE_BVH_NARROW_WIDTH)
             mergeCheapest();
     }
@@ -129,10 +134,8 @@ private:
         const std::uint32_t index = addNode();
         for (unsigned i = 0; i < group.count; i++) {
             const unsigned slot = group.slots[i];
-            const Box box { { from.loX[slot], from.loY[slot], from.loZ[slot], 0 },
-                { from.hiX[slot], from.hiY[slot], from.hiZ[slot], 0 } };
             const std::uint32_t child = emitChild(wide, slot);
-            setChild(nodes_[index], i, box, child);
+            setChild(nodes_[index], i, slotBox(from, slot), child);
         }
         return index;
     }

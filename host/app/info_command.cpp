@@ -30,9 +30,9 @@ Facts gather(const std::string& path)
     Facts facts;
     facts.scene = scene::loadScene(path);
     facts.summary = scene::summary(facts.scene);
-    const bvh::Bvh hierarchy =
-        bvh::build({ facts.scene.geometry.positions, facts.scene.geometry.indices }, bvh::Config());
-    facts.bvh = hierarchy.statistics;
+    const render::Hierarchy hierarchy(
+        bvh::build({ facts.scene.geometry.positions, facts.scene.geometry.indices }, bvh::Config()));
+    facts.bvh = hierarchy.bvh.statistics;
     facts.settings = resolveSettings(RenderOptions(), facts.scene);
     facts.memory = render::Renderer::plan(facts.scene, hierarchy, facts.settings);
     return facts;

@@ -96,6 +96,8 @@ void addDeviceOptions(CLI::App& parser, RenderOptions& o)
 {
     addList(parser, howGroup, "--device", "SELECTOR", "cpu, gpu, an index from `wedge devices`, or part of a name",
         o.devices);
+    addChoice(parser, howGroup, "--traversal", { "auto", "wide", "scalar" },
+        "How rays are traced: wide for CPUs, scalar for GPUs, auto by the device; the image is the same", o.traversal);
     addValue(parser, howGroup, "--time-limit", "S", "Stop sampling after so many seconds and write what is there",
         [&o](const std::string& text) { o.timeLimitSeconds = positiveNumber("--time-limit", text, 1e9); });
     addValue(parser, howGroup, "--memory-limit", "MIB", "Use no more than so much of the device's memory",

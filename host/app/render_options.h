@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/image/image.h"
+#include "host/render/hierarchy.h"
 #include "host/render/settings.h"
 
 #include <cstdint>
@@ -32,6 +33,7 @@ struct RenderOptions {
     double timeLimitSeconds = 0; ///< 0: none
     std::uint64_t memoryLimitBytes = 0; ///< 0: the device's
     std::string kernelDir;
+    std::optional<render::Traversal> traversal;
     bool fastMath = false;
     bool checkLaunches = false;
     bool quiet = false, verbose = false;

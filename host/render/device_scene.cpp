@@ -113,11 +113,11 @@ shared::AreaLight deviceLight(const scene::AreaLight& light)
     return d;
 }
 
-void DeviceScene::plan(device::MemoryPlan& plan, const scene::Scene& scene, const bvh::Bvh& bvh)
+void DeviceScene::plan(device::MemoryPlan& plan, const scene::Scene& scene, const Hierarchy& hierarchy)
 {
     const scene::Geometry& g = scene.geometry;
-    plan.addItems("BVH nodes", bvh.nodes.size(), sizeof(shared::BvhNode));
-    plan.addItems("triangle blocks", bvh.blocks.size(), sizeof(shared::TriangleBlock));
+    plan.addItems("BVH nodes", hierarchy.nodes().size(), 1);
+    plan.addItems("triangle blocks", hierarchy.bvh.blocks.size(), sizeof(shared::TriangleBlock));
     plan.addItems("positions", g.positions.size(), sizeof(float));
     plan.addItems("normals", g.normals.size(), sizeof(float));
     plan.addItems("texture coordinates", g.texcoords.size(), sizeof(float));
@@ -128,10 +128,10 @@ void DeviceScene::plan(device::MemoryPlan& plan, const scene::Scene& scene, cons
     plan.addItems("texels", texelCount(scene), sizeof(std::uint32_t));
 }
 
-DeviceScene::DeviceScene(const scene::Scene& scene, const bvh::Bvh& bvh, const device::Device& device,
+DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device,
     device::TimedQueue& queue)
-    : nodes(device, bvh.nodes.size(), "BVH nodes")
-    , blocks(device, bvh.blocks.size(), "triangle blocks")
+    : nodes(device, hierarchy.nodes().size(), "BVH nodes")
+    , blocks(device, hierarchy.bvh.blocks.size(), "triangle blocks")
     , positions(device, scene.geometry.positions.size(), "positions")
     , normals(device, scene.geometry.normals.size(), "normals")
     , texcoords(device, scene.geometry.texcoords.size(), "texture coordinates")
@@ -146,8 +146,8 @@ DeviceScene::DeviceScene(const scene::Scene& scene, const bvh::Bvh& bvh, const d
     , deltaLights(device, scene.pointLights.size() + scene.directionalLights.size(), "point and directional lights")
 {
     const scene::Geometry& g = scene.geometry;
-    nodes.upload(queue, bvh.nodes);
-    blocks.upload(queue, bvh.blocks);
+    nodes.upload(queue, hierarchy.nodes());
+    blocks.upload(queue, hierarchy.bvh.blocks);
     positions.upload(queue, g.positions);
     normals.upload(queue, g.normals);
     texcoords.upload(queue, g.texcoords);

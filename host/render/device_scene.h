@@ -1,8 +1,8 @@
 #pragma once
 
-#include "bvh/bvh.h"
 #include "host/device/buffer.h"
 #include "host/device/memory_plan.h"
+#include "host/render/hierarchy.h"
 #include "host/scene/scene.h"
 #include "kernels/shared/bvh_types.h"
 #include "kernels/shared/light.h"
@@ -19,12 +19,13 @@ shared::AreaLight deviceLight(const scene::AreaLight& light);
 class DeviceScene {
 public:
     /// Adds what the scene will take to the plan.
-    static void plan(device::MemoryPlan& plan, const scene::Scene& scene, const bvh::Bvh& bvh);
+    static void plan(device::MemoryPlan& plan, const scene::Scene& scene, const Hierarchy& hierarchy);
 
     /// Uploads everything. Throws Error from the device.
-    DeviceScene(const scene::Scene& scene, const bvh::Bvh& bvh, const device::Device& device, device::TimedQueue& queue);
+    DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device,
+        device::TimedQueue& queue);
 
-    device::Buffer<shared::BvhNode> nodes;
+    device::Buffer<std::byte> nodes; ///< of the hierarchy's family of traversals
     device::Buffer<shared::TriangleBlock> blocks;
     device::Buffer<float> positions, normals, texcoords;
     device::Buffer<std::uint32_t> indices, materialIds, objectIds;

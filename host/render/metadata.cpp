@@ -66,6 +66,7 @@ std::map<std::string, image::MetadataValue> frameMetadata(
     out["device"] = device.name;
     out["driver"] = device.platform + " " + device.driver;
     out["buildOptions"] = renderer.buildOptions();
+    out["traversal"] = traversalName(renderer.traversal());
     out["depthConvention"] = std::string("distance along the ray from the camera in metres, +inf on a miss");
     for (const auto& [name, value] : describe(settings)) {
         out[name == "method" ? name : "method." + name] = value;

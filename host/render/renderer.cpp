@@ -23,11 +23,14 @@ bool hasSpecular(const scene::Scene& scene)
     return std::ranges::any_of(scene.materials, [](const scene::Material& m) { return m.specular.r + m.specular.g + m.specular.b > 0; });
 }
 
-device::BuildOptions programOptions(const scene::Scene& scene, const Options& options)
+device::BuildOptions programOptions(const scene::Scene& scene, const Options& options, Traversal traversal)
 {
     device::BuildOptions out;
     if (hasSpecular(scene)) {
         out.defines.emplace_back("WEDGE_SPECULAR", "1");
+    }
+    if (traversal == Traversal::Scalar) {
+        out.defines.emplace_back("WEDGE_TRAVERSAL_SCALAR", "1");
     }
     out.fastMath = options.fastMath;
     out.kernelDir = options.kernelDir;
@@ -56,18 +59,19 @@ Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Opti
     : scene_(scene)
     , device_(device)
     , options_(std::move(options))
-    , bvh_(bvh::build({ scene.geometry.positions, scene.geometry.indices }, options_.bvh))
+    , hierarchy_(bvh::build({ scene.geometry.positions, scene.geometry.indices }, options_.bvh),
+          resolveTraversal(options_.traversal, device.info()))
     , queue_(device, options_.blameLaunches)
-    , programs_(std::make_unique<device::ProgramLibrary>(device, programOptions(scene, options_)))
+    , programs_(std::make_unique<device::ProgramLibrary>(device, programOptions(scene, options_, hierarchy_.traversal)))
     , passes_(std::make_unique<Passes>(*programs_, queue_))
 {
 }
 
-device::MemoryPlan Renderer::plan(const scene::Scene& scene, const bvh::Bvh& bvh, const Settings& settings)
+device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings)
 {
     const PlaneLayout layout(settings.width, settings.height);
     device::MemoryPlan plan;
-    DeviceScene::plan(plan, scene, bvh);
+    DeviceScene::plan(plan, scene, hierarchy);
     Frame::plan(plan, layout);
     Term::plan(plan, layout, hasSpecular(scene), needsAnalysis(settings));
     return plan;
@@ -78,7 +82,7 @@ void Renderer::allocate(const Settings& settings)
     validate(settings);
     plan(settings).check(device_.info(), options_.memoryLimit);
     if (!deviceScene_) {
-        deviceScene_ = std::make_unique<DeviceScene>(scene_, bvh_, device_, queue_);
+        deviceScene_ = std::make_unique<DeviceScene>(scene_, hierarchy_, device_, queue_);
     }
     const PlaneLayout layout(settings.width, settings.height);
     if (!frame_ || !(frame_->layout == layout)) {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "bvh/bvh.h"
 #include "host/device/memory_plan.h"
 #include "host/device/program.h"
 #include "host/render/device_scene.h"
 #include "host/render/frame.h"
+#include "host/render/hierarchy.h"
 #include "host/render/passes.h"
 #include "host/render/settings.h"
 
@@ -24,6 +24,7 @@ struct Options {
     bool blameLaunches = false; ///< waits for each launch, so that a device error names the right kernel
     std::uint64_t memoryLimit = 0; ///< bytes on the device, 0: the device's own limit
     bvh::Config bvh;
+    Traversal traversal = Traversal::Automatic;
 };
 
 /// How a render is watched and stopped.
@@ -62,8 +63,8 @@ public:
     Renderer(const scene::Scene& scene, const device::Device& device, Options options = {});
 
     /// Device memory that a frame of these settings takes, before anything of it is allocated.
-    static device::MemoryPlan plan(const scene::Scene& scene, const bvh::Bvh& bvh, const Settings& settings);
-    device::MemoryPlan plan(const Settings& settings) const { return plan(scene_, bvh_, settings); }
+    static device::MemoryPlan plan(const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings);
+    device::MemoryPlan plan(const Settings& settings) const { return plan(scene_, hierarchy_, settings); }
 
     /// Renders; the result stays on the device until the next call. Throws Error if memory does not suffice or the
     /// device fails. keepLights: fills lightPlanes() for the width layers.
@@ -73,7 +74,8 @@ public:
     void rehearse(const Settings& settings);
 
     const scene::Scene& scene() const { return scene_; }
-    const bvh::Bvh& hierarchy() const { return bvh_; }
+    const bvh::Bvh& hierarchy() const { return hierarchy_.bvh; }
+    Traversal traversal() const { return hierarchy_.traversal; } ///< never Automatic
     const device::Device& device() const { return device_; }
     std::string buildOptions() const { return programs_->optionsString(); }
     double setupSeconds() const { return setupSeconds_; }
@@ -94,7 +96,7 @@ private:
     const scene::Scene& scene_;
     device::Device device_;
     Options options_;
-    bvh::Bvh bvh_;
+    Hierarchy hierarchy_;
     device::TimedQueue queue_;
     std::unique_ptr<device::ProgramLibrary> programs_;
     std::unique_ptr<Passes> passes_;

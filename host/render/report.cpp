@@ -33,7 +33,7 @@ Json deviceSection(const Renderer& renderer)
     return { { "name", info.name }, { "platform", info.platform }, { "platform_version", info.platformVersion },
         { "driver", info.driver }, { "type", device::deviceTypeName(info.type) }, { "index", info.index },
         { "compute_units", info.computeUnits }, { "host_timers", info.hostTimers },
-        { "build_options", renderer.buildOptions() } };
+        { "build_options", renderer.buildOptions() }, { "traversal", traversalName(renderer.traversal()) } };
 }
 
 Json sceneSection(const Renderer& renderer, const Settings& settings)

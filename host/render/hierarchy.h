@@ -1,0 +1,39 @@
+#pragma once
+
+#include "bvh/bvh.h"
+#include "host/device/limits.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace wedge::render {
+
+/// Which family of traversals kernels are built with, docs/traversal.md. Both find the same hits.
+enum class Traversal {
+    Automatic, ///< by the device's type
+    Wide, ///< 8-wide nodes, vectors of 8, packets of 16 rays: for CPUs
+    Scalar, ///< 4-wide nodes, one triangle at a time: for GPUs
+};
+
+/// What Automatic comes to on a device: wide on CPUs, scalar on all others. Anything else stays as it is.
+Traversal resolveTraversal(Traversal wanted, const device::DeviceInfo& device);
+
+/// "auto", "wide" or "scalar".
+std::string traversalName(Traversal traversal);
+
+/// A hierarchy with the nodes that one family of traversals walks.
+struct Hierarchy {
+    /// wide by default; never Automatic.
+    Hierarchy(bvh::Bvh built, Traversal family = Traversal::Wide);
+
+    /// The nodes as they go to the device: BvhNode for the wide family, BvhNode4 for the scalar one.
+    std::span<const std::byte> nodes() const;
+
+    bvh::Bvh bvh;
+    Traversal traversal;
+    std::vector<shared::BvhNode4> narrow; ///< empty for the wide family
+};
+
+} // namespace wedge::render
