@@ -1,6 +1,7 @@
 #include "host/app/commands.h"
 #include "host/app/render_options.h"
 #include "host/app/render_settings.h"
+#include "host/app/values.h"
 #include "host/device/memory_plan.h"
 #include "host/render/renderer.h"
 #include "host/scene/scene.h"
@@ -19,19 +20,21 @@ using Json = nlohmann::ordered_json;
 struct Facts {
     scene::Scene scene;
     scene::Summary summary;
+    bvh::Mode mode = bvh::Mode::Default;
     bvh::Statistics bvh;
     render::Settings settings;
     device::MemoryPlan memory;
 };
 
 /// What a frame of the scene's own settings would take, asked without a device.
-Facts gather(const std::string& path)
+Facts gather(const std::string& path, bvh::Mode mode)
 {
     Facts facts;
     facts.scene = scene::loadScene(path);
     facts.summary = scene::summary(facts.scene);
+    facts.mode = mode;
     const render::Hierarchy hierarchy(
-        bvh::build({ facts.scene.geometry.positions, facts.scene.geometry.indices }, bvh::Config()));
+        bvh::build({ facts.scene.geometry.positions, facts.scene.geometry.indices }, bvh::config(mode)));
     facts.bvh = hierarchy.bvh.statistics;
     facts.settings = resolveSettings(RenderOptions(), facts.scene);
     facts.memory = render::Renderer::plan(facts.scene, hierarchy, facts.settings);
@@ -54,9 +57,9 @@ void printJson(const Facts& f)
     json["width"] = f.settings.width;
     json["height"] = f.settings.height;
     json["memory_bytes"] = f.memory.total();
-    json["bvh"] = { { "nodes", b.nodes }, { "blocks", b.blocks }, { "triangles", b.triangles },
-        { "degenerate", b.degenerate }, { "skipped", b.skipped }, { "depth", b.depth }, { "sah_cost", b.sahCost },
-        { "bytes", b.bytes }, { "build_ms", 1e3 * b.buildSeconds } };
+    json["bvh"] = { { "mode", bvh::modeName(f.mode) }, { "nodes", b.nodes }, { "blocks", b.blocks },
+        { "triangles", b.triangles }, { "degenerate", b.degenerate }, { "skipped", b.skipped }, { "depth", b.depth },
+        { "sah_cost", b.sahCost }, { "bytes", b.bytes }, { "build_ms", 1e3 * b.buildSeconds } };
     json["warnings"] = f.scene.warnings;
     fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
 }
@@ -77,15 +80,15 @@ void printText(const Facts& f)
         fmt::print("bounds     [{:g}, {:g}, {:g}] to [{:g}, {:g}, {:g}] m\n", s.bounds.lo.x, s.bounds.lo.y,
             s.bounds.lo.z, s.bounds.hi.x, s.bounds.hi.y, s.bounds.hi.z);
     }
-    fmt::print("bvh        {} nodes, {} blocks, {}, depth {}, SAH cost {:.2f}, built in {:.1f} ms\n", b.nodes, b.blocks,
-        device::mebibytes(b.bytes), b.depth, b.sahCost, 1e3 * b.buildSeconds);
+    fmt::print("bvh        {}: {} nodes, {} blocks, {}, depth {}, SAH cost {:.2f}, built in {:.1f} ms\n",
+        bvh::modeName(f.mode), b.nodes, b.blocks, device::mebibytes(b.bytes), b.depth, b.sahCost, 1e3 * b.buildSeconds);
     fmt::print("           {} triangles without area, {} left out\n", b.degenerate, b.skipped);
     fmt::print("memory on the device at {}x{}\n{}", f.settings.width, f.settings.height, f.memory.table());
 }
 
-int info(const std::string& path, bool json)
+int info(const std::string& path, bool json, bvh::Mode mode)
 {
-    const Facts facts = gather(path);
+    const Facts facts = gather(path, mode);
     for (const std::string& warning : facts.scene.warnings) {
         fmt::print(stderr, "wedge: warning: {}\n", warning);
     }
@@ -102,7 +105,14 @@ void addInfoCommand(CLI::App& parser, Action& action)
     const auto json = std::make_shared<bool>(false);
     command->add_option("SCENE", *path, "Scene file (.toml) or mesh (.obj)")->type_name("")->required();
     command->add_flag("--json", *json, "Print JSON");
-    command->callback([path, json, &action] { action = [path, json] { return info(*path, *json); }; });
+    const auto mode = std::make_shared<bvh::Mode>(bvh::Mode::Default);
+    const auto setMode = [mode](const std::string& text) {
+        *mode = static_cast<bvh::Mode>(choice("--bvh", text, bvhModes));
+    };
+    command->add_option_function<std::string>("--bvh", setMode, "How the hierarchy is built")
+        ->type_name("fast|default|quality")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    command->callback([=, &action] { action = [=] { return info(*path, *json, *mode); }; });
 }
 
 } // namespace wedge::app

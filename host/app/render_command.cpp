@@ -128,6 +128,7 @@ void RenderJob::prepare()
     render::Options options;
     options.kernelDir = options_.kernelDir;
     options.fastMath = options_.fastMath;
+    options.bvh = options_.bvh.value_or(bvh::Mode::Default);
     options.traversal = options_.traversal.value_or(render::Traversal::Automatic);
     options.blameLaunches = options_.checkLaunches;
     options.memoryLimit = options_.memoryLimitBytes;
@@ -139,7 +140,7 @@ void RenderJob::prepare()
     say("scene {}: {} triangles\n", scene_.path, scene_.geometry.indices.size() / 3);
     say("device {} ({})\n", device.info().name, device.info().platform);
     if (options_.verbose) {
-        say("traversal {}\n", render::traversalName(renderer_->traversal()));
+        say("traversal {}\nbvh {}\n", render::traversalName(renderer_->traversal()), bvh::modeName(options.bvh));
         for (const auto& [name, value] : render::describe(settings_)) {
             say("{} {}\n", name, value);
         }

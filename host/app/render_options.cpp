@@ -98,6 +98,8 @@ void addDeviceOptions(CLI::App& parser, RenderOptions& o)
         o.devices);
     addChoice(parser, howGroup, "--traversal", { "auto", "wide", "scalar" },
         "How rays are traced: wide for CPUs, scalar for GPUs, auto by the device; the image is the same", o.traversal);
+    addChoice(parser, howGroup, "--bvh", bvhModes,
+        "How the hierarchy is built: sooner, or for faster rays; the image is the same", o.bvh);
     addValue(parser, howGroup, "--time-limit", "S", "Stop sampling after so many seconds and write what is there",
         [&o](const std::string& text) { o.timeLimitSeconds = positiveNumber("--time-limit", text, 1e9); });
     addValue(parser, howGroup, "--memory-limit", "MIB", "Use no more than so much of the device's memory",

@@ -34,6 +34,7 @@ struct RenderOptions {
     std::uint64_t memoryLimitBytes = 0; ///< 0: the device's
     std::string kernelDir;
     std::optional<render::Traversal> traversal;
+    std::optional<bvh::Mode> bvh;
     bool fastMath = false;
     bool checkLaunches = false;
     bool quiet = false, verbose = false;

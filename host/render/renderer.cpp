@@ -59,7 +59,7 @@ Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Opti
     : scene_(scene)
     , device_(device)
     , options_(std::move(options))
-    , hierarchy_(bvh::build({ scene.geometry.positions, scene.geometry.indices }, options_.bvh),
+    , hierarchy_(bvh::build({ scene.geometry.positions, scene.geometry.indices }, bvh::config(options_.bvh)),
           resolveTraversal(options_.traversal, device.info()))
     , queue_(device, options_.blameLaunches)
     , programs_(std::make_unique<device::ProgramLibrary>(device, programOptions(scene, options_, hierarchy_.traversal)))

@@ -23,7 +23,7 @@ struct Options {
     bool fastMath = false;
     bool blameLaunches = false; ///< waits for each launch, so that a device error names the right kernel
     std::uint64_t memoryLimit = 0; ///< bytes on the device, 0: the device's own limit
-    bvh::Config bvh;
+    bvh::Mode bvh = bvh::Mode::Default; ///< how the hierarchy is built: the image is the same
     Traversal traversal = Traversal::Automatic;
 };
 
@@ -74,6 +74,7 @@ public:
     void rehearse(const Settings& settings);
 
     const scene::Scene& scene() const { return scene_; }
+    bvh::Mode bvhMode() const { return options_.bvh; }
     const bvh::Bvh& hierarchy() const { return hierarchy_.bvh; }
     Traversal traversal() const { return hierarchy_.traversal; } ///< never Automatic
     const device::Device& device() const { return device_; }

@@ -46,7 +46,7 @@ Json sceneSection(const Renderer& renderer, const Settings& settings)
         { "directional_lights", s.directionalLights }, { "geometry_bytes", s.geometryBytes },
         { "texture_bytes", s.textureBytes }, { "memory_bytes", renderer.plan(settings).total() },
         { "bvh",
-            { { "nodes", b.nodes }, { "blocks", b.blocks }, { "triangles", b.triangles },
+            { { "mode", bvh::modeName(renderer.bvhMode()) }, { "nodes", b.nodes }, { "blocks", b.blocks }, { "triangles", b.triangles },
                 { "degenerate", b.degenerate }, { "skipped", b.skipped }, { "depth", b.depth },
                 { "sah_cost", b.sahCost }, { "bytes", b.bytes } } } };
 }
