@@ -22,6 +22,12 @@ struct Work {
     Bounds bounds;
 };
 
+/// What becomes of a node's references.
+struct Halves {
+    std::uint32_t leftCount = 0, rightCount = 0;
+    Bounds left, right;
+};
+
 class BinaryBuilder {
 public:
     BinaryBuilder(const ReferenceArrays& references, const Config& config, BinaryTree& tree)
@@ -93,10 +99,13 @@ private:
             const auto asLeaf = static_cast<float>((work.count + WEDGE_BLOCK_SIZE - 1) >> blockShift_);
             if (mayBeLeaf && (best.axis < 0 || asLeaf <= config_.traversalCost + best.cost))
                 return std::nullopt;
-            if (best.axis >= 0)
-                return partition(range, best.leftCount, out,
-                    out + leftRoomOf(work, best.leftCount, work.count - best.leftCount),
+            if (best.axis >= 0) {
+                const std::uint32_t rightCount = work.count - best.leftCount;
+                const CentreBoxes centres = divide(range, out, out + leftRoomOf(work, best.leftCount, rightCount),
                     [&](const Reference& reference) { return binning(reference.centre())[best.axis] < best.bin; });
+                return Halves { best.leftCount, rightCount, { best.left, centres.left },
+                    { best.right, centres.right } };
+            }
         }
         if (mayBeLeaf)
             return std::nullopt;
@@ -115,8 +124,14 @@ private:
         std::transform(range.begin(), range.end(), keys.begin(), key);
         const auto half = static_cast<std::uint32_t>(range.size() / 2);
         std::nth_element(keys.begin(), keys.begin() + half, keys.end());
-        return partition(range, half, out, out + leftRoomOf(work, half, work.count - half),
-            [&](const Reference& reference) { return key(reference) < keys[half]; });
+        Halves halves { half, work.count - half, {}, {} };
+        Reference* right = out + leftRoomOf(work, half, halves.rightCount);
+        divide(range, out, right, [&](const Reference& reference) { return key(reference) < keys[half]; });
+        for (std::uint32_t i = 0; i < half; i++)
+            halves.left.add(out[i]);
+        for (std::uint32_t i = 0; i < halves.rightCount; i++)
+            halves.right.add(right[i]);
+        return halves;
     }
 
     Reference* arrays_[2];

@@ -63,8 +63,7 @@ ReferenceArrays makeReferences(const Mesh& mesh, std::size_t room)
         arrays.count += parts[chunk].valid;
     }
     if (arrays.count < count) {
-        partition({ arrays.current.get(), count }, arrays.count, arrays.other.get(), arrays.other.get() + arrays.count,
-            isValid);
+        divide({ arrays.current.get(), count }, arrays.other.get(), arrays.other.get() + arrays.count, isValid);
         std::swap(arrays.current, arrays.other);
     }
     return arrays;
