@@ -14,6 +14,20 @@ WEDGE_FN float largestOf16(float16 x)
     return WEDGE_MAX(two.x, two.y);
 }
 
+/// A set of lanes of a vector of 16: byte i stands for lanes i (its top bit) and i + 8 (its lowest).
+typedef ulong LaneMask16;
+
+WEDGE_FN LaneMask16 laneMask16(int16 comparison)
+{
+    const ulong2 bytes = as_ulong2(convert_char16(comparison));
+    return (bytes.x & 0x8080808080808080ul) | (bytes.y & 0x0101010101010101ul);
+}
+WEDGE_FN uint firstLane16(LaneMask16 lanes)
+{
+    const uint bit = (uint)popcount(~lanes & (lanes - 1));
+    return (bit >> 3) + ((bit & 7) == 0 ? 8 : 0);
+}
+
 /// Whether the comparison holds in any lane.
 WEDGE_FN bool anyLane(int16 comparison)
 {
@@ -173,7 +187,7 @@ WEDGE_FN LaneMask shaftTriangles(__global const TriangleBlock* block, const Shaf
 }
 
 /// The rays that enter the box of a node's child by their tFar. FP_CONTRACT as in intersectBoxes.
-WEDGE_FN bool raysMeetBox(__global const BvhNode* node, uint child, const TraversalPacket* p, const Shaft* shaft)
+WEDGE_FN LaneMask16 raysMeetBox(__global const BvhNode* node, uint child, const TraversalPacket* p, const Shaft* shaft)
 {
 #pragma OPENCL FP_CONTRACT ON
     __global const float* planes = node->loX + child;
@@ -197,7 +211,7 @@ WEDGE_FN bool raysMeetBox(__global const BvhNode* node, uint child, const Traver
     const float16 az = nearZ * p->z.nearScale + p->z.nearOffset, bz = farZ * p->z.farScale + p->z.farOffset;
     const float16 nearXY = WEDGE_MAX(ax, ay), nearZ0 = WEDGE_MAX(az, p->tMin);
     const float16 farXY = WEDGE_MIN(bx, by), farZ0 = WEDGE_MIN(bz, p->tFar * WEDGE_WIDEN_T);
-    return anyLane(WEDGE_MAX(nearXY, nearZ0) <= WEDGE_MIN(farXY, farZ0));
+    return laneMask16(WEDGE_MAX(nearXY, nearZ0) <= WEDGE_MIN(farXY, farZ0));
 }
 
 /// The axes of the triangle test, which the rays of a traversal share.
@@ -249,6 +263,62 @@ WEDGE_FN bool intersectTriangle(__global const TriangleBlock* block, uint lane, 
     return true;
 }
 
+/// Below this many rays a subtree is walked by each alone.
+#ifndef WEDGE_MIN_PACKET_RAYS
+#define WEDGE_MIN_PACKET_RAYS 4
+#endif
+
+#define WEDGE_LANE(vector, lane) (((const float*)&(vector))[lane])
+
+WEDGE_FN TraversalRay rayOfLane(const TraversalPacket* p, const TestAxes* axes, uint lane)
+{
+    TraversalRay r;
+    r.origin = vec3(WEDGE_LANE(p->x.origin, lane), WEDGE_LANE(p->y.origin, lane), WEDGE_LANE(p->z.origin, lane));
+    r.direction = vec3(WEDGE_LANE(p->x.direction, lane), WEDGE_LANE(p->y.direction, lane), WEDGE_LANE(p->z.direction, lane));
+    r.tMin = WEDGE_LANE(p->tMin, lane);
+    r.tMax = WEDGE_LANE(p->tFar, lane);
+    r.nearScale = vec3(WEDGE_LANE(p->x.nearScale, lane), WEDGE_LANE(p->y.nearScale, lane), WEDGE_LANE(p->z.nearScale, lane));
+    r.nearOffset = vec3(WEDGE_LANE(p->x.nearOffset, lane), WEDGE_LANE(p->y.nearOffset, lane), WEDGE_LANE(p->z.nearOffset, lane));
+    r.farScale = vec3(WEDGE_LANE(p->x.farScale, lane), WEDGE_LANE(p->y.farScale, lane), WEDGE_LANE(p->z.farScale, lane));
+    r.farOffset = vec3(WEDGE_LANE(p->x.farOffset, lane), WEDGE_LANE(p->y.farOffset, lane), WEDGE_LANE(p->z.farOffset, lane));
+    choosePlanes(&r);
+    r.testOrigin = vec3(WEDGE_LANE(axes->raysX->origin, lane), WEDGE_LANE(axes->raysY->origin, lane), WEDGE_LANE(axes->raysZ->origin, lane));
+    r.testDirection = vec3(WEDGE_LANE(axes->raysX->direction, lane), WEDGE_LANE(axes->raysY->direction, lane), WEDGE_LANE(axes->raysZ->direction, lane));
+    r.shearX = WEDGE_LANE(p->shearX, lane);
+    r.shearY = WEDGE_LANE(p->shearY, lane);
+    r.axisX = axes->x;
+    r.axisY = axes->y;
+    r.axisZ = axes->z;
+    return r;
+}
+
+/// Walks the subtree of a reference with each of some rays alone.
+WEDGE_FN void traverseAlone(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
+    uint reference, LaneMask16 lanes, const TestAxes* axes, TraversalPacket* p, const bool any)
+{
+    for (; lanes; lanes &= lanes - 1) {
+        const uint lane = firstLane16(lanes);
+        Hit hit;
+        hit.t = ((float*)&p->tFar)[lane];
+        if (hit.t < 0.0f)
+            continue;
+        hit.u = ((float*)&p->u)[lane];
+        hit.v = ((float*)&p->v)[lane];
+        hit.triangle = ((uint*)&p->triangle)[lane];
+        const TraversalRay ray = rayOfLane(p, axes, lane);
+        const uint before = hit.triangle;
+        traverse(nodes, blocks, reference, &ray, any, &hit);
+        if (any) {
+            ((float*)&p->tFar)[lane] = hit.triangle != before ? -1.0f : hit.t;
+            continue;
+        }
+        ((float*)&p->tFar)[lane] = hit.t;
+        ((float*)&p->u)[lane] = hit.u;
+        ((float*)&p->v)[lane] = hit.v;
+        ((uint*)&p->triangle)[lane] = hit.triangle;
+    }
+}
+
 /// Walks the hierarchy with the rays of a packet whose direction is largest along axes->z. With any, a ray that hit
 /// something has tFar < 0.
 WEDGE_FN void traversePacket(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
@@ -256,11 +326,18 @@ WEDGE_FN void traversePacket(__global const TraversalNode* restrict nodes, __glo
 {
     uint stack[WEDGE_BVH_STACK];
     float enters[WEDGE_BVH_STACK];
+    LaneMask16 rays[WEDGE_BVH_STACK];
     float tCull = largestOf16(p->tFar) * WEDGE_WIDEN_T;
     int depth = 0;
     uint current = 0;
+    LaneMask16 live = ~0ul;
     for (;;) {
-        if (current & WEDGE_BVH_LEAF) {
+        if (popcount(live) < WEDGE_MIN_PACKET_RAYS) {
+            traverseAlone(nodes, blocks, current, live, axes, p, any);
+            tCull = largestOf16(p->tFar) * WEDGE_WIDEN_T;
+            if (any && tCull < 0.0f)
+                return;
+        } else if (current & WEDGE_BVH_LEAF) {
             __global const TriangleBlock* block = blocks + ((current & ~WEDGE_BVH_LEAF) >> 3);
             bool found = false;
             for (uint left = current & 7u; left != 0; left--, block++) {
@@ -282,16 +359,19 @@ WEDGE_FN void traversePacket(__global const TraversalNode* restrict nodes, __glo
             const int base = depth;
             for (; lanes; lanes = dropFirstLane(lanes)) {
                 const uint lane = firstLane(lanes);
-                if (!raysMeetBox(node, lane, p, shaft))
+                const LaneMask16 meet = raysMeetBox(node, lane, p, shaft);
+                if (meet == 0)
                     continue;
                 // Farthest first, so that the nearest is on top.
                 int place = depth++;
                 for (; place > base && enters[place - 1] < t[lane]; place--) {
                     stack[place] = stack[place - 1];
                     enters[place] = enters[place - 1];
+                    rays[place] = rays[place - 1];
                 }
                 stack[place] = node->child[lane];
                 enters[place] = t[lane];
+                rays[place] = meet;
             }
         }
         do {
@@ -300,6 +380,7 @@ WEDGE_FN void traversePacket(__global const TraversalNode* restrict nodes, __glo
             depth--;
         } while (enters[depth] > tCull);
         current = stack[depth];
+        live = rays[depth];
     }
 }
 

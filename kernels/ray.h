@@ -46,6 +46,18 @@ WEDGE_FN Vec3 turnAxes(Vec3 v, bool largestX, bool largestY)
     return largestX ? vec3(v.y, v.z, v.x) : largestY ? vec3(v.z, v.x, v.y) : v;
 }
 
+/// Finds the near and far planes of nodes from the signs of nearScale.
+WEDGE_FN void choosePlanes(TraversalRay* ray)
+{
+    // loX hiX loY hiY loZ hiZ lie WEDGE_NODE_WIDTH floats apart; rays against an axis enter through hi.
+    ray->nearX = ray->nearScale.x < 0.0f ? WEDGE_NODE_WIDTH : 0;
+    ray->nearY = (ray->nearScale.y < 0.0f ? 3 : 2) * WEDGE_NODE_WIDTH;
+    ray->nearZ = (ray->nearScale.z < 0.0f ? 5 : 4) * WEDGE_NODE_WIDTH;
+    ray->farX = WEDGE_NODE_WIDTH - ray->nearX;
+    ray->farY = 5 * WEDGE_NODE_WIDTH - ray->nearY;
+    ray->farZ = 9 * WEDGE_NODE_WIDTH - ray->nearZ;
+}
+
 /// Prepares the ray origin + t direction, tMin < t < tMax; a negative tMin counts as 0. unit: that of the root node.
 /// Returns false where it can hit nothing: a component is not finite or the interval is empty.
 WEDGE_FN bool prepareRay(TraversalRay* ray, float unit, Vec3 origin, Vec3 direction, float tMin, float tMax)
@@ -76,13 +88,7 @@ WEDGE_FN bool prepareRay(TraversalRay* ray, float unit, Vec3 origin, Vec3 direct
     ray->testDirection = turnAxes(direction, largestX, largestY);
     ray->shearX = ray->testDirection.x / ray->testDirection.z;
     ray->shearY = ray->testDirection.y / ray->testDirection.z;
-    // loX hiX loY hiY loZ hiZ lie WEDGE_NODE_WIDTH floats apart; rays against an axis enter through hi.
-    ray->nearX = r.x < 0.0f ? WEDGE_NODE_WIDTH : 0;
-    ray->nearY = (r.y < 0.0f ? 3 : 2) * WEDGE_NODE_WIDTH;
-    ray->nearZ = (r.z < 0.0f ? 5 : 4) * WEDGE_NODE_WIDTH;
-    ray->farX = WEDGE_NODE_WIDTH - ray->nearX;
-    ray->farY = 5 * WEDGE_NODE_WIDTH - ray->nearY;
-    ray->farZ = 9 * WEDGE_NODE_WIDTH - ray->nearZ;
+    choosePlanes(ray);
     // 0 times a finite number is 0, and times anything else NaN. Last, since it is not what the tests wait for.
     const float sum = origin.x + origin.y + origin.z + direction.x + direction.y + direction.z;
     return sum * 0.0f == 0.0f && ray->tMin < tMax;
