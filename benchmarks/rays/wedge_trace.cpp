@@ -1,0 +1,57 @@
+#include "benchmarks/rays/wedge_trace.h"
+
+#include <span>
+
+namespace wedge::benchmark {
+namespace {
+
+constexpr std::size_t singleGroup = 64, packetGroup = 4; ///< items of a work-group, as the renderer launches them
+
+static_assert(sizeof(bvh::Ray) == 8 * sizeof(float), "a ray is what the kernels read");
+
+} // namespace
+
+WedgeTracer::WedgeTracer(const device::Device& device)
+    : device_(device)
+    , queue_(device)
+    , library_(device, {})
+{
+    for (const char* name : { "traceClosest", "traceClosestPackets", "traceAny", "traceAnyPackets" })
+        kernels_.push_back(library_.kernel("trace_test.cl", name));
+}
+
+WedgeHierarchy::WedgeHierarchy(WedgeTracer& tracer, std::string modeName, bvh::Bvh built)
+    : mode(std::move(modeName))
+    , bvh(std::move(built))
+    , nodes(tracer.device(), bvh.nodes.size(), "BVH nodes")
+    , blocks(tracer.device(), bvh.blocks.size(), "triangle blocks")
+{
+    nodes.upload(tracer.queue(), bvh.nodes);
+    blocks.upload(tracer.queue(), bvh.blocks);
+}
+
+WedgeRays::WedgeRays(WedgeTracer& tracer, const RaySet& set)
+    : tracer_(tracer)
+    , set_(set)
+    , rays_(tracer.device(), 8 * set.rays.size(), "rays")
+    , hits_(tracer.device(), set.anyHit ? 0 : set.rays.size(), "hits")
+    , occluded_(tracer.device(), set.anyHit ? set.rays.size() : 0, "occluded")
+{
+    const auto* floats = reinterpret_cast<const float*>(set.rays.data());
+    rays_.upload(tracer.queue(), std::span<const float>(floats, 8 * set.rays.size()));
+}
+
+void WedgeRays::trace(const WedgeHierarchy& hierarchy, bool packets)
+{
+    device::Kernel& kernel = tracer_.kernel(set_.anyHit, packets);
+    const auto count = static_cast<std::uint32_t>(set_.rays.size());
+    if (set_.anyHit)
+        kernel.setArgs(rays_, occluded_, hierarchy.nodes, hierarchy.blocks, count);
+    else
+        kernel.setArgs(rays_, hits_, hierarchy.nodes, hierarchy.blocks, count);
+    const std::size_t items = packets ? set_.rays.size() / packetRays : set_.rays.size();
+    tracer_.queue().launch(set_.name, device::PassKind::Trace, kernel, items, packets ? packetGroup : singleGroup);
+    tracer_.queue().finish();
+}
+
+} // namespace wedge::benchmark
