@@ -70,8 +70,7 @@ BuiltScene::BuiltScene(WedgeTracer& tracer, const bvh::Mesh& mesh, unsigned thre
             std::make_unique<WedgeHierarchy>(tracer, "quality", bvh::build(mesh, bvh::config(bvh::Mode::Quality))));
     std::vector<EmbreeBuild> builds = { { "default" }, { "high", 0, true } };
     if (all)
-        builds.insert(
-            builds.end(), { { "bvh8", true }, { "bvh8 high", true, true }, { "robust", false, false, true } });
+        builds.insert(builds.end(), { { "bvh8", 8 }, { "bvh4", 4 }, { "robust", 0, false, true } });
     for (const EmbreeBuild& build : builds)
         embree_.push_back(std::make_unique<EmbreeScene>(embreeMesh_, build, threads));
 }
