@@ -64,6 +64,16 @@ inline ExactHit intersectExactly(const TestMesh& mesh, std::size_t triangle, con
     return hit;
 }
 
+/// Whether t of a hit is more than rounding: not so where the ray lies within the triangle's plane, as near as floats
+/// can tell. Such a hit may be at any t, beyond its own box too, and then it depends on the order of the search.
+inline bool isDetermined(const TestMesh& mesh, const Ray& ray, const Hit& hit)
+{
+    if (hit.triangle == WEDGE_NO_TRIANGLE)
+        return true;
+    const ExactHit exact = intersectExactly(mesh, hit.triangle, ray);
+    return exact.tError <= 1e-4 * std::fabs(exact.t);
+}
+
 /// Compares what a traversal found with every triangle of the mesh. Returns "" or what is wrong.
 inline std::string findFault(const TestMesh& mesh, const Ray& ray, const Hit& hit, bool occluded)
 {

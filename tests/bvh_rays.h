@@ -102,4 +102,80 @@ inline std::vector<Ray> axisRays(const TestMesh& mesh, std::size_t count)
     return rays;
 }
 
+/// At vertices and at the middles of edges, from anywhere about.
+inline std::vector<Ray> cornerRays(const TestMesh& mesh, std::size_t count)
+{
+    std::mt19937 random(31);
+    const std::vector<Ray> from = randomRays(mesh, count, 32);
+    std::vector<Ray> rays;
+    for (std::size_t i = 0; i < count && mesh.triangles(); i++) {
+        const std::size_t triangle = random() % mesh.triangles(), corner = random() % 3;
+        const auto at = [&](std::size_t c) {
+            const float* p = &mesh.positions[3 * std::size_t { mesh.indices[3 * triangle + c % 3] }];
+            return vec3(p[0], p[1], p[2]);
+        };
+        const Vec3 target = i % 2 ? at(corner) : vecScale(vecAdd(at(corner), at(corner + 1)), 0.5f);
+        rays.push_back({ from[i].origin, 0, vecSub(target, from[i].origin), infinity });
+    }
+    return rays;
+}
+
+/// Within the plane of a triangle, or so little beside it that rounding decides.
+inline std::vector<Ray> grazingRays(const TestMesh& mesh, std::size_t count)
+{
+    std::mt19937 random(37);
+    std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
+    std::vector<Ray> rays;
+    for (std::size_t i = 0; i < count && mesh.triangles(); i++) {
+        const std::size_t triangle = random() % mesh.triangles();
+        const auto at = [&](std::size_t c) {
+            const float* p = &mesh.positions[3 * std::size_t { mesh.indices[3 * triangle + c] }];
+            return vec3(p[0], p[1], p[2]);
+        };
+        const Vec3 e1 = vecSub(at(1), at(0)), e2 = vecSub(at(2), at(0));
+        const Vec3 along = vecAdd(vecScale(e1, uniform(random)), vecScale(e2, uniform(random)));
+        const Vec3 inside = vecAdd(at(0), vecAdd(vecScale(e1, 0.3f), vecScale(e2, 0.3f)));
+        const float tilt = i % 3 == 0 ? 0.0f : std::ldexp(vecLength(e1), -static_cast<int>(random() % 26));
+        const Vec3 beside = vecScale(vecNormalize(vecCross(e1, e2)), tilt);
+        rays.push_back({ vecAdd(vecSub(inside, vecScale(along, 3)), beside), 0, along, infinity });
+    }
+    return rays;
+}
+
+/// Rays that are none: components that are not numbers, no direction, no interval. Each but for that is good.
+inline std::vector<Ray> brokenRays(const Ray& good)
+{
+    constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
+    std::vector<Ray> rays;
+    for (const float bad : { notANumber, infinity, -infinity })
+        for (int component = 0; component < 6; component++) {
+            Ray ray = good;
+            float* const parts[] = { &ray.origin.x, &ray.origin.y, &ray.origin.z, &ray.direction.x, &ray.direction.y,
+                &ray.direction.z };
+            *parts[component] = bad;
+            rays.push_back(ray);
+        }
+    rays.push_back({ good.origin, 0, vec3(0, 0, 0), infinity });
+    rays.push_back({ good.origin, 0, vec3(-0.0f, 0, -0.0f), infinity });
+    rays.push_back({ good.origin, 1, good.direction, 1 });
+    rays.push_back({ good.origin, 2, good.direction, 1 });
+    rays.push_back({ good.origin, 0, good.direction, 0 });
+    rays.push_back({ good.origin, -2, good.direction, -1 });
+    rays.push_back({ good.origin, 0, good.direction, notANumber });
+    rays.push_back({ good.origin, infinity, good.direction, infinity });
+    return rays;
+}
+
+struct RaySet {
+    std::string name;
+    std::vector<Ray> rays;
+};
+
+/// Rays of all these kinds, count of each.
+inline std::vector<RaySet> raySets(const TestMesh& mesh, std::size_t count)
+{
+    return { { "random", randomRays(mesh, count, 7) }, { "along axes", axisRays(mesh, count) },
+        { "at edges and vertices", cornerRays(mesh, count) }, { "grazing", grazingRays(mesh, count) } };
+}
+
 } // namespace wedge::test

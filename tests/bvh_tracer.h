@@ -1,0 +1,141 @@
+#pragma once
+
+#include "bvh/narrow_tree.h"
+#include "host/device/buffer.h"
+#include "host/device/program.h"
+#include "host/device/queue.h"
+#include "tests/bvh_rays.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <span>
+
+/// Sends rays through hierarchies on OpenCL devices, by each family of traversals.
+namespace wedge::test {
+
+enum class Family { Wide, Scalar };
+
+/// A hierarchy as both families walk it.
+struct Tree {
+    explicit Tree(const bvh::Bvh& hierarchy)
+        : wide(hierarchy)
+        , narrow(bvh::narrow(hierarchy))
+    {
+    }
+    explicit Tree(const TestMesh& mesh, const bvh::Config& config = {})
+        : Tree(bvh::build(mesh.view(), config))
+    {
+    }
+
+    bvh::Bvh wide;
+    std::vector<shared::BvhNode4> narrow;
+};
+
+/// Runs the kernels of trace_test.cl on one device.
+class Tracer {
+public:
+    explicit Tracer(const device::Device& device, Family family = Family::Wide)
+        : device_(device)
+        , family_(family)
+        , queue_(device)
+        , library_(device, options(family))
+    {
+    }
+
+    std::vector<Hit> closest(const Tree& tree, std::span<const Ray> rays)
+    {
+        return run<Hit>("traceClosest", tree, rays, 1);
+    }
+    /// 1 for each ray that hits anything, else 0.
+    std::vector<std::uint32_t> any(const Tree& tree, std::span<const Ray> rays)
+    {
+        return run<std::uint32_t>("traceAny", tree, rays, 1);
+    }
+    /// The same in packets of consecutive rays.
+    std::vector<Hit> closestPackets(const Tree& tree, std::span<const Ray> rays)
+    {
+        return run<Hit>("traceClosestPackets", tree, rays, packetSize());
+    }
+    std::vector<std::uint32_t> anyPackets(const Tree& tree, std::span<const Ray> rays)
+    {
+        return run<std::uint32_t>("traceAnyPackets", tree, rays, packetSize());
+    }
+
+    /// Rays that a work-item of the packet kernels takes: WEDGE_PACKET_SIZE of kernels/packet.h.
+    std::size_t packetSize() const { return family_ == Family::Wide ? 16 : 1; }
+
+private:
+    static device::BuildOptions options(Family family)
+    {
+        device::BuildOptions out;
+        if (family == Family::Scalar)
+            out.defines.emplace_back("WEDGE_TRAVERSAL_SCALAR", "1");
+        return out;
+    }
+
+    template <typename Result>
+    std::vector<Result> run(const char* name, const Tree& tree, std::span<const Ray> rays, std::size_t raysEach)
+    {
+        const auto bytes =
+            family_ == Family::Wide ? std::as_bytes(std::span(tree.wide.nodes)) : std::as_bytes(std::span(tree.narrow));
+        device::Buffer<Ray> rayBuffer(device_, rays.size(), "rays");
+        device::Buffer<Result> results(device_, rays.size(), "results");
+        device::Buffer<std::byte> nodes(device_, bytes.size(), "nodes");
+        device::Buffer<shared::TriangleBlock> blocks(device_, tree.wide.blocks.size(), "blocks");
+        rayBuffer.upload(queue_, rays);
+        nodes.upload(queue_, bytes);
+        if (!tree.wide.blocks.empty())
+            blocks.upload(queue_, tree.wide.blocks);
+        std::vector<Result> untouched(rays.size());
+        std::memset(static_cast<void*>(untouched.data()), 0x5a, untouched.size() * sizeof(Result));
+        results.upload(queue_, untouched);
+        device::Kernel kernel = library_.kernel("trace_test.cl", name);
+        kernel.setArgs(rayBuffer, results, nodes, blocks, static_cast<std::uint32_t>(rays.size()));
+        const std::size_t local = std::min<std::size_t>(64, kernel.workGroupLimit());
+        queue_.launch(name, device::PassKind::Trace, kernel, (rays.size() + raysEach - 1) / raysEach, local);
+        return results.downloadAll(queue_);
+    }
+
+    device::Device device_;
+    Family family_;
+    device::TimedQueue queue_;
+    device::ProgramLibrary library_;
+};
+
+/// Calls test(device) for each usable device here.
+template <typename Test>
+void onDevices(const Test& test)
+{
+    unsigned used = 0;
+    for (const device::DeviceInfo& info : device::listDevices()) {
+        if (!info.unusable.empty())
+            continue;
+        CAPTURE(info.name);
+        test(device::Device::open(std::to_string(info.index)));
+        used++;
+    }
+    REQUIRE(used > 0);
+}
+
+/// Calls test(tracer) for each family of traversals on each usable device.
+template <typename Test>
+void onEveryTracer(const Test& test)
+{
+    onDevices([&](const device::Device& device) {
+        for (const Family family : { Family::Wide, Family::Scalar }) {
+            CAPTURE((family == Family::Wide ? "wide" : "scalar"));
+            Tracer tracer(device, family);
+            test(tracer);
+        }
+    });
+}
+
+inline bool sameBits(const Hit& a, const Hit& b) { return std::memcmp(&a, &b, sizeof(Hit)) == 0; }
+
+inline bool sameBits(const std::vector<Hit>& a, const std::vector<Hit>& b)
+{
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Hit)) == 0;
+}
+
+} // namespace wedge::test
