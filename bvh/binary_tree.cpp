@@ -1,5 +1,6 @@
 #include "bvh/binary_tree.h"
 
+#include "bvh/children.h"
 #include "bvh/histogram.h"
 #include "bvh/partition.h"
 
@@ -34,6 +35,7 @@ public:
         : arrays_ { references.current.get(), references.other.get() }
         , config_(config)
         , tree_(tree)
+        , areaScale_(references.bounds.box.halfArea() > 0 ? 1.0 / references.bounds.box.halfArea() : 1.0)
         , blockShift_(std::countr_zero(unsigned { WEDGE_BLOCK_SIZE }))
         , maxLeaf_(config.maxLeafBlocks << blockShift_)
     {
@@ -61,11 +63,14 @@ public:
             build(node.children[0], left, arena);
             build(node.children[1], right, arena);
         }
+        weighForest(node, relativeArea(node), config_.traversalCost);
         node.height = 1 + std::max(node.children[0].height, node.children[1].height);
         node.blocks = node.children[0].blocks + node.children[1].blocks;
     }
 
 private:
+    float relativeArea(const BinaryNode& node) const { return static_cast<float>(node.box.halfArea() * areaScale_); }
+
     /// The left child's share of the room: what is spare goes by the counts.
     static std::uint32_t leftRoomOf(const Work& work, std::uint32_t leftCount, std::uint32_t rightCount)
     {
@@ -80,6 +85,7 @@ private:
         node.count = work.count;
         node.height = 0;
         node.blocks = blocksOf(work.count);
+        weighLeaf(node, relativeArea(node));
         for (std::uint32_t i = work.first; i < work.first + work.count; i++)
             tree_.triangles[i] = arrays_[work.array][i].index;
     }
@@ -137,6 +143,7 @@ private:
     Reference* arrays_[2];
     const Config& config_;
     BinaryTree& tree_;
+    double areaScale_;
     unsigned blockShift_;
     std::uint32_t maxLeaf_;
 };

@@ -16,6 +16,8 @@ struct BinaryNode {
     std::uint32_t blocks; ///< triangle blocks of the leaves below
     std::uint32_t height; ///< inner nodes on the longest way down, itself included; 0 for a leaf
     std::uint32_t wideNodes; ///< written by the collapse: wide nodes below, itself included
+    std::uint32_t shares; ///< 4 bits each for 1 to 8 trees: see leftShare in children.cpp
+    float costs[WEDGE_BVH_WIDTH - 1]; ///< of the subtree as at most 1 to 7 trees, relative to the root's area
 };
 
 /// Memory for nodes. A thread has its own, so that subtrees need no lock; where a node lies decides nothing.

@@ -1,5 +1,6 @@
 #include "bvh/wide_tree.h"
 
+#include "bvh/children.h"
 #include "bvh/triangle_blocks.h"
 
 #include <tbb/parallel_for.h>
@@ -14,46 +15,6 @@ using shared::BvhNode;
 using shared::TriangleBlock;
 
 constexpr std::uint32_t minParallelBlocks = 256;
-
-/// The binary nodes that become the children of one wide node.
-struct Children {
-    BinaryNode* nodes[WEDGE_BVH_WIDTH];
-    unsigned count;
-};
-
-/// Starts from the two children of the binary node root and opens the one of largest area until the wide node
-/// is full. A traversal stacks one child less than a node has and goes on into any of them, and a child of binary
-/// height h can always do with h entries (two children a node), so opening stops where that would not fit budget.
-/// Requires root.height <= budget, and leaves the same true of each child and budget - (count - 1).
-Children openChildren(BinaryNode& root, unsigned budget)
-{
-    if (!root.children)
-        return { { &root }, 1 };
-    Children children { { &root.children[0], &root.children[1] }, 2 };
-    double areas[WEDGE_BVH_WIDTH]; // negative for those that cannot be opened
-    const auto areaOf = [&](unsigned i) {
-        return children.nodes[i]->children ? children.nodes[i]->box.halfArea() : -1.0;
-    };
-    areas[0] = areaOf(0);
-    areas[1] = areaOf(1);
-    while (children.count < WEDGE_BVH_WIDTH) {
-        unsigned height = 0, largest = 0;
-        for (unsigned i = 0; i < children.count; i++) {
-            height = std::max(height, children.nodes[i]->height);
-            if (areas[i] > areas[largest])
-                largest = i;
-        }
-        if (areas[largest] < 0 || children.count + height > budget)
-            break;
-        BinaryNode* opened = children.nodes[largest];
-        children.nodes[largest] = &opened->children[0];
-        children.nodes[children.count] = &opened->children[1];
-        areas[largest] = areaOf(largest);
-        areas[children.count] = areaOf(children.count);
-        children.count++;
-    }
-    return children;
-}
 
 /// What a subtree adds to the statistics.
 struct Tally {
@@ -117,7 +78,7 @@ private:
     /// Sets wideNodes of every binary node that becomes a wide one; 0 of those that become leaves.
     void countNodes(BinaryNode& node, unsigned budget) const
     {
-        const Children children = openChildren(node, budget);
+        const Children children = chooseChildren(node, budget);
         forEachChild(node, children, [&](unsigned slot) {
             BinaryNode& child = *children.nodes[slot];
             if (child.children)
@@ -135,7 +96,7 @@ private:
     /// blocks_[block] on.
     Tally emitNode(BinaryNode& node, unsigned budget, std::uint32_t index, std::uint32_t block) const
     {
-        const Children children = openChildren(node, budget);
+        const Children children = chooseChildren(node, budget);
         std::uint32_t childNodes[WEDGE_BVH_WIDTH], childBlocks[WEDGE_BVH_WIDTH];
         std::uint32_t nextNode = index + 1;
         for (unsigned slot = 0; slot < children.count; slot++) {
