@@ -3,6 +3,7 @@
 #include "bvh/children.h"
 #include "bvh/histogram.h"
 #include "bvh/partition.h"
+#include "bvh/spatial_split.h"
 
 #include <tbb/parallel_invoke.h>
 
@@ -16,6 +17,13 @@ namespace {
 /// Below this size a task costs more than it brings.
 constexpr std::uint32_t minParallelSubtree = 1024;
 
+/// Children that share less of the root's area than this gain nothing from spatial splits.
+constexpr double minOverlap = 1e-4;
+
+/// And a spatial split is made only where it costs less than this share of the best other one: what it promises for one
+/// level it does not always keep over many.
+constexpr float spatialGain = 0.9f;
+
 /// References that become a subtree: [first, first + count) of one of the two arrays, with room up to first + room.
 struct Work {
     std::uint32_t first, count, room;
@@ -23,16 +31,11 @@ struct Work {
     Bounds bounds;
 };
 
-/// What becomes of a node's references.
-struct Halves {
-    std::uint32_t leftCount = 0, rightCount = 0;
-    Bounds left, right;
-};
-
 class BinaryBuilder {
 public:
-    BinaryBuilder(const ReferenceArrays& references, const Config& config, BinaryTree& tree)
+    BinaryBuilder(const ReferenceArrays& references, const Mesh& mesh, const Config& config, BinaryTree& tree)
         : arrays_ { references.current.get(), references.other.get() }
+        , mesh_(mesh)
         , config_(config)
         , tree_(tree)
         , areaScale_(references.bounds.box.halfArea() > 0 ? 1.0 / references.bounds.box.halfArea() : 1.0)
@@ -94,32 +97,66 @@ private:
     /// to where its room begins; none to make a leaf.
     std::optional<Halves> split(const Work& work) const
     {
-        const std::span<const Reference> range(arrays_[work.array] + work.first, work.count);
-        Reference* out = arrays_[1 - work.array] + work.first;
         const bool mayBeLeaf = work.count <= maxLeaf_;
         // A child may hold all but one triangle; median splits must be able to finish it within the height left.
         const bool deep = work.depth + 1 + std::bit_width(work.count - 1) > maxBinaryHeight;
-        if (!deep) {
-            const Binning binning(work.bounds.centres, std::min(config_.bins, 8 + work.count / 16));
-            const Split best = findObjectSplit(range, binning, work.bounds.box, blockShift_);
-            const auto asLeaf = static_cast<float>((work.count + WEDGE_BLOCK_SIZE - 1) >> blockShift_);
-            if (mayBeLeaf && (best.axis < 0 || asLeaf <= config_.traversalCost + best.cost))
-                return std::nullopt;
-            if (best.axis >= 0) {
-                const std::uint32_t rightCount = work.count - best.leftCount;
-                const CentreBoxes centres = divide(range, out, out + leftRoomOf(work, best.leftCount, rightCount),
-                    [&](const Reference& reference) { return binning(reference.centre())[best.axis] < best.bin; });
-                return Halves { best.leftCount, rightCount, { best.left, centres.left },
-                    { best.right, centres.right } };
-            }
-        }
-        if (mayBeLeaf)
+        if (deep)
+            return mayBeLeaf ? std::nullopt : std::optional(splitAtMedian(work));
+        const Binning binning(work.bounds.centres, std::min(config_.bins, 8 + work.count / 16));
+        const Split best = findObjectSplit(from(work), binning, work.bounds.box, blockShift_);
+        const auto asLeaf = static_cast<float>((work.count + (1u << blockShift_) - 1) >> blockShift_);
+        const bool cut = mayCut(work, best);
+        // Cutting is tried before a leaf is made: it may be what makes two children pay.
+        if (cut)
+            if (std::optional<Halves> halves =
+                    splitSpatially(work, mayBeLeaf ? std::min(best.cost, asLeaf - config_.traversalCost) : best.cost))
+                return halves;
+        if (mayBeLeaf && (best.axis < 0 || asLeaf <= config_.traversalCost + best.cost))
             return std::nullopt;
-        return splitAtMedian(work, range, out);
+        if (best.axis < 0)
+            return splitAtMedian(work);
+        const std::uint32_t rightCount = work.count - best.leftCount;
+        Reference* out = to(work);
+        const CentreBoxes centres = divide(from(work), out, out + leftRoomOf(work, best.leftCount, rightCount),
+            [&](const Reference& reference) { return binning(reference.centre())[best.axis] < best.bin; });
+        return Halves { best.leftCount, rightCount, { best.left, centres.left }, { best.right, centres.right } };
     }
 
-    static Halves splitAtMedian(const Work& work, std::span<const Reference> range, Reference* out)
+    std::span<const Reference> from(const Work& work) const { return { arrays_[work.array] + work.first, work.count }; }
+    Reference* to(const Work& work) const { return arrays_[1 - work.array] + work.first; }
+
+    /// A spatial split where it costs clearly less than cost and there is room for it.
+    std::optional<Halves> splitSpatially(const Work& work, float cost) const
     {
+        SpatialSplitter splitter(from(work), work.bounds.box, mesh_);
+        const SpatialSplit best = splitter.find(blockShift_);
+        if (best.axis < 0 || best.cost >= spatialGain * cost)
+            return std::nullopt;
+        Halves halves = splitter.count(best, blockShift_);
+        if (std::max(halves.leftCount, halves.rightCount) >= work.count
+            || std::min(halves.leftCount, halves.rightCount) == 0 || halves.leftCount + halves.rightCount > work.room)
+            return std::nullopt;
+        Reference* out = to(work);
+        splitter.divide(best, halves, out, out + leftRoomOf(work, halves.leftCount, halves.rightCount));
+        return halves;
+    }
+
+    /// Whether cutting triangles may pay: there is room for more, and the best halves overlap.
+    bool mayCut(const Work& work, const Split& best) const
+    {
+        if (work.room == work.count || best.axis < 0)
+            return false;
+        const Box overlap { maxOf(best.left.lo, best.right.lo), minOf(best.left.hi, best.right.hi) };
+        for (int axis = 0; axis < 3; axis++)
+            if (overlap.hi[axis] < overlap.lo[axis])
+                return false;
+        return overlap.halfArea() * areaScale_ > minOverlap;
+    }
+
+    Halves splitAtMedian(const Work& work) const
+    {
+        const std::span<const Reference> range = from(work);
+        Reference* out = to(work);
         const Float4 extent = work.bounds.centres.hi - work.bounds.centres.lo;
         const int wider = extent[1] > extent[0] ? 1 : 0;
         const int axis = extent[2] > extent[wider] ? 2 : wider;
@@ -141,6 +178,7 @@ private:
     }
 
     Reference* arrays_[2];
+    const Mesh& mesh_;
     const Config& config_;
     BinaryTree& tree_;
     double areaScale_;
@@ -161,11 +199,11 @@ BinaryNode* NodeArena::allocatePair()
 }
 
 void buildBinaryTree(
-    ReferenceArrays references, std::uint32_t room, const Mesh&, const Config& config, BinaryTree& tree)
+    ReferenceArrays references, std::uint32_t room, const Mesh& mesh, const Config& config, BinaryTree& tree)
 {
     tree.triangles.reset(new std::uint32_t[room]);
     const Work all { 0, references.count, room, 0, 0, references.bounds };
-    BinaryBuilder(references, config, tree).build(tree.root, all, nullptr);
+    BinaryBuilder(references, mesh, config, tree).build(tree.root, all, nullptr);
 }
 
 } // namespace wedge::bvh::detail

@@ -37,7 +37,8 @@ Bvh build(const Mesh& mesh, const Config& config)
 
     const auto start = std::chrono::steady_clock::now();
     const std::size_t count = mesh.indices.size() / 3;
-    const auto room = static_cast<std::uint32_t>(count);
+    const auto room =
+        static_cast<std::uint32_t>(static_cast<double>(count) * (1.0 + static_cast<double>(config.extraReferences)));
     detail::ReferenceArrays references = detail::makeReferences(mesh, room);
     const std::uint32_t valid = references.count;
     Bvh bvh;

@@ -22,7 +22,7 @@ struct Mesh {
 /// What the builder weighs; the defaults are the fastest measured (docs/bvh.md).
 struct Config {
     /// Cost of visiting a node, in units of testing one block of triangles. More than 0.
-    float traversalCost = 0.5f;
+    float traversalCost = 1.0f;
     /// Candidate planes an axis, plus one; 2 to maxBins. Small nodes use fewer.
     unsigned bins = 32;
     /// Blocks a leaf may hold; 1 to WEDGE_BVH_MAX_LEAF_BLOCKS.
