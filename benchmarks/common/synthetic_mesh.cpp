@@ -173,8 +173,8 @@ scene::Scene syntheticScene(std::size_t triangles, std::uint32_t seed)
     out.materials[0].diffuse = { 0.6f, 0.7f, 0.5f };
     scene::AreaLight light;
     light.centre = { 4, 30, -6 };
-    light.halfU = { 0, 0, 3 };
-    light.halfV = { 3, 0, 0 };
+    light.halfU = { 3, 0, 0 };
+    light.halfV = { 0, 0, 3 };
     light.radiance = glm::vec3(60);
     light.visible = false;
     out.areaLights.push_back(light);
