@@ -391,9 +391,9 @@ WEDGE_FN void loadPacket(const RayPacket* packet, float unit, TraversalPacket* p
     p->z = packetAxis(vload16(0, packet->originZ) * unit, vload16(0, packet->directionZ) * unit);
     const float16 tMin = vload16(0, packet->tMin), tMax = vload16(0, packet->tMax);
     p->tMin = WEDGE_MAX(tMin, (float16)(0.0f));
-    // 0 times a finite number is 0, and times anything else NaN.
+    // As in prepareRay.
     const float16 sum = p->x.origin + p->y.origin + p->z.origin + p->x.direction + p->y.direction + p->z.direction;
-    const int16 valid = (sum * 0.0f == 0.0f) & (p->tMin < tMax);
+    const int16 valid = (fabs(sum) < INFINITY) & (p->tMin < tMax);
     // The float before tMax, or before infinity.
     p->tFar = valid ? as_float16(as_uint16(tMax) - 1u) : (float16)(-1.0f);
     p->u = (float16)(0.0f);
@@ -463,7 +463,7 @@ WEDGE_FN void anyHits(__global const TraversalNode* restrict nodes, __global con
     loadPacket(packet, nodes->unit, &p);
     const int16 valid = p.tFar >= 0.0f;
     tracePacket(nodes, blocks, &p, true);
-    vstore16(valid & (p.tFar < 0.0f) ? (uint16)(1u) : (uint16)(0u), 0, occluded);
+    vstore16((valid & (p.tFar < 0.0f)) ? (uint16)(1u) : (uint16)(0u), 0, occluded);
 }
 
 #endif

@@ -89,9 +89,9 @@ WEDGE_FN bool prepareRay(TraversalRay* ray, float unit, Vec3 origin, Vec3 direct
     ray->shearX = ray->testDirection.x / ray->testDirection.z;
     ray->shearY = ray->testDirection.y / ray->testDirection.z;
     choosePlanes(ray);
-    // 0 times a finite number is 0, and times anything else NaN. Last, since it is not what the tests wait for.
+    // Not finite if any of them is not; some compilers take x * 0 == 0 for true. Last, as the tests do not wait for it.
     const float sum = origin.x + origin.y + origin.z + direction.x + direction.y + direction.z;
-    return sum * 0.0f == 0.0f && ray->tMin < tMax;
+    return fabs(sum) < INFINITY && ray->tMin < tMax;
 }
 
 #endif
