@@ -33,13 +33,15 @@ struct Work {
 
 class BinaryBuilder {
 public:
-    BinaryBuilder(const ReferenceArrays& references, const Mesh& mesh, const Config& config, BinaryTree& tree)
+    BinaryBuilder(const ReferenceArrays& references, const MortonRuns* runs, const Mesh& mesh, const Config& config,
+        BinaryTree& tree)
         : arrays_ { references.current.get(), references.other.get() }
         , mesh_(mesh)
         , config_(config)
         , tree_(tree)
         , areaScale_(references.bounds.box.halfArea() > 0 ? 1.0 / references.bounds.box.halfArea() : 1.0)
-        , blockShift_(std::countr_zero(unsigned { WEDGE_BLOCK_SIZE }))
+        , runs_(runs)
+        , blockShift_(runs ? 0u : unsigned { std::countr_zero(unsigned { WEDGE_BLOCK_SIZE }) })
         , maxLeaf_(config.maxLeafBlocks << blockShift_)
     {
     }
@@ -84,13 +86,22 @@ private:
     void makeLeaf(BinaryNode& node, const Work& work) const
     {
         node.children = nullptr;
-        node.first = work.first;
-        node.count = work.count;
+        node.first = work.first << (runs_ ? std::countr_zero(unsigned { WEDGE_BLOCK_SIZE }) : 0);
         node.height = 0;
-        node.blocks = blocksOf(work.count);
+        std::uint32_t* const begin = &tree_.triangles[node.first];
+        std::uint32_t* end = begin;
+        for (const Reference& reference : from(work)) {
+            if (runs_)
+                end = std::copy(&runs_->triangles[runs_->first[reference.index]],
+                    &runs_->triangles[runs_->first[reference.index + 1]], end);
+            else
+                *end++ = reference.index;
+        }
+        if (runs_)
+            std::sort(begin, end);
+        node.count = static_cast<std::uint32_t>(end - begin);
+        node.blocks = blocksOf(node.count);
         weighLeaf(node, relativeArea(node));
-        for (std::uint32_t i = work.first; i < work.first + work.count; i++)
-            tree_.triangles[i] = arrays_[work.array][i].index;
     }
 
     /// Moves the references of work to the other array, those of the left child to the front and those of the right one
@@ -182,6 +193,7 @@ private:
     const Config& config_;
     BinaryTree& tree_;
     double areaScale_;
+    const MortonRuns* runs_; ///< what references refer to, if not to triangles
     unsigned blockShift_;
     std::uint32_t maxLeaf_;
 };
@@ -203,7 +215,15 @@ void buildBinaryTree(
 {
     tree.triangles.reset(new std::uint32_t[room]);
     const Work all { 0, references.count, room, 0, 0, references.bounds };
-    BinaryBuilder(references, mesh, config, tree).build(tree.root, all, nullptr);
+    BinaryBuilder(references, nullptr, mesh, config, tree).build(tree.root, all, nullptr);
+}
+
+void buildBinaryTree(const MortonRuns& runs, const Mesh& mesh, const Config& config, BinaryTree& tree)
+{
+    const std::uint32_t count = runs.references.count;
+    tree.triangles.reset(new std::uint32_t[std::size_t { count } * WEDGE_BLOCK_SIZE]);
+    const Work all { 0, count, count, 0, 0, runs.references.bounds };
+    BinaryBuilder(runs.references, &runs, mesh, config, tree).build(tree.root, all, nullptr);
 }
 
 } // namespace wedge::bvh::detail

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bvh/morton.h"
 #include "bvh/reference.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -47,5 +48,8 @@ inline std::uint32_t blocksOf(std::uint32_t triangles) { return (triangles + WED
 /// Splits references, at least one and each a triangle, by binned SAH. room: what their arrays hold.
 void buildBinaryTree(
     ReferenceArrays references, std::uint32_t room, const Mesh& mesh, const Config& config, BinaryTree& tree);
+
+/// The same over runs of triangles, each taken for one block.
+void buildBinaryTree(const MortonRuns& runs, const Mesh& mesh, const Config& config, BinaryTree& tree);
 
 } // namespace wedge::bvh::detail

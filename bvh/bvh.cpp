@@ -35,6 +35,8 @@ Bvh build(const Mesh& mesh, const Config& config)
     assert(config.traversalCost > 0 && config.bins >= 2 && config.bins <= maxBins);
     assert(config.maxLeafBlocks >= 1 && config.maxLeafBlocks <= WEDGE_BVH_MAX_LEAF_BLOCKS);
 
+    assert(config.extraReferences >= 0 && config.extraReferences <= 4);
+
     const auto start = std::chrono::steady_clock::now();
     const std::size_t count = mesh.indices.size() / 3;
     const auto room =
@@ -46,7 +48,10 @@ Bvh build(const Mesh& mesh, const Config& config)
         bvh = emptyBvh();
     } else {
         detail::BinaryTree tree;
-        detail::buildBinaryTree(std::move(references), room, mesh, config, tree);
+        if (config.mortonRuns)
+            detail::buildBinaryTree(detail::makeMortonRuns(std::move(references)), mesh, config, tree);
+        else
+            detail::buildBinaryTree(std::move(references), room, mesh, config, tree);
         bvh = detail::collapse(tree, mesh, config);
     }
     Statistics& statistics = bvh.statistics;
