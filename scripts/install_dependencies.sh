@@ -26,6 +26,7 @@ build    doctest-dev             the tests; configuring looks for it
 build    libembree-dev           what the benchmark of rays measures itself against; configuring looks for it
 test     clang-15                front end of three GPU targets, lints the kernels
 test     oclgrind                runs kernels and reports bad accesses and races
+test     mesa-opencl-icd         a second OpenCL driver, of another vendor
 develop  clang-format            lays out the sources
 develop  clang-tidy              looks for mistakes in the sources
 develop  python3-matplotlib      plots of the benchmarks

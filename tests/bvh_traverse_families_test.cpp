@@ -89,7 +89,7 @@ TEST_CASE("Families and packets agree on rays of all kinds in every nasty mesh")
         for (const TestMesh& mesh : nastyMeshes()) {
             CAPTURE(mesh.name);
             const Tree tree(mesh);
-            for (const RaySet& set : raySets(mesh, 1000)) {
+            for (const RaySet& set : raySets(mesh, 600)) {
                 CAPTURE(set.name);
                 ways.check(mesh, tree, set.rays);
             }

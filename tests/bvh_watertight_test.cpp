@@ -44,8 +44,9 @@ TEST_CASE("No ray slips through where triangles share a vertex or an edge")
         mesh, 100000, vec3(0, 3, 0), 0.1f, [](Vec3 p) { return std::max(std::fabs(p.x), std::fabs(p.z)) <= 0.94f; });
     onEveryTracer([&](Tracer& tracer) {
         CHECK(misses(tracer.closest(tree, rays)) == 0);
-        CHECK(misses(tracer.closestPackets(tree, rays)) == 0);
-        CHECK(std::ranges::count(tracer.any(tree, rays), 1u) == 100000);
+        const std::span<const Ray> some = std::span(rays).first(20000);
+        CHECK(misses(tracer.closestPackets(tree, some)) == 0);
+        CHECK(std::ranges::count(tracer.any(tree, some), 1u) == 20000);
     });
 }
 
@@ -61,7 +62,7 @@ TEST_CASE("No ray slips through a mesh a million units from the origin")
             mesh.positions[i + 2] += to.z;
         }
         const Tree tree(mesh);
-        const std::vector<Ray> rays = raysFromAbove(mesh, 30000, vec3(to.x, to.y + 300, to.z), 10,
+        const std::vector<Ray> rays = raysFromAbove(mesh, 16000, vec3(to.x, to.y + 300, to.z), 10,
             [&](Vec3 p) { return std::max(std::fabs(p.x - to.x), std::fabs(p.z - to.z)) <= 94; });
         onEveryTracer([&](Tracer& tracer) {
             CHECK(misses(tracer.closest(tree, rays)) == 0);
