@@ -82,6 +82,8 @@ TEST_CASE("values out of range")
     checkRenderRefused(place, box, { "--seed", "4294967296" }, wrongCall, "4294967296");
     checkRenderRefused(place, box, { "--method", "maaf" }, wrongCall, "maaf");
     checkRenderRefused(place, box, { "--filter", "soft" }, wrongCall, "soft");
+    checkRenderRefused(place, box, { "--traversal", "narrow" }, wrongCall, "narrow");
+    checkRenderRefused(place, box, { "--bvh", "best" }, wrongCall, "best");
     checkRenderRefused(place, box, { "--layers", "albedo,colour" }, wrongCall, "colour");
     checkRenderRefused(place, box, { "--layers", "albedo,," }, wrongCall, "unknown layer");
 }
