@@ -33,9 +33,9 @@ struct Work {
 
 class BinaryBuilder {
 public:
-    BinaryBuilder(const ReferenceArrays& references, const MortonRuns* runs, const Mesh& mesh, const Config& config,
-        BinaryTree& tree)
-        : arrays_ { references.current.get(), references.other.get() }
+    BinaryBuilder(
+        ReferenceArrays& references, const MortonRuns* runs, const Mesh& mesh, const Config& config, BinaryTree& tree)
+        : arrays_ { references.current.data(), references.other.data() }
         , mesh_(mesh)
         , config_(config)
         , tree_(tree)
@@ -92,8 +92,8 @@ private:
         std::uint32_t* end = begin;
         for (const Reference& reference : from(work)) {
             if (runs_)
-                end = std::copy(&runs_->triangles[runs_->first[reference.index]],
-                    &runs_->triangles[runs_->first[reference.index + 1]], end);
+                end = std::copy(runs_->triangles.begin() + runs_->first[reference.index],
+                    runs_->triangles.begin() + runs_->first[reference.index + 1], end);
             else
                 *end++ = reference.index;
         }
@@ -213,15 +213,15 @@ BinaryNode* NodeArena::allocatePair()
 void buildBinaryTree(
     ReferenceArrays references, std::uint32_t room, const Mesh& mesh, const Config& config, BinaryTree& tree)
 {
-    tree.triangles.reset(new std::uint32_t[room]);
+    tree.triangles.resize(room);
     const Work all { 0, references.count, room, 0, 0, references.bounds };
     BinaryBuilder(references, nullptr, mesh, config, tree).build(tree.root, all, nullptr);
 }
 
-void buildBinaryTree(const MortonRuns& runs, const Mesh& mesh, const Config& config, BinaryTree& tree)
+void buildBinaryTree(MortonRuns runs, const Mesh& mesh, const Config& config, BinaryTree& tree)
 {
     const std::uint32_t count = runs.references.count;
-    tree.triangles.reset(new std::uint32_t[std::size_t { count } * WEDGE_BLOCK_SIZE]);
+    tree.triangles.resize(std::size_t { count } * WEDGE_BLOCK_SIZE);
     const Work all { 0, count, count, 0, 0, runs.references.bounds };
     BinaryBuilder(runs.references, &runs, mesh, config, tree).build(tree.root, all, nullptr);
 }

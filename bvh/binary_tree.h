@@ -34,7 +34,7 @@ private:
 
 struct BinaryTree {
     BinaryNode root {};
-    std::unique_ptr<std::uint32_t[]> triangles; ///< those of each leaf in ascending order
+    Array<std::uint32_t> triangles; ///< those of each leaf in ascending order
     tbb::enumerable_thread_specific<NodeArena> arenas;
 };
 
@@ -50,6 +50,6 @@ void buildBinaryTree(
     ReferenceArrays references, std::uint32_t room, const Mesh& mesh, const Config& config, BinaryTree& tree);
 
 /// The same over runs of triangles, each taken for one block.
-void buildBinaryTree(const MortonRuns& runs, const Mesh& mesh, const Config& config, BinaryTree& tree);
+void buildBinaryTree(MortonRuns runs, const Mesh& mesh, const Config& config, BinaryTree& tree);
 
 } // namespace wedge::bvh::detail

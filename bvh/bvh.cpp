@@ -41,19 +41,20 @@ Bvh build(const Mesh& mesh, const Config& config)
     const std::size_t count = mesh.indices.size() / 3;
     const auto room =
         static_cast<std::uint32_t>(static_cast<double>(count) * (1.0 + static_cast<double>(config.extraReferences)));
-    detail::ReferenceArrays references = detail::makeReferences(mesh, room);
-    const std::uint32_t valid = references.count;
-    Bvh bvh;
-    if (valid == 0) {
-        bvh = emptyBvh();
+    detail::BinaryTree tree;
+    std::size_t valid = 0;
+    if (config.mortonRuns) {
+        detail::MortonRuns runs = detail::makeMortonRuns(mesh);
+        valid = runs.triangles.size();
+        if (valid > 0)
+            detail::buildBinaryTree(std::move(runs), mesh, config, tree);
     } else {
-        detail::BinaryTree tree;
-        if (config.mortonRuns)
-            detail::buildBinaryTree(detail::makeMortonRuns(std::move(references)), mesh, config, tree);
-        else
+        detail::ReferenceArrays references = detail::makeReferences(mesh, room);
+        valid = references.count;
+        if (valid > 0)
             detail::buildBinaryTree(std::move(references), room, mesh, config, tree);
-        bvh = detail::collapse(tree, mesh, config);
     }
+    Bvh bvh = valid > 0 ? detail::collapse(tree, mesh, config) : emptyBvh();
     Statistics& statistics = bvh.statistics;
     statistics.nodes = bvh.nodes.size();
     statistics.blocks = bvh.blocks.size();

@@ -1,14 +1,13 @@
 #pragma once
 
+#include "bvh/memory.h"
 #include "kernels/shared/bvh_types.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace wedge::bvh {
@@ -66,27 +65,6 @@ struct Statistics {
     std::size_t bytes = 0; ///< nodes and blocks
     double buildSeconds = 0;
 };
-
-/// Leaves what a vector makes room for as it is, so that threads can fill it without one having cleared it first.
-template <typename T>
-struct Uninitialized : std::allocator<T> {
-    template <typename U>
-    struct rebind {
-        using other = Uninitialized<U>;
-    };
-    template <typename U>
-    void construct(U* place) noexcept
-    {
-        ::new (static_cast<void*>(place)) U;
-    }
-    template <typename U, typename... Arguments>
-    void construct(U* place, Arguments&&... arguments)
-    {
-        ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
-    }
-};
-template <typename T>
-using Array = std::vector<T, Uninitialized<T>>;
 
 /// An 8-wide hierarchy in the layout of kernels/shared/bvh_types.h, to be copied to a device as it is.
 struct Bvh {

@@ -13,9 +13,10 @@ class Chunks {
 public:
     static constexpr std::size_t most = 256;
 
-    explicit Chunks(std::size_t size)
+    /// atMost: for work that pays for each chunk.
+    explicit Chunks(std::size_t size, std::size_t atMost = most)
         : size_(size)
-        , count_(size < 16384 ? 1 : std::min(most, size / 4096))
+        , count_(size < 16384 ? 1 : std::min(atMost, size / 4096))
     {
     }
 

@@ -10,11 +10,11 @@
 namespace wedge::bvh::detail {
 namespace {
 
-/// A place on the curve above a reference's place in its array, so that all differ.
+/// A place on the curve above a triangle's index, so that all differ.
 using Key = std::uint64_t;
-constexpr unsigned placeBits = 28, axisBits = 12, digitBits = 12, digits = 3;
+constexpr unsigned indexBits = 28, axisBits = 12, digitBits = 9, digits = 4;
 constexpr std::size_t buckets = std::size_t { 1 } << digitBits;
-constexpr Key placeMask = (Key { 1 } << placeBits) - 1;
+constexpr Key indexMask = (Key { 1 } << indexBits) - 1;
 
 /// Two zeros between each of 12 bits.
 Key spread(Key x)
@@ -25,23 +25,49 @@ Key spread(Key x)
     return (x | x << 2) & 0x249249249249ull;
 }
 
-std::unique_ptr<Key[]> makeKeys(const ReferenceArrays& references)
+/// The keys of the valid triangles, in ascending order of their indices.
+Array<Key> makeKeys(const Mesh& mesh)
 {
-    std::unique_ptr<Key[]> keys(new Key[references.count]);
-    const Box& centres = references.bounds.centres;
-    const Float4 extent = centres.hi - centres.lo;
-    Float4 scale {};
-    for (int axis = 0; axis < 3; axis++)
-        scale[axis] = extent[axis] > 1e-30f ? (1 << axisBits) * 0.9999f / extent[axis] : 0.0f;
-    const Chunks chunks(references.count);
-    chunks.forEach([&](std::size_t chunk) {
+    const Chunks chunks(mesh.indices.size() / 3);
+    const auto forEachValid = [&](std::size_t chunk, const auto& body) {
         for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); i++) {
-            const Float4 centre = references.current[i].centre();
+            bool valid;
+            const Box box = boxOf(mesh, static_cast<std::uint32_t>(i), valid);
+            if (valid)
+                body(i, box.lo + box.hi);
+        }
+    };
+    std::vector<Box> boxes(chunks.count(), Box::empty());
+    std::vector<std::size_t> first(chunks.count() + 1, 0);
+    chunks.forEach([&](std::size_t chunk) {
+        Box box = Box::empty();
+        std::size_t count = 0;
+        forEachValid(chunk, [&](std::size_t, Float4 centre) {
+            box.grow(centre);
+            count++;
+        });
+        boxes[chunk] = box;
+        first[chunk + 1] = count;
+    });
+    Box centres = Box::empty();
+    for (std::size_t chunk = 0; chunk < chunks.count(); chunk++) {
+        centres.grow(boxes[chunk]);
+        first[chunk + 1] += first[chunk];
+    }
+    Float4 scale {};
+    for (int axis = 0; axis < 3; axis++) {
+        const float extent = centres.hi[axis] - centres.lo[axis];
+        scale[axis] = extent > 1e-30f ? (1 << axisBits) * 0.9999f / extent : 0.0f;
+    }
+    Array<Key> keys(first.back());
+    chunks.forEach([&](std::size_t chunk) {
+        Key* next = keys.data() + first[chunk];
+        forEachValid(chunk, [&](std::size_t i, Float4 centre) {
             const Int4 cell = __builtin_convertvector((centre - centres.lo) * scale, Int4);
             const Key code = spread(static_cast<Key>(cell[0])) | spread(static_cast<Key>(cell[1])) << 1
                 | spread(static_cast<Key>(cell[2])) << 2;
-            keys[i] = code << placeBits | i;
-        }
+            *next++ = code << indexBits | i;
+        });
     });
     return keys;
 }
@@ -50,7 +76,7 @@ std::unique_ptr<Key[]> makeKeys(const ReferenceArrays& references)
 void sortByDigit(std::span<const Key> keys, unsigned shift, Key* sorted)
 {
     const auto digitOf = [shift](Key key) { return key >> shift & (buckets - 1); };
-    const Chunks chunks(keys.size());
+    const Chunks chunks(keys.size(), 64);
     const auto next = std::make_unique_for_overwrite<std::array<std::uint32_t, buckets>[]>(chunks.count());
     chunks.forEach([&](std::size_t chunk) {
         next[chunk].fill(0);
@@ -67,20 +93,16 @@ void sortByDigit(std::span<const Key> keys, unsigned shift, Key* sorted)
     });
 }
 
-std::unique_ptr<Key[]> sortedKeys(const ReferenceArrays& references)
+void sort(Array<Key>& keys)
 {
-    std::unique_ptr<Key[]> keys = makeKeys(references);
-    constexpr std::uint32_t few = 4096; // clearing the buckets would take longer
-    if (references.count < few) {
-        std::sort(keys.get(), keys.get() + references.count);
-        return keys;
-    }
-    std::unique_ptr<Key[]> other(new Key[references.count]);
+    constexpr std::size_t few = 1024; // clearing the buckets would take longer
+    if (keys.size() < few)
+        return std::sort(keys.begin(), keys.end());
+    Array<Key> other(keys.size());
     for (unsigned digit = 0; digit < digits; digit++) {
-        sortByDigit({ keys.get(), references.count }, placeBits + digit * digitBits, other.get());
+        sortByDigit(keys, indexBits + digit * digitBits, other.data());
         keys.swap(other);
     }
-    return keys;
 }
 
 /// Appends where runs start in [first, last) to starts: splits at the highest bit in which keys differ until they fit.
@@ -99,26 +121,30 @@ void findRuns(const Key* keys, std::uint32_t first, std::uint32_t last, std::vec
 
 } // namespace
 
-MortonRuns makeMortonRuns(ReferenceArrays references)
+MortonRuns makeMortonRuns(const Mesh& mesh)
 {
-    const std::unique_ptr<Key[]> keys = sortedKeys(references);
-    const Chunks chunks(references.count);
+    Array<Key> keys = makeKeys(mesh);
+    MortonRuns runs;
+    if (keys.empty())
+        return runs;
+    sort(keys);
+    const Chunks chunks(keys.size());
     std::vector<std::vector<std::uint32_t>> starts(chunks.count());
     chunks.forEach([&](std::size_t chunk) {
         starts[chunk].reserve((chunks.end(chunk) - chunks.begin(chunk)) / 3);
-        findRuns(keys.get(), static_cast<std::uint32_t>(chunks.begin(chunk)),
+        findRuns(keys.data(), static_cast<std::uint32_t>(chunks.begin(chunk)),
             static_cast<std::uint32_t>(chunks.end(chunk)), starts[chunk]);
     });
     std::vector<std::size_t> firstRun(chunks.count() + 1, 0);
     for (std::size_t chunk = 0; chunk < chunks.count(); chunk++)
         firstRun[chunk + 1] = firstRun[chunk] + starts[chunk].size();
 
-    MortonRuns runs;
     const std::size_t count = firstRun.back();
-    runs.first.resize(count + 1, references.count);
-    runs.triangles.reset(new std::uint32_t[references.count]);
+    runs.first.resize(count + 1, static_cast<std::uint32_t>(keys.size()));
+    runs.triangles.resize(keys.size());
     runs.references.count = static_cast<std::uint32_t>(count);
-    runs.references.current.reset(new Reference[count]);
+    runs.references.current.resize(count);
+    runs.references.other.resize(count);
     std::vector<Bounds> bounds(chunks.count());
     chunks.forEach([&](std::size_t chunk) {
         for (std::size_t run = firstRun[chunk]; run < firstRun[chunk + 1]; run++) {
@@ -127,9 +153,9 @@ MortonRuns makeMortonRuns(ReferenceArrays references)
             const std::size_t end = local + 1 < starts[chunk].size() ? starts[chunk][local + 1] : chunks.end(chunk);
             Box box = Box::empty();
             for (std::size_t i = begin; i < end; i++) {
-                const Reference& reference = references.current[keys[i] & placeMask];
-                box.grow(reference.box());
-                runs.triangles[i] = reference.index;
+                bool valid;
+                runs.triangles[i] = static_cast<std::uint32_t>(keys[i] & indexMask);
+                box.grow(boxOf(mesh, runs.triangles[i], valid));
             }
             runs.first[run] = static_cast<std::uint32_t>(begin);
             runs.references.current[run] = Reference(box, static_cast<std::uint32_t>(run));
@@ -138,7 +164,6 @@ MortonRuns makeMortonRuns(ReferenceArrays references)
     });
     for (const Bounds& part : bounds)
         runs.references.bounds.merge(part);
-    runs.references.other = std::move(references.current); // as large at least, and no longer needed
     return runs;
 }
 

@@ -11,20 +11,9 @@ namespace {
 /// lo[0] is NaN for triangles to skip.
 Reference makeReference(const Mesh& mesh, std::uint32_t triangle)
 {
-    constexpr Float4 limit = { maxCoordinate, maxCoordinate, maxCoordinate, maxCoordinate };
-    Box box;
-    Int4 valid = { -1, -1, -1, -1 };
-    for (std::size_t corner = 0; corner < 3; corner++) {
-        assert(mesh.indices[3 * std::size_t { triangle } + corner] < mesh.positions.size() / 3);
-        const Float4 vertex = vertexOf(mesh, triangle, corner);
-        valid &= (vertex <= limit) & (-vertex <= limit);
-        if (corner == 0)
-            box = { vertex, vertex };
-        else
-            box.grow(vertex);
-    }
-    Reference reference(box, triangle);
-    if (!(valid[0] & valid[1] & valid[2]))
+    bool valid;
+    Reference reference(boxOf(mesh, triangle, valid), triangle);
+    if (!valid)
         reference.lo[0] = NAN;
     return reference;
 }
@@ -38,8 +27,8 @@ ReferenceArrays makeReferences(const Mesh& mesh, std::size_t room)
     const std::size_t count = mesh.indices.size() / 3;
     assert(room >= count);
     ReferenceArrays arrays;
-    arrays.current.reset(new Reference[room]);
-    arrays.other.reset(new Reference[room]);
+    arrays.current.resize(room);
+    arrays.other.resize(room);
     const Chunks chunks(count);
     struct Part {
         Bounds bounds;
@@ -63,7 +52,7 @@ ReferenceArrays makeReferences(const Mesh& mesh, std::size_t room)
         arrays.count += parts[chunk].valid;
     }
     if (arrays.count < count) {
-        divide({ arrays.current.get(), count }, arrays.other.get(), arrays.other.get() + arrays.count, isValid);
+        divide({ arrays.current.data(), count }, arrays.other.data(), arrays.other.data() + arrays.count, isValid);
         std::swap(arrays.current, arrays.other);
     }
     return arrays;

@@ -3,6 +3,7 @@
 #include "bvh/box.h"
 #include "bvh/bvh.h"
 
+#include <cassert>
 #include <cstring>
 #include <memory>
 
@@ -17,7 +18,7 @@ struct alignas(32) Reference {
     float hi[3];
     std::uint32_t unused;
 
-    Reference() = default;
+    Reference() = default; // leaves everything as it is
     Reference(const Box& box, std::uint32_t i)
     {
         std::memcpy(lo, &box.lo, sizeof box.lo);
@@ -59,12 +60,9 @@ struct Bounds {
     }
 };
 
-/// Arrays that are written before they are read, in parallel: nobody clears them first.
-using References = std::unique_ptr<Reference[]>;
-
 /// Two arrays of room references; the builder moves references from one to the other at each split.
 struct ReferenceArrays {
-    References current, other;
+    Array<Reference> current, other;
     std::uint32_t count = 0; ///< in current, in ascending order of their index
     Bounds bounds;
 };
@@ -76,8 +74,21 @@ ReferenceArrays makeReferences(const Mesh& mesh, std::size_t room);
 /// The vertex of a triangle; -0 becomes 0, since which of the two a minimum returns would depend on the order.
 inline Float4 vertexOf(const Mesh& mesh, std::uint32_t triangle, std::size_t corner)
 {
-    const float* p = &mesh.positions[3 * std::size_t { mesh.indices[3 * std::size_t { triangle } + corner] }];
+    const std::size_t vertex = mesh.indices[3 * std::size_t { triangle } + corner];
+    assert(vertex < mesh.positions.size() / 3);
+    const float* p = &mesh.positions[3 * vertex];
     return Float4 { p[0], p[1], p[2], 0 } + Float4 {};
+}
+
+/// The box of a triangle. Where a vertex is not finite or beyond maxCoordinate, valid becomes false.
+inline Box boxOf(const Mesh& mesh, std::uint32_t triangle, bool& valid)
+{
+    constexpr Float4 limit = { maxCoordinate, maxCoordinate, maxCoordinate, maxCoordinate };
+    const Float4 a = vertexOf(mesh, triangle, 0), b = vertexOf(mesh, triangle, 1), c = vertexOf(mesh, triangle, 2);
+    const auto within = [&](Float4 v) { return (v <= limit) & (-v <= limit); };
+    const Int4 all = within(a) & within(b) & within(c);
+    valid = (all[0] & all[1] & all[2]) != 0;
+    return { minOf(minOf(a, b), c), maxOf(maxOf(a, b), c) };
 }
 
 } // namespace wedge::bvh::detail
