@@ -6,22 +6,44 @@
 //         taken (samples so far), rays (rays traced for the pixel, all lights)
 // out     value (planes: diffuse, specular): what is filtered; slopes (planes: s_min, s_max; 0 where no ray was
 //         occluded)
-#include "light_sample.h"
+#include "light_packet.h"
+#include "packet.h"
 #include "shared/wedge.h"
-#include "traverse.h"
 
-WEDGE_FN void storeTerm(SampleParams params, uint size, uint i, float4 sum, uint taken, __global float* sums,
-                        __global uint* takenPlane, __global float* value)
+/// What the samples of a packet's pixels add up to.
+typedef struct {
+    float diffuse[WEDGE_PACKET_SIZE], diffuseVisible[WEDGE_PACKET_SIZE];
+    float specular[WEDGE_PACKET_SIZE], specularVisible[WEDGE_PACKET_SIZE];
+    uint rays[WEDGE_PACKET_SIZE];
+} TermSums;
+
+/// Adds one sample a lane; visible: 1 or 0.
+WEDGE_FN void addSamples(const LightSamples* s, const uint* occluded, TermSums* sums)
 {
-    sums[i] = sum.x;
-    sums[size + i] = sum.y;
-    value[i] = termValue(params.shading, sum.x, sum.y, taken);
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const bool visible = occluded[lane] == 0u;
+        sums->diffuse[lane] += s->diffuse[lane];
+        sums->diffuseVisible[lane] += visible ? s->diffuse[lane] : 0.0f;
+        sums->specular[lane] += s->specular[lane];
+        sums->specularVisible[lane] += visible ? s->specular[lane] : 0.0f;
+        sums->rays[lane] += s->diffuse[lane] > 0.0f ? 1u : 0u;
+    }
+}
+
+WEDGE_FN void storeTerm(SampleParams params, uint size, uint i, const TermSums* sums, uint lane, uint taken,
+                        __global float* sumPlanes, __global uint* takenPlane, __global float* value)
+{
+    const float weights = sums->diffuse[lane], visible = sums->diffuseVisible[lane];
+    sumPlanes[i] = weights;
+    sumPlanes[size + i] = visible;
+    value[i] = termValue(params.shading, weights, visible, taken);
 #ifdef WEDGE_SPECULAR
-    sums[2u * size + i] = sum.z;
-    sums[3u * size + i] = sum.w;
+    const float specular = sums->specular[lane], specularVisible = sums->specularVisible[lane];
+    sumPlanes[2u * size + i] = specular;
+    sumPlanes[3u * size + i] = specularVisible;
     // A lobe that no sample reached says nothing; 0 would darken the highlights of neighbours that gather it.
-    const bool reached = sum.z > 0.0f || params.shading == WEDGE_SHADING_INSIDE;
-    value[size + i] = reached ? termValue(params.shading, sum.z, sum.w, taken) : value[i];
+    const bool reached = specular > 0.0f || params.shading == WEDGE_SHADING_INSIDE;
+    value[size + i] = reached ? termValue(params.shading, specular, specularVisible, taken) : value[i];
 #endif
     takenPlane[i] = taken;
 }
@@ -33,40 +55,48 @@ __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light,
                         __global float* restrict sums, __global uint* restrict taken, __global float* restrict value,
                         __global float* restrict slopes, __global uint* restrict rays, uint firstGroup)
 {
-    uint x, y;
-    if (!tilePixel(frame, firstGroup, &x, &y)) {
-        return;
+    ReceiverPacket receivers;
+    loadReceivers(frame, params.light, firstGroup, position, normal, origin, objectId, gloss, &receivers);
+    TermSums sum;
+    float sMin[WEDGE_PACKET_SIZE], sMax[WEDGE_PACKET_SIZE];
+    uint index[WEDGE_PACKET_SIZE], count[WEDGE_PACKET_SIZE], occluded[WEDGE_PACKET_SIZE];
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        sum.diffuse[lane] = sum.diffuseVisible[lane] = sum.specular[lane] = sum.specularVisible[lane] = 0.0f;
+        sum.rays[lane] = 0u;
+        sMin[lane] = WEDGE_SLOPE_MAX * 2.0f;
+        sMax[lane] = 0.0f;
+        count[lane] = WEDGE_FIRST_PASS_RAYS;
     }
-    const uint i = pixelIndex(x, y, frame.stride);
-    float4 sum = (float4)(0.0f);
-    float sMin = WEDGE_SLOPE_MAX * 2.0f;
-    float sMax = 0.0f;
-    uint traced = 0u;
-    if (objectId[i] != 0u) {
-        const Receiver r = loadReceiver(frame, params.light, x, y, i, position, normal, origin, gloss);
-        for (uint k = 0u; k < WEDGE_FIRST_PASS_RAYS; ++k) {
-            const LightSample s = sampleLight(params, light, r, k, WEDGE_FIRST_PASS_RAYS);
-            if (!(s.diffuse > 0.0f)) {
-                continue;
-            }
-            sum.x += s.diffuse;
-            sum.z += s.specular;
-            ++traced;
-            const Hit hit = closestHit(nodes, blocks, r.origin, s.ray, 0.0f, WEDGE_SHADOW_RAY_END);
-            if (hit.triangle == WEDGE_NO_TRIANGLE) {
-                sum.y += s.diffuse;
-                sum.w += s.specular;
-            } else {
-                const float slope = slopeOfHit(hit.t);
-                sMin = fmin(sMin, slope);
-                sMax = fmax(sMax, slope);
-            }
+    for (uint k = 0u; k < WEDGE_FIRST_PASS_RAYS; ++k) {
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            index[lane] = k;
         }
+        LightSamples s;
+        sampleLights(params, light, &receivers, index, count, &s);
+        RayPacket packet;
+        shadowRays(&receivers, &s, &packet);
+        PacketHits hits;
+        closestHits(nodes, blocks, &packet, &hits);
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            occluded[lane] = hits.triangle[lane] != WEDGE_NO_TRIANGLE ? 1u : 0u;
+            const float slope = slopeOfHit(hits.t[lane]);
+            sMin[lane] = occluded[lane] != 0u ? fmin(sMin[lane], slope) : sMin[lane];
+            sMax[lane] = occluded[lane] != 0u ? fmax(sMax[lane], slope) : sMax[lane];
+        }
+        addSamples(&s, occluded, &sum);
     }
-    storeTerm(params, frame.planeSize, i, sum, objectId[i] != 0u ? WEDGE_FIRST_PASS_RAYS : 0u, sums, taken, value);
-    slopes[i] = sMax > 0.0f ? sMin : 0.0f;
-    slopes[frame.planeSize + i] = sMax;
-    rays[i] += traced;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        uint x, y;
+        if (!tilePixel(frame, firstGroup, lane, &x, &y)) {
+            continue;
+        }
+        const uint i = pixelIndex(x, y, frame.stride);
+        const uint shaded = receivers.pixel[lane] != WEDGE_NO_PIXEL ? WEDGE_FIRST_PASS_RAYS : 0u;
+        storeTerm(params, frame.planeSize, i, &sum, lane, shaded, sums, taken, value);
+        slopes[i] = sMax[lane] > 0.0f ? sMin[lane] : 0.0f;
+        slopes[frame.planeSize + i] = sMax[lane];
+        rays[i] += sum.rays[lane];
+    }
 }
 
 __kernel void secondPass(FrameParams frame, SampleParams params, AreaLight light, __global const TraversalNode* restrict nodes,
@@ -77,37 +107,47 @@ __kernel void secondPass(FrameParams frame, SampleParams params, AreaLight light
                          __global uint* restrict taken, __global float* restrict value, __global uint* restrict rays,
                          uint firstGroup)
 {
-    uint x, y;
-    if (!tilePixel(frame, firstGroup, &x, &y)) {
-        return;
-    }
-    const uint i = pixelIndex(x, y, frame.stride);
     const uint size = frame.planeSize;
-    const uint first = taken[i];
-    const uint last = min(wanted[i], lastSample);
-    if (objectId[i] == 0u || first >= last) {
-        return;
-    }
-    const Receiver r = loadReceiver(frame, params.light, x, y, i, position, normal, origin, gloss);
-    float4 sum = (float4)(sums[i], sums[size + i], 0.0f, 0.0f);
+    ReceiverPacket receivers;
+    loadReceivers(frame, params.light, firstGroup, position, normal, origin, objectId, gloss, &receivers);
+    TermSums sum;
+    uint index[WEDGE_PACKET_SIZE], count[WEDGE_PACKET_SIZE], last[WEDGE_PACKET_SIZE], occluded[WEDGE_PACKET_SIZE];
+    uint steps = 0u;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const bool shaded = receivers.pixel[lane] != WEDGE_NO_PIXEL;
+        const uint i = shaded ? receivers.pixel[lane] : 0u;
+        index[lane] = shaded ? taken[i] : 0u;
+        count[lane] = shaded ? wanted[i] : 0u;
+        last[lane] = min(count[lane], lastSample);
+        steps = max(steps, last[lane] > index[lane] ? last[lane] - index[lane] : 0u);
+        sum.diffuse[lane] = sums[i];
+        sum.diffuseVisible[lane] = sums[size + i];
+        sum.specular[lane] = sum.specularVisible[lane] = 0.0f;
 #ifdef WEDGE_SPECULAR
-    sum.z = sums[2u * size + i];
-    sum.w = sums[3u * size + i];
+        sum.specular[lane] = sums[2u * size + i];
+        sum.specularVisible[lane] = sums[3u * size + i];
 #endif
-    uint traced = 0u;
-    for (uint k = first; k < last; ++k) {
-        const LightSample s = sampleLight(params, light, r, k, wanted[i]);
-        if (!(s.diffuse > 0.0f)) {
-            continue;
+        sum.rays[lane] = 0u;
+    }
+    for (uint step = 0u; step < steps; ++step) {
+        LightSamples s;
+        sampleLights(params, light, &receivers, index, count, &s);
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            // Pixels that have all their samples wait for the others.
+            s.diffuse[lane] = index[lane] < last[lane] ? s.diffuse[lane] : 0.0f;
+            s.specular[lane] = index[lane] < last[lane] ? s.specular[lane] : 0.0f;
+            index[lane] += index[lane] < last[lane] ? 1u : 0u;
         }
-        sum.x += s.diffuse;
-        sum.z += s.specular;
-        ++traced;
-        if (!anyHit(nodes, blocks, r.origin, s.ray, 0.0f, WEDGE_SHADOW_RAY_END)) {
-            sum.y += s.diffuse;
-            sum.w += s.specular;
+        RayPacket packet;
+        shadowRays(&receivers, &s, &packet);
+        anyHits(nodes, blocks, &packet, occluded);
+        addSamples(&s, occluded, &sum);
+    }
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const uint i = receivers.pixel[lane];
+        if (i != WEDGE_NO_PIXEL && index[lane] > taken[i]) {
+            storeTerm(params, size, i, &sum, lane, index[lane], sums, taken, value);
+            rays[i] += sum.rays[lane];
         }
     }
-    storeTerm(params, size, i, sum, last, sums, taken, value);
-    rays[i] += traced;
 }

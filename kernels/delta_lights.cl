@@ -2,11 +2,18 @@
 //
 // in      frame, BVH, the lights, G-buffer
 // in out  direct, directNoisy (3 planes each, radiance), rays
-#include "light_sample.h"
-#include "traverse.h"
+#include "light_packet.h"
+#include "packet.h"
 
 /// A directional light's shadow rays end this many scene diameters away.
 #define WEDGE_FAR_DIAMETERS 4.0f
+
+/// From a receiver to the light, to where its shadow ray ends at t = 1.
+WEDGE_FN Vec3 vectorToLight(DeltaLight light, float sceneDiameter, Vec3 origin)
+{
+    return light.directional != 0u ? vecScale(light.vector, WEDGE_FAR_DIAMETERS * sceneDiameter)
+                                   : vecSub(light.vector, origin);
+}
 
 __kernel void deltaLights(FrameParams frame, __global const DeltaLight* restrict lights, uint lightCount,
                           float sceneDiameter, __global const TraversalNode* restrict nodes,
@@ -17,35 +24,47 @@ __kernel void deltaLights(FrameParams frame, __global const DeltaLight* restrict
                           __global float* restrict direct, __global float* restrict directNoisy,
                           __global uint* restrict rays, uint firstGroup)
 {
-    uint x, y;
-    if (!tilePixel(frame, firstGroup, &x, &y)) {
-        return;
+    ReceiverPacket receivers;
+    loadReceivers(frame, 0u, firstGroup, position, normal, origin, objectId, gloss, &receivers);
+    Vec3 radiance[WEDGE_PACKET_SIZE];
+    uint traced[WEDGE_PACKET_SIZE], occluded[WEDGE_PACKET_SIZE];
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        radiance[lane] = vec3(0.0f, 0.0f, 0.0f);
+        traced[lane] = 0u;
     }
-    const uint i = pixelIndex(x, y, frame.stride);
-    if (objectId[i] == 0u) {
-        return;
-    }
-    const Receiver r = loadReceiver(frame, 0u, x, y, i, position, normal, origin, gloss);
-    const Vec3 kd = loadVec(diffuse, frame.planeSize, i);
-    const Vec3 ks = loadVec(specular, frame.planeSize, i);
-    Vec3 radiance = vec3(0.0f, 0.0f, 0.0f);
     for (uint k = 0u; k < lightCount; ++k) {
         const DeltaLight light = lights[k];
-        const Vec3 toLight = light.directional != 0u ? vecScale(light.vector, WEDGE_FAR_DIAMETERS * sceneDiameter)
-                                                     : vecSub(light.vector, r.origin);
-        const Vec3 l = vecNormalize(toLight);
-        const float cosine = vecDot(r.normal, l);
-        if (!(cosine > 0.0f)) {
-            continue;
+        RayPacket packet;
+        float cosine[WEDGE_PACKET_SIZE];
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const Vec3 start = vec3(receivers.originX[lane], receivers.originY[lane], receivers.originZ[lane]);
+            const Vec3 n = vec3(receivers.normalX[lane], receivers.normalY[lane], receivers.normalZ[lane]);
+            const Vec3 toLight = vectorToLight(light, sceneDiameter, start);
+            cosine[lane] = vecDot(n, vecNormalize(toLight));
+            setRay(&packet, lane, start, toLight, 0.0f, cosine[lane] > 0.0f ? WEDGE_SHADOW_RAY_END : 0.0f);
+            traced[lane] += cosine[lane] > 0.0f ? 1u : 0u;
         }
-        rays[i] += 1u;
-        if (anyHit(nodes, blocks, r.origin, toLight, 0.0f, WEDGE_SHADOW_RAY_END)) {
-            continue;
+        anyHits(nodes, blocks, &packet, occluded);
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const uint i = receivers.pixel[lane];
+            if (!(cosine[lane] > 0.0f) || occluded[lane] != 0u || i == WEDGE_NO_PIXEL) {
+                continue;
+            }
+            const Receiver r = loadReceiver(frame, i, position, normal, origin, gloss);
+            const Vec3 toLight = vectorToLight(light, sceneDiameter, r.origin);
+            const float falloff = light.directional != 0u ? cosine[lane] : cosine[lane] / vecDot(toLight, toLight);
+            const Vec3 lobe = vecScale(loadVec(specular, frame.planeSize, i),
+                                       lobeValue(r.lobe, r.normal, r.view, vecNormalize(toLight)));
+            const Vec3 reflected = vecMad(lobe, loadVec(diffuse, frame.planeSize, i), WEDGE_INV_PI);
+            radiance[lane] = vecMad(radiance[lane], vecMul(reflected, light.colour), falloff);
         }
-        const float falloff = light.directional != 0u ? cosine : cosine / vecDot(toLight, toLight);
-        const Vec3 reflected = vecMad(vecScale(kd, WEDGE_INV_PI), ks, lobeValue(r.lobe, r.normal, r.view, l));
-        radiance = vecMad(radiance, vecMul(reflected, light.colour), falloff);
     }
-    storeVec(direct, frame.planeSize, i, vecAdd(loadVec(direct, frame.planeSize, i), radiance));
-    storeVec(directNoisy, frame.planeSize, i, vecAdd(loadVec(directNoisy, frame.planeSize, i), radiance));
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const uint i = receivers.pixel[lane];
+        if (i != WEDGE_NO_PIXEL) {
+            rays[i] += traced[lane];
+            storeVec(direct, frame.planeSize, i, vecAdd(loadVec(direct, frame.planeSize, i), radiance[lane]));
+            storeVec(directNoisy, frame.planeSize, i, vecAdd(loadVec(directNoisy, frame.planeSize, i), radiance[lane]));
+        }
+    }
 }

@@ -1,4 +1,4 @@
-// One sample of an area light as a receiver sees it.
+// What is shaded, and how samples of lights count for it.
 #ifndef WEDGE_LIGHT_SAMPLE_H
 #define WEDGE_LIGHT_SAMPLE_H
 
@@ -13,14 +13,7 @@ typedef struct {
     Vec3 normal;   ///< unit
     Vec3 view;     ///< unit, to the eye
     Lobe lobe;     ///< of the specular reflection
-    uint seed;     ///< of this pixel and light
 } Receiver;
-
-typedef struct {
-    Vec3 ray;       ///< from the receiver's origin to the point on the light
-    float diffuse;  ///< weight of the sample's visibility in the diffuse term, 0: no ray is needed
-    float specular; ///< the same in the specular term
-} LightSample;
 
 /// The lobe of a gloss plane's value: its exponent, negative for Phong.
 WEDGE_FN Lobe glossLobe(float gloss)
@@ -28,8 +21,13 @@ WEDGE_FN Lobe glossLobe(float gloss)
     return makeLobe(fabs(gloss), gloss < 0.0f ? WEDGE_SPECULAR_PHONG : WEDGE_SPECULAR_BLINN_PHONG);
 }
 
-WEDGE_FN Receiver loadReceiver(FrameParams frame, uint light, uint x, uint y, uint i,
-                               __global const float* position, __global const float* normal,
+/// Seed of the samples of a pixel and light.
+WEDGE_FN uint receiverSeed(FrameParams frame, uint light, uint x, uint y)
+{
+    return hashCombine(hashCombine(frame.seed, light), y * frame.width + x);
+}
+
+WEDGE_FN Receiver loadReceiver(FrameParams frame, uint i, __global const float* position, __global const float* normal,
                                __global const float* origin, __global const float* gloss)
 {
     Receiver r;
@@ -38,7 +36,6 @@ WEDGE_FN Receiver loadReceiver(FrameParams frame, uint light, uint x, uint y, ui
     r.normal = loadVec(normal, frame.planeSize, i);
     r.view = vecNormalize(vecSub(frame.eye, r.position));
     r.lobe = glossLobe(gloss[i]);
-    r.seed = hashCombine(hashCombine(frame.seed, light), y * frame.width + x);
     return r;
 }
 
@@ -46,37 +43,6 @@ WEDGE_FN Receiver loadReceiver(FrameParams frame, uint light, uint x, uint y, ui
 WEDGE_FN float specularWeight(Receiver r, Vec3 d, float geometry)
 {
     return geometry * lobeValue(r.lobe, r.normal, r.view, vecNormalize(d));
-}
-
-/// Position in [0,1)^2 of sample `index` of `count`.
-WEDGE_FN Vec2 samplePosition(SampleParams params, uint index, uint count, uint seed)
-{
-    if (params.sampler == WEDGE_SAMPLER_SOBOL) {
-        return sobolOwen(index, seed);
-    }
-    // Each pass has strata of its own: the count of the second is not known during the first.
-    return index < params.firstPass ? stratified(index, params.firstPass, seed)
-                                    : stratified(index - params.firstPass, count - params.firstPass, hashUint(seed));
-}
-
-WEDGE_FN LightSample sampleLight(SampleParams params, AreaLight light, Receiver r, uint index, uint count)
-{
-    const Vec2 u = samplePosition(params, index, count, r.seed);
-    const float a = lightCoordinate(u.x, light.profile, light.cut, light.erfCut);
-    const float b = lightCoordinate(u.y, light.profile, light.cut, light.erfCut);
-    const Vec3 point = lightPoint(light.centre, light.halfU, light.halfV, a, b);
-    const Vec3 d = vecSub(point, r.position);
-    const float geometry = geometryTerm(r.normal, d, light.normal, light.twoSided);
-    LightSample s;
-    s.ray = vecSub(point, r.origin);
-    s.diffuse = params.shading == WEDGE_SHADING_SEPARATE ? (geometry > 0.0f ? 1.0f : 0.0f) : geometry;
-    s.specular = 0.0f;
-#ifdef WEDGE_SPECULAR
-    if (geometry > 0.0f) {
-        s.specular = params.shading == WEDGE_SHADING_SEPARATE ? 1.0f : specularWeight(r, d, geometry);
-    }
-#endif
-    return s;
 }
 
 /// The quantity that is filtered: weighted mean visibility, or for WEDGE_SHADING_INSIDE the mean of the weights of

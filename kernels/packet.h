@@ -6,13 +6,8 @@
 #ifndef WEDGE_PACKET_H
 #define WEDGE_PACKET_H
 
+#include "packet_size.h"
 #include "traverse.h"
-
-#ifdef WEDGE_TRAVERSAL_SCALAR
-#define WEDGE_PACKET_SIZE 1
-#else
-#define WEDGE_PACKET_SIZE 16
-#endif
 
 /// The rays origin + t direction, tMin < t < tMax; the conditions of closestHit. A lane without a ray has tMax = 0.
 typedef struct {
@@ -27,7 +22,7 @@ typedef struct {
     uint triangle[WEDGE_PACKET_SIZE];
 } PacketHits;
 
-WEDGE_FN void setRay(RayPacket* packet, uint lane, Vec3 origin, Vec3 direction, float tMin, float tMax)
+WEDGE_INLINE void setRay(RayPacket* packet, uint lane, Vec3 origin, Vec3 direction, float tMin, float tMax)
 {
     packet->originX[lane] = origin.x;
     packet->originY[lane] = origin.y;
@@ -40,12 +35,12 @@ WEDGE_FN void setRay(RayPacket* packet, uint lane, Vec3 origin, Vec3 direction, 
 }
 
 /// Leaves the lane without a ray. It must still hold numbers.
-WEDGE_FN void setNoRay(RayPacket* packet, uint lane)
+WEDGE_INLINE void setNoRay(RayPacket* packet, uint lane)
 {
     setRay(packet, lane, vec3(0.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, 1.0f), 0.0f, 0.0f);
 }
 
-WEDGE_FN Hit packetHit(const PacketHits* hits, uint lane)
+WEDGE_INLINE Hit packetHit(const PacketHits* hits, uint lane)
 {
     Hit hit;
     hit.t = hits->t[lane];

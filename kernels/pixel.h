@@ -2,22 +2,26 @@
 #ifndef WEDGE_PIXEL_H
 #define WEDGE_PIXEL_H
 
+#include "packet_size.h"
 #include "shared/frame.h"
 
-/// Pixel of this work-item; false beyond the rectangle. Items take 8x8 tiles, whatever the size of the work-groups;
-/// consecutive tiles are distant ones, so that a costly part of the image does not end up with one thread.
+/// Pixel of one lane of this work-item, which has WEDGE_PACKET_SIZE of them; false beyond the rectangle. Items take 8x8
+/// tiles, and in them blocks of 4x4 pixels, so that a packet of 16 is such a block, whatever the size of work-groups.
+/// Consecutive tiles are distant ones, so that a costly part of the image does not end up with one thread.
 /// firstGroup: the work-groups of the pass that went before this launch.
-WEDGE_FN bool tilePixel(FrameParams frame, uint firstGroup, uint* x, uint* y)
+WEDGE_FN bool tilePixel(FrameParams frame, uint firstGroup, uint lane, uint* x, uint* y)
 {
     const ulong item = (ulong)firstGroup * get_local_size(0) + get_global_id(0);
-    const ulong slot = item / WEDGE_TILE_PIXELS;
+    const ulong pixel = item * WEDGE_PACKET_SIZE + lane;
+    const ulong slot = pixel / WEDGE_TILE_PIXELS;
     if (slot >= frame.tileCount) {
         return false;
     }
     const uint tile = (uint)((slot * frame.tileStep) % frame.tileCount);
-    const uint inTile = (uint)(item % WEDGE_TILE_PIXELS);
-    *x = frame.x0 + (tile % frame.tilesX) * WEDGE_TILE + inTile % WEDGE_TILE;
-    *y = frame.y0 + (tile / frame.tilesX) * WEDGE_TILE + inTile / WEDGE_TILE;
+    const uint inTile = (uint)(pixel % WEDGE_TILE_PIXELS);
+    const uint block = inTile / 16u;
+    *x = frame.x0 + (tile % frame.tilesX) * WEDGE_TILE + block % 2u * 4u + inTile % 4u;
+    *y = frame.y0 + (tile / frame.tilesX) * WEDGE_TILE + block / 2u * 4u + inTile % 16u / 4u;
     return *x < frame.x1 && *y < frame.y1;
 }
 

@@ -4,11 +4,11 @@
 // out  position, normal, origin (3 planes each), objectId (0: nothing to shade), depth (ray distance, +inf on a
 //      miss), pixelSize (projected edge of the pixel on the surface, metres), diffuse, specular, emission (3 each;
 //      emission holds background and light radiance where nothing is shaded), gloss (exponent; negative: Phong)
+#include "packet.h"
 #include "pixel.h"
 #include "shared/bsdf.h"
 #include "shared/light.h"
 #include "surface.h"
-#include "traverse.h"
 
 /// Cosine that the projected pixel size does not go below, against infinities at grazing views.
 #define WEDGE_MIN_VIEW_COSINE 0.01f
@@ -46,6 +46,13 @@ static LightHit hitLights(__global const AreaLight* lights, uint count, Vec3 eye
     return hit;
 }
 
+/// Through the centre of a pixel.
+WEDGE_FN Vec3 pixelDirection(FrameParams frame, uint x, uint y)
+{
+    return cameraDirection(frame.forward, frame.right, frame.down, (float)frame.width, (float)frame.height, (float)x + 0.5f,
+                           (float)y + 0.5f);
+}
+
 __kernel void primary(FrameParams frame, __global const TraversalNode* restrict nodes,
                       __global const TriangleBlock* restrict blocks, __global const float* restrict positions,
                       __global const float* restrict normals, __global const float* restrict texcoords,
@@ -59,23 +66,6 @@ __kernel void primary(FrameParams frame, __global const TraversalNode* restrict 
                       __global float* restrict specular, __global float* restrict emission,
                       __global float* restrict gloss, uint firstGroup)
 {
-    uint x, y;
-    if (!tilePixel(frame, firstGroup, &x, &y)) {
-        return;
-    }
-    const uint i = pixelIndex(x, y, frame.stride);
-    const uint size = frame.planeSize;
-    const Vec3 direction = cameraDirection(frame.forward, frame.right, frame.down, (float)frame.width,
-                                           (float)frame.height, (float)x + 0.5f, (float)y + 0.5f);
-    const float length = vecLength(direction);
-    const LightHit seen = hitLights(lights, lightCount, frame.eye, direction);
-    const Hit hit = closestHit(nodes, blocks, frame.eye, direction, 0.0f, seen.t);
-    if (hit.triangle == WEDGE_NO_TRIANGLE) {
-        objectId[i] = 0u;
-        depth[i] = seen.t * length;
-        storeVec(emission, size, i, seen.t < INFINITY ? seen.radiance : frame.background);
-        return;
-    }
     SurfaceData data;
     data.positions = positions;
     data.normals = normals;
@@ -86,19 +76,48 @@ __kernel void primary(FrameParams frame, __global const TraversalNode* restrict 
     data.textures = textures;
     data.texels = texels;
     data.srgbToLinear = srgbToLinear;
-    const Surface s = surfaceAt(data, hit, direction);
-    // Solid angle of a pixel off the axis: area / distance^2 times the cosine to the image plane, cos^3 in all.
-    const float axis = 1.0f / length;
-    const float solidAngle = vecLength(vecCross(frame.right, frame.down)) * axis * axis * axis;
-    const float cosine = fmax(fabs(vecDot(s.geometric, direction)) * axis, WEDGE_MIN_VIEW_COSINE);
-    storeVec(position, size, i, s.position);
-    storeVec(normal, size, i, s.normal);
-    storeVec(origin, size, i, s.origin);
-    objectId[i] = objectIds[hit.triangle];
-    depth[i] = hit.t * length;
-    pixelSize[i] = hit.t * length * sqrt(solidAngle / cosine);
-    storeVec(diffuse, size, i, s.diffuse);
-    storeVec(specular, size, i, s.specular);
-    storeVec(emission, size, i, s.emission);
-    gloss[i] = s.specularModel == WEDGE_SPECULAR_PHONG ? -s.exponent : s.exponent;
+    const uint size = frame.planeSize;
+    RayPacket packet;
+    Vec3 lightRadiance[WEDGE_PACKET_SIZE];
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        uint x, y;
+        const bool inside = tilePixel(frame, firstGroup, lane, &x, &y);
+        const Vec3 direction = pixelDirection(frame, inside ? x : 0u, inside ? y : 0u);
+        const LightHit seen = hitLights(lights, lightCount, frame.eye, direction);
+        setRay(&packet, lane, frame.eye, direction, 0.0f, inside ? seen.t : 0.0f);
+        lightRadiance[lane] = seen.radiance;
+    }
+    PacketHits hits;
+    closestHits(nodes, blocks, &packet, &hits);
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        uint x, y;
+        if (!tilePixel(frame, firstGroup, lane, &x, &y)) {
+            continue;
+        }
+        const uint i = pixelIndex(x, y, frame.stride);
+        const Vec3 direction = pixelDirection(frame, x, y);
+        const float length = vecLength(direction);
+        const Hit hit = packetHit(&hits, lane);
+        if (hit.triangle == WEDGE_NO_TRIANGLE) {
+            objectId[i] = 0u;
+            depth[i] = hit.t * length;
+            storeVec(emission, size, i, hit.t < INFINITY ? lightRadiance[lane] : frame.background);
+            continue;
+        }
+        const Surface s = surfaceAt(data, hit, direction);
+        // Solid angle of a pixel off the axis: area / distance^2 times the cosine to the image plane, cos^3 in all.
+        const float axis = 1.0f / length;
+        const float solidAngle = vecLength(vecCross(frame.right, frame.down)) * axis * axis * axis;
+        const float cosine = fmax(fabs(vecDot(s.geometric, direction)) * axis, WEDGE_MIN_VIEW_COSINE);
+        storeVec(position, size, i, s.position);
+        storeVec(normal, size, i, s.normal);
+        storeVec(origin, size, i, s.origin);
+        objectId[i] = objectIds[hit.triangle];
+        depth[i] = hit.t * length;
+        pixelSize[i] = hit.t * length * sqrt(solidAngle / cosine);
+        storeVec(diffuse, size, i, s.diffuse);
+        storeVec(specular, size, i, s.specular);
+        storeVec(emission, size, i, s.emission);
+        gloss[i] = s.specularModel == WEDGE_SPECULAR_PHONG ? -s.exponent : s.exponent;
+    }
 }

@@ -5,6 +5,7 @@
 #include "host/device/program.h"
 #include "host/device/queue.h"
 #include "host/render/frame.h"
+#include "host/render/hierarchy.h"
 #include "host/render/passes.h"
 #include "host/render/renderer.h"
 #include "host/scene/scene.h"
@@ -48,7 +49,7 @@ public:
         : device(on)
         , queue(on)
         , library(on, { defines, false, folder })
-        , passes(library, queue)
+        , passes(library, queue, packetSize(defines))
     {
     }
 
@@ -79,6 +80,14 @@ public:
     device::TimedQueue queue;
     device::ProgramLibrary library;
     render::Passes passes;
+
+private:
+    static std::size_t packetSize(const Defines& defines)
+    {
+        const bool scalar
+            = std::ranges::any_of(defines, [](const auto& define) { return define.first == "WEDGE_TRAVERSAL_SCALAR"; });
+        return render::packetSize(scalar ? render::Traversal::Scalar : render::Traversal::Wide);
+    }
 };
 
 /// Planes of one value a pixel in the layout of kernels/shared/frame.h, padding included.

@@ -26,6 +26,8 @@ std::string traversalName(Traversal traversal)
     }
 }
 
+std::size_t packetSize(Traversal family) { return family == Traversal::Scalar ? 1 : WEDGE_WIDE_PACKET_SIZE; }
+
 Hierarchy::Hierarchy(bvh::Bvh built, Traversal family)
     : bvh(std::move(built))
     , traversal(family)

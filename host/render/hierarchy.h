@@ -23,6 +23,9 @@ Traversal resolveTraversal(Traversal wanted, const device::DeviceInfo& device);
 /// "auto", "wide" or "scalar".
 std::string traversalName(Traversal traversal);
 
+/// Rays that a work-item of a family traces together, and so the pixels that it takes of a pass over tiles.
+std::size_t packetSize(Traversal family);
+
 /// A hierarchy with the nodes that one family of traversals walks.
 struct Hierarchy {
     /// wide by default; never Automatic.

@@ -20,9 +20,11 @@ namespace wedge::render {
 /// size, which must not land in anybody's timing.
 class Passes {
 public:
-    Passes(device::ProgramLibrary& library, device::TimedQueue& queue)
+    /// packetSize: pixels that one work-item of a pass over tiles takes.
+    Passes(device::ProgramLibrary& library, device::TimedQueue& queue, std::size_t packetSize)
         : library_(library)
         , queue_(queue)
+        , packetSize_(packetSize)
     {
     }
 
@@ -36,8 +38,9 @@ public:
         shared::FrameParams frame, double workUnits, const Args&... args)
     {
         device::Kernel& k = find(file, kernel);
-        const std::size_t local = localSize(k, WEDGE_TILE_PIXELS);
-        const std::size_t groups = static_cast<std::size_t>(frame.tileCount) * (WEDGE_TILE_PIXELS / local);
+        const std::size_t items = WEDGE_TILE_PIXELS / packetSize_;
+        const std::size_t local = localSize(k, items);
+        const std::size_t groups = static_cast<std::size_t>(frame.tileCount) * (items / local);
         if (rehearsal_) {
             frame.tileCount = 0;
         }
@@ -92,6 +95,7 @@ private:
 
     device::ProgramLibrary& library_;
     device::TimedQueue& queue_;
+    std::size_t packetSize_;
     std::map<std::string, device::Kernel> kernels_;
     bool rehearsal_ = false;
 };

@@ -63,7 +63,7 @@ Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Opti
           resolveTraversal(options_.traversal, device.info()))
     , queue_(device, options_.blameLaunches)
     , programs_(std::make_unique<device::ProgramLibrary>(device, programOptions(scene, options_, hierarchy_.traversal)))
-    , passes_(std::make_unique<Passes>(*programs_, queue_))
+    , passes_(std::make_unique<Passes>(*programs_, queue_, packetSize(hierarchy_.traversal)))
 {
 }
 

@@ -20,6 +20,9 @@
 /// Traversal stack entries; the builder guarantees that no traversal needs more.
 #define WEDGE_BVH_STACK 96
 
+/// Rays that the wide family traces together: a block of 4x4 pixels.
+#define WEDGE_WIDE_PACKET_SIZE 16
+
 WEDGE_SHARED_BEGIN
 
 /// Unused slots have lo = +1e30 and hi = -1e30 (no ray enters them) and child = WEDGE_BVH_LEAF.

@@ -1,7 +1,7 @@
 // What lets the headers of this folder compile both as OpenCL C 1.2 and as C++20.
 //
 // Rules for these headers: no float3 members, no bool, size_t or pointers inside structs, 32-bit
-// scalars only, helpers are WEDGE_FN functions between WEDGE_SHARED_BEGIN and WEDGE_SHARED_END.
+// scalars only, helpers are WEDGE_FN or WEDGE_INLINE functions between WEDGE_SHARED_BEGIN and WEDGE_SHARED_END.
 #ifndef WEDGE_SHARED_COMPAT_H
 #define WEDGE_SHARED_COMPAT_H
 
@@ -11,6 +11,13 @@
 #define WEDGE_SHARED_BEGIN
 #define WEDGE_SHARED_END
 #define WEDGE_FN static inline
+// For functions in loops over lanes, which become vectors only when nothing is called. Without optimisation it brings
+// nothing, and an emulator that runs such code stumbles over what inlining leaves behind.
+#ifdef __OPTIMIZE__
+#define WEDGE_INLINE static inline __attribute__((always_inline))
+#else
+#define WEDGE_INLINE static inline
+#endif
 // Identical bits on every device and on the host for + - *: no fused multiply-adds in shared maths.
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -24,6 +31,7 @@
 #define WEDGE_SHARED_BEGIN namespace wedge::shared {
 #define WEDGE_SHARED_END }
 #define WEDGE_FN inline
+#define WEDGE_INLINE inline
 
 WEDGE_SHARED_BEGIN
 

@@ -59,39 +59,54 @@ typedef struct {
     uint firstPass; ///< samples of a first pass with strata of its own; 0: none
 } SampleParams;
 
-/// Inverse error function for |x| < 1 (Giles, Approximating the erfinv function, 2010; single precision).
-WEDGE_FN float erfInverse(float x)
+/// Natural logarithm of a normal x > 0, to 4e-8 of max(1, |log x|). Straight-line code, unlike the library's, so that
+/// loops over samples become vectors. log(1 + z) = z - z^2/2 + z^3 P(z), P a least-squares fit over [1/sqrt 2, sqrt 2].
+WEDGE_INLINE float logPositive(float x)
 {
-    float w = -log((1.0f - x) * (1.0f + x));
-    float p;
-    if (w < 5.0f) {
-        w = w - 2.5f;
-        p = 2.81022636e-08f;
-        p = 3.43273939e-07f + p * w;
-        p = -3.5233877e-06f + p * w;
-        p = -4.39150654e-06f + p * w;
-        p = 0.00021858087f + p * w;
-        p = -0.00125372503f + p * w;
-        p = -0.00417768164f + p * w;
-        p = 0.246640727f + p * w;
-        p = 1.50140941f + p * w;
-    } else {
-        w = sqrt(w) - 3.0f;
-        p = -0.000200214257f;
-        p = 0.000100950558f + p * w;
-        p = 0.00134934322f + p * w;
-        p = -0.00367342844f + p * w;
-        p = 0.00573950773f + p * w;
-        p = -0.0076224613f + p * w;
-        p = 0.00943887047f + p * w;
-        p = 1.00167406f + p * w;
-        p = 2.83297682f + p * w;
-    }
-    return p * x;
+    const uint shifted = as_uint(x) + (0x3f800000u - 0x3f3504f3u);
+    const float exponent = (float)((int)(shifted >> 23) - 127);
+    const float z = as_float((shifted & 0x007fffffu) + 0x3f3504f3u) - 1.0f;
+    float p = -0.0766083002f;
+    p = 0.127863303f + p * z;
+    p = -0.131616011f + p * z;
+    p = 0.141978756f + p * z;
+    p = -0.166227534f + p * z;
+    p = 0.200014129f + p * z;
+    p = -0.250008464f + p * z;
+    p = 0.333333284f + p * z;
+    return exponent * 0.693147181f + (z - 0.5f * z * z + z * z * z * p);
+}
+
+/// Inverse error function for |x| < 1 (Giles, Approximating the erfinv function, 2010; single precision). Both of its
+/// ranges are worked out and one is chosen, again for vectors.
+WEDGE_INLINE float erfInverse(float x)
+{
+    const float w = -logPositive((1.0f - x) * (1.0f + x));
+    const float c = w - 2.5f;
+    float central = 2.81022636e-08f;
+    central = 3.43273939e-07f + central * c;
+    central = -3.5233877e-06f + central * c;
+    central = -4.39150654e-06f + central * c;
+    central = 0.00021858087f + central * c;
+    central = -0.00125372503f + central * c;
+    central = -0.00417768164f + central * c;
+    central = 0.246640727f + central * c;
+    central = 1.50140941f + central * c;
+    const float t = sqrt(fabs(w)) - 3.0f;
+    float tail = -0.000200214257f;
+    tail = 0.000100950558f + tail * t;
+    tail = 0.00134934322f + tail * t;
+    tail = -0.00367342844f + tail * t;
+    tail = 0.00573950773f + tail * t;
+    tail = -0.0076224613f + tail * t;
+    tail = 0.00943887047f + tail * t;
+    tail = 1.00167406f + tail * t;
+    tail = 2.83297682f + tail * t;
+    return (w < 5.0f ? central : tail) * x;
 }
 
 /// Local light coordinate in [-1, 1] of the uniform number u in [0, 1), distributed as the light's profile.
-WEDGE_FN float lightCoordinate(float u, uint profile, float cut, float erfCut)
+WEDGE_INLINE float lightCoordinate(float u, uint profile, float cut, float erfCut)
 {
     const float x = 2.0f * u - 1.0f;
     return profile == WEDGE_PROFILE_GAUSSIAN ? 1.41421356f * erfInverse(x * erfCut) / cut : x;
@@ -111,7 +126,7 @@ WEDGE_FN Vec3 lightPoint(Vec3 centre, Vec3 halfU, Vec3 halfV, float a, float b)
 
 /// The geometry term of receiver normal n and light normal m over the vector d from receiver to light (metres):
 /// cos cos / d^2 in 1/m^2, 0 where the light is below the receiver's horizon or turned away from it.
-WEDGE_FN float geometryTerm(Vec3 n, Vec3 d, Vec3 m, uint twoSided)
+WEDGE_INLINE float geometryTerm(Vec3 n, Vec3 d, Vec3 m, uint twoSided)
 {
     const float receiver = vecDot(n, d);
     const float emitter = -vecDot(m, d);

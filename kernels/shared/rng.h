@@ -11,7 +11,7 @@ typedef struct {
     float x, y;
 } Vec2;
 
-WEDGE_FN Vec2 vec2(float x, float y)
+WEDGE_INLINE Vec2 vec2(float x, float y)
 {
     Vec2 v;
     v.x = x;
@@ -20,7 +20,7 @@ WEDGE_FN Vec2 vec2(float x, float y)
 }
 
 /// A well-mixed 32-bit hash (two multiply-xorshift rounds; constants from a search for low bias by C. Wellons).
-WEDGE_FN uint hashUint(uint x)
+WEDGE_INLINE uint hashUint(uint x)
 {
     x ^= x >> 16;
     x *= 0x7feb352du;
@@ -33,9 +33,9 @@ WEDGE_FN uint hashUint(uint x)
 WEDGE_FN uint hashCombine(uint seed, uint value) { return hashUint(seed ^ (value + 0x9e3779b9u + (seed << 6) + (seed >> 2))); }
 
 /// The upper 24 bits as a float in [0, 1).
-WEDGE_FN float toUnitFloat(uint x) { return (float)(x >> 8) * (1.0f / 16777216.0f); }
+WEDGE_INLINE float toUnitFloat(uint x) { return (float)(x >> 8) * (1.0f / 16777216.0f); }
 
-WEDGE_FN uint reverseBits(uint x)
+WEDGE_INLINE uint reverseBits(uint x)
 {
     x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
     x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
@@ -46,7 +46,7 @@ WEDGE_FN uint reverseBits(uint x)
 
 /// Owen's nested uniform scramble of the bits of x, hash-based (Burley, Practical Hash-based Owen Scrambling,
 /// JCGT 2020; the permutation is Vegdahl's improvement of Laine and Karras's). x arrives with its bits reversed.
-WEDGE_FN uint scrambleReversed(uint x, uint seed)
+WEDGE_INLINE uint scrambleReversed(uint x, uint seed)
 {
     x ^= x * 0x3d20adeau;
     x += seed;
@@ -58,7 +58,7 @@ WEDGE_FN uint scrambleReversed(uint x, uint seed)
 
 /// Second Sobol dimension of index i as a 32-bit fraction. Its generator matrix is Pascal's triangle modulo 2,
 /// a Kronecker power of [1 1; 0 1], so five butterfly steps multiply by it.
-WEDGE_FN uint sobolSecond(uint i)
+WEDGE_INLINE uint sobolSecond(uint i)
 {
     uint x = reverseBits(i);
     x ^= (x << 1) & 0xaaaaaaaau;
@@ -71,7 +71,7 @@ WEDGE_FN uint sobolSecond(uint i)
 
 /// Point i of an Owen-scrambled, shuffled Sobol sequence in [0,1)^2; each seed gives an independent randomisation.
 /// Any prefix is well distributed, so a pixel may take any number of samples, and more later.
-WEDGE_FN Vec2 sobolOwen(uint i, uint seed)
+WEDGE_INLINE Vec2 sobolOwen(uint i, uint seed)
 {
     const uint index = reverseBits(scrambleReversed(reverseBits(i), seed));
     // The first dimension of index i, bits reversed, is i itself.

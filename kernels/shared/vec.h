@@ -11,7 +11,7 @@ typedef struct {
     float x, y, z;
 } Vec3;
 
-WEDGE_FN Vec3 vec3(float x, float y, float z)
+WEDGE_INLINE Vec3 vec3(float x, float y, float z)
 {
     Vec3 v;
     v.x = x;
@@ -19,20 +19,20 @@ WEDGE_FN Vec3 vec3(float x, float y, float z)
     v.z = z;
     return v;
 }
-WEDGE_FN Vec3 vecAdd(Vec3 a, Vec3 b) { return vec3(a.x + b.x, a.y + b.y, a.z + b.z); }
-WEDGE_FN Vec3 vecSub(Vec3 a, Vec3 b) { return vec3(a.x - b.x, a.y - b.y, a.z - b.z); }
-WEDGE_FN Vec3 vecMul(Vec3 a, Vec3 b) { return vec3(a.x * b.x, a.y * b.y, a.z * b.z); }
-WEDGE_FN Vec3 vecScale(Vec3 a, float s) { return vec3(a.x * s, a.y * s, a.z * s); }
+WEDGE_INLINE Vec3 vecAdd(Vec3 a, Vec3 b) { return vec3(a.x + b.x, a.y + b.y, a.z + b.z); }
+WEDGE_INLINE Vec3 vecSub(Vec3 a, Vec3 b) { return vec3(a.x - b.x, a.y - b.y, a.z - b.z); }
+WEDGE_INLINE Vec3 vecMul(Vec3 a, Vec3 b) { return vec3(a.x * b.x, a.y * b.y, a.z * b.z); }
+WEDGE_INLINE Vec3 vecScale(Vec3 a, float s) { return vec3(a.x * s, a.y * s, a.z * s); }
 /// a + s b
-WEDGE_FN Vec3 vecMad(Vec3 a, Vec3 b, float s) { return vec3(a.x + b.x * s, a.y + b.y * s, a.z + b.z * s); }
-WEDGE_FN float vecDot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-WEDGE_FN Vec3 vecCross(Vec3 a, Vec3 b)
+WEDGE_INLINE Vec3 vecMad(Vec3 a, Vec3 b, float s) { return vec3(a.x + b.x * s, a.y + b.y * s, a.z + b.z * s); }
+WEDGE_INLINE float vecDot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+WEDGE_INLINE Vec3 vecCross(Vec3 a, Vec3 b)
 {
     return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
-WEDGE_FN float vecLength(Vec3 a) { return sqrt(vecDot(a, a)); }
+WEDGE_INLINE float vecLength(Vec3 a) { return sqrt(vecDot(a, a)); }
 /// a / |a|, or the zero vector where |a| is 0.
-WEDGE_FN Vec3 vecNormalize(Vec3 a)
+WEDGE_INLINE Vec3 vecNormalize(Vec3 a)
 {
     const float length = vecLength(a);
     return length > 0.0f ? vecScale(a, 1.0f / length) : vec3(0.0f, 0.0f, 0.0f);

@@ -1,0 +1,132 @@
+// Samples of an area light for the pixels of a packet, lane by lane. Loops over lanes are kept apart and simple, so that
+// compilers turn them into vectors.
+#ifndef WEDGE_LIGHT_PACKET_H
+#define WEDGE_LIGHT_PACKET_H
+
+#include "light_sample.h"
+#include "packet.h"
+
+/// What the samples are for. Lanes without a pixel to shade have pixel = WEDGE_NO_PIXEL and a zero normal.
+typedef struct {
+    uint pixel[WEDGE_PACKET_SIZE]; ///< index in the planes
+    uint seed[WEDGE_PACKET_SIZE];  ///< of pixel and light
+    float originX[WEDGE_PACKET_SIZE], originY[WEDGE_PACKET_SIZE], originZ[WEDGE_PACKET_SIZE];
+    float positionX[WEDGE_PACKET_SIZE], positionY[WEDGE_PACKET_SIZE], positionZ[WEDGE_PACKET_SIZE];
+    float normalX[WEDGE_PACKET_SIZE], normalY[WEDGE_PACKET_SIZE], normalZ[WEDGE_PACKET_SIZE];
+    float gloss[WEDGE_PACKET_SIZE]; ///< as in the plane of that name
+#ifdef WEDGE_SPECULAR
+    Lobe lobe[WEDGE_PACKET_SIZE];
+    Vec3 view[WEDGE_PACKET_SIZE]; ///< unit, to the eye
+#endif
+} ReceiverPacket;
+
+#define WEDGE_NO_PIXEL 0xffffffffu
+
+/// One sample a lane.
+typedef struct {
+    float rayX[WEDGE_PACKET_SIZE], rayY[WEDGE_PACKET_SIZE], rayZ[WEDGE_PACKET_SIZE]; ///< from origin to the light's point
+    float diffuse[WEDGE_PACKET_SIZE];  ///< weight of the sample's visibility in the diffuse term, 0: no ray is needed
+    float specular[WEDGE_PACKET_SIZE]; ///< the same in the specular term
+} LightSamples;
+
+/// The pixels of this work-item, and what is to be shaded there.
+WEDGE_FN void loadReceivers(FrameParams frame, uint light, uint firstGroup, __global const float* position,
+                            __global const float* normal, __global const float* origin, __global const uint* objectId,
+                            __global const float* gloss, ReceiverPacket* receivers)
+{
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        uint x, y;
+        const bool inside = tilePixel(frame, firstGroup, lane, &x, &y);
+        const uint i = inside ? pixelIndex(x, y, frame.stride) : 0u;
+        const bool shaded = inside && objectId[i] != 0u;
+        const Vec3 none = vec3(0.0f, 0.0f, 0.0f);
+        const Vec3 o = shaded ? loadVec(origin, frame.planeSize, i) : none;
+        const Vec3 p = shaded ? loadVec(position, frame.planeSize, i) : none;
+        const Vec3 n = shaded ? loadVec(normal, frame.planeSize, i) : none;
+        receivers->pixel[lane] = shaded ? i : WEDGE_NO_PIXEL;
+        receivers->seed[lane] = inside ? receiverSeed(frame, light, x, y) : 0u;
+        receivers->originX[lane] = o.x;
+        receivers->originY[lane] = o.y;
+        receivers->originZ[lane] = o.z;
+        receivers->positionX[lane] = p.x;
+        receivers->positionY[lane] = p.y;
+        receivers->positionZ[lane] = p.z;
+        receivers->normalX[lane] = n.x;
+        receivers->normalY[lane] = n.y;
+        receivers->normalZ[lane] = n.z;
+        receivers->gloss[lane] = shaded ? gloss[i] : 1.0f;
+#ifdef WEDGE_SPECULAR
+        receivers->view[lane] = vecNormalize(vecSub(frame.eye, p));
+        receivers->lobe[lane] = glossLobe(receivers->gloss[lane]);
+#endif
+    }
+}
+
+/// Position in [0,1)^2 of sample `index` of `count` of each lane; lanes that have taken all theirs are left alone.
+WEDGE_FN void samplePositions(SampleParams params, const uint* seed, const uint* index, const uint* count, float* u, float* v)
+{
+    if (params.sampler == WEDGE_SAMPLER_SOBOL) {
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const Vec2 p = sobolOwen(index[lane], seed[lane]);
+            u[lane] = p.x;
+            v[lane] = p.y;
+        }
+        return;
+    }
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        Vec2 p = vec2(0.5f, 0.5f);
+        // Each pass has strata of its own: the count of the second is not known during the first.
+        if (index[lane] < params.firstPass) {
+            p = stratified(index[lane], params.firstPass, seed[lane]);
+        } else if (index[lane] < count[lane]) {
+            p = stratified(index[lane] - params.firstPass, count[lane] - params.firstPass, hashUint(seed[lane]));
+        }
+        u[lane] = p.x;
+        v[lane] = p.y;
+    }
+}
+
+/// Sample index[lane] of count[lane] for each receiver. Weights are 0 in lanes without a pixel and below its horizon.
+WEDGE_FN void sampleLights(SampleParams params, AreaLight light, const ReceiverPacket* r, const uint* index, const uint* count,
+                           LightSamples* s)
+{
+    float u[WEDGE_PACKET_SIZE], v[WEDGE_PACKET_SIZE];
+    samplePositions(params, r->seed, index, count, u, v);
+    const bool separate = params.shading == WEDGE_SHADING_SEPARATE;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        u[lane] = lightCoordinate(u[lane], light.profile, light.cut, light.erfCut);
+        v[lane] = lightCoordinate(v[lane], light.profile, light.cut, light.erfCut);
+    }
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const Vec3 point = lightPoint(light.centre, light.halfU, light.halfV, u[lane], v[lane]);
+        const Vec3 position = vec3(r->positionX[lane], r->positionY[lane], r->positionZ[lane]);
+        const Vec3 normal = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
+        const Vec3 d = vecSub(point, position);
+        const float geometry = geometryTerm(normal, d, light.normal, light.twoSided);
+        s->rayX[lane] = point.x - r->originX[lane];
+        s->rayY[lane] = point.y - r->originY[lane];
+        s->rayZ[lane] = point.z - r->originZ[lane];
+        s->diffuse[lane] = separate && geometry > 0.0f ? 1.0f : geometry;
+#ifdef WEDGE_SPECULAR
+        s->specular[lane] = 0.0f;
+        if (geometry > 0.0f) {
+            s->specular[lane] = separate ? 1.0f
+                                         : geometry * lobeValue(r->lobe[lane], normal, r->view[lane], vecNormalize(d));
+        }
+#else
+        s->specular[lane] = 0.0f;
+#endif
+    }
+}
+
+/// The shadow rays of samples whose weight is not 0.
+WEDGE_FN void shadowRays(const ReceiverPacket* r, const LightSamples* s, RayPacket* packet)
+{
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        setRay(packet, lane, vec3(r->originX[lane], r->originY[lane], r->originZ[lane]),
+               vec3(s->rayX[lane], s->rayY[lane], s->rayZ[lane]), 0.0f,
+               s->diffuse[lane] > 0.0f ? WEDGE_SHADOW_RAY_END : 0.0f);
+    }
+}
+
+#endif
