@@ -22,6 +22,7 @@ TEST_CASE("the report has what scripts read")
     CHECK(report.at("wedge") == WEDGE_TEST_VERSION);
     CHECK(report.at("device").at("name") == textOf(image, "device"));
     CHECK(report.at("device").at("build_options") == textOf(image, "buildOptions"));
+    CHECK(report.at("device").at("traversal") == textOf(image, "traversal"));
     CHECK(report.at("scene").at("triangles") == 34);
     CHECK(report.at("scene").at("area_lights") == 1);
     CHECK(report.at("scene").at("bvh").at("triangles") == 34);
