@@ -62,8 +62,8 @@ public:
         return run<std::uint32_t>("traceAnyPackets", tree, rays, packetSize());
     }
 
-    /// Rays that a work-item of the packet kernels takes: WEDGE_PACKET_SIZE of kernels/packet.h.
-    std::size_t packetSize() const { return family_ == Family::Wide ? 16 : 1; }
+    /// Rays that a work-item of the packet kernels takes.
+    std::size_t packetSize() const { return family_ == Family::Wide ? WEDGE_WIDE_PACKET_SIZE : 1; }
 
 private:
     static device::BuildOptions options(Family family)
