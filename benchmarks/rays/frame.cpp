@@ -61,7 +61,7 @@ std::string frameProblem(const scene::Scene& scene)
     return mattAndUntextured(scene) ? "" : "its materials are not all matt and untextured";
 }
 
-FrameResult measureFrame(const scene::Scene& original, const device::Device& device, const BuiltScene& built,
+FrameResult measureFrame(const scene::Scene& original, const WedgeTracer& tracer, const BuiltScene& built,
     Workers& workers, const RayPlan& plan)
 {
     const scene::Scene scene = withHiddenLights(original);
@@ -69,7 +69,9 @@ FrameResult measureFrame(const scene::Scene& original, const device::Device& dev
     settings.width = plan.width;
     settings.height = plan.height;
     settings.seed = 1;
-    render::Renderer renderer(scene, device);
+    render::Options options;
+    options.traversal = tracer.traversal();
+    render::Renderer renderer(scene, tracer.device(), options);
     renderer.rehearse(settings);
     EmbreeFrame single(scene, plan.width, plan.height, plan.shadowSamples, settings.seed);
     EmbreeFrame packets(scene, plan.width, plan.height, plan.shadowSamples, settings.seed);

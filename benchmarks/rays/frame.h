@@ -25,7 +25,7 @@ struct FrameResult {
 /// Why such a frame cannot be compared for this scene, "" if it can.
 std::string frameProblem(const scene::Scene& scene);
 
-FrameResult measureFrame(const scene::Scene& scene, const device::Device& device, const BuiltScene& built,
+FrameResult measureFrame(const scene::Scene& scene, const WedgeTracer& tracer, const BuiltScene& built,
     Workers& workers, const RayPlan& plan);
 
 } // namespace wedge::benchmark

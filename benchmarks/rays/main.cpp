@@ -6,6 +6,7 @@
 
 #include <charconv>
 #include <cstdio>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct Arguments {
     bool quick = false, list = false, cpuTime = false, noGrowth = false, growthOnly = false, noFrame = false;
     std::vector<std::string> scenes;
     std::string json, device, size;
+    render::Traversal traversal = render::Traversal::Automatic;
     int repeats = 0, threads = 0, growthSteps = 0; ///< 0: the plan's
 };
 
@@ -37,6 +39,10 @@ void addOptions(CLI::App& parser, Arguments& a)
     parser.add_option("--repeats", a.repeats, "repetitions of everything (9, quick 3)")->check(CLI::Range(1, 1000));
     parser.add_option("--threads", a.threads, "threads of Embree (the device's compute units)")
         ->check(CLI::Range(1, 1024));
+    parser.add_option("--traversal", a.traversal, "auto, wide or scalar: the family of our traversals")
+        ->transform(
+            CLI::CheckedTransformer(std::map<std::string, render::Traversal> { { "auto", render::Traversal::Automatic },
+                { "wide", render::Traversal::Wide }, { "scalar", render::Traversal::Scalar } }));
     parser.add_flag("--cpu-time", a.cpuTime, "processor time over threads in place of wall time: for a busy machine");
     parser.add_flag("--no-frame", a.noFrame, "without whole frames");
     parser.add_flag("--no-growth", a.noGrowth, "without the growing field, which comes last where no scene is named");
@@ -130,7 +136,8 @@ int run(const Arguments& a)
     fmt::print("wedge rays, {}x{}, {}, Embree {} on {} threads\n", results.plan.width, results.plan.height,
         device.info().name, EmbreeScene::version(), results.plan.timing.threads);
     std::fflush(stdout);
-    WedgeTracer tracer(device);
+    WedgeTracer tracer(device, a.traversal);
+    results.traversal = render::traversalName(tracer.traversal());
     Workers workers(results.plan.timing.threads);
     for (const RayScene& source : sources) {
         results.scenes.push_back(measureRayScene(source, tracer, workers, results.plan));

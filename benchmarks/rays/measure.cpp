@@ -41,7 +41,7 @@ void compare(
             return compareHits(built.mesh(), set, ours.hits(), theirs.hits());
         return compareOccluded(
             built.mesh(), set, ours.occluded(), theirs.occluded(),
-            [&](const bvh::Ray& ray) { return bvh::closestHit(hierarchy.bvh, ray); },
+            [&](const bvh::Ray& ray) { return bvh::closestHit(hierarchy.bvh(), ray); },
             [&](const bvh::Ray& ray) { return embreeNearest(built.embree(build), workers, ray); });
     };
     out.difference = against("default", set.coherent);
@@ -158,7 +158,7 @@ ClassResult measureClass(
     for (const EmbreeColumn& column : built.columns())
         contenders.push_back({ column.name, false, [&, column] { theirs.trace(*column.scene, column.way, workers); } });
     out.runs = timeInterleaved(contenders, plan.timing);
-    out.counts = countTraversal(built.hierarchy().bvh, set, countedRays);
+    out.counts = countTraversal(built.hierarchy().bvh(), set, countedRays);
     const auto hasRobust = [](const auto& scene) { return scene->build().robust; };
     if (std::ranges::any_of(built.embree(), hasRobust))
         compare(out, built, set, ours, theirs, workers);

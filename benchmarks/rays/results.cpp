@@ -129,7 +129,8 @@ Json resultsOf(const RayResults& results, const device::DeviceInfo& device)
     out["plan"] = { { "quick", plan.quick }, { "width", plan.width }, { "height", plan.height },
         { "shadow_samples", plan.shadowSamples }, { "ambient_samples", plan.ambientSamples },
         { "repeats", plan.timing.repeats }, { "clock", plan.timing.cpuTime ? "processor" : "wall" },
-        { "threads", plan.timing.threads }, { "time_stamp_hz", number(plan.timeStampHertz) },
+        { "threads", plan.timing.threads }, { "traversal", results.traversal },
+        { "time_stamp_hz", number(plan.timeStampHertz) },
         { "counters", results.countersProblem.empty() ? "counted" : results.countersProblem },
         { "embree", EmbreeScene::version() } };
     out["skipped"] = results.skipped;

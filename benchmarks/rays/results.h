@@ -14,6 +14,7 @@ struct RayResults {
     std::vector<std::string> skipped; ///< scenes
     std::vector<RaySceneResult> scenes;
     std::vector<GrowthPoint> growth;
+    std::string traversal; ///< our family
     std::string countersProblem; ///< why cycles and instructions were not counted, "" if they were
 };
 

@@ -40,8 +40,8 @@ std::vector<BuildResult> buildsOf(const BuiltScene& built, double triangles)
 {
     std::vector<BuildResult> out;
     for (const auto& h : built.hierarchies())
-        out.push_back({ h->mode.empty() ? "wedge" : "wedge " + h->mode, h->bvh.statistics.buildSeconds,
-            static_cast<double>(h->bvh.statistics.bytes) / triangles });
+        out.push_back({ h->mode.empty() ? "wedge" : "wedge " + h->mode, h->bvh().statistics.buildSeconds,
+            static_cast<double>(h->bvh().statistics.bytes) / triangles });
     for (const auto& scene : built.embree())
         out.push_back({ "embree " + scene->build().name, scene->buildSeconds(),
             static_cast<double>(scene->bytes()) / triangles });
@@ -74,7 +74,7 @@ RaySceneResult measureRayScene(const RayScene& source, WedgeTracer& tracer, Work
     }
     out.noFrame = plan.frame ? frameProblem(scene) : "not asked for";
     if (out.noFrame.empty())
-        out.frame = measureFrame(scene, tracer.device(), built, workers, plan);
+        out.frame = measureFrame(scene, tracer, built, workers, plan);
     return out;
 }
 

@@ -5,16 +5,25 @@
 namespace wedge::benchmark {
 namespace {
 
-constexpr std::size_t singleGroup = 64, packetGroup = 4; ///< items of a work-group, as the renderer launches them
+constexpr std::size_t groupRays = 64; ///< of a work-group, as the renderer launches them
+
+device::BuildOptions programOptions(render::Traversal traversal)
+{
+    device::BuildOptions out;
+    if (traversal == render::Traversal::Scalar)
+        out.defines.emplace_back("WEDGE_TRAVERSAL_SCALAR", "1");
+    return out;
+}
 
 static_assert(sizeof(bvh::Ray) == 8 * sizeof(float), "a ray is what the kernels read");
 
 } // namespace
 
-WedgeTracer::WedgeTracer(const device::Device& device)
+WedgeTracer::WedgeTracer(const device::Device& device, render::Traversal traversal)
     : device_(device)
+    , traversal_(render::resolveTraversal(traversal, device.info()))
     , queue_(device)
-    , library_(device, {})
+    , library_(device, programOptions(traversal_))
 {
     for (const char* name : { "traceClosest", "traceClosestPackets", "traceAny", "traceAnyPackets" })
         kernels_.push_back(library_.kernel("trace_test.cl", name));
@@ -22,12 +31,12 @@ WedgeTracer::WedgeTracer(const device::Device& device)
 
 WedgeHierarchy::WedgeHierarchy(WedgeTracer& tracer, std::string modeName, bvh::Bvh built)
     : mode(std::move(modeName))
-    , bvh(std::move(built))
-    , nodes(tracer.device(), bvh.nodes.size(), "BVH nodes")
-    , blocks(tracer.device(), bvh.blocks.size(), "triangle blocks")
+    , hierarchy(std::move(built), tracer.traversal())
+    , nodes(tracer.device(), hierarchy.nodes().size(), "BVH nodes")
+    , blocks(tracer.device(), bvh().blocks.size(), "triangle blocks")
 {
-    nodes.upload(tracer.queue(), bvh.nodes);
-    blocks.upload(tracer.queue(), bvh.blocks);
+    nodes.upload(tracer.queue(), hierarchy.nodes());
+    blocks.upload(tracer.queue(), bvh().blocks);
 }
 
 WedgeRays::WedgeRays(WedgeTracer& tracer, const RaySet& set)
@@ -49,8 +58,9 @@ void WedgeRays::trace(const WedgeHierarchy& hierarchy, bool packets)
         kernel.setArgs(rays_, occluded_, hierarchy.nodes, hierarchy.blocks, count);
     else
         kernel.setArgs(rays_, hits_, hierarchy.nodes, hierarchy.blocks, count);
-    const std::size_t items = packets ? set_.rays.size() / packetRays : set_.rays.size();
-    tracer_.queue().launch(set_.name, device::PassKind::Trace, kernel, items, packets ? packetGroup : singleGroup);
+    const std::size_t raysOfItem = packets ? render::packetSize(tracer_.traversal()) : 1;
+    tracer_.queue().launch(
+        set_.name, device::PassKind::Trace, kernel, set_.rays.size() / raysOfItem, groupRays / raysOfItem);
     tracer_.queue().finish();
 }
 

@@ -5,6 +5,7 @@
 #include "host/device/buffer.h"
 #include "host/device/program.h"
 #include "host/device/queue.h"
+#include "host/render/hierarchy.h"
 
 #include <memory>
 #include <string>
@@ -15,14 +16,17 @@ namespace wedge::benchmark {
 /// A device with the kernels that trace rays from buffers.
 class WedgeTracer {
 public:
-    explicit WedgeTracer(const device::Device& device);
+    WedgeTracer(const device::Device& device, render::Traversal traversal);
 
     device::TimedQueue& queue() { return queue_; }
     const device::Device& device() const { return device_; }
+    /// The family of traversals, never Automatic.
+    render::Traversal traversal() const { return traversal_; }
     device::Kernel& kernel(bool anyHit, bool packets) { return kernels_[(anyHit ? 2u : 0u) + (packets ? 1u : 0u)]; }
 
 private:
     device::Device device_;
+    render::Traversal traversal_;
     device::TimedQueue queue_;
     device::ProgramLibrary library_;
     std::vector<device::Kernel> kernels_;
@@ -32,9 +36,11 @@ private:
 struct WedgeHierarchy {
     WedgeHierarchy(WedgeTracer& tracer, std::string mode, bvh::Bvh built);
 
+    const bvh::Bvh& bvh() const { return hierarchy.bvh; }
+
     std::string mode; ///< "" for the default, or what --bvh calls it
-    bvh::Bvh bvh;
-    device::Buffer<shared::BvhNode> nodes;
+    render::Hierarchy hierarchy;
+    device::Buffer<std::byte> nodes;
     device::Buffer<shared::TriangleBlock> blocks;
 };
 
