@@ -5,7 +5,7 @@ add_test(NAME oclgrind_frame COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/oc
                                      ${CMAKE_SOURCE_DIR})
 add_test(NAME second_driver COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/second_driver.sh $<TARGET_FILE:wedge>
                                     $<TARGET_FILE:bvh_traverse_test> $<TARGET_FILE:bvh_traverse_families_test>
-                                    $<TARGET_FILE:bvh_watertight_test> $<TARGET_FILE:render_families_test>)
+                                    $<TARGET_FILE:bvh_watertight_test>)
 set_tests_properties(kernel_lint oclgrind_frame second_driver PROPERTIES TIMEOUT 600)
 
 # The tests of the shared maths once more, under the sanitizers, whatever the build type: device code cannot be run
