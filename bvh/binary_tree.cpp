@@ -20,10 +20,6 @@ constexpr std::uint32_t minParallelSubtree = 1024;
 /// Children that share less of the root's area than this gain nothing from spatial splits.
 constexpr double minOverlap = 1e-4;
 
-/// And a spatial split is made only where it costs less than this share of the best other one: what it promises for one
-/// level it does not always keep over many.
-constexpr float spatialGain = 0.9f;
-
 /// References that become a subtree: [first, first + count) of one of the two arrays, with room up to first + room.
 struct Work {
     std::uint32_t first, count, room;
@@ -136,12 +132,12 @@ private:
     std::span<const Reference> from(const Work& work) const { return { arrays_[work.array] + work.first, work.count }; }
     Reference* to(const Work& work) const { return arrays_[1 - work.array] + work.first; }
 
-    /// A spatial split where it costs clearly less than cost and there is room for it.
+    /// A spatial split where it costs less than cost and there is room for it.
     std::optional<Halves> splitSpatially(const Work& work, float cost) const
     {
         SpatialSplitter splitter(from(work), work.bounds.box, mesh_);
         const SpatialSplit best = splitter.find(blockShift_);
-        if (best.axis < 0 || best.cost >= spatialGain * cost)
+        if (best.axis < 0 || best.cost >= cost)
             return std::nullopt;
         Halves halves = splitter.count(best, blockShift_);
         if (std::max(halves.leftCount, halves.rightCount) >= work.count

@@ -39,8 +39,10 @@ Bvh build(const Mesh& mesh, const Config& config)
 
     const auto start = std::chrono::steady_clock::now();
     const std::size_t count = mesh.indices.size() / 3;
-    const auto room =
-        static_cast<std::uint32_t>(static_cast<double>(count) * (1.0 + static_cast<double>(config.extraReferences)));
+    const auto roomFor = [&](std::size_t triangles) {
+        return static_cast<std::uint32_t>(
+            static_cast<double>(triangles) * (1.0 + static_cast<double>(config.extraReferences)));
+    };
     detail::BinaryTree tree;
     std::size_t valid = 0;
     if (config.mortonRuns) {
@@ -49,13 +51,14 @@ Bvh build(const Mesh& mesh, const Config& config)
         if (valid > 0)
             detail::buildBinaryTree(std::move(runs), mesh, config, tree);
     } else {
-        detail::ReferenceArrays references = detail::makeReferences(mesh, room);
+        detail::ReferenceArrays references = detail::makeReferences(mesh, roomFor(count));
         valid = references.count;
         if (valid > 0)
-            detail::buildBinaryTree(std::move(references), room, mesh, config, tree);
+            detail::buildBinaryTree(std::move(references), roomFor(valid), mesh, config, tree);
     }
     Bvh bvh = valid > 0 ? detail::collapse(tree, mesh, config) : emptyBvh();
     Statistics& statistics = bvh.statistics;
+    statistics.traversalCost = config.traversalCost;
     statistics.nodes = bvh.nodes.size();
     statistics.blocks = bvh.blocks.size();
     statistics.skipped = count - valid;

@@ -54,6 +54,7 @@ inline constexpr double degenerateSine = 4.8e-7;
 
 /// What a build made of its mesh.
 struct Statistics {
+    double traversalCost = 0; ///< what a node was taken to cost, in tests of one block
     double sahCost = 0; ///< expected cost of a ray that hits the root's box, in tests of one block
     unsigned depth = 0; ///< nodes on the longest path from the root, itself included
     unsigned stackNeeded = 0; ///< most entries that any traversal can have on its stack, at most WEDGE_BVH_STACK
@@ -61,6 +62,7 @@ struct Statistics {
     std::size_t blocks = 0;
     std::size_t triangles = 0; ///< triangles in the leaves, the degenerate ones included
     std::size_t degenerate = 0; ///< of those, the ones without area: they lie in a leaf and are never hit
+    std::size_t references = 0; ///< lanes of blocks in use; more than triangles where spatial splits cut some
     std::size_t skipped = 0; ///< triangles left out: a vertex is NaN, infinite or beyond maxCoordinate
     std::size_t bytes = 0; ///< nodes and blocks
     double buildSeconds = 0;

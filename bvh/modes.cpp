@@ -34,7 +34,7 @@ Config config(Mode mode)
     Config config;
     config.mortonRuns = mode == Mode::Fast;
     config.bins = mode == Mode::Fast ? 16 : config.bins;
-    config.extraReferences = mode == Mode::Quality ? 0.4f : 0.0f;
+    config.extraReferences = mode == Mode::Quality ? 0.5f : 0.0f;
     return config;
 }
 

@@ -1,5 +1,7 @@
 #include "bvh/spatial_split.h"
 
+#include "bvh/triangle_blocks.h"
+
 #include <cmath>
 
 namespace wedge::bvh::detail {
@@ -44,6 +46,14 @@ void load(const Mesh& mesh, std::uint32_t triangle, Float4 (&vertices)[3])
 {
     for (std::size_t corner = 0; corner < 3; corner++)
         vertices[corner] = vertexOf(mesh, triangle, corner);
+}
+
+bool isFlat(const Mesh& mesh, std::uint32_t triangle)
+{
+    Float4 v[3];
+    load(mesh, triangle, v);
+    const Float4 e1 = v[1] - v[0], e2 = v[2] - v[0];
+    return isDegenerate({ e1[0], e1[1], e1[2] }, { e2[0], e2[1], e2[2] });
 }
 
 double blocksOf(std::uint32_t count, unsigned shift) { return (count + (1u << shift) - 1) >> shift; }
@@ -173,7 +183,7 @@ SpatialSplitter::Side SpatialSplitter::sideOf(
     const double both = left * leftCount + right * rightCount;
     const double allLeft = unite(split.left, box).halfArea() * leftCount + right * (rightCount - scale);
     const double allRight = left * (leftCount - scale) + unite(split.right, box).halfArea() * rightCount;
-    if (both <= allLeft && both <= allRight)
+    if (both <= allLeft && both <= allRight && !isFlat(mesh_, reference.index))
         return Side::Both;
     return allLeft <= allRight ? Side::Left : Side::Right;
 }

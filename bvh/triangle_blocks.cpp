@@ -8,24 +8,18 @@ namespace {
 
 using shared::TriangleBlock;
 
-/// Collapses the degenerate triangles of a block to points and returns how many there are: those where the float cross
-/// product of two edges is nothing but rounding error, and so has no direction. The eight lanes at once, without a
-/// root: squares of what floats of up to 1 can be stay within a double's range.
+/// Collapses the degenerate triangles of a block to points and returns how many there are.
 std::size_t collapseDegenerate(TriangleBlock& block)
 {
-    double squares[WEDGE_BLOCK_SIZE], products[WEDGE_BLOCK_SIZE];
+    std::uint8_t flat[WEDGE_BLOCK_SIZE];
     for (unsigned i = 0; i < WEDGE_BLOCK_SIZE; i++) {
-        const double ax = block.v1x[i] - block.v0x[i], ay = block.v1y[i] - block.v0y[i],
-                     az = block.v1z[i] - block.v0z[i];
-        const double bx = block.v2x[i] - block.v0x[i], by = block.v2y[i] - block.v0y[i],
-                     bz = block.v2z[i] - block.v0z[i];
-        const double x = ay * bz - az * by, y = az * bx - ax * bz, z = ax * by - ay * bx;
-        squares[i] = x * x + y * y + z * z;
-        products[i] = (ax * ax + ay * ay + az * az) * (bx * bx + by * by + bz * bz);
+        const float a[3] = { block.v1x[i] - block.v0x[i], block.v1y[i] - block.v0y[i], block.v1z[i] - block.v0z[i] };
+        const float b[3] = { block.v2x[i] - block.v0x[i], block.v2y[i] - block.v0y[i], block.v2z[i] - block.v0z[i] };
+        flat[i] = isDegenerate(a, b);
     }
     std::size_t degenerate = 0;
     for (unsigned i = 0; i < WEDGE_BLOCK_SIZE; i++) {
-        if (squares[i] > degenerateSine * degenerateSine * products[i])
+        if (!flat[i])
             continue;
         block.v1x[i] = block.v2x[i] = block.v0x[i];
         block.v1y[i] = block.v2y[i] = block.v0y[i];

@@ -2,6 +2,7 @@
 
 #include "bvh/children.h"
 #include "bvh/triangle_blocks.h"
+#include "bvh/wide_node.h"
 
 #include <tbb/parallel_for.h>
 
@@ -22,17 +23,8 @@ struct Tally {
     unsigned depth = 0;
     unsigned stackNeeded = 0;
     std::size_t degenerate = 0;
+    std::size_t references = 0;
 };
-
-void setBox(BvhNode& node, unsigned slot, Float4 lo, Float4 hi)
-{
-    node.loX[slot] = lo[0];
-    node.loY[slot] = lo[1];
-    node.loZ[slot] = lo[2];
-    node.hiX[slot] = hi[0];
-    node.hiY[slot] = hi[1];
-    node.hiZ[slot] = hi[2];
-}
 
 class Collapse {
 public:
@@ -60,6 +52,7 @@ public:
         bvh.statistics.depth = tally.depth;
         bvh.statistics.stackNeeded = tally.stackNeeded;
         bvh.statistics.degenerate = tally.degenerate;
+        bvh.statistics.references = tally.references;
         return bvh;
     }
 
@@ -119,6 +112,7 @@ private:
                 out.child[slot] = WEDGE_BVH_LEAF | childBlocks[slot] << 3 | child.blocks;
                 const std::span<const std::uint32_t> triangles(&tree_.triangles[child.first], child.count);
                 tallies[slot].degenerate = fillBlocks(triangles, mesh_, unit_, &blocks_[childBlocks[slot]]);
+                tallies[slot].references = child.count;
                 tallies[slot].cost = child.box.halfArea() * child.blocks;
             }
         });
@@ -132,6 +126,7 @@ private:
             sum.depth = std::max(sum.depth, tallies[slot].depth);
             sum.stackNeeded = std::max(sum.stackNeeded, tallies[slot].stackNeeded);
             sum.degenerate += tallies[slot].degenerate;
+            sum.references += tallies[slot].references;
         }
         sum.cost += node.box.halfArea() * config_.traversalCost;
         sum.depth += 1;

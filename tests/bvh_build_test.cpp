@@ -1,40 +1,20 @@
-#include "bvh/bvh.h"
-#include "bvh/validate.h"
-#include "tests/bvh_meshes.h"
+#include "tests/bvh_check.h"
 
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
-#include <cstring>
-
 using namespace wedge;
 using namespace wedge::test;
 
-namespace {
-
-void checkValid(const bvh::Bvh& hierarchy, const TestMesh& mesh)
-{
-    CAPTURE(mesh.name);
-    for (const std::string& problem : bvh::validate(hierarchy, mesh.view()))
-        FAIL_CHECK(problem);
-}
-
-bool sameBits(const bvh::Bvh& a, const bvh::Bvh& b)
-{
-    return a.nodes.size() == b.nodes.size() && a.blocks.size() == b.blocks.size()
-        && std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(a.nodes[0])) == 0
-        && std::memcmp(a.blocks.data(), b.blocks.data(), a.blocks.size() * sizeof(a.blocks[0])) == 0;
-}
-
-} // namespace
-
 TEST_CASE("Every nasty mesh becomes a valid hierarchy")
 {
-    for (const TestMesh& mesh : nastyMeshes()) {
-        const bvh::Bvh hierarchy = bvh::build(mesh.view());
-        checkValid(hierarchy, mesh);
-        CHECK(hierarchy.statistics.triangles + hierarchy.statistics.skipped == mesh.triangles());
-    }
+    for (const bvh::Mode mode : allModes)
+        for (const TestMesh& mesh : nastyMeshes()) {
+            CAPTURE(bvh::modeName(mode));
+            const bvh::Bvh hierarchy = bvh::build(mesh.view(), bvh::config(mode));
+            checkValid(hierarchy, mesh);
+            CHECK(hierarchy.statistics.triangles + hierarchy.statistics.skipped == mesh.triangles());
+        }
 }
 
 TEST_CASE("The hierarchy is valid for every configuration")
@@ -60,13 +40,15 @@ TEST_CASE("Modes have names, and nothing else is one")
 
 TEST_CASE("An empty mesh has a root without children")
 {
-    const bvh::Bvh hierarchy = bvh::build({});
-    REQUIRE(hierarchy.nodes.size() == 1);
-    CHECK(hierarchy.blocks.empty());
-    CHECK(hierarchy.statistics.depth == 1);
-    CHECK(hierarchy.statistics.stackNeeded == 0);
-    for (const std::uint32_t child : hierarchy.nodes[0].child)
-        CHECK(child == WEDGE_BVH_LEAF);
+    for (const bvh::Mode mode : allModes) {
+        const bvh::Bvh hierarchy = bvh::build({}, bvh::config(mode));
+        REQUIRE(hierarchy.nodes.size() == 1);
+        CHECK(hierarchy.blocks.empty());
+        CHECK(hierarchy.statistics.depth == 1);
+        CHECK(hierarchy.statistics.stackNeeded == 0);
+        for (const std::uint32_t child : hierarchy.nodes[0].child)
+            CHECK(child == WEDGE_BVH_LEAF);
+    }
 }
 
 TEST_CASE("The SAH cost of one triangle is one node and one block")
@@ -96,12 +78,14 @@ TEST_CASE("The SAH parts two clusters and costs less than one leaf of all")
 
 TEST_CASE("100,000 identical triangles end in full leaves under a shallow tree")
 {
-    const TestMesh mesh = duplicates(100000);
-    const bvh::Bvh hierarchy = bvh::build(mesh.view());
-    checkValid(hierarchy, mesh);
-    CHECK(hierarchy.statistics.triangles == 100000);
-    CHECK(hierarchy.statistics.depth < 10);
-    CHECK(hierarchy.statistics.blocks < 2 * 100000 / WEDGE_BLOCK_SIZE);
+    for (const bvh::Mode mode : allModes) {
+        const TestMesh mesh = duplicates(100000);
+        const bvh::Bvh hierarchy = bvh::build(mesh.view(), bvh::config(mode));
+        checkValid(hierarchy, mesh);
+        CHECK(hierarchy.statistics.triangles == 100000);
+        CHECK(hierarchy.statistics.depth < 10);
+        CHECK(hierarchy.statistics.blocks < 2 * 100000 / WEDGE_BLOCK_SIZE);
+    }
 }
 
 TEST_CASE("Trees that the SAH would make too deep stay within the traversal's stack")
@@ -114,42 +98,53 @@ TEST_CASE("Trees that the SAH would make too deep stay within the traversal's st
             const float s = std::ldexp(1.0f, i - 60);
             mesh.add({ s, 0, 0, s, s * 0.01f, 0, s, 0, s * 0.01f });
         }
-    const bvh::Bvh hierarchy = bvh::build(mesh.view(), { 1e-3f, 2, 1 });
-    checkValid(hierarchy, mesh);
-    CHECK(hierarchy.statistics.stackNeeded > WEDGE_BVH_STACK / 2); // else this tests nothing
-    CHECK(hierarchy.statistics.stackNeeded <= WEDGE_BVH_STACK);
+    for (const bvh::Config& config :
+        { bvh::Config { 1e-3f, 2, 1 }, bvh::Config { 1e-3f, 2, 1, true }, bvh::Config { 1e-3f, 2, 1, false, 0.5f } }) {
+        const bvh::Bvh hierarchy = bvh::build(mesh.view(), config);
+        checkValid(hierarchy, mesh);
+        if (!config.mortonRuns)
+            CHECK(hierarchy.statistics.stackNeeded > WEDGE_BVH_STACK / 2); // else this tests nothing
+        CHECK(hierarchy.statistics.stackNeeded <= WEDGE_BVH_STACK);
+    }
 }
 
 TEST_CASE("Triangles with invalid vertices are skipped and counted")
 {
     const TestMesh mesh = invalidVertices();
-    const bvh::Bvh hierarchy = bvh::build(mesh.view());
-    checkValid(hierarchy, mesh);
-    CHECK(hierarchy.statistics.skipped == 100);
-
     TestMesh none { "nothing valid", {}, {} };
     none.add({ NAN, 0, 0, 1, 0, 0, 0, 1, 0 });
-    CHECK(bvh::build(none.view()).statistics.skipped == 1);
-    checkValid(bvh::build(none.view()), none);
+    for (const bvh::Mode mode : allModes) {
+        const bvh::Bvh hierarchy = bvh::build(mesh.view(), bvh::config(mode));
+        checkValid(hierarchy, mesh);
+        CHECK(hierarchy.statistics.skipped == 100);
+        CHECK((mode == bvh::Mode::Quality || hierarchy.statistics.references == hierarchy.statistics.triangles));
+        CHECK(bvh::build(none.view(), bvh::config(mode)).statistics.skipped == 1);
+        checkValid(bvh::build(none.view(), bvh::config(mode)), none);
+    }
 }
 
 TEST_CASE("Triangles without area are kept, counted and flat")
 {
     const TestMesh mesh = degenerates();
-    const bvh::Bvh hierarchy = bvh::build(mesh.view());
-    checkValid(hierarchy, mesh);
-    CHECK(hierarchy.statistics.degenerate == 80);
-    CHECK(hierarchy.statistics.triangles == 100);
+    for (const bvh::Mode mode : allModes) {
+        const bvh::Bvh hierarchy = bvh::build(mesh.view(), bvh::config(mode));
+        checkValid(hierarchy, mesh);
+        CHECK(hierarchy.statistics.degenerate == 80);
+        CHECK(hierarchy.statistics.triangles == 100);
+    }
 }
 
 TEST_CASE("The same bits come out for any number of threads, and every time")
 {
-    // Above the sizes at which subtrees, reductions and the collapse go parallel.
-    for (const TestMesh& mesh : { soup(120000, 0.01f), waves(220) }) {
+    // Above the sizes at which subtrees, chunks and the collapse go parallel.
+    const TestMesh meshes[] = { soup(120000, 0.01f), waves(220), needles(10000) };
+    for (std::size_t i = 0; i < 3 * std::size(allModes); i++) {
+        const TestMesh& mesh = meshes[i / 3];
+        const bvh::Config config = bvh::config(allModes[i % 3]);
         std::vector<bvh::Bvh> results;
         for (const std::size_t threads : { 1, 2, 8, 8 }) {
             const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-            results.push_back(bvh::build(mesh.view()));
+            results.push_back(bvh::build(mesh.view(), config));
         }
         checkValid(results[0], mesh);
         for (const bvh::Bvh& result : results) {

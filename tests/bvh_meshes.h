@@ -130,6 +130,22 @@ inline TestMesh thin()
     return mesh;
 }
 
+/// Long thin triangles at all angles among three times as many small ones: their boxes are mostly empty, which is what
+/// spatial splits are for.
+inline TestMesh needles(std::size_t count)
+{
+    TestMesh mesh = soup(3 * count, 0.02f);
+    mesh.name = "needles";
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> u(-1.0f, 1.0f);
+    for (std::size_t i = 0; i < count; i++) {
+        const float x = u(random), y = u(random), z = u(random);
+        const float dx = 0.5f * u(random), dy = 0.5f * u(random), dz = 0.5f * u(random);
+        mesh.add({ x - dx, y - dy, z - dz, x + dx, y + dy, z + dz, x + dx + 0.003f, y + dy - 0.002f, z + dz + 0.001f });
+    }
+    return mesh;
+}
+
 /// A quarter of the triangles have a vertex that is NaN, infinite or out of range.
 inline TestMesh invalidVertices()
 {
@@ -164,7 +180,7 @@ inline std::vector<TestMesh> nastyMeshes()
     TestMesh one { "one triangle", {}, {} };
     one.add({ -1, -1, 0, 1, -1, 0, 0, 1, 0 });
     return { TestMesh { "empty", {}, {} }, one, soup(1000, 0.2f), waves(24), duplicates(700), degenerates(),
-        unevenSizes(), exponential(), thin(), invalidVertices(), flat(), scaled(soup(300, 0.3f), 1e-20f, "tiny"),
+        unevenSizes(), exponential(), thin(), needles(100), invalidVertices(), flat(), scaled(soup(300, 0.3f), 1e-20f, "tiny"),
         scaled(soup(300, 0.3f), 7e17f, "huge"), scaled(waves(9), 1e-3f, "small") };
 }
 
