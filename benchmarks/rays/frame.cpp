@@ -13,11 +13,18 @@ namespace {
 
 constexpr double differs = 1e-3;
 
-/// The scene with nothing that Embree's frame leaves out.
-scene::Scene withHiddenLights(scene::Scene scene)
+/// The scene without what no ray meets and Embree's frame leaves out: lights that are seen, and materials of no
+/// triangle.
+scene::Scene stripped(scene::Scene scene)
 {
     for (scene::AreaLight& light : scene.areaLights)
         light.visible = false;
+    std::vector<bool> used(scene.materials.size());
+    for (const std::uint32_t material : scene.geometry.materialIds)
+        used[material] = true;
+    for (std::size_t i = 0; i < used.size(); ++i)
+        if (!used[i])
+            scene.materials[i] = scene::Material {};
     return scene;
 }
 
@@ -52,8 +59,9 @@ std::vector<double> FrameResult::ratios(const std::string& theirs) const
     return out;
 }
 
-std::string frameProblem(const scene::Scene& scene)
+std::string frameProblem(const scene::Scene& original)
 {
+    const scene::Scene scene = stripped(original);
     if (scene.areaLights.empty())
         return "it has no area light";
     if (!scene.pointLights.empty() || !scene.directionalLights.empty())
@@ -64,7 +72,7 @@ std::string frameProblem(const scene::Scene& scene)
 FrameResult measureFrame(const scene::Scene& original, const WedgeTracer& tracer, const BuiltScene& built,
     Workers& workers, const RayPlan& plan)
 {
-    const scene::Scene scene = withHiddenLights(original);
+    const scene::Scene scene = stripped(original);
     render::Settings settings = render::monteCarlo(plan.shadowSamples);
     settings.width = plan.width;
     settings.height = plan.height;
