@@ -72,7 +72,7 @@ __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light,
             index[lane] = k;
         }
         LightSamples s;
-        sampleLights(params, light, &receivers, index, count, &s);
+        sampleLights(frame, params, light, &receivers, index, count, &s);
         RayPacket packet;
         shadowRays(&receivers, &s, &packet);
         PacketHits hits;
@@ -131,7 +131,7 @@ __kernel void secondPass(FrameParams frame, SampleParams params, AreaLight light
     }
     for (uint step = 0u; step < steps; ++step) {
         LightSamples s;
-        sampleLights(params, light, &receivers, index, count, &s);
+        sampleLights(frame, params, light, &receivers, index, count, &s);
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
             // Pixels that have all their samples wait for the others.
             s.diffuse[lane] = index[lane] < last[lane] ? s.diffuse[lane] : 0.0f;

@@ -62,8 +62,34 @@ WEDGE_FN void loadReceivers(FrameParams frame, uint light, uint firstGroup, __gl
     }
 }
 
-/// Position in [0,1)^2 of sample `index` of `count` of each lane; lanes that have taken all theirs are left alone.
-WEDGE_FN void samplePositions(SampleParams params, const uint* seed, const uint* index, const uint* count, float* u, float* v)
+/// Position in [0,1)^2 of sample `index` of `count`.
+WEDGE_FN Vec2 stratifiedPosition(SampleParams params, uint index, uint count, uint order, uint seed)
+{
+    // Each pass has strata of its own: the count of the second is not known during the first.
+    return index < params.firstPass ? stratified(index, params.firstPass, order, seed)
+                                    : stratified(index - params.firstPass, count - params.firstPass, order, hashUint(seed));
+}
+
+/// stratifiedPosition() of all lanes, which are at the same sample of as many: the stratum is found once.
+WEDGE_FN void samplePositionsTogether(SampleParams params, uint order, const uint* seed, uint index, uint count, float* u,
+                                      float* v)
+{
+    const bool first = index < params.firstPass;
+    const uint i = first ? index : index - params.firstPass;
+    const uint n = first ? params.firstPass : count - params.firstPass;
+    const Strata strata = strataOf(n);
+    const uint stratum = permuteIndex(i, n, order);
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const Vec2 p = stratumPoint(strata, stratum, hashCombine(first ? seed[lane] : hashUint(seed[lane]), i));
+        u[lane] = p.x;
+        v[lane] = p.y;
+    }
+}
+
+/// Position in [0,1)^2 of sample `index` of `count` of each lane; those of lanes that have taken all theirs do not matter.
+/// order: of the strata, the same in all pixels of a light.
+WEDGE_FN void samplePositions(SampleParams params, uint order, const uint* seed, const uint* index, const uint* count,
+                              float* u, float* v)
 {
     if (params.sampler == WEDGE_SAMPLER_SOBOL) {
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
@@ -73,25 +99,33 @@ WEDGE_FN void samplePositions(SampleParams params, const uint* seed, const uint*
         }
         return;
     }
+    uint active = 0u;
+    bool together = true;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        Vec2 p = vec2(0.5f, 0.5f);
-        // Each pass has strata of its own: the count of the second is not known during the first.
-        if (index[lane] < params.firstPass) {
-            p = stratified(index[lane], params.firstPass, seed[lane]);
-        } else if (index[lane] < count[lane]) {
-            p = stratified(index[lane] - params.firstPass, count[lane] - params.firstPass, hashUint(seed[lane]));
-        }
+        active = index[lane] < count[lane] ? lane : active;
+    }
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        together &= index[lane] >= count[lane] || (index[lane] == index[active] && count[lane] == count[active]);
+    }
+    if (together && index[active] < count[active]) {
+        samplePositionsTogether(params, order, seed, index[active], count[active], u, v);
+        return;
+    }
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const Vec2 p = index[lane] < count[lane]
+            ? stratifiedPosition(params, index[lane], count[lane], order, seed[lane])
+            : vec2(0.5f, 0.5f);
         u[lane] = p.x;
         v[lane] = p.y;
     }
 }
 
 /// Sample index[lane] of count[lane] for each receiver. Weights are 0 in lanes without a pixel and below its horizon.
-WEDGE_FN void sampleLights(SampleParams params, AreaLight light, const ReceiverPacket* r, const uint* index, const uint* count,
+WEDGE_FN void sampleLights(FrameParams frame, SampleParams params, AreaLight light, const ReceiverPacket* r, const uint* index, const uint* count,
                            LightSamples* s)
 {
     float u[WEDGE_PACKET_SIZE], v[WEDGE_PACKET_SIZE];
-    samplePositions(params, r->seed, index, count, u, v);
+    samplePositions(params, hashCombine(frame.seed, params.light), r->seed, index, count, u, v);
     const bool separate = params.shading == WEDGE_SHADING_SEPARATE;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         u[lane] = lightCoordinate(u[lane], light.profile, light.cut, light.erfCut);

@@ -52,14 +52,16 @@ public:
     {
         const shared::FrameParams& f = traced_.params;
         const shared::AreaLight& light = traced_.onDevice.areaLightList[p.light];
-        const std::uint32_t seed = shared::hashCombine(shared::hashCombine(f.seed, p.light),
+        const std::uint32_t order = shared::hashCombine(f.seed, p.light);
+        const std::uint32_t seed = shared::hashCombine(order,
             static_cast<std::uint32_t>(y) * f.width + static_cast<std::uint32_t>(x));
         HostSum sum;
         for (std::uint32_t k = 0; k < wanted; ++k) {
             shared::Vec2 u = shared::sobolOwen(k, seed);
             if (p.sampler == WEDGE_SAMPLER_STRATIFIED)
-                u = k < p.firstPass ? shared::stratified(k, p.firstPass, seed)
-                                    : shared::stratified(k - p.firstPass, wanted - p.firstPass, shared::hashUint(seed));
+                u = k < p.firstPass
+                    ? shared::stratified(k, p.firstPass, order, seed)
+                    : shared::stratified(k - p.firstPass, wanted - p.firstPass, order, shared::hashUint(seed));
             const shared::Vec3 point = shared::lightPoint(light.centre, light.halfU, light.halfV,
                 shared::lightCoordinate(u.x, light.profile, light.cut, light.erfCut),
                 shared::lightCoordinate(u.y, light.profile, light.cut, light.erfCut));

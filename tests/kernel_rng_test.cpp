@@ -172,7 +172,7 @@ TEST_CASE("stratified samples take each stratum once, whatever their number")
         for (const uint seed : { 0u, pixelSeed(n), 0xffffffffu }) {
             std::vector<unsigned> cells(columns * rows, 0);
             for (uint i = 0; i < n; ++i) {
-                const Vec2 p = stratified(i, n, seed);
+                const Vec2 p = stratified(i, n, seed ^ 0x55u, seed);
                 REQUIRE(p.x >= 0.0f);
                 REQUIRE(p.x < 1.0f);
                 REQUIRE(p.y >= 0.0f);
@@ -198,7 +198,7 @@ TEST_CASE("both samplers integrate without bias")
         for (uint pixel = 0; pixel < 3000; ++pixel) {
             double a = 0, b = 0;
             for (uint i = 0; i < n; ++i) {
-                const Vec2 p = stratified(i, n, pixelSeed(pixel));
+                const Vec2 p = stratified(i, n, 7u, pixelSeed(pixel));
                 const Vec2 q = sobolOwen(i, pixelSeed(pixel));
                 a += p.x * p.x * std::exp(p.y);
                 b += q.x * q.x * std::exp(q.y);

@@ -95,7 +95,7 @@ RaySet areaShadowRays(const scene::Scene& scene, std::span<const Receiver> recei
     const shared::AreaLight light = render::deviceLight(scene.areaLights.at(0));
     const auto ray = [&](const Receiver& r, int k) {
         const shared::Vec2 u =
-            shared::stratified(static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(samples), r.seed);
+            shared::stratified(static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(samples), 0, r.seed);
         const float a = shared::lightCoordinate(u.x, light.profile, light.cut, light.erfCut);
         const float b = shared::lightCoordinate(u.y, light.profile, light.cut, light.erfCut);
         const Vec3 point = shared::lightPoint(light.centre, light.halfU, light.halfV, a, b);

@@ -30,7 +30,7 @@ WEDGE_INLINE uint hashUint(uint x)
     return x;
 }
 
-WEDGE_FN uint hashCombine(uint seed, uint value) { return hashUint(seed ^ (value + 0x9e3779b9u + (seed << 6) + (seed >> 2))); }
+WEDGE_INLINE uint hashCombine(uint seed, uint value) { return hashUint(seed ^ (value + 0x9e3779b9u + (seed << 6) + (seed >> 2))); }
 
 /// The upper 24 bits as a float in [0, 1).
 WEDGE_INLINE float toUnitFloat(uint x) { return (float)(x >> 8) * (1.0f / 16777216.0f); }
@@ -114,21 +114,35 @@ WEDGE_FN uint permuteIndex(uint i, uint length, uint seed)
     return (i + seed % length) % length;
 }
 
-/// Point i of n jittered samples in [0,1)^2: a grid of columns x rows strata with columns = round(sqrt n) and
-/// rows = floor(n / columns), one sample a stratum, taken in random order; what n leaves over is uniform.
-/// Unbiased for any n when all n are taken.
-WEDGE_FN Vec2 stratified(uint i, uint n, uint seed)
+/// How n jittered samples are laid out in [0,1)^2: a grid of columns x rows strata with columns = round(sqrt n) and
+/// rows = floor(n / columns); what n leaves over is uniform.
+typedef struct {
+    uint columns, rows;
+} Strata;
+
+WEDGE_INLINE Strata strataOf(uint n)
 {
-    const uint base = hashCombine(seed, i);
-    const float u = toUnitFloat(hashUint(base ^ 0x9c1b7a55u));
-    const float v = toUnitFloat(hashUint(base ^ 0x3d6fb1e7u));
-    const uint columns = max(1u, (uint)(sqrt((float)n) + 0.5f));
-    const uint rows = max(1u, n / columns);
-    const uint cell = permuteIndex(i, n, seed);
-    if (cell >= columns * rows) {
-        return vec2(u, v);
-    }
-    return vec2(((float)(cell % columns) + u) / (float)columns, ((float)(cell / columns) + v) / (float)rows);
+    Strata s;
+    s.columns = max(1u, (uint)(sqrt((float)n) + 0.5f));
+    s.rows = max(1u, n / s.columns);
+    return s;
+}
+
+/// A point in one of the strata, row by row, or anywhere for stratum >= columns rows; jitter: a seed of this sample.
+WEDGE_INLINE Vec2 stratumPoint(Strata s, uint stratum, uint jitter)
+{
+    const float u = toUnitFloat(hashUint(jitter ^ 0x9c1b7a55u));
+    const float v = toUnitFloat(hashUint(jitter ^ 0x3d6fb1e7u));
+    const float x = (float)(stratum % s.columns), y = (float)(stratum / s.columns);
+    const bool inside = stratum < s.columns * s.rows;
+    return vec2(inside ? (x + u) / (float)s.columns : u, inside ? (y + v) / (float)s.rows : v);
+}
+
+/// Point i of n jittered samples, one a stratum in an order that `order` decides: unbiased for any n when all n are
+/// taken. Pixels that share an order take the same stratum at the same time, which keeps their rays together.
+WEDGE_FN Vec2 stratified(uint i, uint n, uint order, uint seed)
+{
+    return stratumPoint(strataOf(n), permuteIndex(i, n, order), hashCombine(seed, i));
 }
 
 WEDGE_SHARED_END
