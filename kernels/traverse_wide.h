@@ -36,6 +36,14 @@ WEDGE_FN void traverse(__global const TraversalNode* restrict nodes, __global co
                 current = node->child[lane];
                 if (lanes == 0)
                     continue;
+                if (any) {
+                    do {
+                        lane = firstLane(lanes);
+                        lanes = dropFirstLane(lanes);
+                        stack[depth++] = node->child[lane];
+                    } while (lanes);
+                    continue;
+                }
                 // The nearest child is next; the others go onto the stack, farthest first.
                 float t[WEDGE_BVH_WIDTH];
                 vstore8(tEnter, 0, t);
@@ -69,7 +77,7 @@ WEDGE_FN void traverse(__global const TraversalNode* restrict nodes, __global co
             if (depth == 0)
                 return;
             depth--;
-        } while (enters[depth] > tCull);
+        } while (!any && enters[depth] > tCull);
         current = stack[depth];
     }
 }
