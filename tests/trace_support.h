@@ -19,8 +19,9 @@ public:
         const scene::Scene& sceneData, const device::Device& device, int width, int height, const Defines& defines = {})
         : scene(sceneData)
         , bench(device, defines)
-        , hierarchy(bvh::build({ scene.geometry.positions, scene.geometry.indices }))
-        , onDevice(scene, hierarchy, device, bench.queue)
+        , tree(bvh::build({ scene.geometry.positions, scene.geometry.indices }))
+        , hierarchy(tree.bvh)
+        , onDevice(scene, tree, device, bench.queue)
         , layout(width, height)
         , frame(device, bench.queue, layout)
         , params(render::frameParams(scene, layout, { 0, 0, width, height }, 5))
@@ -83,7 +84,8 @@ public:
 
     const scene::Scene scene;
     KernelBench bench;
-    bvh::Bvh hierarchy;
+    render::Hierarchy tree;
+    const bvh::Bvh& hierarchy;
     render::DeviceScene onDevice;
     render::PlaneLayout layout;
     render::Frame frame;

@@ -32,11 +32,10 @@ WedgeTracer::WedgeTracer(const device::Device& device, render::Traversal travers
 WedgeHierarchy::WedgeHierarchy(WedgeTracer& tracer, std::string modeName, bvh::Bvh built)
     : mode(std::move(modeName))
     , hierarchy(std::move(built), tracer.traversal())
-    , nodes(tracer.device(), hierarchy.nodes().size(), "BVH nodes")
-    , blocks(tracer.device(), bvh().blocks.size(), "triangle blocks")
+    , nodes(device::Buffer<std::byte>::readOnly(tracer.device(), tracer.queue(), hierarchy.nodes(), "BVH nodes"))
+    , blocks(device::Buffer<shared::TriangleBlock>::readOnly(
+          tracer.device(), tracer.queue(), bvh().blocks, "triangle blocks"))
 {
-    nodes.upload(tracer.queue(), hierarchy.nodes());
-    blocks.upload(tracer.queue(), bvh().blocks);
 }
 
 WedgeRays::WedgeRays(WedgeTracer& tracer, const RaySet& set)

@@ -46,6 +46,26 @@ public:
             [&] { buffer_ = cl::Buffer(device.context(), CL_MEM_READ_WRITE, bytes); });
     }
 
+    /// Elements that kernels only read, with the values of `values`. A CPU device works on that memory itself, which
+    /// must then outlive the buffer and stay as it is: nothing is copied, and how it is paged stays the owner's choice.
+    /// Other devices get a copy.
+    static Buffer readOnly(const Device& device, TimedQueue& queue, std::span<const T> values, std::string name)
+    {
+        if (device.info().type != DeviceType::Cpu || values.empty()) {
+            Buffer copy(device, values.size(), std::move(name));
+            if (!values.empty()) {
+                copy.upload(queue, values);
+            }
+            return copy;
+        }
+        Buffer shared(std::move(name), values.size());
+        checked(fmt::format("buffer {} ({})", shared.name_, mebibytes(shared.bytes())), device.info().name, [&] {
+            shared.buffer_ = cl::Buffer(device.context(), CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, shared.bytes(),
+                const_cast<std::remove_const_t<T>*>(values.data()));
+        });
+        return shared;
+    }
+
     /// Copies values to the elements from `offset` on.
     void upload(TimedQueue& queue, std::span<const T> values, std::size_t offset = 0)
     {
@@ -86,6 +106,12 @@ public:
     const cl::Buffer& cl() const { return buffer_; }
 
 private:
+    Buffer(std::string name, std::size_t count)
+        : name_(std::move(name))
+        , size_(count)
+    {
+    }
+
     void requireInside(const char* action, std::size_t count, std::size_t offset) const
     {
         if (offset > size_ || count > size_ - offset) {

@@ -32,8 +32,8 @@ std::vector<shared::MaterialData> materialData(const scene::Scene& scene)
         d.specular = toVec3(m.specular);
         d.emission = toVec3(m.emission);
         d.exponent = m.exponent;
-        d.specularModel
-            = m.specularModel == scene::SpecularModel::Phong ? WEDGE_SPECULAR_PHONG : WEDGE_SPECULAR_BLINN_PHONG;
+        d.specularModel =
+            m.specularModel == scene::SpecularModel::Phong ? WEDGE_SPECULAR_PHONG : WEDGE_SPECULAR_BLINN_PHONG;
         d.diffuseTexture = textureId(m.diffuseTexture);
         d.specularTexture = textureId(m.specularTexture);
         d.exponentTexture = textureId(m.exponentTexture);
@@ -128,16 +128,16 @@ void DeviceScene::plan(device::MemoryPlan& plan, const scene::Scene& scene, cons
     plan.addItems("texels", texelCount(scene), sizeof(std::uint32_t));
 }
 
-DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device,
-    device::TimedQueue& queue)
-    : nodes(device, hierarchy.nodes().size(), "BVH nodes")
-    , blocks(device, hierarchy.bvh.blocks.size(), "triangle blocks")
-    , positions(device, scene.geometry.positions.size(), "positions")
-    , normals(device, scene.geometry.normals.size(), "normals")
-    , texcoords(device, scene.geometry.texcoords.size(), "texture coordinates")
-    , indices(device, scene.geometry.indices.size(), "indices")
-    , materialIds(device, scene.geometry.materialIds.size(), "material ids")
-    , objectIds(device, scene.geometry.objectIds.size(), "object ids")
+DeviceScene::DeviceScene(
+    const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device, device::TimedQueue& queue)
+    : nodes(device::Buffer<std::byte>::readOnly(device, queue, hierarchy.nodes(), "BVH nodes"))
+    , blocks(device::Buffer<shared::TriangleBlock>::readOnly(device, queue, hierarchy.bvh.blocks, "triangle blocks"))
+    , positions(device::Buffer<float>::readOnly(device, queue, scene.geometry.positions, "positions"))
+    , normals(device::Buffer<float>::readOnly(device, queue, scene.geometry.normals, "normals"))
+    , texcoords(device::Buffer<float>::readOnly(device, queue, scene.geometry.texcoords, "texture coordinates"))
+    , indices(device::Buffer<std::uint32_t>::readOnly(device, queue, scene.geometry.indices, "indices"))
+    , materialIds(device::Buffer<std::uint32_t>::readOnly(device, queue, scene.geometry.materialIds, "material ids"))
+    , objectIds(device::Buffer<std::uint32_t>::readOnly(device, queue, scene.geometry.objectIds, "object ids"))
     , materials(device, scene.materials.size(), "materials")
     , textures(device, scene.textures.size(), "textures")
     , texels(device, texelCount(scene), "texels")
@@ -145,15 +145,6 @@ DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, 
     , areaLights(device, scene.areaLights.size(), "area lights")
     , deltaLights(device, scene.pointLights.size() + scene.directionalLights.size(), "point and directional lights")
 {
-    const scene::Geometry& g = scene.geometry;
-    nodes.upload(queue, hierarchy.nodes());
-    blocks.upload(queue, hierarchy.bvh.blocks);
-    positions.upload(queue, g.positions);
-    normals.upload(queue, g.normals);
-    texcoords.upload(queue, g.texcoords);
-    indices.upload(queue, g.indices);
-    materialIds.upload(queue, g.materialIds);
-    objectIds.upload(queue, g.objectIds);
     materials.upload(queue, materialData(scene));
     std::vector<shared::TextureData> infos;
     std::size_t offset = 0;

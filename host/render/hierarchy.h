@@ -29,7 +29,7 @@ std::size_t packetSize(Traversal family);
 /// A hierarchy with the nodes that one family of traversals walks.
 struct Hierarchy {
     /// wide by default; never Automatic.
-    Hierarchy(bvh::Bvh built, Traversal family = Traversal::Wide);
+    explicit Hierarchy(bvh::Bvh built, Traversal family = Traversal::Wide);
 
     /// The nodes as they go to the device: BvhNode for the wide family, BvhNode4 for the scalar one.
     std::span<const std::byte> nodes() const;
