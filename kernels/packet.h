@@ -11,9 +11,9 @@
 
 /// The rays origin + t direction, tMin < t < tMax; the conditions of closestHit. A lane without a ray has tMax = 0.
 typedef struct {
-    float originX[WEDGE_PACKET_SIZE], originY[WEDGE_PACKET_SIZE], originZ[WEDGE_PACKET_SIZE];
+    float originX[WEDGE_PACKET_SIZE], originY[WEDGE_PACKET_SIZE], originZ[WEDGE_PACKET_SIZE], tMin[WEDGE_PACKET_SIZE];
     float directionX[WEDGE_PACKET_SIZE], directionY[WEDGE_PACKET_SIZE], directionZ[WEDGE_PACKET_SIZE];
-    float tMin[WEDGE_PACKET_SIZE], tMax[WEDGE_PACKET_SIZE];
+    float tMax[WEDGE_PACKET_SIZE];
 } RayPacket;
 
 /// As Hit, lane by lane.
@@ -32,12 +32,6 @@ WEDGE_INLINE void setRay(RayPacket* packet, uint lane, Vec3 origin, Vec3 directi
     packet->directionZ[lane] = direction.z;
     packet->tMin[lane] = tMin;
     packet->tMax[lane] = tMax;
-}
-
-/// Leaves the lane without a ray. It must still hold numbers.
-WEDGE_INLINE void setNoRay(RayPacket* packet, uint lane)
-{
-    setRay(packet, lane, vec3(0.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, 1.0f), 0.0f, 0.0f);
 }
 
 WEDGE_INLINE Hit packetHit(const PacketHits* hits, uint lane)

@@ -82,15 +82,69 @@ WEDGE_FN PacketAxis packetAxis(float16 origin, float16 direction)
     return a;
 }
 
-/// start: that of the low planes of the axis in a node, in floats. live: the lanes that count.
-WEDGE_FN ShaftAxis shaftAxis(const PacketAxis* a, int16 live, uint start, bool* turned)
+// Each of these takes the smaller of neighbouring halves of the parts of x and y, and puts what is left side by side.
+WEDGE_FN float16 mergeHalves(float16 x, float16 y)
+{
+    const float16 first = (float16)(x.lo, y.lo), second = (float16)(x.hi, y.hi);
+    return WEDGE_MIN(first, second);
+}
+WEDGE_FN float16 mergeQuarters(float16 x, float16 y)
+{
+    const float16 first = (float16)(x.s0123, x.s89ab, y.s0123, y.s89ab);
+    const float16 second = (float16)(x.s4567, x.scdef, y.s4567, y.scdef);
+    return WEDGE_MIN(first, second);
+}
+WEDGE_FN float16 mergeEighths(float16 x, float16 y)
+{
+    const float16 first = (float16)(x.s01, x.s45, x.s89, x.scd, y.s01, y.s45, y.s89, y.scd);
+    const float16 second = (float16)(x.s23, x.s67, x.sab, x.sef, y.s23, y.s67, y.sab, y.sef);
+    return WEDGE_MIN(first, second);
+}
+WEDGE_FN float16 mergeSixteenths(float16 x, float16 y)
+{
+    const float16 first = (float16)(x.s02468ace, y.s02468ace), second = (float16)(x.s13579bdf, y.s13579bdf);
+    return WEDGE_MIN(first, second);
+}
+
+/// What the live rays of a packet span: 16 reductions at once cost a third of one after the other.
+typedef struct {
+    float lowOrigin[3], highOrigin[3], lowScale[3], highScale[3]; ///< x, y, z; of origin and nearScale
+    float tMin;
+} PacketExtent;
+
+WEDGE_FN PacketExtent packetExtent(const TraversalPacket* p, int16 live)
+{
+    const float16 none = (float16)(3e38f);
+    const float16 low = mergeEighths(
+        mergeQuarters(mergeHalves(live ? p->x.origin : none, live ? p->y.origin : none),
+            mergeHalves(live ? p->z.origin : none, live ? p->x.nearScale : none)),
+        mergeQuarters(mergeHalves(live ? p->y.nearScale : none, live ? p->z.nearScale : none),
+            mergeHalves(live ? p->tMin : none, none)));
+    const float16 high = mergeEighths(
+        mergeQuarters(mergeHalves(live ? -p->x.origin : none, live ? -p->y.origin : none),
+            mergeHalves(live ? -p->z.origin : none, live ? -p->x.nearScale : none)),
+        mergeQuarters(mergeHalves(live ? -p->y.nearScale : none, live ? -p->z.nearScale : none), none));
+    float least[16];
+    vstore16(mergeSixteenths(low, high), 0, least);
+    PacketExtent e;
+    for (int axis = 0; axis < 3; axis++) {
+        e.lowOrigin[axis] = least[axis];
+        e.lowScale[axis] = least[3 + axis];
+        e.highOrigin[axis] = -least[8 + axis];
+        e.highScale[axis] = -least[11 + axis];
+    }
+    e.tMin = least[6];
+    return e;
+}
+
+/// One axis of the shaft around the live rays. start: that of the axis' low planes in a node, in floats. turned: set
+/// where directions differ in sign.
+WEDGE_FN ShaftAxis shaftAxis(const PacketExtent* extent, int axis, const PacketAxis* a, int16 live, bool* turned)
 {
 #pragma OPENCL FP_CONTRACT ON
-    const float big = 3e38f;
-    const float lowOrigin = smallestOf16(live ? a->origin : (float16)(big));
-    const float highOrigin = largestOf16(live ? a->origin : (float16)(-big));
-    const float lowScale = smallestOf16(live ? a->nearScale : (float16)(big));
-    const float highScale = largestOf16(live ? a->nearScale : (float16)(-big));
+    const uint start = 2 * WEDGE_BVH_WIDTH * axis;
+    const float lowOrigin = extent->lowOrigin[axis], highOrigin = extent->highOrigin[axis];
+    const float lowScale = extent->lowScale[axis], highScale = extent->highScale[axis];
     ShaftAxis s;
     s.turnedScale = 0.0f;
     s.turnedOffset = 0.0f;
@@ -109,9 +163,9 @@ WEDGE_FN ShaftAxis shaftAxis(const PacketAxis* a, int16 live, uint start, bool* 
         return s;
     }
     *turned = true;
-    // lowScale is now the reciprocal of the negative direction nearest to 0, and the fastest rays spread the shaft.
-    const float down = smallestOf16(live ? a->direction : (float16)(big));
-    const float up = largestOf16(live ? a->direction : (float16)(-big));
+    // The reciprocals say nothing about the fastest rays either way, which spread the shaft.
+    const float down = smallestOf16(live ? a->direction : (float16)(0.0f));
+    const float up = largestOf16(live ? a->direction : (float16)(0.0f));
     const float highScale2 = boundedReciprocal(WEDGE_MAX(up, 1e-30f)), lowScale2 = boundedReciprocal(WEDGE_MIN(down, -1e-30f));
     const float nearOffset = -highOrigin * highScale2, turnedOffset = -lowOrigin * lowScale2;
     s.nearScale = highScale2;
@@ -431,10 +485,11 @@ WEDGE_FN void tracePacket(__global const TraversalNode* restrict nodes, __global
         axes.raysZ = axis == 0 ? &p->x : axis == 1 ? &p->y : &p->z;
         Shaft shaft;
         shaft.turned = false;
-        shaft.x = shaftAxis(&p->x, live, 0, &shaft.turned);
-        shaft.y = shaftAxis(&p->y, live, 2 * WEDGE_BVH_WIDTH, &shaft.turned);
-        shaft.z = shaftAxis(&p->z, live, 4 * WEDGE_BVH_WIDTH, &shaft.turned);
-        shaft.tMin = smallestOf16(live ? p->tMin : (float16)(3e38f));
+        const PacketExtent extent = packetExtent(p, live);
+        shaft.x = shaftAxis(&extent, 0, &p->x, live, &shaft.turned);
+        shaft.y = shaftAxis(&extent, 1, &p->y, live, &shaft.turned);
+        shaft.z = shaftAxis(&extent, 2, &p->z, live, &shaft.turned);
+        shaft.tMin = extent.tMin;
         traversePacket(nodes, blocks, &shaft, &axes, p, any);
         result = live ? p->tFar : result;
     }

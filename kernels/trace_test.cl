@@ -23,42 +23,29 @@ __kernel void traceAny(__global const float* restrict rays, __global uint* restr
     occluded[i] = anyHit(nodes, blocks, vec3(ray.s0, ray.s1, ray.s2), vec3(ray.s4, ray.s5, ray.s6), ray.s3, ray.s7);
 }
 
-/// Fills a packet with rays first to first + WEDGE_PACKET_SIZE - 1, as far as there are any.
-WEDGE_FN void loadRays(__global const float* restrict rays, uint first, uint count, RayPacket* packet)
-{
-    for (uint lane = 0; lane < WEDGE_PACKET_SIZE; lane++) {
-        const float8 ray = vload8(min(first + lane, count - 1), rays);
-        const float tMax = first + lane < count ? ray.s7 : 0.0f;
-        setRay(packet, lane, vec3(ray.s0, ray.s1, ray.s2), vec3(ray.s4, ray.s5, ray.s6), ray.s3, tMax);
-    }
-}
-
-/// As traceClosest, WEDGE_PACKET_SIZE consecutive rays a work-item.
-__kernel void traceClosestPackets(__global const float* restrict rays, __global Hit* restrict hits,
+/// As traceClosest, but a packet a work-item: packets and their hits are structures of arrays, as packet.h has them.
+__kernel void traceClosestPackets(__global const RayPacket* restrict packets, __global PacketHits* restrict hits,
     __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks, uint count)
 {
-    const uint first = (uint)get_global_id(0) * WEDGE_PACKET_SIZE;
-    if (first >= count)
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
         return;
-    RayPacket packet;
-    loadRays(rays, first, count, &packet);
+    const RayPacket packet = packets[i];
     PacketHits found;
     closestHits(nodes, blocks, &packet, &found);
-    for (uint lane = 0; lane < WEDGE_PACKET_SIZE && first + lane < count; lane++)
-        hits[first + lane] = packetHit(&found, lane);
+    hits[i] = found;
 }
 
-/// As traceAny, WEDGE_PACKET_SIZE consecutive rays a work-item.
-__kernel void traceAnyPackets(__global const float* restrict rays, __global uint* restrict occluded,
+/// As traceAny, but a packet a work-item. occluded: one a ray.
+__kernel void traceAnyPackets(__global const RayPacket* restrict packets, __global uint* restrict occluded,
     __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks, uint count)
 {
-    const uint first = (uint)get_global_id(0) * WEDGE_PACKET_SIZE;
-    if (first >= count)
+    const uint i = (uint)get_global_id(0);
+    if (i >= count)
         return;
-    RayPacket packet;
-    loadRays(rays, first, count, &packet);
+    const RayPacket packet = packets[i];
     uint found[WEDGE_PACKET_SIZE];
     anyHits(nodes, blocks, &packet, found);
-    for (uint lane = 0; lane < WEDGE_PACKET_SIZE && first + lane < count; lane++)
-        occluded[first + lane] = found[lane];
+    for (uint lane = 0; lane < WEDGE_PACKET_SIZE; lane++)
+        occluded[i * WEDGE_PACKET_SIZE + lane] = found[lane];
 }

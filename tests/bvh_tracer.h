@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bvh/narrow_tree.h"
+#include "bvh/packet_layout.h"
 #include "host/device/buffer.h"
 #include "host/device/program.h"
 #include "host/device/queue.h"
@@ -45,21 +46,30 @@ public:
 
     std::vector<Hit> closest(const Tree& tree, std::span<const Ray> rays)
     {
-        return run<Hit>("traceClosest", tree, rays, 1);
+        return run<Hit>("traceClosest", tree, rays, rays.size(), rays.size());
     }
     /// 1 for each ray that hits anything, else 0.
     std::vector<std::uint32_t> any(const Tree& tree, std::span<const Ray> rays)
     {
-        return run<std::uint32_t>("traceAny", tree, rays, 1);
+        return run<std::uint32_t>("traceAny", tree, rays, rays.size(), rays.size());
     }
     /// The same in packets of consecutive rays.
     std::vector<Hit> closestPackets(const Tree& tree, std::span<const Ray> rays)
     {
-        return run<Hit>("traceClosestPackets", tree, rays, packetSize());
+        const std::size_t packets = (rays.size() + packetSize() - 1) / packetSize();
+        const std::vector<float> packed = bvh::packRays(rays, packetSize());
+        const auto words = run<std::uint32_t>("traceClosestPackets", tree, std::span<const float>(packed), packets,
+            packets * packetSize() * bvh::hitWords);
+        return bvh::unpackHits(words, packetSize(), rays.size());
     }
     std::vector<std::uint32_t> anyPackets(const Tree& tree, std::span<const Ray> rays)
     {
-        return run<std::uint32_t>("traceAnyPackets", tree, rays, packetSize());
+        const std::size_t packets = (rays.size() + packetSize() - 1) / packetSize();
+        const std::vector<float> packed = bvh::packRays(rays, packetSize());
+        auto found = run<std::uint32_t>(
+            "traceAnyPackets", tree, std::span<const float>(packed), packets, packets * packetSize());
+        found.resize(rays.size());
+        return found;
     }
 
     /// Rays that a work-item of the packet kernels takes.
@@ -74,26 +84,28 @@ private:
         return out;
     }
 
-    template <typename Result>
-    std::vector<Result> run(const char* name, const Tree& tree, std::span<const Ray> rays, std::size_t raysEach)
+    /// Launches `items` work-items over the input, which leave `count` results.
+    template <typename Result, typename Input>
+    std::vector<Result> run(
+        const char* name, const Tree& tree, std::span<const Input> input, std::size_t items, std::size_t count)
     {
         const auto bytes =
             family_ == Family::Wide ? std::as_bytes(std::span(tree.wide.nodes)) : std::as_bytes(std::span(tree.narrow));
-        device::Buffer<Ray> rayBuffer(device_, rays.size(), "rays");
-        device::Buffer<Result> results(device_, rays.size(), "results");
+        device::Buffer<Input> rayBuffer(device_, input.size(), "rays");
+        device::Buffer<Result> results(device_, count, "results");
         device::Buffer<std::byte> nodes(device_, bytes.size(), "nodes");
         device::Buffer<shared::TriangleBlock> blocks(device_, tree.wide.blocks.size(), "blocks");
-        rayBuffer.upload(queue_, rays);
+        rayBuffer.upload(queue_, input);
         nodes.upload(queue_, bytes);
         if (!tree.wide.blocks.empty())
             blocks.upload(queue_, tree.wide.blocks);
-        std::vector<Result> untouched(rays.size());
+        std::vector<Result> untouched(count);
         std::memset(static_cast<void*>(untouched.data()), 0x5a, untouched.size() * sizeof(Result));
         results.upload(queue_, untouched);
         device::Kernel kernel = library_.kernel("trace_test.cl", name);
-        kernel.setArgs(rayBuffer, results, nodes, blocks, static_cast<std::uint32_t>(rays.size()));
+        kernel.setArgs(rayBuffer, results, nodes, blocks, static_cast<std::uint32_t>(items));
         const std::size_t local = std::min<std::size_t>(64, kernel.workGroupLimit());
-        queue_.launch(name, device::PassKind::Trace, kernel, (rays.size() + raysEach - 1) / raysEach, local);
+        queue_.launch(name, device::PassKind::Trace, kernel, items, local);
         return results.downloadAll(queue_);
     }
 

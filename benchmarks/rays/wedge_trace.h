@@ -52,14 +52,18 @@ public:
     /// Traces all rays and waits; the results stay on the device until the next call.
     void trace(const WedgeHierarchy& hierarchy, bool packets);
 
-    std::vector<shared::Hit> hits() const { return hits_.downloadAll(tracer_.queue()); }
+    /// What the last call found.
+    std::vector<shared::Hit> hits() const;
     std::vector<std::uint32_t> occluded() const { return occluded_.downloadAll(tracer_.queue()); }
 
 private:
     WedgeTracer& tracer_;
     const RaySet& set_;
-    device::Buffer<float> rays_;
+    std::size_t lanes_; ///< of a packet
+    device::Buffer<float> rays_, packets_; ///< ray by ray, and in packets
     device::Buffer<shared::Hit> hits_;
+    device::Buffer<std::uint32_t> packetHits_; ///< words of PacketHits
+    bool tracedPackets_ = false;
     device::Buffer<std::uint32_t> occluded_;
 };
 
