@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint32_t minParallelSubtree = 1024;
 
 /// Children that share less of the root's area than this gain nothing from spatial splits.
-constexpr double minOverlap = 1e-4;
+constexpr double minOverlap = 5e-3;
 
 /// References that become a subtree: [first, first + count) of one of the two arrays, with room up to first + room.
 struct Work {
@@ -64,9 +64,7 @@ public:
             build(node.children[0], left, arena);
             build(node.children[1], right, arena);
         }
-        weighForest(node, relativeArea(node), config_.traversalCost);
-        node.height = 1 + std::max(node.children[0].height, node.children[1].height);
-        node.blocks = node.children[0].blocks + node.children[1].blocks;
+        completeNode(node, relativeArea(node), config_.traversalCost);
     }
 
 private:

@@ -29,8 +29,12 @@ struct Config {
     /// Whether to sort triangles along a Morton curve and split runs of it instead of triangles: several times faster
     /// to build, slower to trace.
     bool mortonRuns = false;
-    /// References that spatial splits may add, as a share of the triangles; 0 for none. Not with mortonRuns.
+    /// References that spatial splits may add, as a share of the triangles, up to 4; 0 for none. Where some are
+    /// allowed, the tree without them is built too, and the cheaper one taken. Not with mortonRuns.
     float extraReferences = 0;
+    /// Rounds in which subtrees are moved to better places, and the share of all nodes that each tries, by area.
+    unsigned reinsertionRounds = 1;
+    double reinsertionShare = 0.05;
 };
 inline constexpr unsigned maxBins = 32;
 

@@ -86,6 +86,13 @@ void weighForest(BinaryNode& node, float area, float traversalCost)
     }
 }
 
+void completeNode(BinaryNode& node, float area, float traversalCost)
+{
+    weighForest(node, area, traversalCost);
+    node.height = 1 + std::max(node.children[0].height, node.children[1].height);
+    node.blocks = node.children[0].blocks + node.children[1].blocks;
+}
+
 void weighLeaf(BinaryNode& node, float area)
 {
     std::fill(std::begin(node.costs), std::end(node.costs), area * static_cast<float>(node.blocks));

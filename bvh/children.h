@@ -15,6 +15,9 @@ struct Children {
 /// area: of node, relative to the root's; traversalCost: of a node, in tests of a block.
 void weighForest(BinaryNode& node, float area, float traversalCost);
 
+/// Sets what an inner node tells of its two children, its box apart.
+void completeNode(BinaryNode& node, float area, float traversalCost);
+
 /// The same of a leaf: it is one, whatever the room.
 void weighLeaf(BinaryNode& node, float area);
 

@@ -34,6 +34,7 @@ Config config(Mode mode)
     Config config;
     config.mortonRuns = mode == Mode::Fast;
     config.bins = mode == Mode::Fast ? 16 : config.bins;
+    config.reinsertionRounds = mode == Mode::Quality ? 3 : mode == Mode::Fast ? 0 : config.reinsertionRounds;
     config.extraReferences = mode == Mode::Quality ? 0.5f : 0.0f;
     return config;
 }

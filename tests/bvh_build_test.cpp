@@ -137,8 +137,8 @@ TEST_CASE("Triangles without area are kept, counted and flat")
 TEST_CASE("The same bits come out for any number of threads, and every time")
 {
     // Above the sizes at which subtrees, chunks and the collapse go parallel.
-    const TestMesh meshes[] = { soup(120000, 0.01f), waves(220), needles(10000) };
-    for (std::size_t i = 0; i < 3 * std::size(allModes); i++) {
+    const TestMesh meshes[] = { soup(120000, 0.01f), waves(220), needles(10000), clusters() };
+    for (std::size_t i = 0; i < std::size(meshes) * std::size(allModes); i++) {
         const TestMesh& mesh = meshes[i / 3];
         const bvh::Config config = bvh::config(allModes[i % 3]);
         std::vector<bvh::Bvh> results;

@@ -146,6 +146,28 @@ inline TestMesh needles(std::size_t count)
     return mesh;
 }
 
+/// Small dense clusters among large triangles: no plane near the top parts them well.
+inline TestMesh clusters()
+{
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> u(-1.0f, 1.0f);
+    TestMesh mesh { "clusters", {}, {} };
+    for (unsigned cluster = 0; cluster < 60; cluster++) {
+        const TestMesh part = soup(100, 0.3f, cluster + 1);
+        const float at[3] = { u(random), u(random), u(random) }, size = 0.02f + 0.05f * std::fabs(u(random));
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size() / 3);
+        for (std::size_t i = 0; i < part.positions.size(); i++)
+            mesh.positions.push_back(at[i % 3] + size * part.positions[i]);
+        for (const std::uint32_t index : part.indices)
+            mesh.indices.push_back(first + index);
+    }
+    for (int i = 0; i < 100; i++) {
+        const float x = u(random), y = u(random), z = u(random), dx = u(random), dy = u(random), dz = u(random);
+        mesh.add({ x, y, z, x + dx, y, z + dz, x, y + dy, z });
+    }
+    return mesh;
+}
+
 /// A quarter of the triangles have a vertex that is NaN, infinite or out of range.
 inline TestMesh invalidVertices()
 {
