@@ -202,8 +202,9 @@ inline std::vector<TestMesh> nastyMeshes()
     TestMesh one { "one triangle", {}, {} };
     one.add({ -1, -1, 0, 1, -1, 0, 0, 1, 0 });
     return { TestMesh { "empty", {}, {} }, one, soup(1000, 0.2f), waves(24), duplicates(700), degenerates(),
-        unevenSizes(), exponential(), thin(), needles(100), invalidVertices(), flat(), scaled(soup(300, 0.3f), 1e-20f, "tiny"),
-        scaled(soup(300, 0.3f), 7e17f, "huge"), scaled(waves(9), 1e-3f, "small") };
+        unevenSizes(), exponential(), thin(), needles(100), invalidVertices(), flat(),
+        scaled(soup(300, 0.3f), 1e-20f, "tiny"), scaled(soup(300, 0.3f), 7e17f, "huge"),
+        scaled(waves(9), 1e-3f, "small") };
 }
 
 } // namespace wedge::test
