@@ -20,11 +20,15 @@ inline void checkValid(const bvh::Bvh& hierarchy, const TestMesh& mesh)
         FAIL_CHECK(problem);
 }
 
+template <typename T>
+bool sameBits(const bvh::Array<T>& a, const bvh::Array<T>& b)
+{
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
 inline bool sameBits(const bvh::Bvh& a, const bvh::Bvh& b)
 {
-    return a.nodes.size() == b.nodes.size() && a.blocks.size() == b.blocks.size()
-        && std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(a.nodes[0])) == 0
-        && std::memcmp(a.blocks.data(), b.blocks.data(), a.blocks.size() * sizeof(a.blocks[0])) == 0;
+    return sameBits(a.nodes, b.nodes) && sameBits(a.blocks, b.blocks);
 }
 
 } // namespace wedge::test
