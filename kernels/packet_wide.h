@@ -28,6 +28,9 @@ WEDGE_FN uint firstLane16(LaneMask16 lanes)
     return (bit >> 3) + ((bit & 7) == 0 ? 8 : 0);
 }
 
+/// All bits set in the lanes of a set, none in the others.
+WEDGE_FN int16 lanesOf(LaneMask16 lanes) { return convert_int16(as_char16((ulong2)(lanes, lanes << 7))) < 0; }
+
 /// Whether the comparison holds in any lane.
 WEDGE_FN bool anyLane(int16 comparison)
 {
@@ -63,6 +66,8 @@ typedef struct {
     uint16 triangle;
     float16 shearX, shearY; ///< as in TraversalRay
     int16 axis; ///< of the largest component of the direction: 0, 1, 2
+    float16 testOriginX, testOriginY, testOriginZ; ///< as in TraversalRay
+    float16 testDirectionX, testDirectionY, testDirectionZ;
 } TraversalPacket;
 
 WEDGE_FN PacketAxis packetAxis(float16 origin, float16 direction)
@@ -268,21 +273,73 @@ WEDGE_FN LaneMask16 raysMeetBox(__global const BvhNode* node, uint child, const 
     return laneMask16(WEDGE_MAX(nearXY, nearZ0) <= WEDGE_MIN(farXY, farZ0));
 }
 
-/// The axes of the triangle test, which the rays of a traversal share.
+/// The axes of the triangle test.
 typedef struct {
-    uint x, y, z; ///< where their coordinates start in a vertex of a block, in floats
-    const PacketAxis *raysX, *raysY, *raysZ;
+    uint x, y, z; ///< where their coordinates start in a vertex of a block, in floats; for rays that have them in common
+    bool mixed;   ///< the rays do not
 } TestAxes;
 
+/// A point in the axes of each ray's test.
+typedef struct {
+    float16 x, y, z;
+} TurnedPoints;
+
+/// turnAxes() of one point by the axis of each ray.
+WEDGE_FN TurnedPoints turnPoint(float x, float y, float z, int16 axis)
+{
+    const float16 vx = x, vy = y, vz = z;
+    const int16 largestX = axis == 0, largestY = axis == 1;
+    TurnedPoints p;
+    p.x = largestX ? vy : largestY ? vz : vx;
+    p.y = largestX ? vz : largestY ? vx : vy;
+    p.z = largestX ? vx : largestY ? vy : vz;
+    return p;
+}
+
+/// A vertex as the rays' tests see it.
+WEDGE_FN TurnedPoints loadTurned(__global const float* vertex, const TestAxes* axes, int16 axis)
+{
+    if (axes->mixed)
+        return turnPoint(vertex[0], vertex[WEDGE_BLOCK_SIZE], vertex[2 * WEDGE_BLOCK_SIZE], axis);
+    TurnedPoints p;
+    p.x = vertex[axes->x];
+    p.y = vertex[axes->y];
+    p.z = vertex[axes->z];
+    return p;
+}
+
+/// The normal of a triangle as the rays' tests see it: turning axes in a circle turns a cross product with them.
+WEDGE_FN TurnedPoints turnedNormal(__global const float* v0, __global const float* v1, __global const float* v2,
+    const TestAxes* axes, int16 axis)
+{
+    const uint x = axes->mixed ? 0 : axes->x;
+    const uint y = axes->mixed ? WEDGE_BLOCK_SIZE : axes->y;
+    const uint z = axes->mixed ? 2 * WEDGE_BLOCK_SIZE : axes->z;
+    const float e1x = v1[x] - v0[x], e2x = v2[x] - v0[x];
+    const float e1y = v1[y] - v0[y], e2y = v2[y] - v0[y];
+    const float e1z = v1[z] - v0[z], e2z = v2[z] - v0[z];
+    const float nx = e1y * e2z - e1z * e2y, ny = e1z * e2x - e1x * e2z, nz = e1x * e2y - e1y * e2x;
+    if (axes->mixed)
+        return turnPoint(nx, ny, nz, axis);
+    TurnedPoints n;
+    n.x = nx;
+    n.y = ny;
+    n.z = nz;
+    return n;
+}
+
 /// Intersects the triangle in one lane of a block with 16 rays: intersectBlock with the roles exchanged, operation by
-/// operation, so that both find the same hits to the last bit. Returns whether any ray hit it.
-WEDGE_FN bool intersectTriangle(__global const TriangleBlock* block, uint lane, const TestAxes* axes, TraversalPacket* p, const bool any)
+/// operation, so that both find the same hits to the last bit. entering: the rays that count. Returns whether any ray
+/// hit it.
+WEDGE_FN bool intersectTriangle(__global const TriangleBlock* block, uint lane, const TestAxes* axes, int16 entering, TraversalPacket* p, const bool any)
 {
     __global const float *v0 = block->v0x + lane, *v1 = block->v1x + lane, *v2 = block->v2x + lane;
-    const float16 ox = axes->raysX->origin, oy = axes->raysY->origin, oz = axes->raysZ->origin;
-    const float16 ax = v0[axes->x] - ox, ay = v0[axes->y] - oy, az = v0[axes->z] - oz;
-    const float16 bx = v1[axes->x] - ox, by = v1[axes->y] - oy, bz = v1[axes->z] - oz;
-    const float16 cx = v2[axes->x] - ox, cy = v2[axes->y] - oy, cz = v2[axes->z] - oz;
+    const TurnedPoints va = loadTurned(v0, axes, p->axis);
+    const TurnedPoints vb = loadTurned(v1, axes, p->axis);
+    const TurnedPoints vc = loadTurned(v2, axes, p->axis);
+    const float16 ax = va.x - p->testOriginX, ay = va.y - p->testOriginY, az = va.z - p->testOriginZ;
+    const float16 bx = vb.x - p->testOriginX, by = vb.y - p->testOriginY, bz = vb.z - p->testOriginZ;
+    const float16 cx = vc.x - p->testOriginX, cy = vc.y - p->testOriginY, cz = vc.z - p->testOriginZ;
     const float16 sax = ax - p->shearX * az, say = ay - p->shearY * az;
     const float16 sbx = bx - p->shearX * bz, sby = by - p->shearY * bz;
     const float16 scx = cx - p->shearX * cz, scy = cy - p->shearY * cz;
@@ -291,15 +348,12 @@ WEDGE_FN bool intersectTriangle(__global const TriangleBlock* block, uint lane, 
     const float16 w = scx * sby - scy * sbx;
     const float16 least = WEDGE_MIN(WEDGE_MIN(u, v), w), most = WEDGE_MAX(WEDGE_MAX(u, v), w);
     const float16 sum = u + v + w;
-    const int16 inside = ((least >= 0.0f) | (most <= 0.0f)) & (sum != 0.0f);
+    const int16 inside = entering & ((least >= 0.0f) | (most <= 0.0f)) & (sum != 0.0f);
     if (!anyLane(inside))
         return false;
-    const float e1x = v1[axes->x] - v0[axes->x], e2x = v2[axes->x] - v0[axes->x];
-    const float e1y = v1[axes->y] - v0[axes->y], e2y = v2[axes->y] - v0[axes->y];
-    const float e1z = v1[axes->z] - v0[axes->z], e2z = v2[axes->z] - v0[axes->z];
-    const float nx = e1y * e2z - e1z * e2y, ny = e1z * e2x - e1x * e2z, nz = e1x * e2y - e1y * e2x;
-    const float16 t = (nx * ax + ny * ay + nz * az)
-        / (nx * axes->raysX->direction + ny * axes->raysY->direction + nz * axes->raysZ->direction);
+    const TurnedPoints n = turnedNormal(v0, v1, v2, axes, p->axis);
+    const float16 t = (n.x * ax + n.y * ay + n.z * az)
+        / (n.x * p->testDirectionX + n.y * p->testDirectionY + n.z * p->testDirectionZ);
     const uint triangle = block->triangle[lane];
     const int16 nearer = (t < p->tFar) | ((t == p->tFar) & (triangle < p->triangle));
     const int16 hit = inside & (t > p->tMin) & nearer;
@@ -319,12 +373,12 @@ WEDGE_FN bool intersectTriangle(__global const TriangleBlock* block, uint lane, 
 
 /// Below this many rays a subtree is walked by each alone.
 #ifndef WEDGE_MIN_PACKET_RAYS
-#define WEDGE_MIN_PACKET_RAYS 4
+#define WEDGE_MIN_PACKET_RAYS 5
 #endif
 
 #define WEDGE_LANE(vector, lane) (((const float*)&(vector))[lane])
 
-WEDGE_FN TraversalRay rayOfLane(const TraversalPacket* p, const TestAxes* axes, uint lane)
+WEDGE_FN TraversalRay rayOfLane(const TraversalPacket* p, uint lane)
 {
     TraversalRay r;
     r.origin = vec3(WEDGE_LANE(p->x.origin, lane), WEDGE_LANE(p->y.origin, lane), WEDGE_LANE(p->z.origin, lane));
@@ -336,19 +390,18 @@ WEDGE_FN TraversalRay rayOfLane(const TraversalPacket* p, const TestAxes* axes, 
     r.farScale = vec3(WEDGE_LANE(p->x.farScale, lane), WEDGE_LANE(p->y.farScale, lane), WEDGE_LANE(p->z.farScale, lane));
     r.farOffset = vec3(WEDGE_LANE(p->x.farOffset, lane), WEDGE_LANE(p->y.farOffset, lane), WEDGE_LANE(p->z.farOffset, lane));
     choosePlanes(&r);
-    r.testOrigin = vec3(WEDGE_LANE(axes->raysX->origin, lane), WEDGE_LANE(axes->raysY->origin, lane), WEDGE_LANE(axes->raysZ->origin, lane));
-    r.testDirection = vec3(WEDGE_LANE(axes->raysX->direction, lane), WEDGE_LANE(axes->raysY->direction, lane), WEDGE_LANE(axes->raysZ->direction, lane));
+    r.testOrigin = vec3(WEDGE_LANE(p->testOriginX, lane), WEDGE_LANE(p->testOriginY, lane), WEDGE_LANE(p->testOriginZ, lane));
+    r.testDirection
+        = vec3(WEDGE_LANE(p->testDirectionX, lane), WEDGE_LANE(p->testDirectionY, lane), WEDGE_LANE(p->testDirectionZ, lane));
     r.shearX = WEDGE_LANE(p->shearX, lane);
     r.shearY = WEDGE_LANE(p->shearY, lane);
-    r.axisX = axes->x;
-    r.axisY = axes->y;
-    r.axisZ = axes->z;
+    chooseAxes(&r, ((const int*)&p->axis)[lane]);
     return r;
 }
 
 /// Walks the subtree of a reference with each of some rays alone.
 WEDGE_FN void traverseAlone(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
-    uint reference, LaneMask16 lanes, const TestAxes* axes, TraversalPacket* p, const bool any)
+    uint reference, LaneMask16 lanes, TraversalPacket* p, const bool any)
 {
     for (; lanes; lanes &= lanes - 1) {
         const uint lane = firstLane16(lanes);
@@ -359,7 +412,7 @@ WEDGE_FN void traverseAlone(__global const TraversalNode* restrict nodes, __glob
         hit.u = ((float*)&p->u)[lane];
         hit.v = ((float*)&p->v)[lane];
         hit.triangle = ((uint*)&p->triangle)[lane];
-        const TraversalRay ray = rayOfLane(p, axes, lane);
+        const TraversalRay ray = rayOfLane(p, lane);
         const uint before = hit.triangle;
         traverse(nodes, blocks, reference, &ray, any, &hit);
         if (any) {
@@ -373,8 +426,7 @@ WEDGE_FN void traverseAlone(__global const TraversalNode* restrict nodes, __glob
     }
 }
 
-/// Walks the hierarchy with the rays of a packet whose direction is largest along axes->z. With any, a ray that hit
-/// something has tFar < 0.
+/// Walks the hierarchy with the rays of a packet. With any, a ray that hit something has tFar < 0.
 WEDGE_FN void traversePacket(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
     const Shaft* shaft, const TestAxes* axes, TraversalPacket* p, const bool any)
 {
@@ -387,17 +439,19 @@ WEDGE_FN void traversePacket(__global const TraversalNode* restrict nodes, __glo
     LaneMask16 live = ~0ul;
     for (;;) {
         if (popcount(live) < WEDGE_MIN_PACKET_RAYS) {
-            traverseAlone(nodes, blocks, current, live, axes, p, any);
+            traverseAlone(nodes, blocks, current, live, p, any);
             tCull = largestOf16(p->tFar) * WEDGE_WIDEN_T;
             if (any && tCull < 0.0f)
                 return;
         } else if (current & WEDGE_BVH_LEAF) {
             __global const TriangleBlock* block = blocks + ((current & ~WEDGE_BVH_LEAF) >> 3);
+            // A ray that misses the box may pass a triangle within rounding: alone it would not see it either.
+            const int16 entering = lanesOf(live);
             bool found = false;
             for (uint left = current & 7u; left != 0; left--, block++) {
                 LaneMask lanes = shaftTriangles(block, shaft, tCull);
                 for (; lanes; lanes = dropFirstLane(lanes))
-                    found |= intersectTriangle(block, firstLane(lanes), axes, p, any);
+                    found |= intersectTriangle(block, firstLane(lanes), axes, entering, p, any);
             }
             if (found) {
                 tCull = largestOf16(p->tFar) * WEDGE_WIDEN_T;
@@ -457,43 +511,44 @@ WEDGE_FN void loadPacket(const RayPacket* packet, float unit, TraversalPacket* p
     const int16 largestX = (dx >= dy) & (dx >= dz);
     const int16 largestY = ~largestX & (dy >= dz);
     p->axis = largestX ? (int16)(0) : largestY ? (int16)(1) : (int16)(2);
-    const float16 x = largestX ? p->y.direction : largestY ? p->z.direction : p->x.direction;
-    const float16 y = largestX ? p->z.direction : largestY ? p->x.direction : p->y.direction;
-    const float16 z = largestX ? p->x.direction : largestY ? p->y.direction : p->z.direction;
-    p->shearX = x / z;
-    p->shearY = y / z;
+    p->testOriginX = largestX ? p->y.origin : largestY ? p->z.origin : p->x.origin;
+    p->testOriginY = largestX ? p->z.origin : largestY ? p->x.origin : p->y.origin;
+    p->testOriginZ = largestX ? p->x.origin : largestY ? p->y.origin : p->z.origin;
+    p->testDirectionX = largestX ? p->y.direction : largestY ? p->z.direction : p->x.direction;
+    p->testDirectionY = largestX ? p->z.direction : largestY ? p->x.direction : p->y.direction;
+    p->testDirectionZ = largestX ? p->x.direction : largestY ? p->y.direction : p->z.direction;
+    p->shearX = p->testDirectionX / p->testDirectionZ;
+    p->shearY = p->testDirectionY / p->testDirectionZ;
 }
 
-/// Sends the rays through the hierarchy, those of each largest axis of the direction together: nearly always all.
+/// The axes of the live rays' tests.
+WEDGE_FN TestAxes testAxes(const TraversalPacket* p, int16 live)
+{
+    const int first = ((const int*)&p->axis)[firstLane16(laneMask16(live))];
+    TestAxes axes;
+    axes.x = (first == 0 ? 1 : first == 1 ? 2 : 0) * WEDGE_BLOCK_SIZE;
+    axes.y = (first == 0 ? 2 : first == 1 ? 0 : 1) * WEDGE_BLOCK_SIZE;
+    axes.z = first * WEDGE_BLOCK_SIZE;
+    axes.mixed = anyLane(live & (p->axis != first));
+    return axes;
+}
+
+/// Sends the rays through the hierarchy.
 WEDGE_FN void tracePacket(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
     TraversalPacket* p, const bool any)
 {
-    const int16 valid = p->tFar >= 0.0f;
-    const float16 tFar = p->tFar;
-    float16 result = tFar;
-    for (int axis = 0; axis < 3; axis++) {
-        const int16 live = valid & (p->axis == axis);
-        if (!anyLane(live))
-            continue;
-        p->tFar = live ? tFar : (float16)(-1.0f);
-        TestAxes axes;
-        axes.x = (axis == 0 ? 1 : axis == 1 ? 2 : 0) * WEDGE_BLOCK_SIZE;
-        axes.y = (axis == 0 ? 2 : axis == 1 ? 0 : 1) * WEDGE_BLOCK_SIZE;
-        axes.z = axis * WEDGE_BLOCK_SIZE;
-        axes.raysX = axis == 0 ? &p->y : axis == 1 ? &p->z : &p->x;
-        axes.raysY = axis == 0 ? &p->z : axis == 1 ? &p->x : &p->y;
-        axes.raysZ = axis == 0 ? &p->x : axis == 1 ? &p->y : &p->z;
-        Shaft shaft;
-        shaft.turned = false;
-        const PacketExtent extent = packetExtent(p, live);
-        shaft.x = shaftAxis(&extent, 0, &p->x, live, &shaft.turned);
-        shaft.y = shaftAxis(&extent, 1, &p->y, live, &shaft.turned);
-        shaft.z = shaftAxis(&extent, 2, &p->z, live, &shaft.turned);
-        shaft.tMin = extent.tMin;
-        traversePacket(nodes, blocks, &shaft, &axes, p, any);
-        result = live ? p->tFar : result;
-    }
-    p->tFar = result;
+    const int16 live = p->tFar >= 0.0f;
+    if (!anyLane(live))
+        return;
+    const TestAxes axes = testAxes(p, live);
+    const PacketExtent extent = packetExtent(p, live);
+    Shaft shaft;
+    shaft.turned = false;
+    shaft.x = shaftAxis(&extent, 0, &p->x, live, &shaft.turned);
+    shaft.y = shaftAxis(&extent, 1, &p->y, live, &shaft.turned);
+    shaft.z = shaftAxis(&extent, 2, &p->z, live, &shaft.turned);
+    shaft.tMin = extent.tMin;
+    traversePacket(nodes, blocks, &shaft, &axes, p, any);
 }
 
 /// closestHit() of each lane. A lane without a ray hits nothing.

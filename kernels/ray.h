@@ -58,6 +58,14 @@ WEDGE_FN void choosePlanes(TraversalRay* ray)
     ray->farZ = 9 * WEDGE_NODE_WIDTH - ray->nearZ;
 }
 
+/// Finds the coordinates of vertices in the axes of the triangle test. largest: axis of the direction's largest component.
+WEDGE_FN void chooseAxes(TraversalRay* ray, int largest)
+{
+    ray->axisX = (largest == 0 ? 1 : largest == 1 ? 2 : 0) * WEDGE_BLOCK_SIZE;
+    ray->axisY = (largest == 0 ? 2 : largest == 1 ? 0 : 1) * WEDGE_BLOCK_SIZE;
+    ray->axisZ = largest * WEDGE_BLOCK_SIZE;
+}
+
 /// Prepares the ray origin + t direction, tMin < t < tMax; a negative tMin counts as 0. unit: that of the root node.
 /// Returns false where it can hit nothing: a component is not finite or the interval is empty.
 WEDGE_FN bool prepareRay(TraversalRay* ray, float unit, Vec3 origin, Vec3 direction, float tMin, float tMax)
@@ -81,9 +89,7 @@ WEDGE_FN bool prepareRay(TraversalRay* ray, float unit, Vec3 origin, Vec3 direct
     ray->farOffset = vecMad(slack, offset, WEDGE_WIDEN_T);
     const bool largestX = fabs(direction.x) >= fabs(direction.y) && fabs(direction.x) >= fabs(direction.z);
     const bool largestY = !largestX && fabs(direction.y) >= fabs(direction.z);
-    ray->axisX = (largestX ? 1 : largestY ? 2 : 0) * WEDGE_BLOCK_SIZE;
-    ray->axisY = (largestX ? 2 : largestY ? 0 : 1) * WEDGE_BLOCK_SIZE;
-    ray->axisZ = (largestX ? 0 : largestY ? 1 : 2) * WEDGE_BLOCK_SIZE;
+    chooseAxes(ray, largestX ? 0 : largestY ? 1 : 2);
     ray->testOrigin = turnAxes(origin, largestX, largestY);
     ray->testDirection = turnAxes(direction, largestX, largestY);
     ray->shearX = ray->testDirection.x / ray->testDirection.z;

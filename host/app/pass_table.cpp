@@ -17,7 +17,7 @@ using device::PassRecord;
 std::vector<PassRecord> rows(const std::vector<PassRecord>& passes)
 {
     std::vector<PassRecord> out;
-    PassRecord transfers { "transfers", PassKind::Transfer, 0.0, 0, 0 };
+    PassRecord transfers { "transfers", PassKind::Transfer, 0.0, 0, 0, {} };
     for (const PassRecord& pass : passes) {
         if (pass.kind == PassKind::Transfer) {
             transfers.milliseconds += pass.milliseconds;

@@ -64,7 +64,7 @@ std::size_t TimedQueue::passOf(std::string_view name, PassKind kind)
         assert(found->record.kind == kind);
         return static_cast<std::size_t>(found - passes_.begin());
     }
-    passes_.push_back({ { std::string(name), kind, 0.0, 0, 0 }, "" });
+    passes_.push_back({ { std::string(name), kind, 0.0, 0, 0, {} }, "" });
     return passes_.size() - 1;
 }
 
@@ -92,6 +92,10 @@ void TimedQueue::enqueueKernel(std::size_t pass, Kernel& kernel, Size global, Si
 {
     if (passes_[pass].kernel.empty() || waitForEach_) {
         passes_[pass].kernel = kernel.description();
+    }
+    std::vector<std::string>& kernels = passes_[pass].record.kernels;
+    if (std::find(kernels.begin(), kernels.end(), kernel.name()) == kernels.end()) {
+        kernels.push_back(kernel.name());
     }
     submit(pass, [&](cl::Event& event) {
         const std::size_t globalSizes[] = { global.x, global.y };

@@ -29,6 +29,7 @@ struct PassRecord {
     double milliseconds = 0.0; ///< on the device
     std::uint64_t bytes = 0; ///< moved by transfers, and by kernels that said so with addBytes()
     unsigned launches = 0;
+    std::vector<std::string> kernels; ///< that it launched, each once, in their order
 };
 
 /// The user asked to stop.

@@ -71,7 +71,8 @@ Json frameSection(const FrameStatistics& frame, const Settings& settings)
     Json passes = Json::array();
     for (const device::PassRecord& pass : frame.passes) {
         passes.push_back({ { "name", pass.name }, { "kind", device::passKindName(pass.kind) },
-            { "ms", pass.milliseconds }, { "bytes", pass.bytes }, { "launches", pass.launches } });
+            { "ms", pass.milliseconds }, { "bytes", pass.bytes }, { "launches", pass.launches },
+            { "kernels", pass.kernels } });
     }
     return { { "complete", frame.complete }, { "total_ms", frame.deviceMilliseconds },
         { "wall_ms", frame.wallMilliseconds }, { "overhead_fraction", frame.overheadFraction() },

@@ -4,7 +4,8 @@
 # anything (its exit status is always 0), or if some kernel never ran.
 #
 # Without optimisation, since Oclgrind 21.10 does not know intrinsics that the optimiser puts in. Without
-# --uninitialized, which in this version takes constants that an earlier kernel stored for uninitialised.
+# --uninitialized, which in this version takes constants that an earlier kernel stored for uninitialised, and without
+# --inst-counts, which corrupts its own memory; the program's reports say which kernels ran.
 set -euo pipefail
 wedge=${1:?oclgrind_frame.sh: error: no program: name wedge}
 sources=${2:?oclgrind_frame.sh: error: no source folder: name the one above kernels/ and data/}
@@ -22,15 +23,16 @@ export WEDGE_CACHE_DIR=
 simulate() {
     local name=$1
     shift
-    oclgrind --build-options -cl-opt-disable --data-races --check-api --inst-counts --max-errors 20 \
-        --log "$work/$name.log" "$wedge" render "$@" --layers all -o "$work/$name.exr" >"$work/$name.out" 2>&1
+    oclgrind --build-options -cl-opt-disable --data-races --check-api --max-errors 20 \
+        --log "$work/$name.log" "$wedge" render "$@" --layers all -o "$work/$name.exr" \
+        --report "$work/$name.json" >"$work/$name.out" 2>&1
 }
 
 check() {
     if ! simulate "$@" || ! grep -q "Oclgrind" "$work/$1.out" || [ ! -s "$work/$1.exr" ] || [ -s "$work/$1.log" ]; then
         echo "oclgrind_frame: failed: $*" >&2
         cat "$work/$1.log" >&2
-        grep -v '^ *[0-9]\|^Instructions\|^$' "$work/$1.out" >&2
+        cat "$work/$1.out" >&2
         return 1
     fi
     echo "$1: nothing to report"
@@ -54,7 +56,7 @@ checkSabotaged() {
 checkAllKernelsRan() {
     local kernel missing=0
     for kernel in $(grep -hoP '__kernel void \K\w+' $(ls "$sources"/kernels/*.cl | grep -v _test.cl)); do
-        grep -qF "kernel '$kernel'" "$work"/*.out || { echo "oclgrind_frame: kernel never ran: $kernel" >&2; missing=1; }
+        grep -qF "\"$kernel\"" "$work"/*.json || { echo "oclgrind_frame: kernel never ran: $kernel" >&2; missing=1; }
     done
     return $missing
 }
