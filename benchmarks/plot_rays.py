@@ -53,7 +53,7 @@ def plot_growth(growth, folder):
     names = list(growth[0]["classes"])
     figure, panels = plt.subplots(1, len(names), figsize=(5.6 * len(names), 4.4), squeeze=False)
     for axes, name in zip(panels[0], names):
-        chosen = "wedge packets" if name == "primary" else "wedge single"
+        chosen = "wedge packets"
         for column, colour, marker in [(chosen, "#1f3fa8", "*")] + GROWTH_COLUMNS:
             points = [(p["triangles"], p["classes"][name]["ns_per_ray"][column]) for p in growth]
             axes.plot([n for n, _ in points], [t["median"] for _, t in points], color=colour, marker=marker,

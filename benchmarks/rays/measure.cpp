@@ -111,7 +111,7 @@ const Runs& ClassResult::column(const std::string& wanted) const
     return *found;
 }
 
-std::string ClassResult::chosen(const std::string& mode) const { return wedgeColumn(coherent, mode); }
+std::string ClassResult::chosen(const std::string& mode) const { return wedgeColumn(true, mode); }
 
 std::string ClassResult::embreeBest() const
 {
