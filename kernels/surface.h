@@ -101,6 +101,11 @@ WEDGE_FN Surface surfaceAt(SurfaceData data, Hit hit, Vec3 direction)
     s.emission = material.emission;
     s.exponent = material.exponent;
     s.specularModel = material.specularModel;
+    const bool textured = material.diffuseTexture != WEDGE_NO_TEXTURE || material.specularTexture != WEDGE_NO_TEXTURE
+        || material.emissionTexture != WEDGE_NO_TEXTURE || material.exponentTexture != WEDGE_NO_TEXTURE;
+    if (!textured) {
+        return s;
+    }
     const float tu = data.texcoords[2u * ia] * wa + data.texcoords[2u * ib] * hit.u + data.texcoords[2u * ic] * hit.v;
     const float tv = data.texcoords[2u * ia + 1u] * wa + data.texcoords[2u * ib + 1u] * hit.u
         + data.texcoords[2u * ic + 1u] * hit.v;

@@ -3,6 +3,7 @@
 #include "host/render/quadrature.h"
 #include "kernels/shared/bsdf.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -113,6 +114,14 @@ shared::AreaLight deviceLight(const scene::AreaLight& light)
     return d;
 }
 
+bool hasSpecular(const scene::Scene& scene)
+{
+    return std::ranges::any_of(scene.geometry.materialIds, [&](std::uint32_t id) {
+        const glm::vec3 s = scene.materials[id].specular;
+        return s.r + s.g + s.b > 0.0f;
+    });
+}
+
 void DeviceScene::plan(device::MemoryPlan& plan, const scene::Scene& scene, const Hierarchy& hierarchy)
 {
     const scene::Geometry& g = scene.geometry;
@@ -168,9 +177,7 @@ DeviceScene::DeviceScene(
     deltaLightCount = static_cast<std::uint32_t>(delta.size());
     const scene::Bounds bounds = scene::sceneBounds(scene);
     diameter = bounds.empty() ? 1.0f : glm::length(bounds.hi - bounds.lo);
-    for (const scene::Material& m : scene.materials) {
-        specular = specular || m.specular.r + m.specular.g + m.specular.b > 0.0f;
-    }
+    specular = hasSpecular(scene);
 }
 
 } // namespace wedge::render

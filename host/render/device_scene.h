@@ -15,6 +15,10 @@ namespace wedge::render {
 /// The light as kernels take it: profile integrated, axes, standard deviations.
 shared::AreaLight deviceLight(const scene::AreaLight& light);
 
+/// Whether any triangle has a material that reflects specularly. What lies unused in a mesh's library does not count:
+/// lobes cost more than all else of a shadow ray.
+bool hasSpecular(const scene::Scene& scene);
+
 /// The scene on the device: hierarchy, geometry, materials, textures, lights.
 class DeviceScene {
 public:
@@ -43,7 +47,7 @@ public:
     std::vector<device::Buffer<float>> quadratures; ///< one a light: coarse nodes, then fine, (position, weight)
     std::uint32_t deltaLightCount = 0;
     float diameter = 0; ///< metres, diagonal of the bounds
-    bool specular = false; ///< some material reflects specularly
+    bool specular = false; ///< hasSpecular()
 };
 
 } // namespace wedge::render

@@ -18,11 +18,6 @@ double secondsSince(Clock::time_point start) { return std::chrono::duration<doub
 
 bool needsAnalysis(const Settings& settings) { return settings.method == Method::AxisAligned; }
 
-bool hasSpecular(const scene::Scene& scene)
-{
-    return std::ranges::any_of(scene.materials, [](const scene::Material& m) { return m.specular.r + m.specular.g + m.specular.b > 0; });
-}
-
 device::BuildOptions programOptions(const scene::Scene& scene, const Options& options, Traversal traversal)
 {
     device::BuildOptions out;
