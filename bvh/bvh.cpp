@@ -72,6 +72,7 @@ Bvh build(const Mesh& mesh, const Config& config)
         static_cast<double>(mesh.indices.size() / 3) * (1.0 + static_cast<double>(config.extraReferences)) < 1 << 28);
     assert(config.traversalCost > 0 && config.bins >= 2 && config.bins <= maxBins);
     assert(config.maxLeafBlocks >= 1 && config.maxLeafBlocks <= WEDGE_BVH_MAX_LEAF_BLOCKS);
+    assert(!(config.mortonRuns && config.extraReferences > 0));
     assert(config.extraReferences >= 0 && config.extraReferences <= 4);
 
     const auto start = std::chrono::steady_clock::now();

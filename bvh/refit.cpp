@@ -6,7 +6,6 @@
 #include "bvh/wide_node.h"
 
 #include <chrono>
-#include <numeric>
 #include <optional>
 
 namespace wedge::bvh {

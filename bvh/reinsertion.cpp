@@ -6,7 +6,6 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace wedge::bvh::detail {
 namespace {
@@ -160,6 +159,10 @@ private:
         const std::uint32_t all[] = { move.node, parent, sibling, grandparent, move.target, beside };
         for (const std::uint32_t node : all)
             if (node == none || touched[node])
+                return false;
+        // Moves before this one may have put the target below the node, where boxes are equal but for rounding.
+        for (std::uint32_t above = move.target; above != none; above = nodes_[above].parent)
+            if (above == move.node)
                 return false;
         for (const std::uint32_t node : all)
             touched[node] = true;

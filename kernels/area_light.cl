@@ -120,12 +120,12 @@ __kernel void secondPass(FrameParams frame, SampleParams params, AreaLight light
         count[lane] = shaded ? wanted[i] : 0u;
         last[lane] = min(count[lane], lastSample);
         steps = max(steps, last[lane] > index[lane] ? last[lane] - index[lane] : 0u);
-        sum.diffuse[lane] = sums[i];
-        sum.diffuseVisible[lane] = sums[size + i];
+        sum.diffuse[lane] = shaded ? sums[i] : 0.0f;
+        sum.diffuseVisible[lane] = shaded ? sums[size + i] : 0.0f;
         sum.specular[lane] = sum.specularVisible[lane] = 0.0f;
 #ifdef WEDGE_SPECULAR
-        sum.specular[lane] = sums[2u * size + i];
-        sum.specularVisible[lane] = sums[3u * size + i];
+        sum.specular[lane] = shaded ? sums[2u * size + i] : 0.0f;
+        sum.specularVisible[lane] = shaded ? sums[3u * size + i] : 0.0f;
 #endif
         sum.rays[lane] = 0u;
     }

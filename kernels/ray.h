@@ -22,13 +22,12 @@
 #define WEDGE_WIDEN_PLANE 1e-12f
 
 // Written as a choice, not as min and max: where one operand is NaN (infinity minus infinity, from origins far beyond
-// the scene) it takes the other, which errs towards entering a box; and it is one instruction.
+// the scene) it takes the second, which errs towards entering a box; and it is one instruction.
 #define WEDGE_MIN(a, b) ((a) < (b) ? (a) : (b))
 #define WEDGE_MAX(a, b) ((a) > (b) ? (a) : (b))
 
 /// A ray as the tests want it, in the units of the hierarchy. t is the caller's.
 typedef struct {
-    Vec3 origin, direction;
     float tMin, tMax; ///< hits have tMin < t <= tMax
     Vec3 nearScale, nearOffset; ///< t of a near plane p = p scale + offset, rounded towards earlier
     Vec3 farScale, farOffset; ///< the same of the far planes, towards later
@@ -73,8 +72,6 @@ WEDGE_FN bool prepareRay(TraversalRay* ray, float unit, Vec3 origin, Vec3 direct
 #pragma OPENCL FP_CONTRACT ON
     origin = vecScale(origin, unit);
     direction = vecScale(direction, unit);
-    ray->origin = origin;
-    ray->direction = direction;
     ray->tMin = WEDGE_MAX(tMin, 0.0f);
     // The float before tMax, or before infinity.
     ray->tMax = as_float(as_uint(tMax) - 1u);

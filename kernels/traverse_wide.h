@@ -8,7 +8,8 @@
 /// The node that this family of traversals walks.
 typedef BvhNode TraversalNode;
 
-/// Walks the subtree of a reference (0: all) front to back, and writes the nearest hit, or, with any, the first one it comes across.
+/// Walks the subtree of a reference (0: all) front to back, and writes the nearest hit, or, with any, the first one it
+/// comes across.
 /// Nodes and leaves take turns in one flat loop, which is faster here than a loop over nodes that ends in a loop
 /// over leaves. The builder guarantees that the stack suffices.
 WEDGE_FN void traverse(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,

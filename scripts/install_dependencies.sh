@@ -23,7 +23,7 @@ build    libcli11-dev            the command line
 build    libfmt-dev              text
 build    nlohmann-json3-dev      reports
 build    doctest-dev             the tests; configuring looks for it
-build    libembree-dev           what the benchmark of rays measures itself against; configuring looks for it
+build    libembree-dev           what benchmarks measure rays and builds against; configuring looks for it
 test     clang-15                front end of three GPU targets, lints the kernels
 test     oclgrind                runs kernels and reports bad accesses and races
 test     mesa-opencl-icd         a second OpenCL driver, of another vendor

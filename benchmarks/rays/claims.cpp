@@ -35,6 +35,12 @@ void addClass(std::vector<Claim>& out, const std::string& scene, const ClassResu
     add(out, prefix + "_vs_embree_single" + suffix, result.ratios(ours, "embree single"), "1", goal->single);
     add(out, prefix + "_vs_embree_packet" + suffix, result.ratios(ours, "embree packets high"), "1", goal->packet);
     add(out, prefix + "_vs_embree_best" + suffix, result.ratios(ours, result.embreeBest()), "1", goal->best);
+    if (result.coherent)
+        return;
+    // Incoherent rays by our single rays too, like against like.
+    const std::string single = wedgeColumn(false, mode);
+    add(out, prefix + "_single_vs_embree_single" + suffix, result.ratios(single, "embree single"), "1", goal->single);
+    add(out, prefix + "_single_vs_embree_best" + suffix, result.ratios(single, result.embreeBest()), "1", goal->best);
 }
 
 } // namespace
@@ -47,6 +53,8 @@ std::vector<Claim> claimsOf(const RaySceneResult& scene)
         addClass(out, scene.name, result, "quality");
         out.push_back({ "rays." + scene.name + "." + result.name + "_unexplained_hits",
             static_cast<double>(result.difference.unexplained()), "rays", {}, {}, 0.0 });
+        out.push_back({ "rays." + scene.name + "." + result.name + "_packets_unlike_single",
+            static_cast<double>(result.packetMismatches), "rays", {}, {}, 0.0 });
     }
     if (scene.frame) {
         const FrameResult& frame = *scene.frame;

@@ -52,7 +52,7 @@ struct ClassResult {
     std::size_t packetMismatches = 0; ///< rays for which our packets and our single rays find other bits
 
     const Runs& column(const std::string& name) const;
-    /// The column that the renderer goes by: packets, which are at least as fast as single rays for all classes.
+    /// The column that the renderer goes by: packets: it has no other rays.
     std::string chosen(const std::string& mode = "") const;
     /// Embree's fastest column by its median, watertight builds left out.
     std::string embreeBest() const;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -33,16 +34,9 @@ public:
         : name_(std::move(name))
         , size_(count)
     {
-        const DeviceInfo& info = device.info();
-        // Tested here because some drivers abort the program.
-        if (count > info.maxAllocation / sizeof(T)) {
-            throw Error(fmt::format("buffer {} of {} elements on {}", name_, count, info.name),
-                fmt::format("{:.1f} MiB, the limit is {}", static_cast<double>(count) * sizeof(T) / 1048576.0,
-                    mebibytes(info.maxAllocation)),
-                "render a smaller image, or choose a device with more memory");
-        }
+        requireAllocation(device.info());
         const std::size_t bytes = std::max<std::size_t>(count, 1) * sizeof(T);
-        checked(fmt::format("buffer {} ({})", name_, mebibytes(bytes)), info.name,
+        checked(fmt::format("buffer {} ({})", name_, mebibytes(bytes)), device.info().name,
             [&] { buffer_ = cl::Buffer(device.context(), CL_MEM_READ_WRITE, bytes); });
     }
 
@@ -59,6 +53,8 @@ public:
             return copy;
         }
         Buffer shared(std::move(name), values.size());
+        shared.requireAllocation(device.info());
+        shared.readOnly_ = true;
         checked(fmt::format("buffer {} ({})", shared.name_, mebibytes(shared.bytes())), device.info().name, [&] {
             shared.buffer_ = cl::Buffer(device.context(), CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, shared.bytes(),
                 const_cast<std::remove_const_t<T>*>(values.data()));
@@ -69,6 +65,7 @@ public:
     /// Copies values to the elements from `offset` on.
     void upload(TimedQueue& queue, std::span<const T> values, std::size_t offset = 0)
     {
+        assert(!readOnly_);
         requireInside("upload to", values.size(), offset);
         queue.write("upload " + name_, buffer_, offset * sizeof(T), values.size_bytes(), values.data());
     }
@@ -91,6 +88,7 @@ public:
     /// Sets all elements to value.
     void fill(TimedQueue& queue, T value)
     {
+        assert(!readOnly_);
         if constexpr (std::has_single_bit(sizeof(T)) && sizeof(T) <= 128) {
             queue.fill("fill " + name_, buffer_, bytes(), &value, sizeof(T));
         } else {
@@ -112,6 +110,17 @@ private:
     {
     }
 
+    void requireAllocation(const DeviceInfo& info) const
+    {
+        // Tested here because some drivers abort the program.
+        if (size_ > info.maxAllocation / sizeof(T)) {
+            throw Error(fmt::format("buffer {} of {} elements on {}", name_, size_, info.name),
+                fmt::format("{:.1f} MiB, the limit is {}", static_cast<double>(size_) * sizeof(T) / 1048576.0,
+                    mebibytes(info.maxAllocation)),
+                "render a smaller image, or choose a device with more memory");
+        }
+    }
+
     void requireInside(const char* action, std::size_t count, std::size_t offset) const
     {
         if (offset > size_ || count > size_ - offset) {
@@ -122,6 +131,7 @@ private:
 
     std::string name_;
     std::size_t size_ = 0;
+    bool readOnly_ = false; ///< shares its owner's memory, which nothing here may write
     cl::Buffer buffer_;
 };
 

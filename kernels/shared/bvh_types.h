@@ -17,7 +17,7 @@
 #define WEDGE_BVH_MAX_LEAF_BLOCKS 7
 /// Marks an unused lane of a block, and the primitive of a ray that hit nothing.
 #define WEDGE_NO_TRIANGLE 0xffffffffu
-/// Traversal stack entries; the builder guarantees that no traversal needs more.
+/// Stack entries of a single ray; the builder guarantees that none needs more. Packets need one more.
 #define WEDGE_BVH_STACK 96
 
 /// Rays that the wide family traces together: a block of 4x4 pixels.
