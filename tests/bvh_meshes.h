@@ -118,6 +118,19 @@ inline TestMesh exponential()
     return mesh;
 }
 
+/// Sizes that fall by a factor of two from one cluster to the next over 120 octaves: every plane at even distances
+/// parts off the largest alone.
+inline TestMesh deep()
+{
+    TestMesh mesh { "deep", {}, {} };
+    for (int i = 0; i < 119; i++)
+        for (int copy = 0; copy < 70; copy++) {
+            const float s = std::ldexp(1.0f, i - 60);
+            mesh.add({ s, 0, 0, s, s * 0.01f, 0, s, 0, s * 0.01f });
+        }
+    return mesh;
+}
+
 inline TestMesh thin()
 {
     std::mt19937 random(5);

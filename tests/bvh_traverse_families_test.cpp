@@ -107,6 +107,23 @@ TEST_CASE("Families and packets agree in hierarchies of every mode")
     });
 }
 
+TEST_CASE("Families and packets agree in the deepest trees, whose stacks they fill")
+{
+    const TestMesh mesh = deep();
+    const Tree tree(mesh, { 1e-3f, 2, 1 });
+    // Rays within the nested boxes, above the triangles' diagonal or below it: the first pass through all of them.
+    std::vector<Ray> rays;
+    for (unsigned i = 0; i < 256; i++) {
+        const float a = 0.0005f * static_cast<float>(i % 16), b = 0.0005f * static_cast<float>(i / 16);
+        rays.push_back({ vec3(0, 0, 0), 0, vec3(1, 0.001f + a, 0.001f + b), infinity });
+    }
+    onAllWays([&](Ways& ways) {
+        const std::size_t hits = ways.check(mesh, tree, rays);
+        CHECK(hits > 50);
+        CHECK(hits < 206);
+    });
+}
+
 TEST_CASE("Coherent packets agree with single rays, whatever the signs of their directions")
 {
     const TestMesh mesh = waves(40);
