@@ -1,5 +1,6 @@
 // bvh_build: times and memory of our hierarchies beside Embree's over the same meshes; docs/benchmarks.md.
 #include "benchmarks/bvh_build/results.h"
+#include "benchmarks/common/program.h"
 #include "benchmarks/common/synthetic_mesh.h"
 #include "benchmarks/rays/scenes.h"
 #include "host/error.h"
@@ -110,13 +111,6 @@ int run(const Arguments& a)
     return 0;
 }
 
-int fail(const std::string& message, int status)
-{
-    std::fflush(stdout);
-    fmt::print(stderr, "bvh_build: error: {}\n", message);
-    return status;
-}
-
 } // namespace
 
 int main(int argc, char** argv)
@@ -138,18 +132,5 @@ int main(int argc, char** argv)
     parser.add_option("--repeats", arguments.repeats, "repetitions of everything (15, quick 5)")
         ->check(CLI::Range(1, 1000));
     parser.add_option("--json", arguments.json, "where the results go, rewritten after each mesh");
-    try {
-        parser.parse(argc, argv);
-        return run(arguments);
-    } catch (const CLI::Success& request) {
-        return parser.exit(request);
-    } catch (const CLI::ParseError& error) {
-        return fail(fmt::format("wrong call: {}: see --help", error.what()), 2);
-    } catch (const UsageError& error) {
-        return fail(error.what(), 2);
-    } catch (const Error& error) {
-        return fail(error.what(), 1);
-    } catch (const std::exception& error) {
-        return fail(fmt::format("unexpected failure: {}: this is a fault in wedge, please report it", error.what()), 1);
-    }
+    return runProgram(parser, argc, argv, [&] { return run(arguments); });
 }

@@ -1,4 +1,5 @@
 // rays: millions of rays a second beside Embree on the same rays; docs/benchmarks.md.
+#include "benchmarks/common/program.h"
 #include "benchmarks/rays/results.h"
 #include "benchmarks/rays/tables.h"
 #include "host/error.h"
@@ -153,13 +154,6 @@ int run(const Arguments& a)
     return 0;
 }
 
-int fail(const std::string& message, int status)
-{
-    std::fflush(stdout);
-    fmt::print(stderr, "rays: error: {}\n", message);
-    return status;
-}
-
 } // namespace
 
 int main(int argc, char** argv)
@@ -167,18 +161,5 @@ int main(int argc, char** argv)
     CLI::App parser("Measures rays a second beside Embree on the same rays, and compares every hit.", "rays");
     Arguments arguments;
     addOptions(parser, arguments);
-    try {
-        parser.parse(argc, argv);
-        return run(arguments);
-    } catch (const CLI::Success& request) {
-        return parser.exit(request);
-    } catch (const CLI::ParseError& error) {
-        return fail(fmt::format("wrong call: {}: see --help", error.what()), 2);
-    } catch (const UsageError& error) {
-        return fail(error.what(), 2);
-    } catch (const Error& error) {
-        return fail(error.what(), 1);
-    } catch (const std::exception& error) {
-        return fail(fmt::format("unexpected failure: {}: this is a fault in wedge, please report it", error.what()), 1);
-    }
+    return runProgram(parser, argc, argv, [&] { return run(arguments); });
 }

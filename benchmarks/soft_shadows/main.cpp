@@ -1,4 +1,5 @@
 // soft_shadows: chapter 3 of the thesis, measured on its scenes; docs/benchmarks.md.
+#include "benchmarks/common/program.h"
 #include "benchmarks/soft_shadows/results.h"
 #include "benchmarks/soft_shadows/run.h"
 #include "benchmarks/soft_shadows/tables.h"
@@ -124,13 +125,6 @@ int run(const Arguments& a)
     return 0;
 }
 
-int fail(const std::string& message, int status)
-{
-    std::fflush(stdout);
-    fmt::print(stderr, "soft_shadows: error: {}\n", message);
-    return status;
-}
-
 } // namespace
 
 int main(int argc, char** argv)
@@ -138,18 +132,5 @@ int main(int argc, char** argv)
     CLI::App parser("Measures soft shadows: times of Table 3.1, errors of Fig. 3.6c, samples saved.", "soft_shadows");
     Arguments arguments;
     addOptions(parser, arguments);
-    try {
-        parser.parse(argc, argv);
-        return run(arguments);
-    } catch (const CLI::Success& request) {
-        return parser.exit(request);
-    } catch (const CLI::ParseError& error) {
-        return fail(fmt::format("wrong call: {}: see --help", error.what()), 2);
-    } catch (const UsageError& error) {
-        return fail(error.what(), 2);
-    } catch (const Error& error) {
-        return fail(error.what(), 1);
-    } catch (const std::exception& error) {
-        return fail(fmt::format("unexpected failure: {}: this is a fault in wedge, please report it", error.what()), 1);
-    }
+    return runProgram(parser, argc, argv, [&] { return run(arguments); });
 }
