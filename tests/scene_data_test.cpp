@@ -1,5 +1,6 @@
 // The scenes in data/, the generated ones, and the external ones where WEDGE_DATA has them.
 
+#include <algorithm>
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -43,12 +44,12 @@ void checkSound(const Scene& s)
     }
 }
 
-/// The camera's middle ray and the light's distance must make sense for a scene to show anything.
-void checkGenerated(const wedge::generator::GeneratedScene& made, std::size_t published)
+/// Writes a generated scene, reads it, and checks its size and that everything arrives as it was made.
+Scene checkGenerated(const wedge::generator::GeneratedScene& made, std::size_t published)
 {
     const TemporaryFolder folder;
     wedge::generator::writeScene(made, folder.path("out"));
-    const Scene s = loadScene(folder.path("out/" + made.name + ".toml"));
+    Scene s = loadScene(folder.path("out/" + made.name + ".toml"));
     CAPTURE(made.name);
     CHECK(s.warnings.empty());
     checkSound(s);
@@ -57,10 +58,44 @@ void checkGenerated(const wedge::generator::GeneratedScene& made, std::size_t pu
     CHECK(std::abs(count - static_cast<double>(published)) <= 0.02 * static_cast<double>(published));
     REQUIRE(s.areaLights.size() == 1);
     CHECK(s.areaLights[0].cut == 2.0f);
-    CHECK(s.areaLights[0].profile == wedge::scene::LightProfile::Gaussian);
+    CHECK(s.areaLights[0].profile == made.light.profile);
     CHECK(glm::length(s.areaLights[0].radiance - made.light.radiance) < 1e-4f * glm::length(made.light.radiance));
     CHECK(s.settings.width == 640);
     CHECK(s.settings.height == 480);
+    REQUIRE(s.materials.size() == made.materials.size());
+    for (const auto& wanted : made.materials) {
+        const auto named = [&](const wedge::scene::Material& m) { return m.name == wanted.name; };
+        const auto got = std::find_if(s.materials.begin(), s.materials.end(), named);
+        REQUIRE(got != s.materials.end());
+        CHECK(glm::length(got->diffuse - wanted.diffuse) < 1e-5f);
+        CHECK(glm::length(got->specular - wanted.specular) < 1e-5f);
+        CHECK(got->exponent == wanted.exponent);
+        CHECK(got->specularModel == wedge::scene::SpecularModel::BlinnPhong);
+    }
+    return s;
+}
+
+/// The box's walls come first and look into it; the light looks down from just below the ceiling; all is in view.
+void checkCornell(const Scene& s)
+{
+    const wedge::scene::Bounds bounds = wedge::scene::sceneBounds(s);
+    const glm::vec3 middle = 0.5f * (bounds.lo + bounds.hi);
+    for (std::size_t t = 0; t < 10; ++t) {
+        const glm::vec3 a = corner(s.geometry, t, 0);
+        CHECK(glm::dot(glm::cross(corner(s.geometry, t, 1) - a, corner(s.geometry, t, 2) - a), middle - a) > 0.0f);
+    }
+    CHECK(bounds.lo.y > -0.05f); // what stands on the floor does not reach far through it
+    const auto& light = s.areaLights.at(0);
+    CHECK(light.profile == wedge::scene::LightProfile::Uniform);
+    CHECK(glm::normalize(glm::cross(light.halfU, light.halfV)) == glm::vec3(0, -1, 0));
+    const float gap = bounds.hi.y - light.centre.y;
+    CHECK(gap > 0.02f);
+    CHECK(gap < 0.05f);
+    CHECK(s.background == glm::vec3(0.0f));
+    const float half = std::tan(glm::radians(0.5f * s.camera.verticalFov)) * (s.camera.eye.z - bounds.hi.z);
+    CHECK(s.camera.eye.y - half < 0.0f);
+    CHECK(s.camera.eye.y + half > bounds.hi.y);
+    CHECK(half * 640.0f / 480.0f > bounds.hi.x);
 }
 
 } // namespace
@@ -73,10 +108,31 @@ TEST_CASE("generated scenes: the paper's sizes within 2 %, sound, and readable w
     checkGenerated(wedge::generator::makeSpheres(), 72'000);
 }
 
+TEST_CASE("generated Cornell boxes: the paper's sizes within 2 %, a glossy one and a matt one")
+{
+    const Scene glossy = checkGenerated(wedge::generator::makeCornellGlossy(), 16'700);
+    checkCornell(glossy);
+    std::size_t shining = 0;
+    for (const auto& material : glossy.materials) {
+        const glm::vec3 sum = material.diffuse + material.specular;
+        CHECK(std::max({ sum.x, sum.y, sum.z }) <= 0.9f);
+        if (material.specular == glm::vec3(0.0f))
+            continue;
+        ++shining;
+        CHECK(material.exponent == 12.0f);
+    }
+    CHECK(shining == 3);
+    const Scene figure = checkGenerated(wedge::generator::makeCornellFigure(), 145'000);
+    checkCornell(figure);
+    for (const auto& material : figure.materials)
+        CHECK(material.specular == glm::vec3(0.0f));
+}
+
 TEST_CASE("generated scenes are the same in every run")
 {
     CHECK(wedge::generator::makeBench().mesh.text() == wedge::generator::makeBench().mesh.text());
     CHECK(wedge::generator::makeTentacles().mesh.text() == wedge::generator::makeTentacles().mesh.text());
+    CHECK(wedge::generator::makeCornellFigure().mesh.text() == wedge::generator::makeCornellFigure().mesh.text());
 }
 
 TEST_CASE("a generated scene that cannot be written is told")

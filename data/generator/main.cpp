@@ -17,7 +17,8 @@ int main(int count, char** arguments)
         return 2;
     }
     try {
-        for (const auto make : { makeGrids, makeBench, makeTentacles, makeSpheres }) {
+        for (const auto make :
+            { makeGrids, makeBench, makeTentacles, makeSpheres, makeCornellGlossy, makeCornellFigure }) {
             const GeneratedScene scene = make();
             writeScene(scene, folder);
             fmt::print("{}/{}.toml: {} triangles\n", folder, scene.name, scene.mesh.triangles());

@@ -13,8 +13,8 @@ std::string mtlText(const GeneratedScene& scene)
 {
     std::string text;
     for (const scene::Material& m : scene.materials)
-        text += fmt::format(
-            "newmtl {}\nKd {:.6g} {:.6g} {:.6g}\nKs 0 0 0\nNs 1\n\n", m.name, m.diffuse.x, m.diffuse.y, m.diffuse.z);
+        text += fmt::format("newmtl {}\nKd {:.6g} {:.6g} {:.6g}\nKs {:.6g} {:.6g} {:.6g}\nNs {:.6g}\n\n", m.name,
+            m.diffuse.x, m.diffuse.y, m.diffuse.z, m.specular.x, m.specular.y, m.specular.z, m.exponent);
     return text;
 }
 
@@ -30,7 +30,11 @@ std::string tomlText(const GeneratedScene& scene)
     text += fmt::format("[[mesh]]\nfile = \"{}.obj\"\n\n", scene.name);
     text += fmt::format("[[light]]\ntype = \"quad\"\ncentre = {}\nhalf_u = {}\nhalf_v = {}\n", list(light.centre),
         list(light.halfU), list(light.halfV));
-    text += fmt::format("radiance = {}\nprofile = \"gaussian\"\ncut = {:g}\n", list(light.radiance), light.cut);
+    text += fmt::format("radiance = {}\n", list(light.radiance));
+    if (light.profile == scene::LightProfile::Uniform)
+        text += "profile = \"uniform\"\n";
+    else
+        text += fmt::format("profile = \"gaussian\"\ncut = {:g}\n", light.cut);
     return text;
 }
 
@@ -41,6 +45,14 @@ scene::Material matt(const std::string& name, const glm::vec3& diffuse)
     scene::Material material;
     material.name = name;
     material.diffuse = diffuse;
+    return material;
+}
+
+scene::Material glossy(const std::string& name, const glm::vec3& diffuse, float specular, float exponent)
+{
+    scene::Material material = matt(name, diffuse);
+    material.specular = glm::vec3(specular);
+    material.exponent = exponent;
     return material;
 }
 
