@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <doctest/doctest.h>
 
@@ -196,31 +197,70 @@ TEST_CASE("the hand-made scenes")
         CHECK(vectorAt(penumbra.geometry.positions, penumbra.geometry.indices[6 + i]).x <= 0.0f);
 }
 
-TEST_CASE("the external scenes")
+namespace {
+
+/// The external scene of a file, if WEDGE_DATA has its mesh in `needs`; says so where it has not.
+std::optional<Scene> external(const std::string& name, const std::string& needs)
 {
-    const std::string folder = dataFolder() + "/external/";
+    const std::string file = dataFolder() + "/external/" + name + ".toml";
+    REQUIRE(std::filesystem::exists(file));
     const char* const data = std::getenv("WEDGE_DATA");
-    for (const char* name : { "grids", "spheres" }) {
-        for (const char* cut : { "", "_cut2" }) {
-            const std::string file = folder + "aaf2012_" + name + cut + ".toml";
-            REQUIRE(std::filesystem::exists(file));
-            if (data == nullptr) {
-                CHECK(contains(errorOf(file), "environment variable is not set: WEDGE_DATA"));
+    if (data == nullptr) {
+        CHECK(contains(errorOf(file), "environment variable is not set: WEDGE_DATA"));
+        MESSAGE("skipped, WEDGE_DATA is not set: " << name);
+        return {};
+    }
+    if (!std::filesystem::exists(data + ("/" + needs))) {
+        MESSAGE("skipped, WEDGE_DATA does not hold it: " << name);
+        return {};
+    }
+    CAPTURE(file);
+    Scene s = loadScene(file);
+    REQUIRE(s.areaLights.size() == 1);
+    CHECK(s.settings.width == 640);
+    CHECK(s.settings.height == 480);
+    return s;
+}
+
+} // namespace
+
+TEST_CASE("the external scenes of soft shadows")
+{
+    for (const std::string name : { "aaf2012_grids", "aaf2012_spheres" }) {
+        for (const std::string cut : { "", "_cut2" }) {
+            const std::optional<Scene> s = external(name + cut, name);
+            if (!s)
                 continue;
-            }
-            if (!std::filesystem::exists(std::string(data) + "/aaf2012_" + name)) {
-                MESSAGE("skipped, WEDGE_DATA does not hold it: " << file);
-                continue;
-            }
-            const Scene s = loadScene(file);
-            CAPTURE(file);
-            CHECK(s.warnings.empty());
-            CHECK(s.geometry.indices.size() / 3 == (std::string(name) == "grids" ? 254 : 41446));
-            CHECK(s.areaLights.at(0).cut == (*cut == '\0' ? 1.0f : 2.0f));
-            const auto& light = s.areaLights[0];
+            CAPTURE(name + cut);
+            CHECK(s->warnings.empty());
+            CHECK(s->geometry.indices.size() / 3 == (name == "aaf2012_grids" ? 254 : 41446));
+            const auto& light = s->areaLights[0];
+            CHECK(light.cut == (cut.empty() ? 1.0f : 2.0f));
             CHECK(glm::dot(glm::cross(light.halfU, light.halfV), -light.centre) > 0.0f); // towards the scene
         }
     }
-    if (data == nullptr)
-        MESSAGE("the meshes of the external scenes were not read: WEDGE_DATA is not set");
+}
+
+TEST_CASE("the external scenes of indirect light: matt, lit from above by a uniform light that looks down")
+{
+    struct Expected {
+        std::string name;
+        std::size_t triangles, textures;
+    };
+    for (const auto& [name, triangles, textures] : { Expected { "aaf2013_cornell_bunny", 5110, 0 },
+             Expected { "crytek_sponza", 262'154, 23 }, Expected { "conference", 331'179, 0 } }) {
+        const std::optional<Scene> s = external(name, name);
+        if (!s)
+            continue;
+        CAPTURE(name);
+        CHECK(s->warnings.empty());
+        CHECK(s->geometry.indices.size() / 3 == triangles);
+        CHECK(s->textures.size() == textures);
+        for (const auto& material : s->materials)
+            CHECK(material.specular == glm::vec3(0.0f));
+        const auto& light = s->areaLights[0];
+        CHECK(light.profile == wedge::scene::LightProfile::Uniform);
+        CHECK(glm::normalize(glm::cross(light.halfU, light.halfV)) == glm::vec3(0, -1, 0));
+        CHECK(4.0f * glm::length(glm::cross(light.halfU, light.halfV)) == 130.0f * 105.0f);
+    }
 }

@@ -190,6 +190,23 @@ TEST_CASE("material libraries: missing, several on a line, names with spaces")
     CHECK(warns(loadMesh(folder, "mtllib a.mtl\n" + faces), "material 'a' not found"));
 }
 
+TEST_CASE("a scene file chooses another material library, for one mesh and not for its twin")
+{
+    const TemporaryFolder folder;
+    folder.write("own.mtl", "newmtl a\nKd 0.5 0 0\nKs 0.5 0.5 0.5\nnewmtl b\nKd 0 0 1\n");
+    folder.write("other.mtl", "newmtl a\nKd 0 1 0\n");
+    const std::string faces = "mtllib own.mtl\n" + triangle + "usemtl a\nf 1 2 3\n";
+    const Scene twins = loadMesh(folder, faces, "[[mesh]]\nfile = \"mesh.obj\"\nmtl = \"other.mtl\"\n");
+    const auto materialOf = [&](std::size_t t) { return twins.materials.at(twins.geometry.materialIds.at(t)); };
+    CHECK(materialOf(0).diffuse == glm::vec3(0.5f, 0, 0));
+    CHECK(materialOf(1).diffuse == glm::vec3(0, 1, 0));
+    CHECK(materialOf(1).specular == glm::vec3(0));
+    const Scene lacking = loadMesh(folder, faces + "usemtl b\nf 1 2 3\n", "mtl = \"other.mtl\"\n");
+    CHECK(warns(lacking, "material 'b' not found, grey is used"));
+    CHECK(contains(errorOf(folder.write("s.toml", "[[mesh]]\nfile = \"mesh.obj\"\nmtl = \"none.mtl\"\n")),
+        "material file not found: none.mtl"));
+}
+
 TEST_CASE("textures of a library: backslashes, options, missing and broken files")
 {
     const TemporaryFolder folder;

@@ -15,7 +15,7 @@
 namespace wedge::scene {
 namespace {
 
-/// The mesh files of a scene, each read once, and where their materials are in the scene.
+/// The mesh files of a scene, each read once with each material library, and where their materials are in the scene.
 class MeshFiles {
 public:
     struct Entry {
@@ -23,11 +23,13 @@ public:
         std::uint32_t materialBase = 0;
     };
 
-    const Entry& get(const std::filesystem::path& path, Scene& scene, TextureSet& textures)
+    /// An empty `library` stands for those that the mesh file names.
+    const Entry& get(
+        const std::filesystem::path& path, const std::filesystem::path& library, Scene& scene, TextureSet& textures)
     {
-        const auto [entry, isNew] = entries_.try_emplace(path.lexically_normal().string());
+        const auto [entry, isNew] = entries_.try_emplace({ path.lexically_normal(), library.lexically_normal() });
         if (isNew) {
-            entry->second.mesh = readObj(path, textures, scene.warnings);
+            entry->second.mesh = readObj(path, textures, scene.warnings, library);
             entry->second.materialBase = static_cast<std::uint32_t>(scene.materials.size());
             const std::vector<Material>& palette = entry->second.mesh.palette;
             scene.materials.insert(scene.materials.end(), palette.begin(), palette.end());
@@ -36,7 +38,7 @@ public:
     }
 
 private:
-    std::map<std::string, Entry> entries_;
+    std::map<std::pair<std::filesystem::path, std::filesystem::path>, Entry> entries_;
 };
 
 /// `smooth` is true, false or the greatest angle in degrees. Without it a file's own normals are used as they are.
@@ -117,7 +119,8 @@ void readMeshes(TableReader& root, Scene& scene, TextureSet& textures)
         const std::filesystem::path path = table.require("file", table.path("file"));
         if (lowerExtension(path) != ".obj")
             table.fail("file", "has an unknown format", path.string(), "name a Wavefront .obj file");
-        const MeshFiles::Entry& entry = files.get(path, scene, textures);
+        const std::filesystem::path library = table.path("mtl").value_or(std::filesystem::path());
+        const MeshFiles::Entry& entry = files.get(path, library, scene, textures);
         Mesh mesh = entry.mesh;
         applySmoothing(table, mesh);
         const IndexedMesh indexed = indexMesh(mesh, entry.materialBase);

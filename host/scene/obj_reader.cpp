@@ -137,7 +137,8 @@ void copyTriangles(const std::vector<tinyobj::shape_t>& shapes, std::uint32_t gr
 
 } // namespace
 
-Mesh readObj(const std::filesystem::path& path, TextureSet& textures, std::vector<std::string>& warnings)
+Mesh readObj(const std::filesystem::path& path, TextureSet& textures, std::vector<std::string>& warnings,
+    const std::filesystem::path& library)
 {
     const std::string where = "mesh file " + path.string();
     std::string text = readFile(path, "mesh file", maxObjFile);
@@ -145,14 +146,15 @@ Mesh readObj(const std::filesystem::path& path, TextureSet& textures, std::vecto
     warnOfScan(scan, where, warnings);
 
     Mesh mesh;
-    const std::vector<Material> library = readLibraries(scan, path, textures, warnings);
+    const std::vector<Material> materials =
+        library.empty() ? readLibraries(scan, path, textures, warnings) : readMtl(library, textures, warnings);
     std::map<std::string, int> indices;
     for (const std::string& name : scan.materials) {
         std::string key = name;
         std::replace_if(
             key.begin(), key.end(), [](char c) { return c == ' ' || c == '\t'; }, objNameSpace);
         indices.emplace(key, static_cast<int>(mesh.palette.size()));
-        mesh.palette.push_back(findMaterial(name, library, where, warnings));
+        mesh.palette.push_back(findMaterial(name, materials, where, warnings));
     }
 
     // The scan blanked the file's own mtllib lines; this one makes the loader ask for the resolved materials.

@@ -28,8 +28,10 @@ struct Mesh {
     std::vector<std::string> objectNames; ///< groups and objects (g, o) of the same name are one
 };
 
-/// Reads a Wavefront OBJ file and its material libraries; polygons become triangles. Materials that are not found
-/// become grey, with a warning. Throws Error for whatever scanObj finds wrong and for files that cannot be read.
-Mesh readObj(const std::filesystem::path& path, TextureSet& textures, std::vector<std::string>& warnings);
+/// Reads a Wavefront OBJ file and its material libraries, or `library` in place of these where it is not empty;
+/// polygons become triangles. Materials that are not found become grey, with a warning. Throws Error for whatever
+/// scanObj finds wrong and for files that cannot be read; of libraries, only `library` must be readable.
+Mesh readObj(const std::filesystem::path& path, TextureSet& textures, std::vector<std::string>& warnings,
+    const std::filesystem::path& library = {});
 
 } // namespace wedge::scene
