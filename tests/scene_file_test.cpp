@@ -37,6 +37,9 @@ height = 200
 [background]
 radiance = [0.1, 0.2, 0.3]
 [integrator]
+type = "path"
+bounces = 1024
+light_sampling = "directions"
 method = "aaf"
 spp = 16
 max_spp = 64
@@ -87,6 +90,10 @@ irradiance = [1, 1, 0.5]
     CHECK(s.settings.width == 320);
     CHECK(s.settings.height == 200);
     CHECK(s.background == glm::vec3(0.1f, 0.2f, 0.3f));
+    CHECK(s.settings.integrator == "path");
+    CHECK(s.settings.bounces == 1024);
+    CHECK(s.settings.lightSampling == "directions");
+    CHECK_FALSE(s.settings.ambientDistance.has_value());
     CHECK(*s.settings.method == "aaf");
     CHECK(*s.settings.spp == 16);
     CHECK(*s.settings.maxSpp == 64);
@@ -126,6 +133,9 @@ TEST_CASE("defaults: settings unset, camera frames the mesh, warnings for what i
 {
     const Scene s = load(mesh);
     CHECK_FALSE(s.settings.method.has_value());
+    CHECK_FALSE(s.settings.integrator.has_value());
+    CHECK_FALSE(s.settings.bounces.has_value());
+    CHECK_FALSE(s.settings.lightSampling.has_value());
     CHECK_FALSE(s.settings.spp.has_value());
     CHECK(s.settings.width == 640);
     CHECK(s.settings.height == 480);
@@ -170,7 +180,6 @@ TEST_CASE("wrong types and values are told with their place")
     CHECK(contains(error("[integrator]\nmethod = 'magic'\n"), "method of integrator is unknown: 'magic': use one of"));
     CHECK(contains(error("[integrator]\nmu = 0\n"), "mu of integrator is out of range"));
     CHECK(contains(error("[integrator]\nmethod = 'maaf'\n"), "s.toml:2:10: method of integrator is unknown: 'maaf'"));
-    CHECK(contains(error("[integrator]\nbounces = 2\n"), "s.toml:2:1: unknown key in integrator: 'bounces'"));
     CHECK(contains(error("[integrator]\nseed = -1\n"), "seed of integrator is out of range"));
     CHECK(contains(error("[[material]]\nname='a'\nexponent=-1\n"), "exponent of material is out of range"));
     CHECK(contains(error("[[material]]\nname='a'\n[[material]]\nname='a'\n"), "s.toml:4:6: name of material is taken"));
@@ -180,6 +189,43 @@ TEST_CASE("wrong types and values are told with their place")
     CHECK(contains(error("x = \n"), "s.toml:1:5: not valid TOML"));
     CHECK(contains(error("a = 1\na = 2\n"), "s.toml:2"));
     CHECK(contains(error(std::string("\0\1\2\3", 4)), "s.toml:1:1: not valid TOML"));
+}
+
+TEST_CASE("the integrator: paths or ambient occlusion, and the keys of one that the other has no use for")
+{
+    const auto integrator = [](const std::string& keys) { return load("[integrator]\n" + keys).settings; };
+    const auto refused = [](const std::string& keys) { return error("[integrator]\n" + keys); };
+    CHECK(integrator("bounces = 0\n").bounces == 0); // given, and not the same as left out
+    CHECK(integrator("type = 'ao'\n").integrator == "ao");
+    CHECK_FALSE(integrator("type = 'ao'\n").ambientDistance.has_value());
+    CHECK(integrator("ao_distance = 0.25\ntype = 'ao'\n").ambientDistance == 0.25f);
+    CHECK(integrator("light_sampling = 'lights'\n").lightSampling == "lights");
+
+    CHECK(refused("type = 'ao'\nbounces = 0\n")
+        == "scene file s.toml:3:11: bounces of integrator has no effect with type ao, which follows no paths: 0: leave "
+           "it out or choose type path");
+    CHECK(refused("type = 'ao'\nlight_sampling = 'both'\n")
+        == "scene file s.toml:3:18: light_sampling of integrator has no effect with type ao, which knows no lights: "
+           "'both': leave it out or choose type path");
+    const std::string noAmbient = "ao_distance of integrator has no effect with type path: 2.5: leave it out or choose "
+                                  "type ao";
+    CHECK(refused("ao_distance = 2.5\n") == "scene file s.toml:2:15: " + noAmbient);
+    CHECK(refused("type = 'path'\nao_distance = 2.5\n") == "scene file s.toml:3:15: " + noAmbient);
+    CHECK(refused("type = 'ambient'\n")
+        == "scene file s.toml:2:8: type of integrator is unknown: 'ambient': use one of: path, ao");
+    CHECK(refused("light_sampling = 'mis'\n")
+        == "scene file s.toml:2:18: light_sampling of integrator is unknown: 'mis': use one of: both, lights, "
+           "directions");
+    CHECK(refused("bounces = 1025\n")
+        == "scene file s.toml:2:11: bounces of integrator is out of range: 1025: use 0 to 1024");
+    CHECK(contains(refused("bounces = -1\n"), "bounces of integrator is out of range: -1"));
+    CHECK(contains(refused("bounces = 1.5\n"), "bounces of integrator must be a whole number: 1.5"));
+    for (const std::string distance : { "0", "-1", "1e13", "1e-13" }) {
+        CHECK(contains(refused("type = 'ao'\nao_distance = " + distance + "\n"),
+            "s.toml:3:15: ao_distance of integrator is out of range"));
+    }
+    CHECK(contains(refused("type = 'ao'\nao_distance = nan\n"), "ao_distance of integrator is not finite: nan"));
+    CHECK(contains(refused("bounce = 1\n"), "unknown key in integrator: 'bounce': did you mean 'bounces'?"));
 }
 
 TEST_CASE("meshes that cannot be found or chosen")

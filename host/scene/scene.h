@@ -72,6 +72,10 @@ struct Settings {
     std::optional<std::string> method; ///< mc or aaf
     std::optional<int> spp, maxSpp; ///< 1 to maxSamples
     std::optional<float> mu; ///< leastMu to mostMu
+    std::optional<std::string> integrator; ///< path or ao
+    std::optional<int> bounces; ///< 0 to maxBounces; not with ao
+    std::optional<float> ambientDistance; ///< metres, leastAmbientDistance to mostAmbientDistance; with ao only
+    std::optional<std::string> lightSampling; ///< both, lights or directions; not with ao
 };
 
 struct Scene {
@@ -102,10 +106,13 @@ struct Summary {
     Bounds bounds;
 };
 
-/// Image sides go from 1 to this, samples a pixel too, and mu from least to most: what the renderer accepts.
+/// Image sides go from 1 to this, samples a pixel too, bounces from 0, and mu and the distance in metres within which
+/// surfaces occlude from least to most: what the renderer accepts.
 constexpr int maxImageSide = 32768;
 constexpr int maxSamples = 1 << 20;
 constexpr double leastMu = 0.01, mostMu = 1000.0;
+constexpr int maxBounces = 1024;
+constexpr double leastAmbientDistance = 1e-12, mostAmbientDistance = 1e12;
 
 /// Reads a scene file (.toml, docs/scene-format.md) or a bare mesh (.obj), which gets a camera that frames it, an
 /// area light above and a floor. Throws Error naming file, line and value for anything that cannot be rendered.

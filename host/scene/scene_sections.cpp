@@ -76,6 +76,29 @@ void readDirectional(TableReader& table, Scene& scene)
     scene.directionalLights.push_back(light);
 }
 
+/// Which integrator, and the keys that go with one of the two.
+void readIntegratorType(TableReader& table, Settings& s)
+{
+    s.integrator = table.choice("type", { "path", "ao" });
+    s.lightSampling = table.choice("light_sampling", { "both", "lights", "directions" });
+    const auto bounces = table.integer("bounces", 0, maxBounces);
+    const auto distance = table.number("ao_distance", leastAmbientDistance, mostAmbientDistance);
+    const bool ambient = s.integrator == "ao";
+    if (ambient && bounces)
+        table.fail("bounces", "has no effect with type ao, which follows no paths", fmt::format("{}", *bounces),
+            "leave it out or choose type path");
+    if (ambient && s.lightSampling)
+        table.fail("light_sampling", "has no effect with type ao, which knows no lights",
+            fmt::format("'{}'", *s.lightSampling), "leave it out or choose type path");
+    if (!ambient && distance)
+        table.fail("ao_distance", "has no effect with type path", fmt::format("{:g}", *distance),
+            "leave it out or choose type ao");
+    if (bounces)
+        s.bounces = static_cast<int>(*bounces);
+    if (distance)
+        s.ambientDistance = static_cast<float>(*distance);
+}
+
 } // namespace
 
 void readImage(TableReader& root, Scene& scene)
@@ -106,6 +129,7 @@ void readIntegrator(TableReader& root, Scene& scene)
         table->fail("max_spp", "is below spp", fmt::format("{} and {}", *s.maxSpp, *s.spp), "raise it or lower spp");
     if (const auto mu = table->number("mu", leastMu, mostMu))
         s.mu = static_cast<float>(*mu);
+    readIntegratorType(*table, s);
     s.seed =
         static_cast<std::uint32_t>(table->integer("seed", 0, std::numeric_limits<std::uint32_t>::max()).value_or(0));
     table->finish();
