@@ -99,7 +99,7 @@ GeneratedScene cornellBox(const std::string& name, const std::string& comment)
     s.light.halfU = { 0.25f, 0.0f, 0.0f };
     s.light.halfV = { 0.0f, 0.0f, 0.25f }; // cross(halfU, halfV) looks down
     s.light.profile = scene::LightProfile::Uniform;
-    s.light.radiance = glm::vec3(radianceFor(s.light, { 0, 0, 0.2 }, { 0, 1, 0 }, 0.75, 0.42));
+    s.light.radiance = glm::vec3(radianceFor(s.light, { 0, 0, 0.2 }, { 0, 1, 0 }, 0.75, 0.58));
     return s;
 }
 

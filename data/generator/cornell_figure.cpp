@@ -169,8 +169,8 @@ GeneratedScene makeCornellFigure()
 {
     GeneratedScene s = cornellBox("cornell_figure", "A Cornell box with a scaly serpent on a pedestal");
     s.materials.push_back(matt("pedestal", glm::vec3(0.7f, 0.68f, 0.64f)));
-    s.materials.push_back(matt("serpent", glm::vec3(0.58f, 0.47f, 0.28f)));
-    s.materials.push_back(matt("horns", glm::vec3(0.46f, 0.42f, 0.36f)));
+    s.materials.push_back(matt("serpent", glm::vec3(0.46f, 0.37f, 0.22f)));
+    s.materials.push_back(matt("horns", glm::vec3(0.36f, 0.33f, 0.28f)));
     s.materials.push_back(matt("eyes", glm::vec3(0.06f, 0.05f, 0.05f)));
     s.mesh.object("pedestal", "pedestal"); // it goes into the floor, so that no faces coincide
     const double top = pedestalTop;
