@@ -2,6 +2,7 @@
 // added up over lights, then with what surfaces and background emit.
 #include "light_sample.h"
 #include "shared/filter_params.h"
+#include "shared/path.h"
 #include "vector16.h"
 
 /// The fine one serves receivers nearer to the light's centre than this many of its largest half extents.
@@ -177,9 +178,43 @@ __kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light
     storeVec(directNoisy, size, i, vecMad(loadVec(directNoisy, size, i), reflected, noisy[size + i]));
 }
 
-/// beauty = emission + direct, at misses emission alone (3 planes each).
+/// One term of indirect light.
+/// in      reflectance: 3 planes; value, noisy: 3 planes each, filtered and not; taken: the samples of value
+///         component: WEDGE_COMPONENT_*; of ambient occlusion the open part of the hemisphere is shown, on white
+/// in out  indirect, indirectNoisy (3 planes each), samples (of all terms), indirectSamples
+__kernel void addIndirect(AnalysisParams p, uint component, __global const float* restrict reflectance,
+                          __global const float* restrict value, __global const float* restrict noisy,
+                          __global const uint* restrict taken, __global float* restrict indirect,
+                          __global float* restrict indirectNoisy, __global uint* restrict samples,
+                          __global uint* restrict indirectSamples)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const uint16 count = loadIdBlock(taken, i);
+    const int16 has = count != 0u;
+    vstore16(loadIdBlock(samples, i) + count, 0, samples + i);
+    vstore16(loadIdBlock(indirectSamples, i) + count, 0, indirectSamples + i);
+    const bool ambient = component == WEDGE_COMPONENT_AMBIENT;
+    for (uint plane = 0u; plane < 3u; ++plane) {
+        const int j = i + (int)(plane * p.planeSize);
+        const float16 filtered = loadBlock(value, j);
+        const float16 unfiltered = loadBlock(noisy, j);
+        const float16 k = ambient ? (float16)(1.0f) : loadBlock(reflectance, j);
+        const float16 shown = has ? k * (ambient ? 1.0f - filtered : filtered) : (float16)(0.0f);
+        const float16 shownNoisy = has ? k * (ambient ? 1.0f - unfiltered : unfiltered) : (float16)(0.0f);
+        vstore16(loadBlock(indirect, j) + shown, 0, indirect + j);
+        vstore16(loadBlock(indirectNoisy, j) + shownNoisy, 0, indirectNoisy + j);
+    }
+}
+
+/// beauty = emission + direct + indirect, at misses emission alone (3 planes each).
 __kernel void addEmission(AnalysisParams p, __global const float* restrict emission, __global const float* restrict direct,
-                          __global const uint* restrict objectId, __global float* restrict beauty)
+                          __global const float* restrict indirect, __global const uint* restrict objectId,
+                          __global float* restrict beauty)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -190,7 +225,7 @@ __kernel void addEmission(AnalysisParams p, __global const float* restrict emiss
     const int16 surface = loadIdBlock(objectId, i) != 0u;
     for (uint plane = 0u; plane < 3u; ++plane) {
         const int j = i + (int)(plane * p.planeSize);
-        const float16 reflected = surface ? loadBlock(direct, j) : (float16)(0.0f);
+        const float16 reflected = surface ? loadBlock(direct, j) + loadBlock(indirect, j) : (float16)(0.0f);
         vstore16(loadBlock(emission, j) + reflected, 0, beauty + j);
     }
 }

@@ -50,9 +50,9 @@ __kernel void countDemand(AnalysisParams p, __global const float* restrict filte
 }
 
 /// Per stripe of rows: a histogram of log2 demand. counts and sums: WEDGE_DEMAND_BINS a stripe; shaded: pixels that
-/// take samples at all, a stripe. Pixels without demand are in no bin.
+/// take samples at all, a stripe: those whose mask is not 0. Pixels without demand are in no bin.
 __kernel void demandHistogram(AnalysisParams p, __global const float* restrict demand,
-                              __global const uint* restrict objectId, __global uint* restrict counts,
+                              __global const uint* restrict mask, __global uint* restrict counts,
                               __global float* restrict sums, __global uint* restrict shaded)
 {
     const uint stripe = get_global_id(0);
@@ -77,7 +77,7 @@ __kernel void demandHistogram(AnalysisParams p, __global const float* restrict d
             const float16 bin = (log2Block(max16(d, (float16)(1e-30f))) - WEDGE_DEMAND_LOG2_MIN) * scale;
             vstore16(convert_int16(clamp(bin, 0.0f, (float)WEDGE_DEMAND_BINS - 1.0f)), 0, index);
             for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
-                if (objectId[i + (int)lane] == 0u) {
+                if (mask[i + (int)lane] == 0u) {
                     continue;
                 }
                 ++pixels;
@@ -91,9 +91,9 @@ __kernel void demandHistogram(AnalysisParams p, __global const float* restrict d
     shaded[stripe] = pixels;
 }
 
-/// Finds C such that the mean of clamp(C demand, 9, cap) over the shaded pixels is `mean`, by bisection on the summed
+/// Finds C such that the mean of clamp(C demand, least, cap) over the shaded pixels is `mean`, by bisection on the summed
 /// histograms, and writes it to scale[0]. One work-item. The mean grows with C, so 40 halvings settle it.
-__kernel void solveCountScale(float mean, float cap, __global const uint* restrict counts,
+__kernel void solveCountScale(float mean, float least, float cap, __global const uint* restrict counts,
                               __global const float* restrict sums, __global const uint* restrict shaded,
                               __global uint* restrict binCounts, __global float* restrict binSums,
                               __global float* restrict scale)
@@ -117,7 +117,6 @@ __kernel void solveCountScale(float mean, float cap, __global const uint* restri
         binSums[b] = sum;
         demanding += count;
     }
-    const float least = (float)WEDGE_FIRST_PASS_RAYS;
     const float target = mean * (float)pixels - least * (float)(pixels - demanding);
     float low = -20.0f;
     float high = 60.0f;
@@ -140,9 +139,9 @@ __kernel void solveCountScale(float mean, float cap, __global const uint* restri
     scale[0] = exp2(0.5f * (low + high));
 }
 
-/// Wanted samples: clamp(C demand, 9, cap); 0 where nothing is shaded.
+/// Wanted samples: clamp(C demand, leastCount, cap); 0 where the mask is.
 __kernel void countsFromDemand(AnalysisParams p, __global const float* restrict demand, __global const float* restrict scale,
-                               __global const uint* restrict objectId, __global uint* restrict wanted)
+                               __global const uint* restrict mask, __global uint* restrict wanted)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -150,12 +149,12 @@ __kernel void countsFromDemand(AnalysisParams p, __global const float* restrict 
         return;
     }
     const uint i = pixelIndex(x, y, p.stride);
-    const float count = fmin(fmax(scale[0] * demand[i], (float)WEDGE_FIRST_PASS_RAYS), (float)p.countCap);
-    wanted[i] = objectId[i] != 0u ? (uint)(count + 0.5f) : 0u;
+    const float count = fmin(fmax(scale[0] * demand[i], (float)p.leastCount), (float)p.countCap);
+    wanted[i] = mask[i] != 0u ? (uint)(count + 0.5f) : 0u;
 }
 
-/// The same count for every shaded pixel.
-__kernel void uniformCounts(AnalysisParams p, uint count, __global const uint* restrict objectId, __global uint* restrict wanted)
+/// The same count for every pixel of the mask.
+__kernel void uniformCounts(AnalysisParams p, uint count, __global const uint* restrict mask, __global uint* restrict wanted)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -163,5 +162,5 @@ __kernel void uniformCounts(AnalysisParams p, uint count, __global const uint* r
         return;
     }
     const uint i = pixelIndex(x, y, p.stride);
-    wanted[i] = objectId[i] != 0u ? count : 0u;
+    wanted[i] = mask[i] != 0u ? count : 0u;
 }

@@ -5,16 +5,6 @@
 #include "light_packet.h"
 #include "packet.h"
 
-/// A directional light's shadow rays end this many scene diameters away.
-#define WEDGE_FAR_DIAMETERS 4.0f
-
-/// From a receiver to the light, to where its shadow ray ends at t = 1.
-WEDGE_FN Vec3 vectorToLight(DeltaLight light, float sceneDiameter, Vec3 origin)
-{
-    return light.directional != 0u ? vecScale(light.vector, WEDGE_FAR_DIAMETERS * sceneDiameter)
-                                   : vecSub(light.vector, origin);
-}
-
 __kernel void deltaLights(FrameParams frame, __global const DeltaLight* restrict lights, uint lightCount,
                           float sceneDiameter, __global const TraversalNode* restrict nodes,
                           __global const TriangleBlock* restrict blocks, __global const float* restrict position,

@@ -1,13 +1,12 @@
 // The primary pass: one ray through each pixel's centre, and what it hits, into the G-buffer.
 //
 // in   frame, BVH, surfaces, area lights (the camera sees those that are visible)
-// out  position, normal, origin (3 planes each), objectId (0: nothing to shade), depth (ray distance, +inf on a
+// out  position, normal, origin (3 planes each), geometric (normal, packed), objectId (0: nothing to shade), depth (ray distance, +inf on a
 //      miss), pixelSize (projected edge of the pixel on the surface, metres), diffuse, specular, emission (3 each;
 //      emission holds background and light radiance where nothing is shaded), gloss (exponent; negative: Phong)
 #include "packet.h"
 #include "pixel.h"
-#include "shared/bsdf.h"
-#include "shared/light.h"
+#include "scene_light.h"
 #include "surface.h"
 
 /// Cosine that the projected pixel size does not go below, against infinities at grazing views.
@@ -25,22 +24,10 @@ static LightHit hitLights(__global const AreaLight* lights, uint count, Vec3 eye
     hit.t = INFINITY;
     hit.radiance = vec3(0.0f, 0.0f, 0.0f);
     for (uint i = 0; i < count; ++i) {
-        const AreaLight light = lights[i];
-        const float facing = vecDot(light.normal, direction);
-        const float t = vecDot(light.normal, vecSub(light.centre, eye)) / facing;
-        if (light.visible == 0u || facing == 0.0f || !(t > 0.0f) || !(t < hit.t)) {
-            continue;
-        }
-        // Local coordinates from the two edges' cross products, so that the quad may be a parallelogram.
-        const Vec3 d = vecSub(vecMad(eye, direction, t), light.centre);
-        const Vec3 n = vecCross(light.halfU, light.halfV);
-        const float scale = 1.0f / vecDot(n, n);
-        const float a = vecDot(vecCross(d, light.halfV), n) * scale;
-        const float b = vecDot(vecCross(light.halfU, d), n) * scale;
-        if (fabs(a) <= 1.0f && fabs(b) <= 1.0f) {
-            hit.t = t;
-            const float emits = facing < 0.0f || light.twoSided != 0u ? 1.0f : 0.0f;
-            hit.radiance = vecScale(light.radiance, emits * lightProfile(a, b, light.profile, light.cut));
+        const LightMeeting m = meetLight(&lights[i], eye, direction);
+        if (lights[i].visible != 0u && m.t < hit.t) {
+            hit.t = m.t;
+            hit.radiance = metRadiance(&lights[i], m);
         }
     }
     return hit;
@@ -54,28 +41,16 @@ WEDGE_FN Vec3 pixelDirection(FrameParams frame, uint x, uint y)
 }
 
 __kernel void primary(FrameParams frame, __global const TraversalNode* restrict nodes,
-                      __global const TriangleBlock* restrict blocks, __global const float* restrict positions,
-                      __global const float* restrict normals, __global const float* restrict texcoords,
-                      __global const uint* restrict indices, __global const uint* restrict materialIds,
-                      __global const uint* restrict objectIds, __global const MaterialData* restrict materials,
-                      __global const TextureData* restrict textures, __global const uint* restrict texels,
-                      __global const float* restrict srgbToLinear, __global const AreaLight* restrict lights,
+                      __global const TriangleBlock* restrict blocks, WEDGE_SURFACE_PARAMETERS,
+                      __global const uint* restrict objectIds, __global const AreaLight* restrict lights,
                       uint lightCount, __global float* restrict position, __global float* restrict normal,
-                      __global float* restrict origin, __global uint* restrict objectId, __global float* restrict depth,
+                      __global float* restrict origin, __global uint* restrict geometric,
+                      __global uint* restrict objectId, __global float* restrict depth,
                       __global float* restrict pixelSize, __global float* restrict diffuse,
                       __global float* restrict specular, __global float* restrict emission,
                       __global float* restrict gloss, uint firstGroup)
 {
-    SurfaceData data;
-    data.positions = positions;
-    data.normals = normals;
-    data.texcoords = texcoords;
-    data.indices = indices;
-    data.materialIds = materialIds;
-    data.materials = materials;
-    data.textures = textures;
-    data.texels = texels;
-    data.srgbToLinear = srgbToLinear;
+    const SurfaceData data = WEDGE_SURFACE_ARGUMENTS;
     const uint size = frame.planeSize;
     RayPacket packet;
     Vec3 lightRadiance[WEDGE_PACKET_SIZE];
@@ -112,6 +87,7 @@ __kernel void primary(FrameParams frame, __global const TraversalNode* restrict 
         storeVec(position, size, i, s.position);
         storeVec(normal, size, i, s.normal);
         storeVec(origin, size, i, s.origin);
+        geometric[i] = packDirection(s.geometric);
         objectId[i] = objectIds[hit.triangle];
         depth[i] = hit.t * length;
         pixelSize[i] = hit.t * length * sqrt(solidAngle / cosine);

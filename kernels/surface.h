@@ -23,6 +23,31 @@ typedef struct {
     __global const float* srgbToLinear; ///< 256 entries
 } SurfaceData;
 
+/// The scene's geometry and materials among a kernel's parameters, and the SurfaceData made of them.
+#define WEDGE_SURFACE_PARAMETERS                                                                                        \
+    __global const float *restrict positions, __global const float *restrict normals,                                   \
+        __global const float *restrict texcoords, __global const uint *restrict indices,                                \
+        __global const uint *restrict materialIds, __global const MaterialData *restrict materials,                     \
+        __global const TextureData *restrict textures, __global const uint *restrict texels,                            \
+        __global const float *restrict srgbToLinear
+#define WEDGE_SURFACE_ARGUMENTS                                                                                         \
+    surfaceData(positions, normals, texcoords, indices, materialIds, materials, textures, texels, srgbToLinear)
+
+WEDGE_FN SurfaceData surfaceData(WEDGE_SURFACE_PARAMETERS)
+{
+    SurfaceData data;
+    data.positions = positions;
+    data.normals = normals;
+    data.texcoords = texcoords;
+    data.indices = indices;
+    data.materialIds = materialIds;
+    data.materials = materials;
+    data.textures = textures;
+    data.texels = texels;
+    data.srgbToLinear = srgbToLinear;
+    return data;
+}
+
 typedef struct {
     Vec3 position;  ///< metres, on the triangle
     Vec3 origin;    ///< where rays start: position lifted off the surface on the viewer's side

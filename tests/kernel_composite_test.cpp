@@ -257,13 +257,14 @@ TEST_CASE("addEmission: emission and reflection on surfaces, emission alone else
         KernelBench bench(device);
         const Receivers in(37, 5, 6);
         const auto emission = bench.buffer(in.position.values), direct = bench.buffer(in.diffuse.values);
+        const auto indirect = bench.buffer(in.normal.values);
         const auto beauty = bench.filled(3 * in.layout().size, -7.0f);
         bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addEmission", in.params,
-            WEDGE_BLOCK_PIXELS, emission, direct, bench.buffer(in.objectId.values), beauty);
+            WEDGE_BLOCK_PIXELS, emission, direct, indirect, bench.buffer(in.objectId.values), beauty);
         const Planes<float> found = planesOf(in.layout(), bench.read(beauty));
         in.everyPixel([&](int x, int y) {
             for (std::size_t c = 0; c < 3; ++c) {
-                const float reflected = in.objectId.at(x, y) != 0 ? in.diffuse.at(x, y, c) : 0.0f;
+                const float reflected = in.objectId.at(x, y) != 0 ? in.diffuse.at(x, y, c) + in.normal.at(x, y, c) : 0.0f;
                 REQUIRE(found.at(x, y, c) == in.position.at(x, y, c) + reflected);
             }
         });

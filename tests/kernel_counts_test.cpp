@@ -18,6 +18,7 @@ shared::AnalysisParams paramsFor(const render::PlaneLayout& layout)
     p.stride = layout.stride;
     p.planeSize = static_cast<std::uint32_t>(layout.size);
     p.countCap = 256;
+    p.leastCount = 9;
     p.countExponent = 0.4f;
     p.varianceFloor = 0.004f;
     p.varianceSpread = 0.25f;
@@ -42,7 +43,7 @@ Planes<std::uint32_t> countsOf(KernelBench& bench, const Planes<float>& demand, 
     histogram.setArgs(p, demands, objects, counts, sums, shaded);
     bench.queue.launch("counts", device::PassKind::Analysis, histogram, stripes, 1);
     device::Kernel& solve = bench.passes.find("counts.cl", "solveCountScale");
-    solve.setArgs(mean, static_cast<float>(cap), counts, sums, shaded, binCounts, binSums, scale);
+    solve.setArgs(mean, 9.0f, static_cast<float>(cap), counts, sums, shaded, binCounts, binSums, scale);
     bench.queue.launch("counts", device::PassKind::Analysis, solve, 1, 1);
     const auto wanted = bench.filled(demand.layout.size, 777u);
     bench.passes.rows(

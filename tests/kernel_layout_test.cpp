@@ -5,6 +5,7 @@
 #include "kernels/shared/hit.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/material.h"
+#include "kernels/shared/path.h"
 #include "tests/render_support.h"
 
 #include <cstddef>

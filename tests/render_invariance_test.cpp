@@ -176,7 +176,7 @@ TEST_CASE("a pixel without a kernel keeps its own Monte Carlo value")
             const image::Window all { 0, 0, width, height };
             const auto direct = pixels(renderer, renderer.frame().direct, all),
                        noisy = pixels(renderer, renderer.frame().directNoisy, all);
-            const std::vector<float>& beta = renderer.lightPlanes().at(0).beta;
+            const std::vector<float>& beta = renderer.termPlanes().at(0).beta;
             unsigned without = 0, changed = 0;
             for (int y = 0; y < height; ++y)
                 for (int x = 0; x < width; ++x) {

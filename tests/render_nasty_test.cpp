@@ -94,7 +94,7 @@ void checkFinite(render::Renderer& renderer, const render::Settings& settings)
         if (buffer == &f.beauty)
             CHECK(std::ranges::all_of(values, [](float v) { return v >= 0; }));
     }
-    for (const render::LightPlanes& light : renderer.lightPlanes())
+    for (const render::TermPlanes& light : renderer.termPlanes())
         CHECK(notFinite(light.beta) == 0);
 }
 

@@ -8,7 +8,9 @@
 namespace wedge::benchmark::kernel {
 using namespace wedge::shared;
 #define __global
+#define restrict
 #include "kernels/surface.h"
+#undef restrict
 #undef __global
 } // namespace wedge::benchmark::kernel
 

@@ -65,6 +65,30 @@ std::vector<shared::DeltaLight> deltaLightData(const scene::Scene& scene)
     return out;
 }
 
+/// Probabilities with which path vertices choose each light: by what it sends out, so that strong ones are sampled more.
+/// A directional light counts with what falls on the scene.
+void setPicks(std::vector<shared::AreaLight>& area, std::vector<shared::DeltaLight>& delta, float diameter)
+{
+    const auto powerOf = [&](const shared::AreaLight& l) { return shared::luminance(l.power) * (l.twoSided != 0 ? 2.0f : 1.0f); };
+    const auto fluxOf = [&](const shared::DeltaLight& l) {
+        return shared::luminance(l.colour) * (l.directional != 0 ? diameter * diameter : 4.0f);
+    };
+    double total = 0;
+    for (const shared::AreaLight& l : area) {
+        total += powerOf(l);
+    }
+    for (const shared::DeltaLight& l : delta) {
+        total += fluxOf(l);
+    }
+    const double scale = total > 0 ? 1.0 / total : 0.0;
+    for (shared::AreaLight& l : area) {
+        l.pick = static_cast<float>(powerOf(l) * scale);
+    }
+    for (shared::DeltaLight& l : delta) {
+        l.pick = static_cast<float>(fluxOf(l) * scale);
+    }
+}
+
 std::array<float, 256> srgbTable()
 {
     std::array<float, 256> table {};
@@ -109,6 +133,7 @@ shared::AreaLight deviceLight(const scene::AreaLight& light)
     d.profile = gaussian ? WEDGE_PROFILE_GAUSSIAN : WEDGE_PROFILE_UNIFORM;
     d.power = toVec3(light.radiance * static_cast<float>(area * mean * mean));
     d.radiance = toVec3(light.radiance);
+    d.profileArea = static_cast<float>(area * mean * mean);
     d.twoSided = light.twoSided ? 1 : 0;
     d.visible = light.visible ? 1 : 0;
     return d;
@@ -171,12 +196,15 @@ DeviceScene::DeviceScene(
         quadratures.emplace_back(device, rule.size(), "light quadrature");
         quadratures.back().upload(queue, rule);
     }
+    std::vector<shared::DeltaLight> delta = deltaLightData(scene);
+    const scene::Bounds bounds = scene::sceneBounds(scene);
+    const glm::vec3 extent = bounds.empty() ? glm::vec3(1.0f) : bounds.hi - bounds.lo;
+    diameter = bounds.empty() ? 1.0f : glm::length(extent);
+    largestDimension = std::max({ extent.x, extent.y, extent.z });
+    setPicks(areaLightList, delta, diameter);
     areaLights.upload(queue, areaLightList);
-    const std::vector<shared::DeltaLight> delta = deltaLightData(scene);
     deltaLights.upload(queue, delta);
     deltaLightCount = static_cast<std::uint32_t>(delta.size());
-    const scene::Bounds bounds = scene::sceneBounds(scene);
-    diameter = bounds.empty() ? 1.0f : glm::length(bounds.hi - bounds.lo);
     specular = hasSpecular(scene);
 }
 

@@ -47,6 +47,7 @@ public:
     std::vector<device::Buffer<float>> quadratures; ///< one a light: coarse nodes, then fine, (position, weight)
     std::uint32_t deltaLightCount = 0;
     float diameter = 0; ///< metres, diagonal of the bounds
+    float largestDimension = 0; ///< metres, of the bounds
     bool specular = false; ///< hasSpecular()
 };
 

@@ -1,6 +1,7 @@
 #include "host/render/frame.h"
 
 #include "kernels/shared/filter_params.h"
+#include "kernels/shared/path.h"
 
 #include <cmath>
 #include <numeric>
@@ -24,7 +25,7 @@ std::uint32_t tileStep(std::uint32_t count)
     return step;
 }
 
-constexpr std::uint64_t slopePlanes = 4;
+constexpr std::uint64_t spreadPlanes = 4;
 
 struct PlannedPlanes {
     const char* name;
@@ -54,8 +55,9 @@ void Frame::plan(device::MemoryPlan& plan, const PlaneLayout& layout)
 {
     planPlanes(plan, layout,
         { { "position", 3 }, { "normal", 3 }, { "origin", 3 }, { "depth", 1 }, { "pixel size", 1 }, { "diffuse", 3 },
-            { "specular", 3 }, { "emission", 3 }, { "gloss", 1 }, { "object id", 1 }, { "rays", 1 }, { "direct", 3 },
-            { "direct noisy", 3 }, { "beauty", 3 }, { "samples", 1 } });
+            { "specular", 3 }, { "emission", 3 }, { "gloss", 1 }, { "geometric normal", 1 }, { "object id", 1 },
+            { "rays", 1 }, { "path rays", 1 }, { "direct", 3 }, { "direct noisy", 3 }, { "indirect", 3 },
+            { "indirect noisy", 3 }, { "beauty", 3 }, { "samples", 1 }, { "indirect samples", 1 } });
 }
 
 Frame::Frame(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& planes)
@@ -69,18 +71,24 @@ Frame::Frame(const device::Device& device, device::TimedQueue& queue, const Plan
     , specular(device, 3 * planes.size, "specular")
     , emission(device, 3 * planes.size, "emission")
     , gloss(device, planes.size, "gloss")
+    , geometric(device, planes.size, "geometric normal")
     , objectId(device, planes.size, "object id")
     , rays(device, planes.size, "rays")
+    , pathRays(device, planes.size, "path rays")
     , direct(device, 3 * planes.size, "direct")
     , directNoisy(device, 3 * planes.size, "direct noisy")
+    , indirect(device, 3 * planes.size, "indirect")
+    , indirectNoisy(device, 3 * planes.size, "indirect noisy")
     , beauty(device, 3 * planes.size, "beauty")
     , samples(device, planes.size, "samples")
+    , indirectSamples(device, planes.size, "indirect samples")
 {
     // Padding is read by gathers: it has to be finite, and objectId 0 there stays for good.
     for (device::Buffer<float>* b : { &position, &normal, &origin, &depth, &pixelSize, &diffuse, &specular, &emission, &gloss }) {
         b->fill(queue, 0.0f);
     }
     objectId.fill(queue, 0u);
+    geometric.fill(queue, 0u);
     clear(queue);
 }
 
@@ -88,38 +96,56 @@ void Frame::clear(device::TimedQueue& queue)
 {
     direct.fill(queue, 0.0f);
     directNoisy.fill(queue, 0.0f);
+    indirect.fill(queue, 0.0f);
+    indirectNoisy.fill(queue, 0.0f);
     samples.fill(queue, 0u);
+    indirectSamples.fill(queue, 0u);
     rays.fill(queue, 0u);
+    pathRays.fill(queue, 0u);
 }
 
-void Term::plan(device::MemoryPlan& plan, const PlaneLayout& layout, bool specular, bool analysed)
+bool TermShape::holds(const TermShape& other) const
 {
-    const std::uint64_t channels = specular ? 2 : 1;
-    planPlanes(plan, layout, { { "sums", 2 * channels }, { "value", channels }, { "samples taken", 1 }, { "samples wanted", 1 } });
-    if (analysed) {
+    return sums >= other.sums && values >= other.values && extremes >= other.extremes && analysed >= other.analysed;
+}
+
+TermShape TermShape::with(const TermShape& other) const
+{
+    return { std::max(sums, other.sums), std::max(values, other.values), std::max(extremes, other.extremes),
+        analysed || other.analysed };
+}
+
+void Term::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const TermShape& shape)
+{
+    planPlanes(plan, layout,
+        { { "sums", shape.sums }, { "value", shape.values }, { "samples taken", 1 }, { "samples wanted", 1 },
+            { "slopes and distances", shape.extremes } });
+    if (shape.analysed) {
         planPlanes(plan, layout,
-            { { "slopes", 2 }, { "filter width", 1 }, { "rows filtered", channels }, { "filtered", channels },
-                { "effective count of rows", 1 }, { "effective count", 1 }, { "log slopes", slopePlanes },
-                { "slopes spread along rows", slopePlanes }, { "slopes spread", slopePlanes }, { "demand", 1 } });
+            { { "filter width", 1 }, { "rows filtered", shape.values }, { "filtered", shape.values },
+                { "effective count of rows", 1 }, { "effective count", 1 }, { "logarithms", spreadPlanes },
+                { "logarithms spread along rows", spreadPlanes }, { "logarithms spread", spreadPlanes }, { "demand", 1 } });
     }
 }
 
-Term::Term(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, bool specular, bool withAnalysis)
-    : analysed(withAnalysis)
-    , sums(device, layout.size * (specular ? 4 : 2), "sums")
-    , value(device, layout.size * (specular ? 2 : 1), "value")
+Term::Term(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, const TermShape& planes)
+    : shape(planes)
+    , sums(device, layout.size * planes.sums, "sums")
+    , value(device, layout.size * planes.values, "value")
     , taken(device, layout.size, "samples taken")
     , wanted(device, layout.size, "samples wanted")
-    , slopes(device, withAnalysis ? 2 * layout.size : 0, "slopes")
-    , beta(device, withAnalysis ? layout.size : 0, "filter width")
-    , rowsFiltered(device, withAnalysis ? value.size() : 0, "rows filtered")
-    , filtered(device, withAnalysis ? value.size() : 0, "filtered")
-    , rowsEffective(device, withAnalysis ? layout.size : 0, "effective count of rows")
-    , effective(device, withAnalysis ? layout.size : 0, "effective count")
-    , logSlopes(device, withAnalysis ? slopePlanes * layout.size : 0, "log slopes")
-    , spreadRows(device, withAnalysis ? slopePlanes * layout.size : 0, "slopes spread along rows")
-    , spread(device, withAnalysis ? slopePlanes * layout.size : 0, "slopes spread")
-    , demand(device, withAnalysis ? layout.size : 0, "demand")
+    , extremes(device, layout.size * planes.extremes, "slopes and distances")
+    , beta(device, planes.analysed ? layout.size : 0, "filter width")
+    , rowsFiltered(device, planes.analysed ? value.size() : 0, "rows filtered")
+    , filtered(device, planes.analysed ? value.size() : 0, "filtered")
+    , rowsEffective(device, planes.analysed ? layout.size : 0, "effective count of rows")
+    , effective(device, planes.analysed ? layout.size : 0, "effective count")
+    , logs(device, planes.analysed ? spreadPlanes * layout.size : 0, "logarithms")
+    , rowsSpread(device, planes.analysed ? spreadPlanes * layout.size : 0, "logarithms spread along rows")
+    , spread(device, planes.analysed ? spreadPlanes * layout.size : 0, "logarithms spread")
+    , demand(device, planes.analysed ? layout.size : 0, "demand")
+    , bounds(device, 6 * WEDGE_EXTENT_STRIPES, "visible bounds")
+    , extent(device, 1, "visible extent")
     , histogramCounts(device, WEDGE_DEMAND_STRIPES * WEDGE_DEMAND_BINS, "demand histogram")
     , histogramPixels(device, WEDGE_DEMAND_STRIPES, "shaded pixels")
     , binCounts(device, WEDGE_DEMAND_BINS, "demand bins")
@@ -127,11 +153,19 @@ Term::Term(const device::Device& device, device::TimedQueue& queue, const PlaneL
     , binSums(device, WEDGE_DEMAND_BINS, "demand bin sums")
     , countScale(device, 1, "count scale")
 {
-    for (device::Buffer<float>* b : { &sums, &value, &slopes, &beta, &rowsFiltered, &filtered, &rowsEffective, &effective, &logSlopes, &spreadRows, &spread, &demand }) {
+    for (device::Buffer<float>* b : { &rowsFiltered, &filtered, &rowsEffective, &effective, &logs, &rowsSpread, &spread, &demand, &beta }) {
         b->fill(queue, 0.0f);
     }
-    taken.fill(queue, 0u);
     wanted.fill(queue, 0u);
+    clear(queue);
+}
+
+void Term::clear(device::TimedQueue& queue)
+{
+    sums.fill(queue, 0.0f);
+    value.fill(queue, 0.0f);
+    extremes.fill(queue, 0.0f);
+    taken.fill(queue, 0u);
 }
 
 shared::FrameParams frameParams(const scene::Scene& scene, const PlaneLayout& layout, const image::Window& window, std::uint32_t seed)

@@ -33,37 +33,54 @@ public:
     device::Buffer<float> position, normal, origin; ///< G-buffer, see kernels/primary.cl
     device::Buffer<float> depth, pixelSize;
     device::Buffer<float> diffuse, specular, emission, gloss;
+    device::Buffer<std::uint32_t> geometric; ///< geometric normal, packed
     device::Buffer<std::uint32_t> objectId;
-    device::Buffer<std::uint32_t> rays; ///< rays traced for each pixel
+    device::Buffer<std::uint32_t> rays; ///< rays traced for each pixel, without the camera's
+    device::Buffer<std::uint32_t> pathRays; ///< those of them that looked for the nearest surface of a path
     device::Buffer<float> direct, directNoisy; ///< radiance, filtered and not
+    device::Buffer<float> indirect, indirectNoisy; ///< radiance, or how open the hemisphere is
     device::Buffer<float> beauty; ///< emission and all that is reflected
-    device::Buffer<std::uint32_t> samples; ///< of all area lights
+    device::Buffer<std::uint32_t> samples; ///< of all terms
+    device::Buffer<std::uint32_t> indirectSamples; ///< of the indirect terms
 
     /// Zeroes what a frame accumulates.
     void clear(device::TimedQueue& queue);
 };
 
-/// One light's term: what was accumulated, what the analysis made of it, the filtered result. Used for one light
-/// after the other.
+/// Planes that the terms of a frame need.
+struct TermShape {
+    std::uint32_t sums = 0, values = 0; ///< accumulated; filtered
+    std::uint32_t extremes = 0; ///< slopes, or distances of reflectors
+    bool analysed = false; ///< with the buffers of analysis and filter
+
+    /// Whether buffers of this shape serve terms of the other.
+    bool holds(const TermShape& other) const;
+    /// What serves both.
+    TermShape with(const TermShape& other) const;
+};
+
+/// One term: what was accumulated, what the analysis made of it, the filtered result. Used for one term after the other.
 class Term {
 public:
-    static void plan(device::MemoryPlan& plan, const PlaneLayout& layout, bool specular, bool analysed);
+    static void plan(device::MemoryPlan& plan, const PlaneLayout& layout, const TermShape& shape);
 
-    /// channels: 1 (diffuse) or 2 (diffuse and specular). analysed: with the buffers of analysis and filter.
-    Term(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, bool specular,
-        bool analysed);
+    Term(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, const TermShape& shape);
 
-    bool analysed;
-    device::Buffer<float> sums; ///< two planes a channel: weights, weights of visible samples
-    device::Buffer<float> value; ///< a plane a channel: what is filtered
+    /// Forgets the term before.
+    void clear(device::TimedQueue& queue);
+
+    TermShape shape;
+    device::Buffer<float> sums; ///< see area_light.cl, indirect.cl
+    device::Buffer<float> value; ///< what is filtered
     device::Buffer<std::uint32_t> taken, wanted; ///< samples
-    device::Buffer<float> slopes; ///< s_min, s_max
+    device::Buffer<float> extremes; ///< of lights: s_min, s_max; of indirect light see indirect.cl
     device::Buffer<float> beta; ///< metres
     device::Buffer<float> rowsFiltered, filtered; ///< like value
     device::Buffer<float> rowsEffective, effective; ///< equal samples that the gather amounts to
-    device::Buffer<float> logSlopes; ///< 4 planes, see analysis.cl
-    device::Buffer<float> spreadRows, spread; ///< 4 planes
+    device::Buffer<float> logs; ///< 4 planes: logarithms of slopes or distances and weights, see analysis.cl, reflectors.cl
+    device::Buffer<float> rowsSpread, spread; ///< 4 planes: the same, summed over a neighbourhood
     device::Buffer<float> demand; ///< and before that, eroded slopes
+    device::Buffer<float> bounds, extent; ///< of what the camera sees, see reflectors.cl
     device::Buffer<std::uint32_t> histogramCounts, histogramPixels, binCounts; ///< see counts.cl
     device::Buffer<float> histogramSums, binSums, countScale;
 };

@@ -16,8 +16,9 @@ constexpr const char* widthLayer = "filterWidth";
 /// Copies planes of the frame to channels of the image over the output's window.
 class LayerReader {
 public:
-    LayerReader(Renderer& renderer, const image::Window& window, image::LayeredImage& image)
+    LayerReader(Renderer& renderer, const Settings& settings, const image::Window& window, image::LayeredImage& image)
         : renderer_(renderer)
+        , settings_(settings)
         , window_(window)
         , image_(image)
         , objectId_(renderer.frame().objectId.downloadAll(renderer.queue()))
@@ -62,17 +63,17 @@ public:
         image_.channels.back().integer = true;
     }
 
-    /// 0 where the light does not reach (the analysis has -1 there), and of lights that an early stop kept from being
-    /// analysed.
+    /// 0 where the term is not (the analysis has -1 there), and of terms that an early stop kept from being analysed.
     void filterWidths()
     {
-        const std::size_t lights = renderer_.scene().areaLights.size();
+        const std::vector<std::string> terms = termNames(settings_, renderer_.scene());
         const std::vector<float> pixelSize = frame().pixelSize.downloadAll(renderer_.queue());
         const std::vector<float> none(frame().layout.size, 0.0f);
-        for (std::size_t light = 0; light < lights; ++light) {
-            const bool known = light < renderer_.lightPlanes().size() && !renderer_.lightPlanes()[light].beta.empty();
-            const std::vector<float>& beta = known ? renderer_.lightPlanes()[light].beta : none;
-            const std::string name = lights == 1 ? widthLayer : fmt::format("{}{}", widthLayer, light + 1);
+        for (const std::string& term : terms) {
+            const auto known = std::ranges::find(renderer_.termPlanes(), term, &TermPlanes::name);
+            const bool analysed = known != renderer_.termPlanes().end() && !known->beta.empty();
+            const std::vector<float>& beta = analysed ? known->beta : none;
+            const std::string name = widthLayer + term;
             channel(name + ".world", Where::OnSurfaces, [&](std::size_t i) { return std::max(0.0f, beta[i]); });
             channel(name + ".pixels", Where::OnSurfaces,
                 [&](std::size_t i) { return pixelSize[i] > 0 ? std::max(0.0f, beta[i]) / pixelSize[i] : 0.0f; });
@@ -96,6 +97,7 @@ private:
     }
 
     Renderer& renderer_;
+    const Settings& settings_;
     image::Window window_;
     image::LayeredImage& image_;
     std::vector<std::uint32_t> objectId_;
@@ -121,15 +123,20 @@ const std::vector<Layer>& layerTable()
             [](LayerReader& r) { r.depth(); } },
         { { "emission", "R G B: radiance of emitting surfaces, lights and background seen directly" },
             [](LayerReader& r) { r.vector("emission.", "RGB", r.frame().emission, Where::Everywhere); } },
-        { { "direct", "R G B: radiance reflected from lights, filtered; beauty = emission + direct" },
+        { { "direct", "R G B: radiance reflected from lights, filtered; beauty = emission + direct + indirect" },
             [](LayerReader& r) { r.vector("direct.", "RGB", r.frame().direct, Where::OnSurfaces); } },
         { { "directNoisy", "R G B: the same before the filter" },
             [](LayerReader& r) { r.vector("directNoisy.", "RGB", r.frame().directNoisy, Where::OnSurfaces); } },
-        { { "samples", "Y: samples taken of all area lights together" }, [](LayerReader& r) { r.samples(); } },
+        { { "indirect", "R G B: radiance reflected from other surfaces, filtered; of ambient occlusion what is open" },
+            [](LayerReader& r) { r.vector("indirect.", "RGB", r.frame().indirect, Where::OnSurfaces); } },
+        { { "indirectNoisy", "R G B: the same before the filter" },
+            [](LayerReader& r) { r.vector("indirectNoisy.", "RGB", r.frame().indirectNoisy, Where::OnSurfaces); } },
+        { { "samples", "Y: samples taken of all terms (area lights, indirect diffuse, indirect glossy) together" }, [](LayerReader& r) { r.samples(); } },
         { { "rays", "Y: rays traced for the pixel, the camera's included" }, [](LayerReader& r) { r.rays(); } },
         { { widthLayer,
-              "world, pixels: standard deviation of the filter in metres and in pixels, 0 where the light does not "
-              "reach (method aaf; with several area lights filterWidth1, filterWidth2, ...)" },
+              "world, pixels: standard deviation of the filter in metres and in pixels, 0 where the term is not (method "
+              "aaf; of the area light; of several filterWidth1, filterWidth2, ...; of indirect light "
+              "filterWidthIndirect, filterWidthGlossy; of ambient occlusion filterWidthAmbient)" },
             [](LayerReader& r) { r.filterWidths(); } },
         { { "objectId", "I: number of the object hit, from 1; 0 on a miss" }, [](LayerReader& r) { r.objectId(); } },
     };
@@ -139,13 +146,16 @@ const std::vector<Layer>& layerTable()
 /// Why the layer cannot be made; "" if it can.
 std::string obstacle(const std::string& layer, const Settings& settings, const scene::Scene& scene)
 {
+    if (layer.starts_with("indirect") && !tracesPaths(settings)) {
+        return "there are no bounces of light";
+    }
     if (layer != widthLayer) {
         return "";
     }
     if (settings.method != Method::AxisAligned) {
         return "method " + methodName(settings.method) + " has no filter";
     }
-    return scene.areaLights.empty() ? "the scene has no area light" : "";
+    return termNames(settings, scene).empty() ? "the scene has no area light" : "";
 }
 
 std::vector<std::string> split(const std::string& list)
@@ -203,7 +213,7 @@ std::vector<std::string> selectLayers(const std::string& list, const Settings& s
     return selected;
 }
 
-bool needLightPlanes(const std::vector<std::string>& layers) { return contains(layers, widthLayer); }
+bool needTermPlanes(const std::vector<std::string>& layers) { return contains(layers, widthLayer); }
 
 image::LayeredImage readLayers(Renderer& renderer, const Settings& settings, const FrameStatistics& statistics,
     const std::vector<std::string>& layers)
@@ -213,7 +223,7 @@ image::LayeredImage readLayers(Renderer& renderer, const Settings& settings, con
     image.height = settings.height;
     image.window = outputWindow(settings);
     image.metadata = frameMetadata(renderer, settings, statistics);
-    LayerReader reader(renderer, image.window, image);
+    LayerReader reader(renderer, settings, image.window, image);
     reader.vector("", "RGB", reader.frame().beauty, Where::Everywhere);
     for (const Layer& layer : layerTable()) {
         if (contains(layers, layer.info.name)) {

@@ -23,7 +23,7 @@ const std::vector<LayerInfo>& knownLayers();
 std::vector<std::string> selectLayers(const std::string& list, const Settings& settings, const scene::Scene& scene);
 
 /// True if one of the layers needs render()'s keepLights.
-bool needLightPlanes(const std::vector<std::string>& layers);
+bool needTermPlanes(const std::vector<std::string>& layers);
 
 /// The last frame, over its crop: channels R, G and B, those of the layers, and the metadata of metadata.h.
 /// settings: those that the frame was rendered with. Throws Error if the device fails.

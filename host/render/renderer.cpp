@@ -1,5 +1,6 @@
 #include "host/render/renderer.h"
 
+#include "host/render/effects/indirect.h"
 #include "host/render/effects/soft_shadows.h"
 
 #include <algorithm>
@@ -18,6 +19,12 @@ double secondsSince(Clock::time_point start) { return std::chrono::duration<doub
 
 bool needsAnalysis(const Settings& settings) { return settings.method == Method::AxisAligned; }
 
+TermShape termShape(const Settings& settings, bool specular)
+{
+    const TermShape direct = SoftShadows::termShape(specular, needsAnalysis(settings));
+    return tracesPaths(settings) ? direct.with(Indirect::termShape(needsAnalysis(settings))) : direct;
+}
+
 device::BuildOptions programOptions(const scene::Scene& scene, const Options& options, Traversal traversal)
 {
     device::BuildOptions out;
@@ -33,6 +40,19 @@ device::BuildOptions programOptions(const scene::Scene& scene, const Options& op
 }
 
 } // namespace
+
+std::vector<std::string> termNames(const Settings& settings, const scene::Scene& scene)
+{
+    std::vector<std::string> names;
+    const std::size_t lights = settings.integrator == Integrator::Path ? scene.areaLights.size() : 0;
+    for (std::size_t i = 0; i < lights; ++i) {
+        names.push_back(lights == 1 ? "" : std::to_string(i + 1));
+    }
+    for (const IndirectTerm& term : indirectTerms(settings, hasSpecular(scene))) {
+        names.emplace_back(term.name);
+    }
+    return names;
+}
 
 double FrameStatistics::milliseconds(PassKind kind) const
 {
@@ -68,7 +88,7 @@ device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hi
     device::MemoryPlan plan;
     DeviceScene::plan(plan, scene, hierarchy);
     Frame::plan(plan, layout);
-    Term::plan(plan, layout, hasSpecular(scene), needsAnalysis(settings));
+    Term::plan(plan, layout, termShape(settings, hasSpecular(scene)));
     return plan;
 }
 
@@ -85,9 +105,10 @@ void Renderer::allocate(const Settings& settings)
         frame_.reset();
         frame_ = std::make_unique<Frame>(device_, queue_, layout);
     }
-    if (!term_ || term_->analysed < needsAnalysis(settings)) {
+    const TermShape shape = termShape(settings, deviceScene_->specular);
+    if (!term_ || !term_->shape.holds(shape)) {
         term_.reset();
-        term_ = std::make_unique<Term>(device_, queue_, layout, deviceScene_->specular, needsAnalysis(settings));
+        term_ = std::make_unique<Term>(device_, queue_, layout, shape);
     }
 }
 
@@ -107,11 +128,15 @@ void Renderer::rehearse(const Settings& settings)
 
 double Renderer::workUnits(const Settings& settings) const
 {
+    const double paths = tracesPaths(settings) ? settings.spp * std::max(1, settings.bounces) * (hasSpecular(scene_) ? 2.0 : 1.0) : 0.0;
+    if (settings.integrator == Integrator::AmbientOcclusion) {
+        return 1.0 + settings.spp;
+    }
     return 1.0 + (scene_.pointLights.empty() && scene_.directionalLights.empty() ? 0.0 : 1.0)
-        + static_cast<double>(scene_.areaLights.size()) * settings.spp;
+        + static_cast<double>(scene_.areaLights.size()) * settings.spp + paths;
 }
 
-FrameStatistics Renderer::render(const Settings& settings, const Control& control, bool keepLights)
+FrameStatistics Renderer::render(const Settings& settings, const Control& control, bool keepWidths)
 {
     allocate(settings);
     queue_.takeRecords();
@@ -128,7 +153,7 @@ FrameStatistics Renderer::render(const Settings& settings, const Control& contro
         }
     });
     FrameStatistics statistics;
-    statistics.complete = renderPasses(settings, keepLights);
+    statistics.complete = renderPasses(settings, keepWidths);
     queue_.finish();
     statistics.wallMilliseconds = 1e3 * secondsSince(start);
     queue_.setCancelFlag(nullptr);
@@ -142,7 +167,7 @@ FrameStatistics Renderer::render(const Settings& settings, const Control& contro
     return statistics;
 }
 
-bool Renderer::renderPasses(const Settings& settings, bool keepLights)
+bool Renderer::renderPasses(const Settings& settings, bool keepWidths)
 {
     const image::Window output = outputWindow(settings);
     const image::Window whole { 0, 0, settings.width, settings.height };
@@ -152,17 +177,28 @@ bool Renderer::renderPasses(const Settings& settings, bool keepLights)
     const shared::FrameParams sampledFrame = frameParams(scene_, frame_->layout, sampled, settings.seed);
 
     frame_->clear(queue_);
-    lightPlanes_.clear();
+    termPlanes_.clear();
     bool complete = primaryPass(analysed ? fullFrame : sampledFrame);
+    const bool lit = settings.integrator == Integrator::Path;
     SoftShadows shadows(*passes_, *deviceScene_, *frame_, *term_, settings, fullFrame, sampledFrame, output);
-    for (std::uint32_t light = 0; complete && light < deviceScene_->areaLightList.size(); ++light) {
+    const std::size_t lights = lit ? deviceScene_->areaLightList.size() : 0;
+    for (std::uint32_t light = 0; complete && light < lights; ++light) {
         complete = shadows.render(light);
-        if (keepLights) {
-            lightPlanes_.push_back({ shadows.analysed() ? term_->beta.downloadAll(queue_) : std::vector<float>() });
+        if (keepWidths) {
+            keepPlanes(settings, shadows.analysed());
         }
     }
-    if (complete && deviceScene_->deltaLightCount > 0) {
+    if (complete && lit && deviceScene_->deltaLightCount > 0) {
         complete = deltaLightPass(sampledFrame);
+    }
+    Indirect indirect(*passes_, *deviceScene_, *frame_, *term_, settings, fullFrame, sampledFrame, output);
+    for (const IndirectTerm& term : indirectTerms(settings, deviceScene_->specular)) {
+        if (complete) {
+            complete = indirect.render(term.component);
+            if (keepWidths) {
+                keepPlanes(settings, indirect.analysed());
+            }
+        }
     }
     shared::AnalysisParams all {};
     const image::Window blocks = blockWindow(output, 0, settings.width, settings.height);
@@ -170,8 +206,14 @@ bool Renderer::renderPasses(const Settings& settings, bool keepLights)
     all.stride = fullFrame.stride;
     all.planeSize = fullFrame.planeSize;
     passes_->rows("composite", PassKind::Composite, "composite.cl", "addEmission", all, WEDGE_BLOCK_PIXELS,
-        frame_->emission, frame_->direct, frame_->objectId, frame_->beauty);
+        frame_->emission, frame_->direct, frame_->indirect, frame_->objectId, frame_->beauty);
     return complete;
+}
+
+void Renderer::keepPlanes(const Settings& settings, bool analysed)
+{
+    const std::string name = termNames(settings, scene_).at(termPlanes_.size());
+    termPlanes_.push_back({ name, analysed ? term_->beta.downloadAll(queue_) : std::vector<float>() });
 }
 
 bool Renderer::primaryPass(const shared::FrameParams& params)
@@ -180,9 +222,9 @@ bool Renderer::primaryPass(const shared::FrameParams& params)
     Frame& f = *frame_;
     try {
         passes_->tiles("primary rays", PassKind::Trace, "primary.cl", "primary", params, 1.0, s.nodes, s.blocks,
-            s.positions, s.normals, s.texcoords, s.indices, s.materialIds, s.objectIds, s.materials, s.textures,
-            s.texels, s.srgbToLinear, s.areaLights, static_cast<std::uint32_t>(s.areaLightList.size()), f.position,
-            f.normal, f.origin, f.objectId, f.depth, f.pixelSize, f.diffuse, f.specular, f.emission, f.gloss);
+            s.positions, s.normals, s.texcoords, s.indices, s.materialIds, s.materials, s.textures, s.texels,
+            s.srgbToLinear, s.objectIds, s.areaLights, static_cast<std::uint32_t>(s.areaLightList.size()), f.position,
+            f.normal, f.origin, f.geometric, f.objectId, f.depth, f.pixelSize, f.diffuse, f.specular, f.emission, f.gloss);
     } catch (const device::Cancelled&) {
         return false;
     }
@@ -205,24 +247,40 @@ bool Renderer::deltaLightPass(const shared::FrameParams& params)
 
 void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
 {
-    const std::vector<std::uint32_t> samples = frame_->samples.downloadAll(queue_);
-    const std::vector<std::uint32_t> rays = frame_->rays.downloadAll(queue_);
-    const std::vector<std::uint32_t> objects = frame_->objectId.downloadAll(queue_);
+    const auto planeOf = [&](const device::Buffer<std::uint32_t>& b) { return b.downloadAll(queue_); };
+    const std::vector<std::uint32_t> samples = planeOf(frame_->samples), indirect = planeOf(frame_->indirectSamples);
+    const std::vector<std::uint32_t> rays = planeOf(frame_->rays), pathRays = planeOf(frame_->pathRays);
+    const std::vector<std::uint32_t> objects = planeOf(frame_->objectId);
+    const std::vector<float> specular = frame_->specular.downloadAll(queue_);
     const image::Window output = outputWindow(settings);
-    std::uint64_t total = 0;
+    const std::vector<IndirectTerm> terms = indirectTerms(settings, deviceScene_->specular);
+    const std::size_t size = frame_->layout.size;
+    std::uint64_t total = 0, indirectTotal = 0, indirectPixels = 0;
     for (int y = output.y0; y < output.y1; ++y) {
         for (int x = output.x0; x < output.x1; ++x) {
             const std::size_t i = shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), frame_->layout.stride);
-            statistics.shadedPixels += objects[i] != 0 ? 1 : 0;
-            total += objects[i] != 0 ? samples[i] : 0;
+            if (objects[i] == 0) {
+                continue;
+            }
+            ++statistics.shadedPixels;
+            total += samples[i];
+            indirectTotal += indirect[i];
+            const bool glossy = specular[i] + specular[size + i] + specular[2 * size + i] > 0;
+            indirectPixels += terms.empty() ? 0 : terms.size() > 1 && !glossy ? 1 : terms.size();
         }
     }
-    statistics.primaryRays = settings.method == Method::AxisAligned
-        ? static_cast<std::uint64_t>(settings.width) * static_cast<std::uint64_t>(settings.height)
-        : static_cast<std::uint64_t>(output.width()) * static_cast<std::uint64_t>(output.height());
-    statistics.shadowRays = std::accumulate(rays.begin(), rays.end(), std::uint64_t { 0 });
-    const double lights = static_cast<double>(std::max<std::size_t>(1, scene_.areaLights.size()));
-    statistics.sppMean = statistics.shadedPixels > 0 ? static_cast<double>(total) / static_cast<double>(statistics.shadedPixels) / lights : 0.0;
+    const bool whole = settings.method == Method::AxisAligned;
+    statistics.primaryRays = static_cast<std::uint64_t>(whole ? settings.width : output.width())
+        * static_cast<std::uint64_t>(whole ? settings.height : output.height());
+    statistics.indirectRays = std::accumulate(pathRays.begin(), pathRays.end(), std::uint64_t { 0 });
+    statistics.shadowRays = std::accumulate(rays.begin(), rays.end(), std::uint64_t { 0 }) - statistics.indirectRays;
+    const std::uint64_t directPixels = statistics.shadedPixels * (settings.integrator == Integrator::Path ? scene_.areaLights.size() : 0);
+    const auto mean = [](std::uint64_t sum, std::uint64_t count) {
+        return count > 0 ? static_cast<double>(sum) / static_cast<double>(count) : 0.0;
+    };
+    statistics.directSpp = mean(total - indirectTotal, directPixels);
+    statistics.indirectSpp = mean(indirectTotal, indirectPixels);
+    statistics.sppMean = mean(total, directPixels + indirectPixels);
     queue_.takeRecords();
 }
 

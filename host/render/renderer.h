@@ -34,10 +34,15 @@ struct Control {
     double timeLimitSeconds = 0; ///< stop sampling after this long; 0: never
 };
 
-/// Filter widths of one light, for the layers, a plane as on the device; empty if the light was not analysed.
-struct LightPlanes {
+/// Filter widths of one term, for the layers, a plane as on the device; empty if the term was not analysed.
+struct TermPlanes {
+    std::string name; ///< of termNames(): what its layer's name ends in
     std::vector<float> beta;
 };
+
+/// Names of the terms of a frame in their order: "" for a single area light, "1", "2", ... for several, then those of
+/// indirectTerms().
+std::vector<std::string> termNames(const Settings& settings, const scene::Scene& scene);
 
 /// What a frame cost and took.
 struct FrameStatistics {
@@ -46,8 +51,9 @@ struct FrameStatistics {
     double deviceMilliseconds = 0; ///< sum of the passes
     std::vector<device::PassRecord> passes;
     std::uint64_t shadedPixels = 0;
-    double sppMean = 0; ///< samples a shaded pixel and area light
-    std::uint64_t primaryRays = 0, shadowRays = 0;
+    double sppMean = 0; ///< samples a pixel and term that it has
+    double directSpp = 0, indirectSpp = 0; ///< the same of area lights and of indirect terms alone
+    std::uint64_t primaryRays = 0, shadowRays = 0, indirectRays = 0;
     std::uint64_t memoryBytes = 0;
 
     /// Analysis, filter and composite as a fraction of the device's time.
@@ -67,8 +73,8 @@ public:
     device::MemoryPlan plan(const Settings& settings) const { return plan(scene_, hierarchy_, settings); }
 
     /// Renders; the result stays on the device until the next call. Throws Error if memory does not suffice or the
-    /// device fails. keepLights: fills lightPlanes() for the width layers.
-    FrameStatistics render(const Settings& settings, const Control& control = {}, bool keepLights = false);
+    /// device fails. keepWidths: fills termPlanes() for the width layers.
+    FrameStatistics render(const Settings& settings, const Control& control = {}, bool keepWidths = false);
 
     /// Launches all kernels of these settings at full size over nothing, so that no compilation falls into render().
     void rehearse(const Settings& settings);
@@ -83,14 +89,15 @@ public:
 
     /// Of the last frame.
     const Frame& frame() const { return *frame_; }
-    const std::vector<LightPlanes>& lightPlanes() const { return lightPlanes_; }
+    const std::vector<TermPlanes>& termPlanes() const { return termPlanes_; }
     device::TimedQueue& queue() { return queue_; }
 
 private:
     void allocate(const Settings& settings);
-    bool renderPasses(const Settings& settings, bool keepLights);
+    bool renderPasses(const Settings& settings, bool keepWidths);
     bool primaryPass(const shared::FrameParams& params);
     bool deltaLightPass(const shared::FrameParams& params);
+    void keepPlanes(const Settings& settings, bool analysed);
     void countWork(const Settings& settings, FrameStatistics& statistics);
     double workUnits(const Settings& settings) const;
 
@@ -104,7 +111,7 @@ private:
     std::unique_ptr<DeviceScene> deviceScene_;
     std::unique_ptr<Frame> frame_;
     std::unique_ptr<Term> term_;
-    std::vector<LightPlanes> lightPlanes_;
+    std::vector<TermPlanes> termPlanes_;
     double setupSeconds_ = 0;
 };
 

@@ -76,9 +76,9 @@ Json frameSection(const FrameStatistics& frame, const Settings& settings)
     }
     return { { "complete", frame.complete }, { "total_ms", frame.deviceMilliseconds },
         { "wall_ms", frame.wallMilliseconds }, { "overhead_fraction", frame.overheadFraction() },
-        { "spp_mean", frame.sppMean }, { "shaded_pixels", frame.shadedPixels },
+        { "spp_mean", frame.sppMean }, { "spp_direct", frame.directSpp }, { "spp_indirect", frame.indirectSpp }, { "shaded_pixels", frame.shadedPixels },
         { "rays_per_pixel", raysPerPixel(frame, settings) }, { "mrays_s", megaraysPerSecond(frame) },
-        { "rays", { { "primary", frame.primaryRays }, { "shadow", frame.shadowRays }, { "indirect", 0 } } },
+        { "rays", { { "primary", frame.primaryRays }, { "shadow", frame.shadowRays }, { "indirect", frame.indirectRays } } },
         { "passes", passes }, { "memory_bytes", frame.memoryBytes } };
 }
 
@@ -89,14 +89,14 @@ double raysPerPixel(const FrameStatistics& statistics, const Settings& settings)
     const bool whole = settings.crop.width() == 0 || settings.crop.height() == 0;
     const double pixels = whole ? static_cast<double>(settings.width) * settings.height
                                 : static_cast<double>(settings.crop.width()) * settings.crop.height();
-    return static_cast<double>(statistics.primaryRays + statistics.shadowRays) / pixels;
+    return static_cast<double>(statistics.primaryRays + statistics.shadowRays + statistics.indirectRays) / pixels;
 }
 
 double megaraysPerSecond(const FrameStatistics& statistics)
 {
     const double milliseconds = statistics.milliseconds(device::PassKind::Trace);
-    return milliseconds > 0 ? 1e-3 * static_cast<double>(statistics.primaryRays + statistics.shadowRays) / milliseconds
-                            : 0.0;
+    const std::uint64_t rays = statistics.primaryRays + statistics.shadowRays + statistics.indirectRays;
+    return milliseconds > 0 ? 1e-3 * static_cast<double>(rays) / milliseconds : 0.0;
 }
 
 std::string jsonReport(const Renderer& renderer, const Settings& settings, const std::vector<FrameStatistics>& frames,

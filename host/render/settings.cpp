@@ -2,6 +2,7 @@
 
 #include "host/error.h"
 #include "kernels/shared/frame.h"
+#include "kernels/shared/indirect.h"
 #include "kernels/shared/wedge.h"
 
 #include <algorithm>
@@ -20,6 +21,9 @@ constexpr float referenceMu = 2.0f;
 // about five samples of the first pass, which it spends where nothing is in shadow, left out.
 constexpr float widthExponent = 1.0f / 3.0f;
 constexpr float evenSamples = 5.0f;
+// The same for indirect light.
+constexpr float referenceIndirectMu = 1.0f;
+constexpr float publishedMu = 2.0f, publishedIndirectMu = 0.9f;
 constexpr int largestSpp = 1 << 20;
 
 void requireRange(bool inRange, const std::string& what, const std::string& value, const std::string& range)
@@ -40,6 +44,7 @@ Settings monteCarlo(int spp)
     s.filtering = Filtering::None;
     s.spp = spp;
     s.maxSpp = std::max(spp, s.maxSpp);
+    s.indirect.maxSpp = s.maxSpp;
     return s;
 }
 
@@ -50,18 +55,22 @@ Settings axisAligned(std::optional<int> spp, std::optional<float> mu)
         s.spp = *spp;
         const float budget = std::max(1.0f, static_cast<float>(*spp) - evenSamples) / (referenceSpp - evenSamples);
         s.mu = mu.value_or(referenceMu * std::pow(budget, widthExponent));
+        s.indirect.mu = mu.value_or(referenceIndirectMu * std::pow(budget, widthExponent));
     } else if (mu) {
         s.mu = *mu;
+        s.indirect.mu = *mu;
         const float count = referenceSpp * (*mu / referenceMu) * (*mu / referenceMu);
         s.spp = static_cast<int>(std::lround(std::clamp(count, static_cast<float>(WEDGE_FIRST_PASS_RAYS), 1e5f)));
     }
     // A pixel may take ten times the mean, but no more than validate() accepts.
     s.maxSpp = std::max(s.maxSpp, std::min(10 * std::min(s.spp, largestSpp), largestSpp));
+    s.indirect.maxSpp = s.maxSpp;
     return s;
 }
 
-Settings asPublished(float mu)
+Settings asPublished(std::optional<float> wanted)
 {
+    const float mu = wanted.value_or(publishedMu);
     Settings s;
     s.published = true;
     s.sampler = Sampler::Stratified;
@@ -75,6 +84,15 @@ Settings asPublished(float mu)
     s.fillSigma = 0.0f;
     // The thesis caps nothing explicitly; 100 suits its mu of 2, and counts grow with the square of mu.
     s.maxSpp = static_cast<int>(std::lround(std::clamp(100.0f * std::max(1.0f, mu * mu / 4.0f), 100.0f, 1e5f)));
+    IndirectSettings& in = s.indirect;
+    in.mu = wanted.value_or(publishedIndirectMu);
+    in.alpha = 0.3f;
+    in.widthScale = 2.0f;
+    in.extent = ReflectorExtent::Scene;
+    in.leastReflector = 0.02f;
+    in.smoothing = 0;
+    in.counts = IndirectCounts::Spectrum;
+    in.maxSpp = static_cast<int>(std::lround(std::clamp(100.0f * in.mu, 100.0f, 1e5f)));
     return s;
 }
 
@@ -95,6 +113,17 @@ void validate(const Settings& s)
     requireRange(s.maxRadius >= 1 && s.maxRadius <= WEDGE_MAX_RADIUS, "kernel radius", text(s.maxRadius), fmt::format("pixels from 1 to {}", WEDGE_MAX_RADIUS));
     requireRange(s.fillRadius >= 0 && s.fillRadius <= static_cast<int>(WEDGE_ROW_PADDING), "slope spreading radius", text(s.fillRadius), fmt::format("pixels from 0 to {}", WEDGE_ROW_PADDING));
     requireRange(s.filtering != Filtering::Fixed || s.fixedWidth > 0, "fixed filter width", text(s.fixedWidth), "pixels above 0");
+    requireRange(s.bounces >= 0 && s.bounces <= mostBounces, "bounces", text(s.bounces), fmt::format("a whole number from 0 to {}", mostBounces));
+    requireRange(s.integrator == Integrator::Path || s.bounces == 0, "bounces", text(s.bounces), "none with ambient occlusion");
+    const IndirectSettings& in = s.indirect;
+    requireRange(std::isfinite(in.mu) && in.mu >= 0.01f && in.mu <= 1000.0f, "mu", text(in.mu), "a number from 0.01 to 1000");
+    requireRange(in.alpha >= 0 && in.widthScale > 0 && in.leastReflector > 0, "indirect filter constants", fmt::format("alpha {} width scale {} least reflector {}", in.alpha, in.widthScale, in.leastReflector), "positive numbers");
+    requireRange(in.smoothing >= 0 && in.smoothing <= static_cast<int>(WEDGE_ROW_PADDING), "distance smoothing radius", text(in.smoothing), fmt::format("pixels from 0 to {}", WEDGE_ROW_PADDING));
+    requireRange(std::isfinite(in.ambientDistance) && in.ambientDistance >= 0, "ambient occlusion distance", text(in.ambientDistance), "metres above 0");
+    if (s.method == Method::AxisAligned && tracesPaths(s)) {
+        requireRange(in.maxSpp >= static_cast<int>(WEDGE_INDIRECT_FIRST_RAYS) && s.spp >= static_cast<int>(WEDGE_INDIRECT_FIRST_RAYS),
+            "samples a pixel", fmt::format("{} (at most {})", s.spp, in.maxSpp), "16 or more with indirect light: its first pass takes 16");
+    }
     if (s.method == Method::AxisAligned) {
         requireRange(s.maxSpp >= static_cast<int>(WEDGE_FIRST_PASS_RAYS) && s.spp >= static_cast<int>(WEDGE_FIRST_PASS_RAYS),
             "samples a pixel", fmt::format("{} (at most {})", s.spp, s.maxSpp), "9 or more: the first pass takes 9");
@@ -109,12 +138,15 @@ image::Window outputWindow(const Settings& s)
     return whole ? image::Window { 0, 0, s.width, s.height } : s.crop;
 }
 
+bool tracesPaths(const Settings& s) { return s.bounces > 0 || s.integrator == Integrator::AmbientOcclusion; }
+
 std::string methodName(Method method) { return method == Method::MonteCarlo ? "mc" : "aaf"; }
 
 std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
 {
     const auto number = [](auto value) { return fmt::format("{}", value); };
     constexpr const char* shadings[] = { "separate", "inside", "ratio" };
+    constexpr const char* lightSamplings[] = { "both", "lights", "directions" };
     constexpr const char* filters[] = { "none", "fixed", "adaptive" };
     std::vector<std::pair<std::string, std::string>> out = {
         { "method", methodName(s.method) },
@@ -125,7 +157,13 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
         { "filter", filters[static_cast<int>(s.filtering)] },
         { "spp", number(s.spp) },
         { "maxSpp", number(s.maxSpp) },
+        { "integrator", s.integrator == Integrator::Path ? "path" : "ao" },
+        { "bounces", number(s.bounces) },
+        { "lightSampling", lightSamplings[static_cast<int>(s.lightSampling)] },
     };
+    if (tracesPaths(s) && s.integrator == Integrator::AmbientOcclusion) {
+        out.emplace_back("ambientDistance", number(s.indirect.ambientDistance));
+    }
     if (s.method == Method::AxisAligned) {
         out.insert(out.end(),
             { { "counts", s.counts == Counts::Spectrum ? "spectrum" : "variance" },
@@ -136,6 +174,17 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
                 { "fillSigma", number(s.fillSigma) }, { "fillRadius", number(s.fillRadius) },
                 { "countExponent", number(s.countExponent) }, { "varianceFloor", number(s.varianceFloor) },
                 { "varianceSpread", number(s.varianceSpread) } });
+    }
+    if (s.method == Method::AxisAligned && tracesPaths(s)) {
+        const IndirectSettings& in = s.indirect;
+        constexpr const char* counts[] = { "uniform", "spectrum", "variance" };
+        out.insert(out.end(),
+            { { "indirectMu", number(in.mu) }, { "indirectAlpha", number(in.alpha) },
+                { "indirectWidthScale", number(in.widthScale) },
+                { "reflectorExtent", in.extent == ReflectorExtent::Scene ? "scene" : "visible" },
+                { "leastReflector", number(in.leastReflector) }, { "distanceSmoothing", number(in.smoothing) },
+                { "indirectCounts", counts[static_cast<int>(in.counts)] },
+                { "indirectCountExponent", number(in.countExponent) }, { "indirectMaxSpp", number(in.maxSpp) } });
     }
     if (s.filtering == Filtering::Fixed) {
         out.emplace_back("fixedWidth", number(s.fixedWidth));

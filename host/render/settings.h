@@ -11,12 +11,25 @@ namespace wedge::render {
 
 enum class Method {
     MonteCarlo, ///< "mc": unbiased, no filter
-    AxisAligned, ///< "aaf": axis-aligned filtering, thesis chapter 3
+    AxisAligned, ///< "aaf": axis-aligned filtering, thesis chapters 3 and 4
 };
 
-/// How points on a light are chosen.
+/// What a frame shows.
+enum class Integrator {
+    Path, ///< direct light and, with bounces, paths
+    AmbientOcclusion, ///< how much of each point's hemisphere is open, on white surfaces; no lights
+};
+
+/// How paths find the area lights. All three converge to the same image.
+enum class LightSampling {
+    Both, ///< points on lights and reflected directions, combined by the power heuristic
+    Lights, ///< points on lights
+    Directions, ///< reflected directions that happen to meet a light; point and directional lights as before
+};
+
+/// How points on a light and directions are chosen.
 enum class Sampler {
-    Sobol, ///< Owen-scrambled Sobol sequence, a scramble of its own for each pixel and light
+    Sobol, ///< Owen-scrambled Sobol sequence, a scramble of its own for each pixel and term
     Stratified, ///< jittered strata
 };
 
@@ -50,6 +63,33 @@ enum class Slopes {
     Smoothed, ///< eroded, smoothed, spread with Gaussian weights
 };
 
+/// What the least distance of a reflector is a fraction of.
+enum class ReflectorExtent {
+    Scene, ///< the scene's largest dimension
+    Visible, ///< the largest dimension of what the camera sees
+};
+
+/// Where counts of indirect samples come from.
+enum class IndirectCounts {
+    Uniform,
+    Spectrum, ///< equation (4.21)
+    Variance, ///< variance of the filtered first pass
+};
+
+/// Indirect light and ambient occlusion; docs/indirect.md has the equations.
+struct IndirectSettings {
+    float mu = 0.9f; ///< sampling beyond the critical rate, (4.15), (4.21)
+    float alpha = 0.0f; ///< spatial bandlimit relative to the pixel's; 0: none, widths may go below a pixel
+    float widthScale = 0.5f; ///< standard deviation times bandwidth: beta = widthScale / Omega_r; thesis (4.16): 2
+    ReflectorExtent extent = ReflectorExtent::Visible;
+    float leastReflector = 0.005f; ///< reflectors nearer than this fraction of the extent count as this far
+    int smoothing = 2; ///< pixels: radius of the window over which distances are averaged in the logarithm
+    IndirectCounts counts = IndirectCounts::Variance;
+    float countExponent = 0.4f; ///< counts ~ (variance / gathered pixels)^this
+    int maxSpp = 256; ///< most samples of a pixel
+    float ambientDistance = 0.0f; ///< metres: farther surfaces do not occlude; 0: any distance does
+};
+
 /// Everything that decides what a frame looks like. monteCarlo(), axisAligned() and asPublished() give the presets.
 struct Settings {
     Method method = Method::AxisAligned;
@@ -58,6 +98,11 @@ struct Settings {
     image::Window crop; ///< pixels to render; empty: all
     std::uint32_t seed = 0;
 
+    Integrator integrator = Integrator::Path;
+    int bounces = 0; ///< of indirect light: 0 is direct light alone
+    LightSampling lightSampling = LightSampling::Both;
+    IndirectSettings indirect;
+
     Sampler sampler = Sampler::Sobol;
     Shading shading = Shading::Ratio;
     Sampling sampling = Sampling::Adaptive;
@@ -65,8 +110,8 @@ struct Settings {
     Counts counts = Counts::Variance;
     Slopes slopes = Slopes::Smoothed;
 
-    /// Samples a pixel and area light: of each pixel (uniform), or their mean (counts from variance). Counts from the
-    /// spectrum follow from mu alone.
+    /// Samples a pixel and term (a light, indirect diffuse, indirect glossy): of each pixel (uniform), or their mean
+    /// (counts from variance). Counts from the spectrum follow from mu alone.
     int spp = 28;
     int maxSpp = 256; ///< most samples of a pixel
     float mu = 2.0f; ///< sampling beyond the critical rate: larger is narrower, and more samples (section 3.5.2)
@@ -94,11 +139,18 @@ Settings monteCarlo(int spp);
 /// from the count, so that either one alone converges.
 Settings axisAligned(std::optional<int> spp = {}, std::optional<float> mu = {});
 
-/// Axis-aligned filtering as thesis chapter 3 has it.
-Settings asPublished(float mu = 2.0f);
+/// Axis-aligned filtering as thesis chapters 3 and 4 have it. Without mu, each effect's own: 2 for soft shadows, 0.9 for
+/// indirect light.
+Settings asPublished(std::optional<float> mu = {});
 
 /// The pixels that a frame of these settings produces: the crop, or all.
 image::Window outputWindow(const Settings& settings);
+
+/// Whether frames of these settings look along rays over the hemisphere: for indirect light or ambient occlusion.
+bool tracesPaths(const Settings& settings);
+
+/// Most bounces that a path may have.
+constexpr int mostBounces = 1024;
 
 /// Throws UsageError if a value is out of its range.
 void validate(const Settings& settings);

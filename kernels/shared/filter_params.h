@@ -42,7 +42,7 @@ typedef struct {
     float varianceFloor; ///< least variance where there are slopes
     float varianceSpread; ///< fraction of the 5x5 neighbourhood's largest variance that a pixel takes at least
     Vec3 lightCentre;    ///< metres
-    uint padding;
+    uint leastCount;     ///< samples of the first pass, which every pixel takes
 } AnalysisParams;
 
 WEDGE_SHARED_END

@@ -43,6 +43,28 @@ WEDGE_FN Vec3 cameraDirection(Vec3 forward, Vec3 right, Vec3 down, float width, 
     return vecMad(vecMad(forward, right, x - 0.5f * width), down, y - 0.5f * height);
 }
 
+/// A unit vector in 32 bits: 16 an axis of the octahedron's map, 1e-4 radians exact.
+WEDGE_FN uint packDirection(Vec3 v)
+{
+    const float scale = 1.0f / (fabs(v.x) + fabs(v.y) + fabs(v.z));
+    const float x = v.x * scale, y = v.y * scale;
+    const bool upper = v.z >= 0.0f;
+    const float a = upper ? x : (1.0f - fabs(y)) * (x < 0.0f ? -1.0f : 1.0f);
+    const float b = upper ? y : (1.0f - fabs(x)) * (y < 0.0f ? -1.0f : 1.0f);
+    return (uint)((0.5f * a + 0.5f) * 65535.0f + 0.5f) | ((uint)((0.5f * b + 0.5f) * 65535.0f + 0.5f) << 16);
+}
+
+/// The vector, of unit length, that packDirection() packed.
+WEDGE_FN Vec3 unpackDirection(uint packed)
+{
+    const float a = (float)(packed & 65535u) * (2.0f / 65535.0f) - 1.0f;
+    const float b = (float)(packed >> 16) * (2.0f / 65535.0f) - 1.0f;
+    const float z = 1.0f - fabs(a) - fabs(b);
+    const float x = z >= 0.0f ? a : (1.0f - fabs(b)) * (a < 0.0f ? -1.0f : 1.0f);
+    const float y = z >= 0.0f ? b : (1.0f - fabs(a)) * (b < 0.0f ? -1.0f : 1.0f);
+    return vecNormalize(vec3(x, y, z));
+}
+
 WEDGE_SHARED_END
 
 #endif

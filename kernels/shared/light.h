@@ -40,6 +40,9 @@ typedef struct {
     uint twoSided;   ///< 1: both sides emit
     Vec3 radiance;   ///< W/(m^2 sr) at the centre
     uint visible;    ///< 1: the camera sees it
+    float profileArea; ///< m^2: the profile's integral over the quad
+    float pick;        ///< probability that a path's vertex samples this light
+    uint padding[2];
 } AreaLight;
 
 /// A point light (directional = 0: vector is its position, colour its intensity in W/sr) or a directional one
@@ -48,8 +51,11 @@ typedef struct {
     Vec3 vector;
     uint directional;
     Vec3 colour;
-    uint padding;
+    float pick; ///< probability that a path's vertex samples this light
 } DeltaLight;
+
+/// A directional light's shadow rays end this many scene diameters away.
+#define WEDGE_FAR_DIAMETERS 4.0f
 
 /// How a light is sampled and weighted.
 typedef struct {
@@ -110,6 +116,13 @@ WEDGE_INLINE float lightCoordinate(float u, uint profile, float cut, float erfCu
 {
     const float x = 2.0f * u - 1.0f;
     return profile == WEDGE_PROFILE_GAUSSIAN ? 1.41421356f * erfInverse(x * erfCut) / cut : x;
+}
+
+/// From a receiver to the light, to where its shadow ray ends at t = 1.
+WEDGE_FN Vec3 vectorToLight(DeltaLight light, float sceneDiameter, Vec3 origin)
+{
+    return light.directional != 0u ? vecScale(light.vector, WEDGE_FAR_DIAMETERS * sceneDiameter)
+                                   : vecSub(light.vector, origin);
 }
 
 /// The light's profile at local coordinates (a, b), 1 at the centre.

@@ -5,6 +5,7 @@
 #include "shared/hit.h"
 #include "shared/light.h"
 #include "shared/material.h"
+#include "shared/path.h"
 
 #define STRUCT(S)                                                                                                      \
     {                                                                                                                  \

@@ -1,6 +1,7 @@
 #include "host/render/effects/soft_shadows.h"
 
 #include "host/render/filters/gaussian.h"
+#include "host/render/sample_counts.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/wedge.h"
 
@@ -25,6 +26,12 @@ float gaussianScale(float sigma)
 
 } // namespace
 
+TermShape SoftShadows::termShape(bool specular, bool analysed)
+{
+    const std::uint32_t channels = specular ? 2 : 1;
+    return { 2 * channels, channels, 2, analysed };
+}
+
 SoftShadows::SoftShadows(Passes& passes, const DeviceScene& scene, Frame& frame, Term& term, const Settings& settings,
     const shared::FrameParams& fullFrame, const shared::FrameParams& sampledFrame, const image::Window& window)
     : passes_(passes)
@@ -43,12 +50,11 @@ bool SoftShadows::render(std::uint32_t index)
 {
     index_ = index;
     analysed_ = false;
-    term_.taken.fill(passes_.queue(), 0u);
-    term_.sums.fill(passes_.queue(), 0.0f);
-    term_.value.fill(passes_.queue(), 0.0f);
+    term_.clear(passes_.queue());
     const bool complete = sample();
     if (analysed_ && settings_.filtering != Filtering::None) {
-        gaussianFilter(passes_, "filter", PassKind::Filter, settings_, fullFrame_, light(), window_, frame_, term_);
+        gaussianFilter(passes_, { "filter", PassKind::Filter, "filter.cl" },
+            filterParams(settings_, fullFrame_, light(), window_), window_, frame_, term_.value, term_, term_.filtered);
         shade(term_.filtered);
     } else {
         shade(term_.value);
@@ -83,7 +89,7 @@ bool SoftShadows::firstPass()
         // pixels as the whole image.
         passes_.tiles("first pass", PassKind::Trace, "area_light.cl", "firstPass", fullFrame_,
             WEDGE_FIRST_PASS_RAYS, sampleParams(), light(), scene_.nodes, scene_.blocks, frame_.position, frame_.normal,
-            frame_.origin, frame_.objectId, frame_.gloss, term_.sums, term_.taken, term_.value, term_.slopes, frame_.rays);
+            frame_.origin, frame_.objectId, frame_.gloss, term_.sums, term_.taken, term_.value, term_.extremes, frame_.rays);
     } catch (const device::Cancelled&) {
         return false;
     }
@@ -142,6 +148,7 @@ shared::AnalysisParams SoftShadows::analysisParams(const image::Window& window) 
     p.varianceFloor = settings_.varianceFloor;
     p.varianceSpread = settings_.varianceSpread;
     p.lightCentre = light().centre;
+    p.leastCount = WEDGE_FIRST_PASS_RAYS;
     return p;
 }
 
@@ -165,13 +172,13 @@ void SoftShadows::publishedWidths()
 {
     const shared::AnalysisParams p = analysisParams(full_);
     constexpr std::uint32_t planes = 4;
-    passes_.rows("widths", PassKind::Analysis, "analysis.cl", "publishedDistances", p, WEDGE_BLOCK_PIXELS, term_.slopes,
-        frame_.position, frame_.objectId, term_.logSlopes);
+    passes_.rows("widths", PassKind::Analysis, "analysis.cl", "publishedDistances", p, WEDGE_BLOCK_PIXELS, term_.extremes,
+        frame_.position, frame_.objectId, term_.logs);
     passes_.rows("widths", PassKind::Analysis, "analysis.cl", "spreadRows", p, WEDGE_BLOCK_PIXELS, planes,
-        term_.logSlopes, term_.spreadRows);
+        term_.logs, term_.rowsSpread);
     passes_.rows("widths", PassKind::Analysis, "analysis.cl", "spreadColumns", p, WEDGE_BLOCK_PIXELS, planes,
-        term_.spreadRows, term_.spread);
-    passes_.rows("widths", PassKind::Analysis, "analysis.cl", "publishedWidths", p, 1, term_.slopes, term_.spread,
+        term_.rowsSpread, term_.spread);
+    passes_.rows("widths", PassKind::Analysis, "analysis.cl", "publishedWidths", p, 1, term_.extremes, term_.spread,
         frame_.objectId, frame_.pixelSize, term_.sums, term_.beta, term_.wanted);
 }
 
@@ -180,15 +187,15 @@ void SoftShadows::smoothedWidths()
     const shared::AnalysisParams p = analysisParams(full_);
     constexpr std::uint32_t planes = 2;
     // The plane of demands is free until the counts are made.
-    passes_.rows("widths", PassKind::Analysis, "analysis.cl", "erodeSlopes", p, WEDGE_BLOCK_PIXELS, term_.slopes,
+    passes_.rows("widths", PassKind::Analysis, "analysis.cl", "erodeSlopes", p, WEDGE_BLOCK_PIXELS, term_.extremes,
         frame_.objectId, term_.demand);
     passes_.rows("widths", PassKind::Analysis, "analysis.cl", "smoothSlopes", p, WEDGE_BLOCK_PIXELS, term_.demand,
-        frame_.objectId, term_.logSlopes);
+        frame_.objectId, term_.logs);
     passes_.rows("widths", PassKind::Analysis, "analysis.cl", "spreadRows", p, WEDGE_BLOCK_PIXELS, planes,
-        term_.logSlopes, term_.spreadRows);
+        term_.logs, term_.rowsSpread);
     passes_.rows("widths", PassKind::Analysis, "analysis.cl", "spreadColumns", p, WEDGE_BLOCK_PIXELS, planes,
-        term_.spreadRows, term_.spread);
-    passes_.rows("widths", PassKind::Analysis, "analysis.cl", "widths", p, 1, term_.logSlopes, term_.spread,
+        term_.rowsSpread, term_.spread);
+    passes_.rows("widths", PassKind::Analysis, "analysis.cl", "widths", p, 1, term_.logs, term_.spread,
         frame_.objectId, frame_.pixelSize, term_.sums, term_.beta);
 }
 
@@ -198,30 +205,20 @@ void SoftShadows::countsFromVariance()
     if (settings_.filtering == Filtering::None) {
         term_.effective.fill(passes_.queue(), 1.0f);
     } else {
-        gaussianFilter(passes_, "filter of first pass", PassKind::Analysis, settings_, fullFrame_, light(), full_, frame_, term_);
+        gaussianFilter(passes_, { "filter of first pass", PassKind::Analysis, "filter.cl" },
+            filterParams(settings_, fullFrame_, light(), full_), full_, frame_, term_.value, term_, term_.filtered);
     }
     const device::Buffer<float>& visibility = settings_.filtering == Filtering::None ? term_.value : term_.filtered;
     passes_.rows("counts", PassKind::Analysis, "counts.cl", "countDemand", p, WEDGE_BLOCK_PIXELS, visibility,
         term_.effective, term_.beta, frame_.objectId, term_.demand);
-    device::TimedQueue& queue = passes_.queue();
-    device::Kernel& histogram = passes_.find("counts.cl", "demandHistogram");
-    histogram.setArgs(p, term_.demand, frame_.objectId, term_.histogramCounts, term_.histogramSums,
-        term_.histogramPixels);
-    queue.launch("counts", PassKind::Analysis, histogram, WEDGE_DEMAND_STRIPES, 1);
-    device::Kernel& solve = passes_.find("counts.cl", "solveCountScale");
-    solve.setArgs(static_cast<float>(settings_.spp), static_cast<float>(settings_.maxSpp),
-        term_.histogramCounts, term_.histogramSums, term_.histogramPixels, term_.binCounts, term_.binSums,
-        term_.countScale);
-    queue.launch("counts", PassKind::Analysis, solve, 1, 1);
-    passes_.rows("counts", PassKind::Analysis, "counts.cl", "countsFromDemand", p, 1, term_.demand, term_.countScale,
-        frame_.objectId, term_.wanted);
+    render::countsFromDemand(passes_, p, static_cast<float>(settings_.spp), frame_.objectId, term_);
 }
 
 void SoftShadows::uniformCounts()
 {
-    passes_.rows("counts", PassKind::Analysis, "counts.cl", "uniformCounts",
-        analysisParams(blockWindow(settings_.method == Method::MonteCarlo ? window_ : full_, 0, full_.x1, full_.y1)), 1,
-        static_cast<std::uint32_t>(settings_.spp), frame_.objectId, term_.wanted);
+    const image::Window& counted = settings_.method == Method::MonteCarlo ? window_ : full_;
+    render::uniformCounts(passes_, analysisParams(blockWindow(counted, 0, full_.x1, full_.y1)),
+        static_cast<std::uint32_t>(settings_.spp), frame_.objectId, term_);
 }
 
 void SoftShadows::shade(const device::Buffer<float>& value)

@@ -12,6 +12,9 @@ namespace wedge::render {
 /// shading. One light at a time; each is a term of its own.
 class SoftShadows {
 public:
+    /// What a light's term needs. specular: the scene reflects so; analysed: with filter.
+    static TermShape termShape(bool specular, bool analysed);
+
     /// window: the pixels that the result is wanted for.
     SoftShadows(Passes& passes, const DeviceScene& scene, Frame& frame, Term& term, const Settings& settings,
         const shared::FrameParams& fullFrame, const shared::FrameParams& sampledFrame, const image::Window& window);

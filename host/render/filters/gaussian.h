@@ -7,16 +7,31 @@
 #include "kernels/shared/filter_params.h"
 #include "kernels/shared/light.h"
 
+#include <string>
+#include <string_view>
+
 namespace wedge::render {
 
-/// The gather's parameters for the pixels of window.
+/// The gather's parameters for the pixels of window, without a light: distances are plain ones.
+shared::FilterParams filterParams(
+    const Settings& settings, const shared::FrameParams& frame, const image::Window& window);
+
+/// The same with distances in the plane parallel to the light.
 shared::FilterParams filterParams(const Settings& settings, const shared::FrameParams& frame,
     const shared::AreaLight& light, const image::Window& window);
 
-/// The separable world-space Gaussian of kernels/filter.cl from term.value into term.filtered (and the effective
-/// counts into term.effective), over window; it reads up to settings.maxRadius pixels beyond. No state.
-void gaussianFilter(Passes& passes, std::string_view pass, device::PassKind kind, const Settings& settings,
-    const shared::FrameParams& frameParams, const shared::AreaLight& light, const image::Window& window,
-    const Frame& frame, Term& term);
+/// What one run of the filter is called in reports, and the program that does it.
+struct FilterRun {
+    std::string_view pass;
+    device::PassKind kind;
+    std::string program; ///< a file that includes kernels/gather.h
+};
+
+/// The separable world-space Gaussian of kernels/gather.h from `value` into `filtered`, as many planes as the program
+/// has channels, and the effective counts into term.effective, over window; widths are term.beta. It reads up to
+/// params.maxRadius pixels beyond the window. No state; term.rowsFiltered and rowsEffective are scratch.
+/// params: of filterParams(); its rectangle does not matter.
+void gaussianFilter(Passes& passes, const FilterRun& run, shared::FilterParams params, const image::Window& window,
+    const Frame& frame, const device::Buffer<float>& value, Term& term, device::Buffer<float>& filtered);
 
 } // namespace wedge::render

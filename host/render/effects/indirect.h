@@ -1,0 +1,73 @@
+#pragma once
+
+#include "host/render/device_scene.h"
+#include "host/render/frame.h"
+#include "host/render/passes.h"
+#include "host/render/settings.h"
+#include "kernels/shared/filter_params.h"
+#include "kernels/shared/path.h"
+
+#include <vector>
+
+namespace wedge::render {
+
+/// What a term of indirect light holds.
+enum class Component : std::uint32_t {
+    Diffuse = WEDGE_COMPONENT_DIFFUSE,
+    Glossy = WEDGE_COMPONENT_GLOSSY,
+    Ambient = WEDGE_COMPONENT_AMBIENT,
+};
+
+/// A component that frames of some settings have, and what its filter widths' layer ends in.
+struct IndirectTerm {
+    Component component;
+    const char* name;
+};
+
+/// The indirect terms of a frame. specular: the scene reflects so.
+std::vector<IndirectTerm> indirectTerms(const Settings& settings, bool specular);
+
+/// Indirect light by paths, thesis chapter 4, and ambient occlusion by the same means: distances of reflectors, widths and
+/// counts (kernels/shared/indirect.h), paths, filter, modulation by the surface's reflectance. One component at a time;
+/// each is a term of its own.
+class Indirect {
+public:
+    /// What a component's term needs. analysed: with filter.
+    static TermShape termShape(bool analysed) { return { 4, 3, 3, analysed }; }
+
+    /// window: the pixels that the result is wanted for.
+    Indirect(Passes& passes, const DeviceScene& scene, Frame& frame, Term& term, const Settings& settings,
+        const shared::FrameParams& fullFrame, const shared::FrameParams& sampledFrame, const image::Window& window);
+
+    /// Samples, filters and adds the component to frame.indirect and indirectNoisy. Returns false if cancelled while
+    /// sampling; what was sampled until then is filtered and added all the same.
+    bool render(Component component);
+
+    /// Whether the last component got widths: not so in plain Monte Carlo, nor if its first pass was cancelled.
+    bool analysed() const { return analysed_; }
+
+private:
+    bool sample();
+    bool samplePaths(const char* pass, const shared::FrameParams& frame, std::uint32_t from, std::uint32_t most, double mean);
+    void widthsAndCounts();
+    void visibleExtent();
+    void smoothedWidths();
+    void countsFromVariance();
+    void composite(const device::Buffer<float>& value);
+    shared::PathParams pathParams() const;
+    shared::ReflectorParams reflectorParams(const image::Window& window) const;
+    shared::AnalysisParams countParams(const image::Window& window) const;
+    const device::Buffer<float>& reflectance() const;
+
+    Passes& passes_;
+    const DeviceScene& scene_;
+    Frame& frame_;
+    Term& term_;
+    const Settings& settings_;
+    shared::FrameParams fullFrame_, sampledFrame_;
+    image::Window full_, window_;
+    Component component_ = Component::Diffuse;
+    bool analysed_ = false;
+};
+
+} // namespace wedge::render

@@ -1,0 +1,186 @@
+// The image-space filter: a Gaussian of world-space standard deviation beta(x), as two one-dimensional passes.
+// Weights come from distances between the pixels' positions, so depth edges need no special case; neighbours of another
+// object or with another normal are left out. Distances are those in the plane parallel to a light, or, where the term is
+// of no light, plain ones. Each program that includes this sets WEDGE_GATHER_CHANNELS, the planes of value.
+//
+// in   value, beta (metres; 0: keep the pixel's own value, still a neighbour of others; negative: neither), position,
+//      normal, objectId, and for the second pass the first one's effective counts
+// out  filtered (like value), effective: (sum w)^2 / sum w^2, the number of equal samples that the gather amounts
+//      to, times that of the pass before
+#ifndef WEDGE_GATHER_H
+#define WEDGE_GATHER_H
+
+#include "shared/filter_params.h"
+#include "vector16.h"
+
+/// Least cosine between the ray to the light's centre and the light's normal in the oblique projection.
+#define WEDGE_MIN_OBLIQUE_COSINE 0.05f
+/// Least cosine between view ray and surface in the estimate of a pixel's step on the surface.
+#define WEDGE_MIN_STEP_COSINE 0.05f
+/// log2(e) / 2
+#define WEDGE_HALF_LOG2E 0.72134752f
+
+/// What a block of pixels needs to weigh its neighbours.
+typedef struct {
+    Vec3x16 position, normal, slant; ///< slant: what a motion of 1 along the light's normal adds, see distance16
+    uint16 object;
+    float16 scale; ///< -log2(e) / (2 beta^2)
+    float16 beta;
+    float16 limit; ///< (cut beta)^2
+    float16 radius;
+} GatherBlock;
+
+/// Squared distance between a pixel and its neighbour at offset d, as far as the light's shadow is concerned:
+/// d less its part along the light's normal (3.12), or, oblique, slid along the ray to the light's centre onto the
+/// plane through the pixel parallel to the light. Without a light, whose normal is then 0, it is |d|^2.
+WEDGE_FN float16 distance16(FilterParams p, Vec3x16 slant, Vec3x16 d)
+{
+    const float16 along = d.x * p.lightNormal.x + d.y * p.lightNormal.y + d.z * p.lightNormal.z;
+    const Vec3x16 e = mad16(d, slant, -along);
+    return dot16(e, e);
+}
+
+WEDGE_FN Vec3x16 slantOf(FilterParams p, Vec3x16 position)
+{
+    if (p.oblique == 0u) {
+        return splat3(p.lightNormal);
+    }
+    Vec3x16 l = sub16(splat3(p.lightCentre), position);
+    const float16 inverse = rsqrt(max16(dot16(l, l), (float16)(1e-20f)));
+    const float16 cosine = (l.x * p.lightNormal.x + l.y * p.lightNormal.y + l.z * p.lightNormal.z) * inverse;
+    const float16 bounded = fabs(cosine) < WEDGE_MIN_OBLIQUE_COSINE ? copysign((float16)(WEDGE_MIN_OBLIQUE_COSINE), cosine) : cosine;
+    const float16 scale = inverse / bounded;
+    l.x *= scale;
+    l.y *= scale;
+    l.z *= scale;
+    return l;
+}
+
+/// Pixels that a kernel of radius `reach` metres spans on the surface's tangent plane, along image step `step`.
+WEDGE_FN float16 radiusInPixels(FilterParams p, GatherBlock b, Vec3 step, float16 reach)
+{
+    const Vec3x16 fromEye = sub16(b.position, splat3(p.eye));
+    const float16 z = fromEye.x * p.forward.x + fromEye.y * p.forward.y + fromEye.z * p.forward.z;
+    const float16 facing = dot16(b.normal, fromEye);
+    const float16 least = WEDGE_MIN_STEP_COSINE * sqrt(dot16(fromEye, fromEye));
+    const float16 bounded = fabs(facing) < least ? copysign(least, facing) : facing;
+    const float16 turn = (b.normal.x * step.x + b.normal.y * step.y + b.normal.z * step.z) * z / bounded;
+    Vec3x16 moved;
+    moved.x = z * step.x - fromEye.x * turn;
+    moved.y = z * step.y - fromEye.y * turn;
+    moved.z = z * step.z - fromEye.z * turn;
+    const float16 metres = sqrt(distance16(p, b.slant, moved));
+    const float16 pixels = ceil(reach / max16(metres, (float16)(1e-20f)));
+    return min16(max16(pixels, (float16)(1.0f)), (float16)((float)p.maxRadius));
+}
+
+typedef struct {
+    float16 weight, squared;
+    float16 channel[WEDGE_GATHER_CHANNELS];
+} GatherSum;
+
+/// Adds the neighbours at element offset `offset`, `steps` pixels away.
+WEDGE_FN void gatherTap(FilterParams p, GatherBlock b, int j, float steps, __global const float* value,
+                        __global const float* beta, __global const float* position, __global const float* normal,
+                        __global const uint* objectId, GatherSum* sum)
+{
+    const uint16 object = loadIdBlock(objectId, j);
+    const float16 betaThere = loadBlock(beta, j);
+    const Vec3x16 normalThere = loadVecBlock(normal, p.planeSize, j);
+    const float16 squared = distance16(p, b.slant, sub16(loadVecBlock(position, p.planeSize, j), b.position));
+    const int16 taken = (object == b.object) & (betaThere >= 0.0f) & (dot16(b.normal, normalThere) >= p.normalCosine)
+        & (squared <= b.limit) & (steps <= b.radius);
+    float16 scale = b.scale;
+    if (p.narrower != 0u) {
+        // A pixel with no kernel of its own (beta 0) does not narrow its neighbours'.
+        const float16 own = betaThere > 0.0f ? min16(b.beta, betaThere) : b.beta;
+        scale = -WEDGE_HALF_LOG2E / (own * own);
+    }
+    const float16 w = taken ? exp2Block(squared * scale) : (float16)(0.0f);
+    sum->weight += w;
+    sum->squared += w * w;
+    // Not the weight alone: 0 times a NaN would let it in.
+    for (uint c = 0u; c < WEDGE_GATHER_CHANNELS; ++c) {
+        sum->channel[c] += taken ? w * loadBlock(value + c * p.planeSize, j) : (float16)(0.0f);
+    }
+}
+
+WEDGE_FN void gatherLine(FilterParams p, uint x, uint y, int element, Vec3 step, int before, int after,
+                         __global const float* value, __global const float* beta, __global const float* position,
+                         __global const float* normal, __global const uint* objectId, float16 effectiveBefore,
+                         __global float* filtered, __global float* effective)
+{
+    const int i = (int)pixelIndex(x, y, p.stride);
+    GatherBlock b;
+    b.beta = loadBlock(beta, i);
+    b.object = loadIdBlock(objectId, i);
+    const int16 gathers = (b.beta > 0.0f) & (b.object != 0u);
+    float16 own[WEDGE_GATHER_CHANNELS];
+    for (uint c = 0u; c < WEDGE_GATHER_CHANNELS; ++c) {
+        own[c] = loadBlock(value + c * p.planeSize, i);
+    }
+    if (!any(gathers)) {
+        for (uint c = 0u; c < WEDGE_GATHER_CHANNELS; ++c) {
+            vstore16(own[c], 0, filtered + c * p.planeSize + i);
+        }
+        vstore16(effectiveBefore, 0, effective + i);
+        return;
+    }
+    b.beta = gathers ? b.beta : (float16)(1.0f);
+    b.position = loadVecBlock(position, p.planeSize, i);
+    b.normal = loadVecBlock(normal, p.planeSize, i);
+    b.slant = slantOf(p, b.position);
+    b.scale = -WEDGE_HALF_LOG2E / (b.beta * b.beta);
+    b.limit = p.cut * p.cut * b.beta * b.beta;
+    b.radius = gathers ? radiusInPixels(p, b, step, p.cut * b.beta) : (float16)(0.0f);
+    GatherSum sum;
+    sum.weight = (float16)(1.0f);
+    sum.squared = (float16)(1.0f);
+    for (uint c = 0u; c < WEDGE_GATHER_CHANNELS; ++c) {
+        sum.channel[c] = own[c];
+    }
+    const int radius = (int)largestOf(b.radius);
+    for (int k = 1; k <= radius; ++k) {
+        if (k <= before) {
+            gatherTap(p, b, i - k * element, (float)k, value, beta, position, normal, objectId, &sum);
+        }
+        if (k <= after) {
+            gatherTap(p, b, i + k * element, (float)k, value, beta, position, normal, objectId, &sum);
+        }
+    }
+    for (uint c = 0u; c < WEDGE_GATHER_CHANNELS; ++c) {
+        vstore16(gathers ? sum.channel[c] / sum.weight : own[c], 0, filtered + c * p.planeSize + i);
+    }
+    const float16 count = gathers ? sum.weight * sum.weight / sum.squared : (float16)(1.0f);
+    vstore16(effectiveBefore * count, 0, effective + i);
+}
+
+/// Along x. The padding of the rows holds objectId 0, so no tap has to ask where the row ends.
+__kernel void filterRows(FilterParams p, __global const float* restrict value, __global const float* restrict beta,
+                         __global const float* restrict position, __global const float* restrict normal,
+                         __global const uint* restrict objectId, __global float* restrict filtered,
+                         __global float* restrict effective)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x < p.x1 && y < p.y1) {
+        gatherLine(p, x, y, 1, p.right, WEDGE_MAX_RADIUS, WEDGE_MAX_RADIUS, value, beta, position, normal, objectId,
+                   (float16)(1.0f), filtered, effective);
+    }
+}
+
+/// Along y.
+__kernel void filterColumns(FilterParams p, __global const float* restrict value, __global const float* restrict beta,
+                            __global const float* restrict position, __global const float* restrict normal,
+                            __global const uint* restrict objectId, __global const float* restrict effectiveRows,
+                            __global float* restrict filtered, __global float* restrict effective)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x < p.x1 && y < p.y1) {
+        gatherLine(p, x, y, (int)p.stride, p.down, (int)y, (int)(p.height - 1u - y), value, beta, position, normal,
+                   objectId, loadBlock(effectiveRows, (int)pixelIndex(x, y, p.stride)), filtered, effective);
+    }
+}
+
+#endif

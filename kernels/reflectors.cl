@@ -1,0 +1,219 @@
+// From the distances of reflectors to filter widths, and to sample counts.
+//
+// Published (thesis section 4.5): each pixel's own least and largest distance. Default: distances are averaged in the
+// logarithm over near pixels of the same object, since the least of sixteen is noisy, and counts follow the variance of
+// what the filter gathers.
+#include "shared/indirect.h"
+#include "shared/path.h"
+#include "vector16.h"
+
+/// Bounds of what the camera sees, one stripe of rows each: planes of WEDGE_EXTENT_STRIPES least x, y, z and largest x,
+/// y, z.
+__kernel void visibleBounds(ReflectorParams p, __global const float* restrict position,
+                            __global const uint* restrict objectId, __global float* restrict bounds)
+{
+    const uint stripe = get_global_id(0);
+    if (stripe >= WEDGE_EXTENT_STRIPES) {
+        return;
+    }
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        float16 least = (float16)(INFINITY);
+        float16 largest = (float16)(-INFINITY);
+        for (uint y = stripe; y < p.height; y += WEDGE_EXTENT_STRIPES) {
+            for (uint x = 0u; x < p.width; x += WEDGE_BLOCK_PIXELS) {
+                const int i = (int)pixelIndex(x, y, p.stride);
+                const int16 surface = loadIdBlock(objectId, i) != 0u;
+                const float16 at = loadBlock(position + axis * p.planeSize, i);
+                least = surface ? min16(least, at) : least;
+                largest = surface ? max16(largest, at) : largest;
+            }
+        }
+        bounds[axis * WEDGE_EXTENT_STRIPES + stripe] = -largestOf(-least);
+        bounds[(3u + axis) * WEDGE_EXTENT_STRIPES + stripe] = largestOf(largest);
+    }
+}
+
+/// Largest dimension of the bounds, metres; 0 where nothing is seen. One work-item.
+__kernel void visibleExtent(__global const float* restrict bounds, __global float* restrict extent)
+{
+    if (get_global_id(0) != 0u) {
+        return;
+    }
+    float size = 0.0f;
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        float least = INFINITY;
+        float largest = -INFINITY;
+        for (uint s = 0u; s < WEDGE_EXTENT_STRIPES; ++s) {
+            least = fmin(least, bounds[axis * WEDGE_EXTENT_STRIPES + s]);
+            largest = fmax(largest, bounds[(3u + axis) * WEDGE_EXTENT_STRIPES + s]);
+        }
+        size = fmax(size, largest - least);
+    }
+    extent[0] = size;
+}
+
+/// The least distance that counts, metres.
+WEDGE_FN float leastDistance(ReflectorParams p, __global const float* extent)
+{
+    return fmax(p.leastReflector * (p.extent > 0.0f ? p.extent : extent[0]), 1e-12f);
+}
+
+/// Bandlimit of a pixel's transfer function; gloss: exponents, negative for Phong.
+WEDGE_FN float bandlimitOf(uint component, float gloss)
+{
+    return component == WEDGE_COMPONENT_GLOSSY
+        ? glossyBandlimit(fabs(gloss), gloss < 0.0f ? WEDGE_SPECULAR_PHONG : WEDGE_SPECULAR_BLINN_PHONG)
+        : WEDGE_DIFFUSE_BANDLIMIT;
+}
+
+/// log2 of the clamped distance, and whether there is one (1 or 0).
+__kernel void reflectorLogs(ReflectorParams p, __global const float* restrict reflectors,
+                            __global const float* restrict extent, __global float* restrict logs)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const float16 z = loadBlock(reflectors, i);
+    const int16 has = z > 0.0f;
+    const float16 bounded = max16(z, (float16)(leastDistance(p, extent)));
+    vstore16(has ? log2Block(bounded) : (float16)(0.0f), 0, logs + i);
+    vstore16(has ? (float16)(1.0f) : (float16)(0.0f), 0, logs + p.planeSize + i);
+}
+
+/// One direction of the mean over a window of pixels of the same object: sums of both planes.
+WEDGE_FN void sumLine(ReflectorParams p, uint x, uint y, int element, int before, int after,
+                      __global const uint* objectId, __global const float* in, __global float* out)
+{
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const uint16 object = loadIdBlock(objectId, i);
+    float16 sum = (float16)(0.0f);
+    float16 count = (float16)(0.0f);
+    for (int k = -before; k <= after; ++k) {
+        const int j = i + k * element;
+        const int16 same = loadIdBlock(objectId, j) == object;
+        sum += same ? loadBlock(in, j) : (float16)(0.0f);
+        count += same ? loadBlock(in + p.planeSize, j) : (float16)(0.0f);
+    }
+    vstore16(sum, 0, out + i);
+    vstore16(count, 0, out + p.planeSize + i);
+}
+
+__kernel void sumRows(ReflectorParams p, __global const uint* restrict objectId, __global const float* restrict in,
+                      __global float* restrict out)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x < p.x1 && y < p.y1) {
+        sumLine(p, x, y, 1, (int)p.smoothing, (int)p.smoothing, objectId, in, out);
+    }
+}
+
+__kernel void sumColumns(ReflectorParams p, __global const uint* restrict objectId, __global const float* restrict in,
+                         __global float* restrict out)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x < p.x1 && y < p.y1) {
+        sumLine(p, x, y, (int)p.stride, (int)min(y, p.smoothing), (int)min(p.height - 1u - y, p.smoothing), objectId, in,
+                out);
+    }
+}
+
+/// Widths in metres from the summed logarithms: 0 where no reflector is near (the pixel keeps its value), -1 where the
+/// pixel has no such term. fixedWidth replaces the analysis.
+__kernel void reflectorWidths(ReflectorParams p, __global const float* restrict logs,
+                              __global const float* restrict pixelSize, __global const float* restrict gloss,
+                              __global const uint* restrict taken, __global float* restrict beta)
+{
+    const uint x = p.x0 + get_global_id(0);
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const uint i = pixelIndex(x, y, p.stride);
+    const float count = logs[p.planeSize + i];
+    const float z = exp2(logs[i] / fmax(count, 1.0f));
+    const float bandwidth = indirectBandwidth(z, bandlimitOf(p.component, gloss[i]), pixelSize[i], p.mu, p.alpha);
+    const float analysed = count > 0.0f ? p.widthScale / bandwidth : 0.0f;
+    const float wide = p.fixedWidth > 0.0f ? p.fixedWidth * pixelSize[i] : analysed;
+    beta[i] = taken[i] > 0u ? wide : -1.0f;
+}
+
+/// Widths (4.15), (4.16) and counts (4.21) of the published setting, from each pixel's own distances.
+__kernel void publishedReflectorWidths(ReflectorParams p, __global const float* restrict reflectors,
+                                       __global const float* restrict extent, __global const float* restrict pixelSize,
+                                       __global const float* restrict gloss, __global const uint* restrict taken,
+                                       __global float* restrict beta, __global uint* restrict wanted)
+{
+    const uint x = p.x0 + get_global_id(0);
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const uint i = pixelIndex(x, y, p.stride);
+    const float least = leastDistance(p, extent);
+    const bool has = reflectors[i] > 0.0f;
+    // Where no ray hit anything, nothing is nearer than what the camera sees is large.
+    const float zMin = fmax(has ? reflectors[i] : extent[0], least);
+    const float zMax = fmax(reflectors[p.planeSize + i], zMin);
+    const float bandlimit = bandlimitOf(p.component, gloss[i]);
+    const float gamma = p.component == WEDGE_COMPONENT_GLOSSY ? glossyGamma(fabs(gloss[i])) : WEDGE_DIFFUSE_GAMMA;
+    const float bandwidth = indirectBandwidth(zMin, bandlimit, pixelSize[i], p.mu, p.alpha);
+    const float wide = p.fixedWidth > 0.0f ? p.fixedWidth * pixelSize[i] : p.widthScale / bandwidth;
+    const float count = indirectCount(zMin, zMax, bandlimit, gamma, pixelSize[i], p.mu, p.alpha);
+    const float bounded = fmin(fmax(count, (float)WEDGE_INDIRECT_FIRST_RAYS), (float)p.countCap);
+    beta[i] = taken[i] > 0u ? wide : -1.0f;
+    wanted[i] = taken[i] > 0u ? (uint)(bounded + 0.5f) : 0u;
+}
+
+/// Variance of a sample's luminance as the image shows it, (sum l^2 - n mean^2) / (n - 1) times the squared luminance of
+/// the reflectance: planes R, G, B, all 1 for ambient occlusion.
+__kernel void sampleVariance(ReflectorParams p, __global const float* restrict sums, __global const uint* restrict taken,
+                             __global const float* restrict reflectance, __global float* restrict variance)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const float16 n = convert_float16(loadIdBlock(taken, i));
+    const Vec3x16 sum = loadVecBlock(sums, p.planeSize, i);
+    const float16 total = 0.2126f * sum.x + 0.7152f * sum.y + 0.0722f * sum.z;
+    const float16 spread = loadBlock(sums + 3u * p.planeSize, i) - total * total / max16(n, (float16)(1.0f));
+    const Vec3x16 k = loadVecBlock(reflectance, p.planeSize, i);
+    const float16 shown = p.component == WEDGE_COMPONENT_AMBIENT ? (float16)(1.0f)
+                                                                 : 0.2126f * k.x + 0.7152f * k.y + 0.0722f * k.z;
+    const float16 v = max16(spread, (float16)(0.0f)) / max16(n - 1.0f, (float16)(1.0f));
+    vstore16(n > 1.0f ? v * shown * shown : (float16)(0.0f), 0, variance + i);
+}
+
+/// demand = (v / K)^exponent, 0 where there is no variance. v: filtered, and at least varianceSpread of the largest
+/// within 5x5 pixels of the same object.
+__kernel void pathDemand(ReflectorParams p, __global const float* restrict variance, __global const float* restrict effective,
+                         __global const float* restrict beta, __global const uint* restrict objectId,
+                         __global float* restrict demand)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const uint16 object = loadIdBlock(objectId, i);
+    float16 largest = (float16)(0.0f);
+    for (int dy = -(int)min(y, 2u); dy <= (int)min(p.height - 1u - y, 2u); ++dy) {
+        for (int dx = -2; dx <= 2; ++dx) {
+            const int j = i + dy * (int)p.stride + dx;
+            const int16 same = (loadIdBlock(objectId, j) == object) & (loadBlock(beta, j) >= 0.0f);
+            largest = same ? max16(largest, loadBlock(variance, j)) : largest;
+        }
+    }
+    const float16 v = max16(loadBlock(variance, i), p.varianceSpread * largest);
+    const float16 k = max16(loadBlock(effective, i), (float16)(1.0f));
+    const int16 wants = (v > 1e-30f) & (loadBlock(beta, i) >= 0.0f);
+    vstore16(wants ? exp2Block(p.countExponent * log2Block(v / k)) : (float16)(0.0f), 0, demand + i);
+}

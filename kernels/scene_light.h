@@ -1,0 +1,157 @@
+// The scene's lights as a path's vertices see them: samples of one of them, and the ones that a ray meets.
+#ifndef WEDGE_SCENE_LIGHT_H
+#define WEDGE_SCENE_LIGHT_H
+
+#include "shared/bsdf.h"
+#include "shared/light.h"
+#include "shared/path.h"
+
+typedef struct {
+    __global const AreaLight* area;
+    __global const DeltaLight* delta;
+    uint areaCount, deltaCount;
+    float sceneDiameter;
+    uint sampling; ///< WEDGE_LIGHTS_*
+} LightData;
+
+/// One sample of one light.
+typedef struct {
+    Vec3 ray;        ///< from the shadow ray's origin to the light's point
+    Vec3 direction;  ///< unit, from the shaded point
+    Vec3 irradiance; ///< on the shaded point, over the probability of the sample; 0: no need to trace
+    float pdf;       ///< density of the direction, 1/sr; 0 for point and directional lights
+} LightChoice;
+
+/// Density in 1/sr at which a vertex samples an area light's point, local coordinates (a, b), in a direction in which
+/// the light is `distance` metres away and whose cosine to the light's normal is `facing`.
+WEDGE_FN float lightPdf(__global const AreaLight* light, float a, float b, float distance, float facing)
+{
+    return light->pick * lightProfile(a, b, light->profile, light->cut) * distance * distance
+        / (light->profileArea * fmax(fabs(facing), 1e-12f));
+}
+
+WEDGE_FN LightChoice sampleAreaLight(__global const AreaLight* light, Vec3 position, Vec3 origin, Vec3 normal, Vec2 u)
+{
+    LightChoice choice;
+    const float a = lightCoordinate(u.x, light->profile, light->cut, light->erfCut);
+    const float b = lightCoordinate(u.y, light->profile, light->cut, light->erfCut);
+    const Vec3 point = lightPoint(light->centre, light->halfU, light->halfV, a, b);
+    const Vec3 d = vecSub(point, position);
+    const float geometry = geometryTerm(normal, d, light->normal, light->twoSided);
+    const float distance = vecLength(d);
+    choice.ray = vecSub(point, origin);
+    choice.direction = vecNormalize(d);
+    choice.irradiance = vecScale(light->power, geometry / light->pick);
+    choice.pdf = geometry > 0.0f ? lightPdf(light, a, b, distance, vecDot(choice.direction, light->normal)) : 0.0f;
+    return choice;
+}
+
+WEDGE_FN LightChoice sampleDeltaLight(__global const DeltaLight* light, float sceneDiameter, Vec3 origin, Vec3 normal)
+{
+    LightChoice choice;
+    choice.ray = vectorToLight(*light, sceneDiameter, origin);
+    choice.direction = vecNormalize(choice.ray);
+    const float cosine = fmax(0.0f, vecDot(normal, choice.direction));
+    const float falloff = light->directional != 0u ? cosine : cosine / fmax(vecDot(choice.ray, choice.ray), 1e-30f);
+    choice.irradiance = vecScale(light->colour, falloff / light->pick);
+    choice.pdf = 0.0f;
+    return choice;
+}
+
+/// Chooses a light by `pick` in [0, 1) and a point on it by u, as seen from a point with this normal.
+WEDGE_FN LightChoice sampleLight(LightData lights, Vec3 position, Vec3 origin, Vec3 normal, float pick, Vec2 u)
+{
+    float below = 0.0f;
+    for (uint i = 0u; i < lights.areaCount; ++i) {
+        below += lights.area[i].pick;
+        if (pick < below) {
+            return sampleAreaLight(&lights.area[i], position, origin, normal, u);
+        }
+    }
+    for (uint i = 0u; i < lights.deltaCount; ++i) {
+        below += lights.delta[i].pick;
+        if (pick < below) {
+            return sampleDeltaLight(&lights.delta[i], lights.sceneDiameter, origin, normal);
+        }
+    }
+    LightChoice none;
+    none.ray = none.direction = none.irradiance = vec3(0.0f, 0.0f, 0.0f);
+    none.pdf = 0.0f;
+    return none;
+}
+
+/// Where a ray meets a light's quad.
+typedef struct {
+    float t; ///< along the direction; +inf where it does not
+    float a, b;
+    float facing; ///< the direction times the light's normal; negative on the emitting side
+} LightMeeting;
+
+WEDGE_FN LightMeeting meetLight(__global const AreaLight* light, Vec3 origin, Vec3 direction)
+{
+    LightMeeting m;
+    m.facing = vecDot(light->normal, direction);
+    m.t = INFINITY;
+    m.a = m.b = 0.0f;
+    const float t = vecDot(light->normal, vecSub(light->centre, origin)) / m.facing;
+    if (m.facing == 0.0f || !(t > 0.0f) || !(t < INFINITY)) {
+        return m;
+    }
+    // Local coordinates from the two edges' cross products, so that the quad may be a parallelogram.
+    const Vec3 d = vecSub(vecMad(origin, direction, t), light->centre);
+    const Vec3 n = vecCross(light->halfU, light->halfV);
+    const float scale = 1.0f / vecDot(n, n);
+    m.a = vecDot(vecCross(d, light->halfV), n) * scale;
+    m.b = vecDot(vecCross(light->halfU, d), n) * scale;
+    m.t = fabs(m.a) <= 1.0f && fabs(m.b) <= 1.0f ? t : INFINITY;
+    return m;
+}
+
+/// Radiance that the light sends back along the ray that met it.
+WEDGE_FN Vec3 metRadiance(__global const AreaLight* light, LightMeeting m)
+{
+    const float emits = m.facing < 0.0f || light->twoSided != 0u ? 1.0f : 0.0f;
+    return vecScale(light->radiance, emits * lightProfile(m.a, m.b, light->profile, light->cut));
+}
+
+/// Weight of a sample of density p where another technique has density q (power heuristic, Veach 1997).
+WEDGE_FN float powerHeuristic(float p, float q)
+{
+    // By the ratio, so that no square overflows.
+    const float ratio = q / fmax(p, 1e-30f);
+    return 1.0f / (1.0f + ratio * ratio);
+}
+
+/// The part of the lights' radiance along a ray (unit direction) that counts for the technique of reflected directions,
+/// up to distance tEnd. pdf: density at which the direction was sampled. Lights hide nothing, as for shadow rays.
+WEDGE_FN Vec3 radianceMet(LightData lights, Vec3 origin, Vec3 direction, float pdf, float tEnd)
+{
+    Vec3 sum = vec3(0.0f, 0.0f, 0.0f);
+    if (lights.sampling == WEDGE_LIGHTS_SAMPLED) {
+        return sum;
+    }
+    for (uint i = 0u; i < lights.areaCount; ++i) {
+        const LightMeeting m = meetLight(&lights.area[i], origin, direction);
+        // As for shadow rays, what lies just before the light is its housing.
+        if (m.t * WEDGE_SHADOW_RAY_END < tEnd && m.t < INFINITY) {
+            const float w = lights.sampling == WEDGE_LIGHTS_MET
+                ? 1.0f
+                : powerHeuristic(pdf, lightPdf(&lights.area[i], m.a, m.b, m.t, m.facing));
+            sum = vecMad(sum, metRadiance(&lights.area[i], m), w);
+        }
+    }
+    return sum;
+}
+
+/// Distance of the farthest light that the ray meets; 0 if it meets none.
+WEDGE_FN float farthestMeeting(LightData lights, Vec3 origin, Vec3 direction)
+{
+    float farthest = 0.0f;
+    for (uint i = 0u; i < lights.areaCount; ++i) {
+        const float t = meetLight(&lights.area[i], origin, direction).t;
+        farthest = t < INFINITY ? fmax(farthest, t) : farthest;
+    }
+    return farthest;
+}
+
+#endif

@@ -1,0 +1,53 @@
+// Parameters of the passes that trace paths, and of the analysis of what they found.
+#ifndef WEDGE_SHARED_PATH_H
+#define WEDGE_SHARED_PATH_H
+
+#include "vec.h"
+
+/// What a term holds.
+#define WEDGE_COMPONENT_DIFFUSE 0u ///< radiance that arrives, cosine-weighted mean
+#define WEDGE_COMPONENT_GLOSSY 1u  ///< radiance that the specular lobe reflects, without its colour
+#define WEDGE_COMPONENT_AMBIENT 2u ///< fraction of the cosine-weighted hemisphere in which something is near
+
+/// How area lights are found.
+#define WEDGE_LIGHTS_BOTH 0u
+#define WEDGE_LIGHTS_SAMPLED 1u
+#define WEDGE_LIGHTS_MET 2u
+
+/// Stripes of rows that each reduce what the camera sees.
+#define WEDGE_EXTENT_STRIPES 32u
+
+WEDGE_SHARED_BEGIN
+
+typedef struct {
+    uint component;     ///< WEDGE_COMPONENT_*
+    uint bounces;       ///< at least 1
+    uint sampler;       ///< WEDGE_SAMPLER_*
+    uint lightSampling; ///< WEDGE_LIGHTS_*
+    uint firstPass;     ///< samples of a first pass with strata of its own; 0: none
+    uint areaLights, deltaLights;
+    float sceneDiameter;   ///< metres
+    float ambientDistance; ///< metres; surfaces farther away do not count for the ambient component
+    uint padding[3];
+} PathParams;
+
+/// Distances of reflectors to widths and counts.
+typedef struct {
+    uint x0, y0, x1, y1; ///< the pixels to produce, half open; x0 a multiple of WEDGE_BLOCK_PIXELS
+    uint width, height, stride, planeSize;
+    uint component;
+    float mu, alpha;     ///< of (4.15) and (4.21)
+    float widthScale;    ///< standard deviation times bandwidth
+    float extent;        ///< metres; 0: what the camera sees
+    float leastReflector; ///< fraction of the extent that distances are clamped to
+    uint smoothing;      ///< pixels: radius of the window of the mean distance, at most WEDGE_ROW_PADDING
+    uint countCap;       ///< most samples a pixel may take
+    float fixedWidth;    ///< pixels; more than 0: this width everywhere in place of the analysis
+    float countExponent; ///< of the counts from variance: n ~ (v / K)^exponent
+    float varianceSpread; ///< fraction of the 5x5 neighbourhood's largest variance that a pixel takes at least
+    uint padding;
+} ReflectorParams;
+
+WEDGE_SHARED_END
+
+#endif
