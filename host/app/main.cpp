@@ -90,7 +90,7 @@ int runCommand(CLI::App& parser, Action& action, int argc, char** argv)
 int main(int argc, char** argv)
 {
     try {
-        CLI::App parser("wedge renders scenes with soft shadows from few samples, on any OpenCL device.", "wedge");
+        CLI::App parser("wedge renders soft shadows and indirect light from few samples, on any OpenCL device.", "wedge");
         parser.set_version_flag("--version", std::string("wedge ") + render::version());
         parser.get_formatter()->column_width(32);
         Action action;

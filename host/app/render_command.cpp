@@ -169,7 +169,7 @@ void RenderJob::render()
         fraction_ = fraction;
         progress_.update(fraction);
     };
-    statistics_ = renderer_->render(settings_, control, render::needLightPlanes(layers_));
+    statistics_ = renderer_->render(settings_, control, render::needTermPlanes(layers_));
     progress_.clear();
     interrupted_ = !statistics_.complete && guard.flag();
     if (!statistics_.complete) {

@@ -72,15 +72,33 @@ void addFrameOptions(CLI::App& parser, RenderOptions& o)
         [&o](const std::string& text) { o.report = text; });
 }
 
+void addIntegratorOptions(CLI::App& parser, RenderOptions& o)
+{
+    addChoice(parser, whatGroup, "--integrator", integrators,
+        "path: light, the default; ao: ambient occlusion, how open each point's surroundings are", o.integrator);
+    addValue(parser, whatGroup, "--bounces", "N", "Bounces of indirect light, 0 for direct light alone, the default",
+        [&o](const std::string& text) {
+            o.bounces = static_cast<int>(wholeNumber("--bounces", text, 0, scene::maxBounces));
+        });
+    addValue(parser, whatGroup, "--ao-distance", "M",
+        "Farther surfaces, in metres, do not occlude, for --integrator ao. Default: all do",
+        [&o](const std::string& text) {
+            o.ambientDistance = static_cast<float>(
+                finiteNumber("--ao-distance", text, scene::leastAmbientDistance, scene::mostAmbientDistance));
+        });
+}
+
 void addMethodOptions(CLI::App& parser, RenderOptions& o)
 {
     addChoice(parser, howGroup, "--method", { "mc", "aaf" },
         "mc: plain Monte Carlo; aaf: axis-aligned filtering, the default", o.method);
     parser.add_flag("--as-published", o.asPublished, "aaf as it was published, without later improvements")
         ->group(howGroup);
-    addValue(parser, howGroup, "--spp", "N", "Samples a pixel and area light, their mean with adaptive sampling",
+    addValue(parser, howGroup, "--spp", "N",
+        "Samples a pixel and term (each area light, indirect diffuse, indirect glossy), their mean with adaptive "
+        "sampling",
         [&o](const std::string& text) { o.spp = static_cast<int>(wholeNumber("--spp", text, 1, scene::maxSamples)); });
-    addValue(parser, howGroup, "--max-spp", "N", "Most samples of a pixel", [&o](const std::string& text) {
+    addValue(parser, howGroup, "--max-spp", "N", "Most samples of a pixel and term", [&o](const std::string& text) {
         o.maxSpp = static_cast<int>(wholeNumber("--max-spp", text, 1, scene::maxSamples));
     });
     addValue(parser, howGroup, "--mu", "X", "Sampling beyond the critical rate: larger filters less and samples more",
@@ -108,24 +126,32 @@ void addDeviceOptions(CLI::App& parser, RenderOptions& o)
         });
     addValue(parser, howGroup, "--kernel-dir", "DIR", "Kernels to use in place of the built-in ones",
         [&o](const std::string& text) { o.kernelDir = text; });
-    parser.add_flag("--check-launches", o.checkLaunches, "Wait for each launch, so that a device error names its kernel")
+    parser
+        .add_flag("--check-launches", o.checkLaunches, "Wait for each launch, so that a device error names its kernel")
         ->group(howGroup);
     parser.add_flag("--fast-math", o.fastMath, "Let the device's compiler relax floating-point rules")->group(howGroup);
 }
 
 void addAblationOptions(CLI::App& parser, RenderOptions& o)
 {
-    addChoice(parser, ablationGroup, "--sampling", { "uniform", "adaptive" }, "Samples of each pixel", o.sampling);
-    addChoice(parser, ablationGroup, "--filter", { "none", "fixed", "adaptive" }, "Width of the filter", o.filter);
+    addChoice(
+        parser, ablationGroup, "--sampling", { "uniform", "adaptive" }, "Samples of each pixel and term", o.sampling);
+    addChoice(
+        parser, ablationGroup, "--filter", { "none", "fixed", "adaptive" }, "Width of each term's filter", o.filter);
     addValue(parser, ablationGroup, "--filter-width", "PX", "Width for --filter fixed, standard deviation in pixels",
         [&o](const std::string& text) {
             o.filterWidth = static_cast<float>(positiveNumber("--filter-width", text, 1000));
         });
     addChoice(parser, ablationGroup, "--falloff", { "separate", "inside", "ratio" },
-        "Where cosine and distance go: outside the filtered term, inside, or as a ratio", o.falloff);
-    addChoice(parser, ablationGroup, "--sampler", { "sobol", "stratified" }, "Points on a light", o.sampler);
+        "Where a light's cosine and distance go: outside the filtered term, inside, or as a ratio", o.falloff);
+    addChoice(parser, ablationGroup, "--sampler", { "sobol", "stratified" },
+        "How points on lights and directions are chosen", o.sampler);
     addChoice(
         parser, ablationGroup, "--counts", { "spectrum", "variance" }, "What adaptive counts come from", o.counts);
+    addChoice(parser, ablationGroup, "--light-sampling", lightSamplings,
+        "How paths find area lights: points on them, reflected directions that meet one, or both. The same image in "
+        "the limit",
+        o.lightSampling);
 }
 
 std::string footer()
@@ -143,6 +169,7 @@ void addRenderOptions(CLI::App& parser, RenderOptions& options)
 {
     parser.add_option("SCENE", options.scene, "Scene file (.toml) or mesh (.obj)")->type_name("")->required();
     addFrameOptions(parser, options);
+    addIntegratorOptions(parser, options);
     addMethodOptions(parser, options);
     addDeviceOptions(parser, options);
     addAblationOptions(parser, options);

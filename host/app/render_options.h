@@ -22,6 +22,9 @@ struct RenderOptions {
     std::vector<std::string> outputs;
     std::optional<render::Method> method;
     bool asPublished = false;
+    std::optional<render::Integrator> integrator;
+    std::optional<int> bounces;
+    std::optional<float> ambientDistance; ///< metres
     std::optional<int> spp, maxSpp;
     std::optional<float> mu;
     std::optional<std::pair<int, int>> size;
@@ -47,6 +50,7 @@ struct RenderOptions {
     std::optional<render::Shading> falloff;
     std::optional<render::Sampler> sampler;
     std::optional<render::Counts> counts;
+    std::optional<render::LightSampling> lightSampling;
 };
 
 /// Adds the options to the subcommand's parser; parsing fills `options`, which must outlive it.

@@ -1,6 +1,8 @@
 #include "host/app/render_settings.h"
 
+#include "host/app/values.h"
 #include "host/error.h"
+#include "kernels/shared/indirect.h"
 #include "kernels/shared/wedge.h"
 
 #include <algorithm>
@@ -12,6 +14,7 @@ namespace {
 
 using render::Counts;
 using render::Filtering;
+using render::Integrator;
 using render::Method;
 using render::Sampling;
 
@@ -58,7 +61,66 @@ render::Settings preset(const RenderOptions& o, const scene::Scene& scene, Metho
     if (method == Method::MonteCarlo) {
         return render::monteCarlo(spp.value_or(defaultMonteCarloSpp));
     }
-    return o.asPublished ? render::asPublished(mu.value_or(publishedMu(o, scene))) : render::axisAligned(spp, mu);
+    if (!o.asPublished) {
+        return render::axisAligned(spp, mu);
+    }
+    render::Settings s = render::asPublished(mu.value_or(publishedMu(o, scene)));
+    s.indirect = render::asPublished(mu).indirect; // whose own mu no light changes
+    return s;
+}
+
+/// An option, if it is given, as a mistake: for what it has no effect with, and how it would have one.
+void refuse(bool given, const std::string& with, const std::string& option, const std::string& remedy)
+{
+    if (given) {
+        throw UsageError("option has no effect " + with, option, "leave it out, or " + remedy);
+    }
+}
+
+void applyPaths(const RenderOptions& o, const scene::Settings& file, render::Settings& s)
+{
+    refuse(o.ambientDistance.has_value(), "with integrator path",
+        fmt::format("--ao-distance {}", o.ambientDistance.value_or(0)), "add --integrator ao");
+    s.bounces = o.bounces ? *o.bounces : file.bounces.value_or(0);
+    refuse(o.lightSampling && s.bounces == 0, "without bounces", "--light-sampling", "add --bounces 1");
+    if (o.lightSampling) {
+        s.lightSampling = *o.lightSampling;
+    } else if (file.lightSampling) {
+        const std::size_t index = choice("light_sampling", *file.lightSampling, lightSamplings);
+        s.lightSampling = static_cast<render::LightSampling>(index);
+    }
+}
+
+void applyAmbientOcclusion(const RenderOptions& o, const scene::Settings& file, render::Settings& s)
+{
+    const std::string remedy = "add --integrator path";
+    refuse(o.bounces.has_value(), "with integrator ao", fmt::format("--bounces {}", o.bounces.value_or(0)), remedy);
+    refuse(o.lightSampling.has_value(), "with integrator ao", "--light-sampling", remedy);
+    refuse(o.falloff.has_value(), "with integrator ao", "--falloff", remedy);
+    s.indirect.ambientDistance = o.ambientDistance ? *o.ambientDistance : file.ambientDistance.value_or(0.0f);
+}
+
+/// The integrator and what goes with it alone. Options for the other one are mistakes; what the file has for the other
+/// one is overridden.
+void applyIntegrator(const RenderOptions& o, const scene::Settings& file, render::Settings& s)
+{
+    s.integrator = o.integrator.value_or(file.integrator == "ao" ? Integrator::AmbientOcclusion : Integrator::Path);
+    if (s.integrator == Integrator::AmbientOcclusion) {
+        applyAmbientOcclusion(o, file, s);
+    } else {
+        applyPaths(o, file, s);
+    }
+}
+
+/// Where the counts of indirect light come from follows what was asked for all terms, and else is the preset's.
+void applyIndirectCounts(const RenderOptions& o, render::Settings& s)
+{
+    if (s.sampling == Sampling::Uniform) {
+        s.indirect.counts = render::IndirectCounts::Uniform;
+    } else if (o.sampling || o.counts) {
+        s.indirect.counts =
+            s.counts == Counts::Spectrum ? render::IndirectCounts::Spectrum : render::IndirectCounts::Variance;
+    }
 }
 
 /// Whether the mean count is given, and not what follows from the spectrum.
@@ -71,6 +133,7 @@ void applyAblations(const RenderOptions& o, render::Settings& s)
     s.fixedWidth = o.filterWidth.value_or(s.fixedWidth);
     s.shading = o.falloff.value_or(s.shading);
     s.counts = o.counts.value_or(s.counts);
+    applyIndirectCounts(o, s);
     if (o.filterWidth && s.filtering != Filtering::Fixed) {
         throw UsageError(
             "option has no effect", fmt::format("--filter-width {}", *o.filterWidth), "add --filter fixed");
@@ -84,10 +147,12 @@ void applyAblations(const RenderOptions& o, render::Settings& s)
     }
 }
 
-/// A count from the scene file that suits no aaf, whose first pass alone takes so many.
-void requireFirstPass(const std::string& key, const std::optional<int>& count, const scene::Scene& scene)
+/// A count from the scene file that suits no aaf, whose first pass alone takes more.
+void requireFirstPass(
+    const std::string& key, const std::optional<int>& count, const scene::Scene& scene, const render::Settings& s)
 {
-    constexpr int least = WEDGE_FIRST_PASS_RAYS;
+    const int least =
+        render::tracesPaths(s) ? static_cast<int>(WEDGE_INDIRECT_FIRST_RAYS) : static_cast<int>(WEDGE_FIRST_PASS_RAYS);
     if (count && *count < least) {
         throw Error(fmt::format("scene file {}: {} is too low for method aaf", scene.path, key),
             fmt::format("{}", *count), fmt::format("give {} or more, or method mc", least));
@@ -100,16 +165,17 @@ void applyCounts(const RenderOptions& o, const scene::Scene& scene, render::Sett
 {
     const scene::Settings& file = scene.settings;
     if (!o.maxSpp) {
-        requireFirstPass("max_spp", file.maxSpp, scene);
+        requireFirstPass("max_spp", file.maxSpp, scene, s);
     }
     const std::optional<int> most = o.maxSpp ? o.maxSpp : file.maxSpp;
     s.maxSpp = most.value_or(s.maxSpp);
+    s.indirect.maxSpp = most.value_or(s.indirect.maxSpp);
     if (!meanIsGiven(s)) {
         s.spp = render::Settings().spp; // not used
         return;
     }
     if (!o.spp) {
-        requireFirstPass("spp", file.spp, scene);
+        requireFirstPass("spp", file.spp, scene, s);
     }
     const std::optional<int> mean = o.spp ? o.spp : file.spp;
     s.spp = mean.value_or(s.spp);
@@ -136,6 +202,7 @@ render::Settings resolveSettings(const RenderOptions& o, const scene::Scene& sce
     s.crop = o.crop.value_or(s.crop);
     s.seed = o.seed.value_or(file.seed);
     s.sampler = o.sampler.value_or(s.sampler);
+    applyIntegrator(o, file, s);
     if (method == Method::AxisAligned) {
         applyAblations(o, s);
         applyCounts(o, scene, s);

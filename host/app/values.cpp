@@ -44,7 +44,7 @@ double finiteNumber(const std::string& option, const std::string& text, double l
 {
     const auto value = parsed<double>(text);
     if (!value || !(*value >= least && *value <= most)) {
-        fail(option, text, fmt::format("give a number from {} to {}", least, most));
+        fail(option, text, fmt::format("give a number from {:g} to {:g}", least, most));
     }
     return *value;
 }

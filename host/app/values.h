@@ -27,6 +27,10 @@ image::Window cropWindow(const std::string& option, const std::string& text);
 /// The names of bvh::Mode, in the order of its values.
 inline const std::vector<std::string> bvhModes = { "fast", "default", "quality" };
 
+/// The names of render::Integrator and render::LightSampling, in the order of their values.
+inline const std::vector<std::string> integrators = { "path", "ao" };
+inline const std::vector<std::string> lightSamplings = { "both", "lights", "directions" };
+
 /// The index of text among choices.
 std::size_t choice(const std::string& option, const std::string& text, const std::vector<std::string>& choices);
 
