@@ -6,42 +6,6 @@
 namespace wedge::app::test {
 namespace {
 
-constexpr int failure = 1, wrongCall = 2;
-
-/// Runs the program and checks how it refuses; what the folder holds stays as it was.
-void checkRefused(const Workplace& place, const Arguments& arguments, int status, const std::string& value)
-{
-    std::string call = "wedge";
-    for (const std::string& argument : arguments) {
-        call += " " + argument;
-    }
-    CAPTURE(call);
-    const std::vector<std::string> before = place.files();
-    const Outcome outcome = place.run(arguments);
-    CAPTURE(outcome.err);
-    CHECK(outcome.status == status);
-    CHECK(outcome.err.rfind("wedge: error: ", 0) == 0);
-    CHECK(std::ranges::count(outcome.err, '\n') == 1);
-    CHECK(outcome.err.back() == '\n');
-    CHECK(contains(outcome.err, value));
-    CHECK(contains(outcome.err, "--help") == (status == wrongCall));
-    CHECK(place.files() == before);
-}
-
-/// `wedge render SCENE ARGUMENTS`, small.
-void checkRenderRefused(
-    const Workplace& place, const std::string& scene, Arguments more, int status, const std::string& value)
-{
-    Arguments arguments = { "render", scene, "-o", "a.exr" };
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    checkRefused(place, arguments, status, value);
-}
-
-const std::string camera = "[camera]\neye = [0, 1, 3]\nlook_at = [0, 0, 0]\n";
-const std::string quad = "[[mesh]]\nfile = \"" + scenes + "/meshes/quad.obj\"\n";
-const std::string light =
-    "[[light]]\ntype = \"quad\"\ncentre = [0, 3, 0]\nhalf_u = [1, 0, 0]\nhalf_v = [0, 0, 1]\nradiance = 1\n";
-
 TEST_CASE("wrong calls")
 {
     const Workplace place;
@@ -79,6 +43,14 @@ TEST_CASE("values out of range")
         checkRenderRefused(place, box, { "--mu", mu }, wrongCall, mu);
         checkRenderRefused(place, box, { "--time-limit", mu }, wrongCall, mu);
     }
+    for (const char* bounces : { "-1", "1025", "1.5", "many", "4294967297" }) {
+        checkRenderRefused(place, box, { "--bounces", bounces }, wrongCall, bounces);
+    }
+    for (const char* distance : { "0", "-1", "nan", "inf", "1e13", "1e-13", "near" }) {
+        checkRenderRefused(place, box, { "--integrator", "ao", "--ao-distance", distance }, wrongCall, distance);
+    }
+    checkRenderRefused(place, box, { "--integrator", "ambient" }, wrongCall, "ambient");
+    checkRenderRefused(place, box, { "--bounces", "1", "--light-sampling", "mis" }, wrongCall, "mis");
     checkRenderRefused(place, box, { "--seed", "4294967296" }, wrongCall, "4294967296");
     checkRenderRefused(place, box, { "--method", "maaf" }, wrongCall, "maaf");
     checkRenderRefused(place, box, { "--filter", "soft" }, wrongCall, "soft");
@@ -116,6 +88,9 @@ TEST_CASE("sample counts that contradict each other, and those of a scene file")
     file("crossed.toml", "spp = 30\nmax_spp = 20\n");
     file("mean.toml", "spp = 30\n");
     file("most.toml", "max_spp = 20\n");
+    file("direct.toml", "spp = 12\n");
+    file("bounce.toml", "spp = 12\nbounces = 1\n");
+    file("open.toml", "max_spp = 12\ntype = \"ao\"\n");
     checkRenderRefused(place, box, { "--spp", "40", "--max-spp", "20" }, wrongCall, "--max-spp 20 and --spp 40");
     checkRenderRefused(place, box, { "--max-spp", "4" }, wrongCall, "4");
     for (const char* command : { "render", "info" }) {
@@ -124,15 +99,22 @@ TEST_CASE("sample counts that contradict each other, and those of a scene file")
         checkRefused(place, { command, "crossed.toml" }, failure, "crossed.toml:20:11");
         checkRefused(place, { command, "few.toml" }, failure, "scene file few.toml: spp is too low for method aaf: 8");
         checkRefused(place, { command, "fewest.toml" }, failure, "scene file fewest.toml: max_spp is too low");
+        checkRefused(place, { command, "bounce.toml" }, failure,
+            "spp is too low for method aaf: 12: give 16 or more, or method mc");
+        checkRefused(place, { command, "open.toml" }, failure, "max_spp is too low for method aaf: 12: give 16");
     }
     checkRenderRefused(
         place, "mean.toml", { "--max-spp", "20" }, wrongCall, "--max-spp 20 and the scene file's spp 30");
     checkRenderRefused(place, "most.toml", { "--spp", "30" }, wrongCall, "the scene file's max_spp 20 and --spp 30");
+    checkRenderRefused(place, "direct.toml", { "--bounces", "1" }, failure, "direct.toml: spp is too low");
+    checkRenderRefused(place, box, { "--bounces", "1", "--spp", "12" }, wrongCall, "16 or more");
     checkRenderRefused(place, "few.toml", { "--as-published", "--sampling", "uniform" }, failure, "few.toml");
     // What is overridden or has no effect is not refused.
     const std::vector<Arguments> fine = { { "few.toml", "--as-published" }, { "few.toml", "--spp", "9" },
         { "few.toml", "--method", "mc" }, { "fewest.toml", "--method", "mc" }, { "fewest.toml", "--max-spp", "50" },
-        { "mean.toml", "--as-published", "--max-spp", "20" }, { "most.toml", "--spp", "20" } };
+        { "mean.toml", "--as-published", "--max-spp", "20" }, { "most.toml", "--spp", "20" }, { "direct.toml" },
+        { "bounce.toml", "--bounces", "0" }, { "bounce.toml", "--method", "mc" },
+        { "open.toml", "--integrator", "path" }, { "bounce.toml", "--spp", "16" } };
     for (const Arguments& call : fine) {
         CAPTURE(call[0]);
         Arguments arguments = { "render", "--quiet", "-o", "a.exr" };

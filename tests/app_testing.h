@@ -164,4 +164,42 @@ inline std::string textOf(const image::LayeredImage& image, const std::string& n
     return std::get<std::string>(image.metadata.at(name));
 }
 
+/// Exit statuses.
+constexpr int failure = 1, wrongCall = 2;
+
+/// Runs the program and checks how it refuses; what the folder holds stays as it was.
+inline void checkRefused(const Workplace& place, const Arguments& arguments, int status, const std::string& value)
+{
+    std::string call = "wedge";
+    for (const std::string& argument : arguments) {
+        call += " " + argument;
+    }
+    CAPTURE(call);
+    const std::vector<std::string> before = place.files();
+    const Outcome outcome = place.run(arguments);
+    CAPTURE(outcome.err);
+    CHECK(outcome.status == status);
+    CHECK(outcome.err.rfind("wedge: error: ", 0) == 0);
+    CHECK(std::ranges::count(outcome.err, '\n') == 1);
+    CHECK(outcome.err.back() == '\n');
+    CHECK(contains(outcome.err, value));
+    CHECK(contains(outcome.err, "--help") == (status == wrongCall));
+    CHECK(place.files() == before);
+}
+
+/// `wedge render SCENE ARGUMENTS`, small.
+inline void checkRenderRefused(
+    const Workplace& place, const std::string& scene, Arguments more, int status, const std::string& value)
+{
+    Arguments arguments = { "render", scene, "-o", "a.exr" };
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    checkRefused(place, arguments, status, value);
+}
+
+/// Parts of a scene file: a camera that looks down on a square, the square, an area light above.
+inline const std::string camera = "[camera]\neye = [0, 1, 3]\nlook_at = [0, 0, 0]\n";
+inline const std::string quad = "[[mesh]]\nfile = \"" + scenes + "/meshes/quad.obj\"\n";
+inline const std::string light =
+    "[[light]]\ntype = \"quad\"\ncentre = [0, 3, 0]\nhalf_u = [1, 0, 0]\nhalf_v = [0, 0, 1]\nradiance = 1\n";
+
 } // namespace wedge::app::test
