@@ -48,10 +48,10 @@ struct LobeGrid {
             + integral(ring0, ring, sector, sector1, tolerance / 2, f, depth - 1)
             + integral(ring, ring1, sector, sector1, tolerance / 2, f, depth - 1);
     }
+    /// The same by steps x steps midpoints.
     template <class Function>
-    double midpoints(double ring0, double ring1, double sector0, double sector1, const Function& f) const
+    double midpoints(double ring0, double ring1, double sector0, double sector1, const Function& f, int steps = 8) const
     {
-        constexpr int steps = 8;
         double sum = 0;
         for (int i = 0; i < steps; ++i) {
             const double a = ringAngle(ring0 + (ring1 - ring0) * i / steps);
