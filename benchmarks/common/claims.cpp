@@ -12,6 +12,23 @@ Json orNull(const std::optional<double>& value) { return value ? number(*value) 
 
 } // namespace
 
+ClaimList::ClaimList(const std::string& benchmark, const std::string& scene)
+    : prefix_(benchmark + "." + scene + ".")
+{
+}
+
+void ClaimList::add(const std::string& quantity, const Summary& value, const std::string& unit,
+    std::optional<double> paper, std::optional<double> goal)
+{
+    claims.push_back({ prefix_ + quantity, value.median, unit, value.spread(), paper, goal });
+}
+
+void ClaimList::add(const std::string& quantity, double value, const std::string& unit, std::optional<double> paper,
+    std::optional<double> goal)
+{
+    claims.push_back({ prefix_ + quantity, value, unit, {}, paper, goal });
+}
+
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json json(const Summary& s)

@@ -22,6 +22,23 @@ struct Claim {
     std::optional<double> paper, goal;
 };
 
+/// Collects the claims of one scene.
+class ClaimList {
+public:
+    ClaimList(const std::string& benchmark, const std::string& scene);
+
+    /// The median, with the distance between the quartiles as spread.
+    void add(const std::string& quantity, const Summary& value, const std::string& unit,
+        std::optional<double> paper = {}, std::optional<double> goal = {});
+    void add(const std::string& quantity, double value, const std::string& unit, std::optional<double> paper = {},
+        std::optional<double> goal = {});
+
+    std::vector<Claim> claims;
+
+private:
+    std::string prefix_;
+};
+
 /// null for values that are not finite.
 Json number(double value);
 /// {"median", "q1", "q3", "min", "max"}.

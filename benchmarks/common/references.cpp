@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -20,20 +21,24 @@ namespace {
 constexpr const char* noiseKey = "referenceNoise";
 constexpr const char* kernelsKey = "referenceKernels";
 
-std::string kernelFingerprint()
+/// Of the kernels that an image, or a layer of it, is made by.
+std::string kernelFingerprint(const std::string& layer)
 {
+    const std::vector<const char*> direct = { "primary.cl", "area_light.cl", "delta_lights.cl", "composite.cl" };
+    const std::vector<const char*> indirect = { "primary.cl", "indirect.cl", "composite.cl" };
     Fingerprint f;
-    for (const char* file : { "primary.cl", "area_light.cl", "delta_lights.cl", "composite.cl" }) {
+    for (const char* file : layer == "indirect" ? indirect : direct) {
         f.add(device::flattenKernel("", file).text);
     }
     return f.text();
 }
 
 std::string pathOf(const render::Renderer& renderer, const render::Settings& settings, const std::string& folder,
-    const std::string& name)
+    const std::string& name, const std::string& layer)
 {
     Fingerprint f;
     add(f, renderer.scene());
+    f.add(layer);
     for (const auto& [key, value] : render::describe(settings)) {
         f.add(key);
         f.add(value);
@@ -45,16 +50,18 @@ std::string pathOf(const render::Renderer& renderer, const render::Settings& set
     return (std::filesystem::path(folder) / fmt::format("{}_{}.exr", name, f.text())).string();
 }
 
-image::RgbImage half(render::Renderer& renderer, render::Settings settings, std::uint32_t index)
+image::RgbImage half(
+    render::Renderer& renderer, render::Settings settings, std::uint32_t index, const std::string& layer)
 {
     settings.spp /= 2;
     settings.maxSpp = std::max(settings.maxSpp, settings.spp);
+    settings.indirect.maxSpp = std::max(settings.indirect.maxSpp, settings.spp);
     settings.seed = 2 * settings.seed + index;
     const render::FrameStatistics statistics = renderer.render(settings);
-    return beautyOf(renderer, settings, statistics);
+    return imageOf(renderer, settings, statistics, layer);
 }
 
-image::LayeredImage layered(const Reference& reference)
+image::LayeredImage layered(const Reference& reference, const std::string& kernels)
 {
     const image::RgbImage& from = reference.image;
     image::LayeredImage out;
@@ -71,11 +78,11 @@ image::LayeredImage layered(const Reference& reference)
         out.channels.push_back(std::move(channel));
     }
     out.metadata[noiseKey] = static_cast<float>(reference.noise);
-    out.metadata[kernelsKey] = kernelFingerprint();
+    out.metadata[kernelsKey] = kernels;
     return out;
 }
 
-Reference readBack(const std::string& path, int spp)
+Reference readBack(const std::string& path, int spp, const std::string& usedKernels)
 {
     const image::LayeredImage file = image::readExr(path);
     const auto noise = file.metadata.find(noiseKey);
@@ -84,30 +91,44 @@ Reference readBack(const std::string& path, int spp)
         throw Error("reference " + path, "was not written by a benchmark", "delete it");
     }
     return { image::beauty(file, path), std::get<float>(noise->second), spp, path, true,
-        std::get<std::string>(kernels->second) != kernelFingerprint() };
+        std::get<std::string>(kernels->second) != usedKernels };
+}
+
+/// Leaves of all channels those of a layer, as the image's colour.
+void takeForBeauty(image::LayeredImage& frame, const std::string& layer)
+{
+    std::erase_if(frame.channels, [&](const image::Channel& c) { return !c.name.starts_with(layer + "."); });
+    for (image::Channel& channel : frame.channels) {
+        channel.name.erase(0, layer.size() + 1);
+    }
 }
 
 } // namespace
 
-image::RgbImage beautyOf(
-    render::Renderer& renderer, const render::Settings& settings, const render::FrameStatistics& statistics)
+image::RgbImage imageOf(render::Renderer& renderer, const render::Settings& settings,
+    const render::FrameStatistics& statistics, const std::string& layer)
 {
-    image::RgbImage image = image::beauty(render::readLayers(renderer, settings, statistics, {}));
+    const std::vector<std::string> layers = layer.empty() ? std::vector<std::string> {} : std::vector { layer };
+    image::LayeredImage frame = render::readLayers(renderer, settings, statistics, layers);
+    if (!layer.empty()) {
+        takeForBeauty(frame, layer);
+    }
+    image::RgbImage image = image::beauty(frame, layer);
     if (!std::ranges::all_of(image.rgb, [](float v) { return std::isfinite(v); })) {
         throw Error("rendered image", "has a value that is not finite", "this is a fault in wedge, please report it");
     }
     return image;
 }
 
-Reference obtainReference(
-    render::Renderer& renderer, const render::Settings& settings, const std::string& folder, const std::string& name)
+Reference obtainReference(render::Renderer& renderer, const render::Settings& settings, const std::string& folder,
+    const std::string& name, const std::string& layer)
 {
-    const std::string path = pathOf(renderer, settings, folder, name);
+    const std::string path = pathOf(renderer, settings, folder, name, layer);
     if (std::filesystem::exists(path)) {
-        return readBack(path, settings.spp);
+        return readBack(path, settings.spp, kernelFingerprint(layer));
     }
-    Reference out { half(renderer, settings, 0), 0, settings.spp, path };
-    const image::RgbImage second = half(renderer, settings, 1);
+    Reference out { half(renderer, settings, 0, layer), 0, settings.spp, path };
+    const image::RgbImage second = half(renderer, settings, 1, layer);
     // Both halves have the error e; their difference has sqrt 2 e, their mean e / sqrt 2.
     // As the file keeps it, so that a later run reports the same.
     out.noise = static_cast<float>(0.5 * image::rmse(out.image, second));
@@ -118,7 +139,7 @@ Reference obtainReference(
     if (failed) {
         throw Error("folder for references", folder, failed.message() + ", name another one");
     }
-    image::writeExr(path, layered(out));
+    image::writeExr(path, layered(out, kernelFingerprint(layer)));
     return out;
 }
 

@@ -18,15 +18,16 @@ struct Reference {
     bool otherKernels = false; ///< cached, and rendered with kernels of other source text
 };
 
-/// The beauty of the renderer's last frame. Throws Error if a value is NaN or infinite.
-image::RgbImage beautyOf(
-    render::Renderer& renderer, const render::Settings& settings, const render::FrameStatistics& statistics);
+/// The renderer's last frame, or a layer of it that has a colour. Throws Error if a value is NaN or infinite.
+image::RgbImage imageOf(render::Renderer& renderer, const render::Settings& settings,
+    const render::FrameStatistics& statistics, const std::string& layer = "");
 
 /// Reads the reference for these settings from the folder, or renders it and keeps it there. settings.spp is the whole
 /// number of samples, even; its seed decides those of the halves. The file's name has a hash of the scene's contents,
 /// the settings, the size and the version of wedge. The kernels' text is not in it, so that a faster kernel does not
-/// cost new references: what was rendered with others is marked, for a warning. Throws Error.
-Reference obtainReference(
-    render::Renderer& renderer, const render::Settings& settings, const std::string& folder, const std::string& name);
+/// cost new references: what was rendered with others is marked, for a warning. layer: as imageOf() has it. Throws
+/// Error.
+Reference obtainReference(render::Renderer& renderer, const render::Settings& settings, const std::string& folder,
+    const std::string& name, const std::string& layer = "");
 
 } // namespace wedge::benchmark

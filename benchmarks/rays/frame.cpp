@@ -98,7 +98,7 @@ FrameResult measureFrame(const scene::Scene& original, const WedgeTracer& tracer
         },
         plan.timing);
     out.deviceSeconds.erase(out.deviceSeconds.begin()); // the untimed one
-    compareImages(out, beautyOf(renderer, settings, last).rgb, single.rgb());
+    compareImages(out, imageOf(renderer, settings, last).rgb, single.rgb());
     return out;
 }
 

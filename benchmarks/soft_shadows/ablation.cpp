@@ -1,15 +1,14 @@
 #include "benchmarks/soft_shadows/ablation.h"
 
+#include "benchmarks/common/variants.h"
 #include "kernels/shared/wedge.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace wedge::benchmark {
 namespace {
 
 using render::Filtering;
-using render::Sampling;
 using render::Settings;
 
 constexpr float firstWidth = 0.8f; // pixels, where the search for the best one starts
@@ -21,7 +20,7 @@ struct Budget {
     Measured adaptive;
 };
 
-std::vector<Budget> budgets(Lab& lab, bool published)
+std::vector<Budget> budgets(ShadowLab& lab, bool published)
 {
     std::vector<Settings> wanted;
     if (published) {
@@ -43,48 +42,15 @@ std::vector<Budget> budgets(Lab& lab, bool published)
     return out;
 }
 
-int nearestSquare(double value)
-{
-    const long side = std::lround(std::sqrt(std::max(0.0, value)));
-    return static_cast<int>(side * side);
-}
-
-/// The same setting with equal counts everywhere, about spp. Jittered strata are even only in square counts, so each
-/// of the two passes gets one.
-Settings uniform(Settings settings, double spp)
-{
-    const bool strata = settings.sampler == render::Sampler::Stratified;
-    const int count = strata ? firstPassRays + nearestSquare(spp - firstPassRays) : static_cast<int>(std::lround(spp));
-    settings.sampling = Sampling::Uniform;
-    settings.spp = std::max(firstPassRays, count);
-    settings.maxSpp = std::max(settings.maxSpp, settings.spp);
-    return settings;
-}
-
-/// Neither analysed nor filtered: plain Monte Carlo of the setting's integrand and sampler, in one pass.
-Settings plain(const Settings& settings, double spp)
-{
-    const bool strata = settings.sampler == render::Sampler::Stratified;
-    Settings out = render::monteCarlo(std::max(1, strata ? nearestSquare(spp) : static_cast<int>(std::lround(spp))));
-    out.sampler = settings.sampler;
-    out.shading = settings.shading;
-    return out;
-}
-
-Settings fixed(Settings settings, float width)
-{
-    settings.filtering = Filtering::Fixed;
-    settings.fixedWidth = width;
-    return settings;
-}
-
 /// One of the six combinations at a budget. width: in pixels, for the fixed filter.
 Settings variant(const Budget& budget, bool adaptive, Filtering filter, float width)
 {
     if (!adaptive && filter == Filtering::None) {
-        return plain(budget.settings, budget.adaptive.spp);
+        Settings settings = plain(budget.settings.sampler, budget.adaptive.spp);
+        settings.shading = budget.settings.shading;
+        return settings;
     }
-    Settings settings = adaptive ? budget.settings : uniform(budget.settings, budget.adaptive.spp);
+    Settings settings = adaptive ? budget.settings : uniform(budget.settings, budget.adaptive.spp, firstPassRays);
     if (filter == Filtering::Fixed) {
         return fixed(settings, width);
     }
@@ -94,38 +60,14 @@ Settings variant(const Budget& budget, bool adaptive, Filtering filter, float wi
 
 } // namespace
 
-float bestFixedWidth(Lab& lab, Settings settings, float start)
-{
-    constexpr float step = 1.41421356f;
-    constexpr float narrowest = 0.25f;
-    constexpr float widest = 13.0f; // three of these are the kernel's largest radius, 40 pixels
-    const auto error = [&](float width) { return lab.measure(fixed(settings, width)).rmse; };
-    float best = start;
-    double least = error(start);
-    for (const float factor : { step, 1.0f / step }) {
-        for (float width = start * factor; width >= narrowest && width <= widest; width *= factor) {
-            const double e = error(width);
-            if (e >= least) {
-                break;
-            }
-            best = width;
-            least = e;
-        }
-        if (best != start) {
-            break; // the error has one minimum: it is not on the other side too
-        }
-    }
-    return best;
-}
-
-FixedBlur bestFixedBlur(Lab& lab)
+FixedBlur bestFixedBlur(ShadowLab& lab)
 {
     const Settings usual = render::axisAligned(defaultSpp);
     const float width = bestFixedWidth(lab, usual, firstWidth);
     return { width, lab.measure(fixed(usual, width)) };
 }
 
-std::vector<Series> ablations(Lab& lab, bool published)
+std::vector<Series> ablations(ShadowLab& lab, bool published)
 {
     const std::vector<Budget> all = budgets(lab, published);
     const Settings usual = published ? render::asPublished(publishedMu) : render::axisAligned(defaultSpp);
@@ -133,7 +75,8 @@ std::vector<Series> ablations(Lab& lab, bool published)
     const float adaptiveWidth = bestFixedWidth(lab, usual, firstWidth);
     std::vector<Series> out;
     for (const bool adaptive : { false, true }) {
-        const float width = adaptive ? adaptiveWidth : bestFixedWidth(lab, uniform(usual, usualSpp), adaptiveWidth);
+        const float width =
+            adaptive ? adaptiveWidth : bestFixedWidth(lab, uniform(usual, usualSpp, firstPassRays), adaptiveWidth);
         for (const Filtering filter : { Filtering::None, Filtering::Fixed, Filtering::Adaptive }) {
             constexpr const char* names[] = { "UF", "NAF", "AF" };
             Series series { published ? "published" : "default", adaptive ? "AS" : "NAS",
@@ -150,7 +93,7 @@ std::vector<Series> ablations(Lab& lab, bool published)
     return out;
 }
 
-std::vector<Measured> convergence(Lab& lab, bool published)
+std::vector<Measured> convergence(ShadowLab& lab, bool published)
 {
     std::vector<Measured> out;
     if (published) {

@@ -1,25 +1,19 @@
 #pragma once
 
-#include <string>
+#include "benchmarks/common/measure_plan.h"
+
 #include <vector>
 
 namespace wedge::benchmark {
 
-/// How much is measured.
-struct Plan {
-    bool quick = false;
-    bool timingOnly = false;
-    int width = 640, height = 480;
-    int frames = 7; ///< timed, after one that warms up
-    int seeds = 3; ///< of the method's error
-    int referenceSpp = 2048; ///< of the true integral; half as many of the thesis' shading
-    int largestBaseline = 1600; ///< samples of the unfiltered curves; beyond, they are extrapolated
-    std::vector<int> baselineSpp { 9, 25, 64, 144 }; ///< where the unfiltered curves start; squares
+/// How much is measured. Samples of references are those of the true integral; half as many of the thesis' shading.
+struct Plan : MeasurePlan {
+    Plan() { baselineSpp = { 9, 25, 64, 144 }; }
+
     std::vector<int> budgets { 9, 16, 28, 64, 128 }; ///< of the ablations, default setting
     std::vector<float> publishedMu { 0.5f, 1, 2, 3, 4, 6, 8 }; ///< of the ablations, published setting
     double largestBudget = 100; ///< no further budgets after the first one of more mean samples
     std::vector<float> mu { 1, 2, 4, 6 }; ///< of the default setting's convergence
-    std::string referenceFolder;
 };
 
 /// Less of everything, at 320x240: about two minutes for our four scenes on two cores.

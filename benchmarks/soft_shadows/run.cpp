@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -11,57 +12,52 @@
 namespace wedge::benchmark {
 namespace {
 
-SettingResult measureSetting(Lab& lab, bool published)
+ShadowSetting measureSetting(ShadowLab& lab, bool published)
 {
-    SettingResult out;
+    const render::Settings settings = published ? render::asPublished(publishedMu) : render::axisAligned(defaultSpp);
+    ShadowSetting out;
     out.name = published ? "published" : "default";
-    out.timing = timeFrames(lab, published ? render::asPublished(publishedMu) : render::axisAligned(defaultSpp));
+    out.timing = timeFrames(lab, settings, shadowColumns(), out.name);
     if (lab.plan().timingOnly) {
         return out;
     }
-    out.method = measureMethod(lab, published);
-    for (Baseline& baseline : measureBaselines(lab, out.method)) {
-        const Savings saved = savings(out.method, baseline);
-        out.baselines.emplace_back(std::move(baseline), saved);
-    }
+    out.method = measureMethod(lab, out.name, settings);
+    out.baselines = compareWithBaselines(lab, out.method);
     out.convergence = convergence(lab, published);
     return out;
 }
 
-void keepReferences(const Lab& lab, SceneResult& result)
-{
-    for (const auto& [shading, reference] : lab.references()) {
-        Reference summary = reference;
-        summary.image = {};
-        result.references.emplace(
-            shading == render::Shading::Ratio ? "true integral" : "shading apart", std::move(summary));
-    }
-}
-
 } // namespace
 
-const SettingResult& SceneResult::setting(const std::string& name) const
+const ShadowSetting& SceneResult::setting(const std::string& name) const
 {
-    const auto found = std::ranges::find(settings, name, &SettingResult::name);
+    const auto found = std::ranges::find(settings, name, &ShadowSetting::name);
     if (found == settings.end()) {
         throw std::out_of_range("no such setting: " + name);
     }
     return *found;
 }
 
-SceneResult measureScene(const SceneSource& source, const device::Device& device, const Plan& plan)
+double SceneResult::noiseOf(const std::string& setting) const
+{
+    const auto found = references.find(integrandName(setting == "published"));
+    return found == references.end() ? 0.0 : found->second.noise;
+}
+
+SceneResult measureScene(const ShadowScene& source, const device::Device& device, const Plan& plan)
 {
     const auto start = std::chrono::steady_clock::now();
     SceneResult out;
     out.source = source;
-    out.path = source.file();
-    const scene::Scene scene = scene::loadScene(out.path);
+    const std::string path = source.file();
+    const scene::Scene scene = scene::loadScene(path);
     if (scene.areaLights.empty()) {
-        throw Error("scene " + out.path, "has no area light", "measure one that has soft shadows");
+        throw Error("scene " + path, "has no area light", "measure one that has soft shadows");
     }
     out.triangles = scene.geometry.indices.size() / 3;
-    progress(fmt::format("{}: {} triangles", source.name, out.triangles));
-    Lab lab(scene, device, plan, source.name);
+    const SoftShadows subject(plan.referenceSpp);
+    ShadowLab lab(scene, device, subject, plan, source.name);
+    lab.say(fmt::format("{} triangles", out.triangles));
     for (const bool published : { false, true }) {
         out.settings.push_back(measureSetting(lab, published));
     }
@@ -72,10 +68,10 @@ SceneResult measureScene(const SceneSource& source, const device::Device& device
                 std::ranges::move(ablations(lab, published), std::back_inserter(out.series));
             }
         }
-        keepReferences(lab, out);
+        out.references = summaries(lab.references());
     }
     out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    progress(fmt::format("{}: done in {:.0f} s", source.name, out.seconds));
+    lab.say(fmt::format("done in {:.0f} s", out.seconds));
     return out;
 }
 

@@ -1,44 +1,37 @@
 #pragma once
 
 #include "benchmarks/soft_shadows/ablation.h"
-#include "benchmarks/soft_shadows/lab.h"
 #include "benchmarks/soft_shadows/savings.h"
 #include "benchmarks/soft_shadows/scenes.h"
-#include "benchmarks/soft_shadows/timing.h"
 
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace wedge::benchmark {
 
 /// Everything measured in one setting.
-struct SettingResult {
-    std::string name; ///< "default" or "published"
-    Timing timing;
-    /// The rest is empty where only times were measured.
-    Method method;
-    std::vector<std::pair<Baseline, Savings>> baselines;
+struct ShadowSetting : SettingResult {
     std::vector<Measured> convergence; ///< by mu
 };
 
 /// Everything measured of one scene.
 struct SceneResult {
-    SceneSource source;
-    std::string path;
+    ShadowScene source;
     std::size_t triangles = 0;
-    std::vector<SettingResult> settings;
+    std::vector<ShadowSetting> settings;
     std::optional<FixedBlur> fixedBlur;
     std::vector<Series> series;
-    std::map<std::string, Reference> references; ///< "true integral" and "shading apart", without their pixels
+    std::map<std::string, Reference> references; ///< by integrandName(), without their pixels
     double seconds = 0; ///< all of it took
 
-    const SettingResult& setting(const std::string& name) const;
+    const ShadowSetting& setting(const std::string& name) const;
+    /// Of the reference that a setting is measured against; 0 where there is none.
+    double noiseOf(const std::string& setting) const;
 };
 
 /// Measures a scene as the plan says. Throws Error.
-SceneResult measureScene(const SceneSource& source, const device::Device& device, const Plan& plan);
+SceneResult measureScene(const ShadowScene& source, const device::Device& device, const Plan& plan);
 
 } // namespace wedge::benchmark

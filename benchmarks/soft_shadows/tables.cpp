@@ -1,133 +1,44 @@
 #include "benchmarks/soft_shadows/tables.h"
 
+#include "benchmarks/common/tables.h"
 #include "benchmarks/soft_shadows/results.h"
 
 #include <algorithm>
-
-#include <fmt/format.h>
+#include <iterator>
 
 namespace wedge::benchmark {
 namespace {
 
-constexpr const char* timingHead =
-    "{:<22}{:>10}{:>8}{:>7}{:>9}{:>9}{:>9}{:>9}{:>9}{:>8}{:>8}{:>9}{:>9}{:>8}{:>8}{:>8}{:>7}\n";
-constexpr const char* timingRow =
-    "{:<22}{:>10}{:>8}{:>7.1f}{:>9}{:>9.1f}{:>9.1f}{:>9.1f}{:>9.2f}{:>8}{:>8.2f}{:>9}{:>9.2f}"
-    "{:>8.1f}{:>8.2f}{:>8.2f}{:>7}\n";
-
-std::string percent(double fraction) { return fmt::format("{:.1f} %", 100 * fraction); }
-
-std::string shortNumber(double n) { return n < 1e3 ? fmt::format("{:.0f}", n) : fmt::format("{:.1f}K", n / 1e3); }
-
-std::string timingLine(const SceneResult& result, const SettingResult& setting)
-{
-    const Timing& t = setting.timing;
-    const auto ms = [&](const char* column) { return t[column].median; };
-    return fmt::format(fmt::runtime(timingRow), result.source.name, setting.name,
-        shortNumber(static_cast<double>(result.triangles)), t.spp, fmt::format("{:.1f}", ms("primary")),
-        ms("first_pass"), ms("second_pass"), ms("tracing"), ms("widths_and_counts"),
-        fmt::format("{:.2f}", ms("first_pass_filter")), ms("filter"), fmt::format("{:.2f}", ms("composite")),
-        ms("overhead"), ms("total"), ms("fps_with"), ms("fps_without"), percent(ms("overhead_fraction")));
-}
-
-std::string paperLine(const PaperRow& p)
-{
-    return fmt::format(fmt::runtime(timingRow), "", "thesis", shortNumber(p.triangles), p.spp, "", p.firstPass,
-        p.secondPass, p.tracing, p.analysis, "", p.filter, "", p.overhead, p.total, p.fpsWith, p.fpsWithout,
-        percent(p.overhead / p.total));
-}
-
-/// Times that one setting's frames differ in, and what the host's clock adds.
-std::string spreadLine(const SceneResult& result, const SettingResult& setting)
-{
-    const Timing& t = setting.timing;
-    return fmt::format("{:<22}{:>10}  total {:.1f} to {:.1f} ms, overhead {:.2f} to {:.2f} ms, wall clock {:.1f} ms, "
-                       "gap {}, {:.1f} Mrays/s\n",
-        result.source.name, setting.name, t["total"].min, t["total"].max, t["overhead"].min, t["overhead"].max,
-        t["wall"].median, percent(t["wall_gap"].median), t.megaraysPerSecond);
-}
-
-std::string savingsText(const SettingResult& setting)
+std::string errorLines(const SceneResult& result)
 {
     std::string out;
-    for (const auto& [baseline, saved] : setting.baselines) {
-        const Summary s = summarize(saved.samples);
-        out += fmt::format(
-            "  {} {:.2f} ({:.2f}..{:.2f}){}", baseline.name, s.median, s.min, s.max, saved.extrapolated ? "*" : "");
+    for (const ShadowSetting& setting : result.settings) {
+        if (!setting.method.runs.empty()) {
+            out += errorLine(result.source.name, setting, result.noiseOf(setting.name));
+        }
     }
-    return out;
-}
-
-bool met(const Claim& claim)
-{
-    const bool upperBound =
-        claim.id.find(".overhead") != std::string::npos || claim.id.find(".wall_gap") != std::string::npos;
-    return upperBound ? claim.value <= *claim.goal : claim.value >= *claim.goal;
+    return result.fixedBlur ? out + errorLine(result.source.name, *result.fixedBlur) : out;
 }
 
 } // namespace
 
-std::string timingTable(const std::vector<SceneResult>& results)
+std::string tablesOf(const std::vector<SceneResult>& results)
 {
-    std::string out = "Median milliseconds a frame on the device\n";
-    out += fmt::format(fmt::runtime(timingHead), "scene", "setting", "tris", "spp", "primary", "1st pass", "2nd pass",
-        "tracing", "widths+n", "of 1st", "filter", "compos.", "overhead", "total", "fps", "fps w/o", "ovh");
+    std::vector<TimingRow> rows;
+    std::string errors;
+    std::vector<Claim> claims;
     for (const SceneResult& result : results) {
-        for (const SettingResult& setting : result.settings) {
-            out += timingLine(result, setting);
+        for (const ShadowSetting& setting : result.settings) {
+            rows.push_back(
+                { result.source.name, setting.name, static_cast<double>(result.triangles), &setting.timing });
         }
         if (result.source.paper != nullptr) {
-            out += paperLine(*result.source.paper);
+            rows.push_back({ "", "", 0, nullptr, result.source.paper });
         }
+        errors += errorLines(result);
+        std::ranges::move(claimsOf(result), std::back_inserter(claims));
     }
-    out += "\nSpread over the frames, and the host's clock\n";
-    for (const SceneResult& result : results) {
-        for (const SettingResult& setting : result.settings) {
-            out += spreadLine(result, setting);
-        }
-    }
-    return out;
-}
-
-std::string errorTable(const std::vector<SceneResult>& results)
-{
-    std::string out;
-    for (const SceneResult& result : results) {
-        for (const SettingResult& setting : result.settings) {
-            if (setting.method.runs.empty()) {
-                continue;
-            }
-            const std::string integrand = setting.name == "published" ? "shading apart" : "true integral";
-            const double noise = result.references.at(integrand).noise;
-            const Measured& run = setting.method.runs.front();
-            out +=
-                fmt::format("{:<22}{:>10}{:>7.1f} spp  rmse {:.6f}  without the reference's noise ({:.6f}) {:.6f}{}\n",
-                    result.source.name, setting.name, run.spp, run.rmse, noise, withoutNoise(run.rmse, noise),
-                    savingsText(setting));
-        }
-        if (result.fixedBlur) {
-            out +=
-                fmt::format("{:<22}{:>10}{:>7.1f} spp  rmse {:.6f}  one width of {:.2f} pixels for the whole image\n",
-                    result.source.name, "fixed", result.fixedBlur->measured.spp, result.fixedBlur->measured.rmse,
-                    result.fixedBlur->width);
-        }
-    }
-    return out.empty() ? ""
-                       : "\nRMS errors, and samples saved against each unfiltered baseline (* extrapolated)\n" + out;
-}
-
-std::string goalTable(const std::vector<SceneResult>& results)
-{
-    std::string out = "\nGoals\n";
-    for (const SceneResult& result : results) {
-        for (const Claim& claim : claimsOf(result)) {
-            if (claim.goal) {
-                out += fmt::format("{:<60}{:>10.3f}  goal {:>6.2f}  {}\n", claim.id, claim.value, *claim.goal,
-                    met(claim) ? "met" : "missed");
-            }
-        }
-    }
-    return out;
+    return timingTable(rows, "primary", "primary") + errorTable(errors) + goalTable(claims);
 }
 
 } // namespace wedge::benchmark

@@ -1,8 +1,7 @@
-#include "benchmarks/soft_shadows/timing.h"
+#include "benchmarks/common/timing.h"
 
 #include "host/render/report.h"
 
-#include <functional>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -12,34 +11,37 @@ namespace {
 
 using device::PassKind;
 using render::FrameStatistics;
-using Column = std::pair<const char*, std::function<double(const FrameStatistics&)>>;
 
-std::function<double(const FrameStatistics&)> ofPass(const char* name)
+TimingColumn ofKind(const std::string& column, PassKind kind)
 {
-    return [name](const FrameStatistics& f) { return f.milliseconds(std::string(name)); };
-}
-
-std::function<double(const FrameStatistics&)> ofKind(PassKind kind)
-{
-    return [kind](const FrameStatistics& f) { return f.milliseconds(kind); };
+    return { column, [kind](const FrameStatistics& f) { return f.milliseconds(kind); } };
 }
 
 double overhead(const FrameStatistics& f) { return f.overheadFraction() * f.deviceMilliseconds; }
 
-const std::vector<Column>& columns()
+} // namespace
+
+TimingColumn ofPasses(const std::string& column, const std::vector<std::string>& passes)
 {
-    static const std::vector<Column> all = {
-        { "primary", ofPass("primary rays") },
-        { "first_pass", ofPass("first pass") },
-        { "second_pass", ofPass("second pass") },
-        { "tracing", ofKind(PassKind::Trace) },
-        { "widths", ofPass("widths") },
-        { "counts", ofPass("counts") },
-        { "first_pass_filter", ofPass("filter of first pass") },
-        { "widths_and_counts", ofKind(PassKind::Analysis) },
-        { "filter", ofKind(PassKind::Filter) },
-        { "composite", ofKind(PassKind::Composite) },
-        { "transfer", ofKind(PassKind::Transfer) },
+    return { column, [passes](const FrameStatistics& f) {
+                double sum = 0;
+                for (const std::string& pass : passes) {
+                    sum += f.milliseconds(pass);
+                }
+                return sum;
+            } };
+}
+
+TimingColumn tracing() { return ofKind("tracing", PassKind::Trace); }
+
+TimingColumn widthsAndCounts() { return ofKind("widths_and_counts", PassKind::Analysis); }
+
+const std::vector<TimingColumn>& frameColumns()
+{
+    static const std::vector<TimingColumn> all = {
+        ofKind("filter", PassKind::Filter),
+        ofKind("composite", PassKind::Composite),
+        ofKind("transfer", PassKind::Transfer),
         { "overhead", overhead },
         { "total", [](const FrameStatistics& f) { return f.deviceMilliseconds; } },
         { "wall", [](const FrameStatistics& f) { return f.wallMilliseconds; } },
@@ -51,8 +53,6 @@ const std::vector<Column>& columns()
     return all;
 }
 
-} // namespace
-
 const Summary& Timing::operator[](const std::string& column) const
 {
     for (const auto& [name, summary] : columns) {
@@ -63,7 +63,8 @@ const Summary& Timing::operator[](const std::string& column) const
     throw std::out_of_range("no such column: " + column);
 }
 
-Timing timeFrames(Lab& lab, render::Settings settings)
+Timing timeFrames(
+    Lab& lab, render::Settings settings, const std::vector<TimingColumn>& columns, const std::string& label)
 {
     settings.width = lab.plan().width;
     settings.height = lab.plan().height;
@@ -75,21 +76,20 @@ Timing timeFrames(Lab& lab, render::Settings settings)
         frames.push_back(lab.renderer().render(settings));
     }
     Timing out;
-    out.spp = frames.front().sppMean;
+    out.spp = lab.subject().sppOf(frames.front());
     std::vector<double> rates;
     for (const FrameStatistics& frame : frames) {
         rates.push_back(render::megaraysPerSecond(frame));
     }
     out.megaraysPerSecond = summarize(rates).median;
-    for (const auto& [name, value] : columns()) {
+    for (const auto& [name, value] : columns) {
         std::vector<double> values;
         for (const FrameStatistics& frame : frames) {
             values.push_back(value(frame));
         }
         out.columns.emplace_back(name, summarize(values));
     }
-    progress(fmt::format("{}: {} frames of the {} setting, {:.1f} ms each", lab.name(), frames.size(),
-        settings.published ? "published" : "default", out["total"].median));
+    lab.say(fmt::format("{} frames of the {} setting, {:.1f} ms each", frames.size(), label, out["total"].median));
     return out;
 }
 

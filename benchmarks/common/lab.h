@@ -1,0 +1,90 @@
+#pragma once
+
+#include "benchmarks/common/measure_plan.h"
+#include "benchmarks/common/references.h"
+#include "host/render/renderer.h"
+
+#include <map>
+#include <string>
+
+namespace wedge::benchmark {
+
+/// One render, and how far it is from the reference of its integrand.
+struct Measured {
+    double spp = 0; ///< mean over shaded pixels
+    double rays = 0; ///< a shaded pixel; less than spp where samples need none
+    double rmse = 0; ///< linear RGB, whole image
+    float mu = 0;
+    std::uint32_t seed = 0;
+};
+
+/// What images converge to: its name, and the settings of its reference, size and seed left open.
+struct Integrand {
+    std::string name;
+    render::Settings settings;
+};
+
+/// What a benchmark measures of an image.
+class Subject {
+public:
+    virtual ~Subject() = default;
+
+    virtual std::string program() const = 0; ///< the benchmark's name
+    virtual std::string layer() const { return ""; } ///< as readLayers() has it, "" for the whole image
+    virtual Integrand integrandOf(const render::Settings& settings) const = 0;
+    virtual double sppOf(const render::FrameStatistics& frame) const = 0;
+    virtual double raysOf(const render::FrameStatistics& frame) const = 0; ///< of the whole image
+    virtual float muOf(const render::Settings& settings) const = 0;
+    virtual std::string describe(const render::Settings& settings) const = 0; ///< a few words
+};
+
+/// A line on stderr, after the benchmark's name.
+void progress(const std::string& program, const std::string& text);
+
+/// "default mu 2.00 AS AF" and the like; counts: whether they are adaptive.
+std::string describeVariant(const render::Settings& settings, float mu, bool adaptiveCounts);
+
+/// One scene on one device: renders it and measures errors. The same settings are rendered only once.
+class Lab {
+public:
+    /// Everything but device and name must outlive the lab; name: for files and progress.
+    Lab(const scene::Scene& scene, const device::Device& device, const Subject& subject, const MeasurePlan& plan,
+        std::string name);
+
+    /// RMS error of one image. Size comes from the plan.
+    Measured measure(render::Settings settings, std::uint32_t seed = 1);
+
+    /// What is measured of one image, as it comes out of the renderer.
+    image::RgbImage render(render::Settings settings, std::uint32_t seed);
+
+    /// What images of these settings converge to.
+    const Reference& reference(const render::Settings& settings);
+    /// Those made so far, by their integrands' names.
+    const std::map<std::string, Reference>& references() const { return references_; }
+
+    /// A line on stderr that begins with the scene's name.
+    void say(const std::string& text) const;
+
+    render::Renderer& renderer() { return renderer_; }
+    const Subject& subject() const { return subject_; }
+    const MeasurePlan& plan() const { return plan_; }
+    const std::string& name() const { return name_; }
+
+private:
+    render::FrameStatistics renderFrame(render::Settings& settings, std::uint32_t seed);
+
+    const Subject& subject_;
+    const MeasurePlan& plan_;
+    std::string name_;
+    render::Renderer renderer_;
+    std::map<std::string, Reference> references_;
+    std::map<std::string, Measured> measured_;
+};
+
+/// References without their pixels.
+std::map<std::string, Reference> summaries(const std::map<std::string, Reference>& references);
+
+/// Error that is left when the reference's own, which is independent of it, is taken out in quadrature.
+double withoutNoise(double rmse, double noise);
+
+} // namespace wedge::benchmark
