@@ -1,8 +1,7 @@
 // From the distances of reflectors to filter widths, and to sample counts.
 //
-// Published (thesis section 4.5): each pixel's own least and largest distance. Default: distances are averaged in the
-// logarithm over near pixels of the same object, since the least of sixteen is noisy, and counts follow the variance of
-// what the filter gathers.
+// Published (thesis section 4.5): widths and counts from each pixel's least and largest distance. Default: widths from
+// the harmonic mean of distances, counts from the variance of what the filter gathers.
 #include "shared/indirect.h"
 #include "shared/path.h"
 #include "vector16.h"
@@ -66,67 +65,13 @@ WEDGE_FN float bandlimitOf(uint component, float gloss)
         : WEDGE_DIFFUSE_BANDLIMIT;
 }
 
-/// log2 of the clamped distance, and whether there is one (1 or 0).
-__kernel void reflectorLogs(ReflectorParams p, __global const float* restrict reflectors,
-                            __global const float* restrict extent, __global float* restrict logs)
-{
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
-    const float16 z = loadBlock(reflectors, i);
-    const int16 has = z > 0.0f;
-    const float16 bounded = max16(z, (float16)(leastDistance(p, extent)));
-    vstore16(has ? log2Block(bounded) : (float16)(0.0f), 0, logs + i);
-    vstore16(has ? (float16)(1.0f) : (float16)(0.0f), 0, logs + p.planeSize + i);
-}
-
-/// One direction of the mean over a window of pixels of the same object: sums of both planes.
-WEDGE_FN void sumLine(ReflectorParams p, uint x, uint y, int element, int before, int after,
-                      __global const uint* objectId, __global const float* in, __global float* out)
-{
-    const int i = (int)pixelIndex(x, y, p.stride);
-    const uint16 object = loadIdBlock(objectId, i);
-    float16 sum = (float16)(0.0f);
-    float16 count = (float16)(0.0f);
-    for (int k = -before; k <= after; ++k) {
-        const int j = i + k * element;
-        const int16 same = loadIdBlock(objectId, j) == object;
-        sum += same ? loadBlock(in, j) : (float16)(0.0f);
-        count += same ? loadBlock(in + p.planeSize, j) : (float16)(0.0f);
-    }
-    vstore16(sum, 0, out + i);
-    vstore16(count, 0, out + p.planeSize + i);
-}
-
-__kernel void sumRows(ReflectorParams p, __global const uint* restrict objectId, __global const float* restrict in,
-                      __global float* restrict out)
-{
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x < p.x1 && y < p.y1) {
-        sumLine(p, x, y, 1, (int)p.smoothing, (int)p.smoothing, objectId, in, out);
-    }
-}
-
-__kernel void sumColumns(ReflectorParams p, __global const uint* restrict objectId, __global const float* restrict in,
-                         __global float* restrict out)
-{
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x < p.x1 && y < p.y1) {
-        sumLine(p, x, y, (int)p.stride, (int)min(y, p.smoothing), (int)min(p.height - 1u - y, p.smoothing), objectId, in,
-                out);
-    }
-}
-
-/// Widths in metres from the summed logarithms: 0 where no reflector is near (the pixel keeps its value), -1 where the
-/// pixel has no such term. fixedWidth replaces the analysis.
-__kernel void reflectorWidths(ReflectorParams p, __global const float* restrict logs,
-                              __global const float* restrict pixelSize, __global const float* restrict gloss,
-                              __global const uint* restrict taken, __global float* restrict beta)
+/// Widths in metres (4.15), (4.16), -1 where the pixel has no such term, and counts (4.21).
+/// Of the distances there is the least, as published, or a fraction of their harmonic mean, in which rays that hit nothing
+/// count as infinitely far: an estimate of the same from all rays, with less noise. fixedWidth replaces the analysis.
+__kernel void reflectorWidths(ReflectorParams p, __global const float* restrict reflectors,
+                              __global const float* restrict extent, __global const float* restrict pixelSize,
+                              __global const float* restrict gloss, __global const uint* restrict taken,
+                              __global float* restrict beta, __global uint* restrict wanted)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -134,30 +79,11 @@ __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict 
         return;
     }
     const uint i = pixelIndex(x, y, p.stride);
-    const float count = logs[p.planeSize + i];
-    const float z = exp2(logs[i] / fmax(count, 1.0f));
-    const float bandwidth = indirectBandwidth(z, bandlimitOf(p.component, gloss[i]), pixelSize[i], p.mu, p.alpha);
-    const float analysed = count > 0.0f ? p.widthScale / bandwidth : 0.0f;
-    const float wide = p.fixedWidth > 0.0f ? p.fixedWidth * pixelSize[i] : analysed;
-    beta[i] = taken[i] > 0u ? wide : -1.0f;
-}
-
-/// Widths (4.15), (4.16) and counts (4.21) of the published setting, from each pixel's own distances.
-__kernel void publishedReflectorWidths(ReflectorParams p, __global const float* restrict reflectors,
-                                       __global const float* restrict extent, __global const float* restrict pixelSize,
-                                       __global const float* restrict gloss, __global const uint* restrict taken,
-                                       __global float* restrict beta, __global uint* restrict wanted)
-{
-    const uint x = p.x0 + get_global_id(0);
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const uint i = pixelIndex(x, y, p.stride);
-    const float least = leastDistance(p, extent);
     const bool has = reflectors[i] > 0.0f;
+    const float mean = (float)taken[i] / fmax(reflectors[2u * p.planeSize + i], 1e-20f);
+    const float near = p.meanFraction > 0.0f ? p.meanFraction * mean : reflectors[i];
     // Where no ray hit anything, nothing is nearer than what the camera sees is large.
-    const float zMin = fmax(has ? reflectors[i] : extent[0], least);
+    const float zMin = fmax(has ? near : extent[0], leastDistance(p, extent));
     const float zMax = fmax(reflectors[p.planeSize + i], zMin);
     const float bandlimit = bandlimitOf(p.component, gloss[i]);
     const float gamma = p.component == WEDGE_COMPONENT_GLOSSY ? glossyGamma(fabs(gloss[i])) : WEDGE_DIFFUSE_GAMMA;

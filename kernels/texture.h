@@ -10,11 +10,10 @@ WEDGE_FN Vec3 texelRgb(__global const uint* texels, __global const float* srgbTo
     return vec3(srgbToLinear[t & 255u], srgbToLinear[(t >> 8) & 255u], srgbToLinear[(t >> 16) & 255u]);
 }
 
-/// i modulo n for any i, n >= 1.
+/// i modulo n for -1 <= i <= n, n >= 1.
 WEDGE_FN uint wrapIndex(int i, uint n)
 {
-    const int m = i % (int)n;
-    return (uint)(m < 0 ? m + (int)n : m);
+    return i < 0 ? n - 1u : (uint)i < n ? (uint)i : 0u;
 }
 
 /// Linear RGB of texture `texture` at (u, v), v up, repeated outside [0, 1).
@@ -32,8 +31,8 @@ WEDGE_FN Vec3 sampleTexture(__global const TextureData* textures, __global const
     const float fy = y - floor(y);
     const uint x0 = wrapIndex((int)floor(x), info.width);
     const uint y0 = wrapIndex((int)floor(y), info.height);
-    const uint x1 = x0 + 1u == info.width ? 0u : x0 + 1u;
-    const uint y1 = y0 + 1u == info.height ? 0u : y0 + 1u;
+    const uint x1 = wrapIndex((int)x0 + 1, info.width);
+    const uint y1 = wrapIndex((int)y0 + 1, info.height);
     const uint row0 = info.offset + y0 * info.width;
     const uint row1 = info.offset + y1 * info.width;
     const Vec3 c00 = texelRgb(texels, srgbToLinear, row0 + x0);

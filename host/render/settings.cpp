@@ -90,7 +90,7 @@ Settings asPublished(std::optional<float> wanted)
     in.widthScale = 2.0f;
     in.extent = ReflectorExtent::Scene;
     in.leastReflector = 0.02f;
-    in.smoothing = 0;
+    in.meanFraction = 0.0f;
     in.counts = IndirectCounts::Spectrum;
     in.maxSpp = static_cast<int>(std::lround(std::clamp(100.0f * in.mu, 100.0f, 1e5f)));
     return s;
@@ -117,8 +117,7 @@ void validate(const Settings& s)
     requireRange(s.integrator == Integrator::Path || s.bounces == 0, "bounces", text(s.bounces), "none with ambient occlusion");
     const IndirectSettings& in = s.indirect;
     requireRange(std::isfinite(in.mu) && in.mu >= 0.01f && in.mu <= 1000.0f, "mu", text(in.mu), "a number from 0.01 to 1000");
-    requireRange(in.alpha >= 0 && in.widthScale > 0 && in.leastReflector > 0, "indirect filter constants", fmt::format("alpha {} width scale {} least reflector {}", in.alpha, in.widthScale, in.leastReflector), "positive numbers");
-    requireRange(in.smoothing >= 0 && in.smoothing <= static_cast<int>(WEDGE_ROW_PADDING), "distance smoothing radius", text(in.smoothing), fmt::format("pixels from 0 to {}", WEDGE_ROW_PADDING));
+    requireRange(in.alpha >= 0 && in.meanFraction >= 0 && in.widthScale > 0 && in.leastReflector > 0, "indirect filter constants", fmt::format("alpha {} width scale {} least reflector {}", in.alpha, in.widthScale, in.leastReflector), "positive numbers");
     requireRange(std::isfinite(in.ambientDistance) && in.ambientDistance >= 0, "ambient occlusion distance", text(in.ambientDistance), "metres above 0");
     if (s.method == Method::AxisAligned && tracesPaths(s)) {
         requireRange(in.maxSpp >= static_cast<int>(WEDGE_INDIRECT_FIRST_RAYS) && s.spp >= static_cast<int>(WEDGE_INDIRECT_FIRST_RAYS),
@@ -182,7 +181,7 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
             { { "indirectMu", number(in.mu) }, { "indirectAlpha", number(in.alpha) },
                 { "indirectWidthScale", number(in.widthScale) },
                 { "reflectorExtent", in.extent == ReflectorExtent::Scene ? "scene" : "visible" },
-                { "leastReflector", number(in.leastReflector) }, { "distanceSmoothing", number(in.smoothing) },
+                { "leastReflector", number(in.leastReflector) }, { "meanFraction", number(in.meanFraction) },
                 { "indirectCounts", counts[static_cast<int>(in.counts)] },
                 { "indirectCountExponent", number(in.countExponent) }, { "indirectMaxSpp", number(in.maxSpp) } });
     }

@@ -78,12 +78,12 @@ enum class IndirectCounts {
 
 /// Indirect light and ambient occlusion; docs/indirect.md has the equations.
 struct IndirectSettings {
-    float mu = 0.9f; ///< sampling beyond the critical rate, (4.15), (4.21)
-    float alpha = 0.0f; ///< spatial bandlimit relative to the pixel's; 0: none, widths may go below a pixel
+    float mu = 1.0f; ///< sampling beyond the critical rate, (4.15), (4.21)
+    float alpha = 0.65f; ///< spatial bandlimit relative to the pixel's: no width is below widthScale / (mu alpha) pixels
     float widthScale = 0.5f; ///< standard deviation times bandwidth: beta = widthScale / Omega_r; thesis (4.16): 2
     ReflectorExtent extent = ReflectorExtent::Visible;
     float leastReflector = 0.005f; ///< reflectors nearer than this fraction of the extent count as this far
-    int smoothing = 2; ///< pixels: radius of the window over which distances are averaged in the logarithm
+    float meanFraction = 0.3f; ///< of the harmonic mean of distances that stands for the least one; 0: the least itself
     IndirectCounts counts = IndirectCounts::Variance;
     float countExponent = 0.4f; ///< counts ~ (variance / gathered pixels)^this
     int maxSpp = 256; ///< most samples of a pixel

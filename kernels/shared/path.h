@@ -40,7 +40,7 @@ typedef struct {
     float widthScale;    ///< standard deviation times bandwidth
     float extent;        ///< metres; 0: what the camera sees
     float leastReflector; ///< fraction of the extent that distances are clamped to
-    uint smoothing;      ///< pixels: radius of the window of the mean distance, at most WEDGE_ROW_PADDING
+    float meanFraction;  ///< of the harmonic mean distance that stands for the least one; 0: the least one itself
     uint countCap;       ///< most samples a pixel may take
     float fixedWidth;    ///< pixels; more than 0: this width everywhere in place of the analysis
     float countExponent; ///< of the counts from variance: n ~ (v / K)^exponent

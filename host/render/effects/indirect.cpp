@@ -144,7 +144,7 @@ shared::ReflectorParams Indirect::reflectorParams(const image::Window& window) c
     p.widthScale = in.widthScale;
     p.extent = in.extent == ReflectorExtent::Scene ? scene_.largestDimension : 0.0f;
     p.leastReflector = in.leastReflector;
-    p.smoothing = static_cast<std::uint32_t>(in.smoothing);
+    p.meanFraction = in.meanFraction;
     p.countCap = static_cast<std::uint32_t>(in.maxSpp);
     p.fixedWidth = settings_.filtering == Filtering::Fixed ? settings_.fixedWidth : 0.0f;
     p.countExponent = in.countExponent;
@@ -181,31 +181,13 @@ void Indirect::widthsAndCounts()
     const IndirectSettings& in = settings_.indirect;
     const bool uniform = settings_.sampling == Sampling::Uniform || in.counts == IndirectCounts::Uniform;
     visibleExtent();
-    if (in.smoothing == 0 || (!uniform && in.counts == IndirectCounts::Spectrum)) {
-        passes_.rows("widths", PassKind::Analysis, "reflectors.cl", "publishedReflectorWidths", reflectorParams(full_), 1,
-            term_.extremes, term_.extent, frame_.pixelSize, frame_.gloss, term_.taken, term_.beta, term_.wanted);
-    }
-    if (in.smoothing > 0) {
-        smoothedWidths();
-    }
+    passes_.rows("widths", PassKind::Analysis, "reflectors.cl", "reflectorWidths", reflectorParams(full_), 1,
+        term_.extremes, term_.extent, frame_.pixelSize, frame_.gloss, term_.taken, term_.beta, term_.wanted);
     if (uniform) {
         uniformCounts(passes_, countParams(full_), static_cast<std::uint32_t>(settings_.spp), term_.taken, term_);
     } else if (in.counts == IndirectCounts::Variance) {
         countsFromVariance();
     }
-}
-
-void Indirect::smoothedWidths()
-{
-    const shared::ReflectorParams p = reflectorParams(full_);
-    passes_.rows("widths", PassKind::Analysis, "reflectors.cl", "reflectorLogs", p, WEDGE_BLOCK_PIXELS, term_.extremes,
-        term_.extent, term_.logs);
-    passes_.rows("widths", PassKind::Analysis, "reflectors.cl", "sumRows", p, WEDGE_BLOCK_PIXELS, frame_.objectId,
-        term_.logs, term_.rowsSpread);
-    passes_.rows("widths", PassKind::Analysis, "reflectors.cl", "sumColumns", p, WEDGE_BLOCK_PIXELS, frame_.objectId,
-        term_.rowsSpread, term_.spread);
-    passes_.rows("widths", PassKind::Analysis, "reflectors.cl", "reflectorWidths", p, 1, term_.spread, frame_.pixelSize,
-        frame_.gloss, term_.taken, term_.beta);
 }
 
 const device::Buffer<float>& Indirect::reflectance() const

@@ -51,7 +51,6 @@ private:
     bool samplePaths(const char* pass, const shared::FrameParams& frame, std::uint32_t from, std::uint32_t most, double mean);
     void widthsAndCounts();
     void visibleExtent();
-    void smoothedWidths();
     void countsFromVariance();
     void composite(const device::Buffer<float>& value);
     shared::PathParams pathParams() const;
