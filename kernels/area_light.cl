@@ -6,7 +6,7 @@
 //         taken (samples so far), rays (rays traced for the pixel, all lights)
 // out     value (planes: diffuse, specular): what is filtered; slopes (planes: s_min, s_max; 0 where no ray was
 //         occluded)
-#include "light_packet.h"
+#include "met_light.h"
 #include "packet.h"
 #include "shared/wedge.h"
 
@@ -27,6 +27,31 @@ WEDGE_FN void addSamples(const LightSamples* s, const uint* occluded, TermSums* 
         sums->specular[lane] += s->specular[lane];
         sums->specularVisible[lane] += visible ? s->specular[lane] : 0.0f;
         sums->rays[lane] += s->diffuse[lane] > 0.0f ? 1u : 0u;
+    }
+}
+
+/// One reflected direction of the diffuse part and one of the specular part a lane, into the visible sums.
+WEDGE_FN void addDirections(SampleParams params, AreaLight light, __global const TraversalNode* restrict nodes,
+                            __global const TriangleBlock* restrict blocks, const ReceiverPacket* receivers,
+                            const uint* index, const uint* last, const uint* count, TermSums* sums)
+{
+#ifdef WEDGE_SPECULAR
+    const uint parts = 2u;
+#else
+    const uint parts = 1u;
+#endif
+    for (uint part = 0u; part < parts; ++part) {
+        RayPacket packet;
+        float weight[WEDGE_PACKET_SIZE];
+        uint occluded[WEDGE_PACKET_SIZE];
+        meetDirections(params, light, receivers, part == 1u, index, last, count, &packet, weight);
+        anyHits(nodes, blocks, &packet, occluded);
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const float arrives = occluded[lane] == 0u ? weight[lane] : 0.0f;
+            sums->diffuseVisible[lane] += part == 0u ? arrives : 0.0f;
+            sums->specularVisible[lane] += part == 1u ? arrives : 0.0f;
+            sums->rays[lane] += packet.tMax[lane] > 0.0f ? 1u : 0u;
+        }
     }
 }
 
@@ -112,6 +137,7 @@ __kernel void secondPass(FrameParams frame, SampleParams params, AreaLight light
     loadReceivers(frame, params.light, firstGroup, position, normal, origin, objectId, gloss, &receivers);
     TermSums sum;
     uint index[WEDGE_PACKET_SIZE], count[WEDGE_PACKET_SIZE], last[WEDGE_PACKET_SIZE], occluded[WEDGE_PACKET_SIZE];
+    const bool directions = params.lightSampling != WEDGE_LIGHTS_SAMPLED && params.shading == WEDGE_SHADING_INSIDE;
     uint steps = 0u;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const bool shaded = receivers.pixel[lane] != WEDGE_NO_PIXEL;
@@ -132,6 +158,10 @@ __kernel void secondPass(FrameParams frame, SampleParams params, AreaLight light
     for (uint step = 0u; step < steps; ++step) {
         LightSamples s;
         sampleLights(frame, params, light, &receivers, index, count, &s);
+        if (directions) {
+            weighPoints(params, light, &receivers, &s);
+            addDirections(params, light, nodes, blocks, &receivers, index, last, count, &sum);
+        }
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
             // Pixels that have all their samples wait for the others.
             s.diffuse[lane] = index[lane] < last[lane] ? s.diffuse[lane] : 0.0f;

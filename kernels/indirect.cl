@@ -137,6 +137,7 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
     sampling.sampler = params.sampler;
     sampling.light = WEDGE_PATH_SEED + params.component;
     sampling.firstPass = params.firstPass;
+    sampling.lightSampling = params.lightSampling;
     ReceiverPacket receivers;
     loadReceivers(frame, sampling.light, firstGroup, position, normal, origin, objectId, gloss, &receivers);
     Vec3 facing[WEDGE_PACKET_SIZE];

@@ -24,10 +24,10 @@ static LightHit hitLights(__global const AreaLight* lights, uint count, Vec3 eye
     hit.t = INFINITY;
     hit.radiance = vec3(0.0f, 0.0f, 0.0f);
     for (uint i = 0; i < count; ++i) {
-        const LightMeeting m = meetLight(&lights[i], eye, direction);
+        const LightMeeting m = meetLight(lights[i], eye, direction);
         if (lights[i].visible != 0u && m.t < hit.t) {
             hit.t = m.t;
-            hit.radiance = metRadiance(&lights[i], m);
+            hit.radiance = vecScale(lights[i].radiance, metProfile(lights[i], m));
         }
     }
     return hit;

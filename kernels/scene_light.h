@@ -24,25 +24,25 @@ typedef struct {
 
 /// Density in 1/sr at which a vertex samples an area light's point, local coordinates (a, b), in a direction in which
 /// the light is `distance` metres away and whose cosine to the light's normal is `facing`.
-WEDGE_FN float lightPdf(__global const AreaLight* light, float a, float b, float distance, float facing)
+WEDGE_INLINE float lightPdf(AreaLight light, float a, float b, float distance, float facing)
 {
-    return light->pick * lightProfile(a, b, light->profile, light->cut) * distance * distance
-        / (light->profileArea * fmax(fabs(facing), 1e-12f));
+    return light.pick * lightProfile(a, b, light.profile, light.cut) * distance * distance
+        / (light.profileArea * fmax(fabs(facing), 1e-12f));
 }
 
-WEDGE_FN LightChoice sampleAreaLight(__global const AreaLight* light, Vec3 position, Vec3 origin, Vec3 normal, Vec2 u)
+WEDGE_INLINE LightChoice sampleAreaLight(AreaLight light, Vec3 position, Vec3 origin, Vec3 normal, Vec2 u)
 {
     LightChoice choice;
-    const float a = lightCoordinate(u.x, light->profile, light->cut, light->erfCut);
-    const float b = lightCoordinate(u.y, light->profile, light->cut, light->erfCut);
-    const Vec3 point = lightPoint(light->centre, light->halfU, light->halfV, a, b);
+    const float a = lightCoordinate(u.x, light.profile, light.cut, light.erfCut);
+    const float b = lightCoordinate(u.y, light.profile, light.cut, light.erfCut);
+    const Vec3 point = lightPoint(light.centre, light.halfU, light.halfV, a, b);
     const Vec3 d = vecSub(point, position);
-    const float geometry = geometryTerm(normal, d, light->normal, light->twoSided);
+    const float geometry = geometryTerm(normal, d, light.normal, light.twoSided);
     const float distance = vecLength(d);
     choice.ray = vecSub(point, origin);
     choice.direction = vecNormalize(d);
-    choice.irradiance = vecScale(light->power, geometry / light->pick);
-    choice.pdf = geometry > 0.0f ? lightPdf(light, a, b, distance, vecDot(choice.direction, light->normal)) : 0.0f;
+    choice.irradiance = vecScale(light.power, geometry / light.pick);
+    choice.pdf = geometry > 0.0f ? lightPdf(light, a, b, distance, vecDot(choice.direction, light.normal)) : 0.0f;
     return choice;
 }
 
@@ -65,7 +65,7 @@ WEDGE_FN LightChoice sampleLight(LightData lights, Vec3 position, Vec3 origin, V
     for (uint i = 0u; i < lights.areaCount; ++i) {
         below += lights.area[i].pick;
         if (pick < below) {
-            return sampleAreaLight(&lights.area[i], position, origin, normal, u);
+            return sampleAreaLight(lights.area[i], position, origin, normal, u);
         }
     }
     for (uint i = 0u; i < lights.deltaCount; ++i) {
@@ -87,31 +87,31 @@ typedef struct {
     float facing; ///< the direction times the light's normal; negative on the emitting side
 } LightMeeting;
 
-WEDGE_FN LightMeeting meetLight(__global const AreaLight* light, Vec3 origin, Vec3 direction)
+WEDGE_INLINE LightMeeting meetLight(AreaLight light, Vec3 origin, Vec3 direction)
 {
     LightMeeting m;
-    m.facing = vecDot(light->normal, direction);
+    m.facing = vecDot(light.normal, direction);
     m.t = INFINITY;
     m.a = m.b = 0.0f;
-    const float t = vecDot(light->normal, vecSub(light->centre, origin)) / m.facing;
+    const float t = vecDot(light.normal, vecSub(light.centre, origin)) / m.facing;
     if (m.facing == 0.0f || !(t > 0.0f) || !(t < INFINITY)) {
         return m;
     }
     // Local coordinates from the two edges' cross products, so that the quad may be a parallelogram.
-    const Vec3 d = vecSub(vecMad(origin, direction, t), light->centre);
-    const Vec3 n = vecCross(light->halfU, light->halfV);
+    const Vec3 d = vecSub(vecMad(origin, direction, t), light.centre);
+    const Vec3 n = vecCross(light.halfU, light.halfV);
     const float scale = 1.0f / vecDot(n, n);
-    m.a = vecDot(vecCross(d, light->halfV), n) * scale;
-    m.b = vecDot(vecCross(light->halfU, d), n) * scale;
+    m.a = vecDot(vecCross(d, light.halfV), n) * scale;
+    m.b = vecDot(vecCross(light.halfU, d), n) * scale;
     m.t = fabs(m.a) <= 1.0f && fabs(m.b) <= 1.0f ? t : INFINITY;
     return m;
 }
 
-/// Radiance that the light sends back along the ray that met it.
-WEDGE_FN Vec3 metRadiance(__global const AreaLight* light, LightMeeting m)
+/// The light's profile where a ray met it, 0 on the side that does not emit.
+WEDGE_INLINE float metProfile(AreaLight light, LightMeeting m)
 {
-    const float emits = m.facing < 0.0f || light->twoSided != 0u ? 1.0f : 0.0f;
-    return vecScale(light->radiance, emits * lightProfile(m.a, m.b, light->profile, light->cut));
+    const bool emits = m.facing < 0.0f || light.twoSided != 0u;
+    return emits ? lightProfile(m.a, m.b, light.profile, light.cut) : 0.0f;
 }
 
 /// Weight of a sample of density p where another technique has density q (power heuristic, Veach 1997).
@@ -131,13 +131,13 @@ WEDGE_FN Vec3 radianceMet(LightData lights, Vec3 origin, Vec3 direction, float p
         return sum;
     }
     for (uint i = 0u; i < lights.areaCount; ++i) {
-        const LightMeeting m = meetLight(&lights.area[i], origin, direction);
+        const LightMeeting m = meetLight(lights.area[i], origin, direction);
         // As for shadow rays, what lies just before the light is its housing.
         if (m.t * WEDGE_SHADOW_RAY_END < tEnd && m.t < INFINITY) {
             const float w = lights.sampling == WEDGE_LIGHTS_MET
                 ? 1.0f
-                : powerHeuristic(pdf, lightPdf(&lights.area[i], m.a, m.b, m.t, m.facing));
-            sum = vecMad(sum, metRadiance(&lights.area[i], m), w);
+                : powerHeuristic(pdf, lightPdf(lights.area[i], m.a, m.b, m.t, m.facing));
+            sum = vecMad(sum, lights.area[i].radiance, w * metProfile(lights.area[i], m));
         }
     }
     return sum;
@@ -148,7 +148,7 @@ WEDGE_FN float farthestMeeting(LightData lights, Vec3 origin, Vec3 direction)
 {
     float farthest = 0.0f;
     for (uint i = 0u; i < lights.areaCount; ++i) {
-        const float t = meetLight(&lights.area[i], origin, direction).t;
+        const float t = meetLight(lights.area[i], origin, direction).t;
         farthest = t < INFINITY ? fmax(farthest, t) : farthest;
     }
     return farthest;

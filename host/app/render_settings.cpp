@@ -82,7 +82,8 @@ void applyPaths(const RenderOptions& o, const scene::Settings& file, render::Set
     refuse(o.ambientDistance.has_value(), "with integrator path",
         fmt::format("--ao-distance {}", o.ambientDistance.value_or(0)), "add --integrator ao");
     s.bounces = o.bounces ? *o.bounces : file.bounces.value_or(0);
-    refuse(o.lightSampling && s.bounces == 0, "without bounces", "--light-sampling", "add --bounces 1");
+    refuse(o.lightSampling && s.bounces == 0 && s.method == Method::AxisAligned, "without bounces", "--light-sampling",
+        "add --bounces 1");
     if (o.lightSampling) {
         s.lightSampling = *o.lightSampling;
     } else if (file.lightSampling) {

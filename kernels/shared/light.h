@@ -17,6 +17,11 @@
 #define WEDGE_SHADING_INSIDE 1u   ///< the shaded radiance itself, cosine inside (Fig. 3.11a; plain Monte Carlo)
 #define WEDGE_SHADING_RATIO 2u    ///< visibility weighted by the shading, times the unshadowed shading
 
+/// How area lights are found: by points on them, by reflected directions that meet them, or by both.
+#define WEDGE_LIGHTS_BOTH 0u
+#define WEDGE_LIGHTS_SAMPLED 1u
+#define WEDGE_LIGHTS_MET 2u
+
 #define WEDGE_SAMPLER_SOBOL 0u
 #define WEDGE_SAMPLER_STRATIFIED 1u
 
@@ -63,6 +68,8 @@ typedef struct {
     uint sampler;   ///< WEDGE_SAMPLER_*
     uint light;     ///< index of the light, part of the random seed
     uint firstPass; ///< samples of a first pass with strata of its own; 0: none
+    uint lightSampling; ///< WEDGE_LIGHTS_*, for WEDGE_SHADING_INSIDE without a first pass
+    uint padding[3];
 } SampleParams;
 
 /// Natural logarithm of a normal x > 0, to 4e-8 of max(1, |log x|). Straight-line code, unlike the library's, so that

@@ -9,11 +9,6 @@
 #define WEDGE_COMPONENT_GLOSSY 1u  ///< radiance that the specular lobe reflects, without its colour
 #define WEDGE_COMPONENT_AMBIENT 2u ///< fraction of the cosine-weighted hemisphere in which something is near
 
-/// How area lights are found.
-#define WEDGE_LIGHTS_BOTH 0u
-#define WEDGE_LIGHTS_SAMPLED 1u
-#define WEDGE_LIGHTS_MET 2u
-
 /// Stripes of rows that each reduce what the camera sees.
 #define WEDGE_EXTENT_STRIPES 32u
 

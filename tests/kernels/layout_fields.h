@@ -34,6 +34,7 @@ FIELD(DeltaLight, vector) FIELD(DeltaLight, directional) FIELD(DeltaLight, colou
 END(DeltaLight)
 STRUCT(SampleParams)
 FIELD(SampleParams, shading) FIELD(SampleParams, sampler) FIELD(SampleParams, light) FIELD(SampleParams, firstPass)
+FIELD(SampleParams, lightSampling) FIELD(SampleParams, padding)
 END(SampleParams)
 STRUCT(FilterParams)
 FIELD(FilterParams, eye) FIELD(FilterParams, forward) FIELD(FilterParams, right) FIELD(FilterParams, down)

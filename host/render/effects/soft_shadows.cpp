@@ -79,7 +79,14 @@ bool SoftShadows::sample()
 shared::SampleParams SoftShadows::sampleParams() const
 {
     return { static_cast<std::uint32_t>(settings_.shading), static_cast<std::uint32_t>(settings_.sampler), index_,
-        settings_.method == Method::AxisAligned ? WEDGE_FIRST_PASS_RAYS : 0 };
+        settings_.method == Method::AxisAligned ? WEDGE_FIRST_PASS_RAYS : 0, lightSampling(), {} };
+}
+
+std::uint32_t SoftShadows::lightSampling() const
+{
+    // A filtered term is visibility of points on the light, and so is a ratio: directions have no part in them.
+    const bool plain = settings_.method == Method::MonteCarlo && settings_.shading == Shading::Inside;
+    return plain ? static_cast<std::uint32_t>(settings_.lightSampling) : WEDGE_LIGHTS_SAMPLED;
 }
 
 bool SoftShadows::firstPass()

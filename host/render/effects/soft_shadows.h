@@ -39,6 +39,7 @@ private:
     shared::AnalysisParams analysisParams(const image::Window& window) const;
     const shared::AreaLight& light() const { return scene_.areaLightList[index_]; }
     shared::SampleParams sampleParams() const;
+    std::uint32_t lightSampling() const;
 
     Passes& passes_;
     const DeviceScene& scene_;
