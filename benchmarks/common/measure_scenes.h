@@ -23,10 +23,29 @@ struct SceneBenchmark {
     std::string program;
     std::vector<Source> scenes;
     std::function<Result(const Source&, const device::Device&)> measure;
-    std::function<Json(const std::vector<Result>&, const std::vector<std::string>& skipped, const device::DeviceInfo&)>
-        results;
+    Json plan; ///< as it is written
+    std::function<std::vector<Claim>(const Result&)> claims;
+    std::function<Json(const Result&)> data;
     std::function<std::string(const std::vector<Result>&)> tables;
 };
+
+/// The whole result file.
+template <class Source, class Result>
+Json resultsOf(const SceneBenchmark<Source, Result>& benchmark, const std::vector<Result>& results,
+    const std::vector<std::string>& skipped, const device::DeviceInfo& device)
+{
+    Json out = resultSkeleton(benchmark.program, device);
+    out["plan"] = benchmark.plan;
+    out["skipped"] = skipped;
+    out["scenes"] = Json::array();
+    for (const Result& result : results) {
+        for (const Claim& claim : benchmark.claims(result)) {
+            out["claims"].push_back(json(claim));
+        }
+        out["scenes"].push_back(benchmark.data(result));
+    }
+    return out;
+}
 
 /// Lists the scenes, or measures those asked for, writing results after each, and prints tables. Returns the exit
 /// status. Throws Error.
@@ -55,7 +74,7 @@ int measureScenes(const SceneBenchmark<Source, Result>& benchmark, const Argumen
     for (const Source& source : sources) {
         results.push_back(benchmark.measure(source, device));
         if (!a.json.empty()) {
-            writeJson(a.json, benchmark.results(results, skipped, device.info()));
+            writeJson(a.json, resultsOf(benchmark, results, skipped, device.info()));
         }
     }
     fmt::print("{}", benchmark.tables(results));

@@ -74,6 +74,13 @@ Json dataOf(const SettingResult& setting, const PointForm& form)
     return out;
 }
 
+Json dataOf(const Series& s, const PointForm& form)
+{
+    return { { "setting", s.setting }, { "sampling", s.sampling }, { "filter", s.filter },
+        { "fixed_width_pixels", s.fixedWidth ? Json(*s.fixedWidth) : Json(nullptr) },
+        { "points", dataOf(s.points, form) } };
+}
+
 Json dataOf(const FixedBlur& blur, const PointForm& form)
 {
     Json out = dataOf(blur.measured, form);
@@ -100,6 +107,12 @@ Json dataOf(const std::map<std::string, Reference>& references)
             { "cached", r.cached }, { "other_kernels", r.otherKernels } });
     }
     return out;
+}
+
+Json dataOf(const MeasurePlan& plan)
+{
+    return { { "quick", plan.quick }, { "width", plan.width }, { "height", plan.height }, { "frames", plan.frames },
+        { "seeds", plan.seeds }, { "reference_spp", plan.referenceSpp }, { "largest_baseline", plan.largestBaseline } };
 }
 
 } // namespace wedge::benchmark

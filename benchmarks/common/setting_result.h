@@ -32,6 +32,15 @@ struct FixedBlur {
     Measured measured;
 };
 
+/// A curve of error against samples.
+struct Series {
+    std::string setting; ///< "default" or "published"
+    std::string sampling; ///< "NAS": uniform counts, "AS": adaptive
+    std::string filter; ///< "UF": none, "NAF": one width for the image, "AF": adaptive
+    std::optional<float> fixedWidth; ///< of NAF, pixels
+    std::vector<Measured> points;
+};
+
 /// How points of curves are written.
 struct PointForm {
     double noise = 0; ///< of the reference, RMS
@@ -50,10 +59,13 @@ void addErrorClaims(ClaimList& list, const SettingResult& setting, const std::st
 Json dataOf(const Measured& point, const PointForm& form);
 Json dataOf(const std::vector<Measured>& points, const PointForm& form);
 Json dataOf(const SettingResult& setting, const PointForm& form);
+Json dataOf(const Series& series, const PointForm& form);
 Json dataOf(const FixedBlur& blur, const PointForm& form);
 /// null for no row.
 Json dataOf(const PaperRow* row);
 /// A list, by the integrands' names.
 Json dataOf(const std::map<std::string, Reference>& references);
+/// What all plans have.
+Json dataOf(const MeasurePlan& plan);
 
 } // namespace wedge::benchmark

@@ -104,7 +104,7 @@ std::string goalTable(const std::vector<Claim>& claims)
     std::string out = "\nGoals\n";
     for (const Claim& claim : claims) {
         if (claim.goal) {
-            out += fmt::format("{:<60}{:>10.3f}  goal {:>6.2f}  {}\n", claim.id, claim.value, *claim.goal,
+            out += fmt::format("{:<60}{:>10.3f}  goal {:>6g}  {}\n", claim.id, claim.value, *claim.goal,
                 met(claim) ? "met" : "missed");
         }
     }

@@ -9,18 +9,9 @@
 
 namespace wedge::benchmark {
 
-/// One curve of Fig. 3.6c.
-struct Series {
-    std::string setting; ///< "default" or "published"
-    std::string sampling; ///< "NAS": uniform counts, "AS": adaptive
-    std::string filter; ///< "UF": none, "NAF": one width for the image, "AF": adaptive
-    std::optional<float> fixedWidth; ///< of NAF, pixels
-    std::vector<Measured> points;
-};
-
-/// The six combinations of sampling and filter at the plan's budgets, for one setting. Uniform counts are about the
-/// means of the adaptive ones; NAS with UF is plain Monte Carlo. NAF has the width with the smallest error at about 28
-/// samples, found for AS and NAS each.
+/// The curves of Fig. 3.6c: the six combinations of sampling and filter at the plan's budgets, for one setting. Uniform
+/// counts are about the means of the adaptive ones; NAS with UF is plain Monte Carlo. NAF has the width with the
+/// smallest error at about 28 samples, found for AS and NAS each.
 std::vector<Series> ablations(ShadowLab& lab, bool published);
 
 /// The default setting at its usual budget, with one width in place of the adaptive ones: the best one.

@@ -20,8 +20,9 @@ int run(const Arguments& a)
     benchmark.measure = [&](const ShadowScene& source, const device::Device& device) {
         return measureScene(source, device, plan);
     };
-    benchmark.results = [&](const std::vector<SceneResult>& results, const std::vector<std::string>& skipped,
-                            const device::DeviceInfo& device) { return resultsOf(results, skipped, plan, device); };
+    benchmark.plan = dataOf(plan);
+    benchmark.claims = claimsOf;
+    benchmark.data = [](const SceneResult& result) { return dataOf(result); };
     benchmark.tables = tablesOf;
     return measureScenes(benchmark, a, plan);
 }

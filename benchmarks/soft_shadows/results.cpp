@@ -53,30 +53,16 @@ Json dataOf(const SceneResult& result)
     }
     out["curves"] = Json::array();
     for (const Series& s : result.series) {
-        out["curves"].push_back({ { "setting", s.setting }, { "sampling", s.sampling }, { "filter", s.filter },
-            { "fixed_width_pixels", s.fixedWidth ? Json(*s.fixedWidth) : Json(nullptr) },
-            { "points", dataOf(s.points, formOf(result, s.setting)) } });
+        out["curves"].push_back(dataOf(s, formOf(result, s.setting)));
     }
     return out;
 }
 
-Json resultsOf(const std::vector<SceneResult>& results, const std::vector<std::string>& skipped, const Plan& plan,
-    const device::DeviceInfo& device)
+Json dataOf(const Plan& plan)
 {
-    Json out = resultSkeleton("soft_shadows", device);
-    for (const SceneResult& result : results) {
-        for (const Claim& claim : claimsOf(result)) {
-            out["claims"].push_back(json(claim));
-        }
-    }
-    out["plan"] = { { "quick", plan.quick }, { "width", plan.width }, { "height", plan.height },
-        { "frames", plan.frames }, { "seeds", plan.seeds }, { "reference_spp", plan.referenceSpp },
-        { "largest_baseline", plan.largestBaseline }, { "default_spp", defaultSpp }, { "published_mu", publishedMu } };
-    out["skipped"] = skipped;
-    out["scenes"] = Json::array();
-    for (const SceneResult& result : results) {
-        out["scenes"].push_back(dataOf(result));
-    }
+    Json out = dataOf(static_cast<const MeasurePlan&>(plan));
+    out["default_spp"] = defaultSpp;
+    out["published_mu"] = publishedMu;
     return out;
 }
 

@@ -13,8 +13,6 @@ std::vector<Claim> claimsOf(const SceneResult& result);
 /// All numbers behind the claims and the plots; docs/benchmarks.md has the schema.
 Json dataOf(const SceneResult& result);
 
-/// The whole result file.
-Json resultsOf(const std::vector<SceneResult>& results, const std::vector<std::string>& skipped, const Plan& plan,
-    const device::DeviceInfo& device);
+Json dataOf(const Plan& plan);
 
 } // namespace wedge::benchmark

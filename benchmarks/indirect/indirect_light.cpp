@@ -1,0 +1,64 @@
+#include "benchmarks/indirect/indirect_light.h"
+
+#include <fmt/format.h>
+
+namespace wedge::benchmark {
+
+std::string integrandName(int bounces) { return fmt::format("{} bounce{}", bounces, bounces == 1 ? "" : "s"); }
+
+render::Settings methodSettings(bool published, int bounces)
+{
+    render::Settings out = published ? render::asPublished() : render::axisAligned();
+    out.bounces = bounces;
+    return out;
+}
+
+render::Settings unfiltered(render::Sampler sampler, int spp, int bounces)
+{
+    render::Settings out = render::monteCarlo(spp);
+    out.sampler = sampler;
+    out.bounces = bounces;
+    return out;
+}
+
+Integrand IndirectLight::integrandOf(const render::Settings& settings) const
+{
+    return { integrandName(settings.bounces), unfiltered(render::Sampler::Sobol, referenceSpp_, settings.bounces) };
+}
+
+double IndirectLight::raysOf(const render::FrameStatistics& frame) const
+{
+    return static_cast<double>(frame.indirectRays);
+}
+
+std::string IndirectLight::describe(const render::Settings& s) const
+{
+    const bool adaptive =
+        s.sampling == render::Sampling::Adaptive && s.indirect.counts != render::IndirectCounts::Uniform;
+    const std::string variant = s.method == render::Method::MonteCarlo
+        ? fmt::format("unfiltered {}", s.sampler == render::Sampler::Sobol ? "sobol" : "stratified")
+        : describeVariant(s, s.indirect.mu, adaptive);
+    return s.bounces == 1 ? variant : fmt::format("{} {}", variant, integrandName(s.bounces));
+}
+
+const std::vector<TimingColumn>& indirectColumns()
+{
+    static const std::vector<TimingColumn> all = [] {
+        std::vector<TimingColumn> out = {
+            ofPasses("camera_and_direct", { "primary rays", "first pass", "second pass", "point lights" }),
+            ofPasses("first_pass", { "first paths" }),
+            ofPasses("second_pass", { "second paths" }),
+            tracing(),
+            ofPasses("widths", { "widths" }),
+            ofPasses("counts", { "counts" }),
+            ofPasses("first_pass_filter", { "filter of variance", "filter of first pass" }),
+            widthsAndCounts(),
+            ofPasses("filter_indirect", { "filter of indirect" }),
+        };
+        out.insert(out.end(), frameColumns().begin(), frameColumns().end());
+        return out;
+    }();
+    return all;
+}
+
+} // namespace wedge::benchmark
