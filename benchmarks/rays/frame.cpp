@@ -77,6 +77,7 @@ FrameResult measureFrame(const scene::Scene& original, const WedgeTracer& tracer
     settings.width = plan.width;
     settings.height = plan.height;
     settings.seed = 1;
+    settings.lightSampling = render::LightSampling::Lights; // as the frame beside it does
     render::Options options;
     options.traversal = tracer.traversal();
     render::Renderer renderer(scene, tracer.device(), options);

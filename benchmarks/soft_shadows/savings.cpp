@@ -12,6 +12,7 @@ BaselineSettings unfiltered(Sampler sampler, Shading shading)
         render::Settings settings = render::monteCarlo(spp);
         settings.sampler = sampler;
         settings.shading = shading;
+        settings.lightSampling = render::LightSampling::Lights; // what the filtered methods are made of
         return settings;
     };
 }
