@@ -47,6 +47,7 @@ Settings variant(const Budget& budget, bool adaptive, Filtering filter, float wi
 {
     if (!adaptive && filter == Filtering::None) {
         Settings settings = plain(budget.settings.sampler, budget.adaptive.spp);
+        settings.lightSampling = render::LightSampling::Lights;
         settings.shading = budget.settings.shading;
         return settings;
     }
