@@ -79,7 +79,7 @@ SceneBuilder litWall(bool glossy)
         b.scene.materials[wall].exponent = 8;
         b.scene.materials[wall].specularModel = scene::SpecularModel::Phong;
     }
-    b.quad({ -1, 1, 0 }, { 0, 0.9f, 0 }, { 0, 0, 1 }, wall);
+    b.quad({ -0.5f, 1, 0 }, { 0, 0.9f, 0 }, { 0, 0, 1 }, wall);
     // Large and near, so that directions find them as often as points on them are chosen.
     b.light({ 0.1f, 1.3f, 0.2f }, { 0, 0.8f, 0 }, { 0.1f, 0, -0.9f }, scene::LightProfile::Gaussian, 4).radiance = { 4,
         2, 1 };
@@ -125,7 +125,7 @@ glm::dvec3 patchRadiance(const scene::Scene& scene)
     glm::dvec3 sum(0);
     for (int i = 0; i < steps; ++i)
         for (int k = 0; k < steps; ++k) {
-            const glm::dvec3 at(-1, 0.1 + 1.8 * (i + 0.5) / steps, 2 * (k + 0.5) / steps - 1);
+            const glm::dvec3 at(-0.5, 0.1 + 1.8 * (i + 0.5) / steps, 2 * (k + 0.5) / steps - 1);
             const glm::dvec3 l = glm::normalize(at);
             sum += wallRadiance(scene, at, -l) * reflectance(scene.materials[0], n, view, l)
                 * (geometry(n, at, { 1, 0, 0 }, false) * 1.8 * 2 / (steps * steps));
@@ -231,7 +231,7 @@ TEST_CASE("one bounce from a wall under lights of every kind agrees with quadrat
                     CAPTURE(glossy);
                     CAPTURE(static_cast<int>(way));
                     CAPTURE(static_cast<int>(sampler));
-                    render::Settings settings = settingsOf(400, 1);
+                    render::Settings settings = settingsOf(600, 1);
                     settings.lightSampling = way;
                     settings.sampler = sampler;
                     checkAgreement(moments(renderer, settings, Part::Indirect, 8), expected, 1e-3);
