@@ -231,7 +231,7 @@ TEST_CASE("one bounce from a wall under lights of every kind agrees with quadrat
                     CAPTURE(glossy);
                     CAPTURE(static_cast<int>(way));
                     CAPTURE(static_cast<int>(sampler));
-                    render::Settings settings = settingsOf(600, 1);
+                    render::Settings settings = settingsOf(400, 1);
                     settings.lightSampling = way;
                     settings.sampler = sampler;
                     checkAgreement(moments(renderer, settings, Part::Indirect, 8), expected, 1e-3);
@@ -250,7 +250,7 @@ TEST_CASE("lights found by points on them, by directions and by both give one im
                 CAPTURE(glossy);
                 CAPTURE(bounces);
                 const auto image = [&](render::LightSampling way) {
-                    render::Settings settings = sized(render::monteCarlo(36), 20, 20);
+                    render::Settings settings = sized(render::monteCarlo(25), 20, 20);
                     settings.bounces = bounces;
                     settings.lightSampling = way;
                     return moments(renderer, settings, Part::Indirect, 8);

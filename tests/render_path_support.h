@@ -84,7 +84,7 @@ inline Moments exactly(std::vector<double> values)
     return { std::move(values), std::vector<double>(count) };
 }
 
-/// Checks that a agrees with b; pixels = how many of independent noise.
+/// Checks that a agrees with b. The bounds hold for the means of 4 runs or more.
 inline void checkAgreement(const Moments& a, const Moments& b, double relative = 1e-4)
 {
     const Distance d = distance(a, b, relative);
