@@ -1,4 +1,4 @@
-// Images for the gather of filter.cl, and the gather in double.
+// Images for the gather of filter.cl, filter_indirect.cl and filter_variance.cl, and the gather in double.
 #pragma once
 
 #include "kernels/shared/filter_params.h"
@@ -11,7 +11,7 @@
 
 namespace wedge::test {
 
-/// What filter.cl reads.
+/// What the filters read.
 struct FilterImage {
     shared::FilterParams params {};
     Planes<float> value, beta, position, normal;
@@ -99,6 +99,14 @@ inline FilterImage randomImage(int width, int height, Shape shape, unsigned seed
             for (std::size_t c = 0; c < channels; ++c)
                 image.value.at(x, y, c) = static_cast<float>(uniform(random));
         }
+    return image;
+}
+
+/// The same without a light: distances are plain ones.
+inline FilterImage withoutLight(FilterImage image)
+{
+    image.params.oblique = 0;
+    image.params.lightCentre = image.params.lightNormal = shared::vec3(0, 0, 0);
     return image;
 }
 
@@ -205,7 +213,7 @@ inline OracleResult gatherLine(const FilterImage& image, const OracleResult& in,
             const int radius =
                 static_cast<int>(std::clamp(std::ceil(exactRadius), 1.0, static_cast<double>(p.maxRadius)));
             bool doubt = false;
-            double weights = 0, squares = 0, sums[2] = { 0, 0 };
+            double weights = 0, squares = 0, sums[3] = { 0, 0, 0 };
             for (int k = -radius - 1; k <= radius + 1; ++k) {
                 const int qx = x + k * dx, qy = y + k * dy;
                 if (qx < 0 || qy < 0 || qx >= width || qy >= height)

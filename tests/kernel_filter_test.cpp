@@ -1,6 +1,5 @@
 // filter.cl alone, against the same gather in double.
-#include "tests/filter_oracle.h"
-#include "tests/render_support.h"
+#include "tests/filter_run.h"
 
 #include <algorithm>
 
@@ -10,86 +9,6 @@ using namespace wedge::test;
 namespace {
 
 const float notANumber = std::numeric_limits<float>::quiet_NaN();
-
-/// filterRows and filterColumns on one device.
-class FilterRun {
-public:
-    explicit FilterRun(const device::Device& device, const Defines& defines = {})
-        : bench_(device, defines)
-    {
-    }
-
-    /// Both passes over the pixels of `window`, or all; only the first if rowsOnly.
-    FilterResult operator()(const FilterImage& image, bool rowsOnly = false, image::Window window = {})
-    {
-        shared::FilterParams p = image.params;
-        if (window.width() > 0) {
-            p.x0 = static_cast<std::uint32_t>(window.x0);
-            p.x1 = static_cast<std::uint32_t>(window.x1);
-        }
-        const auto value = bench_.buffer(image.value.values);
-        const auto beta = bench_.buffer(image.beta.values);
-        const auto position = bench_.buffer(image.position.values);
-        const auto normal = bench_.buffer(image.normal.values);
-        const auto objectId = bench_.buffer(image.objectId.values);
-        const auto rows = bench_.filled(image.value.values.size(), -7.0f);
-        const auto rowsEffective = bench_.filled(image.value.layout.size, -7.0f);
-        launch("filterRows", p, value, beta, position, normal, objectId, rows, rowsEffective);
-        if (rowsOnly)
-            return result(image, rows, rowsEffective);
-        if (window.width() > 0) {
-            p.y0 = static_cast<std::uint32_t>(window.y0);
-            p.y1 = static_cast<std::uint32_t>(window.y1);
-        }
-        const auto out = bench_.filled(image.value.values.size(), -7.0f);
-        const auto effective = bench_.filled(image.value.layout.size, -7.0f);
-        launch("filterColumns", p, rows, beta, position, normal, objectId, rowsEffective, out, effective);
-        // Filtering in place would race: what was filtered is still there.
-        const std::vector<float> after = bench_.read(value);
-        CHECK(std::memcmp(after.data(), image.value.values.data(), after.size() * sizeof(float)) == 0);
-        return result(image, out, effective);
-    }
-
-private:
-    template <class... Args>
-    void launch(const std::string& kernel, const shared::FilterParams& p, const Args&... args)
-    {
-        bench_.passes.rows("filter", device::PassKind::Filter, "filter.cl", kernel, p, WEDGE_BLOCK_PIXELS, args...);
-    }
-    FilterResult result(
-        const FilterImage& image, const device::Buffer<float>& value, const device::Buffer<float>& effective)
-    {
-        return { planesOf(image.value.layout, bench_.read(value)),
-            planesOf(image.value.layout, bench_.read(effective)) };
-    }
-
-    KernelBench bench_;
-};
-
-/// Compares with the oracle wherever no test of it hangs on a rounding. Returns the fraction of pixels left out.
-double compare(const FilterImage& image, const FilterResult& found, const OracleResult& expected, int channels = 1)
-{
-    const int width = image.width(), height = image.height();
-    int uncertain = 0, wrong = 0;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            if (expected.uncertain(x, y)) {
-                ++uncertain;
-                continue;
-            }
-            for (int c = 0; c < channels; ++c) {
-                const double want = expected.value(x, y, c), got = found.value.at(x, y, static_cast<std::size_t>(c));
-                if (!(std::fabs(got - want) <= 2e-4) && ++wrong <= 3)
-                    CHECK_MESSAGE(false,
-                        "pixel " << x << "," << y << " of channel " << c << ": " << got << " instead of " << want);
-            }
-            const double want = expected.effective(x, y), got = found.effective.at(x, y);
-            if (!(std::fabs(got - want) <= 2e-3 * want) && ++wrong <= 3)
-                CHECK_MESSAGE(false, "effective count at " << x << "," << y << ": " << got << " instead of " << want);
-        }
-    CHECK(wrong == 0);
-    return static_cast<double>(uncertain) / (width * height);
-}
 
 } // namespace
 

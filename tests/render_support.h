@@ -11,6 +11,7 @@
 #include "host/scene/scene.h"
 #include "tests/device_testing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <random>
@@ -32,6 +33,18 @@ inline std::string kernelDir()
     return folder != nullptr ? folder : "";
 }
 
+/// Whether the name is among the defines.
+inline bool isDefined(const Defines& defines, const std::string& name)
+{
+    return std::ranges::any_of(defines, [&](const auto& define) { return define.first == name; });
+}
+
+/// The family of traversals that kernels built with these defines walk.
+inline render::Traversal familyOf(const Defines& defines)
+{
+    return isDefined(defines, "WEDGE_TRAVERSAL_SCALAR") ? render::Traversal::Scalar : render::Traversal::Wide;
+}
+
 /// Calls test(device) for every usable device.
 template <class Test>
 void onEveryDevice(const Test& test)
@@ -49,7 +62,7 @@ public:
         : device(on)
         , queue(on)
         , library(on, { defines, false, folder })
-        , passes(library, queue, packetSize(defines))
+        , passes(library, queue, render::packetSize(familyOf(defines)))
     {
     }
 
@@ -80,14 +93,6 @@ public:
     device::TimedQueue queue;
     device::ProgramLibrary library;
     render::Passes passes;
-
-private:
-    static std::size_t packetSize(const Defines& defines)
-    {
-        const bool scalar
-            = std::ranges::any_of(defines, [](const auto& define) { return define.first == "WEDGE_TRAVERSAL_SCALAR"; });
-        return render::packetSize(scalar ? render::Traversal::Scalar : render::Traversal::Wide);
-    }
 };
 
 /// Planes of one value a pixel in the layout of kernels/shared/frame.h, padding included.

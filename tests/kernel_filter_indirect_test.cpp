@@ -1,0 +1,207 @@
+// filter_indirect.cl and filter_variance.cl alone: the gather over plain distances, of three planes and of one.
+#include "tests/filter_run.h"
+
+#include <algorithm>
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+const float notANumber = std::numeric_limits<float>::quiet_NaN();
+
+struct Program {
+    std::string file;
+    int planes;
+};
+const Program programs[] = { { "filter_indirect.cl", 3 }, { "filter_variance.cl", 1 } };
+
+/// Calls test(filter, planes) for either program on every device.
+template <class Test>
+void withEither(const Test& test)
+{
+    onEveryDevice([&](const device::Device& device) {
+        for (const Program& program : programs) {
+            CAPTURE(program.file);
+            FilterRun filter(device, {}, program.file);
+            test(filter, program.planes);
+        }
+    });
+}
+
+FilterImage unlit(int width, int height, Shape shape, unsigned seed, int planes)
+{
+    return withoutLight(randomImage(width, height, shape, seed, static_cast<std::size_t>(planes)));
+}
+
+template <class Visit>
+void everyPixel(const FilterImage& image, const Visit& visit)
+{
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x)
+            visit(x, y);
+}
+
+/// A few waves of random direction, length (pixels) and phase, between -1 and 1.
+class Waves {
+public:
+    Waves(std::mt19937& random, double shortest)
+    {
+        for (auto& wave : waves_) {
+            const double angle = uniform(random, 0, 6.283), number = 6.283 / (shortest * uniform(random, 1, 3));
+            wave = { number * std::cos(angle), number * std::sin(angle), uniform(random, 0, 6.283) };
+        }
+    }
+    double operator()(int x, int y) const
+    {
+        double sum = 0;
+        for (const glm::dvec3& wave : waves_)
+            sum += std::sin(wave.x * x + wave.y * y + wave.z) / 4;
+        return sum;
+    }
+
+private:
+    glm::dvec3 waves_[4];
+};
+
+/// A rolling surface with values and widths that vary gently across it.
+FilterImage smoothImage(int width, int height, unsigned seed)
+{
+    FilterImage image = unlit(width, height, Shape::Flat, seed, 3);
+    std::mt19937 random(seed);
+    const Waves relief(random, 40), widths(random, 25), values[3] = { { random, 14 }, { random, 20 }, { random, 30 } };
+    const glm::dvec3 eye = toGlm(image.params.eye);
+    const auto at = [&](int x, int y) {
+        const glm::dvec3 ray = rayOf(image.params, x, y);
+        return eye + ray * ((0.15 * relief(x, y) - eye.y) / ray.y);
+    };
+    everyPixel(image, [&](int x, int y) {
+        const glm::dvec3 n = glm::normalize(glm::cross(at(x + 1, y) - at(x - 1, y), at(x, y + 1) - at(x, y - 1)));
+        image.position.setVector(x, y, at(x, y));
+        image.normal.setVector(x, y, n.y > 0 ? n : -n);
+        image.beta.at(x, y) = static_cast<float>(0.11 + 0.05 * widths(x, y));
+        for (std::size_t c = 0; c < 3; ++c)
+            image.value.at(x, y, c) = static_cast<float>(0.5 + 0.4 * values[c](x, y));
+    });
+    return image;
+}
+
+} // namespace
+
+TEST_CASE("without a light: degenerate sizes gather what the definition in double gathers")
+{
+    withEither([](FilterRun& filter, int planes) {
+        for (const auto& [width, height] : { std::pair(1, 1), { 1, 23 }, { 23, 1 }, { 17, 2 } }) {
+            CAPTURE(width);
+            CAPTURE(height);
+            const FilterImage image = unlit(width, height, Shape::Tilted, 3, planes);
+            const OracleResult rows = oracleRows(image);
+            compare(image, filter(image, true), rows, planes);
+            compare(image, filter(image), oracleColumns(image, rows), planes);
+        }
+    });
+}
+
+TEST_CASE("without a light: both passes gather over plain distances, all planes with the same weights")
+{
+    withEither([](FilterRun& filter, int planes) {
+        double uncertain = 0;
+        unsigned runs = 0, seed = 30;
+        for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough })
+            for (const bool narrower : { false, true }) {
+                FilterImage image = unlit(53, 31, shape, seed++, planes);
+                image.params.narrower = narrower ? 1 : 0;
+                CAPTURE(static_cast<int>(shape));
+                CAPTURE(narrower);
+                const OracleResult rows = oracleRows(image);
+                uncertain += compare(image, filter(image, true), rows, planes);
+                uncertain += compare(image, filter(image), oracleColumns(image, rows), planes);
+                runs += 2;
+            }
+        CHECK(uncertain / runs < 0.1);
+    });
+}
+
+TEST_CASE("without a light: a constant field comes out unchanged to rounding")
+{
+    withEither([](FilterRun& filter, int planes) {
+        for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough }) {
+            FilterImage image = unlit(50, 33, shape, 77, planes);
+            everyPixel(image, [&](int x, int y) {
+                for (int c = 0; c < planes; ++c)
+                    image.value.at(x, y, static_cast<std::size_t>(c)) = 0.7f + static_cast<float>(c);
+            });
+            const FilterResult result = filter(image);
+            double worst = 0;
+            everyPixel(image, [&](int x, int y) {
+                for (int c = 0; c < planes; ++c)
+                    worst = std::max(
+                        worst, std::fabs(result.value.at(x, y, static_cast<std::size_t>(c)) / (0.7 + c) - 1));
+            });
+            CHECK(worst < 3e-6);
+        }
+    });
+}
+
+TEST_CASE("without a light: NaN of another object, of another normal or of a pixel without a term does not spread")
+{
+    withEither([](FilterRun& filter, int planes) {
+        FilterImage image = unlit(40, 24, Shape::Flat, 19, planes);
+        std::vector<std::pair<int, int>> bad;
+        std::mt19937 random(2);
+        for (int i = 0; i < 40; ++i) {
+            const int x = static_cast<int>(random() % 40), y = static_cast<int>(random() % 24);
+            bad.emplace_back(x, y);
+            if (i % 3 == 0)
+                image.objectId.at(x, y) = 99;
+            else if (i % 3 == 1)
+                image.beta.at(x, y) = -1.0f;
+            else
+                image.normal.setVector(x, y, { 0, -1, 0 });
+        }
+        FilterImage poisoned = image;
+        for (const auto& [x, y] : bad)
+            for (int c = 0; c < planes; ++c)
+                poisoned.value.at(x, y, static_cast<std::size_t>(c)) = notANumber;
+        const FilterResult expected = filter(image), found = filter(poisoned);
+        unsigned leaks = 0;
+        everyPixel(image, [&](int x, int y) {
+            if (std::ranges::find(bad, std::pair(x, y)) != bad.end())
+                return;
+            for (int c = 0; c < planes; ++c) {
+                const std::size_t plane = static_cast<std::size_t>(c);
+                leaks += found.value.at(x, y, plane) == expected.value.at(x, y, plane) ? 0 : 1;
+            }
+        });
+        CHECK(leaks == 0);
+    });
+}
+
+TEST_CASE("on a smooth scene two passes over plain distances are close to the gather over squares of pixels")
+{
+    onEveryDevice([](const device::Device& device) {
+        FilterRun filter(device, {}, "filter_indirect.cl");
+        for (const bool narrower : { false, true })
+            for (const unsigned seed : { 41u, 42u, 43u }) {
+                FilterImage image = smoothImage(64, 48, seed);
+                image.params.narrower = narrower ? 1 : 0;
+                const FilterResult separable = filter(image);
+                const std::vector<double> square = oracleSquare(image);
+                double difference = 0, effect = 0, worst = 0;
+                everyPixel(image, [&](int x, int y) {
+                    const double reference = square[static_cast<std::size_t>(y * 64 + x)];
+                    const double apart = separable.value.at(x, y) - reference;
+                    worst = std::max(worst, std::fabs(apart));
+                    difference += apart * apart / (64 * 48);
+                    effect += std::pow(image.value.at(x, y) - reference, 2) / (64 * 48);
+                });
+                const double ratio = std::sqrt(difference / effect);
+                MESSAGE("scene " << seed << (narrower ? std::string(", narrower of both") : std::string(", own width"))
+                                 << ": RMS difference "
+                                 << std::sqrt(difference) << ", worst " << worst << ", of the filter's effect " << ratio);
+                CHECK(ratio < 0.1);
+                CHECK(worst < 0.015);
+                CHECK(std::sqrt(effect) > 0.01);
+            }
+    });
+}

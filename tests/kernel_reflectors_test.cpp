@@ -1,0 +1,379 @@
+// reflectors.cl alone: distances of reflectors to widths and counts, against the same in double.
+#include "kernels/shared/indirect.h"
+#include "kernels/shared/path.h"
+#include "tests/render_support.h"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+constexpr std::uint32_t block = WEDGE_BLOCK_PIXELS;
+
+shared::ReflectorParams paramsFor(const render::PlaneLayout& layout)
+{
+    shared::ReflectorParams p {};
+    p.x1 = p.width = layout.width;
+    p.y1 = p.height = layout.height;
+    p.stride = layout.stride;
+    p.planeSize = static_cast<std::uint32_t>(layout.size);
+    p.mu = 0.9f;
+    p.alpha = 0.3f;
+    p.widthScale = 0.5f;
+    p.leastReflector = 0.005f;
+    p.countCap = 256;
+    p.countExponent = 0.4f;
+    p.varianceSpread = 0.25f;
+    return p;
+}
+
+template <class Visit>
+void everyPixel(const render::PlaneLayout& layout, const Visit& visit)
+{
+    for (int y = 0; y < static_cast<int>(layout.height); ++y)
+        for (int x = 0; x < static_cast<int>(layout.width); ++x)
+            visit(x, y);
+}
+
+template <class... Args>
+void launchRows(KernelBench& bench, const std::string& kernel, const shared::ReflectorParams& p, std::uint32_t across,
+    const Args&... args)
+{
+    bench.passes.rows("widths", device::PassKind::Analysis, "reflectors.cl", kernel, p, across, args...);
+}
+
+/// visibleBounds and visibleExtent one after the other, garbage in what they write.
+float extentOf(KernelBench& bench, const Planes<float>& position, const Planes<std::uint32_t>& objectId)
+{
+    // Arguments are to outlive the launch.
+    const auto positions = bench.buffer(position.values), bounds = bench.filled(6 * WEDGE_EXTENT_STRIPES, 1e9f),
+               extent = bench.filled(1, -7.0f);
+    const auto objects = bench.buffer(objectId.values);
+    device::Kernel& first = bench.passes.find("reflectors.cl", "visibleBounds");
+    first.setArgs(paramsFor(position.layout), positions, objects, bounds);
+    bench.queue.launch("widths", device::PassKind::Analysis, first, WEDGE_EXTENT_STRIPES, 1);
+    device::Kernel& second = bench.passes.find("reflectors.cl", "visibleExtent");
+    second.setArgs(bounds, extent);
+    bench.queue.launch("widths", device::PassKind::Analysis, second, 1, 1);
+    return bench.read(extent).at(0);
+}
+
+/// What a pixel's first pass found, and what it shows.
+struct Found {
+    float nearest = 0, farthest = 0, inverse = 0;
+    float pixelSize = 0.01f, gloss = 1;
+    std::uint32_t taken = 16;
+};
+
+/// Widths and counts of pixels in a row.
+struct Widths {
+    std::vector<float> beta;
+    std::vector<std::uint32_t> wanted;
+};
+
+Widths widthsOf(KernelBench& bench, shared::ReflectorParams p, float extent, const std::vector<Found>& pixels)
+{
+    const render::PlaneLayout layout(static_cast<int>(pixels.size()), 1);
+    const shared::ReflectorParams sized = paramsFor(layout);
+    std::tie(p.x1, p.width, p.y1, p.height, p.stride, p.planeSize) =
+        std::tie(sized.x1, sized.width, sized.y1, sized.height, sized.stride, sized.planeSize);
+    Planes<float> reflectors(layout, 3, 0.0f), pixelSize(layout, 1, 0.0f), gloss(layout, 1, 0.0f);
+    Planes<std::uint32_t> taken(layout, 1, 0u);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const int x = static_cast<int>(i);
+        reflectors.setVector(x, 0, { pixels[i].nearest, pixels[i].farthest, pixels[i].inverse });
+        pixelSize.at(x, 0) = pixels[i].pixelSize;
+        gloss.at(x, 0) = pixels[i].gloss;
+        taken.at(x, 0) = pixels[i].taken;
+    }
+    const auto beta = bench.filled(layout.size, -7.0f);
+    const auto wanted = bench.filled(layout.size, 777u);
+    launchRows(bench, "reflectorWidths", p, 1, bench.buffer(reflectors.values), bench.filled(1, extent),
+        bench.buffer(pixelSize.values), bench.buffer(gloss.values), bench.buffer(taken.values), beta, wanted);
+    const Planes<float> betas = planesOf(layout, bench.read(beta));
+    const Planes<std::uint32_t> counts = planesOf(layout, bench.read(wanted));
+    Widths out;
+    for (int x = 0; x < static_cast<int>(pixels.size()); ++x) {
+        out.beta.push_back(betas.at(x, 0));
+        out.wanted.push_back(counts.at(x, 0));
+    }
+    return out;
+}
+
+/// Within a fraction of b, however small that is.
+bool close(double a, double b, double relative) { return std::fabs(a - b) <= relative * std::fabs(b); }
+
+struct Expected {
+    double beta = -1, wanted = 0;
+};
+
+/// (4.15), (4.16), (4.21) of one pixel.
+Expected expectedOf(const shared::ReflectorParams& p, double extent, const Found& f)
+{
+    if (f.taken == 0)
+        return {};
+    const bool glossy = p.component == WEDGE_COMPONENT_GLOSSY;
+    const double m = std::fabs(f.gloss), size = p.extent > 0 ? p.extent : extent;
+    const double bandlimit = !glossy ? 2.8 : f.gloss < 0 ? 4.27 + 0.15 * m : 3.6 + 0.084 * m;
+    const double gamma =
+        glossy ? std::acos(std::pow(std::sqrt(0.5), 1 / std::max(m, 1.0))) / (0.5 * std::numbers::pi) : 0.4;
+    const double harmonic = f.taken / std::max<double>(f.inverse, 1e-20);
+    const double near = p.meanFraction > 0 ? p.meanFraction * harmonic : f.nearest;
+    const double zMin = std::max({ f.nearest > 0 ? near : extent, p.leastReflector * size, 1e-12 });
+    const double zMax = std::max<double>(f.farthest, zMin);
+    double omega = bandlimit / zMin;
+    if (p.alpha > 0)
+        omega = std::min<double>(omega, p.alpha / f.pixelSize);
+    const double spatial = p.mu * bandlimit * f.pixelSize / zMin + p.alpha;
+    const double angular = bandlimit * (1 + p.mu * zMax / zMin);
+    const double count = gamma * spatial * spatial * angular * angular;
+    return { p.fixedWidth > 0 ? p.fixedWidth * f.pixelSize : p.widthScale / (p.mu * omega),
+        std::clamp<double>(count, 16, p.countCap) };
+}
+
+/// Distances of 16 rays, `hit` of which met something between 10^-spread and 10^spread metres away.
+std::vector<Found> randomPixels(int count, int spread, unsigned seed)
+{
+    std::mt19937 random(seed);
+    std::vector<Found> out;
+    for (int i = 0; i < count; ++i) {
+        Found f;
+        f.taken = random() % 8 == 0 ? 0 : 16;
+        const auto hits = random() % 3 == 0 ? random() % 2 : random() % 17;
+        const double centre = uniform(random, -spread, spread);
+        double nearest = 1e30, farthest = 0, inverse = 0;
+        for (unsigned k = 0; k < hits; ++k) {
+            const double z = std::pow(10.0, centre + uniform(random));
+            nearest = std::min(nearest, z);
+            farthest = std::max(farthest, z);
+            inverse += 1 / z;
+        }
+        f.nearest = hits > 0 ? static_cast<float>(nearest) : 0.0f;
+        f.farthest = static_cast<float>(farthest);
+        f.inverse = static_cast<float>(inverse);
+        f.pixelSize = static_cast<float>(std::pow(10.0, uniform(random, -3, -1)));
+        f.gloss = static_cast<float>(std::pow(10.0, uniform(random, -1, 3)) * (random() % 2 == 0 ? 1 : -1));
+        out.push_back(f);
+    }
+    return out;
+}
+
+/// Every setting of the parameters that the widths hang on.
+std::vector<shared::ReflectorParams> settings()
+{
+    std::vector<shared::ReflectorParams> out;
+    for (const std::uint32_t component : { WEDGE_COMPONENT_DIFFUSE, WEDGE_COMPONENT_GLOSSY, WEDGE_COMPONENT_AMBIENT })
+        for (const float meanFraction : { 0.0f, 0.3f })
+            for (const float alpha : { 0.0f, 0.65f })
+                for (const float extent : { 0.0f, 20.0f })
+                    for (const float fixedWidth : { 0.0f, 2.5f }) {
+                        shared::ReflectorParams p = paramsFor(render::PlaneLayout(1, 1));
+                        p.component = component;
+                        p.meanFraction = meanFraction;
+                        p.alpha = alpha;
+                        p.extent = extent;
+                        p.fixedWidth = fixedWidth;
+                        out.push_back(p);
+                    }
+    return out;
+}
+
+void checkWidths(KernelBench& bench, const shared::ReflectorParams& p, float extent, const std::vector<Found>& pixels)
+{
+    const Widths found = widthsOf(bench, p, extent, pixels);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const Expected expected = expectedOf(p, extent, pixels[i]);
+        CAPTURE(pixels[i].nearest);
+        CAPTURE(pixels[i].farthest);
+        CAPTURE(pixels[i].gloss);
+        CAPTURE(p.component);
+        REQUIRE(std::isfinite(found.beta[i]));
+        REQUIRE(close(found.beta[i], expected.beta, 1e-4));
+        REQUIRE(std::fabs(found.wanted[i] - expected.wanted) <= 0.501 + 1e-3 * expected.wanted);
+    }
+}
+
+} // namespace
+
+TEST_CASE("the visible extent is the largest side of what is seen; holes do not count, and nothing seen has none")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        unsigned seed = 1;
+        for (const auto& [width, height] :
+            { std::pair(1, 1), { 1, 70 }, { 70, 1 }, { 16, 32 }, { 47, 29 }, { 33, 131 } })
+            for (const double holes : { 0.0, 0.3, 0.97, 1.0 }) {
+                std::mt19937 random(++seed);
+                const render::PlaneLayout layout(width, height);
+                Planes<float> position(layout, 3, 1e7f);
+                Planes<std::uint32_t> objectId(layout, 1, 0u);
+                glm::dvec3 least(1e30), largest(-1e30);
+                everyPixel(layout, [&](int x, int y) {
+                    if (uniform(random) < holes)
+                        return;
+                    const glm::dvec3 at(uniform(random, 5, 9), uniform(random, -8, -3), uniform(random, -2, 1));
+                    objectId.at(x, y) = 1 + static_cast<std::uint32_t>(random() % 3);
+                    position.setVector(x, y, at);
+                    least = glm::min(least, position.vector(x, y));
+                    largest = glm::max(largest, position.vector(x, y));
+                });
+                const glm::dvec3 size = glm::max(largest - least, glm::dvec3(0));
+                CAPTURE(width);
+                CAPTURE(height);
+                CAPTURE(holes);
+                CHECK(extentOf(bench, position, objectId)
+                    == doctest::Approx(std::max({ size.x, size.y, size.z })).epsilon(1e-6));
+            }
+    });
+}
+
+TEST_CASE("widths are (4.16) and counts (4.21) of the least distance, or of a fraction of the harmonic mean")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        for (const shared::ReflectorParams& p : settings())
+            checkWidths(bench, p, 4.0f, randomPixels(150, 3, 9));
+    });
+}
+
+TEST_CASE("distances that say little: none, all the same, 0, tiny and huge ones, and pixels without a term")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        const std::vector<Found> pixels = {
+            { 0, 0, 0 }, // no ray hit anything
+            { 2, 2, 16 / 2.0f }, { 2, 2, 1 / 2.0f }, // z_min = z_max; of all rays and of one
+            { 1e-30f, 1e-30f, 16e20f }, // as a reflector at the pixel itself is stored
+            { 1e-30f, 5, 16e20f }, { 1e-12f, 1e12f, 1e12f }, { 1e20f, 1e30f, 1e-20f }, { 1e20f, 1e30f, 0 },
+            { 1, 2, 10, 0.01f, 5, 0 }, { 0, 0, 0, 0.01f, 5, 0 }, // without a term
+            { 1, 2, 10, 1e-6f }, { 1, 2, 10, 1e3f }, // tiny and huge pixels
+            { 1, 2, 10, 0.01f, 5, 1 }, // a single sample
+        };
+        for (const shared::ReflectorParams& p : settings())
+            for (const float extent : { 0.0f, 4.0f, 1e6f })
+                checkWidths(bench, p, extent, pixels);
+        // Where no ray hit anything, the width is that of a reflector as far as the image is large.
+        const Widths none = widthsOf(bench, paramsFor(render::PlaneLayout(1, 1)), 4.0f, { { 0, 0, 0, 0.01f } });
+        CHECK(none.beta[0] == doctest::Approx(0.5 / (0.9 * 2.8 / 4)).epsilon(1e-5));
+    });
+}
+
+TEST_CASE("exponents outside of the fit's range give widths and counts within bounds")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        shared::ReflectorParams p = paramsFor(render::PlaneLayout(1, 1));
+        p.component = WEDGE_COMPONENT_GLOSSY;
+        std::vector<Found> pixels, sharp;
+        for (const float gloss : { 0.0f, 0.1f, 1.0f, 3.9f, 4.0f, 50.0f, 51.0f, 1000.0f })
+            for (const float sign : { 1.0f, -1.0f })
+                pixels.push_back({ 1, 3, 8, 0.01f, sign * gloss });
+        checkWidths(bench, p, 4, pixels);
+        for (const float gloss : { 1e4f, 1e6f, 1e8f, 1e20f, 1e37f })
+            for (const float sign : { 1.0f, -1.0f })
+                sharp.push_back({ 1, 3, 8, 0.01f, sign * gloss });
+        const Widths found = widthsOf(bench, p, 4, sharp);
+        for (std::size_t i = 0; i < sharp.size(); ++i) {
+            // Their bandlimit is the pixel's at most.
+            CAPTURE(sharp[i].gloss);
+            const double least = 0.5 * 0.01 / (0.9 * 0.3);
+            REQUIRE(close(found.beta[i], std::max(least, expectedOf(p, 4, sharp[i]).beta), 1e-4));
+            REQUIRE(found.wanted[i] >= 16);
+            REQUIRE(found.wanted[i] <= 256);
+        }
+    });
+}
+
+TEST_CASE("sampleVariance is the variance of the samples' luminance as the image shows it")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        for (const auto& [width, height] : { std::pair(1, 1), { 37, 11 } })
+            for (const std::uint32_t component : { WEDGE_COMPONENT_DIFFUSE, WEDGE_COMPONENT_AMBIENT }) {
+                const render::PlaneLayout layout(width, height);
+                Planes<float> sums(layout, 4, 0.0f), reflectance(layout, 3, 0.0f);
+                Planes<std::uint32_t> taken(layout, 1, 0u);
+                Planes<double> exact(layout, 1, 0.0), scale(layout, 1, 0.0);
+                std::mt19937 random(3);
+                everyPixel(layout, [&](int x, int y) {
+                    const auto n = static_cast<std::uint32_t>(random() % 5 == 0 ? random() % 3 : 2 + random() % 60);
+                    const glm::dvec3 colour(uniform(random), uniform(random), uniform(random));
+                    // Every third pixel's samples are all the same.
+                    const double spread = random() % 3 == 0 ? 0 : std::pow(10.0, uniform(random, -2, 1));
+                    glm::dvec3 sum(0);
+                    std::vector<double> luminances;
+                    double squares = 0;
+                    for (unsigned i = 0; i < n; ++i) {
+                        const glm::dvec3 sample = colour * (1 + spread * uniform(random));
+                        sum += sample;
+                        luminances.push_back(glm::dot(sample, glm::dvec3(0.2126, 0.7152, 0.0722)));
+                        squares += luminances.back() * luminances.back();
+                    }
+                    sums.setVector(x, y, sum);
+                    sums.at(x, y, 3) = static_cast<float>(squares);
+                    taken.at(x, y) = n;
+                    reflectance.setVector(x, y, { uniform(random), uniform(random), uniform(random) });
+                    const double k = component == WEDGE_COMPONENT_AMBIENT
+                        ? 1
+                        : glm::dot(reflectance.vector(x, y), glm::dvec3(0.2126, 0.7152, 0.0722));
+                    const double mean = glm::dot(sum, glm::dvec3(0.2126, 0.7152, 0.0722)) / std::max(n, 1u);
+                    for (const double l : luminances)
+                        exact.at(x, y) += n > 1 ? (l - mean) * (l - mean) / (n - 1) * k * k : 0.0;
+                    scale.at(x, y) = n > 1 ? squares / (n - 1) * k * k : 0.0;
+                });
+                shared::ReflectorParams p = paramsFor(layout);
+                p.component = component;
+                const auto variance = bench.filled(layout.size, -7.0f);
+                launchRows(bench, "sampleVariance", p, block, bench.buffer(sums.values), bench.buffer(taken.values),
+                    bench.buffer(reflectance.values), variance);
+                const Planes<float> found = planesOf(layout, bench.read(variance));
+                everyPixel(layout, [&](int x, int y) {
+                    REQUIRE(found.at(x, y) >= 0.0f);
+                    REQUIRE(std::fabs(found.at(x, y) - exact.at(x, y)) <= 2e-6 * scale.at(x, y));
+                });
+            }
+    });
+}
+
+TEST_CASE("pathDemand weighs the filtered variance, at least a fraction of the object's largest within 5x5")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        for (const auto& [width, height] : { std::pair(1, 1), { 1, 9 }, { 40, 21 } })
+            for (const double dark : { 0.2, 1.0 }) {
+                const render::PlaneLayout layout(width, height);
+                Planes<float> variance(layout, 1, 0.0f), effective(layout, 1, 0.0f), beta(layout, 1, 0.0f);
+                Planes<std::uint32_t> objectId(layout, 1, 0u);
+                std::mt19937 random(8);
+                everyPixel(layout, [&](int x, int y) {
+                    objectId.at(x, y) = random() % 6 == 0 ? 0 : 1 + static_cast<std::uint32_t>(x / 9 + y / 7) % 2;
+                    beta.at(x, y) = objectId.at(x, y) == 0 || random() % 8 == 0 ? -1.0f
+                        : random() % 4 == 0                                     ? 0.0f
+                                                                                : 0.3f;
+                    variance.at(x, y) = uniform(random) < dark
+                        ? (random() % 2 == 0 ? 0.0f : 1e-31f)
+                        : static_cast<float>(std::pow(10.0, uniform(random, -25, 3)));
+                    effective.at(x, y) = static_cast<float>(uniform(random, 0, 200));
+                });
+                const auto out = bench.filled(layout.size, -7.0f);
+                launchRows(bench, "pathDemand", paramsFor(layout), block, bench.buffer(variance.values),
+                    bench.buffer(effective.values), bench.buffer(beta.values), bench.buffer(objectId.values), out);
+                const Planes<float> found = planesOf(layout, bench.read(out));
+                everyPixel(layout, [&](int x, int y) {
+                    double largest = 0;
+                    for (int qy = std::max(0, y - 2); qy <= std::min(height - 1, y + 2); ++qy)
+                        for (int qx = std::max(0, x - 2); qx <= std::min(width - 1, x + 2); ++qx)
+                            if (objectId.at(qx, qy) == objectId.at(x, y) && beta.at(qx, qy) >= 0)
+                                largest = std::max<double>(largest, variance.at(qx, qy));
+                    const double v = std::max<double>(variance.at(x, y), 0.25 * largest);
+                    const bool wants = beta.at(x, y) >= 0 && v > 1e-30;
+                    const double expected = wants ? std::pow(v / std::max<double>(effective.at(x, y), 1), 0.4) : 0.0;
+                    REQUIRE(close(found.at(x, y), expected, 1e-3));
+                });
+            }
+    });
+}
