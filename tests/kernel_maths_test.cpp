@@ -1,5 +1,6 @@
 // The shared maths as C++: lights, the frequency analysis, reflection. No device.
 #include "kernels/shared/bsdf.h"
+#include "kernels/shared/frame.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/wedge.h"
 
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <vector>
 
 using namespace wedge::shared;
@@ -203,4 +205,34 @@ TEST_CASE("specular lobes are reciprocal, never negative, and finite at their en
     // In the mirror direction the lobe is at its largest: the normalisation itself.
     const Vec3 v = vecNormalize(vec3(1, 0, 1)), mirrored = vecNormalize(vec3(-1, 0, 1));
     CHECK(specularLobe(n, v, mirrored, 20, WEDGE_SPECULAR_PHONG) == doctest::Approx(22 / (2 * pi)).epsilon(1e-4));
+}
+
+TEST_CASE("directions in 32 bits come back as unit vectors within 1e-4 radians")
+{
+    std::vector<Vec3> directions;
+    for (const float x : { -1.0f, -0.0f, 0.0f, 1e-20f, 1.0f })
+        for (const float y : { -1.0f, -0.0f, 0.0f, -1e-6f, 1.0f })
+            for (const float z : { -1.0f, -0.0f, 0.0f, 1e-6f, 1.0f })
+                if (vecLength(vec3(x, y, z)) > 0.5f)
+                    directions.push_back(vecNormalize(vec3(x, y, z)));
+    std::mt19937 random(6);
+    std::uniform_real_distribution<double> z(-1, 1), angle(-pi, pi);
+    for (int i = 0; i < 20000; ++i) {
+        // Every other one near the fold of the map.
+        const double h = i % 2 == 0 ? z(random) : 1e-4 * z(random), r = std::sqrt(1 - h * h), a = angle(random);
+        directions.push_back(vec3(
+            static_cast<float>(r * std::cos(a)), static_cast<float>(r * std::sin(a)), static_cast<float>(h)));
+    }
+    double worst = 0;
+    for (const Vec3 d : directions) {
+        const Vec3 back = unpackDirection(packDirection(d));
+        REQUIRE(std::fabs(vecLength(back) - 1) < 1e-6f);
+        // The chord, which unlike the cosine is exact for small angles.
+        worst = std::max<double>(worst, vecLength(vecSub(back, d)));
+    }
+    CAPTURE(worst);
+    CHECK(worst < 1e-4);
+    CHECK(worst > 1e-6);
+    for (const Vec3 axis : { vec3(0, 0, 1), vec3(0, 0, -1), vec3(1, 0, 0), vec3(0, -1, 0) })
+        CHECK(vecDot(unpackDirection(packDirection(axis)), axis) > 1 - 1e-7f);
 }

@@ -98,6 +98,39 @@ TEST_CASE("the G-buffer holds what the host's traversal finds")
     });
 }
 
+TEST_CASE("the packed geometric normal is the triangle's on the viewer's side, also where the shading normal is smooth")
+{
+    onEveryDevice([](const device::Device& device) {
+        TracedScene traced(smallScene(), device, 61, 47);
+        traced.primary();
+        const auto id = traced.read(traced.frame.objectId), geometric = traced.read(traced.frame.geometric);
+        const auto normal = traced.read(traced.frame.normal);
+        const scene::Geometry& g = traced.scene.geometry;
+        unsigned flat = 0, smooth = 0, turned = 0;
+        double worst = 0;
+        traced.everyPixel([&](int x, int y) {
+            const bvh::Ray ray = traced.cameraRay(x, y);
+            const shared::Hit hit = bvh::closestHit(traced.hierarchy, ray);
+            if (hit.triangle == WEDGE_NO_TRIANGLE || g.objectIds[hit.triangle] != id.at(x, y))
+                return;
+            const shared::Vec3 packed = shared::unpackDirection(geometric.at(x, y));
+            const glm::dvec3 found(packed.x, packed.y, packed.z), face = faceNormal(g, hit.triangle);
+            const bool behind = glm::dot(face, glm::dvec3(ray.direction.x, ray.direction.y, ray.direction.z)) > 0;
+            const double apart = glm::length(found - (behind ? -face : face));
+            // Between triangles of the sphere a ray may go either way.
+            if (id.at(x, y) == 4 && apart > 1e-4 && (hit.u < 1e-3f || hit.v < 1e-3f || hit.u + hit.v > 0.999f))
+                return;
+            worst = std::max(worst, apart);
+            (id.at(x, y) == 4 ? smooth : flat) += 1;
+            turned += glm::length(found - normal.vector(x, y)) > 0.01 ? 1 : 0;
+        });
+        CHECK(worst < 1e-4);
+        CHECK(flat > 1000);
+        CHECK(smooth > 50);
+        CHECK(turned > 20); // it is not the shading normal
+    });
+}
+
 TEST_CASE("normals and origins are on the viewer's side, whichever way the triangle was wound")
 {
     onEveryDevice([](const device::Device& device) {
