@@ -6,17 +6,9 @@ usage: plot_rays.py RESULTS.json [FOLDER]     PNG files, into the current folder
 Needs python3-matplotlib.
 """
 
-import json
-import os
 import sys
 
-try:
-    import matplotlib
-except ImportError:
-    sys.exit("plot_rays: error: matplotlib: not installed: apt install python3-matplotlib")
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+from plot_common import plt, run, save
 
 OURS = ["#1f3fa8", "#6a8be0", "#12265f", "#4a66b8"]
 THEIRS = ["#8c8c8c", "#b8860b", "#c9c9c9", "#d33b2f", "#e9a23b", "#e3c9a0", "#6b6b6b", "#a05a2c", "#d9a0a0"]
@@ -91,29 +83,7 @@ def plot_ratios(scenes, folder):
     save(figure, folder, "rays_ratios.png")
 
 
-def save(figure, folder, name):
-    path = os.path.join(folder, name)
-    figure.tight_layout()
-    figure.savefig(path, dpi=130)
-    plt.close(figure)
-    print(path)
-
-
-def main(arguments):
-    if len(arguments) not in (1, 2) or arguments[0].startswith("-"):
-        print(__doc__.strip(), file=sys.stderr)
-        return 2
-    try:
-        with open(arguments[0], encoding="utf-8") as file:
-            results = json.load(file)
-    except (OSError, ValueError) as error:
-        print(f"plot_rays: error: {arguments[0]}: {error}: name a result file", file=sys.stderr)
-        return 1
-    if results.get("benchmark") != "rays":
-        print(f"plot_rays: error: {arguments[0]}: not of rays: name its result file", file=sys.stderr)
-        return 1
-    folder = arguments[1] if len(arguments) > 1 else "."
-    os.makedirs(folder, exist_ok=True)
+def plot(results, folder):
     scenes = [s for s in results["scenes"] if s["classes"]]
     for scene in scenes:
         plot_throughput(scene, folder)
@@ -121,8 +91,7 @@ def main(arguments):
         plot_ratios(scenes, folder)
     if len(results["growth"]) > 1:
         plot_growth(results["growth"], folder)
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(run(sys.argv[1:], "rays", __doc__, plot))

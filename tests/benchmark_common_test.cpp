@@ -1,13 +1,16 @@
-// What the benchmarks compute with: order statistics, error curves, fingerprints.
+// What the benchmarks compute with: order statistics, error curves, fingerprints, biases, savings.
 #include "benchmarks/common/claims.h"
 #include "benchmarks/common/error_curve.h"
 #include "benchmarks/common/fingerprint.h"
+#include "benchmarks/common/image_bias.h"
+#include "benchmarks/common/savings.h"
 #include "benchmarks/common/statistics.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <limits>
+#include <random>
 #include <stdexcept>
 
 namespace wedge::benchmark {
@@ -140,6 +143,58 @@ TEST_CASE("claims without a goal or a finite value have nulls")
     CHECK(claim.dump() == R"({"id":"a.b.c","value":null,"unit":"1","spread":null,"paper":null,"goal":null})");
     CHECK(json(Claim { "a.b.c", 0.5, "ms", 0.25, 1.0, 2.0 }).dump()
         == R"({"id":"a.b.c","value":0.5,"unit":"ms","spread":0.25,"paper":1.0,"goal":2.0})");
+}
+
+/// Values around 1 + offset with normal noise of that deviation.
+image::RgbImage noisyImage(std::uint32_t seed, float offset, float deviation)
+{
+    std::mt19937 engine(seed);
+    std::normal_distribution<float> noise(1.0f + offset, deviation);
+    image::RgbImage out { 64, 64, std::vector<float>(3 * 64 * 64) };
+    for (float& value : out.rgb) {
+        value = noise(engine);
+    }
+    return out;
+}
+
+TEST_CASE("the bias of images is found beneath their noise and the reference's")
+{
+    constexpr float noise = 0.1f, referenceNoise = 0.02f;
+    const image::RgbImage reference = noisyImage(1, 0.0f, referenceNoise);
+    for (const float bias : { 0.0f, 0.05f, -0.2f }) {
+        std::vector<image::RgbImage> images;
+        for (std::uint32_t seed = 2; seed < 10; ++seed) {
+            images.push_back(noisyImage(seed, bias, noise));
+        }
+        // The noise of the mean is 0.035; what its subtraction leaves is of the order of 0.035 (2 / 12288)^(1/4) =
+        // 0.004.
+        CHECK(biasOf(images, reference, referenceNoise) == doctest::Approx(std::abs(bias)).epsilon(0.01).scale(1.0));
+        CHECK(meanOf(images.front()) == doctest::Approx(1.0 + bias).epsilon(0.005));
+    }
+    CHECK(biasOf({ reference, reference }, reference, 0.0) == 0.0);
+    CHECK(withoutNoise(5, 3) == doctest::Approx(4));
+    CHECK(withoutNoise(3, 5) == 0.0);
+}
+
+TEST_CASE("savings are the baseline's samples and rays at the method's error, over the method's")
+{
+    Baseline baseline { "plain", "error = 1 / sqrt samples, two rays a sample", {}, {}, {} };
+    for (const double spp : { 16.0, 64.0, 256.0 }) {
+        baseline.samples.push_back({ spp, 1 / std::sqrt(spp) });
+        baseline.rays.push_back({ 2 * spp, 1 / std::sqrt(spp) });
+    }
+    Method method { "default", { { 20, 10, 0.2, 0.1, 1, 1 }, { 25, 50, 0.2, 0.1, 1, 2 } } };
+    const Savings inside = savings(method, baseline);
+    CHECK(inside.samples[0] == doctest::Approx(100.0 / 20));
+    CHECK(inside.samples[1] == doctest::Approx(100.0 / 25));
+    CHECK(inside.rays[0] == doctest::Approx(200.0 / 10));
+    CHECK(inside.rays[1] == doctest::Approx(200.0 / 50));
+    CHECK_FALSE(inside.extrapolated);
+    CHECK(method.leastError() == 0.1);
+    method.runs.push_back({ 25, 50, 0.2, 0.05, 1, 3 });
+    CHECK(savings(method, baseline).extrapolated);
+    CHECK(savings(method, baseline).samples[2] == doctest::Approx(400.0 / 25));
+    CHECK(method.leastError() == 0.05);
 }
 
 } // namespace

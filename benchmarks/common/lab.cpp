@@ -1,10 +1,10 @@
 #include "benchmarks/common/lab.h"
 
+#include "benchmarks/common/image_bias.h"
 #include "host/image/metrics.h"
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -14,6 +14,9 @@ namespace {
 
 // Seeds of references are apart from those of everything measured against them.
 constexpr std::uint32_t referenceSeed = 0x2e5eed;
+
+// Of an error, at least this is taken to be the image's own: the reference's noise is not known better.
+constexpr double leastOwnError = 0.1;
 
 std::string keyOf(const render::Settings& settings)
 {
@@ -73,12 +76,14 @@ Measured Lab::measure(render::Settings settings, std::uint32_t seed)
     if (const auto found = measured_.find(key); found != measured_.end()) {
         return found->second;
     }
-    const image::RgbImage& truth = reference(settings).image;
+    const Reference& truth = reference(settings);
     const render::FrameStatistics frame = renderFrame(settings, seed);
     Measured out;
     out.spp = subject_.sppOf(frame);
     out.rays = subject_.raysOf(frame) / static_cast<double>(std::max<std::uint64_t>(1, frame.shadedPixels));
-    out.rmse = image::rmse(imageOf(renderer_, settings, frame, subject_.layer()), truth);
+    out.rmse = image::rmse(imageOf(renderer_, settings, frame, subject_.layer()), truth.image);
+    out.error =
+        plan_.subtractNoise ? std::max(withoutNoise(out.rmse, truth.noise), leastOwnError * out.rmse) : out.rmse;
     out.mu = subject_.muOf(settings);
     out.seed = seed;
     say(fmt::format("{:<40} {:7.2f} spp  rmse {:.6f}  {:6.1f} s", subject_.describe(settings), out.spp, out.rmse,
@@ -120,7 +125,5 @@ std::map<std::string, Reference> summaries(const std::map<std::string, Reference
     }
     return out;
 }
-
-double withoutNoise(double rmse, double noise) { return std::sqrt(std::max(0.0, rmse * rmse - noise * noise)); }
 
 } // namespace wedge::benchmark

@@ -13,7 +13,8 @@ namespace wedge::benchmark {
 struct Measured {
     double spp = 0; ///< mean over shaded pixels
     double rays = 0; ///< a shaded pixel; less than spp where samples need none
-    double rmse = 0; ///< linear RGB, whole image
+    double rmse = 0; ///< linear RGB, whole image, as measured
+    double error = 0; ///< what is compared: the same, without the reference's noise if the plan wants that
     float mu = 0;
     std::uint32_t seed = 0;
 };
@@ -83,8 +84,5 @@ private:
 
 /// References without their pixels.
 std::map<std::string, Reference> summaries(const std::map<std::string, Reference>& references);
-
-/// Error that is left when the reference's own, which is independent of it, is taken out in quadrature.
-double withoutNoise(double rmse, double noise);
 
 } // namespace wedge::benchmark

@@ -14,6 +14,7 @@ struct MeasurePlan {
     int seeds = 3; ///< of the method's error
     int referenceSpp = 2048;
     int largestBaseline = 1600; ///< samples of the unfiltered curves; beyond, they are extrapolated
+    bool subtractNoise = false; ///< compare errors without the reference's noise, where it is not far below them
     std::vector<int> baselineSpp; ///< where the unfiltered curves start; squares
     std::string referenceFolder;
 };

@@ -13,12 +13,12 @@ constexpr std::uint32_t baselineSeed = 101;
 
 } // namespace
 
-double Method::leastError() const { return std::ranges::min(runs, {}, &Measured::rmse).rmse; }
+double Method::leastError() const { return std::ranges::min(runs, {}, &Measured::error).error; }
 
 std::vector<double> Method::errors() const
 {
     std::vector<double> out;
-    std::ranges::transform(runs, std::back_inserter(out), &Measured::rmse);
+    std::ranges::transform(runs, std::back_inserter(out), &Measured::error);
     return out;
 }
 
@@ -41,14 +41,14 @@ Comparison compareWith(Lab& lab, const Method& method, const std::string& name, 
     Baseline out { name, meaning, {}, {}, {} };
     const auto measure = [&](int spp) {
         out.points.push_back(lab.measure(settings(spp), baselineSeed));
-        return CurvePoint { out.points.back().spp, out.points.back().rmse };
+        return CurvePoint { out.points.back().spp, out.points.back().error };
     };
     for (const int spp : lab.plan().baselineSpp) {
         out.samples.push_back(measure(spp));
     }
     extend(out.samples, error, lab.plan().largestBaseline, measure);
     for (const Measured& point : out.points) {
-        out.rays.push_back({ point.rays, point.rmse });
+        out.rays.push_back({ point.rays, point.error });
     }
     Savings saved = savings(method, out);
     return { std::move(out), std::move(saved) };
@@ -58,9 +58,9 @@ Savings savings(const Method& method, const Baseline& baseline)
 {
     Savings out;
     for (const Measured& run : method.runs) {
-        const Crossing samples = costAt(baseline.samples, run.rmse);
+        const Crossing samples = costAt(baseline.samples, run.error);
         out.samples.push_back(samples.cost / run.spp);
-        out.rays.push_back(costAt(baseline.rays, run.rmse).cost / run.rays);
+        out.rays.push_back(costAt(baseline.rays, run.error).cost / run.rays);
         out.extrapolated |= samples.extrapolated;
     }
     return out;

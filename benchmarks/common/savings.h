@@ -49,8 +49,8 @@ using BaselineSettings = std::function<render::Settings(int spp)>;
 Comparison compareWith(Lab& lab, const Method& method, const std::string& name, const std::string& meaning,
     const BaselineSettings& settings);
 
-/// Equal raw errors are equal errors without the reference's noise too, which is in both in the same way: nothing
-/// needs to be subtracted here.
+/// Equal raw errors are equal errors without the reference's noise too, which is in both in the same way: only beyond
+/// and between a curve's points it matters whether it has been subtracted.
 Savings savings(const Method& method, const Baseline& baseline);
 
 } // namespace wedge::benchmark

@@ -1,5 +1,7 @@
 #include "benchmarks/common/setting_result.h"
 
+#include "benchmarks/common/image_bias.h"
+
 namespace wedge::benchmark {
 namespace {
 

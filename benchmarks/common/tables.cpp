@@ -1,5 +1,7 @@
 #include "benchmarks/common/tables.h"
 
+#include "benchmarks/common/image_bias.h"
+
 #include <fmt/format.h>
 
 namespace wedge::benchmark {

@@ -1,11 +1,9 @@
 #include "benchmarks/indirect/bias.h"
 
+#include "benchmarks/common/image_bias.h"
 #include "benchmarks/indirect/indirect_light.h"
 
-#include <algorithm>
-#include <cassert>
-#include <cmath>
-#include <numeric>
+#include <vector>
 
 namespace wedge::benchmark {
 namespace {
@@ -13,32 +11,7 @@ namespace {
 // Apart from the seeds of errors and baselines.
 constexpr std::uint32_t firstSeed = 1001;
 
-double meanOf(const image::RgbImage& image)
-{
-    return std::accumulate(image.rgb.begin(), image.rgb.end(), 0.0) / static_cast<double>(image.rgb.size());
-}
-
 } // namespace
-
-double biasOf(const std::vector<image::RgbImage>& images, const image::RgbImage& reference, double referenceNoise)
-{
-    assert(images.size() >= 2);
-    const auto n = static_cast<double>(images.size());
-    const std::size_t values = reference.rgb.size();
-    double squared = 0, variance = 0; // of the mean's difference, of the mean
-    for (std::size_t i = 0; i < values; ++i) {
-        double sum = 0, squares = 0;
-        for (const image::RgbImage& image : images) {
-            const double difference = static_cast<double>(image.rgb[i]) - reference.rgb[i];
-            sum += difference;
-            squares += difference * difference;
-        }
-        squared += (sum / n) * (sum / n);
-        variance += std::max(0.0, squares - sum * sum / n) / ((n - 1) * n);
-    }
-    const auto count = static_cast<double>(values);
-    return withoutNoise(std::sqrt(std::max(0.0, (squared - variance) / count)), referenceNoise);
-}
 
 Bias measureBias(Lab& lab, bool published, float mu, int seeds)
 {

@@ -3,7 +3,6 @@
 #include "benchmarks/common/lab.h"
 
 #include <string>
-#include <vector>
 
 namespace wedge::benchmark {
 
@@ -20,9 +19,5 @@ struct Bias {
 /// From the mean of so many images with one bounce, at mu and the usual count (default) or the one that follows from
 /// mu (published).
 Bias measureBias(Lab& lab, bool published, float mu, int seeds);
-
-/// RMS difference between the mean of images and a reference, less what independent noise adds to it: the mean's,
-/// estimated from how the images differ, and the reference's. Two images or more, of one size.
-double biasOf(const std::vector<image::RgbImage>& images, const image::RgbImage& reference, double referenceNoise);
 
 } // namespace wedge::benchmark

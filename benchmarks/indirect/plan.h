@@ -12,6 +12,7 @@ struct Plan : MeasurePlan {
     {
         referenceSpp = 1024;
         largestBaseline = 1024;
+        subtractNoise = true;
         baselineSpp = { 16, 64, 144 };
     }
 

@@ -49,8 +49,8 @@ std::vector<Claim> claimsOf(const SceneResult& result)
         }
     }
     if (result.fixedBlur) {
-        const double adaptive = result.setting("default", 1).method.runs.front().rmse;
-        list.add("rmse_ratio_fixed_blur", result.fixedBlur->measured.rmse / adaptive, "1");
+        const double adaptive = result.setting("default", 1).method.runs.front().error;
+        list.add("rmse_ratio_fixed_blur", result.fixedBlur->measured.error / adaptive, "1");
     }
     for (const Bias& bias : result.biases) {
         list.add(fmt::format("bias_mu{:g}{}", bias.mu, suffixOf(bias.setting)), bias.rms, "radiance");
