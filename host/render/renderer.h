@@ -66,7 +66,9 @@ struct FrameStatistics {
 /// render() may be called any number of times with other settings.
 class Renderer {
 public:
+    /// scene must outlive this.
     Renderer(const scene::Scene& scene, const device::Device& device, Options options = {});
+    Renderer(scene::Scene&& scene, const device::Device& device, Options options = {}) = delete;
 
     /// Device memory that a frame of these settings takes, before anything of it is allocated.
     static device::MemoryPlan plan(const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings);
