@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and renders two scenes at equal samples with and without filtering, beside a
-# reference. Images, logs and reports go to out/. What is there already, made by this program from these files, stays.
+# Installs what is missing, builds, and renders three scenes, one of them with indirect light, at equal samples with and
+# without filtering, beside a reference. Images, logs and reports go to out/. What is there already, made by this program from these files, stays.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
@@ -8,6 +8,7 @@ readonly wedge=build/release/wedge
 readonly size=640x480
 readonly spp=28
 readonly reference_spp=1024
+readonly indirect_reference_spp=256 # rays of paths, and six of them a sample
 
 # What an image depends on: the program, the scene's files and the call.
 fingerprint() { # SCENE ARGUMENT...
@@ -59,11 +60,16 @@ summary() {
 bash scripts/build.sh build wedge wedge_scenes
 build/release/wedge_scenes data/generated
 mkdir -p out/.made
-for scene in grids bench; do
-    render "$scene" reference --method mc --spp "$reference_spp" --seed 1
-    render "$scene" mc --method mc --spp "$spp" --seed 2
-    render "$scene" aaf --method aaf --spp "$spp" --seed 2
-done
-summary grids_mc grids_aaf bench_mc bench_aaf
+threeWays() { # SCENE REFERENCE_SPP ARGUMENT...
+    local scene=$1 most=$2
+    shift 2
+    render "$scene" reference --method mc --spp "$most" --seed 1 "$@"
+    render "$scene" mc --method mc --spp "$spp" --seed 2 "$@"
+    render "$scene" aaf --method aaf --spp "$spp" --seed 2 "$@"
+}
+threeWays grids "$reference_spp"
+threeWays bench "$reference_spp"
+threeWays cornell_glossy "$indirect_reference_spp" --bounces 2
+summary grids_mc grids_aaf bench_mc bench_aaf cornell_glossy_mc cornell_glossy_aaf
 echo
 echo "The images are in out/: SCENE_reference, SCENE_mc (plain Monte Carlo) and SCENE_aaf (filtered), each .exr and .png."
