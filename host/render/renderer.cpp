@@ -178,8 +178,8 @@ bool Renderer::renderPasses(const Settings& settings, bool keepWidths)
 
     frame_->clear(queue_);
     termPlanes_.clear();
-    bool complete = primaryPass(analysed ? fullFrame : sampledFrame);
     const bool lit = settings.integrator == Integrator::Path;
+    bool complete = primaryPass(analysed ? fullFrame : sampledFrame, lit);
     SoftShadows shadows(*passes_, *deviceScene_, *frame_, *term_, settings, fullFrame, sampledFrame, output);
     const std::size_t lights = lit ? deviceScene_->areaLightList.size() : 0;
     for (std::uint32_t light = 0; complete && light < lights; ++light) {
@@ -216,19 +216,23 @@ void Renderer::keepPlanes(const Settings& settings, bool analysed)
     termPlanes_.push_back({ name, analysed ? term_->beta.downloadAll(queue_) : std::vector<float>() });
 }
 
-bool Renderer::primaryPass(const shared::FrameParams& params)
+bool Renderer::primaryPass(const shared::FrameParams& params, bool lit)
 {
     const DeviceScene& s = *deviceScene_;
     Frame& f = *frame_;
+    bool complete = true;
     try {
         passes_->tiles("primary rays", PassKind::Trace, "primary.cl", "primary", params, 1.0, s.nodes, s.blocks,
             s.positions, s.normals, s.texcoords, s.indices, s.materialIds, s.materials, s.textures, s.texels,
-            s.srgbToLinear, s.objectIds, s.areaLights, static_cast<std::uint32_t>(s.areaLightList.size()), f.position,
+            s.srgbToLinear, s.objectIds, s.areaLights, static_cast<std::uint32_t>(lit ? s.areaLightList.size() : 0), f.position,
             f.normal, f.origin, f.geometric, f.objectId, f.depth, f.pixelSize, f.diffuse, f.specular, f.emission, f.gloss);
     } catch (const device::Cancelled&) {
-        return false;
+        complete = false;
     }
-    return true;
+    if (!lit) {
+        f.emission.fill(queue_, 0.0f);
+    }
+    return complete;
 }
 
 bool Renderer::deltaLightPass(const shared::FrameParams& params)

@@ -97,7 +97,8 @@ public:
 private:
     void allocate(const Settings& settings);
     bool renderPasses(const Settings& settings, bool keepWidths);
-    bool primaryPass(const shared::FrameParams& params);
+    /// lit: with area lights in view, and with what surfaces and background emit.
+    bool primaryPass(const shared::FrameParams& params, bool lit);
     bool deltaLightPass(const shared::FrameParams& params);
     void keepPlanes(const Settings& settings, bool analysed);
     void countWork(const Settings& settings, FrameStatistics& statistics);
