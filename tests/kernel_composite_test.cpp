@@ -2,6 +2,7 @@
 #include "host/render/device_scene.h"
 #include "host/render/quadrature.h"
 #include "kernels/shared/bsdf.h"
+#include "kernels/shared/path.h"
 #include "tests/render_oracles.h"
 #include "tests/render_support.h"
 
@@ -248,6 +249,62 @@ TEST_CASE("addSpecular: lobes too sharp for the quadrature take the mean weight 
                 : 0.0;
             REQUIRE(found.at(x, y, 1) == doctest::Approx(expected).epsilon(1e-5));
         });
+    });
+}
+
+TEST_CASE("addIndirect: terms times reflectance add up, with their samples; ambient is what is open, on white")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        for (const auto& [width, height] : { std::pair(1, 1), { 37, 5 } }) {
+            Receivers in(width, height, 8);
+            const Receivers other(width, height, 9);
+            Planes<float> value(in.layout(), 3, 0.0f), noisy(in.layout(), 3, 0.0f);
+            in.everyPixel([&](int x, int y) {
+                for (std::size_t c = 0; c < 3; ++c) {
+                    // What was never sampled holds anything.
+                    const bool sampled = in.taken.at(x, y) > 0;
+                    value.at(x, y, c) = sampled ? other.diffuse.at(x, y, c) : std::nanf("");
+                    noisy.at(x, y, c) = sampled ? other.specular.at(x, y, c) : std::nanf("");
+                }
+            });
+            const auto indirect = bench.filled(3 * in.layout().size, 0.5f),
+                       indirectNoisy = bench.filled(3 * in.layout().size, 0.25f);
+            const auto samples = bench.filled(in.layout().size, 7u), indirectSamples = bench.filled(in.layout().size, 0u);
+            const auto add = [&](std::uint32_t component, const Planes<float>& reflectance) {
+                bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addIndirect", in.params,
+                    WEDGE_BLOCK_PIXELS, component, bench.buffer(reflectance.values), bench.buffer(value.values),
+                    bench.buffer(noisy.values), bench.buffer(in.taken.values), indirect, indirectNoisy, samples,
+                    indirectSamples);
+            };
+            // After each term, what the terms so far multiply value by, and add.
+            const auto check = [&](const auto& expected, unsigned terms) {
+                const Planes<float> found = planesOf(in.layout(), bench.read(indirect));
+                const Planes<float> foundNoisy = planesOf(in.layout(), bench.read(indirectNoisy));
+                const auto all = planesOf(in.layout(), bench.read(samples));
+                const auto ofPaths = planesOf(in.layout(), bench.read(indirectSamples));
+                in.everyPixel([&](int x, int y) {
+                    REQUIRE(ofPaths.at(x, y) == terms * in.taken.at(x, y));
+                    REQUIRE(all.at(x, y) == 7 + terms * in.taken.at(x, y));
+                    for (std::size_t c = 0; c < 3; ++c) {
+                        const bool has = in.taken.at(x, y) > 0;
+                        const double sum = has ? expected(x, y, c, value.at(x, y, c)) : 0.0;
+                        const double sumNoisy = has ? expected(x, y, c, noisy.at(x, y, c)) : 0.0;
+                        REQUIRE(std::fabs(found.at(x, y, c) - 0.5 - sum) < 1e-6);
+                        REQUIRE(std::fabs(foundNoisy.at(x, y, c) - 0.25 - sumNoisy) < 1e-6);
+                    }
+                });
+            };
+            add(WEDGE_COMPONENT_DIFFUSE, in.diffuse);
+            check([&](int x, int y, std::size_t c, double v) { return in.diffuse.at(x, y, c) * v; }, 1);
+            add(WEDGE_COMPONENT_GLOSSY, in.specular);
+            const auto both = [&](int x, int y, std::size_t c, double v) {
+                return (in.diffuse.at(x, y, c) + in.specular.at(x, y, c)) * v;
+            };
+            check(both, 2);
+            add(WEDGE_COMPONENT_AMBIENT, in.diffuse);
+            check([&](int x, int y, std::size_t c, double v) { return both(x, y, c, v) + 1 - v; }, 3);
+        }
     });
 }
 
