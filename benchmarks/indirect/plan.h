@@ -11,15 +11,17 @@ struct Plan : MeasurePlan {
     Plan()
     {
         referenceSpp = 1024;
-        largestBaseline = 1024;
+        seeds = 2;
+        frames = 5;
+        largestBaseline = 400;
         subtractNoise = true;
         baselineSpp = { 16, 64, 144 };
     }
 
-    std::vector<int> budgets { 16, 28, 64, 128 }; ///< of the curves, default setting
-    std::vector<float> publishedMu { 0.5f, 0.9f, 1.5f, 2, 3, 4 }; ///< of the curves, published setting
+    std::vector<int> budgets { 16, 28, 64 }; ///< of the curves, default setting
+    std::vector<float> publishedMu { 0.5f, 0.9f, 2 }; ///< of the curves, published setting
     double largestBudget = 150; ///< no further mu after the first one of more mean samples
-    int biasSeeds = 8; ///< images whose mean shows what the filter blurs
+    int biasSeeds = 4; ///< images whose mean shows what the filter blurs
 };
 
 /// Less of everything, at 320x240.
@@ -36,7 +38,7 @@ inline Plan quickPlan()
     plan.baselineSpp = { 16, 64 };
     plan.budgets = { 16, 64 };
     plan.publishedMu = { 0.5f, 0.9f };
-    plan.biasSeeds = 4;
+    plan.biasSeeds = 2;
     return plan;
 }
 

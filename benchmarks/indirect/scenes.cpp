@@ -32,7 +32,7 @@ const std::vector<IndirectScene>& indirectScenes()
         scene(generatedScene("cornell_glossy", generator::makeCornellGlossy),
             { { 1, &glossy1, cornellOverhead }, { 2, &glossy2, {}, false } }, 5, paperGlossy, false, true),
         scene(generatedScene("cornell_figure", generator::makeCornellFigure),
-            { { 1, &figure1, cornellOverhead }, { 2, &figure2, {}, false }, { 3, &figure3, 0.025 } }, 5, paperFigure,
+            { { 1, &figure1, cornellOverhead }, { 2, &figure2, {}, false }, { 3, &figure3, 0.025, false } }, 5, paperFigure,
             true, false),
         scene(externalScene("aaf2013_cornell_bunny", "the authors' Cornell box with a bunny, from WEDGE_DATA",
                   "aaf2013_cornell_bunny/cornell_bunny.obj"),
