@@ -67,11 +67,15 @@ scenes=$sources/data/scenes
 for family in wide scalar; do
     check plain_$family "$scenes/materials.toml" --size 19x13 --method mc --spp 1 --traversal $family
     check filtered_$family "$scenes/materials.toml" --size 19x13 --method aaf --spp 10 --traversal $family
+    check paths_$family "$scenes/materials.toml" --size 17x5 --method mc --spp 2 --bounces 2 --traversal $family
+    check bounced_$family "$scenes/materials.toml" --size 17x3 --method aaf --spp 17 --bounces 2 --traversal $family
 done
 # The rest by the wide family, whose vectors reach farther over the ends of things.
 check cropped "$scenes/penumbra.toml" --traversal wide --size 33x17 --crop 5,3,22,12 --method aaf --counts variance --spp 10
 check published "$scenes/penumbra.toml" --traversal wide --size 9x7 --method aaf --as-published
 check fixed "$scenes/penumbra.toml" --traversal wide --size 9x7 --method aaf --sampling uniform --filter fixed --spp 9
-check one_pixel "$scenes/penumbra.toml" --traversal wide --size 1x1 --method aaf --spp 9
+check ambient "$scenes/materials.toml" --traversal wide --size 17x3 --method aaf --spp 17 --integrator ao
+check published_bounce "$scenes/penumbra.toml" --traversal wide --size 9x3 --method aaf --as-published --bounces 1 --max-spp 24
+check one_pixel "$scenes/penumbra.toml" --traversal wide --size 1x1 --method aaf --spp 16 --bounces 1
 checkSabotaged
 checkAllKernelsRan
