@@ -1,50 +1,14 @@
 // reflectors.cl alone: distances of reflectors to widths and counts, against the same in double.
 #include "kernels/shared/indirect.h"
-#include "kernels/shared/path.h"
-#include "tests/render_support.h"
+#include "tests/reflector_support.h"
 
 #include <algorithm>
-#include <limits>
 #include <numbers>
 
 using namespace wedge;
 using namespace wedge::test;
 
 namespace {
-
-constexpr std::uint32_t block = WEDGE_BLOCK_PIXELS;
-
-shared::ReflectorParams paramsFor(const render::PlaneLayout& layout)
-{
-    shared::ReflectorParams p {};
-    p.x1 = p.width = layout.width;
-    p.y1 = p.height = layout.height;
-    p.stride = layout.stride;
-    p.planeSize = static_cast<std::uint32_t>(layout.size);
-    p.mu = 0.9f;
-    p.alpha = 0.3f;
-    p.widthScale = 0.5f;
-    p.leastReflector = 0.005f;
-    p.countCap = 256;
-    p.countExponent = 0.4f;
-    p.varianceSpread = 0.25f;
-    return p;
-}
-
-template <class Visit>
-void everyPixel(const render::PlaneLayout& layout, const Visit& visit)
-{
-    for (int y = 0; y < static_cast<int>(layout.height); ++y)
-        for (int x = 0; x < static_cast<int>(layout.width); ++x)
-            visit(x, y);
-}
-
-template <class... Args>
-void launchRows(KernelBench& bench, const std::string& kernel, const shared::ReflectorParams& p, std::uint32_t across,
-    const Args&... args)
-{
-    bench.passes.rows("widths", device::PassKind::Analysis, "reflectors.cl", kernel, p, across, args...);
-}
 
 /// visibleBounds and visibleExtent one after the other, garbage in what they write.
 float extentOf(KernelBench& bench, const Planes<float>& position, const Planes<std::uint32_t>& objectId)
@@ -103,9 +67,6 @@ Widths widthsOf(KernelBench& bench, shared::ReflectorParams p, float extent, con
     }
     return out;
 }
-
-/// Within a fraction of b, however small that is.
-bool close(double a, double b, double relative) { return std::fabs(a - b) <= relative * std::fabs(b); }
 
 struct Expected {
     double beta = -1, wanted = 0;
@@ -209,10 +170,11 @@ TEST_CASE("the visible extent is the largest side of what is seen; holes do not 
             for (const double holes : { 0.0, 0.3, 0.97, 1.0 }) {
                 std::mt19937 random(++seed);
                 const render::PlaneLayout layout(width, height);
-                Planes<float> position(layout, 3, 1e7f);
+                Planes<float> position(layout, 3, 0.0f);
                 Planes<std::uint32_t> objectId(layout, 1, 0u);
                 glm::dvec3 least(1e30), largest(-1e30);
                 everyPixel(layout, [&](int x, int y) {
+                    position.setVector(x, y, 1e7 * unitVector(random)); // not to be read where there is nothing
                     if (uniform(random) < holes)
                         return;
                     const glm::dvec3 at(uniform(random, 5, 9), uniform(random, -8, -3), uniform(random, -2, 1));
@@ -228,6 +190,22 @@ TEST_CASE("the visible extent is the largest side of what is seen; holes do not 
                 CHECK(extentOf(bench, position, objectId)
                     == doctest::Approx(std::max({ size.x, size.y, size.z })).epsilon(1e-6));
             }
+    });
+}
+
+TEST_CASE("the visible extent counts every row, and both ends of a row")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        const render::PlaneLayout layout(17, 3 * WEDGE_EXTENT_STRIPES + 1);
+        Planes<std::uint32_t> objectId(layout, 1, 0u);
+        everyPixel(layout, [&](int x, int y) { objectId.at(x, y) = 1; });
+        for (int y = 0; y < static_cast<int>(layout.height); ++y) {
+            Planes<float> position(layout, 3, 1.0f);
+            position.at(y % 2 == 0 ? 0 : 16, y, static_cast<std::size_t>(y) % 3) = y % 4 < 2 ? 3.5f : -1.5f;
+            CAPTURE(y);
+            REQUIRE(extentOf(bench, position, objectId) == 2.5f);
+        }
     });
 }
 
@@ -285,95 +263,5 @@ TEST_CASE("exponents outside of the fit's range give widths and counts within bo
             REQUIRE(found.wanted[i] >= 16);
             REQUIRE(found.wanted[i] <= 256);
         }
-    });
-}
-
-TEST_CASE("sampleVariance is the variance of the samples' luminance as the image shows it")
-{
-    onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        for (const auto& [width, height] : { std::pair(1, 1), { 37, 11 } })
-            for (const std::uint32_t component : { WEDGE_COMPONENT_DIFFUSE, WEDGE_COMPONENT_AMBIENT }) {
-                const render::PlaneLayout layout(width, height);
-                Planes<float> sums(layout, 4, 0.0f), reflectance(layout, 3, 0.0f);
-                Planes<std::uint32_t> taken(layout, 1, 0u);
-                Planes<double> exact(layout, 1, 0.0), scale(layout, 1, 0.0);
-                std::mt19937 random(3);
-                everyPixel(layout, [&](int x, int y) {
-                    const auto n = static_cast<std::uint32_t>(random() % 5 == 0 ? random() % 3 : 2 + random() % 60);
-                    const glm::dvec3 colour(uniform(random), uniform(random), uniform(random));
-                    // Every third pixel's samples are all the same.
-                    const double spread = random() % 3 == 0 ? 0 : std::pow(10.0, uniform(random, -2, 1));
-                    glm::dvec3 sum(0);
-                    std::vector<double> luminances;
-                    double squares = 0;
-                    for (unsigned i = 0; i < n; ++i) {
-                        const glm::dvec3 sample = colour * (1 + spread * uniform(random));
-                        sum += sample;
-                        luminances.push_back(glm::dot(sample, glm::dvec3(0.2126, 0.7152, 0.0722)));
-                        squares += luminances.back() * luminances.back();
-                    }
-                    sums.setVector(x, y, sum);
-                    sums.at(x, y, 3) = static_cast<float>(squares);
-                    taken.at(x, y) = n;
-                    reflectance.setVector(x, y, { uniform(random), uniform(random), uniform(random) });
-                    const double k = component == WEDGE_COMPONENT_AMBIENT
-                        ? 1
-                        : glm::dot(reflectance.vector(x, y), glm::dvec3(0.2126, 0.7152, 0.0722));
-                    const double mean = glm::dot(sum, glm::dvec3(0.2126, 0.7152, 0.0722)) / std::max(n, 1u);
-                    for (const double l : luminances)
-                        exact.at(x, y) += n > 1 ? (l - mean) * (l - mean) / (n - 1) * k * k : 0.0;
-                    scale.at(x, y) = n > 1 ? squares / (n - 1) * k * k : 0.0;
-                });
-                shared::ReflectorParams p = paramsFor(layout);
-                p.component = component;
-                const auto variance = bench.filled(layout.size, -7.0f);
-                launchRows(bench, "sampleVariance", p, block, bench.buffer(sums.values), bench.buffer(taken.values),
-                    bench.buffer(reflectance.values), variance);
-                const Planes<float> found = planesOf(layout, bench.read(variance));
-                everyPixel(layout, [&](int x, int y) {
-                    REQUIRE(found.at(x, y) >= 0.0f);
-                    REQUIRE(std::fabs(found.at(x, y) - exact.at(x, y)) <= 2e-6 * scale.at(x, y));
-                });
-            }
-    });
-}
-
-TEST_CASE("pathDemand weighs the filtered variance, at least a fraction of the object's largest within 5x5")
-{
-    onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        for (const auto& [width, height] : { std::pair(1, 1), { 1, 9 }, { 40, 21 } })
-            for (const double dark : { 0.2, 1.0 }) {
-                const render::PlaneLayout layout(width, height);
-                Planes<float> variance(layout, 1, 0.0f), effective(layout, 1, 0.0f), beta(layout, 1, 0.0f);
-                Planes<std::uint32_t> objectId(layout, 1, 0u);
-                std::mt19937 random(8);
-                everyPixel(layout, [&](int x, int y) {
-                    objectId.at(x, y) = random() % 6 == 0 ? 0 : 1 + static_cast<std::uint32_t>(x / 9 + y / 7) % 2;
-                    beta.at(x, y) = objectId.at(x, y) == 0 || random() % 8 == 0 ? -1.0f
-                        : random() % 4 == 0                                     ? 0.0f
-                                                                                : 0.3f;
-                    variance.at(x, y) = uniform(random) < dark
-                        ? (random() % 2 == 0 ? 0.0f : 1e-31f)
-                        : static_cast<float>(std::pow(10.0, uniform(random, -25, 3)));
-                    effective.at(x, y) = static_cast<float>(uniform(random, 0, 200));
-                });
-                const auto out = bench.filled(layout.size, -7.0f);
-                launchRows(bench, "pathDemand", paramsFor(layout), block, bench.buffer(variance.values),
-                    bench.buffer(effective.values), bench.buffer(beta.values), bench.buffer(objectId.values), out);
-                const Planes<float> found = planesOf(layout, bench.read(out));
-                everyPixel(layout, [&](int x, int y) {
-                    double largest = 0;
-                    for (int qy = std::max(0, y - 2); qy <= std::min(height - 1, y + 2); ++qy)
-                        for (int qx = std::max(0, x - 2); qx <= std::min(width - 1, x + 2); ++qx)
-                            if (objectId.at(qx, qy) == objectId.at(x, y) && beta.at(qx, qy) >= 0)
-                                largest = std::max<double>(largest, variance.at(qx, qy));
-                    const double v = std::max<double>(variance.at(x, y), 0.25 * largest);
-                    const bool wants = beta.at(x, y) >= 0 && v > 1e-30;
-                    const double expected = wants ? std::pow(v / std::max<double>(effective.at(x, y), 1), 0.4) : 0.0;
-                    REQUIRE(close(found.at(x, y), expected, 1e-3));
-                });
-            }
     });
 }

@@ -1,0 +1,108 @@
+// reflectors.cl alone: from the samples' variance to what each pixel demands, against the same in double.
+#include "tests/reflector_support.h"
+
+#include <algorithm>
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+constexpr std::uint32_t block = WEDGE_BLOCK_PIXELS;
+
+} // namespace
+
+TEST_CASE("sampleVariance is the variance of the samples' luminance as the image shows it")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        for (const auto& [width, height] : { std::pair(1, 1), { 37, 11 } })
+            for (const std::uint32_t component : { WEDGE_COMPONENT_DIFFUSE, WEDGE_COMPONENT_AMBIENT }) {
+                const render::PlaneLayout layout(width, height);
+                Planes<float> sums(layout, 4, 0.0f), reflectance(layout, 3, 0.0f);
+                Planes<std::uint32_t> taken(layout, 1, 0u);
+                Planes<double> exact(layout, 1, 0.0), scale(layout, 1, 0.0);
+                std::mt19937 random(3);
+                everyPixel(layout, [&](int x, int y) {
+                    const auto n = static_cast<std::uint32_t>(random() % 5 == 0 ? random() % 3 : 2 + random() % 60);
+                    const glm::dvec3 colour(uniform(random), uniform(random), uniform(random));
+                    // Every third pixel's samples are all the same.
+                    const double spread = random() % 3 == 0 ? 0 : std::pow(10.0, uniform(random, -2, 1));
+                    glm::dvec3 sum(0);
+                    std::vector<double> luminances;
+                    double squares = 0;
+                    for (unsigned i = 0; i < n; ++i) {
+                        const glm::dvec3 sample = colour * (1 + spread * uniform(random));
+                        sum += sample;
+                        luminances.push_back(glm::dot(sample, glm::dvec3(0.2126, 0.7152, 0.0722)));
+                        squares += luminances.back() * luminances.back();
+                    }
+                    sums.setVector(x, y, sum);
+                    sums.at(x, y, 3) = static_cast<float>(squares);
+                    taken.at(x, y) = n;
+                    reflectance.setVector(x, y, { uniform(random), uniform(random), uniform(random) });
+                    const double k = component == WEDGE_COMPONENT_AMBIENT
+                        ? 1
+                        : glm::dot(reflectance.vector(x, y), glm::dvec3(0.2126, 0.7152, 0.0722));
+                    const double mean = glm::dot(sum, glm::dvec3(0.2126, 0.7152, 0.0722)) / std::max(n, 1u);
+                    for (const double l : luminances)
+                        exact.at(x, y) += n > 1 ? (l - mean) * (l - mean) / (n - 1) * k * k : 0.0;
+                    scale.at(x, y) = n > 1 ? squares / (n - 1) * k * k : 0.0;
+                });
+                shared::ReflectorParams p = paramsFor(layout);
+                p.component = component;
+                const auto variance = bench.filled(layout.size, -7.0f);
+                launchRows(bench, "sampleVariance", p, block, bench.buffer(sums.values), bench.buffer(taken.values),
+                    bench.buffer(reflectance.values), variance);
+                const Planes<float> found = planesOf(layout, bench.read(variance));
+                everyPixel(layout, [&](int x, int y) {
+                    REQUIRE(found.at(x, y) >= 0.0f);
+                    REQUIRE(std::fabs(found.at(x, y) - exact.at(x, y)) <= 2e-6 * scale.at(x, y));
+                });
+            }
+    });
+}
+
+TEST_CASE("pathDemand weighs the filtered variance, at least a fraction of the object's largest within 5x5")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        for (const auto& [width, height] : { std::pair(1, 1), { 1, 9 }, { 40, 21 } })
+            for (const double dark : { 0.2, 1.0 }) {
+                // What lies below the image does not count.
+                const render::PlaneLayout layout(width, height + 2);
+                Planes<float> variance(layout, 1, 0.0f), effective(layout, 1, 0.0f), beta(layout, 1, 0.0f);
+                Planes<std::uint32_t> objectId(layout, 1, 0u);
+                std::mt19937 random(8);
+                everyPixel(layout, [&](int x, int y) {
+                    objectId.at(x, y) = random() % 6 == 0 ? 0 : 1 + static_cast<std::uint32_t>(x / 9 + y / 7) % 2;
+                    beta.at(x, y) = objectId.at(x, y) == 0 || random() % 8 == 0 ? -1.0f
+                        : random() % 4 == 0                                     ? 0.0f
+                                                                                : 0.3f;
+                    variance.at(x, y) = uniform(random) < dark
+                        ? (random() % 2 == 0 ? 0.0f : 1e-31f)
+                        : static_cast<float>(std::pow(10.0, uniform(random, -25, 3)));
+                    effective.at(x, y) = static_cast<float>(uniform(random, 0, 200));
+                });
+                shared::ReflectorParams p = paramsFor(layout);
+                p.y1 = p.height = static_cast<std::uint32_t>(height);
+                const auto out = bench.filled(layout.size, -7.0f);
+                launchRows(bench, "pathDemand", p, block, bench.buffer(variance.values),
+                    bench.buffer(effective.values), bench.buffer(beta.values), bench.buffer(objectId.values), out);
+                const Planes<float> found = planesOf(layout, bench.read(out));
+                everyPixel(layout, [&](int x, int y) {
+                    if (y >= height)
+                        return;
+                    double largest = 0;
+                    for (int qy = std::max(0, y - 2); qy <= std::min(height - 1, y + 2); ++qy)
+                        for (int qx = std::max(0, x - 2); qx <= std::min(width - 1, x + 2); ++qx)
+                            if (objectId.at(qx, qy) == objectId.at(x, y) && beta.at(qx, qy) >= 0)
+                                largest = std::max<double>(largest, variance.at(qx, qy));
+                    const double v = std::max<double>(variance.at(x, y), 0.25 * largest);
+                    const bool wants = beta.at(x, y) >= 0 && v > 1e-30;
+                    const double expected = wants ? std::pow(v / std::max<double>(effective.at(x, y), 1), 0.4) : 0.0;
+                    REQUIRE(close(found.at(x, y), expected, 1e-3));
+                });
+            }
+    });
+}

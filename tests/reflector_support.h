@@ -1,0 +1,48 @@
+// What the tests of reflectors.cl share.
+#pragma once
+
+#include "kernels/shared/path.h"
+#include "tests/render_support.h"
+
+#include <cmath>
+
+namespace wedge::test {
+
+/// Parameters over a whole image.
+inline shared::ReflectorParams paramsFor(const render::PlaneLayout& layout)
+{
+    shared::ReflectorParams p {};
+    p.x1 = p.width = layout.width;
+    p.y1 = p.height = layout.height;
+    p.stride = layout.stride;
+    p.planeSize = static_cast<std::uint32_t>(layout.size);
+    p.mu = 0.9f;
+    p.alpha = 0.3f;
+    p.widthScale = 0.5f;
+    p.leastReflector = 0.005f;
+    p.countCap = 256;
+    p.countExponent = 0.4f;
+    p.varianceSpread = 0.25f;
+    return p;
+}
+
+template <class Visit>
+void everyPixel(const render::PlaneLayout& layout, const Visit& visit)
+{
+    for (int y = 0; y < static_cast<int>(layout.height); ++y)
+        for (int x = 0; x < static_cast<int>(layout.width); ++x)
+            visit(x, y);
+}
+
+/// Launches a kernel of reflectors.cl; across as for Passes::rows().
+template <class... Args>
+void launchRows(KernelBench& bench, const std::string& kernel, const shared::ReflectorParams& p, std::uint32_t across,
+    const Args&... args)
+{
+    bench.passes.rows("widths", device::PassKind::Analysis, "reflectors.cl", kernel, p, across, args...);
+}
+
+/// Within a fraction of b, however small that is.
+inline bool close(double a, double b, double relative) { return std::fabs(a - b) <= relative * std::fabs(b); }
+
+} // namespace wedge::test
