@@ -21,7 +21,8 @@ struct Named {
 std::vector<Named> methods(int bounces)
 {
     std::vector<Named> out = { { "mc", render::monteCarlo(8) }, { "aaf", render::axisAligned(20) },
-        { "published", render::asPublished() } };
+        { "published", render::asPublished() }, { "mc of strata", render::monteCarlo(8) } };
+    out.back().settings.sampler = render::Sampler::Stratified;
     for (Named& m : out) {
         m.settings = sized(m.settings, width, height);
         m.settings.bounces = bounces;
@@ -214,6 +215,7 @@ TEST_CASE("ambient occlusion shows how open surfaces are, on white, whatever the
                                      open = pixels(renderer, f.indirect, all(settings));
             const std::vector<std::uint32_t> id = f.objectId.downloadAll(renderer.queue());
             unsigned surfaces = 0, holes = 0, shaded = 0;
+            double sum = 0;
             for (int y = 0; y < height; ++y)
                 for (int x = 0; x < width; ++x) {
                     const std::size_t i = static_cast<std::size_t>(3 * (y * width + x));
@@ -221,6 +223,7 @@ TEST_CASE("ambient occlusion shows how open surfaces are, on white, whatever the
                                              static_cast<std::uint32_t>(y), f.layout.stride)] != 0;
                     (surface ? surfaces : holes) += 1;
                     shaded += surface && beauty[i] < 0.9f ? 1 : 0;
+                    sum += beauty[i];
                     for (std::size_t c = 0; c < 3; ++c) {
                         REQUIRE(beauty[i + c] == (surface ? open[i] : 0.0f));
                         REQUIRE(beauty[i + c] >= 0.0f);
@@ -231,6 +234,7 @@ TEST_CASE("ambient occlusion shows how open surfaces are, on white, whatever the
             CHECK(surfaces > 500);
             CHECK(holes > 50);
             CHECK(shaded > 100);
+            CHECK(sum / surfaces > 0.6);
         }
     });
 }
