@@ -111,6 +111,31 @@ TEST_CASE("tiled launches run each group exactly once, whatever the batches")
     }
 }
 
+TEST_CASE("a pass that was seen goes in larger batches, until its cost is forgotten")
+{
+    for (const Device& device : usableDevices()) {
+        CAPTURE(device.info().name);
+        ProgramLibrary library = testLibrary(device);
+        Kernel kernel = library.kernel("device_basic.cl", "visit");
+        constexpr std::size_t groups = 4096;
+        TimedQueue queue(device);
+        queue.setTargetMilliseconds(1e6);
+        Buffer<unsigned> visits(device, groups, "visits");
+        visits.fill(queue, 0u);
+        kernel.setArgs(visits, 1u);
+        const auto launches = [&] {
+            queue.takeRecords();
+            queue.launchTiled("visit", PassKind::Trace, kernel, groups, 1, 1);
+            return queue.takeRecords().front().launches;
+        };
+        const auto unknown = launches();
+        CHECK(unknown > 1);
+        CHECK(launches() < unknown);
+        queue.forgetCosts();
+        CHECK(launches() == unknown);
+    }
+}
+
 TEST_CASE("results do not depend on the batches to the last bit")
 {
     for (const Device& device : usableDevices()) {

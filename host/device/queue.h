@@ -84,6 +84,9 @@ public:
     void finish();
     /// Finishes, and hands over one record a pass name, in order of first appearance; the queue starts anew.
     std::vector<PassRecord> takeRecords();
+
+    /// Forgets what tiled passes cost: the next ones begin with small batches again. For after launches over nothing.
+    void forgetCosts() { millisecondsPerGroup_.clear(); }
     /// Finishes; the device time of all records since they were last taken.
     double deviceMilliseconds();
 

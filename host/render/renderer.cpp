@@ -123,6 +123,7 @@ void Renderer::rehearse(const Settings& settings)
     queue_.finish();
     passes_->setRehearsal(false);
     queue_.takeRecords();
+    queue_.forgetCosts(); // of nothing
     setupSeconds_ = secondsSince(start);
 }
 

@@ -13,8 +13,8 @@ using device::PassKind;
 
 namespace {
 
-// Samples of a pixel between two looks at the cancel flag; also what one launch over one tile may cost.
-constexpr std::uint32_t slice = 32;
+// Vertices of a pixel's paths between two looks at the cancel flag; also what one launch over one tile may cost.
+constexpr int sliceVertices = 96;
 
 } // namespace
 
@@ -105,6 +105,7 @@ bool Indirect::samplePaths(
     const DeviceScene& s = scene_;
     Frame& f = frame_;
     const double units = std::max(1.0, mean - from) * std::max(1, settings_.bounces);
+    const auto slice = static_cast<std::uint32_t>(std::max(1, sliceVertices / std::max(1, settings_.bounces)));
     try {
         for (std::uint32_t last = from; last < most;) {
             // Most pixels are done at twice the mean; the slices up to the cap count for what little is left.
