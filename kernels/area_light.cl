@@ -1,5 +1,6 @@
 // Shadow rays to one area light: the first pass finds the nearest occluder along each ray and measures slopes, the
-// second only asks whether there is one.
+// second only asks whether there is one. Plain Monte Carlo, which has the second alone, also follows reflected directions
+// that meet the light (met_light.h).
 //
 // in      frame, BVH, the light, G-buffer (position, normal, origin, objectId, gloss)
 // in out  sums (planes: diffuse weights, diffuse weights of visible samples, and the same for specular),

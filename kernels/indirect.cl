@@ -33,7 +33,7 @@ WEDGE_FN void loadSums(uint size, const ReceiverPacket* receivers, __global cons
 }
 
 /// First rays of one sample a lane, and in weight what their radiance counts. Directions below the horizon of either
-/// normal count 0 and are not traced.
+/// normal are not traced.
 WEDGE_FN void firstRays(FrameParams frame, PathParams params, SampleParams sampling, const ReceiverPacket* r,
                         const Vec3* geometric, const PathPacket* paths, const uint* last, RayPacket* rays, float* weight)
 {
@@ -64,7 +64,8 @@ WEDGE_FN void traceAmbient(__global const TraversalNode* restrict nodes, __globa
     closestHits(nodes, blocks, rays, &hits);
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const bool hit = hits.triangle[lane] != WEDGE_NO_TRIANGLE;
-        const float occluded = hit ? 1.0f : 0.0f;
+        // Directions below a horizon, which are not traced, lie in the surface itself.
+        const float occluded = hit || !(rays->tMax[lane] > 0.0f) ? 1.0f : 0.0f;
         paths->radiance[lane] = vec3(occluded, occluded, occluded);
         paths->distance[lane] = hit ? hits.t[lane] : INFINITY;
         paths->rays[lane] = rays->tMax[lane] > 0.0f ? 1u : 0u;
@@ -78,7 +79,7 @@ WEDGE_FN void addPaths(const PathPacket* paths, const float* weight, const uint*
         if (paths->index[lane] >= last[lane]) {
             continue;
         }
-        const Vec3 radiance = vecScale(paths->radiance[lane], paths->rays[lane] > 0u ? weight[lane] : 0.0f);
+        const Vec3 radiance = vecScale(paths->radiance[lane], weight[lane]);
         const float l = luminance(radiance);
         sums->radiance[lane] = vecAdd(sums->radiance[lane], radiance);
         sums->squared[lane] += l * l;
@@ -113,6 +114,52 @@ WEDGE_FN void storeSums(uint size, const ReceiverPacket* receivers, const PathSu
     }
 }
 
+WEDGE_FN LightData lightData(PathParams params, __global const AreaLight* area, __global const DeltaLight* delta)
+{
+    LightData lights;
+    lights.area = area;
+    lights.delta = delta;
+    lights.areaCount = params.areaLights;
+    lights.deltaCount = params.deltaLights;
+    lights.sceneDiameter = params.sceneDiameter;
+    lights.sampling = params.lightSampling;
+    return lights;
+}
+
+WEDGE_FN SampleParams samplingOf(PathParams params)
+{
+    SampleParams sampling;
+    sampling.shading = WEDGE_SHADING_INSIDE;
+    sampling.sampler = params.sampler;
+    sampling.light = WEDGE_PATH_SEED + params.component;
+    sampling.firstPass = params.firstPass;
+    sampling.lightSampling = params.lightSampling;
+    return sampling;
+}
+
+/// Sets each lane's geometric normal, samples taken and wanted, and the last one for now; takes lanes out of `receivers`
+/// that do not have the component. Returns the most samples that a lane takes now.
+WEDGE_FN uint preparePaths(uint size, uint component, uint lastSample, __global const float* specular,
+                           __global const uint* geometric, __global const uint* taken, __global const uint* wanted,
+                           ReceiverPacket* receivers, Vec3* facing, PathPacket* paths, uint* last)
+{
+    uint steps = 0u;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const uint at = receivers->pixel[lane];
+        const bool reflects = at != WEDGE_NO_PIXEL
+            && (component != WEDGE_COMPONENT_GLOSSY || luminance(loadVec(specular, size, at)) > 0.0f);
+        receivers->pixel[lane] = reflects ? at : WEDGE_NO_PIXEL;
+        const uint i = reflects ? at : 0u;
+        facing[lane] = reflects ? unpackDirection(geometric[i]) : vec3(0.0f, 0.0f, 1.0f);
+        paths->seed[lane] = receivers->seed[lane];
+        paths->index[lane] = reflects ? taken[i] : 0u;
+        paths->count[lane] = reflects ? wanted[i] : 0u;
+        last[lane] = min(paths->count[lane], lastSample);
+        steps = max(steps, last[lane] > paths->index[lane] ? last[lane] - paths->index[lane] : 0u);
+    }
+    return steps;
+}
+
 __kernel void samplePaths(FrameParams frame, PathParams params, __global const TraversalNode* restrict nodes,
                           __global const TriangleBlock* restrict blocks, WEDGE_SURFACE_PARAMETERS,
                           __global const AreaLight* restrict areaLights, __global const DeltaLight* restrict deltaLights,
@@ -125,38 +172,15 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
                           __global uint* restrict pathRays, uint firstGroup)
 {
     const uint size = frame.planeSize;
-    LightData lights;
-    lights.area = areaLights;
-    lights.delta = deltaLights;
-    lights.areaCount = params.areaLights;
-    lights.deltaCount = params.deltaLights;
-    lights.sceneDiameter = params.sceneDiameter;
-    lights.sampling = params.lightSampling;
-    SampleParams sampling;
-    sampling.shading = WEDGE_SHADING_INSIDE;
-    sampling.sampler = params.sampler;
-    sampling.light = WEDGE_PATH_SEED + params.component;
-    sampling.firstPass = params.firstPass;
-    sampling.lightSampling = params.lightSampling;
+    const LightData lights = lightData(params, areaLights, deltaLights);
+    const SampleParams sampling = samplingOf(params);
     ReceiverPacket receivers;
     loadReceivers(frame, sampling.light, firstGroup, position, normal, origin, objectId, gloss, &receivers);
     Vec3 facing[WEDGE_PACKET_SIZE];
     PathPacket paths;
     uint last[WEDGE_PACKET_SIZE];
-    uint steps = 0u;
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const uint at = receivers.pixel[lane];
-        const bool reflects = at != WEDGE_NO_PIXEL
-            && (params.component != WEDGE_COMPONENT_GLOSSY || luminance(loadVec(specular, size, at)) > 0.0f);
-        receivers.pixel[lane] = reflects ? at : WEDGE_NO_PIXEL;
-        const uint i = reflects ? at : 0u;
-        facing[lane] = reflects ? unpackDirection(geometric[i]) : vec3(0.0f, 0.0f, 1.0f);
-        paths.seed[lane] = receivers.seed[lane];
-        paths.index[lane] = reflects ? taken[i] : 0u;
-        paths.count[lane] = reflects ? wanted[i] : 0u;
-        last[lane] = min(paths.count[lane], lastSample);
-        steps = max(steps, last[lane] > paths.index[lane] ? last[lane] - paths.index[lane] : 0u);
-    }
+    const uint steps = preparePaths(size, params.component, lastSample, specular, geometric, taken, wanted, &receivers,
+                                    facing, &paths, last);
     PathSums sum;
     loadSums(size, &receivers, sums, reflectors, &sum);
     const SurfaceData surfaces = WEDGE_SURFACE_ARGUMENTS;

@@ -82,8 +82,9 @@ __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict 
     const bool has = reflectors[i] > 0.0f;
     const float mean = (float)taken[i] / fmax(reflectors[2u * p.planeSize + i], 1e-20f);
     const float near = p.meanFraction > 0.0f ? p.meanFraction * mean : reflectors[i];
-    // Where no ray hit anything, nothing is nearer than what the camera sees is large.
-    const float zMin = fmax(has ? near : extent[0], leastDistance(p, extent));
+    // Where no ray hit anything, nothing is nearer than what there is is large.
+    const float far = p.extent > 0.0f ? p.extent : extent[0];
+    const float zMin = fmax(has ? near : far, leastDistance(p, extent));
     const float zMax = fmax(reflectors[p.planeSize + i], zMin);
     const float bandlimit = bandlimitOf(p.component, gloss[i]);
     const float gamma = p.component == WEDGE_COMPONENT_GLOSSY ? glossyGamma(fabs(gloss[i])) : WEDGE_DIFFUSE_GAMMA;

@@ -38,11 +38,12 @@ WEDGE_INLINE LightChoice sampleAreaLight(AreaLight light, Vec3 position, Vec3 or
     const Vec3 point = lightPoint(light.centre, light.halfU, light.halfV, a, b);
     const Vec3 d = vecSub(point, position);
     const float geometry = geometryTerm(normal, d, light.normal, light.twoSided);
-    const float distance = vecLength(d);
     choice.ray = vecSub(point, origin);
     choice.direction = vecNormalize(d);
     choice.irradiance = vecScale(light.power, geometry / light.pick);
-    choice.pdf = geometry > 0.0f ? lightPdf(light, a, b, distance, vecDot(choice.direction, light.normal)) : 0.0f;
+    // From where rays start, as the density of a ray that meets the light is.
+    const float facing = vecDot(vecNormalize(choice.ray), light.normal);
+    choice.pdf = geometry > 0.0f ? lightPdf(light, a, b, vecLength(choice.ray), facing) : 0.0f;
     return choice;
 }
 

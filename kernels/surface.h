@@ -86,6 +86,10 @@ WEDGE_FN Vec3 rayOrigin(Vec3 p, Vec3 geometric, Vec3 a, Vec3 b, Vec3 c, Vec3 na,
     const float z = fmax(fmax(fabs(a.z), fabs(b.z)), fabs(c.z));
     const float error = WEDGE_ORIGIN_ULPS * WEDGE_ULP
         * (fabs(geometric.x) * x + fabs(geometric.y) * y + fabs(geometric.z) * z + 0.125f * fmax(fmax(x, y), z));
+    // And by as much towards the middle of the triangle: a point on its edge lies in the neighbour's plane, too, and a ray
+    // from there would pass the neighbour by.
+    const Vec3 inwards = vecSub(vecScale(vecAdd(vecAdd(a, b), c), 1.0f / 3.0f), p);
+    lifted = vecMad(lifted, inwards, fmin(error / fmax(vecLength(inwards), 1e-30f), 1.0f));
     return vecMad(lifted, geometric, error);
 }
 

@@ -266,3 +266,26 @@ TEST_CASE("lights found by points on them, by directions and by both give one im
         }
     });
 }
+
+TEST_CASE("points exactly on the edge of two walls do not see past either")
+{
+    onEveryDevice([](const device::Device& device) {
+        const scene::Scene scene = cornell(false);
+        render::Renderer renderer(scene, device, renderOptions());
+        render::Settings settings = sized(render::monteCarlo(64), 512, 512);
+        settings.crop = { 0, 0, 64, 64 };
+        settings.integrator = render::Integrator::AmbientOcclusion;
+        settings.indirect.ambientDistance = 0.5f;
+        renderer.render(settings);
+        const auto open = planesOf(renderer.frame().layout, renderer.frame().beauty.downloadAll(renderer.queue()));
+        const auto object = planesOf(renderer.frame().layout, renderer.frame().objectId.downloadAll(renderer.queue()));
+        // The edge of ceiling and wall runs along the image's diagonal, through the pixels' very centres.
+        int onEdge = 0;
+        for (int i = 0; i < 64; ++i) {
+            CAPTURE(i);
+            onEdge += object.at(i, i) != 0 ? 1 : 0;
+            CHECK(open.at(i, i) < 0.8f);
+        }
+        CHECK(onEdge > 40);
+    });
+}

@@ -179,7 +179,9 @@ void applyCounts(const RenderOptions& o, const scene::Scene& scene, render::Sett
         requireFirstPass("spp", file.spp, scene, s);
     }
     const std::optional<int> mean = o.spp ? o.spp : file.spp;
-    s.spp = mean.value_or(s.spp);
+    // mu alone may ask for fewer samples than the first paths take.
+    const int least = render::tracesPaths(s) ? static_cast<int>(WEDGE_INDIRECT_FIRST_RAYS) : 1;
+    s.spp = mean.value_or(std::max(s.spp, least));
     if (mean && most && *most < *mean) {
         throw UsageError("most samples of a pixel are below their mean",
             fmt::format("{} {} and {} {}", o.maxSpp ? "--max-spp" : "the scene file's max_spp", *most,

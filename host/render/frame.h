@@ -77,7 +77,7 @@ public:
     device::Buffer<float> beta; ///< metres
     device::Buffer<float> rowsFiltered, filtered; ///< like value
     device::Buffer<float> rowsEffective, effective; ///< equal samples that the gather amounts to
-    device::Buffer<float> logs; ///< 4 planes: logarithms of slopes or distances and weights, see analysis.cl, reflectors.cl
+    device::Buffer<float> logs; ///< 4 planes: logarithms of slopes and weights, see analysis.cl; of indirect light variances
     device::Buffer<float> rowsSpread, spread; ///< 4 planes: the same, summed over a neighbourhood
     device::Buffer<float> demand; ///< and before that, eroded slopes
     device::Buffer<float> bounds, extent; ///< of what the camera sees, see reflectors.cl

@@ -199,7 +199,7 @@ const device::Buffer<float>& Indirect::reflectance() const
 void Indirect::countsFromVariance()
 {
     const shared::ReflectorParams p = reflectorParams(full_);
-    // The planes of logarithms are free once there are widths.
+    // Lights have no use for these planes any more.
     device::Buffer<float>& variance = term_.logs;
     device::Buffer<float>& gathered = term_.spread;
     passes_.rows("counts", PassKind::Analysis, "reflectors.cl", "sampleVariance", p, WEDGE_BLOCK_PIXELS, term_.sums,
