@@ -105,6 +105,7 @@ scene::Scene plateOverFloor()
 /// What the ambient component adds up for one pixel, by the host's traversal over the same directions.
 struct HostAmbient {
     double hits = 0, inverse = 0;
+    double below = 0; ///< directions below a horizon, which the surface itself occludes
     float nearest = 0, farthest = 0;
     std::uint32_t rays = 0;
 };
@@ -119,8 +120,10 @@ HostAmbient hostAmbient(
     HostAmbient out;
     for (std::uint32_t i = 0; i < count; ++i) {
         const shared::Vec3 l = shared::cosineDirection(n, shared::sobolOwen(i, seed));
-        if (!(shared::vecDot(geometric, l) > 0) || !(shared::vecDot(n, l) > 0))
+        if (!(shared::vecDot(geometric, l) > 0) || !(shared::vecDot(n, l) > 0)) {
+            out.below += 1;
             continue;
+        }
         ++out.rays;
         const shared::Hit hit =
             bvh::closestHit(run.traced.hierarchy, { origin, 0.0f, l, run.params.ambientDistance });
@@ -155,7 +158,7 @@ TEST_CASE("ambient: hits and their distances are those of the host's traversal a
             const auto id = run.traced.read(run.traced.frame.objectId);
             const auto origin = run.traced.read(run.traced.frame.origin), normal = run.traced.read(run.traced.frame.normal);
             const auto geometric = run.traced.read(run.traced.frame.geometric);
-            unsigned differ = 0, surfaces = 0, partly = 0, none = 0;
+            unsigned differ = 0, surfaces = 0, partly = 0, none = 0, below = 0;
             run.traced.everyPixel([&](int x, int y) {
                 if (id.at(x, y) == 0) {
                     REQUIRE(found.taken.at(x, y) == 0);
@@ -166,17 +169,19 @@ TEST_CASE("ambient: hits and their distances are those of the host's traversal a
                 ++surfaces;
                 const HostAmbient host = hostAmbient(run, x, y, vectorOf(origin, x, y), vectorOf(normal, x, y),
                     shared::unpackDirection(geometric.at(x, y)), count);
+                const double occluded = host.hits + host.below;
+                below += host.below > 0 ? 1 : 0;
                 partly += host.hits > 0 && host.hits < count ? 1 : 0;
                 none += host.hits > 0 ? 0 : 1;
                 REQUIRE(found.taken.at(x, y) == count);
                 // Rays through an edge may go either way.
-                if (found.sums.at(x, y) != static_cast<float>(host.hits) || found.rays.at(x, y) != host.rays) {
+                if (found.sums.at(x, y) != static_cast<float>(occluded) || found.rays.at(x, y) != host.rays) {
                     ++differ;
                     return;
                 }
                 for (std::size_t plane = 1; plane < 4; ++plane)
-                    REQUIRE(found.sums.at(x, y, plane) == doctest::Approx(host.hits).epsilon(1e-5));
-                REQUIRE(found.value.at(x, y) == doctest::Approx(host.hits / count).epsilon(1e-6));
+                    REQUIRE(found.sums.at(x, y, plane) == doctest::Approx(occluded).epsilon(1e-5));
+                REQUIRE(found.value.at(x, y) == doctest::Approx(occluded / count).epsilon(1e-6));
                 REQUIRE(found.pathRays.at(x, y) == host.rays);
                 REQUIRE(found.reflectors.at(x, y) == doctest::Approx(host.nearest).epsilon(1e-5));
                 REQUIRE(found.reflectors.at(x, y, 1) == doctest::Approx(host.farthest).epsilon(1e-5));
@@ -186,6 +191,7 @@ TEST_CASE("ambient: hits and their distances are those of the host's traversal a
             CHECK(surfaces > 800);
             CHECK(partly > 100);
             CHECK(none > 50);
+            CHECK(below > 3);
         }
     });
 }
