@@ -1,6 +1,6 @@
 // Rays over the hemispheres of what the camera sees: indirect light by paths, and ambient occlusion.
 //
-// in      frame, BVH, surfaces, lights, G-buffer; wanted: samples a pixel; lastSample: no more than so many for now
+// in      frame, BVH, surfaces, lights, G-buffer; wanted: samples a pixel; lastSample: where this launch ends
 // in out  sums (planes: R, G, B, squared luminance), taken (samples so far), reflectors (planes: least and largest
 //         distance in metres of a surface that a ray hit, 0 where none did; sum of inverse distances), rays (all),
 //         pathRays (those that look for the nearest surface)
@@ -137,7 +137,7 @@ WEDGE_FN SampleParams samplingOf(PathParams params)
     return sampling;
 }
 
-/// Sets each lane's geometric normal, samples taken and wanted, and the last one for now; takes lanes out of `receivers`
+/// Sets each lane's geometric normal, samples taken and wanted, and where this launch ends; takes lanes out of `receivers`
 /// that do not have the component. Returns the most samples that a lane takes now.
 WEDGE_FN uint preparePaths(uint size, uint component, uint lastSample, __global const float* specular,
                            __global const uint* geometric, __global const uint* taken, __global const uint* wanted,

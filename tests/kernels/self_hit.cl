@@ -5,11 +5,7 @@
 /// rays: 8 floats each, as in trace_test.cl; directions: 3 floats each, unit.
 /// out: triangle hit first and how many of the rays from there hit it again; points: position and origin (6 floats).
 __kernel void selfHit(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
-                      __global const float* restrict positions, __global const float* restrict normals,
-                      __global const float* restrict texcoords, __global const uint* restrict indices,
-                      __global const uint* restrict materialIds, __global const MaterialData* restrict materials,
-                      __global const TextureData* restrict textures, __global const uint* restrict texels,
-                      __global const float* restrict srgbToLinear, __global const float* restrict rays, uint count,
+                      WEDGE_SURFACE_PARAMETERS, __global const float* restrict rays, uint count,
                       __global const float* restrict directions, uint directionCount, float length,
                       __global uint* restrict triangle, __global uint* restrict returns, __global float* restrict points)
 {
@@ -25,17 +21,7 @@ __kernel void selfHit(__global const TraversalNode* restrict nodes, __global con
     if (hit.triangle == WEDGE_NO_TRIANGLE) {
         return;
     }
-    SurfaceData data;
-    data.positions = positions;
-    data.normals = normals;
-    data.texcoords = texcoords;
-    data.indices = indices;
-    data.materialIds = materialIds;
-    data.materials = materials;
-    data.textures = textures;
-    data.texels = texels;
-    data.srgbToLinear = srgbToLinear;
-    const Surface s = surfaceAt(data, hit, toward);
+    const Surface s = surfaceAt(WEDGE_SURFACE_ARGUMENTS, hit, toward);
     points[6u * i] = s.position.x;
     points[6u * i + 1u] = s.position.y;
     points[6u * i + 2u] = s.position.z;
