@@ -224,7 +224,7 @@ public:
 
     void camera(glm::vec3 eye, glm::vec3 lookAt, glm::vec3 up = { 0, 1, 0 }, float fov = 45)
     {
-        scene.camera = { eye, lookAt, up, fov };
+        scene.camera = { .eye = eye, .lookAt = lookAt, .up = up, .verticalFov = fov };
     }
 
     scene::Scene scene;

@@ -50,9 +50,25 @@ struct DirectionalLight {
     glm::vec3 irradiance { 1.0f }; ///< W/m^2 on a surface that faces the light
 };
 
+/// How a lens transmits over its aperture.
+enum class ApertureProfile {
+    Uniform,
+    Gaussian, ///< the aperture's radius is two standard deviations, and it ends there
+};
+
+/// How a shutter transmits over the time that it is open.
+enum class ShutterProfile {
+    Box,
+    Gaussian, ///< half of the time is two standard deviations, and it ends there
+};
+
+/// A thin lens, or with apertureRadius 0 a pinhole.
 struct Camera {
     glm::vec3 eye { 0.0f, 0.0f, 5.0f }, lookAt { 0.0f }, up { 0.0f, 1.0f, 0.0f };
     float verticalFov = 45.0f; ///< degrees
+    float apertureRadius = 0.0f; ///< metres
+    float focusDistance = 0.0f; ///< metres along the view axis to the plane in focus; 0: as far as lookAt
+    ApertureProfile apertureProfile = ApertureProfile::Uniform;
 };
 
 /// All triangles of all instances. Counter-clockwise seen from the side the geometric normal points to.
@@ -63,6 +79,9 @@ struct Geometry {
     std::vector<std::uint32_t> indices; ///< 3 a triangle
     std::vector<std::uint32_t> materialIds, objectIds; ///< 1 a triangle; an object id is at least 1, 0 = background
     std::vector<std::string> objectNames; ///< of object id i at [i - 1]
+    /// Positions and normals when the shutter closes, of as many vertices: between, they move in straight lines. Both are
+    /// empty where nothing moves.
+    std::vector<float> positionsAtClose, normalsAtClose;
 };
 
 /// What a scene file may set and the command line may override.
@@ -87,7 +106,9 @@ struct Scene {
     std::vector<PointLight> pointLights;
     std::vector<DirectionalLight> directionalLights;
     glm::vec3 background { 0.0f }; ///< radiance where a camera ray hits nothing; it lights nothing
-    Camera camera;
+    Camera camera; ///< when the shutter opens
+    std::optional<Camera> cameraAtClose; ///< when it closes, if it moves; lens and field of view are those of camera
+    ShutterProfile shutterProfile = ShutterProfile::Box;
     Settings settings;
     std::vector<std::string> warnings; ///< one line each, for the user
 };
@@ -117,6 +138,11 @@ constexpr double leastAmbientDistance = 1e-12, mostAmbientDistance = 1e12;
 /// Reads a scene file (.toml, docs/scene-format.md) or a bare mesh (.obj), which gets a camera that frames it, an
 /// area light above and a floor. Throws Error naming file, line and value for anything that cannot be rendered.
 Scene loadScene(const std::string& path);
+
+/// Whether anything that can be hit moves while the shutter is open.
+inline bool geometryMoves(const Scene& scene) { return !scene.geometry.positionsAtClose.empty(); }
+
+inline bool cameraMoves(const Scene& scene) { return scene.cameraAtClose.has_value(); }
 
 /// The box around all triangles; lights do not count.
 Bounds sceneBounds(const Scene& scene);
