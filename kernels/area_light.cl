@@ -2,7 +2,7 @@
 // second only asks whether there is one. Plain Monte Carlo, which has the second alone, also follows reflected directions
 // that meet the light (met_light.h).
 //
-// in      frame, BVH, the light, G-buffer (position, normal, origin, objectId, gloss)
+// in      frame, BVH, the light, receivers; wanted: samples of each when the pass ends
 // in out  sums (planes: diffuse weights, diffuse weights of visible samples, and the same for specular),
 //         taken (samples so far), rays (rays traced for the pixel, all lights)
 // out     value (planes: diffuse, specular): what is filtered; slopes (planes: s_min, s_max; 0 where no ray was
@@ -17,6 +17,19 @@ typedef struct {
     float specular[WEDGE_PACKET_SIZE], specularVisible[WEDGE_PACKET_SIZE];
     uint rays[WEDGE_PACKET_SIZE];
 } TermSums;
+
+/// Samples that a receiver's strata are made for, which is to have `wanted`.
+WEDGE_FN uint strataCount(SampleParams params, uint wanted) { return params.strata > 0u ? params.strata : wanted; }
+
+/// Counts a sample of each lane; receivers that have all theirs wait for the others, and theirs are void.
+WEDGE_FN void takeSamples(const uint* last, uint* index, LightSamples* s)
+{
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        s->diffuse[lane] = index[lane] < last[lane] ? s->diffuse[lane] : 0.0f;
+        s->specular[lane] = index[lane] < last[lane] ? s->specular[lane] : 0.0f;
+        index[lane] += index[lane] < last[lane] ? 1u : 0u;
+    }
+}
 
 /// Adds one sample a lane; visible: 1 or 0.
 WEDGE_FN void addSamples(const LightSamples* s, const uint* occluded, TermSums* sums)
@@ -75,30 +88,33 @@ WEDGE_FN void storeTerm(SampleParams params, uint size, uint i, const TermSums* 
 }
 
 __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light, __global const TraversalNode* restrict nodes,
-                        __global const TriangleBlock* restrict blocks, __global const float* restrict position,
-                        __global const float* restrict normal, __global const float* restrict origin,
-                        __global const uint* restrict objectId, __global const float* restrict gloss,
-                        __global float* restrict sums, __global uint* restrict taken, __global float* restrict value,
+                        __global const TriangleBlock* restrict blocks, WEDGE_RECEIVER_PARAMETERS,
+                        __global const uint* restrict wanted, __global float* restrict sums, __global uint* restrict taken, __global float* restrict value,
                         __global float* restrict slopes, __global uint* restrict rays, uint firstGroup)
 {
+    const uint size = frame.planeSize;
     ReceiverPacket receivers;
-    loadReceivers(frame, params.light, firstGroup, position, normal, origin, objectId, gloss, &receivers);
+    loadReceivers(frame, params.light, firstGroup, WEDGE_RECEIVER_ARGUMENTS, &receivers);
     TermSums sum;
     float sMin[WEDGE_PACKET_SIZE], sMax[WEDGE_PACKET_SIZE];
-    uint index[WEDGE_PACKET_SIZE], count[WEDGE_PACKET_SIZE], occluded[WEDGE_PACKET_SIZE];
+    uint index[WEDGE_PACKET_SIZE], count[WEDGE_PACKET_SIZE], last[WEDGE_PACKET_SIZE], occluded[WEDGE_PACKET_SIZE];
+    uint steps = 0u;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const bool shaded = receivers.pixel[lane] != WEDGE_NO_PIXEL;
+        const uint i = shaded ? receivers.pixel[lane] : 0u;
         sum.diffuse[lane] = sum.diffuseVisible[lane] = sum.specular[lane] = sum.specularVisible[lane] = 0.0f;
         sum.rays[lane] = 0u;
         sMin[lane] = WEDGE_SLOPE_MAX * 2.0f;
         sMax[lane] = 0.0f;
-        count[lane] = WEDGE_FIRST_PASS_RAYS;
+        index[lane] = shaded ? taken[i] : 0u;
+        last[lane] = shaded ? wanted[i] : 0u;
+        count[lane] = strataCount(params, last[lane]);
+        steps = max(steps, last[lane] - min(index[lane], last[lane]));
     }
-    for (uint k = 0u; k < WEDGE_FIRST_PASS_RAYS; ++k) {
-        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-            index[lane] = k;
-        }
+    for (uint step = 0u; step < steps; ++step) {
         LightSamples s;
         sampleLights(frame, params, light, &receivers, index, count, &s);
+        takeSamples(last, index, &s);
         RayPacket packet;
         shadowRays(&receivers, &s, &packet);
         PacketHits hits;
@@ -112,30 +128,26 @@ __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light,
         addSamples(&s, occluded, &sum);
     }
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        uint x, y;
-        if (!tilePixel(frame, firstGroup, lane, &x, &y)) {
+        const uint i = receivers.pixel[lane];
+        if (i == WEDGE_NO_PIXEL) {
             continue;
         }
-        const uint i = pixelIndex(x, y, frame.stride);
-        const uint shaded = receivers.pixel[lane] != WEDGE_NO_PIXEL ? WEDGE_FIRST_PASS_RAYS : 0u;
-        storeTerm(params, frame.planeSize, i, &sum, lane, shaded, sums, taken, value);
+        storeTerm(params, size, i, &sum, lane, index[lane], sums, taken, value);
         slopes[i] = sMax[lane] > 0.0f ? sMin[lane] : 0.0f;
-        slopes[frame.planeSize + i] = sMax[lane];
+        slopes[size + i] = sMax[lane];
         rays[i] += sum.rays[lane];
     }
 }
 
 __kernel void secondPass(FrameParams frame, SampleParams params, AreaLight light, __global const TraversalNode* restrict nodes,
-                         __global const TriangleBlock* restrict blocks, __global const float* restrict position,
-                         __global const float* restrict normal, __global const float* restrict origin,
-                         __global const uint* restrict objectId, __global const float* restrict gloss,
+                         __global const TriangleBlock* restrict blocks, WEDGE_RECEIVER_PARAMETERS,
                          __global const uint* restrict wanted, uint lastSample, __global float* restrict sums,
                          __global uint* restrict taken, __global float* restrict value, __global uint* restrict rays,
                          uint firstGroup)
 {
     const uint size = frame.planeSize;
     ReceiverPacket receivers;
-    loadReceivers(frame, params.light, firstGroup, position, normal, origin, objectId, gloss, &receivers);
+    loadReceivers(frame, params.light, firstGroup, WEDGE_RECEIVER_ARGUMENTS, &receivers);
     TermSums sum;
     uint index[WEDGE_PACKET_SIZE], count[WEDGE_PACKET_SIZE], last[WEDGE_PACKET_SIZE], occluded[WEDGE_PACKET_SIZE];
     const bool directions = params.lightSampling != WEDGE_LIGHTS_SAMPLED && params.shading == WEDGE_SHADING_INSIDE;
@@ -144,8 +156,8 @@ __kernel void secondPass(FrameParams frame, SampleParams params, AreaLight light
         const bool shaded = receivers.pixel[lane] != WEDGE_NO_PIXEL;
         const uint i = shaded ? receivers.pixel[lane] : 0u;
         index[lane] = shaded ? taken[i] : 0u;
-        count[lane] = shaded ? wanted[i] : 0u;
-        last[lane] = min(count[lane], lastSample);
+        count[lane] = strataCount(params, shaded ? wanted[i] : 0u);
+        last[lane] = shaded ? min(wanted[i], lastSample) : 0u;
         steps = max(steps, last[lane] > index[lane] ? last[lane] - index[lane] : 0u);
         sum.diffuse[lane] = shaded ? sums[i] : 0.0f;
         sum.diffuseVisible[lane] = shaded ? sums[size + i] : 0.0f;
@@ -163,12 +175,7 @@ __kernel void secondPass(FrameParams frame, SampleParams params, AreaLight light
             weighPoints(params, light, &receivers, &s);
             addDirections(params, light, nodes, blocks, &receivers, index, last, count, &sum);
         }
-        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-            // Pixels that have all their samples wait for the others.
-            s.diffuse[lane] = index[lane] < last[lane] ? s.diffuse[lane] : 0.0f;
-            s.specular[lane] = index[lane] < last[lane] ? s.specular[lane] : 0.0f;
-            index[lane] += index[lane] < last[lane] ? 1u : 0u;
-        }
+        takeSamples(last, index, &s);
         RayPacket packet;
         shadowRays(&receivers, &s, &packet);
         anyHits(nodes, blocks, &packet, occluded);

@@ -7,15 +7,14 @@
 
 __kernel void deltaLights(FrameParams frame, __global const DeltaLight* restrict lights, uint lightCount,
                           float sceneDiameter, __global const TraversalNode* restrict nodes,
-                          __global const TriangleBlock* restrict blocks, __global const float* restrict position,
-                          __global const float* restrict normal, __global const float* restrict origin,
-                          __global const uint* restrict objectId, __global const float* restrict gloss,
+                          __global const TriangleBlock* restrict blocks, WEDGE_RECEIVER_PARAMETERS,
                           __global const float* restrict diffuse, __global const float* restrict specular,
                           __global float* restrict direct, __global float* restrict directNoisy,
                           __global uint* restrict rays, uint firstGroup)
 {
     ReceiverPacket receivers;
-    loadReceivers(frame, 0u, firstGroup, position, normal, origin, objectId, gloss, &receivers);
+    const ReceiverData data = WEDGE_RECEIVER_ARGUMENTS;
+    loadReceivers(frame, 0u, firstGroup, data, &receivers);
     Vec3 radiance[WEDGE_PACKET_SIZE];
     uint traced[WEDGE_PACKET_SIZE], occluded[WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
@@ -40,7 +39,7 @@ __kernel void deltaLights(FrameParams frame, __global const DeltaLight* restrict
             if (!(cosine[lane] > 0.0f) || occluded[lane] != 0u || i == WEDGE_NO_PIXEL) {
                 continue;
             }
-            const Receiver r = loadReceiver(frame, i, position, normal, origin, gloss);
+            const Receiver r = loadReceiver(frame, data, i);
             const Vec3 toLight = vectorToLight(light, sceneDiameter, r.origin);
             const float falloff = light.directional != 0u ? cosine[lane] : cosine[lane] / vecDot(toLight, toLight);
             const Vec3 lobe = vecScale(loadVec(specular, frame.planeSize, i),

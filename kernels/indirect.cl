@@ -1,6 +1,6 @@
 // Rays over the hemispheres of what the camera sees: indirect light by paths, and ambient occlusion.
 //
-// in      frame, BVH, surfaces, lights, G-buffer; wanted: samples a pixel; lastSample: where this launch ends
+// in      frame, BVH, surfaces, lights, receivers; wanted: samples a pixel; lastSample: where this launch ends
 // in out  sums (planes: R, G, B, squared luminance), taken (samples so far), reflectors (planes: least and largest
 //         distance in metres of a surface that a ray hit, 0 where none did; sum of inverse distances), rays (all),
 //         pathRays (those that look for the nearest surface)
@@ -134,12 +134,13 @@ WEDGE_FN SampleParams samplingOf(PathParams params)
     sampling.light = WEDGE_PATH_SEED + params.component;
     sampling.firstPass = params.firstPass;
     sampling.lightSampling = params.lightSampling;
+    sampling.strata = 0u;
     return sampling;
 }
 
 /// Sets each lane's geometric normal, samples taken and wanted, and where this launch ends; takes lanes out of `receivers`
 /// that do not have the component. Returns the most samples that a lane takes now.
-WEDGE_FN uint preparePaths(uint size, uint component, uint lastSample, __global const float* specular,
+WEDGE_FN uint preparePaths(uint size, PathParams params, uint lastSample, __global const float* specular,
                            __global const uint* geometric, __global const uint* taken, __global const uint* wanted,
                            ReceiverPacket* receivers, Vec3* facing, PathPacket* paths, uint* last)
 {
@@ -147,14 +148,14 @@ WEDGE_FN uint preparePaths(uint size, uint component, uint lastSample, __global 
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const uint at = receivers->pixel[lane];
         const bool reflects = at != WEDGE_NO_PIXEL
-            && (component != WEDGE_COMPONENT_GLOSSY || luminance(loadVec(specular, size, at)) > 0.0f);
+            && (params.component != WEDGE_COMPONENT_GLOSSY || luminance(loadVec(specular, size, at)) > 0.0f);
         receivers->pixel[lane] = reflects ? at : WEDGE_NO_PIXEL;
         const uint i = reflects ? at : 0u;
         facing[lane] = reflects ? unpackDirection(geometric[i]) : vec3(0.0f, 0.0f, 1.0f);
         paths->seed[lane] = receivers->seed[lane];
         paths->index[lane] = reflects ? taken[i] : 0u;
-        paths->count[lane] = reflects ? wanted[i] : 0u;
-        last[lane] = min(paths->count[lane], lastSample);
+        last[lane] = reflects ? min(wanted[i], lastSample) : 0u;
+        paths->count[lane] = params.strata > 0u ? params.strata : reflects ? wanted[i] : 0u;
         steps = max(steps, last[lane] > paths->index[lane] ? last[lane] - paths->index[lane] : 0u);
     }
     return steps;
@@ -163,10 +164,7 @@ WEDGE_FN uint preparePaths(uint size, uint component, uint lastSample, __global 
 __kernel void samplePaths(FrameParams frame, PathParams params, __global const TraversalNode* restrict nodes,
                           __global const TriangleBlock* restrict blocks, WEDGE_SURFACE_PARAMETERS,
                           __global const AreaLight* restrict areaLights, __global const DeltaLight* restrict deltaLights,
-                          __global const float* restrict position, __global const float* restrict normal,
-                          __global const float* restrict origin, __global const uint* restrict geometric,
-                          __global const uint* restrict objectId, __global const float* restrict gloss,
-                          __global const float* restrict specular, __global const uint* restrict wanted, uint lastSample,
+                          WEDGE_RECEIVER_PARAMETERS, __global const float* restrict specular, __global const uint* restrict wanted, uint lastSample,
                           __global float* restrict sums, __global uint* restrict taken, __global float* restrict value,
                           __global float* restrict reflectors, __global uint* restrict rays,
                           __global uint* restrict pathRays, uint firstGroup)
@@ -175,11 +173,11 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
     const LightData lights = lightData(params, areaLights, deltaLights);
     const SampleParams sampling = samplingOf(params);
     ReceiverPacket receivers;
-    loadReceivers(frame, sampling.light, firstGroup, position, normal, origin, objectId, gloss, &receivers);
+    loadReceivers(frame, sampling.light, firstGroup, WEDGE_RECEIVER_ARGUMENTS, &receivers);
     Vec3 facing[WEDGE_PACKET_SIZE];
     PathPacket paths;
     uint last[WEDGE_PACKET_SIZE];
-    const uint steps = preparePaths(size, params.component, lastSample, specular, geometric, taken, wanted, &receivers,
+    const uint steps = preparePaths(size, params, lastSample, specular, geometric, taken, wanted, &receivers,
                                     facing, &paths, last);
     PathSums sum;
     loadSums(size, &receivers, sums, reflectors, &sum);

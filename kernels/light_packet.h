@@ -5,10 +5,11 @@
 
 #include "light_sample.h"
 #include "packet.h"
+#include "receivers.h"
 
 /// What the samples are for. Lanes without a pixel to shade have pixel = WEDGE_NO_PIXEL and a zero normal.
 typedef struct {
-    uint pixel[WEDGE_PACKET_SIZE]; ///< index in the planes
+    uint pixel[WEDGE_PACKET_SIZE]; ///< index in the planes of the receivers
     uint seed[WEDGE_PACKET_SIZE];  ///< of pixel and light
     float originX[WEDGE_PACKET_SIZE], originY[WEDGE_PACKET_SIZE], originZ[WEDGE_PACKET_SIZE];
     float positionX[WEDGE_PACKET_SIZE], positionY[WEDGE_PACKET_SIZE], positionZ[WEDGE_PACKET_SIZE];
@@ -29,20 +30,17 @@ typedef struct {
     float specular[WEDGE_PACKET_SIZE]; ///< the same in the specular term
 } LightSamples;
 
-/// The pixels of this work-item, and what is to be shaded there.
-WEDGE_FN void loadReceivers(FrameParams frame, uint light, uint firstGroup, __global const float* position,
-                            __global const float* normal, __global const float* origin, __global const uint* objectId,
-                            __global const float* gloss, ReceiverPacket* receivers)
+/// The receivers of this work-item, and what is to be shaded there.
+WEDGE_FN void loadReceivers(FrameParams frame, uint light, uint firstGroup, ReceiverData data, ReceiverPacket* receivers)
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        uint x, y;
-        const bool inside = tilePixel(frame, firstGroup, lane, &x, &y);
-        const uint i = inside ? pixelIndex(x, y, frame.stride) : 0u;
-        const bool shaded = inside && objectId[i] != 0u;
+        uint i = 0u, x = 0u, y = 0u;
+        const bool inside = receiverOf(frame, data, firstGroup, lane, &i, &x, &y);
+        const bool shaded = inside && data.objectId[i] != 0u;
         const Vec3 none = vec3(0.0f, 0.0f, 0.0f);
-        const Vec3 o = shaded ? loadVec(origin, frame.planeSize, i) : none;
-        const Vec3 p = shaded ? loadVec(position, frame.planeSize, i) : none;
-        const Vec3 n = shaded ? loadVec(normal, frame.planeSize, i) : none;
+        const Vec3 o = shaded ? loadVec(data.origin, frame.planeSize, i) : none;
+        const Vec3 p = shaded ? loadVec(data.position, frame.planeSize, i) : none;
+        const Vec3 n = shaded ? loadVec(data.normal, frame.planeSize, i) : none;
         receivers->pixel[lane] = shaded ? i : WEDGE_NO_PIXEL;
         receivers->seed[lane] = inside ? receiverSeed(frame, light, x, y) : 0u;
         receivers->originX[lane] = o.x;
@@ -54,9 +52,9 @@ WEDGE_FN void loadReceivers(FrameParams frame, uint light, uint firstGroup, __gl
         receivers->normalX[lane] = n.x;
         receivers->normalY[lane] = n.y;
         receivers->normalZ[lane] = n.z;
-        receivers->gloss[lane] = shaded ? gloss[i] : 1.0f;
+        receivers->gloss[lane] = shaded ? data.gloss[i] : 1.0f;
 #ifdef WEDGE_SPECULAR
-        receivers->view[lane] = vecNormalize(vecSub(frame.eye, p));
+        receivers->view[lane] = shaded ? viewOf(frame, data, i, p) : vecNormalize(vecSub(frame.eye, p));
         receivers->lobe[lane] = glossLobe(receivers->gloss[lane]);
 #endif
     }

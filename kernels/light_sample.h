@@ -2,7 +2,7 @@
 #ifndef WEDGE_LIGHT_SAMPLE_H
 #define WEDGE_LIGHT_SAMPLE_H
 
-#include "pixel.h"
+#include "receivers.h"
 #include "shared/bsdf.h"
 #include "shared/light.h"
 
@@ -27,15 +27,14 @@ WEDGE_FN uint receiverSeed(FrameParams frame, uint light, uint x, uint y)
     return hashCombine(hashCombine(frame.seed, light), y * frame.width + x);
 }
 
-WEDGE_FN Receiver loadReceiver(FrameParams frame, uint i, __global const float* position, __global const float* normal,
-                               __global const float* origin, __global const float* gloss)
+WEDGE_FN Receiver loadReceiver(FrameParams frame, ReceiverData data, uint i)
 {
     Receiver r;
-    r.origin = loadVec(origin, frame.planeSize, i);
-    r.position = loadVec(position, frame.planeSize, i);
-    r.normal = loadVec(normal, frame.planeSize, i);
-    r.view = vecNormalize(vecSub(frame.eye, r.position));
-    r.lobe = glossLobe(gloss[i]);
+    r.origin = loadVec(data.origin, frame.planeSize, i);
+    r.position = loadVec(data.position, frame.planeSize, i);
+    r.normal = loadVec(data.normal, frame.planeSize, i);
+    r.view = viewOf(frame, data, i, r.position);
+    r.lobe = glossLobe(data.gloss[i]);
     return r;
 }
 

@@ -6,32 +6,8 @@
 //      emission holds background and light radiance where nothing is shaded), gloss (exponent; negative: Phong)
 #include "packet.h"
 #include "pixel.h"
-#include "scene_light.h"
+#include "seen_light.h"
 #include "surface.h"
-
-/// Cosine that the projected pixel size does not go below, against infinities at grazing views.
-#define WEDGE_MIN_VIEW_COSINE 0.01f
-
-typedef struct {
-    float t;        ///< along the camera direction; +inf where no light is hit
-    Vec3 radiance;
-} LightHit;
-
-/// Nearest visible area light along the ray.
-static LightHit hitLights(__global const AreaLight* lights, uint count, Vec3 eye, Vec3 direction)
-{
-    LightHit hit;
-    hit.t = INFINITY;
-    hit.radiance = vec3(0.0f, 0.0f, 0.0f);
-    for (uint i = 0; i < count; ++i) {
-        const LightMeeting m = meetLight(lights[i], eye, direction);
-        if (lights[i].visible != 0u && m.t < hit.t) {
-            hit.t = m.t;
-            hit.radiance = vecScale(lights[i].radiance, metProfile(lights[i], m));
-        }
-    }
-    return hit;
-}
 
 /// Through the centre of a pixel.
 WEDGE_FN Vec3 pixelDirection(FrameParams frame, uint x, uint y)
@@ -80,17 +56,13 @@ __kernel void primary(FrameParams frame, __global const TraversalNode* restrict 
             continue;
         }
         const Surface s = surfaceAt(data, hit, direction);
-        // Solid angle of a pixel off the axis: area / distance^2 times the cosine to the image plane, cos^3 in all.
-        const float axis = 1.0f / length;
-        const float solidAngle = vecLength(vecCross(frame.right, frame.down)) * axis * axis * axis;
-        const float cosine = fmax(fabs(vecDot(s.geometric, direction)) * axis, WEDGE_MIN_VIEW_COSINE);
         storeVec(position, size, i, s.position);
         storeVec(normal, size, i, s.normal);
         storeVec(origin, size, i, s.origin);
         geometric[i] = packDirection(s.geometric);
         objectId[i] = objectIds[hit.triangle];
         depth[i] = hit.t * length;
-        pixelSize[i] = hit.t * length * sqrt(solidAngle / cosine);
+        pixelSize[i] = projectedPixel(frame, s.geometric, direction, hit.t);
         storeVec(diffuse, size, i, s.diffuse);
         storeVec(specular, size, i, s.specular);
         storeVec(emission, size, i, s.emission);

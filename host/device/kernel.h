@@ -7,6 +7,7 @@
 #include <concepts>
 #include <cstddef>
 #include <string>
+#include <tuple>
 #include <type_traits>
 
 namespace wedge::device {
@@ -38,13 +39,18 @@ public:
     Kernel& operator=(const Kernel&) = delete;
 
     /// Sets all arguments in order: Buffer<T>, cl::Buffer, local memory (cl::Local(bytes)), or a value whose size is
-    /// that of the kernel's parameter. Throws Error if the count is not the kernel's, or the driver refuses one.
+    /// that of the kernel's parameter; a std::tuple stands for its elements. Throws Error if the count is not the
+    /// kernel's, or the driver refuses one.
     template <class... Args>
     void setArgs(const Args&... args)
     {
-        requireCount(sizeof...(args));
-        unsigned index = 0;
-        (setArg(index++, args), ...);
+        std::apply(
+            [this](const auto&... flat) {
+                requireCount(sizeof...(flat));
+                unsigned index = 0;
+                (setArg(index++, flat), ...);
+            },
+            std::tuple_cat(flattened(args)...));
     }
 
     /// Sets the argument at `index`, counted from 0.
@@ -73,6 +79,16 @@ public:
     const cl::Kernel& cl() const { return kernel_; }
 
 private:
+    template <class T>
+    static std::tuple<const T&> flattened(const T& argument)
+    {
+        return { argument };
+    }
+    template <class... Ts>
+    static std::tuple<const Ts&...> flattened(const std::tuple<Ts...>& arguments)
+    {
+        return arguments;
+    }
     void requireCount(std::size_t given) const;
     void setRaw(unsigned index, std::size_t bytes, const void* value);
 

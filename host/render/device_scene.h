@@ -8,6 +8,7 @@
 #include "kernels/shared/light.h"
 #include "kernels/shared/material.h"
 
+#include <tuple>
 #include <vector>
 
 namespace wedge::render {
@@ -50,5 +51,11 @@ public:
     float largestDimension = 0; ///< metres, of the bounds
     bool specular = false; ///< hasSpecular()
 };
+
+/// What kernels take for WEDGE_SURFACE_PARAMETERS.
+inline auto surfaceArguments(const DeviceScene& s)
+{
+    return std::tie(s.positions, s.normals, s.texcoords, s.indices, s.materialIds, s.materials, s.textures, s.texels, s.srgbToLinear);
+}
 
 } // namespace wedge::render

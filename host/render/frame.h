@@ -4,11 +4,13 @@
 #include "host/device/memory_plan.h"
 #include "host/image/image.h"
 #include "host/scene/scene.h"
+#include "kernels/shared/camera.h"
 #include "kernels/shared/frame.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <tuple>
 
 namespace wedge::render {
 
@@ -22,14 +24,18 @@ struct PlaneLayout {
     bool operator==(const PlaneLayout&) const = default;
 };
 
-/// The buffers that all effects of a frame share. Vectors are three planes one after the other.
+/// The buffers that all effects of a frame share. Vectors are three planes one after the other. With a pinhole and nothing
+/// that moves the pixels are the receivers of light; else these planes hold means over a pixel's receivers, and those are
+/// in planes of their own (waves.h).
 class Frame {
 public:
-    static void plan(device::MemoryPlan& plan, const PlaneLayout& layout);
+    /// distributed: pixels have several receivers.
+    static void plan(device::MemoryPlan& plan, const PlaneLayout& layout, bool distributed);
 
-    Frame(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout);
+    Frame(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, bool distributed);
 
     PlaneLayout layout;
+    bool distributed;
     device::Buffer<float> position, normal, origin; ///< G-buffer, see kernels/primary.cl
     device::Buffer<float> depth, pixelSize;
     device::Buffer<float> diffuse, specular, emission, gloss;
@@ -42,6 +48,22 @@ public:
     device::Buffer<float> beauty; ///< emission and all that is reflected
     device::Buffer<std::uint32_t> samples; ///< of all terms
     device::Buffer<std::uint32_t> indirectSamples; ///< of the indirect terms
+    device::Buffer<std::uint32_t> receiverPixels, receiverViews; ///< WEDGE_RECEIVER_PARAMETERS: of no use here
+    device::Buffer<float> receiverTimes; ///< likewise
+
+    // Of distributed frames.
+    device::Buffer<std::uint32_t> primaryTaken, primaryWanted; ///< primary samples
+    device::Buffer<std::uint32_t> hits; ///< those of them that met a surface
+    device::Buffer<float> confusion; ///< planes: least and largest signed radius of the circle of confusion, pixels
+    device::Buffer<float> motion; ///< planes: pixels that the surface moves while the shutter is open; largest difference
+    device::Buffer<float> blurRadii, blurLengths, blurDirections; ///< by which the image is filtered, see distributed.cl
+    device::Buffer<float> primaryDemand;
+
+    /// What kernels take for WEDGE_RECEIVER_PARAMETERS, the pixels being the receivers.
+    auto receivers() const
+    {
+        return std::tie(position, normal, origin, geometric, objectId, gloss, receiverPixels, receiverViews, receiverTimes);
+    }
 
     /// Zeroes what a frame accumulates.
     void clear(device::TimedQueue& queue);
@@ -52,6 +74,7 @@ struct TermShape {
     std::uint32_t sums = 0, values = 0; ///< accumulated; filtered
     std::uint32_t extremes = 0; ///< slopes, or distances of reflectors
     bool analysed = false; ///< with the buffers of analysis and filter
+    bool distributed = false; ///< with those of pixels of several receivers, whose sums are the receivers' own
 
     /// Whether buffers of this shape serve terms of the other.
     bool holds(const TermShape& other) const;
@@ -59,7 +82,8 @@ struct TermShape {
     TermShape with(const TermShape& other) const;
 };
 
-/// One term: what was accumulated, what the analysis made of it, the filtered result. Used for one term after the other.
+/// One term: what was accumulated, and what the analysis made of it. Where the pixels are the receivers, one such serves one
+/// term after the other.
 class Term {
 public:
     static void plan(device::MemoryPlan& plan, const PlaneLayout& layout, const TermShape& shape);
@@ -75,6 +99,19 @@ public:
     device::Buffer<std::uint32_t> taken, wanted; ///< samples
     device::Buffer<float> extremes; ///< of lights: s_min, s_max; of indirect light see indirect.cl
     device::Buffer<float> beta; ///< metres
+    device::Buffer<float> texture, plain, squares, textureSquares; ///< of distributed frames, see accumulate.cl
+    device::Buffer<float> demand; ///< likewise: of samples
+};
+
+/// What analysis and filter need besides, for one term after the other.
+class Scratch {
+public:
+    /// values: planes of the terms' values at most.
+    static void plan(device::MemoryPlan& plan, const PlaneLayout& layout, std::uint32_t values);
+
+    Scratch(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, std::uint32_t values);
+
+    std::uint32_t values;
     device::Buffer<float> rowsFiltered, filtered; ///< like value
     device::Buffer<float> rowsEffective, effective; ///< equal samples that the gather amounts to
     device::Buffer<float> logs; ///< 4 planes: logarithms of slopes and weights, see analysis.cl; of indirect light variances
@@ -95,8 +132,12 @@ void setRectangle(Params& params, const image::Window& window)
     params.y1 = static_cast<std::uint32_t>(window.y1);
 }
 
-/// The frame's constants for the pixels of `window`, tiles included.
+/// The frame's constants for the pixels of `window`, tiles included. The camera is that of the middle of the shutter's time.
 shared::FrameParams frameParams(
     const scene::Scene& scene, const PlaneLayout& layout, const image::Window& window, std::uint32_t seed);
+
+/// The lens, the shutter and the camera's motion for an image of that height. antialias: a pixel's rays go through all of
+/// its square.
+shared::CameraParams cameraParams(const scene::Scene& scene, std::uint32_t height, bool antialias);
 
 } // namespace wedge::render

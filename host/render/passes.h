@@ -40,7 +40,8 @@ public:
         device::Kernel& k = find(file, kernel);
         const std::size_t items = WEDGE_TILE_PIXELS / packetSize_;
         const std::size_t local = localSize(k, items);
-        const std::size_t groups = static_cast<std::size_t>(frame.tileCount) * (items / local);
+        const std::size_t tiles = rehearsal_ ? std::max(1u, frame.tileCount) : frame.tileCount;
+        const std::size_t groups = tiles * (items / local);
         if (rehearsal_) {
             frame.tileCount = 0;
         }
@@ -74,11 +75,27 @@ public:
         queue_.addBytes(pass, kind, touched);
     }
 
+    /// A pass over `items` items of a list. The kernel takes FrameParams first, and tests for the end itself. Its time is all
+    /// that is recorded.
+    template <class... Args>
+    void list(std::string_view pass, device::PassKind kind, const std::string& file, const std::string& kernel,
+        std::size_t items, shared::FrameParams frame, const Args&... args)
+    {
+        device::Kernel& k = find(file, kernel);
+        if (rehearsal_) {
+            frame.tileCount = 0;
+            items = std::max<std::size_t>(items, 1);
+        }
+        k.setArgs(frame, args...);
+        queue_.launch(pass, kind, k, items, localSize(k, listGroup));
+    }
+
     /// The kernel, compiled when first asked for; one instance a name.
     device::Kernel& find(const std::string& file, const std::string& kernel);
 
 private:
     static constexpr std::uint32_t bandPixels = 1u << 21;
+    static constexpr std::size_t listGroup = 16;
 
     template<class T>
     static std::uint64_t bufferBytes(const T& argument)

@@ -1,5 +1,6 @@
 #include "host/render/renderer.h"
 
+#include "host/render/distributed_frame.h"
 #include "host/render/effects/indirect.h"
 #include "host/render/effects/soft_shadows.h"
 
@@ -23,6 +24,19 @@ TermShape termShape(const Settings& settings, bool specular)
 {
     const TermShape direct = SoftShadows::termShape(specular, needsAnalysis(settings));
     return tracesPaths(settings) ? direct.with(Indirect::termShape(needsAnalysis(settings))) : direct;
+}
+
+/// One a term where pixels have several receivers, which serve all terms at once; else the one that all take turns in.
+std::vector<TermShape> termShapes(const Settings& settings, const scene::Scene& scene, bool specular, bool distributed)
+{
+    if (!distributed) {
+        return { termShape(settings, specular) };
+    }
+    const bool analysed = needsAnalysis(settings);
+    const std::size_t lights = settings.integrator == Integrator::Path ? scene.areaLights.size() : 0;
+    std::vector<TermShape> shapes(lights, { 1, 1, 2, analysed, true });
+    shapes.resize(lights + indirectTerms(settings, specular).size(), { 0, 3, 3, analysed, true });
+    return shapes;
 }
 
 device::BuildOptions programOptions(const scene::Scene& scene, const Options& options, Traversal traversal)
@@ -87,8 +101,18 @@ device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hi
     const PlaneLayout layout(settings.width, settings.height);
     device::MemoryPlan plan;
     DeviceScene::plan(plan, scene, hierarchy);
-    Frame::plan(plan, layout);
-    Term::plan(plan, layout, termShape(settings, hasSpecular(scene)));
+    const bool specular = hasSpecular(scene);
+    const bool distributed = isDistributed(settings, scene);
+    Frame::plan(plan, layout, distributed);
+    for (const TermShape& shape : termShapes(settings, scene, specular, distributed)) {
+        Term::plan(plan, layout, shape);
+    }
+    if (distributed) {
+        Waves::plan(plan, layout, termShape(settings, specular));
+    }
+    if (needsAnalysis(settings)) {
+        Scratch::plan(plan, layout, termShape(settings, specular).values);
+    }
     return plan;
 }
 
@@ -100,15 +124,33 @@ void Renderer::allocate(const Settings& settings)
         deviceScene_ = std::make_unique<DeviceScene>(scene_, hierarchy_, device_, queue_);
     }
     const PlaneLayout layout(settings.width, settings.height);
-    if (!frame_ || !(frame_->layout == layout)) {
-        term_.reset();
+    const bool distributed = isDistributed(settings, scene_);
+    if (!frame_ || !(frame_->layout == layout) || frame_->distributed != distributed) {
+        terms_.clear();
+        waves_.reset();
+        scratch_.reset();
         frame_.reset();
-        frame_ = std::make_unique<Frame>(device_, queue_, layout);
+        frame_ = std::make_unique<Frame>(device_, queue_, layout, distributed);
     }
-    const TermShape shape = termShape(settings, deviceScene_->specular);
-    if (!term_ || !term_->shape.holds(shape)) {
-        term_.reset();
-        term_ = std::make_unique<Term>(device_, queue_, layout, shape);
+    const std::vector<TermShape> shapes = termShapes(settings, scene_, deviceScene_->specular, distributed);
+    terms_.resize(shapes.size());
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        if (!terms_[i] || !terms_[i]->shape.holds(shapes[i])) {
+            terms_[i].reset();
+            terms_[i] = std::make_unique<Term>(device_, queue_, layout, shapes[i]);
+        }
+    }
+    const TermShape receivers = termShape(settings, deviceScene_->specular);
+    if (distributed && (!waves_ || !waves_->shape.holds(receivers))) {
+        waves_.reset();
+        waves_ = std::make_unique<Waves>(device_, layout, receivers);
+    }
+    if (needsAnalysis(settings) && (!scratch_ || scratch_->values < receivers.values)) {
+        scratch_.reset();
+        scratch_ = std::make_unique<Scratch>(device_, queue_, layout, receivers.values);
+    }
+    if (!scratch_) {
+        scratch_ = std::make_unique<Scratch>(device_, queue_, PlaneLayout(1, 1), 0);
     }
 }
 
@@ -180,24 +222,28 @@ bool Renderer::renderPasses(const Settings& settings, bool keepWidths)
     frame_->clear(queue_);
     termPlanes_.clear();
     const bool lit = settings.integrator == Integrator::Path;
+    const TermContext context { *passes_, *deviceScene_, *frame_, *scratch_, settings, fullFrame, sampledFrame, output };
+    if (frame_->distributed) {
+        return distributedPasses(context, keepWidths);
+    }
     bool complete = primaryPass(analysed ? fullFrame : sampledFrame, lit);
-    SoftShadows shadows(*passes_, *deviceScene_, *frame_, *term_, settings, fullFrame, sampledFrame, output);
     const std::size_t lights = lit ? deviceScene_->areaLightList.size() : 0;
     for (std::uint32_t light = 0; complete && light < lights; ++light) {
-        complete = shadows.render(light);
+        SoftShadows shadows(context, *terms_.front(), light);
+        complete = shadows.render();
         if (keepWidths) {
-            keepPlanes(settings, shadows.analysed());
+            keepPlanes(settings, *terms_.front(), shadows.analysed());
         }
     }
     if (complete && lit && deviceScene_->deltaLightCount > 0) {
         complete = deltaLightPass(sampledFrame);
     }
-    Indirect indirect(*passes_, *deviceScene_, *frame_, *term_, settings, fullFrame, sampledFrame, output);
     for (const IndirectTerm& term : indirectTerms(settings, deviceScene_->specular)) {
         if (complete) {
-            complete = indirect.render(term.component);
+            Indirect indirect(context, *terms_.front(), term.component);
+            complete = indirect.render();
             if (keepWidths) {
-                keepPlanes(settings, indirect.analysed());
+                keepPlanes(settings, *terms_.front(), indirect.analysed());
             }
         }
     }
@@ -211,10 +257,22 @@ bool Renderer::renderPasses(const Settings& settings, bool keepWidths)
     return complete;
 }
 
-void Renderer::keepPlanes(const Settings& settings, bool analysed)
+bool Renderer::distributedPasses(const TermContext& context, bool keepWidths)
+{
+    const bool lit = context.settings.integrator == Integrator::Path;
+    DistributedFrame distributed(context, *waves_, terms_, lit ? deviceScene_->areaLightList.size() : 0,
+        cameraParams(scene_, frame_->layout.height, context.settings.antialias));
+    const bool complete = distributed.render();
+    for (std::size_t i = 0; keepWidths && i < terms_.size(); ++i) {
+        keepPlanes(context.settings, *terms_[i], distributed.analysed());
+    }
+    return complete;
+}
+
+void Renderer::keepPlanes(const Settings& settings, const Term& term, bool analysed)
 {
     const std::string name = termNames(settings, scene_).at(termPlanes_.size());
-    termPlanes_.push_back({ name, analysed ? term_->beta.downloadAll(queue_) : std::vector<float>() });
+    termPlanes_.push_back({ name, analysed ? term.beta.downloadAll(queue_) : std::vector<float>() });
 }
 
 bool Renderer::primaryPass(const shared::FrameParams& params, bool lit)
@@ -224,9 +282,9 @@ bool Renderer::primaryPass(const shared::FrameParams& params, bool lit)
     bool complete = true;
     try {
         passes_->tiles("primary rays", PassKind::Trace, "primary.cl", "primary", params, 1.0, s.nodes, s.blocks,
-            s.positions, s.normals, s.texcoords, s.indices, s.materialIds, s.materials, s.textures, s.texels,
-            s.srgbToLinear, s.objectIds, s.areaLights, static_cast<std::uint32_t>(lit ? s.areaLightList.size() : 0), f.position,
-            f.normal, f.origin, f.geometric, f.objectId, f.depth, f.pixelSize, f.diffuse, f.specular, f.emission, f.gloss);
+            surfaceArguments(s), s.objectIds, s.areaLights, static_cast<std::uint32_t>(lit ? s.areaLightList.size() : 0),
+            f.position, f.normal, f.origin, f.geometric, f.objectId, f.depth, f.pixelSize, f.diffuse, f.specular, f.emission,
+            f.gloss);
     } catch (const device::Cancelled&) {
         complete = false;
     }
@@ -242,8 +300,7 @@ bool Renderer::deltaLightPass(const shared::FrameParams& params)
     Frame& f = *frame_;
     try {
         passes_->tiles("point lights", PassKind::Trace, "delta_lights.cl", "deltaLights", params, 1.0, s.deltaLights,
-            s.deltaLightCount, s.diameter, s.nodes, s.blocks, f.position, f.normal, f.origin, f.objectId, f.gloss,
-            f.diffuse, f.specular, f.direct, f.directNoisy, f.rays);
+            s.deltaLightCount, s.diameter, s.nodes, s.blocks, f.receivers(), f.diffuse, f.specular, f.direct, f.directNoisy, f.rays);
     } catch (const device::Cancelled&) {
         return false;
     }
@@ -277,6 +334,10 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
     const bool whole = settings.method == Method::AxisAligned;
     statistics.primaryRays = static_cast<std::uint64_t>(whole ? settings.width : output.width())
         * static_cast<std::uint64_t>(whole ? settings.height : output.height());
+    if (frame_->distributed) {
+        const std::vector<std::uint32_t> primary = frame_->primaryTaken.downloadAll(queue_);
+        statistics.primaryRays = std::accumulate(primary.begin(), primary.end(), std::uint64_t { 0 });
+    }
     statistics.indirectRays = std::accumulate(pathRays.begin(), pathRays.end(), std::uint64_t { 0 });
     statistics.shadowRays = std::accumulate(rays.begin(), rays.end(), std::uint64_t { 0 }) - statistics.indirectRays;
     const std::uint64_t directPixels = statistics.shadedPixels * (settings.integrator == Integrator::Path ? scene_.areaLights.size() : 0);

@@ -3,10 +3,12 @@
 #include "host/device/memory_plan.h"
 #include "host/device/program.h"
 #include "host/render/device_scene.h"
+#include "host/render/effects/term_context.h"
 #include "host/render/frame.h"
 #include "host/render/hierarchy.h"
 #include "host/render/passes.h"
 #include "host/render/settings.h"
+#include "host/render/waves.h"
 
 #include <atomic>
 #include <functional>
@@ -100,7 +102,8 @@ private:
     /// lit: with area lights in view, and with what surfaces and background emit.
     bool primaryPass(const shared::FrameParams& params, bool lit);
     bool deltaLightPass(const shared::FrameParams& params);
-    void keepPlanes(const Settings& settings, bool analysed);
+    bool distributedPasses(const TermContext& context, bool keepWidths);
+    void keepPlanes(const Settings& settings, const Term& term, bool analysed);
     void countWork(const Settings& settings, FrameStatistics& statistics);
     double workUnits(const Settings& settings) const;
 
@@ -113,7 +116,9 @@ private:
     std::unique_ptr<Passes> passes_;
     std::unique_ptr<DeviceScene> deviceScene_;
     std::unique_ptr<Frame> frame_;
-    std::unique_ptr<Term> term_;
+    std::vector<std::unique_ptr<Term>> terms_; ///< one; of a distributed frame one a term
+    std::unique_ptr<Scratch> scratch_;
+    std::unique_ptr<Waves> waves_; ///< of distributed frames
     std::vector<TermPlanes> termPlanes_;
     double setupSeconds_ = 0;
 };

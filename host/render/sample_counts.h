@@ -6,13 +6,13 @@
 
 namespace wedge::render {
 
-/// Sets term.wanted of the pixels whose mask is not 0 to clamp(C term.demand, params.leastCount, params.countCap), with C
+/// Sets wanted of the pixels whose mask is not 0 to clamp(C scratch.demand, params.leastCount, params.countCap), with C
 /// such that their mean is `mean` (kernels/counts.cl).
 void countsFromDemand(Passes& passes, const shared::AnalysisParams& params, float mean,
-    const device::Buffer<std::uint32_t>& mask, Term& term);
+    const device::Buffer<std::uint32_t>& mask, Scratch& scratch, device::Buffer<std::uint32_t>& wanted);
 
-/// Sets term.wanted of the pixels whose mask is not 0 to `count`.
+/// Sets wanted of the pixels whose mask is not 0 to `count`.
 void uniformCounts(Passes& passes, const shared::AnalysisParams& params, std::uint32_t count,
-    const device::Buffer<std::uint32_t>& mask, Term& term);
+    const device::Buffer<std::uint32_t>& mask, device::Buffer<std::uint32_t>& wanted);
 
 } // namespace wedge::render

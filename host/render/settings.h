@@ -90,6 +90,29 @@ struct IndirectSettings {
     float ambientDistance = 0.0f; ///< metres: farther surfaces do not occlude; 0: any distance does
 };
 
+/// Where texture and irradiance are taken apart in pixels of several receivers.
+enum class Factoring {
+    Never, ///< the image alone is filtered
+    Error, ///< where the product of their means is near the mean of their products, (5.30)
+};
+
+/// Defocus, motion blur and antialiasing; docs/multiple-effects.md has the equations.
+struct DistributedSettings {
+    int firstPaths = 8; ///< primary samples of the first pass, each with one secondary of each term
+    int maxSpp = 512; ///< most samples of a pixel and term
+    Factoring factoring = Factoring::Error;
+    float factoringError = 0.01f; ///< radiance
+    int factoringRadius = 2; ///< pixels: errors are averaged over a square
+    bool blur = true; ///< the image is filtered by what lens and shutter blur
+    float blurWidth = 0.18f; ///< standard deviation of that filter in radii of the circle of confusion
+    float shutterWidth = 0.1f; ///< the same in lengths of the motion
+    float leastRadius = 2.0f; ///< pixels
+    float irradianceWidth = 0.18f; ///< irradiances are filtered at least as far
+    float countExponent = 0.5f;
+    float varianceSpread = 0.25f;
+    float oneVelocity = 0.1f; ///< motions of a pixel differ by less than this fraction where it is filtered along them
+};
+
 /// Everything that decides what a frame looks like. monteCarlo(), axisAligned() and asPublished() give the presets.
 struct Settings {
     Method method = Method::AxisAligned;
@@ -102,6 +125,8 @@ struct Settings {
     int bounces = 0; ///< of indirect light: 0 is direct light alone
     LightSampling lightSampling = LightSampling::Both;
     IndirectSettings indirect;
+    bool antialias = false; ///< pixels are their squares, not their centres
+    DistributedSettings distributed;
 
     Sampler sampler = Sampler::Sobol;
     Shading shading = Shading::Ratio;

@@ -31,7 +31,7 @@ typedef struct {
     Vec3 right;   ///< image-plane step of one pixel in x at distance 1
     Vec3 down;    ///< image-plane step of one pixel in y at distance 1
     Vec3 background;
-    uint padding;
+    uint receivers; ///< of a wave, which lie one after the other; 0: the pixels of the rectangle are the receivers
 } FrameParams;
 
 /// Index of pixel (x, y) in a plane.

@@ -69,7 +69,8 @@ typedef struct {
     uint light;     ///< index of the light, part of the random seed
     uint firstPass; ///< samples of a first pass with strata of its own; 0: none
     uint lightSampling; ///< WEDGE_LIGHTS_*, for WEDGE_SHADING_INSIDE without a first pass
-    uint padding[3];
+    uint strata; ///< samples that strata are made for after the first pass; 0: as many as the receiver is to have
+    uint padding[2];
 } SampleParams;
 
 /// Natural logarithm of a normal x > 0, to 4e-8 of max(1, |log x|). Straight-line code, unlike the library's, so that

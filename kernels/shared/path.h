@@ -23,7 +23,8 @@ typedef struct {
     uint areaLights, deltaLights;
     float sceneDiameter;   ///< metres
     float ambientDistance; ///< metres; surfaces farther away do not count for the ambient component
-    uint padding[3];
+    uint strata; ///< as of SampleParams
+    uint padding[2];
 } PathParams;
 
 /// Distances of reflectors to widths and counts.

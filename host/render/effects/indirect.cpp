@@ -33,30 +33,21 @@ std::vector<IndirectTerm> indirectTerms(const Settings& settings, bool specular)
     return terms;
 }
 
-Indirect::Indirect(Passes& passes, const DeviceScene& scene, Frame& frame, Term& term, const Settings& settings,
-    const shared::FrameParams& fullFrame, const shared::FrameParams& sampledFrame, const image::Window& window)
-    : passes_(passes)
-    , scene_(scene)
-    , frame_(frame)
+Indirect::Indirect(const TermContext& context, Term& term, Component component)
+    : c_(context)
     , term_(term)
-    , settings_(settings)
-    , fullFrame_(fullFrame)
-    , sampledFrame_(sampledFrame)
-    , full_ { 0, 0, static_cast<int>(frame.layout.width), static_cast<int>(frame.layout.height) }
-    , window_(window)
+    , component_(component)
 {
 }
 
-bool Indirect::render(Component component)
+bool Indirect::render()
 {
-    component_ = component;
-    analysed_ = false;
-    term_.clear(passes_.queue());
+    term_.clear(c_.passes.queue());
     const bool complete = sample();
-    if (analysed_ && settings_.filtering != Filtering::None) {
-        gaussianFilter(passes_, { "filter of indirect", PassKind::Filter, "filter_indirect.cl" },
-            filterParams(settings_, fullFrame_, window_), window_, frame_, term_.value, term_, term_.filtered);
-        composite(term_.filtered);
+    if (analysed_ && c_.settings.filtering != Filtering::None) {
+        gaussianFilter(c_.passes, { "filter of indirect", PassKind::Filter, "filter_indirect.cl" },
+            filterParams(c_.settings, c_.fullFrame, c_.window), c_.window, c_.frame, term_.value, term_.beta, c_.scratch, c_.scratch.filtered);
+        composite(c_.scratch.filtered);
     } else {
         composite(term_.value);
     }
@@ -65,36 +56,37 @@ bool Indirect::render(Component component)
 
 bool Indirect::sample()
 {
-    const auto spp = static_cast<std::uint32_t>(settings_.spp);
-    if (settings_.method == Method::MonteCarlo) {
-        uniformCounts(passes_, countParams(blockWindow(window_, 0, full_.x1, full_.y1)), spp, frame_.objectId, term_);
-        return samplePaths("paths", sampledFrame_, 0, spp, settings_.spp);
+    const auto spp = static_cast<std::uint32_t>(c_.settings.spp);
+    if (c_.settings.method == Method::MonteCarlo) {
+        uniformCounts(c_.passes, countParams(blockWindow(c_.window, 0, c_.full().x1, c_.full().y1)), spp, c_.frame.objectId, term_.wanted);
+        return samplePaths("paths", c_.sampledFrame, 0, spp, c_.settings.spp);
     }
     // All of the frame even for a crop: the counts' scale comes from all pixels, and a crop is to be the same pixels as
     // the whole image.
-    uniformCounts(passes_, countParams(full_), WEDGE_INDIRECT_FIRST_RAYS, frame_.objectId, term_);
-    if (!samplePaths("first paths", fullFrame_, 0, WEDGE_INDIRECT_FIRST_RAYS, WEDGE_INDIRECT_FIRST_RAYS)) {
+    uniformCounts(c_.passes, countParams(c_.full()), WEDGE_INDIRECT_FIRST_RAYS, c_.frame.objectId, term_.wanted);
+    if (!samplePaths("first paths", c_.fullFrame, 0, WEDGE_INDIRECT_FIRST_RAYS, WEDGE_INDIRECT_FIRST_RAYS)) {
         return false;
     }
     widthsAndCounts();
-    analysed_ = true;
-    const bool uniform = settings_.sampling == Sampling::Uniform || settings_.indirect.counts == IndirectCounts::Uniform;
-    const auto most = static_cast<std::uint32_t>(uniform ? settings_.spp : std::max(settings_.indirect.maxSpp, settings_.spp));
-    return samplePaths("second paths", sampledFrame_, WEDGE_INDIRECT_FIRST_RAYS, most, settings_.spp);
+    const bool uniform = c_.settings.sampling == Sampling::Uniform || c_.settings.indirect.counts == IndirectCounts::Uniform;
+    const auto most = static_cast<std::uint32_t>(uniform ? c_.settings.spp : std::max(c_.settings.indirect.maxSpp, c_.settings.spp));
+    return samplePaths("second paths", c_.sampledFrame, WEDGE_INDIRECT_FIRST_RAYS, most, c_.settings.spp);
 }
 
 shared::PathParams Indirect::pathParams() const
 {
     shared::PathParams p {};
     p.component = static_cast<std::uint32_t>(component_);
-    p.bounces = static_cast<std::uint32_t>(std::max(1, settings_.bounces));
-    p.sampler = static_cast<std::uint32_t>(settings_.sampler);
-    p.lightSampling = static_cast<std::uint32_t>(settings_.lightSampling);
-    p.firstPass = settings_.method == Method::AxisAligned ? WEDGE_INDIRECT_FIRST_RAYS : 0;
-    p.areaLights = static_cast<std::uint32_t>(scene_.areaLightList.size());
-    p.deltaLights = scene_.deltaLightCount;
-    p.sceneDiameter = scene_.diameter;
-    p.ambientDistance = settings_.indirect.ambientDistance > 0 ? settings_.indirect.ambientDistance
+    p.bounces = static_cast<std::uint32_t>(std::max(1, c_.settings.bounces));
+    p.sampler = static_cast<std::uint32_t>(c_.settings.sampler);
+    p.lightSampling = static_cast<std::uint32_t>(c_.settings.lightSampling);
+    p.firstPass = c_.settings.method == Method::AxisAligned && !c_.frame.distributed ? WEDGE_INDIRECT_FIRST_RAYS : 0;
+    // Of a distributed frame's receivers each has but some of its pixel's samples.
+    p.strata = c_.frame.distributed ? static_cast<std::uint32_t>(c_.settings.spp) : 0;
+    p.areaLights = static_cast<std::uint32_t>(c_.scene.areaLightList.size());
+    p.deltaLights = c_.scene.deltaLightCount;
+    p.sceneDiameter = c_.scene.diameter;
+    p.ambientDistance = c_.settings.indirect.ambientDistance > 0 ? c_.settings.indirect.ambientDistance
                                                                : std::numeric_limits<float>::infinity();
     return p;
 }
@@ -102,10 +94,10 @@ shared::PathParams Indirect::pathParams() const
 bool Indirect::samplePaths(
     const char* pass, const shared::FrameParams& frame, std::uint32_t from, std::uint32_t most, double mean)
 {
-    const DeviceScene& s = scene_;
-    Frame& f = frame_;
-    const double units = std::max(1.0, mean - from) * std::max(1, settings_.bounces);
-    const auto slice = static_cast<std::uint32_t>(std::max(1, sliceVertices / std::max(1, settings_.bounces)));
+    const DeviceScene& s = c_.scene;
+    Frame& f = c_.frame;
+    const double units = std::max(1.0, mean - from) * std::max(1, c_.settings.bounces);
+    const auto slice = static_cast<std::uint32_t>(std::max(1, sliceVertices / std::max(1, c_.settings.bounces)));
     try {
         for (std::uint32_t last = from; last < most;) {
             // Most pixels are done at twice the mean; the slices up to the cap count for what little is left.
@@ -115,12 +107,10 @@ bool Indirect::samplePaths(
             };
             const double share = done(std::min(last + slice, most)) - done(last);
             last += std::min(slice, most - last);
-            passes_.tiles(pass, PassKind::Trace, "indirect.cl", "samplePaths", frame, units * share, pathParams(), s.nodes,
-                s.blocks, s.positions, s.normals, s.texcoords, s.indices, s.materialIds, s.materials, s.textures, s.texels,
-                s.srgbToLinear, s.areaLights, s.deltaLights, f.position, f.normal, f.origin, f.geometric, f.objectId,
-                f.gloss, f.specular, term_.wanted, last, term_.sums, term_.taken, term_.value, term_.extremes, f.rays,
-                f.pathRays);
-            if (passes_.rehearsal()) {
+            c_.passes.tiles(pass, PassKind::Trace, "indirect.cl", "samplePaths", frame, units * share, pathParams(), s.nodes,
+                s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, f.receivers(), f.specular, term_.wanted, last,
+                term_.sums, term_.taken, term_.value, term_.extremes, f.rays, f.pathRays);
+            if (c_.passes.rehearsal()) {
                 break;
             }
         }
@@ -132,24 +122,24 @@ bool Indirect::samplePaths(
 
 shared::ReflectorParams Indirect::reflectorParams(const image::Window& window) const
 {
-    const IndirectSettings& in = settings_.indirect;
+    const IndirectSettings& in = c_.settings.indirect;
     shared::ReflectorParams p {};
     setRectangle(p, window);
-    p.width = fullFrame_.width;
-    p.height = fullFrame_.height;
-    p.stride = fullFrame_.stride;
-    p.planeSize = fullFrame_.planeSize;
+    p.width = c_.fullFrame.width;
+    p.height = c_.fullFrame.height;
+    p.stride = c_.fullFrame.stride;
+    p.planeSize = c_.fullFrame.planeSize;
     p.component = static_cast<std::uint32_t>(component_);
     p.mu = in.mu;
     p.alpha = in.alpha;
     p.widthScale = in.widthScale;
-    p.extent = in.extent == ReflectorExtent::Scene ? scene_.largestDimension : 0.0f;
+    p.extent = in.extent == ReflectorExtent::Scene ? c_.scene.largestDimension : 0.0f;
     p.leastReflector = in.leastReflector;
     p.meanFraction = in.meanFraction;
     p.countCap = static_cast<std::uint32_t>(in.maxSpp);
-    p.fixedWidth = settings_.filtering == Filtering::Fixed ? settings_.fixedWidth : 0.0f;
+    p.fixedWidth = c_.settings.filtering == Filtering::Fixed ? c_.settings.fixedWidth : 0.0f;
     p.countExponent = in.countExponent;
-    p.varianceSpread = settings_.varianceSpread;
+    p.varianceSpread = c_.settings.varianceSpread;
     return p;
 }
 
@@ -157,35 +147,41 @@ shared::AnalysisParams Indirect::countParams(const image::Window& window) const
 {
     shared::AnalysisParams p {};
     setRectangle(p, window);
-    p.width = fullFrame_.width;
-    p.height = fullFrame_.height;
-    p.stride = fullFrame_.stride;
-    p.planeSize = fullFrame_.planeSize;
-    p.countCap = static_cast<std::uint32_t>(settings_.indirect.maxSpp);
+    p.width = c_.fullFrame.width;
+    p.height = c_.fullFrame.height;
+    p.stride = c_.fullFrame.stride;
+    p.planeSize = c_.fullFrame.planeSize;
+    p.countCap = static_cast<std::uint32_t>(c_.settings.indirect.maxSpp);
     p.leastCount = WEDGE_INDIRECT_FIRST_RAYS;
     return p;
 }
 
 void Indirect::visibleExtent()
 {
-    device::TimedQueue& queue = passes_.queue();
-    device::Kernel& bounds = passes_.find("reflectors.cl", "visibleBounds");
-    bounds.setArgs(reflectorParams(full_), frame_.position, frame_.objectId, term_.bounds);
+    device::TimedQueue& queue = c_.passes.queue();
+    device::Kernel& bounds = c_.passes.find("reflectors.cl", "visibleBounds");
+    bounds.setArgs(reflectorParams(c_.full()), c_.frame.position, c_.frame.objectId, c_.scratch.bounds);
     queue.launch("widths", PassKind::Analysis, bounds, WEDGE_EXTENT_STRIPES, 1);
-    device::Kernel& extent = passes_.find("reflectors.cl", "visibleExtent");
-    extent.setArgs(term_.bounds, term_.extent);
+    device::Kernel& extent = c_.passes.find("reflectors.cl", "visibleExtent");
+    extent.setArgs(c_.scratch.bounds, c_.scratch.extent);
     queue.launch("widths", PassKind::Analysis, extent, 1, 1);
+}
+
+void Indirect::widths()
+{
+    visibleExtent();
+    c_.passes.rows("widths", PassKind::Analysis, "reflectors.cl", "reflectorWidths", reflectorParams(c_.full()), 1,
+        term_.extremes, c_.scratch.extent, c_.frame.pixelSize, c_.frame.gloss, term_.taken, term_.beta, term_.wanted);
+    analysed_ = true;
 }
 
 void Indirect::widthsAndCounts()
 {
-    const IndirectSettings& in = settings_.indirect;
-    const bool uniform = settings_.sampling == Sampling::Uniform || in.counts == IndirectCounts::Uniform;
-    visibleExtent();
-    passes_.rows("widths", PassKind::Analysis, "reflectors.cl", "reflectorWidths", reflectorParams(full_), 1,
-        term_.extremes, term_.extent, frame_.pixelSize, frame_.gloss, term_.taken, term_.beta, term_.wanted);
+    const IndirectSettings& in = c_.settings.indirect;
+    const bool uniform = c_.settings.sampling == Sampling::Uniform || in.counts == IndirectCounts::Uniform;
+    widths();
     if (uniform) {
-        uniformCounts(passes_, countParams(full_), static_cast<std::uint32_t>(settings_.spp), term_.taken, term_);
+        uniformCounts(c_.passes, countParams(c_.full()), static_cast<std::uint32_t>(c_.settings.spp), term_.taken, term_.wanted);
     } else if (in.counts == IndirectCounts::Variance) {
         countsFromVariance();
     }
@@ -193,35 +189,59 @@ void Indirect::widthsAndCounts()
 
 const device::Buffer<float>& Indirect::reflectance() const
 {
-    return component_ == Component::Glossy ? frame_.specular : frame_.diffuse;
+    return component_ == Component::Glossy ? c_.frame.specular : c_.frame.diffuse;
 }
 
 void Indirect::countsFromVariance()
 {
-    const shared::ReflectorParams p = reflectorParams(full_);
+    const shared::ReflectorParams p = reflectorParams(c_.full());
     // Lights have no use for these planes any more.
-    device::Buffer<float>& variance = term_.logs;
-    device::Buffer<float>& gathered = term_.spread;
-    passes_.rows("counts", PassKind::Analysis, "reflectors.cl", "sampleVariance", p, WEDGE_BLOCK_PIXELS, term_.sums,
+    device::Buffer<float>& variance = c_.scratch.logs;
+    device::Buffer<float>& gathered = c_.scratch.spread;
+    c_.passes.rows("counts", PassKind::Analysis, "reflectors.cl", "sampleVariance", p, WEDGE_BLOCK_PIXELS, term_.sums,
         term_.taken, reflectance(), variance);
-    const bool filtered = settings_.filtering != Filtering::None;
+    const bool filtered = c_.settings.filtering != Filtering::None;
     if (filtered) {
-        gaussianFilter(passes_, { "filter of variance", PassKind::Analysis, "filter_variance.cl" },
-            filterParams(settings_, fullFrame_, full_), full_, frame_, variance, term_, gathered);
+        gaussianFilter(c_.passes, { "filter of variance", PassKind::Analysis, "filter_variance.cl" },
+            filterParams(c_.settings, c_.fullFrame, c_.full()), c_.full(), c_.frame, variance, term_.beta, c_.scratch, gathered);
     } else {
-        term_.effective.fill(passes_.queue(), 1.0f);
+        c_.scratch.effective.fill(c_.passes.queue(), 1.0f);
     }
-    passes_.rows("counts", PassKind::Analysis, "reflectors.cl", "pathDemand", p, WEDGE_BLOCK_PIXELS,
-        filtered ? gathered : variance, term_.effective, term_.beta, frame_.objectId, term_.demand);
-    countsFromDemand(passes_, countParams(full_), static_cast<float>(settings_.spp), term_.taken, term_);
+    c_.passes.rows("counts", PassKind::Analysis, "reflectors.cl", "pathDemand", p, WEDGE_BLOCK_PIXELS,
+        filtered ? gathered : variance, c_.scratch.effective, term_.beta, c_.frame.objectId, c_.scratch.demand);
+    countsFromDemand(c_.passes, countParams(c_.full()), static_cast<float>(c_.settings.spp), term_.taken, c_.scratch, term_.wanted);
 }
 
 void Indirect::composite(const device::Buffer<float>& value)
 {
-    const shared::AnalysisParams p = countParams(blockWindow(window_, 0, full_.x1, full_.y1));
-    passes_.rows("composite", PassKind::Composite, "composite.cl", "addIndirect", p, WEDGE_BLOCK_PIXELS,
-        static_cast<std::uint32_t>(component_), reflectance(), value, term_.value, term_.taken, frame_.indirect,
-        frame_.indirectNoisy, frame_.samples, frame_.indirectSamples);
+    const shared::AnalysisParams p = countParams(blockWindow(c_.window, 0, c_.full().x1, c_.full().y1));
+    c_.passes.rows("composite", PassKind::Composite, "composite.cl", "addIndirect", p, WEDGE_BLOCK_PIXELS,
+        static_cast<std::uint32_t>(component_), reflectance(), value, term_.value, term_.taken, c_.frame.indirect,
+        c_.frame.indirectNoisy, c_.frame.samples, c_.frame.indirectSamples);
+}
+
+void Indirect::sampleWave(Waves& waves, const shared::WaveParams& wave, bool starts, double workUnits)
+{
+    const DeviceScene& s = c_.scene;
+    const device::Buffer<float>& reflectance = component_ == Component::Glossy ? waves.specular : waves.diffuse;
+    waves.share(c_.passes, term_, wave);
+    c_.passes.tiles("paths", PassKind::Trace, "indirect.cl", "samplePaths", waves.receiverParams(wave), workUnits, pathParams(),
+        s.nodes, s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, waves.receivers(), waves.specular, waves.wanted,
+        std::numeric_limits<std::uint32_t>::max(), waves.sums, waves.taken, waves.value, waves.extremes, waves.rays,
+        waves.pathRays);
+    waves.pixels(c_.passes, "accumulatePaths", wave, starts ? 1u : 0u, waves.pixelFirst, waves.pixelCount,
+        c_.frame.primaryTaken, c_.frame.hits, waves.objectId, reflectance, waves.sums, waves.extremes, term_.wanted,
+        term_.taken, c_.frame.indirect, term_.texture, term_.value, term_.plain, term_.squares, term_.textureSquares,
+        term_.extremes, c_.frame.samples, c_.frame.indirectSamples);
+}
+
+void Indirect::filterDistributed(const shared::DistributedParams& params)
+{
+    gaussianFilter(c_.passes, { "filter of indirect", PassKind::Filter, "filter_indirect.cl" },
+        filterParams(c_.settings, c_.fullFrame, c_.window), c_.window, c_.frame, term_.value, term_.beta, c_.scratch,
+        c_.scratch.filtered);
+    c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "replaceTerm", params, 1, term_.texture, term_.value,
+        c_.scratch.filtered, term_.beta, c_.frame.indirect);
 }
 
 } // namespace wedge::render

@@ -1,9 +1,8 @@
 #pragma once
 
-#include "host/render/device_scene.h"
-#include "host/render/frame.h"
-#include "host/render/passes.h"
-#include "host/render/settings.h"
+#include "host/render/effects/term_context.h"
+#include "host/render/waves.h"
+#include "kernels/shared/distributed.h"
 #include "kernels/shared/filter_params.h"
 #include "kernels/shared/path.h"
 
@@ -27,23 +26,26 @@ struct IndirectTerm {
 /// The indirect terms of a frame. specular: the scene reflects so.
 std::vector<IndirectTerm> indirectTerms(const Settings& settings, bool specular);
 
-/// Indirect light by paths, thesis chapter 4, and ambient occlusion by the same means: distances of reflectors, widths and
-/// counts (kernels/shared/indirect.h), paths, filter, modulation by the surface's reflectance. One component at a time;
-/// each is a term of its own.
+/// Indirect light by paths, thesis chapters 4 and 5, and ambient occlusion by the same means: distances of reflectors, widths
+/// and counts (kernels/shared/indirect.h), paths, filter, modulation by the surface's reflectance. One component; each is a
+/// term of its own.
 class Indirect {
 public:
     /// What a component's term needs. analysed: with filter.
-    static TermShape termShape(bool analysed) { return { 4, 3, 3, analysed }; }
+    static TermShape termShape(bool analysed) { return { 4, 3, 3, analysed, false }; }
 
-    /// window: the pixels that the result is wanted for.
-    Indirect(Passes& passes, const DeviceScene& scene, Frame& frame, Term& term, const Settings& settings,
-        const shared::FrameParams& fullFrame, const shared::FrameParams& sampledFrame, const image::Window& window);
+    Indirect(const TermContext& context, Term& term, Component component);
 
-    /// Samples, filters and adds the component to frame.indirect and indirectNoisy. Returns false if cancelled while
-    /// sampling; what was sampled until then is filtered and added all the same.
-    bool render(Component component);
+    /// The pixels being the receivers: samples, filters and adds the component to frame.indirect and indirectNoisy. Returns
+    /// false if cancelled while sampling; what was sampled until then is filtered and added all the same.
+    bool render();
 
-    /// Whether the last component got widths: not so in plain Monte Carlo, nor if its first pass was cancelled.
+    /// As SoftShadows has them.
+    void sampleWave(Waves& waves, const shared::WaveParams& wave, bool starts, double workUnits);
+    void widths();
+    void filterDistributed(const shared::DistributedParams& params);
+
+    /// Whether the component got widths: not so in plain Monte Carlo, nor if its first pass was cancelled.
     bool analysed() const { return analysed_; }
 
 private:
@@ -58,14 +60,9 @@ private:
     shared::AnalysisParams countParams(const image::Window& window) const;
     const device::Buffer<float>& reflectance() const;
 
-    Passes& passes_;
-    const DeviceScene& scene_;
-    Frame& frame_;
+    TermContext c_;
     Term& term_;
-    const Settings& settings_;
-    shared::FrameParams fullFrame_, sampledFrame_;
-    image::Window full_, window_;
-    Component component_ = Component::Diffuse;
+    Component component_;
     bool analysed_ = false;
 };
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace wedge::render {
 
@@ -29,33 +30,24 @@ float gaussianScale(float sigma)
 TermShape SoftShadows::termShape(bool specular, bool analysed)
 {
     const std::uint32_t channels = specular ? 2 : 1;
-    return { 2 * channels, channels, 2, analysed };
+    return { 2 * channels, channels, 2, analysed, false };
 }
 
-SoftShadows::SoftShadows(Passes& passes, const DeviceScene& scene, Frame& frame, Term& term, const Settings& settings,
-    const shared::FrameParams& fullFrame, const shared::FrameParams& sampledFrame, const image::Window& window)
-    : passes_(passes)
-    , scene_(scene)
-    , frame_(frame)
+SoftShadows::SoftShadows(const TermContext& context, Term& term, std::uint32_t index)
+    : c_(context)
     , term_(term)
-    , settings_(settings)
-    , fullFrame_(fullFrame)
-    , sampledFrame_(sampledFrame)
-    , full_ { 0, 0, static_cast<int>(frame.layout.width), static_cast<int>(frame.layout.height) }
-    , window_(window)
+    , index_(index)
 {
 }
 
-bool SoftShadows::render(std::uint32_t index)
+bool SoftShadows::render()
 {
-    index_ = index;
-    analysed_ = false;
-    term_.clear(passes_.queue());
+    term_.clear(c_.passes.queue());
     const bool complete = sample();
-    if (analysed_ && settings_.filtering != Filtering::None) {
-        gaussianFilter(passes_, { "filter", PassKind::Filter, "filter.cl" },
-            filterParams(settings_, fullFrame_, light(), window_), window_, frame_, term_.value, term_, term_.filtered);
-        shade(term_.filtered);
+    if (analysed_ && c_.settings.filtering != Filtering::None) {
+        gaussianFilter(c_.passes, { "filter", PassKind::Filter, "filter.cl" },
+            filterParams(c_.settings, c_.fullFrame, light(), c_.window), c_.window, c_.frame, term_.value, term_.beta, c_.scratch, c_.scratch.filtered);
+        shade(c_.scratch.filtered);
     } else {
         shade(term_.value);
     }
@@ -64,39 +56,48 @@ bool SoftShadows::render(std::uint32_t index)
 
 bool SoftShadows::sample()
 {
-    if (settings_.method == Method::MonteCarlo) {
-        uniformCounts();
+    const auto spp = static_cast<std::uint32_t>(c_.settings.spp);
+    if (c_.settings.method == Method::MonteCarlo) {
+        uniformCounts(c_.passes, analysisParams(blockWindow(c_.window, 0, c_.full().x1, c_.full().y1)), spp, c_.frame.objectId,
+            term_.wanted);
         return secondPass(0);
     }
+    // All of the frame even for a crop: the counts' scale comes from all pixels, and a crop is to be the same pixels as the
+    // whole image.
+    uniformCounts(c_.passes, analysisParams(c_.full()), WEDGE_FIRST_PASS_RAYS, c_.frame.objectId, term_.wanted);
     if (!firstPass()) {
         return false;
     }
     widthsAndCounts();
-    analysed_ = true;
     return secondPass(WEDGE_FIRST_PASS_RAYS);
 }
 
 shared::SampleParams SoftShadows::sampleParams() const
 {
-    return { static_cast<std::uint32_t>(settings_.shading), static_cast<std::uint32_t>(settings_.sampler), index_,
-        settings_.method == Method::AxisAligned ? WEDGE_FIRST_PASS_RAYS : 0, lightSampling(), {} };
+    shared::SampleParams p {};
+    p.shading = static_cast<std::uint32_t>(c_.settings.shading);
+    p.sampler = static_cast<std::uint32_t>(c_.settings.sampler);
+    p.light = index_;
+    p.firstPass = c_.settings.method == Method::AxisAligned && !c_.frame.distributed ? WEDGE_FIRST_PASS_RAYS : 0;
+    p.lightSampling = lightSampling();
+    // Of a distributed frame's receivers each has but some of its pixel's samples.
+    p.strata = c_.frame.distributed ? static_cast<std::uint32_t>(c_.settings.spp) : 0;
+    return p;
 }
 
 std::uint32_t SoftShadows::lightSampling() const
 {
     // A filtered term is visibility of points on the light, and so is a ratio: directions have no part in them.
-    const bool plain = settings_.method == Method::MonteCarlo && settings_.shading == Shading::Inside;
-    return plain ? static_cast<std::uint32_t>(settings_.lightSampling) : WEDGE_LIGHTS_SAMPLED;
+    const bool plain = c_.settings.method == Method::MonteCarlo && c_.settings.shading == Shading::Inside;
+    return plain ? static_cast<std::uint32_t>(c_.settings.lightSampling) : WEDGE_LIGHTS_SAMPLED;
 }
 
 bool SoftShadows::firstPass()
 {
     try {
-        // All of the frame even for a crop: the counts' scale comes from all pixels, and a crop is to be the same
-        // pixels as the whole image.
-        passes_.tiles("first pass", PassKind::Trace, "area_light.cl", "firstPass", fullFrame_,
-            WEDGE_FIRST_PASS_RAYS, sampleParams(), light(), scene_.nodes, scene_.blocks, frame_.position, frame_.normal,
-            frame_.origin, frame_.objectId, frame_.gloss, term_.sums, term_.taken, term_.value, term_.extremes, frame_.rays);
+        c_.passes.tiles("first pass", PassKind::Trace, "area_light.cl", "firstPass", c_.fullFrame, WEDGE_FIRST_PASS_RAYS,
+            sampleParams(), light(), c_.scene.nodes, c_.scene.blocks, c_.frame.receivers(), term_.wanted, term_.sums,
+            term_.taken, term_.value, term_.extremes, c_.frame.rays);
     } catch (const device::Cancelled&) {
         return false;
     }
@@ -105,25 +106,24 @@ bool SoftShadows::firstPass()
 
 bool SoftShadows::secondPass(std::uint32_t from)
 {
-    const bool plain = settings_.method == Method::MonteCarlo;
+    const bool plain = c_.settings.method == Method::MonteCarlo;
     const std::uint32_t slice = plain ? monteCarloSlice : secondPassSlice;
     const std::uint32_t most = static_cast<std::uint32_t>(
-        settings_.sampling == Sampling::Uniform ? settings_.spp : std::max(settings_.maxSpp, settings_.spp));
-    const double units = std::max(1.0, static_cast<double>(settings_.spp) - from);
+        c_.settings.sampling == Sampling::Uniform ? c_.settings.spp : std::max(c_.settings.maxSpp, c_.settings.spp));
+    const double units = std::max(1.0, static_cast<double>(c_.settings.spp) - from);
     try {
         for (std::uint32_t last = from; last < most;) {
             // Most pixels are done at twice the mean; the slices up to the cap count for what little is left.
-            const double knee = std::min<double>(most, std::max(2.0 * settings_.spp, from + 1.0));
+            const double knee = std::min<double>(most, std::max(2.0 * c_.settings.spp, from + 1.0));
             const auto done = [&](double n) {
                 return 0.9 * std::min(n - from, knee - from) / (knee - from) + 0.1 * (n - from) / (most - from);
             };
             const double share = done(std::min(last + slice, most)) - done(last);
             last += std::min(slice, most - last);
-            passes_.tiles(plain ? "shadow rays" : "second pass", PassKind::Trace, "area_light.cl", "secondPass",
-                sampledFrame_, units * share, sampleParams(), light(), scene_.nodes, scene_.blocks, frame_.position,
-                frame_.normal, frame_.origin, frame_.objectId, frame_.gloss, term_.wanted, last, term_.sums,
-                term_.taken, term_.value, frame_.rays);
-            if (passes_.rehearsal()) {
+            c_.passes.tiles(plain ? "shadow rays" : "second pass", PassKind::Trace, "area_light.cl", "secondPass",
+                c_.sampledFrame, units * share, sampleParams(), light(), c_.scene.nodes, c_.scene.blocks, c_.frame.receivers(),
+                term_.wanted, last, term_.sums, term_.taken, term_.value, c_.frame.rays);
+            if (c_.passes.rehearsal()) {
                 break;
             }
         }
@@ -137,109 +137,137 @@ shared::AnalysisParams SoftShadows::analysisParams(const image::Window& window) 
 {
     shared::AnalysisParams p {};
     setRectangle(p, window);
-    p.width = fullFrame_.width;
-    p.height = fullFrame_.height;
-    p.stride = fullFrame_.stride;
-    p.planeSize = fullFrame_.planeSize;
+    p.width = c_.fullFrame.width;
+    p.height = c_.fullFrame.height;
+    p.stride = c_.fullFrame.stride;
+    p.planeSize = c_.fullFrame.planeSize;
     p.sigma = light().sigma;
     // A_l = (2 sigma)^2, as section 3.5.1 takes the light's effective width.
     p.lightSize = 2.0f * light().sigma;
-    p.k = settings_.k;
-    p.mu = settings_.mu;
-    p.alpha = settings_.alpha;
-    p.fillRadius = static_cast<std::uint32_t>(settings_.fillRadius);
-    p.fillScale = gaussianScale(settings_.fillSigma);
-    p.countCap = static_cast<std::uint32_t>(settings_.maxSpp);
-    p.fixedWidth = settings_.filtering == Filtering::Fixed ? settings_.fixedWidth : 0.0f;
-    p.countExponent = settings_.countExponent;
-    p.varianceFloor = settings_.varianceFloor;
-    p.varianceSpread = settings_.varianceSpread;
+    p.k = c_.settings.k;
+    p.mu = c_.settings.mu;
+    p.alpha = c_.settings.alpha;
+    p.fillRadius = static_cast<std::uint32_t>(c_.settings.fillRadius);
+    p.fillScale = gaussianScale(c_.settings.fillSigma);
+    p.countCap = static_cast<std::uint32_t>(c_.settings.maxSpp);
+    p.fixedWidth = c_.settings.filtering == Filtering::Fixed ? c_.settings.fixedWidth : 0.0f;
+    p.countExponent = c_.settings.countExponent;
+    p.varianceFloor = c_.settings.varianceFloor;
+    p.varianceSpread = c_.settings.varianceSpread;
     p.lightCentre = light().centre;
     p.leastCount = WEDGE_FIRST_PASS_RAYS;
     return p;
 }
 
-void SoftShadows::widthsAndCounts()
+void SoftShadows::widths()
 {
-    const bool spectrum = settings_.sampling == Sampling::Adaptive && settings_.counts == Counts::Spectrum;
-    if (spectrum || settings_.slopes == Slopes::Published) {
+    const bool spectrum = c_.settings.sampling == Sampling::Adaptive && c_.settings.counts == Counts::Spectrum;
+    if (spectrum || c_.settings.slopes == Slopes::Published) {
         publishedWidths();
     }
-    if (settings_.slopes == Slopes::Smoothed) {
+    if (c_.settings.slopes == Slopes::Smoothed) {
         smoothedWidths();
     }
-    if (settings_.sampling == Sampling::Uniform) {
-        uniformCounts();
-    } else if (settings_.counts == Counts::Variance) {
+    analysed_ = true;
+}
+
+void SoftShadows::widthsAndCounts()
+{
+    widths();
+    if (c_.settings.sampling == Sampling::Uniform) {
+        uniformCounts(c_.passes, analysisParams(c_.full()), static_cast<std::uint32_t>(c_.settings.spp), c_.frame.objectId,
+            term_.wanted);
+    } else if (c_.settings.counts == Counts::Variance) {
         countsFromVariance();
     }
 }
 
 void SoftShadows::publishedWidths()
 {
-    const shared::AnalysisParams p = analysisParams(full_);
+    const shared::AnalysisParams p = analysisParams(c_.full());
     constexpr std::uint32_t planes = 4;
-    passes_.rows("widths", PassKind::Analysis, "analysis.cl", "publishedDistances", p, WEDGE_BLOCK_PIXELS, term_.extremes,
-        frame_.position, frame_.objectId, term_.logs);
-    passes_.rows("widths", PassKind::Analysis, "analysis.cl", "spreadRows", p, WEDGE_BLOCK_PIXELS, planes,
-        term_.logs, term_.rowsSpread);
-    passes_.rows("widths", PassKind::Analysis, "analysis.cl", "spreadColumns", p, WEDGE_BLOCK_PIXELS, planes,
-        term_.rowsSpread, term_.spread);
-    passes_.rows("widths", PassKind::Analysis, "analysis.cl", "publishedWidths", p, 1, term_.extremes, term_.spread,
-        frame_.objectId, frame_.pixelSize, term_.sums, term_.beta, term_.wanted);
+    c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "publishedDistances", p, WEDGE_BLOCK_PIXELS, term_.extremes,
+        c_.frame.position, c_.frame.objectId, c_.scratch.logs);
+    c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "spreadRows", p, WEDGE_BLOCK_PIXELS, planes,
+        c_.scratch.logs, c_.scratch.rowsSpread);
+    c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "spreadColumns", p, WEDGE_BLOCK_PIXELS, planes,
+        c_.scratch.rowsSpread, c_.scratch.spread);
+    c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "publishedWidths", p, 1, term_.extremes, c_.scratch.spread,
+        c_.frame.objectId, c_.frame.pixelSize, term_.sums, term_.beta, term_.wanted);
 }
 
 void SoftShadows::smoothedWidths()
 {
-    const shared::AnalysisParams p = analysisParams(full_);
+    const shared::AnalysisParams p = analysisParams(c_.full());
     constexpr std::uint32_t planes = 2;
     // The plane of demands is free until the counts are made.
-    passes_.rows("widths", PassKind::Analysis, "analysis.cl", "erodeSlopes", p, WEDGE_BLOCK_PIXELS, term_.extremes,
-        frame_.objectId, term_.demand);
-    passes_.rows("widths", PassKind::Analysis, "analysis.cl", "smoothSlopes", p, WEDGE_BLOCK_PIXELS, term_.demand,
-        frame_.objectId, term_.logs);
-    passes_.rows("widths", PassKind::Analysis, "analysis.cl", "spreadRows", p, WEDGE_BLOCK_PIXELS, planes,
-        term_.logs, term_.rowsSpread);
-    passes_.rows("widths", PassKind::Analysis, "analysis.cl", "spreadColumns", p, WEDGE_BLOCK_PIXELS, planes,
-        term_.rowsSpread, term_.spread);
-    passes_.rows("widths", PassKind::Analysis, "analysis.cl", "widths", p, 1, term_.logs, term_.spread,
-        frame_.objectId, frame_.pixelSize, term_.sums, term_.beta);
+    c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "erodeSlopes", p, WEDGE_BLOCK_PIXELS, term_.extremes,
+        c_.frame.objectId, c_.scratch.demand);
+    c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "smoothSlopes", p, WEDGE_BLOCK_PIXELS, c_.scratch.demand,
+        c_.frame.objectId, c_.scratch.logs);
+    c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "spreadRows", p, WEDGE_BLOCK_PIXELS, planes,
+        c_.scratch.logs, c_.scratch.rowsSpread);
+    c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "spreadColumns", p, WEDGE_BLOCK_PIXELS, planes,
+        c_.scratch.rowsSpread, c_.scratch.spread);
+    c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "widths", p, 1, c_.scratch.logs, c_.scratch.spread,
+        c_.frame.objectId, c_.frame.pixelSize, term_.sums, term_.beta);
 }
 
 void SoftShadows::countsFromVariance()
 {
-    const shared::AnalysisParams p = analysisParams(full_);
-    if (settings_.filtering == Filtering::None) {
-        term_.effective.fill(passes_.queue(), 1.0f);
+    const shared::AnalysisParams p = analysisParams(c_.full());
+    if (c_.settings.filtering == Filtering::None) {
+        c_.scratch.effective.fill(c_.passes.queue(), 1.0f);
     } else {
-        gaussianFilter(passes_, { "filter of first pass", PassKind::Analysis, "filter.cl" },
-            filterParams(settings_, fullFrame_, light(), full_), full_, frame_, term_.value, term_, term_.filtered);
+        gaussianFilter(c_.passes, { "filter of first pass", PassKind::Analysis, "filter.cl" },
+            filterParams(c_.settings, c_.fullFrame, light(), c_.full()), c_.full(), c_.frame, term_.value, term_.beta, c_.scratch, c_.scratch.filtered);
     }
-    const device::Buffer<float>& visibility = settings_.filtering == Filtering::None ? term_.value : term_.filtered;
-    passes_.rows("counts", PassKind::Analysis, "counts.cl", "countDemand", p, WEDGE_BLOCK_PIXELS, visibility,
-        term_.effective, term_.beta, frame_.objectId, term_.demand);
-    render::countsFromDemand(passes_, p, static_cast<float>(settings_.spp), frame_.objectId, term_);
-}
-
-void SoftShadows::uniformCounts()
-{
-    const image::Window& counted = settings_.method == Method::MonteCarlo ? window_ : full_;
-    render::uniformCounts(passes_, analysisParams(blockWindow(counted, 0, full_.x1, full_.y1)),
-        static_cast<std::uint32_t>(settings_.spp), frame_.objectId, term_);
+    const device::Buffer<float>& visibility = c_.settings.filtering == Filtering::None ? term_.value : c_.scratch.filtered;
+    c_.passes.rows("counts", PassKind::Analysis, "counts.cl", "countDemand", p, WEDGE_BLOCK_PIXELS, visibility,
+        c_.scratch.effective, term_.beta, c_.frame.objectId, c_.scratch.demand);
+    countsFromDemand(c_.passes, p, static_cast<float>(c_.settings.spp), c_.frame.objectId, c_.scratch, term_.wanted);
 }
 
 void SoftShadows::shade(const device::Buffer<float>& value)
 {
-    const image::Window window = blockWindow(window_, 0, full_.x1, full_.y1);
+    const image::Window window = blockWindow(c_.window, 0, c_.full().x1, c_.full().y1);
     const shared::AnalysisParams p = analysisParams(window);
-    passes_.rows("composite", PassKind::Composite, "composite.cl", "addDiffuse", p, WEDGE_BLOCK_PIXELS, sampleParams(),
-        light(), scene_.quadratures[index_], frame_.position, frame_.normal, frame_.objectId, frame_.diffuse, value,
-        term_.value, term_.taken, frame_.direct, frame_.directNoisy, frame_.samples);
-    if (scene_.specular) {
-        passes_.rows("composite", PassKind::Composite, "composite.cl", "addSpecular", p, 1, sampleParams(), light(),
-            fullFrame_, scene_.quadratures[index_], frame_.position, frame_.normal, frame_.objectId, frame_.gloss,
-            frame_.specular, value, term_.value, term_.sums, term_.taken, frame_.direct, frame_.directNoisy);
+    c_.passes.rows("composite", PassKind::Composite, "composite.cl", "addDiffuse", p, WEDGE_BLOCK_PIXELS, sampleParams(),
+        light(), c_.scene.quadratures[index_], c_.frame.position, c_.frame.normal, c_.frame.objectId, c_.frame.diffuse, value,
+        term_.value, term_.taken, c_.frame.direct, c_.frame.directNoisy, c_.frame.samples);
+    if (c_.scene.specular) {
+        c_.passes.rows("composite", PassKind::Composite, "composite.cl", "addSpecular", p, 1, sampleParams(), light(),
+            c_.fullFrame, c_.scene.quadratures[index_], c_.frame.position, c_.frame.normal, c_.frame.objectId, c_.frame.gloss,
+            c_.frame.specular, value, term_.value, term_.sums, term_.taken, c_.frame.direct, c_.frame.directNoisy);
     }
+}
+
+void SoftShadows::sampleWave(Waves& waves, const shared::WaveParams& wave, bool slopes, bool starts, double workUnits)
+{
+    const shared::FrameParams receivers = waves.receiverParams(wave);
+    waves.share(c_.passes, term_, wave);
+    if (slopes) {
+        c_.passes.tiles("first pass", PassKind::Trace, "area_light.cl", "firstPass", receivers, workUnits, sampleParams(),
+            light(), c_.scene.nodes, c_.scene.blocks, waves.receivers(), waves.wanted, waves.sums, waves.taken, waves.value,
+            waves.extremes, waves.rays);
+    } else {
+        c_.passes.tiles("shadow rays", PassKind::Trace, "area_light.cl", "secondPass", receivers, workUnits, sampleParams(),
+            light(), c_.scene.nodes, c_.scene.blocks, waves.receivers(), waves.wanted,
+            std::numeric_limits<std::uint32_t>::max(), waves.sums, waves.taken, waves.value, waves.rays);
+    }
+    waves.pixels(c_.passes, "accumulateLight", wave, light(), starts ? 1u : 0u, waves.pixelFirst, waves.pixelCount,
+        c_.frame.primaryTaken, waves.shareOf, waves.objectId, waves.diffuse, waves.specular, waves.sums, waves.extremes,
+        term_.wanted, term_.taken, c_.frame.direct, term_.texture, term_.value, term_.plain, term_.squares,
+        term_.textureSquares, term_.extremes, term_.sums, c_.frame.samples);
+}
+
+void SoftShadows::filterDistributed(const shared::DistributedParams& params)
+{
+    gaussianFilter(c_.passes, { "filter", PassKind::Filter, "filter_variance.cl" },
+        filterParams(c_.settings, c_.fullFrame, light(), c_.window), c_.window, c_.frame, term_.value, term_.beta, c_.scratch,
+        c_.scratch.filtered);
+    c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "replaceTerm", params, 1, term_.texture, term_.value,
+        c_.scratch.filtered, term_.beta, c_.frame.direct);
 }
 
 } // namespace wedge::render

@@ -1,29 +1,35 @@
 #pragma once
 
-#include "host/render/device_scene.h"
-#include "host/render/frame.h"
-#include "host/render/passes.h"
-#include "host/render/settings.h"
+#include "host/render/effects/term_context.h"
+#include "host/render/waves.h"
+#include "kernels/shared/distributed.h"
 #include "kernels/shared/filter_params.h"
 
 namespace wedge::render {
 
-/// Direct light of area lights, thesis chapter 3: slopes, widths and counts (kernels/shared/wedge.h), samples, filter,
-/// shading. One light at a time; each is a term of its own.
+/// Direct light of area lights, thesis chapters 3 and 5: slopes, widths and counts (kernels/shared/wedge.h), samples,
+/// filter, shading. One light; each is a term of its own.
 class SoftShadows {
 public:
     /// What a light's term needs. specular: the scene reflects so; analysed: with filter.
     static TermShape termShape(bool specular, bool analysed);
 
-    /// window: the pixels that the result is wanted for.
-    SoftShadows(Passes& passes, const DeviceScene& scene, Frame& frame, Term& term, const Settings& settings,
-        const shared::FrameParams& fullFrame, const shared::FrameParams& sampledFrame, const image::Window& window);
+    /// index: of the light.
+    SoftShadows(const TermContext& context, Term& term, std::uint32_t index);
 
-    /// Samples, filters and adds light `index` to frame.direct and directNoisy. Returns false if cancelled while
-    /// sampling; what was sampled until then is filtered and added all the same.
-    bool render(std::uint32_t index);
+    /// The pixels being the receivers: samples, filters and adds the light to frame.direct and directNoisy. Returns false if
+    /// cancelled while sampling; what was sampled until then is filtered and added all the same.
+    bool render();
 
-    /// Whether the last light got widths: not so in plain Monte Carlo, nor if its first pass was cancelled.
+    /// In a distributed frame: the samples of a wave's receivers, added to their pixels. slopes: also measures those.
+    /// starts: no other light has added to the wave's pixels yet.
+    void sampleWave(Waves& waves, const shared::WaveParams& wave, bool slopes, bool starts, double workUnits);
+    /// After a first pass of slopes: term.beta, metres.
+    void widths();
+    /// Replaces what frame.direct has of the light by the filtered term times its texture.
+    void filterDistributed(const shared::DistributedParams& params);
+
+    /// Whether the light got widths: not so in plain Monte Carlo, nor if its first pass was cancelled.
     bool analysed() const { return analysed_; }
 
 private:
@@ -34,21 +40,15 @@ private:
     void publishedWidths();
     void smoothedWidths();
     void countsFromVariance();
-    void uniformCounts();
     void shade(const device::Buffer<float>& value);
     shared::AnalysisParams analysisParams(const image::Window& window) const;
-    const shared::AreaLight& light() const { return scene_.areaLightList[index_]; }
+    const shared::AreaLight& light() const { return c_.scene.areaLightList[index_]; }
     shared::SampleParams sampleParams() const;
     std::uint32_t lightSampling() const;
 
-    Passes& passes_;
-    const DeviceScene& scene_;
-    Frame& frame_;
+    TermContext c_;
     Term& term_;
-    const Settings& settings_;
-    shared::FrameParams fullFrame_, sampledFrame_;
-    image::Window full_, window_;
-    std::uint32_t index_ = 0;
+    std::uint32_t index_;
     bool analysed_ = false;
 };
 

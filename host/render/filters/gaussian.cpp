@@ -38,7 +38,8 @@ shared::FilterParams filterParams(const Settings& settings, const shared::FrameP
 }
 
 void gaussianFilter(Passes& passes, const FilterRun& run, shared::FilterParams params, const image::Window& window,
-    const Frame& frame, const device::Buffer<float>& value, Term& term, device::Buffer<float>& filtered)
+    const Frame& frame, const device::Buffer<float>& value, const device::Buffer<float>& beta, Scratch& scratch,
+    device::Buffer<float>& filtered)
 {
     const int width = static_cast<int>(frame.layout.width);
     const int height = static_cast<int>(frame.layout.height);
@@ -47,11 +48,11 @@ void gaussianFilter(Passes& passes, const FilterRun& run, shared::FilterParams p
     const image::Window columns = blockWindow(window, 0, width, height);
     const image::Window rows { columns.x0, std::max(0, window.y0 - reach), columns.x1, std::min(height, window.y1 + reach) };
     setRectangle(params, rows);
-    passes.rows(run.pass, run.kind, run.program, "filterRows", params, WEDGE_BLOCK_PIXELS, value, term.beta,
-        frame.position, frame.normal, frame.objectId, term.rowsFiltered, term.rowsEffective);
+    passes.rows(run.pass, run.kind, run.program, "filterRows", params, WEDGE_BLOCK_PIXELS, value, beta,
+        frame.position, frame.normal, frame.objectId, scratch.rowsFiltered, scratch.rowsEffective);
     setRectangle(params, columns);
-    passes.rows(run.pass, run.kind, run.program, "filterColumns", params, WEDGE_BLOCK_PIXELS, term.rowsFiltered,
-        term.beta, frame.position, frame.normal, frame.objectId, term.rowsEffective, filtered, term.effective);
+    passes.rows(run.pass, run.kind, run.program, "filterColumns", params, WEDGE_BLOCK_PIXELS, scratch.rowsFiltered,
+        beta, frame.position, frame.normal, frame.objectId, scratch.rowsEffective, filtered, scratch.effective);
 }
 
 } // namespace wedge::render

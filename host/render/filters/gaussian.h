@@ -28,10 +28,11 @@ struct FilterRun {
 };
 
 /// The separable world-space Gaussian of kernels/gather.h from `value` into `filtered`, as many planes as the program
-/// has channels, and the effective counts into term.effective, over window; widths are term.beta. It reads up to
-/// params.maxRadius pixels beyond the window. No state; term.rowsFiltered and rowsEffective are scratch.
+/// has channels, and the effective counts into scratch.effective, over window; widths are beta. It reads up to
+/// params.maxRadius pixels beyond the window. No state; scratch.rowsFiltered and rowsEffective are overwritten.
 /// params: of filterParams(); its rectangle does not matter.
 void gaussianFilter(Passes& passes, const FilterRun& run, shared::FilterParams params, const image::Window& window,
-    const Frame& frame, const device::Buffer<float>& value, Term& term, device::Buffer<float>& filtered);
+    const Frame& frame, const device::Buffer<float>& value, const device::Buffer<float>& beta, Scratch& scratch,
+    device::Buffer<float>& filtered);
 
 } // namespace wedge::render

@@ -1,0 +1,299 @@
+#include "host/render/distributed_frame.h"
+
+#include "host/render/filters/gaussian.h"
+#include "host/render/sample_counts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace wedge::render {
+
+using device::PassKind;
+
+namespace {
+
+// Samples of a pixel between two looks at what the image would be if the render stopped.
+constexpr std::uint32_t monteCarloRound = 16;
+
+} // namespace
+
+bool isDistributed(const Settings& settings, const scene::Scene& scene)
+{
+    return scene.camera.apertureRadius > 0 || scene::geometryMoves(scene) || scene::cameraMoves(scene) || settings.antialias;
+}
+
+DistributedFrame::DistributedFrame(const TermContext& context, Waves& waves, const std::vector<std::unique_ptr<Term>>& terms,
+    std::size_t lights, const shared::CameraParams& camera)
+    : c_(context)
+    , waves_(waves)
+    , terms_(terms)
+    , camera_(camera)
+    , lit_(context.settings.integrator == Integrator::Path)
+{
+    for (std::uint32_t i = 0; i < lights; ++i) {
+        lights_.emplace_back(context, *terms[i], i);
+    }
+    const std::vector<IndirectTerm> components = indirectTerms(context.settings, context.scene.specular);
+    for (std::size_t i = 0; i < components.size(); ++i) {
+        paths_.emplace_back(context, *terms[lights + i], components[i].component);
+    }
+}
+
+template <class F>
+void DistributedFrame::eachTerm(const F& f)
+{
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+        const bool light = i < lights_.size();
+        f(*terms_[i], light ? 1u : 3u, light ? 1.0f : 2.0f * static_cast<float>(std::max(1, c_.settings.bounces)));
+    }
+}
+
+bool DistributedFrame::render()
+{
+    eachTerm([&](Term& term, std::uint32_t, float) { term.clear(c_.passes.queue()); });
+    bool complete = true;
+    try {
+        complete = c_.settings.method == Method::MonteCarlo ? monteCarlo() : adaptive();
+    } catch (const device::Cancelled&) {
+        complete = false;
+    }
+    compose();
+    return complete;
+}
+
+bool DistributedFrame::monteCarlo()
+{
+    const auto spp = static_cast<std::uint32_t>(c_.settings.spp);
+    c_.frame.primaryWanted.fill(c_.passes.queue(), spp);
+    eachTerm([&](Term& term, std::uint32_t, float) { term.wanted.fill(c_.passes.queue(), spp); });
+    for (std::uint32_t last = 0; last < spp;) {
+        const std::uint32_t round = std::min(monteCarloRound, spp - last);
+        last += round;
+        sample(c_.sampledFrame, last, false, round);
+        if (c_.passes.rehearsal()) {
+            break;
+        }
+    }
+    return true;
+}
+
+bool DistributedFrame::adaptive()
+{
+    const auto first = static_cast<std::uint32_t>(std::min(c_.settings.distributed.firstPaths, c_.settings.spp));
+    c_.frame.primaryWanted.fill(c_.passes.queue(), first);
+    eachTerm([&](Term& term, std::uint32_t, float) { term.wanted.fill(c_.passes.queue(), first); });
+    sample(c_.fullFrame, first, true, first);
+    widths();
+    demands();
+    counts();
+    analysed_ = true;
+    sample(c_.sampledFrame, std::numeric_limits<std::uint32_t>::max(), false, c_.settings.spp - static_cast<double>(first));
+    filter();
+    return true;
+}
+
+bool DistributedFrame::sample(const shared::FrameParams& frame, std::uint32_t last, bool slopes, double workUnits)
+{
+    shared::WaveParams settings {};
+    settings.sampler = static_cast<std::uint32_t>(c_.settings.sampler);
+    settings.shading = static_cast<std::uint32_t>(c_.settings.shading);
+    const std::vector<shared::WaveParams> waves = waves_.schedule(c_.passes, frame, c_.frame, settings, last);
+    for (const shared::WaveParams& wave : waves) {
+        sampleWave(wave, slopes, workUnits / static_cast<double>(waves.size()));
+    }
+    return true;
+}
+
+void DistributedFrame::sampleWave(const shared::WaveParams& wave, bool slopes, double workUnits)
+{
+    const double units = workUnits / (1.0 + static_cast<double>(lights_.size() + paths_.size()));
+    waves_.trace(c_.passes, c_.scene, c_.frame, camera_, wave, lit_, units);
+    bool starts = true;
+    for (SoftShadows& light : lights_) {
+        light.sampleWave(waves_, wave, slopes, starts, units);
+        starts = false;
+    }
+    if (lit_ && c_.scene.deltaLightCount > 0) {
+        deltaLights(wave, starts);
+    }
+    starts = true;
+    for (Indirect& path : paths_) {
+        path.sampleWave(waves_, wave, starts, units);
+        starts = false;
+    }
+    waves_.accumulateSurfaces(c_.passes, c_.frame, camera_, wave);
+}
+
+void DistributedFrame::deltaLights(const shared::WaveParams& wave, bool starts)
+{
+    const DeviceScene& s = c_.scene;
+    waves_.radiance.fill(c_.passes.queue(), 0.0f);
+    c_.passes.tiles("point and directional lights", PassKind::Trace, "delta_lights.cl", "deltaLights",
+        waves_.receiverParams(wave), 0.0, s.deltaLights, s.deltaLightCount, s.diameter, s.nodes, s.blocks, waves_.receivers(),
+        waves_.diffuse, waves_.specular, waves_.radiance, waves_.radianceNoisy, waves_.rays);
+    waves_.pixels(c_.passes, "accumulateDelta", wave, starts ? 1u : 0u, waves_.pixelFirst, waves_.pixelCount,
+        c_.frame.primaryTaken, waves_.objectId, waves_.radiance, c_.frame.direct);
+}
+
+shared::DistributedParams DistributedFrame::params(const image::Window& window) const
+{
+    const DistributedSettings& d = c_.settings.distributed;
+    shared::DistributedParams p {};
+    setRectangle(p, window);
+    p.width = c_.fullFrame.width;
+    p.height = c_.fullFrame.height;
+    p.stride = c_.fullFrame.stride;
+    p.planeSize = c_.fullFrame.planeSize;
+    p.factoringError = d.factoringError;
+    p.factoringRadius = static_cast<std::uint32_t>(d.factoringRadius);
+    p.blurWidth = d.blurWidth;
+    p.shutterWidth = d.shutterWidth;
+    p.leastRadius = d.leastRadius;
+    p.irradianceWidth = d.irradianceWidth;
+    p.countExponent = d.countExponent;
+    p.varianceSpread = d.varianceSpread;
+    p.oneVelocity = d.oneVelocity;
+    p.never = d.factoring == Factoring::Never ? 1 : 0;
+    return p;
+}
+
+void DistributedFrame::widths()
+{
+    for (SoftShadows& light : lights_) {
+        light.widths();
+    }
+    for (Indirect& path : paths_) {
+        path.widths();
+    }
+    eachTerm([&](Term& term, std::uint32_t values, float) { factoredWidths(term, values); });
+    c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "blurs", params(c_.full()), 1, c_.frame.confusion,
+        c_.frame.motion, c_.frame.blurRadii, c_.frame.blurLengths, c_.frame.blurDirections);
+}
+
+void DistributedFrame::factoredWidths(Term& term, std::uint32_t values)
+{
+    shared::DistributedParams p = params(c_.full());
+    p.values = values;
+    c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "factoringError", p, 1, term.texture, term.value, term.plain,
+        c_.scratch.demand);
+    c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "factoredWidths", p, 1, c_.scratch.demand,
+        c_.frame.confusion, c_.frame.pixelSize, c_.frame.objectId, term.beta);
+}
+
+void DistributedFrame::demandOf(Term& term, std::uint32_t values, float rays)
+{
+    shared::DistributedParams p = params(c_.full());
+    p.values = values;
+    p.rays = rays;
+    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "splitVariance", p, 1, term.texture, term.textureSquares,
+        term.value, term.squares, c_.frame.primaryTaken, c_.scratch.rowsSpread, c_.scratch.logs);
+    gaussianFilter(c_.passes, { "filter of variance", PassKind::Analysis, "filter_variance.cl" },
+        filterParams(c_.settings, c_.fullFrame, c_.full()), c_.full(), c_.frame, c_.scratch.logs, term.beta, c_.scratch,
+        c_.scratch.filtered);
+    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "sampleDemand", p, 1, c_.scratch.filtered,
+        c_.scratch.effective, term.beta, c_.frame.blurRadii, c_.frame.blurLengths, term.demand);
+    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "addPlane", p, 1, c_.scratch.rowsSpread, c_.scratch.spread);
+}
+
+void DistributedFrame::demands()
+{
+    shared::DistributedParams p = params(c_.full());
+    p.rays = 1.0f;
+    c_.scratch.spread.fill(c_.passes.queue(), 0.0f);
+    eachTerm([&](Term& term, std::uint32_t values, float rays) { demandOf(term, values, rays); });
+    // Nothing but lens and shutter averages textures.
+    c_.scratch.demand.fill(c_.passes.queue(), -1.0f);
+    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "sampleDemand", p, 1, c_.scratch.spread,
+        c_.scratch.effective, c_.scratch.demand, c_.frame.blurRadii, c_.frame.blurLengths, c_.frame.primaryDemand);
+    eachTerm([&](Term& term, std::uint32_t, float) {
+        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "atLeast", p, 1, c_.frame.primaryDemand, term.demand);
+    });
+}
+
+void DistributedFrame::counts()
+{
+    // The scale of all demands that makes the mean number of rays what uniform counts would have.
+    const DistributedSettings& d = c_.settings.distributed;
+    struct Demand {
+        std::vector<float> values;
+        float rays;
+    };
+    std::vector<Demand> demands;
+    demands.push_back({ c_.frame.primaryDemand.downloadAll(c_.passes.queue()), 1.0f });
+    double perPath = 1.0;
+    eachTerm([&](Term& term, std::uint32_t, float rays) {
+        demands.push_back({ term.demand.downloadAll(c_.passes.queue()), rays });
+        perPath += rays;
+    });
+    const auto least = static_cast<float>(std::min(d.firstPaths, c_.settings.spp)), most = static_cast<float>(d.maxSpp);
+    const std::size_t pixels = std::size_t { c_.fullFrame.width } * c_.fullFrame.height;
+    const double budget = perPath * c_.settings.spp * static_cast<double>(pixels);
+    double low = 1e-12, high = 1e12;
+    for (int step = 0; step < 40; ++step) {
+        const double scale = std::sqrt(low * high);
+        double rays = 0;
+        for (const Demand& demand : demands) {
+            double sum = 0;
+            for (std::uint32_t y = 0; y < c_.fullFrame.height; ++y) {
+                const float* row = demand.values.data() + shared::pixelIndex(0, y, c_.fullFrame.stride);
+                float part = 0;
+                for (std::uint32_t x = 0; x < c_.fullFrame.width; ++x) {
+                    part += std::clamp(static_cast<float>(scale) * row[x], least, most);
+                }
+                sum += part;
+            }
+            rays += demand.rays * sum;
+        }
+        (rays > budget ? high : low) = scale;
+    }
+    const shared::DistributedParams p = params(c_.full());
+    const auto scale = static_cast<float>(low);
+    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "scaleCounts", p, 1, scale,
+        static_cast<std::uint32_t>(least), static_cast<std::uint32_t>(most), c_.frame.primaryDemand, c_.frame.primaryTaken,
+        c_.frame.primaryWanted);
+    eachTerm([&](Term& term, std::uint32_t, float) {
+        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "scaleCounts", p, 1, scale,
+            static_cast<std::uint32_t>(least), static_cast<std::uint32_t>(most), term.demand, term.taken, term.wanted);
+    });
+}
+
+void DistributedFrame::filter()
+{
+    shared::DistributedParams p = params(c_.window);
+    p.values = 1;
+    for (SoftShadows& light : lights_) {
+        light.filterDistributed(p);
+    }
+    p.values = 3;
+    for (Indirect& path : paths_) {
+        path.filterDistributed(p);
+    }
+}
+
+void DistributedFrame::compose()
+{
+    c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "addAll", params(c_.window), 1, c_.frame.emission,
+        c_.frame.direct, c_.frame.indirect, c_.frame.beauty);
+    if (analysed_ && c_.settings.distributed.blur) {
+        blur();
+    }
+}
+
+void DistributedFrame::blur()
+{
+    const shared::DistributedParams p = params(c_.full());
+    c_.passes.rows("filter of lens and shutter", PassKind::Filter, "blur.cl", "blurRows", p, 1, c_.frame.blurRadii,
+        c_.frame.beauty, c_.scratch.rowsFiltered);
+    c_.passes.rows("filter of lens and shutter", PassKind::Filter, "blur.cl", "blurColumns", p, 1, c_.frame.blurRadii,
+        c_.scratch.rowsFiltered, c_.frame.beauty);
+    if (camera_.shutter != 0) {
+        c_.passes.rows("filter of lens and shutter", PassKind::Filter, "blur.cl", "blurMotion", p, 1, c_.frame.blurLengths,
+            c_.frame.blurDirections, c_.frame.beauty, c_.scratch.filtered);
+        c_.passes.rows("filter of lens and shutter", PassKind::Filter, "distributed.cl", "copyImage", p, 1,
+            c_.scratch.filtered, c_.frame.beauty);
+    }
+}
+
+} // namespace wedge::render

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "host/render/effects/indirect.h"
+#include "host/render/effects/soft_shadows.h"
+#include "host/render/effects/term_context.h"
+#include "host/render/waves.h"
+
+#include <memory>
+#include <vector>
+
+namespace wedge::render {
+
+/// Whether pixels of such a frame have several receivers: through a lens, a shutter, or all of their square.
+bool isDistributed(const Settings& settings, const scene::Scene& scene);
+
+/// Defocus, motion blur and antialiasing together with the other effects: thesis chapter 5 and appendix B, docs/multiple-effects.md.
+/// A first pass finds circles of confusion, motion, slopes and distances; those make widths, and variances the counts of
+/// primary and secondary samples; a second pass takes them; irradiances are filtered where they can be taken apart from
+/// textures, then the image by what lens and shutter have blurred.
+class DistributedFrame {
+public:
+    /// terms: of `lights` area lights, then of the components of indirect light; each receiver serves them all.
+    DistributedFrame(const TermContext& context, Waves& waves, const std::vector<std::unique_ptr<Term>>& terms,
+        std::size_t lights, const shared::CameraParams& camera);
+
+    /// Returns false if cancelled while sampling; the image is then made of what was sampled until then.
+    bool render();
+
+    /// Whether terms got widths.
+    bool analysed() const { return analysed_; }
+
+private:
+    bool monteCarlo();
+    bool adaptive();
+    bool sample(const shared::FrameParams& frame, std::uint32_t last, bool slopes, double workUnits);
+    void sampleWave(const shared::WaveParams& wave, bool slopes, double workUnits);
+    void deltaLights(const shared::WaveParams& wave, bool starts);
+    void widths();
+    void factoredWidths(Term& term, std::uint32_t values);
+    void demands();
+    void demandOf(Term& term, std::uint32_t values, float rays);
+    void counts();
+    void filter();
+    void compose();
+    void blur();
+    shared::DistributedParams params(const image::Window& window) const;
+    /// Calls f(term, planes of its value, rays of a sample) for each term.
+    template <class F>
+    void eachTerm(const F& f);
+
+    TermContext c_;
+    Waves& waves_;
+    const std::vector<std::unique_ptr<Term>>& terms_;
+    shared::CameraParams camera_;
+    std::vector<SoftShadows> lights_;
+    std::vector<Indirect> paths_;
+    bool lit_;
+    bool analysed_ = false;
+};
+
+} // namespace wedge::render

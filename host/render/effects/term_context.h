@@ -1,0 +1,27 @@
+#pragma once
+
+#include "host/render/device_scene.h"
+#include "host/render/frame.h"
+#include "host/render/passes.h"
+#include "host/render/settings.h"
+
+namespace wedge::render {
+
+/// What every effect of a frame works with; all of it outlives the effects.
+struct TermContext {
+    Passes& passes;
+    const DeviceScene& scene;
+    Frame& frame;
+    Scratch& scratch;
+    const Settings& settings;
+    shared::FrameParams fullFrame; ///< of the whole image
+    shared::FrameParams sampledFrame; ///< of the pixels that need their last samples
+    image::Window window; ///< the pixels that the result is wanted for
+
+    image::Window full() const
+    {
+        return { 0, 0, static_cast<int>(frame.layout.width), static_cast<int>(frame.layout.height) };
+    }
+};
+
+} // namespace wedge::render

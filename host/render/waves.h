@@ -1,0 +1,72 @@
+#pragma once
+
+#include "host/render/device_scene.h"
+#include "host/render/frame.h"
+#include "host/render/passes.h"
+#include "kernels/shared/camera.h"
+#include "kernels/shared/wave.h"
+
+#include <vector>
+
+namespace wedge::render {
+
+/// Receivers of distributed frames: their lists, and what is found at each (kernels/waves.cl). Pixels that see a scene
+/// through a lens or a shutter have many, and no memory for all at once: they are traced in waves of a bounded number,
+/// each of which is added to its pixels before the next.
+class Waves {
+public:
+    /// Receivers of a wave at most: enough to fill a large device, few enough to stay in a CPU's caches.
+    static constexpr std::uint32_t capacity = 1u << 17;
+
+    static void plan(device::MemoryPlan& plan, const PlaneLayout& layout, const TermShape& term);
+
+    /// term: planes that the receivers' terms need.
+    Waves(const device::Device& device, const PlaneLayout& layout, const TermShape& term);
+
+    /// The waves in which the pixels of frame get their primary samples up to frame.primaryWanted, or up to `last` samples.
+    /// settings: sampler, firstPass and shading; the rest is filled in. They are for those pixels until the next schedule.
+    std::vector<shared::WaveParams> schedule(
+        Passes& passes, const shared::FrameParams& params, const Frame& frame, shared::WaveParams settings, std::uint32_t last);
+
+    /// Lists the wave's receivers and traces their primary rays. lit: with area lights in view.
+    void trace(Passes& passes, const DeviceScene& scene, const Frame& frame, const shared::CameraParams& camera,
+         const shared::WaveParams& wave, bool lit, double workUnits);
+
+    /// Shares the samples of a term that the wave's pixels take now out to their receivers, and clears those' sums.
+    void share(Passes& passes, const Term& term, const shared::WaveParams& wave);
+
+    /// Adds the receivers' surfaces to their pixels: the last that is done with a wave.
+    void accumulateSurfaces(
+        Passes& passes, Frame& frame, const shared::CameraParams& camera, const shared::WaveParams& wave);
+
+    /// What passes over the wave's receivers take for FrameParams.
+    shared::FrameParams receiverParams(const shared::WaveParams& wave) const;
+
+    /// A pass over the pixels of the wave's tiles.
+    template <class... Args>
+    void pixels(Passes& passes, const std::string& kernel, const shared::WaveParams& wave, const Args&... args)
+    {
+        passes.list("accumulate", device::PassKind::Trace, "accumulate.cl", kernel,
+            std::size_t { wave.tiles } * WEDGE_TILE_PIXELS, params_, wave, args...);
+    }
+
+    /// What kernels take for WEDGE_RECEIVER_PARAMETERS.
+    auto receivers() const { return std::tie(position, normal, origin, geometric, objectId, gloss, pixelOf, view, time); }
+
+    TermShape shape;
+    device::Buffer<float> position, normal, origin;
+    device::Buffer<std::uint32_t> geometric, objectId;
+    device::Buffer<float> gloss;
+    device::Buffer<std::uint32_t> pixelOf, sampleOf, shareOf, view; ///< see waves.cl
+    device::Buffer<float> time, diffuse, specular, emission, pixelSize, depth, motion; ///< see wave_primary.cl
+    device::Buffer<float> sums, value, extremes; ///< of one term
+    device::Buffer<std::uint32_t> taken, wanted, rays, pathRays;
+    device::Buffer<float> radiance, radianceNoisy; ///< of point and directional lights
+    device::Buffer<std::uint32_t> tileReceivers, tileFirst; ///< one a tile
+    device::Buffer<std::uint32_t> pixelFirst, pixelCount; ///< one a pixel of the wave's tiles
+
+private:
+    shared::FrameParams params_ {}; ///< of the pixels
+};
+
+} // namespace wedge::render

@@ -1,0 +1,304 @@
+// From a wave's receivers to its pixels. Planes of pixels hold means over the primary samples taken so far; each kernel
+// here adds a pixel's new receivers, which lie together in the wave. Samples that hit nothing count as black in radiance
+// and in textures, and not at all in irradiances, positions and normals.
+//
+// Of each term a pixel keeps the mean texture k (reflectance; of lights times the unshadowed shading) and the mean
+// irradiance E (of lights: visibility) weighted by the texture, so that their product is the radiance of the term, and
+// neither holds what belongs to the other; besides, the plain mean of E's luminance, by which thesis (5.30) judges
+// whether texture and irradiance may be taken apart.
+#include "receivers.h"
+#include "shared/bsdf.h"
+#include "shared/camera.h"
+#include "shared/wave.h"
+
+/// Least texture with which an irradiance counts: black surfaces have one, too.
+#define WEDGE_LEAST_TEXTURE 1e-3f
+
+/// Object id of a pixel that sees several.
+#define WEDGE_MIXED 0xffffffffu
+
+/// A pixel and its receivers in the wave.
+typedef struct {
+    uint i;            ///< in planes of pixels
+    uint first, count; ///< receivers
+    uint before;       ///< primary samples that its means hold already
+} WavePixel;
+
+WEDGE_FN bool wavePixel(FrameParams frame, WaveParams wave, __global const uint* pixelFirst, __global const uint* pixelCount,
+                        __global const uint* taken, WavePixel* p)
+{
+    const uint slot = get_global_id(0);
+    uint x, y;
+    if (slot >= wave.tiles * WEDGE_TILE_PIXELS
+        || !slotPixel(frame, wave.firstTile + slot / WEDGE_TILE_PIXELS, slot % WEDGE_TILE_PIXELS, &x, &y)) {
+        return false;
+    }
+    p->i = pixelIndex(x, y, frame.stride);
+    p->first = pixelFirst[slot];
+    p->count = pixelCount[slot];
+    p->before = taken[p->i];
+    return p->count > 0u;
+}
+
+/// The mean of before + count numbers, of which `mean` is that of the first and sum that of the others.
+WEDGE_FN float meanWith(float mean, float before, float sum, float count)
+{
+    return (mean * before + sum) / fmax(before + count, 1e-20f);
+}
+
+WEDGE_FN void storeMean(__global float* planes, uint size, uint i, float before, Vec3 sum, float count)
+{
+    const Vec3 mean = loadVec(planes, size, i);
+    storeVec(planes, size, i, vec3(meanWith(mean.x, before, sum.x, count), meanWith(mean.y, before, sum.y, count),
+                                   meanWith(mean.z, before, sum.z, count)));
+}
+
+/// Adds a term's radiance to the mean of all of its kind. starts: it is the first term, and the mean is that of the samples
+/// before.
+WEDGE_FN void storeRadiance(__global float* planes, uint size, WavePixel p, Vec3 sum, uint starts)
+{
+    const float total = (float)(p.before + p.count);
+    const float kept = starts != 0u ? (float)p.before / total : 1.0f;
+    storeVec(planes, size, p.i, vecMad(vecScale(loadVec(planes, size, p.i), kept), sum, 1.0f / total));
+}
+
+/// One area light.
+/// in      wave's planes: objectId, diffuse, specular, sums (as area_light.cl has them), slopes, shareOf
+///         termTaken, termWanted: the pixels' samples of the light before and after the wave
+/// in out  of pixels: direct (radiance, 3), texture (3), value (visibility), plain (the same, unweighted), squares and
+///         textureSquares (mean squared luminance of a primary sample's radiance, and of its texture), extremes (slopes),
+///         weightOf (mean luminance of the texture), samples (of all terms), termTaken
+__kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight light, uint starts,
+                              __global const uint* restrict pixelFirst, __global const uint* restrict pixelCount,
+                              __global const uint* restrict taken, __global const uint* restrict shareOf,
+                              __global const uint* restrict objectId, __global const float* restrict diffuse,
+                              __global const float* restrict specular, __global const float* restrict sums,
+                              __global const float* restrict slopes, __global const uint* restrict termWanted,
+                              __global uint* restrict termTaken, __global float* restrict direct,
+                              __global float* restrict texture, __global float* restrict value,
+                              __global float* restrict plain, __global float* restrict squares,
+                              __global float* restrict textureSquares, __global float* restrict extremes,
+                              __global float* restrict weightOf, __global uint* restrict samples)
+{
+    WavePixel p;
+    if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
+        return;
+    }
+    const uint size = wave.planeSize;
+    const uint from = termTaken[p.i];
+    const uint total = max(min(termWanted[p.i], wave.lastSample), from) - from;
+    Vec3 radiance = vec3(0.0f, 0.0f, 0.0f), textures = radiance;
+    float weights = 0.0f, visible = 0.0f, visibility = 0.0f, squared = 0.0f, textureSquared = 0.0f, lit = 0.0f;
+    float sMin = extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY, sMax = extremes[frame.planeSize + p.i];
+    for (uint k = 0u; k < p.count; ++k) {
+        const uint r = p.first + k;
+        const uint n = sharedSamples(k + 1u, p.count, total) - sharedSamples(k, p.count, total);
+        if (objectId[r] == 0u || n == 0u) {
+            continue;
+        }
+        const float scale = 1.0f / (float)n;
+        const Vec3 kd = vecScale(loadVec(diffuse, size, r), WEDGE_INV_PI * scale);
+        Vec3 t = vecScale(kd, sums[r]), l = vecScale(kd, sums[size + r]);
+#ifdef WEDGE_SPECULAR
+        const Vec3 ks = vecScale(loadVec(specular, size, r), scale);
+        t = vecMad(t, ks, sums[2u * size + r]);
+        l = vecMad(l, ks, sums[3u * size + r]);
+#endif
+        t = vecMul(t, light.power);
+        l = vecMul(l, light.power);
+        const float seen = luminance(l), unshadowed = luminance(t);
+        radiance = vecAdd(radiance, l);
+        textures = vecAdd(textures, t);
+        weights += unshadowed;
+        visible += seen;
+        squared += seen * seen;
+        textureSquared += unshadowed * unshadowed;
+        visibility += unshadowed > 0.0f ? seen / unshadowed : 0.0f;
+        lit += unshadowed > 0.0f ? 1.0f : 0.0f;
+        sMin = slopes[r] > 0.0f ? fmin(sMin, slopes[r]) : sMin;
+        sMax = fmax(sMax, slopes[size + r]);
+    }
+    const float before = (float)p.before, count = (float)p.count;
+    const float known = luminance(loadVec(texture, frame.planeSize, p.i)) * before;
+    storeRadiance(direct, frame.planeSize, p, radiance, starts);
+    storeMean(texture, frame.planeSize, p.i, before, textures, count);
+    value[p.i] = known + weights > 0.0f ? (value[p.i] * known + visible) / (known + weights) : 0.0f;
+    plain[p.i] = lit > 0.0f ? meanWith(plain[p.i], before, visibility, lit) : plain[p.i];
+    squares[p.i] = meanWith(squares[p.i], before, squared, count);
+    textureSquares[p.i] = meanWith(textureSquares[p.i], before, textureSquared, count);
+    weightOf[p.i] = meanWith(weightOf[p.i], before, weights, count);
+    extremes[p.i] = sMin < INFINITY ? sMin : 0.0f;
+    extremes[frame.planeSize + p.i] = sMax;
+    samples[p.i] += total;
+    termTaken[p.i] = from + total;
+}
+
+/// Point and directional lights: `lit`, the receivers' radiance from them.
+__kernel void accumulateDelta(FrameParams frame, WaveParams wave, uint starts, __global const uint* restrict pixelFirst,
+                              __global const uint* restrict pixelCount, __global const uint* restrict taken,
+                              __global const uint* restrict objectId, __global const float* restrict lit,
+                              __global float* restrict direct)
+{
+    WavePixel p;
+    if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
+        return;
+    }
+    Vec3 radiance = vec3(0.0f, 0.0f, 0.0f);
+    for (uint r = p.first; r < p.first + p.count; ++r) {
+        radiance = objectId[r] != 0u ? vecAdd(radiance, loadVec(lit, wave.planeSize, r)) : radiance;
+    }
+    storeRadiance(direct, frame.planeSize, p, radiance, starts);
+}
+
+/// One component of indirect light.
+/// in      wave's planes: objectId, reflectance (3), sums, reflectors (as indirect.cl has them), shareOf
+///         hits: the pixels' primary samples with a surface, before the wave
+/// in out  as of a light: value has 3 planes; reflectors: of pixels, like those of receivers; indirectSamples
+__kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint starts, __global const uint* restrict pixelFirst,
+                              __global const uint* restrict pixelCount, __global const uint* restrict taken,
+                              __global const uint* restrict hits, __global const uint* restrict objectId,
+                              __global const float* restrict reflectance, __global const float* restrict sums,
+                              __global const float* restrict reflectors, __global const uint* restrict termWanted,
+                              __global uint* restrict termTaken, __global float* restrict indirect,
+                              __global float* restrict texture, __global float* restrict value,
+                              __global float* restrict plain, __global float* restrict squares,
+                              __global float* restrict textureSquares, __global float* restrict extremes,
+                              __global uint* restrict samples, __global uint* restrict indirectSamples)
+{
+    WavePixel p;
+    if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
+        return;
+    }
+    const uint size = wave.planeSize, pixels = frame.planeSize;
+    const uint from = termTaken[p.i];
+    const uint total = max(min(termWanted[p.i], wave.lastSample), from) - from;
+    Vec3 radiance = vec3(0.0f, 0.0f, 0.0f), textures = radiance, weighted = radiance, weights = radiance;
+    float irradiance = 0.0f, squared = 0.0f, textureSquared = 0.0f, hit = 0.0f;
+    float nearest = extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY, farthest = extremes[pixels + p.i];
+    float inverse = extremes[2u * pixels + p.i];
+    for (uint k = 0u; k < p.count; ++k) {
+        const uint r = p.first + k;
+        const uint n = sharedSamples(k + 1u, p.count, total) - sharedSamples(k, p.count, total);
+        if (objectId[r] == 0u || n == 0u) {
+            continue;
+        }
+        const Vec3 e = vecScale(loadVec(sums, size, r), 1.0f / (float)n);
+        const Vec3 t = loadVec(reflectance, size, r);
+        const Vec3 l = vecMul(t, e);
+        const Vec3 w = vec3(t.x + WEDGE_LEAST_TEXTURE, t.y + WEDGE_LEAST_TEXTURE, t.z + WEDGE_LEAST_TEXTURE);
+        radiance = vecAdd(radiance, l);
+        textures = vecAdd(textures, t);
+        weights = vecAdd(weights, w);
+        weighted = vecAdd(weighted, vecMul(w, e));
+        irradiance += luminance(e);
+        squared += luminance(l) * luminance(l);
+        textureSquared += luminance(t) * luminance(t);
+        hit += 1.0f;
+        nearest = reflectors[r] > 0.0f ? fmin(nearest, reflectors[r]) : nearest;
+        farthest = fmax(farthest, reflectors[size + r]);
+        inverse += reflectors[2u * size + r];
+    }
+    const float before = (float)p.before, count = (float)p.count, floor = WEDGE_LEAST_TEXTURE * (float)hits[p.i];
+    const Vec3 mean = loadVec(value, pixels, p.i), known = loadVec(texture, pixels, p.i);
+    storeVec(value, pixels, p.i,
+             vec3(meanWith(mean.x, known.x * before + floor, weighted.x, weights.x),
+                  meanWith(mean.y, known.y * before + floor, weighted.y, weights.y),
+                  meanWith(mean.z, known.z * before + floor, weighted.z, weights.z)));
+    storeRadiance(indirect, pixels, p, radiance, starts);
+    storeMean(texture, pixels, p.i, before, textures, count);
+    plain[p.i] = hit > 0.0f ? meanWith(plain[p.i], (float)hits[p.i], irradiance, hit) : plain[p.i];
+    squares[p.i] = meanWith(squares[p.i], before, squared, count);
+    textureSquares[p.i] = meanWith(textureSquares[p.i], before, textureSquared, count);
+    extremes[p.i] = nearest < INFINITY ? nearest : 0.0f;
+    extremes[pixels + p.i] = farthest;
+    extremes[2u * pixels + p.i] = inverse;
+    samples[p.i] += total;
+    indirectSamples[p.i] += total;
+    termTaken[p.i] = from + total;
+}
+
+/// Where and what the receivers are, and what they emit; closes the wave.
+/// in      wave's planes: as wave_primary.cl fills them, rays, pathRays
+/// in out  of pixels: means of position, normal, pixelSize, distance, gloss, diffuse, specular, emission; objectId (0:
+///         no surface, WEDGE_MIXED: several objects); hits; confusion (planes: least and largest signed radius of
+///         the circle of confusion, pixels); motion (planes: mean x, mean y, largest difference from the mean's start);
+///         rays, pathRays; taken
+__kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParams camera,
+                                 __global const uint* restrict pixelFirst, __global const uint* restrict pixelCount,
+                                 __global const uint* restrict objectId, __global const float* restrict position,
+                                 __global const float* restrict normal, __global const float* restrict gloss,
+                                 __global const float* restrict diffuse, __global const float* restrict specular,
+                                 __global const float* restrict emission, __global const float* restrict pixelSize,
+                                 __global const float* restrict depth, __global const float* restrict motion,
+                                 __global const uint* restrict rays, __global const uint* restrict pathRays,
+                                 __global uint* restrict taken, __global uint* restrict hitsOf,
+                                 __global uint* restrict objectOf, __global float* restrict positionOf,
+                                 __global float* restrict normalOf, __global float* restrict glossOf,
+                                 __global float* restrict diffuseOf, __global float* restrict specularOf,
+                                 __global float* restrict emissionOf, __global float* restrict pixelSizeOf,
+                                 __global float* restrict distanceOf, __global float* restrict confusionOf,
+                                 __global float* restrict motionOf, __global uint* restrict raysOf,
+                                 __global uint* restrict pathRaysOf)
+{
+    WavePixel p;
+    if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
+        return;
+    }
+    const uint size = wave.planeSize, pixels = frame.planeSize;
+    const Vec3 none = vec3(0.0f, 0.0f, 0.0f);
+    Vec3 at = none, facing = none, kd = none, ks = none, emitted = none;
+    float hit = 0.0f, exponent = 0.0f, edge = 0.0f, moveX = 0.0f, moveY = 0.0f;
+    float low = p.before > 0u ? confusionOf[p.i] : INFINITY, high = p.before > 0u ? confusionOf[pixels + p.i] : -INFINITY;
+    uint object = objectOf[p.i], traced = 0u, paths = 0u;
+    for (uint r = p.first; r < p.first + p.count; ++r) {
+        emitted = vecAdd(emitted, loadVec(emission, size, r));
+        const float radius = camera.apertureRadius > 0.0f ? confusion(camera, depth[r]) : 0.0f;
+        low = fmin(low, radius);
+        high = fmax(high, radius);
+        traced += rays[r];
+        paths += pathRays[r];
+        if (objectId[r] == 0u) {
+            continue;
+        }
+        object = object == 0u || object == objectId[r] ? objectId[r] : WEDGE_MIXED;
+        hit += 1.0f;
+        at = vecAdd(at, loadVec(position, size, r));
+        facing = vecAdd(facing, loadVec(normal, size, r));
+        kd = vecAdd(kd, loadVec(diffuse, size, r));
+        ks = vecAdd(ks, loadVec(specular, size, r));
+        exponent += gloss[r];
+        edge += pixelSize[r];
+        moveX += motion[r];
+        moveY += motion[size + r];
+    }
+    const float before = (float)p.before, count = (float)p.count, hits = (float)hitsOf[p.i];
+    storeMean(emissionOf, pixels, p.i, before, emitted, count);
+    storeMean(diffuseOf, pixels, p.i, before, kd, count);
+    storeMean(specularOf, pixels, p.i, before, ks, count);
+    taken[p.i] = p.before + p.count;
+    confusionOf[p.i] = low;
+    confusionOf[pixels + p.i] = high;
+    raysOf[p.i] += traced;
+    pathRaysOf[p.i] += paths;
+    if (hit == 0.0f) {
+        // Misses, or a light that is seen.
+        distanceOf[p.i] = hits > 0.0f ? distanceOf[p.i] : depth[p.first];
+        return;
+    }
+    hitsOf[p.i] += (uint)hit;
+    objectOf[p.i] = object;
+    storeMean(positionOf, pixels, p.i, hits, at, hit);
+    storeVec(normalOf, pixels, p.i, vecNormalize(vecMad(facing, loadVec(normalOf, pixels, p.i), hits)));
+    glossOf[p.i] = meanWith(glossOf[p.i], hits, exponent, hit);
+    pixelSizeOf[p.i] = meanWith(pixelSizeOf[p.i], hits, edge, hit);
+    distanceOf[p.i] = vecLength(vecSub(loadVec(positionOf, pixels, p.i), frame.eye));
+    const float meanX = meanWith(motionOf[p.i], hits, moveX, hit), meanY = meanWith(motionOf[pixels + p.i], hits, moveY, hit);
+    float spread = motionOf[2u * pixels + p.i];
+    for (uint r = p.first; r < p.first + p.count; ++r) {
+        const float dx = motion[r] - meanX, dy = motion[size + r] - meanY;
+        spread = objectId[r] != 0u ? fmax(spread, sqrt(dx * dx + dy * dy)) : spread;
+    }
+    motionOf[p.i] = meanX;
+    motionOf[pixels + p.i] = meanY;
+    motionOf[2u * pixels + p.i] = spread;
+}

@@ -1,0 +1,200 @@
+// The analysis of distributed frames (thesis 5.7, 5.8): where texture and irradiance may be taken apart, how wide the
+// irradiance's filter is then, which samples are worth most, and what becomes of the filtered term.
+#include "pixel.h"
+#include "shared/bsdf.h"
+#include "shared/distributed.h"
+
+WEDGE_FN bool pixelOf(DistributedParams p, uint* x, uint* y, uint* i)
+{
+    *x = p.x0 + get_global_id(0);
+    *y = p.y0 + get_global_id(1);
+    *i = pixelIndex(*x, *y, p.stride);
+    return *x < p.x1 && *y < p.y1;
+}
+
+WEDGE_FN Vec3 termValueOf(DistributedParams p, __global const float* value, uint i)
+{
+    return p.values == 3u ? loadVec(value, p.planeSize, i) : vec3(value[i], value[i], value[i]);
+}
+
+/// Smallest radius of the pixel's circles of confusion in pixels; 0 where it is in focus somewhere.
+WEDGE_FN float leastConfusion(DistributedParams p, __global const float* confusion, uint i)
+{
+    const float low = confusion[i], high = confusion[p.planeSize + i];
+    return low > 0.0f ? low : high < 0.0f ? -high : 0.0f;
+}
+
+/// The signed luminance of L - k E with plain means k and E.
+__kernel void factoringError(DistributedParams p, __global const float* restrict texture, __global const float* restrict value,
+                             __global const float* restrict plain, __global float* restrict error)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    const Vec3 k = loadVec(texture, p.planeSize, i);
+    error[i] = luminance(vecMul(k, termValueOf(p, value, i))) - luminance(k) * plain[i];
+}
+
+/// Narrows nothing and widens beta, metres, to what the lens has blurred already (5.18), (5.22); takes pixels out whose error
+/// is too large (beta = -1: they keep their own, and are nobody's neighbours).
+__kernel void factoredWidths(DistributedParams p, __global const float* restrict error, __global const float* restrict confusion,
+                             __global const float* restrict pixelSize, __global const uint* restrict objectId,
+                             __global float* restrict beta)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    float sum = 0.0f, count = 0.0f;
+    const int r = (int)p.factoringRadius;
+    for (int dy = -min((int)y, r); dy <= min((int)(p.height - 1u - y), r); ++dy) {
+        for (int dx = -min((int)x, r); dx <= min((int)(p.width - 1u - x), r); ++dx) {
+            const int j = (int)i + dy * (int)p.stride + dx;
+            const bool same = objectId[j] == objectId[i];
+            sum += same ? error[j] : 0.0f;
+            count += same ? 1.0f : 0.0f;
+        }
+    }
+    const bool apart = p.never == 0u && fabs(sum) <= p.factoringError * count;
+    const float blurred = p.irradianceWidth * leastConfusion(p, confusion, i) * pixelSize[i];
+    beta[i] = apart && beta[i] >= 0.0f ? fmax(beta[i], blurred > p.leastRadius * pixelSize[i] * p.irradianceWidth ? blurred : 0.0f) : -1.0f;
+}
+
+/// A term's variance a primary sample, in two: what the texture makes, which every pixel has to average by itself, and the
+/// rest, which the irradiance's filter averages.
+/// out  ofTexture, ofIrradiance
+__kernel void splitVariance(DistributedParams p, __global const float* restrict texture,
+                            __global const float* restrict textureSquares, __global const float* restrict value,
+                            __global const float* restrict squares, __global const uint* restrict taken,
+                            __global float* restrict ofTexture, __global float* restrict ofIrradiance)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    const Vec3 k = loadVec(texture, p.planeSize, i);
+    const float mean = luminance(vecMul(k, termValueOf(p, value, i)));
+    const float n = (float)taken[i];
+    const float unbiased = n > 1.0f ? n / (n - 1.0f) : 0.0f;
+    const float all = fmax(squares[i] - mean * mean, 0.0f) * unbiased;
+    const float t = luminance(k);
+    const float spread = fmax(textureSquares[i] - t * t, 0.0f) * unbiased;
+    const float irradiance = t > 0.0f ? mean / t : 0.0f;
+    const float texturePart = fmin(spread * irradiance * irradiance, all);
+    ofTexture[i] = texturePart;
+    ofIrradiance[i] = all - texturePart;
+}
+
+/// Pixels that the image-space filters of lens and shutter gather.
+WEDGE_FN float blurGather(DistributedParams p, float radius, float length)
+{
+    const float s = p.blurWidth * radius, m = p.shutterWidth * length;
+    const float area = radius >= p.leastRadius ? 4.0f * 3.14159265f * s * s : 1.0f;
+    const float along = length >= p.leastRadius ? 3.5449077f * m : 1.0f;
+    return fmax(area, 1.0f) * fmax(along, 1.0f);
+}
+
+/// Demand of a term's samples: (v / K / rays)^exponent, v at least varianceSpread of the largest within 5x5 pixels. effective:
+/// pixels that the irradiance's filter gathers; radii, lengths: of the image-space filters, pixels.
+__kernel void sampleDemand(DistributedParams p, __global const float* restrict variance, __global const float* restrict effective,
+                           __global const float* restrict beta, __global const float* restrict radii,
+                           __global const float* restrict lengths, __global float* restrict demand)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    float largest = 0.0f;
+    for (int dy = -min((int)y, 2); dy <= min((int)(p.height - 1u - y), 2); ++dy) {
+        for (int dx = -min((int)x, 2); dx <= min((int)(p.width - 1u - x), 2); ++dx) {
+            largest = fmax(largest, variance[(int)i + dy * (int)p.stride + dx]);
+        }
+    }
+    const float v = fmax(variance[i], p.varianceSpread * largest);
+    const float gathered = blurGather(p, radii[i], lengths[i]) * (beta[i] > 0.0f ? fmax(effective[i], 1.0f) : 1.0f);
+    demand[i] = v > 1e-30f ? pow(v / (gathered * p.rays), p.countExponent) : 0.0f;
+}
+
+/// sum += part.
+__kernel void addPlane(DistributedParams p, __global const float* restrict part, __global float* restrict sum)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        sum[i] += part[i];
+    }
+}
+
+/// At least as many secondary samples as primary ones.
+__kernel void atLeast(DistributedParams p, __global const float* restrict least, __global float* restrict demand)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        demand[i] = fmax(demand[i], least[i]);
+    }
+}
+
+/// wanted = clamp(scale demand, least, most), and never less than `taken`.
+__kernel void scaleCounts(DistributedParams p, float scale, uint least, uint most, __global const float* restrict demand,
+                          __global const uint* restrict taken, __global uint* restrict wanted)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        const float n = clamp(scale * demand[i], (float)least, (float)most);
+        wanted[i] = max((uint)(n + 0.5f), taken[i]);
+    }
+}
+
+/// Radii of the circle of confusion and lengths and directions of the motion by which the image is filtered: those that all
+/// of a pixel has, else 0.
+/// out  radii (pixels), lengths (pixels), directions (2 planes, unit)
+__kernel void blurs(DistributedParams p, __global const float* restrict confusion, __global const float* restrict motion,
+                    __global float* restrict radii, __global float* restrict lengths, __global float* restrict directions)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    const float r = leastConfusion(p, confusion, i);
+    radii[i] = r >= p.leastRadius ? r : 0.0f;
+    const float mx = motion[i], my = motion[p.planeSize + i];
+    const float length = sqrt(mx * mx + my * my);
+    const bool one = length >= p.leastRadius && motion[2u * p.planeSize + i] <= p.oneVelocity * length;
+    lengths[i] = one ? length : 0.0f;
+    directions[i] = one ? mx / length : 1.0f;
+    directions[p.planeSize + i] = one ? my / length : 0.0f;
+}
+
+/// Puts a term's filtered value in the place of its own: radiance += texture (filtered - value).
+__kernel void replaceTerm(DistributedParams p, __global const float* restrict texture, __global const float* restrict value,
+                          __global const float* restrict filtered, __global const float* restrict beta,
+                          __global float* restrict radiance)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i) || !(beta[i] > 0.0f)) {
+        return;
+    }
+    const Vec3 change = vecSub(termValueOf(p, filtered, i), termValueOf(p, value, i));
+    storeVec(radiance, p.planeSize, i,
+             vecAdd(loadVec(radiance, p.planeSize, i), vecMul(loadVec(texture, p.planeSize, i), change)));
+}
+
+/// beauty = emission + direct + indirect (3 planes each).
+__kernel void addAll(DistributedParams p, __global const float* restrict emission, __global const float* restrict direct,
+                     __global const float* restrict indirect, __global float* restrict beauty)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    const uint n = p.planeSize;
+    storeVec(beauty, n, i, vecAdd(vecAdd(loadVec(emission, n, i), loadVec(direct, n, i)), loadVec(indirect, n, i)));
+}
+
+__kernel void copyImage(DistributedParams p, __global const float* restrict in, __global float* restrict out)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        storeVec(out, p.planeSize, i, loadVec(in, p.planeSize, i));
+    }
+}

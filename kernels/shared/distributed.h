@@ -1,0 +1,29 @@
+// Parameters of the analysis of distributed frames: pixels that see the scene through a lens, a shutter or all of their
+// square.
+#ifndef WEDGE_SHARED_DISTRIBUTED_H
+#define WEDGE_SHARED_DISTRIBUTED_H
+
+#include "vec.h"
+
+WEDGE_SHARED_BEGIN
+
+typedef struct {
+    uint x0, y0, x1, y1; ///< the pixels to produce, half open; x0 a multiple of WEDGE_BLOCK_PIXELS
+    uint width, height, stride, planeSize;
+    float factoringError;    ///< largest |L - k E| of pixels whose irradiance is filtered, thesis (5.30)
+    uint factoringRadius;    ///< pixels: the error is the mean of the signed one over a square of this radius
+    float blurWidth;         ///< standard deviation of the image-space filter in radii of the circle of confusion
+    float shutterWidth;      ///< the same in lengths of the motion
+    float leastRadius;       ///< pixels: smaller circles of confusion and motions are not filtered
+    float irradianceWidth;   ///< of the irradiance's filter: its least standard deviation in radii of the circle of confusion
+    float countExponent;     ///< counts ~ (variance / gathered pixels / rays of a sample)^this
+    float varianceSpread;    ///< fraction of the 5x5 neighbourhood's largest variance that a pixel takes at least
+    float rays;              ///< of one sample of the term
+    uint values;             ///< planes of the term's value: 1, visibility; 3, radiance
+    float oneVelocity;       ///< largest difference of motions in a pixel that counts as one, as a fraction of the motion
+    uint never;              ///< 1: textures and irradiances are never taken apart
+} DistributedParams;
+
+WEDGE_SHARED_END
+
+#endif

@@ -1,0 +1,29 @@
+// Waves: lists of receivers, many to a pixel, that are traced together (kernels/waves.cl).
+#ifndef WEDGE_SHARED_WAVE_H
+#define WEDGE_SHARED_WAVE_H
+
+#include "compat.h"
+
+WEDGE_SHARED_BEGIN
+
+/// One wave: the receivers of some tiles' pixels, pixel by pixel.
+typedef struct {
+    uint firstTile, tiles; ///< of the frame's rectangle, in the order in which tiles are taken
+    uint receivers;
+    uint planeSize;  ///< elements of a plane of the wave's
+    uint lastSample; ///< primary samples that a pixel has at most when the wave is done
+    uint sampler;    ///< WEDGE_SAMPLER_*
+    uint firstPass;  ///< primary samples of a first pass with strata of its own; 0: none
+    uint shading;    ///< WEDGE_SHADING_*, of lights
+} WaveParams;
+
+/// Of `total` samples that `count` receivers of a pixel share evenly, those that the first `index` of them have.
+WEDGE_FN uint sharedSamples(uint index, uint count, uint total)
+{
+    // In pieces, so that nothing overflows.
+    return index * (total / count) + index * (total % count) / count;
+}
+
+WEDGE_SHARED_END
+
+#endif
