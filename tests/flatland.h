@@ -104,8 +104,8 @@ public:
         std::uniform_real_distribution<double> phase(0, 2 * std::numbers::pi);
         const double amplitude = std::sqrt(2.0 / (period_ / 2 - 1));
         for (std::size_t k = 1; k < pixels / 2; ++k) {
-            const std::complex<double> turn
-                = std::polar(1.0, 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(table_.size()));
+            const std::complex<double> turn =
+                std::polar(1.0, 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(table_.size()));
             std::complex<double> wave = std::polar(amplitude, phase(random));
             for (double& value : table_) {
                 value += wave.real();

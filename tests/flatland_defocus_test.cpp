@@ -50,8 +50,9 @@ Cumulative spectrumOf(const std::vector<double>& line)
 
 double deviationOf(const Blur& blur, Profile profile)
 {
-    return std::sqrt(static_cast<double>(blurCovariance(blur.r, blur.v, 0, static_cast<float>(lensDeviation(profile)),
-        static_cast<float>(shutterDeviation(profile))).xx));
+    return std::sqrt(static_cast<double>(blurCovariance(
+        blur.r, blur.v, 0, static_cast<float>(lensDeviation(profile)), static_cast<float>(shutterDeviation(profile)))
+                                             .xx));
 }
 
 } // namespace
@@ -63,10 +64,12 @@ TEST_CASE("the ray of lens position u through pixel x sees what the pinhole's ra
         const float r = circleOfConfusion(0.02f, 3, static_cast<float>(depth), 0.001f);
         for (const double u : { -1.0, -0.3, 0.0, 1.0 })
             for (const double x : { -200.0, 0.0, 31.0 })
-                CHECK(camera.landing(x, u, depth) / (depth * camera.pixelStep) == doctest::Approx(x + r * u).epsilon(1e-5));
+                CHECK(camera.landing(x, u, depth) / (depth * camera.pixelStep)
+                    == doctest::Approx(x + r * u).epsilon(1e-5));
     }
     for (const double r : { -6.0, 0.0, 2.0, 20.0 })
-        CHECK(circleOfConfusion(0.02f, 3, static_cast<float>(camera.depthOf(r)), 0.001f) == doctest::Approx(r).epsilon(1e-5));
+        CHECK(circleOfConfusion(0.02f, 3, static_cast<float>(camera.depthOf(r)), 0.001f)
+            == doctest::Approx(r).epsilon(1e-5));
 }
 
 TEST_CASE("an image in focus and at rest is the texture itself")
@@ -112,8 +115,8 @@ TEST_CASE("uniform lens and box shutter: the bandlimit of their deviations holds
         const double ratio = spectrum.limit(0.9) / gaussian;
         CAPTURE(ratio);
         const bool one = blur.r == 0 || blur.v == 0;
-        // A box alone has 10 % in its side lobes: 1.30 of them, less what lies beyond the texture's band. A second box takes
-        // the lobes away.
+        // A box alone has 10 % in its side lobes: 1.30 of them, less what lies beyond the texture's band. A second box
+        // takes the lobes away.
         CHECK(ratio < (one ? 1.30 : 1.10));
         CHECK(ratio > (one ? 1.10 : 0.92));
         CHECK(spectrum.held(0.9 * spectrum.limit(0.9)) < 0.89);
@@ -152,8 +155,8 @@ TEST_CASE("sparse samples at the joint rate under the joint kernel: the noise fa
             CAPTURE(blur.v);
             const std::vector<double> truth = lineOf(blur, profile, texture);
             const float band = jointBandlimit(blur.r, blur.v);
-            const int count = static_cast<int>(std::ceil(
-                pixelPacking(band) * packing(lensBlur(blur.r), band) * packing(shutterBlur(blur.v), band)));
+            const int count = static_cast<int>(
+                std::ceil(pixelPacking(band) * packing(lensBlur(blur.r), band) * packing(shutterBlur(blur.v), band)));
             REQUIRE(count <= 4);
             const FlatSurface surface = surfaceOf(camera, blur.r, blur.v, std::cref(texture));
             const Nodes lens = lensNodes(profile, 401), shutter = shutterNodes(profile, 401);
@@ -166,8 +169,9 @@ TEST_CASE("sparse samples at the joint rate under the joint kernel: the noise fa
                 std::vector<double> sparse(pixels, 0.0);
                 for (std::size_t x = 0; x < pixels; ++x)
                     for (int i = 0; i < count; ++i)
-                        sparse[x] += surface.seen(
-                            camera, static_cast<double>(x), lens.at[onLens(random)], shutter.at[inTime(random)]) / count;
+                        sparse[x] += surface.seen(camera, static_cast<double>(x), lens.at[onLens(random)],
+                                         shutter.at[inTime(random)])
+                            / count;
                 rawSquares += std::pow(rmsDifference(sparse, truth), 2) / runs;
                 filteredSquares += std::pow(rmsDifference(gaussianFiltered(sparse, deviation), truth), 2) / runs;
             }
@@ -183,7 +187,8 @@ TEST_CASE("sparse samples at the joint rate under the joint kernel: the noise fa
             CHECK(bias < (profile == Profile::Gaussian ? 0.06 : alone ? 0.26 : 0.11) * signal);
             CHECK(bias < (profile == Profile::Gaussian ? 0.015 : 0.06));
             const std::string name = profile == Profile::Gaussian ? "Gaussian" : "uniform";
-            MESSAGE("r " << static_cast<double>(blur.r) << ", v " << static_cast<double>(blur.v) << ", " << name << ", " << count << " samples: RMS " << std::sqrt(rawSquares) << " to " << std::sqrt(filteredSquares)
+            MESSAGE("r " << static_cast<double>(blur.r) << ", v " << static_cast<double>(blur.v) << ", " << name << ", "
+                         << count << " samples: RMS " << std::sqrt(rawSquares) << " to " << std::sqrt(filteredSquares)
                          << ", bias " << bias << " of a signal of " << signal << " and a texture of 1");
         }
 }
@@ -226,14 +231,17 @@ TEST_CASE("an edge out of focus that moves is the convolution of both")
 {
     for (const Blur& blur : { Blur { 6, 9 }, Blur { -4, 30 }, Blur { 12, -12 } }) {
         const double h = std::fabs(blur.v) / 2, r = std::fabs(blur.r);
-        CHECK(worstOf(blur, Profile::Uniform, 400,
-                  [&](double x) { return (rampIntegral(x + h, r) - rampIntegral(x - h, r)) / (2 * h); }) < 4e-3);
-        CHECK(worstOf(blur, Profile::Gaussian, 400,
-                  [&](double x) { return gaussianEdge(x, deviationOf(blur, Profile::Gaussian)); }) < 4e-3);
+        CHECK(worstOf(blur, Profile::Uniform, 400, [&](double x) {
+            return (rampIntegral(x + h, r) - rampIntegral(x - h, r)) / (2 * h);
+        }) < 4e-3);
+        CHECK(worstOf(blur, Profile::Gaussian, 400, [&](double x) {
+            return gaussianEdge(x, deviationOf(blur, Profile::Gaussian));
+        }) < 4e-3);
     }
 }
 
-TEST_CASE("in three dimensions an edge through a uniform disc is a circle's segment; the recommended kernel keeps it to 2.1 %")
+TEST_CASE("in three dimensions an edge through a uniform disc is a circle's segment; the recommended kernel keeps it "
+          "to 2.1 %")
 {
     constexpr int rings = 600;
     constexpr double r = 15;

@@ -90,16 +90,33 @@ Spectrum spectrumOf(const Shape& shape)
     return out;
 }
 
-/// Energy of the error that a kernel of that deviation makes within the band of 90 %, of a white texture, over all of it.
-double textureError(const Spectrum& spectrum, double deviation)
+/// What a kernel of that deviation does to a white texture's energy within the band of 90 %, over all of it.
+struct TextureError {
+    double error = 0; ///< energy of the difference
+    double lost = 0; ///< difference of the energies
+};
+
+TextureError textureError(const Spectrum& spectrum, double deviation)
 {
-    double error = 0, all = 0;
+    TextureError out;
+    double all = 0;
     for (std::size_t i = 0; i < spectrum.band; ++i) {
         const double w = (static_cast<double>(i) + 0.5) * Spectrum::step;
-        error += spectrum.energies[i] * std::pow(1 - std::exp(-0.5 * w * w * deviation * deviation), 2);
+        const double kernel = std::exp(-0.5 * w * w * deviation * deviation);
+        out.error += spectrum.energies[i] * (1 - kernel) * (1 - kernel);
+        out.lost += spectrum.energies[i] * (1 - kernel * kernel);
         all += spectrum.energies[i];
     }
-    return error / all;
+    return { out.error / all, out.lost / all };
+}
+
+/// The deviation that brings the chosen part of it to 1 %.
+double onePercent(const Spectrum& spectrum, double TextureError::*part)
+{
+    double lo = 0, hi = 1;
+    for (int i = 0; i < 20; ++i)
+        (textureError(spectrum, (lo + hi) / 2).*part < 0.01 ? lo : hi) = (lo + hi) / 2;
+    return lo;
 }
 
 struct EdgeError {
@@ -131,8 +148,10 @@ EdgeError edgeError(const Shape& shape, double deviation)
     return out;
 }
 
-/// The deviation with the least mean square error of an edge that `samples` a pixel show, of that half-extent in pixels.
-double bestWidth(const Shape& shape, const std::vector<std::array<double, 2>>& biases, double samples, double halfExtent)
+/// The deviation with the least mean square error of an edge that `samples` a pixel show, of that half-extent in
+/// pixels.
+double bestWidth(
+    const Shape& shape, const std::vector<std::array<double, 2>>& biases, double samples, double halfExtent)
 {
     double least = std::numeric_limits<double>::infinity(), best = 0;
     for (const auto& [width, bias] : biases) {
@@ -155,17 +174,21 @@ TEST_CASE("the recommended kernel, 0.177 of a blur's half-extent, under every pr
         const double width = WEDGE_KERNEL_WIDTH;
         const Spectrum spectrum = spectrumOf(shape);
         const EdgeError edge = edgeError(shape, width);
-        double lo = 0, hi = 1;
-        for (int i = 0; i < 20; ++i)
-            (textureError(spectrum, (lo + hi) / 2) < 0.01 ? lo : hi) = (lo + hi) / 2;
-        CHECK(textureError(spectrum, width) < 0.0111);
+        const double asError = onePercent(spectrum, &TextureError::error),
+                     asLoss = onePercent(spectrum, &TextureError::lost);
+        const TextureError texture = textureError(spectrum, width);
+        CHECK(texture.error < 0.0111);
+        CHECK(asError > 0.17);
+        CHECK(asLoss > 0.047);
+        CHECK(asLoss < 0.1);
         CHECK(edge.rms < 0.0135);
         CHECK(edge.rms > 0.010);
         CHECK(edge.worst < 0.0355);
         MESSAGE(shape.name << ": band of 90 % to " << static_cast<double>(spectrum.band) * Spectrum::step
-                           << " rad, error energy in it " << textureError(spectrum, width) << ", 1 % at " << lo << "; edge "
-                           << edge.rms << " RMS, " << edge.worst << " at most; at that 1 %: " << edgeError(shape, lo).rms
-                           << ", " << edgeError(shape, lo).worst);
+                           << " rad, of its energy lost " << texture.lost << ", error " << texture.error
+                           << ", 1 % lost at " << asLoss << ", 1 % error at " << asError << "; edge " << edge.rms
+                           << " RMS, " << edge.worst << " at most; at 1 % error " << edgeError(shape, asError).rms
+                           << ", " << edgeError(shape, asError).worst);
     }
 }
 

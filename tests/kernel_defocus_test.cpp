@@ -58,6 +58,8 @@ TEST_CASE("bandlimits (5.7), (5.18), (5.22), (B.1) at values worked out by hand"
     CHECK(shadowBandlimit(0.5f, 0.4f, 0.02f, 0) == doctest::Approx(0.1));
     CHECK(shadowBandlimit(0.5f, 0.4f, 0.02f, 20) == doctest::Approx(0.05));
     CHECK(shadowBandlimit(0, 0.4f, 0.02f, 0) == 0.5f);
+    CHECK(lightBlur(1e-12f, 1, 0) == doctest::Approx(1e-3)); // sizes of 0 are 1e-9 m
+    CHECK(directionBlur(1e-12f, 1, 0) == doctest::Approx(1e-3));
     CHECK(indirectBandlimit(0.56f, diffuse, 0.02f, 0) == doctest::Approx(0.1));
     CHECK(indirectBandlimit(0.56f, diffuse, 0.02f, 40) == doctest::Approx(0.025));
     CHECK(motionBandlimit(20) == doctest::Approx(0.1));
@@ -98,7 +100,8 @@ TEST_CASE("counts and bandlimits are monotone where they ought to be")
     std::uniform_real_distribution<float> unit(0, 1);
     for (int i = 0; i < 2000; ++i) {
         const float rMin = 20 * unit(random), rMax = rMin + 20 * unit(random), more = rMax * (1 + unit(random));
-        const float sMin = 5 * unit(random), sMax = sMin + 5 * unit(random), zMin = unit(random), zMax = zMin + unit(random);
+        const float sMin = 5 * unit(random), sMax = sMin + 5 * unit(random), zMin = unit(random),
+                    zMax = zMin + unit(random);
         const float light = unit(random), pixel = 0.001f + 0.05f * unit(random), v = 40 * unit(random);
         const float lens = defocusBandlimit(rMin), shadow = shadowBandlimit(sMin, light, pixel, rMin);
         const float indirect = indirectBandlimit(zMin, diffuse, pixel, rMin);
@@ -107,13 +110,15 @@ TEST_CASE("counts and bandlimits are monotone where they ought to be")
         CHECK(lens <= 0.5f);
         CHECK(primaryCount(lens, more) >= primaryCount(lens, rMax));
         CHECK(directCount(shadow, rMax, sMax, light, pixel) <= directCount(lens, rMax, sMax, light, pixel));
-        CHECK(indirectRayCount(indirect, rMax, zMax, diffuse, pixel) <= indirectRayCount(lens, rMax, zMax, diffuse, pixel));
+        CHECK(indirectRayCount(indirect, rMax, zMax, diffuse, pixel)
+            <= indirectRayCount(lens, rMax, zMax, diffuse, pixel));
         CHECK(directCount(lens, rMax, sMax, light, pixel) >= primaryCount(lens, rMax));
         // Motion narrows what the lens has to be sampled for.
         const float along = jointBandlimit(rMin, v);
         CHECK(along <= std::min(lens, motionBandlimit(v)));
         CHECK(along >= std::min(lens, motionBandlimit(v)) / 1.4143f);
-        CHECK(jointCount(along, lens, rMax, v) <= primaryCount(lens, rMax) * packing(shutterBlur(v), motionBandlimit(v)) * 1.00001f);
+        CHECK(jointCount(along, lens, rMax, v)
+            <= primaryCount(lens, rMax) * packing(shutterBlur(v), motionBandlimit(v)) * 1.00001f);
         CHECK(jointCount(along, lens, rMax, v * 2) >= jointCount(along, lens, rMax, v));
     }
     // At one depth the count rises to r = 2 and falls back to 1: wide even blurs are the filter's.
@@ -155,7 +160,8 @@ TEST_CASE("pinhole limits: the kernels of chapters 3 and 4")
         const float band = indirectBandlimit(z, diffuse, pixel, 0);
         const float chapter4 = 0.5f / indirectBandwidth(z, diffuse, pixel, 1, 0);
         CHECK(pixel * kernelDeviation(band, 2) == doctest::Approx(chapter4).epsilon(1e-5));
-        CHECK(pixel * kernelDeviation(band, WEDGE_KERNEL_FACTOR) == doctest::Approx(chapter4 / std::sqrt(8.0)).epsilon(1e-5));
+        CHECK(pixel * kernelDeviation(band, WEDGE_KERNEL_FACTOR)
+            == doctest::Approx(chapter4 / std::sqrt(8.0)).epsilon(1e-5));
     }
 }
 
@@ -179,13 +185,16 @@ TEST_CASE("covariances: lens and motion add, kernels along any direction, identi
         CHECK(gatheredPixels(line) == doctest::Approx(2 * std::sqrt(std::numbers::pi) * 3).epsilon(1e-3));
         const Symmetric2 both = blurCovariance(10, 30 * c, 30 * s, 0.2f, 0.1f);
         const double along = std::sqrt(13.0);
-        CHECK(weight(both, static_cast<float>(along) * c, static_cast<float>(along) * s) == doctest::Approx(std::exp(-0.5)).epsilon(1e-3));
+        CHECK(weight(both, static_cast<float>(along) * c, static_cast<float>(along) * s)
+            == doctest::Approx(std::exp(-0.5)).epsilon(1e-3));
         CHECK(weight(both, -2 * s, 2 * c) == doctest::Approx(std::exp(-0.5)).epsilon(1e-3));
         CHECK(gatheredPixels(both) == doctest::Approx(4 * std::numbers::pi * 2 * along).epsilon(1e-3));
         // The joint bandlimit's kernel is the same one.
         const Symmetric2 printed = blurCovariance(10, 30 * c, 30 * s, WEDGE_KERNEL_WIDTH, WEDGE_KERNEL_WIDTH / 2);
-        CHECK(std::sqrt(eigenvalue(printed, 1)) == doctest::Approx(kernelDeviation(jointBandlimit(10, 30), 16)).epsilon(1e-3));
-        CHECK(std::sqrt(eigenvalue(printed, -1)) == doctest::Approx(kernelDeviation(defocusBandlimit(10), 16)).epsilon(1e-3));
+        CHECK(std::sqrt(eigenvalue(printed, 1))
+            == doctest::Approx(kernelDeviation(jointBandlimit(10, 30), 16)).epsilon(1e-3));
+        CHECK(std::sqrt(eigenvalue(printed, -1))
+            == doctest::Approx(kernelDeviation(defocusBandlimit(10), 16)).epsilon(1e-3));
     }
 }
 

@@ -35,9 +35,9 @@ WEDGE_SHARED_BEGIN
 WEDGE_FN float boundedBlur(float blur) { return fmin(fmax(blur, 0.0f), WEDGE_BLUR_MAX); }
 
 /// Signed radius in pixels of the circle of confusion, (5.2): r = (aW/S)(f/z - 1) = (a/p)(1/z - 1/f), as p = S/(Wf).
-/// The ray of lens position u in the unit disc through pixel x meets what is at depth z where the pinhole's ray of pixel
-/// x + r u does: r is positive before the plane in focus. apertureRadius: a; focusDistance, depth: metres along the view
-/// axis, infinity allowed; pixelStep: p, length of FrameParams::right, above 0. Within +-WEDGE_BLUR_MAX.
+/// The ray of lens position u in the unit disc through pixel x meets what is at depth z where the pinhole's ray of
+/// pixel x + r u does: r is positive before the plane in focus. apertureRadius: a; focusDistance, depth: metres along
+/// the view axis, infinity allowed; pixelStep: p, length of FrameParams::right, above 0. Within +-WEDGE_BLUR_MAX.
 WEDGE_FN float circleOfConfusion(float apertureRadius, float focusDistance, float depth, float pixelStep)
 {
     const float r = apertureRadius / pixelStep
@@ -62,8 +62,8 @@ WEDGE_FN float directionBlur(float distance, float transferBandlimit, float pixe
     return boundedBlur(distance / (transferBandlimit * fmax(pixelSize, WEDGE_PIXEL_SIZE_MIN)));
 }
 
-/// Blur of the shutter: |v| / Omega_t_max. speed: image-space distance in pixels over the whole shutter, of a surface or
-/// of a shadow.
+/// Blur of the shutter: |v| / Omega_t_max. speed: image-space distance in pixels over the whole shutter, of a surface
+/// or of a shadow.
 WEDGE_FN float shutterBlur(float speed) { return boundedBlur(fabs(speed) * (1.0f / WEDGE_SHUTTER_BANDLIMIT)); }
 
 /// Blur of two independent dimensions along one image axis: variances add, which is exact for Gaussian profiles. The
@@ -144,10 +144,10 @@ WEDGE_FN float jointCount(float along, float across, float rMax, float speedMax)
     return pixelPacking(along) * pixelPacking(across) * lens * packing(shutterBlur(speedMax), along);
 }
 
-/// Pixels along the mean velocity that all velocities of a pixel share: the least speed, shortened until the parts across
-/// the mean spread a kernel by at most WEDGE_KERNEL_SIDEWAYS. Opposite velocities share next to nothing, and where
-/// something stands still it is 0. speedMin, meanSpeed: of |v|; speedOfMean: |mean of v|; pixels.
-/// shutterWidth: the kernel's standard deviation as a part of |v|.
+/// Pixels along the mean velocity that all velocities of a pixel share: the least speed, shortened until the parts
+/// across the mean spread a kernel by at most WEDGE_KERNEL_SIDEWAYS. Opposite velocities share next to nothing, and
+/// where something stands still it is 0. speedMin, meanSpeed: of |v|; speedOfMean: |mean of v|; pixels. shutterWidth:
+/// the kernel's standard deviation as a part of |v|.
 WEDGE_FN float commonSpeed(float speedMin, float meanSpeed, float speedOfMean, float shutterWidth)
 {
     const float across = sqrt(fmax(meanSpeed * meanSpeed - speedOfMean * speedOfMean, 0.0f));
