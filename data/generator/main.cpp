@@ -1,4 +1,4 @@
-// wedge_scenes [OUTDIR]: writes the generated scenes, one OBJ, MTL and TOML file each.
+// wedge_scenes [OUTDIR]: writes the generated scenes, OBJ, MTL, TOML and PNG files.
 
 #include <cstdio>
 
@@ -17,11 +17,11 @@ int main(int count, char** arguments)
         return 2;
     }
     try {
-        for (const auto make :
-            { makeGrids, makeBench, makeTentacles, makeSpheres, makeCornellGlossy, makeCornellFigure }) {
+        for (const auto make : { makeGrids, makeBench, makeTentacles, makeSpheres, makeCornellGlossy, makeCornellFigure,
+                 makeChess, makeMovingCornell, makeMovingLens }) {
             const GeneratedScene scene = make();
             writeScene(scene, folder);
-            fmt::print("{}/{}.toml: {} triangles\n", folder, scene.name, scene.mesh.triangles());
+            fmt::print("{}/{}.toml: {} triangles\n", folder, scene.name, triangles(scene));
         }
     } catch (const wedge::Error& error) {
         fmt::print(stderr, "wedge_scenes: error: {}\n", error.what());

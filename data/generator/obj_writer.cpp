@@ -18,6 +18,7 @@ std::size_t ObjWriter::vertex(const glm::dvec3& p)
 {
     fmt::format_to(std::back_inserter(text_), "v {:.6g} {:.6g} {:.6g}\n", p.x, p.y, p.z);
     normalOf_.push_back(0);
+    texcoordOf_.push_back(0);
     return ++vertices_;
 }
 
@@ -29,9 +30,19 @@ std::size_t ObjWriter::vertex(const glm::dvec3& p, const glm::dvec3& n)
     return index;
 }
 
+std::size_t ObjWriter::vertex(const glm::dvec3& p, const glm::dvec3& n, const glm::dvec2& t)
+{
+    const std::size_t index = vertex(p, n);
+    fmt::format_to(std::back_inserter(text_), "vt {:.6g} {:.6g}\n", t.x, t.y);
+    texcoordOf_.back() = ++texcoords_;
+    return index;
+}
+
 std::string ObjWriter::corner(std::size_t vertex) const
 {
-    const std::size_t normal = normalOf_[vertex - 1];
+    const std::size_t normal = normalOf_[vertex - 1], texcoord = texcoordOf_[vertex - 1];
+    if (texcoord != 0)
+        return fmt::format("{}/{}/{}", vertex, texcoord, normal);
     return normal == 0 ? fmt::format("{}", vertex) : fmt::format("{}//{}", vertex, normal);
 }
 

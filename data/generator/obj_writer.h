@@ -15,9 +15,10 @@ public:
     /// Begins an object with one material; the triangles that follow are its.
     void object(const std::string& name, const std::string& material);
 
-    /// Adds a vertex without or with a normal; returns what triangle() takes.
+    /// Adds a vertex without or with a normal and a texture coordinate; returns what triangle() takes.
     std::size_t vertex(const glm::dvec3& position);
     std::size_t vertex(const glm::dvec3& position, const glm::dvec3& normal);
+    std::size_t vertex(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec2& texcoord);
 
     /// Corners counter-clockwise seen from outside.
     void triangle(std::size_t a, std::size_t b, std::size_t c);
@@ -32,8 +33,8 @@ private:
 
     std::string text_;
     std::size_t vertices_ = 0, triangles_ = 0;
-    std::size_t normals_ = 0;
-    std::vector<std::size_t> normalOf_; ///< 0 = none, else the 1-based normal of each vertex
+    std::size_t normals_ = 0, texcoords_ = 0;
+    std::vector<std::size_t> normalOf_, texcoordOf_; ///< 0 = none, else the 1-based one of each vertex
 };
 
 /// Writes a file whole. Throws Error when it cannot.

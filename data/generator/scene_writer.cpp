@@ -3,39 +3,89 @@
 #include <fmt/format.h>
 
 #include "host/error.h"
+#include "host/image/png.h"
 
 namespace wedge::generator {
 namespace {
 
 std::string list(const glm::vec3& v) { return fmt::format("[{:.7g}, {:.7g}, {:.7g}]", v.x, v.y, v.z); }
 
+std::string textureFile(const GeneratedScene& scene, std::size_t texture)
+{
+    return fmt::format("{}_{}.png", scene.name, scene.textures[texture].name);
+}
+
 std::string mtlText(const GeneratedScene& scene)
 {
     std::string text;
-    for (const scene::Material& m : scene.materials)
-        text += fmt::format("newmtl {}\nKd {:.6g} {:.6g} {:.6g}\nKs {:.6g} {:.6g} {:.6g}\nNs {:.6g}\n\n", m.name,
+    for (const scene::Material& m : scene.materials) {
+        text += fmt::format("newmtl {}\nKd {:.6g} {:.6g} {:.6g}\nKs {:.6g} {:.6g} {:.6g}\nNs {:.6g}\n", m.name,
             m.diffuse.x, m.diffuse.y, m.diffuse.z, m.specular.x, m.specular.y, m.specular.z, m.exponent);
+        if (m.diffuseTexture >= 0)
+            text += fmt::format("map_Kd {}\n", textureFile(scene, static_cast<std::size_t>(m.diffuseTexture)));
+        text += '\n';
+    }
     return text;
 }
 
-std::string tomlText(const GeneratedScene& scene)
+std::string cameraText(const scene::Camera& camera)
 {
-    const scene::AreaLight& light = scene.light;
-    std::string text =
-        fmt::format("# {}\n# {} triangles, written by wedge_scenes.\n\n", scene.comment, scene.mesh.triangles());
-    text += fmt::format("[camera]\neye = {}\nlook_at = {}\nfov = {:g}\n\n", list(scene.camera.eye),
-        list(scene.camera.lookAt), scene.camera.verticalFov);
-    text +=
-        fmt::format("[image]\nwidth = 640\nheight = 480\n\n[background]\nradiance = {}\n\n", list(scene.background));
-    text += fmt::format("[[mesh]]\nfile = \"{}.obj\"\n\n", scene.name);
-    text += fmt::format("[[light]]\ntype = \"quad\"\ncentre = {}\nhalf_u = {}\nhalf_v = {}\n", list(light.centre),
-        list(light.halfU), list(light.halfV));
+    std::string text = fmt::format(
+        "[camera]\neye = {}\nlook_at = {}\nfov = {:g}\n", list(camera.eye), list(camera.lookAt), camera.verticalFov);
+    if (camera.apertureRadius > 0.0f)
+        text += fmt::format("aperture = {:g}\nfocus = {:g}\n", camera.apertureRadius, camera.focusDistance);
+    return text + '\n';
+}
+
+std::string shapeFile(const GeneratedScene& scene, const MovingPart& part, std::size_t shape)
+{
+    return fmt::format("{}_{}{}.obj", scene.name, part.name, shape);
+}
+
+std::string partFile(const GeneratedScene& scene, const MovingPart& part)
+{
+    return part.shapes.empty() ? fmt::format("{}_{}.obj", scene.name, part.name) : shapeFile(scene, part, 0);
+}
+
+std::string partText(const GeneratedScene& scene, const MovingPart& part)
+{
+    std::string text = fmt::format("[[mesh]]\nfile = \"{}\"\n", partFile(scene, part));
+    for (const PartKey& key : part.keys)
+        text += fmt::format("[[mesh.key]]\ntime = {:g}\nrotate = [{:g}, {:g}, {:g}, {:g}]\ntranslate = {}\n", key.time,
+            key.rotate.x, key.rotate.y, key.rotate.z, key.rotate.w, list(key.translate));
+    for (std::size_t i = 0; i < part.shapes.size(); ++i)
+        text +=
+            fmt::format("[[mesh.shape]]\ntime = {:g}\nfile = \"{}\"\n", part.shapes[i].time, shapeFile(scene, part, i));
+    return text + '\n';
+}
+
+std::string lightText(const scene::AreaLight& light)
+{
+    std::string text = fmt::format("[[light]]\ntype = \"quad\"\ncentre = {}\nhalf_u = {}\nhalf_v = {}\n",
+        list(light.centre), list(light.halfU), list(light.halfV));
     text += fmt::format("radiance = {}\n", list(light.radiance));
     if (light.profile == scene::LightProfile::Uniform)
         text += "profile = \"uniform\"\n";
     else
         text += fmt::format("profile = \"gaussian\"\ncut = {:g}\n", light.cut);
     return text;
+}
+
+std::string tomlText(const GeneratedScene& scene)
+{
+    std::string text =
+        fmt::format("# {}\n# {} triangles, written by wedge_scenes.\n\n", scene.comment, triangles(scene));
+    text += cameraText(scene.camera);
+    if (scene.shutterClose > 0.0)
+        text += fmt::format("[shutter]\nopen = 0\nclose = {:g}\n\n", scene.shutterClose);
+    text +=
+        fmt::format("[image]\nwidth = 640\nheight = 480\n\n[background]\nradiance = {}\n\n", list(scene.background));
+    if (scene.bounces > 0)
+        text += fmt::format("[integrator]\nbounces = {}\n\n", scene.bounces);
+    text += fmt::format("[[mesh]]\nfile = \"{}.obj\"\n\n", scene.name);
+    for (const MovingPart& part : scene.parts)
+        text += partText(scene, part);
+    return text + lightText(scene.light);
 }
 
 } // namespace
@@ -56,6 +106,23 @@ scene::Material glossy(const std::string& name, const glm::vec3& diffuse, float 
     return material;
 }
 
+scene::Material textured(GeneratedScene& scene, const std::string& name, image::RgbImage image, const glm::vec3& tint,
+    float specular, float exponent)
+{
+    scene::Material material = glossy(name, tint, specular, exponent);
+    material.diffuseTexture = static_cast<int>(scene.textures.size());
+    scene.textures.push_back({ name, std::move(image) });
+    return material;
+}
+
+std::size_t triangles(const GeneratedScene& scene)
+{
+    std::size_t count = scene.mesh.triangles();
+    for (const MovingPart& part : scene.parts)
+        count += part.shapes.empty() ? part.mesh.triangles() : part.shapes.front().mesh.triangles();
+    return count;
+}
+
 void writeScene(const GeneratedScene& scene, const std::filesystem::path& folder)
 {
     std::error_code code;
@@ -65,6 +132,14 @@ void writeScene(const GeneratedScene& scene, const std::filesystem::path& folder
             "choose a folder that can be written");
     const std::string head = fmt::format("# {}\nmtllib {}.mtl\n", scene.comment, scene.name);
     writeText(folder / (scene.name + ".obj"), head + scene.mesh.text());
+    for (const MovingPart& part : scene.parts) {
+        if (part.shapes.empty())
+            writeText(folder / partFile(scene, part), head + part.mesh.text());
+        for (std::size_t i = 0; i < part.shapes.size(); ++i)
+            writeText(folder / shapeFile(scene, part, i), head + part.shapes[i].mesh.text());
+    }
+    for (std::size_t i = 0; i < scene.textures.size(); ++i)
+        image::writePng((folder / textureFile(scene, i)).string(), scene.textures[i].image);
     writeText(folder / (scene.name + ".mtl"), mtlText(scene));
     writeText(folder / (scene.name + ".toml"), tomlText(scene));
 }

@@ -41,6 +41,49 @@ Facts gather(const std::string& path, bvh::Mode mode)
     return facts;
 }
 
+/// The distance of the plane in focus from the eye, in metres.
+double focusOf(const scene::Camera& camera)
+{
+    return camera.focusDistance > 0.0f ? camera.focusDistance : glm::distance(camera.eye, camera.lookAt);
+}
+
+const char* profileOf(const scene::Camera& camera)
+{
+    return camera.apertureProfile == scene::ApertureProfile::Gaussian ? "gaussian" : "uniform";
+}
+
+const char* shutterProfileOf(const scene::Scene& scene)
+{
+    return scene.shutterProfile == scene::ShutterProfile::Gaussian ? "gaussian" : "box";
+}
+
+void addCamera(const Facts& f, Json& json)
+{
+    const scene::Camera& camera = f.scene.camera;
+    json["lens"] = { { "aperture", camera.apertureRadius }, { "focus", focusOf(camera) },
+        { "aperture_profile", profileOf(camera) } };
+    json["shutter"] = { { "open", f.scene.shutterOpen }, { "close", f.scene.shutterClose },
+        { "profile", shutterProfileOf(f.scene) } };
+    json["camera_moves"] = scene::cameraMoves(f.scene);
+    json["moving_triangles"] = f.summary.movingTriangles;
+}
+
+void printCamera(const Facts& f)
+{
+    const scene::Camera& camera = f.scene.camera;
+    if (camera.apertureRadius > 0.0f)
+        fmt::print("lens       {} aperture of radius {:g} m, in focus at {:g} m\n", profileOf(camera),
+            camera.apertureRadius, focusOf(camera));
+    else
+        fmt::print("lens       pinhole\n");
+    if (!scene::geometryMoves(f.scene) && !scene::cameraMoves(f.scene))
+        fmt::print("shutter    nothing moves\n");
+    else
+        fmt::print("shutter    {}, from {:g} to {:g}: {} moving triangles, camera {}\n", shutterProfileOf(f.scene),
+            f.scene.shutterOpen, f.scene.shutterClose, f.summary.movingTriangles,
+            scene::cameraMoves(f.scene) ? "moves" : "at rest");
+}
+
 void printJson(const Facts& f)
 {
     const scene::Summary& s = f.summary;
@@ -54,6 +97,7 @@ void printJson(const Facts& f)
         json["bounds"] = { { s.bounds.lo.x, s.bounds.lo.y, s.bounds.lo.z },
             { s.bounds.hi.x, s.bounds.hi.y, s.bounds.hi.z } };
     }
+    addCamera(f, json);
     json["width"] = f.settings.width;
     json["height"] = f.settings.height;
     json["memory_bytes"] = f.memory.total();
@@ -76,6 +120,7 @@ void printText(const Facts& f)
     }
     fmt::print("materials  {}, textures {} ({})\n", s.materials, s.textures, device::mebibytes(s.textureBytes));
     fmt::print("lights     {} area, {} point, {} directional\n", s.areaLights, s.pointLights, s.directionalLights);
+    printCamera(f);
     if (!s.bounds.empty()) {
         fmt::print("bounds     [{:g}, {:g}, {:g}] to [{:g}, {:g}, {:g}] m\n", s.bounds.lo.x, s.bounds.lo.y,
             s.bounds.lo.z, s.bounds.hi.x, s.bounds.hi.y, s.bounds.hi.z);

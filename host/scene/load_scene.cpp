@@ -1,5 +1,6 @@
 #include "host/error.h"
 #include "host/scene/camera_framing.h"
+#include "host/scene/camera_section.h"
 #include "host/scene/material_section.h"
 #include "host/scene/mesh_builder.h"
 #include "host/scene/mesh_section.h"
@@ -24,6 +25,7 @@ void loadSceneFile(const std::filesystem::path& path, Scene& scene)
     readIntegrator(root, scene);
     readBackground(root, scene);
     readLights(root, scene);
+    readShutter(root, scene);
     // Materials before the meshes that choose among them, meshes before the camera that may have to frame them.
     scene.materials = readMaterials(root, textures, scene.warnings);
     for (const char* later : { "mesh", "camera" })
@@ -39,7 +41,7 @@ void loadBareMesh(const std::filesystem::path& path, Scene& scene)
     TextureSet textures;
     Mesh mesh = readObj(path, textures, scene.warnings);
     scene.materials = mesh.palette;
-    addInstance(scene.geometry, indexMesh(mesh, 0), glm::dmat4(1.0), -1, "", "mesh file " + path.string());
+    addInstance(scene.geometry, indexMesh(mesh, 0), Placement(), -1, "", "mesh file " + path.string());
     if (mesh.hasNameless)
         scene.warnings.push_back("mesh file " + path.string() + ": some faces have no material, grey is used");
     scene.textures = textures.take();

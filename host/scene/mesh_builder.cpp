@@ -1,6 +1,7 @@
 #include "host/scene/mesh_builder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
@@ -13,20 +14,16 @@
 namespace wedge::scene {
 namespace {
 
+/// What a vertex stands for: corners that agree in all of it share one.
+using CornerKey = std::array<int, 4>;
+
 struct CornerHash {
-    std::size_t operator()(const MeshCorner& c) const
+    std::size_t operator()(const CornerKey& key) const
     {
         std::size_t hash = 0;
-        for (const int part : { c.position, c.texcoord, c.normal })
+        for (const int part : key)
             hash = (hash ^ static_cast<std::uint32_t>(part)) * 0x9e3779b97f4a7c15ull;
         return hash ^ hash >> 31;
-    }
-};
-
-struct SameCorner {
-    bool operator()(const MeshCorner& a, const MeshCorner& b) const
-    {
-        return a.position == b.position && a.texcoord == b.texcoord && a.normal == b.normal;
     }
 };
 
@@ -36,40 +33,75 @@ glm::vec3 unitOrZero(const glm::dvec3& v)
     return length > 1e-30 && std::isfinite(length) ? glm::vec3(v / length) : glm::vec3(0.0f);
 }
 
-void addVertices(Geometry& geometry, const IndexedMesh& mesh, const glm::dmat4& transform, const std::string& where)
+/// Vertices of a mesh at one time.
+struct VertexView {
+    const std::vector<glm::vec3>&positions, &normals;
+};
+
+void addVertices(const VertexView& from, const glm::dmat4& transform, const std::string& where,
+    std::vector<float>& positions, std::vector<float>& normals)
 {
     const glm::dmat3 normalMatrix = glm::transpose(glm::inverse(glm::dmat3(transform)));
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const glm::dvec3 p(transform * glm::dvec4(glm::dvec3(mesh.positions[i]), 1.0));
-        const glm::vec3 n = unitOrZero(normalMatrix * glm::dvec3(mesh.normals[i]));
+    for (std::size_t i = 0; i < from.positions.size(); ++i) {
+        const glm::dvec3 p(transform * glm::dvec4(glm::dvec3(from.positions[i]), 1.0));
+        const glm::vec3 n = unitOrZero(normalMatrix * glm::dvec3(from.normals[i]));
         for (int axis = 0; axis < 3; ++axis) {
             if (!(std::abs(p[axis]) <= maxCoordinate))
                 throw Error(
                     where + ": a coordinate is beyond 1e12", fmt::format("{:g}", p[axis]), "scale the mesh down");
-            geometry.positions.push_back(static_cast<float>(p[axis]));
-            geometry.normals.push_back(n[axis]);
+            positions.push_back(static_cast<float>(p[axis]));
+            normals.push_back(n[axis]);
         }
-        geometry.texcoords.push_back(mesh.texcoords[i].x);
-        geometry.texcoords.push_back(mesh.texcoords[i].y);
     }
+}
+
+void addAllVertices(Geometry& geometry, const IndexedMesh& mesh, const Placement& placement, const std::string& where)
+{
+    const bool deforms = !mesh.positionsAtClose.empty();
+    const bool moves = deforms || placement.atOpen != placement.atClose;
+    if (moves && geometry.positionsAtClose.empty()) { // the first that moves: what came before stays where it is
+        geometry.positionsAtClose = geometry.positions;
+        geometry.normalsAtClose = geometry.normals;
+    }
+    const VertexView open { mesh.positions, mesh.normals };
+    if (moves || !geometry.positionsAtClose.empty()) {
+        const VertexView close { mesh.positionsAtClose, mesh.normalsAtClose };
+        addVertices(
+            deforms ? close : open, placement.atClose, where, geometry.positionsAtClose, geometry.normalsAtClose);
+    }
+    addVertices(open, placement.atOpen, where, geometry.positions, geometry.normals);
+    for (const glm::vec2& t : mesh.texcoords)
+        geometry.texcoords.insert(geometry.texcoords.end(), { t.x, t.y });
+}
+
+glm::vec3 normalOf(const Mesh& mesh, int normal)
+{
+    return normal < 0 ? glm::vec3(0.0f) : mesh.normals[static_cast<std::size_t>(normal)];
 }
 
 } // namespace
 
-IndexedMesh indexMesh(const Mesh& mesh, std::uint32_t materialBase)
+IndexedMesh indexMesh(const Mesh& mesh, std::uint32_t materialBase, const Mesh* atClose)
 {
     IndexedMesh out;
-    std::unordered_map<MeshCorner, std::uint32_t, CornerHash, SameCorner> vertices;
+    std::unordered_map<CornerKey, std::uint32_t, CornerHash> vertices;
     vertices.reserve(mesh.positions.size());
-    for (const MeshCorner& c : mesh.corners) {
-        const auto [vertex, isNew] = vertices.emplace(c, static_cast<std::uint32_t>(out.positions.size()));
+    for (std::size_t i = 0; i < mesh.corners.size(); ++i) {
+        const MeshCorner& c = mesh.corners[i];
+        const int normalAtClose = atClose == nullptr ? -1 : atClose->corners[i].normal;
+        const CornerKey key { c.position, c.texcoord, c.normal, normalAtClose };
+        const auto [vertex, isNew] = vertices.emplace(key, static_cast<std::uint32_t>(out.positions.size()));
         out.indices.push_back(vertex->second);
         if (!isNew)
             continue;
         out.positions.push_back(mesh.positions[static_cast<std::size_t>(c.position)]);
-        out.normals.push_back(c.normal < 0 ? glm::vec3(0.0f) : mesh.normals[static_cast<std::size_t>(c.normal)]);
+        out.normals.push_back(normalOf(mesh, c.normal));
         out.texcoords.push_back(
             c.texcoord < 0 ? glm::vec2(0.0f) : mesh.texcoords[static_cast<std::size_t>(c.texcoord)]);
+        if (atClose != nullptr) {
+            out.positionsAtClose.push_back(atClose->positions[static_cast<std::size_t>(c.position)]);
+            out.normalsAtClose.push_back(normalOf(*atClose, normalAtClose));
+        }
     }
     for (const std::uint32_t material : mesh.materials)
         out.materials.push_back(materialBase + material);
@@ -78,7 +110,7 @@ IndexedMesh indexMesh(const Mesh& mesh, std::uint32_t materialBase)
     return out;
 }
 
-void addInstance(Geometry& geometry, const IndexedMesh& mesh, const glm::dmat4& transform, int material,
+void addInstance(Geometry& geometry, const IndexedMesh& mesh, const Placement& placement, int material,
     const std::string& prefix, const std::string& where)
 {
     const std::size_t firstVertex = geometry.positions.size() / 3;
@@ -86,8 +118,8 @@ void addInstance(Geometry& geometry, const IndexedMesh& mesh, const glm::dmat4& 
     if (firstVertex + mesh.positions.size() > std::numeric_limits<std::uint32_t>::max())
         throw Error(where + ": too many vertices", std::to_string(firstVertex + mesh.positions.size()),
             "use fewer instances; 4294967295 vertices is the most");
-    addVertices(geometry, mesh, transform, where);
-    const bool mirrored = glm::determinant(glm::dmat3(transform)) < 0.0;
+    addAllVertices(geometry, mesh, placement, where);
+    const bool mirrored = glm::determinant(glm::dmat3(placement.atOpen)) < 0.0;
     for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
         std::uint32_t corners[] = { mesh.indices[t], mesh.indices[t + 1], mesh.indices[t + 2] };
         if (mirrored)

@@ -7,6 +7,8 @@
 
 #include "host/error.h"
 #include "host/scene/mesh_builder.h"
+#include "host/scene/mesh_keys.h"
+#include "host/scene/mesh_shapes.h"
 #include "host/scene/obj_reader.h"
 #include "host/scene/paths.h"
 #include "host/scene/smooth_normals.h"
@@ -79,18 +81,20 @@ struct MeshSource {
     std::size_t named; ///< the scene file's own materials come first, this many
 };
 
-void addOne(TableReader& table, const MeshSource& source, const glm::dmat4& transform, int material,
+void addOne(TableReader& table, const MeshSource& source, const Placement& placement, int material,
     const std::string& prefix, Scene& scene)
 {
     const std::string where = table.where("file");
     if (material < 0 && source.hasNameless)
         scene.warnings.push_back(where + ": some faces of the mesh have no material, grey is used");
-    addInstance(scene.geometry, source.mesh, transform, material, prefix, where);
+    addInstance(scene.geometry, source.mesh, placement, material, prefix, where);
 }
 
 void addInstances(TableReader& table, const MeshSource& source, Scene& scene)
 {
-    const glm::dmat4 placed = readTransform(table, "transform");
+    const glm::dmat4 transform = readTransform(table, "transform");
+    const MeshKeys keys(table);
+    const Placement placed { keys.at(scene.shutterOpen) * transform, keys.at(scene.shutterClose) * transform };
     const int material = chosenMaterial(table, scene.materials, source.named, -1);
     const std::string name = table.text("name").value_or("");
     std::vector<TableReader> instances = table.tables("instances");
@@ -105,8 +109,29 @@ void addInstances(TableReader& table, const MeshSource& source, Scene& scene)
         const int own = chosenMaterial(instance, scene.materials, source.named, material);
         const std::string label = instance.text("name").value_or(fmt::format("{}", number++));
         instance.finish();
-        addOne(table, source, moved * placed, own, base + label + "/", scene);
+        addOne(table, source, { moved * placed.atOpen, moved * placed.atClose }, own, base + label + "/", scene);
     }
+}
+
+/// The file's mesh as it is when the shutter opens, and where it deforms also when it closes.
+IndexedMesh readVertices(TableReader& table, const MeshFiles::Entry& entry, const Scene& scene)
+{
+    Mesh mesh = entry.mesh;
+    applySmoothing(table, mesh);
+    const MeshShapes shapes(table, mesh, [&](Mesh& shape) { applySmoothing(table, shape); });
+    if (shapes.empty())
+        return indexMesh(mesh, entry.materialBase);
+    const Mesh atClose = shapes.at(scene.shutterClose, mesh);
+    return indexMesh(shapes.at(scene.shutterOpen, mesh), entry.materialBase, &atClose);
+}
+
+/// Motion that goes nowhere is none.
+void forgetRest(Geometry& geometry)
+{
+    if (geometry.positionsAtClose != geometry.positions || geometry.normalsAtClose != geometry.normals)
+        return;
+    geometry.positionsAtClose = {};
+    geometry.normalsAtClose = {};
 }
 
 } // namespace
@@ -121,12 +146,11 @@ void readMeshes(TableReader& root, Scene& scene, TextureSet& textures)
             table.fail("file", "has an unknown format", path.string(), "name a Wavefront .obj file");
         const std::filesystem::path library = table.path("mtl").value_or(std::filesystem::path());
         const MeshFiles::Entry& entry = files.get(path, library, scene, textures);
-        Mesh mesh = entry.mesh;
-        applySmoothing(table, mesh);
-        const IndexedMesh indexed = indexMesh(mesh, entry.materialBase);
-        addInstances(table, { indexed, mesh.hasNameless, named }, scene);
+        const IndexedMesh indexed = readVertices(table, entry, scene);
+        addInstances(table, { indexed, entry.mesh.hasNameless, named }, scene);
         table.finish();
     }
+    forgetRest(scene.geometry);
 }
 
 } // namespace wedge::scene

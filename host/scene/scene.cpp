@@ -9,17 +9,34 @@ std::size_t bytesOf(const std::vector<T>& v)
     return v.size() * sizeof(T);
 }
 
+glm::vec3 vertexAt(const std::vector<float>& p, std::size_t vertex)
+{
+    return { p[3 * vertex], p[3 * vertex + 1], p[3 * vertex + 2] };
+}
+
+std::size_t movingTriangles(const Geometry& g)
+{
+    std::size_t count = 0;
+    for (std::size_t i = 0; !g.positionsAtClose.empty() && i < g.indices.size(); i += 3) {
+        bool moves = false;
+        for (std::size_t c = i; c < i + 3; ++c)
+            moves = moves || vertexAt(g.positions, g.indices[c]) != vertexAt(g.positionsAtClose, g.indices[c]);
+        count += moves;
+    }
+    return count;
+}
+
 } // namespace
 
 Bounds sceneBounds(const Scene& scene)
 {
     Bounds bounds;
-    const std::vector<float>& p = scene.geometry.positions;
-    for (const std::uint32_t index : scene.geometry.indices) {
-        const std::size_t at = 3 * std::size_t { index };
-        const glm::vec3 point(p[at], p[at + 1], p[at + 2]);
-        bounds.lo = glm::min(bounds.lo, point);
-        bounds.hi = glm::max(bounds.hi, point);
+    for (const std::vector<float>* p : { &scene.geometry.positions, &scene.geometry.positionsAtClose }) {
+        for (std::size_t i = 0; !p->empty() && i < scene.geometry.indices.size(); ++i) {
+            const glm::vec3 point = vertexAt(*p, scene.geometry.indices[i]);
+            bounds.lo = glm::min(bounds.lo, point);
+            bounds.hi = glm::max(bounds.hi, point);
+        }
     }
     return bounds;
 }
@@ -37,7 +54,8 @@ Summary summary(const Scene& scene)
     s.pointLights = scene.pointLights.size();
     s.directionalLights = scene.directionalLights.size();
     s.geometryBytes = bytesOf(g.positions) + bytesOf(g.normals) + bytesOf(g.texcoords) + bytesOf(g.indices)
-        + bytesOf(g.materialIds) + bytesOf(g.objectIds);
+        + bytesOf(g.materialIds) + bytesOf(g.objectIds) + bytesOf(g.positionsAtClose) + bytesOf(g.normalsAtClose);
+    s.movingTriangles = movingTriangles(g);
     for (const Texture& texture : scene.textures)
         s.textureBytes += bytesOf(texture.rgba);
     s.bounds = sceneBounds(scene);

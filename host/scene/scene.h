@@ -79,8 +79,8 @@ struct Geometry {
     std::vector<std::uint32_t> indices; ///< 3 a triangle
     std::vector<std::uint32_t> materialIds, objectIds; ///< 1 a triangle; an object id is at least 1, 0 = background
     std::vector<std::string> objectNames; ///< of object id i at [i - 1]
-    /// Positions and normals when the shutter closes, of as many vertices: between, they move in straight lines. Both are
-    /// empty where nothing moves.
+    /// Positions and normals when the shutter closes, of as many vertices: between, they move in straight lines. Both
+    /// are empty where nothing moves.
     std::vector<float> positionsAtClose, normalsAtClose;
 };
 
@@ -109,6 +109,7 @@ struct Scene {
     Camera camera; ///< when the shutter opens
     std::optional<Camera> cameraAtClose; ///< when it closes, if it moves; lens and field of view are those of camera
     ShutterProfile shutterProfile = ShutterProfile::Box;
+    double shutterOpen = 0.0, shutterClose = 0.0; ///< in the time of the scene file's keys; all above is as of these
     Settings settings;
     std::vector<std::string> warnings; ///< one line each, for the user
 };
@@ -123,6 +124,7 @@ struct Bounds {
 struct Summary {
     std::size_t triangles = 0, vertices = 0, objects = 0, materials = 0, textures = 0;
     std::size_t areaLights = 0, pointLights = 0, directionalLights = 0;
+    std::size_t movingTriangles = 0; ///< with a corner that is elsewhere when the shutter closes
     std::size_t geometryBytes = 0, textureBytes = 0;
     Bounds bounds;
 };
@@ -144,7 +146,7 @@ inline bool geometryMoves(const Scene& scene) { return !scene.geometry.positions
 
 inline bool cameraMoves(const Scene& scene) { return scene.cameraAtClose.has_value(); }
 
-/// The box around all triangles; lights do not count.
+/// The box around all triangles, from when the shutter opens until it closes; lights do not count.
 Bounds sceneBounds(const Scene& scene);
 
 Summary summary(const Scene& scene);

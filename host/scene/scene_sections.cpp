@@ -6,35 +6,23 @@
 
 #include <fmt/format.h>
 
-#include "host/scene/camera_framing.h"
 #include "host/scene/validate.h"
 
 namespace wedge::scene {
 namespace {
 
-/// A point in the scene, with coordinates that the renderer can take.
-std::optional<glm::vec3> point(TableReader& table, const char* key)
-{
-    const std::optional<glm::vec3> p = table.vector(key);
-    for (int axis = 0; p && axis < 3; ++axis) {
-        if (!(std::abs((*p)[axis]) <= maxCoordinate))
-            table.fail(key, "has a coordinate beyond 1e12", fmt::format("{:g}", (*p)[axis]), "scale the scene down");
-    }
-    return p;
-}
-
 /// A quad is a corner and two edges, or a centre and two half edges.
 void readQuadShape(TableReader& table, AreaLight& light)
 {
     if (table.has("corner")) {
-        const glm::vec3 corner = *point(table, "corner");
-        light.halfU = 0.5f * table.require("edge1", point(table, "edge1"));
-        light.halfV = 0.5f * table.require("edge2", point(table, "edge2"));
+        const glm::vec3 corner = *table.point("corner");
+        light.halfU = 0.5f * table.require("edge1", table.point("edge1"));
+        light.halfV = 0.5f * table.require("edge2", table.point("edge2"));
         light.centre = corner + light.halfU + light.halfV;
     } else if (table.has("centre")) {
-        light.centre = *point(table, "centre");
-        light.halfU = table.require("half_u", point(table, "half_u"));
-        light.halfV = table.require("half_v", point(table, "half_v"));
+        light.centre = *table.point("centre");
+        light.halfU = table.require("half_u", table.point("half_u"));
+        light.halfV = table.require("half_v", table.point("half_v"));
     } else {
         table.failHere("has no shape", "quad", "give corner, edge1 and edge2, or centre, half_u and half_v");
     }
@@ -60,7 +48,7 @@ void readQuad(TableReader& table, Scene& scene)
 void readPoint(TableReader& table, Scene& scene)
 {
     PointLight light;
-    light.position = table.require("position", point(table, "position"));
+    light.position = table.require("position", table.point("position"));
     light.intensity = table.require("intensity", table.colour("intensity"));
     scene.pointLights.push_back(light);
 }
@@ -156,23 +144,6 @@ void readLights(TableReader& root, Scene& scene)
             readDirectional(table, scene);
         table.finish();
     }
-}
-
-void readCamera(TableReader& root, Scene& scene)
-{
-    auto table = root.table("camera");
-    if (!table) {
-        scene.camera = frameBounds(sceneBounds(scene), double(scene.settings.width) / scene.settings.height);
-        return;
-    }
-    Camera& camera = scene.camera;
-    camera.eye = table->require("eye", point(*table, "eye"));
-    camera.lookAt = table->require("look_at", point(*table, "look_at"));
-    camera.up = table->vector("up").value_or(camera.up);
-    camera.verticalFov = static_cast<float>(table->number("fov").value_or(double { camera.verticalFov }));
-    table->finish();
-    checkCamera(camera, root.where("camera"));
-    camera.up = glm::vec3(glm::normalize(glm::dvec3(camera.up))); // its length may be beyond single precision
 }
 
 } // namespace wedge::scene

@@ -11,7 +11,5 @@ void readImage(TableReader& root, Scene& scene);
 void readIntegrator(TableReader& root, Scene& scene);
 void readBackground(TableReader& root, Scene& scene);
 void readLights(TableReader& root, Scene& scene);
-/// Without a [camera], one that frames the scene's meshes: read those and [image] first.
-void readCamera(TableReader& root, Scene& scene);
 
 } // namespace wedge::scene

@@ -10,6 +10,7 @@
 
 #include "host/error.h"
 #include "host/scene/paths.h"
+#include "host/scene/validate.h"
 
 namespace wedge::scene {
 namespace {
@@ -225,6 +226,16 @@ std::optional<glm::vec3> TableReader::vector(const std::string& key)
 {
     const std::optional<std::vector<double>> v = numbers(key, 3, 3);
     return v ? std::optional(glm::vec3((*v)[0], (*v)[1], (*v)[2])) : std::nullopt;
+}
+
+std::optional<glm::vec3> TableReader::point(const std::string& key)
+{
+    const std::optional<glm::vec3> p = vector(key);
+    for (int axis = 0; p && axis < 3; ++axis) {
+        if (!(std::abs((*p)[axis]) <= maxCoordinate))
+            fail(key, "has a coordinate beyond 1e12", fmt::format("{:g}", (*p)[axis]), "scale the scene down");
+    }
+    return p;
 }
 
 std::optional<glm::vec3> TableReader::colour(const std::string& key)

@@ -8,15 +8,6 @@
 namespace wedge::scene {
 namespace {
 
-glm::dmat4 readRotation(TableReader& step)
-{
-    const std::vector<double> r = *step.numbers("rotate", 4, 4);
-    const glm::dvec3 axis(r[0], r[1], r[2]);
-    if (!(glm::length(axis) > 0.0))
-        step.fail("rotate", "has no axis", "[0, 0, 0]", "give an axis that is not zero");
-    return glm::rotate(glm::dmat4(1.0), glm::radians(r[3]), glm::normalize(axis));
-}
-
 glm::dmat4 readMatrix(TableReader& step)
 {
     const std::vector<double> m = *step.numbers("matrix", 16, 16);
@@ -31,16 +22,6 @@ glm::dmat4 readMatrix(TableReader& step)
     return matrix;
 }
 
-glm::dmat4 readScale(TableReader& step)
-{
-    glm::dvec3 factors(1.0);
-    if (step.isList("scale"))
-        factors = glm::dvec3(*step.vector("scale"));
-    else
-        factors = glm::dvec3(*step.number("scale"));
-    return glm::scale(glm::dmat4(1.0), factors);
-}
-
 glm::dmat4 readStep(TableReader& step)
 {
     glm::dmat4 matrix(1.0);
@@ -48,9 +29,9 @@ glm::dmat4 readStep(TableReader& step)
     if (step.has("translate") && ++found)
         matrix = glm::translate(matrix, glm::dvec3(*step.vector("translate")));
     if (step.has("rotate") && ++found)
-        matrix = readRotation(step);
+        matrix = glm::mat4_cast(readRotation(step, "rotate"));
     if (step.has("scale") && ++found)
-        matrix = readScale(step);
+        matrix = glm::scale(matrix, readScale(step, "scale"));
     if (step.has("matrix") && ++found)
         matrix = readMatrix(step);
     step.finish();
@@ -64,6 +45,20 @@ glm::dmat4 readStep(TableReader& step)
 }
 
 } // namespace
+
+glm::dquat readRotation(TableReader& table, const std::string& key)
+{
+    const std::vector<double> r = *table.numbers(key, 4, 4);
+    const glm::dvec3 axis(r[0], r[1], r[2]);
+    if (!(glm::length(axis) > 0.0))
+        table.fail(key, "has no axis", "[0, 0, 0]", "give an axis that is not zero");
+    return glm::angleAxis(glm::radians(r[3]), glm::normalize(axis));
+}
+
+glm::dvec3 readScale(TableReader& table, const std::string& key)
+{
+    return table.isList(key) ? glm::dvec3(*table.vector(key)) : glm::dvec3(*table.number(key));
+}
 
 glm::dmat4 readTransform(TableReader& table, const std::string& key)
 {

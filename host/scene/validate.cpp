@@ -1,6 +1,7 @@
 #include "host/scene/validate.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -79,6 +80,8 @@ void checkBareMesh(const Bounds& bounds, const std::string& where)
 
 void checkScene(Scene& scene)
 {
+    assert(scene.geometry.positionsAtClose.size() == scene.geometry.normalsAtClose.size());
+    assert(!geometryMoves(scene) || scene.geometry.positionsAtClose.size() == scene.geometry.positions.size());
     if (scene.geometry.indices.empty())
         scene.warnings.push_back(fmt::format("scene {}: no mesh, only lights and background are seen", scene.path));
     if (scene.areaLights.empty() && scene.pointLights.empty() && scene.directionalLights.empty())

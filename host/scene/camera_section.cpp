@@ -1,0 +1,112 @@
+#include "host/scene/camera_section.h"
+
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "host/scene/camera_framing.h"
+#include "host/scene/keyframes.h"
+#include "host/scene/validate.h"
+
+namespace wedge::scene {
+namespace {
+
+constexpr double leastFocus = 1e-12; // m
+
+void readLens(TableReader& table, Camera& camera)
+{
+    camera.apertureRadius = static_cast<float>(table.number("aperture", 0.0, maxCoordinate).value_or(0.0));
+    camera.focusDistance = static_cast<float>(table.number("focus", leastFocus, maxCoordinate).value_or(0.0));
+    if (table.choice("aperture_profile", { "uniform", "gaussian" }).value_or("uniform") == "gaussian")
+        camera.apertureProfile = ApertureProfile::Gaussian;
+}
+
+/// Where the camera stands and looks at the time of each of its keys.
+struct CameraKeys {
+    std::vector<double> times;
+    std::vector<Camera> cameras;
+};
+
+/// A key has from the camera's table what it does not say itself.
+CameraKeys readKeys(TableReader& table, const Camera& camera)
+{
+    CameraKeys keys;
+    for (TableReader& key : table.tables("key")) {
+        keys.times.push_back(readKeyTime(key, keys.times));
+        Camera posed = camera;
+        posed.eye = key.point("eye").value_or(camera.eye);
+        posed.lookAt = key.point("look_at").value_or(camera.lookAt);
+        posed.up = key.vector("up").value_or(camera.up);
+        key.finish();
+        keys.cameras.push_back(posed);
+    }
+    return keys;
+}
+
+/// a where both are the same: rounding must not make rest a motion.
+glm::vec3 between(const glm::vec3& a, const glm::vec3& b, double weight)
+{
+    return a == b ? a : glm::vec3(glm::mix(glm::dvec3(a), glm::dvec3(b), weight));
+}
+
+Camera cameraAt(double time, const Camera& camera, const CameraKeys& keys, const std::string& where)
+{
+    Camera posed = camera;
+    if (!keys.times.empty()) {
+        const KeySpan span = spanAt(keys.times, time);
+        const Camera &a = keys.cameras[span.from], &b = keys.cameras[span.to];
+        posed.eye = between(a.eye, b.eye, span.weight);
+        posed.lookAt = between(a.lookAt, b.lookAt, span.weight);
+        posed.up = between(a.up, b.up, span.weight);
+    }
+    checkCamera(posed, keys.times.empty() ? where : fmt::format("{}: at time {:g}", where, time));
+    posed.up = glm::vec3(glm::normalize(glm::dvec3(posed.up))); // its length may be beyond single precision
+    return posed;
+}
+
+} // namespace
+
+void readShutter(TableReader& root, Scene& scene)
+{
+    auto table = root.table("shutter");
+    if (!table)
+        return;
+    scene.shutterOpen = table->number("open").value_or(0.0);
+    scene.shutterClose = table->require("close", table->number("close"));
+    if (scene.shutterClose < scene.shutterOpen)
+        table->fail("close", "is before open", fmt::format("{:g} and {:g}", scene.shutterClose, scene.shutterOpen),
+            "close it when it opens or later");
+    if (table->choice("profile", { "box", "gaussian" }).value_or("box") == "gaussian")
+        scene.shutterProfile = ShutterProfile::Gaussian;
+    table->finish();
+}
+
+void readCamera(TableReader& root, Scene& scene)
+{
+    auto table = root.table("camera");
+    if (!table) {
+        scene.camera = frameBounds(sceneBounds(scene), double(scene.settings.width) / scene.settings.height);
+        return;
+    }
+    Camera& camera = scene.camera;
+    camera.eye = table->require("eye", table->point("eye"));
+    camera.lookAt = table->require("look_at", table->point("look_at"));
+    camera.up = table->vector("up").value_or(camera.up);
+    camera.verticalFov = static_cast<float>(table->number("fov").value_or(double { camera.verticalFov }));
+    readLens(*table, camera);
+    const CameraKeys keys = readKeys(*table, camera);
+    table->finish();
+    const std::string where = root.where("camera");
+    const Camera own = camera;
+    camera = cameraAt(scene.shutterOpen, own, keys, where);
+    Camera atClose = cameraAt(scene.shutterClose, own, keys, where);
+    if (camera.eye == atClose.eye && camera.lookAt == atClose.lookAt && camera.up == atClose.up)
+        return;
+    if (camera.focusDistance == 0.0f) // the lens does not change while the shutter is open
+        camera.focusDistance = glm::distance(camera.eye, camera.lookAt);
+    atClose.focusDistance = camera.focusDistance;
+    scene.cameraAtClose = atClose;
+}
+
+} // namespace wedge::scene

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "host/scene/toml_reader.h"
+
+namespace wedge::scene {
+
+/// How the keyframes of a mesh, [[mesh.key]], place it over time: scaled, then turned, then moved.
+class MeshKeys {
+public:
+    /// Reads them from a [[mesh]]. Throws Error for times out of order and for a scale that passes through 0.
+    explicit MeshKeys(TableReader& mesh);
+
+    /// Between two keys translation and scale are linear, and the rotation goes the shorter way at an even speed
+    /// (slerp). Identity without keys.
+    glm::dmat4 at(double time) const;
+
+private:
+    struct Pose {
+        glm::dvec3 translation { 0.0 }, scale { 1.0 };
+        glm::dquat rotation { 1.0, 0.0, 0.0, 0.0 };
+        bool operator==(const Pose&) const = default;
+    };
+
+    std::vector<double> times_;
+    std::vector<Pose> poses_;
+};
+
+} // namespace wedge::scene
