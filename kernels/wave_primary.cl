@@ -67,15 +67,15 @@ __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wav
         return;
     }
     RayPacket packet;
-    CameraRay rays[WEDGE_PACKET_SIZE];
+    CameraRay sent[WEDGE_PACKET_SIZE];
     Vec3 lightRadiance[WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const bool inside = first + lane < wave.receivers;
         const uint receiver = inside ? first + lane : first;
         const uint x = pixelOf[receiver] & 0xffffu, y = pixelOf[receiver] >> 16;
-        rays[lane] = primaryRay(frame, camera, wave, x, y, sampleOf[receiver], wanted[pixelIndex(x, y, frame.stride)]);
-        const LightHit seen = hitLights(lights, lightCount, rays[lane].origin, rays[lane].direction);
-        setRay(&packet, lane, rays[lane].origin, rays[lane].direction, 0.0f, inside ? seen.t : 0.0f);
+        sent[lane] = primaryRay(frame, camera, wave, x, y, sampleOf[receiver], wanted[pixelIndex(x, y, frame.stride)]);
+        const LightHit seen = hitLights(lights, lightCount, sent[lane].origin, sent[lane].direction);
+        setRay(&packet, lane, sent[lane].origin, sent[lane].direction, 0.0f, inside ? seen.t : 0.0f);
         lightRadiance[lane] = seen.radiance;
     }
     PacketHits hits;
@@ -86,7 +86,7 @@ __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wav
             break;
         }
         const Hit hit = packetHit(&hits, lane);
-        const CameraRay ray = rays[lane];
+        const CameraRay ray = sent[lane];
         time[i] = ray.time;
         rays[i] = pathRays[i] = 0u;
         depth[i] = hit.t;
