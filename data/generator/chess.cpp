@@ -205,8 +205,8 @@ GeneratedScene makeChess()
     s.camera.eye = { 0.1f, 0.24f, 0.5f };
     s.camera.lookAt = { 0.0f, 0.015f, 0.02f };
     s.camera.verticalFov = 38.0f;
-    s.camera.focusDistance = 0.62f;
-    s.camera.apertureRadius = 0.025f;
+    s.camera.focusDistance = 0.5f;
+    s.camera.apertureRadius = 0.026f;
     s.light = gaussianLight({ -0.75f, 1.15f, 0.35f }, { 0.0f, 0.0f, 0.0f }, 0.22f);
     s.light.radiance = glm::vec3(radianceFor(s.light, { 0, 0, 0 }, { 0, 1, 0 }, 0.4, 0.62));
     s.background = glm::vec3(0.05f);
