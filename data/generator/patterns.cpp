@@ -87,7 +87,7 @@ image::RgbImage checkedCloth(const glm::dvec3& ground, const glm::dvec3& colour,
 {
     return paint(side, side, [=](double u, double v) {
         const double mixed = 0.5 * (stripes(u, count) + stripes(v, count));
-        const double thread = 0.8 + 0.2 * std::sin(2 * pi * 128 * u) * std::sin(2 * pi * 128 * v);
+        const double thread = 0.75 + 0.25 * std::sin(2 * pi * 96 * u) * std::sin(2 * pi * 96 * v);
         return thread * glm::mix(ground, colour, mixed);
     });
 }

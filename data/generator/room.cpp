@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 namespace wedge::generator {
 namespace {
@@ -141,8 +142,8 @@ void lamp(ObjWriter& mesh)
 {
     mesh.object("lamp", "metal");
     lathe(mesh,
-        { { 0, 0, 0 }, { 0.14, 0, 0 }, { 0.15, 0.01, 0 }, { 0.1, 0.025, 0 }, { 0.015, 0.04, 0 }, { 0.013, 0.7, 0 },
-            { 0.013, 1.45, 0 }, { 0, 1.47, 0 } },
+        { { 0, 0, 0 }, { 0.14, 0, 0 }, { 0.15, 0.01, 0 }, { 0.1, 0.025, 0 }, { 0.03, 0.035, 0 }, { 0.015, 0.05, 0 },
+            { 0.013, 0.1, 0 }, { 0.013, 0.5, 0 }, { 0.013, 1.45, 0 }, { 0, 1.47, 0 } },
         standing({ -1.95, 0, -1.2 }), { 1, 8 });
     mesh.object("shade", "pillow");
     std::vector<Ring> rings;
@@ -165,7 +166,6 @@ void curtain(ObjWriter& mesh, double from, double width)
 
 void pot(ObjWriter& mesh, const glm::dvec3& foot, double height)
 {
-    mesh.object("pot", "vase");
     lathe(mesh,
         { { 0, 0, 0 }, { 0.35, 0, 0 }, { 0.37, 0.02, 0 }, { 0.5, 0.9, 0 }, { 0.52, 1, 0 }, { 0.47, 1, 0 },
             { 0.44, 0.88, 0 }, { 0, 0.86, 0 } },
@@ -173,18 +173,20 @@ void pot(ObjWriter& mesh, const glm::dvec3& foot, double height)
 }
 
 /// Long leaves on thin stalks out of a pot.
-void plant(ObjWriter& mesh, const glm::dvec3& foot, double size, int count, Random& random)
+void plant(ObjWriter& mesh, const std::string& name, const glm::dvec3& foot, double size, int count, Random& random)
 {
+    mesh.object(name + "_pot", "vase");
     pot(mesh, foot, 0.3 * size);
-    mesh.object("plant", "leaf");
     for (int i = 0; i < count; ++i) {
         const double angle = 2.39996 * i, lean = random.uniform(0.15, 0.9), tall = random.uniform(0.3, 1.0) * size;
         const glm::dvec3 out(std::cos(angle), 0, std::sin(angle));
         const glm::dvec3 root = foot + glm::dvec3(0, 0.27 * size, 0) + 0.06 * size * out;
         const glm::dvec3 tip = root + glm::dvec3(0, tall * (1 - 0.4 * lean), 0) + 0.35 * lean * tall * out;
+        mesh.object(name + "_stalks", "stalk");
         tube(mesh,
             curveThrough(std::vector<glm::dvec3> { root, 0.5 * (root + tip) + glm::dvec3(0, 0.1 * tall, 0), tip }, 3),
             std::vector<double>(7, 0.005 * size), 5);
+        mesh.object(name + "_leaves", "leaf");
         leaf(mesh, frameAt(tip, out + glm::dvec3(0, random.uniform(-0.1, 0.5), 0), { 0, 1, 0 }),
             size * random.uniform(0.22, 0.36), 0.12 * size, random.uniform(0.25, 0.6), 14, 6);
     }
@@ -224,6 +226,7 @@ void addMaterials(GeneratedScene& s)
         add("book" + std::to_string(i), bookBack(covers[i], { 0.8, 0.65, 0.25 }, 80 + static_cast<unsigned>(i)), 0.85f,
             0.1f, 20.0f);
     s.materials.push_back(matt("ceiling", glm::vec3(0.78f, 0.77f, 0.74f)));
+    s.materials.push_back(matt("stalk", glm::vec3(0.14f, 0.25f, 0.07f)));
     s.materials.push_back(glossy("metal", glm::vec3(0.3f, 0.28f, 0.25f), 0.45f, 60.0f));
 }
 
@@ -245,10 +248,10 @@ GeneratedScene makeRoom()
     curtain(s.mesh, -0.4, 1.1);
     curtain(s.mesh, -2.3, 0.8);
     picture(s.mesh, "picture", { -x, 1.6, -1.0 }, 0.35, 0.45);
-    plant(s.mesh, { -1.75, 0, -1.95 }, 1.2, 110, random);
+    plant(s.mesh, "far_plant", { -1.75, 0, -1.95 }, 1.2, 110, random);
     s.mesh.object("stand", "shelf");
     texturedBox(s.mesh, { 0.1, 0.37, 1.5 }, { 0.18, 0.37, 0.18 }, 0.5);
-    plant(s.mesh, { 0.1, 0.74, 1.5 }, 0.6, 60, random);
+    plant(s.mesh, "near_plant", { 0.1, 0.74, 1.5 }, 0.6, 60, random);
     s.camera.eye = { 0.75f, 1.35f, 2.45f };
     s.camera.lookAt = { -0.1f, 0.85f, -1.0f };
     s.camera.verticalFov = 52.0f;

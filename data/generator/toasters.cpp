@@ -3,6 +3,8 @@
 #include "data/generator/scene_writer.h"
 #include "data/generator/textured.h"
 
+#include <string>
+
 namespace wedge::generator {
 namespace {
 
