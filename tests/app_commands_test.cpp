@@ -271,6 +271,36 @@ TEST_CASE("devices, info, version and help")
         nlohmann::json::parse(place.text("r.json")).at("frames").at(0).at("memory_bytes") == facts.at("memory_bytes"));
 }
 
+TEST_CASE("info says what lens and shutter there are, and how much moves")
+{
+    const Workplace place;
+    const nlohmann::json still = nlohmann::json::parse(place.run({ "info", box, "--json" }).out);
+    CHECK(still.at("lens").at("aperture") == 0.0);
+    CHECK(still.at("lens").at("focus").get<double>() == doctest::Approx(3.9)); // as far as look_at
+    CHECK(still.at("moving_triangles") == 0);
+    CHECK(still.at("camera_moves") == false);
+    const std::string plain = place.run({ "info", box }).out;
+    CHECK(contains(plain, "lens       pinhole\nshutter    nothing moves\n"));
+
+    place.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    place.write("s.toml",
+        "[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\naperture = 0.25\nfocus = 3\n[shutter]\nopen = 0.5\nclose = 1\n"
+        "profile = 'gaussian'\n[[mesh]]\nfile = 'm.obj'\n[[mesh]]\nfile = 'm.obj'\n"
+        "key = [{ time = 0 }, { time = 1, translate = [1, 0, 0] }]\n");
+    const nlohmann::json moving = nlohmann::json::parse(place.run({ "info", "s.toml", "--json" }).out);
+    CHECK(moving.at("triangles") == 2);
+    CHECK(moving.at("moving_triangles") == 1);
+    CHECK(moving.at("lens").at("aperture") == 0.25);
+    CHECK(moving.at("lens").at("focus") == 3.0);
+    CHECK(moving.at("lens").at("aperture_profile") == "uniform");
+    CHECK(moving.at("shutter").at("open") == 0.5);
+    CHECK(moving.at("shutter").at("close") == 1.0);
+    CHECK(moving.at("shutter").at("profile") == "gaussian");
+    const std::string text = place.run({ "info", "s.toml" }).out;
+    CHECK(contains(text, "lens       uniform aperture of radius 0.25 m, in focus at 3 m\n"));
+    CHECK(contains(text, "shutter    gaussian, from 0.5 to 1: 1 moving triangles, camera at rest\n"));
+}
+
 TEST_CASE("compare prints one number, all, or a map")
 {
     const Workplace place;

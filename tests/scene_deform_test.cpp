@@ -75,8 +75,8 @@ TEST_CASE("shapes under keys and a transform")
 
 TEST_CASE("every shape is smoothed by itself, and normals go from one's to the other's")
 {
-    const auto smoothed = [&](const std::string& value) {
-        std::string text = "[shutter]\nclose = 2\n" + shapes;
+    const auto smoothed = [&](const std::string& value, const std::string& open = "0") {
+        std::string text = "[shutter]\nopen = " + open + "\nclose = 2\n" + shapes;
         text.insert(text.find("[[mesh.shape]]"), "smooth = " + value + "\n");
         return read(text);
     };
@@ -91,6 +91,7 @@ TEST_CASE("every shape is smoothed by itself, and normals go from one's to the o
     CHECK(near(normals(ridge, 0, true), { 0, 1, 0 }));
     const Scene crease = smoothed("45"); // flat when it opens, two planes when it closes: its vertices part
     CHECK(crease.geometry.positions.size() == 3 * 6);
+    CHECK(smoothed("45", "-1").geometry.positions.size() == 3 * 6); // also when only the flat one counts at first
     CHECK(near(normals(crease, 0, false), { 0, 1, 0 }));
     CHECK(near(normals(crease, 0, true), { half, half, 0 }));
     CHECK(near(normals(crease, 1, true), { -half, half, 0 }));

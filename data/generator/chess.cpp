@@ -107,8 +107,8 @@ void ear(ObjWriter& mesh, const glm::dmat4& map, double side)
 void knight(ObjWriter& mesh, const glm::dmat4& map)
 {
     piece(mesh, map, withFoot({ { 0.75, 0.5, 0 }, { 0.72, 0.72, 0 }, { 0.4, 0.8, 0 }, { 0, 0.8, 0 } }), 1);
-    const std::vector<glm::dvec4> control { { 0.1, 0.7, 0, 0.74 }, { -0.16, 1.2, 0, 0.64 }, { -0.2, 1.85, 0, 0.52 },
-        { 0.02, 2.4, 0, 0.5 }, { 0.45, 2.5, 0, 0.44 }, { 0.85, 2.22, 0, 0.32 }, { 1.1, 2.0, 0, 0.27 } };
+    const std::vector<glm::dvec4> control { { 0.1, 0.7, 0, 0.74 }, { -0.14, 1.2, 0, 0.62 }, { -0.24, 1.8, 0, 0.5 },
+        { -0.1, 2.35, 0, 0.42 }, { 0.32, 2.6, 0, 0.37 }, { 0.75, 2.45, 0, 0.3 }, { 1.08, 2.15, 0, 0.25 } };
     const std::vector<glm::dvec4> curve = curveThrough(control, 4);
     const std::vector<Frame> frames = framesOn({ curve.begin(), curve.end() }, { 0, 0, 1 });
     std::vector<Ring> rings;
@@ -205,8 +205,8 @@ GeneratedScene makeChess()
     s.camera.eye = { 0.1f, 0.24f, 0.5f };
     s.camera.lookAt = { 0.0f, 0.015f, 0.02f };
     s.camera.verticalFov = 38.0f;
-    s.camera.focusDistance = 0.62f;
-    s.camera.apertureRadius = 0.025f;
+    s.camera.focusDistance = 0.5f;
+    s.camera.apertureRadius = 0.026f;
     s.light = gaussianLight({ -0.75f, 1.15f, 0.35f }, { 0.0f, 0.0f, 0.0f }, 0.22f);
     s.light.radiance = glm::vec3(radianceFor(s.light, { 0, 0, 0 }, { 0, 1, 0 }, 0.4, 0.62));
     s.background = glm::vec3(0.05f);

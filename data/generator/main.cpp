@@ -18,7 +18,7 @@ int main(int count, char** arguments)
     }
     try {
         for (const auto make : { makeGrids, makeBench, makeTentacles, makeSpheres, makeCornellGlossy, makeCornellFigure,
-                 makeChess, makeMovingCornell, makeMovingLens }) {
+                 makeChess, makeStillLife, makeToasters, makeRoom, makeMovingCornell, makeMovingLens }) {
             const GeneratedScene scene = make();
             writeScene(scene, folder);
             fmt::print("{}/{}.toml: {} triangles\n", folder, scene.name, triangles(scene));

@@ -44,7 +44,7 @@ MovingPart flyingVase()
     part.name = "vase";
     vase(part.mesh);
     const glm::vec3 from(-0.52f, 0.95f, -0.6f);
-    part.keys = { { 0.0, { 0, 0, 1, 14 }, from }, { 1.0, { 0, 0, 1, -8 }, from + glm::vec3(0.15f, 0.08f, 0.0f) } };
+    part.keys = { { 0.0, { 0, 0, 1, 14 }, from }, { 1.0, { 0, 0, 1, -2 }, from + glm::vec3(0.13f, 0.06f, 0.0f) } };
     return part;
 }
 
@@ -135,7 +135,7 @@ GeneratedScene makeMovingLens()
     s.name = "moving_lens";
     s.comment += ", through a lens that is in focus on the ball";
     s.camera.focusDistance = 3.3f;
-    s.camera.apertureRadius = 0.12f;
+    s.camera.apertureRadius = 0.18f;
     return s;
 }
 

@@ -87,7 +87,7 @@ image::RgbImage checkedCloth(const glm::dvec3& ground, const glm::dvec3& colour,
 {
     return paint(side, side, [=](double u, double v) {
         const double mixed = 0.5 * (stripes(u, count) + stripes(v, count));
-        const double thread = 0.8 + 0.2 * std::sin(2 * pi * 128 * u) * std::sin(2 * pi * 128 * v);
+        const double thread = 0.75 + 0.25 * std::sin(2 * pi * 96 * u) * std::sin(2 * pi * 96 * v);
         return thread * glm::mix(ground, colour, mixed);
     });
 }
@@ -124,6 +124,50 @@ image::RgbImage speckled(const glm::dvec3& colour, const glm::dvec3& specks, int
         const double broad = noise(8 * u, 8 * v, 8, seed + 1);
         const double speck = smooth(glm::clamp((fine - 0.62) / 0.12, 0.0, 1.0));
         return glm::mix((0.75 + 0.4 * broad) * colour, specks, speck);
+    });
+}
+
+image::RgbImage veined(const glm::dvec3& blade, const glm::dvec3& vein)
+{
+    return paint(256, 128, [=](double u, double v) {
+        const double across = std::abs(2.0 * v - 1.0);
+        const double rib = 1.0 - smooth(glm::clamp(across / 0.08, 0.0, 1.0));
+        const double branch = 0.5 + 0.5 * std::sin(2 * pi * (14 * u - 5 * across));
+        const double fine = noise(64 * u, 32 * v, 64, 31);
+        const double light = std::max(rib, smooth(glm::clamp((branch - 0.8) / 0.2, 0.0, 1.0)));
+        return glm::mix((0.7 + 0.6 * fine) * blade, vein, light);
+    });
+}
+
+image::RgbImage brushed(const glm::dvec3& colour, unsigned seed)
+{
+    return paint(256, 256, [=](double u, double v) {
+        const double scratches = noise(8 * u, 256 * v, 256, seed), broad = noise(4 * u, 64 * v, 64, seed + 1);
+        return (0.55 + 0.35 * scratches + 0.25 * broad) * colour;
+    });
+}
+
+image::RgbImage bookBack(const glm::dvec3& colour, const glm::dvec3& gilt, unsigned seed)
+{
+    return paint(64, 256, [=](double u, double v) {
+        const double leather = 0.7 + 0.5 * noise(32 * u, 128 * v, 128, seed);
+        const bool bands = band(v, 0.08, 0.1, 0.005) + band(v, 0.86, 0.88, 0.005) + band(v, 0.9, 0.91, 0.005) > 0.5;
+        const double line = fraction(v * 24);
+        const bool title = v > 0.55 && v < 0.8 && u > 0.2 && u < 0.8 && line > 0.35 && line < 0.8
+            && hashed(static_cast<int>(u * 20), static_cast<int>(v * 24), seed) > 0.4;
+        return bands || title ? gilt : leather * colour;
+    });
+}
+
+image::RgbImage carpet(const glm::dvec3& ground, const glm::dvec3& first, const glm::dvec3& second, int count)
+{
+    return paint(side, side, [=](double u, double v) {
+        const double x = std::abs(fraction(u * count) - 0.5), y = std::abs(fraction(v * count) - 0.5);
+        const double rhomb = x + y;
+        const double tuft = 0.55 + 0.45 * std::abs(std::sin(pi * 96 * u) * std::sin(pi * 96 * v))
+            + 0.2 * (noise(256 * u, 256 * v, 256, 41) - 0.5);
+        const glm::dvec3 colour = rhomb < 0.15 ? second : rhomb < 0.3 ? ground : rhomb < 0.4 ? first : ground;
+        return tuft * colour;
     });
 }
 

@@ -34,6 +34,18 @@ image::RgbImage wallpaper(const glm::dvec3& ground, const glm::dvec3& first, con
 /// Speckles over a colour, as on the skin of a fruit.
 image::RgbImage speckled(const glm::dvec3& colour, const glm::dvec3& specks, int count, unsigned seed);
 
+/// One leaf, its rib along u: it does not repeat.
+image::RgbImage veined(const glm::dvec3& blade, const glm::dvec3& vein);
+
+/// Brushed metal: fine scratches along u.
+image::RgbImage brushed(const glm::dvec3& colour, unsigned seed);
+
+/// Backs of a book: bands, and lines of marks like letters.
+image::RgbImage bookBack(const glm::dvec3& colour, const glm::dvec3& gilt, unsigned seed);
+
+/// Tufts of wool in a pattern of rhombs, `count` a side.
+image::RgbImage carpet(const glm::dvec3& ground, const glm::dvec3& first, const glm::dvec3& second, int count);
+
 /// Rows of bricks in a running bond.
 image::RgbImage bricks(const glm::dvec3& brick, const glm::dvec3& mortar, int rows, unsigned seed);
 

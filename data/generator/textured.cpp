@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -171,6 +172,17 @@ void roundedBox(ObjWriter& mesh, const glm::dvec3& centre, const glm::dvec3& hal
             emit(mesh, grid);
         }
     }
+}
+
+void leaf(ObjWriter& mesh, const Frame& base, double length, double width, double bend, int cellsU, int cellsV)
+{
+    const auto point = [&](double u, double v) {
+        const double side = 2.0 * v - 1.0;
+        const double half = 0.5 * width * std::pow(std::sin(std::numbers::pi * u), 0.8) * (1.25 - 0.5 * u);
+        const double up = length * (0.25 * u - bend * u * u) + 0.25 * half * side * side; // folded along its rib
+        return base.at + length * (u - 0.3 * bend * u * u) * base.along + side * half * base.left + up * base.up;
+    };
+    sheet(mesh, cellsU, cellsV, point);
 }
 
 glm::dmat3 turn(double degrees)

@@ -34,6 +34,10 @@ void texturedBox(ObjWriter& mesh, const glm::dvec3& centre, const glm::dvec3& ha
 void roundedBox(ObjWriter& mesh, const glm::dvec3& centre, const glm::dvec3& half, double radius, int steps,
     double period, const glm::dmat3& axes = glm::dmat3(1.0));
 
+/// A leaf that begins at base.at, goes along base.along, and bends away from base.up by `bend` of its length: about
+/// 2 cellsU cellsV triangles. The texture is once along and once across it.
+void leaf(ObjWriter& mesh, const Frame& base, double length, double width, double bend, int cellsU, int cellsV);
+
 /// A turn around the vertical axis, in degrees.
 glm::dmat3 turn(double degrees);
 

@@ -44,10 +44,10 @@ CameraKeys readKeys(TableReader& table, const Camera& camera)
     return keys;
 }
 
-/// a where both are the same: rounding must not make rest a motion.
 glm::vec3 between(const glm::vec3& a, const glm::vec3& b, double weight)
 {
-    return a == b ? a : glm::vec3(glm::mix(glm::dvec3(a), glm::dvec3(b), weight));
+    // In double precision, so that rounding to single gives a back where both are the same: rest is no motion.
+    return glm::vec3(glm::mix(glm::dvec3(a), glm::dvec3(b), weight));
 }
 
 Camera cameraAt(double time, const Camera& camera, const CameraKeys& keys, const std::string& where)
