@@ -160,6 +160,7 @@ WEDGE_FN void shadowRays(const ReceiverPacket* r, const LightSamples* s, RayPack
         setRay(packet, lane, vec3(r->originX[lane], r->originY[lane], r->originZ[lane]),
                vec3(s->rayX[lane], s->rayY[lane], s->rayZ[lane]), 0.0f,
                s->diffuse[lane] > 0.0f ? WEDGE_SHADOW_RAY_END : 0.0f);
+        setTime(packet, lane, 0.0f);
     }
 }
 

@@ -60,6 +60,7 @@ __kernel void primary(FrameParams frame, __global const TraversalNode* restrict 
         const Vec3 direction = pixelDirection(frame, inside ? x : 0u, inside ? y : 0u);
         const LightHit seen = hitLights(lights, lightCount, frame.eye, direction);
         setRay(&packet, lane, frame.eye, direction, 0.0f, inside ? seen.t : 0.0f);
+        setTime(&packet, lane, 0.0f);
         lightRadiance[lane] = seen.radiance;
     }
     PacketHits hits;
@@ -79,7 +80,7 @@ __kernel void primary(FrameParams frame, __global const TraversalNode* restrict 
             storeVec(emission, size, i, hit.t < INFINITY ? lightRadiance[lane] : frame.background);
             continue;
         }
-        const Surface s = surfaceAt(data, hit, direction);
+        const Surface s = surfaceAt(data, hit, direction, timeOf(&packet, lane));
         // Solid angle of a pixel off the axis: area / distance^2 times the cosine to the image plane, cos^3 in all.
         const float axis = 1.0f / length;
         const float solidAngle = vecLength(vecCross(frame.right, frame.down)) * axis * axis * axis;

@@ -33,8 +33,9 @@ public:
     DeviceScene(const scene::Scene&, Hierarchy&&, const device::Device&, device::TimedQueue&) = delete;
 
     device::Buffer<std::byte> nodes; ///< of the hierarchy's family of traversals
-    device::Buffer<shared::TriangleBlock> blocks;
+    device::Buffer<std::byte> blocks;
     device::Buffer<float> positions, normals, texcoords;
+    device::Buffer<float> positionsAtClose, normalsAtClose; ///< one element that nobody reads where nothing moves
     device::Buffer<std::uint32_t> indices, materialIds, objectIds;
     device::Buffer<shared::MaterialData> materials;
     device::Buffer<shared::TextureData> textures;
@@ -49,6 +50,7 @@ public:
     float diameter = 0; ///< metres, diagonal of the bounds
     float largestDimension = 0; ///< metres, of the bounds
     bool specular = false; ///< hasSpecular()
+    bool moves = false; ///< scene::geometryMoves()
 };
 
 } // namespace wedge::render

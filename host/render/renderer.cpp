@@ -34,6 +34,9 @@ device::BuildOptions programOptions(const scene::Scene& scene, const Options& op
     if (traversal == Traversal::Scalar) {
         out.defines.emplace_back("WEDGE_TRAVERSAL_SCALAR", "1");
     }
+    if (scene::geometryMoves(scene)) {
+        out.defines.emplace_back("WEDGE_MOTION", "1");
+    }
     out.fastMath = options.fastMath;
     out.kernelDir = options.kernelDir;
     return out;
@@ -74,8 +77,7 @@ Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Opti
     : scene_(scene)
     , device_(device)
     , options_(std::move(options))
-    , hierarchy_(bvh::build({ scene.geometry.positions, scene.geometry.indices }, bvh::config(options_.bvh)),
-          resolveTraversal(options_.traversal, device.info()))
+    , hierarchy_(buildHierarchy(scene, options_.bvh, resolveTraversal(options_.traversal, device.info())))
     , queue_(device, options_.blameLaunches)
     , programs_(std::make_unique<device::ProgramLibrary>(device, programOptions(scene, options_, hierarchy_.traversal)))
     , passes_(std::make_unique<Passes>(*programs_, queue_, packetSize(hierarchy_.traversal)))
@@ -225,7 +227,7 @@ bool Renderer::primaryPass(const shared::FrameParams& params, bool lit)
     try {
         passes_->tiles("primary rays", PassKind::Trace, "primary.cl", "primary", params, 1.0, s.nodes, s.blocks,
             s.positions, s.normals, s.texcoords, s.indices, s.materialIds, s.materials, s.textures, s.texels,
-            s.srgbToLinear, s.objectIds, s.areaLights, static_cast<std::uint32_t>(lit ? s.areaLightList.size() : 0), f.position,
+            s.srgbToLinear, s.positionsAtClose, s.normalsAtClose, s.objectIds, s.areaLights, static_cast<std::uint32_t>(lit ? s.areaLightList.size() : 0), f.position,
             f.normal, f.origin, f.geometric, f.objectId, f.depth, f.pixelSize, f.diffuse, f.specular, f.emission, f.gloss);
     } catch (const device::Cancelled&) {
         complete = false;

@@ -117,7 +117,7 @@ bool Indirect::samplePaths(
             last += std::min(slice, most - last);
             passes_.tiles(pass, PassKind::Trace, "indirect.cl", "samplePaths", frame, units * share, pathParams(), s.nodes,
                 s.blocks, s.positions, s.normals, s.texcoords, s.indices, s.materialIds, s.materials, s.textures, s.texels,
-                s.srgbToLinear, s.areaLights, s.deltaLights, f.position, f.normal, f.origin, f.geometric, f.objectId,
+                s.srgbToLinear, s.positionsAtClose, s.normalsAtClose, s.areaLights, s.deltaLights, f.position, f.normal, f.origin, f.geometric, f.objectId,
                 f.gloss, f.specular, term_.wanted, last, term_.sums, term_.taken, term_.value, term_.extremes, f.rays,
                 f.pathRays);
             if (passes_.rehearsal()) {
