@@ -10,6 +10,21 @@ using namespace wedge::test;
 
 namespace {
 
+/// Whether a triangle has become smaller than the rounding of its vertices, so that nobody can say where rays hit it.
+bool hasVanished(const TestMesh& mesh, std::uint32_t triangle)
+{
+    if (triangle == WEDGE_NO_TRIANGLE)
+        return false;
+    float edge = 0, coordinate = 0;
+    for (std::size_t corner = 0; corner < 3; corner++)
+        for (std::size_t axis = 0; axis < 3; axis++) {
+            const auto at = [&](std::size_t c) { return mesh.positions[3 * std::size_t { mesh.indices[3 * triangle + c % 3] } + axis]; };
+            edge = std::max(edge, std::fabs(at(corner + 1) - at(corner)));
+            coordinate = std::max(coordinate, std::fabs(at(corner)));
+        }
+    return edge < 1e-6f * coordinate;
+}
+
 /// Every way to trace rays through moving geometry on one device.
 struct Ways {
     explicit Ways(const device::Device& device)
@@ -54,8 +69,9 @@ struct Ways {
         const Hits hits = trace(mesh, tree, rays, times);
         std::size_t found = 0;
         for (std::size_t i = 0; i < rays.size(); i++) {
-            const std::string fault = findFault(mesh.at(times[i]), rays[i], hits.closest[i], hits.any[i] == 1);
-            if (!fault.empty())
+            const TestMesh now = mesh.at(times[i]);
+            const std::string fault = findFault(now, rays[i], hits.closest[i], hits.any[i] == 1);
+            if (!fault.empty() && !hasVanished(now, hits.closest[i].triangle))
                 FAIL_CHECK("ray " << i << " at time " << times[i] << " " << fault);
             found += hits.any[i];
         }
