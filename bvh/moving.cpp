@@ -153,22 +153,21 @@ struct MovingTriangle {
     }
 };
 
-/// Writes a triangle to a lane; one that is degenerate as its first vertex three times. Returns whether it is.
-bool setLane(MovingTriangleBlock& block, unsigned lane, const MovingTriangle& triangle)
+void setLane(MovingTriangleBlock& block, unsigned lane, const MovingTriangle& triangle)
 {
     float* const open[3][3] = { { block.v0x, block.v0y, block.v0z }, { block.v1x, block.v1y, block.v1z },
         { block.v2x, block.v2y, block.v2z } };
     float* const move[3][3] = { { block.move0x, block.move0y, block.move0z },
         { block.move1x, block.move1y, block.move1z }, { block.move2x, block.move2y, block.move2z } };
-    const bool degenerate = triangle.degenerate();
     for (std::size_t corner = 0; corner < 3; corner++)
         for (std::size_t axis = 0; axis < 3; axis++) {
-            open[corner][axis][lane] = triangle.open[degenerate ? 0 : corner][axis];
-            move[corner][axis][lane] = triangle.move[degenerate ? 0 : corner][axis];
+            open[corner][axis][lane] = triangle.open[corner][axis];
+            move[corner][axis][lane] = triangle.move[corner][axis];
         }
-    return degenerate;
 }
 
+/// Fills the blocks of a tree. Degenerate triangles, which it counts, stay as they are: kernels leave out all that have
+/// no area at a ray's time.
 Array<MovingTriangleBlock> movingBlocks(
     const Bvh& tree, const Mesh& mesh, std::span<const float> close, float unit, std::size_t& degenerate)
 {
@@ -181,8 +180,11 @@ Array<MovingTriangleBlock> movingBlocks(
             for (unsigned lane = 0; lane < WEDGE_BLOCK_SIZE; lane++) {
                 const std::uint32_t triangle = tree.blocks[i].triangle[lane];
                 blocks[i].triangle[lane] = triangle;
-                if (triangle != WEDGE_NO_TRIANGLE)
-                    counts[chunk] += setLane(blocks[i], lane, MovingTriangle(mesh, close, triangle, unit));
+                if (triangle == WEDGE_NO_TRIANGLE)
+                    continue;
+                const MovingTriangle moving(mesh, close, triangle, unit);
+                setLane(blocks[i], lane, moving);
+                counts[chunk] += moving.degenerate();
             }
         }
     });

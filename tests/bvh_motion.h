@@ -177,6 +177,29 @@ private:
         return extent;
     }
 
+    /// Vertices and planes as kernels compute them, in floats, with multiply-adds of planes fused or not.
+    void checkRounded(const Node& node, std::size_t slot)
+    {
+        const std::uint32_t leaf = node.child[slot];
+        const float* const planes[6] = { node.loX, node.hiX, node.loY, node.hiY, node.loZ, node.hiZ };
+        const float* const moves[6] = { node.moveLoX, node.moveHiX, node.moveLoY, node.moveHiY, node.moveLoZ, node.moveHiZ };
+        const std::size_t first = (leaf & ~WEDGE_BVH_LEAF) >> 3;
+        for (std::size_t row = 0; row < 9 * WEDGE_BLOCK_SIZE * (leaf & 7u); row++) {
+            const std::size_t vertex = row / WEDGE_BLOCK_SIZE % 9, lane = row % WEDGE_BLOCK_SIZE, axis = vertex % 3;
+            const shared::MovingTriangleBlock& block = hierarchy_.blocks[first + row / (9 * WEDGE_BLOCK_SIZE)];
+            if (block.triangle[lane] == WEDGE_NO_TRIANGLE)
+                continue;
+            const float open = (&block.v0x)[vertex][lane], move = (&block.move0x)[vertex][lane];
+            const float time = uniform_(random_), moved = move * time, at = open + moved;
+            for (const bool high : { false, true }) {
+                const float plane = planes[2 * axis + high][slot], away = moves[2 * axis + high][slot];
+                const float product = away * time, sum = plane + product, fused = std::fma(away, time, plane);
+                if (high ? at > sum || at > fused : at < sum || at < fused)
+                    problems_.push_back("a rounded vertex leaves its rounded box at block " + std::to_string(first));
+            }
+        }
+    }
+
     Extent leafExtent(std::uint32_t leaf)
     {
         Extent extent = none();
@@ -206,6 +229,8 @@ private:
             const std::uint32_t child = node.child[slot];
             if (child == WEDGE_BVH_LEAF)
                 continue;
+            if (child & WEDGE_BVH_LEAF)
+                checkRounded(node, slot);
             const Extent below = child & WEDGE_BVH_LEAF ? leafExtent(child) : visit(child);
             const double lo[3] = { node.loX[slot], node.loY[slot], node.loZ[slot] };
             const double hi[3] = { node.hiX[slot], node.hiY[slot], node.hiZ[slot] };
@@ -229,6 +254,8 @@ private:
     float unit_;
     std::set<std::size_t> seen_;
     std::vector<std::string> problems_;
+    std::mt19937 random_ { 53 };
+    std::uniform_real_distribution<float> uniform_ { 0.0f, 1.0f };
 };
 
 /// What is wrong with a hierarchy's wide or narrow nodes, a line each; none if all is well.

@@ -108,6 +108,10 @@ TEST_CASE("Nothing at all, and nothing but what is never hit")
         }
         CHECK(gone.build().statistics.skipped == 1);
         CHECK(point.build().statistics.degenerate == 1);
+        // Without area at both ends: at all times, and at no other.
+        const TestMesh segment { "segment", { 0, 0, 0, 1, 0, 0, 2, 0, 0 }, { 0, 1, 2 } };
+        CHECK(moving(segment, { 0, 0, 0, 0, 1, 0, 0, 2, 0 }).build().statistics.degenerate == 1);
+        CHECK(moving(segment, { 0, 0, 0, 0, 2, 0, 0, 1, 0 }).build().statistics.degenerate == 0);
     });
 }
 
@@ -208,6 +212,28 @@ TEST_CASE("Packets of neighbouring rays with times of their own see each its own
         const std::vector<Hit> hits = ways.wide.closestPackets(tree, rays, times);
         for (std::size_t i = 0; i < rays.size(); i++)
             CHECK(std::fabs(2 - hits[i].t - 0.5f * times[i]) < 0.11f); // the height, but for the waves
+    });
+}
+
+TEST_CASE("Packets see a triangle whose one corner moves, wherever it is")
+{
+    onAllWays([](Ways& ways) {
+        for (std::size_t corner = 0; corner < 3; corner++) {
+            CAPTURE(corner);
+            TestMesh slim { "slim", {}, {} };
+            slim.add({ -0.1f, 0, 0, 0, 0, 0.1f, 0, 0, -0.1f });
+            MovingMesh mesh = withClose(slim, [&](std::size_t i, Vec3 p) { return i == corner ? vecScale(p, 20) : p; });
+            const MovingTree tree(mesh.build());
+            // 16 neighbours at a time, whose shaft meets that corner alone.
+            std::mt19937 random(47);
+            std::vector<Ray> rays;
+            for (unsigned i = 0; i < 400; i++) {
+                const Vec3 at = pointOn(mesh.at(static_cast<float>(i) / 400), random);
+                for (unsigned k = 0; k < 16; k++)
+                    rays.push_back({ vec3(at.x, 1, at.z), 0, vec3(0.01f * static_cast<float>(k % 4), -1, 0.01f * static_cast<float>(k / 4)), infinity });
+            }
+            CHECK(ways.check(mesh, tree, rays, randomTimes(rays.size(), 59)) > 500);
+        }
     });
 }
 

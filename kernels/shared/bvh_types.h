@@ -87,7 +87,7 @@ typedef struct {
 #endif
 
 /// As TriangleBlock, with vertices when the shutter opens and their displacement until it closes: floats that triangles
-/// which share a vertex have in common, too.
+/// which share a vertex have in common, too. Triangles without area are as the others.
 typedef struct {
     float v0x[WEDGE_BLOCK_SIZE], v0y[WEDGE_BLOCK_SIZE], v0z[WEDGE_BLOCK_SIZE];
     float v1x[WEDGE_BLOCK_SIZE], v1y[WEDGE_BLOCK_SIZE], v1z[WEDGE_BLOCK_SIZE];
