@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bvh/bvh.h"
+#include "bvh/moving.h"
 
 namespace wedge::bvh {
 
@@ -15,5 +15,8 @@ namespace wedge::bvh {
 /// little tree, of k children, and perhaps a group of s: k - 1 + s - 1 entries. The other k - 1 children have at least
 /// one of the c each, so k - 1 + s <= c, and k + s - 2 <= c - 1.
 std::vector<shared::BvhNode4> narrow(const Bvh& bvh);
+
+/// The same of a hierarchy that moves; areas are means over time.
+std::vector<shared::MovingNode4> narrow(const MovingBvh& bvh);
 
 } // namespace wedge::bvh

@@ -15,17 +15,21 @@ namespace wedge::bvh {
 inline constexpr std::size_t rayWords = sizeof(Ray) / sizeof(float), hitWords = sizeof(shared::Hit) / sizeof(float);
 
 /// Rays as RayPacket of kernels/packet.h holds them, `lanes` to a packet: the same word of all its rays side by side.
-/// Lanes that the last packet has over hold rays of an empty interval.
-inline std::vector<float> packRays(std::span<const Ray> rays, std::size_t lanes)
+/// Lanes that the last packet has over hold rays of an empty interval. times: one a ray, for programs with WEDGE_MOTION;
+/// empty for those without.
+inline std::vector<float> packRays(std::span<const Ray> rays, std::size_t lanes, std::span<const float> times = {})
 {
-    const std::size_t packets = (rays.size() + lanes - 1) / lanes;
-    std::vector<float> out(packets * lanes * rayWords);
+    assert(times.empty() || times.size() == rays.size());
+    const std::size_t packets = (rays.size() + lanes - 1) / lanes, allWords = rayWords + (times.empty() ? 0 : 1);
+    std::vector<float> out(packets * lanes * allWords);
     const Ray none { { 0, 0, 0 }, 0, { 0, 0, 1 }, 0 };
     for (std::size_t i = 0; i < packets * lanes; i++) {
         float words[rayWords];
         std::memcpy(words, i < rays.size() ? &rays[i] : &none, sizeof words);
         for (std::size_t word = 0; word < rayWords; word++)
-            out[(i / lanes * rayWords + word) * lanes + i % lanes] = words[word];
+            out[(i / lanes * allWords + word) * lanes + i % lanes] = words[word];
+        if (i < times.size())
+            out[(i / lanes * allWords + rayWords) * lanes + i % lanes] = times[i];
     }
     return out;
 }

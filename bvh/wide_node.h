@@ -5,6 +5,13 @@
 
 namespace wedge::bvh::detail {
 
+/// The box of a slot.
+inline Box slotBox(const shared::BvhNode& node, unsigned slot)
+{
+    return { Float4 { node.loX[slot], node.loY[slot], node.loZ[slot], 0 },
+        Float4 { node.hiX[slot], node.hiY[slot], node.hiZ[slot], 0 } };
+}
+
 inline void setBox(shared::BvhNode& node, unsigned slot, Float4 lo, Float4 hi)
 {
     node.loX[slot] = lo[0];

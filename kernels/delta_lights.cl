@@ -31,6 +31,7 @@ __kernel void deltaLights(FrameParams frame, __global const DeltaLight* restrict
             const Vec3 toLight = vectorToLight(light, sceneDiameter, start);
             cosine[lane] = vecDot(n, vecNormalize(toLight));
             setRay(&packet, lane, start, toLight, 0.0f, cosine[lane] > 0.0f ? WEDGE_SHADOW_RAY_END : 0.0f);
+            setTime(&packet, lane, receiverTime(&receivers, lane));
             traced[lane] += cosine[lane] > 0.0f ? 1u : 0u;
         }
         anyHits(nodes, blocks, &packet, occluded);

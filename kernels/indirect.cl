@@ -53,6 +53,7 @@ WEDGE_FN void firstRays(FrameParams frame, PathParams params, SampleParams sampl
         const bool wanted = r->pixel[lane] != WEDGE_NO_PIXEL && paths->index[lane] < last[lane];
         const bool traced = wanted && weight[lane] > 0.0f && vecDot(geometric[lane], l) > 0.0f && vecDot(n, l) > 0.0f;
         setRay(rays, lane, vec3(r->originX[lane], r->originY[lane], r->originZ[lane]), l, 0.0f, traced ? end : 0.0f);
+        setTime(rays, lane, receiverTime(r, lane));
     }
 }
 

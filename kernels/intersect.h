@@ -9,6 +9,13 @@
 #error "These tests are written for vectors of 8"
 #endif
 
+/// The node that the wide family of traversals walks.
+#ifdef WEDGE_MOTION
+typedef MovingNode TraversalNode;
+#else
+typedef BvhNode TraversalNode;
+#endif
+
 /// A set of lanes of a vector of 8: the top bit of byte i stands for lane i.
 typedef ulong LaneMask;
 
@@ -21,16 +28,16 @@ WEDGE_FN LaneMask dropFirstLane(LaneMask lanes) { return lanes & (lanes - 1); }
 
 /// The children of a node that the ray enters by t = tCull, and where it enters each. Boxes are widened by more than
 /// their roundings, so fusing multiply-adds, or not, loses no hit.
-WEDGE_FN LaneMask intersectBoxes(__global const BvhNode* node, const TraversalRay* ray, float tCull, float8* tEnter)
+WEDGE_FN LaneMask intersectBoxes(__global const TraversalNode* node, const TraversalRay* ray, float tCull, float8* tEnter)
 {
 #pragma OPENCL FP_CONTRACT ON
     __global const float* planes = node->loX;
-    const float8 nearX = vload8(0, planes + ray->nearX) * ray->nearScale.x + ray->nearOffset.x;
-    const float8 nearY = vload8(0, planes + ray->nearY) * ray->nearScale.y + ray->nearOffset.y;
-    const float8 nearZ = vload8(0, planes + ray->nearZ) * ray->nearScale.z + ray->nearOffset.z;
-    const float8 farX = vload8(0, planes + ray->farX) * ray->farScale.x + ray->farOffset.x;
-    const float8 farY = vload8(0, planes + ray->farY) * ray->farScale.y + ray->farOffset.y;
-    const float8 farZ = vload8(0, planes + ray->farZ) * ray->farScale.z + ray->farOffset.z;
+    const float8 nearX = WEDGE_PLANES8(planes + ray->nearX, WEDGE_TIME_OF(ray)) * ray->nearScale.x + ray->nearOffset.x;
+    const float8 nearY = WEDGE_PLANES8(planes + ray->nearY, WEDGE_TIME_OF(ray)) * ray->nearScale.y + ray->nearOffset.y;
+    const float8 nearZ = WEDGE_PLANES8(planes + ray->nearZ, WEDGE_TIME_OF(ray)) * ray->nearScale.z + ray->nearOffset.z;
+    const float8 farX = WEDGE_PLANES8(planes + ray->farX, WEDGE_TIME_OF(ray)) * ray->farScale.x + ray->farOffset.x;
+    const float8 farY = WEDGE_PLANES8(planes + ray->farY, WEDGE_TIME_OF(ray)) * ray->farScale.y + ray->farOffset.y;
+    const float8 farZ = WEDGE_PLANES8(planes + ray->farZ, WEDGE_TIME_OF(ray)) * ray->farScale.z + ray->farOffset.z;
     const float8 nearXY = WEDGE_MAX(nearX, nearY), nearZ0 = WEDGE_MAX(nearZ, (float8)(ray->tMin));
     const float8 farXY = WEDGE_MIN(farX, farY), farZ0 = WEDGE_MIN(farZ, (float8)(tCull));
     const float8 enter = WEDGE_MAX(nearXY, nearZ0);
@@ -53,19 +60,19 @@ typedef struct {
 
 WEDGE_FN ShearedVertices shear(const TraversalRay* ray, __global const float* vertex, float8* px, float8* py, float8* pz)
 {
-    *px = vload8(0, vertex + ray->axisX) - ray->testOrigin.x;
-    *py = vload8(0, vertex + ray->axisY) - ray->testOrigin.y;
-    *pz = vload8(0, vertex + ray->axisZ) - ray->testOrigin.z;
+    *px = WEDGE_CORNERS8(vertex + ray->axisX, WEDGE_TIME_OF(ray)) - ray->testOrigin.x;
+    *py = WEDGE_CORNERS8(vertex + ray->axisY, WEDGE_TIME_OF(ray)) - ray->testOrigin.y;
+    *pz = WEDGE_CORNERS8(vertex + ray->axisZ, WEDGE_TIME_OF(ray)) - ray->testOrigin.z;
     ShearedVertices v;
     v.x = *px - ray->shearX * *pz;
     v.y = *py - ray->shearY * *pz;
     return v;
 }
 
-/// One coordinate of the edges between two vertices.
-WEDGE_FN float8 edge(uint axis, __global const float* from, __global const float* to)
+/// One coordinate of the edges between two vertices at the time.
+WEDGE_FN float8 edge(uint axis, __global const float* from, __global const float* to, float time)
 {
-    return vload8(0, to + axis) - vload8(0, from + axis);
+    return WEDGE_CORNERS8(to + axis, time) - WEDGE_CORNERS8(from + axis, time);
 }
 
 /// Intersects a block and replaces hit where one of its triangles is hit at tMin < t <= hit->t; of equal t the smaller
@@ -89,13 +96,18 @@ WEDGE_FN bool intersectBlock(__global const TriangleBlock* block, const Traversa
         return false;
     // t is that of the plane: next to a triangle it is surer of its sign than what the three sides interpolate. The
     // normal is the triangle's own, not that of the rounded differences to the origin.
-    const float8 e1x = edge(ray->axisX, block->v0x, block->v1x), e2x = edge(ray->axisX, block->v0x, block->v2x);
-    const float8 e1y = edge(ray->axisY, block->v0x, block->v1x), e2y = edge(ray->axisY, block->v0x, block->v2x);
-    const float8 e1z = edge(ray->axisZ, block->v0x, block->v1x), e2z = edge(ray->axisZ, block->v0x, block->v2x);
+    const float time = WEDGE_TIME_OF(ray);
+    const float8 e1x = edge(ray->axisX, block->v0x, block->v1x, time), e2x = edge(ray->axisX, block->v0x, block->v2x, time);
+    const float8 e1y = edge(ray->axisY, block->v0x, block->v1x, time), e2y = edge(ray->axisY, block->v0x, block->v2x, time);
+    const float8 e1z = edge(ray->axisZ, block->v0x, block->v1x, time), e2z = edge(ray->axisZ, block->v0x, block->v2x, time);
     const float8 nx = e1y * e2z - e1z * e2y, ny = e1z * e2x - e1x * e2z, nz = e1x * e2y - e1y * e2x;
     const Vec3 d = ray->testDirection;
     const float8 t = (nx * ax + ny * ay + nz * az) / (nx * d.x + ny * d.y + nz * d.z);
+#ifdef WEDGE_MOTION
+    const int8 in = inside & (t > ray->tMin) & (t <= hit->t) & WEDGE_SPANS_AREA(nx, ny, nz, e1x, e1y, e1z, e2x, e2y, e2z);
+#else
     const int8 in = inside & (t > ray->tMin) & (t <= hit->t);
+#endif
     if (laneMask(in) == 0)
         return false;
     const float8 inverse = 1.0f / sum;

@@ -15,6 +15,9 @@ typedef struct {
     float positionX[WEDGE_PACKET_SIZE], positionY[WEDGE_PACKET_SIZE], positionZ[WEDGE_PACKET_SIZE];
     float normalX[WEDGE_PACKET_SIZE], normalY[WEDGE_PACKET_SIZE], normalZ[WEDGE_PACKET_SIZE];
     float gloss[WEDGE_PACKET_SIZE]; ///< as in the plane of that name
+#ifdef WEDGE_MOTION
+    float time[WEDGE_PACKET_SIZE]; ///< of the receiver's primary ray, and so of all its others
+#endif
 #ifdef WEDGE_SPECULAR
     Lobe lobe[WEDGE_PACKET_SIZE];
     Vec3 view[WEDGE_PACKET_SIZE]; ///< unit, to the eye
@@ -22,6 +25,16 @@ typedef struct {
 } ReceiverPacket;
 
 #define WEDGE_NO_PIXEL 0xffffffffu
+
+/// Time of a lane's receiver; 0 where nothing moves.
+WEDGE_FN float receiverTime(const ReceiverPacket* r, uint lane)
+{
+#ifdef WEDGE_MOTION
+    return r->time[lane];
+#else
+    return 0.0f;
+#endif
+}
 
 /// One sample a lane.
 typedef struct {
@@ -53,6 +66,9 @@ WEDGE_FN void loadReceivers(FrameParams frame, uint light, uint firstGroup, Rece
         receivers->normalY[lane] = n.y;
         receivers->normalZ[lane] = n.z;
         receivers->gloss[lane] = shaded ? data.gloss[i] : 1.0f;
+#ifdef WEDGE_MOTION
+        receivers->time[lane] = shaded && frame.receivers > 0u ? data.time[i] : 0.0f;
+#endif
 #ifdef WEDGE_SPECULAR
         receivers->view[lane] = shaded ? viewOf(frame, data, i, p) : vecNormalize(vecSub(frame.eye, p));
         receivers->lobe[lane] = glossLobe(receivers->gloss[lane]);
@@ -158,6 +174,7 @@ WEDGE_FN void shadowRays(const ReceiverPacket* r, const LightSamples* s, RayPack
         setRay(packet, lane, vec3(r->originX[lane], r->originY[lane], r->originZ[lane]),
                vec3(s->rayX[lane], s->rayY[lane], s->rayZ[lane]), 0.0f,
                s->diffuse[lane] > 0.0f ? WEDGE_SHADOW_RAY_END : 0.0f);
+        setTime(packet, lane, receiverTime(r, lane));
     }
 }
 

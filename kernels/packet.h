@@ -9,11 +9,14 @@
 #include "packet_size.h"
 #include "traverse.h"
 
-/// The rays origin + t direction, tMin < t < tMax; the conditions of closestHit. A lane without a ray has tMax = 0.
+/// The rays origin + t direction, tMin < t < tMax, at their times; the conditions of closestHit. A lane without a ray has tMax = 0.
 typedef struct {
     float originX[WEDGE_PACKET_SIZE], originY[WEDGE_PACKET_SIZE], originZ[WEDGE_PACKET_SIZE], tMin[WEDGE_PACKET_SIZE];
     float directionX[WEDGE_PACKET_SIZE], directionY[WEDGE_PACKET_SIZE], directionZ[WEDGE_PACKET_SIZE];
     float tMax[WEDGE_PACKET_SIZE];
+#ifdef WEDGE_MOTION
+    float time[WEDGE_PACKET_SIZE];
+#endif
 } RayPacket;
 
 /// As Hit, lane by lane.
@@ -34,6 +37,25 @@ WEDGE_INLINE void setRay(RayPacket* packet, uint lane, Vec3 origin, Vec3 directi
     packet->tMax[lane] = tMax;
 }
 
+/// Sets the time of a lane's ray, from 0, where the shutter opens, to 1, where it closes. Each lane of a packet needs one
+/// before it is traced, with a ray or without. Where nothing moves there is nothing to do.
+WEDGE_INLINE void setTime(RayPacket* packet, uint lane, float time)
+{
+#ifdef WEDGE_MOTION
+    packet->time[lane] = time;
+#endif
+}
+
+/// The time of a lane's ray; 0 where nothing moves.
+WEDGE_INLINE float timeOf(const RayPacket* packet, uint lane)
+{
+#ifdef WEDGE_MOTION
+    return packet->time[lane];
+#else
+    return 0.0f;
+#endif
+}
+
 WEDGE_INLINE Hit packetHit(const PacketHits* hits, uint lane)
 {
     Hit hit;
@@ -51,7 +73,8 @@ WEDGE_FN void closestHits(__global const TraversalNode* restrict nodes, __global
     const RayPacket* packet, PacketHits* hits)
 {
     const Hit hit = closestHit(nodes, blocks, vec3(packet->originX[0], packet->originY[0], packet->originZ[0]),
-        vec3(packet->directionX[0], packet->directionY[0], packet->directionZ[0]), packet->tMin[0], packet->tMax[0]);
+        vec3(packet->directionX[0], packet->directionY[0], packet->directionZ[0]), packet->tMin[0], packet->tMax[0],
+        timeOf(packet, 0));
     hits->t[0] = hit.t;
     hits->u[0] = hit.u;
     hits->v[0] = hit.v;
@@ -63,7 +86,8 @@ WEDGE_FN void anyHits(__global const TraversalNode* restrict nodes, __global con
     const RayPacket* packet, uint* occluded)
 {
     occluded[0] = anyHit(nodes, blocks, vec3(packet->originX[0], packet->originY[0], packet->originZ[0]),
-        vec3(packet->directionX[0], packet->directionY[0], packet->directionZ[0]), packet->tMin[0], packet->tMax[0]);
+        vec3(packet->directionX[0], packet->directionY[0], packet->directionZ[0]), packet->tMin[0], packet->tMax[0],
+        timeOf(packet, 0));
 }
 
 #else

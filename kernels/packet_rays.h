@@ -19,6 +19,9 @@ typedef struct {
     int16 axis; ///< of the largest component of the direction: 0, 1, 2
     float16 testOriginX, testOriginY, testOriginZ; ///< as in TraversalRay
     float16 testDirectionX, testDirectionY, testDirectionZ;
+#ifdef WEDGE_MOTION
+    float16 time; ///< 0 to 1
+#endif
 } TraversalPacket;
 
 WEDGE_FN PacketAxis packetAxis(float16 origin, float16 direction)
@@ -45,6 +48,10 @@ WEDGE_FN void loadPacket(const RayPacket* packet, float unit, TraversalPacket* p
     p->z = packetAxis(vload16(0, packet->originZ) * unit, vload16(0, packet->directionZ) * unit);
     const float16 tMin = vload16(0, packet->tMin), tMax = vload16(0, packet->tMax);
     p->tMin = WEDGE_MAX(tMin, (float16)(0.0f));
+#ifdef WEDGE_MOTION
+    const float16 time = vload16(0, packet->time);
+    p->time = time > 0.0f ? WEDGE_MIN(time, (float16)(1.0f)) : (float16)(0.0f); // as boundedTime
+#endif
     // As in prepareRay.
     const float16 sum = p->x.origin + p->y.origin + p->z.origin + p->x.direction + p->y.direction + p->z.direction;
     const int16 valid = (fabs(sum) < INFINITY) & (p->tMin < tMax);

@@ -124,13 +124,24 @@ WEDGE_FN LaneMask intersectSlabs(const Shaft* shaft, ShaftSlab x, ShaftSlab y, S
     return laneMask(enter <= WEDGE_MIN(farXY, farZ0));
 }
 
+/// 8 planes of a node as the shaft meets them. Its rays may have any times: of planes that move it meets the one that
+/// bounds them all, low planes (the even ones) at their lowest, high planes at their highest.
+WEDGE_FN float8 shaftPlanes(__global const float* planes, uint start)
+{
+#ifdef WEDGE_MOTION
+    return (start / WEDGE_BVH_WIDTH) % 2 == 0 ? WEDGE_LOWEST8(planes + start) : WEDGE_HIGHEST8(planes + start);
+#else
+    return vload8(0, planes + start);
+#endif
+}
+
 /// The children of a node that the shaft enters by t = tCull, and where it enters each at the earliest.
-WEDGE_FN LaneMask shaftBoxes(__global const BvhNode* node, const Shaft* shaft, float tCull, float8* tEnter)
+WEDGE_FN LaneMask shaftBoxes(__global const TraversalNode* node, const Shaft* shaft, float tCull, float8* tEnter)
 {
     __global const float* planes = node->loX;
-    const ShaftSlab x = intersectSlab(&shaft->x, vload8(0, planes + shaft->x.nearPlane), vload8(0, planes + shaft->x.farPlane));
-    const ShaftSlab y = intersectSlab(&shaft->y, vload8(0, planes + shaft->y.nearPlane), vload8(0, planes + shaft->y.farPlane));
-    const ShaftSlab z = intersectSlab(&shaft->z, vload8(0, planes + shaft->z.nearPlane), vload8(0, planes + shaft->z.farPlane));
+    const ShaftSlab x = intersectSlab(&shaft->x, shaftPlanes(planes, shaft->x.nearPlane), shaftPlanes(planes, shaft->x.farPlane));
+    const ShaftSlab y = intersectSlab(&shaft->y, shaftPlanes(planes, shaft->y.nearPlane), shaftPlanes(planes, shaft->y.farPlane));
+    const ShaftSlab z = intersectSlab(&shaft->z, shaftPlanes(planes, shaft->z.nearPlane), shaftPlanes(planes, shaft->z.farPlane));
     return intersectSlabs(shaft, x, y, z, tCull, tEnter);
 }
 
@@ -139,7 +150,14 @@ WEDGE_FN ShaftSlab triangleSlab(const ShaftAxis* a, bool nearIsLow, __global con
     __global const float* v2)
 {
     const float8 p = vload8(0, v0), q = vload8(0, v1), r = vload8(0, v2);
+#ifdef WEDGE_MOTION
+    // At their opening and at their closing: all between is between.
+    const float8 p1 = WEDGE_CORNERS8(v0, 1.0f), q1 = WEDGE_CORNERS8(v1, 1.0f), r1 = WEDGE_CORNERS8(v2, 1.0f);
+    const float8 low = WEDGE_MIN(WEDGE_MIN(WEDGE_MIN(p, q), r), WEDGE_MIN(WEDGE_MIN(p1, q1), r1));
+    const float8 high = WEDGE_MAX(WEDGE_MAX(WEDGE_MAX(p, q), r), WEDGE_MAX(WEDGE_MAX(p1, q1), r1));
+#else
     const float8 low = WEDGE_MIN(WEDGE_MIN(p, q), r), high = WEDGE_MAX(WEDGE_MAX(p, q), r);
+#endif
     return intersectSlab(a, nearIsLow ? low : high, nearIsLow ? high : low);
 }
 
@@ -154,18 +172,24 @@ WEDGE_FN LaneMask shaftTriangles(__global const TriangleBlock* block, const Shaf
 }
 
 /// The rays that enter the box of a node's child by their tFar. FP_CONTRACT as in intersectBoxes.
-WEDGE_FN LaneMask16 raysMeetBox(__global const BvhNode* node, uint child, const TraversalPacket* p, const Shaft* shaft)
+WEDGE_FN LaneMask16 raysMeetBox(__global const TraversalNode* node, uint child, const TraversalPacket* p, const Shaft* shaft)
 {
 #pragma OPENCL FP_CONTRACT ON
     __global const float* planes = node->loX + child;
-    float16 nearX = planes[shaft->x.nearPlane], farX = planes[shaft->x.farPlane];
-    float16 nearY = planes[shaft->y.nearPlane], farY = planes[shaft->y.farPlane];
-    float16 nearZ = planes[shaft->z.nearPlane], farZ = planes[shaft->z.farPlane];
+    float16 nearX = WEDGE_PLANE(planes, shaft->x.nearPlane, WEDGE_TIME_OF(p));
+    float16 farX = WEDGE_PLANE(planes, shaft->x.farPlane, WEDGE_TIME_OF(p));
+    float16 nearY = WEDGE_PLANE(planes, shaft->y.nearPlane, WEDGE_TIME_OF(p));
+    float16 farY = WEDGE_PLANE(planes, shaft->y.farPlane, WEDGE_TIME_OF(p));
+    float16 nearZ = WEDGE_PLANE(planes, shaft->z.nearPlane, WEDGE_TIME_OF(p));
+    float16 farZ = WEDGE_PLANE(planes, shaft->z.farPlane, WEDGE_TIME_OF(p));
     if (shaft->turned) {
         // Planes by the sign of each ray; nearPlane is the low one on an axis with both.
-        const float16 lowX = node->loX[child], highX = node->hiX[child];
-        const float16 lowY = node->loY[child], highY = node->hiY[child];
-        const float16 lowZ = node->loZ[child], highZ = node->hiZ[child];
+        const float16 lowX = WEDGE_PLANE(node->loX, child, WEDGE_TIME_OF(p));
+        const float16 highX = WEDGE_PLANE(node->hiX, child, WEDGE_TIME_OF(p));
+        const float16 lowY = WEDGE_PLANE(node->loY, child, WEDGE_TIME_OF(p));
+        const float16 highY = WEDGE_PLANE(node->hiY, child, WEDGE_TIME_OF(p));
+        const float16 lowZ = WEDGE_PLANE(node->loZ, child, WEDGE_TIME_OF(p));
+        const float16 highZ = WEDGE_PLANE(node->hiZ, child, WEDGE_TIME_OF(p));
         nearX = p->x.nearScale < 0.0f ? highX : lowX;
         farX = p->x.nearScale < 0.0f ? lowX : highX;
         nearY = p->y.nearScale < 0.0f ? highY : lowY;

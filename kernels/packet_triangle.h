@@ -10,7 +10,7 @@ typedef struct {
 } TurnedPoints;
 
 /// turnAxes() of one point by the axis of each ray.
-WEDGE_FN TurnedPoints turnPoint(float x, float y, float z, int16 axis)
+WEDGE_FN TurnedPoints turnPoint(WEDGE_PACKET_COORDINATE x, WEDGE_PACKET_COORDINATE y, WEDGE_PACKET_COORDINATE z, int16 axis)
 {
     const float16 vx = x, vy = y, vz = z;
     const int16 largestX = axis == 0, largestY = axis == 1;
@@ -22,36 +22,57 @@ WEDGE_FN TurnedPoints turnPoint(float x, float y, float z, int16 axis)
 }
 
 /// A vertex as the rays' tests see it.
-WEDGE_FN TurnedPoints loadTurned(__global const float* vertex, const TestAxes* axes, int16 axis)
+WEDGE_FN TurnedPoints loadTurned(__global const float* vertex, const TestAxes* axes, const TraversalPacket* rays)
 {
     if (axes->mixed)
-        return turnPoint(vertex[0], vertex[WEDGE_BLOCK_SIZE], vertex[2 * WEDGE_BLOCK_SIZE], axis);
+        return turnPoint(WEDGE_CORNER(vertex, 0, WEDGE_TIME_OF(rays)),
+            WEDGE_CORNER(vertex, WEDGE_BLOCK_SIZE, WEDGE_TIME_OF(rays)),
+            WEDGE_CORNER(vertex, 2 * WEDGE_BLOCK_SIZE, WEDGE_TIME_OF(rays)), rays->axis);
     TurnedPoints p;
-    p.x = vertex[axes->x];
-    p.y = vertex[axes->y];
-    p.z = vertex[axes->z];
+    p.x = WEDGE_CORNER(vertex, axes->x, WEDGE_TIME_OF(rays));
+    p.y = WEDGE_CORNER(vertex, axes->y, WEDGE_TIME_OF(rays));
+    p.z = WEDGE_CORNER(vertex, axes->z, WEDGE_TIME_OF(rays));
     return p;
+}
+
+/// One coordinate of the edge between two vertices.
+WEDGE_FN WEDGE_PACKET_COORDINATE packetEdge(__global const float* from, __global const float* to, uint i,
+    const TraversalPacket* rays)
+{
+    return WEDGE_CORNER(to, i, WEDGE_TIME_OF(rays)) - WEDGE_CORNER(from, i, WEDGE_TIME_OF(rays));
 }
 
 /// The normal of a triangle as the rays' tests see it: turning axes in a circle turns a cross product with them.
 WEDGE_FN TurnedPoints turnedNormal(__global const float* v0, __global const float* v1, __global const float* v2,
-    const TestAxes* axes, int16 axis)
+    const TestAxes* axes, const TraversalPacket* rays)
 {
     const uint x = axes->mixed ? 0 : axes->x;
     const uint y = axes->mixed ? WEDGE_BLOCK_SIZE : axes->y;
     const uint z = axes->mixed ? 2 * WEDGE_BLOCK_SIZE : axes->z;
-    const float e1x = v1[x] - v0[x], e2x = v2[x] - v0[x];
-    const float e1y = v1[y] - v0[y], e2y = v2[y] - v0[y];
-    const float e1z = v1[z] - v0[z], e2z = v2[z] - v0[z];
-    const float nx = e1y * e2z - e1z * e2y, ny = e1z * e2x - e1x * e2z, nz = e1x * e2y - e1y * e2x;
+    const WEDGE_PACKET_COORDINATE e1x = packetEdge(v0, v1, x, rays), e2x = packetEdge(v0, v2, x, rays);
+    const WEDGE_PACKET_COORDINATE e1y = packetEdge(v0, v1, y, rays), e2y = packetEdge(v0, v2, y, rays);
+    const WEDGE_PACKET_COORDINATE e1z = packetEdge(v0, v1, z, rays), e2z = packetEdge(v0, v2, z, rays);
+    const WEDGE_PACKET_COORDINATE nx = e1y * e2z - e1z * e2y, ny = e1z * e2x - e1x * e2z, nz = e1x * e2y - e1y * e2x;
     if (axes->mixed)
-        return turnPoint(nx, ny, nz, axis);
+        return turnPoint(nx, ny, nz, rays->axis);
     TurnedPoints n;
     n.x = nx;
     n.y = ny;
     n.z = nz;
     return n;
 }
+
+#ifdef WEDGE_MOTION
+/// WEDGE_SPANS_AREA of a triangle with that normal; which axis is which does not matter to it.
+WEDGE_FN int16 packetArea(__global const float* v0, __global const float* v1, __global const float* v2,
+    const TurnedPoints* n, const TraversalPacket* rays)
+{
+    const uint y = WEDGE_BLOCK_SIZE, z = 2 * WEDGE_BLOCK_SIZE;
+    const float16 e1x = packetEdge(v0, v1, 0, rays), e1y = packetEdge(v0, v1, y, rays), e1z = packetEdge(v0, v1, z, rays);
+    const float16 e2x = packetEdge(v0, v2, 0, rays), e2y = packetEdge(v0, v2, y, rays), e2z = packetEdge(v0, v2, z, rays);
+    return WEDGE_SPANS_AREA(n->x, n->y, n->z, e1x, e1y, e1z, e2x, e2y, e2z);
+}
+#endif
 
 /// Intersects the triangle in one lane of a block with 16 rays: intersectBlock with the roles exchanged, operation by
 /// operation, so that both find the same hits to the last bit. entering: the rays that count. Returns whether any ray
@@ -60,9 +81,9 @@ WEDGE_FN bool intersectTriangle(__global const TriangleBlock* block, uint lane, 
     TraversalPacket* p, const bool any)
 {
     __global const float *v0 = block->v0x + lane, *v1 = block->v1x + lane, *v2 = block->v2x + lane;
-    const TurnedPoints va = loadTurned(v0, axes, p->axis);
-    const TurnedPoints vb = loadTurned(v1, axes, p->axis);
-    const TurnedPoints vc = loadTurned(v2, axes, p->axis);
+    const TurnedPoints va = loadTurned(v0, axes, p);
+    const TurnedPoints vb = loadTurned(v1, axes, p);
+    const TurnedPoints vc = loadTurned(v2, axes, p);
     const float16 ax = va.x - p->testOriginX, ay = va.y - p->testOriginY, az = va.z - p->testOriginZ;
     const float16 bx = vb.x - p->testOriginX, by = vb.y - p->testOriginY, bz = vb.z - p->testOriginZ;
     const float16 cx = vc.x - p->testOriginX, cy = vc.y - p->testOriginY, cz = vc.z - p->testOriginZ;
@@ -77,12 +98,16 @@ WEDGE_FN bool intersectTriangle(__global const TriangleBlock* block, uint lane, 
     const int16 inside = entering & ((least >= 0.0f) | (most <= 0.0f)) & (sum != 0.0f);
     if (!anyLane(inside))
         return false;
-    const TurnedPoints n = turnedNormal(v0, v1, v2, axes, p->axis);
+    const TurnedPoints n = turnedNormal(v0, v1, v2, axes, p);
     const float16 t = (n.x * ax + n.y * ay + n.z * az)
         / (n.x * p->testDirectionX + n.y * p->testDirectionY + n.z * p->testDirectionZ);
     const uint triangle = block->triangle[lane];
     const int16 nearer = (t < p->tFar) | ((t == p->tFar) & (triangle < p->triangle));
+#ifdef WEDGE_MOTION
+    const int16 hit = inside & (t > p->tMin) & nearer & packetArea(v0, v1, v2, &n, p);
+#else
     const int16 hit = inside & (t > p->tMin) & nearer;
+#endif
     if (!anyLane(hit))
         return false;
     if (any) {

@@ -31,6 +31,9 @@ WEDGE_FN TraversalRay rayOfLane(const TraversalPacket* p, uint lane)
     r.shearX = WEDGE_LANE(p->shearX, lane);
     r.shearY = WEDGE_LANE(p->shearY, lane);
     chooseAxes(&r, ((const int*)&p->axis)[lane]);
+#ifdef WEDGE_MOTION
+    r.time = WEDGE_LANE(p->time, lane);
+#endif
     return r;
 }
 
@@ -95,7 +98,7 @@ WEDGE_FN void traversePacket(__global const TraversalNode* restrict nodes, __glo
                     return;
             }
         } else {
-            __global const BvhNode* node = nodes + current;
+            __global const TraversalNode* node = nodes + current;
             float8 tEnter;
             LaneMask lanes = shaftBoxes(node, shaft, tCull, &tEnter);
             float t[WEDGE_BVH_WIDTH];

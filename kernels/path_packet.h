@@ -148,7 +148,8 @@ WEDGE_FN Vec3 rayDirectionOf(const RayPacket* rays, uint lane)
     return vec3(rays->directionX[lane], rays->directionY[lane], rays->directionZ[lane]);
 }
 
-/// Traces the paths whose first rays (unit directions; tMax 0: no path) are in `rays`: fills paths->radiance, distance and
+/// Traces the paths whose first rays (unit directions; tMax 0: no path) are in `rays`, all rays of a path at the time of
+/// its first: fills paths->radiance, distance and
 /// counts of rays. `bounces` surfaces a path, at least 1.
 WEDGE_FN void tracePaths(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
                          SurfaceData surfaces, LightData lights, SampleParams params, uint bounces, RayPacket* rays,
@@ -173,6 +174,7 @@ WEDGE_FN void tracePaths(__global const TraversalNode* restrict nodes, __global 
             const Vec3 direction = rayDirectionOf(rays, lane);
             light[lane] = vec3(0.0f, 0.0f, 0.0f);
             setRay(&shadow, lane, origin, direction, 0.0f, 0.0f);
+            setTime(&shadow, lane, timeOf(rays, lane));
             if (vertex > 1u && rays->tMax[lane] > 0.0f) {
                 const Vec3 met = radianceMet(lights, origin, direction, paths->pdf[lane], hits.t[lane]);
                 paths->radiance[lane] = vecAdd(paths->radiance[lane], vecMul(paths->throughput[lane], met));
@@ -182,7 +184,7 @@ WEDGE_FN void tracePaths(__global const TraversalNode* restrict nodes, __global 
             if (vertex > bounces || hit.triangle == WEDGE_NO_TRIANGLE) {
                 continue;
             }
-            const Surface s = surfaceAt(surfaces, hit, direction);
+            const Surface s = surfaceAt(surfaces, hit, direction, timeOf(rays, lane));
             const Scattering how = scatteringOf(&s, direction);
             paths->distance[lane] = vertex == 1u ? hit.t : paths->distance[lane];
             paths->radiance[lane] = vecAdd(paths->radiance[lane], vecMul(paths->throughput[lane], s.emission));

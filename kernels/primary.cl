@@ -36,6 +36,7 @@ __kernel void primary(FrameParams frame, __global const TraversalNode* restrict 
         const Vec3 direction = pixelDirection(frame, inside ? x : 0u, inside ? y : 0u);
         const LightHit seen = hitLights(lights, lightCount, frame.eye, direction);
         setRay(&packet, lane, frame.eye, direction, 0.0f, inside ? seen.t : 0.0f);
+        setTime(&packet, lane, 0.0f);
         lightRadiance[lane] = seen.radiance;
     }
     PacketHits hits;
@@ -55,7 +56,7 @@ __kernel void primary(FrameParams frame, __global const TraversalNode* restrict 
             storeVec(emission, size, i, hit.t < INFINITY ? lightRadiance[lane] : frame.background);
             continue;
         }
-        const Surface s = surfaceAt(data, hit, direction);
+        const Surface s = surfaceAt(data, hit, direction, timeOf(&packet, lane));
         storeVec(position, size, i, s.position);
         storeVec(normal, size, i, s.normal);
         storeVec(origin, size, i, s.origin);

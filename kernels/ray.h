@@ -2,6 +2,7 @@
 #ifndef WEDGE_RAY_H
 #define WEDGE_RAY_H
 
+#include "motion.h"
 #include "shared/bvh_types.h"
 #include "shared/compat.h"
 #include "shared/vec.h"
@@ -35,6 +36,9 @@ typedef struct {
     Vec3 testOrigin, testDirection; ///< in the axes of the triangle test, whose z is the direction's largest
     float shearX, shearY; ///< x and y of the direction over its z
     uint axisX, axisY, axisZ; ///< where these coordinates start in a vertex of a block, in floats
+#ifdef WEDGE_MOTION
+    float time; ///< 0 to 1
+#endif
 } TraversalRay;
 
 WEDGE_FN float boundedReciprocal(float x) { return 1.0f / (fabs(x) < 1e-30f ? copysign(1e-30f, x) : x); }
@@ -65,9 +69,14 @@ WEDGE_FN void chooseAxes(TraversalRay* ray, int largest)
     ray->axisZ = largest * WEDGE_BLOCK_SIZE;
 }
 
-/// Prepares the ray origin + t direction, tMin < t < tMax; a negative tMin counts as 0. unit: that of the root node.
-/// Returns false where it can hit nothing: a component is not finite or the interval is empty.
-WEDGE_FN bool prepareRay(TraversalRay* ray, float unit, Vec3 origin, Vec3 direction, float tMin, float tMax)
+#ifdef WEDGE_MOTION
+/// A time within the shutter: the nearest there is; NaN counts as 0.
+WEDGE_FN float boundedTime(float time) { return time > 0.0f ? WEDGE_MIN(time, 1.0f) : 0.0f; }
+#endif
+
+/// Prepares the ray origin + t direction, tMin < t < tMax, at the time; a negative tMin counts as 0. unit: that of the root
+/// node. Returns false where it can hit nothing: a component is not finite or the interval is empty.
+WEDGE_FN bool prepareRay(TraversalRay* ray, float unit, Vec3 origin, Vec3 direction, float tMin, float tMax, float time)
 {
 #pragma OPENCL FP_CONTRACT ON
     origin = vecScale(origin, unit);
@@ -92,6 +101,9 @@ WEDGE_FN bool prepareRay(TraversalRay* ray, float unit, Vec3 origin, Vec3 direct
     ray->shearX = ray->testDirection.x / ray->testDirection.z;
     ray->shearY = ray->testDirection.y / ray->testDirection.z;
     choosePlanes(ray);
+#ifdef WEDGE_MOTION
+    ray->time = boundedTime(time);
+#endif
     // Not finite if any of them is not; some compilers take x * 0 == 0 for true. Last, as the tests do not wait for it.
     const float sum = origin.x + origin.y + origin.z + direction.x + direction.y + direction.z;
     return fabs(sum) < INFINITY && ray->tMin < tMax;

@@ -21,6 +21,8 @@ typedef struct {
     __global const TextureData* textures;
     __global const uint* texels;
     __global const float* srgbToLinear; ///< 256 entries
+    /// When the shutter closes; positions and normals are those when it opens. Nobody reads them without WEDGE_MOTION.
+    __global const float *positionsAtClose, *normalsAtClose;
 } SurfaceData;
 
 /// The scene's geometry and materials among a kernel's parameters, and the SurfaceData made of them.
@@ -29,9 +31,11 @@ typedef struct {
         __global const float *restrict texcoords, __global const uint *restrict indices,                                \
         __global const uint *restrict materialIds, __global const MaterialData *restrict materials,                     \
         __global const TextureData *restrict textures, __global const uint *restrict texels,                            \
-        __global const float *restrict srgbToLinear
+        __global const float *restrict srgbToLinear, __global const float *restrict positionsAtClose,                    \
+        __global const float *restrict normalsAtClose
 #define WEDGE_SURFACE_ARGUMENTS                                                                                         \
-    surfaceData(positions, normals, texcoords, indices, materialIds, materials, textures, texels, srgbToLinear)
+    surfaceData(positions, normals, texcoords, indices, materialIds, materials, textures, texels, srgbToLinear,         \
+        positionsAtClose, normalsAtClose)
 
 WEDGE_FN SurfaceData surfaceData(WEDGE_SURFACE_PARAMETERS)
 {
@@ -45,6 +49,8 @@ WEDGE_FN SurfaceData surfaceData(WEDGE_SURFACE_PARAMETERS)
     data.textures = textures;
     data.texels = texels;
     data.srgbToLinear = srgbToLinear;
+    data.positionsAtClose = positionsAtClose;
+    data.normalsAtClose = normalsAtClose;
     return data;
 }
 
@@ -61,6 +67,46 @@ typedef struct {
 WEDGE_FN Vec3 loadVertex(__global const float* data, uint vertex)
 {
     return vec3(data[3u * vertex], data[3u * vertex + 1u], data[3u * vertex + 2u]);
+}
+
+/// A vertex at a time, the same floats as traversals compute in the hierarchy's units.
+WEDGE_FN Vec3 positionAt(SurfaceData data, uint vertex, float time)
+{
+    const Vec3 open = loadVertex(data.positions, vertex);
+#ifdef WEDGE_MOTION
+    return vecMad(open, vecSub(loadVertex(data.positionsAtClose, vertex), open), time);
+#else
+    return open;
+#endif
+}
+
+/// A vertex' unit normal at a time; the zero vector where it has none, or turns round and has none halfway.
+WEDGE_FN Vec3 normalAt(SurfaceData data, uint vertex, float time)
+{
+    const Vec3 open = loadVertex(data.normals, vertex);
+#ifdef WEDGE_MOTION
+    const Vec3 n = vecMad(open, vecSub(loadVertex(data.normalsAtClose, vertex), open), time);
+    return vecDot(n, n) > 1e-12f ? vecNormalize(n) : vec3(0.0f, 0.0f, 0.0f);
+#else
+    return open;
+#endif
+}
+
+/// How far the point of a hit moves from the shutter's opening to its closing, in metres; 0 where nothing moves.
+WEDGE_FN Vec3 hitMotion(SurfaceData data, Hit hit)
+{
+#ifdef WEDGE_MOTION
+    Vec3 sum = vec3(0.0f, 0.0f, 0.0f);
+    const float weights[3] = { 1.0f - hit.u - hit.v, hit.u, hit.v };
+    for (uint corner = 0u; corner < 3u; ++corner) {
+        const uint vertex = data.indices[3u * hit.triangle + corner];
+        const Vec3 displacement = vecSub(loadVertex(data.positionsAtClose, vertex), loadVertex(data.positions, vertex));
+        sum = vecMad(sum, displacement, weights[corner]);
+    }
+    return sum;
+#else
+    return vec3(0.0f, 0.0f, 0.0f);
+#endif
 }
 
 /// How far p lies below the tangent plane of a vertex, along that plane's normal; 0 where it lies above.
@@ -93,16 +139,16 @@ WEDGE_FN Vec3 rayOrigin(Vec3 p, Vec3 geometric, Vec3 a, Vec3 b, Vec3 c, Vec3 na,
     return vecMad(lifted, geometric, error);
 }
 
-/// Surface hit by a ray of the given direction (any length).
-WEDGE_FN Surface surfaceAt(SurfaceData data, Hit hit, Vec3 direction)
+/// Surface hit by a ray of the given direction (any length) and time (0 where the shutter opens, 1 where it closes).
+WEDGE_FN Surface surfaceAt(SurfaceData data, Hit hit, Vec3 direction, float time)
 {
     Surface s;
     const uint ia = data.indices[3u * hit.triangle];
     const uint ib = data.indices[3u * hit.triangle + 1u];
     const uint ic = data.indices[3u * hit.triangle + 2u];
-    const Vec3 a = loadVertex(data.positions, ia);
-    const Vec3 b = loadVertex(data.positions, ib);
-    const Vec3 c = loadVertex(data.positions, ic);
+    const Vec3 a = positionAt(data, ia, time);
+    const Vec3 b = positionAt(data, ib, time);
+    const Vec3 c = positionAt(data, ic, time);
     const float wa = 1.0f - hit.u - hit.v;
     const Vec3 ab = vecSub(b, a);
     const Vec3 ac = vecSub(c, a);
@@ -112,9 +158,9 @@ WEDGE_FN Surface surfaceAt(SurfaceData data, Hit hit, Vec3 direction)
     geometric = vecScale(geometric, side);
 
     // Vertex normals follow the winding in well-made files and do not in others: each is turned to the viewer's side.
-    Vec3 na = loadVertex(data.normals, ia);
-    Vec3 nb = loadVertex(data.normals, ib);
-    Vec3 nc = loadVertex(data.normals, ic);
+    Vec3 na = normalAt(data, ia, time);
+    Vec3 nb = normalAt(data, ib, time);
+    Vec3 nc = normalAt(data, ic, time);
     na = vecScale(na, vecDot(na, geometric) < 0.0f ? -1.0f : 1.0f);
     nb = vecScale(nb, vecDot(nb, geometric) < 0.0f ? -1.0f : 1.0f);
     nc = vecScale(nc, vecDot(nc, geometric) < 0.0f ? -1.0f : 1.0f);

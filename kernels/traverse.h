@@ -17,8 +17,10 @@
 /// The nearest hit of origin + t direction, tMin < t < tMax, on either face of the triangles; of hits at equal t the
 /// one of the smallest index. The direction may have any length. A negative tMin counts as 0; a ray with a NaN or
 /// infinity (but in tMax) or a zero direction hits nothing. On a miss triangle is WEDGE_NO_TRIANGLE and t = tMax.
+/// time: at which the ray is sent, from 0, where the shutter opens, to 1, where it closes. What does not move
+/// (programs without WEDGE_MOTION) has none.
 WEDGE_FN Hit closestHit(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
-    Vec3 origin, Vec3 direction, float tMin, float tMax)
+    Vec3 origin, Vec3 direction, float tMin, float tMax, float time)
 {
     Hit hit;
     hit.t = tMax;
@@ -26,7 +28,7 @@ WEDGE_FN Hit closestHit(__global const TraversalNode* restrict nodes, __global c
     hit.v = 0.0f;
     hit.triangle = WEDGE_NO_TRIANGLE;
     TraversalRay ray;
-    if (!prepareRay(&ray, nodes->unit, origin, direction, tMin, tMax))
+    if (!prepareRay(&ray, nodes->unit, origin, direction, tMin, tMax, time))
         return hit;
     hit.t = ray.tMax;
     traverse(nodes, blocks, 0, &ray, false, &hit);
@@ -37,10 +39,10 @@ WEDGE_FN Hit closestHit(__global const TraversalNode* restrict nodes, __global c
 
 /// Whether any triangle lies at tMin < t < tMax; the conditions of closestHit.
 WEDGE_FN bool anyHit(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks, Vec3 origin,
-    Vec3 direction, float tMin, float tMax)
+    Vec3 direction, float tMin, float tMax, float time)
 {
     TraversalRay ray;
-    if (!prepareRay(&ray, nodes->unit, origin, direction, tMin, tMax))
+    if (!prepareRay(&ray, nodes->unit, origin, direction, tMin, tMax, time))
         return false;
     Hit hit;
     hit.t = ray.tMax;

@@ -9,20 +9,24 @@
 #include "shared/hit.h"
 
 /// The node that this family of traversals walks.
+#ifdef WEDGE_MOTION
+typedef MovingNode4 TraversalNode;
+#else
 typedef BvhNode4 TraversalNode;
+#endif
 
 /// References of the children that the ray enters by t = tCull, nearest first, and where it enters each; the others
 /// are empty leaves and come last.
-WEDGE_FN uint4 enterChildren(__global const BvhNode4* node, const TraversalRay* ray, float tCull, float4* tEnter)
+WEDGE_FN uint4 enterChildren(__global const TraversalNode* node, const TraversalRay* ray, float tCull, float4* tEnter)
 {
 #pragma OPENCL FP_CONTRACT ON
     __global const float* planes = node->loX;
-    const float4 nearX = vload4(0, planes + ray->nearX) * ray->nearScale.x + ray->nearOffset.x;
-    const float4 nearY = vload4(0, planes + ray->nearY) * ray->nearScale.y + ray->nearOffset.y;
-    const float4 nearZ = vload4(0, planes + ray->nearZ) * ray->nearScale.z + ray->nearOffset.z;
-    const float4 farX = vload4(0, planes + ray->farX) * ray->farScale.x + ray->farOffset.x;
-    const float4 farY = vload4(0, planes + ray->farY) * ray->farScale.y + ray->farOffset.y;
-    const float4 farZ = vload4(0, planes + ray->farZ) * ray->farScale.z + ray->farOffset.z;
+    const float4 nearX = WEDGE_PLANES4(planes + ray->nearX, WEDGE_TIME_OF(ray)) * ray->nearScale.x + ray->nearOffset.x;
+    const float4 nearY = WEDGE_PLANES4(planes + ray->nearY, WEDGE_TIME_OF(ray)) * ray->nearScale.y + ray->nearOffset.y;
+    const float4 nearZ = WEDGE_PLANES4(planes + ray->nearZ, WEDGE_TIME_OF(ray)) * ray->nearScale.z + ray->nearOffset.z;
+    const float4 farX = WEDGE_PLANES4(planes + ray->farX, WEDGE_TIME_OF(ray)) * ray->farScale.x + ray->farOffset.x;
+    const float4 farY = WEDGE_PLANES4(planes + ray->farY, WEDGE_TIME_OF(ray)) * ray->farScale.y + ray->farOffset.y;
+    const float4 farZ = WEDGE_PLANES4(planes + ray->farZ, WEDGE_TIME_OF(ray)) * ray->farScale.z + ray->farOffset.z;
     const float4 nearXY = WEDGE_MAX(nearX, nearY), nearZ0 = WEDGE_MAX(nearZ, (float4)(ray->tMin));
     const float4 farXY = WEDGE_MIN(farX, farY), farZ0 = WEDGE_MIN(farZ, (float4)(tCull));
     const float4 enter = WEDGE_MAX(nearXY, nearZ0);
@@ -49,9 +53,12 @@ WEDGE_FN bool intersectTriangle(__global const TriangleBlock* block, uint lane, 
     __global const float* v0 = block->v0x + lane;
     __global const float* v1 = block->v1x + lane;
     __global const float* v2 = block->v2x + lane;
-    const Vec3 p0 = vec3(v0[ray->axisX], v0[ray->axisY], v0[ray->axisZ]);
-    const Vec3 p1 = vec3(v1[ray->axisX], v1[ray->axisY], v1[ray->axisZ]);
-    const Vec3 p2 = vec3(v2[ray->axisX], v2[ray->axisY], v2[ray->axisZ]);
+    const Vec3 p0 = vec3(WEDGE_CORNER(v0, ray->axisX, WEDGE_TIME_OF(ray)), WEDGE_CORNER(v0, ray->axisY, WEDGE_TIME_OF(ray)),
+        WEDGE_CORNER(v0, ray->axisZ, WEDGE_TIME_OF(ray)));
+    const Vec3 p1 = vec3(WEDGE_CORNER(v1, ray->axisX, WEDGE_TIME_OF(ray)), WEDGE_CORNER(v1, ray->axisY, WEDGE_TIME_OF(ray)),
+        WEDGE_CORNER(v1, ray->axisZ, WEDGE_TIME_OF(ray)));
+    const Vec3 p2 = vec3(WEDGE_CORNER(v2, ray->axisX, WEDGE_TIME_OF(ray)), WEDGE_CORNER(v2, ray->axisY, WEDGE_TIME_OF(ray)),
+        WEDGE_CORNER(v2, ray->axisZ, WEDGE_TIME_OF(ray)));
     const Vec3 a = vecSub(p0, ray->testOrigin), b = vecSub(p1, ray->testOrigin), c = vecSub(p2, ray->testOrigin);
     const float ax = a.x - ray->shearX * a.z, ay = a.y - ray->shearY * a.z;
     const float bx = b.x - ray->shearX * b.z, by = b.y - ray->shearY * b.z;
@@ -63,7 +70,11 @@ WEDGE_FN bool intersectTriangle(__global const TriangleBlock* block, uint lane, 
     const float sum = u + v + w;
     if (!((least >= 0.0f || most <= 0.0f) && sum != 0.0f))
         return false;
-    const Vec3 n = vecCross(vecSub(p1, p0), vecSub(p2, p0));
+    const Vec3 e1 = vecSub(p1, p0), e2 = vecSub(p2, p0), n = vecCross(e1, e2);
+#ifdef WEDGE_MOTION
+    if (!WEDGE_SPANS_AREA(n.x, n.y, n.z, e1.x, e1.y, e1.z, e2.x, e2.y, e2.z))
+        return false;
+#endif
     const float t = vecDot(n, a) / vecDot(n, ray->testDirection);
     if (!(t > ray->tMin && t <= hit->t))
         return false;

@@ -5,9 +5,6 @@
 
 #include "intersect.h"
 
-/// The node that this family of traversals walks.
-typedef BvhNode TraversalNode;
-
 /// Walks the subtree of a reference (0: all) front to back, and writes the nearest hit, or, with any, the first one it
 /// comes across.
 /// Nodes and leaves take turns in one flat loop, which is faster here than a loop over nodes that ends in a loop
@@ -28,7 +25,7 @@ WEDGE_FN void traverse(__global const TraversalNode* restrict nodes, __global co
                     return;
             tCull = hit->t * WEDGE_WIDEN_T;
         } else {
-            __global const BvhNode* node = nodes + current;
+            __global const TraversalNode* node = nodes + current;
             float8 tEnter;
             LaneMask lanes = intersectBoxes(node, ray, tCull, &tEnter);
             if (lanes) {

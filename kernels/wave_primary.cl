@@ -76,6 +76,7 @@ __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wav
         sent[lane] = primaryRay(frame, camera, wave, x, y, sampleOf[receiver], wanted[pixelIndex(x, y, frame.stride)]);
         const LightHit seen = hitLights(lights, lightCount, sent[lane].origin, sent[lane].direction);
         setRay(&packet, lane, sent[lane].origin, sent[lane].direction, 0.0f, inside ? seen.t : 0.0f);
+        setTime(&packet, lane, sent[lane].time);
         lightRadiance[lane] = seen.radiance;
     }
     PacketHits hits;
@@ -95,7 +96,7 @@ __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wav
             storeVec(emission, size, i, hit.t < INFINITY ? lightRadiance[lane] : frame.background);
             continue;
         }
-        const Surface s = surfaceAt(data, hit, ray.direction);
+        const Surface s = surfaceAt(data, hit, ray.direction, ray.time);
         storeVec(position, size, i, s.position);
         storeVec(normal, size, i, s.normal);
         storeVec(origin, size, i, s.origin);
@@ -110,7 +111,7 @@ __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wav
         motion[i] = 0.0f;
         motion[size + i] = 0.0f;
         if (camera.shutter != 0u) {
-            const Vec3 moved = vec3(0.0f, 0.0f, 0.0f);
+            const Vec3 moved = hitMotion(data, hit);
             const Vec2 open = projectPoint(camera, vecMad(s.position, moved, -ray.time), 0.0f);
             const Vec2 close = projectPoint(camera, vecMad(s.position, moved, 1.0f - ray.time), 1.0f);
             motion[i] = close.x - open.x;

@@ -33,15 +33,48 @@ struct Tree {
     std::vector<shared::BvhNode4> narrow;
 };
 
-/// Runs the kernels of trace_test.cl on one device.
+/// A hierarchy over geometry that moves as both families walk it.
+struct MovingTree {
+    explicit MovingTree(bvh::MovingBvh hierarchy)
+        : wide(std::move(hierarchy))
+        , narrow(bvh::narrow(wide))
+    {
+    }
+
+    bvh::MovingBvh wide;
+    std::vector<shared::MovingNode4> narrow;
+};
+
+enum class Geometry { Still, Moving };
+
+/// Runs the kernels of trace_test.cl on one device, over a Tree or, with Geometry::Moving, a MovingTree.
 class Tracer {
 public:
-    explicit Tracer(const device::Device& device, Family family = Family::Wide)
+    explicit Tracer(const device::Device& device, Family family = Family::Wide, Geometry geometry = Geometry::Still)
         : device_(device)
         , family_(family)
         , queue_(device)
-        , library_(device, options(family))
+        , library_(device, options(family, geometry))
     {
+    }
+
+    /// times: one a ray.
+    std::vector<Hit> closest(const MovingTree& tree, std::span<const Ray> rays, std::span<const float> times)
+    {
+        return run<Hit>("traceClosest", tree, std::span<const float>(withTimes(rays, times)), rays.size(), rays.size());
+    }
+    std::vector<std::uint32_t> any(const MovingTree& tree, std::span<const Ray> rays, std::span<const float> times)
+    {
+        return run<std::uint32_t>(
+            "traceAny", tree, std::span<const float>(withTimes(rays, times)), rays.size(), rays.size());
+    }
+    std::vector<Hit> closestPackets(const MovingTree& tree, std::span<const Ray> rays, std::span<const float> times)
+    {
+        return closestPacked(tree, bvh::packRays(rays, packetSize(), times), rays.size());
+    }
+    std::vector<std::uint32_t> anyPackets(const MovingTree& tree, std::span<const Ray> rays, std::span<const float> times)
+    {
+        return anyPacked(tree, bvh::packRays(rays, packetSize(), times), rays.size());
     }
 
     std::vector<Hit> closest(const Tree& tree, std::span<const Ray> rays)
@@ -56,49 +89,71 @@ public:
     /// The same in packets of consecutive rays.
     std::vector<Hit> closestPackets(const Tree& tree, std::span<const Ray> rays)
     {
-        const std::size_t packets = (rays.size() + packetSize() - 1) / packetSize();
-        const std::vector<float> packed = bvh::packRays(rays, packetSize());
-        const auto words = run<std::uint32_t>("traceClosestPackets", tree, std::span<const float>(packed), packets,
-            packets * packetSize() * bvh::hitWords);
-        return bvh::unpackHits(words, packetSize(), rays.size());
+        return closestPacked(tree, bvh::packRays(rays, packetSize()), rays.size());
     }
     std::vector<std::uint32_t> anyPackets(const Tree& tree, std::span<const Ray> rays)
     {
-        const std::size_t packets = (rays.size() + packetSize() - 1) / packetSize();
-        const std::vector<float> packed = bvh::packRays(rays, packetSize());
-        auto found = run<std::uint32_t>(
-            "traceAnyPackets", tree, std::span<const float>(packed), packets, packets * packetSize());
-        found.resize(rays.size());
-        return found;
+        return anyPacked(tree, bvh::packRays(rays, packetSize()), rays.size());
     }
 
     /// Rays that a work-item of the packet kernels takes.
     std::size_t packetSize() const { return family_ == Family::Wide ? WEDGE_WIDE_PACKET_SIZE : 1; }
 
 private:
-    static device::BuildOptions options(Family family)
+    static device::BuildOptions options(Family family, Geometry geometry)
     {
         device::BuildOptions out;
+        if (geometry == Geometry::Moving)
+            out.defines.emplace_back("WEDGE_MOTION", "1");
         if (family == Family::Scalar)
             out.defines.emplace_back("WEDGE_TRAVERSAL_SCALAR", "1");
         return out;
     }
 
+    /// The rays' floats, then their times.
+    static std::vector<float> withTimes(std::span<const Ray> rays, std::span<const float> times)
+    {
+        std::vector<float> out(bvh::rayWords * rays.size());
+        if (!rays.empty())
+            std::memcpy(out.data(), rays.data(), rays.size_bytes());
+        out.insert(out.end(), times.begin(), times.end());
+        return out;
+    }
+
+    template <typename AnyTree>
+    std::vector<Hit> closestPacked(const AnyTree& tree, const std::vector<float>& packed, std::size_t rays)
+    {
+        const std::size_t packets = (rays + packetSize() - 1) / packetSize();
+        const auto words = run<std::uint32_t>("traceClosestPackets", tree, std::span(packed), packets,
+            packets * packetSize() * bvh::hitWords);
+        return bvh::unpackHits(words, packetSize(), rays);
+    }
+
+    template <typename AnyTree>
+    std::vector<std::uint32_t> anyPacked(const AnyTree& tree, const std::vector<float>& packed, std::size_t rays)
+    {
+        const std::size_t packets = (rays + packetSize() - 1) / packetSize();
+        auto found = run<std::uint32_t>("traceAnyPackets", tree, std::span(packed), packets, packets * packetSize());
+        found.resize(rays);
+        return found;
+    }
+
     /// Launches `items` work-items over the input, which leave `count` results.
-    template <typename Result, typename Input>
+    template <typename Result, typename AnyTree, typename Input>
     std::vector<Result> run(
-        const char* name, const Tree& tree, std::span<const Input> input, std::size_t items, std::size_t count)
+        const char* name, const AnyTree& tree, std::span<const Input> input, std::size_t items, std::size_t count)
     {
         const auto bytes =
             family_ == Family::Wide ? std::as_bytes(std::span(tree.wide.nodes)) : std::as_bytes(std::span(tree.narrow));
         device::Buffer<Input> rayBuffer(device_, input.size(), "rays");
         device::Buffer<Result> results(device_, count, "results");
         device::Buffer<std::byte> nodes(device_, bytes.size(), "nodes");
-        device::Buffer<shared::TriangleBlock> blocks(device_, tree.wide.blocks.size(), "blocks");
+        const auto blockBytes = std::as_bytes(std::span(tree.wide.blocks));
+        device::Buffer<std::byte> blocks(device_, blockBytes.size(), "blocks");
         rayBuffer.upload(queue_, input);
         nodes.upload(queue_, bytes);
-        if (!tree.wide.blocks.empty())
-            blocks.upload(queue_, tree.wide.blocks);
+        if (!blockBytes.empty())
+            blocks.upload(queue_, blockBytes);
         std::vector<Result> untouched(count);
         std::memset(static_cast<void*>(untouched.data()), 0x5a, untouched.size() * sizeof(Result));
         results.upload(queue_, untouched);

@@ -72,7 +72,7 @@ public:
         const render::Frame& f = traced.frame;
         traced.bench.passes.tiles("paths", device::PassKind::Trace, "indirect.cl", "samplePaths", traced.params, 1.0,
             params, s.nodes, s.blocks, s.positions, s.normals, s.texcoords, s.indices, s.materialIds, s.materials,
-            s.textures, s.texels, s.srgbToLinear, s.areaLights, s.deltaLights, f.position, f.normal, f.origin,
+            s.textures, s.texels, s.srgbToLinear, s.positionsAtClose, s.normalsAtClose, s.areaLights, s.deltaLights, f.position, f.normal, f.origin,
             f.geometric, f.objectId, f.gloss, f.specular, traced.bench.buffer(wanted), last, sums_, traced.taken,
             value_, reflectors_, f.rays, f.pathRays);
     }

@@ -43,7 +43,7 @@ public:
         bench.passes.tiles("primary", device::PassKind::Trace, "primary.cl", "primary", params, 1.0, onDevice.nodes,
             onDevice.blocks, onDevice.positions, onDevice.normals, onDevice.texcoords, onDevice.indices,
             onDevice.materialIds, onDevice.materials, onDevice.textures, onDevice.texels, onDevice.srgbToLinear,
-            onDevice.objectIds, onDevice.areaLights, static_cast<std::uint32_t>(onDevice.areaLightList.size()),
+            onDevice.positionsAtClose, onDevice.normalsAtClose, onDevice.objectIds, onDevice.areaLights, static_cast<std::uint32_t>(onDevice.areaLightList.size()),
             frame.position, frame.normal, frame.origin, frame.geometric, frame.objectId, frame.depth, frame.pixelSize, frame.diffuse,
             frame.specular, frame.emission, frame.gloss);
     }

@@ -39,8 +39,8 @@ SurfacePoint HostSurfaces::at(const shared::Hit& hit, shared::Vec3 direction) co
 {
     const scene::Geometry& g = scene_.geometry;
     const kernel::SurfaceData data { g.positions.data(), g.normals.data(), g.texcoords.data(), g.indices.data(),
-        g.materialIds.data(), materials_.data(), nullptr, nullptr, nullptr };
-    const kernel::Surface s = kernel::surfaceAt(data, hit, direction);
+        g.materialIds.data(), materials_.data(), nullptr, nullptr, nullptr, nullptr, nullptr };
+    const kernel::Surface s = kernel::surfaceAt(data, hit, direction, 0.0f);
     return { s.position, s.origin, s.normal, s.geometric, s.diffuse, s.emission };
 }
 

@@ -33,8 +33,7 @@ Facts gather(const std::string& path, bvh::Mode mode)
     facts.scene = scene::loadScene(path);
     facts.summary = scene::summary(facts.scene);
     facts.mode = mode;
-    const render::Hierarchy hierarchy(
-        bvh::build({ facts.scene.geometry.positions, facts.scene.geometry.indices }, bvh::config(mode)));
+    const render::Hierarchy hierarchy = render::buildHierarchy(facts.scene, mode);
     facts.bvh = hierarchy.bvh.statistics;
     facts.settings = resolveSettings(RenderOptions(), facts.scene);
     facts.memory = render::Renderer::plan(facts.scene, hierarchy, facts.settings);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 namespace wedge::render {
@@ -151,7 +152,7 @@ void DeviceScene::plan(device::MemoryPlan& plan, const scene::Scene& scene, cons
 {
     const scene::Geometry& g = scene.geometry;
     plan.addItems("BVH nodes", hierarchy.nodes().size(), 1);
-    plan.addItems("triangle blocks", hierarchy.bvh.blocks.size(), sizeof(shared::TriangleBlock));
+    plan.addItems("triangle blocks", hierarchy.blocks().size(), 1);
     plan.addItems("positions", g.positions.size(), sizeof(float));
     plan.addItems("normals", g.normals.size(), sizeof(float));
     plan.addItems("texture coordinates", g.texcoords.size(), sizeof(float));
@@ -160,15 +161,21 @@ void DeviceScene::plan(device::MemoryPlan& plan, const scene::Scene& scene, cons
     plan.addItems("object ids", g.objectIds.size(), sizeof(std::uint32_t));
     plan.addItems("materials", scene.materials.size(), sizeof(shared::MaterialData));
     plan.addItems("texels", texelCount(scene), sizeof(std::uint32_t));
+    if (scene::geometryMoves(scene)) {
+        plan.addItems("positions at closing", g.positionsAtClose.size(), sizeof(float));
+        plan.addItems("normals at closing", g.normalsAtClose.size(), sizeof(float));
+    }
 }
 
 DeviceScene::DeviceScene(
     const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device, device::TimedQueue& queue)
     : nodes(device::Buffer<std::byte>::readOnly(device, queue, hierarchy.nodes(), "BVH nodes"))
-    , blocks(device::Buffer<shared::TriangleBlock>::readOnly(device, queue, hierarchy.bvh.blocks, "triangle blocks"))
+    , blocks(device::Buffer<std::byte>::readOnly(device, queue, hierarchy.blocks(), "triangle blocks"))
     , positions(device::Buffer<float>::readOnly(device, queue, scene.geometry.positions, "positions"))
     , normals(device::Buffer<float>::readOnly(device, queue, scene.geometry.normals, "normals"))
     , texcoords(device::Buffer<float>::readOnly(device, queue, scene.geometry.texcoords, "texture coordinates"))
+    , positionsAtClose(device::Buffer<float>::readOnly(device, queue, scene.geometry.positionsAtClose, "positions at closing"))
+    , normalsAtClose(device::Buffer<float>::readOnly(device, queue, scene.geometry.normalsAtClose, "normals at closing"))
     , indices(device::Buffer<std::uint32_t>::readOnly(device, queue, scene.geometry.indices, "indices"))
     , materialIds(device::Buffer<std::uint32_t>::readOnly(device, queue, scene.geometry.materialIds, "material ids"))
     , objectIds(device::Buffer<std::uint32_t>::readOnly(device, queue, scene.geometry.objectIds, "object ids"))
@@ -206,6 +213,8 @@ DeviceScene::DeviceScene(
     deltaLights.upload(queue, delta);
     deltaLightCount = static_cast<std::uint32_t>(delta.size());
     specular = hasSpecular(scene);
+    moves = scene::geometryMoves(scene);
+    assert(moves == hierarchy.moves);
 }
 
 } // namespace wedge::render

@@ -34,8 +34,9 @@ public:
     DeviceScene(const scene::Scene&, Hierarchy&&, const device::Device&, device::TimedQueue&) = delete;
 
     device::Buffer<std::byte> nodes; ///< of the hierarchy's family of traversals
-    device::Buffer<shared::TriangleBlock> blocks;
+    device::Buffer<std::byte> blocks;
     device::Buffer<float> positions, normals, texcoords;
+    device::Buffer<float> positionsAtClose, normalsAtClose; ///< one element that nobody reads where nothing moves
     device::Buffer<std::uint32_t> indices, materialIds, objectIds;
     device::Buffer<shared::MaterialData> materials;
     device::Buffer<shared::TextureData> textures;
@@ -50,12 +51,14 @@ public:
     float diameter = 0; ///< metres, diagonal of the bounds
     float largestDimension = 0; ///< metres, of the bounds
     bool specular = false; ///< hasSpecular()
+    bool moves = false; ///< scene::geometryMoves()
 };
 
 /// What kernels take for WEDGE_SURFACE_PARAMETERS.
 inline auto surfaceArguments(const DeviceScene& s)
 {
-    return std::tie(s.positions, s.normals, s.texcoords, s.indices, s.materialIds, s.materials, s.textures, s.texels, s.srgbToLinear);
+    return std::tie(s.positions, s.normals, s.texcoords, s.indices, s.materialIds, s.materials, s.textures, s.texels,
+        s.srgbToLinear, s.positionsAtClose, s.normalsAtClose);
 }
 
 } // namespace wedge::render

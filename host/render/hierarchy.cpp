@@ -29,8 +29,9 @@ std::string traversalName(Traversal traversal)
 std::size_t packetSize(Traversal family) { return family == Traversal::Scalar ? 1 : WEDGE_WIDE_PACKET_SIZE; }
 
 Hierarchy::Hierarchy(bvh::Bvh built, Traversal family)
-    : bvh(std::move(built))
+    : moves(false)
     , traversal(family)
+    , bvh(std::move(built))
 {
     assert(family != Traversal::Automatic);
     if (family == Traversal::Scalar) {
@@ -38,9 +39,37 @@ Hierarchy::Hierarchy(bvh::Bvh built, Traversal family)
     }
 }
 
+Hierarchy::Hierarchy(bvh::MovingBvh built, Traversal family)
+    : moves(true)
+    , traversal(family)
+    , moving(std::move(built))
+{
+    assert(family != Traversal::Automatic);
+    bvh.statistics = moving.statistics;
+    if (family == Traversal::Scalar) {
+        movingNarrow = bvh::narrow(moving);
+    }
+}
+
+std::span<const std::byte> Hierarchy::blocks() const
+{
+    return moves ? std::as_bytes(std::span(moving.blocks)) : std::as_bytes(std::span(bvh.blocks));
+}
+
 std::span<const std::byte> Hierarchy::nodes() const
 {
+    if (moves) {
+        return traversal == Traversal::Scalar ? std::as_bytes(std::span(movingNarrow)) : std::as_bytes(std::span(moving.nodes));
+    }
     return traversal == Traversal::Scalar ? std::as_bytes(std::span(narrow)) : std::as_bytes(std::span(bvh.nodes));
+}
+
+Hierarchy buildHierarchy(const scene::Scene& scene, bvh::Mode mode, Traversal family)
+{
+    const scene::Geometry& g = scene.geometry;
+    const bvh::Mesh mesh { g.positions, g.indices };
+    return scene::geometryMoves(scene) ? Hierarchy(bvh::buildMoving(mesh, g.positionsAtClose, bvh::config(mode)), family)
+                                       : Hierarchy(bvh::build(mesh, bvh::config(mode)), family);
 }
 
 } // namespace wedge::render

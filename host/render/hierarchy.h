@@ -1,7 +1,9 @@
 #pragma once
 
 #include "bvh/bvh.h"
+#include "bvh/moving.h"
 #include "host/device/limits.h"
+#include "host/scene/scene.h"
 
 #include <cstddef>
 #include <span>
@@ -30,13 +32,24 @@ std::size_t packetSize(Traversal family);
 struct Hierarchy {
     /// wide by default; never Automatic.
     explicit Hierarchy(bvh::Bvh built, Traversal family = Traversal::Wide);
+    /// Over geometry that moves, for programs with WEDGE_MOTION.
+    explicit Hierarchy(bvh::MovingBvh built, Traversal family = Traversal::Wide);
 
-    /// The nodes as they go to the device: BvhNode for the wide family, BvhNode4 for the scalar one.
+    /// The nodes as they go to the device: BvhNode for the wide family, BvhNode4 for the scalar one; MovingNode and
+    /// MovingNode4 where geometry moves.
     std::span<const std::byte> nodes() const;
+    /// The blocks as they go to the device: TriangleBlock, or MovingTriangleBlock.
+    std::span<const std::byte> blocks() const;
 
-    bvh::Bvh bvh;
+    bool moves;
     Traversal traversal;
+    bvh::Bvh bvh; ///< only its statistics where geometry moves
     std::vector<shared::BvhNode4> narrow; ///< empty for the wide family
+    bvh::MovingBvh moving; ///< where geometry moves, and its nodes of the scalar family:
+    std::vector<shared::MovingNode4> movingNarrow;
 };
+
+/// The hierarchy of a scene's geometry, over its motion where it moves.
+Hierarchy buildHierarchy(const scene::Scene& scene, bvh::Mode mode, Traversal family = Traversal::Wide);
 
 } // namespace wedge::render

@@ -48,6 +48,9 @@ device::BuildOptions programOptions(const scene::Scene& scene, const Options& op
     if (traversal == Traversal::Scalar) {
         out.defines.emplace_back("WEDGE_TRAVERSAL_SCALAR", "1");
     }
+    if (scene::geometryMoves(scene)) {
+        out.defines.emplace_back("WEDGE_MOTION", "1");
+    }
     out.fastMath = options.fastMath;
     out.kernelDir = options.kernelDir;
     return out;
@@ -88,8 +91,7 @@ Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Opti
     : scene_(scene)
     , device_(device)
     , options_(std::move(options))
-    , hierarchy_(bvh::build({ scene.geometry.positions, scene.geometry.indices }, bvh::config(options_.bvh)),
-          resolveTraversal(options_.traversal, device.info()))
+    , hierarchy_(buildHierarchy(scene, options_.bvh, resolveTraversal(options_.traversal, device.info())))
     , queue_(device, options_.blameLaunches)
     , programs_(std::make_unique<device::ProgramLibrary>(device, programOptions(scene, options_, hierarchy_.traversal)))
     , passes_(std::make_unique<Passes>(*programs_, queue_, packetSize(hierarchy_.traversal)))

@@ -45,6 +45,35 @@ typedef struct {
     uint padding[WEDGE_BVH_NARROW_WIDTH - 1];
 } BvhNode4;
 
+/// Nodes over geometry that moves while the shutter is open: the node at its opening, and how far each plane moves from
+/// there until it closes, rounded outwards. A child's box at time t in [0, 1] is plane + t move. Empty slots do not move.
+typedef struct {
+    float loX[WEDGE_BVH_WIDTH], hiX[WEDGE_BVH_WIDTH];
+    float loY[WEDGE_BVH_WIDTH], hiY[WEDGE_BVH_WIDTH];
+    float loZ[WEDGE_BVH_WIDTH], hiZ[WEDGE_BVH_WIDTH];
+    uint child[WEDGE_BVH_WIDTH];
+    float unit; ///< of the root, as in BvhNode; coordinates lie within +-1 at all times
+    uint padding[WEDGE_BVH_WIDTH - 1];
+    float moveLoX[WEDGE_BVH_WIDTH], moveHiX[WEDGE_BVH_WIDTH];
+    float moveLoY[WEDGE_BVH_WIDTH], moveHiY[WEDGE_BVH_WIDTH];
+    float moveLoZ[WEDGE_BVH_WIDTH], moveHiZ[WEDGE_BVH_WIDTH];
+} MovingNode;
+
+typedef struct {
+    float loX[WEDGE_BVH_NARROW_WIDTH], hiX[WEDGE_BVH_NARROW_WIDTH];
+    float loY[WEDGE_BVH_NARROW_WIDTH], hiY[WEDGE_BVH_NARROW_WIDTH];
+    float loZ[WEDGE_BVH_NARROW_WIDTH], hiZ[WEDGE_BVH_NARROW_WIDTH];
+    uint child[WEDGE_BVH_NARROW_WIDTH];
+    float unit; ///< of the root, as in BvhNode
+    uint padding[WEDGE_BVH_NARROW_WIDTH - 1];
+    float moveLoX[WEDGE_BVH_NARROW_WIDTH], moveHiX[WEDGE_BVH_NARROW_WIDTH];
+    float moveLoY[WEDGE_BVH_NARROW_WIDTH], moveHiY[WEDGE_BVH_NARROW_WIDTH];
+    float moveLoZ[WEDGE_BVH_NARROW_WIDTH], moveHiZ[WEDGE_BVH_NARROW_WIDTH];
+} MovingNode4;
+
+// Device code knows one sort of blocks, by one name: those of its program.
+#ifndef WEDGE_MOTION
+
 /// Vertices, in the root's unit: triangles that share one have the same floats there, which the watertight test
 /// relies on. A triangle without area has its first vertex three times; unused lanes are all zero with
 /// triangle = WEDGE_NO_TRIANGLE.
@@ -54,6 +83,24 @@ typedef struct {
     float v2x[WEDGE_BLOCK_SIZE], v2y[WEDGE_BLOCK_SIZE], v2z[WEDGE_BLOCK_SIZE];
     uint triangle[WEDGE_BLOCK_SIZE];
 } TriangleBlock;
+
+#endif
+
+/// As TriangleBlock, with vertices when the shutter opens and their displacement until it closes: floats that triangles
+/// which share a vertex have in common, too. Triangles without area are as the others.
+typedef struct {
+    float v0x[WEDGE_BLOCK_SIZE], v0y[WEDGE_BLOCK_SIZE], v0z[WEDGE_BLOCK_SIZE];
+    float v1x[WEDGE_BLOCK_SIZE], v1y[WEDGE_BLOCK_SIZE], v1z[WEDGE_BLOCK_SIZE];
+    float v2x[WEDGE_BLOCK_SIZE], v2y[WEDGE_BLOCK_SIZE], v2z[WEDGE_BLOCK_SIZE];
+    uint triangle[WEDGE_BLOCK_SIZE];
+    float move0x[WEDGE_BLOCK_SIZE], move0y[WEDGE_BLOCK_SIZE], move0z[WEDGE_BLOCK_SIZE];
+    float move1x[WEDGE_BLOCK_SIZE], move1y[WEDGE_BLOCK_SIZE], move1z[WEDGE_BLOCK_SIZE];
+    float move2x[WEDGE_BLOCK_SIZE], move2y[WEDGE_BLOCK_SIZE], move2z[WEDGE_BLOCK_SIZE];
+} MovingTriangleBlock;
+
+#ifdef WEDGE_MOTION
+typedef MovingTriangleBlock TriangleBlock;
+#endif
 
 WEDGE_SHARED_END
 

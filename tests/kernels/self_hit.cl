@@ -15,13 +15,13 @@ __kernel void selfHit(__global const TraversalNode* restrict nodes, __global con
     }
     const float8 ray = vload8(i, rays);
     const Vec3 toward = vec3(ray.s4, ray.s5, ray.s6);
-    const Hit hit = closestHit(nodes, blocks, vec3(ray.s0, ray.s1, ray.s2), toward, ray.s3, ray.s7);
+    const Hit hit = closestHit(nodes, blocks, vec3(ray.s0, ray.s1, ray.s2), toward, ray.s3, ray.s7, 0.0f);
     triangle[i] = hit.triangle;
     returns[i] = 0u;
     if (hit.triangle == WEDGE_NO_TRIANGLE) {
         return;
     }
-    const Surface s = surfaceAt(WEDGE_SURFACE_ARGUMENTS, hit, toward);
+    const Surface s = surfaceAt(WEDGE_SURFACE_ARGUMENTS, hit, toward, 0.0f);
     points[6u * i] = s.position.x;
     points[6u * i + 1u] = s.position.y;
     points[6u * i + 2u] = s.position.z;
@@ -35,6 +35,6 @@ __kernel void selfHit(__global const TraversalNode* restrict nodes, __global con
             continue;
         }
         d = vecScale(d, side < 0.0f ? -length : length);
-        returns[i] += closestHit(nodes, blocks, s.origin, d, 0.0f, 0.9999f).triangle == hit.triangle ? 1u : 0u;
+        returns[i] += closestHit(nodes, blocks, s.origin, d, 0.0f, 0.9999f, 0.0f).triangle == hit.triangle ? 1u : 0u;
     }
 }
