@@ -82,7 +82,7 @@ WEDGE_FN void meetDirections(SampleParams params, AreaLight light, const Receive
             weight[lane] = w * reflected * metProfile(light, m) / light.profileArea;
         }
         setRay(packet, lane, origin, l, 0.0f, weight[lane] > 0.0f ? m.t * WEDGE_SHADOW_RAY_END : 0.0f);
-        setTime(packet, lane, 0.0f);
+        setTime(packet, lane, receiverTime(r, lane));
     }
 }
 
