@@ -98,8 +98,9 @@ def save(figure, folder, name):
     print(path)
 
 
-def run(arguments, benchmark, usage, plot):
-    """Reads a benchmark's result file and calls plot(results, folder). Returns the exit status."""
+def run(arguments, benchmark, usage, plot, also=()):
+    """Reads a benchmark's result file, or one of those of `also`, and calls plot(results, folder). Returns the exit
+    status."""
     program = f"plot_{benchmark}"
     if len(arguments) not in (1, 2) or arguments[0].startswith("-"):
         print(usage.strip(), file=sys.stderr)
@@ -110,8 +111,9 @@ def run(arguments, benchmark, usage, plot):
     except (OSError, ValueError) as error:
         print(f"{program}: error: {arguments[0]}: {error}: name a result file", file=sys.stderr)
         return 1
-    if results.get("benchmark") != benchmark:
-        print(f"{program}: error: {arguments[0]}: not of {benchmark}: name its result file", file=sys.stderr)
+    if results.get("benchmark") not in (benchmark, *also):
+        names = " or ".join((benchmark, *also))
+        print(f"{program}: error: {arguments[0]}: not of {names}: name its result file", file=sys.stderr)
         return 1
     folder = arguments[1] if len(arguments) > 1 else "."
     os.makedirs(folder, exist_ok=True)

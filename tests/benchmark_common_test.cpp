@@ -135,6 +135,15 @@ TEST_CASE("a fingerprint tells scenes apart by their contents, not by their name
     scene::Scene turned = scene;
     turned.camera.verticalFov = 46;
     CHECK(of(turned) != original);
+    scene::Scene defocused = scene;
+    defocused.camera.apertureRadius = 0.01f;
+    CHECK(of(defocused) != original);
+    scene::Scene moving = scene;
+    moving.geometry.positionsAtClose = moving.geometry.positions;
+    CHECK(of(moving) != original);
+    scene::Scene panned = scene;
+    panned.cameraAtClose = scene.camera;
+    CHECK(of(panned) != original);
 }
 
 TEST_CASE("claims without a goal or a finite value have nulls")

@@ -41,7 +41,8 @@ void addOptions(CLI::App& parser, Arguments& a, const std::string& table, const 
         .add_option("--reference-spp", a.referenceSpp,
             fmt::format("samples of the references ({}, quick {})", plan.referenceSpp, quick.referenceSpp))
         ->check(CLI::Range(16, 1 << 20));
-    parser.add_option("--size", a.size, "WIDTHxHEIGHT of the images (640x480, quick 320x240)");
+    parser.add_option("--size", a.size,
+        fmt::format("WIDTHxHEIGHT of the images ({}x{}, quick {}x{})", plan.width, plan.height, quick.width, quick.height));
     parser.add_flag("--timing-only", a.timingOnly, "only what " + table + " has");
     parser.add_flag("--list", a.list, "list the scenes");
 }

@@ -35,6 +35,17 @@ void add(Fingerprint& f, const scene::AreaLight& l)
     f.add(l.visible);
 }
 
+void add(Fingerprint& f, const scene::Camera& c)
+{
+    for (const glm::vec3& v : { c.eye, c.lookAt, c.up }) {
+        add(f, v);
+    }
+    for (const float value : { c.verticalFov, c.apertureRadius, c.focusDistance }) {
+        f.add(value);
+    }
+    f.add(static_cast<int>(c.apertureProfile));
+}
+
 void addLights(Fingerprint& f, const scene::Scene& scene)
 {
     for (const scene::AreaLight& light : scene.areaLights) {
@@ -71,7 +82,8 @@ std::string Fingerprint::text() const { return fmt::format("{:016x}", state_); }
 void add(Fingerprint& f, const scene::Scene& scene)
 {
     const scene::Geometry& g = scene.geometry;
-    for (const std::vector<float>* floats : { &g.positions, &g.normals, &g.texcoords }) {
+    for (const std::vector<float>* floats :
+        { &g.positions, &g.normals, &g.texcoords, &g.positionsAtClose, &g.normalsAtClose }) {
         f.add(std::span<const float>(*floats));
     }
     for (const std::vector<std::uint32_t>* ids : { &g.indices, &g.materialIds, &g.objectIds }) {
@@ -88,10 +100,12 @@ void add(Fingerprint& f, const scene::Scene& scene)
     f.add(scene.areaLights.size());
     f.add(scene.pointLights.size());
     addLights(f, scene);
-    for (const glm::vec3& v : { scene.background, scene.camera.eye, scene.camera.lookAt, scene.camera.up }) {
-        add(f, v);
+    add(f, scene.background);
+    add(f, scene.camera);
+    if (scene.cameraAtClose) {
+        add(f, *scene.cameraAtClose);
     }
-    f.add(scene.camera.verticalFov);
+    f.add(static_cast<int>(scene.shutterProfile));
 }
 
 } // namespace wedge::benchmark

@@ -24,7 +24,9 @@ std::string keyOf(const render::Settings& settings)
     for (const auto& [name, value] : render::describe(settings)) {
         key += fmt::format(" {} {}", name, value);
     }
-    return key;
+    // What variants of distributed frames differ in.
+    const render::DistributedSettings& d = settings.distributed;
+    return key + fmt::format(" factoring {} distributed counts {}", static_cast<int>(d.factoring), d.countExponent);
 }
 
 } // namespace
@@ -80,16 +82,20 @@ Measured Lab::measure(render::Settings settings, std::uint32_t seed)
     const render::FrameStatistics frame = renderFrame(settings, seed);
     Measured out;
     out.spp = subject_.sppOf(frame);
-    out.rays = subject_.raysOf(frame) / static_cast<double>(std::max<std::uint64_t>(1, frame.shadedPixels));
+    out.rays = subject_.raysOf(frame) / std::max(1.0, subject_.pixelsOf(frame));
     out.rmse = image::rmse(imageOf(renderer_, settings, frame, subject_.layer()), truth.image);
-    out.error =
-        plan_.subtractNoise ? std::max(withoutNoise(out.rmse, truth.noise), leastOwnError * out.rmse) : out.rmse;
+    out.error = compared(out.rmse, settings);
     out.mu = subject_.muOf(settings);
     out.seed = seed;
     say(fmt::format("{:<40} {:7.2f} spp  rmse {:.6f}  {:6.1f} s", subject_.describe(settings), out.spp, out.rmse,
         1e-3 * frame.wallMilliseconds));
     measured_.emplace(key, out);
     return out;
+}
+
+double Lab::compared(double rmse, const render::Settings& settings)
+{
+    return plan_.subtractNoise ? std::max(withoutNoise(rmse, reference(settings).noise), leastOwnError * rmse) : rmse;
 }
 
 const Reference& Lab::reference(const render::Settings& settings)

@@ -12,7 +12,7 @@ namespace wedge::benchmark {
 /// One render, and how far it is from the reference of its integrand.
 struct Measured {
     double spp = 0; ///< mean over shaded pixels
-    double rays = 0; ///< a shaded pixel; less than spp where samples need none
+    double rays = 0; ///< a pixel of Subject::pixelsOf(); less than spp where samples need none
     double rmse = 0; ///< linear RGB, whole image, as measured
     double error = 0; ///< what is compared: the same, without the reference's noise if the plan wants that
     float mu = 0;
@@ -35,6 +35,8 @@ public:
     virtual Integrand integrandOf(const render::Settings& settings) const = 0;
     virtual double sppOf(const render::FrameStatistics& frame) const = 0;
     virtual double raysOf(const render::FrameStatistics& frame) const = 0; ///< of the whole image
+    /// What rays are counted by: the pixels that see something.
+    virtual double pixelsOf(const render::FrameStatistics& frame) const { return static_cast<double>(frame.shadedPixels); }
     virtual float muOf(const render::Settings& settings) const = 0;
     virtual std::string describe(const render::Settings& settings) const = 0; ///< a few words
 };
@@ -54,6 +56,9 @@ public:
 
     /// RMS error of one image. Size comes from the plan.
     Measured measure(render::Settings settings, std::uint32_t seed = 1);
+
+    /// An RMS error as it is compared, where that of `settings`' reference is in it.
+    double compared(double rmse, const render::Settings& settings);
 
     /// What is measured of one image, as it comes out of the renderer.
     image::RgbImage render(render::Settings settings, std::uint32_t seed);

@@ -5,6 +5,7 @@
 #include "host/error.h"
 #include "host/image/exr.h"
 #include "host/image/metrics.h"
+#include "host/render/distributed_frame.h"
 #include "host/render/layers.h"
 #include "host/render/metadata.h"
 
@@ -22,12 +23,23 @@ constexpr const char* noiseKey = "referenceNoise";
 constexpr const char* kernelsKey = "referenceKernels";
 
 /// Of the kernels that an image, or a layer of it, is made by.
-std::string kernelFingerprint(const std::string& layer)
+std::string kernelFingerprint(const render::Renderer& renderer, const render::Settings& settings, const std::string& layer)
 {
-    const std::vector<const char*> direct = { "primary.cl", "area_light.cl", "delta_lights.cl", "composite.cl" };
-    const std::vector<const char*> indirect = { "primary.cl", "indirect.cl", "composite.cl" };
+    const bool distributed = render::isDistributed(settings, renderer.scene());
+    std::vector<const char*> files = { distributed ? "wave_primary.cl" : "primary.cl" };
+    if (distributed) {
+        files.insert(files.end(), { "waves.cl", "accumulate.cl" });
+    } else {
+        files.push_back("composite.cl");
+    }
+    if (layer != "indirect") {
+        files.insert(files.end(), { "area_light.cl", "delta_lights.cl" });
+    }
+    if (render::tracesPaths(settings)) {
+        files.push_back("indirect.cl");
+    }
     Fingerprint f;
-    for (const char* file : layer == "indirect" ? indirect : direct) {
+    for (const char* file : files) {
         f.add(device::flattenKernel("", file).text);
     }
     return f.text();
@@ -46,6 +58,7 @@ std::string pathOf(const render::Renderer& renderer, const render::Settings& set
     f.add(settings.width);
     f.add(settings.height);
     f.add(settings.seed);
+    f.add(settings.antialias);
     f.add(render::version());
     return (std::filesystem::path(folder) / fmt::format("{}_{}.exr", name, f.text())).string();
 }
@@ -124,8 +137,9 @@ Reference obtainReference(render::Renderer& renderer, const render::Settings& se
     const std::string& name, const std::string& layer)
 {
     const std::string path = pathOf(renderer, settings, folder, name, layer);
+    const std::string kernels = kernelFingerprint(renderer, settings, layer);
     if (std::filesystem::exists(path)) {
-        return readBack(path, settings.spp, kernelFingerprint(layer));
+        return readBack(path, settings.spp, kernels);
     }
     Reference out { half(renderer, settings, 0, layer), 0, settings.spp, path };
     const image::RgbImage second = half(renderer, settings, 1, layer);
@@ -139,7 +153,7 @@ Reference obtainReference(render::Renderer& renderer, const render::Settings& se
     if (failed) {
         throw Error("folder for references", folder, failed.message() + ", name another one");
     }
-    image::writeExr(path, layered(out, kernelFingerprint(layer)));
+    image::writeExr(path, layered(out, kernels));
     return out;
 }
 

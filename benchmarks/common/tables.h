@@ -26,7 +26,7 @@ std::string errorLine(const std::string& scene, const FixedBlur& blur);
 /// The lines under their heading; "" for none.
 std::string errorTable(const std::string& lines);
 
-/// Claims that have a goal, and whether each is met. Goals of overhead and wall_gap are upper bounds.
+/// Claims that have a goal, and whether each is met. Goals of overhead, wall_gap and memory_bytes are upper bounds.
 std::string goalTable(const std::vector<Claim>& claims);
 
 } // namespace wedge::benchmark

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "host/device/limits.h"
+#include "host/render/settings.h"
+#include "host/scene/scene.h"
+
+#include <cstdint>
+
+namespace wedge::benchmark {
+
+/// Bytes of a frame's own buffers on a device, without the scene's and its hierarchy's.
+std::uint64_t frameBytes(
+    const scene::Scene& scene, const device::DeviceInfo& device, const render::Settings& settings);
+
+} // namespace wedge::benchmark
