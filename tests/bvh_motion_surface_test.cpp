@@ -18,7 +18,9 @@ scene::Scene movingScene()
     const glm::dmat3 turn(0.9, 0.1, -0.2, -0.1, 1.1, 0.05, 0.2, 0.1, 0.95);
     for (std::size_t i = 0; i < g.positions.size(); i += 3) {
         const glm::dvec3 p = turn * glm::dvec3(g.positions[i], g.positions[i + 1], g.positions[i + 2]) + glm::dvec3(0.1, 0.2, -0.1);
-        const glm::dvec3 n = turn * glm::dvec3(g.normals[i], g.normals[i + 1], g.normals[i + 2]);
+        const glm::dvec3 open(g.normals[i], g.normals[i + 1], g.normals[i + 2]);
+        // Some turn far, so that halfway they are short.
+        const glm::dvec3 n = turn * open + glm::length(open) * glm::dvec3(i % 2 ? 0.9 : 0.0, 0, 0);
         const glm::dvec3 unit = glm::length(n) > 0 ? glm::normalize(n) : n;
         for (int k = 0; k < 3; ++k) {
             g.positionsAtClose.push_back(static_cast<float>(p[k]));
@@ -97,7 +99,10 @@ glm::dvec3 interpolated(const scene::Geometry& g, const std::vector<float>& open
             const auto i = at + static_cast<std::size_t>(k);
             p[k] = open[i] + (double { close[i] } - double { open[i] }) * time;
         }
-        sum += weights[corner] * (normalise && glm::length(p) > 0 ? glm::normalize(p) : p);
+        // Each normal is made unit and turned to the viewer's side before they are mixed.
+        if (normalise && glm::length(p) > 0)
+            p = glm::normalize(p) * (glm::dot(p, found.vector(ray, 2)) < 0 ? -1.0 : 1.0);
+        sum += weights[corner] * p;
     }
     return sum;
 }
