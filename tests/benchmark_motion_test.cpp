@@ -4,7 +4,7 @@
 namespace wedge::app::test {
 namespace {
 
-TEST_CASE("times of a box with moving objects, beside the thesis', and how far it is blurred along its motion")
+TEST_CASE("times of a box with moving objects, beside the thesis', and maps of its filters")
 {
     const Workplace place;
     const Json all = tinyResults(place, "moving_cornell", { "--timing-only", "--maps", "maps" });
@@ -21,7 +21,7 @@ TEST_CASE("times of a box with moving objects, beside the thesis', and how far i
         checkTiming(setting);
         CHECK_FALSE(setting.contains("method"));
     }
-    CHECK(place.has("maps/moving_cornell_blur_length.png"));
+    CHECK(place.has("maps/moving_cornell_width_motion.png"));
     CHECK(place.has("maps/moving_cornell_primary.png"));
 }
 

@@ -90,7 +90,7 @@ TEST_CASE("errors alone have no times, and a pinhole scene is measured too")
     CHECK(found.count("total_ms") == 0);
     CHECK_FALSE(all["scenes"][0]["settings"][0].contains("timing"));
     CHECK(place.has("maps/cornell_samples.png"));
-    CHECK_FALSE(place.has("maps/cornell_blur_radius.png"));
+    CHECK_FALSE(place.has("maps/cornell_width_lens.png"));
     CHECK(all["scenes"][0]["paper"].is_null());
 }
 

@@ -26,7 +26,7 @@ std::string keyOf(const render::Settings& settings)
     }
     // What variants of distributed frames differ in.
     const render::DistributedSettings& d = settings.distributed;
-    return key + fmt::format(" factoring {} distributed counts {}", static_cast<int>(d.factoring), d.countExponent);
+    return key + fmt::format(" factoring {} distributed counts {} mu {}", static_cast<int>(d.factoring), d.countExponent, d.mu);
 }
 
 } // namespace

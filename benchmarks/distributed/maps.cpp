@@ -103,10 +103,10 @@ std::vector<Map> writeMaps(Lab& lab, render::Settings settings, const std::strin
     // A pinhole scene file has none of the rest.
     if (renderer.frame().distributed) {
         writer.plane("primary", "samples/pixel", renderer.frame().primaryTaken, true);
-        writer.plane("blur_radius", "pixels", renderer.frame().blurRadii, false);
+        writer.plane("width_lens", "pixels", renderer.frame().lensWidth, false);
     }
     if (scene::geometryMoves(renderer.scene()) || scene::cameraMoves(renderer.scene())) {
-        writer.plane("blur_length", "pixels", renderer.frame().blurLengths, false);
+        writer.plane("width_motion", "pixels", renderer.frame().motionWidth, false);
     }
     for (const image::Channel& channel : layers.channels) {
         if (const std::string name = widthName(channel.name); !name.empty()) {

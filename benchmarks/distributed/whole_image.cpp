@@ -40,13 +40,15 @@ double WholeImage::raysOf(const FrameStatistics& frame) const { return rays(fram
 
 double WholeImage::pixelsOf(const FrameStatistics&) const { return pixels_; }
 
+float WholeImage::muOf(const render::Settings& s) const { return s.published ? s.distributed.mu : s.mu; }
+
 std::string WholeImage::describe(const render::Settings& s) const
 {
     if (s.method == render::Method::MonteCarlo) {
         return fmt::format("unfiltered {}", s.sampler == render::Sampler::Sobol ? "sobol" : "stratified");
     }
     const char* factoring = s.distributed.factoring == render::Factoring::Never ? " not factored" : "";
-    return describeVariant(s, s.mu, s.distributed.countExponent > 0) + factoring;
+    return describeVariant(s, muOf(s), s.distributed.countExponent > 0) + factoring;
 }
 
 render::Settings WholeImage::usual(std::optional<int> spp) const

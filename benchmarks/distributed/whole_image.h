@@ -20,7 +20,7 @@ public:
     double raysOf(const render::FrameStatistics& frame) const override;
     /// All pixels of the image.
     double pixelsOf(const render::FrameStatistics& frame) const override;
-    float muOf(const render::Settings& settings) const override { return settings.mu; }
+    float muOf(const render::Settings& settings) const override;
     std::string describe(const render::Settings& settings) const override;
 
     /// The default setting with so many samples, or its own count.
