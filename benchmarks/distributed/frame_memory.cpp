@@ -6,8 +6,7 @@
 
 namespace wedge::benchmark {
 
-std::uint64_t frameBytes(
-    const scene::Scene& scene, const device::DeviceInfo& device, const render::Settings& settings)
+std::uint64_t frameBytes(const scene::Scene& scene, const device::DeviceInfo& device, const render::Settings& settings)
 {
     const render::Options options;
     const render::Hierarchy hierarchy =

@@ -9,7 +9,6 @@
 namespace wedge::benchmark {
 
 /// Bytes of a frame's own buffers on a device, without the scene's and its hierarchy's.
-std::uint64_t frameBytes(
-    const scene::Scene& scene, const device::DeviceInfo& device, const render::Settings& settings);
+std::uint64_t frameBytes(const scene::Scene& scene, const device::DeviceInfo& device, const render::Settings& settings);
 
 } // namespace wedge::benchmark

@@ -35,15 +35,13 @@ public:
         const auto place = sorted.begin() + static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(sorted.size() - 1));
         std::ranges::nth_element(sorted, place);
         map.high = std::max(static_cast<double>(*place), map.low + 1e-6);
-        image::writePng(
-            map.file, heatMap(values, settings_.width, settings_.height, map.low, map.high, logarithmic));
+        image::writePng(map.file, heatMap(values, settings_.width, settings_.height, map.low, map.high, logarithmic));
         maps.push_back(std::move(map));
     }
 
     /// A plane of the frame's.
     template <class T>
-    void plane(
-        const std::string& quantity, const std::string& unit, const device::Buffer<T>& buffer, bool logarithmic)
+    void plane(const std::string& quantity, const std::string& unit, const device::Buffer<T>& buffer, bool logarithmic)
     {
         const std::vector<T> all = buffer.downloadAll(lab_.renderer().queue());
         const std::uint32_t stride = lab_.renderer().frame().layout.stride;

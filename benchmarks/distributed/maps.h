@@ -14,8 +14,8 @@ struct Map {
     bool logarithmic = false;
 };
 
-/// Renders a frame and writes NAME.png of it into the folder, which is made where it is missing, and NAME_<quantity>.png
-/// of its counts and filter widths, NAME being the lab's. Throws Error.
+/// Renders a frame and writes NAME.png of it into the folder, which is made where it is missing, and
+/// NAME_<quantity>.png of its counts and filter widths, NAME being the lab's. Throws Error.
 std::vector<Map> writeMaps(Lab& lab, render::Settings settings, const std::string& folder);
 
 } // namespace wedge::benchmark

@@ -13,7 +13,7 @@ using Optional = std::optional<double>;
 constexpr double sobolGoal = 3.0;
 constexpr double memoryGoal = 150e6; // bytes
 
-Optional paperOf(const DistributedResult& result, Optional PaperFrame::* value)
+Optional paperOf(const DistributedResult& result, Optional PaperFrame::*value)
 {
     return result.source.paper ? (*result.source.paper).*value : Optional();
 }
@@ -65,10 +65,10 @@ void addCurveClaims(ClaimList& list, const DistributedResult& result)
     }
     list.add("error_falls", monotonic(usual), "1", {}, 1.0);
     list.add("error_falls_published", monotonic(result.curve("published").points), "1");
-    const auto at = static_cast<std::size_t>(std::ranges::find(result.budgets, result.usualSpp) - result.budgets.begin());
+    const auto at =
+        static_cast<std::size_t>(std::ranges::find(result.budgets, result.usualSpp) - result.budgets.begin());
     for (const char* variant : { "no_factoring", "uniform_counts", "fixed_blur" }) {
-        list.add(fmt::format("rmse_ratio_{}", variant),
-            result.curve(variant).points[at].error / usual[at].error, "1");
+        list.add(fmt::format("rmse_ratio_{}", variant), result.curve(variant).points[at].error / usual[at].error, "1");
     }
 }
 

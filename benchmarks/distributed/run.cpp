@@ -78,8 +78,8 @@ const VariantCurve& DistributedResult::curve(const std::string& name) const
     throw std::out_of_range("no such curve: " + name);
 }
 
-DistributedResult measureScene(const std::string& program, const DistributedScene& source,
-    const device::Device& device, const DistributedPlan& plan)
+DistributedResult measureScene(const std::string& program, const DistributedScene& source, const device::Device& device,
+    const DistributedPlan& plan)
 {
     const auto start = std::chrono::steady_clock::now();
     DistributedResult out;

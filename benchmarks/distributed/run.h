@@ -36,7 +36,7 @@ struct DistributedResult {
 };
 
 /// Measures a scene as the plan says, for the benchmark of that name. Throws Error.
-DistributedResult measureScene(const std::string& program, const DistributedScene& source,
-    const device::Device& device, const DistributedPlan& plan);
+DistributedResult measureScene(const std::string& program, const DistributedScene& source, const device::Device& device,
+    const DistributedPlan& plan);
 
 } // namespace wedge::benchmark

@@ -15,7 +15,10 @@ constexpr const char* row = "{:<18}{:>10}{:>10}{:>8}{:>11}{:>11}{:>10}{:>10}{:>1
 std::string fixed(double value, int digits) { return fmt::format("{:.{}f}", value, digits); }
 std::string percent(double fraction) { return fmt::format("{:.1f} %", 100 * fraction); }
 template <class Form>
-std::string orNothing(const std::optional<double>& value, const Form& form) { return value ? form(*value) : ""; }
+std::string orNothing(const std::optional<double>& value, const Form& form)
+{
+    return value ? form(*value) : "";
+}
 
 std::string timeLine(const DistributedResult& result, std::size_t index)
 {
