@@ -84,6 +84,10 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
     if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
         return;
     }
+#ifndef WEDGE_SPECULAR
+    (void)specular;
+#endif
+    (void)shareOf;
     const uint size = wave.planeSize;
     const uint from = termTaken[p.i];
     const uint total = max(min(termWanted[p.i], wave.lastSample), from) - from;
