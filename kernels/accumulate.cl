@@ -5,8 +5,9 @@
 // Of each term a pixel keeps the mean texture k (reflectance; of lights times the unshadowed shading) and the mean
 // irradiance E (of lights: visibility) weighted by the texture, so that their product is the radiance of the term, and
 // neither holds what belongs to the other; besides, the plain mean of E's luminance, by which thesis (5.30) judges
-// whether texture and irradiance may be taken apart.
-#include "receivers.h"
+// whether texture and irradiance may be taken apart. As published (wave.published) E is the plain mean, that of lights holds
+// the light's form factor (5.14), k the lobe towards its centre (5.20), and the term's radiance L is kept apart.
+#include "light_sample.h"
 #include "shared/bsdf.h"
 #include "shared/camera.h"
 #include "shared/wave.h"
@@ -62,38 +63,124 @@ WEDGE_FN void storeRadiance(__global float* planes, uint size, WavePixel p, Vec3
     storeVec(planes, size, p.i, vecMad(vecScale(loadVec(planes, size, p.i), kept), sum, 1.0f / total));
 }
 
+/// Texture and irradiance of a receiver under one light as published; visible: of its samples, the fraction that sees it.
+WEDGE_FN void publishedReceiver(FrameParams frame, ReceiverData data, AreaLight light, uint r, Vec3 kd, Vec3 ks, float visible,
+                                Vec3* texture, float* irradiance)
+{
+    const Receiver at = loadReceiver(frame, data, r);
+    const Vec3 d = vecSub(light.centre, at.position);
+    const Vec3 lobe = vecScale(ks, lobeValue(at.lobe, at.normal, at.view, vecNormalize(d)));
+    *texture = vecMul(vecMad(lobe, kd, WEDGE_INV_PI), light.power);
+    *irradiance = visible * geometryTerm(at.normal, d, light.normal, light.twoSided);
+}
+
+/// What a pixel's new receivers add to one term.
+typedef struct {
+    Vec3 radiance, texture;
+    Vec3 weighted, weights; ///< irradiance times its weight, and the weights
+    float plain, counted;   ///< luminances of irradiances, and how many
+    float squared, textureSquared;
+} TermSums;
+
+WEDGE_FN TermSums noTermSums()
+{
+    TermSums s;
+    s.radiance = s.texture = s.weighted = s.weights = vec3(0.0f, 0.0f, 0.0f);
+    s.plain = s.counted = s.squared = s.textureSquared = 0.0f;
+    return s;
+}
+
+/// Adds a receiver of texture t, irradiance e of weight w, and radiance l.
+WEDGE_FN void addReceiver(TermSums* s, Vec3 t, Vec3 e, Vec3 w, Vec3 l)
+{
+    s->radiance = vecAdd(s->radiance, l);
+    s->texture = vecAdd(s->texture, t);
+    s->weighted = vecAdd(s->weighted, vecMul(w, e));
+    s->weights = vecAdd(s->weights, w);
+    s->plain += luminance(e);
+    s->counted += 1.0f;
+    s->squared += luminance(l) * luminance(l);
+    s->textureSquared += luminance(t) * luminance(t);
+}
+
+/// The planes of pixels that terms keep.
+typedef struct {
+    __global float *texture, *value, *plain, *squares, *textureSquares;
+    __global float* radiance; ///< of the term alone, as published
+} TermPlanes;
+
+/// known: what the mean value weighs so far; hits: receivers with irradiance so far; values: planes of value, 1 or 3.
+WEDGE_FN void storeTermSums(WaveParams wave, WavePixel p, uint pixels, TermPlanes planes, uint values, Vec3 known, float hits,
+                            const TermSums* s)
+{
+    const float before = (float)p.before, count = (float)p.count;
+    const Vec3 weights = vecAdd(known, s->weights);
+    planes.value[p.i] = weights.x > 0.0f ? (planes.value[p.i] * known.x + s->weighted.x) / weights.x : 0.0f;
+    if (values == 3u) {
+        const uint g = pixels + p.i, b = 2u * pixels + p.i;
+        planes.value[g] = weights.y > 0.0f ? (planes.value[g] * known.y + s->weighted.y) / weights.y : 0.0f;
+        planes.value[b] = weights.z > 0.0f ? (planes.value[b] * known.z + s->weighted.z) / weights.z : 0.0f;
+    }
+    storeMean(planes.texture, pixels, p.i, before, s->texture, count);
+    planes.plain[p.i] = s->counted > 0.0f ? meanWith(planes.plain[p.i], hits, s->plain, s->counted) : planes.plain[p.i];
+    planes.squares[p.i] = meanWith(planes.squares[p.i], before, s->squared, count);
+    planes.textureSquares[p.i] = meanWith(planes.textureSquares[p.i], before, s->textureSquared, count);
+    if (wave.published != 0u) {
+        storeMean(planes.radiance, pixels, p.i, before, s->radiance, count);
+    }
+}
+
+/// Samples of a term that the wave takes for a pixel.
+WEDGE_FN uint newTermSamples(WaveParams wave, uint taken, uint wanted) { return max(min(wanted, wave.lastSample), taken) - taken; }
+
+/// Parameters of the kernels that add to a term, and its planes made of them.
+#define WEDGE_TERM_PARAMETERS                                                                                           \
+    __global const uint *restrict termWanted, __global uint *restrict termTaken, __global float *restrict texture,      \
+        __global float *restrict value, __global float *restrict plain, __global float *restrict squares,               \
+        __global float *restrict textureSquares, __global float *restrict termRadiance, __global float *restrict extremes
+#define WEDGE_TERM_ARGUMENTS termPlanes(texture, value, plain, squares, textureSquares, termRadiance)
+
+WEDGE_FN TermPlanes termPlanes(__global float* texture, __global float* value, __global float* plain, __global float* squares,
+                               __global float* textureSquares, __global float* radiance)
+{
+    TermPlanes planes;
+    planes.texture = texture;
+    planes.value = value;
+    planes.plain = plain;
+    planes.squares = squares;
+    planes.textureSquares = textureSquares;
+    planes.radiance = radiance;
+    return planes;
+}
+
 /// One area light.
-/// in      wave's planes: objectId, diffuse, specular, sums (as area_light.cl has them), slopes, shareOf
+/// in      wave's planes: receivers, diffuse, specular, sums (as area_light.cl has them), slopes
+///         hits: the pixels' primary samples with a surface, before the wave
 ///         termTaken, termWanted: the pixels' samples of the light before and after the wave
 /// in out  of pixels: direct (radiance, 3), texture (3), value (visibility), plain (the same, unweighted), squares and
-///         textureSquares (mean squared luminance of a primary sample's radiance, and of its texture), extremes (slopes),
-///         weightOf (mean luminance of the texture), samples (of all terms), termTaken
+///         textureSquares (mean squared luminance of a primary sample's radiance, and of its texture), termRadiance (3, as
+///         published), extremes (slopes), weightOf (mean luminance of the texture), samples (of all terms), termTaken
 __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight light, uint starts,
                               __global const uint* restrict pixelFirst, __global const uint* restrict pixelCount,
-                              __global const uint* restrict taken, __global const uint* restrict shareOf,
-                              __global const uint* restrict objectId, __global const float* restrict diffuse,
+                              __global const uint* restrict taken, __global const uint* restrict hits,
+                              WEDGE_RECEIVER_PARAMETERS, __global const float* restrict diffuse,
                               __global const float* restrict specular, __global const float* restrict sums,
-                              __global const float* restrict slopes, __global const uint* restrict termWanted,
-                              __global uint* restrict termTaken, __global float* restrict direct,
-                              __global float* restrict texture, __global float* restrict value,
-                              __global float* restrict plain, __global float* restrict squares,
-                              __global float* restrict textureSquares, __global float* restrict extremes,
-                              __global float* restrict weightOf, __global uint* restrict samples)
+                              __global const float* restrict slopes, WEDGE_TERM_PARAMETERS,
+                              __global float* restrict weightOf, __global float* restrict direct,
+                              __global uint* restrict samples)
 {
     WavePixel p;
     if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
         return;
     }
-#ifndef WEDGE_SPECULAR
-    (void)specular;
-#endif
-    (void)shareOf;
-    const uint size = wave.planeSize;
-    const uint from = termTaken[p.i];
-    const uint total = max(min(termWanted[p.i], wave.lastSample), from) - from;
-    Vec3 radiance = vec3(0.0f, 0.0f, 0.0f), textures = radiance;
-    float weights = 0.0f, visible = 0.0f, visibility = 0.0f, squared = 0.0f, textureSquared = 0.0f, lit = 0.0f;
-    float sMin = extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY, sMax = extremes[frame.planeSize + p.i];
+    const ReceiverData data = WEDGE_RECEIVER_ARGUMENTS;
+    FrameParams receivers = frame;
+    receivers.planeSize = wave.planeSize;
+    receivers.receivers = wave.receivers;
+    const uint size = wave.planeSize, pixels = frame.planeSize;
+    const uint total = newTermSamples(wave, termTaken[p.i], termWanted[p.i]);
+    float sMin = extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY, sMax = extremes[pixels + p.i];
+    TermSums sum = noTermSums();
     for (uint k = 0u; k < p.count; ++k) {
         const uint r = p.first + k;
         const uint n = sharedSamples(k + 1u, p.count, total) - sharedSamples(k, p.count, total);
@@ -101,40 +188,36 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
             continue;
         }
         const float scale = 1.0f / (float)n;
-        const Vec3 kd = vecScale(loadVec(diffuse, size, r), WEDGE_INV_PI * scale);
-        Vec3 t = vecScale(kd, sums[r]), l = vecScale(kd, sums[size + r]);
+        const Vec3 kd = loadVec(diffuse, size, r), ks = loadVec(specular, size, r);
+        sMin = slopes[r] > 0.0f ? fmin(sMin, slopes[r]) : sMin;
+        sMax = fmax(sMax, slopes[size + r]);
+        Vec3 t, w = vec3(1.0f, 1.0f, 1.0f);
+        float seen;
+        if (wave.published != 0u) {
+            publishedReceiver(receivers, data, light, r, kd, ks, sums[size + r] * scale, &t, &seen);
+            addReceiver(&sum, t, vec3(seen, seen, seen), w, vecScale(t, seen));
+            continue;
+        }
+        t = vecScale(kd, WEDGE_INV_PI * scale * sums[r]);
+        Vec3 l = vecScale(kd, WEDGE_INV_PI * scale * sums[size + r]);
 #ifdef WEDGE_SPECULAR
-        const Vec3 ks = vecScale(loadVec(specular, size, r), scale);
-        t = vecMad(t, ks, sums[2u * size + r]);
-        l = vecMad(l, ks, sums[3u * size + r]);
+        t = vecMad(t, ks, scale * sums[2u * size + r]);
+        l = vecMad(l, ks, scale * sums[3u * size + r]);
 #endif
         t = vecMul(t, light.power);
         l = vecMul(l, light.power);
-        const float seen = luminance(l), unshadowed = luminance(t);
-        radiance = vecAdd(radiance, l);
-        textures = vecAdd(textures, t);
-        weights += unshadowed;
-        visible += seen;
-        squared += seen * seen;
-        textureSquared += unshadowed * unshadowed;
-        visibility += unshadowed > 0.0f ? seen / unshadowed : 0.0f;
-        lit += unshadowed > 0.0f ? 1.0f : 0.0f;
-        sMin = slopes[r] > 0.0f ? fmin(sMin, slopes[r]) : sMin;
-        sMax = fmax(sMax, slopes[size + r]);
+        const float weight = luminance(t);
+        seen = weight > 0.0f ? luminance(l) / weight : 0.0f;
+        addReceiver(&sum, t, vec3(seen, seen, seen), vec3(weight, weight, weight), l);
     }
-    const float before = (float)p.before, count = (float)p.count;
-    const float known = luminance(loadVec(texture, frame.planeSize, p.i)) * before;
-    storeRadiance(direct, frame.planeSize, p, radiance, starts);
-    storeMean(texture, frame.planeSize, p.i, before, textures, count);
-    value[p.i] = known + weights > 0.0f ? (value[p.i] * known + visible) / (known + weights) : 0.0f;
-    plain[p.i] = lit > 0.0f ? meanWith(plain[p.i], before, visibility, lit) : plain[p.i];
-    squares[p.i] = meanWith(squares[p.i], before, squared, count);
-    textureSquares[p.i] = meanWith(textureSquares[p.i], before, textureSquared, count);
-    weightOf[p.i] = meanWith(weightOf[p.i], before, weights, count);
+    const float known = wave.published != 0u ? (float)hits[p.i] : luminance(loadVec(texture, pixels, p.i)) * (float)p.before;
+    storeTermSums(wave, p, pixels, WEDGE_TERM_ARGUMENTS, 1u, vec3(known, known, known), (float)hits[p.i], &sum);
+    storeRadiance(direct, pixels, p, sum.radiance, starts);
+    weightOf[p.i] = luminance(loadVec(texture, pixels, p.i));
     extremes[p.i] = sMin < INFINITY ? sMin : 0.0f;
-    extremes[frame.planeSize + p.i] = sMax;
+    extremes[pixels + p.i] = sMax;
     samples[p.i] += total;
-    termTaken[p.i] = from + total;
+    termTaken[p.i] += total;
 }
 
 /// Point and directional lights: `lit`, the receivers' radiance from them.
@@ -155,70 +238,52 @@ __kernel void accumulateDelta(FrameParams frame, WaveParams wave, uint starts, _
 }
 
 /// One component of indirect light.
-/// in      wave's planes: objectId, reflectance (3), sums, reflectors (as indirect.cl has them), shareOf
-///         hits: the pixels' primary samples with a surface, before the wave
-/// in out  as of a light: value has 3 planes; reflectors: of pixels, like those of receivers; indirectSamples
-__kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint starts, __global const uint* restrict pixelFirst,
+/// in      ambient: 1 for ambient occlusion: the irradiance is what is open of the hemisphere, the texture white
+///         wave's planes: objectId, reflectance (3), sums, reflectors (as indirect.cl has them); hits, as of a light
+/// in out  as of a light: value has 3 planes; extremes: reflectors of pixels, like those of receivers; indirectSamples
+__kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint starts, uint ambient, __global const uint* restrict pixelFirst,
                               __global const uint* restrict pixelCount, __global const uint* restrict taken,
                               __global const uint* restrict hits, __global const uint* restrict objectId,
                               __global const float* restrict reflectance, __global const float* restrict sums,
-                              __global const float* restrict reflectors, __global const uint* restrict termWanted,
-                              __global uint* restrict termTaken, __global float* restrict indirect,
-                              __global float* restrict texture, __global float* restrict value,
-                              __global float* restrict plain, __global float* restrict squares,
-                              __global float* restrict textureSquares, __global float* restrict extremes,
-                              __global uint* restrict samples, __global uint* restrict indirectSamples)
+                              __global const float* restrict reflectors, WEDGE_TERM_PARAMETERS,
+                              __global float* restrict indirect, __global uint* restrict samples,
+                              __global uint* restrict indirectSamples)
 {
     WavePixel p;
     if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
         return;
     }
     const uint size = wave.planeSize, pixels = frame.planeSize;
-    const uint from = termTaken[p.i];
-    const uint total = max(min(termWanted[p.i], wave.lastSample), from) - from;
-    Vec3 radiance = vec3(0.0f, 0.0f, 0.0f), textures = radiance, weighted = radiance, weights = radiance;
-    float irradiance = 0.0f, squared = 0.0f, textureSquared = 0.0f, hit = 0.0f;
+    const uint total = newTermSamples(wave, termTaken[p.i], termWanted[p.i]);
     float nearest = extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY, farthest = extremes[pixels + p.i];
     float inverse = extremes[2u * pixels + p.i];
+    const float floor = wave.published != 0u ? 1.0f : WEDGE_LEAST_TEXTURE, own = wave.published != 0u ? 0.0f : 1.0f;
+    const Vec3 floors = vec3(floor, floor, floor);
+    TermSums sum = noTermSums();
     for (uint k = 0u; k < p.count; ++k) {
         const uint r = p.first + k;
         const uint n = sharedSamples(k + 1u, p.count, total) - sharedSamples(k, p.count, total);
         if (objectId[r] == 0u || n == 0u) {
             continue;
         }
-        const Vec3 e = vecScale(loadVec(sums, size, r), 1.0f / (float)n);
-        const Vec3 t = loadVec(reflectance, size, r);
-        const Vec3 l = vecMul(t, e);
-        const Vec3 w = vec3(t.x + WEDGE_LEAST_TEXTURE, t.y + WEDGE_LEAST_TEXTURE, t.z + WEDGE_LEAST_TEXTURE);
-        radiance = vecAdd(radiance, l);
-        textures = vecAdd(textures, t);
-        weights = vecAdd(weights, w);
-        weighted = vecAdd(weighted, vecMul(w, e));
-        irradiance += luminance(e);
-        squared += luminance(l) * luminance(l);
-        textureSquared += luminance(t) * luminance(t);
-        hit += 1.0f;
+        const Vec3 mean = vecScale(loadVec(sums, size, r), 1.0f / (float)n), white = vec3(1.0f, 1.0f, 1.0f);
+        const Vec3 e = ambient != 0u ? vecSub(white, mean) : mean;
+        const Vec3 t = ambient != 0u ? white : loadVec(reflectance, size, r);
+        addReceiver(&sum, t, e, vecMad(floors, t, own), vecMul(t, e));
         nearest = reflectors[r] > 0.0f ? fmin(nearest, reflectors[r]) : nearest;
         farthest = fmax(farthest, reflectors[size + r]);
         inverse += reflectors[2u * size + r];
     }
-    const float before = (float)p.before, count = (float)p.count, floor = WEDGE_LEAST_TEXTURE * (float)hits[p.i];
-    const Vec3 mean = loadVec(value, pixels, p.i), known = loadVec(texture, pixels, p.i);
-    storeVec(value, pixels, p.i,
-             vec3(meanWith(mean.x, known.x * before + floor, weighted.x, weights.x),
-                  meanWith(mean.y, known.y * before + floor, weighted.y, weights.y),
-                  meanWith(mean.z, known.z * before + floor, weighted.z, weights.z)));
-    storeRadiance(indirect, pixels, p, radiance, starts);
-    storeMean(texture, pixels, p.i, before, textures, count);
-    plain[p.i] = hit > 0.0f ? meanWith(plain[p.i], (float)hits[p.i], irradiance, hit) : plain[p.i];
-    squares[p.i] = meanWith(squares[p.i], before, squared, count);
-    textureSquares[p.i] = meanWith(textureSquares[p.i], before, textureSquared, count);
+    const float counted = (float)hits[p.i];
+    const Vec3 known = vecMad(vecScale(floors, counted), loadVec(texture, pixels, p.i), own * (float)p.before);
+    storeTermSums(wave, p, pixels, WEDGE_TERM_ARGUMENTS, 3u, known, counted, &sum);
+    storeRadiance(indirect, pixels, p, sum.radiance, starts);
     extremes[p.i] = nearest < INFINITY ? nearest : 0.0f;
     extremes[pixels + p.i] = farthest;
     extremes[2u * pixels + p.i] = inverse;
     samples[p.i] += total;
     indirectSamples[p.i] += total;
-    termTaken[p.i] = from + total;
+    termTaken[p.i] += total;
 }
 
 /// Where and what the receivers are, and what they emit; closes the wave.

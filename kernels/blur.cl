@@ -14,43 +14,43 @@ WEDGE_FN float blurWeight(float sigma, float there, float d)
 }
 
 /// One direction of the lens' filter. element: 1 along x, the stride along y.
-WEDGE_FN void blurLine(DistributedParams p, uint i, int before, int after, int element, __global const float* radii,
+WEDGE_FN void blurLine(DistributedParams p, uint i, int before, int after, int element, __global const float* lens,
                        __global const float* in, __global float* out)
 {
     const uint n = p.planeSize;
     Vec3 sum = loadVec(in, n, i);
-    const float sigma = p.blurWidth * radii[i];
+    const float sigma = lens[i];
     float weights = 1.0f;
     const int reach = min((int)(WEDGE_BLUR_CUT * sigma), WEDGE_MAX_RADIUS);
     for (int k = -min(reach, before); k <= min(reach, after); ++k) {
         const uint j = (uint)((int)i + k * element);
-        const float w = k != 0 ? blurWeight(sigma, p.blurWidth * radii[j], fabs((float)k)) : 0.0f;
+        const float w = k != 0 ? blurWeight(sigma, lens[j], fabs((float)k)) : 0.0f;
         weights += w;
         sum = w > 0.0f ? vecMad(sum, loadVec(in, n, j), w) : sum;
     }
     storeVec(out, n, i, vecScale(sum, 1.0f / weights));
 }
 
-__kernel void blurRows(DistributedParams p, __global const float* restrict radii, __global const float* restrict in,
+__kernel void blurRows(DistributedParams p, __global const float* restrict lens, __global const float* restrict in,
                        __global float* restrict out)
 {
     const uint x = p.x0 + get_global_id(0), y = p.y0 + get_global_id(1);
     if (x < p.x1 && y < p.y1) {
-        blurLine(p, pixelIndex(x, y, p.stride), (int)x, (int)(p.width - 1u - x), 1, radii, in, out);
+        blurLine(p, pixelIndex(x, y, p.stride), (int)x, (int)(p.width - 1u - x), 1, lens, in, out);
     }
 }
 
-__kernel void blurColumns(DistributedParams p, __global const float* restrict radii, __global const float* restrict in,
+__kernel void blurColumns(DistributedParams p, __global const float* restrict lens, __global const float* restrict in,
                           __global float* restrict out)
 {
     const uint x = p.x0 + get_global_id(0), y = p.y0 + get_global_id(1);
     if (x < p.x1 && y < p.y1) {
-        blurLine(p, pixelIndex(x, y, p.stride), (int)y, (int)(p.height - 1u - y), (int)p.stride, radii, in, out);
+        blurLine(p, pixelIndex(x, y, p.stride), (int)y, (int)(p.height - 1u - y), (int)p.stride, lens, in, out);
     }
 }
 
 /// Along the motion.
-__kernel void blurMotion(DistributedParams p, __global const float* restrict lengths, __global const float* restrict directions,
+__kernel void blurMotion(DistributedParams p, __global const float* restrict along, __global const float* restrict directions,
                          __global const float* restrict in, __global float* restrict out)
 {
     const uint x = p.x0 + get_global_id(0), y = p.y0 + get_global_id(1);
@@ -59,7 +59,7 @@ __kernel void blurMotion(DistributedParams p, __global const float* restrict len
     }
     const uint n = p.planeSize, i = pixelIndex(x, y, p.stride);
     const float dx = directions[i], dy = directions[n + i];
-    const float sigma = p.shutterWidth * lengths[i];
+    const float sigma = along[i];
     Vec3 sum = loadVec(in, n, i);
     float weights = 1.0f;
     const int reach = min((int)(WEDGE_BLUR_CUT * sigma), 4 * WEDGE_MAX_RADIUS);
@@ -70,7 +70,7 @@ __kernel void blurMotion(DistributedParams p, __global const float* restrict len
         }
         const uint j = pixelIndex((uint)px, (uint)py, p.stride);
         const float turn = dx * directions[j] + dy * directions[n + j];
-        const float w = turn > 0.9f ? blurWeight(sigma, p.shutterWidth * lengths[j], fabs((float)k)) : 0.0f;
+        const float w = turn > 0.9f ? blurWeight(sigma, along[j], fabs((float)k)) : 0.0f;
         weights += w;
         sum = w > 0.0f ? vecMad(sum, loadVec(in, n, j), w) : sum;
     }

@@ -86,20 +86,17 @@ __kernel void splitVariance(DistributedParams p, __global const float* restrict 
     ofIrradiance[i] = all - texturePart;
 }
 
-/// Pixels that the image-space filters of lens and shutter gather.
-WEDGE_FN float blurGather(DistributedParams p, float radius, float length)
+/// Pixels that the image-space filters of lens and shutter gather, of those' standard deviations in pixels.
+WEDGE_FN float blurGather(float lens, float along)
 {
-    const float s = p.blurWidth * radius, m = p.shutterWidth * length;
-    const float area = radius >= p.leastRadius ? 4.0f * 3.14159265f * s * s : 1.0f;
-    const float along = length >= p.leastRadius ? 3.5449077f * m : 1.0f;
-    return fmax(area, 1.0f) * fmax(along, 1.0f);
+    return fmax(4.0f * 3.14159265f * lens * lens, 1.0f) * fmax(3.5449077f * along, 1.0f);
 }
 
 /// Demand of a term's samples: (v / K / rays)^exponent, v at least varianceSpread of the largest within 5x5 pixels. effective:
-/// pixels that the irradiance's filter gathers; radii, lengths: of the image-space filters, pixels.
+/// pixels that the irradiance's filter gathers; lens, along: standard deviations of the image-space filters, pixels.
 __kernel void sampleDemand(DistributedParams p, __global const float* restrict variance, __global const float* restrict effective,
-                           __global const float* restrict beta, __global const float* restrict radii,
-                           __global const float* restrict lengths, __global float* restrict demand)
+                           __global const float* restrict beta, __global const float* restrict lens,
+                           __global const float* restrict along, __global float* restrict demand)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -112,7 +109,7 @@ __kernel void sampleDemand(DistributedParams p, __global const float* restrict v
         }
     }
     const float v = fmax(variance[i], p.varianceSpread * largest);
-    const float gathered = blurGather(p, radii[i], lengths[i]) * (beta[i] > 0.0f ? fmax(effective[i], 1.0f) : 1.0f);
+    const float gathered = blurGather(lens[i], along[i]) * (beta[i] > 0.0f ? fmax(effective[i], 1.0f) : 1.0f);
     demand[i] = v > 1e-30f ? pow(v / (gathered * p.rays), p.countExponent) : 0.0f;
 }
 
@@ -145,38 +142,42 @@ __kernel void scaleCounts(DistributedParams p, float scale, uint least, uint mos
     }
 }
 
-/// Radii of the circle of confusion and lengths and directions of the motion by which the image is filtered: those that all
-/// of a pixel has, else 0.
-/// out  radii (pixels), lengths (pixels), directions (2 planes, unit)
+/// Standard deviations in pixels of the image-space filters: of the blur that all of a pixel has, else 0.
+/// out  lens, along (the motion), directions of that (2 planes, unit)
 __kernel void blurs(DistributedParams p, __global const float* restrict confusion, __global const float* restrict motion,
-                    __global float* restrict radii, __global float* restrict lengths, __global float* restrict directions)
+                    __global const uint* restrict taken, __global float* restrict lens, __global float* restrict along,
+                    __global float* restrict directions)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
         return;
     }
+    const float n = p.samples > 0.0f ? p.samples : fmax((float)taken[i], 1.0f);
     const float r = leastConfusion(p, confusion, i);
-    radii[i] = r >= p.leastRadius ? r : 0.0f;
+    lens[i] = r >= p.leastRadius ? p.blurWidth * r * pow(n * r * r, -p.blurExponent) : 0.0f;
     const float mx = motion[i], my = motion[p.planeSize + i];
     const float length = sqrt(mx * mx + my * my);
     const bool one = length >= p.leastRadius && motion[2u * p.planeSize + i] <= p.oneVelocity * length;
-    lengths[i] = one ? length : 0.0f;
+    const float h = 0.5f * length;
+    along[i] = one ? p.shutterWidth * h * pow(n * h, -p.shutterExponent) : 0.0f;
     directions[i] = one ? mx / length : 1.0f;
     directions[p.planeSize + i] = one ? my / length : 0.0f;
 }
 
-/// Puts a term's filtered value in the place of its own: radiance += texture (filtered - value).
+/// Puts a term's filtered value in the place of its own: radiance += texture (filtered - value), which keeps what texture and
+/// irradiance have in common; as published k E in the place of L (5.32), termRadiance.
 __kernel void replaceTerm(DistributedParams p, __global const float* restrict texture, __global const float* restrict value,
                           __global const float* restrict filtered, __global const float* restrict beta,
-                          __global float* restrict radiance)
+                          __global const float* restrict termRadiance, __global float* restrict radiance)
 {
     uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i) || !(beta[i] > 0.0f)) {
+    if (!pixelOf(p, &x, &y, &i) || !(p.published != 0u ? beta[i] >= 0.0f : beta[i] > 0.0f)) {
         return;
     }
-    const Vec3 change = vecSub(termValueOf(p, filtered, i), termValueOf(p, value, i));
-    storeVec(radiance, p.planeSize, i,
-             vecAdd(loadVec(radiance, p.planeSize, i), vecMul(loadVec(texture, p.planeSize, i), change)));
+    const Vec3 k = loadVec(texture, p.planeSize, i), e = termValueOf(p, filtered, i);
+    const Vec3 change = p.published != 0u ? vecSub(vecMul(k, e), loadVec(termRadiance, p.planeSize, i))
+                                          : vecMul(k, vecSub(e, termValueOf(p, value, i)));
+    storeVec(radiance, p.planeSize, i, vecAdd(loadVec(radiance, p.planeSize, i), change));
 }
 
 /// beauty = emission + direct + indirect (3 planes each).
@@ -189,6 +190,18 @@ __kernel void addAll(DistributedParams p, __global const float* restrict emissio
     }
     const uint n = p.planeSize;
     storeVec(beauty, n, i, vecAdd(vecAdd(loadVec(emission, n, i), loadVec(direct, n, i)), loadVec(indirect, n, i)));
+}
+
+/// What terms are filtered in: copies of the radiances as sampled (3 planes each).
+__kernel void copyRadiance(DistributedParams p, __global const float* restrict directNoisy,
+                           __global const float* restrict indirectNoisy, __global float* restrict direct,
+                           __global float* restrict indirect)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        storeVec(direct, p.planeSize, i, loadVec(directNoisy, p.planeSize, i));
+        storeVec(indirect, p.planeSize, i, loadVec(indirectNoisy, p.planeSize, i));
+    }
 }
 
 __kernel void copyImage(DistributedParams p, __global const float* restrict in, __global float* restrict out)

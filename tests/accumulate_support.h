@@ -87,6 +87,7 @@ public:
     {
         waves.everyPixel([&](int x, int y) { wanted.at(x, y) = upTo(x, y); });
         lists = waves.oneWave(taken, wanted);
+        lists.wave.published = published;
         points.clear();
         for (std::size_t r = 0; r < lists.wave.receivers; ++r)
             points.push_back(seenPoint(kind, lists.x(r), lists.y(r), lists.samples[r]));
@@ -165,6 +166,7 @@ public:
     device::Buffer<std::uint32_t> primaryTaken, hits; ///< as accumulateSurfaces keeps them
     WaveLists lists;
     Receivers kind;
+    std::uint32_t published = 0; ///< as of WaveParams
     std::vector<SeenPoint> points; ///< of the wave's receivers
     device::Buffer<std::uint32_t> objectId;
 };

@@ -242,7 +242,7 @@ TEST_CASE("the host's schedule: waves of whole tiles in order, none too large, a
                 const shared::FrameParams params = render::frameParams(scene::Scene(), layout, window, 1);
                 shared::WaveParams settings {};
                 settings.sampler = WEDGE_SAMPLER_STRATIFIED;
-                settings.shading = WEDGE_SHADING_RATIO;
+                settings.published = 1;
                 const std::vector<shared::WaveParams> found = waves.schedule(bench.passes, params, frame, settings, last);
                 std::uint64_t receivers = 0, expected = 0;
                 std::uint32_t tile = 0;
@@ -254,7 +254,7 @@ TEST_CASE("the host's schedule: waves of whole tiles in order, none too large, a
                     REQUIRE(wave.tiles * WEDGE_TILE_PIXELS <= render::Waves::capacity);
                     REQUIRE(wave.lastSample == last);
                     REQUIRE(wave.sampler == settings.sampler);
-                    REQUIRE(wave.shading == settings.shading);
+                    REQUIRE(wave.published == settings.published);
                     receivers += wave.receivers;
                 }
                 REQUIRE(tile <= params.tileCount);

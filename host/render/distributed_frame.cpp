@@ -25,11 +25,12 @@ bool isDistributed(const Settings& settings, const scene::Scene& scene)
 }
 
 DistributedFrame::DistributedFrame(const TermContext& context, Waves& waves, const std::vector<std::unique_ptr<Term>>& terms,
-    std::size_t lights, const shared::CameraParams& camera)
+    std::size_t lights, const shared::CameraParams& camera, bool keepLayers)
     : c_(context)
     , waves_(waves)
     , terms_(terms)
     , camera_(camera)
+    , keepLayers_(keepLayers)
     , lit_(context.settings.integrator == Integrator::Path)
 {
     for (std::uint32_t i = 0; i < lights; ++i) {
@@ -85,12 +86,15 @@ bool DistributedFrame::adaptive()
     c_.frame.primaryWanted.fill(c_.passes.queue(), first);
     eachTerm([&](Term& term, std::uint32_t, float) { term.wanted.fill(c_.passes.queue(), first); });
     sample(c_.fullFrame, first, true, first);
-    widths();
-    demands();
-    counts();
-    analysed_ = true;
+    if (c_.settings.distributed.published) {
+        publishedCounts();
+    } else {
+        widths();
+        demands();
+        counts();
+    }
+    analysed_ = c_.settings.filtering != Filtering::None;
     sample(c_.sampledFrame, std::numeric_limits<std::uint32_t>::max(), false, c_.settings.spp - static_cast<double>(first));
-    filter();
     return true;
 }
 
@@ -98,7 +102,7 @@ bool DistributedFrame::sample(const shared::FrameParams& frame, std::uint32_t la
 {
     shared::WaveParams settings {};
     settings.sampler = static_cast<std::uint32_t>(c_.settings.sampler);
-    settings.shading = static_cast<std::uint32_t>(c_.settings.shading);
+    settings.published = c_.settings.method == Method::AxisAligned && c_.settings.distributed.published ? 1 : 0;
     const std::vector<shared::WaveParams> waves = waves_.schedule(c_.passes, frame, c_.frame, settings, last);
     for (const shared::WaveParams& wave : waves) {
         sampleWave(wave, slopes, workUnits / static_cast<double>(waves.size()));
@@ -134,7 +138,7 @@ void DistributedFrame::deltaLights(const shared::WaveParams& wave, bool starts)
         waves_.receiverParams(wave), 0.0, s.deltaLights, s.deltaLightCount, s.diameter, s.nodes, s.blocks, waves_.receivers(),
         waves_.diffuse, waves_.specular, waves_.radiance, waves_.radianceNoisy, waves_.rays);
     waves_.pixels(c_.passes, "accumulateDelta", wave, starts ? 1u : 0u, waves_.pixelFirst, waves_.pixelCount,
-        c_.frame.primaryTaken, waves_.objectId, waves_.radiance, c_.frame.direct);
+        c_.frame.primaryTaken, waves_.objectId, waves_.radiance, c_.frame.directNoisy);
 }
 
 shared::DistributedParams DistributedFrame::params(const image::Window& window) const
@@ -149,12 +153,15 @@ shared::DistributedParams DistributedFrame::params(const image::Window& window) 
     p.factoringError = d.factoringError;
     p.factoringRadius = static_cast<std::uint32_t>(d.factoringRadius);
     p.blurWidth = d.blurWidth;
+    p.blurExponent = d.blurExponent;
     p.shutterWidth = d.shutterWidth;
+    p.shutterExponent = d.shutterExponent;
     p.leastRadius = d.leastRadius;
     p.irradianceWidth = d.irradianceWidth;
     p.countExponent = d.countExponent;
     p.varianceSpread = d.varianceSpread;
     p.oneVelocity = d.oneVelocity;
+    p.published = d.published ? 1 : 0;
     p.never = d.factoring == Factoring::Never ? 1 : 0;
     return p;
 }
@@ -168,8 +175,43 @@ void DistributedFrame::widths()
         path.widths();
     }
     eachTerm([&](Term& term, std::uint32_t values, float) { factoredWidths(term, values); });
-    c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "blurs", params(c_.full()), 1, c_.frame.confusion,
-        c_.frame.motion, c_.frame.blurRadii, c_.frame.blurLengths, c_.frame.blurDirections);
+    blurWidths(static_cast<float>(c_.settings.spp));
+}
+
+void DistributedFrame::blurWidths(float samples)
+{
+    shared::DistributedParams p = params(c_.full());
+    p.samples = samples;
+    c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "blurs", p, 1, c_.frame.confusion, c_.frame.motion,
+        c_.frame.primaryTaken, c_.frame.lensWidth, c_.frame.motionWidth, c_.frame.motionDirection);
+}
+
+void DistributedFrame::publishedCounts()
+{
+    const DistributedSettings& d = c_.settings.distributed;
+    shared::DistributedParams p = params(c_.full());
+    const auto flags = [&](const Term& term, std::uint32_t values) {
+        p.values = values;
+        c_.passes.rows("widths", PassKind::Analysis, "published.cl", "publishedFlags", p, 1, term.texture, term.value,
+            term.radiance, c_.scratch.demand);
+    };
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        flags(*terms_[i], 1);
+        lights_[i].publishedWidths(p, c_.scratch.demand);
+    }
+    for (std::size_t i = 0; i < paths_.size(); ++i) {
+        flags(*terms_[lights_.size() + i], 3);
+        paths_[i].publishedWidths(p, c_.scratch.demand);
+    }
+    const auto most = static_cast<std::uint32_t>(d.maxSpp);
+    c_.passes.rows("counts", PassKind::Analysis, "published.cl", "publishedPrimary", p, 1, d.mu,
+        static_cast<float>(d.mixedPaths), c_.frame.confusion, c_.frame.motion, c_.frame.primaryDemand);
+    c_.passes.rows("counts", PassKind::Analysis, "published.cl", "publishedCounts", p, 1, most, c_.frame.primaryDemand,
+        c_.frame.primaryTaken, c_.frame.primaryTaken, c_.frame.primaryWanted);
+    eachTerm([&](Term& term, std::uint32_t, float) {
+        c_.passes.rows("counts", PassKind::Analysis, "published.cl", "publishedCounts", p, 1, most, term.demand,
+            c_.frame.primaryWanted, term.taken, term.wanted);
+    });
 }
 
 void DistributedFrame::factoredWidths(Term& term, std::uint32_t values)
@@ -193,7 +235,7 @@ void DistributedFrame::demandOf(Term& term, std::uint32_t values, float rays)
         filterParams(c_.settings, c_.fullFrame, c_.full()), c_.full(), c_.frame, c_.scratch.logs, term.beta, c_.scratch,
         c_.scratch.filtered);
     c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "sampleDemand", p, 1, c_.scratch.filtered,
-        c_.scratch.effective, term.beta, c_.frame.blurRadii, c_.frame.blurLengths, term.demand);
+        c_.scratch.effective, term.beta, c_.frame.lensWidth, c_.frame.motionWidth, term.demand);
     c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "addPlane", p, 1, c_.scratch.rowsSpread, c_.scratch.spread);
 }
 
@@ -206,7 +248,7 @@ void DistributedFrame::demands()
     // Nothing but lens and shutter averages textures.
     c_.scratch.demand.fill(c_.passes.queue(), -1.0f);
     c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "sampleDemand", p, 1, c_.scratch.spread,
-        c_.scratch.effective, c_.scratch.demand, c_.frame.blurRadii, c_.frame.blurLengths, c_.frame.primaryDemand);
+        c_.scratch.effective, c_.scratch.demand, c_.frame.lensWidth, c_.frame.motionWidth, c_.frame.primaryDemand);
     eachTerm([&](Term& term, std::uint32_t, float) {
         c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "atLeast", p, 1, c_.frame.primaryDemand, term.demand);
     });
@@ -261,38 +303,53 @@ void DistributedFrame::counts()
 
 void DistributedFrame::filter()
 {
-    shared::DistributedParams p = params(c_.window);
-    p.values = 1;
-    for (SoftShadows& light : lights_) {
-        light.filterDistributed(p);
-    }
-    p.values = 3;
-    for (Indirect& path : paths_) {
-        path.filterDistributed(p);
+    shared::DistributedParams p = params(c_.full());
+    c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "copyRadiance", p, 1, c_.frame.directNoisy,
+        c_.frame.indirectNoisy, c_.frame.direct, c_.frame.indirect);
+    if (analysed_) {
+        p.values = 1;
+        for (SoftShadows& light : lights_) {
+            light.filterDistributed(p);
+        }
+        p.values = 3;
+        for (Indirect& path : paths_) {
+            path.filterDistributed(p);
+        }
     }
 }
 
 void DistributedFrame::compose()
 {
-    c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "addAll", params(c_.window), 1, c_.frame.emission,
+    filter();
+    if (!lit_) {
+        c_.frame.emission.fill(c_.passes.queue(), 0.0f);
+    }
+    c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "addAll", params(c_.full()), 1, c_.frame.emission,
         c_.frame.direct, c_.frame.indirect, c_.frame.beauty);
-    if (analysed_ && c_.settings.distributed.blur) {
-        blur();
+    if (!analysed_ || !c_.settings.distributed.blur) {
+        return;
+    }
+    blurWidths(0.0f);
+    blur(c_.frame.beauty);
+    if (keepLayers_) {
+        for (device::Buffer<float>* part : { &c_.frame.emission, &c_.frame.direct, &c_.frame.indirect }) {
+            blur(*part);
+        }
     }
 }
 
-void DistributedFrame::blur()
+void DistributedFrame::blur(device::Buffer<float>& image)
 {
+    const char* pass = "filter of lens and shutter";
     const shared::DistributedParams p = params(c_.full());
-    c_.passes.rows("filter of lens and shutter", PassKind::Filter, "blur.cl", "blurRows", p, 1, c_.frame.blurRadii,
-        c_.frame.beauty, c_.scratch.rowsFiltered);
-    c_.passes.rows("filter of lens and shutter", PassKind::Filter, "blur.cl", "blurColumns", p, 1, c_.frame.blurRadii,
-        c_.scratch.rowsFiltered, c_.frame.beauty);
+    if (camera_.apertureRadius > 0) {
+        c_.passes.rows(pass, PassKind::Filter, "blur.cl", "blurRows", p, 1, c_.frame.lensWidth, image, c_.scratch.rowsFiltered);
+        c_.passes.rows(pass, PassKind::Filter, "blur.cl", "blurColumns", p, 1, c_.frame.lensWidth, c_.scratch.rowsFiltered, image);
+    }
     if (camera_.shutter != 0) {
-        c_.passes.rows("filter of lens and shutter", PassKind::Filter, "blur.cl", "blurMotion", p, 1, c_.frame.blurLengths,
-            c_.frame.blurDirections, c_.frame.beauty, c_.scratch.filtered);
-        c_.passes.rows("filter of lens and shutter", PassKind::Filter, "distributed.cl", "copyImage", p, 1,
-            c_.scratch.filtered, c_.frame.beauty);
+        c_.passes.rows(pass, PassKind::Filter, "distributed.cl", "copyImage", p, 1, image, c_.scratch.filtered);
+        c_.passes.rows(pass, PassKind::Filter, "blur.cl", "blurMotion", p, 1, c_.frame.motionWidth, c_.frame.motionDirection,
+            c_.scratch.filtered, image);
     }
 }
 

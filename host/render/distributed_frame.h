@@ -20,8 +20,9 @@ bool isDistributed(const Settings& settings, const scene::Scene& scene);
 class DistributedFrame {
 public:
     /// terms: of `lights` area lights, then of the components of indirect light; each receiver serves them all.
+    /// keepLayers: filters emission, direct and indirect apart, too, so that they sum to the beauty.
     DistributedFrame(const TermContext& context, Waves& waves, const std::vector<std::unique_ptr<Term>>& terms,
-        std::size_t lights, const shared::CameraParams& camera);
+        std::size_t lights, const shared::CameraParams& camera, bool keepLayers);
 
     /// Returns false if cancelled while sampling; the image is then made of what was sampled until then.
     bool render();
@@ -37,12 +38,14 @@ private:
     void deltaLights(const shared::WaveParams& wave, bool starts);
     void widths();
     void factoredWidths(Term& term, std::uint32_t values);
+    void publishedCounts();
     void demands();
     void demandOf(Term& term, std::uint32_t values, float rays);
     void counts();
     void filter();
     void compose();
-    void blur();
+    void blurWidths(float samples);
+    void blur(device::Buffer<float>& image);
     shared::DistributedParams params(const image::Window& window) const;
     /// Calls f(term, planes of its value, rays of a sample) for each term.
     template <class F>
@@ -54,6 +57,7 @@ private:
     shared::CameraParams camera_;
     std::vector<SoftShadows> lights_;
     std::vector<Indirect> paths_;
+    bool keepLayers_;
     bool lit_;
     bool analysed_ = false;
 };

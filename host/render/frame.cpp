@@ -96,9 +96,9 @@ Frame::Frame(const device::Device& device, device::TimedQueue& queue, const Plan
     , hits(device, several ? planes.size : 0, "hits")
     , confusion(device, several ? 2 * planes.size : 0, "circles of confusion")
     , motion(device, several ? 3 * planes.size : 0, "motion")
-    , blurRadii(device, several ? planes.size : 0, "blur radii")
-    , blurLengths(device, several ? planes.size : 0, "blur lengths")
-    , blurDirections(device, several ? 2 * planes.size : 0, "blur directions")
+    , lensWidth(device, several ? planes.size : 0, "lens filter width")
+    , motionWidth(device, several ? planes.size : 0, "motion filter width")
+    , motionDirection(device, several ? 2 * planes.size : 0, "motion direction")
     , primaryDemand(device, several ? planes.size : 0, "primary demand")
 {
     // Padding is read by gathers: it has to be finite, and objectId 0 there stays for good.
@@ -134,13 +134,13 @@ void Frame::clear(device::TimedQueue& queue)
 bool TermShape::holds(const TermShape& other) const
 {
     return sums >= other.sums && values >= other.values && extremes >= other.extremes && analysed >= other.analysed
-        && distributed >= other.distributed;
+        && distributed >= other.distributed && published >= other.published;
 }
 
 TermShape TermShape::with(const TermShape& other) const
 {
     return { std::max(sums, other.sums), std::max(values, other.values), std::max(extremes, other.extremes),
-        analysed || other.analysed, distributed || other.distributed };
+        analysed || other.analysed, distributed || other.distributed, published || other.published };
 }
 
 void Term::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const TermShape& shape)
@@ -149,7 +149,8 @@ void Term::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const TermS
         { { "sums", shape.sums }, { "value", shape.values }, { "samples taken", 1 }, { "samples wanted", 1 },
             { "slopes and distances", shape.extremes }, { "filter width", shape.analysed ? 1u : 0u } });
     if (shape.distributed) {
-        planPlanes(plan, layout, { { "texture", 3 }, { "plain mean", 1 }, { "squares", 1 }, { "texture squares", 1 }, { "demand", 1 } });
+        planPlanes(plan, layout, { { "texture", 3 }, { "plain mean", 1 }, { "squares", 1 }, { "texture squares", 1 }, { "demand", 1 },
+                { "radiance", shape.published ? 3u : 0u } });
     }
 }
 
@@ -166,6 +167,7 @@ Term::Term(const device::Device& device, device::TimedQueue& queue, const PlaneL
     , squares(device, planes.distributed ? layout.size : 0, "squares")
     , textureSquares(device, planes.distributed ? layout.size : 0, "texture squares")
     , demand(device, planes.distributed ? layout.size : 0, "demand")
+    , radiance(device, planes.published ? 3 * layout.size : 0, "radiance of the term")
 {
     beta.fill(queue, 0.0f);
     wanted.fill(queue, 0u);
@@ -215,6 +217,7 @@ void Term::clear(device::TimedQueue& queue)
         plain.fill(queue, 0.0f);
         squares.fill(queue, 0.0f);
         textureSquares.fill(queue, 0.0f);
+        radiance.fill(queue, 0.0f);
     }
 }
 

@@ -56,7 +56,7 @@ public:
     device::Buffer<std::uint32_t> hits; ///< those of them that met a surface
     device::Buffer<float> confusion; ///< planes: least and largest signed radius of the circle of confusion, pixels
     device::Buffer<float> motion; ///< planes: pixels that the surface moves while the shutter is open; largest difference
-    device::Buffer<float> blurRadii, blurLengths, blurDirections; ///< by which the image is filtered, see distributed.cl
+    device::Buffer<float> lensWidth, motionWidth, motionDirection; ///< of the image's filters, see blurs() of distributed.cl
     device::Buffer<float> primaryDemand;
 
     /// What kernels take for WEDGE_RECEIVER_PARAMETERS, the pixels being the receivers.
@@ -75,6 +75,7 @@ struct TermShape {
     std::uint32_t extremes = 0; ///< slopes, or distances of reflectors
     bool analysed = false; ///< with the buffers of analysis and filter
     bool distributed = false; ///< with those of pixels of several receivers, whose sums are the receivers' own
+    bool published = false; ///< of those, with the radiance of the term alone
 
     /// Whether buffers of this shape serve terms of the other.
     bool holds(const TermShape& other) const;
@@ -101,6 +102,13 @@ public:
     device::Buffer<float> beta; ///< metres
     device::Buffer<float> texture, plain, squares, textureSquares; ///< of distributed frames, see accumulate.cl
     device::Buffer<float> demand; ///< likewise: of samples
+    device::Buffer<float> radiance; ///< likewise, as published: of the term alone
+
+    /// What kernels take for WEDGE_TERM_PARAMETERS.
+    auto accumulated() const
+    {
+        return std::tie(wanted, taken, texture, value, plain, squares, textureSquares, radiance, extremes);
+    }
 };
 
 /// What analysis and filter need besides, for one term after the other.

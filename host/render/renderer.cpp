@@ -34,8 +34,9 @@ std::vector<TermShape> termShapes(const Settings& settings, const scene::Scene& 
     }
     const bool analysed = needsAnalysis(settings);
     const std::size_t lights = settings.integrator == Integrator::Path ? scene.areaLights.size() : 0;
-    std::vector<TermShape> shapes(lights, { 1, 1, 2, analysed, true });
-    shapes.resize(lights + indirectTerms(settings, specular).size(), { 0, 3, 3, analysed, true });
+    const bool published = analysed && settings.distributed.published;
+    std::vector<TermShape> shapes(lights, { 1, 1, 2, analysed, true, published });
+    shapes.resize(lights + indirectTerms(settings, specular).size(), { 0, 3, 3, analysed, true, published });
     return shapes;
 }
 
@@ -263,7 +264,7 @@ bool Renderer::distributedPasses(const TermContext& context, bool keepWidths)
 {
     const bool lit = context.settings.integrator == Integrator::Path;
     DistributedFrame distributed(context, *waves_, terms_, lit ? deviceScene_->areaLightList.size() : 0,
-        cameraParams(scene_, frame_->layout.height, context.settings.antialias));
+        cameraParams(scene_, frame_->layout.height, context.settings.antialias), keepWidths);
     const bool complete = distributed.render();
     for (std::size_t i = 0; keepWidths && i < terms_.size(); ++i) {
         keepPlanes(context.settings, *terms_[i], distributed.analysed());

@@ -23,7 +23,7 @@ constexpr float widthExponent = 1.0f / 3.0f;
 constexpr float evenSamples = 5.0f;
 // The same for indirect light.
 constexpr float referenceIndirectMu = 1.0f;
-constexpr float publishedMu = 2.0f, publishedIndirectMu = 0.9f;
+constexpr float publishedMu = 2.0f, publishedIndirectMu = 0.9f, publishedDistributedMu = 1.0f;
 constexpr int largestSpp = 1 << 20;
 
 void requireRange(bool inRange, const std::string& what, const std::string& value, const std::string& range)
@@ -93,6 +93,14 @@ Settings asPublished(std::optional<float> wanted)
     in.meanFraction = 0.0f;
     in.counts = IndirectCounts::Spectrum;
     in.maxSpp = static_cast<int>(std::lround(std::clamp(100.0f * in.mu, 100.0f, 1e5f)));
+    DistributedSettings& d = s.distributed;
+    d.published = true;
+    d.firstPaths = 16;
+    d.mu = wanted.value_or(publishedDistributedMu);
+    d.blurWidth = 0.177f; // exp(-16 d^2 / r^2)
+    d.blurExponent = 0.0f;
+    d.shutterWidth = 0.177f;
+    d.shutterExponent = 0.0f;
     return s;
 }
 

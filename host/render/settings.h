@@ -100,12 +100,17 @@ enum class Factoring {
 struct DistributedSettings {
     int firstPaths = 8; ///< primary samples of the first pass, each with one secondary of each term
     int maxSpp = 512; ///< most samples of a pixel and term
+    bool published = false; ///< terms, widths and counts of chapter 5 and appendix B; spp has no say
+    float mu = 1.0f; ///< as published: bandwidths beyond the critical ones (5.29)
+    int mixedPaths = 64; ///< as published: primary samples where motions differ
     Factoring factoring = Factoring::Error;
     float factoringError = 0.01f; ///< radiance
     int factoringRadius = 2; ///< pixels: errors are averaged over a square
     bool blur = true; ///< the image is filtered by what lens and shutter blur
-    float blurWidth = 0.18f; ///< standard deviation of that filter in radii of the circle of confusion
-    float shutterWidth = 0.1f; ///< the same in lengths of the motion
+    float blurWidth = 0.65f; ///< standard deviation of that filter: blurWidth r (n r^2)^-blurExponent pixels, of the circle
+    float blurExponent = 0.176f; ///< of confusion's radius r and n primary samples
+    float shutterWidth = 0.86f; ///< likewise shutterWidth h (n h)^-shutterExponent, of half the motion's length, h
+    float shutterExponent = 0.25f;
     float leastRadius = 2.0f; ///< pixels
     float irradianceWidth = 0.18f; ///< irradiances are filtered at least as far
     float countExponent = 0.5f;

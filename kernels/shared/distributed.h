@@ -12,8 +12,10 @@ typedef struct {
     uint width, height, stride, planeSize;
     float factoringError;    ///< largest |L - k E| of pixels whose irradiance is filtered, thesis (5.30)
     uint factoringRadius;    ///< pixels: the error is the mean of the signed one over a square of this radius
-    float blurWidth;         ///< standard deviation of the image-space filter in radii of the circle of confusion
-    float shutterWidth;      ///< the same in lengths of the motion
+    float blurWidth;         ///< standard deviation of the image-space filter: blurWidth r (n r^2)^-blurExponent pixels, of
+    float blurExponent;      ///< the circle of confusion's radius r and n primary samples
+    float shutterWidth;      ///< likewise shutterWidth h (n h)^-shutterExponent of half the motion's length, h
+    float shutterExponent;
     float leastRadius;       ///< pixels: smaller circles of confusion and motions are not filtered
     float irradianceWidth;   ///< of the irradiance's filter: its least standard deviation in radii of the circle of confusion
     float countExponent;     ///< counts ~ (variance / gathered pixels / rays of a sample)^this
@@ -22,6 +24,9 @@ typedef struct {
     uint values;             ///< planes of the term's value: 1, visibility; 3, radiance
     float oneVelocity;       ///< largest difference of motions in a pixel that counts as one, as a fraction of the motion
     uint never;              ///< 1: textures and irradiances are never taken apart
+    float samples;           ///< primary samples that a pixel is expected to have; 0: those that it has
+    uint published;          ///< 1: terms are kept as published, see accumulate.cl
+    uint padding[2];
 } DistributedParams;
 
 WEDGE_SHARED_END

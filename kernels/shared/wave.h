@@ -14,7 +14,7 @@ typedef struct {
     uint lastSample; ///< primary samples that a pixel has at most when the wave is done
     uint sampler;    ///< WEDGE_SAMPLER_*
     uint firstPass;  ///< primary samples of a first pass with strata of its own; 0: none
-    uint shading;    ///< WEDGE_SHADING_*, of lights
+    uint published;  ///< 1: terms are kept as the thesis has them, see accumulate.cl
 } WaveParams;
 
 /// Of `total` samples that `count` receivers of a pixel share evenly, those that the first `index` of them have.

@@ -229,19 +229,26 @@ void Indirect::sampleWave(Waves& waves, const shared::WaveParams& wave, bool sta
         s.nodes, s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, waves.receivers(), waves.specular, waves.wanted,
         std::numeric_limits<std::uint32_t>::max(), waves.sums, waves.taken, waves.value, waves.extremes, waves.rays,
         waves.pathRays);
-    waves.pixels(c_.passes, "accumulatePaths", wave, starts ? 1u : 0u, waves.pixelFirst, waves.pixelCount,
-        c_.frame.primaryTaken, c_.frame.hits, waves.objectId, reflectance, waves.sums, waves.extremes, term_.wanted,
-        term_.taken, c_.frame.indirect, term_.texture, term_.value, term_.plain, term_.squares, term_.textureSquares,
-        term_.extremes, c_.frame.samples, c_.frame.indirectSamples);
+    waves.pixels(c_.passes, "accumulatePaths", wave, starts ? 1u : 0u,
+        component_ == Component::Ambient ? 1u : 0u, waves.pixelFirst, waves.pixelCount, c_.frame.primaryTaken, c_.frame.hits,
+        waves.objectId, reflectance, waves.sums, waves.extremes, term_.accumulated(),
+        c_.frame.indirectNoisy, c_.frame.samples, c_.frame.indirectSamples);
+}
+
+void Indirect::publishedWidths(const shared::DistributedParams& params, const device::Buffer<float>& flags)
+{
+    c_.passes.rows("widths", PassKind::Analysis, "published.cl", "publishedReflectors", params, 1, c_.settings.distributed.mu,
+        static_cast<std::uint32_t>(component_), flags, term_.extremes, c_.frame.gloss, c_.frame.confusion, c_.frame.pixelSize,
+        c_.frame.objectId, term_.beta, term_.demand);
+    analysed_ = true;
 }
 
 void Indirect::filterDistributed(const shared::DistributedParams& params)
 {
     gaussianFilter(c_.passes, { "filter of indirect", PassKind::Filter, "filter_indirect.cl" },
-        filterParams(c_.settings, c_.fullFrame, c_.window), c_.window, c_.frame, term_.value, term_.beta, c_.scratch,
+        filterParams(c_.settings, c_.fullFrame, c_.full()), c_.full(), c_.frame, term_.value, term_.beta, c_.scratch,
         c_.scratch.filtered);
-    c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "replaceTerm", params, 1, term_.texture, term_.value,
-        c_.scratch.filtered, term_.beta, c_.frame.indirect);
+    replaceTerm(c_, term_, params, c_.frame.indirect);
 }
 
 } // namespace wedge::render

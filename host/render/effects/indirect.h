@@ -32,7 +32,7 @@ std::vector<IndirectTerm> indirectTerms(const Settings& settings, bool specular)
 class Indirect {
 public:
     /// What a component's term needs. analysed: with filter.
-    static TermShape termShape(bool analysed) { return { 4, 3, 3, analysed, false }; }
+    static TermShape termShape(bool analysed) { return { 4, 3, 3, analysed, false, false }; }
 
     Indirect(const TermContext& context, Term& term, Component component);
 
@@ -43,6 +43,7 @@ public:
     /// As SoftShadows has them.
     void sampleWave(Waves& waves, const shared::WaveParams& wave, bool starts, double workUnits);
     void widths();
+    void publishedWidths(const shared::DistributedParams& params, const device::Buffer<float>& flags);
     void filterDistributed(const shared::DistributedParams& params);
 
     /// Whether the component got widths: not so in plain Monte Carlo, nor if its first pass was cancelled.

@@ -30,7 +30,7 @@ float gaussianScale(float sigma)
 TermShape SoftShadows::termShape(bool specular, bool analysed)
 {
     const std::uint32_t channels = specular ? 2 : 1;
-    return { 2 * channels, channels, 2, analysed, false };
+    return { 2 * channels, channels, 2, analysed, false, false };
 }
 
 SoftShadows::SoftShadows(const TermContext& context, Term& term, std::uint32_t index)
@@ -256,18 +256,25 @@ void SoftShadows::sampleWave(Waves& waves, const shared::WaveParams& wave, bool 
             std::numeric_limits<std::uint32_t>::max(), waves.sums, waves.taken, waves.value, waves.rays);
     }
     waves.pixels(c_.passes, "accumulateLight", wave, light(), starts ? 1u : 0u, waves.pixelFirst, waves.pixelCount,
-        c_.frame.primaryTaken, waves.shareOf, waves.objectId, waves.diffuse, waves.specular, waves.sums, waves.extremes,
-        term_.wanted, term_.taken, c_.frame.direct, term_.texture, term_.value, term_.plain, term_.squares,
-        term_.textureSquares, term_.extremes, term_.sums, c_.frame.samples);
+        c_.frame.primaryTaken, c_.frame.hits, waves.receivers(), waves.diffuse, waves.specular, waves.sums, waves.extremes,
+        term_.accumulated(), term_.sums, c_.frame.directNoisy, c_.frame.samples);
+}
+
+void SoftShadows::publishedWidths(const shared::DistributedParams& params, const device::Buffer<float>& flags)
+{
+    // The light's effective half extent is two standard deviations, as in chapter 3.
+    c_.passes.rows("widths", PassKind::Analysis, "published.cl", "publishedShadows", params, 1, c_.settings.distributed.mu,
+        2.0f * light().sigma, flags, term_.extremes, c_.frame.confusion, c_.frame.pixelSize, c_.frame.objectId, term_.beta,
+        term_.demand);
+    analysed_ = true;
 }
 
 void SoftShadows::filterDistributed(const shared::DistributedParams& params)
 {
     gaussianFilter(c_.passes, { "filter", PassKind::Filter, "filter_variance.cl" },
-        filterParams(c_.settings, c_.fullFrame, light(), c_.window), c_.window, c_.frame, term_.value, term_.beta, c_.scratch,
+        filterParams(c_.settings, c_.fullFrame, light(), c_.full()), c_.full(), c_.frame, term_.value, term_.beta, c_.scratch,
         c_.scratch.filtered);
-    c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "replaceTerm", params, 1, term_.texture, term_.value,
-        c_.scratch.filtered, term_.beta, c_.frame.direct);
+    replaceTerm(c_, term_, params, c_.frame.direct);
 }
 
 } // namespace wedge::render

@@ -26,6 +26,8 @@ public:
     void sampleWave(Waves& waves, const shared::WaveParams& wave, bool slopes, bool starts, double workUnits);
     /// After a first pass of slopes: term.beta, metres.
     void widths();
+    /// The same as published (5.18), and term.demand by (5.25), (5.27); flags: 1 where the factors are taken apart.
+    void publishedWidths(const shared::DistributedParams& params, const device::Buffer<float>& flags);
     /// Replaces what frame.direct has of the light by the filtered term times its texture.
     void filterDistributed(const shared::DistributedParams& params);
 

@@ -4,6 +4,7 @@
 #include "host/render/frame.h"
 #include "host/render/passes.h"
 #include "host/render/settings.h"
+#include "kernels/shared/distributed.h"
 
 namespace wedge::render {
 
@@ -23,5 +24,9 @@ struct TermContext {
         return { 0, 0, static_cast<int>(frame.layout.width), static_cast<int>(frame.layout.height) };
     }
 };
+
+/// In a distributed frame, puts the term's filtered value, scratch.filtered, in the place of its own in a radiance.
+void replaceTerm(
+    const TermContext& context, const Term& term, const shared::DistributedParams& params, device::Buffer<float>& radiance);
 
 } // namespace wedge::render
