@@ -238,9 +238,10 @@ __kernel void accumulateDelta(FrameParams frame, WaveParams wave, uint starts, _
 }
 
 /// One component of indirect light.
-/// in      wave's planes: objectId, reflectance (3), sums, reflectors (as indirect.cl has them); hits, as of a light
+/// in      ambient: 1 for ambient occlusion: the irradiance is what is open of the hemisphere, the texture white
+///         wave's planes: objectId, reflectance (3), sums, reflectors (as indirect.cl has them); hits, as of a light
 /// in out  as of a light: value has 3 planes; extremes: reflectors of pixels, like those of receivers; indirectSamples
-__kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint starts, __global const uint* restrict pixelFirst,
+__kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint starts, uint ambient, __global const uint* restrict pixelFirst,
                               __global const uint* restrict pixelCount, __global const uint* restrict taken,
                               __global const uint* restrict hits, __global const uint* restrict objectId,
                               __global const float* restrict reflectance, __global const float* restrict sums,
@@ -265,8 +266,9 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint starts, _
         if (objectId[r] == 0u || n == 0u) {
             continue;
         }
-        const Vec3 e = vecScale(loadVec(sums, size, r), 1.0f / (float)n);
-        const Vec3 t = loadVec(reflectance, size, r);
+        const Vec3 mean = vecScale(loadVec(sums, size, r), 1.0f / (float)n), white = vec3(1.0f, 1.0f, 1.0f);
+        const Vec3 e = ambient != 0u ? vecSub(white, mean) : mean;
+        const Vec3 t = ambient != 0u ? white : loadVec(reflectance, size, r);
         addReceiver(&sum, t, e, vecMad(floors, t, own), vecMul(t, e));
         nearest = reflectors[r] > 0.0f ? fmin(nearest, reflectors[r]) : nearest;
         farthest = fmax(farthest, reflectors[size + r]);

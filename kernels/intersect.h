@@ -72,6 +72,7 @@ WEDGE_FN ShearedVertices shear(const TraversalRay* ray, __global const float* ve
 /// One coordinate of the edges between two vertices at the time.
 WEDGE_FN float8 edge(uint axis, __global const float* from, __global const float* to, float time)
 {
+    (void)time; // where nothing moves
     return WEDGE_CORNERS8(to + axis, time) - WEDGE_CORNERS8(from + axis, time);
 }
 

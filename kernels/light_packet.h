@@ -32,6 +32,8 @@ WEDGE_FN float receiverTime(const ReceiverPacket* r, uint lane)
 #ifdef WEDGE_MOTION
     return r->time[lane];
 #else
+    (void)r;
+    (void)lane;
     return 0.0f;
 #endif
 }

@@ -43,6 +43,10 @@ WEDGE_INLINE void setTime(RayPacket* packet, uint lane, float time)
 {
 #ifdef WEDGE_MOTION
     packet->time[lane] = time;
+#else
+    (void)packet;
+    (void)lane;
+    (void)time;
 #endif
 }
 
@@ -52,6 +56,8 @@ WEDGE_INLINE float timeOf(const RayPacket* packet, uint lane)
 #ifdef WEDGE_MOTION
     return packet->time[lane];
 #else
+    (void)packet;
+    (void)lane;
     return 0.0f;
 #endif
 }

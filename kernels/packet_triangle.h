@@ -39,6 +39,7 @@ WEDGE_FN TurnedPoints loadTurned(__global const float* vertex, const TestAxes* a
 WEDGE_FN WEDGE_PACKET_COORDINATE packetEdge(__global const float* from, __global const float* to, uint i,
     const TraversalPacket* rays)
 {
+    (void)rays; // where nothing moves
     return WEDGE_CORNER(to, i, WEDGE_TIME_OF(rays)) - WEDGE_CORNER(from, i, WEDGE_TIME_OF(rays));
 }
 

@@ -103,6 +103,8 @@ WEDGE_FN bool prepareRay(TraversalRay* ray, float unit, Vec3 origin, Vec3 direct
     choosePlanes(ray);
 #ifdef WEDGE_MOTION
     ray->time = boundedTime(time);
+#else
+    (void)time;
 #endif
     // Not finite if any of them is not; some compilers take x * 0 == 0 for true. Last, as the tests do not wait for it.
     const float sum = origin.x + origin.y + origin.z + direction.x + direction.y + direction.z;

@@ -76,6 +76,7 @@ WEDGE_FN Vec3 positionAt(SurfaceData data, uint vertex, float time)
 #ifdef WEDGE_MOTION
     return vecMad(open, vecSub(loadVertex(data.positionsAtClose, vertex), open), time);
 #else
+    (void)time;
     return open;
 #endif
 }
@@ -88,6 +89,7 @@ WEDGE_FN Vec3 normalAt(SurfaceData data, uint vertex, float time)
     const Vec3 n = vecMad(open, vecSub(loadVertex(data.normalsAtClose, vertex), open), time);
     return vecDot(n, n) > 1e-12f ? vecNormalize(n) : vec3(0.0f, 0.0f, 0.0f);
 #else
+    (void)time;
     return open;
 #endif
 }
@@ -105,6 +107,8 @@ WEDGE_FN Vec3 hitMotion(SurfaceData data, Hit hit)
     }
     return sum;
 #else
+    (void)data;
+    (void)hit;
     return vec3(0.0f, 0.0f, 0.0f);
 #endif
 }

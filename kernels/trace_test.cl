@@ -7,6 +7,9 @@ WEDGE_FN float rayTime(__global const float* rays, uint count, uint i)
 #ifdef WEDGE_MOTION
     return rays[8 * count + i];
 #else
+    (void)rays;
+    (void)count;
+    (void)i;
     return 0.0f;
 #endif
 }

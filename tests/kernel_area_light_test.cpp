@@ -11,7 +11,7 @@ namespace {
 
 shared::SampleParams sampling(std::uint32_t shading, std::uint32_t sampler, std::uint32_t light = 0)
 {
-    return { shading, sampler, light, WEDGE_FIRST_PASS_RAYS, WEDGE_LIGHTS_SAMPLED, {} };
+    return { shading, sampler, light, WEDGE_FIRST_PASS_RAYS, WEDGE_LIGHTS_SAMPLED, 0, {} };
 }
 
 /// A floor below a light at y = 4, plates at the heights given: [x0, x1] each.

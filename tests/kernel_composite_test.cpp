@@ -133,7 +133,7 @@ TEST_CASE("addDiffuse: value times unshadowed shading times reflectance, in each
                                noisy = bench.filled(3 * in.layout().size, 0.25f);
                     const auto samples = bench.filled(in.layout().size, 100u);
                     bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addDiffuse", in.params,
-                        WEDGE_BLOCK_PIXELS, shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, {} }, made,
+                        WEDGE_BLOCK_PIXELS, shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made,
                         bench.buffer(nodesOf(light)), bench.buffer(in.position.values), bench.buffer(in.normal.values),
                         bench.buffer(in.objectId.values), bench.buffer(in.diffuse.values),
                         bench.buffer(in.value.values), bench.buffer(in.noisy.values), bench.buffer(in.taken.values),
@@ -187,7 +187,7 @@ TEST_CASE("addSpecular: the second term times the lobe's unshadowed shading time
             const auto direct = bench.filled(3 * in.layout().size, 0.5f),
                        noisy = bench.filled(3 * in.layout().size, 0.25f);
             bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addSpecular", in.params, 1,
-                shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, {} }, made, frame, bench.buffer(nodesOf(light)),
+                shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made, frame, bench.buffer(nodesOf(light)),
                 bench.buffer(in.position.values), bench.buffer(in.normal.values), bench.buffer(in.objectId.values),
                 bench.buffer(in.gloss.values), bench.buffer(in.specular.values), bench.buffer(in.value.values),
                 bench.buffer(in.noisy.values), bench.filled(4 * in.layout().size, 0.6f),
@@ -237,7 +237,7 @@ TEST_CASE("addSpecular: lobes too sharp for the quadrature take the mean weight 
         const std::vector<float> sharp(in.gloss.values.size(), 1e6f);
         const auto direct = bench.filled(3 * in.layout().size, 0.0f), noisy = bench.filled(3 * in.layout().size, 0.0f);
         bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addSpecular", in.params, 1,
-            shared::SampleParams { WEDGE_SHADING_RATIO, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, {} }, made, shared::FrameParams {},
+            shared::SampleParams { WEDGE_SHADING_RATIO, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made, shared::FrameParams {},
             bench.buffer(nodesOf(light)), bench.buffer(in.position.values), bench.buffer(in.normal.values),
             bench.buffer(in.objectId.values), bench.buffer(sharp), bench.buffer(in.specular.values),
             bench.buffer(in.value.values), bench.buffer(in.noisy.values), bench.filled(4 * in.layout().size, 0.6f),

@@ -71,10 +71,8 @@ public:
         const render::DeviceScene& s = traced.onDevice;
         const render::Frame& f = traced.frame;
         traced.bench.passes.tiles("paths", device::PassKind::Trace, "indirect.cl", "samplePaths", traced.params, 1.0,
-            params, s.nodes, s.blocks, s.positions, s.normals, s.texcoords, s.indices, s.materialIds, s.materials,
-            s.textures, s.texels, s.srgbToLinear, s.positionsAtClose, s.normalsAtClose, s.areaLights, s.deltaLights, f.position, f.normal, f.origin,
-            f.geometric, f.objectId, f.gloss, f.specular, traced.bench.buffer(wanted), last, sums_, traced.taken,
-            value_, reflectors_, f.rays, f.pathRays);
+            params, s.nodes, s.blocks, render::surfaceArguments(s), s.areaLights, s.deltaLights, f.receivers(), f.specular,
+            traced.bench.buffer(wanted), last, sums_, traced.taken, value_, reflectors_, f.rays, f.pathRays);
     }
     PathResult result()
     {

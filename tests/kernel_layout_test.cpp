@@ -1,11 +1,14 @@
 // The structs that host and device share have the same layout on both.
 #include "kernels/shared/bvh_types.h"
+#include "kernels/shared/camera.h"
+#include "kernels/shared/distributed.h"
 #include "kernels/shared/filter_params.h"
 #include "kernels/shared/frame.h"
 #include "kernels/shared/hit.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/material.h"
 #include "kernels/shared/path.h"
+#include "kernels/shared/wave.h"
 #include "tests/render_support.h"
 
 #include <cstddef>

@@ -23,7 +23,7 @@ public:
         , hierarchy(tree.bvh)
         , onDevice(scene, tree, device, bench.queue)
         , layout(width, height)
-        , frame(device, bench.queue, layout)
+        , frame(device, bench.queue, layout, false)
         , params(render::frameParams(scene, layout, { 0, 0, width, height }, 5))
         , specular(isDefined(defines, "WEDGE_SPECULAR"))
         , sums(device, layout.size * (specular ? 4 : 2), "sums")
@@ -31,6 +31,7 @@ public:
         , slopes(device, layout.size * 2, "slopes")
         , taken(device, layout.size, "taken")
         , wanted(device, layout.size, "wanted")
+        , firstWanted(device, layout.size, "wanted of a first pass")
     {
         for (device::Buffer<float>* b : { &sums, &value, &slopes })
             b->fill(bench.queue, 0.0f);
@@ -41,23 +42,25 @@ public:
     void primary()
     {
         bench.passes.tiles("primary", device::PassKind::Trace, "primary.cl", "primary", params, 1.0, onDevice.nodes,
-            onDevice.blocks, onDevice.positions, onDevice.normals, onDevice.texcoords, onDevice.indices,
-            onDevice.materialIds, onDevice.materials, onDevice.textures, onDevice.texels, onDevice.srgbToLinear,
-            onDevice.positionsAtClose, onDevice.normalsAtClose, onDevice.objectIds, onDevice.areaLights, static_cast<std::uint32_t>(onDevice.areaLightList.size()),
-            frame.position, frame.normal, frame.origin, frame.geometric, frame.objectId, frame.depth, frame.pixelSize, frame.diffuse,
-            frame.specular, frame.emission, frame.gloss);
+            onDevice.blocks, render::surfaceArguments(onDevice), onDevice.objectIds, onDevice.areaLights,
+            static_cast<std::uint32_t>(onDevice.areaLightList.size()), frame.position, frame.normal, frame.origin,
+            frame.geometric, frame.objectId, frame.depth, frame.pixelSize, frame.diffuse, frame.specular, frame.emission,
+            frame.gloss);
     }
+    /// p.firstPass samples of each pixel, the first of their light.
     void firstPass(const shared::SampleParams& p)
     {
+        taken.fill(bench.queue, 0u);
+        firstWanted.fill(bench.queue, p.firstPass);
         bench.passes.tiles("first", device::PassKind::Trace, "area_light.cl", "firstPass", params, 1.0, p,
-            onDevice.areaLightList[p.light], onDevice.nodes, onDevice.blocks, frame.position, frame.normal,
-            frame.origin, frame.objectId, frame.gloss, sums, taken, value, slopes, frame.rays);
+            onDevice.areaLightList[p.light], onDevice.nodes, onDevice.blocks, frame.receivers(), firstWanted, sums, taken,
+            value, slopes, frame.rays);
     }
     void secondPass(const shared::SampleParams& p, std::uint32_t last)
     {
         bench.passes.tiles("second", device::PassKind::Trace, "area_light.cl", "secondPass", params, 1.0, p,
-            onDevice.areaLightList[p.light], onDevice.nodes, onDevice.blocks, frame.position, frame.normal,
-            frame.origin, frame.objectId, frame.gloss, wanted, last, sums, taken, value, frame.rays);
+            onDevice.areaLightList[p.light], onDevice.nodes, onDevice.blocks, frame.receivers(), wanted, last, sums, taken,
+            value, frame.rays);
     }
     template <class T>
     Planes<T> read(const device::Buffer<T>& buffer)
@@ -92,7 +95,7 @@ public:
     shared::FrameParams params;
     bool specular;
     device::Buffer<float> sums, value, slopes;
-    device::Buffer<std::uint32_t> taken, wanted;
+    device::Buffer<std::uint32_t> taken, wanted, firstWanted;
 };
 
 } // namespace wedge::test

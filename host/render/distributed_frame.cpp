@@ -321,6 +321,9 @@ void DistributedFrame::filter()
 void DistributedFrame::compose()
 {
     filter();
+    if (!lit_) {
+        c_.frame.emission.fill(c_.passes.queue(), 0.0f);
+    }
     c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "addAll", params(c_.full()), 1, c_.frame.emission,
         c_.frame.direct, c_.frame.indirect, c_.frame.beauty);
     if (!analysed_ || !c_.settings.distributed.blur) {

@@ -1,11 +1,14 @@
 // Reports how the device lays out the structs that it shares with the host.
 #include "shared/bvh_types.h"
+#include "shared/camera.h"
+#include "shared/distributed.h"
 #include "shared/filter_params.h"
 #include "shared/frame.h"
 #include "shared/hit.h"
 #include "shared/light.h"
 #include "shared/material.h"
 #include "shared/path.h"
+#include "shared/wave.h"
 
 #define STRUCT(S)                                                                                                      \
     {                                                                                                                  \

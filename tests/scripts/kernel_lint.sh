@@ -27,8 +27,10 @@ fi
 for target in spir64 nvptx64 amdgcn; do
     for file in "${files[@]}"; do
         for family in '' -DWEDGE_TRAVERSAL_SCALAR=1; do
-            printf '%s\0' "lint $target $file $family" "lint $target $file $family -DWEDGE_SPECULAR=1"
+            for motion in '' -DWEDGE_MOTION=1; do
+                printf '%s\0' "lint $target $file $family $motion" "lint $target $file $family $motion -DWEDGE_SPECULAR=1"
+            done
         done
     done
 done | xargs -0 -n 1 -P "$(nproc)" bash -c
-echo "kernel_lint: ${#files[@]} programs pass, under both families of traversals, for spir64, nvptx64 and amdgcn"
+echo "kernel_lint: ${#files[@]} programs pass, under both families of traversals, at rest and moving, for spir64, nvptx64 and amdgcn"

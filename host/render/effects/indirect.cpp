@@ -229,8 +229,9 @@ void Indirect::sampleWave(Waves& waves, const shared::WaveParams& wave, bool sta
         s.nodes, s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, waves.receivers(), waves.specular, waves.wanted,
         std::numeric_limits<std::uint32_t>::max(), waves.sums, waves.taken, waves.value, waves.extremes, waves.rays,
         waves.pathRays);
-    waves.pixels(c_.passes, "accumulatePaths", wave, starts ? 1u : 0u, waves.pixelFirst, waves.pixelCount,
-        c_.frame.primaryTaken, c_.frame.hits, waves.objectId, reflectance, waves.sums, waves.extremes, term_.accumulated(),
+    waves.pixels(c_.passes, "accumulatePaths", wave, starts ? 1u : 0u,
+        component_ == Component::Ambient ? 1u : 0u, waves.pixelFirst, waves.pixelCount, c_.frame.primaryTaken, c_.frame.hits,
+        waves.objectId, reflectance, waves.sums, waves.extremes, term_.accumulated(),
         c_.frame.indirectNoisy, c_.frame.samples, c_.frame.indirectSamples);
 }
 
