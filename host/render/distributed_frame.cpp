@@ -101,7 +101,7 @@ bool DistributedFrame::adaptive()
 bool DistributedFrame::sample(const shared::FrameParams& frame, std::uint32_t last, bool slopes, double workUnits)
 {
     shared::WaveParams settings {};
-    settings.sampler = static_cast<std::uint32_t>(c_.settings.sampler);
+    settings.sampler = samplerOf(c_);
     settings.published = c_.settings.method == Method::AxisAligned && c_.settings.distributed.published ? 1 : 0;
     const std::vector<shared::WaveParams> waves = waves_.schedule(c_.passes, frame, c_.frame, settings, last);
     for (const shared::WaveParams& wave : waves) {

@@ -78,7 +78,7 @@ shared::PathParams Indirect::pathParams() const
     shared::PathParams p {};
     p.component = static_cast<std::uint32_t>(component_);
     p.bounces = static_cast<std::uint32_t>(std::max(1, c_.settings.bounces));
-    p.sampler = static_cast<std::uint32_t>(c_.settings.sampler);
+    p.sampler = samplerOf(c_);
     p.lightSampling = static_cast<std::uint32_t>(c_.settings.lightSampling);
     p.firstPass = c_.settings.method == Method::AxisAligned && !c_.frame.distributed ? WEDGE_INDIRECT_FIRST_RAYS : 0;
     // Of a distributed frame's receivers each has but some of its pixel's samples.

@@ -76,7 +76,7 @@ shared::SampleParams SoftShadows::sampleParams() const
 {
     shared::SampleParams p {};
     p.shading = static_cast<std::uint32_t>(c_.settings.shading);
-    p.sampler = static_cast<std::uint32_t>(c_.settings.sampler);
+    p.sampler = samplerOf(c_);
     p.light = index_;
     p.firstPass = c_.settings.method == Method::AxisAligned && !c_.frame.distributed ? WEDGE_FIRST_PASS_RAYS : 0;
     p.lightSampling = lightSampling();

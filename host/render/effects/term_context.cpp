@@ -2,6 +2,12 @@
 
 namespace wedge::render {
 
+std::uint32_t samplerOf(const TermContext& context)
+{
+    const bool counts = context.frame.distributed && context.settings.method == Method::AxisAligned;
+    return static_cast<std::uint32_t>(counts ? Sampler::Sobol : context.settings.sampler);
+}
+
 void replaceTerm(
     const TermContext& context, const Term& term, const shared::DistributedParams& params, device::Buffer<float>& radiance)
 {
