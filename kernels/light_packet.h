@@ -94,7 +94,7 @@ WEDGE_FN void samplePositionsTogether(SampleParams params, uint order, const uin
     const uint i = first ? index : index - params.firstPass;
     const uint n = first ? params.firstPass : count - params.firstPass;
     const Strata strata = strataOf(n);
-    const uint stratum = permuteIndex(i, n, order);
+    const uint stratum = permuteIndex(i % n, n, order ^ (i / n));
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const Vec2 p = stratumPoint(strata, stratum, hashCombine(first ? seed[lane] : hashUint(seed[lane]), i));
         u[lane] = p.x;

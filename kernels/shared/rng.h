@@ -142,7 +142,7 @@ WEDGE_INLINE Vec2 stratumPoint(Strata s, uint stratum, uint jitter)
 /// taken. Pixels that share an order take the same stratum at the same time, which keeps their rays together.
 WEDGE_FN Vec2 stratified(uint i, uint n, uint order, uint seed)
 {
-    return stratumPoint(strataOf(n), permuteIndex(i, n, order), hashCombine(seed, i));
+    return stratumPoint(strataOf(n), permuteIndex(i % n, n, order ^ (i / n)), hashCombine(seed, i));
 }
 
 WEDGE_SHARED_END
