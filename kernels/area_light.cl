@@ -137,8 +137,10 @@ __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light,
     ReceiverPacket receivers;
     loadReceivers(frame, params.light, firstGroup, WEDGE_RECEIVER_ARGUMENTS, &receivers);
     TermSums sum;
-#ifdef WEDGE_MOTION
     const SurfaceData surfaces = WEDGE_SURFACE_ARGUMENTS;
+    (void)surfaces;
+    (void)camera;
+#ifdef WEDGE_MOTION
     ShadowMotion shadows = noShadowMotion();
 #endif
     float sMin[WEDGE_PACKET_SIZE], sMax[WEDGE_PACKET_SIZE];

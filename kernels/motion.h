@@ -19,9 +19,9 @@
 /// vertices: triangles that share one must agree on it to the last bit.
 #define WEDGE_PLANES4(p, time) (vload4(0, p) + vload4(0, (p) + WEDGE_NODE_MOTION) * (time))
 #define WEDGE_PLANES8(p, time) (vload8(0, p) + vload8(0, (p) + WEDGE_NODE_MOTION) * (time))
-#define WEDGE_PLANE(p, i, time) (p[i] + p[(i) + WEDGE_NODE_MOTION] * (time))
+#define WEDGE_PLANE(p, i, time) (*((p) + (i)) + *((p) + (i) + WEDGE_NODE_MOTION) * (time))
 #define WEDGE_CORNERS8(p, time) (vload8(0, p) + vload8(0, (p) + WEDGE_BLOCK_MOTION) * (time))
-#define WEDGE_CORNER(p, i, time) (p[i] + p[(i) + WEDGE_BLOCK_MOTION] * (time))
+#define WEDGE_CORNER(p, i, time) (*((p) + (i)) + *((p) + (i) + WEDGE_BLOCK_MOTION) * (time))
 
 /// A plane of 8 boxes where it is lowest (highest) of all times.
 #define WEDGE_LOWEST8(p) (vload8(0, p) + WEDGE_MIN(vload8(0, (p) + WEDGE_NODE_MOTION), (float8)(0.0f)))
