@@ -26,6 +26,15 @@ TermShape termShape(const Settings& settings, bool specular)
     return tracesPaths(settings) ? direct.with(Indirect::termShape(needsAnalysis(settings))) : direct;
 }
 
+/// Slopes of lights, and where things move what their shadows' motions add up to.
+std::uint32_t lightExtremes(const scene::Scene& scene) { return scene::geometryMoves(scene) ? 6 : 2; }
+
+/// What receivers of waves need for the terms in turn.
+TermShape receiverShape(const Settings& settings, const scene::Scene& scene, bool specular)
+{
+    return termShape(settings, specular).with({ 0, 0, lightExtremes(scene), false, false, false });
+}
+
 /// One a term where pixels have several receivers, which serve all terms at once; else the one that all take turns in.
 std::vector<TermShape> termShapes(const Settings& settings, const scene::Scene& scene, bool specular, bool distributed)
 {
@@ -35,7 +44,7 @@ std::vector<TermShape> termShapes(const Settings& settings, const scene::Scene& 
     const bool analysed = needsAnalysis(settings);
     const std::size_t lights = settings.integrator == Integrator::Path ? scene.areaLights.size() : 0;
     const bool published = analysed && settings.distributed.published;
-    std::vector<TermShape> shapes(lights, { 1, 1, 2, analysed, true, published });
+    std::vector<TermShape> shapes(lights, { 1, 1, lightExtremes(scene), analysed, true, published });
     shapes.resize(lights + indirectTerms(settings, specular).size(), { 0, 3, 3, analysed, true, published });
     return shapes;
 }
@@ -114,7 +123,7 @@ device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hi
         Term::plan(plan, layout, shape);
     }
     if (distributed) {
-        Waves::plan(plan, layout, termShape(settings, specular));
+        Waves::plan(plan, layout, receiverShape(settings, scene, specular));
     }
     if (needsAnalysis(settings)) {
         Scratch::plan(plan, layout, scratchValues(termShape(settings, specular), distributed));
@@ -146,7 +155,7 @@ void Renderer::allocate(const Settings& settings)
             terms_[i] = std::make_unique<Term>(device_, queue_, layout, shapes[i]);
         }
     }
-    const TermShape receivers = termShape(settings, deviceScene_->specular);
+    const TermShape receivers = receiverShape(settings, scene_, deviceScene_->specular);
     if (distributed && (!waves_ || !waves_->shape.holds(receivers))) {
         waves_.reset();
         waves_ = std::make_unique<Waves>(device_, layout, receivers);
@@ -229,7 +238,8 @@ bool Renderer::renderPasses(const Settings& settings, bool keepWidths)
     frame_->clear(queue_);
     termPlanes_.clear();
     const bool lit = settings.integrator == Integrator::Path;
-    const TermContext context { *passes_, *deviceScene_, *frame_, *scratch_, settings, fullFrame, sampledFrame, output };
+    const TermContext context { *passes_, *deviceScene_, *frame_, *scratch_, settings, fullFrame, sampledFrame, output,
+        scene::geometryMoves(scene_) || scene::cameraMoves(scene_) };
     if (frame_->distributed) {
         return distributedPasses(context, keepWidths);
     }

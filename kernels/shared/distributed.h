@@ -26,7 +26,8 @@ typedef struct {
     uint never;              ///< 1: textures and irradiances are never taken apart
     float samples;           ///< primary samples that a pixel is expected to have; 0: those that it has
     uint published;          ///< 1: terms are kept as published, see accumulate.cl
-    uint padding[2];
+    uint alongMotion;        ///< of demands: 1, of textures, which are filtered along the motion, too
+    uint padding;
 } DistributedParams;
 
 WEDGE_SHARED_END
