@@ -17,7 +17,7 @@ readonly indirect_reference_spp=256 # rays of paths, and six of them a sample
 fingerprint() { # SCENE ARGUMENT...
     local scene=$1
     shift
-    { sha256sum "$wedge" data/generated/"$scene".*; printf '%s\n' "$@"; } | sha256sum
+    { sha256sum "$wedge" data/generated/"$scene"[._]*; printf '%s\n' "$@"; } | sha256sum
 }
 
 # Renders out/SCENE_NAME.exr and .png, with what was said in .txt, unless they are there; and says it again if so.

@@ -181,7 +181,7 @@ const std::vector<Layer>& layerTable()
             [](LayerReader& r) { r.filterWidths(); } },
         { { lensWidthLayer, "pixels: standard deviation of the image's filter of what the lens blurs, 0 where there is none (method aaf)" },
             [](LayerReader& r) { r.blurWidth(lensWidthLayer, r.frame().lensWidth); } },
-        { { motionWidthLayer, "pixels: the same of what moves, along its motion" },
+        { { motionWidthLayer, "pixels: the same of textures of what moves, along its motion" },
             [](LayerReader& r) { r.blurWidth(motionWidthLayer, r.frame().motionWidth); } },
         { { "motion", "U V: pixels to the right and down that the surface moves while the shutter is open, 0 on a miss" },
             [](LayerReader& r) { r.ofDistributed("motion.", "UV", r.frame().motion); } },
