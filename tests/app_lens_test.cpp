@@ -124,6 +124,10 @@ TEST_CASE("layers of what lens and shutter blur, and the rays that it took")
         rendered(place, "lens.toml", { "--method", "mc", "--spp", "5", "--layers", "all" });
     CHECK(std::ranges::all_of(values(plain, "primarySamples.Y"), [](float taken) { return taken == 5; }));
     CHECK(plain.find("filterWidthLens.pixels") == nullptr);
+    const image::LayeredImage glossy =
+        rendered(place, materials, { "--aperture", "0.1", "--bounces", "1", "--method", "mc", "--spp", "5" });
+    CHECK(numberOf(glossy, "samplesPerPixel") == 5);
+    CHECK(numberOf(glossy, "primarySamplesPerPixel") == 5);
     checkRenderRefused(
         place, "lens.toml", { "--method", "mc", "--layers", "filterWidthLens" }, wrongCall, "filterWidthLens");
     const image::LayeredImage unfiltered =

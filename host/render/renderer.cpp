@@ -344,7 +344,8 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
             ++statistics.shadedPixels;
             total += samples[i];
             indirectTotal += indirect[i];
-            const bool glossy = specular[i] + specular[size + i] + specular[2 * size + i] > 0;
+            // Pixels of several receivers take samples of both components whatever those are.
+            const bool glossy = frame_->distributed || specular[i] + specular[size + i] + specular[2 * size + i] > 0;
             indirectPixels += terms.empty() ? 0 : terms.size() > 1 && !glossy ? 1 : terms.size();
         }
     }
