@@ -176,7 +176,7 @@ std::string footer()
 {
     std::string text = "Layers of an EXR besides the beauty (R G B):\n";
     for (const render::LayerInfo& layer : render::knownLayers()) {
-        text += fmt::format("  {:<12} {}\n", layer.name, layer.meaning);
+        text += fmt::format("  {:<17} {}\n", layer.name, layer.meaning);
     }
     return text + "\nExit status: 0 done, 1 failure, 2 wrong call, 130 interrupted (what was there is written).\n";
 }
