@@ -1,12 +1,15 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and renders three scenes, one of them with indirect light, at equal samples with and
-# without filtering, beside a reference. Images, logs and reports go to out/. What is there already, made by this program from these files, stays.
+# without filtering, beside a reference; and two small ones, through a lens and with motion, with and without filtering.
+# Images, logs and reports go to out/. What is there already, made by this program from these files, stays.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
 readonly wedge=build/release/wedge
 readonly size=640x480
+readonly small=320x240
 readonly spp=28
+readonly small_spp=16
 readonly reference_spp=1024
 readonly indirect_reference_spp=256 # rays of paths, and six of them a sample
 
@@ -14,7 +17,7 @@ readonly indirect_reference_spp=256 # rays of paths, and six of them a sample
 fingerprint() { # SCENE ARGUMENT...
     local scene=$1
     shift
-    { sha256sum "$wedge" data/generated/"$scene".*; printf '%s\n' "$@"; } | sha256sum
+    { sha256sum "$wedge" data/generated/"$scene"[._]*; printf '%s\n' "$@"; } | sha256sum
 }
 
 # Renders out/SCENE_NAME.exr and .png, with what was said in .txt, unless they are there; and says it again if so.
@@ -23,7 +26,7 @@ render() { # SCENE NAME ARGUMENT...
     shift 2
     local inputs
     local -a reference=() compared=()
-    if [ "$name" != "${scene}_reference" ]; then
+    if [ "$name" != "${scene}_reference" ] && [ -f "out/.made/${scene}_reference" ]; then
         reference=(--reference "out/${scene}_reference.exr")
         compared=("$(cat "out/.made/${scene}_reference")")
     fi
@@ -70,6 +73,16 @@ threeWays() { # SCENE REFERENCE_SPP ARGUMENT...
 threeWays grids "$reference_spp"
 threeWays bench "$reference_spp"
 threeWays cornell_glossy "$indirect_reference_spp" --bounces 2
-summary grids_mc grids_aaf bench_mc bench_aaf cornell_glossy_mc cornell_glossy_aaf
+twoWays() { # SCENE ARGUMENT...
+    local scene=$1
+    shift
+    render "$scene" mc --method mc --spp "$small_spp" --seed 2 --size "$small" "$@"
+    render "$scene" aaf --method aaf --spp "$small_spp" --seed 2 --size "$small" "$@"
+}
+twoWays chess
+twoWays moving_cornell
+summary grids_mc grids_aaf bench_mc bench_aaf cornell_glossy_mc cornell_glossy_aaf chess_mc chess_aaf moving_cornell_mc \
+    moving_cornell_aaf
 echo
-echo "The images are in out/: SCENE_reference, SCENE_mc (plain Monte Carlo) and SCENE_aaf (filtered), each .exr and .png."
+echo "The images are in out/: SCENE_reference (not of chess and moving_cornell), SCENE_mc (plain Monte Carlo) and SCENE_aaf"
+echo "(filtered), each .exr and .png."

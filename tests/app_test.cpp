@@ -60,7 +60,8 @@ TEST_CASE("all layers of a frame fit together")
     const std::set<std::string> expected = { "R", "G", "B", "albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y",
         "normal.Z", "position.X", "position.Y", "position.Z", "depth.Z", "emission.R", "emission.G", "emission.B",
         "direct.R", "direct.G", "direct.B", "directNoisy.R", "directNoisy.G", "directNoisy.B", "samples.Y", "rays.Y",
-        "filterWidth1.world", "filterWidth1.pixels", "filterWidth2.world", "filterWidth2.pixels", "objectId.I" };
+        "filterWidth1.world", "filterWidth1.pixels", "filterWidth2.world", "filterWidth2.pixels",
+        "filterWidthLens.pixels", "filterWidthMotion.pixels", "motion.U", "motion.V", "primarySamples.Y", "objectId.I" };
     std::set<std::string> found;
     for (const image::Channel& channel : image.channels) {
         found.insert(channel.name);
@@ -75,6 +76,8 @@ TEST_CASE("all layers of a frame fit together")
         const bool miss = at("objectId.I") == 0;
         misses += miss;
         rays += at("rays.Y");
+        wrong["one ray from the camera, at rest"] += at("primarySamples.Y") != 1 || at("motion.U") != 0 || at("motion.V") != 0;
+        wrong["nothing to blur"] += at("filterWidthLens.pixels") != 0 || at("filterWidthMotion.pixels") != 0;
         for (const std::string c : { "R", "G", "B" }) {
             wrong["beauty = emission + direct"] += at(c) != at("emission." + c) + at("direct." + c);
             wrong["radiance is finite and not negative"] += !std::isfinite(at(c)) || at(c) < 0;
@@ -164,6 +167,7 @@ TEST_CASE("metadata tells how the image was made")
     CHECK(textOf(image, "seed") == "4000000000");
     CHECK(textOf(image, "method") == "mc");
     CHECK(textOf(image, "method.sampler") == "owen-sobol");
+    CHECK(textOf(image, "method.antialias") == "false");
     CHECK(textOf(image, "device") != "");
     CHECK(textOf(image, "driver") != "");
     CHECK(contains(textOf(image, "buildOptions"), "-cl-std=CL1.2"));

@@ -40,6 +40,7 @@ radiance = [0.1, 0.2, 0.3]
 type = "path"
 bounces = 1024
 light_sampling = "directions"
+antialias = true
 method = "aaf"
 spp = 16
 max_spp = 64
@@ -93,6 +94,7 @@ irradiance = [1, 1, 0.5]
     CHECK(s.settings.integrator == "path");
     CHECK(s.settings.bounces == 1024);
     CHECK(s.settings.lightSampling == "directions");
+    CHECK(s.settings.antialias);
     CHECK_FALSE(s.settings.ambientDistance.has_value());
     CHECK(*s.settings.method == "aaf");
     CHECK(*s.settings.spp == 16);
@@ -136,6 +138,7 @@ TEST_CASE("defaults: settings unset, camera frames the mesh, warnings for what i
     CHECK_FALSE(s.settings.integrator.has_value());
     CHECK_FALSE(s.settings.bounces.has_value());
     CHECK_FALSE(s.settings.lightSampling.has_value());
+    CHECK_FALSE(s.settings.antialias);
     CHECK_FALSE(s.settings.spp.has_value());
     CHECK(s.settings.width == 640);
     CHECK(s.settings.height == 480);
@@ -218,6 +221,7 @@ TEST_CASE("the integrator: paths or ambient occlusion, and the keys of one that 
            "directions");
     CHECK(refused("bounces = 1025\n")
         == "scene file s.toml:2:11: bounces of integrator is out of range: 1025: use 0 to 1024");
+    CHECK(contains(refused("antialias = 1\n"), "s.toml:2:13: antialias of integrator must be true or false"));
     CHECK(contains(refused("bounces = -1\n"), "bounces of integrator is out of range: -1"));
     CHECK(contains(refused("bounces = 1.5\n"), "bounces of integrator must be a whole number: 1.5"));
     for (const std::string distance : { "0", "-1", "1e13", "1e-13" }) {

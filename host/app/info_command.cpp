@@ -4,6 +4,7 @@
 #include "host/app/values.h"
 #include "host/device/memory_plan.h"
 #include "host/render/renderer.h"
+#include "host/render/report.h"
 #include "host/scene/scene.h"
 
 #include <memory>
@@ -40,46 +41,24 @@ Facts gather(const std::string& path, bvh::Mode mode)
     return facts;
 }
 
-/// The distance of the plane in focus from the eye, in metres.
-double focusOf(const scene::Camera& camera)
-{
-    return camera.focusDistance > 0.0f ? camera.focusDistance : glm::distance(camera.eye, camera.lookAt);
-}
-
-const char* profileOf(const scene::Camera& camera)
-{
-    return camera.apertureProfile == scene::ApertureProfile::Gaussian ? "gaussian" : "uniform";
-}
-
-const char* shutterProfileOf(const scene::Scene& scene)
-{
-    return scene.shutterProfile == scene::ShutterProfile::Gaussian ? "gaussian" : "box";
-}
-
 void addCamera(const Facts& f, Json& json)
 {
-    const scene::Camera& camera = f.scene.camera;
-    json["lens"] = { { "aperture", camera.apertureRadius }, { "focus", focusOf(camera) },
-        { "aperture_profile", profileOf(camera) } };
-    json["shutter"] = { { "open", f.scene.shutterOpen }, { "close", f.scene.shutterClose },
-        { "profile", shutterProfileOf(f.scene) } };
-    json["camera_moves"] = scene::cameraMoves(f.scene);
-    json["moving_triangles"] = f.summary.movingTriangles;
+    json.update(render::cameraReport(f.scene));
 }
 
 void printCamera(const Facts& f)
 {
     const scene::Camera& camera = f.scene.camera;
     if (camera.apertureRadius > 0.0f)
-        fmt::print("lens       {} aperture of radius {:g} m, in focus at {:g} m\n", profileOf(camera),
-            camera.apertureRadius, focusOf(camera));
+        fmt::print("lens       {} aperture of radius {:g} m, in focus at {:g} m\n",
+            scene::profileName(camera.apertureProfile), camera.apertureRadius, scene::distanceInFocus(camera));
     else
         fmt::print("lens       pinhole\n");
     if (!scene::geometryMoves(f.scene) && !scene::cameraMoves(f.scene))
         fmt::print("shutter    nothing moves\n");
     else
-        fmt::print("shutter    {}, from {:g} to {:g}: {} moving triangles, camera {}\n", shutterProfileOf(f.scene),
-            f.scene.shutterOpen, f.scene.shutterClose, f.summary.movingTriangles,
+        fmt::print("shutter    {}, from {:g} to {:g}: {} moving triangles, camera {}\n",
+            scene::profileName(f.scene.shutterProfile), f.scene.shutterOpen, f.scene.shutterClose, f.summary.movingTriangles,
             scene::cameraMoves(f.scene) ? "moves" : "at rest");
 }
 

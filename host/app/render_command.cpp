@@ -114,6 +114,7 @@ void RenderJob::load()
             fmt::print(stderr, "wedge: warning: {}\n", warning);
         }
     }
+    applyLens(options_, scene_);
     settings_ = resolveSettings(options_, scene_);
     layers_ = render::selectLayers(options_.layers, settings_, scene_);
     if (!options_.reference.empty()) {

@@ -88,6 +88,24 @@ void addIntegratorOptions(CLI::App& parser, RenderOptions& o)
         });
 }
 
+void addCameraOptions(CLI::App& parser, RenderOptions& o)
+{
+    parser
+        .add_flag_function(
+            "--antialias,!--no-antialias", [&o](std::int64_t given) { o.antialias = given > 0; },
+            "Sample all of a pixel's square in place of its centre, or not")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
+        ->group(whatGroup);
+    addValue(parser, whatGroup, "--aperture", "M", "Radius of the lens in metres, 0 for a pinhole. Default: the scene's",
+        [&o](const std::string& text) {
+            o.aperture = static_cast<float>(finiteNumber("--aperture", text, 0, scene::mostAperture));
+        });
+    addValue(parser, whatGroup, "--focus", "M", "Metres to the plane in focus of the lens. Default: the scene's",
+        [&o](const std::string& text) {
+            o.focus = static_cast<float>(finiteNumber("--focus", text, scene::leastFocus, scene::mostFocus));
+        });
+}
+
 void addMethodOptions(CLI::App& parser, RenderOptions& o)
 {
     addChoice(parser, howGroup, "--method", { "mc", "aaf" },
@@ -158,7 +176,7 @@ std::string footer()
 {
     std::string text = "Layers of an EXR besides the beauty (R G B):\n";
     for (const render::LayerInfo& layer : render::knownLayers()) {
-        text += fmt::format("  {:<12} {}\n", layer.name, layer.meaning);
+        text += fmt::format("  {:<17} {}\n", layer.name, layer.meaning);
     }
     return text + "\nExit status: 0 done, 1 failure, 2 wrong call, 130 interrupted (what was there is written).\n";
 }
@@ -170,6 +188,7 @@ void addRenderOptions(CLI::App& parser, RenderOptions& options)
     parser.add_option("SCENE", options.scene, "Scene file (.toml) or mesh (.obj)")->type_name("")->required();
     addFrameOptions(parser, options);
     addIntegratorOptions(parser, options);
+    addCameraOptions(parser, options);
     addMethodOptions(parser, options);
     addDeviceOptions(parser, options);
     addAblationOptions(parser, options);

@@ -25,6 +25,8 @@ struct RenderOptions {
     std::optional<render::Integrator> integrator;
     std::optional<int> bounces;
     std::optional<float> ambientDistance; ///< metres
+    std::optional<bool> antialias;
+    std::optional<float> aperture, focus; ///< metres
     std::optional<int> spp, maxSpp;
     std::optional<float> mu;
     std::optional<std::pair<int, int>> size;

@@ -2,6 +2,7 @@
 
 #include "host/app/values.h"
 #include "host/error.h"
+#include "host/render/distributed_frame.h"
 #include "kernels/shared/indirect.h"
 #include "kernels/shared/wedge.h"
 
@@ -65,7 +66,9 @@ render::Settings preset(const RenderOptions& o, const scene::Scene& scene, Metho
         return render::axisAligned(spp, mu);
     }
     render::Settings s = render::asPublished(mu.value_or(publishedMu(o, scene)));
-    s.indirect = render::asPublished(mu).indirect; // whose own mu no light changes
+    // Whose own mu no light changes.
+    s.indirect = render::asPublished(mu).indirect;
+    s.distributed = render::asPublished(mu).distributed;
     return s;
 }
 
@@ -160,6 +163,27 @@ void requireFirstPass(
     }
 }
 
+/// The most samples of a pixel of a distributed frame: as given, else the default's or twice the mean.
+void applyDistributedMost(const std::optional<int>& given, render::Settings& s)
+{
+    render::DistributedSettings& d = s.distributed;
+    d.maxSpp = std::clamp(given.value_or(std::max(d.maxSpp, 2 * s.spp)), d.firstPaths, render::mostDistributedSpp);
+}
+
+/// In frames through a lens or a shutter, and antialiased ones, method aaf has but one way to sample.
+void refuseUndistributed(const RenderOptions& o)
+{
+    const std::pair<const char*, bool> given[] = { { "--falloff", o.falloff.has_value() },
+        { "--sampling", o.sampling.has_value() }, { "--counts", o.counts.has_value() },
+        { "--sampler", o.sampler.has_value() } };
+    for (const auto& [name, isGiven] : given) {
+        if (isGiven) {
+            throw UsageError("option has no effect with method aaf through a lens or shutter, or with antialiasing", name,
+                "leave it out");
+        }
+    }
+}
+
 /// The counts of method aaf: those of the file are looked at only where no option overrides them and they have an
 /// effect.
 void applyCounts(const RenderOptions& o, const scene::Scene& scene, render::Settings& s)
@@ -171,6 +195,7 @@ void applyCounts(const RenderOptions& o, const scene::Scene& scene, render::Sett
     const std::optional<int> most = o.maxSpp ? o.maxSpp : file.maxSpp;
     s.maxSpp = most.value_or(s.maxSpp);
     s.indirect.maxSpp = most.value_or(s.indirect.maxSpp);
+    applyDistributedMost(most, s);
     if (!meanIsGiven(s)) {
         s.spp = render::Settings().spp; // not used
         return;
@@ -192,6 +217,20 @@ void applyCounts(const RenderOptions& o, const scene::Scene& scene, render::Sett
 
 } // namespace
 
+void applyLens(const RenderOptions& o, scene::Scene& scene)
+{
+    const auto apply = [&](scene::Camera& camera) {
+        camera.apertureRadius = o.aperture.value_or(camera.apertureRadius);
+        camera.focusDistance = o.focus.value_or(camera.focusDistance);
+    };
+    apply(scene.camera);
+    if (scene.cameraAtClose) {
+        apply(*scene.cameraAtClose);
+    }
+    refuse(o.focus && scene.camera.apertureRadius == 0, "with a pinhole", fmt::format("--focus {}", o.focus.value_or(0)),
+        "add --aperture");
+}
+
 render::Settings resolveSettings(const RenderOptions& o, const scene::Scene& scene)
 {
     const scene::Settings& file = scene.settings;
@@ -206,9 +245,13 @@ render::Settings resolveSettings(const RenderOptions& o, const scene::Scene& sce
     s.seed = o.seed.value_or(file.seed);
     s.sampler = o.sampler.value_or(s.sampler);
     applyIntegrator(o, file, s);
+    s.antialias = o.antialias.value_or(file.antialias);
     if (method == Method::AxisAligned) {
         applyAblations(o, s);
         applyCounts(o, scene, s);
+        if (render::isDistributed(s, scene)) {
+            refuseUndistributed(o);
+        }
     }
     render::validate(s);
     return s;

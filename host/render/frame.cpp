@@ -123,7 +123,7 @@ void Frame::clear(device::TimedQueue& queue)
     if (!distributed) {
         return;
     }
-    for (device::Buffer<float>* b : { &position, &normal, &pixelSize, &depth, &diffuse, &specular, &emission, &gloss, &confusion, &motion }) {
+    for (device::Buffer<float>* b : { &position, &normal, &pixelSize, &depth, &diffuse, &specular, &emission, &gloss, &confusion, &motion, &lensWidth, &motionWidth }) {
         b->fill(queue, 0.0f);
     }
     for (device::Buffer<std::uint32_t>* b : { &objectId, &primaryTaken, &primaryWanted, &hits }) {
@@ -242,14 +242,7 @@ Axes axesOf(const scene::Camera& camera, std::uint32_t height)
 
 shared::FrameParams frameParams(const scene::Scene& scene, const PlaneLayout& layout, const image::Window& window, std::uint32_t seed)
 {
-    scene::Camera camera = scene.camera;
-    if (scene::cameraMoves(scene)) {
-        const scene::Camera& close = *scene.cameraAtClose;
-        camera.eye = 0.5f * (camera.eye + close.eye);
-        camera.lookAt = 0.5f * (camera.lookAt + close.lookAt);
-        camera.up = 0.5f * (camera.up + close.up);
-    }
-    const Axes axes = axesOf(camera, layout.height);
+    const Axes axes = axesOf(scene::middleCamera(scene), layout.height);
     shared::FrameParams p {};
     p.width = layout.width;
     p.height = layout.height;
@@ -283,7 +276,7 @@ shared::CameraParams cameraParams(const scene::Scene& scene, std::uint32_t heigh
     p.rightMotion = toVec3(close.right - open.right);
     p.downMotion = toVec3(close.down - open.down);
     p.apertureRadius = camera.apertureRadius;
-    p.focusDistance = camera.focusDistance > 0 ? camera.focusDistance : glm::distance(camera.eye, camera.lookAt);
+    p.focusDistance = scene::distanceInFocus(camera);
     p.gaussianAperture = camera.apertureProfile == scene::ApertureProfile::Gaussian ? 1 : 0;
     p.gaussianShutter = scene.shutterProfile == scene::ShutterProfile::Gaussian ? 1 : 0;
     p.pixelFilter = antialias ? 1.0f : 0.0f;

@@ -12,6 +12,8 @@ namespace wedge::render {
 namespace {
 
 constexpr const char* widthLayer = "filterWidth";
+constexpr const char* lensWidthLayer = "filterWidthLens";
+constexpr const char* motionWidthLayer = "filterWidthMotion";
 
 /// Copies planes of the frame to channels of the image over the output's window.
 class LayerReader {
@@ -54,7 +56,40 @@ public:
     void rays()
     {
         const std::vector<std::uint32_t> values = frame().rays.downloadAll(renderer_.queue());
-        channel("rays.Y", Where::Everywhere, [&](std::size_t i) { return 1.0f + static_cast<float>(values[i]); });
+        const std::vector<std::uint32_t> primary = primarySamplesOf();
+        channel("rays.Y", Where::Everywhere, [&](std::size_t i) { return static_cast<float>(primary[i] + values[i]); });
+    }
+
+    void primarySamples()
+    {
+        const std::vector<std::uint32_t> values = primarySamplesOf();
+        channel("primarySamples.Y", Where::Everywhere, [&](std::size_t i) { return static_cast<float>(values[i]); });
+    }
+
+    /// What is reflected: everywhere in distributed frames, where filters carry it to pixels that hit nothing themselves.
+    void reflected(const std::string& layer, const device::Buffer<float>& planes)
+    {
+        vector(layer, "RGB", planes, frame().distributed ? Where::Everywhere : Where::OnSurfaces);
+    }
+
+    /// Of an image whose pixels have one primary sample: 0.
+    void ofDistributed(const std::string& layer, const char* letters, const device::Buffer<float>& planes)
+    {
+        if (frame().distributed) {
+            vector(layer, letters, planes, Where::Everywhere);
+            return;
+        }
+        for (; *letters != '\0'; ++letters) {
+            channel(layer + *letters, Where::Everywhere, [](std::size_t) { return 0.0f; });
+        }
+    }
+
+    /// 0 also where the image is not filtered.
+    void blurWidth(const std::string& name, const device::Buffer<float>& plane)
+    {
+        const bool filtered = frame().distributed && settings_.filtering != Filtering::None && settings_.distributed.blur;
+        const std::vector<float> values = filtered ? plane.downloadAll(renderer_.queue()) : std::vector<float>(frame().layout.size, 0.0f);
+        channel(name + ".pixels", Where::Everywhere, [&](std::size_t i) { return values[i]; });
     }
 
     void objectId()
@@ -81,6 +116,12 @@ public:
     }
 
 private:
+    std::vector<std::uint32_t> primarySamplesOf()
+    {
+        return frame().distributed ? frame().primaryTaken.downloadAll(renderer_.queue())
+                                   : std::vector<std::uint32_t>(frame().layout.size, 1u);
+    }
+
     template <class Value>
     void channel(const std::string& name, Where where, const Value& value)
     {
@@ -124,13 +165,13 @@ const std::vector<Layer>& layerTable()
         { { "emission", "R G B: radiance of emitting surfaces, lights and background seen directly" },
             [](LayerReader& r) { r.vector("emission.", "RGB", r.frame().emission, Where::Everywhere); } },
         { { "direct", "R G B: radiance reflected from lights, filtered; beauty = emission + direct + indirect" },
-            [](LayerReader& r) { r.vector("direct.", "RGB", r.frame().direct, Where::OnSurfaces); } },
+            [](LayerReader& r) { r.reflected("direct.", r.frame().direct); } },
         { { "directNoisy", "R G B: the same before the filter" },
-            [](LayerReader& r) { r.vector("directNoisy.", "RGB", r.frame().directNoisy, Where::OnSurfaces); } },
+            [](LayerReader& r) { r.reflected("directNoisy.", r.frame().directNoisy); } },
         { { "indirect", "R G B: radiance reflected from other surfaces, filtered; of ambient occlusion what is open" },
-            [](LayerReader& r) { r.vector("indirect.", "RGB", r.frame().indirect, Where::OnSurfaces); } },
+            [](LayerReader& r) { r.reflected("indirect.", r.frame().indirect); } },
         { { "indirectNoisy", "R G B: the same before the filter" },
-            [](LayerReader& r) { r.vector("indirectNoisy.", "RGB", r.frame().indirectNoisy, Where::OnSurfaces); } },
+            [](LayerReader& r) { r.reflected("indirectNoisy.", r.frame().indirectNoisy); } },
         { { "samples", "Y: samples taken of all terms (area lights, indirect diffuse, indirect glossy) together" }, [](LayerReader& r) { r.samples(); } },
         { { "rays", "Y: rays traced for the pixel, the camera's included" }, [](LayerReader& r) { r.rays(); } },
         { { widthLayer,
@@ -138,7 +179,16 @@ const std::vector<Layer>& layerTable()
               "aaf; of the area light; of several filterWidth1, filterWidth2, ...; of indirect light "
               "filterWidthIndirect, filterWidthGlossy; of ambient occlusion filterWidthAmbient)" },
             [](LayerReader& r) { r.filterWidths(); } },
-        { { "objectId", "I: number of the object hit, from 1; 0 on a miss" }, [](LayerReader& r) { r.objectId(); } },
+        { { lensWidthLayer, "pixels: standard deviation of the image's filter of what the lens blurs, 0 where there is none (method aaf)" },
+            [](LayerReader& r) { r.blurWidth(lensWidthLayer, r.frame().lensWidth); } },
+        { { motionWidthLayer, "pixels: the same of textures of what moves, along its motion" },
+            [](LayerReader& r) { r.blurWidth(motionWidthLayer, r.frame().motionWidth); } },
+        { { "motion", "U V: pixels to the right and down that the surface moves while the shutter is open, 0 on a miss" },
+            [](LayerReader& r) { r.ofDistributed("motion.", "UV", r.frame().motion); } },
+        { { "primarySamples", "Y: rays from the camera, 1 without lens, shutter and antialiasing" },
+            [](LayerReader& r) { r.primarySamples(); } },
+        { { "objectId", "I: number of the object hit, from 1; 0 on a miss, 4294967295 where several are" },
+            [](LayerReader& r) { r.objectId(); } },
     };
     return table;
 }
@@ -149,13 +199,13 @@ std::string obstacle(const std::string& layer, const Settings& settings, const s
     if (layer.starts_with("indirect") && !tracesPaths(settings)) {
         return "there are no bounces of light";
     }
-    if (layer != widthLayer) {
+    if (!layer.starts_with(widthLayer)) {
         return "";
     }
     if (settings.method != Method::AxisAligned) {
         return "method " + methodName(settings.method) + " has no filter";
     }
-    return termNames(settings, scene).empty() ? "the scene has no area light" : "";
+    return layer == widthLayer && termNames(settings, scene).empty() ? "the scene has no area light" : "";
 }
 
 std::vector<std::string> split(const std::string& list)
@@ -213,7 +263,10 @@ std::vector<std::string> selectLayers(const std::string& list, const Settings& s
     return selected;
 }
 
-bool needTermPlanes(const std::vector<std::string>& layers) { return contains(layers, widthLayer); }
+bool needTermPlanes(const std::vector<std::string>& layers)
+{
+    return contains(layers, widthLayer) || contains(layers, "emission") || contains(layers, "direct") || contains(layers, "indirect");
+}
 
 image::LayeredImage readLayers(Renderer& renderer, const Settings& settings, const FrameStatistics& statistics,
     const std::vector<std::string>& layers)

@@ -22,7 +22,7 @@ const std::vector<LayerInfo>& knownLayers();
 /// none. Throws UsageError for a name that is unknown, or that these settings do not make.
 std::vector<std::string> selectLayers(const std::string& list, const Settings& settings, const scene::Scene& scene);
 
-/// True if one of the layers needs render()'s keepLights.
+/// True if one of the layers needs render()'s keepWidths.
 bool needTermPlanes(const std::vector<std::string>& layers);
 
 /// The last frame, over its crop: channels R, G and B, those of the layers, and the metadata of metadata.h.

@@ -51,7 +51,7 @@ std::array<float, 16> worldToNdc(const scene::Camera& camera, int width, int hei
 std::map<std::string, image::MetadataValue> frameMetadata(
     const Renderer& renderer, const Settings& settings, const FrameStatistics& statistics)
 {
-    const scene::Camera& camera = renderer.scene().camera;
+    const scene::Camera camera = scene::middleCamera(renderer.scene());
     const device::DeviceInfo& device = renderer.device().info();
     std::map<std::string, image::MetadataValue> out;
     out["wedgeVersion"] = std::string(version());
@@ -67,10 +67,20 @@ std::map<std::string, image::MetadataValue> frameMetadata(
     out["driver"] = device.platform + " " + device.driver;
     out["buildOptions"] = renderer.buildOptions();
     out["traversal"] = traversalName(renderer.traversal());
-    out["depthConvention"] = std::string("distance along the ray from the camera in metres, +inf on a miss");
+    out["depthConvention"] = std::string(renderer.frame().distributed
+            ? "distance from the lens' centre to the mean of the points hit in metres, +inf on a miss"
+            : "distance along the ray from the camera in metres, +inf on a miss");
+    out["primarySamplesPerPixel"] = static_cast<float>(statistics.primarySpp);
+    out["apertureRadius"] = camera.apertureRadius;
+    out["focusDistance"] = scene::distanceInFocus(renderer.scene().camera);
+    out["apertureProfile"] = std::string(scene::profileName(camera.apertureProfile));
+    out["shutterOpen"] = static_cast<float>(renderer.scene().shutterOpen);
+    out["shutterClose"] = static_cast<float>(renderer.scene().shutterClose);
+    out["shutterProfile"] = std::string(scene::profileName(renderer.scene().shutterProfile));
     for (const auto& [name, value] : describe(settings)) {
         out[name == "method" ? name : "method." + name] = value;
     }
+    out["method.antialias"] = std::string(settings.antialias ? "true" : "false");
     return out;
 }
 

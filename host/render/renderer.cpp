@@ -49,6 +49,9 @@ std::vector<TermShape> termShapes(const Settings& settings, const scene::Scene& 
     return shapes;
 }
 
+/// Planes of the scratch buffers that hold a term's values, and in distributed frames images.
+std::uint32_t scratchValues(const TermShape& shape, bool distributed) { return distributed ? std::max(shape.values, 3u) : shape.values; }
+
 device::BuildOptions programOptions(const scene::Scene& scene, const Options& options, Traversal traversal)
 {
     device::BuildOptions out;
@@ -123,7 +126,7 @@ device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hi
         Waves::plan(plan, layout, receiverShape(settings, scene, specular));
     }
     if (needsAnalysis(settings)) {
-        Scratch::plan(plan, layout, termShape(settings, specular).values);
+        Scratch::plan(plan, layout, scratchValues(termShape(settings, specular), distributed));
     }
     return plan;
 }
@@ -157,9 +160,10 @@ void Renderer::allocate(const Settings& settings)
         waves_.reset();
         waves_ = std::make_unique<Waves>(device_, layout, receivers);
     }
-    if (needsAnalysis(settings) && (!scratch_ || scratch_->values < receivers.values)) {
+    const std::uint32_t values = scratchValues(receivers, distributed);
+    if (needsAnalysis(settings) && (!scratch_ || scratch_->values < values)) {
         scratch_.reset();
-        scratch_ = std::make_unique<Scratch>(device_, queue_, layout, receivers.values);
+        scratch_ = std::make_unique<Scratch>(device_, queue_, layout, values);
     }
     if (!scratch_) {
         scratch_ = std::make_unique<Scratch>(device_, queue_, PlaneLayout(1, 1), 0);
@@ -340,7 +344,8 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
             ++statistics.shadedPixels;
             total += samples[i];
             indirectTotal += indirect[i];
-            const bool glossy = specular[i] + specular[size + i] + specular[2 * size + i] > 0;
+            // Pixels of several receivers take samples of both components whatever those are.
+            const bool glossy = frame_->distributed || specular[i] + specular[size + i] + specular[2 * size + i] > 0;
             indirectPixels += terms.empty() ? 0 : terms.size() > 1 && !glossy ? 1 : terms.size();
         }
     }
@@ -350,6 +355,13 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
     if (frame_->distributed) {
         const std::vector<std::uint32_t> primary = frame_->primaryTaken.downloadAll(queue_);
         statistics.primaryRays = std::accumulate(primary.begin(), primary.end(), std::uint64_t { 0 });
+        std::uint64_t shown = 0;
+        for (int y = output.y0; y < output.y1; ++y) {
+            for (int x = output.x0; x < output.x1; ++x) {
+                shown += primary[shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), frame_->layout.stride)];
+            }
+        }
+        statistics.primarySpp = static_cast<double>(shown) / (static_cast<double>(output.width()) * output.height());
     }
     statistics.indirectRays = std::accumulate(pathRays.begin(), pathRays.end(), std::uint64_t { 0 });
     statistics.shadowRays = std::accumulate(rays.begin(), rays.end(), std::uint64_t { 0 }) - statistics.indirectRays;

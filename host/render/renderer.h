@@ -54,6 +54,7 @@ struct FrameStatistics {
     std::vector<device::PassRecord> passes;
     std::uint64_t shadedPixels = 0;
     double sppMean = 0; ///< samples a pixel and term that it has
+    double primarySpp = 1; ///< primary samples a pixel
     double directSpp = 0, indirectSpp = 0; ///< the same of area lights and of indirect terms alone
     std::uint64_t primaryRays = 0, shadowRays = 0, indirectRays = 0;
     std::uint64_t memoryBytes = 0;
@@ -77,7 +78,8 @@ public:
     device::MemoryPlan plan(const Settings& settings) const { return plan(scene_, hierarchy_, settings); }
 
     /// Renders; the result stays on the device until the next call. Throws Error if memory does not suffice or the
-    /// device fails. keepWidths: fills termPlanes() for the width layers.
+    /// device fails. keepWidths: fills termPlanes() for the width layers, and in distributed frames filters emission, direct
+    /// and indirect, which else only the beauty is made of.
     FrameStatistics render(const Settings& settings, const Control& control = {}, bool keepWidths = false);
 
     /// Launches all kernels of these settings at full size over nothing, so that no compilation falls into render().

@@ -40,7 +40,7 @@ Json sceneSection(const Renderer& renderer, const Settings& settings)
 {
     const scene::Summary s = scene::summary(renderer.scene());
     const bvh::Statistics& b = renderer.hierarchy().statistics;
-    return { { "path", renderer.scene().path }, { "triangles", s.triangles }, { "vertices", s.vertices },
+    Json out = { { "path", renderer.scene().path }, { "triangles", s.triangles }, { "vertices", s.vertices },
         { "objects", s.objects }, { "materials", s.materials }, { "textures", s.textures },
         { "area_lights", s.areaLights }, { "point_lights", s.pointLights },
         { "directional_lights", s.directionalLights }, { "geometry_bytes", s.geometryBytes },
@@ -49,6 +49,8 @@ Json sceneSection(const Renderer& renderer, const Settings& settings)
             { { "mode", bvh::modeName(renderer.bvhMode()) }, { "nodes", b.nodes }, { "blocks", b.blocks }, { "triangles", b.triangles },
                 { "degenerate", b.degenerate }, { "skipped", b.skipped }, { "depth", b.depth },
                 { "sah_cost", b.sahCost }, { "bytes", b.bytes } } } };
+    out.update(cameraReport(renderer.scene()));
+    return out;
 }
 
 Json methodSection(const Settings& settings)
@@ -57,6 +59,7 @@ Json methodSection(const Settings& settings)
     for (const auto& [name, value] : describe(settings)) {
         out[name] = typed(value);
     }
+    out["antialias"] = settings.antialias;
     out["seed"] = settings.seed;
     out["width"] = settings.width;
     out["height"] = settings.height;
@@ -76,13 +79,26 @@ Json frameSection(const FrameStatistics& frame, const Settings& settings)
     }
     return { { "complete", frame.complete }, { "total_ms", frame.deviceMilliseconds },
         { "wall_ms", frame.wallMilliseconds }, { "overhead_fraction", frame.overheadFraction() },
-        { "spp_mean", frame.sppMean }, { "spp_direct", frame.directSpp }, { "spp_indirect", frame.indirectSpp }, { "shaded_pixels", frame.shadedPixels },
+        { "spp_mean", frame.sppMean }, { "spp_primary", frame.primarySpp }, { "spp_direct", frame.directSpp }, { "spp_indirect", frame.indirectSpp }, { "shaded_pixels", frame.shadedPixels },
         { "rays_per_pixel", raysPerPixel(frame, settings) }, { "mrays_s", megaraysPerSecond(frame) },
         { "rays", { { "primary", frame.primaryRays }, { "shadow", frame.shadowRays }, { "indirect", frame.indirectRays } } },
         { "passes", passes }, { "memory_bytes", frame.memoryBytes } };
 }
 
 } // namespace
+
+Json cameraReport(const scene::Scene& scene)
+{
+    const scene::Camera& camera = scene.camera;
+    return { { "lens",
+                 { { "aperture", camera.apertureRadius }, { "focus", scene::distanceInFocus(camera) },
+                     { "aperture_profile", scene::profileName(camera.apertureProfile) } } },
+        { "shutter",
+            { { "open", scene.shutterOpen }, { "close", scene.shutterClose },
+                { "profile", scene::profileName(scene.shutterProfile) } } },
+        { "camera_moves", scene::cameraMoves(scene) },
+        { "moving_triangles", scene::summary(scene).movingTriangles } };
+}
 
 double raysPerPixel(const FrameStatistics& statistics, const Settings& settings)
 {

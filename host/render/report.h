@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 namespace wedge::render {
 
 /// What is reported besides the frames themselves.
@@ -22,6 +24,9 @@ double raysPerPixel(const FrameStatistics& statistics, const Settings& settings)
 
 /// Rays a second of the tracing passes' device time, in millions; 0 where nothing was timed.
 double megaraysPerSecond(const FrameStatistics& statistics);
+
+/// What a report and `wedge info` say of a scene's lens, its shutter, and what moves.
+nlohmann::ordered_json cameraReport(const scene::Scene& scene);
 
 /// The report that docs/command-line.md describes, as JSON text of several lines. Quantities that are not finite are
 /// null.

@@ -33,6 +33,52 @@ void requireRange(bool inRange, const std::string& what, const std::string& valu
     }
 }
 
+void validateDistributed(const DistributedSettings& d)
+{
+    const auto atLeast = [](float value, float least) { return std::isfinite(value) && value >= least; };
+    const auto counts = [](int value, int least) { return value >= least && value <= mostDistributedSpp; };
+    requireRange(counts(d.firstPaths, 2), "samples of the first pass", fmt::format("{}", d.firstPaths), fmt::format("a whole number from 2 to {}", mostDistributedSpp));
+    requireRange(counts(d.maxSpp, d.firstPaths), "most samples of a pixel", fmt::format("{}", d.maxSpp), fmt::format("{} (those of the first pass) to {}", d.firstPaths, mostDistributedSpp));
+    requireRange(counts(d.mixedPaths, 1), "samples where motions differ", fmt::format("{}", d.mixedPaths), fmt::format("a whole number from 1 to {}", mostDistributedSpp));
+    requireRange(std::isfinite(d.mu) && d.mu >= 0.01f && d.mu <= 1000.0f, "mu", fmt::format("{}", d.mu), "a number from 0.01 to 1000");
+    requireRange(atLeast(d.factoringError, 0) && d.factoringRadius >= 0 && d.factoringRadius <= WEDGE_MAX_RADIUS, "factoring", fmt::format("error {} radius {}", d.factoringError, d.factoringRadius), fmt::format("an error of at least 0, a radius from 0 to {} pixels", WEDGE_MAX_RADIUS));
+    requireRange(atLeast(d.blurWidth, 0) && atLeast(d.shutterWidth, 0) && atLeast(d.irradianceWidth, 0), "filter widths", fmt::format("{} {} {}", d.blurWidth, d.shutterWidth, d.irradianceWidth), "numbers of at least 0");
+    requireRange(atLeast(d.blurExponent, 0) && atLeast(d.shutterExponent, 0) && atLeast(d.countExponent, 0), "exponents", fmt::format("{} {} {}", d.blurExponent, d.shutterExponent, d.countExponent), "numbers of at least 0");
+    requireRange(atLeast(d.leastRadius, 1e-3f), "least radius of a blur", fmt::format("{}", d.leastRadius), "pixels, 0.001 or more");
+    requireRange(atLeast(d.varianceSpread, 0) && d.varianceSpread <= 1, "spread of variances", fmt::format("{}", d.varianceSpread), "a number from 0 to 1");
+    requireRange(atLeast(d.oneVelocity, 0), "difference of motions", fmt::format("{}", d.oneVelocity), "a number of at least 0");
+}
+
+using Descriptions = std::vector<std::pair<std::string, std::string>>;
+
+void describeIndirect(const IndirectSettings& in, Descriptions& out)
+{
+    const auto number = [](auto value) { return fmt::format("{}", value); };
+    constexpr const char* counts[] = { "uniform", "spectrum", "variance" };
+    out.insert(out.end(),
+        { { "indirectMu", number(in.mu) }, { "indirectAlpha", number(in.alpha) },
+            { "indirectWidthScale", number(in.widthScale) },
+            { "reflectorExtent", in.extent == ReflectorExtent::Scene ? "scene" : "visible" },
+            { "leastReflector", number(in.leastReflector) }, { "meanFraction", number(in.meanFraction) },
+            { "indirectCounts", counts[static_cast<int>(in.counts)] },
+            { "indirectCountExponent", number(in.countExponent) }, { "indirectMaxSpp", number(in.maxSpp) } });
+}
+
+void describeDistributed(const DistributedSettings& d, Descriptions& out)
+{
+    const auto number = [](auto value) { return fmt::format("{}", value); };
+    out.insert(out.end(),
+        { { "distributedCounts", d.published ? "spectrum" : "variance" }, { "distributedFirstPaths", number(d.firstPaths) },
+            { "distributedMaxSpp", number(d.maxSpp) }, { "distributedMu", number(d.mu) }, { "mixedPaths", number(d.mixedPaths) },
+            { "factoring", d.factoring == Factoring::Never ? "never" : "error" },
+            { "factoringError", number(d.factoringError) }, { "factoringRadius", number(d.factoringRadius) },
+            { "blur", number(d.blur) }, { "blurWidth", number(d.blurWidth) }, { "blurExponent", number(d.blurExponent) },
+            { "shutterWidth", number(d.shutterWidth) }, { "shutterExponent", number(d.shutterExponent) },
+            { "leastRadius", number(d.leastRadius) }, { "irradianceWidth", number(d.irradianceWidth) },
+            { "distributedCountExponent", number(d.countExponent) },
+            { "distributedVarianceSpread", number(d.varianceSpread) }, { "oneVelocity", number(d.oneVelocity) } });
+}
+
 } // namespace
 
 Settings monteCarlo(int spp)
@@ -127,6 +173,7 @@ void validate(const Settings& s)
     requireRange(std::isfinite(in.mu) && in.mu >= 0.01f && in.mu <= 1000.0f, "mu", text(in.mu), "a number from 0.01 to 1000");
     requireRange(in.alpha >= 0 && in.meanFraction >= 0 && in.widthScale > 0 && in.leastReflector > 0, "indirect filter constants", fmt::format("alpha {} width scale {} least reflector {}", in.alpha, in.widthScale, in.leastReflector), "positive numbers");
     requireRange(std::isfinite(in.ambientDistance) && in.ambientDistance >= 0, "ambient occlusion distance", text(in.ambientDistance), "metres above 0");
+    validateDistributed(s.distributed);
     if (s.method == Method::AxisAligned && tracesPaths(s)) {
         requireRange(in.maxSpp >= static_cast<int>(WEDGE_INDIRECT_FIRST_RAYS) && s.spp >= static_cast<int>(WEDGE_INDIRECT_FIRST_RAYS),
             "samples a pixel", fmt::format("{} (at most {})", s.spp, in.maxSpp), "16 or more with indirect light: its first pass takes 16");
@@ -155,7 +202,7 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
     constexpr const char* shadings[] = { "separate", "inside", "ratio" };
     constexpr const char* lightSamplings[] = { "both", "lights", "directions" };
     constexpr const char* filters[] = { "none", "fixed", "adaptive" };
-    std::vector<std::pair<std::string, std::string>> out = {
+    Descriptions out = {
         { "method", methodName(s.method) },
         { "setting", s.published ? "as published" : "default" },
         { "sampler", s.sampler == Sampler::Sobol ? "owen-sobol" : "stratified" },
@@ -183,15 +230,13 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
                 { "varianceSpread", number(s.varianceSpread) } });
     }
     if (s.method == Method::AxisAligned && tracesPaths(s)) {
-        const IndirectSettings& in = s.indirect;
-        constexpr const char* counts[] = { "uniform", "spectrum", "variance" };
-        out.insert(out.end(),
-            { { "indirectMu", number(in.mu) }, { "indirectAlpha", number(in.alpha) },
-                { "indirectWidthScale", number(in.widthScale) },
-                { "reflectorExtent", in.extent == ReflectorExtent::Scene ? "scene" : "visible" },
-                { "leastReflector", number(in.leastReflector) }, { "meanFraction", number(in.meanFraction) },
-                { "indirectCounts", counts[static_cast<int>(in.counts)] },
-                { "indirectCountExponent", number(in.countExponent) }, { "indirectMaxSpp", number(in.maxSpp) } });
+        describeIndirect(s.indirect, out);
+    }
+    if (s.method == Method::AxisAligned) {
+        describeDistributed(s.distributed, out);
+    }
+    if (s.antialias) {
+        out.emplace_back("antialias", "true");
     }
     if (s.filtering == Filtering::Fixed) {
         out.emplace_back("fixedWidth", number(s.fixedWidth));

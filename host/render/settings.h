@@ -179,6 +179,9 @@ image::Window outputWindow(const Settings& settings);
 /// Whether frames of these settings look along rays over the hemisphere: for indirect light or ambient occlusion.
 bool tracesPaths(const Settings& settings);
 
+/// Most samples of a pixel of a distributed frame by method aaf: those of 8x8 pixels have to fit in a wave (waves.h).
+constexpr int mostDistributedSpp = 2048;
+
 /// Most bounces that a path may have.
 constexpr int mostBounces = 1024;
 
@@ -188,7 +191,8 @@ void validate(const Settings& settings);
 /// "aaf" and the like.
 std::string methodName(Method method);
 
-/// Name and value of each setting that shapes the image, for metadata and report.
+/// Name and value of each setting that shapes the image, for metadata and report; of method aaf also those that shape none
+/// but distributed frames, whether this is one or not.
 std::vector<std::pair<std::string, std::string>> describe(const Settings& settings);
 
 } // namespace wedge::render

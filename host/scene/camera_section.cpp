@@ -12,12 +12,10 @@
 namespace wedge::scene {
 namespace {
 
-constexpr double leastFocus = 1e-12; // m
-
 void readLens(TableReader& table, Camera& camera)
 {
-    camera.apertureRadius = static_cast<float>(table.number("aperture", 0.0, maxCoordinate).value_or(0.0));
-    camera.focusDistance = static_cast<float>(table.number("focus", leastFocus, maxCoordinate).value_or(0.0));
+    camera.apertureRadius = static_cast<float>(table.number("aperture", 0.0, mostAperture).value_or(0.0));
+    camera.focusDistance = static_cast<float>(table.number("focus", leastFocus, mostFocus).value_or(0.0));
     if (table.choice("aperture_profile", { "uniform", "gaussian" }).value_or("uniform") == "gaussian")
         camera.apertureProfile = ApertureProfile::Gaussian;
 }

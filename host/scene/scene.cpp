@@ -28,6 +28,27 @@ std::size_t movingTriangles(const Geometry& g)
 
 } // namespace
 
+float distanceInFocus(const Camera& camera)
+{
+    return camera.focusDistance > 0.0f ? camera.focusDistance : glm::distance(camera.eye, camera.lookAt);
+}
+
+Camera middleCamera(const Scene& scene)
+{
+    Camera camera = scene.camera;
+    if (cameraMoves(scene)) {
+        const Camera& close = *scene.cameraAtClose;
+        camera.eye = 0.5f * (camera.eye + close.eye);
+        camera.lookAt = 0.5f * (camera.lookAt + close.lookAt);
+        camera.up = 0.5f * (camera.up + close.up);
+    }
+    return camera;
+}
+
+const char* profileName(ApertureProfile profile) { return profile == ApertureProfile::Gaussian ? "gaussian" : "uniform"; }
+
+const char* profileName(ShutterProfile profile) { return profile == ShutterProfile::Gaussian ? "gaussian" : "box"; }
+
 Bounds sceneBounds(const Scene& scene)
 {
     Bounds bounds;

@@ -95,6 +95,7 @@ struct Settings {
     std::optional<int> bounces; ///< 0 to maxBounces; not with ao
     std::optional<float> ambientDistance; ///< metres, leastAmbientDistance to mostAmbientDistance; with ao only
     std::optional<std::string> lightSampling; ///< both, lights or directions; not with ao
+    bool antialias = false;
 };
 
 struct Scene {
@@ -136,6 +137,8 @@ constexpr int maxSamples = 1 << 20;
 constexpr double leastMu = 0.01, mostMu = 1000.0;
 constexpr int maxBounces = 1024;
 constexpr double leastAmbientDistance = 1e-12, mostAmbientDistance = 1e12;
+/// Metres: a lens has a radius of at most this, and a distance in focus from least to most.
+constexpr double mostAperture = 1e12, leastFocus = 1e-12, mostFocus = 1e12;
 
 /// Reads a scene file (.toml, docs/scene-format.md) or a bare mesh (.obj), which gets a camera that frames it, an
 /// area light above and a floor. Throws Error naming file, line and value for anything that cannot be rendered.
@@ -145,6 +148,16 @@ Scene loadScene(const std::string& path);
 inline bool geometryMoves(const Scene& scene) { return !scene.geometry.positionsAtClose.empty(); }
 
 inline bool cameraMoves(const Scene& scene) { return scene.cameraAtClose.has_value(); }
+
+/// Metres along the view from the eye to the plane in focus.
+float distanceInFocus(const Camera& camera);
+
+/// The camera in the middle between shutter open and close.
+Camera middleCamera(const Scene& scene);
+
+/// "uniform" and "gaussian", "box" and "gaussian".
+const char* profileName(ApertureProfile profile);
+const char* profileName(ShutterProfile profile);
 
 /// The box around all triangles, from when the shutter opens until it closes; lights do not count.
 Bounds sceneBounds(const Scene& scene);

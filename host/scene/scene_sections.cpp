@@ -118,6 +118,7 @@ void readIntegrator(TableReader& root, Scene& scene)
     if (const auto mu = table->number("mu", leastMu, mostMu))
         s.mu = static_cast<float>(*mu);
     readIntegratorType(*table, s);
+    s.antialias = table->boolean("antialias").value_or(false);
     s.seed =
         static_cast<std::uint32_t>(table->integer("seed", 0, std::numeric_limits<std::uint32_t>::max()).value_or(0));
     table->finish();

@@ -1,0 +1,87 @@
+// Settings of distributed frames: which are refused, and that all that shape an image are told apart.
+#include "host/error.h"
+#include "host/render/settings.h"
+
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <limits>
+#include <vector>
+
+namespace wedge::render {
+namespace {
+
+using Change = std::function<void(DistributedSettings&)>;
+
+Settings with(Settings settings, const Change& change)
+{
+    change(settings.distributed);
+    return settings;
+}
+
+} // namespace
+
+TEST_CASE("settings of distributed frames out of range are refused")
+{
+    CHECK_NOTHROW(validate(axisAligned()));
+    CHECK_NOTHROW(validate(asPublished()));
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+    std::vector<Change> wrong = {
+        [](auto& d) { d.firstPaths = 1; }, // no variance of one
+        [](auto& d) { d.maxSpp = d.firstPaths - 1; },
+        [](auto& d) { d.maxSpp = mostDistributedSpp + 1; },
+        [](auto& d) { d.mixedPaths = 0; },
+        [](auto& d) { d.mu = 0; },
+        [](auto& d) { d.factoringRadius = -1; },
+        [](auto& d) { d.factoringRadius = 41; },
+        [](auto& d) { d.leastRadius = 0; }, // its power is infinite
+        [](auto& d) { d.varianceSpread = 1.5f; },
+    };
+    float DistributedSettings::*const members[] = { &DistributedSettings::mu, &DistributedSettings::factoringError,
+        &DistributedSettings::blurWidth, &DistributedSettings::blurExponent, &DistributedSettings::shutterWidth,
+        &DistributedSettings::shutterExponent, &DistributedSettings::leastRadius, &DistributedSettings::irradianceWidth,
+        &DistributedSettings::countExponent, &DistributedSettings::varianceSpread, &DistributedSettings::oneVelocity };
+    for (const auto member : members)
+        for (const float value : { -1.0f, nan, infinity })
+            wrong.push_back([=](DistributedSettings& d) { d.*member = value; });
+    for (std::size_t i = 0; i < wrong.size(); ++i) {
+        CAPTURE(i);
+        CHECK_THROWS_AS(validate(with(axisAligned(), wrong[i])), UsageError);
+    }
+    const std::vector<Change> right = {
+        [](auto& d) { d.firstPaths = d.maxSpp = 2; },
+        [](auto& d) { d.firstPaths = d.maxSpp = mostDistributedSpp; },
+        [](auto& d) { d.factoringError = d.blurWidth = d.shutterWidth = d.irradianceWidth = d.countExponent = 0; },
+    };
+    for (const Change& change : right)
+        CHECK_NOTHROW(validate(with(axisAligned(), change)));
+}
+
+TEST_CASE("settings that differ are described differently")
+{
+    const std::vector<Change> changes = { [](auto& d) { ++d.firstPaths; }, [](auto& d) { ++d.maxSpp; },
+        [](auto& d) { d.published = true; }, [](auto& d) { d.mu = 2; }, [](auto& d) { ++d.mixedPaths; },
+        [](auto& d) { d.factoring = Factoring::Never; }, [](auto& d) { d.factoringError = 0.02f; },
+        [](auto& d) { ++d.factoringRadius; }, [](auto& d) { d.blur = false; }, [](auto& d) { d.blurWidth = 0.5f; },
+        [](auto& d) { d.blurExponent = 0.5f; }, [](auto& d) { d.shutterWidth = 0.5f; },
+        [](auto& d) { d.shutterExponent = 0.5f; }, [](auto& d) { d.leastRadius = 3; },
+        [](auto& d) { d.irradianceWidth = 0.5f; }, [](auto& d) { d.countExponent = 0.4f; },
+        [](auto& d) { d.varianceSpread = 0.5f; }, [](auto& d) { d.oneVelocity = 0.5f; } };
+    std::vector<decltype(describe(Settings()))> seen = { describe(axisAligned()) };
+    for (const Change& change : changes)
+        seen.push_back(describe(with(axisAligned(), change)));
+    Settings smooth = axisAligned();
+    smooth.antialias = true;
+    seen.push_back(describe(smooth));
+    for (std::size_t i = 0; i < seen.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            CAPTURE(i);
+            CAPTURE(j);
+            CHECK(seen[i] != seen[j]);
+        }
+    Settings plain = monteCarlo(4), square = plain;
+    square.antialias = true;
+    CHECK(describe(plain) != describe(square));
+}
+
+} // namespace wedge::render
