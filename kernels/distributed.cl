@@ -142,6 +142,26 @@ __kernel void scaleCounts(DistributedParams p, float scale, uint least, uint mos
     }
 }
 
+/// No more new primary samples than a wave has room for.
+__kernel void limitStep(DistributedParams p, __global const uint* restrict taken, __global uint* restrict wanted)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        wanted[i] = min(wanted[i], taken[i] + WEDGE_MOST_NEW_SAMPLES);
+    }
+}
+
+/// No fewer new samples of a term than new primary ones: a receiver without any would count as black.
+__kernel void keepPace(DistributedParams p, __global const uint* restrict primaryTaken,
+                       __global const uint* restrict primaryWanted, __global const uint* restrict taken,
+                       __global uint* restrict wanted)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        wanted[i] = max(wanted[i], taken[i] + (primaryWanted[i] - primaryTaken[i]));
+    }
+}
+
 /// Standard deviations in pixels of the image-space filters: of the blur that all of a pixel has, else 0.
 /// out  lens, along (the motion), directions of that (2 planes, unit)
 __kernel void blurs(DistributedParams p, __global const float* restrict confusion, __global const float* restrict motion,
@@ -152,7 +172,7 @@ __kernel void blurs(DistributedParams p, __global const float* restrict confusio
     if (!pixelOf(p, &x, &y, &i)) {
         return;
     }
-    const float n = p.samples > 0.0f ? p.samples : fmax((float)taken[i], 1.0f);
+    const float n = p.frames * (p.samples > 0.0f ? p.samples : fmax((float)taken[i], 1.0f));
     const float r = leastConfusion(p, confusion, i);
     lens[i] = r >= p.leastRadius ? p.blurWidth * r * pow(n * r * r, -p.blurExponent) : 0.0f;
     const float mx = motion[i], my = motion[p.planeSize + i];

@@ -21,7 +21,8 @@ constexpr std::uint32_t monteCarloRound = 16;
 
 bool isDistributed(const Settings& settings, const scene::Scene& scene)
 {
-    return scene.camera.apertureRadius > 0 || scene::geometryMoves(scene) || scene::cameraMoves(scene) || settings.antialias;
+    return scene.camera.apertureRadius > 0 || scene::geometryMoves(scene) || scene::cameraMoves(scene) || settings.antialias
+        || settings.progressive;
 }
 
 DistributedFrame::DistributedFrame(const TermContext& context, Waves& waves, const std::vector<std::unique_ptr<Term>>& terms,
@@ -53,15 +54,27 @@ void DistributedFrame::eachTerm(const F& f)
 
 bool DistributedFrame::render()
 {
-    eachTerm([&](Term& term, std::uint32_t, float) { term.clear(c_.passes.queue()); });
-    bool complete = true;
-    try {
-        complete = c_.settings.method == Method::MonteCarlo ? monteCarlo() : adaptive();
-    } catch (const device::Cancelled&) {
-        complete = false;
-    }
+    begin();
+    const bool complete = refine();
     compose();
     return complete;
+}
+
+void DistributedFrame::begin()
+{
+    eachTerm([&](Term& term, std::uint32_t, float) { term.clear(c_.passes.queue()); });
+    analysed_ = false;
+    taken_ = 0;
+}
+
+bool DistributedFrame::refine(const std::atomic<bool>* stop)
+{
+    stop_ = stop;
+    try {
+        return c_.settings.method == Method::MonteCarlo ? monteCarlo() : adaptive();
+    } catch (const device::Cancelled&) {
+        return false;
+    }
 }
 
 bool DistributedFrame::monteCarlo()
@@ -69,10 +82,12 @@ bool DistributedFrame::monteCarlo()
     const auto spp = static_cast<std::uint32_t>(c_.settings.spp);
     c_.frame.primaryWanted.fill(c_.passes.queue(), spp);
     eachTerm([&](Term& term, std::uint32_t, float) { term.wanted.fill(c_.passes.queue(), spp); });
-    for (std::uint32_t last = 0; last < spp;) {
-        const std::uint32_t round = std::min(monteCarloRound, spp - last);
-        last += round;
-        sample(c_.sampledFrame, last, false, round);
+    while (taken_ < spp) {
+        const std::uint32_t round = std::min(monteCarloRound, spp - taken_);
+        if (!sample(c_.sampledFrame, taken_ + round, false, round)) {
+            return false;
+        }
+        taken_ += round;
         if (c_.passes.rehearsal()) {
             break;
         }
@@ -80,21 +95,39 @@ bool DistributedFrame::monteCarlo()
     return true;
 }
 
+bool DistributedFrame::firstPass(std::uint32_t first)
+{
+    c_.frame.primaryWanted.fill(c_.passes.queue(), first);
+    eachTerm([&](Term& term, std::uint32_t, float) { term.wanted.fill(c_.passes.queue(), first); });
+    return sample(c_.fullFrame, first, true, first);
+}
+
 bool DistributedFrame::adaptive()
 {
     const auto first = static_cast<std::uint32_t>(std::min(c_.settings.distributed.firstPaths, c_.settings.spp));
-    c_.frame.primaryWanted.fill(c_.passes.queue(), first);
-    eachTerm([&](Term& term, std::uint32_t, float) { term.wanted.fill(c_.passes.queue(), first); });
-    sample(c_.fullFrame, first, true, first);
+    if (taken_ < first) {
+        if (!firstPass(first)) {
+            return false;
+        }
+        taken_ = first;
+    }
     if (c_.settings.distributed.published) {
         publishedCounts();
     } else {
         widths();
         demands();
         counts();
+        if (c_.settings.progressive) {
+            keepPace();
+        }
     }
     analysed_ = c_.settings.filtering != Filtering::None;
-    sample(c_.sampledFrame, std::numeric_limits<std::uint32_t>::max(), false, c_.settings.spp - static_cast<double>(first));
+    const auto spp = static_cast<std::uint32_t>(c_.settings.spp);
+    const double units = spp - static_cast<double>(taken_);
+    if (!sample(c_.sampledFrame, std::numeric_limits<std::uint32_t>::max(), false, units)) {
+        return false;
+    }
+    taken_ = std::max(taken_, spp);
     return true;
 }
 
@@ -105,6 +138,9 @@ bool DistributedFrame::sample(const shared::FrameParams& frame, std::uint32_t la
     settings.published = c_.settings.method == Method::AxisAligned && c_.settings.distributed.published ? 1 : 0;
     const std::vector<shared::WaveParams> waves = waves_.schedule(c_.passes, frame, c_.frame, settings, last);
     for (const shared::WaveParams& wave : waves) {
+        if (stop_ != nullptr && *stop_) {
+            return false;
+        }
         sampleWave(wave, slopes, workUnits / static_cast<double>(waves.size()));
     }
     return true;
@@ -162,6 +198,7 @@ shared::DistributedParams DistributedFrame::params(const image::Window& window) 
     p.varianceSpread = d.varianceSpread;
     p.oneVelocity = d.oneVelocity;
     p.published = d.published ? 1 : 0;
+    p.frames = static_cast<float>(d.frames);
     p.never = d.factoring == Factoring::Never ? 1 : 0;
     return p;
 }
@@ -260,13 +297,15 @@ void DistributedFrame::counts()
     const DistributedSettings& d = c_.settings.distributed;
     struct Demand {
         std::vector<float> values;
+        std::vector<std::uint32_t> taken; ///< which no count goes below
         float rays;
     };
     std::vector<Demand> demands;
-    demands.push_back({ c_.frame.primaryDemand.downloadAll(c_.passes.queue()), 1.0f });
+    device::TimedQueue& queue = c_.passes.queue();
+    demands.push_back({ c_.frame.primaryDemand.downloadAll(queue), c_.frame.primaryTaken.downloadAll(queue), 1.0f });
     double perPath = 1.0;
     eachTerm([&](Term& term, std::uint32_t, float rays) {
-        demands.push_back({ term.demand.downloadAll(c_.passes.queue()), rays });
+        demands.push_back({ term.demand.downloadAll(queue), term.taken.downloadAll(queue), rays });
         perPath += rays;
     });
     const auto least = static_cast<float>(std::min(d.firstPaths, c_.settings.spp)), most = static_cast<float>(d.maxSpp);
@@ -279,10 +318,11 @@ void DistributedFrame::counts()
         for (const Demand& demand : demands) {
             double sum = 0;
             for (std::uint32_t y = 0; y < c_.fullFrame.height; ++y) {
-                const float* row = demand.values.data() + shared::pixelIndex(0, y, c_.fullFrame.stride);
+                const std::size_t row = shared::pixelIndex(0, y, c_.fullFrame.stride);
                 float part = 0;
-                for (std::uint32_t x = 0; x < c_.fullFrame.width; ++x) {
-                    part += std::clamp(static_cast<float>(scale) * row[x], least, most);
+                for (std::size_t i = row; i < row + c_.fullFrame.width; ++i) {
+                    const float wanted = std::clamp(static_cast<float>(scale) * demand.values[i], least, most);
+                    part += std::max(wanted, static_cast<float>(demand.taken[i]));
                 }
                 sum += part;
             }
@@ -298,6 +338,16 @@ void DistributedFrame::counts()
     eachTerm([&](Term& term, std::uint32_t, float) {
         c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "scaleCounts", p, 1, scale,
             static_cast<std::uint32_t>(least), static_cast<std::uint32_t>(most), term.demand, term.taken, term.wanted);
+    });
+}
+
+void DistributedFrame::keepPace()
+{
+    const shared::DistributedParams p = params(c_.full());
+    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "limitStep", p, 1, c_.frame.primaryTaken, c_.frame.primaryWanted);
+    eachTerm([&](Term& term, std::uint32_t, float) {
+        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "keepPace", p, 1, c_.frame.primaryTaken,
+            c_.frame.primaryWanted, term.taken, term.wanted);
     });
 }
 
@@ -318,7 +368,7 @@ void DistributedFrame::filter()
     }
 }
 
-void DistributedFrame::compose()
+void DistributedFrame::compose(device::Buffer<float>* emission)
 {
     filter();
     if (!lit_) {
@@ -326,13 +376,17 @@ void DistributedFrame::compose()
     }
     c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "addAll", params(c_.full()), 1, c_.frame.emission,
         c_.frame.direct, c_.frame.indirect, c_.frame.beauty);
+    if (emission != nullptr) {
+        c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "copyImage", params(c_.full()), 1, c_.frame.emission, *emission);
+    }
     if (!analysed_ || !c_.settings.distributed.blur) {
         return;
     }
     blurWidths(0.0f);
     blur(c_.frame.beauty);
     if (keepLayers_) {
-        for (device::Buffer<float>* part : { &c_.frame.emission, &c_.frame.direct, &c_.frame.indirect }) {
+        device::Buffer<float>& emitted = emission != nullptr ? *emission : c_.frame.emission;
+        for (device::Buffer<float>* part : { &emitted, &c_.frame.direct, &c_.frame.indirect }) {
             blur(*part);
         }
     }

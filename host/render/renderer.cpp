@@ -3,8 +3,10 @@
 #include "host/render/distributed_frame.h"
 #include "host/render/effects/indirect.h"
 #include "host/render/effects/soft_shadows.h"
+#include "host/render/halves.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <numeric>
 
@@ -99,6 +101,8 @@ Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Opti
 {
 }
 
+Renderer::~Renderer() = default;
+
 device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings)
 {
     const PlaneLayout layout(settings.width, settings.height);
@@ -107,8 +111,13 @@ device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hi
     const bool specular = hasSpecular(scene);
     const bool distributed = isDistributed(settings, scene);
     Frame::plan(plan, layout, distributed);
-    for (const TermShape& shape : termShapes(settings, scene, specular, distributed)) {
-        Term::plan(plan, layout, shape);
+    const std::vector<TermShape> shapes = termShapes(settings, scene, specular, distributed);
+    if (settings.progressive) {
+        Halves::plan(plan, layout, shapes);
+    } else {
+        for (const TermShape& shape : shapes) {
+            Term::plan(plan, layout, shape);
+        }
     }
     if (distributed) {
         Waves::plan(plan, layout, termShape(settings, specular));
@@ -130,12 +139,22 @@ void Renderer::allocate(const Settings& settings)
     const bool distributed = isDistributed(settings, scene_);
     if (!frame_ || !(frame_->layout == layout) || frame_->distributed != distributed) {
         terms_.clear();
+        halves_.reset();
         waves_.reset();
         scratch_.reset();
         frame_.reset();
         frame_ = std::make_unique<Frame>(device_, queue_, layout, distributed);
     }
-    const std::vector<TermShape> shapes = termShapes(settings, scene_, deviceScene_->specular, distributed);
+    std::vector<TermShape> shapes = termShapes(settings, scene_, deviceScene_->specular, distributed);
+    if (settings.progressive) {
+        if (!halves_ || !halves_->hold(layout, shapes)) {
+            halves_.reset();
+            halves_ = std::make_unique<Halves>(device_, queue_, layout, shapes);
+        }
+        shapes.clear();
+    } else {
+        halves_.reset();
+    }
     terms_.resize(shapes.size());
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         if (!terms_[i] || !terms_[i]->shape.holds(shapes[i])) {
@@ -143,8 +162,13 @@ void Renderer::allocate(const Settings& settings)
             terms_[i] = std::make_unique<Term>(device_, queue_, layout, shapes[i]);
         }
     }
+    allocateWaves(settings, layout);
+}
+
+void Renderer::allocateWaves(const Settings& settings, const PlaneLayout& layout)
+{
     const TermShape receivers = termShape(settings, deviceScene_->specular);
-    if (distributed && (!waves_ || !waves_->shape.holds(receivers))) {
+    if (isDistributed(settings, scene_) && (!waves_ || !waves_->shape.holds(receivers))) {
         waves_.reset();
         waves_ = std::make_unique<Waves>(device_, layout, receivers);
     }
@@ -164,7 +188,11 @@ void Renderer::rehearse(const Settings& settings)
     passes_->setRehearsal(true);
     queue_.setProgress({});
     queue_.setCancelFlag(nullptr);
-    renderPasses(settings, false);
+    if (settings.progressive) {
+        rehearseHalves(settings);
+    } else {
+        renderPasses(settings, false);
+    }
     queue_.finish();
     passes_->setRehearsal(false);
     queue_.takeRecords();
@@ -184,6 +212,7 @@ double Renderer::workUnits(const Settings& settings) const
 
 FrameStatistics Renderer::render(const Settings& settings, const Control& control, bool keepWidths)
 {
+    assert(!settings.progressive);
     allocate(settings);
     queue_.takeRecords();
     std::atomic<bool> stop { false };
@@ -205,6 +234,11 @@ FrameStatistics Renderer::render(const Settings& settings, const Control& contro
     queue_.setCancelFlag(nullptr);
     queue_.setProgress({});
     statistics.passes = queue_.takeRecords();
+    return completed(settings, std::move(statistics));
+}
+
+FrameStatistics Renderer::completed(const Settings& settings, FrameStatistics statistics)
+{
     for (const device::PassRecord& record : statistics.passes) {
         statistics.deviceMilliseconds += record.milliseconds;
     }
@@ -213,23 +247,28 @@ FrameStatistics Renderer::render(const Settings& settings, const Control& contro
     return statistics;
 }
 
-bool Renderer::renderPasses(const Settings& settings, bool keepWidths)
+TermContext Renderer::contextOf(const Settings& settings)
 {
     const image::Window output = outputWindow(settings);
     const image::Window whole { 0, 0, settings.width, settings.height };
-    const bool analysed = needsAnalysis(settings);
-    const image::Window sampled = analysed ? blockWindow(output, settings.maxRadius, settings.width, settings.height) : output;
-    const shared::FrameParams fullFrame = frameParams(scene_, frame_->layout, whole, settings.seed);
-    const shared::FrameParams sampledFrame = frameParams(scene_, frame_->layout, sampled, settings.seed);
+    const image::Window sampled = needsAnalysis(settings)
+        ? blockWindow(output, settings.maxRadius, settings.width, settings.height)
+        : output;
+    return { *passes_, *deviceScene_, *frame_, *scratch_, settings, frameParams(scene_, frame_->layout, whole, settings.seed),
+        frameParams(scene_, frame_->layout, sampled, settings.seed), output };
+}
 
+bool Renderer::renderPasses(const Settings& settings, bool keepWidths)
+{
     frame_->clear(queue_);
     termPlanes_.clear();
     const bool lit = settings.integrator == Integrator::Path;
-    const TermContext context { *passes_, *deviceScene_, *frame_, *scratch_, settings, fullFrame, sampledFrame, output };
+    const TermContext context = contextOf(settings);
+    const image::Window& output = context.window;
     if (frame_->distributed) {
         return distributedPasses(context, keepWidths);
     }
-    bool complete = primaryPass(analysed ? fullFrame : sampledFrame, lit);
+    bool complete = primaryPass(needsAnalysis(settings) ? context.fullFrame : context.sampledFrame, lit);
     const std::size_t lights = lit ? deviceScene_->areaLightList.size() : 0;
     for (std::uint32_t light = 0; complete && light < lights; ++light) {
         SoftShadows shadows(context, *terms_.front(), light);
@@ -239,7 +278,7 @@ bool Renderer::renderPasses(const Settings& settings, bool keepWidths)
         }
     }
     if (complete && lit && deviceScene_->deltaLightCount > 0) {
-        complete = deltaLightPass(sampledFrame);
+        complete = deltaLightPass(context.sampledFrame);
     }
     for (const IndirectTerm& term : indirectTerms(settings, deviceScene_->specular)) {
         if (complete) {
@@ -253,8 +292,8 @@ bool Renderer::renderPasses(const Settings& settings, bool keepWidths)
     shared::AnalysisParams all {};
     const image::Window blocks = blockWindow(output, 0, settings.width, settings.height);
     setRectangle(all, blocks);
-    all.stride = fullFrame.stride;
-    all.planeSize = fullFrame.planeSize;
+    all.stride = context.fullFrame.stride;
+    all.planeSize = context.fullFrame.planeSize;
     passes_->rows("composite", PassKind::Composite, "composite.cl", "addEmission", all, WEDGE_BLOCK_PIXELS,
         frame_->emission, frame_->direct, frame_->indirect, frame_->objectId, frame_->beauty);
     return complete;
