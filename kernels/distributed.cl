@@ -122,12 +122,12 @@ __kernel void addPlane(DistributedParams p, __global const float* restrict part,
     }
 }
 
-/// At least as many secondary samples as primary ones.
-__kernel void atLeast(DistributedParams p, __global const float* restrict least, __global float* restrict demand)
+/// At least `share` as many samples of one kind as of another: no fewer secondary than primary ones.
+__kernel void atLeast(DistributedParams p, float share, __global const float* restrict least, __global float* restrict demand)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
-        demand[i] = fmax(demand[i], least[i]);
+        demand[i] = fmax(demand[i], share * least[i]);
     }
 }
 

@@ -286,9 +286,13 @@ void DistributedFrame::demands()
     c_.scratch.demand.fill(c_.passes.queue(), -1.0f);
     c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "sampleDemand", p, 1, c_.scratch.spread,
         c_.scratch.effective, c_.scratch.demand, c_.frame.lensWidth, c_.frame.motionWidth, c_.frame.primaryDemand);
-    eachTerm([&](Term& term, std::uint32_t, float) {
-        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "atLeast", p, 1, c_.frame.primaryDemand, term.demand);
-    });
+    const auto atLeast = [&](float share, const device::Buffer<float>& least, const device::Buffer<float>& demand) {
+        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "atLeast", p, 1, share, least, demand);
+    };
+    if (const float share = c_.settings.distributed.leastPrimaries; share > 0) {
+        eachTerm([&](Term& term, std::uint32_t, float) { atLeast(share, term.demand, c_.frame.primaryDemand); });
+    }
+    eachTerm([&](Term& term, std::uint32_t, float) { atLeast(1.0f, c_.frame.primaryDemand, term.demand); });
 }
 
 void DistributedFrame::counts()
@@ -308,7 +312,8 @@ void DistributedFrame::counts()
         demands.push_back({ term.demand.downloadAll(queue), term.taken.downloadAll(queue), rays });
         perPath += rays;
     });
-    const auto least = static_cast<float>(std::min(d.firstPaths, c_.settings.spp)), most = static_cast<float>(d.maxSpp);
+    const float first = static_cast<float>(std::min(d.firstPaths, c_.settings.spp)), most = static_cast<float>(d.maxSpp);
+    const float least = std::max(first, std::floor(d.leastShare * static_cast<float>(c_.settings.spp)));
     const std::size_t pixels = std::size_t { c_.fullFrame.width } * c_.fullFrame.height;
     const double budget = perPath * c_.settings.spp * static_cast<double>(pixels);
     double low = 1e-12, high = 1e12;

@@ -156,6 +156,8 @@ Settings halfAt(const Settings& settings, int spp)
     s.mu *= ratio;
     s.indirect.mu *= ratio;
     s.distributed.frames = 2;
+    s.distributed.leastShare = 0.25f;
+    s.distributed.leastPrimaries = 0.5f;
     s.distributed.maxSpp = std::max(s.distributed.maxSpp, std::min(10 * std::min(s.spp, largestSpp), largestSpp));
     return s;
 }

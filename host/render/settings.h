@@ -101,6 +101,8 @@ struct DistributedSettings {
     int firstPaths = 8; ///< primary samples of the first pass, each with one secondary of each term
     int maxSpp = 512; ///< most samples of a pixel and term
     bool published = false; ///< terms, widths and counts of chapter 5 and appendix B; spp has no say
+    float leastShare = 0; ///< of the mean count, that every pixel takes: counts follow variances, which may be seen late
+    float leastPrimaries = 0; ///< primary samples a sample of a term
     int frames = 1; ///< independent ones of which the image is the mean: filters are as narrow as the samples of all allow
     float mu = 1.0f; ///< as published: bandwidths beyond the critical ones (5.29)
     int mixedPaths = 64; ///< as published: primary samples where motions differ
