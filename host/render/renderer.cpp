@@ -28,6 +28,12 @@ TermShape termShape(const Settings& settings, bool specular)
     return tracesPaths(settings) ? direct.with(Indirect::termShape(needsAnalysis(settings))) : direct;
 }
 
+/// Planes of what is filtered at once: a term's value, or an image.
+std::uint32_t filteredPlanes(const Settings& settings, bool specular, bool distributed)
+{
+    return std::max(termShape(settings, specular).values, distributed ? 3u : 0u);
+}
+
 /// One a term where pixels have several receivers, which serve all terms at once; else the one that all take turns in.
 std::vector<TermShape> termShapes(const Settings& settings, const scene::Scene& scene, bool specular, bool distributed)
 {
@@ -123,7 +129,7 @@ device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hi
         Waves::plan(plan, layout, termShape(settings, specular));
     }
     if (needsAnalysis(settings)) {
-        Scratch::plan(plan, layout, termShape(settings, specular).values);
+        Scratch::plan(plan, layout, filteredPlanes(settings, specular, distributed));
     }
     return plan;
 }
@@ -172,9 +178,10 @@ void Renderer::allocateWaves(const Settings& settings, const PlaneLayout& layout
         waves_.reset();
         waves_ = std::make_unique<Waves>(device_, layout, receivers);
     }
-    if (needsAnalysis(settings) && (!scratch_ || scratch_->values < receivers.values)) {
+    const std::uint32_t planes = filteredPlanes(settings, deviceScene_->specular, isDistributed(settings, scene_));
+    if (needsAnalysis(settings) && (!scratch_ || scratch_->values < planes)) {
         scratch_.reset();
-        scratch_ = std::make_unique<Scratch>(device_, queue_, layout, receivers.values);
+        scratch_ = std::make_unique<Scratch>(device_, queue_, layout, planes);
     }
     if (!scratch_) {
         scratch_ = std::make_unique<Scratch>(device_, queue_, PlaneLayout(1, 1), 0);
