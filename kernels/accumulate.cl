@@ -156,7 +156,7 @@ WEDGE_FN TermPlanes termPlanes(__global float* texture, __global float* value, _
 ///         termTaken, termWanted: the pixels' samples of the light before and after the wave
 /// in out  of pixels: direct (radiance, 3), texture (3), value (visibility), plain (the same, unweighted), squares and
 ///         textureSquares (mean squared luminance of a primary sample's radiance, and of its texture), termRadiance (3, as
-///         published), extremes (slopes), weightOf (mean luminance of the texture), samples (of all terms), termTaken
+///         published), extremes (slopes, and shadows' motions), weightOf (mean luminance of the texture), samples (of all terms), termTaken
 __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight light, uint starts,
                               __global const uint* restrict pixelFirst, __global const uint* restrict pixelCount,
                               __global const uint* restrict taken, __global const uint* restrict hits,
@@ -188,6 +188,11 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
         const Vec3 kd = loadVec(diffuse, size, r), ks = loadVec(specular, size, r);
         sMin = slopes[r] > 0.0f ? fmin(sMin, slopes[r]) : sMin;
         sMax = fmax(sMax, slopes[size + r]);
+#ifdef WEDGE_MOTION
+        for (uint plane = 2u; plane < 6u; ++plane) {
+            extremes[plane * pixels + p.i] += slopes[plane * size + r];
+        }
+#endif
         Vec3 t, w = vec3(1.0f, 1.0f, 1.0f);
         float seen;
         if (wave.published != 0u) {

@@ -6,10 +6,16 @@
 // in out  sums (planes: diffuse weights, diffuse weights of visible samples, and the same for specular),
 //         taken (samples so far), rays (rays traced for the pixel, all lights)
 // out     value (planes: diffuse, specular): what is filtered; slopes (planes: s_min, s_max; 0 where no ray was
-//         occluded)
+//         occluded; where things move, then of the shadows' motions in the image, pixels while the shutter is open: sums of
+//         x, y and squares, and how many)
 #include "met_light.h"
 #include "packet.h"
+#include "shared/camera.h"
+#include "surface.h"
 #include "shared/wedge.h"
+
+/// Occluders count as at least this part of the shadow ray's length away from the light.
+#define WEDGE_LEAST_LIGHT_DISTANCE 0.02f
 
 /// What the samples of a packet's pixels add up to.
 typedef struct {
@@ -87,8 +93,43 @@ WEDGE_FN void storeTerm(SampleParams params, uint size, uint i, const TermSums* 
     takenPlane[i] = taken;
 }
 
-__kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light, __global const TraversalNode* restrict nodes,
-                        __global const TriangleBlock* restrict blocks, WEDGE_RECEIVER_PARAMETERS,
+/// What moves of the shadows at a packet's receivers.
+typedef struct {
+    float x[WEDGE_PACKET_SIZE], y[WEDGE_PACKET_SIZE]; ///< sums of motions in pixels over the shutter
+    float squared[WEDGE_PACKET_SIZE], count[WEDGE_PACKET_SIZE];
+} ShadowMotion;
+
+WEDGE_FN ShadowMotion noShadowMotion(void)
+{
+    ShadowMotion m;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        m.x[lane] = m.y[lane] = m.squared[lane] = m.count[lane] = 0.0f;
+    }
+    return m;
+}
+
+/// Adds the motion in the image of the shadow that hit, `along` of the way to the light's point, throws at the lane's receiver:
+/// the occluder's, seen from that point, on the receiver's plane.
+WEDGE_FN void addShadowMotion(CameraParams camera, SurfaceData surfaces, Hit hit, const ReceiverPacket* r, uint lane, Vec3 ray,
+                              ShadowMotion* m)
+{
+    const Vec3 p = vec3(r->positionX[lane], r->positionY[lane], r->positionZ[lane]);
+    const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
+    const Vec3 cast = vecScale(hitMotion(surfaces, hit), 1.0f / fmax(1.0f - hit.t, WEDGE_LEAST_LIGHT_DISTANCE));
+    const float facing = vecDot(n, ray);
+    const Vec3 moved = vecMad(cast, ray, -vecDot(n, cast) / fmax(facing, 1e-20f));
+    const Vec2 before = projectPoint(camera, vecMad(p, moved, -0.5f), 0.5f);
+    const Vec2 after = projectPoint(camera, vecMad(p, moved, 0.5f), 0.5f);
+    const float x = after.x - before.x, y = after.y - before.y;
+    m->x[lane] += x;
+    m->y[lane] += y;
+    m->squared[lane] += x * x + y * y;
+    m->count[lane] += 1.0f;
+}
+
+__kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light, CameraParams camera,
+                        __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
+                        WEDGE_SURFACE_PARAMETERS, WEDGE_RECEIVER_PARAMETERS,
                         __global const uint* restrict wanted, __global float* restrict sums, __global uint* restrict taken, __global float* restrict value,
                         __global float* restrict slopes, __global uint* restrict rays, uint firstGroup)
 {
@@ -96,6 +137,10 @@ __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light,
     ReceiverPacket receivers;
     loadReceivers(frame, params.light, firstGroup, WEDGE_RECEIVER_ARGUMENTS, &receivers);
     TermSums sum;
+#ifdef WEDGE_MOTION
+    const SurfaceData surfaces = WEDGE_SURFACE_ARGUMENTS;
+    ShadowMotion shadows = noShadowMotion();
+#endif
     float sMin[WEDGE_PACKET_SIZE], sMax[WEDGE_PACKET_SIZE];
     uint index[WEDGE_PACKET_SIZE], count[WEDGE_PACKET_SIZE], last[WEDGE_PACKET_SIZE], occluded[WEDGE_PACKET_SIZE];
     uint steps = 0u;
@@ -125,6 +170,14 @@ __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light,
             sMin[lane] = occluded[lane] != 0u ? fmin(sMin[lane], slope) : sMin[lane];
             sMax[lane] = occluded[lane] != 0u ? fmax(sMax[lane], slope) : sMax[lane];
         }
+#ifdef WEDGE_MOTION
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            if (occluded[lane] != 0u) {
+                addShadowMotion(camera, surfaces, packetHit(&hits, lane), &receivers, lane,
+                                vec3(s.rayX[lane], s.rayY[lane], s.rayZ[lane]), &shadows);
+            }
+        }
+#endif
         addSamples(&s, occluded, &sum);
     }
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
@@ -135,6 +188,12 @@ __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light,
         storeTerm(params, size, i, &sum, lane, index[lane], sums, taken, value);
         slopes[i] = sMax[lane] > 0.0f ? sMin[lane] : 0.0f;
         slopes[size + i] = sMax[lane];
+#ifdef WEDGE_MOTION
+        slopes[2u * size + i] = shadows.x[lane];
+        slopes[3u * size + i] = shadows.y[lane];
+        slopes[4u * size + i] = shadows.squared[lane];
+        slopes[5u * size + i] = shadows.count[lane];
+#endif
         rays[i] += sum.rays[lane];
     }
 }

@@ -6,6 +6,10 @@
 
 /// Kernels end at this many standard deviations.
 #define WEDGE_BLUR_CUT 2.5f
+/// Pixels that the motion's kernel reaches at most.
+#define WEDGE_MOTION_REACH 160
+/// Least cosine between motions of pixels that are averaged.
+#define WEDGE_SAME_DIRECTION 0.9f
 
 WEDGE_FN float blurWeight(float sigma, float there, float d)
 {
@@ -49,9 +53,25 @@ __kernel void blurColumns(DistributedParams p, __global const float* restrict le
     }
 }
 
-/// Along the motion.
-__kernel void blurMotion(DistributedParams p, __global const float* restrict along, __global const float* restrict directions,
-                         __global const float* restrict in, __global float* restrict out)
+/// Index of the pixel k steps along direction (dx, dy) from (x, y); the pixel's own beyond the image.
+WEDGE_FN uint pixelAlong(DistributedParams p, uint x, uint y, uint i, float dx, float dy, int k)
+{
+    const int px = (int)floor((float)x + 0.5f + (float)k * dx), py = (int)floor((float)y + 0.5f + (float)k * dy);
+    return px < 0 || py < 0 || px >= (int)p.width || py >= (int)p.height ? i : pixelIndex((uint)px, (uint)py, p.stride);
+}
+
+/// Weight of the pixel at j, k steps along the motion of that at i: 0 for another motion.
+WEDGE_FN float motionWeight(DistributedParams p, uint i, uint j, int k, __global const float* along,
+                            __global const float* directions)
+{
+    const float turn = directions[i] * directions[j] + directions[p.planeSize + i] * directions[p.planeSize + j];
+    return j != i && turn > WEDGE_SAME_DIRECTION ? blurWeight(along[i], along[j], fabs((float)k)) : 0.0f;
+}
+
+/// Along the motion; channels: planes, 1 or 3.
+__kernel void blurMotion(DistributedParams p, uint channels, __global const float* restrict along,
+                         __global const float* restrict directions, __global const float* restrict in,
+                         __global float* restrict out)
 {
     const uint x = p.x0 + get_global_id(0), y = p.y0 + get_global_id(1);
     if (x >= p.x1 || y >= p.y1) {
@@ -59,20 +79,23 @@ __kernel void blurMotion(DistributedParams p, __global const float* restrict alo
     }
     const uint n = p.planeSize, i = pixelIndex(x, y, p.stride);
     const float dx = directions[i], dy = directions[n + i];
-    const float sigma = along[i];
-    Vec3 sum = loadVec(in, n, i);
-    float weights = 1.0f;
-    const int reach = min((int)(WEDGE_BLUR_CUT * sigma), 4 * WEDGE_MAX_RADIUS);
-    for (int k = -reach; k <= reach; ++k) {
-        const int px = (int)floor((float)x + 0.5f + (float)k * dx), py = (int)floor((float)y + 0.5f + (float)k * dy);
-        if (k == 0 || px < 0 || py < 0 || px >= (int)p.width || py >= (int)p.height) {
-            continue;
-        }
-        const uint j = pixelIndex((uint)px, (uint)py, p.stride);
-        const float turn = dx * directions[j] + dy * directions[n + j];
-        const float w = turn > 0.9f ? blurWeight(sigma, along[j], fabs((float)k)) : 0.0f;
-        weights += w;
-        sum = w > 0.0f ? vecMad(sum, loadVec(in, n, j), w) : sum;
+    const int reach = min((int)(WEDGE_BLUR_CUT * along[i]), WEDGE_MOTION_REACH);
+    float sum[3];
+    for (uint c = 0u; c < channels; ++c) {
+        sum[c] = in[c * n + i];
     }
-    storeVec(out, n, i, vecScale(sum, 1.0f / weights));
+    float weights = 1.0f;
+    for (int k = -reach; k <= reach; ++k) {
+        const uint j = pixelAlong(p, x, y, i, dx, dy, k);
+        const float w = motionWeight(p, i, j, k, along, directions);
+        if (w > 0.0f) {
+            weights += w;
+            for (uint c = 0u; c < channels; ++c) {
+                sum[c] += w * in[c * n + j];
+            }
+        }
+    }
+    for (uint c = 0u; c < channels; ++c) {
+        out[c * n + i] = sum[c] / weights;
+    }
 }

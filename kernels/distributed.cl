@@ -109,7 +109,7 @@ __kernel void sampleDemand(DistributedParams p, __global const float* restrict v
         }
     }
     const float v = fmax(variance[i], p.varianceSpread * largest);
-    const float gathered = blurGather(lens[i], along[i]) * (beta[i] > 0.0f ? fmax(effective[i], 1.0f) : 1.0f);
+    const float gathered = blurGather(lens[i], p.alongMotion != 0u ? along[i] : 0.0f) * (beta[i] > 0.0f ? fmax(effective[i], 1.0f) : 1.0f);
     demand[i] = v > 1e-30f ? pow(v / (gathered * p.rays), p.countExponent) : 0.0f;
 }
 
@@ -184,19 +184,46 @@ __kernel void blurs(DistributedParams p, __global const float* restrict confusio
     directions[p.planeSize + i] = one ? my / length : 0.0f;
 }
 
-/// Puts a term's filtered value in the place of its own: radiance += texture (filtered - value), which keeps what texture and
-/// irradiance have in common; as published k E in the place of L (5.32), termRadiance.
-__kernel void replaceTerm(DistributedParams p, __global const float* restrict texture, __global const float* restrict value,
+/// Standard deviations in pixels of the filter of a light's irradiance along its shadows' motion (B.2): where all that move
+/// move alike, else 0.
+/// in   shadows: slopes and sums of motions as area_light.cl has them; taken: the light's samples
+/// out  along, directions (2 planes, unit)
+__kernel void shadowBlurs(DistributedParams p, __global const float* restrict shadows, __global const uint* restrict taken,
+                          __global const float* restrict beta, __global float* restrict along,
+                          __global float* restrict directions)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    const uint n = p.planeSize;
+    const float count = fmax(shadows[5u * n + i], 1.0f);
+    const float mx = shadows[2u * n + i] / count, my = shadows[3u * n + i] / count;
+    const float squared = mx * mx + my * my, length = sqrt(squared);
+    const float spread = sqrt(fmax(shadows[4u * n + i] / count - squared, 0.0f));
+    const bool one = length >= p.leastRadius && spread <= p.oneVelocity * length && beta[i] >= 0.0f;
+    const float h = 0.5f * length;
+    const float samples = p.frames * (p.samples > 0.0f ? p.samples : fmax((float)taken[i], 1.0f));
+    along[i] = one ? p.shutterWidth * h * pow(samples * h, -p.shutterExponent) : 0.0f;
+    directions[i] = one ? mx / length : 1.0f;
+    directions[n + i] = one ? my / length : 0.0f;
+}
+
+/// Puts a term's filtered value in the place of its own: radiance += filteredTexture filtered - texture value, which keeps what
+/// texture and irradiance have in common; as published k E in the place of L (5.32), termRadiance.
+__kernel void replaceTerm(DistributedParams p, __global const float* restrict texture,
+                          __global const float* restrict filteredTexture, __global const float* restrict value,
                           __global const float* restrict filtered, __global const float* restrict beta,
                           __global const float* restrict termRadiance, __global float* restrict radiance)
 {
     uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i) || !(p.published != 0u ? beta[i] >= 0.0f : beta[i] > 0.0f)) {
+    if (!pixelOf(p, &x, &y, &i) || !(beta[i] >= 0.0f)) {
         return;
     }
-    const Vec3 k = loadVec(texture, p.planeSize, i), e = termValueOf(p, filtered, i);
-    const Vec3 change = p.published != 0u ? vecSub(vecMul(k, e), loadVec(termRadiance, p.planeSize, i))
-                                          : vecMul(k, vecSub(e, termValueOf(p, value, i)));
+    const Vec3 product = vecMul(loadVec(filteredTexture, p.planeSize, i), termValueOf(p, filtered, i));
+    const Vec3 own = p.published != 0u ? loadVec(termRadiance, p.planeSize, i)
+                                       : vecMul(loadVec(texture, p.planeSize, i), termValueOf(p, value, i));
+    const Vec3 change = vecSub(product, own);
     storeVec(radiance, p.planeSize, i, vecAdd(loadVec(radiance, p.planeSize, i), change));
 }
 
@@ -224,10 +251,10 @@ __kernel void copyRadiance(DistributedParams p, __global const float* restrict d
     }
 }
 
-__kernel void copyImage(DistributedParams p, __global const float* restrict in, __global float* restrict out)
+__kernel void copyPlane(DistributedParams p, __global const float* restrict in, __global float* restrict out)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
-        storeVec(out, p.planeSize, i, loadVec(in, p.planeSize, i));
+        out[i] = in[i];
     }
 }

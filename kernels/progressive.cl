@@ -11,6 +11,15 @@ WEDGE_FN bool pixelOf(DistributedParams p, uint* x, uint* y, uint* i)
     return *x < p.x1 && *y < p.y1;
 }
 
+/// Copies an image (3 planes).
+__kernel void copyImage(DistributedParams p, __global const float* restrict in, __global float* restrict out)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        storeVec(out, p.planeSize, i, loadVec(in, p.planeSize, i));
+    }
+}
+
 /// What the first half weighs of two with so many samples: one that has none yet has no say.
 WEDGE_FN float shareOfFirst(uint first, uint second)
 {

@@ -243,7 +243,7 @@ TEST_CASE("the host's schedule: waves of whole tiles in order, none too large, a
                 shared::WaveParams settings {};
                 settings.sampler = WEDGE_SAMPLER_STRATIFIED;
                 settings.published = 1;
-                const std::vector<shared::WaveParams> found = waves.schedule(bench.passes, params, frame, settings, last);
+                const std::vector<shared::WaveParams> found = waves.schedule(bench.passes, params, {}, frame, settings, last);
                 std::uint64_t receivers = 0, expected = 0;
                 std::uint32_t tile = 0;
                 for (const shared::WaveParams& wave : found) {

@@ -53,8 +53,8 @@ public:
         taken.fill(bench.queue, 0u);
         firstWanted.fill(bench.queue, p.firstPass);
         bench.passes.tiles("first", device::PassKind::Trace, "area_light.cl", "firstPass", params, 1.0, p,
-            onDevice.areaLightList[p.light], onDevice.nodes, onDevice.blocks, frame.receivers(), firstWanted, sums, taken,
-            value, slopes, frame.rays);
+            onDevice.areaLightList[p.light], shared::CameraParams {}, onDevice.nodes, onDevice.blocks,
+            render::surfaceArguments(onDevice), frame.receivers(), firstWanted, sums, taken, value, slopes, frame.rays);
     }
     void secondPass(const shared::SampleParams& p, std::uint32_t last)
     {

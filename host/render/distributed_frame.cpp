@@ -136,7 +136,7 @@ bool DistributedFrame::sample(const shared::FrameParams& frame, std::uint32_t la
     shared::WaveParams settings {};
     settings.sampler = samplerOf(c_);
     settings.published = c_.settings.method == Method::AxisAligned && c_.settings.distributed.published ? 1 : 0;
-    const std::vector<shared::WaveParams> waves = waves_.schedule(c_.passes, frame, c_.frame, settings, last);
+    const std::vector<shared::WaveParams> waves = waves_.schedule(c_.passes, frame, camera_, c_.frame, settings, last);
     for (const shared::WaveParams& wave : waves) {
         if (stop_ != nullptr && *stop_) {
             return false;
@@ -149,7 +149,7 @@ bool DistributedFrame::sample(const shared::FrameParams& frame, std::uint32_t la
 void DistributedFrame::sampleWave(const shared::WaveParams& wave, bool slopes, double workUnits)
 {
     const double units = workUnits / (1.0 + static_cast<double>(lights_.size() + paths_.size()));
-    waves_.trace(c_.passes, c_.scene, c_.frame, camera_, wave, lit_, units);
+    waves_.trace(c_.passes, c_.scene, c_.frame, wave, lit_, units);
     bool starts = true;
     for (SoftShadows& light : lights_) {
         light.sampleWave(waves_, wave, slopes, starts, units);
@@ -163,7 +163,7 @@ void DistributedFrame::sampleWave(const shared::WaveParams& wave, bool slopes, d
         path.sampleWave(waves_, wave, starts, units);
         starts = false;
     }
-    waves_.accumulateSurfaces(c_.passes, c_.frame, camera_, wave);
+    waves_.accumulateSurfaces(c_.passes, c_.frame, wave);
 }
 
 void DistributedFrame::deltaLights(const shared::WaveParams& wave, bool starts)
@@ -280,6 +280,7 @@ void DistributedFrame::demands()
 {
     shared::DistributedParams p = params(c_.full());
     p.rays = 1.0f;
+    p.alongMotion = 1;
     c_.scratch.spread.fill(c_.passes.queue(), 0.0f);
     eachTerm([&](Term& term, std::uint32_t values, float rays) { demandOf(term, values, rays); });
     // Nothing but lens and shutter averages textures.
@@ -359,6 +360,9 @@ void DistributedFrame::keepPace()
 void DistributedFrame::filter()
 {
     shared::DistributedParams p = params(c_.full());
+    if (analysed_) {
+        blurWidths(0.0f);
+    }
     c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "copyRadiance", p, 1, c_.frame.directNoisy,
         c_.frame.indirectNoisy, c_.frame.direct, c_.frame.indirect);
     if (analysed_) {
@@ -382,12 +386,11 @@ void DistributedFrame::compose(device::Buffer<float>* emission)
     c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "addAll", params(c_.full()), 1, c_.frame.emission,
         c_.frame.direct, c_.frame.indirect, c_.frame.beauty);
     if (emission != nullptr) {
-        c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "copyImage", params(c_.full()), 1, c_.frame.emission, *emission);
+        c_.passes.rows("composite", PassKind::Composite, "progressive.cl", "copyImage", params(c_.full()), 1, c_.frame.emission, *emission);
     }
     if (!analysed_ || !c_.settings.distributed.blur) {
         return;
     }
-    blurWidths(0.0f);
     blur(c_.frame.beauty);
     if (keepLayers_) {
         device::Buffer<float>& emitted = emission != nullptr ? *emission : c_.frame.emission;
@@ -404,11 +407,6 @@ void DistributedFrame::blur(device::Buffer<float>& image)
     if (camera_.apertureRadius > 0) {
         c_.passes.rows(pass, PassKind::Filter, "blur.cl", "blurRows", p, 1, c_.frame.lensWidth, image, c_.scratch.rowsFiltered);
         c_.passes.rows(pass, PassKind::Filter, "blur.cl", "blurColumns", p, 1, c_.frame.lensWidth, c_.scratch.rowsFiltered, image);
-    }
-    if (camera_.shutter != 0) {
-        c_.passes.rows(pass, PassKind::Filter, "distributed.cl", "copyImage", p, 1, image, c_.scratch.filtered);
-        c_.passes.rows(pass, PassKind::Filter, "blur.cl", "blurMotion", p, 1, c_.frame.motionWidth, c_.frame.motionDirection,
-            c_.scratch.filtered, image);
     }
 }
 

@@ -58,7 +58,7 @@ void Halves::begin(
         Half& half = halves_[i];
         half.frame->clear(context.passes.queue());
         TermContext own { context.passes, context.scene, *half.frame, context.scratch, step_, context.fullFrame,
-            context.sampledFrame, context.window };
+            context.sampledFrame, context.window, context.shutter };
         own.fullFrame.seed = own.sampledFrame.seed = context.fullFrame.seed + static_cast<std::uint32_t>(i) * secondSeed;
         half.image = std::make_unique<DistributedFrame>(own, waves, half.terms, lights, camera, keepLayers);
         half.image->begin();

@@ -34,6 +34,15 @@ std::uint32_t filteredPlanes(const Settings& settings, bool specular, bool distr
     return std::max(termShape(settings, specular).values, distributed ? 3u : 0u);
 }
 
+/// Slopes of lights, and where things move what their shadows' motions add up to.
+std::uint32_t lightExtremes(const scene::Scene& scene) { return scene::geometryMoves(scene) ? 6 : 2; }
+
+/// What receivers of waves need for the terms in turn.
+TermShape receiverShape(const Settings& settings, const scene::Scene& scene, bool specular)
+{
+    return termShape(settings, specular).with({ 0, 0, lightExtremes(scene), false, false, false });
+}
+
 /// One a term where pixels have several receivers, which serve all terms at once; else the one that all take turns in.
 std::vector<TermShape> termShapes(const Settings& settings, const scene::Scene& scene, bool specular, bool distributed)
 {
@@ -43,7 +52,7 @@ std::vector<TermShape> termShapes(const Settings& settings, const scene::Scene& 
     const bool analysed = needsAnalysis(settings);
     const std::size_t lights = settings.integrator == Integrator::Path ? scene.areaLights.size() : 0;
     const bool published = analysed && settings.distributed.published;
-    std::vector<TermShape> shapes(lights, { 1, 1, 2, analysed, true, published });
+    std::vector<TermShape> shapes(lights, { 1, 1, lightExtremes(scene), analysed, true, published });
     shapes.resize(lights + indirectTerms(settings, specular).size(), { 0, 3, 3, analysed, true, published });
     return shapes;
 }
@@ -126,7 +135,7 @@ device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hi
         }
     }
     if (distributed) {
-        Waves::plan(plan, layout, termShape(settings, specular));
+        Waves::plan(plan, layout, receiverShape(settings, scene, specular));
     }
     if (needsAnalysis(settings)) {
         Scratch::plan(plan, layout, filteredPlanes(settings, specular, distributed));
@@ -173,7 +182,7 @@ void Renderer::allocate(const Settings& settings)
 
 void Renderer::allocateWaves(const Settings& settings, const PlaneLayout& layout)
 {
-    const TermShape receivers = termShape(settings, deviceScene_->specular);
+    const TermShape receivers = receiverShape(settings, scene_, deviceScene_->specular);
     if (isDistributed(settings, scene_) && (!waves_ || !waves_->shape.holds(receivers))) {
         waves_.reset();
         waves_ = std::make_unique<Waves>(device_, layout, receivers);
@@ -262,7 +271,8 @@ TermContext Renderer::contextOf(const Settings& settings)
         ? blockWindow(output, settings.maxRadius, settings.width, settings.height)
         : output;
     return { *passes_, *deviceScene_, *frame_, *scratch_, settings, frameParams(scene_, frame_->layout, whole, settings.seed),
-        frameParams(scene_, frame_->layout, sampled, settings.seed), output };
+        frameParams(scene_, frame_->layout, sampled, settings.seed), output,
+        scene::geometryMoves(scene_) || scene::cameraMoves(scene_) };
 }
 
 bool Renderer::renderPasses(const Settings& settings, bool keepWidths)

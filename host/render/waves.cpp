@@ -59,9 +59,10 @@ Waves::Waves(const device::Device& device, const PlaneLayout& layout, const Term
 {
 }
 
-std::vector<shared::WaveParams> Waves::schedule(
-    Passes& passes, const shared::FrameParams& params, const Frame& frame, shared::WaveParams settings, std::uint32_t last)
+std::vector<shared::WaveParams> Waves::schedule(Passes& passes, const shared::FrameParams& params,
+    const shared::CameraParams& camera, const Frame& frame, shared::WaveParams settings, std::uint32_t last)
 {
+    camera_ = camera;
     params_ = params;
     settings.planeSize = capacity;
     settings.lastSample = last;
@@ -98,14 +99,14 @@ shared::FrameParams Waves::receiverParams(const shared::WaveParams& wave) const
     return p;
 }
 
-void Waves::trace(Passes& passes, const DeviceScene& scene, const Frame& frame, const shared::CameraParams& camera,
-    const shared::WaveParams& wave, bool lit, double workUnits)
+void Waves::trace(Passes& passes, const DeviceScene& scene, const Frame& frame, const shared::WaveParams& wave,
+    bool lit, double workUnits)
 {
     passes.list("lists", PassKind::Trace, "waves.cl", "listReceivers", wave.tiles, params_, wave, frame.primaryTaken,
         frame.primaryWanted, tileFirst, pixelOf, sampleOf, shareOf, pixelFirst, pixelCount);
     shared::FrameParams traced = params_;
     traced.tileCount = receiverParams(wave).tileCount;
-    passes.tiles("primary rays", PassKind::Trace, "wave_primary.cl", "wavePrimary", traced, workUnits, camera, wave,
+    passes.tiles("primary rays", PassKind::Trace, "wave_primary.cl", "wavePrimary", traced, workUnits, camera_, wave,
         scene.nodes, scene.blocks, surfaceArguments(scene), scene.objectIds, scene.areaLights,
         static_cast<std::uint32_t>(lit ? scene.areaLightList.size() : 0), pixelOf, sampleOf, frame.primaryWanted, position,
         normal, origin, geometric, objectId, gloss, view, time, diffuse, specular, emission, pixelSize, depth, motion, rays,
@@ -118,10 +119,9 @@ void Waves::share(Passes& passes, const Term& term, const shared::WaveParams& wa
         term.taken, term.wanted, shape.sums, shape.extremes, taken, wanted, sums, extremes);
 }
 
-void Waves::accumulateSurfaces(
-    Passes& passes, Frame& frame, const shared::CameraParams& camera, const shared::WaveParams& wave)
+void Waves::accumulateSurfaces(Passes& passes, Frame& frame, const shared::WaveParams& wave)
 {
-    pixels(passes, "accumulateSurfaces", wave, camera, pixelFirst, pixelCount, objectId, position, normal,
+    pixels(passes, "accumulateSurfaces", wave, camera_, pixelFirst, pixelCount, objectId, position, normal,
         gloss, diffuse, specular, emission, pixelSize, depth, motion, rays, pathRays, frame.primaryTaken, frame.hits,
         frame.objectId, frame.position, frame.normal, frame.gloss, frame.diffuse, frame.specular, frame.emission,
         frame.pixelSize, frame.depth, frame.confusion, frame.motion, frame.rays, frame.pathRays);

@@ -25,19 +25,20 @@ public:
 
     /// The waves in which the pixels of frame get their primary samples up to frame.primaryWanted, or up to `last` samples.
     /// settings: sampler, firstPass and shading; the rest is filled in. They are for those pixels until the next schedule.
-    std::vector<shared::WaveParams> schedule(
-        Passes& passes, const shared::FrameParams& params, const Frame& frame, shared::WaveParams settings, std::uint32_t last);
+    std::vector<shared::WaveParams> schedule(Passes& passes, const shared::FrameParams& params,
+        const shared::CameraParams& camera, const Frame& frame, shared::WaveParams settings, std::uint32_t last);
+
+    const shared::CameraParams& camera() const { return camera_; }
 
     /// Lists the wave's receivers and traces their primary rays. lit: with area lights in view.
-    void trace(Passes& passes, const DeviceScene& scene, const Frame& frame, const shared::CameraParams& camera,
-         const shared::WaveParams& wave, bool lit, double workUnits);
+    void trace(Passes& passes, const DeviceScene& scene, const Frame& frame, const shared::WaveParams& wave, bool lit,
+        double workUnits);
 
     /// Shares the samples of a term that the wave's pixels take now out to their receivers, and clears those' sums.
     void share(Passes& passes, const Term& term, const shared::WaveParams& wave);
 
     /// Adds the receivers' surfaces to their pixels: the last that is done with a wave.
-    void accumulateSurfaces(
-        Passes& passes, Frame& frame, const shared::CameraParams& camera, const shared::WaveParams& wave);
+    void accumulateSurfaces(Passes& passes, Frame& frame, const shared::WaveParams& wave);
 
     /// What passes over the wave's receivers take for FrameParams.
     shared::FrameParams receiverParams(const shared::WaveParams& wave) const;
@@ -67,6 +68,7 @@ public:
 
 private:
     shared::FrameParams params_ {}; ///< of the pixels
+    shared::CameraParams camera_ {};
 };
 
 } // namespace wedge::render

@@ -96,8 +96,8 @@ bool SoftShadows::firstPass()
 {
     try {
         c_.passes.tiles("first pass", PassKind::Trace, "area_light.cl", "firstPass", c_.fullFrame, WEDGE_FIRST_PASS_RAYS,
-            sampleParams(), light(), c_.scene.nodes, c_.scene.blocks, c_.frame.receivers(), term_.wanted, term_.sums,
-            term_.taken, term_.value, term_.extremes, c_.frame.rays);
+            sampleParams(), light(), shared::CameraParams {}, c_.scene.nodes, c_.scene.blocks, surfaceArguments(c_.scene),
+            c_.frame.receivers(), term_.wanted, term_.sums, term_.taken, term_.value, term_.extremes, c_.frame.rays);
     } catch (const device::Cancelled&) {
         return false;
     }
@@ -248,7 +248,8 @@ void SoftShadows::sampleWave(Waves& waves, const shared::WaveParams& wave, bool 
     waves.share(c_.passes, term_, wave);
     if (slopes) {
         c_.passes.tiles("first pass", PassKind::Trace, "area_light.cl", "firstPass", receivers, workUnits, sampleParams(),
-            light(), c_.scene.nodes, c_.scene.blocks, waves.receivers(), waves.wanted, waves.sums, waves.taken, waves.value,
+            light(), waves.camera(), c_.scene.nodes, c_.scene.blocks, surfaceArguments(c_.scene), waves.receivers(),
+            waves.wanted, waves.sums, waves.taken, waves.value,
             waves.extremes, waves.rays);
     } else {
         c_.passes.tiles("shadow rays", PassKind::Trace, "area_light.cl", "secondPass", receivers, workUnits, sampleParams(),
@@ -269,11 +270,25 @@ void SoftShadows::publishedWidths(const shared::DistributedParams& params, const
     analysed_ = true;
 }
 
+void SoftShadows::blurShadows(const shared::DistributedParams& params)
+{
+    Scratch& scratch = c_.scratch;
+    c_.passes.rows("filter of motion", PassKind::Filter, "distributed.cl", "shadowBlurs", params, 1, term_.extremes,
+        term_.taken, term_.beta, scratch.demand, scratch.logs);
+    c_.passes.rows("filter of motion", PassKind::Filter, "blur.cl", "blurMotion", params, 1, 1u, scratch.demand, scratch.logs,
+        scratch.filtered, scratch.rowsFiltered);
+    c_.passes.rows("filter of motion", PassKind::Filter, "distributed.cl", "copyPlane", params, 1, scratch.rowsFiltered,
+        scratch.filtered);
+}
+
 void SoftShadows::filterDistributed(const shared::DistributedParams& params)
 {
     gaussianFilter(c_.passes, { "filter", PassKind::Filter, "filter_variance.cl" },
         filterParams(c_.settings, c_.fullFrame, light(), c_.full()), c_.full(), c_.frame, term_.value, term_.beta, c_.scratch,
         c_.scratch.filtered);
+    if (c_.scene.moves && c_.settings.distributed.blur) {
+        blurShadows(params);
+    }
     replaceTerm(c_, term_, params, c_.frame.direct);
 }
 

@@ -42,6 +42,7 @@ private:
     void publishedWidths();
     void smoothedWidths();
     void countsFromVariance();
+    void blurShadows(const shared::DistributedParams& params);
     void shade(const device::Buffer<float>& value);
     shared::AnalysisParams analysisParams(const image::Window& window) const;
     const shared::AreaLight& light() const { return c_.scene.areaLightList[index_]; }

@@ -11,8 +11,15 @@ std::uint32_t samplerOf(const TermContext& context)
 void replaceTerm(
     const TermContext& context, const Term& term, const shared::DistributedParams& params, device::Buffer<float>& radiance)
 {
+    Scratch& scratch = context.scratch;
+    const device::Buffer<float>* texture = &term.texture;
+    if (context.shutter && context.settings.distributed.blur) {
+        context.passes.rows("filter of motion", device::PassKind::Filter, "blur.cl", "blurMotion", params, 1, 3u,
+            context.frame.motionWidth, context.frame.motionDirection, term.texture, scratch.rowsFiltered);
+        texture = &scratch.rowsFiltered;
+    }
     context.passes.rows("composite", device::PassKind::Composite, "distributed.cl", "replaceTerm", params, 1, term.texture,
-        term.value, context.scratch.filtered, term.beta, term.radiance, radiance);
+        *texture, term.value, scratch.filtered, term.beta, term.radiance, radiance);
 }
 
 } // namespace wedge::render

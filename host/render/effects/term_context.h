@@ -18,6 +18,7 @@ struct TermContext {
     shared::FrameParams fullFrame; ///< of the whole image
     shared::FrameParams sampledFrame; ///< of the pixels that need their last samples
     image::Window window; ///< the pixels that the result is wanted for
+    bool shutter; ///< something moves while it is open
 
     image::Window full() const
     {
