@@ -307,10 +307,12 @@ void DistributedFrame::counts()
     };
     std::vector<Demand> demands;
     device::TimedQueue& queue = c_.passes.queue();
-    demands.push_back({ c_.frame.primaryDemand.downloadAll(queue), c_.frame.primaryTaken.downloadAll(queue), 1.0f });
+    const DistributedFrame& guide = guide_ != nullptr && guide_->taken_ > 0 ? *guide_ : *this;
+    demands.push_back({ guide.c_.frame.primaryDemand.downloadAll(queue), c_.frame.primaryTaken.downloadAll(queue), 1.0f });
     double perPath = 1.0;
+    std::size_t next = 0;
     eachTerm([&](Term& term, std::uint32_t, float rays) {
-        demands.push_back({ term.demand.downloadAll(queue), term.taken.downloadAll(queue), rays });
+        demands.push_back({ guide.terms_[next++]->demand.downloadAll(queue), term.taken.downloadAll(queue), rays });
         perPath += rays;
     });
     const float first = static_cast<float>(std::min(d.firstPaths, c_.settings.spp)), most = static_cast<float>(d.maxSpp);
@@ -339,11 +341,12 @@ void DistributedFrame::counts()
     const shared::DistributedParams p = params(c_.full());
     const auto scale = static_cast<float>(low);
     c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "scaleCounts", p, 1, scale,
-        static_cast<std::uint32_t>(least), static_cast<std::uint32_t>(most), c_.frame.primaryDemand, c_.frame.primaryTaken,
+        static_cast<std::uint32_t>(least), static_cast<std::uint32_t>(most), guide.c_.frame.primaryDemand, c_.frame.primaryTaken,
         c_.frame.primaryWanted);
+    next = 0;
     eachTerm([&](Term& term, std::uint32_t, float) {
         c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "scaleCounts", p, 1, scale,
-            static_cast<std::uint32_t>(least), static_cast<std::uint32_t>(most), term.demand, term.taken, term.wanted);
+            static_cast<std::uint32_t>(least), static_cast<std::uint32_t>(most), guide.terms_[next++]->demand, term.taken, term.wanted);
     });
 }
 

@@ -40,6 +40,10 @@ public:
     /// sample can be added any more.
     void compose(device::Buffer<float>* emission = nullptr);
 
+    /// Counts follow the demands of another frame of the same terms once it has any: counts that know nothing of what they
+    /// are for leave means unbiased. It is to live as long as this one refines.
+    void followDemandsOf(const DistributedFrame& other) { guide_ = &other; }
+
     /// Whether terms got widths.
     bool analysed() const { return analysed_; }
 
@@ -76,6 +80,7 @@ private:
     bool analysed_ = false;
     std::uint32_t taken_ = 0; ///< samples of a pixel, their mean
     const std::atomic<bool>* stop_ = nullptr;
+    const DistributedFrame* guide_ = nullptr;
 };
 
 } // namespace wedge::render

@@ -66,6 +66,8 @@ void Halves::begin(
             context_ = std::make_unique<TermContext>(own);
         }
     }
+    halves_[0].image->followDemandsOf(*halves_[1].image);
+    halves_[1].image->followDemandsOf(*halves_[0].image);
 }
 
 bool Halves::refine(int spp, const std::atomic<bool>& stop)
