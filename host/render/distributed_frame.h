@@ -5,6 +5,7 @@
 #include "host/render/effects/term_context.h"
 #include "host/render/waves.h"
 
+#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <vector>
@@ -82,5 +83,14 @@ private:
     const std::atomic<bool>* stop_ = nullptr;
     const DistributedFrame* guide_ = nullptr;
 };
+
+template <class F>
+void DistributedFrame::eachTerm(const F& f)
+{
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+        const bool light = i < lights_.size();
+        f(*terms_[i], light ? 1u : 3u, light ? 1.0f : 2.0f * static_cast<float>(std::max(1, c_.settings.bounces)));
+    }
+}
 
 } // namespace wedge::render
