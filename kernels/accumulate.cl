@@ -15,9 +15,6 @@
 /// Least texture with which an irradiance counts: black surfaces have one, too.
 #define WEDGE_LEAST_TEXTURE 1e-3f
 
-/// Object id of a pixel that sees several.
-#define WEDGE_MIXED 0xffffffffu
-
 /// A pixel and its receivers in the wave.
 typedef struct {
     uint i;            ///< in planes of pixels

@@ -122,12 +122,12 @@ __kernel void addPlane(DistributedParams p, __global const float* restrict part,
     }
 }
 
-/// At least as many secondary samples as primary ones.
-__kernel void atLeast(DistributedParams p, __global const float* restrict least, __global float* restrict demand)
+/// At least `share` as many samples of one kind as of another: no fewer secondary than primary ones.
+__kernel void atLeast(DistributedParams p, float share, __global const float* restrict least, __global float* restrict demand)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
-        demand[i] = fmax(demand[i], least[i]);
+        demand[i] = fmax(demand[i], share * least[i]);
     }
 }
 
@@ -142,6 +142,26 @@ __kernel void scaleCounts(DistributedParams p, float scale, uint least, uint mos
     }
 }
 
+/// No more new primary samples than a wave has room for.
+__kernel void limitStep(DistributedParams p, __global const uint* restrict taken, __global uint* restrict wanted)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        wanted[i] = min(wanted[i], taken[i] + WEDGE_MOST_NEW_SAMPLES);
+    }
+}
+
+/// No fewer new samples of a term than new primary ones: a receiver without any would count as black.
+__kernel void keepPace(DistributedParams p, __global const uint* restrict primaryTaken,
+                       __global const uint* restrict primaryWanted, __global const uint* restrict taken,
+                       __global uint* restrict wanted)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        wanted[i] = max(wanted[i], taken[i] + (primaryWanted[i] - primaryTaken[i]));
+    }
+}
+
 /// Standard deviations in pixels of the image-space filters: of the blur that all of a pixel has, else 0.
 /// out  lens, along (the motion), directions of that (2 planes, unit)
 __kernel void blurs(DistributedParams p, __global const float* restrict confusion, __global const float* restrict motion,
@@ -152,7 +172,7 @@ __kernel void blurs(DistributedParams p, __global const float* restrict confusio
     if (!pixelOf(p, &x, &y, &i)) {
         return;
     }
-    const float n = p.samples > 0.0f ? p.samples : fmax((float)taken[i], 1.0f);
+    const float n = p.frames * (p.samples > 0.0f ? p.samples : fmax((float)taken[i], 1.0f));
     const float r = leastConfusion(p, confusion, i);
     lens[i] = r >= p.leastRadius ? p.blurWidth * r * pow(n * r * r, -p.blurExponent) : 0.0f;
     const float mx = motion[i], my = motion[p.planeSize + i];
@@ -183,7 +203,7 @@ __kernel void shadowBlurs(DistributedParams p, __global const float* restrict sh
     const float spread = sqrt(fmax(shadows[4u * n + i] / count - squared, 0.0f));
     const bool one = length >= p.leastRadius && spread <= p.oneVelocity * length && beta[i] >= 0.0f;
     const float h = 0.5f * length;
-    const float samples = p.samples > 0.0f ? p.samples : fmax((float)taken[i], 1.0f);
+    const float samples = p.frames * (p.samples > 0.0f ? p.samples : fmax((float)taken[i], 1.0f));
     along[i] = one ? p.shutterWidth * h * pow(samples * h, -p.shutterExponent) : 0.0f;
     directions[i] = one ? mx / length : 1.0f;
     directions[n + i] = one ? my / length : 0.0f;

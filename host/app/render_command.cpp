@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -46,6 +47,11 @@ private:
     void load();
     void prepare();
     void render();
+    void renderSteps(const render::Control& control);
+    void showStep(const render::ProgressiveStep& step);
+    std::string endOfSteps() const;
+    void write();
+    void writeReport();
     void finish();
 
     template <class... Args>
@@ -170,13 +176,62 @@ void RenderJob::render()
         fraction_ = fraction;
         progress_.update(fraction);
     };
-    statistics_ = renderer_->render(settings_, control, render::needTermPlanes(layers_));
+    if (settings_.progressive) {
+        renderSteps(control);
+    } else {
+        statistics_ = renderer_->render(settings_, control, render::needTermPlanes(layers_));
+    }
     progress_.clear();
     interrupted_ = !statistics_.complete && guard.flag();
     if (!statistics_.complete) {
         fmt::print(stderr, "wedge: {} at {:.0f} %: writing what is there\n",
             interrupted_ ? "interrupted" : "time limit reached", 100 * fraction_);
     }
+    if (settings_.progressive) {
+        extras_.ended = endOfSteps();
+    } else {
+        write();
+    }
+    writeReport();
+}
+
+void RenderJob::renderSteps(const render::Control& control)
+{
+    render::Control until = control;
+    until.targetError = options_.targetError.value_or(0);
+    extras_.targetError = options_.targetError;
+    for (const Output& output : outputs_) {
+        extras_.files.push_back(output.path);
+    }
+    statistics_ = renderer_->renderProgressively(
+        settings_, until, [this](const render::ProgressiveStep& step) { showStep(step); }, render::needTermPlanes(layers_));
+}
+
+/// Writes the image so far and says how good it is.
+void RenderJob::showStep(const render::ProgressiveStep& step)
+{
+    progress_.clear();
+    statistics_ = step.statistics;
+    write();
+    extras_.steps.push_back(step);
+    extras_.steps.back().statistics.passes.clear();
+    const double error = step.error.rmse();
+    say("{} spp, {:.1f} rays a pixel, {:.1f} s: error {}\n", step.spp, render::raysPerPixel(statistics_, settings_),
+        1e-3 * statistics_.wallMilliseconds, std::isnan(error) ? "unknown" : fmt::format("{:.3g}", error));
+    std::fflush(stdout);
+}
+
+std::string RenderJob::endOfSteps() const
+{
+    if (!statistics_.complete) {
+        return interrupted_ ? "interrupt" : "time limit";
+    }
+    return extras_.steps.back().error.rmse() <= options_.targetError.value_or(0) ? "target error" : "samples";
+}
+
+/// The image that the renderer has now.
+void RenderJob::write()
+{
     const image::LayeredImage image = render::readLayers(*renderer_, settings_, statistics_, layers_);
     if (reference_) {
         extras_.error = image::compare(image::beauty(image), *reference_);
@@ -185,6 +240,10 @@ void RenderJob::render()
         }
     }
     writeOutputs(outputs_, image, options_.exposureStops);
+}
+
+void RenderJob::writeReport()
+{
     if (!options_.report.empty()) {
         writeText(options_.report, render::jsonReport(*renderer_, settings_, { statistics_ }, extras_));
     }

@@ -150,6 +150,18 @@ void addDeviceOptions(CLI::App& parser, RenderOptions& o)
     parser.add_flag("--fast-math", o.fastMath, "Let the device's compiler relax floating-point rules")->group(howGroup);
 }
 
+void addProgressiveOptions(CLI::App& parser, RenderOptions& o)
+{
+    parser
+        .add_flag("--progressive", o.progressive,
+            "Render in steps of ever more samples, all of which count in the next, and write the image after each, up to "
+            "--spp, --time-limit or --target-error")
+        ->group(howGroup);
+    addValue(parser, howGroup, "--target-error", "E",
+        "With --progressive: stop when the RMS error that the samples tell is at most E, a radiance",
+        [&o](const std::string& text) { o.targetError = positiveNumber("--target-error", text, 1e9); });
+}
+
 void addAblationOptions(CLI::App& parser, RenderOptions& o)
 {
     addChoice(
@@ -190,6 +202,7 @@ void addRenderOptions(CLI::App& parser, RenderOptions& options)
     addIntegratorOptions(parser, options);
     addCameraOptions(parser, options);
     addMethodOptions(parser, options);
+    addProgressiveOptions(parser, options);
     addDeviceOptions(parser, options);
     addAblationOptions(parser, options);
     parser.add_flag("--quiet", options.quiet, "Say nothing but errors")->group(talkGroup);

@@ -36,6 +36,8 @@ struct RenderOptions {
     std::vector<std::string> devices;
     std::string reference, report;
     double timeLimitSeconds = 0; ///< 0: none
+    bool progressive = false;
+    std::optional<double> targetError; ///< radiance
     std::uint64_t memoryLimitBytes = 0; ///< 0: the device's
     std::string kernelDir;
     std::optional<render::Traversal> traversal;

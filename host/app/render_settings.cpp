@@ -20,6 +20,8 @@ using render::Method;
 using render::Sampling;
 
 constexpr int defaultMonteCarloSpp = 64;
+// Of progressive renders, without and with something else that ends them.
+constexpr int defaultProgressiveSpp = 1024, openProgressiveSpp = 1 << 16;
 
 Method resolveMethod(const RenderOptions& options, const scene::Scene& scene)
 {
@@ -55,9 +57,17 @@ float publishedMu(const RenderOptions& o, const scene::Scene& scene)
     return uniform || o.falloff == render::Shading::Inside ? 3.0f : 2.0f;
 }
 
+/// Samples at which a progressive render ends. Those of the file are for one image, and do not cut short what is to end
+/// otherwise.
+int progressiveSpp(const RenderOptions& o, const scene::Scene& scene)
+{
+    const bool endsOtherwise = o.timeLimitSeconds > 0 || o.targetError;
+    return o.spp ? *o.spp : endsOtherwise ? openProgressiveSpp : scene.settings.spp.value_or(defaultProgressiveSpp);
+}
+
 render::Settings preset(const RenderOptions& o, const scene::Scene& scene, Method method)
 {
-    const std::optional<int> spp = o.spp ? o.spp : scene.settings.spp;
+    const std::optional<int> spp = o.progressive ? progressiveSpp(o, scene) : o.spp ? o.spp : scene.settings.spp;
     const std::optional<float> mu = o.mu ? o.mu : scene.settings.mu;
     if (method == Method::MonteCarlo) {
         return render::monteCarlo(spp.value_or(defaultMonteCarloSpp));
@@ -203,7 +213,7 @@ void applyCounts(const RenderOptions& o, const scene::Scene& scene, render::Sett
     if (!o.spp) {
         requireFirstPass("spp", file.spp, scene, s);
     }
-    const std::optional<int> mean = o.spp ? o.spp : file.spp;
+    const std::optional<int> mean = o.progressive ? progressiveSpp(o, scene) : o.spp ? o.spp : file.spp;
     // mu alone may ask for fewer samples than the first paths take.
     const int least = render::tracesPaths(s) ? static_cast<int>(WEDGE_INDIRECT_FIRST_RAYS) : 1;
     s.spp = mean.value_or(std::max(s.spp, least));
@@ -212,6 +222,23 @@ void applyCounts(const RenderOptions& o, const scene::Scene& scene, render::Sett
             fmt::format("{} {} and {} {}", o.maxSpp ? "--max-spp" : "the scene file's max_spp", *most,
                 o.spp ? "--spp" : "the scene file's spp", *mean),
             "raise --max-spp or lower --spp");
+    }
+}
+
+/// What goes with --progressive alone, and what does not go with it.
+void checkProgressive(const RenderOptions& o)
+{
+    if (!o.progressive) {
+        refuse(o.targetError.has_value(), "without --progressive", fmt::format("--target-error {}", o.targetError.value_or(0)),
+            "add --progressive");
+        return;
+    }
+    const std::pair<const char*, bool> given[] = { { "--as-published", o.asPublished },
+        { "--counts spectrum", o.counts == Counts::Spectrum }, { "--sampler stratified", o.sampler == render::Sampler::Stratified } };
+    for (const auto& [name, isGiven] : given) {
+        if (isGiven) {
+            throw UsageError("option does not go with --progressive, whose counts grow from step to step", name, "leave one of them out");
+        }
     }
 }
 
@@ -238,12 +265,14 @@ render::Settings resolveSettings(const RenderOptions& o, const scene::Scene& sce
     if (method == Method::MonteCarlo) {
         refuseFilterOptions(o);
     }
+    checkProgressive(o);
     render::Settings s = preset(o, scene, method);
     s.width = o.size ? o.size->first : file.width;
     s.height = o.size ? o.size->second : file.height;
     s.crop = o.crop.value_or(s.crop);
     s.seed = o.seed.value_or(file.seed);
     s.sampler = o.sampler.value_or(s.sampler);
+    s.progressive = o.progressive;
     applyIntegrator(o, file, s);
     s.antialias = o.antialias.value_or(file.antialias);
     if (method == Method::AxisAligned) {

@@ -4,7 +4,6 @@
 #include "host/render/sample_counts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -21,7 +20,8 @@ constexpr std::uint32_t monteCarloRound = 16;
 
 bool isDistributed(const Settings& settings, const scene::Scene& scene)
 {
-    return scene.camera.apertureRadius > 0 || scene::geometryMoves(scene) || scene::cameraMoves(scene) || settings.antialias;
+    return scene.camera.apertureRadius > 0 || scene::geometryMoves(scene) || scene::cameraMoves(scene) || settings.antialias
+        || settings.progressive;
 }
 
 DistributedFrame::DistributedFrame(const TermContext& context, Waves& waves, const std::vector<std::unique_ptr<Term>>& terms,
@@ -42,26 +42,29 @@ DistributedFrame::DistributedFrame(const TermContext& context, Waves& waves, con
     }
 }
 
-template <class F>
-void DistributedFrame::eachTerm(const F& f)
-{
-    for (std::size_t i = 0; i < terms_.size(); ++i) {
-        const bool light = i < lights_.size();
-        f(*terms_[i], light ? 1u : 3u, light ? 1.0f : 2.0f * static_cast<float>(std::max(1, c_.settings.bounces)));
-    }
-}
-
 bool DistributedFrame::render()
 {
-    eachTerm([&](Term& term, std::uint32_t, float) { term.clear(c_.passes.queue()); });
-    bool complete = true;
-    try {
-        complete = c_.settings.method == Method::MonteCarlo ? monteCarlo() : adaptive();
-    } catch (const device::Cancelled&) {
-        complete = false;
-    }
+    begin();
+    const bool complete = refine();
     compose();
     return complete;
+}
+
+void DistributedFrame::begin()
+{
+    eachTerm([&](Term& term, std::uint32_t, float) { term.clear(c_.passes.queue()); });
+    analysed_ = false;
+    taken_ = 0;
+}
+
+bool DistributedFrame::refine(const std::atomic<bool>* stop)
+{
+    stop_ = stop;
+    try {
+        return c_.settings.method == Method::MonteCarlo ? monteCarlo() : adaptive();
+    } catch (const device::Cancelled&) {
+        return false;
+    }
 }
 
 bool DistributedFrame::monteCarlo()
@@ -69,10 +72,12 @@ bool DistributedFrame::monteCarlo()
     const auto spp = static_cast<std::uint32_t>(c_.settings.spp);
     c_.frame.primaryWanted.fill(c_.passes.queue(), spp);
     eachTerm([&](Term& term, std::uint32_t, float) { term.wanted.fill(c_.passes.queue(), spp); });
-    for (std::uint32_t last = 0; last < spp;) {
-        const std::uint32_t round = std::min(monteCarloRound, spp - last);
-        last += round;
-        sample(c_.sampledFrame, last, false, round);
+    while (taken_ < spp) {
+        const std::uint32_t round = std::min(monteCarloRound, spp - taken_);
+        if (!sample(c_.sampledFrame, taken_ + round, false, round)) {
+            return false;
+        }
+        taken_ += round;
         if (c_.passes.rehearsal()) {
             break;
         }
@@ -80,21 +85,39 @@ bool DistributedFrame::monteCarlo()
     return true;
 }
 
+bool DistributedFrame::firstPass(std::uint32_t first)
+{
+    c_.frame.primaryWanted.fill(c_.passes.queue(), first);
+    eachTerm([&](Term& term, std::uint32_t, float) { term.wanted.fill(c_.passes.queue(), first); });
+    return sample(c_.fullFrame, first, true, first);
+}
+
 bool DistributedFrame::adaptive()
 {
     const auto first = static_cast<std::uint32_t>(std::min(c_.settings.distributed.firstPaths, c_.settings.spp));
-    c_.frame.primaryWanted.fill(c_.passes.queue(), first);
-    eachTerm([&](Term& term, std::uint32_t, float) { term.wanted.fill(c_.passes.queue(), first); });
-    sample(c_.fullFrame, first, true, first);
+    if (taken_ < first) {
+        if (!firstPass(first)) {
+            return false;
+        }
+        taken_ = first;
+    }
     if (c_.settings.distributed.published) {
         publishedCounts();
     } else {
         widths();
         demands();
         counts();
+        if (c_.settings.progressive) {
+            keepPace();
+        }
     }
     analysed_ = c_.settings.filtering != Filtering::None;
-    sample(c_.sampledFrame, std::numeric_limits<std::uint32_t>::max(), false, c_.settings.spp - static_cast<double>(first));
+    const auto spp = static_cast<std::uint32_t>(c_.settings.spp);
+    const double units = spp - static_cast<double>(taken_);
+    if (!sample(c_.sampledFrame, std::numeric_limits<std::uint32_t>::max(), false, units)) {
+        return false;
+    }
+    taken_ = std::max(taken_, spp);
     return true;
 }
 
@@ -105,6 +128,9 @@ bool DistributedFrame::sample(const shared::FrameParams& frame, std::uint32_t la
     settings.published = c_.settings.method == Method::AxisAligned && c_.settings.distributed.published ? 1 : 0;
     const std::vector<shared::WaveParams> waves = waves_.schedule(c_.passes, frame, camera_, c_.frame, settings, last);
     for (const shared::WaveParams& wave : waves) {
+        if (stop_ != nullptr && *stop_) {
+            return false;
+        }
         sampleWave(wave, slopes, workUnits / static_cast<double>(waves.size()));
     }
     return true;
@@ -162,6 +188,7 @@ shared::DistributedParams DistributedFrame::params(const image::Window& window) 
     p.varianceSpread = d.varianceSpread;
     p.oneVelocity = d.oneVelocity;
     p.published = d.published ? 1 : 0;
+    p.frames = static_cast<float>(d.frames);
     p.never = d.factoring == Factoring::Never ? 1 : 0;
     return p;
 }
@@ -186,34 +213,6 @@ void DistributedFrame::blurWidths(float samples)
         c_.frame.primaryTaken, c_.frame.lensWidth, c_.frame.motionWidth, c_.frame.motionDirection);
 }
 
-void DistributedFrame::publishedCounts()
-{
-    const DistributedSettings& d = c_.settings.distributed;
-    shared::DistributedParams p = params(c_.full());
-    const auto flags = [&](const Term& term, std::uint32_t values) {
-        p.values = values;
-        c_.passes.rows("widths", PassKind::Analysis, "published.cl", "publishedFlags", p, 1, term.texture, term.value,
-            term.radiance, c_.scratch.demand);
-    };
-    for (std::size_t i = 0; i < lights_.size(); ++i) {
-        flags(*terms_[i], 1);
-        lights_[i].publishedWidths(p, c_.scratch.demand);
-    }
-    for (std::size_t i = 0; i < paths_.size(); ++i) {
-        flags(*terms_[lights_.size() + i], 3);
-        paths_[i].publishedWidths(p, c_.scratch.demand);
-    }
-    const auto most = static_cast<std::uint32_t>(d.maxSpp);
-    c_.passes.rows("counts", PassKind::Analysis, "published.cl", "publishedPrimary", p, 1, d.mu,
-        static_cast<float>(d.mixedPaths), c_.frame.confusion, c_.frame.motion, c_.frame.primaryDemand);
-    c_.passes.rows("counts", PassKind::Analysis, "published.cl", "publishedCounts", p, 1, most, c_.frame.primaryDemand,
-        c_.frame.primaryTaken, c_.frame.primaryTaken, c_.frame.primaryWanted);
-    eachTerm([&](Term& term, std::uint32_t, float) {
-        c_.passes.rows("counts", PassKind::Analysis, "published.cl", "publishedCounts", p, 1, most, term.demand,
-            c_.frame.primaryWanted, term.taken, term.wanted);
-    });
-}
-
 void DistributedFrame::factoredWidths(Term& term, std::uint32_t values)
 {
     shared::DistributedParams p = params(c_.full());
@@ -222,84 +221,6 @@ void DistributedFrame::factoredWidths(Term& term, std::uint32_t values)
         c_.scratch.demand);
     c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "factoredWidths", p, 1, c_.scratch.demand,
         c_.frame.confusion, c_.frame.pixelSize, c_.frame.objectId, term.beta);
-}
-
-void DistributedFrame::demandOf(Term& term, std::uint32_t values, float rays)
-{
-    shared::DistributedParams p = params(c_.full());
-    p.values = values;
-    p.rays = rays;
-    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "splitVariance", p, 1, term.texture, term.textureSquares,
-        term.value, term.squares, c_.frame.primaryTaken, c_.scratch.rowsSpread, c_.scratch.logs);
-    gaussianFilter(c_.passes, { "filter of variance", PassKind::Analysis, "filter_variance.cl" },
-        filterParams(c_.settings, c_.fullFrame, c_.full()), c_.full(), c_.frame, c_.scratch.logs, term.beta, c_.scratch,
-        c_.scratch.filtered);
-    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "sampleDemand", p, 1, c_.scratch.filtered,
-        c_.scratch.effective, term.beta, c_.frame.lensWidth, c_.frame.motionWidth, term.demand);
-    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "addPlane", p, 1, c_.scratch.rowsSpread, c_.scratch.spread);
-}
-
-void DistributedFrame::demands()
-{
-    shared::DistributedParams p = params(c_.full());
-    p.rays = 1.0f;
-    p.alongMotion = 1;
-    c_.scratch.spread.fill(c_.passes.queue(), 0.0f);
-    eachTerm([&](Term& term, std::uint32_t values, float rays) { demandOf(term, values, rays); });
-    // Nothing but lens and shutter averages textures.
-    c_.scratch.demand.fill(c_.passes.queue(), -1.0f);
-    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "sampleDemand", p, 1, c_.scratch.spread,
-        c_.scratch.effective, c_.scratch.demand, c_.frame.lensWidth, c_.frame.motionWidth, c_.frame.primaryDemand);
-    eachTerm([&](Term& term, std::uint32_t, float) {
-        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "atLeast", p, 1, c_.frame.primaryDemand, term.demand);
-    });
-}
-
-void DistributedFrame::counts()
-{
-    // The scale of all demands that makes the mean number of rays what uniform counts would have.
-    const DistributedSettings& d = c_.settings.distributed;
-    struct Demand {
-        std::vector<float> values;
-        float rays;
-    };
-    std::vector<Demand> demands;
-    demands.push_back({ c_.frame.primaryDemand.downloadAll(c_.passes.queue()), 1.0f });
-    double perPath = 1.0;
-    eachTerm([&](Term& term, std::uint32_t, float rays) {
-        demands.push_back({ term.demand.downloadAll(c_.passes.queue()), rays });
-        perPath += rays;
-    });
-    const auto least = static_cast<float>(std::min(d.firstPaths, c_.settings.spp)), most = static_cast<float>(d.maxSpp);
-    const std::size_t pixels = std::size_t { c_.fullFrame.width } * c_.fullFrame.height;
-    const double budget = perPath * c_.settings.spp * static_cast<double>(pixels);
-    double low = 1e-12, high = 1e12;
-    for (int step = 0; step < 40; ++step) {
-        const double scale = std::sqrt(low * high);
-        double rays = 0;
-        for (const Demand& demand : demands) {
-            double sum = 0;
-            for (std::uint32_t y = 0; y < c_.fullFrame.height; ++y) {
-                const float* row = demand.values.data() + shared::pixelIndex(0, y, c_.fullFrame.stride);
-                float part = 0;
-                for (std::uint32_t x = 0; x < c_.fullFrame.width; ++x) {
-                    part += std::clamp(static_cast<float>(scale) * row[x], least, most);
-                }
-                sum += part;
-            }
-            rays += demand.rays * sum;
-        }
-        (rays > budget ? high : low) = scale;
-    }
-    const shared::DistributedParams p = params(c_.full());
-    const auto scale = static_cast<float>(low);
-    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "scaleCounts", p, 1, scale,
-        static_cast<std::uint32_t>(least), static_cast<std::uint32_t>(most), c_.frame.primaryDemand, c_.frame.primaryTaken,
-        c_.frame.primaryWanted);
-    eachTerm([&](Term& term, std::uint32_t, float) {
-        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "scaleCounts", p, 1, scale,
-            static_cast<std::uint32_t>(least), static_cast<std::uint32_t>(most), term.demand, term.taken, term.wanted);
-    });
 }
 
 void DistributedFrame::filter()
@@ -322,7 +243,7 @@ void DistributedFrame::filter()
     }
 }
 
-void DistributedFrame::compose()
+void DistributedFrame::compose(device::Buffer<float>* emission)
 {
     filter();
     if (!lit_) {
@@ -330,12 +251,16 @@ void DistributedFrame::compose()
     }
     c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "addAll", params(c_.full()), 1, c_.frame.emission,
         c_.frame.direct, c_.frame.indirect, c_.frame.beauty);
+    if (emission != nullptr) {
+        c_.passes.rows("composite", PassKind::Composite, "progressive.cl", "copyImage", params(c_.full()), 1, c_.frame.emission, *emission);
+    }
     if (!analysed_ || !c_.settings.distributed.blur) {
         return;
     }
     blur(c_.frame.beauty);
     if (keepLayers_) {
-        for (device::Buffer<float>* part : { &c_.frame.emission, &c_.frame.direct, &c_.frame.indirect }) {
+        device::Buffer<float>& emitted = emission != nullptr ? *emission : c_.frame.emission;
+        for (device::Buffer<float>* part : { &emitted, &c_.frame.direct, &c_.frame.indirect }) {
             blur(*part);
         }
     }

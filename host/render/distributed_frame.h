@@ -5,6 +5,8 @@
 #include "host/render/effects/term_context.h"
 #include "host/render/waves.h"
 
+#include <algorithm>
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -24,8 +26,24 @@ public:
     DistributedFrame(const TermContext& context, Waves& waves, const std::vector<std::unique_ptr<Term>>& terms,
         std::size_t lights, const shared::CameraParams& camera, bool keepLayers);
 
-    /// Returns false if cancelled while sampling; the image is then made of what was sampled until then.
+    /// The whole frame: begin(), one refine(), compose(). Returns false if cancelled while sampling; the image is then made
+    /// of what was sampled until then.
     bool render();
+
+    /// Forgets all samples.
+    void begin();
+    /// Takes samples up to the settings' mean count. Those that there are stay and count: the analysis is made anew of
+    /// all of them, and what is sampled are the differences. The settings that the context refers to may change from one
+    /// call to the next. stop: looked at between waves, which are then whole; null: the queue's flag cancels anywhere.
+    /// Returns false if stopped or cancelled.
+    bool refine(const std::atomic<bool>* stop = nullptr);
+    /// Makes the image of the samples taken so far. emission: where its filtered layer goes; null: in its own place, and no
+    /// sample can be added any more.
+    void compose(device::Buffer<float>* emission = nullptr);
+
+    /// Counts follow the demands of another frame of the same terms once it has any: counts that know nothing of what they
+    /// are for leave means unbiased. It is to live as long as this one refines.
+    void followDemandsOf(const DistributedFrame& other) { guide_ = &other; }
 
     /// Whether terms got widths.
     bool analysed() const { return analysed_; }
@@ -33,6 +51,7 @@ public:
 private:
     bool monteCarlo();
     bool adaptive();
+    bool firstPass(std::uint32_t first);
     bool sample(const shared::FrameParams& frame, std::uint32_t last, bool slopes, double workUnits);
     void sampleWave(const shared::WaveParams& wave, bool slopes, double workUnits);
     void deltaLights(const shared::WaveParams& wave, bool starts);
@@ -42,8 +61,8 @@ private:
     void demands();
     void demandOf(Term& term, std::uint32_t values, float rays);
     void counts();
+    void keepPace();
     void filter();
-    void compose();
     void blurWidths(float samples);
     void blur(device::Buffer<float>& image);
     shared::DistributedParams params(const image::Window& window) const;
@@ -60,6 +79,18 @@ private:
     bool keepLayers_;
     bool lit_;
     bool analysed_ = false;
+    std::uint32_t taken_ = 0; ///< samples of a pixel, their mean
+    const std::atomic<bool>* stop_ = nullptr;
+    const DistributedFrame* guide_ = nullptr;
 };
+
+template <class F>
+void DistributedFrame::eachTerm(const F& f)
+{
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+        const bool light = i < lights_.size();
+        f(*terms_[i], light ? 1u : 3u, light ? 1.0f : 2.0f * static_cast<float>(std::max(1, c_.settings.bounces)));
+    }
+}
 
 } // namespace wedge::render

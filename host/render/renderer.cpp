@@ -3,8 +3,10 @@
 #include "host/render/distributed_frame.h"
 #include "host/render/effects/indirect.h"
 #include "host/render/effects/soft_shadows.h"
+#include "host/render/halves.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <numeric>
 
@@ -24,6 +26,12 @@ TermShape termShape(const Settings& settings, bool specular)
 {
     const TermShape direct = SoftShadows::termShape(specular, needsAnalysis(settings));
     return tracesPaths(settings) ? direct.with(Indirect::termShape(needsAnalysis(settings))) : direct;
+}
+
+/// Planes of what is filtered at once: a term's value, or an image.
+std::uint32_t filteredPlanes(const Settings& settings, bool specular, bool distributed)
+{
+    return std::max(termShape(settings, specular).values, distributed ? 3u : 0u);
 }
 
 /// Slopes of lights, and where things move what their shadows' motions add up to.
@@ -48,9 +56,6 @@ std::vector<TermShape> termShapes(const Settings& settings, const scene::Scene& 
     shapes.resize(lights + indirectTerms(settings, specular).size(), { 0, 3, 3, analysed, true, published });
     return shapes;
 }
-
-/// Planes of the scratch buffers that hold a term's values, and in distributed frames images.
-std::uint32_t scratchValues(const TermShape& shape, bool distributed) { return distributed ? std::max(shape.values, 3u) : shape.values; }
 
 device::BuildOptions programOptions(const scene::Scene& scene, const Options& options, Traversal traversal)
 {
@@ -84,22 +89,6 @@ std::vector<std::string> termNames(const Settings& settings, const scene::Scene&
     return names;
 }
 
-double FrameStatistics::milliseconds(PassKind kind) const
-{
-    return std::accumulate(passes.begin(), passes.end(), 0.0, [&](double sum, const device::PassRecord& r) { return sum + (r.kind == kind ? r.milliseconds : 0.0); });
-}
-
-double FrameStatistics::milliseconds(const std::string& pass) const
-{
-    return std::accumulate(passes.begin(), passes.end(), 0.0, [&](double sum, const device::PassRecord& r) { return sum + (r.name == pass ? r.milliseconds : 0.0); });
-}
-
-double FrameStatistics::overheadFraction() const
-{
-    const double overhead = milliseconds(PassKind::Analysis) + milliseconds(PassKind::Filter) + milliseconds(PassKind::Composite);
-    return deviceMilliseconds > 0 ? overhead / deviceMilliseconds : 0.0;
-}
-
 Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Options options)
     : scene_(scene)
     , device_(device)
@@ -111,6 +100,8 @@ Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Opti
 {
 }
 
+Renderer::~Renderer() = default;
+
 device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings)
 {
     const PlaneLayout layout(settings.width, settings.height);
@@ -119,14 +110,19 @@ device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hi
     const bool specular = hasSpecular(scene);
     const bool distributed = isDistributed(settings, scene);
     Frame::plan(plan, layout, distributed);
-    for (const TermShape& shape : termShapes(settings, scene, specular, distributed)) {
-        Term::plan(plan, layout, shape);
+    const std::vector<TermShape> shapes = termShapes(settings, scene, specular, distributed);
+    if (settings.progressive) {
+        Halves::plan(plan, layout, shapes);
+    } else {
+        for (const TermShape& shape : shapes) {
+            Term::plan(plan, layout, shape);
+        }
     }
     if (distributed) {
         Waves::plan(plan, layout, receiverShape(settings, scene, specular));
     }
     if (needsAnalysis(settings)) {
-        Scratch::plan(plan, layout, scratchValues(termShape(settings, specular), distributed));
+        Scratch::plan(plan, layout, filteredPlanes(settings, specular, distributed));
     }
     return plan;
 }
@@ -142,12 +138,22 @@ void Renderer::allocate(const Settings& settings)
     const bool distributed = isDistributed(settings, scene_);
     if (!frame_ || !(frame_->layout == layout) || frame_->distributed != distributed) {
         terms_.clear();
+        halves_.reset();
         waves_.reset();
         scratch_.reset();
         frame_.reset();
         frame_ = std::make_unique<Frame>(device_, queue_, layout, distributed);
     }
-    const std::vector<TermShape> shapes = termShapes(settings, scene_, deviceScene_->specular, distributed);
+    std::vector<TermShape> shapes = termShapes(settings, scene_, deviceScene_->specular, distributed);
+    if (settings.progressive) {
+        if (!halves_ || !halves_->hold(layout, shapes)) {
+            halves_.reset();
+            halves_ = std::make_unique<Halves>(device_, queue_, layout, shapes);
+        }
+        shapes.clear();
+    } else {
+        halves_.reset();
+    }
     terms_.resize(shapes.size());
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         if (!terms_[i] || !terms_[i]->shape.holds(shapes[i])) {
@@ -155,15 +161,20 @@ void Renderer::allocate(const Settings& settings)
             terms_[i] = std::make_unique<Term>(device_, queue_, layout, shapes[i]);
         }
     }
+    allocateWaves(settings, layout);
+}
+
+void Renderer::allocateWaves(const Settings& settings, const PlaneLayout& layout)
+{
     const TermShape receivers = receiverShape(settings, scene_, deviceScene_->specular);
-    if (distributed && (!waves_ || !waves_->shape.holds(receivers))) {
+    if (isDistributed(settings, scene_) && (!waves_ || !waves_->shape.holds(receivers))) {
         waves_.reset();
         waves_ = std::make_unique<Waves>(device_, layout, receivers);
     }
-    const std::uint32_t values = scratchValues(receivers, distributed);
-    if (needsAnalysis(settings) && (!scratch_ || scratch_->values < values)) {
+    const std::uint32_t planes = filteredPlanes(settings, deviceScene_->specular, isDistributed(settings, scene_));
+    if (needsAnalysis(settings) && (!scratch_ || scratch_->values < planes)) {
         scratch_.reset();
-        scratch_ = std::make_unique<Scratch>(device_, queue_, layout, values);
+        scratch_ = std::make_unique<Scratch>(device_, queue_, layout, planes);
     }
     if (!scratch_) {
         scratch_ = std::make_unique<Scratch>(device_, queue_, PlaneLayout(1, 1), 0);
@@ -177,7 +188,11 @@ void Renderer::rehearse(const Settings& settings)
     passes_->setRehearsal(true);
     queue_.setProgress({});
     queue_.setCancelFlag(nullptr);
-    renderPasses(settings, false);
+    if (settings.progressive) {
+        rehearseHalves(settings);
+    } else {
+        renderPasses(settings, false);
+    }
     queue_.finish();
     passes_->setRehearsal(false);
     queue_.takeRecords();
@@ -197,6 +212,7 @@ double Renderer::workUnits(const Settings& settings) const
 
 FrameStatistics Renderer::render(const Settings& settings, const Control& control, bool keepWidths)
 {
+    assert(!settings.progressive);
     allocate(settings);
     queue_.takeRecords();
     std::atomic<bool> stop { false };
@@ -218,6 +234,11 @@ FrameStatistics Renderer::render(const Settings& settings, const Control& contro
     queue_.setCancelFlag(nullptr);
     queue_.setProgress({});
     statistics.passes = queue_.takeRecords();
+    return completed(settings, std::move(statistics));
+}
+
+FrameStatistics Renderer::completed(const Settings& settings, FrameStatistics statistics)
+{
     for (const device::PassRecord& record : statistics.passes) {
         statistics.deviceMilliseconds += record.milliseconds;
     }
@@ -226,24 +247,29 @@ FrameStatistics Renderer::render(const Settings& settings, const Control& contro
     return statistics;
 }
 
-bool Renderer::renderPasses(const Settings& settings, bool keepWidths)
+TermContext Renderer::contextOf(const Settings& settings)
 {
     const image::Window output = outputWindow(settings);
     const image::Window whole { 0, 0, settings.width, settings.height };
-    const bool analysed = needsAnalysis(settings);
-    const image::Window sampled = analysed ? blockWindow(output, settings.maxRadius, settings.width, settings.height) : output;
-    const shared::FrameParams fullFrame = frameParams(scene_, frame_->layout, whole, settings.seed);
-    const shared::FrameParams sampledFrame = frameParams(scene_, frame_->layout, sampled, settings.seed);
+    const image::Window sampled = needsAnalysis(settings)
+        ? blockWindow(output, settings.maxRadius, settings.width, settings.height)
+        : output;
+    return { *passes_, *deviceScene_, *frame_, *scratch_, settings, frameParams(scene_, frame_->layout, whole, settings.seed),
+        frameParams(scene_, frame_->layout, sampled, settings.seed), output,
+        scene::geometryMoves(scene_) || scene::cameraMoves(scene_) };
+}
 
+bool Renderer::renderPasses(const Settings& settings, bool keepWidths)
+{
     frame_->clear(queue_);
     termPlanes_.clear();
     const bool lit = settings.integrator == Integrator::Path;
-    const TermContext context { *passes_, *deviceScene_, *frame_, *scratch_, settings, fullFrame, sampledFrame, output,
-        scene::geometryMoves(scene_) || scene::cameraMoves(scene_) };
+    const TermContext context = contextOf(settings);
+    const image::Window& output = context.window;
     if (frame_->distributed) {
         return distributedPasses(context, keepWidths);
     }
-    bool complete = primaryPass(analysed ? fullFrame : sampledFrame, lit);
+    bool complete = primaryPass(needsAnalysis(settings) ? context.fullFrame : context.sampledFrame, lit);
     const std::size_t lights = lit ? deviceScene_->areaLightList.size() : 0;
     for (std::uint32_t light = 0; complete && light < lights; ++light) {
         SoftShadows shadows(context, *terms_.front(), light);
@@ -253,7 +279,7 @@ bool Renderer::renderPasses(const Settings& settings, bool keepWidths)
         }
     }
     if (complete && lit && deviceScene_->deltaLightCount > 0) {
-        complete = deltaLightPass(sampledFrame);
+        complete = deltaLightPass(context.sampledFrame);
     }
     for (const IndirectTerm& term : indirectTerms(settings, deviceScene_->specular)) {
         if (complete) {
@@ -267,8 +293,8 @@ bool Renderer::renderPasses(const Settings& settings, bool keepWidths)
     shared::AnalysisParams all {};
     const image::Window blocks = blockWindow(output, 0, settings.width, settings.height);
     setRectangle(all, blocks);
-    all.stride = fullFrame.stride;
-    all.planeSize = fullFrame.planeSize;
+    all.stride = context.fullFrame.stride;
+    all.planeSize = context.fullFrame.planeSize;
     passes_->rows("composite", PassKind::Composite, "composite.cl", "addEmission", all, WEDGE_BLOCK_PIXELS,
         frame_->emission, frame_->direct, frame_->indirect, frame_->objectId, frame_->beauty);
     return complete;
@@ -322,57 +348,6 @@ bool Renderer::deltaLightPass(const shared::FrameParams& params)
         return false;
     }
     return true;
-}
-
-void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
-{
-    const auto planeOf = [&](const device::Buffer<std::uint32_t>& b) { return b.downloadAll(queue_); };
-    const std::vector<std::uint32_t> samples = planeOf(frame_->samples), indirect = planeOf(frame_->indirectSamples);
-    const std::vector<std::uint32_t> rays = planeOf(frame_->rays), pathRays = planeOf(frame_->pathRays);
-    const std::vector<std::uint32_t> objects = planeOf(frame_->objectId);
-    const std::vector<float> specular = frame_->specular.downloadAll(queue_);
-    const image::Window output = outputWindow(settings);
-    const std::vector<IndirectTerm> terms = indirectTerms(settings, deviceScene_->specular);
-    const std::size_t size = frame_->layout.size;
-    std::uint64_t total = 0, indirectTotal = 0, indirectPixels = 0;
-    for (int y = output.y0; y < output.y1; ++y) {
-        for (int x = output.x0; x < output.x1; ++x) {
-            const std::size_t i = shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), frame_->layout.stride);
-            if (objects[i] == 0) {
-                continue;
-            }
-            ++statistics.shadedPixels;
-            total += samples[i];
-            indirectTotal += indirect[i];
-            // Pixels of several receivers take samples of both components whatever those are.
-            const bool glossy = frame_->distributed || specular[i] + specular[size + i] + specular[2 * size + i] > 0;
-            indirectPixels += terms.empty() ? 0 : terms.size() > 1 && !glossy ? 1 : terms.size();
-        }
-    }
-    const bool whole = settings.method == Method::AxisAligned;
-    statistics.primaryRays = static_cast<std::uint64_t>(whole ? settings.width : output.width())
-        * static_cast<std::uint64_t>(whole ? settings.height : output.height());
-    if (frame_->distributed) {
-        const std::vector<std::uint32_t> primary = frame_->primaryTaken.downloadAll(queue_);
-        statistics.primaryRays = std::accumulate(primary.begin(), primary.end(), std::uint64_t { 0 });
-        std::uint64_t shown = 0;
-        for (int y = output.y0; y < output.y1; ++y) {
-            for (int x = output.x0; x < output.x1; ++x) {
-                shown += primary[shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), frame_->layout.stride)];
-            }
-        }
-        statistics.primarySpp = static_cast<double>(shown) / (static_cast<double>(output.width()) * output.height());
-    }
-    statistics.indirectRays = std::accumulate(pathRays.begin(), pathRays.end(), std::uint64_t { 0 });
-    statistics.shadowRays = std::accumulate(rays.begin(), rays.end(), std::uint64_t { 0 }) - statistics.indirectRays;
-    const std::uint64_t directPixels = statistics.shadedPixels * (settings.integrator == Integrator::Path ? scene_.areaLights.size() : 0);
-    const auto mean = [](std::uint64_t sum, std::uint64_t count) {
-        return count > 0 ? static_cast<double>(sum) / static_cast<double>(count) : 0.0;
-    };
-    statistics.directSpp = mean(total - indirectTotal, directPixels);
-    statistics.indirectSpp = mean(indirectTotal, indirectPixels);
-    statistics.sppMean = mean(total, directPixels + indirectPixels);
-    queue_.takeRecords();
 }
 
 } // namespace wedge::render

@@ -34,6 +34,7 @@ struct Control {
     std::function<void(double fraction)> progress; ///< called now and then with what is done, 0 to 1
     const std::atomic<bool>* cancel = nullptr; ///< set from elsewhere: stop soon
     double timeLimitSeconds = 0; ///< stop sampling after this long; 0: never
+    double targetError = 0; ///< progressive renders stop when their estimated RMS error, radiance, is no larger; 0: never
 };
 
 /// Filter widths of one term, for the layers, a plane as on the device; empty if the term was not analysed.
@@ -65,6 +66,9 @@ struct FrameStatistics {
     double milliseconds(const std::string& pass) const;
 };
 
+class Halves;
+struct ProgressiveStep;
+
 /// Renders frames of one scene on one device. Construction builds the hierarchy, the programs and the scene's buffers;
 /// render() may be called any number of times with other settings.
 class Renderer {
@@ -72,6 +76,7 @@ public:
     /// scene must outlive this.
     Renderer(const scene::Scene& scene, const device::Device& device, Options options = {});
     Renderer(scene::Scene&& scene, const device::Device& device, Options options = {}) = delete;
+    ~Renderer();
 
     /// Device memory that a frame of these settings takes, before anything of it is allocated.
     static device::MemoryPlan plan(const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings);
@@ -81,6 +86,13 @@ public:
     /// device fails. keepWidths: fills termPlanes() for the width layers, and in distributed frames filters emission, direct
     /// and indirect, which else only the beauty is made of.
     FrameStatistics render(const Settings& settings, const Control& control = {}, bool keepWidths = false);
+
+    /// Renders in steps of ever more samples, which all stay and count, up to settings.spp (see stepCounts() in
+    /// progressive.h). After each the image so far is on the device, as render() leaves it, and onStep is called. A cancelled
+    /// or late render ends between two waves of samples, or before the next step; the last image has them all. Returns the
+    /// statistics of all steps. Needs settings without published counts; always samples by the sequence. Throws as render().
+    FrameStatistics renderProgressively(const Settings& settings, const Control& control,
+        const std::function<void(const ProgressiveStep&)>& onStep, bool keepWidths = false);
 
     /// Launches all kernels of these settings at full size over nothing, so that no compilation falls into render().
     void rehearse(const Settings& settings);
@@ -104,6 +116,13 @@ private:
     /// lit: with area lights in view, and with what surfaces and background emit.
     bool primaryPass(const shared::FrameParams& params, bool lit);
     bool deltaLightPass(const shared::FrameParams& params);
+    TermContext contextOf(const Settings& settings);
+    void beginHalves(const Settings& settings, bool keepWidths);
+    void rehearseHalves(const Settings& settings);
+    void keepHalfPlanes(const Settings& settings, bool keepWidths);
+    /// With the sums of the passes, memory, and what the frame counted.
+    FrameStatistics completed(const Settings& settings, FrameStatistics statistics);
+    void allocateWaves(const Settings& settings, const PlaneLayout& layout);
     bool distributedPasses(const TermContext& context, bool keepWidths);
     void keepPlanes(const Settings& settings, const Term& term, bool analysed);
     void countWork(const Settings& settings, FrameStatistics& statistics);
@@ -118,9 +137,10 @@ private:
     std::unique_ptr<Passes> passes_;
     std::unique_ptr<DeviceScene> deviceScene_;
     std::unique_ptr<Frame> frame_;
-    std::vector<std::unique_ptr<Term>> terms_; ///< one; of a distributed frame one a term
+    std::vector<std::unique_ptr<Term>> terms_; ///< one; of a distributed frame one a term; of a progressive one none
     std::unique_ptr<Scratch> scratch_;
     std::unique_ptr<Waves> waves_; ///< of distributed frames
+    std::unique_ptr<Halves> halves_; ///< of progressive ones, of which frame_ is the mean
     std::vector<TermPlanes> termPlanes_;
     double setupSeconds_ = 0;
 };

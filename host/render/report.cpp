@@ -85,6 +85,20 @@ Json frameSection(const FrameStatistics& frame, const Settings& settings)
         { "passes", passes }, { "memory_bytes", frame.memoryBytes } };
 }
 
+/// files: written after each step.
+Json progressiveSection(const ReportExtras& extras, const Settings& settings)
+{
+    Json steps = Json::array();
+    for (const ProgressiveStep& step : extras.steps) {
+        const FrameStatistics& s = step.statistics;
+        steps.push_back({ { "spp", step.spp }, { "spp_mean", s.sppMean }, { "rays_per_pixel", raysPerPixel(s, settings) },
+            { "error", step.error.rmse() }, { "noise", step.error.noise }, { "bias", step.error.bias },
+            { "wall_ms", s.wallMilliseconds }, { "files", extras.files } });
+    }
+    return { { "target_error", extras.targetError ? Json(*extras.targetError) : Json() }, { "ended_by", extras.ended },
+        { "steps", steps } };
+}
+
 } // namespace
 
 Json cameraReport(const scene::Scene& scene)
@@ -129,6 +143,9 @@ std::string jsonReport(const Renderer& renderer, const Settings& settings, const
     report["frames"] = Json::array();
     for (const FrameStatistics& frame : frames) {
         report["frames"].push_back(frameSection(frame, settings));
+    }
+    if (!extras.steps.empty()) {
+        report["progressive"] = progressiveSection(extras, settings);
     }
     if (extras.error) {
         const image::Comparison& e = *extras.error;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/image/metrics.h"
+#include "host/render/progressive.h"
 #include "host/render/renderer.h"
 #include "host/render/settings.h"
 
@@ -17,6 +18,10 @@ struct ReportExtras {
     double loadMilliseconds = 0; ///< reading the scene, not part of any frame
     std::string reference; ///< path, where there is one
     std::optional<image::Comparison> error; ///< of the last frame against the reference
+    std::vector<ProgressiveStep> steps; ///< of a progressive render; their statistics without passes will do
+    std::optional<double> targetError; ///< likewise
+    std::string ended; ///< likewise: by what
+    std::vector<std::string> files; ///< likewise: written after each step
 };
 
 /// All rays of the frame, by the pixels that it shows.

@@ -25,6 +25,13 @@ constexpr float evenSamples = 5.0f;
 constexpr float referenceIndirectMu = 1.0f;
 constexpr float publishedMu = 2.0f, publishedIndirectMu = 0.9f, publishedDistributedMu = 1.0f;
 constexpr int largestSpp = 1 << 20;
+constexpr int leastProgressiveSpp = 16; // two halves' first paths
+
+/// How much larger mu is with `to` samples a pixel than with `from`.
+float widthRatio(float from, float to)
+{
+    return std::pow(std::max(1.0f, to - evenSamples) / std::max(1.0f, from - evenSamples), widthExponent);
+}
 
 void requireRange(bool inRange, const std::string& what, const std::string& value, const std::string& range)
 {
@@ -99,9 +106,9 @@ Settings axisAligned(std::optional<int> spp, std::optional<float> mu)
     Settings s;
     if (spp) {
         s.spp = *spp;
-        const float budget = std::max(1.0f, static_cast<float>(*spp) - evenSamples) / (referenceSpp - evenSamples);
-        s.mu = mu.value_or(referenceMu * std::pow(budget, widthExponent));
-        s.indirect.mu = mu.value_or(referenceIndirectMu * std::pow(budget, widthExponent));
+        const float narrower = widthRatio(referenceSpp, static_cast<float>(*spp));
+        s.mu = mu.value_or(referenceMu * narrower);
+        s.indirect.mu = mu.value_or(referenceIndirectMu * narrower);
     } else if (mu) {
         s.mu = *mu;
         s.indirect.mu = *mu;
@@ -174,6 +181,8 @@ void validate(const Settings& s)
     requireRange(in.alpha >= 0 && in.meanFraction >= 0 && in.widthScale > 0 && in.leastReflector > 0, "indirect filter constants", fmt::format("alpha {} width scale {} least reflector {}", in.alpha, in.widthScale, in.leastReflector), "positive numbers");
     requireRange(std::isfinite(in.ambientDistance) && in.ambientDistance >= 0, "ambient occlusion distance", text(in.ambientDistance), "metres above 0");
     validateDistributed(s.distributed);
+    requireRange(!s.progressive || (!s.published && (s.method == Method::MonteCarlo || s.spp >= leastProgressiveSpp)),
+        "samples a pixel of a progressive render", text(s.spp), "16 or more, and no published counts");
     if (s.method == Method::AxisAligned && tracesPaths(s)) {
         requireRange(in.maxSpp >= static_cast<int>(WEDGE_INDIRECT_FIRST_RAYS) && s.spp >= static_cast<int>(WEDGE_INDIRECT_FIRST_RAYS),
             "samples a pixel", fmt::format("{} (at most {})", s.spp, in.maxSpp), "16 or more with indirect light: its first pass takes 16");
@@ -184,6 +193,20 @@ void validate(const Settings& s)
         requireRange(s.shading != Shading::Inside || s.counts != Counts::Variance || s.sampling == Sampling::Uniform,
             "adaptive counts", "from variance, with the cosine inside the filtered term", "counts from the spectrum, or uniform ones");
     }
+}
+
+Settings halfAt(const Settings& settings, int spp)
+{
+    Settings s = settings;
+    const float ratio = widthRatio(static_cast<float>(settings.spp), static_cast<float>(spp));
+    s.spp = std::max(1, spp / 2);
+    s.mu *= ratio;
+    s.indirect.mu *= ratio;
+    s.distributed.frames = 2;
+    s.distributed.leastShare = 0.25f;
+    s.distributed.leastPrimaries = 0.5f;
+    s.distributed.maxSpp = std::max(s.distributed.maxSpp, std::min(10 * std::min(s.spp, largestSpp), largestSpp));
+    return s;
 }
 
 image::Window outputWindow(const Settings& s)
@@ -214,6 +237,7 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
         { "integrator", s.integrator == Integrator::Path ? "path" : "ao" },
         { "bounces", number(s.bounces) },
         { "lightSampling", lightSamplings[static_cast<int>(s.lightSampling)] },
+        { "progressive", s.progressive ? "true" : "false" },
     };
     if (tracesPaths(s) && s.integrator == Integrator::AmbientOcclusion) {
         out.emplace_back("ambientDistance", number(s.indirect.ambientDistance));

@@ -101,6 +101,9 @@ struct DistributedSettings {
     int firstPaths = 8; ///< primary samples of the first pass, each with one secondary of each term
     int maxSpp = 512; ///< most samples of a pixel and term
     bool published = false; ///< terms, widths and counts of chapter 5 and appendix B; spp has no say
+    float leastShare = 0; ///< of the mean count, that every pixel takes: counts follow variances, which may be seen late
+    float leastPrimaries = 0; ///< primary samples a sample of a term
+    int frames = 1; ///< independent ones of which the image is the mean: filters are as narrow as the samples of all allow
     float mu = 1.0f; ///< as published: bandwidths beyond the critical ones (5.29)
     int mixedPaths = 64; ///< as published: primary samples where motions differ
     Factoring factoring = Factoring::Error;
@@ -130,6 +133,7 @@ struct Settings {
     int bounces = 0; ///< of indirect light: 0 is direct light alone
     LightSampling lightSampling = LightSampling::Both;
     IndirectSettings indirect;
+    bool progressive = false; ///< for Renderer::renderProgressively(); spp: of the last image
     bool antialias = false; ///< pixels are their squares, not their centres
     DistributedSettings distributed;
 
@@ -172,6 +176,10 @@ Settings axisAligned(std::optional<int> spp = {}, std::optional<float> mu = {});
 /// Axis-aligned filtering as thesis chapters 3 and 4 have it. Without mu, each effect's own: 2 for soft shadows, 0.9 for
 /// indirect light.
 Settings asPublished(std::optional<float> mu = {});
+
+/// The settings of one of the two halves of a progressive render when both together have spp samples a pixel: widths go with
+/// the samples of both, as axisAligned() has it, since their mean is as little noisy as one frame with all of them.
+Settings halfAt(const Settings& settings, int spp);
 
 /// The pixels that a frame of these settings produces: the crop, or all.
 image::Window outputWindow(const Settings& settings);

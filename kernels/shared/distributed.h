@@ -5,6 +5,9 @@
 
 #include "vec.h"
 
+/// Primary samples that a pixel takes in one step of a progressive frame at most: a wave holds those of a tile.
+#define WEDGE_MOST_NEW_SAMPLES 1024u
+
 WEDGE_SHARED_BEGIN
 
 typedef struct {
@@ -26,8 +29,8 @@ typedef struct {
     uint never;              ///< 1: textures and irradiances are never taken apart
     float samples;           ///< primary samples that a pixel is expected to have; 0: those that it has
     uint published;          ///< 1: terms are kept as published, see accumulate.cl
+    float frames;            ///< of which the image is the mean: each has as many samples
     uint alongMotion;        ///< of demands: 1, of textures, which are filtered along the motion, too
-    uint padding;
 } DistributedParams;
 
 WEDGE_SHARED_END

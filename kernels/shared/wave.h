@@ -4,6 +4,9 @@
 
 #include "compat.h"
 
+/// Object id of a pixel that sees several.
+#define WEDGE_MIXED 0xffffffffu
+
 WEDGE_SHARED_BEGIN
 
 /// One wave: the receivers of some tiles' pixels, pixel by pixel.

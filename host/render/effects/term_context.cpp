@@ -5,7 +5,7 @@ namespace wedge::render {
 std::uint32_t samplerOf(const TermContext& context)
 {
     const bool counts = context.frame.distributed && context.settings.method == Method::AxisAligned;
-    return static_cast<std::uint32_t>(counts ? Sampler::Sobol : context.settings.sampler);
+    return static_cast<std::uint32_t>(counts || context.settings.progressive ? Sampler::Sobol : context.settings.sampler);
 }
 
 void replaceTerm(

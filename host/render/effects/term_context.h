@@ -27,7 +27,7 @@ struct TermContext {
 };
 
 /// WEDGE_SAMPLER_* of the frame. Strata are for counts that are known before the first sample is taken, and distributed
-/// frames with counts of their own a pixel take a sequence in their place.
+/// frames with counts of their own a pixel, and progressive ones, take a sequence in their place.
 std::uint32_t samplerOf(const TermContext& context);
 
 /// In a distributed frame, puts the term's filtered value, scratch.filtered, in the place of its own in a radiance.

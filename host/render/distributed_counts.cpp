@@ -1,0 +1,139 @@
+// Which samples of a distributed frame are worth most: the counts of primary and secondary samples.
+#include "host/render/distributed_frame.h"
+#include "host/render/filters/gaussian.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wedge::render {
+
+using device::PassKind;
+
+void DistributedFrame::publishedCounts()
+{
+    const DistributedSettings& d = c_.settings.distributed;
+    shared::DistributedParams p = params(c_.full());
+    const auto flags = [&](const Term& term, std::uint32_t values) {
+        p.values = values;
+        c_.passes.rows("widths", PassKind::Analysis, "published.cl", "publishedFlags", p, 1, term.texture, term.value,
+            term.radiance, c_.scratch.demand);
+    };
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        flags(*terms_[i], 1);
+        lights_[i].publishedWidths(p, c_.scratch.demand);
+    }
+    for (std::size_t i = 0; i < paths_.size(); ++i) {
+        flags(*terms_[lights_.size() + i], 3);
+        paths_[i].publishedWidths(p, c_.scratch.demand);
+    }
+    const auto most = static_cast<std::uint32_t>(d.maxSpp);
+    c_.passes.rows("counts", PassKind::Analysis, "published.cl", "publishedPrimary", p, 1, d.mu,
+        static_cast<float>(d.mixedPaths), c_.frame.confusion, c_.frame.motion, c_.frame.primaryDemand);
+    c_.passes.rows("counts", PassKind::Analysis, "published.cl", "publishedCounts", p, 1, most, c_.frame.primaryDemand,
+        c_.frame.primaryTaken, c_.frame.primaryTaken, c_.frame.primaryWanted);
+    eachTerm([&](Term& term, std::uint32_t, float) {
+        c_.passes.rows("counts", PassKind::Analysis, "published.cl", "publishedCounts", p, 1, most, term.demand,
+            c_.frame.primaryWanted, term.taken, term.wanted);
+    });
+}
+
+void DistributedFrame::demandOf(Term& term, std::uint32_t values, float rays)
+{
+    shared::DistributedParams p = params(c_.full());
+    p.values = values;
+    p.rays = rays;
+    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "splitVariance", p, 1, term.texture, term.textureSquares,
+        term.value, term.squares, c_.frame.primaryTaken, c_.scratch.rowsSpread, c_.scratch.logs);
+    gaussianFilter(c_.passes, { "filter of variance", PassKind::Analysis, "filter_variance.cl" },
+        filterParams(c_.settings, c_.fullFrame, c_.full()), c_.full(), c_.frame, c_.scratch.logs, term.beta, c_.scratch,
+        c_.scratch.filtered);
+    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "sampleDemand", p, 1, c_.scratch.filtered,
+        c_.scratch.effective, term.beta, c_.frame.lensWidth, c_.frame.motionWidth, term.demand);
+    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "addPlane", p, 1, c_.scratch.rowsSpread, c_.scratch.spread);
+}
+
+void DistributedFrame::demands()
+{
+    shared::DistributedParams p = params(c_.full());
+    p.rays = 1.0f;
+    p.alongMotion = 1;
+    c_.scratch.spread.fill(c_.passes.queue(), 0.0f);
+    eachTerm([&](Term& term, std::uint32_t values, float rays) { demandOf(term, values, rays); });
+    // Nothing but lens and shutter averages textures.
+    c_.scratch.demand.fill(c_.passes.queue(), -1.0f);
+    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "sampleDemand", p, 1, c_.scratch.spread,
+        c_.scratch.effective, c_.scratch.demand, c_.frame.lensWidth, c_.frame.motionWidth, c_.frame.primaryDemand);
+    const auto atLeast = [&](float share, const device::Buffer<float>& least, const device::Buffer<float>& demand) {
+        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "atLeast", p, 1, share, least, demand);
+    };
+    if (const float share = c_.settings.distributed.leastPrimaries; share > 0) {
+        eachTerm([&](Term& term, std::uint32_t, float) { atLeast(share, term.demand, c_.frame.primaryDemand); });
+    }
+    eachTerm([&](Term& term, std::uint32_t, float) { atLeast(1.0f, c_.frame.primaryDemand, term.demand); });
+}
+
+void DistributedFrame::counts()
+{
+    // The scale of all demands that makes the mean number of rays what uniform counts would have.
+    const DistributedSettings& d = c_.settings.distributed;
+    struct Demand {
+        std::vector<float> values;
+        std::vector<std::uint32_t> taken; ///< which no count goes below
+        float rays;
+    };
+    std::vector<Demand> demands;
+    device::TimedQueue& queue = c_.passes.queue();
+    const DistributedFrame& guide = guide_ != nullptr && guide_->taken_ > 0 ? *guide_ : *this;
+    demands.push_back({ guide.c_.frame.primaryDemand.downloadAll(queue), c_.frame.primaryTaken.downloadAll(queue), 1.0f });
+    double perPath = 1.0;
+    std::size_t next = 0;
+    eachTerm([&](Term& term, std::uint32_t, float rays) {
+        demands.push_back({ guide.terms_[next++]->demand.downloadAll(queue), term.taken.downloadAll(queue), rays });
+        perPath += rays;
+    });
+    const float first = static_cast<float>(std::min(d.firstPaths, c_.settings.spp)), most = static_cast<float>(d.maxSpp);
+    const float least = std::max(first, std::floor(d.leastShare * static_cast<float>(c_.settings.spp)));
+    const std::size_t pixels = std::size_t { c_.fullFrame.width } * c_.fullFrame.height;
+    const double budget = perPath * c_.settings.spp * static_cast<double>(pixels);
+    double low = 1e-12, high = 1e12;
+    for (int step = 0; step < 40; ++step) {
+        const double scale = std::sqrt(low * high);
+        double rays = 0;
+        for (const Demand& demand : demands) {
+            double sum = 0;
+            for (std::uint32_t y = 0; y < c_.fullFrame.height; ++y) {
+                const std::size_t row = shared::pixelIndex(0, y, c_.fullFrame.stride);
+                float part = 0;
+                for (std::size_t i = row; i < row + c_.fullFrame.width; ++i) {
+                    const float wanted = std::clamp(static_cast<float>(scale) * demand.values[i], least, most);
+                    part += std::max(wanted, static_cast<float>(demand.taken[i]));
+                }
+                sum += part;
+            }
+            rays += demand.rays * sum;
+        }
+        (rays > budget ? high : low) = scale;
+    }
+    const shared::DistributedParams p = params(c_.full());
+    const auto scale = static_cast<float>(low);
+    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "scaleCounts", p, 1, scale,
+        static_cast<std::uint32_t>(least), static_cast<std::uint32_t>(most), guide.c_.frame.primaryDemand, c_.frame.primaryTaken,
+        c_.frame.primaryWanted);
+    next = 0;
+    eachTerm([&](Term& term, std::uint32_t, float) {
+        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "scaleCounts", p, 1, scale,
+            static_cast<std::uint32_t>(least), static_cast<std::uint32_t>(most), guide.terms_[next++]->demand, term.taken, term.wanted);
+    });
+}
+
+void DistributedFrame::keepPace()
+{
+    const shared::DistributedParams p = params(c_.full());
+    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "limitStep", p, 1, c_.frame.primaryTaken, c_.frame.primaryWanted);
+    eachTerm([&](Term& term, std::uint32_t, float) {
+        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "keepPace", p, 1, c_.frame.primaryTaken,
+            c_.frame.primaryWanted, term.taken, term.wanted);
+    });
+}
+
+} // namespace wedge::render

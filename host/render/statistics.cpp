@@ -1,0 +1,78 @@
+// What a frame cost and took.
+#include "host/render/effects/indirect.h"
+#include "host/render/renderer.h"
+
+#include <numeric>
+
+namespace wedge::render {
+
+using device::PassKind;
+
+double FrameStatistics::milliseconds(PassKind kind) const
+{
+    return std::accumulate(passes.begin(), passes.end(), 0.0, [&](double sum, const device::PassRecord& r) { return sum + (r.kind == kind ? r.milliseconds : 0.0); });
+}
+
+double FrameStatistics::milliseconds(const std::string& pass) const
+{
+    return std::accumulate(passes.begin(), passes.end(), 0.0, [&](double sum, const device::PassRecord& r) { return sum + (r.name == pass ? r.milliseconds : 0.0); });
+}
+
+double FrameStatistics::overheadFraction() const
+{
+    const double overhead = milliseconds(PassKind::Analysis) + milliseconds(PassKind::Filter) + milliseconds(PassKind::Composite);
+    return deviceMilliseconds > 0 ? overhead / deviceMilliseconds : 0.0;
+}
+
+void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
+{
+    const auto planeOf = [&](const device::Buffer<std::uint32_t>& b) { return b.downloadAll(queue_); };
+    const std::vector<std::uint32_t> samples = planeOf(frame_->samples), indirect = planeOf(frame_->indirectSamples);
+    const std::vector<std::uint32_t> rays = planeOf(frame_->rays), pathRays = planeOf(frame_->pathRays);
+    const std::vector<std::uint32_t> objects = planeOf(frame_->objectId);
+    const std::vector<float> specular = frame_->specular.downloadAll(queue_);
+    const image::Window output = outputWindow(settings);
+    const std::vector<IndirectTerm> terms = indirectTerms(settings, deviceScene_->specular);
+    const std::size_t size = frame_->layout.size;
+    std::uint64_t total = 0, indirectTotal = 0, indirectPixels = 0;
+    for (int y = output.y0; y < output.y1; ++y) {
+        for (int x = output.x0; x < output.x1; ++x) {
+            const std::size_t i = shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), frame_->layout.stride);
+            if (objects[i] == 0) {
+                continue;
+            }
+            ++statistics.shadedPixels;
+            total += samples[i];
+            indirectTotal += indirect[i];
+            // Pixels of several receivers take samples of both components whatever those are.
+            const bool glossy = frame_->distributed || specular[i] + specular[size + i] + specular[2 * size + i] > 0;
+            indirectPixels += terms.empty() ? 0 : terms.size() > 1 && !glossy ? 1 : terms.size();
+        }
+    }
+    const bool whole = settings.method == Method::AxisAligned;
+    statistics.primaryRays = static_cast<std::uint64_t>(whole ? settings.width : output.width())
+        * static_cast<std::uint64_t>(whole ? settings.height : output.height());
+    if (frame_->distributed) {
+        const std::vector<std::uint32_t> primary = frame_->primaryTaken.downloadAll(queue_);
+        statistics.primaryRays = std::accumulate(primary.begin(), primary.end(), std::uint64_t { 0 });
+        std::uint64_t shown = 0;
+        for (int y = output.y0; y < output.y1; ++y) {
+            for (int x = output.x0; x < output.x1; ++x) {
+                shown += primary[shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), frame_->layout.stride)];
+            }
+        }
+        statistics.primarySpp = static_cast<double>(shown) / (static_cast<double>(output.width()) * output.height());
+    }
+    statistics.indirectRays = std::accumulate(pathRays.begin(), pathRays.end(), std::uint64_t { 0 });
+    statistics.shadowRays = std::accumulate(rays.begin(), rays.end(), std::uint64_t { 0 }) - statistics.indirectRays;
+    const std::uint64_t directPixels = statistics.shadedPixels * (settings.integrator == Integrator::Path ? scene_.areaLights.size() : 0);
+    const auto mean = [](std::uint64_t sum, std::uint64_t count) {
+        return count > 0 ? static_cast<double>(sum) / static_cast<double>(count) : 0.0;
+    };
+    statistics.directSpp = mean(total - indirectTotal, directPixels);
+    statistics.indirectSpp = mean(indirectTotal, indirectPixels);
+    statistics.sppMean = mean(total, directPixels + indirectPixels);
+    queue_.takeRecords();
+}
+
+} // namespace wedge::render
