@@ -93,6 +93,7 @@ WEDGE_FN void storeTerm(SampleParams params, uint size, uint i, const TermSums* 
     takenPlane[i] = taken;
 }
 
+#ifdef WEDGE_MOTION
 /// What moves of the shadows at a packet's receivers.
 typedef struct {
     float x[WEDGE_PACKET_SIZE], y[WEDGE_PACKET_SIZE]; ///< sums of motions in pixels over the shutter
@@ -126,6 +127,7 @@ WEDGE_FN void addShadowMotion(CameraParams camera, SurfaceData surfaces, Hit hit
     m->squared[lane] += x * x + y * y;
     m->count[lane] += 1.0f;
 }
+#endif
 
 __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light, CameraParams camera,
                         __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
