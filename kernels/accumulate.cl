@@ -2,18 +2,19 @@
 // here adds a pixel's new receivers, which lie together in the wave. Samples that hit nothing count as black in radiance
 // and in textures, and not at all in irradiances, positions and normals.
 //
-// Of each term a pixel keeps the mean texture k (reflectance; of lights times the unshadowed shading) and the mean
-// irradiance E (of lights: visibility) weighted by the texture, so that their product is the radiance of the term, and
-// neither holds what belongs to the other; besides, the plain mean of E's luminance, by which thesis (5.30) judges
-// whether texture and irradiance may be taken apart. As published (wave.published) E is the plain mean, that of lights holds
-// the light's form factor (5.14), k the lobe towards its centre (5.20), and the term's radiance L is kept apart.
+// Of each term a pixel keeps the mean texture k (reflectance; of lights times the unshadowed shading) of all receivers, and
+// of those that took samples of the term the mean irradiance E (of lights: visibility), each channel weighted by the texture
+// and by the samples, so that their product is the radiance of the term, and neither holds what belongs to the other;
+// besides, the plain mean of E's luminance, by which thesis (5.30) judges whether texture and irradiance may be taken apart.
+// As published (wave.published) E is the plain mean, that of lights holds the light's form factor (5.14), k the lobe
+// towards its centre (5.20), and the term's radiance L is kept apart.
 #include "light_sample.h"
 #include "shared/bsdf.h"
 #include "shared/camera.h"
 #include "shared/wave.h"
 
 /// Least texture with which an irradiance counts: black surfaces have one, too.
-#define WEDGE_LEAST_TEXTURE 1e-3f
+#define WEDGE_LEAST_TEXTURE 1e-6f
 
 /// A pixel and its receivers in the wave.
 typedef struct {
@@ -51,15 +52,6 @@ WEDGE_FN void storeMean(__global float* planes, uint size, uint i, float before,
                                    meanWith(mean.z, before, sum.z, count)));
 }
 
-/// Adds a term's radiance to the mean of all of its kind. starts: it is the first term, and the mean is that of the samples
-/// before.
-WEDGE_FN void storeRadiance(__global float* planes, uint size, WavePixel p, Vec3 sum, uint starts)
-{
-    const float total = (float)(p.before + p.count);
-    const float kept = starts != 0u ? (float)p.before / total : 1.0f;
-    storeVec(planes, size, p.i, vecMad(vecScale(loadVec(planes, size, p.i), kept), sum, 1.0f / total));
-}
-
 /// Texture and irradiance of a receiver under one light as published; visible: of its samples, the fraction that sees it.
 WEDGE_FN void publishedReceiver(FrameParams frame, ReceiverData data, AreaLight light, uint r, Vec3 kd, Vec3 ks, float visible,
                                 Vec3* texture, float* irradiance)
@@ -73,31 +65,38 @@ WEDGE_FN void publishedReceiver(FrameParams frame, ReceiverData data, AreaLight 
 
 /// What a pixel's new receivers add to one term.
 typedef struct {
-    Vec3 radiance, texture;
+    Vec3 texture;
+    float textureSquared, textures; ///< textures: receivers whose texture is known, misses included
+    Vec3 radiance;
     Vec3 weighted, weights; ///< irradiance times its weight, and the weights
     float plain, counted;   ///< luminances of irradiances, and how many
-    float squared, textureSquared;
+    float squared;
 } TermSums;
 
-WEDGE_FN TermSums noTermSums()
+WEDGE_FN TermSums noTermSums(float textures)
 {
     TermSums s;
     s.radiance = s.texture = s.weighted = s.weights = vec3(0.0f, 0.0f, 0.0f);
     s.plain = s.counted = s.squared = s.textureSquared = 0.0f;
+    s.textures = textures;
     return s;
 }
 
-/// Adds a receiver of texture t, irradiance e of weight w, and radiance l.
-WEDGE_FN void addReceiver(TermSums* s, Vec3 t, Vec3 e, Vec3 w, Vec3 l)
+WEDGE_FN void addTexture(TermSums* s, Vec3 t)
+{
+    s->texture = vecAdd(s->texture, t);
+    s->textureSquared += luminance(t) * luminance(t);
+}
+
+/// Adds what the samples of a receiver found: radiance l, that is irradiance times texture, weighted as given.
+WEDGE_FN void addSamples(TermSums* s, Vec3 l, float irradiance, Vec3 weighted, Vec3 weights)
 {
     s->radiance = vecAdd(s->radiance, l);
-    s->texture = vecAdd(s->texture, t);
-    s->weighted = vecAdd(s->weighted, vecMul(w, e));
-    s->weights = vecAdd(s->weights, w);
-    s->plain += luminance(e);
+    s->weighted = vecAdd(s->weighted, weighted);
+    s->weights = vecAdd(s->weights, weights);
+    s->plain += irradiance;
     s->counted += 1.0f;
     s->squared += luminance(l) * luminance(l);
-    s->textureSquared += luminance(t) * luminance(t);
 }
 
 /// The planes of pixels that terms keep.
@@ -106,24 +105,30 @@ typedef struct {
     __global float* radiance; ///< of the term alone, as published
 } TermPlanes;
 
-/// known: what the mean value weighs so far; hits: receivers with irradiance so far; values: planes of value, 1 or 3.
-WEDGE_FN void storeTermSums(WaveParams wave, WavePixel p, uint pixels, TermPlanes planes, uint values, Vec3 known, float hits,
-                            const TermSums* s)
+WEDGE_FN float weightedMean(float mean, float known, float weighted, float weights)
 {
-    const float before = (float)p.before, count = (float)p.count;
-    const Vec3 weights = vecAdd(known, s->weights);
-    planes.value[p.i] = weights.x > 0.0f ? (planes.value[p.i] * known.x + s->weighted.x) / weights.x : 0.0f;
-    if (values == 3u) {
-        const uint g = pixels + p.i, b = 2u * pixels + p.i;
-        planes.value[g] = weights.y > 0.0f ? (planes.value[g] * known.y + s->weighted.y) / weights.y : 0.0f;
-        planes.value[b] = weights.z > 0.0f ? (planes.value[b] * known.z + s->weighted.z) / weights.z : 0.0f;
-    }
-    storeMean(planes.texture, pixels, p.i, before, s->texture, count);
-    planes.plain[p.i] = s->counted > 0.0f ? meanWith(planes.plain[p.i], hits, s->plain, s->counted) : planes.plain[p.i];
-    planes.squares[p.i] = meanWith(planes.squares[p.i], before, s->squared, count);
-    planes.textureSquares[p.i] = meanWith(planes.textureSquares[p.i], before, s->textureSquared, count);
+    return known + weights > 0.0f ? (mean * known + weighted) / (known + weights) : 0.0f;
+}
+
+/// taken: samples of the term before the wave, total: in it; hits: receivers with a surface before; known: what the mean
+/// value weighs so far.
+WEDGE_FN void storeTermSums(WaveParams wave, WavePixel p, uint pixels, TermPlanes planes, uint taken, uint total, float hits,
+                            Vec3 known, const TermSums* s)
+{
+    const float before = (float)p.before;
+    // Receivers that took samples, misses included: samples are shared evenly.
+    const float had = (float)min(taken, p.before), have = (float)min(total, p.count);
+    const uint g = pixels + p.i, b = 2u * pixels + p.i;
+    planes.value[p.i] = weightedMean(planes.value[p.i], known.x, s->weighted.x, s->weights.x);
+    planes.value[g] = weightedMean(planes.value[g], known.y, s->weighted.y, s->weights.y);
+    planes.value[b] = weightedMean(planes.value[b], known.z, s->weighted.z, s->weights.z);
+    storeMean(planes.texture, pixels, p.i, before, s->texture, s->textures);
+    planes.textureSquares[p.i] = meanWith(planes.textureSquares[p.i], before, s->textureSquared, s->textures);
+    const float hadHits = p.before > 0u ? hits * had / before : 0.0f;
+    planes.plain[p.i] = meanWith(planes.plain[p.i], hadHits, s->plain, s->counted);
+    planes.squares[p.i] = meanWith(planes.squares[p.i], had, s->squared, have);
     if (wave.published != 0u) {
-        storeMean(planes.radiance, pixels, p.i, before, s->radiance, count);
+        storeMean(planes.radiance, pixels, p.i, had, s->radiance, have);
     }
 }
 
@@ -150,21 +155,51 @@ WEDGE_FN TermPlanes termPlanes(__global float* texture, __global float* value, _
     return planes;
 }
 
+/// Mean unshadowed weights of a light's samples, diffuse and specular, over the receivers that took some, each as much as it
+/// reflects: what textures of the others are made with. Returns false if none of them is known.
+WEDGE_FN bool meanWeights(WaveParams wave, WavePixel p, uint total, __global const uint* objectId,
+                          __global const float* diffuse, __global const float* specular, __global const float* sums,
+                          float* weight, float* specularWeight)
+{
+    const uint size = wave.planeSize;
+    float reflected = 0.0f, mirrored = 0.0f, known = 0.0f;
+    *weight = *specularWeight = 0.0f;
+    for (uint k = 0u; k < p.count; ++k) {
+        const uint r = p.first + k;
+        const uint n = sharedSamples(k + 1u, p.count, total) - sharedSamples(k, p.count, total);
+        if (objectId[r] == 0u || n == 0u) {
+            continue;
+        }
+        const float scale = 1.0f / (float)n, kd = luminance(loadVec(diffuse, size, r));
+        known += 1.0f;
+        reflected += kd;
+        *weight += kd * scale * sums[r];
+#ifdef WEDGE_SPECULAR
+        const float ks = luminance(loadVec(specular, size, r));
+        mirrored += ks;
+        *specularWeight += ks * scale * sums[2u * size + r];
+#endif
+    }
+    *weight = reflected > 0.0f ? *weight / reflected : 0.0f;
+    *specularWeight = mirrored > 0.0f ? *specularWeight / mirrored : 0.0f;
+    return known > 0.0f;
+}
+
 /// One area light.
 /// in      wave's planes: receivers, diffuse, specular, sums (as area_light.cl has them), slopes
+///         exact: 1: unshadowed has the receivers' shading (wave_light.cl); 0: it is that of their samples
 ///         hits: the pixels' primary samples with a surface, before the wave
 ///         termTaken, termWanted: the pixels' samples of the light before and after the wave
-/// in out  of pixels: direct (radiance, 3), texture (3), value (visibility), plain (the same, unweighted), squares and
-///         textureSquares (mean squared luminance of a primary sample's radiance, and of its texture), termRadiance (3, as
-///         published), extremes (slopes, and shadows' motions), weightOf (mean luminance of the texture), samples (of all terms), termTaken
-__kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight light, uint starts,
-                              __global const uint* restrict pixelFirst, __global const uint* restrict pixelCount,
-                              __global const uint* restrict taken, __global const uint* restrict hits,
-                              WEDGE_RECEIVER_PARAMETERS, __global const float* restrict diffuse,
-                              __global const float* restrict specular, __global const float* restrict sums,
-                              __global const float* restrict slopes, WEDGE_TERM_PARAMETERS,
-                              __global float* restrict weightOf, __global float* restrict direct,
-                              __global uint* restrict samples)
+/// in out  of pixels: texture (3), value (visibility, 3), plain (its luminance, unweighted), squares and textureSquares (mean
+///         squared luminance of a primary sample's radiance, and of its texture), termRadiance (3, as published), extremes
+///         (slopes, and shadows' motions), weightOf (mean luminance of the texture), samples (of all terms), termTaken
+__kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight light, uint exact,
+                              __global const uint* restrict pixelFirst,
+                              __global const uint* restrict pixelCount, __global const uint* restrict taken,
+                              __global const uint* restrict hits, WEDGE_RECEIVER_PARAMETERS,
+                              __global const float* restrict diffuse, __global const float* restrict specular,
+                              __global const float* restrict sums, __global const float* restrict unshadowed,
+                              __global const float* restrict slopes, WEDGE_TERM_PARAMETERS, __global float* restrict weightOf, __global uint* restrict samples)
 {
     WavePixel p;
     if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
@@ -177,15 +212,42 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
     const uint size = wave.planeSize, pixels = frame.planeSize;
     const uint total = newTermSamples(wave, termTaken[p.i], termWanted[p.i]);
     float sMin = extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY, sMax = extremes[pixels + p.i];
-    TermSums sum = noTermSums();
+    float weight = 0.0f, specularWeight = 0.0f;
+    const bool known = total >= p.count || wave.published != 0u
+        || meanWeights(wave, p, total, objectId, diffuse, specular, sums, &weight, &specularWeight);
+    TermSums sum = noTermSums(known ? (float)p.count : 0.0f);
     for (uint k = 0u; k < p.count; ++k) {
         const uint r = p.first + k;
         const uint n = sharedSamples(k + 1u, p.count, total) - sharedSamples(k, p.count, total);
-        if (objectId[r] == 0u || n == 0u) {
+        if (objectId[r] == 0u) {
             continue;
         }
-        const float scale = 1.0f / (float)n;
+        const float scale = n > 0u ? 1.0f / (float)n : 0.0f;
         const Vec3 kd = loadVec(diffuse, size, r), ks = loadVec(specular, size, r);
+        Vec3 t, l, sampled;
+        float seen;
+        if (wave.published != 0u) {
+            publishedReceiver(receivers, data, light, r, kd, ks, sums[size + r] * scale, &t, &seen);
+            l = vecScale(t, seen);
+        } else {
+            sampled = vecScale(kd, WEDGE_INV_PI * scale * sums[r]);
+            t = exact != 0u || n == 0u ? vecScale(kd, WEDGE_INV_PI * (exact != 0u ? unshadowed[r] : weight)) : sampled;
+            l = vecScale(kd, WEDGE_INV_PI * scale * sums[size + r]);
+#ifdef WEDGE_SPECULAR
+            const float mirrored = exact != 0u ? unshadowed[size + r] : -1.0f;
+            t = vecMad(t, ks, mirrored >= 0.0f ? mirrored : n > 0u ? scale * sums[2u * size + r] : specularWeight);
+            sampled = vecMad(sampled, ks, scale * sums[2u * size + r]);
+            l = vecMad(l, ks, scale * sums[3u * size + r]);
+#endif
+            t = vecMul(t, light.power);
+            l = vecMul(l, light.power);
+            sampled = vecMul(sampled, light.power);
+            seen = luminance(sampled) > 0.0f ? luminance(l) / luminance(sampled) : 0.0f;
+        }
+        addTexture(&sum, t);
+        if (n == 0u) {
+            continue;
+        }
         sMin = slopes[r] > 0.0f ? fmin(sMin, slopes[r]) : sMin;
         sMax = fmax(sMax, slopes[size + r]);
 #ifdef WEDGE_MOTION
@@ -193,28 +255,20 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
             extremes[plane * pixels + p.i] += slopes[plane * size + r];
         }
 #endif
-        Vec3 t, w = vec3(1.0f, 1.0f, 1.0f);
-        float seen;
         if (wave.published != 0u) {
-            publishedReceiver(receivers, data, light, r, kd, ks, sums[size + r] * scale, &t, &seen);
-            addReceiver(&sum, t, vec3(seen, seen, seen), w, vecScale(t, seen));
-            continue;
+            addSamples(&sum, l, seen, vec3(seen, seen, seen), vec3(1.0f, 1.0f, 1.0f));
+        } else {
+            addSamples(&sum, exact != 0u ? vecScale(t, seen) : l, seen, vecScale(l, (float)n), vecScale(sampled, (float)n));
         }
-        t = vecScale(kd, WEDGE_INV_PI * scale * sums[r]);
-        Vec3 l = vecScale(kd, WEDGE_INV_PI * scale * sums[size + r]);
-#ifdef WEDGE_SPECULAR
-        t = vecMad(t, ks, scale * sums[2u * size + r]);
-        l = vecMad(l, ks, scale * sums[3u * size + r]);
-#endif
-        t = vecMul(t, light.power);
-        l = vecMul(l, light.power);
-        const float weight = luminance(t);
-        seen = weight > 0.0f ? luminance(l) / weight : 0.0f;
-        addReceiver(&sum, t, vec3(seen, seen, seen), vec3(weight, weight, weight), l);
     }
-    const float known = wave.published != 0u ? (float)hits[p.i] : luminance(loadVec(texture, pixels, p.i)) * (float)p.before;
-    storeTermSums(wave, p, pixels, WEDGE_TERM_ARGUMENTS, 1u, vec3(known, known, known), (float)hits[p.i], &sum);
-    storeRadiance(direct, pixels, p, sum.radiance, starts);
+    if (!known) {
+        sum.texture = vec3(0.0f, 0.0f, 0.0f);
+        sum.textureSquared = 0.0f;
+    }
+    const float plainWeight = (float)hits[p.i];
+    const Vec3 weights = wave.published != 0u ? vec3(plainWeight, plainWeight, plainWeight)
+                                              : vecScale(loadVec(texture, pixels, p.i), (float)termTaken[p.i]);
+    storeTermSums(wave, p, pixels, WEDGE_TERM_ARGUMENTS, termTaken[p.i], total, (float)hits[p.i], weights, &sum);
     weightOf[p.i] = luminance(loadVec(texture, pixels, p.i));
     extremes[p.i] = sMin < INFINITY ? sMin : 0.0f;
     extremes[pixels + p.i] = sMax;
@@ -223,10 +277,10 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
 }
 
 /// Point and directional lights: `lit`, the receivers' radiance from them.
-__kernel void accumulateDelta(FrameParams frame, WaveParams wave, uint starts, __global const uint* restrict pixelFirst,
+__kernel void accumulateDelta(FrameParams frame, WaveParams wave, __global const uint* restrict pixelFirst,
                               __global const uint* restrict pixelCount, __global const uint* restrict taken,
                               __global const uint* restrict objectId, __global const float* restrict lit,
-                              __global float* restrict direct)
+                              __global float* restrict delta)
 {
     WavePixel p;
     if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
@@ -236,20 +290,19 @@ __kernel void accumulateDelta(FrameParams frame, WaveParams wave, uint starts, _
     for (uint r = p.first; r < p.first + p.count; ++r) {
         radiance = objectId[r] != 0u ? vecAdd(radiance, loadVec(lit, wave.planeSize, r)) : radiance;
     }
-    storeRadiance(direct, frame.planeSize, p, radiance, starts);
+    storeMean(delta, frame.planeSize, p.i, (float)p.before, radiance, (float)p.count);
 }
 
 /// One component of indirect light.
 /// in      ambient: 1 for ambient occlusion: the irradiance is what is open of the hemisphere, the texture white
 ///         wave's planes: objectId, reflectance (3), sums, reflectors (as indirect.cl has them); hits, as of a light
-/// in out  as of a light: value has 3 planes; extremes: reflectors of pixels, like those of receivers; indirectSamples
-__kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint starts, uint ambient, __global const uint* restrict pixelFirst,
+/// in out  as of a light; extremes: reflectors of pixels, like those of receivers; indirectSamples
+__kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient, __global const uint* restrict pixelFirst,
                               __global const uint* restrict pixelCount, __global const uint* restrict taken,
                               __global const uint* restrict hits, __global const uint* restrict objectId,
                               __global const float* restrict reflectance, __global const float* restrict sums,
                               __global const float* restrict reflectors, WEDGE_TERM_PARAMETERS,
-                              __global float* restrict indirect, __global uint* restrict samples,
-                              __global uint* restrict indirectSamples)
+                              __global uint* restrict samples, __global uint* restrict indirectSamples)
 {
     WavePixel p;
     if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
@@ -260,26 +313,32 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint starts, u
     float nearest = extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY, farthest = extremes[pixels + p.i];
     float inverse = extremes[2u * pixels + p.i];
     const float floor = wave.published != 0u ? 1.0f : WEDGE_LEAST_TEXTURE, own = wave.published != 0u ? 0.0f : 1.0f;
-    const Vec3 floors = vec3(floor, floor, floor);
-    TermSums sum = noTermSums();
+    const Vec3 floors = vec3(floor, floor, floor), white = vec3(1.0f, 1.0f, 1.0f);
+    TermSums sum = noTermSums((float)p.count);
     for (uint k = 0u; k < p.count; ++k) {
         const uint r = p.first + k;
         const uint n = sharedSamples(k + 1u, p.count, total) - sharedSamples(k, p.count, total);
-        if (objectId[r] == 0u || n == 0u) {
+        if (objectId[r] == 0u) {
             continue;
         }
-        const Vec3 mean = vecScale(loadVec(sums, size, r), 1.0f / (float)n), white = vec3(1.0f, 1.0f, 1.0f);
-        const Vec3 e = ambient != 0u ? vecSub(white, mean) : mean;
         const Vec3 t = ambient != 0u ? white : loadVec(reflectance, size, r);
-        addReceiver(&sum, t, e, vecMad(floors, t, own), vecMul(t, e));
+        addTexture(&sum, t);
+        if (n == 0u) {
+            continue;
+        }
+        const Vec3 mean = vecScale(loadVec(sums, size, r), 1.0f / (float)n);
+        const Vec3 e = ambient != 0u ? vecSub(white, mean) : mean;
+        const Vec3 weights = vecScale(vecMad(floors, t, own), wave.published != 0u ? 1.0f : (float)n);
+        addSamples(&sum, vecMul(t, e), luminance(e), vecMul(weights, e), weights);
         nearest = reflectors[r] > 0.0f ? fmin(nearest, reflectors[r]) : nearest;
         farthest = fmax(farthest, reflectors[size + r]);
         inverse += reflectors[2u * size + r];
     }
-    const float counted = (float)hits[p.i];
-    const Vec3 known = vecMad(vecScale(floors, counted), loadVec(texture, pixels, p.i), own * (float)p.before);
-    storeTermSums(wave, p, pixels, WEDGE_TERM_ARGUMENTS, 3u, known, counted, &sum);
-    storeRadiance(indirect, pixels, p, sum.radiance, starts);
+    const float counted = wave.published != 0u ? (float)hits[p.i]
+        : p.before > 0u                        ? (float)hits[p.i] / (float)p.before * (float)termTaken[p.i]
+                                               : 0.0f;
+    const Vec3 known = vecMad(vecScale(floors, counted), loadVec(texture, pixels, p.i), own * (float)termTaken[p.i]);
+    storeTermSums(wave, p, pixels, WEDGE_TERM_ARGUMENTS, termTaken[p.i], total, (float)hits[p.i], known, &sum);
     extremes[p.i] = nearest < INFINITY ? nearest : 0.0f;
     extremes[pixels + p.i] = farthest;
     extremes[2u * pixels + p.i] = inverse;
@@ -290,7 +349,8 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint starts, u
 
 /// Where and what the receivers are, and what they emit; closes the wave.
 /// in      wave's planes: as wave_primary.cl fills them, rays, pathRays
-/// in out  of pixels: means of position, normal, pixelSize, distance, gloss, diffuse, specular, emission; objectId (0:
+/// in out  of pixels: means of position, normal, pixelSize, distance, gloss, diffuse, specular, emission, emissionSquares
+///         (squared luminance); objectId (0:
 ///         no surface, WEDGE_MIXED: several objects); hits; confusion (planes: least and largest signed radius of
 ///         the circle of confusion, pixels); motion (planes: mean x, mean y, largest difference from the mean's start);
 ///         rays, pathRays; taken
@@ -306,7 +366,8 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
                                  __global uint* restrict objectOf, __global float* restrict positionOf,
                                  __global float* restrict normalOf, __global float* restrict glossOf,
                                  __global float* restrict diffuseOf, __global float* restrict specularOf,
-                                 __global float* restrict emissionOf, __global float* restrict pixelSizeOf,
+                                 __global float* restrict emissionOf, __global float* restrict emissionSquaresOf,
+                                 __global float* restrict pixelSizeOf,
                                  __global float* restrict distanceOf, __global float* restrict confusionOf,
                                  __global float* restrict motionOf, __global uint* restrict raysOf,
                                  __global uint* restrict pathRaysOf)
@@ -318,11 +379,13 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
     const uint size = wave.planeSize, pixels = frame.planeSize;
     const Vec3 none = vec3(0.0f, 0.0f, 0.0f);
     Vec3 at = none, facing = none, kd = none, ks = none, emitted = none;
-    float hit = 0.0f, exponent = 0.0f, edge = 0.0f, moveX = 0.0f, moveY = 0.0f;
+    float hit = 0.0f, exponent = 0.0f, edge = 0.0f, moveX = 0.0f, moveY = 0.0f, squared = 0.0f;
     float low = p.before > 0u ? confusionOf[p.i] : INFINITY, high = p.before > 0u ? confusionOf[pixels + p.i] : -INFINITY;
     uint object = objectOf[p.i], traced = 0u, paths = 0u;
     for (uint r = p.first; r < p.first + p.count; ++r) {
-        emitted = vecAdd(emitted, loadVec(emission, size, r));
+        const Vec3 e = loadVec(emission, size, r);
+        emitted = vecAdd(emitted, e);
+        squared += luminance(e) * luminance(e);
         const float radius = camera.apertureRadius > 0.0f ? confusion(camera, depth[r]) : 0.0f;
         low = fmin(low, radius);
         high = fmax(high, radius);
@@ -344,6 +407,7 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
     }
     const float before = (float)p.before, count = (float)p.count, hits = (float)hitsOf[p.i];
     storeMean(emissionOf, pixels, p.i, before, emitted, count);
+    emissionSquaresOf[p.i] = meanWith(emissionSquaresOf[p.i], before, squared, count);
     storeMean(diffuseOf, pixels, p.i, before, kd, count);
     storeMean(specularOf, pixels, p.i, before, ks, count);
     taken[p.i] = p.before + p.count;

@@ -3,47 +3,7 @@
 #include "light_sample.h"
 #include "shared/filter_params.h"
 #include "shared/path.h"
-#include "vector16.h"
-
-/// The fine one serves receivers nearer to the light's centre than this many of its largest half extents.
-#define WEDGE_NEAR_LIGHT 3.0f
-/// The coarse one serves lobes whose squared width is at least the light's squared angular half extent over this.
-#define WEDGE_COARSE_LOBE 2.0f
-/// Lobes sharper than this, in the same measure, fall between the fine rule's nodes.
-#define WEDGE_SHARP_LOBE 40.0f
-
-/// Geometry terms of 16 receivers and one point of the light, 1/m^2; see geometryTerm().
-WEDGE_FN float16 geometryTerm16(Vec3x16 normal, Vec3x16 d, Vec3 lightNormal, uint twoSided)
-{
-    const float16 receiver = dot16(normal, d);
-    const float16 emitter = -(d.x * lightNormal.x + d.y * lightNormal.y + d.z * lightNormal.z);
-    const float16 facing = twoSided != 0u ? fabs(emitter) : emitter;
-    const float16 squared = dot16(d, d);
-    const int16 lit = (receiver > 0.0f) & (facing > 0.0f);
-    return lit ? receiver * facing / (squared * squared) : (float16)(0.0f);
-}
-
-/// Profile-weighted mean of the geometry term over the light by tensor-product Gauss quadrature. nodes: coordinate
-/// and weight of each of `count` nodes of one axis, the weights summing to 1. *edge: lanes where the light is partly
-/// below a horizon, so that the integrand has a kink.
-WEDGE_FN float16 unshadowedDiffuse(AreaLight light, Vec3x16 position, Vec3x16 normal, __global const float* nodes,
-                                   uint count, int16* edge)
-{
-    float16 sum = (float16)(0.0f);
-    int16 someZero = (int16)(0);
-    int16 someLit = (int16)(0);
-    for (uint a = 0u; a < count; ++a) {
-        for (uint b = 0u; b < count; ++b) {
-            const Vec3 point = lightPoint(light.centre, light.halfU, light.halfV, nodes[2u * a], nodes[2u * b]);
-            const float16 g = geometryTerm16(normal, sub16(splat3(point), position), light.normal, light.twoSided);
-            someZero |= g == 0.0f;
-            someLit |= g > 0.0f;
-            sum += nodes[2u * a + 1u] * nodes[2u * b + 1u] * g;
-        }
-    }
-    *edge = someZero & someLit;
-    return sum;
-}
+#include "unshadowed.h"
 
 /// The same mean of lobe times geometry term, one receiver.
 WEDGE_FN float unshadowedSpecular(AreaLight light, Receiver r, __global const float* nodes, uint count)
@@ -101,17 +61,7 @@ __kernel void addDiffuse(AnalysisParams p, SampleParams params, AreaLight light,
     if (params.shading == WEDGE_SHADING_SEPARATE) {
         shading = geometryTerm16(facing, sub16(splat3(light.centre), at), light.normal, light.twoSided);
     } else if (params.shading == WEDGE_SHADING_RATIO) {
-        int16 hard;
-        shading = unshadowedDiffuse(light, at, facing, nodes, WEDGE_COARSE_NODES, &hard);
-        const Vec3x16 toLight = sub16(splat3(light.centre), at);
-        const float extent = fmax(vecLength(light.halfU), vecLength(light.halfV)) * WEDGE_NEAR_LIGHT;
-        hard |= dot16(toLight, toLight) < extent * extent;
-        hard &= surface;
-        if (any(hard)) {
-            int16 unused;
-            const float16 fine = unshadowedDiffuse(light, at, facing, nodes + 2u * WEDGE_COARSE_NODES, WEDGE_FINE_NODES, &unused);
-            shading = hard ? fine : shading;
-        }
+        shading = unshadowedWhere(light, at, facing, nodes, surface);
     }
     shading = surface ? shading * WEDGE_INV_PI : (float16)(0.0f);
     const Vec3x16 kd = loadVecBlock(diffuse, size, i);
@@ -131,10 +81,8 @@ WEDGE_FN float specularShading(SampleParams params, AreaLight light, Receiver r,
         return 1.0f;
     }
     if (params.shading == WEDGE_SHADING_RATIO) {
-        // A lobe of exponent m is about 1/sqrt(m) wide: the coarse rule does for a light that is small beside it.
         const Vec3 toLight = vecSub(light.centre, r.position);
-        const float extent = fmax(vecDot(light.halfU, light.halfU), vecDot(light.halfV, light.halfV));
-        const float lobes = extent * fmax(r.lobe.exponent, 1.0f) / vecDot(toLight, toLight);
+        const float lobes = lobesAcross(light, vecDot(toLight, toLight), r.lobe.exponent);
         if (lobes > WEDGE_SHARP_LOBE) {
             return sampled;
         }

@@ -12,11 +12,6 @@ WEDGE_FN bool pixelOf(DistributedParams p, uint* x, uint* y, uint* i)
     return *x < p.x1 && *y < p.y1;
 }
 
-WEDGE_FN Vec3 termValueOf(DistributedParams p, __global const float* value, uint i)
-{
-    return p.values == 3u ? loadVec(value, p.planeSize, i) : vec3(value[i], value[i], value[i]);
-}
-
 /// Smallest radius of the pixel's circles of confusion in pixels; 0 where it is in focus somewhere.
 WEDGE_FN float leastConfusion(DistributedParams p, __global const float* confusion, uint i)
 {
@@ -33,7 +28,7 @@ __kernel void factoringError(DistributedParams p, __global const float* restrict
         return;
     }
     const Vec3 k = loadVec(texture, p.planeSize, i);
-    error[i] = luminance(vecMul(k, termValueOf(p, value, i))) - luminance(k) * plain[i];
+    error[i] = luminance(vecMul(k, loadVec(value, p.planeSize, i))) - luminance(k) * plain[i];
 }
 
 /// Narrows nothing and widens beta, metres, to what the lens has blurred already (5.18), (5.22); takes pixels out whose error
@@ -74,7 +69,7 @@ __kernel void splitVariance(DistributedParams p, __global const float* restrict 
         return;
     }
     const Vec3 k = loadVec(texture, p.planeSize, i);
-    const float mean = luminance(vecMul(k, termValueOf(p, value, i)));
+    const float mean = luminance(vecMul(k, loadVec(value, p.planeSize, i)));
     const float n = (float)taken[i];
     const float unbiased = n > 1.0f ? n / (n - 1.0f) : 0.0f;
     const float all = fmax(squares[i] - mean * mean, 0.0f) * unbiased;
@@ -82,14 +77,29 @@ __kernel void splitVariance(DistributedParams p, __global const float* restrict 
     const float spread = fmax(textureSquares[i] - t * t, 0.0f) * unbiased;
     const float irradiance = t > 0.0f ? mean / t : 0.0f;
     const float texturePart = fmin(spread * irradiance * irradiance, all);
-    ofTexture[i] = texturePart;
+    ofTexture[i] = p.textureVariance * texturePart;
     ofIrradiance[i] = all - texturePart;
 }
 
-/// Pixels that the image-space filters of lens and shutter gather, of those' standard deviations in pixels.
-WEDGE_FN float blurGather(float lens, float along)
+/// The variance of what is seen to emit, a primary sample.
+__kernel void emissionVariance(DistributedParams p, __global const float* restrict emission,
+                               __global const float* restrict squares, __global const uint* restrict taken,
+                               __global float* restrict variance)
 {
-    return fmax(4.0f * 3.14159265f * lens * lens, 1.0f) * fmax(3.5449077f * along, 1.0f);
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    const float n = (float)taken[i], mean = luminance(loadVec(emission, p.planeSize, i));
+    variance[i] = n > 1.0f ? fmax(squares[i] - mean * mean, 0.0f) * n / (n - 1.0f) : 0.0f;
+}
+
+/// Equal samples that Gaussians one after the other amount to: that of the irradiance alone gathers so many, the image's have
+/// the standard deviations lens, and, along one direction, along (pixels). Their covariances add up.
+WEDGE_FN float gatheredBy(float irradiance, float lens, float along)
+{
+    const float across = irradiance / (4.0f * 3.14159265f) + lens * lens;
+    return fmax(4.0f * 3.14159265f * sqrt(across * (across + along * along)), 1.0f);
 }
 
 /// Demand of a term's samples: (v / K / rays)^exponent, v at least varianceSpread of the largest within 5x5 pixels. effective:
@@ -109,7 +119,8 @@ __kernel void sampleDemand(DistributedParams p, __global const float* restrict v
         }
     }
     const float v = fmax(variance[i], p.varianceSpread * largest);
-    const float gathered = blurGather(lens[i], p.alongMotion != 0u ? along[i] : 0.0f) * (beta[i] > 0.0f ? fmax(effective[i], 1.0f) : 1.0f);
+    const float irradiance = beta[i] > 0.0f ? fmax(effective[i], 1.0f) : 1.0f;
+    const float gathered = gatheredBy(irradiance, lens[i], p.alongMotion != 0u ? along[i] : 0.0f);
     demand[i] = v > 1e-30f ? pow(v / (gathered * p.rays), p.countExponent) : 0.0f;
 }
 
@@ -122,12 +133,14 @@ __kernel void addPlane(DistributedParams p, __global const float* restrict part,
     }
 }
 
-/// At least `share` as many samples of one kind as of another: no fewer secondary than primary ones.
-__kernel void atLeast(DistributedParams p, float share, __global const float* restrict least, __global float* restrict demand)
+/// At least as many samples of one kind as of another, times apart where texture and irradiance are taken apart (beta >= 0),
+/// times together elsewhere.
+__kernel void atLeast(DistributedParams p, float apart, float together, __global const float* restrict beta,
+                      __global const float* restrict least, __global float* restrict demand)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
-        demand[i] = fmax(demand[i], share * least[i]);
+        demand[i] = fmax(demand[i], (beta[i] >= 0.0f ? apart : together) * least[i]);
     }
 }
 
@@ -209,22 +222,55 @@ __kernel void shadowBlurs(DistributedParams p, __global const float* restrict sh
     directions[n + i] = one ? my / length : 0.0f;
 }
 
-/// Puts a term's filtered value in the place of its own: radiance += filteredTexture filtered - texture value, which keeps what
-/// texture and irradiance have in common; as published k E in the place of L (5.32), termRadiance.
-__kernel void replaceTerm(DistributedParams p, __global const float* restrict texture,
-                          __global const float* restrict filteredTexture, __global const float* restrict value,
-                          __global const float* restrict filtered, __global const float* restrict beta,
-                          __global const float* restrict termRadiance, __global float* restrict radiance)
+/// A light's visibility in one plane: what its filter averages. As published it is in the first one already.
+__kernel void visibilityOf(DistributedParams p, __global const float* restrict texture, __global const float* restrict value,
+                           __global float* restrict visibility)
 {
     uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i) || !(beta[i] >= 0.0f)) {
+    if (!pixelOf(p, &x, &y, &i)) {
         return;
     }
-    const Vec3 product = vecMul(loadVec(filteredTexture, p.planeSize, i), termValueOf(p, filtered, i));
-    const Vec3 own = p.published != 0u ? loadVec(termRadiance, p.planeSize, i)
-                                       : vecMul(loadVec(texture, p.planeSize, i), termValueOf(p, value, i));
-    const Vec3 change = vecSub(product, own);
-    storeVec(radiance, p.planeSize, i, vecAdd(loadVec(radiance, p.planeSize, i), change));
+    const Vec3 k = loadVec(texture, p.planeSize, i);
+    const float t = luminance(k);
+    visibility[i] = p.published != 0u ? value[i]
+        : t > 0.0f                    ? luminance(vecMul(k, loadVec(value, p.planeSize, i))) / t
+                                      : 0.0f;
+}
+
+/// A term's own radiance, k E; as published L, termRadiance.
+WEDGE_FN Vec3 ownRadiance(DistributedParams p, uint i, __global const float* texture, __global const float* value,
+                          __global const float* termRadiance)
+{
+    return p.published != 0u ? loadVec(termRadiance, p.planeSize, i)
+                             : vecMul(loadVec(texture, p.planeSize, i), loadVec(value, p.planeSize, i));
+}
+
+/// radiance += a term: where it is taken apart filteredTexture filtered (p.values planes), elsewhere its own.
+__kernel void addFilteredTerm(DistributedParams p, __global const float* restrict texture,
+                              __global const float* restrict filteredTexture, __global const float* restrict value,
+                              __global const float* restrict filtered, __global const float* restrict beta,
+                              __global const float* restrict termRadiance, __global float* restrict radiance)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    const uint n = p.planeSize;
+    const Vec3 e = p.values == 3u ? loadVec(filtered, n, i) : vec3(filtered[i], filtered[i], filtered[i]);
+    const Vec3 term = beta[i] >= 0.0f ? vecMul(loadVec(filteredTexture, n, i), e)
+                                      : ownRadiance(p, i, texture, value, termRadiance);
+    storeVec(radiance, n, i, vecAdd(loadVec(radiance, n, i), term));
+}
+
+/// radiance += a term without any filter.
+__kernel void addTerm(DistributedParams p, __global const float* restrict texture, __global const float* restrict value,
+                      __global const float* restrict termRadiance, __global float* restrict radiance)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        const Vec3 term = ownRadiance(p, i, texture, value, termRadiance);
+        storeVec(radiance, p.planeSize, i, vecAdd(loadVec(radiance, p.planeSize, i), term));
+    }
 }
 
 /// beauty = emission + direct + indirect (3 planes each).
@@ -237,18 +283,6 @@ __kernel void addAll(DistributedParams p, __global const float* restrict emissio
     }
     const uint n = p.planeSize;
     storeVec(beauty, n, i, vecAdd(vecAdd(loadVec(emission, n, i), loadVec(direct, n, i)), loadVec(indirect, n, i)));
-}
-
-/// What terms are filtered in: copies of the radiances as sampled (3 planes each).
-__kernel void copyRadiance(DistributedParams p, __global const float* restrict directNoisy,
-                           __global const float* restrict indirectNoisy, __global float* restrict direct,
-                           __global float* restrict indirect)
-{
-    uint x, y, i;
-    if (pixelOf(p, &x, &y, &i)) {
-        storeVec(direct, p.planeSize, i, loadVec(directNoisy, p.planeSize, i));
-        storeVec(indirect, p.planeSize, i, loadVec(indirectNoisy, p.planeSize, i));
-    }
 }
 
 __kernel void copyPlane(DistributedParams p, __global const float* restrict in, __global float* restrict out)

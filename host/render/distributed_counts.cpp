@@ -13,17 +13,16 @@ void DistributedFrame::publishedCounts()
 {
     const DistributedSettings& d = c_.settings.distributed;
     shared::DistributedParams p = params(c_.full());
-    const auto flags = [&](const Term& term, std::uint32_t values) {
-        p.values = values;
+    const auto flags = [&](const Term& term) {
         c_.passes.rows("widths", PassKind::Analysis, "published.cl", "publishedFlags", p, 1, term.texture, term.value,
             term.radiance, c_.scratch.demand);
     };
     for (std::size_t i = 0; i < lights_.size(); ++i) {
-        flags(*terms_[i], 1);
+        flags(*terms_[i]);
         lights_[i].publishedWidths(p, c_.scratch.demand);
     }
     for (std::size_t i = 0; i < paths_.size(); ++i) {
-        flags(*terms_[lights_.size() + i], 3);
+        flags(*terms_[lights_.size() + i]);
         paths_[i].publishedWidths(p, c_.scratch.demand);
     }
     const auto most = static_cast<std::uint32_t>(d.maxSpp);
@@ -31,16 +30,15 @@ void DistributedFrame::publishedCounts()
         static_cast<float>(d.mixedPaths), c_.frame.confusion, c_.frame.motion, c_.frame.primaryDemand);
     c_.passes.rows("counts", PassKind::Analysis, "published.cl", "publishedCounts", p, 1, most, c_.frame.primaryDemand,
         c_.frame.primaryTaken, c_.frame.primaryTaken, c_.frame.primaryWanted);
-    eachTerm([&](Term& term, std::uint32_t, float) {
+    eachTerm([&](Term& term, float) {
         c_.passes.rows("counts", PassKind::Analysis, "published.cl", "publishedCounts", p, 1, most, term.demand,
             c_.frame.primaryWanted, term.taken, term.wanted);
     });
 }
 
-void DistributedFrame::demandOf(Term& term, std::uint32_t values, float rays)
+void DistributedFrame::demandOf(Term& term, float rays)
 {
     shared::DistributedParams p = params(c_.full());
-    p.values = values;
     p.rays = rays;
     c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "splitVariance", p, 1, term.texture, term.textureSquares,
         term.value, term.squares, c_.frame.primaryTaken, c_.scratch.rowsSpread, c_.scratch.logs);
@@ -57,19 +55,21 @@ void DistributedFrame::demands()
     shared::DistributedParams p = params(c_.full());
     p.rays = 1.0f;
     p.alongMotion = 1;
-    c_.scratch.spread.fill(c_.passes.queue(), 0.0f);
-    eachTerm([&](Term& term, std::uint32_t values, float rays) { demandOf(term, values, rays); });
-    // Nothing but lens and shutter averages textures.
+    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "emissionVariance", p, 1, c_.frame.emission,
+        c_.frame.emissionSquares, c_.frame.primaryTaken, c_.scratch.spread);
+    eachTerm([&](Term& term, float rays) { demandOf(term, rays); });
+    // Nothing but lens and shutter averages textures and what emits.
     c_.scratch.demand.fill(c_.passes.queue(), -1.0f);
     c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "sampleDemand", p, 1, c_.scratch.spread,
         c_.scratch.effective, c_.scratch.demand, c_.frame.lensWidth, c_.frame.motionWidth, c_.frame.primaryDemand);
-    const auto atLeast = [&](float share, const device::Buffer<float>& least, const device::Buffer<float>& demand) {
-        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "atLeast", p, 1, share, least, demand);
+    const DistributedSettings& d = c_.settings.distributed;
+    const auto atLeast = [&](float apart, float together, const Term& term, const device::Buffer<float>& least,
+                             const device::Buffer<float>& demand) {
+        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "atLeast", p, 1, apart, together, term.beta, least, demand);
     };
-    if (const float share = c_.settings.distributed.leastPrimaries; share > 0) {
-        eachTerm([&](Term& term, std::uint32_t, float) { atLeast(share, term.demand, c_.frame.primaryDemand); });
-    }
-    eachTerm([&](Term& term, std::uint32_t, float) { atLeast(1.0f, c_.frame.primaryDemand, term.demand); });
+    eachTerm([&](Term& term, float) { atLeast(d.leastPrimaries, d.leastPrimaries, term, term.demand, c_.frame.primaryDemand); });
+    // Where a term is not taken apart its texture is known at receivers that sample it alone.
+    eachTerm([&](Term& term, float) { atLeast(d.leastSecondaries, 1.0f, term, c_.frame.primaryDemand, term.demand); });
 }
 
 void DistributedFrame::counts()
@@ -87,7 +87,7 @@ void DistributedFrame::counts()
     demands.push_back({ guide.c_.frame.primaryDemand.downloadAll(queue), c_.frame.primaryTaken.downloadAll(queue), 1.0f });
     double perPath = 1.0;
     std::size_t next = 0;
-    eachTerm([&](Term& term, std::uint32_t, float rays) {
+    eachTerm([&](Term& term, float rays) {
         demands.push_back({ guide.terms_[next++]->demand.downloadAll(queue), term.taken.downloadAll(queue), rays });
         perPath += rays;
     });
@@ -120,7 +120,7 @@ void DistributedFrame::counts()
         static_cast<std::uint32_t>(least), static_cast<std::uint32_t>(most), guide.c_.frame.primaryDemand, c_.frame.primaryTaken,
         c_.frame.primaryWanted);
     next = 0;
-    eachTerm([&](Term& term, std::uint32_t, float) {
+    eachTerm([&](Term& term, float) {
         c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "scaleCounts", p, 1, scale,
             static_cast<std::uint32_t>(least), static_cast<std::uint32_t>(most), guide.terms_[next++]->demand, term.taken, term.wanted);
     });
@@ -130,7 +130,7 @@ void DistributedFrame::keepPace()
 {
     const shared::DistributedParams p = params(c_.full());
     c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "limitStep", p, 1, c_.frame.primaryTaken, c_.frame.primaryWanted);
-    eachTerm([&](Term& term, std::uint32_t, float) {
+    eachTerm([&](Term& term, float) {
         c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "keepPace", p, 1, c_.frame.primaryTaken,
             c_.frame.primaryWanted, term.taken, term.wanted);
     });

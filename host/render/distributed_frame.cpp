@@ -52,7 +52,7 @@ bool DistributedFrame::render()
 
 void DistributedFrame::begin()
 {
-    eachTerm([&](Term& term, std::uint32_t, float) { term.clear(c_.passes.queue()); });
+    eachTerm([&](Term& term, float) { term.clear(c_.passes.queue()); });
     analysed_ = false;
     taken_ = 0;
 }
@@ -71,7 +71,7 @@ bool DistributedFrame::monteCarlo()
 {
     const auto spp = static_cast<std::uint32_t>(c_.settings.spp);
     c_.frame.primaryWanted.fill(c_.passes.queue(), spp);
-    eachTerm([&](Term& term, std::uint32_t, float) { term.wanted.fill(c_.passes.queue(), spp); });
+    eachTerm([&](Term& term, float) { term.wanted.fill(c_.passes.queue(), spp); });
     while (taken_ < spp) {
         const std::uint32_t round = std::min(monteCarloRound, spp - taken_);
         if (!sample(c_.sampledFrame, taken_ + round, false, round)) {
@@ -88,7 +88,7 @@ bool DistributedFrame::monteCarlo()
 bool DistributedFrame::firstPass(std::uint32_t first)
 {
     c_.frame.primaryWanted.fill(c_.passes.queue(), first);
-    eachTerm([&](Term& term, std::uint32_t, float) { term.wanted.fill(c_.passes.queue(), first); });
+    eachTerm([&](Term& term, float) { term.wanted.fill(c_.passes.queue(), first); });
     return sample(c_.fullFrame, first, true, first);
 }
 
@@ -140,31 +140,27 @@ void DistributedFrame::sampleWave(const shared::WaveParams& wave, bool slopes, d
 {
     const double units = workUnits / (1.0 + static_cast<double>(lights_.size() + paths_.size()));
     waves_.trace(c_.passes, c_.scene, c_.frame, wave, lit_, units);
-    bool starts = true;
     for (SoftShadows& light : lights_) {
-        light.sampleWave(waves_, wave, slopes, starts, units);
-        starts = false;
+        light.sampleWave(waves_, wave, slopes, units);
     }
     if (lit_ && c_.scene.deltaLightCount > 0) {
-        deltaLights(wave, starts);
+        deltaLights(wave);
     }
-    starts = true;
     for (Indirect& path : paths_) {
-        path.sampleWave(waves_, wave, starts, units);
-        starts = false;
+        path.sampleWave(waves_, wave, units);
     }
     waves_.accumulateSurfaces(c_.passes, c_.frame, wave);
 }
 
-void DistributedFrame::deltaLights(const shared::WaveParams& wave, bool starts)
+void DistributedFrame::deltaLights(const shared::WaveParams& wave)
 {
     const DeviceScene& s = c_.scene;
     waves_.radiance.fill(c_.passes.queue(), 0.0f);
     c_.passes.tiles("point and directional lights", PassKind::Trace, "delta_lights.cl", "deltaLights",
         waves_.receiverParams(wave), 0.0, s.deltaLights, s.deltaLightCount, s.diameter, s.nodes, s.blocks, waves_.receivers(),
         waves_.diffuse, waves_.specular, waves_.radiance, waves_.radianceNoisy, waves_.rays);
-    waves_.pixels(c_.passes, "accumulateDelta", wave, starts ? 1u : 0u, waves_.pixelFirst, waves_.pixelCount,
-        c_.frame.primaryTaken, waves_.objectId, waves_.radiance, c_.frame.directNoisy);
+    waves_.pixels(c_.passes, "accumulateDelta", wave, waves_.pixelFirst, waves_.pixelCount,
+        c_.frame.primaryTaken, waves_.objectId, waves_.radiance, c_.frame.delta);
 }
 
 shared::DistributedParams DistributedFrame::params(const image::Window& window) const
@@ -186,6 +182,7 @@ shared::DistributedParams DistributedFrame::params(const image::Window& window) 
     p.irradianceWidth = d.irradianceWidth;
     p.countExponent = d.countExponent;
     p.varianceSpread = d.varianceSpread;
+    p.textureVariance = d.textureVariance;
     p.oneVelocity = d.oneVelocity;
     p.published = d.published ? 1 : 0;
     p.frames = static_cast<float>(d.frames);
@@ -201,7 +198,7 @@ void DistributedFrame::widths()
     for (Indirect& path : paths_) {
         path.widths();
     }
-    eachTerm([&](Term& term, std::uint32_t values, float) { factoredWidths(term, values); });
+    eachTerm([&](Term& term, float) { factoredWidths(term); });
     blurWidths(static_cast<float>(c_.settings.spp));
 }
 
@@ -213,33 +210,54 @@ void DistributedFrame::blurWidths(float samples)
         c_.frame.primaryTaken, c_.frame.lensWidth, c_.frame.motionWidth, c_.frame.motionDirection);
 }
 
-void DistributedFrame::factoredWidths(Term& term, std::uint32_t values)
+void DistributedFrame::factoredWidths(Term& term)
 {
-    shared::DistributedParams p = params(c_.full());
-    p.values = values;
+    const shared::DistributedParams p = params(c_.full());
     c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "factoringError", p, 1, term.texture, term.value, term.plain,
         c_.scratch.demand);
     c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "factoredWidths", p, 1, c_.scratch.demand,
         c_.frame.confusion, c_.frame.pixelSize, c_.frame.objectId, term.beta);
 }
 
+void DistributedFrame::copy(const device::Buffer<float>& image, device::Buffer<float>& to)
+{
+    c_.passes.rows("composite", PassKind::Composite, "progressive.cl", "copyImage", params(c_.full()), 1, image, to);
+}
+
+void DistributedFrame::addUnfiltered(device::Buffer<float>& direct, device::Buffer<float>& indirect)
+{
+    const shared::DistributedParams p = params(c_.full());
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+        const Term& term = *terms_[i];
+        c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "addTerm", p, 1, term.texture, term.value,
+            term.radiance, i < lights_.size() ? direct : indirect);
+    }
+}
+
 void DistributedFrame::filter()
 {
-    shared::DistributedParams p = params(c_.full());
-    if (analysed_) {
-        blurWidths(0.0f);
+    const auto start = [&](device::Buffer<float>& direct, device::Buffer<float>& indirect) {
+        copy(c_.frame.delta, direct);
+        indirect.fill(c_.passes.queue(), 0.0f);
+    };
+    start(c_.frame.direct, c_.frame.indirect);
+    if (keepLayers_ || c_.settings.progressive) {
+        start(c_.frame.directNoisy, c_.frame.indirectNoisy);
+        addUnfiltered(c_.frame.directNoisy, c_.frame.indirectNoisy);
     }
-    c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "copyRadiance", p, 1, c_.frame.directNoisy,
-        c_.frame.indirectNoisy, c_.frame.direct, c_.frame.indirect);
-    if (analysed_) {
-        p.values = 1;
-        for (SoftShadows& light : lights_) {
-            light.filterDistributed(p);
-        }
-        p.values = 3;
-        for (Indirect& path : paths_) {
-            path.filterDistributed(p);
-        }
+    if (!analysed_) {
+        addUnfiltered(c_.frame.direct, c_.frame.indirect);
+        return;
+    }
+    blurWidths(0.0f);
+    shared::DistributedParams p = params(c_.full());
+    p.values = 1;
+    for (SoftShadows& light : lights_) {
+        light.filterDistributed(p);
+    }
+    p.values = 3;
+    for (Indirect& path : paths_) {
+        path.filterDistributed(p);
     }
 }
 
@@ -252,7 +270,7 @@ void DistributedFrame::compose(device::Buffer<float>* emission)
     c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "addAll", params(c_.full()), 1, c_.frame.emission,
         c_.frame.direct, c_.frame.indirect, c_.frame.beauty);
     if (emission != nullptr) {
-        c_.passes.rows("composite", PassKind::Composite, "progressive.cl", "copyImage", params(c_.full()), 1, c_.frame.emission, *emission);
+        copy(c_.frame.emission, *emission);
     }
     if (!analysed_ || !c_.settings.distributed.blur) {
         return;

@@ -54,19 +54,21 @@ private:
     bool firstPass(std::uint32_t first);
     bool sample(const shared::FrameParams& frame, std::uint32_t last, bool slopes, double workUnits);
     void sampleWave(const shared::WaveParams& wave, bool slopes, double workUnits);
-    void deltaLights(const shared::WaveParams& wave, bool starts);
+    void deltaLights(const shared::WaveParams& wave);
     void widths();
-    void factoredWidths(Term& term, std::uint32_t values);
+    void factoredWidths(Term& term);
     void publishedCounts();
     void demands();
-    void demandOf(Term& term, std::uint32_t values, float rays);
+    void demandOf(Term& term, float rays);
     void counts();
     void keepPace();
     void filter();
+    void copy(const device::Buffer<float>& image, device::Buffer<float>& to);
+    void addUnfiltered(device::Buffer<float>& direct, device::Buffer<float>& indirect);
     void blurWidths(float samples);
     void blur(device::Buffer<float>& image);
     shared::DistributedParams params(const image::Window& window) const;
-    /// Calls f(term, planes of its value, rays of a sample) for each term.
+    /// Calls f(term, rays of a sample) for each term.
     template <class F>
     void eachTerm(const F& f);
 
@@ -89,7 +91,7 @@ void DistributedFrame::eachTerm(const F& f)
 {
     for (std::size_t i = 0; i < terms_.size(); ++i) {
         const bool light = i < lights_.size();
-        f(*terms_[i], light ? 1u : 3u, light ? 1.0f : 2.0f * static_cast<float>(std::max(1, c_.settings.bounces)));
+        f(*terms_[i], light ? 1.0f : 2.0f * static_cast<float>(std::max(1, c_.settings.bounces)));
     }
 }
 

@@ -61,7 +61,7 @@ void Frame::plan(device::MemoryPlan& plan, const PlaneLayout& layout, bool distr
     if (distributed) {
         planPlanes(plan, layout,
             { { "primary samples taken", 1 }, { "primary samples wanted", 1 }, { "hits", 1 }, { "circles of confusion", 2 },
-                { "motion", 3 }, { "blur", 4 }, { "primary demand", 1 } });
+                { "motion", 3 }, { "blur", 4 }, { "primary demand", 1 }, { "point lights", 3 }, { "emission squares", 1 } });
     }
 }
 
@@ -100,6 +100,8 @@ Frame::Frame(const device::Device& device, device::TimedQueue& queue, const Plan
     , motionWidth(device, several ? planes.size : 0, "motion filter width")
     , motionDirection(device, several ? 2 * planes.size : 0, "motion direction")
     , primaryDemand(device, several ? planes.size : 0, "primary demand")
+    , delta(device, several ? 3 * planes.size : 0, "point lights")
+    , emissionSquares(device, several ? planes.size : 0, "emission squares")
 {
     // Padding is read by gathers: it has to be finite, and objectId 0 there stays for good.
     for (device::Buffer<float>* b : { &position, &normal, &origin, &depth, &pixelSize, &diffuse, &specular, &emission, &gloss }) {
@@ -123,7 +125,7 @@ void Frame::clear(device::TimedQueue& queue)
     if (!distributed) {
         return;
     }
-    for (device::Buffer<float>* b : { &position, &normal, &pixelSize, &depth, &diffuse, &specular, &emission, &gloss, &confusion, &motion, &lensWidth, &motionWidth }) {
+    for (device::Buffer<float>* b : { &position, &normal, &pixelSize, &depth, &diffuse, &specular, &emission, &gloss, &confusion, &motion, &lensWidth, &motionWidth, &delta, &emissionSquares }) {
         b->fill(queue, 0.0f);
     }
     for (device::Buffer<std::uint32_t>* b : { &objectId, &primaryTaken, &primaryWanted, &hits }) {

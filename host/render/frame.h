@@ -58,6 +58,8 @@ public:
     device::Buffer<float> motion; ///< planes: pixels that the surface moves while the shutter is open; largest difference
     device::Buffer<float> lensWidth, motionWidth, motionDirection; ///< of the image's filters, see blurs() of distributed.cl
     device::Buffer<float> primaryDemand;
+    device::Buffer<float> delta; ///< radiance from point and directional lights
+    device::Buffer<float> emissionSquares; ///< mean squared luminance of a primary sample's emission
 
     /// What kernels take for WEDGE_RECEIVER_PARAMETERS, the pixels being the receivers.
     auto receivers() const

@@ -52,7 +52,7 @@ std::vector<TermShape> termShapes(const Settings& settings, const scene::Scene& 
     const bool analysed = needsAnalysis(settings);
     const std::size_t lights = settings.integrator == Integrator::Path ? scene.areaLights.size() : 0;
     const bool published = analysed && settings.distributed.published;
-    std::vector<TermShape> shapes(lights, { 1, 1, lightExtremes(scene), analysed, true, published });
+    std::vector<TermShape> shapes(lights, { 1, 3, lightExtremes(scene), analysed, true, published });
     shapes.resize(lights + indirectTerms(settings, specular).size(), { 0, 3, 3, analysed, true, published });
     return shapes;
 }

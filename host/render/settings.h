@@ -102,7 +102,8 @@ struct DistributedSettings {
     int maxSpp = 512; ///< most samples of a pixel and term
     bool published = false; ///< terms, widths and counts of chapter 5 and appendix B; spp has no say
     float leastShare = 0; ///< of the mean count, that every pixel takes: counts follow variances, which may be seen late
-    float leastPrimaries = 0; ///< primary samples a sample of a term
+    float leastPrimaries = 0.5f; ///< primary samples a sample of a term
+    float leastSecondaries = 0.125f; ///< samples of a term a primary one where texture and irradiance are taken apart
     int frames = 1; ///< independent ones of which the image is the mean: filters are as narrow as the samples of all allow
     float mu = 1.0f; ///< as published: bandwidths beyond the critical ones (5.29)
     int mixedPaths = 64; ///< as published: primary samples where motions differ
@@ -118,6 +119,7 @@ struct DistributedSettings {
     float irradianceWidth = 0.18f; ///< irradiances are filtered at least as far
     float countExponent = 0.5f;
     float varianceSpread = 0.25f;
+    float textureVariance = 0.5f; ///< fraction of a sample's variance that textures count with
     float oneVelocity = 0.1f; ///< motions of a pixel differ by less than this fraction where it is filtered along them
 };
 

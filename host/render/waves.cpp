@@ -19,7 +19,7 @@ constexpr std::uint64_t surfacePlanes = 3 * 6 + 2 + 12; // vectors; motion; sing
 
 void Waves::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const TermShape& term)
 {
-    const std::uint64_t planes = surfacePlanes + 6 + term.sums + term.values + term.extremes + 4;
+    const std::uint64_t planes = surfacePlanes + 8 + term.sums + term.values + term.extremes + 4;
     plan.addItems("receivers", capacity, 4 * planes);
     plan.addItems("tiles", mostTiles(layout), 8);
 }
@@ -50,6 +50,7 @@ Waves::Waves(const device::Device& device, const PlaneLayout& layout, const Term
     , wanted(device, capacity, "receivers' samples wanted")
     , rays(device, capacity, "receivers' rays")
     , pathRays(device, capacity, "receivers' path rays")
+    , unshadowed(device, 2 * capacity, "receivers' unshadowed shading")
     , radiance(device, 3 * capacity, "receivers' radiance")
     , radianceNoisy(device, 3 * capacity, "receivers' unfiltered radiance")
     , tileReceivers(device, mostTiles(layout), "receivers of tiles")
@@ -123,7 +124,7 @@ void Waves::accumulateSurfaces(Passes& passes, Frame& frame, const shared::WaveP
 {
     pixels(passes, "accumulateSurfaces", wave, camera_, pixelFirst, pixelCount, objectId, position, normal,
         gloss, diffuse, specular, emission, pixelSize, depth, motion, rays, pathRays, frame.primaryTaken, frame.hits,
-        frame.objectId, frame.position, frame.normal, frame.gloss, frame.diffuse, frame.specular, frame.emission,
+        frame.objectId, frame.position, frame.normal, frame.gloss, frame.diffuse, frame.specular, frame.emission, frame.emissionSquares,
         frame.pixelSize, frame.depth, frame.confusion, frame.motion, frame.rays, frame.pathRays);
 }
 

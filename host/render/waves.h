@@ -62,6 +62,7 @@ public:
     device::Buffer<float> time, diffuse, specular, emission, pixelSize, depth, motion; ///< see wave_primary.cl
     device::Buffer<float> sums, value, extremes; ///< of one term
     device::Buffer<std::uint32_t> taken, wanted, rays, pathRays;
+    device::Buffer<float> unshadowed; ///< shading by a light, see wave_light.cl
     device::Buffer<float> radiance, radianceNoisy; ///< of point and directional lights
     device::Buffer<std::uint32_t> tileReceivers, tileFirst; ///< one a tile
     device::Buffer<std::uint32_t> pixelFirst, pixelCount; ///< one a pixel of the wave's tiles

@@ -220,7 +220,7 @@ void Indirect::composite(const device::Buffer<float>& value)
         c_.frame.indirectNoisy, c_.frame.samples, c_.frame.indirectSamples);
 }
 
-void Indirect::sampleWave(Waves& waves, const shared::WaveParams& wave, bool starts, double workUnits)
+void Indirect::sampleWave(Waves& waves, const shared::WaveParams& wave, double workUnits)
 {
     const DeviceScene& s = c_.scene;
     const device::Buffer<float>& reflectance = component_ == Component::Glossy ? waves.specular : waves.diffuse;
@@ -229,10 +229,9 @@ void Indirect::sampleWave(Waves& waves, const shared::WaveParams& wave, bool sta
         s.nodes, s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, waves.receivers(), waves.specular, waves.wanted,
         std::numeric_limits<std::uint32_t>::max(), waves.sums, waves.taken, waves.value, waves.extremes, waves.rays,
         waves.pathRays);
-    waves.pixels(c_.passes, "accumulatePaths", wave, starts ? 1u : 0u,
-        component_ == Component::Ambient ? 1u : 0u, waves.pixelFirst, waves.pixelCount, c_.frame.primaryTaken, c_.frame.hits,
+    waves.pixels(c_.passes, "accumulatePaths", wave, component_ == Component::Ambient ? 1u : 0u, waves.pixelFirst, waves.pixelCount, c_.frame.primaryTaken, c_.frame.hits,
         waves.objectId, reflectance, waves.sums, waves.extremes, term_.accumulated(),
-        c_.frame.indirectNoisy, c_.frame.samples, c_.frame.indirectSamples);
+        c_.frame.samples, c_.frame.indirectSamples);
 }
 
 void Indirect::publishedWidths(const shared::DistributedParams& params, const device::Buffer<float>& flags)
@@ -248,7 +247,7 @@ void Indirect::filterDistributed(const shared::DistributedParams& params)
     gaussianFilter(c_.passes, { "filter of indirect", PassKind::Filter, "filter_indirect.cl" },
         filterParams(c_.settings, c_.fullFrame, c_.full()), c_.full(), c_.frame, term_.value, term_.beta, c_.scratch,
         c_.scratch.filtered);
-    replaceTerm(c_, term_, params, c_.frame.indirect);
+    addFilteredTerm(c_, term_, params, c_.frame.indirect);
 }
 
 } // namespace wedge::render

@@ -41,7 +41,7 @@ public:
     bool render();
 
     /// As SoftShadows has them.
-    void sampleWave(Waves& waves, const shared::WaveParams& wave, bool starts, double workUnits);
+    void sampleWave(Waves& waves, const shared::WaveParams& wave, double workUnits);
     void widths();
     void publishedWidths(const shared::DistributedParams& params, const device::Buffer<float>& flags);
     void filterDistributed(const shared::DistributedParams& params);

@@ -242,7 +242,7 @@ void SoftShadows::shade(const device::Buffer<float>& value)
     }
 }
 
-void SoftShadows::sampleWave(Waves& waves, const shared::WaveParams& wave, bool slopes, bool starts, double workUnits)
+void SoftShadows::sampleWave(Waves& waves, const shared::WaveParams& wave, bool slopes, double workUnits)
 {
     const shared::FrameParams receivers = waves.receiverParams(wave);
     waves.share(c_.passes, term_, wave);
@@ -256,9 +256,16 @@ void SoftShadows::sampleWave(Waves& waves, const shared::WaveParams& wave, bool 
             light(), c_.scene.nodes, c_.scene.blocks, waves.receivers(), waves.wanted,
             std::numeric_limits<std::uint32_t>::max(), waves.sums, waves.taken, waves.value, waves.rays);
     }
-    waves.pixels(c_.passes, "accumulateLight", wave, light(), starts ? 1u : 0u, waves.pixelFirst, waves.pixelCount,
-        c_.frame.primaryTaken, c_.frame.hits, waves.receivers(), waves.diffuse, waves.specular, waves.sums, waves.extremes,
-        term_.accumulated(), term_.sums, c_.frame.directNoisy, c_.frame.samples);
+    const bool exact = c_.settings.method == Method::AxisAligned && !c_.settings.distributed.published;
+    if (exact) {
+        c_.passes.list("unshadowed shading", PassKind::Trace, "wave_light.cl", "unshadowedReceivers",
+            (wave.receivers + WEDGE_BLOCK_PIXELS - 1) / WEDGE_BLOCK_PIXELS, receivers, wave, light(),
+            c_.scene.quadratures[index_], waves.position, waves.normal, waves.objectId,
+            waves.specular, waves.gloss, waves.view, waves.unshadowed);
+    }
+    waves.pixels(c_.passes, "accumulateLight", wave, light(), exact ? 1u : 0u, waves.pixelFirst, waves.pixelCount,
+        c_.frame.primaryTaken, c_.frame.hits, waves.receivers(), waves.diffuse, waves.specular, waves.sums, waves.unshadowed, waves.extremes,
+        term_.accumulated(), term_.sums, c_.frame.samples);
 }
 
 void SoftShadows::publishedWidths(const shared::DistributedParams& params, const device::Buffer<float>& flags)
@@ -283,13 +290,16 @@ void SoftShadows::blurShadows(const shared::DistributedParams& params)
 
 void SoftShadows::filterDistributed(const shared::DistributedParams& params)
 {
+    // Nothing else keeps anything there while the image is made.
+    device::Buffer<float>& visibility = c_.scratch.spread;
+    c_.passes.rows("filter", PassKind::Filter, "distributed.cl", "visibilityOf", params, 1, term_.texture, term_.value, visibility);
     gaussianFilter(c_.passes, { "filter", PassKind::Filter, "filter_variance.cl" },
-        filterParams(c_.settings, c_.fullFrame, light(), c_.full()), c_.full(), c_.frame, term_.value, term_.beta, c_.scratch,
+        filterParams(c_.settings, c_.fullFrame, light(), c_.full()), c_.full(), c_.frame, visibility, term_.beta, c_.scratch,
         c_.scratch.filtered);
     if (c_.scene.moves && c_.settings.distributed.blur) {
         blurShadows(params);
     }
-    replaceTerm(c_, term_, params, c_.frame.direct);
+    addFilteredTerm(c_, term_, params, c_.frame.direct);
 }
 
 } // namespace wedge::render

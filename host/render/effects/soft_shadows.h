@@ -22,13 +22,12 @@ public:
     bool render();
 
     /// In a distributed frame: the samples of a wave's receivers, added to their pixels. slopes: also measures those.
-    /// starts: no other light has added to the wave's pixels yet.
-    void sampleWave(Waves& waves, const shared::WaveParams& wave, bool slopes, bool starts, double workUnits);
+    void sampleWave(Waves& waves, const shared::WaveParams& wave, bool slopes, double workUnits);
     /// After a first pass of slopes: term.beta, metres.
     void widths();
     /// The same as published (5.18), and term.demand by (5.25), (5.27); flags: 1 where the factors are taken apart.
     void publishedWidths(const shared::DistributedParams& params, const device::Buffer<float>& flags);
-    /// Replaces what frame.direct has of the light by the filtered term times its texture.
+    /// Adds the term to frame.direct: filtered where it is taken apart from its texture.
     void filterDistributed(const shared::DistributedParams& params);
 
     /// Whether the light got widths: not so in plain Monte Carlo, nor if its first pass was cancelled.

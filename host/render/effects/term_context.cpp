@@ -8,7 +8,7 @@ std::uint32_t samplerOf(const TermContext& context)
     return static_cast<std::uint32_t>(counts || context.settings.progressive ? Sampler::Sobol : context.settings.sampler);
 }
 
-void replaceTerm(
+void addFilteredTerm(
     const TermContext& context, const Term& term, const shared::DistributedParams& params, device::Buffer<float>& radiance)
 {
     Scratch& scratch = context.scratch;
@@ -18,7 +18,7 @@ void replaceTerm(
             context.frame.motionWidth, context.frame.motionDirection, term.texture, scratch.rowsFiltered);
         texture = &scratch.rowsFiltered;
     }
-    context.passes.rows("composite", device::PassKind::Composite, "distributed.cl", "replaceTerm", params, 1, term.texture,
+    context.passes.rows("composite", device::PassKind::Composite, "distributed.cl", "addFilteredTerm", params, 1, term.texture,
         *texture, term.value, scratch.filtered, term.beta, term.radiance, radiance);
 }
 

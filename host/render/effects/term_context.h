@@ -30,8 +30,8 @@ struct TermContext {
 /// frames with counts of their own a pixel, and progressive ones, take a sequence in their place.
 std::uint32_t samplerOf(const TermContext& context);
 
-/// In a distributed frame, puts the term's filtered value, scratch.filtered, in the place of its own in a radiance.
-void replaceTerm(
+/// In a distributed frame, adds a term to a radiance: with its filtered value, scratch.filtered, where it has one.
+void addFilteredTerm(
     const TermContext& context, const Term& term, const shared::DistributedParams& params, device::Buffer<float>& radiance);
 
 } // namespace wedge::render
