@@ -77,7 +77,7 @@ __kernel void splitVariance(DistributedParams p, __global const float* restrict 
     const float spread = fmax(textureSquares[i] - t * t, 0.0f) * unbiased;
     const float irradiance = t > 0.0f ? mean / t : 0.0f;
     const float texturePart = fmin(spread * irradiance * irradiance, all);
-    ofTexture[i] = p.textureVariance * texturePart;
+    ofTexture[i] = texturePart;
     ofIrradiance[i] = all - texturePart;
 }
 

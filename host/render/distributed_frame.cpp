@@ -182,7 +182,6 @@ shared::DistributedParams DistributedFrame::params(const image::Window& window) 
     p.irradianceWidth = d.irradianceWidth;
     p.countExponent = d.countExponent;
     p.varianceSpread = d.varianceSpread;
-    p.textureVariance = d.textureVariance;
     p.oneVelocity = d.oneVelocity;
     p.published = d.published ? 1 : 0;
     p.frames = static_cast<float>(d.frames);

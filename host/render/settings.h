@@ -103,7 +103,7 @@ struct DistributedSettings {
     bool published = false; ///< terms, widths and counts of chapter 5 and appendix B; spp has no say
     float leastShare = 0; ///< of the mean count, that every pixel takes: counts follow variances, which may be seen late
     float leastPrimaries = 0.5f; ///< primary samples a sample of a term
-    float leastSecondaries = 0.125f; ///< samples of a term a primary one where texture and irradiance are taken apart
+    float leastSecondaries = 0.35f; ///< samples of a term a primary one where texture and irradiance are taken apart
     int frames = 1; ///< independent ones of which the image is the mean: filters are as narrow as the samples of all allow
     float mu = 1.0f; ///< as published: bandwidths beyond the critical ones (5.29)
     int mixedPaths = 64; ///< as published: primary samples where motions differ
@@ -115,11 +115,10 @@ struct DistributedSettings {
     float blurExponent = 0.176f; ///< of confusion's radius r and n primary samples
     float shutterWidth = 0.86f; ///< likewise shutterWidth h (n h)^-shutterExponent, of half the motion's length, h
     float shutterExponent = 0.25f;
-    float leastRadius = 2.0f; ///< pixels
+    float leastRadius = 0.5f; ///< pixels
     float irradianceWidth = 0.18f; ///< irradiances are filtered at least as far
-    float countExponent = 0.5f;
-    float varianceSpread = 0.25f;
-    float textureVariance = 0.5f; ///< fraction of a sample's variance that textures count with
+    float countExponent = 0.3f;
+    float varianceSpread = 0.5f;
     float oneVelocity = 0.1f; ///< motions of a pixel differ by less than this fraction where it is filtered along them
 };
 

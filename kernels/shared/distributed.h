@@ -23,7 +23,6 @@ typedef struct {
     float irradianceWidth;   ///< of the irradiance's filter: its least standard deviation in radii of the circle of confusion
     float countExponent;     ///< counts ~ (variance / gathered pixels / rays of a sample)^this
     float varianceSpread;    ///< fraction of the 5x5 neighbourhood's largest variance that a pixel takes at least
-    float textureVariance;   ///< fraction of a sample's variance that textures count with: points of a sequence see them evenly
     float rays;              ///< of one sample of the term
     uint values;             ///< planes of the term's value: 1, visibility; 3, radiance
     float oneVelocity;       ///< largest difference of motions in a pixel that counts as one, as a fraction of the motion
