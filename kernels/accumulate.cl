@@ -10,6 +10,7 @@
 #include "light_sample.h"
 #include "shared/bsdf.h"
 #include "shared/camera.h"
+#include "shared/defocus.h"
 #include "shared/wave.h"
 
 /// Least texture with which an irradiance counts: black surfaces have one, too.
@@ -323,7 +324,9 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
     uint object = objectOf[p.i], traced = 0u, paths = 0u;
     for (uint r = p.first; r < p.first + p.count; ++r) {
         emitted = vecAdd(emitted, loadVec(emission, size, r));
-        const float radius = camera.apertureRadius > 0.0f ? confusion(camera, depth[r]) : 0.0f;
+        const float radius = camera.apertureRadius > 0.0f
+            ? circleOfConfusion(camera.apertureRadius, camera.focusDistance, depth[r], camera.pixelStep)
+            : 0.0f;
         low = fmin(low, radius);
         high = fmax(high, radius);
         traced += rays[r];
