@@ -114,7 +114,7 @@ __kernel void publishedPrimary(DistributedParams p, float mu, float mixed, __glo
     demand[i] = fmax(ofLens, several ? mixed : speed >= p.leastRadius ? ofMotion : 1.0f);
 }
 
-/// wanted = the largest demand within 3x3 pixels, at least that of `least`, and no more than `most`.
+/// wanted = the largest demand within 3x3 pixels, rounded up, `most` at most; but never less than `least` and `taken`.
 __kernel void publishedCounts(DistributedParams p, uint most, __global const float* restrict demand,
                               __global const uint* restrict least, __global const uint* restrict taken,
                               __global uint* restrict wanted)

@@ -38,7 +38,8 @@ struct Region {
 /// The least images first, then windows amid and at the end of an image.
 inline std::vector<Region> regions()
 {
-    return { { 1, 1 }, { 1, 37 }, { 53, 1 }, { 2, 3 }, { 45, 29 }, { 45, 29, { 16, 3, 41, 20 } }, { 45, 29, { 16, 20, 45, 29 } } };
+    return { { 1, 1 }, { 1, 37 }, { 53, 1 }, { 2, 3 }, { 45, 29 }, { 45, 29, { 16, 3, 41, 20 } },
+        { 45, 29, { 16, 20, 45, 29 } } };
 }
 
 template <class Visit>
@@ -135,8 +136,8 @@ inline shared::DistributedParams paramsOf(const Region& region)
 
 /// Launches a kernel with one work-item a pixel of the window. Arguments are to outlive the launch.
 template <class... Args>
-void launchPixels(KernelBench& bench, const std::string& file, const std::string& kernel, const shared::DistributedParams& p,
-    const Args&... args)
+void launchPixels(KernelBench& bench, const std::string& file, const std::string& kernel,
+    const shared::DistributedParams& p, const Args&... args)
 {
     bench.passes.rows("test", device::PassKind::Analysis, file, kernel, p, 1, args...);
 }

@@ -69,7 +69,8 @@ Planes<float> motionFiltered(KernelBench& bench, const Blurred& image, std::uint
     Output<float> out(bench, image.region, 3);
     const auto sigma = bench.buffer(image.sigma.values), direction = bench.buffer(image.direction.values),
                value = bench.buffer(image.value.values);
-    launchPixels(bench, "blur.cl", "blurMotion", paramsOf(image.region), channels, sigma, direction, value, out.buffer());
+    launchPixels(
+        bench, "blur.cl", "blurMotion", paramsOf(image.region), channels, sigma, direction, value, out.buffer());
     return out.read();
 }
 
@@ -141,7 +142,8 @@ TEST_CASE("rows and columns are the gather over all pixels, the narrower kernel 
         unsigned seed = 0;
         for (const Region& region : regions()) {
             const Blurred image = randomImage(region, ++seed);
-            const auto rows = lensFiltered(bench, image, "blurRows"), columns = lensFiltered(bench, image, "blurColumns");
+            const auto rows = lensFiltered(bench, image, "blurRows"),
+                       columns = lensFiltered(bench, image, "blurColumns");
             everyPixel(region.window, [&](int x, int y) {
                 requireColour(rows, x, y, lensOracle(image, x, y, 1, 0));
                 requireColour(columns, x, y, lensOracle(image, x, y, 0, 1));
@@ -200,8 +202,8 @@ TEST_CASE("of width 0 each pixel is as it was, to the bit; a constant image stay
                 still.sigma.at(x, y) = 0;
                 constant.value.setVector(x, y, { 0.3, 5, 1e-3 });
             });
-            const Planes<float> stills[] = { lensFiltered(bench, still, "blurRows"), lensFiltered(bench, still, "blurColumns"),
-                motionFiltered(bench, still) };
+            const Planes<float> stills[] = { lensFiltered(bench, still, "blurRows"),
+                lensFiltered(bench, still, "blurColumns"), motionFiltered(bench, still) };
             const Planes<float> constants[] = { lensFiltered(bench, constant, "blurRows"),
                 lensFiltered(bench, constant, "blurColumns"), motionFiltered(bench, constant) };
             everyPixel(region.window, [&](int x, int y) {
@@ -278,7 +280,9 @@ TEST_CASE("a point becomes a Gaussian of that deviation: along axes, and of the 
         const int cx = 36, cy = 35;
         for (const float sigma : { 0.8f, 1.0f, 2.5f, 7.0f }) {
             CAPTURE(sigma);
-            const auto gaussian = [&](int d) { return std::abs(d) <= cut * sigma ? std::exp(-0.5 * d * d / (sigma * sigma)) : 0; };
+            const auto gaussian = [&](int d) {
+                return std::abs(d) <= cut * sigma ? std::exp(-0.5 * d * d / (sigma * sigma)) : 0;
+            };
             double sum = 0;
             for (int d = -lensReach; d <= lensReach; ++d)
                 sum += gaussian(d);

@@ -41,7 +41,10 @@ struct Motion {
     double x, y, spread;
     double speed() const { return std::hypot(x, y); }
     /// One motion, and long enough.
-    bool one(const shared::DistributedParams& p) const { return speed() >= p.leastRadius && spread <= p.oneVelocity * speed(); }
+    bool one(const shared::DistributedParams& p) const
+    {
+        return speed() >= p.leastRadius && spread <= p.oneVelocity * speed();
+    }
     /// Whether a rounding decides.
     bool uncertain(const shared::DistributedParams& p) const
     {
@@ -50,7 +53,8 @@ struct Motion {
     }
 };
 
-void requireAlong(const shared::DistributedParams& p, const Motion& m, bool apart, double n, float along, float dx, float dy)
+void requireAlong(
+    const shared::DistributedParams& p, const Motion& m, bool apart, double n, float along, float dx, float dy)
 {
     if (!apart || !m.one(p)) {
         REQUIRE(along == 0);
@@ -65,7 +69,8 @@ void requireAlong(const shared::DistributedParams& p, const Motion& m, bool apar
 
 Planes<std::uint32_t> randomTaken(const Region& region, std::mt19937& random)
 {
-    return filledPlanes(region, 1, 1u << 20, [&](int, int, std::size_t) { return random() % 4 == 0 ? 0 : random() % 100; });
+    return filledPlanes(
+        region, 1, 1u << 20, [&](int, int, std::size_t) { return random() % 4 == 0 ? 0 : random() % 100; });
 }
 
 /// What a light's first pass keeps of the motions of one pixel's shadows, of which that is the mean and the deviation.
@@ -101,10 +106,12 @@ std::vector<glm::dvec2> randomMotions(std::mt19937& random)
 {
     std::vector<glm::dvec2> out;
     const auto count = random() % 6;
-    const double angle = uniform(random, 0, 7), speed = uniform(random) * uniform(random, 0, 30), differs = uniform(random, 0, 0.3);
+    const double angle = uniform(random, 0, 7), speed = uniform(random) * uniform(random, 0, 30),
+                 differs = uniform(random, 0, 0.3);
     for (std::size_t k = 0; k < count; ++k)
-        out.push_back(speed * (glm::dvec2(std::cos(angle), std::sin(angle))
-                         + differs * glm::dvec2(uniform(random, -1, 1), uniform(random, -1, 1))));
+        out.push_back(speed
+            * (glm::dvec2(std::cos(angle), std::sin(angle))
+                + differs * glm::dvec2(uniform(random, -1, 1), uniform(random, -1, 1))));
     if (random() % 8 == 0)
         out = { { speed, 0.5 }, { -speed, -0.5 } }; // opposite ones
     return out;
@@ -122,14 +129,16 @@ TEST_CASE("blurs: of the lens where all of the pixel is blurred, of the shutter 
                 for (const shared::DistributedParams& p : settingsOf(region, samples)) {
                     std::mt19937 random(++seed);
                     const auto confusion = filledPlanes(region, 2, 1e30f, [&](int x, int y, std::size_t plane) {
-                        const double middle = ((x + y) % 3 - 1) * 12, half = random() % 4 == 0 ? 20 : uniform(random, 0, 12);
+                        const double middle = ((x + y) % 3 - 1) * 12,
+                                     half = random() % 4 == 0 ? 20 : uniform(random, 0, 12);
                         return plane == 0 ? middle - half : middle + half;
                     });
                     auto motion = filledPlanes(region, 3, 1e30f, [](int, int, std::size_t) { return 0; });
                     everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
                         const double speed = uniform(random) * uniform(random, 0, 40), angle = uniform(random, 0, 7);
-                        motion.setVector(x, y, { speed * std::cos(angle), speed * std::sin(angle),
-                                                   random() % 3 == 0 ? 0 : speed * uniform(random, 0, 0.2) });
+                        motion.setVector(x, y,
+                            { speed * std::cos(angle), speed * std::sin(angle),
+                                random() % 3 == 0 ? 0 : speed * uniform(random, 0, 0.2) });
                         if (random() % 5 == 0)
                             motion.setVector(x, y, { 0, 0, uniform(random, 0, 9) });
                     });
@@ -143,7 +152,8 @@ TEST_CASE("blurs: of the lens where all of the pixel is blurred, of the shutter 
                     everyPixel(region.window, [&](int x, int y) {
                         CAPTURE(x);
                         CAPTURE(y);
-                        const double low = confusion.at(x, y), high = confusion.at(x, y, 1), n = samples.of(taken.at(x, y));
+                        const double low = confusion.at(x, y), high = confusion.at(x, y, 1),
+                                     n = samples.of(taken.at(x, y));
                         const double r = low <= 0 && high >= 0 ? 0 : std::min(std::fabs(low), std::fabs(high));
                         if (std::fabs(r - p.leastRadius) > 1e-5)
                             REQUIRE(agree(ofLens.at(x, y),
@@ -167,7 +177,8 @@ TEST_CASE("shadows' blurs: of the mean motion of those that move, where they mov
             for (const Samples& samples : sampleKinds)
                 for (const shared::DistributedParams& p : settingsOf(region, samples)) {
                     std::mt19937 random(++seed);
-                    auto shadows = filledPlanes(region, 6, 1e30f, [&](int, int, std::size_t) { return uniform(random, 1, 9); });
+                    auto shadows =
+                        filledPlanes(region, 6, 1e30f, [&](int, int, std::size_t) { return uniform(random, 1, 9); });
                     std::vector<std::vector<glm::dvec2>> motions(region.layout.size);
                     everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
                         const std::vector<glm::dvec2> all = motions[shadows.index(x, y)] = randomMotions(random);
@@ -176,8 +187,9 @@ TEST_CASE("shadows' blurs: of the mean motion of those that move, where they mov
                         for (std::size_t k = 0; k < 4; ++k)
                             shadows.at(x, y, 2 + k) = static_cast<float>(values[k]);
                     });
-                    const auto beta = filledPlanes(region, 1, 1e30f,
-                        [&](int, int, std::size_t) { return random() % 4 == 0 ? -1 : random() % 4 == 0 ? 0 : 0.1; });
+                    const auto beta = filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) {
+                        return random() % 4 == 0 ? -1 : random() % 4 == 0 ? 0 : 0.1;
+                    });
                     const auto taken = randomTaken(region, random);
                     Output<float> along(bench, region, 1), directions(bench, region, 2);
                     const auto shadowed = bench.buffer(shadows.values), betas = bench.buffer(beta.values);
@@ -196,8 +208,8 @@ TEST_CASE("shadows' blurs: of the mean motion of those that move, where they mov
                             return;
                         }
                         ++found[m.one(p) ? 1 : 0];
-                        requireAlong(p, m, beta.at(x, y) >= 0, samples.of(taken.at(x, y)), width.at(x, y), direction.at(x, y),
-                            direction.at(x, y, 1));
+                        requireAlong(p, m, beta.at(x, y) >= 0, samples.of(taken.at(x, y)), width.at(x, y),
+                            direction.at(x, y), direction.at(x, y, 1));
                     });
                 }
         CHECK(uncertain < 0.01 * pixels);

@@ -41,9 +41,10 @@ struct Widths {
         : error(filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random, -0.05, 0.07); }))
         , confusion(randomConfusion(region, random))
         , pixelSize(filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random, 1e-3, 0.1); }))
-        , beta(filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) {
-            return random() % 5 == 0 ? -1.0 : random() % 5 == 0 ? 0.0 : uniform(random, 0, 0.3);
-        }))
+        , beta(filledPlanes(region, 1, 1e30f,
+              [&](int, int, std::size_t) {
+                  return random() % 5 == 0 ? -1.0 : random() % 5 == 0 ? 0.0 : uniform(random, 0, 0.3);
+              }))
         , objectId(filledPlanes(region, 1, 1u, [&](int x, int y, std::size_t) {
             return random() % 9 == 0 ? random() % 3 : 1u + static_cast<unsigned>(x / 9 + y / 7) % 2;
         }))
@@ -90,12 +91,14 @@ TEST_CASE("the factoring error is the signed luminance of k E - k mean(e), of on
             for (const std::uint32_t values : { 1u, 3u }) {
                 std::mt19937 random(++seed);
                 const auto any = [&](int, int, std::size_t) { return random() % 6 == 0 ? 0 : uniform(random); };
-                const auto texture = filledPlanes(region, 3, 1e30f, any), value = filledPlanes(region, values, 1e30f, any),
+                const auto texture = filledPlanes(region, 3, 1e30f, any),
+                           value = filledPlanes(region, values, 1e30f, any),
                            plain = filledPlanes(region, 1, 1e30f, any);
                 shared::DistributedParams p = paramsOf(region);
                 p.values = values;
                 Output<float> error(bench, region, 1);
-                const auto k = bench.buffer(texture.values), e = bench.buffer(value.values), m = bench.buffer(plain.values);
+                const auto k = bench.buffer(texture.values), e = bench.buffer(value.values),
+                           m = bench.buffer(plain.values);
                 launchPixels(bench, "distributed.cl", "factoringError", p, k, e, m, error.buffer());
                 const Planes<float> found = error.read();
                 int negative = 0;
@@ -111,7 +114,8 @@ TEST_CASE("the factoring error is the signed luminance of k E - k mean(e), of on
     });
 }
 
-TEST_CASE("widths: apart where the mean error around of the same object is small, and as wide as the lens blurs at least")
+TEST_CASE(
+    "widths: apart where the mean error around of the same object is small, and as wide as the lens blurs at least")
 {
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);
@@ -172,10 +176,10 @@ TEST_CASE("counts are the scaled demand to the nearest, within bounds, and never
         for (const Region& region : regions())
             for (const float scale : { 0.0f, 1.0f, 37.5f, 1e30f }) {
                 std::mt19937 random(++seed);
-                const auto demand = filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) {
-                    return random() % 5 == 0 ? 0.0 : std::exp(uniform(random, -6, 6));
-                });
-                const auto taken = filledPlanes(region, 1, 1u << 20, [&](int, int, std::size_t) { return random() % 40; });
+                const auto demand = filledPlanes(region, 1, 1e30f,
+                    [&](int, int, std::size_t) { return random() % 5 == 0 ? 0.0 : std::exp(uniform(random, -6, 6)); });
+                const auto taken =
+                    filledPlanes(region, 1, 1u << 20, [&](int, int, std::size_t) { return random() % 40; });
                 Output<std::uint32_t> wanted(bench, region, 1);
                 const auto demands = bench.buffer(demand.values);
                 const auto takens = bench.buffer(taken.values);
@@ -185,7 +189,8 @@ TEST_CASE("counts are the scaled demand to the nearest, within bounds, and never
                 everyPixel(region.window, [&](int x, int y) {
                     const double n = std::clamp(static_cast<double>(scale) * demand.at(x, y), 8.0, 100.0);
                     if (std::fabs(n - std::floor(n) - 0.5) > 1e-4)
-                        REQUIRE(found.at(x, y) == std::max(static_cast<std::uint32_t>(std::floor(n + 0.5)), taken.at(x, y)));
+                        REQUIRE(found.at(x, y)
+                            == std::max(static_cast<std::uint32_t>(std::floor(n + 0.5)), taken.at(x, y)));
                 });
             }
     });

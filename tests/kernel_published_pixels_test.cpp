@@ -14,7 +14,8 @@ Planes<std::uint32_t> counts(KernelBench& bench, const Region& region, std::uint
     Output<std::uint32_t> wanted(bench, region, 1);
     const auto demands = bench.buffer(demand.values);
     const auto leasts = bench.buffer(least.values), takens = bench.buffer(taken.values);
-    launchPixels(bench, "published.cl", "publishedCounts", paramsOf(region), most, demands, leasts, takens, wanted.buffer());
+    launchPixels(
+        bench, "published.cl", "publishedCounts", paramsOf(region), most, demands, leasts, takens, wanted.buffer());
     return wanted.read();
 }
 
@@ -34,7 +35,8 @@ TEST_CASE("flags (5.30): |L - k E| below the threshold, of one value and of thre
                 for (const std::uint32_t never : { 0u, 1u }) {
                     std::mt19937 random(values + never);
                     const auto any = [&](int, int, std::size_t) { return uniform(random); };
-                    const auto texture = filledPlanes(region, 3, 1e30f, any), value = filledPlanes(region, values, 1e30f, any);
+                    const auto texture = filledPlanes(region, 3, 1e30f, any),
+                               value = filledPlanes(region, values, 1e30f, any);
                     // Off by up to 0.01 in each channel, to either side, and now and then by much.
                     const auto radiance = filledPlanes(region, 3, 1e30f, [&](int x, int y, std::size_t c) {
                         const double own = texture.at(x, y, c) * value.at(x, y, values == 3 ? c : 0);
@@ -70,7 +72,8 @@ TEST_CASE("counts are the largest demand of 3x3 pixels rounded up, within bounds
                     return random() % 4 == 0 ? std::floor(uniform(random, 0, 90)) : uniform(random, 0, 30);
                 });
                 const auto few = [&](int, int, std::size_t) { return random() % 70; };
-                const auto least = filledPlanes(region, 1, 1u << 20, few), taken = filledPlanes(region, 1, 1u << 20, few);
+                const auto least = filledPlanes(region, 1, 1u << 20, few),
+                           taken = filledPlanes(region, 1, 1u << 20, few);
                 const Planes<std::uint32_t> found = counts(bench, region, most, demand, least, taken);
                 everyPixel(region.window, [&](int x, int y) {
                     double largest = 0;
@@ -92,9 +95,8 @@ TEST_CASE("counts: in focus one, next to a demand as many as it, of endless and 
         auto demand = filledPlanes(region, 1, 1e30f, [](int, int, std::size_t) { return 1; });
         demand.at(4, 4) = 7.01f;
         const auto peak = counts(bench, region, 512, demand, constant(region, 0), constant(region, 0));
-        everyPixel(region.window, [&](int x, int y) {
-            REQUIRE(peak.at(x, y) == (std::abs(x - 4) <= 1 && std::abs(y - 4) <= 1 ? 8 : 1));
-        });
+        everyPixel(region.window,
+            [&](int x, int y) { REQUIRE(peak.at(x, y) == (std::abs(x - 4) <= 1 && std::abs(y - 4) <= 1 ? 8 : 1)); });
         for (const float endless : { 1e30f, std::numeric_limits<float>::infinity() }) {
             demand.at(4, 4) = endless;
             CHECK(counts(bench, region, 512, demand, constant(region, 2), constant(region, 0)).at(5, 5) == 512);

@@ -1,5 +1,5 @@
-// published.cl alone: widths and counts of terms and of primary rays against the equations of thesis chapter 5 and appendix B
-// as printed, in double, with the differences that docs/multiple-effects.md names.
+// published.cl alone: widths and counts of terms and of primary rays against the equations of thesis chapter 5 and
+// appendix B as printed, in double, with the differences that docs/multiple-effects.md names.
 #include "kernels/shared/path.h"
 #include "tests/distributed_support.h"
 
@@ -44,14 +44,16 @@ struct Pixels {
     Pixels(const Region& of, unsigned seed)
         : region(of)
         , random(seed)
-        , flags(plane(1, [&](int x, int y, std::size_t) { return (x / 4 + y / 5) % 2 == 0 ? chance(0.8) : chance(0.2); }))
+        , flags(
+              plane(1, [&](int x, int y, std::size_t) { return (x / 4 + y / 5) % 2 == 0 ? chance(0.8) : chance(0.2); }))
         , confusion(plane(2, [](int, int, std::size_t) { return 0; }))
         , slopes(plane(2, [](int, int, std::size_t) { return 0; }))
         , reflectors(slopes)
         , gloss(plane(1, [&](int, int, std::size_t) { return uniform(random, -50, 50); }))
         , pixelSize(plane(1, [&](int, int, std::size_t) { return std::exp(uniform(random, -7, -3)); }))
         , motion(plane(3, [](int, int, std::size_t) { return 0; }))
-        , objectId(filledPlanes(of, 1, 3u, [&](int, int, std::size_t) { return random() % 7 == 0 ? 0 : 1 + random() % 3; }))
+        , objectId(
+              filledPlanes(of, 1, 3u, [&](int, int, std::size_t) { return random() % 7 == 0 ? 0 : 1 + random() % 3; }))
     {
         everyPixel({ 0, 0, of.width, of.height }, [&](int x, int y) {
             pair(confusion, x, y, -uniform(random) * uniform(random) * 60, uniform(random) * uniform(random) * 60);
@@ -108,8 +110,8 @@ Found shadows(KernelBench& bench, const Pixels& in, float mu, float extent)
     const auto flags = bench.buffer(in.flags.values), slopes = bench.buffer(in.slopes.values),
                confusion = bench.buffer(in.confusion.values), size = bench.buffer(in.pixelSize.values);
     const auto objects = bench.buffer(in.objectId.values);
-    launchPixels(bench, "published.cl", "publishedShadows", paramsOf(in.region), mu, extent, flags, slopes, confusion, size,
-        objects, beta.buffer(), demand.buffer());
+    launchPixels(bench, "published.cl", "publishedShadows", paramsOf(in.region), mu, extent, flags, slopes, confusion,
+        size, objects, beta.buffer(), demand.buffer());
     return { beta.read(), demand.read() };
 }
 
@@ -120,8 +122,8 @@ Found reflectors(KernelBench& bench, const Pixels& in, float mu, std::uint32_t c
                gloss = bench.buffer(in.gloss.values), confusion = bench.buffer(in.confusion.values),
                size = bench.buffer(in.pixelSize.values);
     const auto objects = bench.buffer(in.objectId.values);
-    launchPixels(bench, "published.cl", "publishedReflectors", paramsOf(in.region), mu, component, flags, distances, gloss,
-        confusion, size, objects, beta.buffer(), demand.buffer());
+    launchPixels(bench, "published.cl", "publishedReflectors", paramsOf(in.region), mu, component, flags, distances,
+        gloss, confusion, size, objects, beta.buffer(), demand.buffer());
     return { beta.read(), demand.read() };
 }
 
@@ -166,7 +168,8 @@ TEST_CASE("shadows: widths (5.18), counts (5.25) where taken apart and (5.27) wh
                     const Found found = shadows(bench, in, mu, extent);
                     everyPixel(region.window, [&](int x, int y) {
                         const double perSlope = extent / static_cast<double>(in.pixelSize.at(x, y));
-                        requireTerm(in, found, x, y, perSlope * in.slopes.at(x, y), perSlope * in.slopes.at(x, y, 1), mu);
+                        requireTerm(
+                            in, found, x, y, perSlope * in.slopes.at(x, y), perSlope * in.slopes.at(x, y, 1), mu);
                     });
                 }
     });
@@ -181,13 +184,13 @@ TEST_CASE("reflectors: widths (5.22), counts (5.26) and (5.28) over Omega_v^2, o
             for (const float mu : { 1.0f, 0.6f, 3.0f, 1e6f })
                 for (const bool glossy : { false, true }) {
                     const Pixels in(region, ++seed);
-                    const Found found
-                        = reflectors(bench, in, mu, glossy ? WEDGE_COMPONENT_GLOSSY : WEDGE_COMPONENT_DIFFUSE);
+                    const Found found =
+                        reflectors(bench, in, mu, glossy ? WEDGE_COMPONENT_GLOSSY : WEDGE_COMPONENT_DIFFUSE);
                     everyPixel(region.window, [&](int x, int y) {
                         const double transfer = glossy ? lobeBand(in.gloss.at(x, y)) : diffuseBand;
                         const double perMetre = 1 / (transfer * in.pixelSize.at(x, y));
-                        requireTerm(
-                            in, found, x, y, perMetre * in.reflectors.at(x, y), perMetre * in.reflectors.at(x, y, 1), mu);
+                        requireTerm(in, found, x, y, perMetre * in.reflectors.at(x, y),
+                            perMetre * in.reflectors.at(x, y, 1), mu);
                     });
                 }
     });
@@ -205,7 +208,8 @@ TEST_CASE("primary rays: (5.24); (B.3) along one motion, a fixed count where mot
                     const double speed = in.chance(0.8) * uniform(in.random, 0, 5) * uniform(in.random, 0, 9),
                                  angle = uniform(in.random, 0, 7);
                     in.motion.setVector(x, y,
-                        { speed * std::cos(angle), speed * std::sin(angle), in.chance(0.5) * speed * uniform(in.random, 0, 0.3) });
+                        { speed * std::cos(angle), speed * std::sin(angle),
+                            in.chance(0.5) * speed * uniform(in.random, 0, 0.3) });
                     if (in.random() % 8 == 0) // opposite ones: no mean at all
                         in.motion.setVector(x, y, { 0, 0, uniform(in.random, 0, 5) });
                 });
@@ -214,7 +218,8 @@ TEST_CASE("primary rays: (5.24); (B.3) along one motion, a fixed count where mot
                     const Circles r = in.circles(x, y);
                     const glm::dvec3 m = in.motion.vector(x, y);
                     const double speed = std::hypot(m.x, m.y), spread = m.z, half = speed / 2; // Omega_t = 2
-                    if (std::fabs(speed - 2) < 1e-5 || std::fabs(spread - 2) < 1e-5 || std::fabs(spread - 0.1 * speed) < 1e-5)
+                    if (std::fabs(speed - 2) < 1e-5 || std::fabs(spread - 2) < 1e-5
+                        || std::fabs(spread - 0.1 * speed) < 1e-5)
                         return;
                     const bool several = (speed > 2 || spread > 2) && spread > 0.1 * speed;
                     const double ofMotion = several ? 64 : speed > 2 ? count(band(half, 0, mu), half) : 1;
@@ -269,8 +274,9 @@ TEST_CASE("no input makes anything but a width and a count within bounds")
             Pixels::pair(in.confusion, x, y, (x + y) % 3 == 0 ? -1e4f : 1e4f, y % 4 == 0 ? 0 : 1e4f);
         });
         for (const float mu : { 1e-3f, 1.0f, 1e30f }) {
-            const Found all[] = { shadows(bench, in, mu, 0), shadows(bench, in, mu, 0.5f), shadows(bench, in, mu, 1e30f),
-                reflectors(bench, in, mu, WEDGE_COMPONENT_DIFFUSE), reflectors(bench, in, mu, WEDGE_COMPONENT_GLOSSY) };
+            const Found all[] = { shadows(bench, in, mu, 0), shadows(bench, in, mu, 0.5f),
+                shadows(bench, in, mu, 1e30f), reflectors(bench, in, mu, WEDGE_COMPONENT_DIFFUSE),
+                reflectors(bench, in, mu, WEDGE_COMPONENT_GLOSSY) };
             for (const Found& found : all)
                 everyPixel(region.window, [&](int x, int y) {
                     REQUIRE(std::isfinite(found.beta.at(x, y)));
