@@ -11,6 +11,7 @@
 #include "light_sample.h"
 #include "shared/bsdf.h"
 #include "shared/camera.h"
+#include "shared/defocus.h"
 #include "shared/wave.h"
 
 /// Least texture with which an irradiance counts: black surfaces have one, too.
@@ -386,7 +387,9 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
         const Vec3 e = loadVec(emission, size, r);
         emitted = vecAdd(emitted, e);
         squared += luminance(e) * luminance(e);
-        const float radius = camera.apertureRadius > 0.0f ? confusion(camera, depth[r]) : 0.0f;
+        const float radius = camera.apertureRadius > 0.0f
+            ? circleOfConfusion(camera.apertureRadius, camera.focusDistance, depth[r], camera.pixelStep)
+            : 0.0f;
         low = fmin(low, radius);
         high = fmax(high, radius);
         traced += rays[r];

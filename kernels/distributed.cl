@@ -1,23 +1,9 @@
 // The analysis of distributed frames (thesis 5.7, 5.8): where texture and irradiance may be taken apart, how wide the
 // irradiance's filter is then, which samples are worth most, and what becomes of the filtered term.
+#include "distributed_pixel.h"
 #include "pixel.h"
 #include "shared/bsdf.h"
 #include "shared/distributed.h"
-
-WEDGE_FN bool pixelOf(DistributedParams p, uint* x, uint* y, uint* i)
-{
-    *x = p.x0 + get_global_id(0);
-    *y = p.y0 + get_global_id(1);
-    *i = pixelIndex(*x, *y, p.stride);
-    return *x < p.x1 && *y < p.y1;
-}
-
-/// Smallest radius of the pixel's circles of confusion in pixels; 0 where it is in focus somewhere.
-WEDGE_FN float leastConfusion(DistributedParams p, __global const float* confusion, uint i)
-{
-    const float low = confusion[i], high = confusion[p.planeSize + i];
-    return low > 0.0f ? low : high < 0.0f ? -high : 0.0f;
-}
 
 /// The signed luminance of L - k E with plain means k and E.
 __kernel void factoringError(DistributedParams p, __global const float* restrict texture, __global const float* restrict value,

@@ -1,15 +1,8 @@
 // Progressive frames: two independent halves, of which the image is the mean, and how far from the truth they say it is.
+#include "distributed_pixel.h"
 #include "pixel.h"
 #include "shared/distributed.h"
 #include "shared/wave.h"
-
-WEDGE_FN bool pixelOf(DistributedParams p, uint* x, uint* y, uint* i)
-{
-    *x = p.x0 + get_global_id(0);
-    *y = p.y0 + get_global_id(1);
-    *i = pixelIndex(*x, *y, p.stride);
-    return *x < p.x1 && *y < p.y1;
-}
 
 /// Copies an image (3 planes).
 __kernel void copyImage(DistributedParams p, __global const float* restrict in, __global float* restrict out)

@@ -1,5 +1,6 @@
 // The analysis of distributed frames as thesis chapter 5 and appendix B have it: flags (5.30), widths (5.18), (5.22), counts
 // (5.24) to (5.28), with (5.29).
+#include "distributed_pixel.h"
 #include "pixel.h"
 #include "shared/defocus.h"
 #include "shared/distributed.h"
@@ -11,20 +12,6 @@
 #define WEDGE_PUBLISHED_KERNEL_FACTOR 16.0f
 /// Radius of the median of flags, pixels.
 #define WEDGE_MEDIAN_RADIUS 2
-
-WEDGE_FN bool pixelOf(DistributedParams p, uint* x, uint* y, uint* i)
-{
-    *x = p.x0 + get_global_id(0);
-    *y = p.y0 + get_global_id(1);
-    *i = pixelIndex(*x, *y, p.stride);
-    return *x < p.x1 && *y < p.y1;
-}
-
-WEDGE_FN float leastConfusion(DistributedParams p, __global const float* confusion, uint i)
-{
-    const float low = confusion[i], high = confusion[p.planeSize + i];
-    return low > 0.0f ? low : high < 0.0f ? -high : 0.0f;
-}
 
 WEDGE_FN float largestConfusion(DistributedParams p, __global const float* confusion, uint i)
 {
@@ -127,7 +114,7 @@ __kernel void publishedPrimary(DistributedParams p, float mu, float mixed, __glo
     demand[i] = fmax(ofLens, several ? mixed : speed >= p.leastRadius ? ofMotion : 1.0f);
 }
 
-/// wanted = the largest demand within 3x3 pixels, at least that of `least`, and no more than `most`.
+/// wanted = the largest demand within 3x3 pixels, rounded up, `most` at most; but never less than `least` and `taken`.
 __kernel void publishedCounts(DistributedParams p, uint most, __global const float* restrict demand,
                               __global const uint* restrict least, __global const uint* restrict taken,
                               __global uint* restrict wanted)

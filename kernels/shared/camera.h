@@ -72,13 +72,6 @@ WEDGE_FN CameraRay cameraRay(CameraParams c, float width, float height, float x,
     return ray;
 }
 
-/// Signed radius in pixels of the circle of confusion at a depth along the view axis, thesis (5.2): what the image of
-/// a point there moves as the lens position goes from the centre to the edge.
-WEDGE_FN float confusion(CameraParams c, float depth)
-{
-    return c.apertureRadius / c.pixelStep * (1.0f / fmax(depth, WEDGE_LEAST_DEPTH) - 1.0f / c.focusDistance);
-}
-
 /// Where the lens' centre sees a point at a time, pixels from the middle of the image.
 WEDGE_FN Vec2 projectPoint(CameraParams c, Vec3 point, float time)
 {

@@ -1,0 +1,25 @@
+// Which pixel a work-item of a pass over distributed frames works on, and how sharp that is at least.
+#ifndef WEDGE_DISTRIBUTED_PIXEL_H
+#define WEDGE_DISTRIBUTED_PIXEL_H
+
+#include "shared/distributed.h"
+#include "shared/frame.h"
+
+/// Coordinates and index of the work-item's pixel; false beyond the rectangle.
+WEDGE_FN bool pixelOf(DistributedParams p, uint* x, uint* y, uint* i)
+{
+    *x = p.x0 + get_global_id(0);
+    *y = p.y0 + get_global_id(1);
+    *i = pixelIndex(*x, *y, p.stride);
+    return *x < p.x1 && *y < p.y1;
+}
+
+/// Smallest radius of the pixel's circles of confusion in pixels; 0 where it is in focus somewhere.
+/// confusion: least and largest signed radius (2 planes).
+WEDGE_FN float leastConfusion(DistributedParams p, __global const float* confusion, uint i)
+{
+    const float low = confusion[i], high = confusion[p.planeSize + i];
+    return low > 0.0f ? low : high < 0.0f ? -high : 0.0f;
+}
+
+#endif

@@ -1,0 +1,219 @@
+// distributed.cl alone: deviations and directions of the filters of what lens and shutter blur.
+#include "tests/distributed_support.h"
+
+#include <array>
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+/// c h (n h)^-e, or c r (n r^2)^-e if `axes` is 2: best against noise of n samples (docs/multiple-effects.md).
+double bestWidth(double c, double e, double extent, double n, int axes)
+{
+    return c * extent * std::pow(n * std::pow(extent, axes), -e);
+}
+
+/// How many samples widths are for: those of a frame of so many, expected ones, or those that there are.
+struct Samples {
+    float frames, expected;
+    double of(std::uint32_t taken) const { return frames * (expected > 0 ? expected : std::max(1.0, 1.0 * taken)); }
+};
+constexpr std::array<Samples, 3> sampleKinds = { { { 1, 0 }, { 1, 16 }, { 2, 0 } } };
+
+/// The default exponents, and those of the setting as published.
+std::vector<shared::DistributedParams> settingsOf(const Region& region, const Samples& samples)
+{
+    std::vector<shared::DistributedParams> out(2, paramsOf(region));
+    out[1].blurWidth = 0.177f;
+    out[1].blurExponent = 0;
+    out[1].shutterWidth = 0.177f;
+    out[1].shutterExponent = 0;
+    out[1].leastRadius = 0.5f;
+    for (shared::DistributedParams& p : out) {
+        p.frames = samples.frames;
+        p.samples = samples.expected;
+    }
+    return out;
+}
+
+struct Motion {
+    double x, y, spread;
+    double speed() const { return std::hypot(x, y); }
+    /// One motion, and long enough.
+    bool one(const shared::DistributedParams& p) const
+    {
+        return speed() >= p.leastRadius && spread <= p.oneVelocity * speed();
+    }
+    /// Whether a rounding decides.
+    bool uncertain(const shared::DistributedParams& p) const
+    {
+        const double margin = 1e-4 * (1 + speed()), beyond = speed() - p.leastRadius;
+        return std::fabs(beyond) < margin || (beyond > 0 && std::fabs(spread - p.oneVelocity * speed()) < margin);
+    }
+};
+
+void requireAlong(
+    const shared::DistributedParams& p, const Motion& m, bool apart, double n, float along, float dx, float dy)
+{
+    if (!apart || !m.one(p)) {
+        REQUIRE(along == 0);
+        REQUIRE(dx == 1);
+        REQUIRE(dy == 0);
+        return;
+    }
+    REQUIRE(agree(along, bestWidth(p.shutterWidth, p.shutterExponent, m.speed() / 2, n, 1)));
+    REQUIRE(agree(dx, m.x / m.speed(), 1e-4));
+    REQUIRE(agree(dy, m.y / m.speed(), 1e-4));
+}
+
+Planes<std::uint32_t> randomTaken(const Region& region, std::mt19937& random)
+{
+    return filledPlanes(
+        region, 1, 1u << 20, [&](int, int, std::size_t) { return random() % 4 == 0 ? 0 : random() % 100; });
+}
+
+/// What a light's first pass keeps of the motions of one pixel's shadows, of which that is the mean and the deviation.
+struct ShadowSums {
+    double x, y, squared, count;
+};
+
+ShadowSums sumsOf(const std::vector<glm::dvec2>& motions)
+{
+    ShadowSums out {};
+    for (const glm::dvec2& m : motions) {
+        out.x += m.x;
+        out.y += m.y;
+        out.squared += glm::dot(m, m);
+        out.count += 1;
+    }
+    return out;
+}
+
+/// Mean, and root of the mean squared distance from it.
+Motion motionOf(const std::vector<glm::dvec2>& motions)
+{
+    glm::dvec2 mean(0);
+    for (const glm::dvec2& m : motions)
+        mean += m / static_cast<double>(motions.size());
+    double squared = 0;
+    for (const glm::dvec2& m : motions)
+        squared += glm::dot(m - mean, m - mean) / static_cast<double>(motions.size());
+    return { mean.x, mean.y, std::sqrt(squared) };
+}
+
+std::vector<glm::dvec2> randomMotions(std::mt19937& random)
+{
+    std::vector<glm::dvec2> out;
+    const auto count = random() % 6;
+    const double angle = uniform(random, 0, 7), speed = uniform(random) * uniform(random, 0, 30),
+                 differs = uniform(random, 0, 0.3);
+    for (std::size_t k = 0; k < count; ++k)
+        out.push_back(speed
+            * (glm::dvec2(std::cos(angle), std::sin(angle))
+                + differs * glm::dvec2(uniform(random, -1, 1), uniform(random, -1, 1))));
+    if (random() % 8 == 0)
+        out = { { speed, 0.5 }, { -speed, -0.5 } }; // opposite ones
+    return out;
+}
+
+} // namespace
+
+TEST_CASE("blurs: of the lens where all of the pixel is blurred, of the shutter where it has one motion")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        unsigned seed = 0;
+        for (const Region& region : regions())
+            for (const Samples& samples : sampleKinds)
+                for (const shared::DistributedParams& p : settingsOf(region, samples)) {
+                    std::mt19937 random(++seed);
+                    const auto confusion = filledPlanes(region, 2, 1e30f, [&](int x, int y, std::size_t plane) {
+                        const double middle = ((x + y) % 3 - 1) * 12,
+                                     half = random() % 4 == 0 ? 20 : uniform(random, 0, 12);
+                        return plane == 0 ? middle - half : middle + half;
+                    });
+                    auto motion = filledPlanes(region, 3, 1e30f, [](int, int, std::size_t) { return 0; });
+                    everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
+                        const double speed = uniform(random) * uniform(random, 0, 40), angle = uniform(random, 0, 7);
+                        motion.setVector(x, y,
+                            { speed * std::cos(angle), speed * std::sin(angle),
+                                random() % 3 == 0 ? 0 : speed * uniform(random, 0, 0.2) });
+                        if (random() % 5 == 0)
+                            motion.setVector(x, y, { 0, 0, uniform(random, 0, 9) });
+                    });
+                    const auto taken = randomTaken(region, random);
+                    Output<float> lens(bench, region, 1), along(bench, region, 1), directions(bench, region, 2);
+                    const auto confusions = bench.buffer(confusion.values), motions = bench.buffer(motion.values);
+                    const auto takens = bench.buffer(taken.values);
+                    launchPixels(bench, "distributed.cl", "blurs", p, confusions, motions, takens, lens.buffer(),
+                        along.buffer(), directions.buffer());
+                    const Planes<float> ofLens = lens.read(), ofMotion = along.read(), direction = directions.read();
+                    everyPixel(region.window, [&](int x, int y) {
+                        CAPTURE(x);
+                        CAPTURE(y);
+                        const double low = confusion.at(x, y), high = confusion.at(x, y, 1),
+                                     n = samples.of(taken.at(x, y));
+                        const double r = low <= 0 && high >= 0 ? 0 : std::min(std::fabs(low), std::fabs(high));
+                        if (std::fabs(r - p.leastRadius) > 1e-5)
+                            REQUIRE(agree(ofLens.at(x, y),
+                                r > p.leastRadius ? bestWidth(p.blurWidth, p.blurExponent, r, n, 2) : 0));
+                        const Motion m { motion.at(x, y), motion.at(x, y, 1), motion.at(x, y, 2) };
+                        if (!m.uncertain(p))
+                            requireAlong(p, m, true, n, ofMotion.at(x, y), direction.at(x, y), direction.at(x, y, 1));
+                    });
+                }
+    });
+}
+
+TEST_CASE("shadows' blurs: of the mean motion of those that move, where they move alike and the light is taken apart")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        unsigned seed = 500;
+        int uncertain = 0, pixels = 0;
+        std::array<int, 2> found {};
+        for (const Region& region : regions())
+            for (const Samples& samples : sampleKinds)
+                for (const shared::DistributedParams& p : settingsOf(region, samples)) {
+                    std::mt19937 random(++seed);
+                    auto shadows =
+                        filledPlanes(region, 6, 1e30f, [&](int, int, std::size_t) { return uniform(random, 1, 9); });
+                    std::vector<std::vector<glm::dvec2>> motions(region.layout.size);
+                    everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
+                        const std::vector<glm::dvec2> all = motions[shadows.index(x, y)] = randomMotions(random);
+                        const ShadowSums sums = sumsOf(all);
+                        const double values[] = { sums.x, sums.y, sums.squared, sums.count };
+                        for (std::size_t k = 0; k < 4; ++k)
+                            shadows.at(x, y, 2 + k) = static_cast<float>(values[k]);
+                    });
+                    const auto beta = filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) {
+                        return random() % 4 == 0 ? -1 : random() % 4 == 0 ? 0 : 0.1;
+                    });
+                    const auto taken = randomTaken(region, random);
+                    Output<float> along(bench, region, 1), directions(bench, region, 2);
+                    const auto shadowed = bench.buffer(shadows.values), betas = bench.buffer(beta.values);
+                    const auto takens = bench.buffer(taken.values);
+                    launchPixels(bench, "distributed.cl", "shadowBlurs", p, shadowed, takens, betas, along.buffer(),
+                        directions.buffer());
+                    const Planes<float> width = along.read(), direction = directions.read();
+                    everyPixel(region.window, [&](int x, int y) {
+                        CAPTURE(x);
+                        CAPTURE(y);
+                        const auto& all = motions[shadows.index(x, y)];
+                        const Motion m = all.empty() ? Motion {} : motionOf(all);
+                        ++pixels;
+                        if (m.uncertain(p)) {
+                            ++uncertain;
+                            return;
+                        }
+                        ++found[m.one(p) ? 1 : 0];
+                        requireAlong(p, m, beta.at(x, y) >= 0, samples.of(taken.at(x, y)), width.at(x, y),
+                            direction.at(x, y), direction.at(x, y, 1));
+                    });
+                }
+        CHECK(uncertain < 0.01 * pixels);
+        CHECK(found[0] > 1000);
+        CHECK(found[1] > 1000);
+    });
+}
