@@ -150,9 +150,8 @@ Settings asPublished(std::optional<float> wanted)
     d.published = true;
     d.firstPaths = 16;
     d.mu = wanted.value_or(publishedDistributedMu);
-    d.blurWidth = 0.177f; // exp(-16 d^2 / r^2)
+    d.blurWidth = d.shutterWidth = 0.177f / d.mu; // exp(-16 d^2 / r^2) of (5.33), whose bandwidth (5.29) scales
     d.blurExponent = 0.0f;
-    d.shutterWidth = 0.177f;
     d.shutterExponent = 0.0f;
     return s;
 }
