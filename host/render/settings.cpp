@@ -81,7 +81,9 @@ void describeDistributed(const DistributedSettings& d, Descriptions& out)
             { "factoringError", number(d.factoringError) }, { "factoringRadius", number(d.factoringRadius) },
             { "blur", number(d.blur) }, { "blurWidth", number(d.blurWidth) }, { "blurExponent", number(d.blurExponent) },
             { "shutterWidth", number(d.shutterWidth) }, { "shutterExponent", number(d.shutterExponent) },
-            { "leastRadius", number(d.leastRadius) }, { "irradianceWidth", number(d.irradianceWidth) },
+            { "leastRadius", number(d.leastRadius) },
+            { "leastShare", number(d.leastShare) }, { "leastPrimaries", number(d.leastPrimaries) },
+            { "leastSecondaries", number(d.leastSecondaries) }, { "irradianceWidth", number(d.irradianceWidth) },
             { "distributedCountExponent", number(d.countExponent) },
             { "distributedVarianceSpread", number(d.varianceSpread) }, { "oneVelocity", number(d.oneVelocity) } });
 }
