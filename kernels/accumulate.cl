@@ -179,6 +179,8 @@ WEDGE_FN bool meanWeights(WaveParams wave, WavePixel p, uint total, __global con
         const float ks = luminance(loadVec(specular, size, r));
         mirrored += ks;
         *specularWeight += ks * scale * sums[2u * size + r];
+#else
+        (void)specular;
 #endif
     }
     *weight = reflected > 0.0f ? *weight / reflected : 0.0f;
