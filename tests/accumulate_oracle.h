@@ -23,7 +23,8 @@ struct TermSample {
 struct TermMeans {
     glm::dvec3 texture {}, value {}, radiance {};
     double plain = 0, squares = 0, textureSquares = 0, floor = 0; ///< floor: what weights are besides textures
-    double primary = 0, hits = 0, taken = 0, sampled = 0; ///< samples, those that hit, the term's, and primary ones with some
+    double primary = 0, hits = 0, taken = 0,
+           sampled = 0; ///< samples, those that hit, the term's, and primary ones with some
     double least = std::numeric_limits<double>::infinity(), largest = 0, sums[4] {};
 
     /// Adds the receivers of a wave, as published or not.
@@ -38,7 +39,8 @@ struct TermMeans {
             return all;
         };
         const double all = static_cast<double>(wave.size());
-        const double ran = static_cast<double>(std::ranges::count_if(wave, [](const TermSample& s) { return s.samples > 0; }));
+        const double ran =
+            static_cast<double>(std::ranges::count_if(wave, [](const TermSample& s) { return s.samples > 0; }));
         // Of earlier waves it is not kept which samples hit.
         const double share = primary > 0 ? hits / primary : 0;
         const glm::dvec3 held = published ? glm::dvec3(hits) : taken * (texture + floor * share);
@@ -47,9 +49,11 @@ struct TermMeans {
         for (int c = 0; c < 3; ++c)
             value[c] = weights[c] > 0 ? weighted[c] / weights[c] : 0;
         const double heldHits = share * sampled, newHits = sum([](const TermSample&) { return 1.0; });
-        plain = (plain * heldHits + sum([](const TermSample& s) { return s.plain; })) / std::max(heldHits + newHits, 1e-9);
+        plain =
+            (plain * heldHits + sum([](const TermSample& s) { return s.plain; })) / std::max(heldHits + newHits, 1e-9);
         const double had = std::max(sampled + ran, 1.0);
-        squares = (squares * sampled + sum([](const TermSample& s) { return std::pow(luminanceOf(s.radiance), 2); })) / had;
+        squares =
+            (squares * sampled + sum([](const TermSample& s) { return std::pow(luminanceOf(s.radiance), 2); })) / had;
         radiance = (radiance * sampled + sum([](const TermSample& s) { return s.radiance; })) / had;
         if (std::ranges::all_of(wave, [](const TermSample& s) { return s.known; })) {
             glm::dvec3 textures {};
@@ -69,7 +73,8 @@ struct TermMeans {
         sampled += ran;
     }
     /// Adds the slopes or distances of receivers that took samples, and of lights the motions of shadows.
-    void addExtremes(const std::vector<TermSample>& wave, const std::function<const double*(const SeenPoint&)>& of, int planes)
+    void addExtremes(
+        const std::vector<TermSample>& wave, const std::function<const double*(const SeenPoint&)>& of, int planes)
     {
         for (const TermSample& s : wave)
             if (s.point.object != 0 && s.samples > 0) {
@@ -147,7 +152,10 @@ struct TermPixels {
         ++round;
     }
     /// For WEDGE_TERM_PARAMETERS.
-    auto planes() const { return std::tie(wanted, taken, texture, value, plain, squares, textureSquares, radiance, extremes); }
+    auto planes() const
+    {
+        return std::tie(wanted, taken, texture, value, plain, squares, textureSquares, radiance, extremes);
+    }
 
     /// Adds the wave to the expected means: `of` tells what a pixel's receivers, whose samples are set, add.
     template <class Of>
@@ -155,7 +163,8 @@ struct TermPixels {
     {
         std::vector<std::vector<TermSample>> waves(means.size());
         for (std::size_t r = 0; r < a.points.size(); ++r)
-            waves[after.index(a.lists.x(r), a.lists.y(r))].push_back({ a.points[r], a.shareOf(r, before, after), true, {}, {}, {}, 0, {} });
+            waves[after.index(a.lists.x(r), a.lists.y(r))].push_back(
+                { a.points[r], a.shareOf(r, before, after), true, {}, {}, {}, 0, {} });
         for (std::size_t i = 0; i < means.size(); ++i) {
             of(waves[i]);
             means[i].add(waves[i], a.published != 0);
@@ -199,30 +208,35 @@ inline shared::Vec3 viewOf(const SeenPoint& p)
 }
 
 /// Launches accumulateLight for the wave.
-inline void accumulateLight(Accumulation& a, TermPixels& term, const shared::AreaLight& light, bool exact, bool specular)
+inline void accumulateLight(
+    Accumulation& a, TermPixels& term, const shared::AreaLight& light, bool exact, bool specular)
 {
     const auto mean = [](const SeenPoint& p, std::size_t plane) {
         return p.weight[plane / 2] * (plane % 2 == 1 ? p.visible[plane / 2] : 1.0);
     };
     a.launch("accumulateLight", light, exact ? 1u : 0u, a.lists.pixelFirst, a.lists.pixelCount, a.primaryTaken, a.hits,
-        a.vectors([](const SeenPoint& p) { return p.position; }), a.vectors([](const SeenPoint& p) { return p.normal; }),
+        a.vectors([](const SeenPoint& p) { return p.position; }),
+        a.vectors([](const SeenPoint& p) { return p.normal; }),
         a.vectors([](const SeenPoint& p) { return p.position; }), a.objectId, a.objectId,
         a.receiverBuffer<float>(1, [](const SeenPoint& p, std::size_t) { return p.gloss; }), a.lists.pixelOf,
-        a.receiverBuffer<std::uint32_t>(1, [](const SeenPoint& p, std::size_t) { return shared::packDirection(viewOf(p)); }),
+        a.receiverBuffer<std::uint32_t>(
+            1, [](const SeenPoint& p, std::size_t) { return shared::packDirection(viewOf(p)); }),
         a.receiverBuffer<float>(1, [](const SeenPoint&, std::size_t) { return 0; }),
-        a.vectors([](const SeenPoint& p) { return p.diffuse; }), a.vectors([](const SeenPoint& p) { return p.specular; }),
+        a.vectors([](const SeenPoint& p) { return p.diffuse; }),
+        a.vectors([](const SeenPoint& p) { return p.specular; }),
         a.sums(specular ? 4 : 2, term.before, term.after, mean),
         a.receiverBuffer<float>(2, [](const SeenPoint& p, std::size_t k) { return p.unshadowed[k]; }),
-        a.receiverBuffer<float>(6, [](const SeenPoint& p, std::size_t k) { return p.slopes[k]; }), term.planes(), term.weightOf,
-        term.samples);
+        a.receiverBuffer<float>(6, [](const SeenPoint& p, std::size_t k) { return p.slopes[k]; }), term.planes(),
+        term.weightOf, term.samples);
 }
 
 /// Launches accumulatePaths for the wave; mean: of the samples of a receiver, in each channel.
 template <class Reflectance, class Mean>
 void accumulatePaths(Accumulation& a, TermPixels& term, bool ambient, const Reflectance& reflectance, const Mean& mean)
 {
-    a.launch("accumulatePaths", ambient ? 1u : 0u, a.lists.pixelFirst, a.lists.pixelCount, a.primaryTaken, a.hits, a.objectId,
-        a.vectors(reflectance), a.sums(4, term.before, term.after,
+    a.launch("accumulatePaths", ambient ? 1u : 0u, a.lists.pixelFirst, a.lists.pixelCount, a.primaryTaken, a.hits,
+        a.objectId, a.vectors(reflectance),
+        a.sums(4, term.before, term.after,
             [&](const SeenPoint& p, std::size_t c) { return c < 3 ? mean(p)[static_cast<int>(c)] : 1.0; }),
         a.receiverBuffer<float>(3, [](const SeenPoint& p, std::size_t k) { return p.reflectors[k]; }), term.planes(),
         term.samples, term.ofPaths);

@@ -1,5 +1,5 @@
-// accumulate.cl alone: over many waves whose receivers have few samples of a term, its texture times its value goes to the
-// mean of their products, also where more light arrives the brighter a surface is.
+// accumulate.cl alone: over many waves whose receivers have few samples of a term, its texture times its value goes to
+// the mean of their products, also where more light arrives the brighter a surface is.
 #include "kernels/shared/bsdf.h"
 #include "kernels/shared/frame.h"
 #include "kernels/shared/light.h"
@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::uint32_t waveCount = 60, receiversOfWave = 4;
 
-/// A sample of the first receivers of a wave, or of two: others go without, and which they are has nothing to do with them.
+/// A sample of the first receivers of a wave, or of two: others go without, and which they are has nothing to do with
+/// them.
 std::uint32_t oneOrTwo(int x, int y, std::uint32_t primary, std::size_t round)
 {
     return primary < 2 ? primary : 1 + static_cast<std::uint32_t>(x + y + static_cast<int>(round)) % 2;
@@ -22,8 +23,8 @@ std::uint32_t oneOrTwo(int x, int y, std::uint32_t primary, std::size_t round)
 /// As many as there are receivers, and none in every other wave.
 std::uint32_t allOrNone(int, int, std::uint32_t primary, std::size_t round) { return round % 2 == 0 ? primary : 0; }
 
-/// Runs the waves, and holds the mean over pixels of texture times value minus that of `expected` against its standard error
-/// in each channel.
+/// Runs the waves, and holds the mean over pixels of texture times value minus that of `expected` against its standard
+/// error in each channel.
 template <class Launch, class Expected>
 void checkConverges(Accumulation& a, TermPixels& term, const Launch& launch, const Expected& expected)
 {
@@ -75,8 +76,10 @@ TEST_CASE("lights: few samples converge where the unshadowed shading is known")
                     [&](const SeenPoint& p) {
                         if (p.object == 0)
                             return glm::dvec3(0);
-                        const glm::dvec3 lobe = specular ? p.specular * (p.unshadowed[1] * p.visible[1]) : glm::dvec3(0);
-                        return glm::dvec3(3, 2, 1) * (p.diffuse * (p.unshadowed[0] * p.visible[0] / std::numbers::pi) + lobe);
+                        const glm::dvec3 lobe =
+                            specular ? p.specular * (p.unshadowed[1] * p.visible[1]) : glm::dvec3(0);
+                        return glm::dvec3(3, 2, 1)
+                            * (p.diffuse * (p.unshadowed[0] * p.visible[0] / std::numbers::pi) + lobe);
                     });
             }
     });
@@ -92,7 +95,8 @@ TEST_CASE("paths: few samples converge")
             checkConverges(
                 a, term,
                 [&] {
-                    accumulatePaths(a, term, false, [](const SeenPoint& p) { return p.diffuse; },
+                    accumulatePaths(
+                        a, term, false, [](const SeenPoint& p) { return p.diffuse; },
                         [](const SeenPoint& p) { return p.irradiance; });
                 },
                 [](const SeenPoint& p) { return p.object != 0 ? p.diffuse * p.irradiance : glm::dvec3(0); });

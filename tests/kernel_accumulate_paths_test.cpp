@@ -1,4 +1,5 @@
-// accumulate.cl alone, indirect light: what pixels hold after whatever waves of receivers, of which each has samples or not.
+// accumulate.cl alone, indirect light: what pixels hold after whatever waves of receivers, of which each has samples or
+// not.
 #include "kernels/shared/bsdf.h"
 #include "kernels/shared/frame.h"
 #include "kernels/shared/light.h"
@@ -13,8 +14,8 @@ constexpr double leastTexture = 1e-6; ///< as accumulate.cl has it
 
 /// Indirect light of one component after all rounds, and what it is expected to be.
 template <class Reflectance, class Irradiance, class Arrives>
-TermPixels accumulated(Accumulation& a, const Rounds& rounds, TermCount count, bool ambient, const Reflectance& reflectance,
-    const Irradiance& irradiance, const Arrives& arrives)
+TermPixels accumulated(Accumulation& a, const Rounds& rounds, TermCount count, bool ambient,
+    const Reflectance& reflectance, const Irradiance& irradiance, const Arrives& arrives)
 {
     TermPixels term(a, count, leastTexture);
     SurfacePixels surfaces(a);
@@ -28,7 +29,8 @@ TermPixels accumulated(Accumulation& a, const Rounds& rounds, TermCount count, b
                     s.irradiance = arrives(s.point);
                     s.plain = luminanceOf(s.irradiance);
                     s.radiance = s.texture * s.irradiance;
-                    s.weights = a.published != 0 ? glm::dvec3(1) : (s.texture + leastTexture) * static_cast<double>(s.samples);
+                    s.weights =
+                        a.published != 0 ? glm::dvec3(1) : (s.texture + leastTexture) * static_cast<double>(s.samples);
                 }
         });
         for (std::size_t r = 0; r < a.points.size(); ++r)
@@ -58,7 +60,8 @@ TEST_CASE("paths: the means over receivers, each with samples, few with some, or
                         a.published = published;
                         const auto arrives = [](const SeenPoint& p) { return p.irradiance; };
                         const TermPixels term = accumulated(
-                            a, rounds, count, false, [&](const SeenPoint& p) { return glossy ? p.specular : p.diffuse; }, arrives, arrives);
+                            a, rounds, count, false,
+                            [&](const SeenPoint& p) { return glossy ? p.specular : p.diffuse; }, arrives, arrives);
                         term.check(a);
                         const auto ofPaths = a.read(term.ofPaths);
                         a.waves.everyPixel([&](int x, int y) { REQUIRE(ofPaths.at(x, y) == term.after.at(x, y)); });
@@ -96,7 +99,8 @@ TEST_CASE("ambient occlusion: what is open over white surfaces, and black where 
             for (const Rounds& rounds : { oneRound, threeRounds }) {
                 Accumulation a(device, width, height, window, Receivers::All);
                 const auto occluded = [](const SeenPoint& p) { return p.irradiance / 3.0; };
-                const TermPixels term = accumulated(a, rounds, count, true, [](const SeenPoint& p) { return p.diffuse; }, occluded,
+                const TermPixels term = accumulated(
+                    a, rounds, count, true, [](const SeenPoint& p) { return p.diffuse; }, occluded,
                     [&](const SeenPoint& p) { return 1.0 - occluded(p); });
                 term.check(a);
                 if (count != oneEach)
@@ -109,7 +113,8 @@ TEST_CASE("ambient occlusion: what is open over white surfaces, and black where 
                     const double hits = static_cast<double>(seen.size());
                     REQUIRE(nearTo(texture.vector(x, y), glm::dvec3(hits / n)));
                     REQUIRE(nearTo(value.vector(x, y),
-                        sumOf(seen, [&](const SeenPoint& p) { return 1.0 - occluded(p); }) / std::max(1.0, hits), 1e-4));
+                        sumOf(seen, [&](const SeenPoint& p) { return 1.0 - occluded(p); }) / std::max(1.0, hits),
+                        1e-4));
                 });
             }
     });

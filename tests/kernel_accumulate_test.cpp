@@ -1,4 +1,5 @@
-// accumulate.cl alone, area lights: what pixels hold after whatever waves of receivers, of which each has samples or not.
+// accumulate.cl alone, area lights: what pixels hold after whatever waves of receivers, of which each has samples or
+// not.
 #include "kernels/shared/bsdf.h"
 #include "kernels/shared/frame.h"
 #include "kernels/shared/light.h"
@@ -48,7 +49,8 @@ double meanWeight(const std::vector<TermSample>& wave, int k)
 /// What a pixel's receivers add of a light that is not as published.
 void lightSamples(std::vector<TermSample>& wave, const LightCase& how)
 {
-    const bool anySampled = std::ranges::any_of(wave, [](const TermSample& s) { return s.point.object != 0 && s.samples > 0; });
+    const bool anySampled =
+        std::ranges::any_of(wave, [](const TermSample& s) { return s.point.object != 0 && s.samples > 0; });
     const double diffuse = meanWeight(wave, 0), specular = meanWeight(wave, 1);
     for (TermSample& s : wave) {
         const SeenPoint& p = s.point;
@@ -124,7 +126,8 @@ TEST_CASE("lights: the means over receivers, each with samples, few with some, o
     });
 }
 
-TEST_CASE("lights: with a sample a receiver texture times value is the radiance, and plain means miss the covariance (5.10)")
+TEST_CASE(
+    "lights: with a sample a receiver texture times value is the radiance, and plain means miss the covariance (5.10)")
 {
     onEveryDevice([](const device::Device& device) {
         for (const Receivers kind : { Receivers::All, Receivers::LitSurfaces })
@@ -152,10 +155,13 @@ TEST_CASE("lights: with a sample a receiver texture times value is the radiance,
                     if (kind == Receivers::All || a.taken.at(x, y) == 0)
                         return;
                     // L - k E is the mean of (k_i - k)(E_i - E).
-                    const auto ki = [&](const SeenPoint& p) { return luminanceOf(reflected(p, how, p.weight[0], p.weight[1])); };
+                    const auto ki = [&](const SeenPoint& p) {
+                        return luminanceOf(reflected(p, how, p.weight[0], p.weight[1]));
+                    };
                     const auto ei = [&](const SeenPoint& p) { return luminanceOf(li(p)) / ki(p); };
                     const double meanK = sumOf(seen, ki) / n, meanE = sumOf(seen, ei) / n;
-                    const double covariance = sumOf(seen, [&](const SeenPoint& p) { return (ki(p) - meanK) * (ei(p) - meanE); }) / n;
+                    const double covariance =
+                        sumOf(seen, [&](const SeenPoint& p) { return (ki(p) - meanK) * (ei(p) - meanE); }) / n;
                     const double error = luminanceOf(radiance) - luminanceOf(texture.vector(x, y)) * plain.at(x, y);
                     REQUIRE(std::fabs(error - covariance) < 1e-5);
                     largest = std::max(largest, std::fabs(covariance));
@@ -165,7 +171,8 @@ TEST_CASE("lights: with a sample a receiver texture times value is the radiance,
     });
 }
 
-TEST_CASE("lights as published: plain means of the form factor's visible part, and of the lobe towards the light's centre")
+TEST_CASE(
+    "lights as published: plain means of the form factor's visible part, and of the lobe towards the light's centre")
 {
     onEveryDevice([](const device::Device& device) {
         for (const TermCount count : { more, fewer })
@@ -181,13 +188,15 @@ TEST_CASE("lights as published: plain means of the form factor's visible part, a
                 const auto irradiance = [&](const SeenPoint& p) {
                     const glm::dvec3 d = centre - p.position;
                     const double squared = glm::dot(d, d);
-                    return p.weight[0] * p.visible[0] * std::max(0.0, glm::dot(p.normal, d)) * std::max(0.0, d.y) / (squared * squared);
+                    return p.weight[0] * p.visible[0] * std::max(0.0, glm::dot(p.normal, d)) * std::max(0.0, d.y)
+                        / (squared * squared);
                 };
                 const auto texture = [&](const SeenPoint& p) {
                     const auto narrow = [](glm::dvec3 v) { return shared::vec3(float(v.x), float(v.y), float(v.z)); };
                     const shared::Vec3 view = shared::unpackDirection(shared::packDirection(viewOf(p)));
-                    const double lobe = shared::specularLobe(narrow(p.normal), view, narrow(glm::normalize(centre - p.position)),
-                        static_cast<float>(p.gloss), WEDGE_SPECULAR_BLINN_PHONG);
+                    const double lobe =
+                        shared::specularLobe(narrow(p.normal), view, narrow(glm::normalize(centre - p.position)),
+                            static_cast<float>(p.gloss), WEDGE_SPECULAR_BLINN_PHONG);
                     return glm::dvec3(300, 200, 100) * (p.diffuse / std::numbers::pi + p.specular * lobe);
                 };
                 TermPixels term(a, count);
@@ -208,7 +217,8 @@ TEST_CASE("lights as published: plain means of the form factor's visible part, a
                     accumulateLight(a, term, light, false, true);
                     accumulateSurfaces(a, surfaces);
                 }
-                const auto value = a.read(term.value), plain = a.read(term.plain), k = a.read(term.texture), own = a.read(term.radiance);
+                const auto value = a.read(term.value), plain = a.read(term.plain), k = a.read(term.texture),
+                           own = a.read(term.radiance);
                 double largest = 0;
                 a.waves.everyPixel([&](int x, int y) {
                     const TermMeans& m = term.means[term.after.index(x, y)];

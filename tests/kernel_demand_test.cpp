@@ -21,9 +21,11 @@ struct Moments {
     Planes<std::uint32_t> taken;
 
     Moments(const Region& region, std::mt19937& random)
-        : texture(filledPlanes(region, 3, 1e30f, [&](int, int, std::size_t) { return random() % 6 == 0 ? 0 : uniform(random); }))
+        : texture(filledPlanes(
+            region, 3, 1e30f, [&](int, int, std::size_t) { return random() % 6 == 0 ? 0 : uniform(random); }))
         , textureSquares(filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random); }))
-        , value(filledPlanes(region, 3, 1e30f, [&](int, int, std::size_t) { return random() % 6 == 0 ? 0 : uniform(random, 0, 2); }))
+        , value(filledPlanes(
+              region, 3, 1e30f, [&](int, int, std::size_t) { return random() % 6 == 0 ? 0 : uniform(random, 0, 2); }))
         , squares(filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random, 0, 2); }))
         , taken(filledPlanes(region, 1, 1000u, [&](int, int, std::size_t) { return random() % 12; }))
     {
@@ -48,10 +50,11 @@ struct SplitPlanes {
 SplitPlanes splitVariance(KernelBench& bench, const Region& region, const Moments& in)
 {
     Output<float> first(bench, region, 1), second(bench, region, 1);
-    const auto k = bench.buffer(in.texture.values), k2 = bench.buffer(in.textureSquares.values), e = bench.buffer(in.value.values),
-               l2 = bench.buffer(in.squares.values);
+    const auto k = bench.buffer(in.texture.values), k2 = bench.buffer(in.textureSquares.values),
+               e = bench.buffer(in.value.values), l2 = bench.buffer(in.squares.values);
     const auto taken = bench.buffer(in.taken.values);
-    launchPixels(bench, "distributed.cl", "splitVariance", paramsOf(region), k, k2, e, l2, taken, first.buffer(), second.buffer());
+    launchPixels(bench, "distributed.cl", "splitVariance", paramsOf(region), k, k2, e, l2, taken, first.buffer(),
+        second.buffer());
     return { first.read(), second.read() };
 }
 
@@ -61,12 +64,18 @@ struct Filters {
 
     Filters(const Region& region, std::mt19937& random)
         : variance(filledPlanes(region, 1, 1e30f,
-              [&](int, int, std::size_t) { return random() % 3 != 0 ? 0 : random() % 9 == 0 ? 1e-35 : std::exp(uniform(random, -9, 3)); }))
+            [&](int, int, std::size_t) {
+                return random() % 3 != 0 ? 0 : random() % 9 == 0 ? 1e-35 : std::exp(uniform(random, -9, 3));
+            }))
         , effective(filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random, 0.2, 40); }))
         , beta(filledPlanes(region, 1, 1e30f,
-              [&](int, int, std::size_t) { return random() % 3 == 0 ? -1.0 : random() % 4 == 0 ? 0.0 : uniform(random); }))
-        , lens(filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return random() % 3 == 0 ? 0 : uniform(random, 0, 6); }))
-        , along(filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return random() % 3 == 0 ? 0 : uniform(random, 0, 6); }))
+              [&](int, int, std::size_t) {
+                  return random() % 3 == 0 ? -1.0 : random() % 4 == 0 ? 0.0 : uniform(random);
+              }))
+        , lens(filledPlanes(
+              region, 1, 1e30f, [&](int, int, std::size_t) { return random() % 3 == 0 ? 0 : uniform(random, 0, 6); }))
+        , along(filledPlanes(
+              region, 1, 1e30f, [&](int, int, std::size_t) { return random() % 3 == 0 ? 0 : uniform(random, 0, 6); }))
     {
     }
     /// Equal samples: of a Gaussian of deviations a and b pixels 4 pi a b; covariances of one after the other add up.
@@ -87,11 +96,13 @@ struct Filters {
         return v > 1e-30 ? std::pow(v / (gathered(p, x, y) * p.rays), p.countExponent) : 0;
     }
 };
-Planes<float> sampleDemand(KernelBench& bench, const Region& region, const shared::DistributedParams& p, const Filters& in)
+Planes<float> sampleDemand(
+    KernelBench& bench, const Region& region, const shared::DistributedParams& p, const Filters& in)
 {
     Output<float> demand(bench, region, 1);
     const auto variance = bench.buffer(in.variance.values), effective = bench.buffer(in.effective.values),
-               beta = bench.buffer(in.beta.values), lens = bench.buffer(in.lens.values), along = bench.buffer(in.along.values);
+               beta = bench.buffer(in.beta.values), lens = bench.buffer(in.lens.values),
+               along = bench.buffer(in.along.values);
     launchPixels(bench, "distributed.cl", "sampleDemand", p, variance, effective, beta, lens, along, demand.buffer());
     return demand.read();
 }
@@ -118,7 +129,8 @@ double squaredWeights(const std::vector<double>& deviations)
 /// Random numbers of samples, some of them 0.
 Planes<std::uint32_t> someCounts(const Region& region, std::mt19937& random, std::uint32_t most)
 {
-    return filledPlanes(region, 1, 1u << 20, [&](int, int, std::size_t) { return random() % 4 == 0 ? 0u : static_cast<std::uint32_t>(random()) % most; });
+    return filledPlanes(region, 1, 1u << 20,
+        [&](int, int, std::size_t) { return random() % 4 == 0 ? 0u : static_cast<std::uint32_t>(random()) % most; });
 }
 
 } // namespace
@@ -192,8 +204,10 @@ TEST_CASE("emission: the variance of its luminance, none of a sample or less")
         unsigned seed = 20;
         for (const Region& region : regions()) {
             std::mt19937 random(++seed);
-            const auto emission = filledPlanes(region, 3, 1e30f, [&](int, int, std::size_t) { return uniform(random, 0, 5); });
-            const auto squares = filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random, 0, 30); });
+            const auto emission =
+                filledPlanes(region, 3, 1e30f, [&](int, int, std::size_t) { return uniform(random, 0, 5); });
+            const auto squares =
+                filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random, 0, 30); });
             const auto taken = someCounts(region, random, 6);
             Output<float> variance(bench, region, 1);
             const auto e = bench.buffer(emission.values), e2 = bench.buffer(squares.values);
@@ -208,7 +222,8 @@ TEST_CASE("emission: the variance of its luminance, none of a sample or less")
     });
 }
 
-TEST_CASE("demand: a power of variance over what filters gather and rays cost, no less than a part of the largest around")
+TEST_CASE(
+    "demand: a power of variance over what filters gather and rays cost, no less than a part of the largest around")
 {
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);
@@ -267,7 +282,8 @@ TEST_CASE("at least so many samples of one kind as of another, where taken apart
             const Planes<float> before = in.effective;
             Output<float> demand(bench, region, before);
             const auto beta = bench.buffer(in.beta.values), least = bench.buffer(in.along.values);
-            launchPixels(bench, "distributed.cl", "atLeast", paramsOf(region), 0.5f, 8.0f, beta, least, demand.buffer());
+            launchPixels(
+                bench, "distributed.cl", "atLeast", paramsOf(region), 0.5f, 8.0f, beta, least, demand.buffer());
             const Planes<float> found = demand.read();
             int raised[2] = {};
             everyPixel(region.window, [&](int x, int y) {
@@ -298,7 +314,8 @@ TEST_CASE("counts: no more new primary samples than a wave has room for, and of 
             Output<std::uint32_t> primary(bench, region, atLeastTaken), term(bench, region, wantedOfTerm);
             launchPixels(bench, "distributed.cl", "limitStep", paramsOf(region), takenBuffer, primary.buffer());
             const Planes<std::uint32_t> found = primary.read();
-            launchPixels(bench, "distributed.cl", "keepPace", paramsOf(region), takenBuffer, primary.buffer(), ofTermBuffer, term.buffer());
+            launchPixels(bench, "distributed.cl", "keepPace", paramsOf(region), takenBuffer, primary.buffer(),
+                ofTermBuffer, term.buffer());
             const Planes<std::uint32_t> paced = term.read();
             everyPixel(region.window, [&](int x, int y) {
                 const std::uint32_t steps = std::min(atLeastTaken.at(x, y) - taken.at(x, y), 1024u);

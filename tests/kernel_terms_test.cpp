@@ -18,7 +18,9 @@ struct TermPlanes {
         , value(planes(region, 3, random))
         , filtered(planes(region, 3, random))
         , beta(filledPlanes(region, 1, 1e30f,
-              [&](int, int, std::size_t) { return random() % 2 == 0 ? -1.0 : random() % 3 == 0 ? 0.0 : uniform(random); }))
+              [&](int, int, std::size_t) {
+                  return random() % 2 == 0 ? -1.0 : random() % 3 == 0 ? 0.0 : uniform(random);
+              }))
         , own(planes(region, 3, random))
         , radiance(planes(region, 3, random))
     {
@@ -29,7 +31,8 @@ struct TermPlanes {
     }
     static Planes<float> planes(const Region& region, std::size_t count, std::mt19937& random)
     {
-        return filledPlanes(region, count, 1e30f, [&](int, int, std::size_t) { return random() % 7 == 0 ? 0 : uniform(random, 0, 2); });
+        return filledPlanes(
+            region, count, 1e30f, [&](int, int, std::size_t) { return random() % 7 == 0 ? 0 : uniform(random, 0, 2); });
     }
     /// The term's radiance as sampled.
     glm::dvec3 ownRadiance(bool published, int x, int y) const
@@ -38,7 +41,10 @@ struct TermPlanes {
     }
 };
 
-bool nearTo(glm::dvec3 found, glm::dvec3 expected) { return glm::length(found - expected) <= 1e-6 * (1 + glm::length(expected)); }
+bool nearTo(glm::dvec3 found, glm::dvec3 expected)
+{
+    return glm::length(found - expected) <= 1e-6 * (1 + glm::length(expected));
+}
 
 /// What `launch(p, term, buffer of radiance)` leaves there, against expected(p, term, x, y) added to what was.
 template <class Launch, class Expected>
@@ -72,11 +78,13 @@ void checkAdds(const Launch& launch, const Expected& expected)
 TEST_CASE("a filtered term adds the filtered texture times the filtered value where they are apart, elsewhere its own")
 {
     checkAdds(
-        [](KernelBench& bench, const shared::DistributedParams& p, const TermPlanes& term, const device::Buffer<float>& radiance) {
+        [](KernelBench& bench, const shared::DistributedParams& p, const TermPlanes& term,
+            const device::Buffer<float>& radiance) {
             const auto k = bench.buffer(term.texture.values), filteredK = bench.buffer(term.filteredTexture.values),
                        e = bench.buffer(term.value.values), filteredE = bench.buffer(term.filtered.values),
                        beta = bench.buffer(term.beta.values), own = bench.buffer(term.own.values);
-            launchPixels(bench, "distributed.cl", "addFilteredTerm", p, k, filteredK, e, filteredE, beta, own, radiance);
+            launchPixels(
+                bench, "distributed.cl", "addFilteredTerm", p, k, filteredK, e, filteredE, beta, own, radiance);
         },
         [](const shared::DistributedParams& p, const TermPlanes& term, int x, int y) {
             if (term.beta.at(x, y) < 0)
@@ -89,8 +97,10 @@ TEST_CASE("a filtered term adds the filtered texture times the filtered value wh
 TEST_CASE("a term without a filter adds texture times value, or as published what is kept of it")
 {
     checkAdds(
-        [](KernelBench& bench, const shared::DistributedParams& p, const TermPlanes& term, const device::Buffer<float>& radiance) {
-            const auto k = bench.buffer(term.texture.values), e = bench.buffer(term.value.values), own = bench.buffer(term.own.values);
+        [](KernelBench& bench, const shared::DistributedParams& p, const TermPlanes& term,
+            const device::Buffer<float>& radiance) {
+            const auto k = bench.buffer(term.texture.values), e = bench.buffer(term.value.values),
+                       own = bench.buffer(term.own.values);
             launchPixels(bench, "distributed.cl", "addTerm", p, k, e, own, radiance);
         },
         [](const shared::DistributedParams& p, const TermPlanes& term, int x, int y) {
@@ -136,7 +146,8 @@ TEST_CASE("planes add up, and one is copied to another")
             const TermPlanes term(region, random);
             const shared::DistributedParams p = paramsOf(region);
             Output<float> sum(bench, region, term.radiance), copy(bench, region, 1), all(bench, region, 3);
-            const auto k = bench.buffer(term.texture.values), e = bench.buffer(term.value.values), own = bench.buffer(term.own.values);
+            const auto k = bench.buffer(term.texture.values), e = bench.buffer(term.value.values),
+                       own = bench.buffer(term.own.values);
             launchPixels(bench, "distributed.cl", "addPlane", p, own, sum.buffer());
             launchPixels(bench, "distributed.cl", "copyPlane", p, own, copy.buffer());
             launchPixels(bench, "distributed.cl", "addAll", p, k, e, own, all.buffer());
@@ -145,7 +156,8 @@ TEST_CASE("planes add up, and one is copied to another")
                 REQUIRE(added.at(x, y) == term.radiance.at(x, y) + term.own.at(x, y));
                 REQUIRE(added.at(x, y, 1) == term.radiance.at(x, y, 1));
                 REQUIRE(copied.at(x, y) == term.own.at(x, y));
-                REQUIRE(nearTo(beauty.vector(x, y), term.texture.vector(x, y) + term.value.vector(x, y) + term.own.vector(x, y)));
+                REQUIRE(nearTo(
+                    beauty.vector(x, y), term.texture.vector(x, y) + term.value.vector(x, y) + term.own.vector(x, y)));
             });
         }
     });

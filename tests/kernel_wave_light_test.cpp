@@ -47,8 +47,8 @@ struct ReceiverPoint {
 
 glm::dvec3 narrowed(glm::dvec3 v) { return glm::dvec3(glm::vec3(v)); }
 
-/// At any distance from a light, from its own size on, facing it or not; lobes up to that exponent, most of them aimed at the
-/// light.
+/// At any distance from a light, from its own size on, facing it or not; lobes up to that exponent, most of them aimed
+/// at the light.
 ReceiverPoint randomReceiver(const scene::AreaLight& light, double sharpest, std::mt19937& random)
 {
     ReceiverPoint p {};
@@ -75,7 +75,8 @@ double lobeOf(const ReceiverPoint& p, glm::dvec3 d)
 {
     const glm::dvec3 l = glm::normalize(d), v = p.view, n = p.normal;
     const double m = p.exponent, pi = 3.14159265358979;
-    const double c = p.phong ? 2 * glm::dot(n, v) * glm::dot(n, l) - glm::dot(v, l) : glm::dot(n, glm::normalize(v + l));
+    const double c =
+        p.phong ? 2 * glm::dot(n, v) * glm::dot(n, l) - glm::dot(v, l) : glm::dot(n, glm::normalize(v + l));
     const double scale = p.phong ? (m + 2) / (2 * pi) : (m + 2) * (m + 4) / (8 * pi * (std::pow(2, -m / 2) + m));
     return c > 0 ? scale * std::pow(c, m) : 0;
 }
@@ -145,7 +146,8 @@ std::vector<float> unshadowed(
         bench.buffer(nodesOf(light)), planes(3, [](const ReceiverPoint& p, int c) { return p.position[c]; }),
         planes(3, [](const ReceiverPoint& p, int c) { return p.normal[c]; }), bench.buffer(objects),
         planes(3, [](const ReceiverPoint& p, int) { return p.specular; }),
-        planes(1, [](const ReceiverPoint& p, int) { return p.phong ? -p.exponent : p.exponent; }), bench.buffer(views), out);
+        planes(1, [](const ReceiverPoint& p, int) { return p.phong ? -p.exponent : p.exponent; }), bench.buffer(views),
+        out);
     return bench.read(out);
 }
 
