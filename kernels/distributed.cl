@@ -151,17 +151,6 @@ __kernel void limitStep(DistributedParams p, __global const uint* restrict taken
     }
 }
 
-/// No fewer new samples of a term than new primary ones: a receiver without any would count as black.
-__kernel void keepPace(DistributedParams p, __global const uint* restrict primaryTaken,
-                       __global const uint* restrict primaryWanted, __global const uint* restrict taken,
-                       __global uint* restrict wanted)
-{
-    uint x, y, i;
-    if (pixelOf(p, &x, &y, &i)) {
-        wanted[i] = max(wanted[i], taken[i] + (primaryWanted[i] - primaryTaken[i]));
-    }
-}
-
 /// Standard deviations in pixels of the image-space filters: of the blur that all of a pixel has, else 0.
 /// out  lens, along (the motion), directions of that (2 planes, unit)
 __kernel void blurs(DistributedParams p, __global const float* restrict confusion, __global const float* restrict motion,

@@ -141,7 +141,8 @@ public:
     {
         const std::uint64_t index = lists.shares[r] & 0xffffu, count = lists.shares[r] >> 16;
         const std::uint64_t all = after.at(lists.x(r), lists.y(r)) - before.at(lists.x(r), lists.y(r));
-        return static_cast<std::uint32_t>((index + 1) * all / count - index * all / count);
+        // All get the same, and the first ones one of those that are left each.
+        return static_cast<std::uint32_t>(all / count + (index < all % count ? 1 : 0));
     }
 
     /// Planes of sums over the samples that receivers have of a term whose pixels go from `before` to `after`.

@@ -128,14 +128,10 @@ void DistributedFrame::counts()
     });
 }
 
-void DistributedFrame::keepPace()
+void DistributedFrame::limitStep()
 {
-    const shared::DistributedParams p = params(c_.full());
-    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "limitStep", p, 1, c_.frame.primaryTaken, c_.frame.primaryWanted);
-    eachTerm([&](Term& term, float) {
-        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "keepPace", p, 1, c_.frame.primaryTaken,
-            c_.frame.primaryWanted, term.taken, term.wanted);
-    });
+    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "limitStep", params(c_.full()), 1, c_.frame.primaryTaken,
+        c_.frame.primaryWanted);
 }
 
 } // namespace wedge::render

@@ -108,7 +108,7 @@ bool DistributedFrame::adaptive()
         demands();
         counts();
         if (c_.settings.progressive) {
-            keepPace();
+            limitStep();
         }
     }
     analysed_ = c_.settings.filtering != Filtering::None;

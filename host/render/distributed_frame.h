@@ -61,7 +61,7 @@ private:
     void demands();
     void demandOf(Term& term, float rays);
     void counts();
-    void keepPace();
+    void limitStep();
     void filter();
     void copy(const device::Buffer<float>& image, device::Buffer<float>& to);
     void addUnfiltered(device::Buffer<float>& direct, device::Buffer<float>& indirect);

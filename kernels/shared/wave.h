@@ -23,8 +23,9 @@ typedef struct {
 /// Of `total` samples that `count` receivers of a pixel share evenly, those that the first `index` of them have.
 WEDGE_FN uint sharedSamples(uint index, uint count, uint total)
 {
-    // In pieces, so that nothing overflows.
-    return index * (total / count) + index * (total % count) / count;
+    // Those left over go to the first ones: the first points of a sequence are spread as evenly as all of them.
+    const uint left = total % count;
+    return index * (total / count) + (index < left ? index : left);
 }
 
 WEDGE_SHARED_END
