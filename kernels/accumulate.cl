@@ -20,6 +20,7 @@
 /// A pixel and its receivers in the wave.
 typedef struct {
     uint i;            ///< in planes of pixels
+    uint slot;         ///< in planes of the wave's pixels
     uint first, count; ///< receivers
     uint before;       ///< primary samples that its means hold already
 } WavePixel;
@@ -34,6 +35,7 @@ WEDGE_FN bool wavePixel(FrameParams frame, WaveParams wave, __global const uint*
         return false;
     }
     p->i = pixelIndex(x, y, frame.stride);
+    p->slot = slot;
     p->first = pixelFirst[slot];
     p->count = pixelCount[slot];
     p->before = taken[p->i];
@@ -124,10 +126,12 @@ WEDGE_FN void storeTermSums(WaveParams wave, WavePixel p, uint pixels, TermPlane
     planes.value[g] = weightedMean(planes.value[g], known.y, s->weighted.y, s->weights.y);
     planes.value[b] = weightedMean(planes.value[b], known.z, s->weighted.z, s->weights.z);
     storeMean(planes.texture, pixels, p.i, before, s->texture, s->textures);
-    planes.textureSquares[p.i] = meanWith(planes.textureSquares[p.i], before, s->textureSquared, s->textures);
-    const float hadHits = p.before > 0u ? hits * had / before : 0.0f;
-    planes.plain[p.i] = meanWith(planes.plain[p.i], hadHits, s->plain, s->counted);
-    planes.squares[p.i] = meanWith(planes.squares[p.i], had, s->squared, have);
+    if ((wave.omits & WEDGE_OMITS_ANALYSIS) == 0u) {
+        planes.textureSquares[p.i] = meanWith(planes.textureSquares[p.i], before, s->textureSquared, s->textures);
+        const float hadHits = p.before > 0u ? hits * had / before : 0.0f;
+        planes.plain[p.i] = meanWith(planes.plain[p.i], hadHits, s->plain, s->counted);
+        planes.squares[p.i] = meanWith(planes.squares[p.i], had, s->squared, have);
+    }
     if (wave.published != 0u) {
         storeMean(planes.radiance, pixels, p.i, had, s->radiance, have);
     }
@@ -212,7 +216,9 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
     receivers.receivers = wave.receivers;
     const uint size = wave.planeSize, pixels = frame.planeSize;
     const uint total = newTermSamples(wave, termTaken[p.i], termWanted[p.i]);
-    float sMin = extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY, sMax = extremes[pixels + p.i];
+    const bool measures = (wave.omits & WEDGE_OMITS_ANALYSIS) == 0u, all = (wave.omits & WEDGE_OMITS_EXTREMES) == 0u;
+    float sMin = measures && extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY;
+    float sMax = measures && all ? extremes[pixels + p.i] : 0.0f;
     float weight = 0.0f, specularWeight = 0.0f;
     const bool known = total >= p.count || wave.published != 0u
         || meanWeights(wave, p, total, objectId, diffuse, specular, sums, &weight, &specularWeight);
@@ -252,7 +258,7 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
         sMin = slopes[r] > 0.0f ? fmin(sMin, slopes[r]) : sMin;
         sMax = fmax(sMax, slopes[size + r]);
 #ifdef WEDGE_MOTION
-        for (uint plane = 2u; plane < 6u; ++plane) {
+        for (uint plane = 2u; measures && plane < 6u; ++plane) {
             extremes[plane * pixels + p.i] += slopes[plane * size + r];
         }
 #endif
@@ -270,11 +276,17 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
     const Vec3 weights = wave.published != 0u ? vec3(plainWeight, plainWeight, plainWeight)
                                               : vecScale(loadVec(texture, pixels, p.i), (float)termTaken[p.i]);
     storeTermSums(wave, p, pixels, WEDGE_TERM_ARGUMENTS, termTaken[p.i], total, (float)hits[p.i], weights, &sum);
-    weightOf[p.i] = luminance(loadVec(texture, pixels, p.i));
-    extremes[p.i] = sMin < INFINITY ? sMin : 0.0f;
-    extremes[pixels + p.i] = sMax;
-    samples[p.i] += total;
-    termTaken[p.i] += total;
+    if (measures) {
+        extremes[p.i] = sMin < INFINITY ? sMin : 0.0f;
+    }
+    if (measures && all) {
+        extremes[pixels + p.i] = sMax;
+    }
+    if ((wave.omits & WEDGE_OMITS_LAYERS) == 0u) {
+        weightOf[p.i] = luminance(loadVec(texture, pixels, p.i));
+        samples[p.i] += total;
+        termTaken[p.i] += total;
+    }
 }
 
 /// Point and directional lights: `lit`, the receivers' radiance from them.
@@ -311,8 +323,11 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient, 
     }
     const uint size = wave.planeSize, pixels = frame.planeSize;
     const uint total = newTermSamples(wave, termTaken[p.i], termWanted[p.i]);
-    float nearest = extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY, farthest = extremes[pixels + p.i];
-    float inverse = extremes[2u * pixels + p.i];
+    const bool measures = (wave.omits & WEDGE_OMITS_ANALYSIS) == 0u, all = (wave.omits & WEDGE_OMITS_EXTREMES) == 0u;
+    float nearest = measures && all && extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY;
+    float farthest = measures && all ? extremes[pixels + p.i] : 0.0f;
+    const uint last = (all ? 2u * pixels : 0u) + p.i;
+    float inverse = measures ? extremes[last] : 0.0f;
     const float floor = wave.published != 0u ? 1.0f : WEDGE_LEAST_TEXTURE, own = wave.published != 0u ? 0.0f : 1.0f;
     const Vec3 floors = vec3(floor, floor, floor), white = vec3(1.0f, 1.0f, 1.0f);
     TermSums sum = noTermSums((float)p.count);
@@ -340,12 +355,18 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient, 
                                                : 0.0f;
     const Vec3 known = vecMad(vecScale(floors, counted), loadVec(texture, pixels, p.i), own * (float)termTaken[p.i]);
     storeTermSums(wave, p, pixels, WEDGE_TERM_ARGUMENTS, termTaken[p.i], total, (float)hits[p.i], known, &sum);
-    extremes[p.i] = nearest < INFINITY ? nearest : 0.0f;
-    extremes[pixels + p.i] = farthest;
-    extremes[2u * pixels + p.i] = inverse;
-    samples[p.i] += total;
-    indirectSamples[p.i] += total;
-    termTaken[p.i] += total;
+    if (measures && all) {
+        extremes[p.i] = nearest < INFINITY ? nearest : 0.0f;
+        extremes[pixels + p.i] = farthest;
+    }
+    if (measures) {
+        extremes[last] = inverse;
+    }
+    if ((wave.omits & WEDGE_OMITS_LAYERS) == 0u) {
+        samples[p.i] += total;
+        indirectSamples[p.i] += total;
+        termTaken[p.i] += total;
+    }
 }
 
 /// Where and what the receivers are, and what they emit; closes the wave.
@@ -410,26 +431,40 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
     }
     const float before = (float)p.before, count = (float)p.count, hits = (float)hitsOf[p.i];
     storeMean(emissionOf, pixels, p.i, before, emitted, count);
-    emissionSquaresOf[p.i] = meanWith(emissionSquaresOf[p.i], before, squared, count);
-    storeMean(diffuseOf, pixels, p.i, before, kd, count);
-    storeMean(specularOf, pixels, p.i, before, ks, count);
+    const bool measures = (wave.omits & WEDGE_OMITS_ANALYSIS) == 0u, layers = (wave.omits & WEDGE_OMITS_LAYERS) == 0u;
+    if (measures) {
+        emissionSquaresOf[p.i] = meanWith(emissionSquaresOf[p.i], before, squared, count);
+    }
+    if (layers) {
+        storeMean(diffuseOf, pixels, p.i, before, kd, count);
+        storeMean(specularOf, pixels, p.i, before, ks, count);
+    }
     taken[p.i] = p.before + p.count;
     confusionOf[p.i] = low;
     confusionOf[pixels + p.i] = high;
-    raysOf[p.i] += traced;
-    pathRaysOf[p.i] += paths;
+    raysOf[layers ? p.i : p.slot] += traced;
+    pathRaysOf[layers ? p.i : p.slot] += paths;
     if (hit == 0.0f) {
-        // Misses, or a light that is seen.
-        distanceOf[p.i] = hits > 0.0f ? distanceOf[p.i] : depth[p.first];
+        if (layers) {
+            // Misses, or a light that is seen.
+            distanceOf[p.i] = hits > 0.0f ? distanceOf[p.i] : depth[p.first];
+        }
         return;
     }
     hitsOf[p.i] += (uint)hit;
     objectOf[p.i] = object;
     storeMean(positionOf, pixels, p.i, hits, at, hit);
     storeVec(normalOf, pixels, p.i, vecNormalize(vecMad(facing, loadVec(normalOf, pixels, p.i), hits)));
-    glossOf[p.i] = meanWith(glossOf[p.i], hits, exponent, hit);
-    pixelSizeOf[p.i] = meanWith(pixelSizeOf[p.i], hits, edge, hit);
-    distanceOf[p.i] = vecLength(vecSub(loadVec(positionOf, pixels, p.i), frame.eye));
+    if (measures) {
+        glossOf[p.i] = meanWith(glossOf[p.i], hits, exponent, hit);
+        pixelSizeOf[p.i] = meanWith(pixelSizeOf[p.i], hits, edge, hit);
+    }
+    if (layers) {
+        distanceOf[p.i] = vecLength(vecSub(loadVec(positionOf, pixels, p.i), frame.eye));
+    }
+    if ((wave.omits & WEDGE_OMITS_MOTION) != 0u) {
+        return;
+    }
     const float meanX = meanWith(motionOf[p.i], hits, moveX, hit), meanY = meanWith(motionOf[pixels + p.i], hits, moveY, hit);
     float spread = motionOf[2u * pixels + p.i];
     for (uint r = p.first; r < p.first + p.count; ++r) {

@@ -141,6 +141,17 @@ __kernel void scaleCounts(DistributedParams p, float scale, uint least, uint mos
     }
 }
 
+/// Counts of a term's samples after the last wave of a lean frame: pixels without new primary samples took none of the term.
+/// in out  counts: wanted; taken
+__kernel void settleCounts(DistributedParams p, uint first, __global const uint* restrict primaryTaken,
+                           __global uint* restrict counts)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        counts[i] = primaryTaken[i] > first ? counts[i] : primaryTaken[i];
+    }
+}
+
 /// No more new primary samples than a wave has room for.
 __kernel void limitStep(DistributedParams p, __global const uint* restrict taken, __global uint* restrict wanted)
 {
@@ -162,7 +173,7 @@ __kernel void keepPace(DistributedParams p, __global const uint* restrict primar
 }
 
 /// Standard deviations in pixels of the image-space filters: of the blur that all of a pixel has, else 0.
-/// out  lens, along (the motion), directions of that (2 planes, unit)
+/// out  lens, along (the motion), directions of that (2 planes, unit); lens alone where all is still
 __kernel void blurs(DistributedParams p, __global const float* restrict confusion, __global const float* restrict motion,
                     __global const uint* restrict taken, __global float* restrict lens, __global float* restrict along,
                     __global float* restrict directions)
@@ -174,6 +185,9 @@ __kernel void blurs(DistributedParams p, __global const float* restrict confusio
     const float n = p.frames * (p.samples > 0.0f ? p.samples : fmax((float)taken[i], 1.0f));
     const float r = leastConfusion(p, confusion, i);
     lens[i] = r >= p.leastRadius ? p.blurWidth * r * pow(n * r * r, -p.blurExponent) : 0.0f;
+    if (p.still != 0u) {
+        return;
+    }
     const float mx = motion[i], my = motion[p.planeSize + i];
     const float length = sqrt(mx * mx + my * my);
     const bool one = length >= p.leastRadius && motion[2u * p.planeSize + i] <= p.oneVelocity * length;
@@ -256,6 +270,15 @@ __kernel void addTerm(DistributedParams p, __global const float* restrict textur
     if (pixelOf(p, &x, &y, &i)) {
         const Vec3 term = ownRadiance(p, i, texture, value, termRadiance);
         storeVec(radiance, p.planeSize, i, vecAdd(loadVec(radiance, p.planeSize, i), term));
+    }
+}
+
+/// sum += image (3 planes each).
+__kernel void addImage(DistributedParams p, __global const float* restrict image, __global float* restrict sum)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        storeVec(sum, p.planeSize, i, vecAdd(loadVec(sum, p.planeSize, i), loadVec(image, p.planeSize, i)));
     }
 }
 

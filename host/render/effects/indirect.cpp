@@ -138,6 +138,7 @@ shared::ReflectorParams Indirect::reflectorParams(const image::Window& window) c
     p.meanFraction = in.meanFraction;
     p.countCap = static_cast<std::uint32_t>(in.maxSpp);
     p.fixedWidth = c_.settings.filtering == Filtering::Fixed ? c_.settings.fixedWidth : 0.0f;
+    p.meanOnly = term_.shape.extremes == 1 ? 1 : 0;
     p.countExponent = in.countExponent;
     p.varianceSpread = c_.settings.varianceSpread;
     return p;
@@ -229,7 +230,9 @@ void Indirect::sampleWave(Waves& waves, const shared::WaveParams& wave, double w
         s.nodes, s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, waves.receivers(), waves.specular, waves.wanted,
         std::numeric_limits<std::uint32_t>::max(), waves.sums, waves.taken, waves.value, waves.extremes, waves.rays,
         waves.pathRays);
-    waves.pixels(c_.passes, "accumulatePaths", wave, component_ == Component::Ambient ? 1u : 0u, waves.pixelFirst, waves.pixelCount, c_.frame.primaryTaken, c_.frame.hits,
+    shared::WaveParams adding = wave;
+    adding.omits |= term_.shape.extremes == 1 ? WEDGE_OMITS_EXTREMES : 0;
+    waves.pixels(c_.passes, "accumulatePaths", adding, component_ == Component::Ambient ? 1u : 0u, waves.pixelFirst, waves.pixelCount, c_.frame.primaryTaken, c_.frame.hits,
         waves.objectId, reflectance, waves.sums, waves.extremes, term_.accumulated(),
         c_.frame.samples, c_.frame.indirectSamples);
 }
