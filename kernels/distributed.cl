@@ -28,9 +28,9 @@ __kernel void factoredWidths(DistributedParams p, __global const float* restrict
         return;
     }
     float sum = 0.0f, count = 0.0f;
-    const int r = (int)p.factoringRadius;
-    for (int dy = -min((int)y, r); dy <= min((int)(p.height - 1u - y), r); ++dy) {
-        for (int dx = -min((int)x, r); dx <= min((int)(p.width - 1u - x), r); ++dx) {
+    const int reach = (int)p.factoringRadius;
+    for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
+        for (int dx = -min((int)x, reach); dx <= min((int)(p.width - 1u - x), reach); ++dx) {
             const int j = (int)i + dy * (int)p.stride + dx;
             const bool same = objectId[j] == objectId[i];
             sum += same ? error[j] : 0.0f;
@@ -38,8 +38,9 @@ __kernel void factoredWidths(DistributedParams p, __global const float* restrict
         }
     }
     const bool apart = p.never == 0u && fabs(sum) <= p.factoringError * count;
-    const float blurred = p.irradianceWidth * leastConfusion(p, confusion, i) * pixelSize[i];
-    beta[i] = apart && beta[i] >= 0.0f ? fmax(beta[i], blurred > p.leastRadius * pixelSize[i] * p.irradianceWidth ? blurred : 0.0f) : -1.0f;
+    const float r = leastConfusion(p, confusion, i);
+    const float blurred = r >= p.leastRadius ? p.irradianceWidth * r * pixelSize[i] : 0.0f;
+    beta[i] = apart && beta[i] >= 0.0f ? fmax(beta[i], blurred) : -1.0f;
 }
 
 /// A term's variance a primary sample, in two: what the texture makes, which every pixel has to average by itself, and the

@@ -24,9 +24,7 @@ std::string keyOf(const render::Settings& settings)
     for (const auto& [name, value] : render::describe(settings)) {
         key += fmt::format(" {} {}", name, value);
     }
-    // What variants of distributed frames differ in.
-    const render::DistributedSettings& d = settings.distributed;
-    return key + fmt::format(" factoring {} distributed counts {} mu {}", static_cast<int>(d.factoring), d.countExponent, d.mu);
+    return key;
 }
 
 } // namespace

@@ -81,7 +81,9 @@ void describeDistributed(const DistributedSettings& d, Descriptions& out)
             { "factoringError", number(d.factoringError) }, { "factoringRadius", number(d.factoringRadius) },
             { "blur", number(d.blur) }, { "blurWidth", number(d.blurWidth) }, { "blurExponent", number(d.blurExponent) },
             { "shutterWidth", number(d.shutterWidth) }, { "shutterExponent", number(d.shutterExponent) },
-            { "leastRadius", number(d.leastRadius) }, { "irradianceWidth", number(d.irradianceWidth) },
+            { "leastRadius", number(d.leastRadius) },
+            { "leastShare", number(d.leastShare) }, { "leastPrimaries", number(d.leastPrimaries) },
+            { "leastSecondaries", number(d.leastSecondaries) }, { "irradianceWidth", number(d.irradianceWidth) },
             { "distributedCountExponent", number(d.countExponent) },
             { "distributedVarianceSpread", number(d.varianceSpread) }, { "oneVelocity", number(d.oneVelocity) } });
 }
@@ -150,9 +152,8 @@ Settings asPublished(std::optional<float> wanted)
     d.published = true;
     d.firstPaths = 16;
     d.mu = wanted.value_or(publishedDistributedMu);
-    d.blurWidth = 0.177f; // exp(-16 d^2 / r^2)
+    d.blurWidth = d.shutterWidth = 0.177f / d.mu; // exp(-16 d^2 / r^2) of (5.33), whose bandwidth (5.29) scales
     d.blurExponent = 0.0f;
-    d.shutterWidth = 0.177f;
     d.shutterExponent = 0.0f;
     return s;
 }
