@@ -8,7 +8,12 @@
 // besides, the plain mean of E's luminance, by which thesis (5.30) judges whether texture and irradiance may be taken apart.
 // As published (wave.published) E is the plain mean, that of lights holds the light's form factor (5.14), k the lobe
 // towards its centre (5.20), and the term's radiance L is kept apart.
+//
+// Packed planes (wave.packed) hold k and E in 47 bits each (packed_planes.h), and what one wave alone measures in 16: in
+// `plain` the factoring error (distributed.cl) and, after it, the one of the extremes that there is; in `squares` the
+// standard deviations of a primary sample's radiance and of its texture.
 #include "light_sample.h"
+#include "packed_planes.h"
 #include "shared/bsdf.h"
 #include "shared/camera.h"
 #include "shared/defocus.h"
@@ -113,6 +118,18 @@ WEDGE_FN float weightedMean(float mean, float known, float weighted, float weigh
     return known + weights > 0.0f ? (mean * known + weighted) / (known + weights) : 0.0f;
 }
 
+/// What the analysis is made of, of the first wave of a pixel's; t, e: its mean texture and irradiance, of `have` receivers
+/// with samples.
+WEDGE_FN void storeMeasured(WavePixel p, uint pixels, TermPlanes planes, Vec3 t, Vec3 e, float have, const TermSums* s)
+{
+    const float mean = luminance(vecMul(t, e)), texture = luminance(t);
+    const float squared = meanWith(0.0f, 0.0f, s->squared, have), plain = meanWith(0.0f, 0.0f, s->plain, s->counted);
+    const float textureSquared = meanWith(0.0f, 0.0f, s->textureSquared, s->textures);
+    storeShort(planes.plain, pixels, p.i, 0u, mean - texture * plain);
+    storeShort(planes.squares, pixels, p.i, 0u, sqrt(fmax(squared - mean * mean, 0.0f)));
+    storeShort(planes.squares, pixels, p.i, 1u, sqrt(fmax(textureSquared - texture * texture, 0.0f)));
+}
+
 /// taken: samples of the term before the wave, total: in it; hits: receivers with a surface before; known: what the mean
 /// value weighs so far.
 WEDGE_FN void storeTermSums(WaveParams wave, WavePixel p, uint pixels, TermPlanes planes, uint taken, uint total, float hits,
@@ -121,12 +138,18 @@ WEDGE_FN void storeTermSums(WaveParams wave, WavePixel p, uint pixels, TermPlane
     const float before = (float)p.before;
     // Receivers that took samples, misses included: samples are shared evenly.
     const float had = (float)min(taken, p.before), have = (float)min(total, p.count);
-    const uint g = pixels + p.i, b = 2u * pixels + p.i;
-    planes.value[p.i] = weightedMean(planes.value[p.i], known.x, s->weighted.x, s->weights.x);
-    planes.value[g] = weightedMean(planes.value[g], known.y, s->weighted.y, s->weights.y);
-    planes.value[b] = weightedMean(planes.value[b], known.z, s->weighted.z, s->weights.z);
-    storeMean(planes.texture, pixels, p.i, before, s->texture, s->textures);
-    if ((wave.omits & WEDGE_OMITS_ANALYSIS) == 0u) {
+    Vec3 e = loadColour(planes.value, pixels, p.i, wave.packed), t = loadColour(planes.texture, pixels, p.i, wave.packed);
+    e = vec3(weightedMean(e.x, known.x, s->weighted.x, s->weights.x), weightedMean(e.y, known.y, s->weighted.y, s->weights.y),
+             weightedMean(e.z, known.z, s->weighted.z, s->weights.z));
+    t = vec3(meanWith(t.x, before, s->texture.x, s->textures), meanWith(t.y, before, s->texture.y, s->textures),
+             meanWith(t.z, before, s->texture.z, s->textures));
+    storeColour(planes.value, pixels, p.i, wave.packed, e);
+    storeColour(planes.texture, pixels, p.i, wave.packed, t);
+    if (wave.packed != 0u) {
+        if ((wave.omits & WEDGE_OMITS_ANALYSIS) == 0u) {
+            storeMeasured(p, pixels, planes, t, e, have, s);
+        }
+    } else if ((wave.omits & WEDGE_OMITS_ANALYSIS) == 0u) {
         planes.textureSquares[p.i] = meanWith(planes.textureSquares[p.i], before, s->textureSquared, s->textures);
         const float hadHits = p.before > 0u ? hits * had / before : 0.0f;
         planes.plain[p.i] = meanWith(planes.plain[p.i], hadHits, s->plain, s->counted);
@@ -138,7 +161,7 @@ WEDGE_FN void storeTermSums(WaveParams wave, WavePixel p, uint pixels, TermPlane
 }
 
 /// Samples of a term that the wave takes for a pixel.
-WEDGE_FN uint newTermSamples(WaveParams wave, uint taken, uint wanted) { return max(min(wanted, wave.lastSample), taken) - taken; }
+WEDGE_FN uint newTermSamples(WaveParams wave, uint taken, uint wanted) { return max(wantedSamples(wave, wanted), taken) - taken; }
 
 /// Parameters of the kernels that add to a term, and its planes made of them.
 #define WEDGE_TERM_PARAMETERS                                                                                           \
@@ -190,6 +213,19 @@ WEDGE_FN bool meanWeights(WaveParams wave, WavePixel p, uint total, __global con
     return known > 0.0f;
 }
 
+/// The one extreme that widths are made with.
+WEDGE_FN void storeExtreme(WaveParams wave, WavePixel p, uint pixels, __global float* plain, __global float* extremes, float x)
+{
+    if ((wave.omits & WEDGE_OMITS_ANALYSIS) != 0u) {
+        return;
+    }
+    if (wave.packed != 0u) {
+        storeShort(plain, pixels, p.i, 1u, x);
+    } else {
+        extremes[p.i] = x;
+    }
+}
+
 /// One area light.
 /// in      wave's planes: receivers, diffuse, specular, sums (as area_light.cl has them), slopes
 ///         exact: 1: unshadowed has the receivers' shading (wave_light.cl); 0: it is that of their samples
@@ -217,7 +253,8 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
     const uint size = wave.planeSize, pixels = frame.planeSize;
     const uint total = newTermSamples(wave, termTaken[p.i], termWanted[p.i]);
     const bool measures = (wave.omits & WEDGE_OMITS_ANALYSIS) == 0u, all = (wave.omits & WEDGE_OMITS_EXTREMES) == 0u;
-    float sMin = measures && extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY;
+    // Packed, there is none before.
+    float sMin = measures && wave.packed == 0u && extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY;
     float sMax = measures && all ? extremes[pixels + p.i] : 0.0f;
     float weight = 0.0f, specularWeight = 0.0f;
     const bool known = total >= p.count || wave.published != 0u
@@ -274,16 +311,14 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
     }
     const float plainWeight = (float)hits[p.i];
     const Vec3 weights = wave.published != 0u ? vec3(plainWeight, plainWeight, plainWeight)
-                                              : vecScale(loadVec(texture, pixels, p.i), (float)termTaken[p.i]);
+                                              : vecScale(loadColour(texture, pixels, p.i, wave.packed), (float)termTaken[p.i]);
     storeTermSums(wave, p, pixels, WEDGE_TERM_ARGUMENTS, termTaken[p.i], total, (float)hits[p.i], weights, &sum);
-    if (measures) {
-        extremes[p.i] = sMin < INFINITY ? sMin : 0.0f;
-    }
+    storeExtreme(wave, p, pixels, plain, extremes, sMin < INFINITY ? sMin : 0.0f);
     if (measures && all) {
         extremes[pixels + p.i] = sMax;
     }
     if ((wave.omits & WEDGE_OMITS_LAYERS) == 0u) {
-        weightOf[p.i] = luminance(loadVec(texture, pixels, p.i));
+        weightOf[p.i] = luminance(loadColour(texture, pixels, p.i, wave.packed));
         samples[p.i] += total;
         termTaken[p.i] += total;
     }
@@ -326,8 +361,7 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient, 
     const bool measures = (wave.omits & WEDGE_OMITS_ANALYSIS) == 0u, all = (wave.omits & WEDGE_OMITS_EXTREMES) == 0u;
     float nearest = measures && all && extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY;
     float farthest = measures && all ? extremes[pixels + p.i] : 0.0f;
-    const uint last = (all ? 2u * pixels : 0u) + p.i;
-    float inverse = measures ? extremes[last] : 0.0f;
+    float inverse = measures && all ? extremes[2u * pixels + p.i] : measures && wave.packed == 0u ? extremes[p.i] : 0.0f;
     const float floor = wave.published != 0u ? 1.0f : WEDGE_LEAST_TEXTURE, own = wave.published != 0u ? 0.0f : 1.0f;
     const Vec3 floors = vec3(floor, floor, floor), white = vec3(1.0f, 1.0f, 1.0f);
     TermSums sum = noTermSums((float)p.count);
@@ -353,14 +387,12 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient, 
     const float counted = wave.published != 0u ? (float)hits[p.i]
         : p.before > 0u                        ? (float)hits[p.i] / (float)p.before * (float)termTaken[p.i]
                                                : 0.0f;
-    const Vec3 known = vecMad(vecScale(floors, counted), loadVec(texture, pixels, p.i), own * (float)termTaken[p.i]);
+    const Vec3 known = vecMad(vecScale(floors, counted), loadColour(texture, pixels, p.i, wave.packed), own * (float)termTaken[p.i]);
     storeTermSums(wave, p, pixels, WEDGE_TERM_ARGUMENTS, termTaken[p.i], total, (float)hits[p.i], known, &sum);
+    storeExtreme(wave, p, pixels, plain, extremes, all ? (nearest < INFINITY ? nearest : 0.0f) : inverse);
     if (measures && all) {
-        extremes[p.i] = nearest < INFINITY ? nearest : 0.0f;
         extremes[pixels + p.i] = farthest;
-    }
-    if (measures) {
-        extremes[last] = inverse;
+        extremes[2u * pixels + p.i] = inverse;
     }
     if ((wave.omits & WEDGE_OMITS_LAYERS) == 0u) {
         samples[p.i] += total;
@@ -402,7 +434,11 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
     const Vec3 none = vec3(0.0f, 0.0f, 0.0f);
     Vec3 at = none, facing = none, kd = none, ks = none, emitted = none;
     float hit = 0.0f, exponent = 0.0f, edge = 0.0f, moveX = 0.0f, moveY = 0.0f, squared = 0.0f;
-    float low = p.before > 0u ? confusionOf[p.i] : INFINITY, high = p.before > 0u ? confusionOf[pixels + p.i] : -INFINITY;
+    float low = INFINITY, high = -INFINITY;
+    if (p.before > 0u) {
+        low = wave.packed != 0u ? loadShort(confusionOf, pixels, p.i, 0u) : confusionOf[p.i];
+        high = wave.packed != 0u ? loadShort(confusionOf, pixels, p.i, 1u) : confusionOf[pixels + p.i];
+    }
     uint object = objectOf[p.i], traced = 0u, paths = 0u;
     for (uint r = p.first; r < p.first + p.count; ++r) {
         const Vec3 e = loadVec(emission, size, r);
@@ -440,8 +476,13 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
         storeMean(specularOf, pixels, p.i, before, ks, count);
     }
     taken[p.i] = p.before + p.count;
-    confusionOf[p.i] = low;
-    confusionOf[pixels + p.i] = high;
+    if (wave.packed != 0u) {
+        storeShort(confusionOf, pixels, p.i, 0u, low);
+        storeShort(confusionOf, pixels, p.i, 1u, high);
+    } else {
+        confusionOf[p.i] = low;
+        confusionOf[pixels + p.i] = high;
+    }
     raysOf[layers ? p.i : p.slot] += traced;
     pathRaysOf[layers ? p.i : p.slot] += paths;
     if (hit == 0.0f) {

@@ -1,6 +1,7 @@
 // The analysis of distributed frames (thesis 5.7, 5.8): where texture and irradiance may be taken apart, how wide the
 // irradiance's filter is then, which samples are worth most, and what becomes of the filtered term.
 #include "distributed_pixel.h"
+#include "packed_planes.h"
 #include "pixel.h"
 #include "shared/bsdf.h"
 #include "shared/distributed.h"
@@ -11,6 +12,10 @@ __kernel void factoringError(DistributedParams p, __global const float* restrict
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    if (p.packed != 0u) {
+        error[i] = loadShort(plain, p.planeSize, i, 0u);
         return;
     }
     const Vec3 k = loadVec(texture, p.planeSize, i);
@@ -55,13 +60,19 @@ __kernel void splitVariance(DistributedParams p, __global const float* restrict 
     if (!pixelOf(p, &x, &y, &i)) {
         return;
     }
-    const Vec3 k = loadVec(texture, p.planeSize, i);
-    const float mean = luminance(vecMul(k, loadVec(value, p.planeSize, i)));
+    const Vec3 k = loadColour(texture, p.planeSize, i, p.packed);
+    const float mean = luminance(vecMul(k, loadColour(value, p.planeSize, i, p.packed))), t = luminance(k);
     const float n = (float)taken[i];
     const float unbiased = n > 1.0f ? n / (n - 1.0f) : 0.0f;
-    const float all = fmax(squares[i] - mean * mean, 0.0f) * unbiased;
-    const float t = luminance(k);
-    const float spread = fmax(textureSquares[i] - t * t, 0.0f) * unbiased;
+    float all, spread;
+    if (p.packed != 0u) {
+        const float d = loadShort(squares, p.planeSize, i, 0u), dTexture = loadShort(squares, p.planeSize, i, 1u);
+        all = d * d * unbiased;
+        spread = dTexture * dTexture * unbiased;
+    } else {
+        all = fmax(squares[i] - mean * mean, 0.0f) * unbiased;
+        spread = fmax(textureSquares[i] - t * t, 0.0f) * unbiased;
+    }
     const float irradiance = t > 0.0f ? mean / t : 0.0f;
     const float texturePart = fmin(spread * irradiance * irradiance, all);
     ofTexture[i] = texturePart;
@@ -131,9 +142,19 @@ __kernel void atLeast(DistributedParams p, float apart, float together, __global
     }
 }
 
-/// wanted = clamp(scale demand, least, most), and never less than `taken`.
-__kernel void scaleCounts(DistributedParams p, float scale, uint least, uint most, __global const float* restrict demand,
-                          __global const uint* restrict taken, __global uint* restrict wanted)
+/// A term's colour out of its packed planes.
+__kernel void unpackImage(DistributedParams p, __global const float* restrict in, __global float* restrict out)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        storeVec(out, p.planeSize, i, loadColour(in, p.planeSize, i, 1u));
+    }
+}
+
+/// wanted = clamp(scale demand, least, most), and never less than `taken`. Both may be one plane: of each pixel demand is read
+/// first.
+__kernel void scaleCounts(DistributedParams p, float scale, uint least, uint most, __global const float* demand,
+                          __global const uint* restrict taken, __global uint* wanted)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
@@ -231,10 +252,10 @@ __kernel void visibilityOf(DistributedParams p, __global const float* restrict t
     if (!pixelOf(p, &x, &y, &i)) {
         return;
     }
-    const Vec3 k = loadVec(texture, p.planeSize, i);
+    const Vec3 k = loadColour(texture, p.planeSize, i, p.packed);
     const float t = luminance(k);
     visibility[i] = p.published != 0u ? value[i]
-        : t > 0.0f                    ? luminance(vecMul(k, loadVec(value, p.planeSize, i))) / t
+        : t > 0.0f                    ? luminance(vecMul(k, loadColour(value, p.planeSize, i, p.packed))) / t
                                       : 0.0f;
 }
 
@@ -243,7 +264,7 @@ WEDGE_FN Vec3 ownRadiance(DistributedParams p, uint i, __global const float* tex
                           __global const float* termRadiance)
 {
     return p.published != 0u ? loadVec(termRadiance, p.planeSize, i)
-                             : vecMul(loadVec(texture, p.planeSize, i), loadVec(value, p.planeSize, i));
+                             : vecMul(loadColour(texture, p.planeSize, i, p.packed), loadColour(value, p.planeSize, i, p.packed));
 }
 
 /// radiance += a term: where it is taken apart filteredTexture filtered (p.values planes), elsewhere its own.
@@ -258,7 +279,8 @@ __kernel void addFilteredTerm(DistributedParams p, __global const float* restric
     }
     const uint n = p.planeSize;
     const Vec3 e = p.values == 3u ? loadVec(filtered, n, i) : vec3(filtered[i], filtered[i], filtered[i]);
-    const Vec3 term = beta[i] >= 0.0f ? vecMul(loadVec(filteredTexture, n, i), e)
+    const uint packed = p.plainTexture != 0u ? 0u : p.packed;
+    const Vec3 term = beta[i] >= 0.0f ? vecMul(loadColour(filteredTexture, n, i, packed), e)
                                       : ownRadiance(p, i, texture, value, termRadiance);
     storeVec(radiance, n, i, vecAdd(loadVec(radiance, n, i), term));
 }

@@ -20,7 +20,7 @@
 namespace wedge::device {
 
 /// Where parts of a buffer may start, bytes: no device that renders asks for more.
-constexpr std::size_t partAlignment = 4096;
+constexpr std::size_t partAlignment = 1024;
 
 /// `count` elements of T in device memory, uninitialised. Copies share the memory. Transfers are recorded by the
 /// queue as "upload NAME", "download NAME" and "fill NAME", wait, and throw Error where they leave the buffer.

@@ -87,8 +87,10 @@ bool DistributedFrame::monteCarlo()
 
 bool DistributedFrame::firstPass(std::uint32_t first)
 {
-    c_.frame.primaryWanted.fill(c_.passes.queue(), first);
-    eachTerm([&](Term& term, float) { term.wanted.fill(c_.passes.queue(), first); });
+    if (!c_.frame.shape.packed()) {
+        c_.frame.primaryWanted.fill(c_.passes.queue(), first);
+        eachTerm([&](Term& term, float) { term.wanted.fill(c_.passes.queue(), first); });
+    }
     return sample(c_.fullFrame, first, true, first);
 }
 
@@ -133,7 +135,8 @@ bool DistributedFrame::sample(const shared::FrameParams& frame, std::uint32_t la
     settings.published = c_.settings.method == Method::AxisAligned && c_.settings.distributed.published ? 1 : 0;
     if (c_.frame.shape.lean) {
         settings.omits = WEDGE_OMITS_LAYERS | (c_.frame.shape.shutter ? 0u : WEDGE_OMITS_MOTION)
-            | (slopes ? 0u : WEDGE_OMITS_ANALYSIS);
+            | (slopes ? 0u : WEDGE_OMITS_ANALYSIS) | (slopes && c_.frame.shape.packed() ? WEDGE_OMITS_COUNTS : 0u);
+        settings.packed = c_.frame.shape.packed() ? 1 : 0;
     }
     const std::vector<shared::WaveParams> waves = waves_.schedule(c_.passes, frame, camera_, c_.frame, settings, last);
     for (const shared::WaveParams& wave : waves) {
@@ -193,6 +196,7 @@ shared::DistributedParams DistributedFrame::params(const image::Window& window) 
     p.varianceSpread = d.varianceSpread;
     p.oneVelocity = d.oneVelocity;
     p.published = d.published ? 1 : 0;
+    p.packed = c_.frame.shape.packed() ? 1 : 0;
     p.still = c_.frame.shape.ofMotion() == 0 ? 1 : 0;
     p.frames = static_cast<float>(d.frames);
     p.never = d.factoring == Factoring::Never ? 1 : 0;
@@ -211,8 +215,12 @@ void DistributedFrame::widths()
         } else {
             paths_[i - lights_.size()].widths();
         }
+        const device::Buffer<float>& width = c_.frame.shape.packed() ? c_.scratch.width : term.beta;
         c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "factoredWidths", params(c_.full()), 1, c_.scratch.error,
-            c_.frame.confusion, c_.frame.pixelSize, c_.frame.objectId, term.beta);
+            c_.frame.confusion, c_.frame.pixelSize, c_.frame.objectId, width);
+        if (c_.frame.shape.packed()) {
+            c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "copyPlane", params(c_.full()), 1, width, term.beta);
+        }
     }
     blurWidths(static_cast<float>(c_.settings.spp));
 }

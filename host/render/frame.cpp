@@ -76,7 +76,8 @@ void Frame::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const Fram
     plan.addItems("rays", rayCounters(layout, shape), 2 * 4);
     if (shape.distributed) {
         planPlanes(plan, layout,
-            { { "primary samples taken", 1 }, { "primary samples wanted", 1 }, { "hits", 1 }, { "circles of confusion", 2 },
+            { { "primary samples taken", 1 }, { "primary samples wanted", shape.packed() ? 0u : 1u }, { "hits", 1 },
+                { "circles of confusion", shape.packed() ? 1u : 2u },
                 { "motion", 3 * motion }, { "lens filter width", kept }, { "motion filter", 3 * motion },
                 { "emission squares", analysis }, { "primary demand", kept }, { "point lights", 3 * shape.ofDeltaLights() } });
     }
@@ -110,9 +111,8 @@ Frame::Frame(const device::Device& device, device::TimedQueue& queue, const Plan
     , receiverViews(device, 0, "views of receivers")
     , receiverTimes(device, 0, "times of receivers")
     , primaryTaken(device, distributed ? planes.size : 0, "primary samples taken")
-    , primaryWanted(device, distributed ? planes.size : 0, "primary samples wanted")
     , hits(device, distributed ? planes.size : 0, "hits")
-    , confusion(device, distributed ? 2 * planes.size : 0, "circles of confusion")
+    , confusion(device, distributed ? (shape.packed() ? 1 : 2) * planes.size : 0, "circles of confusion")
     , motion(device, shape.ofMotion() * 3 * planes.size, "motion")
     , lensWidth(shape.lean ? pixelSize : device::Buffer<float>(device, distributed ? planes.size : 0, "lens filter width"))
     , motionWidth(device, shape.ofMotion() * planes.size, "motion filter width")
@@ -120,6 +120,9 @@ Frame::Frame(const device::Device& device, device::TimedQueue& queue, const Plan
     , emissionSquares(device, distributed ? shape.ofAnalysis() * planes.size : 0, "emission squares")
     , primaryDemand(
           shape.lean ? emissionSquares : device::Buffer<float>(device, distributed ? planes.size : 0, "primary demand"))
+    , primaryWanted(shape.packed()
+              ? primaryDemand.part<std::uint32_t>(0, planes.size, "primary samples wanted")
+              : device::Buffer<std::uint32_t>(device, distributed ? planes.size : 0, "primary samples wanted"))
     , delta(device, shape.ofDeltaLights() * 3 * planes.size, "point lights")
 {
     // Padding is read by gathers: it has to be finite, and objectId 0 there stays for good.
@@ -163,30 +166,42 @@ TermShape TermShape::with(const TermShape& other) const
         lean || other.lean };
 }
 
+namespace {
+
+/// Elements of so many planes of colours: packed ones have 6 bytes of 12.
+std::uint64_t colourSize(const PlaneLayout& layout, const TermShape& shape, std::uint64_t planes)
+{
+    return layout.size * planes / (shape.packed() ? 2 : 1);
+}
+
+} // namespace
+
 void Term::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const TermShape& shape)
 {
-    const bool several = shape.distributed;
-    const std::uint64_t kept = shape.lean ? 0 : 1, measured = shape.measured();
+    const std::uint64_t several = shape.distributed ? 1 : 0, kept = shape.lean ? 0 : 1, plain = shape.packed() ? 0 : 1;
+    plan.addItems("value", colourSize(layout, shape, shape.values), 4);
+    plan.addItems("texture", colourSize(layout, shape, several * 3), 4);
     planPlanes(plan, layout,
-        { { "sums", shape.sums }, { "value", shape.values }, { "samples taken", kept }, { "samples wanted", 1 },
-            { "slopes and distances", shape.extremes }, { "filter width", shape.analysed ? kept : 0 },
-            { "texture", several ? 3u : 0u }, { "plain mean", measured }, { "squares", measured },
-            { "texture squares", measured }, { "demand", several ? kept : 0 }, { "radiance", shape.published ? 3u : 0u } });
+        { { "sums", shape.sums }, { "samples taken", kept }, { "slopes and distances", shape.extremes },
+            { "plain mean", shape.measured() }, { "squares", shape.measured() },
+            { "texture squares", shape.measured() * plain }, { "filter width", shape.analysed ? kept : 0 },
+            { "demand", several * kept }, { "samples wanted", plain }, { "radiance", shape.published ? 3u : 0u } });
 }
 
 Term::Term(const device::Device& device, device::TimedQueue& queue, const Frame& frame, const TermShape& planes)
     : shape(planes)
     , sums(device, frame.layout.size * planes.sums, "sums")
-    , value(device, frame.layout.size * planes.values, "value")
+    , value(device, colourSize(frame.layout, planes, planes.values), "value")
     , taken(planes.lean ? frame.primaryTaken : device::Buffer<std::uint32_t>(device, frame.layout.size, "samples taken"))
-    , wanted(device, frame.layout.size, "samples wanted")
     , extremes(device, frame.layout.size * planes.extremes, "slopes and distances")
-    , texture(device, planes.distributed ? 3 * frame.layout.size : 0, "texture")
+    , texture(device, colourSize(frame.layout, planes, planes.distributed ? 3 : 0), "texture")
     , plain(device, planes.measured() * frame.layout.size, "plain mean")
     , squares(device, planes.measured() * frame.layout.size, "squares")
-    , textureSquares(device, planes.measured() * frame.layout.size, "texture squares")
+    , textureSquares(device, planes.packed() ? 0 : planes.measured() * frame.layout.size, "texture squares")
     , beta(planes.lean ? plain : device::Buffer<float>(device, planes.analysed ? frame.layout.size : 0, "filter width"))
     , demand(planes.lean ? squares : device::Buffer<float>(device, planes.distributed ? frame.layout.size : 0, "demand"))
+    , wanted(planes.packed() ? demand.part<std::uint32_t>(0, frame.layout.size, "samples wanted")
+                             : device::Buffer<std::uint32_t>(device, frame.layout.size, "samples wanted"))
     , radiance(device, planes.published ? 3 * frame.layout.size : 0, "radiance of the term")
 {
     beta.fill(queue, 0.0f);
@@ -212,6 +227,9 @@ Scratch::Scratch(const device::Device& device, device::TimedQueue& queue, const 
     , rowsSpread(device, spreadPlanes * layout.size, "logarithms spread along rows")
     , spread(device, spreadPlanes * layout.size, "logarithms spread")
     , demand(device, layout.size, "demand")
+    , slopes(rowsSpread)
+    , width(rowsSpread)
+    , texture(rowsSpread)
     , error(effective)
     , ofTexture(rowsSpread)
     , ofAllTextures(spread)
@@ -229,10 +247,11 @@ Scratch::Scratch(const device::Device& device, device::TimedQueue& queue, const 
     }
 }
 
-// Who lives when: analysis of a light's slopes in demand (eroded, then what is lit), logs, rowsSpread, spread and error;
-// variances in logs, ofTexture, ofAllTextures and one plane of each gather's; filters of the image in the gathers', spread
-// (a light's visibility) and, for shadows' motion, error and logs.
-Scratch::Scratch(const device::Device& device, const PlaneLayout& layout, const device::Buffer<float>& memory)
+// Who lives when. Analysis of a light: slopes, demand (eroded slopes, then what is lit), logs, rowsSpread, spread, width and
+// error; variances: logs, ofTexture, ofAllTextures and one plane of each of the gather's. Filters of the image: the gather's,
+// texture, spread (a light's visibility), and, for shadows' motion, error and logs.
+Scratch::Scratch(
+    const device::Device& device, const PlaneLayout& layout, const FrameShape& frame, const device::Buffer<float>& memory)
     : values(3)
     , rowsFiltered(memory.part<float>(0, 3 * layout.size, "rows filtered"))
     , filtered(memory.part<float>(3 * layout.size, 3 * layout.size, "filtered"))
@@ -242,6 +261,9 @@ Scratch::Scratch(const device::Device& device, const PlaneLayout& layout, const 
     , rowsSpread(memory.part<float>(3 * layout.size, 2 * layout.size, "logarithms spread along rows"))
     , spread(memory.part<float>(5 * layout.size, 2 * layout.size, "logarithms spread"))
     , demand(memory.part<float>(0, layout.size, "demand"))
+    , slopes(memory.part<float>(3 * layout.size, layout.size, "slopes and distances"))
+    , width(memory.part<float>(4 * layout.size, layout.size, "filter width"))
+    , texture(memory.part<float>(6 * layout.size, frame.shutter ? 3 * layout.size : 0, "texture"))
     , error(effective)
     , ofTexture(memory.part<float>(2 * layout.size, layout.size, "variance of texture"))
     , ofAllTextures(spread)

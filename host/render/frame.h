@@ -35,6 +35,9 @@ struct FrameShape {
 
     bool operator==(const FrameShape&) const = default;
 
+    /// Terms are kept in fewer bits, kernels/accumulate.cl: not where means of many waves have to converge.
+    bool packed() const { return lean && analysed; }
+
     // 1 or 0: what the planes of such buffers are to be multiplied by.
     std::uint64_t kept() const { return lean ? 0 : 1; } ///< of no use to lean frames
     std::uint64_t ofAnalysis() const { return !lean || analysed ? 1 : 0; }
@@ -71,14 +74,16 @@ public:
     device::Buffer<float> receiverTimes; ///< likewise
 
     // Of distributed frames.
-    device::Buffer<std::uint32_t> primaryTaken, primaryWanted; ///< primary samples
+    device::Buffer<std::uint32_t> primaryTaken; ///< primary samples
     device::Buffer<std::uint32_t> hits; ///< those of them that met a surface
-    device::Buffer<float> confusion; ///< planes: least and largest signed radius of the circle of confusion, pixels
+    /// Planes: least and largest signed radius of the circle of confusion, pixels; packed, one plane of both.
+    device::Buffer<float> confusion;
     device::Buffer<float> motion; ///< planes: pixels that the surface moves while the shutter is open; largest difference
     device::Buffer<float> lensWidth; ///< of the image's filter, see blurs() of distributed.cl; lean: in the place of pixelSize
     device::Buffer<float> motionWidth, motionDirection; ///< likewise, of textures' filter
     device::Buffer<float> emissionSquares; ///< mean squared luminance of a primary sample's emission
     device::Buffer<float> primaryDemand; ///< of samples; in lean frames in the place of emissionSquares
+    device::Buffer<std::uint32_t> primaryWanted; ///< primary samples; packed, in the place of primaryDemand
     device::Buffer<float> delta; ///< radiance from point and directional lights
 
     /// What kernels take for WEDGE_RECEIVER_PARAMETERS, the pixels being the receivers.
@@ -104,6 +109,7 @@ struct TermShape {
     bool holds(const TermShape& other) const;
     /// 1 or 0: planes of each of what is measured for the analysis of terms of several receivers a pixel.
     std::uint64_t measured() const { return distributed && (!lean || analysed) ? 1 : 0; }
+    bool packed() const { return lean && analysed; } ///< as FrameShape has it
     /// What serves both.
     TermShape with(const TermShape& other) const;
 };
@@ -123,12 +129,13 @@ public:
     TermShape shape;
     device::Buffer<float> sums; ///< see area_light.cl, indirect.cl
     device::Buffer<float> value; ///< what is filtered
-    /// Samples. In lean frames taken is the primary samples': between two passes over the image each term has as many.
-    device::Buffer<std::uint32_t> taken, wanted;
+    /// Samples. In lean frames these are the primary samples': between two passes over the image each term has as many.
+    device::Buffer<std::uint32_t> taken;
     device::Buffer<float> extremes; ///< of lights: s_min, s_max; of indirect light see indirect.cl
     device::Buffer<float> texture, plain, squares, textureSquares; ///< of distributed frames, see accumulate.cl
     device::Buffer<float> beta; ///< metres; in lean frames in the place of plain, which it is made with
     device::Buffer<float> demand; ///< of distributed frames: of samples; in lean ones in the place of squares
+    device::Buffer<std::uint32_t> wanted; ///< samples; packed, in the place of demand
     device::Buffer<float> radiance; ///< likewise, as published: of the term alone
 
     /// Samples taken, once all are.
@@ -150,10 +157,10 @@ public:
     static void plan(device::MemoryPlan& plan, const PlaneLayout& layout, std::uint32_t values);
 
     Scratch(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, std::uint32_t values);
-    /// Of a lean frame, in that memory: leanPlanes planes at least.
-    Scratch(const device::Device& device, const PlaneLayout& layout, const device::Buffer<float>& memory);
+    /// Of a lean frame, in that memory, which has leanPlanes() at least.
+    Scratch(const device::Device& device, const PlaneLayout& layout, const FrameShape& frame, const device::Buffer<float>& memory);
 
-    static constexpr std::uint32_t leanPlanes = 8;
+    static std::uint32_t leanPlanes(const FrameShape& frame) { return frame.shutter ? 9 : 8; }
 
     std::uint32_t values;
     device::Buffer<float> rowsFiltered, filtered; ///< like value
@@ -161,6 +168,8 @@ public:
     device::Buffer<float> logs; ///< 4 planes: logarithms of slopes and weights, see analysis.cl; of indirect light variances
     device::Buffer<float> rowsSpread, spread; ///< 4 planes: the same, summed over a neighbourhood
     device::Buffer<float> demand; ///< and before that, eroded slopes
+    device::Buffer<float> slopes, width; ///< of packed terms: slopes or distances; widths while they are made
+    device::Buffer<float> texture; ///< of a packed term
     device::Buffer<float> error; ///< of taking texture and irradiance apart
     device::Buffer<float> ofTexture, ofAllTextures; ///< variance of one term's, and of all that is not irradiance
     device::Buffer<float> bounds, extent; ///< of what the camera sees, see reflectors.cl

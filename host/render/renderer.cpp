@@ -73,9 +73,9 @@ std::vector<TermShape> termShapes(const Settings& settings, const scene::Scene& 
     light.sums = frame.lean ? 0 : 1;
     light.extremes = lightExtremes(scene);
     if (frame.lean) {
-        // Widths come from the least slope, and from the mean of reflectors' distances.
-        shape.extremes = shape.analysed ? 1 : 0;
-        light.extremes = shape.analysed && scene::geometryMoves(scene) ? light.extremes : shape.extremes;
+        // Widths come from the least slope, and from the mean of reflectors' distances, which lie with the plain mean.
+        shape.extremes = 0;
+        light.extremes = shape.analysed && scene::geometryMoves(scene) ? light.extremes : 0;
     }
     const std::size_t lights = settings.integrator == Integrator::Path ? scene.areaLights.size() : 0;
     std::vector<TermShape> shapes(lights, light);
@@ -86,7 +86,7 @@ std::vector<TermShape> termShapes(const Settings& settings, const scene::Scene& 
 /// Bytes that waves and, between them, what analyses and filters have in turn.
 std::uint64_t leanBytes(const PlaneLayout& layout, const FrameShape& frame, const TermShape& receivers)
 {
-    const std::uint64_t scratch = frame.analysed ? Scratch::leanPlanes * layout.size * sizeof(float) : 0;
+    const std::uint64_t scratch = frame.analysed ? Scratch::leanPlanes(frame) * layout.size * sizeof(float) : 0;
     return std::max(scratch, Waves::bytes(receivers, frame.deltaLights));
 }
 
@@ -236,7 +236,7 @@ void Renderer::allocateLeanWaves(const Settings& settings, const PlaneLayout& la
     const device::Buffer<float> memory(
         device_, leanBytes(layout, frame_->shape, receivers) / sizeof(float), "receivers, or analysis and filters");
     waves_ = std::make_unique<Waves>(device_, layout, receivers, frame_->shape.deltaLights, memory);
-    scratch_ = frame_->shape.analysed ? std::make_unique<Scratch>(device_, layout, memory)
+    scratch_ = frame_->shape.analysed ? std::make_unique<Scratch>(device_, layout, frame_->shape, memory)
                                       : std::make_unique<Scratch>(device_, queue_, PlaneLayout(1, 1), 0);
 }
 

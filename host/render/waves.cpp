@@ -22,7 +22,7 @@ constexpr std::uint64_t surfacePlanes = 3 * 6 + 2 + 10, otherPlanes = 4 + 2 + 2;
 
 std::uint64_t Waves::bytes(const TermShape& term, bool deltaLights)
 {
-    return sizeof(float) * capacity
+    return sizeof(float) * planeSize
         * (surfacePlanes + otherPlanes + term.sums + term.values + term.extremes + (deltaLights ? 6u : 0u));
 }
 
@@ -36,7 +36,7 @@ device::Buffer<T> Waves::Pieces::take(std::size_t count, const std::string& name
         return memory.part<T>(0, 0, name);
     }
     planes += count;
-    return memory.part<T>((planes - count) * capacity, count * capacity, name);
+    return memory.part<T>((planes - count) * planeSize, count * planeSize, name);
 }
 
 Waves::Waves(const device::Device& device, const PlaneLayout& layout, const TermShape& term, bool deltaLights,
@@ -84,7 +84,7 @@ Waves::Waves(const device::Device& device, const PlaneLayout& layout, const Term
     , pixelFirst(pieces.take<std::uint32_t>(1, "first receivers of pixels"))
     , pixelCount(pieces.take<std::uint32_t>(1, "receivers of pixels"))
 {
-    assert(pieces.planes * capacity * sizeof(float) == bytes(term, deltaLights));
+    assert(pieces.planes * planeSize * sizeof(float) == bytes(term, deltaLights));
 }
 
 std::vector<shared::WaveParams> Waves::schedule(Passes& passes, const shared::FrameParams& params,
@@ -92,7 +92,7 @@ std::vector<shared::WaveParams> Waves::schedule(Passes& passes, const shared::Fr
 {
     camera_ = camera;
     params_ = params;
-    settings.planeSize = capacity;
+    settings.planeSize = planeSize;
     settings.lastSample = last;
     passes.list("lists", PassKind::Trace, "waves.cl", "countReceivers", params.tileCount, params, settings,
         frame.primaryTaken, frame.primaryWanted, tileReceivers);

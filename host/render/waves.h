@@ -16,6 +16,8 @@ namespace wedge::render {
 class Waves {
 public:
     static constexpr std::uint32_t capacity = WEDGE_WAVE_RECEIVERS;
+    /// Elements from plane to plane: not a power of two, whose multiples caches confuse.
+    static constexpr std::uint32_t planeSize = capacity + device::partAlignment / sizeof(float);
 
     /// Bytes of what lies in their memory, and the rest.
     static std::uint64_t bytes(const TermShape& term, bool deltaLights);
