@@ -206,6 +206,8 @@ WEDGE_FN bool meanWeights(WaveParams wave, WavePixel p, uint total, __global con
         const float ks = luminance(loadVec(specular, size, r));
         mirrored += ks;
         *specularWeight += ks * scale * sums[2u * size + r];
+#else
+        (void)specular;
 #endif
     }
     *weight = reflected > 0.0f ? *weight / reflected : 0.0f;
@@ -257,9 +259,10 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
     float sMin = measures && wave.packed == 0u && extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY;
     float sMax = measures && all ? extremes[pixels + p.i] : 0.0f;
     float weight = 0.0f, specularWeight = 0.0f;
-    const bool known = total >= p.count || wave.published != 0u
-        || meanWeights(wave, p, total, objectId, diffuse, specular, sums, &weight, &specularWeight);
-    TermSums sum = noTermSums(known ? (float)p.count : 0.0f);
+    const bool weighed = total < p.count && wave.published == 0u
+        && meanWeights(wave, p, total, objectId, diffuse, specular, sums, &weight, &specularWeight);
+    bool known = true;
+    TermSums sum = noTermSums((float)p.count);
     for (uint k = 0u; k < p.count; ++k) {
         const uint r = p.first + k;
         const uint n = sharedSamples(k + 1u, p.count, total) - sharedSamples(k, p.count, total);
@@ -275,10 +278,12 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
             l = vecScale(t, seen);
         } else {
             sampled = vecScale(kd, WEDGE_INV_PI * scale * sums[r]);
+            known = known && (n > 0u || weighed || exact != 0u);
             t = exact != 0u || n == 0u ? vecScale(kd, WEDGE_INV_PI * (exact != 0u ? unshadowed[r] : weight)) : sampled;
             l = vecScale(kd, WEDGE_INV_PI * scale * sums[size + r]);
 #ifdef WEDGE_SPECULAR
             const float mirrored = exact != 0u ? unshadowed[size + r] : -1.0f;
+            known = known && (n > 0u || weighed || mirrored >= 0.0f);
             t = vecMad(t, ks, mirrored >= 0.0f ? mirrored : n > 0u ? scale * sums[2u * size + r] : specularWeight);
             sampled = vecMad(sampled, ks, scale * sums[2u * size + r]);
             l = vecMad(l, ks, scale * sums[3u * size + r]);
@@ -307,7 +312,7 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
     }
     if (!known) {
         sum.texture = vec3(0.0f, 0.0f, 0.0f);
-        sum.textureSquared = 0.0f;
+        sum.textureSquared = sum.textures = 0.0f;
     }
     const float plainWeight = (float)hits[p.i];
     const Vec3 weights = wave.published != 0u ? vec3(plainWeight, plainWeight, plainWeight)

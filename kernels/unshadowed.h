@@ -118,7 +118,7 @@ WEDGE_FN float16 reflectedFrom(AreaLight light, Receivers16 r, Vec3 point)
     const float16 mirrored = 2.0f * dot16(r.normal, r.view) * dot16(r.normal, l) - dot16(r.view, l);
     const float16 c = r.phong ? mirrored : dot16(r.normal, unit16(h));
     const float16 lobe = exp2Block(r.exponent * accurateLog2(max16(c, (float16)(1e-30f))));
-    return (c > 0.0f) & (g > 0.0f) ? g * lobe : (float16)(0.0f);
+    return ((c > 0.0f) & (g > 0.0f)) ? g * lobe : (float16)(0.0f);
 }
 
 /// unshadowedSpecular() of sixteen receivers, without the lobe's normalization.

@@ -67,5 +67,9 @@ __kernel void unshadowedReceivers(FrameParams frame, WaveParams wave, AreaLight 
 #ifdef WEDGE_SPECULAR
     vstore16(specularShading16(wave, light, nodes, first, at, facing, surface, specular, gloss, view), 0,
              unshadowed + wave.planeSize + first);
+#else
+    (void)specular;
+    (void)gloss;
+    (void)view;
 #endif
 }

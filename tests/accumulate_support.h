@@ -20,13 +20,27 @@ struct SeenPoint {
     glm::dvec2 motion;
     std::uint32_t rays, pathRays;
     double weight[2], visible[2]; ///< of a light's samples there: mean weight, diffuse and specular; visible fractions
-    double slopes[2]; ///< least and largest, 0 where no ray was occluded
+    double unshadowed[2]; ///< what the weights estimate; specular -1 where that is not known
+    double slopes[6]; ///< least and largest, 0 where no ray was occluded; sums of shadows' motions
     glm::dvec3 irradiance; ///< of a path's samples: mean
     double reflectors[3];
 };
 
-/// Which receivers there are: all sorts, or only surfaces that are lit and not black.
-enum class Receivers { All, LitSurfaces };
+/// Which receivers there are: all sorts, only surfaces that are lit and not black, or some where more light arrives the
+/// brighter they are.
+enum class Receivers { All, LitSurfaces, Related };
+
+/// Makes light go with the texture, in each channel another way; the weights are right in the mean.
+inline void relate(SeenPoint* p, std::mt19937& random)
+{
+    p->irradiance = 3.0 * p->diffuse * glm::dvec3(1, 0.5, 2);
+    p->visible[0] = p->diffuse.x > 0.5 ? 0.9 : 0.1;
+    p->visible[1] = p->specular.z > 0.25 ? 0.1 : 0.8;
+    p->unshadowed[0] = 0.2 + p->diffuse.y;
+    p->unshadowed[1] = 2 - p->specular.x;
+    for (int k = 0; k < 2; ++k)
+        p->weight[k] = p->unshadowed[k] * uniform(random, 0.5, 1.5);
+}
 
 /// The same for a pixel and index at each call.
 inline SeenPoint seenPoint(Receivers kind, int x, int y, std::uint32_t index)
@@ -36,9 +50,9 @@ inline SeenPoint seenPoint(Receivers kind, int x, int y, std::uint32_t index)
     const auto vector = [&](double lo, double hi) {
         return glm::dvec3(uniform(random, lo, hi), uniform(random, lo, hi), uniform(random, lo, hi));
     };
-    const bool all = kind == Receivers::All;
+    const bool all = kind == Receivers::All, related = kind == Receivers::Related;
     SeenPoint p {};
-    p.object = all && random() % 5 == 0 ? 0 : 1 + static_cast<std::uint32_t>(random() % (x % 2 == 0 ? 2 : 1));
+    p.object = kind != Receivers::LitSurfaces && random() % 5 == 0 ? 0 : 1 + static_cast<std::uint32_t>(random() % (x % 2 == 0 ? 2 : 1));
     p.diffuse = all && random() % 6 == 0 ? glm::dvec3(0) : vector(0.05, 0.9);
     p.specular = all && random() % 3 == 0 ? glm::dvec3(0) : vector(0, 0.5);
     p.emission = vector(0, 2);
@@ -61,6 +75,14 @@ inline SeenPoint seenPoint(Receivers kind, int x, int y, std::uint32_t index)
     p.reflectors[0] = random() % 3 == 0 ? 0 : uniform(random, 0.1, 2);
     p.reflectors[1] = p.reflectors[0] > 0 ? p.reflectors[0] + uniform(random) : 0;
     p.reflectors[2] = p.reflectors[0] > 0 ? uniform(random, 0.5, 5) : 0;
+    for (int k = 0; k < 2; ++k)
+        p.unshadowed[k] = lit ? uniform(random, 0.1, 2) : 0;
+    if (all && random() % 3 == 0)
+        p.unshadowed[1] = -1;
+    for (int k = 2; k < 6; ++k)
+        p.slopes[k] = uniform(random);
+    if (related)
+        relate(&p, random);
     return p;
 }
 
@@ -114,6 +136,14 @@ public:
         return receiverBuffer<float>(3, [&](const SeenPoint& p, std::size_t c) { return value(p)[static_cast<int>(c)]; });
     }
 
+    /// Samples that a receiver has of a term whose pixels go from `before` to `after`.
+    std::uint32_t shareOf(std::size_t r, const Planes<std::uint32_t>& before, const Planes<std::uint32_t>& after) const
+    {
+        const std::uint64_t index = lists.shares[r] & 0xffffu, count = lists.shares[r] >> 16;
+        const std::uint64_t all = after.at(lists.x(r), lists.y(r)) - before.at(lists.x(r), lists.y(r));
+        return static_cast<std::uint32_t>((index + 1) * all / count - index * all / count);
+    }
+
     /// Planes of sums over the samples that receivers have of a term whose pixels go from `before` to `after`.
     template <class Value>
     device::Buffer<float> sums(std::size_t planes, const Planes<std::uint32_t>& before, const Planes<std::uint32_t>& after,
@@ -121,11 +151,9 @@ public:
     {
         std::vector<float> out(planes * lists.wave.planeSize);
         for (std::size_t r = 0; r < points.size(); ++r) {
-            const std::uint32_t index = lists.shares[r] & 0xffffu, count = lists.shares[r] >> 16;
-            const std::uint32_t total = after.at(lists.x(r), lists.y(r)) - before.at(lists.x(r), lists.y(r));
-            const std::uint64_t own = std::uint64_t { index + 1 } * total / count - std::uint64_t { index } * total / count;
+            const double own = shareOf(r, before, after);
             for (std::size_t plane = 0; plane < planes; ++plane)
-                out[plane * lists.wave.planeSize + r] = static_cast<float>(static_cast<double>(own) * mean(points[r], plane));
+                out[plane * lists.wave.planeSize + r] = static_cast<float>(own * mean(points[r], plane));
         }
         return waves.bench.buffer(out);
     }
@@ -183,7 +211,8 @@ inline const Rounds threeRounds = { [](int x, int y) { return total(x, y) / 3; }
 /// The planes that accumulateSurfaces fills.
 struct SurfacePixels {
     device::Buffer<std::uint32_t> object, rays, pathRays;
-    device::Buffer<float> position, normal, gloss, diffuse, specular, emission, pixelSize, distance, confusion, motion;
+    device::Buffer<float> position, normal, gloss, diffuse, specular, emission, emissionSquares, pixelSize, distance, confusion,
+        motion;
     explicit SurfacePixels(Accumulation& a)
         : object(a.waves.bench.filled(a.waves.layout.size, 0u))
         , rays(a.waves.bench.filled(a.waves.layout.size, 0u))
@@ -194,6 +223,7 @@ struct SurfacePixels {
         , diffuse(a.pixelBuffer(3))
         , specular(a.pixelBuffer(3))
         , emission(a.pixelBuffer(3))
+        , emissionSquares(a.pixelBuffer(1))
         , pixelSize(a.pixelBuffer(1))
         , distance(a.pixelBuffer(1))
         , confusion(a.pixelBuffer(2))
@@ -224,8 +254,8 @@ inline void accumulateSurfaces(Accumulation& a, SurfacePixels& out, const shared
         a.receiverBuffer<float>(2, [](const SeenPoint& p, std::size_t axis) { return p.motion[static_cast<int>(axis)]; }),
         a.receiverBuffer<std::uint32_t>(1, [](const SeenPoint& p, std::size_t) { return p.rays; }),
         a.receiverBuffer<std::uint32_t>(1, [](const SeenPoint& p, std::size_t) { return p.pathRays; }), a.primaryTaken, a.hits,
-        out.object, out.position, out.normal, out.gloss, out.diffuse, out.specular, out.emission, out.pixelSize, out.distance,
-        out.confusion, out.motion, out.rays, out.pathRays);
+        out.object, out.position, out.normal, out.gloss, out.diffuse, out.specular, out.emission, out.emissionSquares, out.pixelSize,
+        out.distance, out.confusion, out.motion, out.rays, out.pathRays);
     a.end();
 }
 

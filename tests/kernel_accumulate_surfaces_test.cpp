@@ -15,7 +15,7 @@ TEST_CASE("point lights: the mean of the receivers' radiance, black where there 
             SurfacePixels surfaces(a);
             for (const auto& upTo : rounds) {
                 a.begin(upTo);
-                a.launch("accumulateDelta", 1u, a.lists.pixelFirst, a.lists.pixelCount, a.primaryTaken, a.objectId,
+                a.launch("accumulateDelta", a.lists.pixelFirst, a.lists.pixelCount, a.primaryTaken, a.objectId,
                     a.vectors([](const SeenPoint& p) { return p.irradiance; }), direct);
                 accumulateSurfaces(a, surfaces);
             }
@@ -45,9 +45,10 @@ TEST_CASE("surfaces: means over hits of where they are, over samples of how they
             const auto taken = a.read(a.primaryTaken), hits = a.read(a.hits);
             const auto position = a.read(out.position), normal = a.read(out.normal), gloss = a.read(out.gloss);
             const auto diffuse = a.read(out.diffuse), specular = a.read(out.specular), emission = a.read(out.emission);
+            const auto emissionSquares = a.read(out.emissionSquares);
             const auto pixelSize = a.read(out.pixelSize), distance = a.read(out.distance);
             const auto confusion = a.read(out.confusion), motion = a.read(out.motion);
-            for (const Planes<float>* planes : { &position, &normal, &diffuse, &emission, &distance, &confusion, &motion })
+            for (const Planes<float>* planes : { &position, &normal, &diffuse, &emission, &emissionSquares, &distance, &confusion, &motion })
                 checkElsewhere(a, *planes);
             const shared::CameraParams camera = lens();
             unsigned mixed = 0, missed = 0;
@@ -67,6 +68,9 @@ TEST_CASE("surfaces: means over hits of where they are, over samples of how they
                 REQUIRE(object.at(x, y) == expected);
                 mixed += expected == 0xffffffffu ? 1 : 0;
                 REQUIRE(nearTo(emission.vector(x, y), sumOf(seen, [](const SeenPoint& p) { return p.emission; }) / n));
+                // What is seen to emit may have no surface, like a light.
+                REQUIRE(nearTo(emissionSquares.at(x, y),
+                    sumOf(seen, [](const SeenPoint& p) { return std::pow(luminanceOf(p.emission), 2); }) / n));
                 REQUIRE(nearTo(diffuse.vector(x, y), sumOf(hit, [](const SeenPoint& p) { return p.diffuse; }) / n));
                 REQUIRE(nearTo(specular.vector(x, y), sumOf(hit, [](const SeenPoint& p) { return p.specular; }) / n));
                 if (seen.empty())

@@ -81,19 +81,21 @@ void DistributedFrame::counts()
         std::vector<float> values;
         std::vector<std::uint32_t> taken; ///< which no count goes below
         float rays;
+        float least;
     };
     std::vector<Demand> demands;
     device::TimedQueue& queue = c_.passes.queue();
     const DistributedFrame& guide = guide_ != nullptr && guide_->taken_ > 0 ? *guide_ : *this;
-    demands.push_back({ guide.c_.frame.primaryDemand.downloadAll(queue), c_.frame.primaryTaken.downloadAll(queue), 1.0f });
+    const float first = static_cast<float>(std::min(d.firstPaths, c_.settings.spp)), most = static_cast<float>(d.maxSpp);
+    const auto leastOf = [&](float share) { return std::max(first, std::floor(share * static_cast<float>(c_.settings.spp))); };
+    const float least = leastOf(d.leastShare), leastOfTerms = leastOf(std::max(d.leastShare, d.leastTermShare));
+    demands.push_back({ guide.c_.frame.primaryDemand.downloadAll(queue), c_.frame.primaryTaken.downloadAll(queue), 1.0f, least });
     double perPath = 1.0;
     std::size_t next = 0;
     eachTerm([&](Term& term, float rays) {
-        demands.push_back({ guide.terms_[next++]->demand.downloadAll(queue), term.taken.downloadAll(queue), rays });
+        demands.push_back({ guide.terms_[next++]->demand.downloadAll(queue), term.taken.downloadAll(queue), rays, leastOfTerms });
         perPath += rays;
     });
-    const float first = static_cast<float>(std::min(d.firstPaths, c_.settings.spp)), most = static_cast<float>(d.maxSpp);
-    const float least = std::max(first, std::floor(d.leastShare * static_cast<float>(c_.settings.spp)));
     const std::size_t pixels = std::size_t { c_.fullFrame.width } * c_.fullFrame.height;
     const double budget = perPath * c_.settings.spp * static_cast<double>(pixels);
     double low = 1e-12, high = 1e12;
@@ -106,7 +108,7 @@ void DistributedFrame::counts()
                 const std::size_t row = shared::pixelIndex(0, y, c_.fullFrame.stride);
                 float part = 0;
                 for (std::size_t i = row; i < row + c_.fullFrame.width; ++i) {
-                    const float wanted = std::clamp(static_cast<float>(scale) * demand.values[i], least, most);
+                    const float wanted = std::clamp(static_cast<float>(scale) * demand.values[i], demand.least, most);
                     part += std::max(wanted, static_cast<float>(demand.taken[i]));
                 }
                 sum += part;
@@ -123,7 +125,7 @@ void DistributedFrame::counts()
     next = 0;
     eachTerm([&](Term& term, float) {
         c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "scaleCounts", p, 1, scale,
-            static_cast<std::uint32_t>(least), static_cast<std::uint32_t>(most), guide.terms_[next++]->demand, term.taken, term.wanted);
+            static_cast<std::uint32_t>(leastOfTerms), static_cast<std::uint32_t>(most), guide.terms_[next++]->demand, term.taken, term.wanted);
     });
 }
 

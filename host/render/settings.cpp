@@ -82,7 +82,7 @@ void describeDistributed(const DistributedSettings& d, Descriptions& out)
             { "blur", number(d.blur) }, { "blurWidth", number(d.blurWidth) }, { "blurExponent", number(d.blurExponent) },
             { "shutterWidth", number(d.shutterWidth) }, { "shutterExponent", number(d.shutterExponent) },
             { "leastRadius", number(d.leastRadius) },
-            { "leastShare", number(d.leastShare) }, { "leastPrimaries", number(d.leastPrimaries) },
+            { "leastShare", number(d.leastShare) }, { "leastTermShare", number(d.leastTermShare) }, { "leastPrimaries", number(d.leastPrimaries) },
             { "leastSecondaries", number(d.leastSecondaries) }, { "irradianceWidth", number(d.irradianceWidth) },
             { "distributedCountExponent", number(d.countExponent) },
             { "distributedVarianceSpread", number(d.varianceSpread) }, { "oneVelocity", number(d.oneVelocity) } });

@@ -102,8 +102,9 @@ struct DistributedSettings {
     int maxSpp = 512; ///< most samples of a pixel and term
     bool published = false; ///< terms, widths and counts of chapter 5 and appendix B; spp has no say
     float leastShare = 0; ///< of the mean count, that every pixel takes: counts follow variances, which may be seen late
+    float leastTermShare = 0.5f; ///< the same of samples of terms
     float leastPrimaries = 0.5f; ///< primary samples a sample of a term
-    float leastSecondaries = 0.35f; ///< samples of a term a primary one where texture and irradiance are taken apart
+    float leastSecondaries = 0.2f; ///< samples of a term a primary one where texture and irradiance are taken apart
     int frames = 1; ///< independent ones of which the image is the mean: filters are as narrow as the samples of all allow
     float mu = 1.0f; ///< as published: bandwidths beyond the critical ones (5.29)
     int mixedPaths = 64; ///< as published: primary samples where motions differ

@@ -1,0 +1,245 @@
+// What pixels are to hold of a term after its waves, in double, and the planes in which accumulate.cl keeps that.
+#pragma once
+
+#include "tests/accumulate_support.h"
+
+#include <algorithm>
+#include <string>
+#include <tuple>
+
+namespace wedge::test {
+
+/// What one receiver of a wave adds to a term.
+struct TermSample {
+    SeenPoint point;
+    std::uint32_t samples; ///< of the term, that it has taken
+    bool known = true; ///< whether its texture is
+    glm::dvec3 texture, radiance, irradiance; ///< black where nothing was hit
+    double plain; ///< luminance of the irradiance
+    glm::dvec3 weights; ///< of the irradiance, in each channel
+};
+
+/// The means of a pixel.
+struct TermMeans {
+    glm::dvec3 texture {}, value {}, radiance {};
+    double plain = 0, squares = 0, textureSquares = 0, floor = 0; ///< floor: what weights are besides textures
+    double primary = 0, hits = 0, taken = 0,
+           sampled = 0; ///< samples, those that hit, the term's, and primary ones with some
+    double least = std::numeric_limits<double>::infinity(), largest = 0, sums[4] {};
+
+    /// Adds the receivers of a wave, as published or not.
+    void add(const std::vector<TermSample>& wave, bool published)
+    {
+        if (wave.empty())
+            return;
+        const auto sum = [&](const auto& of) {
+            decltype(of(wave[0])) all {};
+            for (const TermSample& s : wave)
+                all += s.samples > 0 && s.point.object != 0 ? of(s) : decltype(all) {};
+            return all;
+        };
+        const double all = static_cast<double>(wave.size());
+        const double ran =
+            static_cast<double>(std::ranges::count_if(wave, [](const TermSample& s) { return s.samples > 0; }));
+        // Of earlier waves it is not kept which samples hit.
+        const double share = primary > 0 ? hits / primary : 0;
+        const glm::dvec3 held = published ? glm::dvec3(hits) : taken * (texture + floor * share);
+        const glm::dvec3 weights = held + sum([](const TermSample& s) { return s.weights; });
+        const glm::dvec3 weighted = value * held + sum([](const TermSample& s) { return s.weights * s.irradiance; });
+        for (int c = 0; c < 3; ++c)
+            value[c] = weights[c] > 0 ? weighted[c] / weights[c] : 0;
+        const double heldHits = share * sampled, newHits = sum([](const TermSample&) { return 1.0; });
+        plain =
+            (plain * heldHits + sum([](const TermSample& s) { return s.plain; })) / std::max(heldHits + newHits, 1e-9);
+        const double had = std::max(sampled + ran, 1.0);
+        squares =
+            (squares * sampled + sum([](const TermSample& s) { return std::pow(luminanceOf(s.radiance), 2); })) / had;
+        radiance = (radiance * sampled + sum([](const TermSample& s) { return s.radiance; })) / had;
+        if (std::ranges::all_of(wave, [](const TermSample& s) { return s.known; })) {
+            glm::dvec3 textures {};
+            double squared = 0;
+            for (const TermSample& s : wave) {
+                textures += s.texture;
+                squared += std::pow(luminanceOf(s.texture), 2);
+            }
+            texture = (texture * primary + textures) / (primary + all);
+            textureSquares = (textureSquares * primary + squared) / (primary + all);
+        }
+        for (const TermSample& s : wave) {
+            hits += s.point.object != 0 ? 1 : 0;
+            taken += s.samples;
+        }
+        primary += all;
+        sampled += ran;
+    }
+    /// Adds the slopes or distances of receivers that took samples, and of lights the motions of shadows.
+    void addExtremes(
+        const std::vector<TermSample>& wave, const std::function<const double*(const SeenPoint&)>& of, int planes)
+    {
+        for (const TermSample& s : wave)
+            if (s.point.object != 0 && s.samples > 0) {
+                least = of(s.point)[0] > 0 ? std::min(least, of(s.point)[0]) : least;
+                largest = std::max(largest, of(s.point)[1]);
+                for (int k = 2; k < planes; ++k)
+                    sums[k - 2] += of(s.point)[k];
+            }
+    }
+    double leastOrNone() const { return std::isinf(least) ? 0 : least; }
+};
+
+/// How many samples of a term pixel (x, y) takes with `primary` new ones in that round.
+using TermCount = std::uint32_t (*)(int x, int y, std::uint32_t primary, std::size_t round);
+/// More than there are receivers, unevenly shared.
+inline std::uint32_t more(int x, int y, std::uint32_t primary, std::size_t)
+{
+    return primary == 0 ? 0 : 2 * primary + static_cast<std::uint32_t>(x + y) % primary;
+}
+inline std::uint32_t oneEach(int, int, std::uint32_t primary, std::size_t) { return primary; }
+/// From one up to all but one.
+inline std::uint32_t fewer(int x, int y, std::uint32_t primary, std::size_t round)
+{
+    return primary < 2 ? primary : 1 + static_cast<std::uint32_t>(x + 2 * y + static_cast<int>(round)) % (primary - 1);
+}
+/// Fewer, and none at all in the second round.
+inline std::uint32_t skipping(int x, int y, std::uint32_t primary, std::size_t round)
+{
+    return round == 1 ? 0 : fewer(x, y, primary, round);
+}
+inline std::string nameOf(TermCount count)
+{
+    return count == more ? "more" : count == oneEach ? "one each" : count == fewer ? "fewer" : "skipping";
+}
+
+/// A term's planes of pixels, and what they are to hold.
+struct TermPixels {
+    Planes<std::uint32_t> before, after; ///< samples taken before and after a round
+    device::Buffer<float> texture, value, plain, squares, textureSquares, radiance, extremes, weightOf;
+    device::Buffer<std::uint32_t> wanted, taken, samples, ofPaths;
+    std::vector<TermMeans> means;
+    std::size_t round = 0;
+    TermCount count;
+
+    TermPixels(Accumulation& a, TermCount counts, double floor = 0)
+        : before(a.waves.layout, 1, 0u)
+        , after(a.waves.layout, 1, 0u)
+        , texture(a.pixelBuffer(3))
+        , value(a.pixelBuffer(3))
+        , plain(a.pixelBuffer(1))
+        , squares(a.pixelBuffer(1))
+        , textureSquares(a.pixelBuffer(1))
+        , radiance(a.pixelBuffer(3))
+        , extremes(a.pixelBuffer(6))
+        , weightOf(a.pixelBuffer(1))
+        , wanted(a.waves.bench.filled(a.waves.layout.size, 0u))
+        , taken(a.waves.bench.filled(a.waves.layout.size, 0u))
+        , samples(a.waves.bench.filled(a.waves.layout.size, 0u))
+        , ofPaths(a.waves.bench.filled(a.waves.layout.size, 0u))
+        , means(a.waves.layout.size)
+        , count(counts)
+    {
+        for (TermMeans& m : means)
+            m.floor = floor;
+    }
+    /// Call after Accumulation::begin().
+    void begin(Accumulation& a)
+    {
+        before = after;
+        a.waves.everyPixel([&](int x, int y) {
+            const std::uint32_t primary = std::max(a.wanted.at(x, y), a.taken.at(x, y)) - a.taken.at(x, y);
+            after.at(x, y) += count(x, y, primary, round);
+        });
+        wanted = a.waves.bench.buffer(after.values);
+        ++round;
+    }
+    /// For WEDGE_TERM_PARAMETERS.
+    auto planes() const
+    {
+        return std::tie(wanted, taken, texture, value, plain, squares, textureSquares, radiance, extremes);
+    }
+
+    /// Adds the wave to the expected means: `of` tells what a pixel's receivers, whose samples are set, add.
+    template <class Of>
+    void expect(const Accumulation& a, const Of& of)
+    {
+        std::vector<std::vector<TermSample>> waves(means.size());
+        for (std::size_t r = 0; r < a.points.size(); ++r)
+            waves[after.index(a.lists.x(r), a.lists.y(r))].push_back(
+                { a.points[r], a.shareOf(r, before, after), true, {}, {}, {}, 0, {} });
+        for (std::size_t i = 0; i < means.size(); ++i) {
+            of(waves[i]);
+            means[i].add(waves[i], a.published != 0);
+        }
+    }
+
+    /// Holds what the kernels made against the means.
+    void check(Accumulation& a) const
+    {
+        const auto k = a.read(texture), e = a.read(value), unweighted = a.read(plain), own = a.read(radiance);
+        const auto squared = a.read(squares), squaredTexture = a.read(textureSquares), found = a.read(extremes);
+        const auto ran = a.read(taken), all = a.read(samples);
+        for (const Planes<float>* plane : { &k, &e, &unweighted, &own, &squared, &squaredTexture, &found })
+            checkElsewhere(a, *plane);
+        a.waves.everyPixel([&](int x, int y) {
+            CAPTURE(x);
+            CAPTURE(y);
+            const TermMeans& m = means[after.index(x, y)];
+            REQUIRE(nearTo(k.vector(x, y), m.texture));
+            for (std::size_t c = 0; c < 3; ++c)
+                REQUIRE(nearTo(e.at(x, y, c), m.value[static_cast<int>(c)], 1e-4));
+            REQUIRE(nearTo(unweighted.at(x, y), m.plain, 1e-4));
+            REQUIRE(nearTo(squared.at(x, y), m.squares, 1e-4));
+            REQUIRE(nearTo(squaredTexture.at(x, y), m.textureSquares, 1e-4));
+            REQUIRE(nearTo(own.vector(x, y), a.published != 0 ? m.radiance : glm::dvec3(0), 1e-4));
+            REQUIRE(nearTo(found.at(x, y), m.leastOrNone()));
+            REQUIRE(nearTo(found.at(x, y, 1), m.largest));
+            for (std::size_t plane = 2; plane < 6; ++plane)
+                REQUIRE(nearTo(found.at(x, y, plane), m.sums[plane - 2]));
+            REQUIRE(ran.at(x, y) == after.at(x, y));
+            REQUIRE(all.at(x, y) == after.at(x, y));
+        });
+    }
+};
+
+/// Where a receiver is seen from.
+inline shared::Vec3 viewOf(const SeenPoint& p)
+{
+    const glm::vec3 v = glm::normalize(glm::vec3(p.normal) + glm::vec3(0.4f, 0.1f, -0.2f));
+    return shared::vec3(v.x, v.y, v.z);
+}
+
+/// Launches accumulateLight for the wave.
+inline void accumulateLight(
+    Accumulation& a, TermPixels& term, const shared::AreaLight& light, bool exact, bool specular)
+{
+    const auto mean = [](const SeenPoint& p, std::size_t plane) {
+        return p.weight[plane / 2] * (plane % 2 == 1 ? p.visible[plane / 2] : 1.0);
+    };
+    a.launch("accumulateLight", light, exact ? 1u : 0u, a.lists.pixelFirst, a.lists.pixelCount, a.primaryTaken, a.hits,
+        a.vectors([](const SeenPoint& p) { return p.position; }),
+        a.vectors([](const SeenPoint& p) { return p.normal; }),
+        a.vectors([](const SeenPoint& p) { return p.position; }), a.objectId, a.objectId,
+        a.receiverBuffer<float>(1, [](const SeenPoint& p, std::size_t) { return p.gloss; }), a.lists.pixelOf,
+        a.receiverBuffer<std::uint32_t>(
+            1, [](const SeenPoint& p, std::size_t) { return shared::packDirection(viewOf(p)); }),
+        a.receiverBuffer<float>(1, [](const SeenPoint&, std::size_t) { return 0; }),
+        a.vectors([](const SeenPoint& p) { return p.diffuse; }),
+        a.vectors([](const SeenPoint& p) { return p.specular; }),
+        a.sums(specular ? 4 : 2, term.before, term.after, mean),
+        a.receiverBuffer<float>(2, [](const SeenPoint& p, std::size_t k) { return p.unshadowed[k]; }),
+        a.receiverBuffer<float>(6, [](const SeenPoint& p, std::size_t k) { return p.slopes[k]; }), term.planes(),
+        term.weightOf, term.samples);
+}
+
+/// Launches accumulatePaths for the wave; mean: of the samples of a receiver, in each channel.
+template <class Reflectance, class Mean>
+void accumulatePaths(Accumulation& a, TermPixels& term, bool ambient, const Reflectance& reflectance, const Mean& mean)
+{
+    a.launch("accumulatePaths", ambient ? 1u : 0u, a.lists.pixelFirst, a.lists.pixelCount, a.primaryTaken, a.hits,
+        a.objectId, a.vectors(reflectance),
+        a.sums(4, term.before, term.after,
+            [&](const SeenPoint& p, std::size_t c) { return c < 3 ? mean(p)[static_cast<int>(c)] : 1.0; }),
+        a.receiverBuffer<float>(3, [](const SeenPoint& p, std::size_t k) { return p.reflectors[k]; }), term.planes(),
+        term.samples, term.ofPaths);
+}
+
+} // namespace wedge::test

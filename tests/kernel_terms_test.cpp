@@ -1,0 +1,164 @@
+// distributed.cl alone: filtered terms back into radiance.
+#include "tests/distributed_support.h"
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+double luminanceOf(glm::dvec3 c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+
+/// A term and what filters made of it.
+struct TermPlanes {
+    Planes<float> texture, filteredTexture, value, filtered, beta, own, radiance;
+
+    TermPlanes(const Region& region, std::mt19937& random)
+        : texture(planes(region, 3, random))
+        , filteredTexture(planes(region, 3, random))
+        , value(planes(region, 3, random))
+        , filtered(planes(region, 3, random))
+        , beta(filledPlanes(region, 1, 1e30f,
+              [&](int, int, std::size_t) {
+                  return random() % 2 == 0 ? -1.0 : random() % 3 == 0 ? 0.0 : uniform(random);
+              }))
+        , own(planes(region, 3, random))
+        , radiance(planes(region, 3, random))
+    {
+        everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
+            if (random() % 9 == 0)
+                texture.setVector(x, y, { 0, 0, 0 });
+        });
+    }
+    static Planes<float> planes(const Region& region, std::size_t count, std::mt19937& random)
+    {
+        return filledPlanes(
+            region, count, 1e30f, [&](int, int, std::size_t) { return random() % 7 == 0 ? 0 : uniform(random, 0, 2); });
+    }
+    /// The term's radiance as sampled.
+    glm::dvec3 ownRadiance(bool published, int x, int y) const
+    {
+        return published ? own.vector(x, y) : texture.vector(x, y) * value.vector(x, y);
+    }
+};
+
+bool nearTo(glm::dvec3 found, glm::dvec3 expected)
+{
+    return glm::length(found - expected) <= 1e-6 * (1 + glm::length(expected));
+}
+
+/// What `launch(p, term, buffer of radiance)` leaves there, against expected(p, term, x, y) added to what was.
+template <class Launch, class Expected>
+void checkAdds(const Launch& launch, const Expected& expected)
+{
+    onEveryDevice([&](const device::Device& device) {
+        KernelBench bench(device);
+        unsigned seed = 0;
+        for (const Region& region : regions())
+            for (const std::uint32_t published : { 0u, 1u })
+                for (const std::uint32_t values : { 1u, 3u }) {
+                    CAPTURE(published);
+                    CAPTURE(values);
+                    std::mt19937 random(++seed);
+                    const TermPlanes term(region, random);
+                    shared::DistributedParams p = paramsOf(region);
+                    p.published = published;
+                    p.values = values;
+                    Output<float> radiance(bench, region, term.radiance);
+                    launch(bench, p, term, radiance.buffer());
+                    const Planes<float> found = radiance.read();
+                    everyPixel(region.window, [&](int x, int y) {
+                        REQUIRE(nearTo(found.vector(x, y), term.radiance.vector(x, y) + expected(p, term, x, y)));
+                    });
+                }
+    });
+}
+
+} // namespace
+
+TEST_CASE("a filtered term adds the filtered texture times the filtered value where they are apart, elsewhere its own")
+{
+    checkAdds(
+        [](KernelBench& bench, const shared::DistributedParams& p, const TermPlanes& term,
+            const device::Buffer<float>& radiance) {
+            const auto k = bench.buffer(term.texture.values), filteredK = bench.buffer(term.filteredTexture.values),
+                       e = bench.buffer(term.value.values), filteredE = bench.buffer(term.filtered.values),
+                       beta = bench.buffer(term.beta.values), own = bench.buffer(term.own.values);
+            launchPixels(
+                bench, "distributed.cl", "addFilteredTerm", p, k, filteredK, e, filteredE, beta, own, radiance);
+        },
+        [](const shared::DistributedParams& p, const TermPlanes& term, int x, int y) {
+            if (term.beta.at(x, y) < 0)
+                return term.ownRadiance(p.published != 0, x, y);
+            return term.filteredTexture.vector(x, y)
+                * (p.values == 3 ? term.filtered.vector(x, y) : glm::dvec3(term.filtered.at(x, y)));
+        });
+}
+
+TEST_CASE("a term without a filter adds texture times value, or as published what is kept of it")
+{
+    checkAdds(
+        [](KernelBench& bench, const shared::DistributedParams& p, const TermPlanes& term,
+            const device::Buffer<float>& radiance) {
+            const auto k = bench.buffer(term.texture.values), e = bench.buffer(term.value.values),
+                       own = bench.buffer(term.own.values);
+            launchPixels(bench, "distributed.cl", "addTerm", p, k, e, own, radiance);
+        },
+        [](const shared::DistributedParams& p, const TermPlanes& term, int x, int y) {
+            return term.ownRadiance(p.published != 0, x, y);
+        });
+}
+
+TEST_CASE("a light's visibility: of its channels the mean that keeps the radiance's luminance; as published the first")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        unsigned seed = 30;
+        for (const Region& region : regions())
+            for (const std::uint32_t published : { 0u, 1u }) {
+                std::mt19937 random(++seed);
+                const TermPlanes term(region, random);
+                shared::DistributedParams p = paramsOf(region);
+                p.published = published;
+                Output<float> visibility(bench, region, 1);
+                const auto k = bench.buffer(term.texture.values), e = bench.buffer(term.value.values);
+                launchPixels(bench, "distributed.cl", "visibilityOf", p, k, e, visibility.buffer());
+                const Planes<float> found = visibility.read();
+                everyPixel(region.window, [&](int x, int y) {
+                    if (published != 0) {
+                        REQUIRE(found.at(x, y) == term.value.at(x, y));
+                        return;
+                    }
+                    const double t = luminanceOf(term.texture.vector(x, y));
+                    REQUIRE(agree(t * found.at(x, y), luminanceOf(term.ownRadiance(false, x, y)), 1e-5, 1e-6));
+                    REQUIRE((t > 0 || found.at(x, y) == 0));
+                });
+            }
+    });
+}
+
+TEST_CASE("planes add up, and one is copied to another")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        unsigned seed = 50;
+        for (const Region& region : regions()) {
+            std::mt19937 random(++seed);
+            const TermPlanes term(region, random);
+            const shared::DistributedParams p = paramsOf(region);
+            Output<float> sum(bench, region, term.radiance), copy(bench, region, 1), all(bench, region, 3);
+            const auto k = bench.buffer(term.texture.values), e = bench.buffer(term.value.values),
+                       own = bench.buffer(term.own.values);
+            launchPixels(bench, "distributed.cl", "addPlane", p, own, sum.buffer());
+            launchPixels(bench, "distributed.cl", "copyPlane", p, own, copy.buffer());
+            launchPixels(bench, "distributed.cl", "addAll", p, k, e, own, all.buffer());
+            const Planes<float> added = sum.read(), copied = copy.read(), beauty = all.read();
+            everyPixel(region.window, [&](int x, int y) {
+                REQUIRE(added.at(x, y) == term.radiance.at(x, y) + term.own.at(x, y));
+                REQUIRE(added.at(x, y, 1) == term.radiance.at(x, y, 1));
+                REQUIRE(copied.at(x, y) == term.own.at(x, y));
+                REQUIRE(nearTo(
+                    beauty.vector(x, y), term.texture.vector(x, y) + term.value.vector(x, y) + term.own.vector(x, y)));
+            });
+        }
+    });
+}

@@ -1,0 +1,271 @@
+// wave_light.cl alone: the unshadowed shading of a wave's receivers, against means over the light in double.
+#include "host/render/device_scene.h"
+#include "host/render/quadrature.h"
+#include "kernels/shared/bsdf.h"
+#include "kernels/shared/wave.h"
+#include "tests/render_oracles.h"
+#include "tests/render_support.h"
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+constexpr std::size_t receiverCount = 411; ///< not whole blocks
+constexpr std::size_t planeSize = 432;
+constexpr float untouched = -7;
+
+scene::AreaLight lamp(scene::LightProfile profile, bool twoSided)
+{
+    scene::AreaLight light;
+    light.centre = { 0.2f, 2, -0.1f };
+    light.halfU = { 0.4f, 0.1f, 0 };
+    light.halfV = { 0, 0, 0.6f };
+    light.radiance = { 5, 4, 3 };
+    light.profile = profile;
+    light.twoSided = twoSided;
+    return light;
+}
+
+std::vector<float> nodesOf(const scene::AreaLight& light)
+{
+    std::vector<float> out;
+    for (const unsigned count : { WEDGE_COARSE_NODES, WEDGE_FINE_NODES })
+        for (const render::Node& node : render::profileRule(light.profile, light.cut, static_cast<int>(count))) {
+            out.push_back(static_cast<float>(node.position));
+            out.push_back(static_cast<float>(node.weight));
+        }
+    return out;
+}
+
+struct ReceiverPoint {
+    bool surface;
+    glm::dvec3 position, normal, view;
+    double specular, exponent;
+    bool phong;
+};
+
+glm::dvec3 narrowed(glm::dvec3 v) { return glm::dvec3(glm::vec3(v)); }
+
+/// At any distance from a light, from its own size on, facing it or not; lobes up to that exponent, most of them aimed
+/// at the light.
+ReceiverPoint randomReceiver(const scene::AreaLight& light, double sharpest, std::mt19937& random)
+{
+    ReceiverPoint p {};
+    p.surface = random() % 7 != 0;
+    const double distance = std::exp(uniform(random, std::log(0.7), std::log(12)));
+    const glm::dvec3 away = glm::normalize(glm::dvec3(0, -0.5, 0) + unitVector(random));
+    p.position = narrowed(glm::dvec3(light.centre) + distance * away);
+    p.normal = narrowed(glm::normalize((random() % 3 == 0 ? 0.1 : 0.7) * -away + unitVector(random)));
+    const glm::dvec3 aim = pointOf(light, uniform(random, -1, 1), uniform(random, -1, 1)) - p.position;
+    const glm::dvec3 mirrored = glm::reflect(glm::normalize(-aim), p.normal);
+    p.view = random() % 5 == 0 ? unitVector(random) : glm::normalize(mirrored + 0.1 * unitVector(random));
+    p.specular = random() % 5 == 0 ? 0 : uniform(random, 0.1, 1);
+    p.exponent = static_cast<float>(std::exp(uniform(random, 0, std::log(sharpest))));
+    p.phong = random() % 2 == 0;
+    // As the kernel has it: packed.
+    const auto packed = shared::unpackDirection(shared::packDirection(
+        shared::vec3(static_cast<float>(p.view.x), static_cast<float>(p.view.y), static_cast<float>(p.view.z))));
+    p.view = { packed.x, packed.y, packed.z };
+    return p;
+}
+
+/// The lobe in 1/sr; towards a light above the horizon.
+double lobeOf(const ReceiverPoint& p, glm::dvec3 d)
+{
+    const glm::dvec3 l = glm::normalize(d), v = p.view, n = p.normal;
+    const double m = p.exponent, pi = 3.14159265358979;
+    const double c =
+        p.phong ? 2 * glm::dot(n, v) * glm::dot(n, l) - glm::dot(v, l) : glm::dot(n, glm::normalize(v + l));
+    const double scale = p.phong ? (m + 2) / (2 * pi) : (m + 2) * (m + 4) / (8 * pi * (std::pow(2, -m / 2) + m));
+    return c > 0 ? scale * std::pow(c, m) : 0;
+}
+
+/// Means over the light.
+struct Shading {
+    double diffuse = 0, specular = 0;
+    bool horizon = false; ///< a part of the light is below the receiver's
+};
+Shading overLight(const scene::AreaLight& light, const ReceiverPoint& p)
+{
+    constexpr int steps = 64;
+    Shading out;
+    double weights = 0;
+    bool dark = false, lit = false;
+    for (int i = 0; i < steps; ++i)
+        for (int k = 0; k < steps; ++k) {
+            const double a = 2 * (i + 0.5) / steps - 1, b = 2 * (k + 0.5) / steps - 1;
+            const glm::dvec3 d = pointOf(light, a, b) - p.position;
+            const double g = geometry(p.normal, d, lightNormal(light), light.twoSided), weight = profileAt(light, a, b);
+            (g > 0 ? lit : dark) = true;
+            weights += weight;
+            out.diffuse += weight * g;
+            out.specular += g > 0 ? weight * g * lobeOf(p, d) : 0.0;
+        }
+    out.diffuse /= weights;
+    out.specular /= weights;
+    out.horizon = lit && dark;
+    return out;
+}
+
+/// Largest half extent of the light over the distance to its centre.
+double extentOver(const scene::AreaLight& light, const ReceiverPoint& p)
+{
+    const double extent = std::max(glm::length(glm::dvec3(light.halfU)), glm::length(glm::dvec3(light.halfV)));
+    return extent / glm::length(glm::dvec3(light.centre) - p.position);
+}
+
+/// About the geometry term of a light that faces a receiver, 1/m^2: lamp()'s larger half extent is 0.6 m.
+double unclipped(double extent) { return extent * extent / 0.36; }
+
+/// The kernel's planes: diffuse, and where the program has it specular.
+std::vector<float> unshadowed(
+    KernelBench& bench, const scene::AreaLight& light, const std::vector<ReceiverPoint>& points, std::size_t count)
+{
+    const auto planes = [&](std::size_t n, const auto& value) {
+        std::vector<float> out(n * planeSize, std::nanf(""));
+        for (std::size_t c = 0; c < n; ++c)
+            for (std::size_t r = 0; r < points.size(); ++r)
+                out[c * planeSize + r] = static_cast<float>(value(points[r], static_cast<int>(c)));
+        return bench.buffer(out);
+    };
+    std::vector<std::uint32_t> objects(planeSize, 0), views(planeSize, 0);
+    for (std::size_t r = 0; r < points.size(); ++r) {
+        objects[r] = points[r].surface ? 5 : 0;
+        const glm::vec3 v(points[r].view);
+        views[r] = shared::packDirection(shared::vec3(v.x, v.y, v.z));
+    }
+    shared::FrameParams frame {};
+    frame.tileCount = 1;
+    shared::WaveParams wave {};
+    wave.receivers = static_cast<std::uint32_t>(count);
+    wave.planeSize = planeSize;
+    const auto out = bench.filled(2 * planeSize, untouched);
+    bench.passes.list("unshadowed shading", device::PassKind::Trace, "wave_light.cl", "unshadowedReceivers",
+        (count + WEDGE_BLOCK_PIXELS - 1) / WEDGE_BLOCK_PIXELS, frame, wave, render::deviceLight(light),
+        bench.buffer(nodesOf(light)), planes(3, [](const ReceiverPoint& p, int c) { return p.position[c]; }),
+        planes(3, [](const ReceiverPoint& p, int c) { return p.normal[c]; }), bench.buffer(objects),
+        planes(3, [](const ReceiverPoint& p, int) { return p.specular; }),
+        planes(1, [](const ReceiverPoint& p, int) { return p.phong ? -p.exponent : p.exponent; }), bench.buffer(views),
+        out);
+    return bench.read(out);
+}
+
+const Defines shiny = { { "WEDGE_SPECULAR", "1" } };
+
+template <class Visit>
+void everyLight(const Visit& visit)
+{
+    for (const scene::LightProfile profile : { scene::LightProfile::Gaussian, scene::LightProfile::Uniform })
+        for (const bool twoSided : { false, true }) {
+            CAPTURE(twoSided);
+            CAPTURE((profile == scene::LightProfile::Gaussian));
+            visit(lamp(profile, twoSided));
+        }
+}
+
+} // namespace
+
+TEST_CASE("receivers that hit nothing get no shading, and nothing is written beyond the wave's blocks")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench plain(device), bench(device, shiny);
+        const scene::AreaLight light = lamp(scene::LightProfile::Uniform, true);
+        std::mt19937 random(1);
+        std::vector<ReceiverPoint> points;
+        for (std::size_t r = 0; r < planeSize; ++r) {
+            points.push_back(randomReceiver(light, 10, random));
+            points.back().surface = r == 3;
+        }
+        for (const std::size_t count : { std::size_t { 1 }, std::size_t { 16 }, std::size_t { 37 } })
+            for (KernelBench* on : { &plain, &bench }) {
+                const std::vector<float> found = unshadowed(*on, light, points, count);
+                const std::size_t written = (count + 15) / 16 * 16;
+                for (std::size_t r = 0; r < planeSize; ++r) {
+                    if (r >= written)
+                        REQUIRE(found[r] == untouched);
+                    else if (r != 3)
+                        REQUIRE(found[r] == 0);
+                    REQUIRE((on == &bench && r < written) == (found[planeSize + r] != untouched));
+                }
+            }
+    });
+}
+
+TEST_CASE("diffuse: the mean geometry term over the light, near, far and partly below the horizon")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        unsigned seed = 10;
+        everyLight([&](const scene::AreaLight& light) {
+            std::mt19937 random(++seed);
+            std::vector<ReceiverPoint> points;
+            while (points.size() < receiverCount)
+                points.push_back(randomReceiver(light, 10, random));
+            const std::vector<float> found = unshadowed(bench, light, points, receiverCount);
+            int lit = 0, horizons = 0, close = 0;
+            for (std::size_t r = 0; r < receiverCount; ++r) {
+                const Shading expected = overLight(light, points[r]);
+                if (!points[r].surface) {
+                    REQUIRE(found[r] == 0);
+                    continue;
+                }
+                const double near = extentOver(light, points[r]);
+                // A horizon across the light is a kink, which a smooth rule sees roughly: against a light all above it.
+                const double scale = expected.horizon ? unclipped(near) : expected.diffuse;
+                const double tolerance = expected.horizon ? 4e-3 : near > 1.0 / 3 ? 2e-3 : 5e-4;
+                REQUIRE(std::fabs(found[r] - expected.diffuse) <= tolerance * scale + 1e-9);
+                lit += expected.diffuse > 0 ? 1 : 0;
+                horizons += expected.horizon ? 1 : 0;
+                close += near > 0.5 ? 1 : 0;
+            }
+            CHECK(lit > 150);
+            CHECK(horizons > 30);
+            CHECK(close > 40);
+        });
+    });
+}
+
+TEST_CASE("specular: the mean of lobe times geometry term, of both models; -1 where a lobe is too sharp to tell")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device, shiny);
+        unsigned seed = 20;
+        everyLight([&](const scene::AreaLight& light) {
+            for (const double sharpest : { 20.0, 1000.0 }) {
+                CAPTURE(sharpest);
+                std::mt19937 random(++seed);
+                std::vector<ReceiverPoint> points;
+                while (points.size() < receiverCount)
+                    points.push_back(randomReceiver(light, sharpest, random));
+                const std::vector<float> found = unshadowed(bench, light, points, receiverCount);
+                int sharp = 0, bright = 0, between = 0;
+                for (std::size_t r = 0; r < receiverCount; ++r) {
+                    const ReceiverPoint& p = points[r];
+                    const double near = extentOver(light, p), across = near * near * p.exponent;
+                    if (!p.surface || p.specular == 0 || std::fabs(across - 40) < 1e-3)
+                        continue;
+                    const float value = found[planeSize + r];
+                    if (across > 40) {
+                        REQUIRE(value == -1);
+                        ++sharp;
+                        continue;
+                    }
+                    const Shading expected = overLight(light, p);
+                    // Against a light all above the horizon and at the lobe's peak.
+                    const double peak = (p.exponent + 2) * (p.phong ? 1 : 0.25) / (2 * 3.14159265358979);
+                    const double scale = peak * (expected.horizon ? unclipped(near) : expected.diffuse);
+                    const bool small = near < 0.12 && across < 0.5;
+                    const double tolerance = expected.horizon ? 0.04 : small ? 2e-3 : across < 2 ? 0.03 : 4e-3;
+                    REQUIRE(value >= 0);
+                    REQUIRE(std::fabs(value - expected.specular) <= tolerance * scale + 1e-9);
+                    bright += expected.specular > 0.1 * scale ? 1 : 0;
+                    between += across > 2 || small ? 1 : 0;
+                }
+                CHECK(bright > 90);
+                CHECK(between > 10);
+                CHECK((sharp > 15 || sharpest < 1000));
+            }
+        });
+    });
+}
