@@ -36,13 +36,12 @@ typedef struct {
     float widthScale;    ///< standard deviation times bandwidth
     float extent;        ///< metres; 0: what the camera sees
     float leastReflector; ///< fraction of the extent that distances are clamped to
-    uint meanOnly;       ///< 1: of reflectors there is but the sum of inverse distances
     float meanFraction;  ///< of the harmonic mean distance that stands for the least one; 0: the least one itself
     uint countCap;       ///< most samples a pixel may take
     float fixedWidth;    ///< pixels; more than 0: this width everywhere in place of the analysis
     float countExponent; ///< of the counts from variance: n ~ (v / K)^exponent
     float varianceSpread; ///< fraction of the 5x5 neighbourhood's largest variance that a pixel takes at least
-    uint padding;
+    uint meanOnly;       ///< 1: of reflectors there is but the sum of inverse distances
 } ReflectorParams;
 
 WEDGE_SHARED_END
