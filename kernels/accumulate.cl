@@ -8,7 +8,12 @@
 // besides, the plain mean of E's luminance, by which thesis (5.30) judges whether texture and irradiance may be taken apart.
 // As published (wave.published) E is the plain mean, that of lights holds the light's form factor (5.14), k the lobe
 // towards its centre (5.20), and the term's radiance L is kept apart.
+//
+// Packed planes (wave.packed) hold k and E in 47 bits each (packed_planes.h), and what one wave alone measures in 16: in
+// `plain` the factoring error (distributed.cl) and, after it, the one of the extremes that there is; in `squares` the
+// standard deviations of a primary sample's radiance and of its texture.
 #include "light_sample.h"
+#include "packed_planes.h"
 #include "shared/bsdf.h"
 #include "shared/camera.h"
 #include "shared/defocus.h"
@@ -20,6 +25,7 @@
 /// A pixel and its receivers in the wave.
 typedef struct {
     uint i;            ///< in planes of pixels
+    uint slot;         ///< in planes of the wave's pixels
     uint first, count; ///< receivers
     uint before;       ///< primary samples that its means hold already
 } WavePixel;
@@ -34,6 +40,7 @@ WEDGE_FN bool wavePixel(FrameParams frame, WaveParams wave, __global const uint*
         return false;
     }
     p->i = pixelIndex(x, y, frame.stride);
+    p->slot = slot;
     p->first = pixelFirst[slot];
     p->count = pixelCount[slot];
     p->before = taken[p->i];
@@ -111,6 +118,18 @@ WEDGE_FN float weightedMean(float mean, float known, float weighted, float weigh
     return known + weights > 0.0f ? (mean * known + weighted) / (known + weights) : 0.0f;
 }
 
+/// What the analysis is made of, of the first wave of a pixel's; t, e: its mean texture and irradiance, of `have` receivers
+/// with samples.
+WEDGE_FN void storeMeasured(WavePixel p, uint pixels, TermPlanes planes, Vec3 t, Vec3 e, float have, const TermSums* s)
+{
+    const float mean = luminance(vecMul(t, e)), texture = luminance(t);
+    const float squared = meanWith(0.0f, 0.0f, s->squared, have), plain = meanWith(0.0f, 0.0f, s->plain, s->counted);
+    const float textureSquared = meanWith(0.0f, 0.0f, s->textureSquared, s->textures);
+    storeShort(planes.plain, pixels, p.i, 0u, mean - texture * plain);
+    storeShort(planes.squares, pixels, p.i, 0u, sqrt(fmax(squared - mean * mean, 0.0f)));
+    storeShort(planes.squares, pixels, p.i, 1u, sqrt(fmax(textureSquared - texture * texture, 0.0f)));
+}
+
 /// taken: samples of the term before the wave, total: in it; hits: receivers with a surface before; known: what the mean
 /// value weighs so far.
 WEDGE_FN void storeTermSums(WaveParams wave, WavePixel p, uint pixels, TermPlanes planes, uint taken, uint total, float hits,
@@ -119,22 +138,30 @@ WEDGE_FN void storeTermSums(WaveParams wave, WavePixel p, uint pixels, TermPlane
     const float before = (float)p.before;
     // Receivers that took samples, misses included: samples are shared evenly.
     const float had = (float)min(taken, p.before), have = (float)min(total, p.count);
-    const uint g = pixels + p.i, b = 2u * pixels + p.i;
-    planes.value[p.i] = weightedMean(planes.value[p.i], known.x, s->weighted.x, s->weights.x);
-    planes.value[g] = weightedMean(planes.value[g], known.y, s->weighted.y, s->weights.y);
-    planes.value[b] = weightedMean(planes.value[b], known.z, s->weighted.z, s->weights.z);
-    storeMean(planes.texture, pixels, p.i, before, s->texture, s->textures);
-    planes.textureSquares[p.i] = meanWith(planes.textureSquares[p.i], before, s->textureSquared, s->textures);
-    const float hadHits = p.before > 0u ? hits * had / before : 0.0f;
-    planes.plain[p.i] = meanWith(planes.plain[p.i], hadHits, s->plain, s->counted);
-    planes.squares[p.i] = meanWith(planes.squares[p.i], had, s->squared, have);
+    Vec3 e = loadColour(planes.value, pixels, p.i, wave.packed), t = loadColour(planes.texture, pixels, p.i, wave.packed);
+    e = vec3(weightedMean(e.x, known.x, s->weighted.x, s->weights.x), weightedMean(e.y, known.y, s->weighted.y, s->weights.y),
+             weightedMean(e.z, known.z, s->weighted.z, s->weights.z));
+    t = vec3(meanWith(t.x, before, s->texture.x, s->textures), meanWith(t.y, before, s->texture.y, s->textures),
+             meanWith(t.z, before, s->texture.z, s->textures));
+    storeColour(planes.value, pixels, p.i, wave.packed, e);
+    storeColour(planes.texture, pixels, p.i, wave.packed, t);
+    if (wave.packed != 0u) {
+        if ((wave.omits & WEDGE_OMITS_ANALYSIS) == 0u) {
+            storeMeasured(p, pixels, planes, t, e, have, s);
+        }
+    } else if ((wave.omits & WEDGE_OMITS_ANALYSIS) == 0u) {
+        planes.textureSquares[p.i] = meanWith(planes.textureSquares[p.i], before, s->textureSquared, s->textures);
+        const float hadHits = p.before > 0u ? hits * had / before : 0.0f;
+        planes.plain[p.i] = meanWith(planes.plain[p.i], hadHits, s->plain, s->counted);
+        planes.squares[p.i] = meanWith(planes.squares[p.i], had, s->squared, have);
+    }
     if (wave.published != 0u) {
         storeMean(planes.radiance, pixels, p.i, had, s->radiance, have);
     }
 }
 
 /// Samples of a term that the wave takes for a pixel.
-WEDGE_FN uint newTermSamples(WaveParams wave, uint taken, uint wanted) { return max(min(wanted, wave.lastSample), taken) - taken; }
+WEDGE_FN uint newTermSamples(WaveParams wave, uint taken, uint wanted) { return max(wantedSamples(wave, wanted), taken) - taken; }
 
 /// Parameters of the kernels that add to a term, and its planes made of them.
 #define WEDGE_TERM_PARAMETERS                                                                                           \
@@ -188,6 +215,19 @@ WEDGE_FN bool meanWeights(WaveParams wave, WavePixel p, uint total, __global con
     return known > 0.0f;
 }
 
+/// The one extreme that widths are made with.
+WEDGE_FN void storeExtreme(WaveParams wave, WavePixel p, uint pixels, __global float* plain, __global float* extremes, float x)
+{
+    if ((wave.omits & WEDGE_OMITS_ANALYSIS) != 0u) {
+        return;
+    }
+    if (wave.packed != 0u) {
+        storeShort(plain, pixels, p.i, 1u, x);
+    } else {
+        extremes[p.i] = x;
+    }
+}
+
 /// One area light.
 /// in      wave's planes: receivers, diffuse, specular, sums (as area_light.cl has them), slopes
 ///         exact: 1: unshadowed has the receivers' shading (wave_light.cl); 0: it is that of their samples
@@ -214,7 +254,10 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
     receivers.receivers = wave.receivers;
     const uint size = wave.planeSize, pixels = frame.planeSize;
     const uint total = newTermSamples(wave, termTaken[p.i], termWanted[p.i]);
-    float sMin = extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY, sMax = extremes[pixels + p.i];
+    const bool measures = (wave.omits & WEDGE_OMITS_ANALYSIS) == 0u, all = (wave.omits & WEDGE_OMITS_EXTREMES) == 0u;
+    // Packed, there is none before.
+    float sMin = measures && wave.packed == 0u && extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY;
+    float sMax = measures && all ? extremes[pixels + p.i] : 0.0f;
     float weight = 0.0f, specularWeight = 0.0f;
     const bool weighed = total < p.count && wave.published == 0u
         && meanWeights(wave, p, total, objectId, diffuse, specular, sums, &weight, &specularWeight);
@@ -257,7 +300,7 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
         sMin = slopes[r] > 0.0f ? fmin(sMin, slopes[r]) : sMin;
         sMax = fmax(sMax, slopes[size + r]);
 #ifdef WEDGE_MOTION
-        for (uint plane = 2u; plane < 6u; ++plane) {
+        for (uint plane = 2u; measures && plane < 6u; ++plane) {
             extremes[plane * pixels + p.i] += slopes[plane * size + r];
         }
 #endif
@@ -273,13 +316,17 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
     }
     const float plainWeight = (float)hits[p.i];
     const Vec3 weights = wave.published != 0u ? vec3(plainWeight, plainWeight, plainWeight)
-                                              : vecScale(loadVec(texture, pixels, p.i), (float)termTaken[p.i]);
+                                              : vecScale(loadColour(texture, pixels, p.i, wave.packed), (float)termTaken[p.i]);
     storeTermSums(wave, p, pixels, WEDGE_TERM_ARGUMENTS, termTaken[p.i], total, (float)hits[p.i], weights, &sum);
-    weightOf[p.i] = luminance(loadVec(texture, pixels, p.i));
-    extremes[p.i] = sMin < INFINITY ? sMin : 0.0f;
-    extremes[pixels + p.i] = sMax;
-    samples[p.i] += total;
-    termTaken[p.i] += total;
+    storeExtreme(wave, p, pixels, plain, extremes, sMin < INFINITY ? sMin : 0.0f);
+    if (measures && all) {
+        extremes[pixels + p.i] = sMax;
+    }
+    if ((wave.omits & WEDGE_OMITS_LAYERS) == 0u) {
+        weightOf[p.i] = luminance(loadColour(texture, pixels, p.i, wave.packed));
+        samples[p.i] += total;
+        termTaken[p.i] += total;
+    }
 }
 
 /// Point and directional lights: `lit`, the receivers' radiance from them.
@@ -316,8 +363,10 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient, 
     }
     const uint size = wave.planeSize, pixels = frame.planeSize;
     const uint total = newTermSamples(wave, termTaken[p.i], termWanted[p.i]);
-    float nearest = extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY, farthest = extremes[pixels + p.i];
-    float inverse = extremes[2u * pixels + p.i];
+    const bool measures = (wave.omits & WEDGE_OMITS_ANALYSIS) == 0u, all = (wave.omits & WEDGE_OMITS_EXTREMES) == 0u;
+    float nearest = measures && all && extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY;
+    float farthest = measures && all ? extremes[pixels + p.i] : 0.0f;
+    float inverse = measures && all ? extremes[2u * pixels + p.i] : measures && wave.packed == 0u ? extremes[p.i] : 0.0f;
     const float floor = wave.published != 0u ? 1.0f : WEDGE_LEAST_TEXTURE, own = wave.published != 0u ? 0.0f : 1.0f;
     const Vec3 floors = vec3(floor, floor, floor), white = vec3(1.0f, 1.0f, 1.0f);
     TermSums sum = noTermSums((float)p.count);
@@ -343,14 +392,18 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient, 
     const float counted = wave.published != 0u ? (float)hits[p.i]
         : p.before > 0u                        ? (float)hits[p.i] / (float)p.before * (float)termTaken[p.i]
                                                : 0.0f;
-    const Vec3 known = vecMad(vecScale(floors, counted), loadVec(texture, pixels, p.i), own * (float)termTaken[p.i]);
+    const Vec3 known = vecMad(vecScale(floors, counted), loadColour(texture, pixels, p.i, wave.packed), own * (float)termTaken[p.i]);
     storeTermSums(wave, p, pixels, WEDGE_TERM_ARGUMENTS, termTaken[p.i], total, (float)hits[p.i], known, &sum);
-    extremes[p.i] = nearest < INFINITY ? nearest : 0.0f;
-    extremes[pixels + p.i] = farthest;
-    extremes[2u * pixels + p.i] = inverse;
-    samples[p.i] += total;
-    indirectSamples[p.i] += total;
-    termTaken[p.i] += total;
+    storeExtreme(wave, p, pixels, plain, extremes, all ? (nearest < INFINITY ? nearest : 0.0f) : inverse);
+    if (measures && all) {
+        extremes[pixels + p.i] = farthest;
+        extremes[2u * pixels + p.i] = inverse;
+    }
+    if ((wave.omits & WEDGE_OMITS_LAYERS) == 0u) {
+        samples[p.i] += total;
+        indirectSamples[p.i] += total;
+        termTaken[p.i] += total;
+    }
 }
 
 /// Where and what the receivers are, and what they emit; closes the wave.
@@ -386,7 +439,11 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
     const Vec3 none = vec3(0.0f, 0.0f, 0.0f);
     Vec3 at = none, facing = none, kd = none, ks = none, emitted = none;
     float hit = 0.0f, exponent = 0.0f, edge = 0.0f, moveX = 0.0f, moveY = 0.0f, squared = 0.0f;
-    float low = p.before > 0u ? confusionOf[p.i] : INFINITY, high = p.before > 0u ? confusionOf[pixels + p.i] : -INFINITY;
+    float low = INFINITY, high = -INFINITY;
+    if (p.before > 0u) {
+        low = wave.packed != 0u ? loadShort(confusionOf, pixels, p.i, 0u) : confusionOf[p.i];
+        high = wave.packed != 0u ? loadShort(confusionOf, pixels, p.i, 1u) : confusionOf[pixels + p.i];
+    }
     uint object = objectOf[p.i], traced = 0u, paths = 0u;
     for (uint r = p.first; r < p.first + p.count; ++r) {
         const Vec3 e = loadVec(emission, size, r);
@@ -415,26 +472,45 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
     }
     const float before = (float)p.before, count = (float)p.count, hits = (float)hitsOf[p.i];
     storeMean(emissionOf, pixels, p.i, before, emitted, count);
-    emissionSquaresOf[p.i] = meanWith(emissionSquaresOf[p.i], before, squared, count);
-    storeMean(diffuseOf, pixels, p.i, before, kd, count);
-    storeMean(specularOf, pixels, p.i, before, ks, count);
+    const bool measures = (wave.omits & WEDGE_OMITS_ANALYSIS) == 0u, layers = (wave.omits & WEDGE_OMITS_LAYERS) == 0u;
+    if (measures) {
+        emissionSquaresOf[p.i] = meanWith(emissionSquaresOf[p.i], before, squared, count);
+    }
+    if (layers) {
+        storeMean(diffuseOf, pixels, p.i, before, kd, count);
+        storeMean(specularOf, pixels, p.i, before, ks, count);
+    }
     taken[p.i] = p.before + p.count;
-    confusionOf[p.i] = low;
-    confusionOf[pixels + p.i] = high;
-    raysOf[p.i] += traced;
-    pathRaysOf[p.i] += paths;
+    if (wave.packed != 0u) {
+        storeShort(confusionOf, pixels, p.i, 0u, low);
+        storeShort(confusionOf, pixels, p.i, 1u, high);
+    } else {
+        confusionOf[p.i] = low;
+        confusionOf[pixels + p.i] = high;
+    }
+    raysOf[layers ? p.i : p.slot] += traced;
+    pathRaysOf[layers ? p.i : p.slot] += paths;
     if (hit == 0.0f) {
-        // Misses, or a light that is seen.
-        distanceOf[p.i] = hits > 0.0f ? distanceOf[p.i] : depth[p.first];
+        if (layers) {
+            // Misses, or a light that is seen.
+            distanceOf[p.i] = hits > 0.0f ? distanceOf[p.i] : depth[p.first];
+        }
         return;
     }
     hitsOf[p.i] += (uint)hit;
     objectOf[p.i] = object;
     storeMean(positionOf, pixels, p.i, hits, at, hit);
     storeVec(normalOf, pixels, p.i, vecNormalize(vecMad(facing, loadVec(normalOf, pixels, p.i), hits)));
-    glossOf[p.i] = meanWith(glossOf[p.i], hits, exponent, hit);
-    pixelSizeOf[p.i] = meanWith(pixelSizeOf[p.i], hits, edge, hit);
-    distanceOf[p.i] = vecLength(vecSub(loadVec(positionOf, pixels, p.i), frame.eye));
+    if (measures) {
+        glossOf[p.i] = meanWith(glossOf[p.i], hits, exponent, hit);
+        pixelSizeOf[p.i] = meanWith(pixelSizeOf[p.i], hits, edge, hit);
+    }
+    if (layers) {
+        distanceOf[p.i] = vecLength(vecSub(loadVec(positionOf, pixels, p.i), frame.eye));
+    }
+    if ((wave.omits & WEDGE_OMITS_MOTION) != 0u) {
+        return;
+    }
     const float meanX = meanWith(motionOf[p.i], hits, moveX, hit), meanY = meanWith(motionOf[pixels + p.i], hits, moveY, hit);
     float spread = motionOf[2u * pixels + p.i];
     for (uint r = p.first; r < p.first + p.count; ++r) {

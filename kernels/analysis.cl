@@ -3,6 +3,8 @@
 // Published (thesis section 3.6): an unoccluded pixel takes the mean distances of the occluded pixels within 5
 // pixels. Default: s_min is eroded over 3x3 pixels of the same object, smoothed in the logarithm, and spread to
 // unoccluded pixels with Gaussian weights, so that the widths have no border of their own.
+#include "packed_planes.h"
+#include "shared/bsdf.h"
 #include "shared/filter_params.h"
 #include "shared/wedge.h"
 #include "vector16.h"
@@ -127,6 +129,29 @@ __kernel void spreadColumns(AnalysisParams p, uint planes, __global const float*
     const uint y = p.y0 + get_global_id(1);
     if (x < p.x1 && y < p.y1) {
         spreadLine(p, x, y, (int)p.stride, (int)y, (int)(p.height - 1u - y), planes, in, out);
+    }
+}
+
+/// The luminance of a texture (3 planes): what widths() takes for the sums of a light's unshadowed samples.
+/// packed: as of packed_planes.h.
+__kernel void luminanceOf(AnalysisParams p, uint packed, __global const float* restrict image, __global float* restrict out)
+{
+    const uint x = p.x0 + get_global_id(0);
+    const uint y = p.y0 + get_global_id(1);
+    if (x < p.x1 && y < p.y1) {
+        const uint i = pixelIndex(x, y, p.stride);
+        out[i] = luminance(loadColour(image, p.planeSize, i, packed));
+    }
+}
+
+/// The second of the numbers that a packed plane holds.
+__kernel void unpackSecond(AnalysisParams p, __global const float* restrict packed, __global float* restrict out)
+{
+    const uint x = p.x0 + get_global_id(0);
+    const uint y = p.y0 + get_global_id(1);
+    if (x < p.x1 && y < p.y1) {
+        const uint i = pixelIndex(x, y, p.stride);
+        out[i] = loadShort(packed, p.planeSize, i, 1u);
     }
 }
 

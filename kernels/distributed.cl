@@ -1,6 +1,7 @@
 // The analysis of distributed frames (thesis 5.7, 5.8): where texture and irradiance may be taken apart, how wide the
 // irradiance's filter is then, which samples are worth most, and what becomes of the filtered term.
 #include "distributed_pixel.h"
+#include "packed_planes.h"
 #include "pixel.h"
 #include "shared/bsdf.h"
 #include "shared/distributed.h"
@@ -11,6 +12,10 @@ __kernel void factoringError(DistributedParams p, __global const float* restrict
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    if (p.packed != 0u) {
+        error[i] = loadShort(plain, p.planeSize, i, 0u);
         return;
     }
     const Vec3 k = loadVec(texture, p.planeSize, i);
@@ -55,13 +60,19 @@ __kernel void splitVariance(DistributedParams p, __global const float* restrict 
     if (!pixelOf(p, &x, &y, &i)) {
         return;
     }
-    const Vec3 k = loadVec(texture, p.planeSize, i);
-    const float mean = luminance(vecMul(k, loadVec(value, p.planeSize, i)));
+    const Vec3 k = loadColour(texture, p.planeSize, i, p.packed);
+    const float mean = luminance(vecMul(k, loadColour(value, p.planeSize, i, p.packed))), t = luminance(k);
     const float n = (float)taken[i];
     const float unbiased = n > 1.0f ? n / (n - 1.0f) : 0.0f;
-    const float all = fmax(squares[i] - mean * mean, 0.0f) * unbiased;
-    const float t = luminance(k);
-    const float spread = fmax(textureSquares[i] - t * t, 0.0f) * unbiased;
+    float all, spread;
+    if (p.packed != 0u) {
+        const float d = loadShort(squares, p.planeSize, i, 0u), dTexture = loadShort(squares, p.planeSize, i, 1u);
+        all = d * d * unbiased;
+        spread = dTexture * dTexture * unbiased;
+    } else {
+        all = fmax(squares[i] - mean * mean, 0.0f) * unbiased;
+        spread = fmax(textureSquares[i] - t * t, 0.0f) * unbiased;
+    }
     const float irradiance = t > 0.0f ? mean / t : 0.0f;
     const float texturePart = fmin(spread * irradiance * irradiance, all);
     ofTexture[i] = texturePart;
@@ -131,14 +142,35 @@ __kernel void atLeast(DistributedParams p, float apart, float together, __global
     }
 }
 
-/// wanted = clamp(scale demand, least, most), and never less than `taken`.
-__kernel void scaleCounts(DistributedParams p, float scale, uint least, uint most, __global const float* restrict demand,
-                          __global const uint* restrict taken, __global uint* restrict wanted)
+/// A term's colour out of its packed planes.
+__kernel void unpackImage(DistributedParams p, __global const float* restrict in, __global float* restrict out)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        storeVec(out, p.planeSize, i, loadColour(in, p.planeSize, i, 1u));
+    }
+}
+
+/// wanted = clamp(scale demand, least, most), and never less than `taken`. Both may be one plane: of each pixel demand is read
+/// first.
+__kernel void scaleCounts(DistributedParams p, float scale, uint least, uint most, __global const float* demand,
+                          __global const uint* restrict taken, __global uint* wanted)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
         const float n = clamp(scale * demand[i], (float)least, (float)most);
         wanted[i] = max((uint)(n + 0.5f), taken[i]);
+    }
+}
+
+/// Counts of a term's samples after the last wave of a lean frame: pixels without new primary samples took none of the term.
+/// in out  counts: wanted; taken
+__kernel void settleCounts(DistributedParams p, uint first, __global const uint* restrict primaryTaken,
+                           __global uint* restrict counts)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        counts[i] = primaryTaken[i] > first ? counts[i] : primaryTaken[i];
     }
 }
 
@@ -152,7 +184,7 @@ __kernel void limitStep(DistributedParams p, __global const uint* restrict taken
 }
 
 /// Standard deviations in pixels of the image-space filters: of the blur that all of a pixel has, else 0.
-/// out  lens, along (the motion), directions of that (2 planes, unit)
+/// out  lens, along (the motion), directions of that (2 planes, unit); lens alone where all is still
 __kernel void blurs(DistributedParams p, __global const float* restrict confusion, __global const float* restrict motion,
                     __global const uint* restrict taken, __global float* restrict lens, __global float* restrict along,
                     __global float* restrict directions)
@@ -164,6 +196,9 @@ __kernel void blurs(DistributedParams p, __global const float* restrict confusio
     const float n = p.frames * (p.samples > 0.0f ? p.samples : fmax((float)taken[i], 1.0f));
     const float r = leastConfusion(p, confusion, i);
     lens[i] = r >= p.leastRadius ? p.blurWidth * r * pow(n * r * r, -p.blurExponent) : 0.0f;
+    if (p.still != 0u) {
+        return;
+    }
     const float mx = motion[i], my = motion[p.planeSize + i];
     const float length = sqrt(mx * mx + my * my);
     const bool one = length >= p.leastRadius && motion[2u * p.planeSize + i] <= p.oneVelocity * length;
@@ -206,10 +241,10 @@ __kernel void visibilityOf(DistributedParams p, __global const float* restrict t
     if (!pixelOf(p, &x, &y, &i)) {
         return;
     }
-    const Vec3 k = loadVec(texture, p.planeSize, i);
+    const Vec3 k = loadColour(texture, p.planeSize, i, p.packed);
     const float t = luminance(k);
     visibility[i] = p.published != 0u ? value[i]
-        : t > 0.0f                    ? luminance(vecMul(k, loadVec(value, p.planeSize, i))) / t
+        : t > 0.0f                    ? luminance(vecMul(k, loadColour(value, p.planeSize, i, p.packed))) / t
                                       : 0.0f;
 }
 
@@ -218,7 +253,7 @@ WEDGE_FN Vec3 ownRadiance(DistributedParams p, uint i, __global const float* tex
                           __global const float* termRadiance)
 {
     return p.published != 0u ? loadVec(termRadiance, p.planeSize, i)
-                             : vecMul(loadVec(texture, p.planeSize, i), loadVec(value, p.planeSize, i));
+                             : vecMul(loadColour(texture, p.planeSize, i, p.packed), loadColour(value, p.planeSize, i, p.packed));
 }
 
 /// radiance += a term: where it is taken apart filteredTexture filtered (p.values planes), elsewhere its own.
@@ -233,7 +268,8 @@ __kernel void addFilteredTerm(DistributedParams p, __global const float* restric
     }
     const uint n = p.planeSize;
     const Vec3 e = p.values == 3u ? loadVec(filtered, n, i) : vec3(filtered[i], filtered[i], filtered[i]);
-    const Vec3 term = beta[i] >= 0.0f ? vecMul(loadVec(filteredTexture, n, i), e)
+    const uint packed = p.plainTexture != 0u ? 0u : p.packed;
+    const Vec3 term = beta[i] >= 0.0f ? vecMul(loadColour(filteredTexture, n, i, packed), e)
                                       : ownRadiance(p, i, texture, value, termRadiance);
     storeVec(radiance, n, i, vecAdd(loadVec(radiance, n, i), term));
 }
@@ -246,6 +282,15 @@ __kernel void addTerm(DistributedParams p, __global const float* restrict textur
     if (pixelOf(p, &x, &y, &i)) {
         const Vec3 term = ownRadiance(p, i, texture, value, termRadiance);
         storeVec(radiance, p.planeSize, i, vecAdd(loadVec(radiance, p.planeSize, i), term));
+    }
+}
+
+/// sum += image (3 planes each).
+__kernel void addImage(DistributedParams p, __global const float* restrict image, __global float* restrict sum)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        storeVec(sum, p.planeSize, i, vecAdd(loadVec(sum, p.planeSize, i), loadVec(image, p.planeSize, i)));
     }
 }
 

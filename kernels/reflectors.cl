@@ -67,7 +67,8 @@ WEDGE_FN float bandlimitOf(uint component, float gloss)
 
 /// Widths in metres (4.15), (4.16), -1 where the pixel has no such term, and counts (4.21).
 /// Of the distances there is the least, as published, or a fraction of their harmonic mean, in which rays that hit nothing
-/// count as infinitely far: an estimate of the same from all rays, with less noise. fixedWidth replaces the analysis.
+/// count as infinitely far: an estimate of the same from all rays, with less noise. fixedWidth replaces the analysis. meanOnly: reflectors have but the last plane, the
+/// sum of inverse distances; no counts.
 __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict reflectors,
                               __global const float* restrict extent, __global const float* restrict pixelSize,
                               __global const float* restrict gloss, __global const uint* restrict taken,
@@ -79,13 +80,14 @@ __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict 
         return;
     }
     const uint i = pixelIndex(x, y, p.stride);
+    // Any that there are have a sum of inverse distances, the last plane, too.
     const bool has = reflectors[i] > 0.0f;
-    const float mean = (float)taken[i] / fmax(reflectors[2u * p.planeSize + i], 1e-20f);
+    const float mean = (float)taken[i] / fmax(reflectors[(p.meanOnly != 0u ? 0u : 2u * p.planeSize) + i], 1e-20f);
     const float near = p.meanFraction > 0.0f ? p.meanFraction * mean : reflectors[i];
     // Where no ray hit anything, nothing is nearer than what there is is large.
     const float far = p.extent > 0.0f ? p.extent : extent[0];
     const float zMin = fmax(has ? near : far, leastDistance(p, extent));
-    const float zMax = fmax(reflectors[p.planeSize + i], zMin);
+    const float zMax = fmax(p.meanOnly != 0u ? zMin : reflectors[p.planeSize + i], zMin);
     const float bandlimit = bandlimitOf(p.component, gloss[i]);
     const float gamma = p.component == WEDGE_COMPONENT_GLOSSY ? glossyGamma(fabs(gloss[i])) : WEDGE_DIFFUSE_GAMMA;
     const float bandwidth = indirectBandwidth(zMin, bandlimit, pixelSize[i], p.mu, p.alpha);
@@ -93,7 +95,9 @@ __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict 
     const float count = indirectCount(zMin, zMax, bandlimit, gamma, pixelSize[i], p.mu, p.alpha);
     const float bounded = fmin(fmax(count, (float)WEDGE_INDIRECT_FIRST_RAYS), (float)p.countCap);
     beta[i] = taken[i] > 0u ? wide : -1.0f;
-    wanted[i] = taken[i] > 0u ? (uint)(bounded + 0.5f) : 0u;
+    if (p.meanOnly == 0u) {
+        wanted[i] = taken[i] > 0u ? (uint)(bounded + 0.5f) : 0u;
+    }
 }
 
 /// Variance of a sample's luminance as the image shows it, (sum l^2 - n mean^2) / (n - 1) times the squared luminance of

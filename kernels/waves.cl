@@ -8,7 +8,7 @@
 /// Primary samples that a pixel takes now.
 WEDGE_FN uint newSamples(WaveParams wave, uint taken, uint wanted)
 {
-    const uint last = min(wanted, wave.lastSample);
+    const uint last = wantedSamples(wave, wanted);
     return last > taken ? last - taken : 0u;
 }
 

@@ -232,7 +232,7 @@ TEST_CASE("the host's schedule: waves of whole tiles in order, none too large, a
         constexpr int width = 301, height = 203;
         KernelBench bench(device);
         const render::PlaneLayout layout(width, height);
-        render::Frame frame(device, bench.queue, layout, true);
+        render::Frame frame(device, bench.queue, layout, { .distributed = true });
         render::Waves waves(device, layout, { 2, 1, 2, false, true });
         const Counts counts(layout, 8);
         frame.primaryTaken.upload(bench.queue, std::span<const std::uint32_t>(counts.taken.values));

@@ -23,7 +23,7 @@ public:
         , hierarchy(tree.bvh)
         , onDevice(scene, tree, device, bench.queue)
         , layout(width, height)
-        , frame(device, bench.queue, layout, false)
+        , frame(device, bench.queue, layout, render::FrameShape {})
         , params(render::frameParams(scene, layout, { 0, 0, width, height }, 5))
         , specular(isDefined(defines, "WEDGE_SPECULAR"))
         , sums(device, layout.size * (specular ? 4 : 2), "sums")

@@ -60,7 +60,7 @@ render::FrameStatistics Lab::renderFrame(render::Settings& settings, std::uint32
     settings.width = plan_.width;
     settings.height = plan_.height;
     settings.seed = seed;
-    return renderer_.render(settings);
+    return renderer_.render(settings, {}, !subject_.layer().empty());
 }
 
 image::RgbImage Lab::render(render::Settings settings, std::uint32_t seed)

@@ -70,7 +70,7 @@ image::RgbImage half(
     settings.maxSpp = std::max(settings.maxSpp, settings.spp);
     settings.indirect.maxSpp = std::max(settings.indirect.maxSpp, settings.spp);
     settings.seed = 2 * settings.seed + index;
-    const render::FrameStatistics statistics = renderer.render(settings);
+    const render::FrameStatistics statistics = renderer.render(settings, {}, !layer.empty());
     return imageOf(renderer, settings, statistics, layer);
 }
 

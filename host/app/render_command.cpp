@@ -143,7 +143,7 @@ void RenderJob::prepare()
     renderer_ = std::make_unique<render::Renderer>(scene_, device, options);
     progress_.clear();
 
-    const device::MemoryPlan plan = renderer_->plan(settings_);
+    const device::MemoryPlan plan = renderer_->plan(settings_, !layers_.empty());
     say("scene {}: {} triangles\n", scene_.path, scene_.geometry.indices.size() / 3);
     say("device {} ({})\n", device.info().name, device.info().platform);
     if (options_.verbose) {
@@ -157,7 +157,7 @@ void RenderJob::prepare()
     }
     std::fflush(stdout);
     progress_.show("building kernels");
-    renderer_->rehearse(settings_);
+    renderer_->rehearse(settings_, !layers_.empty());
     progress_.clear();
 }
 
@@ -179,7 +179,7 @@ void RenderJob::render()
     if (settings_.progressive) {
         renderSteps(control);
     } else {
-        statistics_ = renderer_->render(settings_, control, render::needTermPlanes(layers_));
+        statistics_ = renderer_->render(settings_, control, !layers_.empty());
     }
     progress_.clear();
     interrupted_ = !statistics_.complete && guard.flag();
@@ -204,7 +204,7 @@ void RenderJob::renderSteps(const render::Control& control)
         extras_.files.push_back(output.path);
     }
     statistics_ = renderer_->renderProgressively(
-        settings_, until, [this](const render::ProgressiveStep& step) { showStep(step); }, render::needTermPlanes(layers_));
+        settings_, until, [this](const render::ProgressiveStep& step) { showStep(step); }, !layers_.empty());
 }
 
 /// Writes the image so far and says how good it is.

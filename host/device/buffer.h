@@ -19,6 +19,9 @@
 
 namespace wedge::device {
 
+/// Where parts of a buffer may start, bytes: no device that renders asks for more.
+constexpr std::size_t partAlignment = 1024;
+
 /// `count` elements of T in device memory, uninitialised. Copies share the memory. Transfers are recorded by the
 /// queue as "upload NAME", "download NAME" and "fill NAME", wait, and throw Error where they leave the buffer.
 ///
@@ -60,6 +63,21 @@ public:
                 const_cast<std::remove_const_t<T>*>(values.data()));
         });
         return shared;
+    }
+
+    /// A buffer in this one's memory, of `count` elements of U from this one's element `first` on, which lies at a multiple of
+    /// partAlignment bytes. Both keep the memory alive; kernels may have but one of two that overlap.
+    template <class U>
+    Buffer<U> part(std::size_t first, std::size_t count, std::string name) const
+    {
+        requireInside("part of", (count * sizeof(U) + sizeof(T) - 1) / sizeof(T), first);
+        assert(first * sizeof(T) % partAlignment == 0);
+        Buffer<U> out(std::move(name), count);
+        const cl_buffer_region region { first * sizeof(T), std::max<std::size_t>(count, 1) * sizeof(U) };
+        cl::Buffer whole = buffer_;
+        checked("part of buffer " + name_, "its device",
+            [&] { out.buffer_ = whole.createSubBuffer(CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION, &region); });
+        return out;
     }
 
     /// Copies values to the elements from `offset` on.
@@ -104,6 +122,9 @@ public:
     const cl::Buffer& cl() const { return buffer_; }
 
 private:
+    template <class U>
+    friend class Buffer;
+
     Buffer(std::string name, std::size_t count)
         : name_(std::move(name))
         , size_(count)

@@ -40,27 +40,28 @@ void DistributedFrame::demandOf(Term& term, float rays)
 {
     shared::DistributedParams p = params(c_.full());
     p.rays = rays;
+    const Scratch& scratch = c_.scratch;
     c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "splitVariance", p, 1, term.texture, term.textureSquares,
-        term.value, term.squares, c_.frame.primaryTaken, c_.scratch.rowsSpread, c_.scratch.logs);
+        term.value, term.squares, c_.frame.primaryTaken, scratch.ofTexture, scratch.logs);
     gaussianFilter(c_.passes, { "filter of variance", PassKind::Analysis, "filter_variance.cl" },
         filterParams(c_.settings, c_.fullFrame, c_.full()), c_.full(), c_.frame, c_.scratch.logs, term.beta, c_.scratch,
         c_.scratch.filtered);
     c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "sampleDemand", p, 1, c_.scratch.filtered,
         c_.scratch.effective, term.beta, c_.frame.lensWidth, c_.frame.motionWidth, term.demand);
-    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "addPlane", p, 1, c_.scratch.rowsSpread, c_.scratch.spread);
+    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "addPlane", p, 1, scratch.ofTexture, scratch.ofAllTextures);
 }
 
 void DistributedFrame::demands()
 {
     shared::DistributedParams p = params(c_.full());
     p.rays = 1.0f;
-    p.alongMotion = 1;
+    p.alongMotion = 1 - p.still;
     c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "emissionVariance", p, 1, c_.frame.emission,
-        c_.frame.emissionSquares, c_.frame.primaryTaken, c_.scratch.spread);
+        c_.frame.emissionSquares, c_.frame.primaryTaken, c_.scratch.ofAllTextures);
     eachTerm([&](Term& term, float rays) { demandOf(term, rays); });
     // Nothing but lens and shutter averages textures and what emits.
     c_.scratch.demand.fill(c_.passes.queue(), -1.0f);
-    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "sampleDemand", p, 1, c_.scratch.spread,
+    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "sampleDemand", p, 1, c_.scratch.ofAllTextures,
         c_.scratch.effective, c_.scratch.demand, c_.frame.lensWidth, c_.frame.motionWidth, c_.frame.primaryDemand);
     const DistributedSettings& d = c_.settings.distributed;
     const auto atLeast = [&](float apart, float together, const Term& term, const device::Buffer<float>& least,

@@ -87,14 +87,21 @@ bool DistributedFrame::monteCarlo()
 
 bool DistributedFrame::firstPass(std::uint32_t first)
 {
-    c_.frame.primaryWanted.fill(c_.passes.queue(), first);
-    eachTerm([&](Term& term, float) { term.wanted.fill(c_.passes.queue(), first); });
+    if (!c_.frame.shape.packed()) {
+        c_.frame.primaryWanted.fill(c_.passes.queue(), first);
+        eachTerm([&](Term& term, float) { term.wanted.fill(c_.passes.queue(), first); });
+    }
     return sample(c_.fullFrame, first, true, first);
+}
+
+std::uint32_t DistributedFrame::firstPaths() const
+{
+    return static_cast<std::uint32_t>(std::min(c_.settings.distributed.firstPaths, c_.settings.spp));
 }
 
 bool DistributedFrame::adaptive()
 {
-    const auto first = static_cast<std::uint32_t>(std::min(c_.settings.distributed.firstPaths, c_.settings.spp));
+    const std::uint32_t first = firstPaths();
     if (taken_ < first) {
         if (!firstPass(first)) {
             return false;
@@ -126,6 +133,11 @@ bool DistributedFrame::sample(const shared::FrameParams& frame, std::uint32_t la
     shared::WaveParams settings {};
     settings.sampler = samplerOf(c_);
     settings.published = c_.settings.method == Method::AxisAligned && c_.settings.distributed.published ? 1 : 0;
+    if (c_.frame.shape.lean) {
+        settings.omits = WEDGE_OMITS_LAYERS | (c_.frame.shape.shutter ? 0u : WEDGE_OMITS_MOTION)
+            | (slopes ? 0u : WEDGE_OMITS_ANALYSIS) | (slopes && c_.frame.shape.packed() ? WEDGE_OMITS_COUNTS : 0u);
+        settings.packed = c_.frame.shape.packed() ? 1 : 0;
+    }
     const std::vector<shared::WaveParams> waves = waves_.schedule(c_.passes, frame, camera_, c_.frame, settings, last);
     for (const shared::WaveParams& wave : waves) {
         if (stop_ != nullptr && *stop_) {
@@ -184,6 +196,8 @@ shared::DistributedParams DistributedFrame::params(const image::Window& window) 
     p.varianceSpread = d.varianceSpread;
     p.oneVelocity = d.oneVelocity;
     p.published = d.published ? 1 : 0;
+    p.packed = c_.frame.shape.packed() ? 1 : 0;
+    p.still = c_.frame.shape.ofMotion() == 0 ? 1 : 0;
     p.frames = static_cast<float>(d.frames);
     p.never = d.factoring == Factoring::Never ? 1 : 0;
     return p;
@@ -191,13 +205,23 @@ shared::DistributedParams DistributedFrame::params(const image::Window& window) 
 
 void DistributedFrame::widths()
 {
-    for (SoftShadows& light : lights_) {
-        light.widths();
+    // The error of taking a term apart comes first: in lean frames widths take the place of what it is made of.
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+        Term& term = *terms_[i];
+        c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "factoringError", params(c_.full()), 1, term.texture,
+            term.value, term.plain, c_.scratch.error);
+        if (i < lights_.size()) {
+            lights_[i].widths();
+        } else {
+            paths_[i - lights_.size()].widths();
+        }
+        const device::Buffer<float>& width = c_.frame.shape.packed() ? c_.scratch.width : term.beta;
+        c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "factoredWidths", params(c_.full()), 1, c_.scratch.error,
+            c_.frame.confusion, c_.frame.pixelSize, c_.frame.objectId, width);
+        if (c_.frame.shape.packed()) {
+            c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "copyPlane", params(c_.full()), 1, width, term.beta);
+        }
     }
-    for (Indirect& path : paths_) {
-        path.widths();
-    }
-    eachTerm([&](Term& term, float) { factoredWidths(term); });
     blurWidths(static_cast<float>(c_.settings.spp));
 }
 
@@ -207,15 +231,6 @@ void DistributedFrame::blurWidths(float samples)
     p.samples = samples;
     c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "blurs", p, 1, c_.frame.confusion, c_.frame.motion,
         c_.frame.primaryTaken, c_.frame.lensWidth, c_.frame.motionWidth, c_.frame.motionDirection);
-}
-
-void DistributedFrame::factoredWidths(Term& term)
-{
-    const shared::DistributedParams p = params(c_.full());
-    c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "factoringError", p, 1, term.texture, term.value, term.plain,
-        c_.scratch.demand);
-    c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "factoredWidths", p, 1, c_.scratch.demand,
-        c_.frame.confusion, c_.frame.pixelSize, c_.frame.objectId, term.beta);
 }
 
 void DistributedFrame::copy(const device::Buffer<float>& image, device::Buffer<float>& to)
@@ -233,8 +248,22 @@ void DistributedFrame::addUnfiltered(device::Buffer<float>& direct, device::Buff
     }
 }
 
-void DistributedFrame::filter()
+void DistributedFrame::startSums()
 {
+    if (c_.frame.shape.lean) {
+        const bool analysed = c_.frame.shape.analysed;
+        const std::uint32_t first = analysed ? firstPaths() : std::numeric_limits<std::uint32_t>::max();
+        eachTerm([&](Term& term, float) {
+            c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "settleCounts", params(c_.full()), 1, first,
+                c_.frame.primaryTaken, term.wanted);
+        });
+        // All that is reflected is added to what is emitted.
+        if (c_.frame.shape.ofDeltaLights() == 1) {
+            c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "addImage", params(c_.full()), 1, c_.frame.delta,
+                c_.frame.beauty);
+        }
+        return;
+    }
     const auto start = [&](device::Buffer<float>& direct, device::Buffer<float>& indirect) {
         copy(c_.frame.delta, direct);
         indirect.fill(c_.passes.queue(), 0.0f);
@@ -244,6 +273,11 @@ void DistributedFrame::filter()
         start(c_.frame.directNoisy, c_.frame.indirectNoisy);
         addUnfiltered(c_.frame.directNoisy, c_.frame.indirectNoisy);
     }
+}
+
+void DistributedFrame::filter()
+{
+    startSums();
     if (!analysed_) {
         addUnfiltered(c_.frame.direct, c_.frame.indirect);
         return;
@@ -262,12 +296,14 @@ void DistributedFrame::filter()
 
 void DistributedFrame::compose(device::Buffer<float>* emission)
 {
-    filter();
     if (!lit_) {
         c_.frame.emission.fill(c_.passes.queue(), 0.0f);
     }
-    c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "addAll", params(c_.full()), 1, c_.frame.emission,
-        c_.frame.direct, c_.frame.indirect, c_.frame.beauty);
+    filter();
+    if (!c_.frame.shape.lean) {
+        c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "addAll", params(c_.full()), 1, c_.frame.emission,
+            c_.frame.direct, c_.frame.indirect, c_.frame.beauty);
+    }
     if (emission != nullptr) {
         copy(c_.frame.emission, *emission);
     }

@@ -22,7 +22,7 @@ bool isDistributed(const Settings& settings, const scene::Scene& scene);
 class DistributedFrame {
 public:
     /// terms: of `lights` area lights, then of the components of indirect light; each receiver serves them all.
-    /// keepLayers: filters emission, direct and indirect apart, too, so that they sum to the beauty.
+    /// keepLayers: filters emission, direct and indirect apart, too, so that they sum to the beauty; not of lean frames.
     DistributedFrame(const TermContext& context, Waves& waves, const std::vector<std::unique_ptr<Term>>& terms,
         std::size_t lights, const shared::CameraParams& camera, bool keepLayers);
 
@@ -51,17 +51,18 @@ public:
 private:
     bool monteCarlo();
     bool adaptive();
+    std::uint32_t firstPaths() const; ///< samples of the first pass
     bool firstPass(std::uint32_t first);
     bool sample(const shared::FrameParams& frame, std::uint32_t last, bool slopes, double workUnits);
     void sampleWave(const shared::WaveParams& wave, bool slopes, double workUnits);
     void deltaLights(const shared::WaveParams& wave);
     void widths();
-    void factoredWidths(Term& term);
     void publishedCounts();
     void demands();
     void demandOf(Term& term, float rays);
     void counts();
     void limitStep();
+    void startSums();
     void filter();
     void copy(const device::Buffer<float>& image, device::Buffer<float>& to);
     void addUnfiltered(device::Buffer<float>& direct, device::Buffer<float>& indirect);

@@ -2,6 +2,7 @@
 
 #include "kernels/shared/filter_params.h"
 #include "kernels/shared/path.h"
+#include "kernels/shared/wave.h"
 
 #include <cmath>
 #include <numeric>
@@ -13,6 +14,12 @@ std::uint64_t strideFor(std::uint64_t width)
 {
     const std::uint64_t blocks = (width + WEDGE_BLOCK_PIXELS - 1) / WEDGE_BLOCK_PIXELS;
     return blocks * WEDGE_BLOCK_PIXELS + WEDGE_ROW_PADDING;
+}
+
+std::uint64_t wholeParts(std::uint64_t elements)
+{
+    constexpr std::uint64_t part = device::partAlignment / sizeof(float);
+    return (elements + part - 1) / part * part;
 }
 
 /// A step near the golden section of count and coprime to it, so that consecutive groups take distant tiles.
@@ -41,67 +48,82 @@ void planPlanes(device::MemoryPlan& plan, const PlaneLayout& layout, std::initia
 
 shared::Vec3 toVec3(glm::vec3 v) { return shared::vec3(v.x, v.y, v.z); }
 
+/// Elements of the counters of rays: one a pixel, or, where only their sums are of interest, one a pixel of a wave.
+std::uint64_t rayCounters(const PlaneLayout& layout, const FrameShape& shape)
+{
+    return shape.lean ? WEDGE_WAVE_RECEIVERS : layout.size;
+}
+
 } // namespace
 
 PlaneLayout::PlaneLayout(int imageWidth, int imageHeight)
     : width(static_cast<std::uint32_t>(imageWidth))
     , height(static_cast<std::uint32_t>(imageHeight))
     , stride(static_cast<std::uint32_t>(strideFor(width)))
-    , size(static_cast<std::uint64_t>(stride) * height + 2 * WEDGE_ROW_PADDING)
+    , size(wholeParts(static_cast<std::uint64_t>(stride) * height + 2 * WEDGE_ROW_PADDING))
 {
 }
 
-void Frame::plan(device::MemoryPlan& plan, const PlaneLayout& layout, bool distributed)
+void Frame::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const FrameShape& shape)
 {
+    const std::uint64_t kept = shape.kept(), analysis = shape.ofAnalysis(), motion = shape.ofMotion();
     planPlanes(plan, layout,
-        { { "position", 3 }, { "normal", 3 }, { "origin", 3 }, { "depth", 1 }, { "pixel size", 1 }, { "diffuse", 3 },
-            { "specular", 3 }, { "emission", 3 }, { "gloss", 1 }, { "geometric normal", 1 }, { "object id", 1 },
-            { "rays", 1 }, { "path rays", 1 }, { "direct", 3 }, { "direct noisy", 3 }, { "indirect", 3 },
-            { "indirect noisy", 3 }, { "beauty", 3 }, { "samples", 1 }, { "indirect samples", 1 } });
-    if (distributed) {
+        { { "position", 3 }, { "normal", 3 }, { "origin", 3 * kept }, { "depth", kept }, { "pixel size", analysis },
+            { "diffuse", 3 * kept }, { "specular", 3 * kept }, { "emission", 3 }, { "gloss", analysis },
+            { "geometric normal", kept }, { "object id", 1 }, { "beauty", 3 * kept }, { "direct", 3 * kept },
+            { "direct noisy", 3 * kept }, { "indirect", 3 * kept }, { "indirect noisy", 3 * kept }, { "samples", kept },
+            { "indirect samples", kept } });
+    plan.addItems("rays", rayCounters(layout, shape), 2 * 4);
+    if (shape.distributed) {
         planPlanes(plan, layout,
-            { { "primary samples taken", 1 }, { "primary samples wanted", 1 }, { "hits", 1 }, { "circles of confusion", 2 },
-                { "motion", 3 }, { "blur", 4 }, { "primary demand", 1 }, { "point lights", 3 }, { "emission squares", 1 } });
+            { { "primary samples taken", 1 }, { "primary samples wanted", shape.packed() ? 0u : 1u }, { "hits", 1 },
+                { "circles of confusion", shape.packed() ? 1u : 2u },
+                { "motion", 3 * motion }, { "lens filter width", kept }, { "motion filter", 3 * motion },
+                { "emission squares", analysis }, { "primary demand", kept }, { "point lights", 3 * shape.ofDeltaLights() } });
     }
 }
 
-Frame::Frame(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& planes, bool several)
+Frame::Frame(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& planes, const FrameShape& wanted)
     : layout(planes)
-    , distributed(several)
+    , shape(wanted)
+    , distributed(shape.distributed)
     , position(device, 3 * planes.size, "position")
     , normal(device, 3 * planes.size, "normal")
-    , origin(device, 3 * planes.size, "origin")
-    , depth(device, planes.size, "depth")
-    , pixelSize(device, planes.size, "pixel size")
-    , diffuse(device, 3 * planes.size, "diffuse")
-    , specular(device, 3 * planes.size, "specular")
+    , origin(device, shape.kept() * 3 * planes.size, "origin")
+    , depth(device, shape.kept() * planes.size, "depth")
+    , pixelSize(device, shape.ofAnalysis() * planes.size, "pixel size")
+    , diffuse(device, shape.kept() * 3 * planes.size, "diffuse")
+    , specular(device, shape.kept() * 3 * planes.size, "specular")
     , emission(device, 3 * planes.size, "emission")
-    , gloss(device, planes.size, "gloss")
-    , geometric(device, planes.size, "geometric normal")
+    , gloss(device, shape.ofAnalysis() * planes.size, "gloss")
+    , geometric(device, shape.kept() * planes.size, "geometric normal")
     , objectId(device, planes.size, "object id")
-    , rays(device, planes.size, "rays")
-    , pathRays(device, planes.size, "path rays")
-    , direct(device, 3 * planes.size, "direct")
-    , directNoisy(device, 3 * planes.size, "direct noisy")
-    , indirect(device, 3 * planes.size, "indirect")
-    , indirectNoisy(device, 3 * planes.size, "indirect noisy")
-    , beauty(device, 3 * planes.size, "beauty")
-    , samples(device, planes.size, "samples")
-    , indirectSamples(device, planes.size, "indirect samples")
+    , rays(device, rayCounters(planes, shape), "rays")
+    , pathRays(device, rayCounters(planes, shape), "path rays")
+    , beauty(shape.lean ? emission : device::Buffer<float>(device, 3 * planes.size, "beauty"))
+    , direct(shape.lean ? emission : device::Buffer<float>(device, 3 * planes.size, "direct"))
+    , directNoisy(device, shape.kept() * 3 * planes.size, "direct noisy")
+    , indirect(shape.lean ? emission : device::Buffer<float>(device, 3 * planes.size, "indirect"))
+    , indirectNoisy(device, shape.kept() * 3 * planes.size, "indirect noisy")
+    , samples(device, shape.kept() * planes.size, "samples")
+    , indirectSamples(device, shape.kept() * planes.size, "indirect samples")
     , receiverPixels(device, 0, "pixels of receivers")
     , receiverViews(device, 0, "views of receivers")
     , receiverTimes(device, 0, "times of receivers")
-    , primaryTaken(device, several ? planes.size : 0, "primary samples taken")
-    , primaryWanted(device, several ? planes.size : 0, "primary samples wanted")
-    , hits(device, several ? planes.size : 0, "hits")
-    , confusion(device, several ? 2 * planes.size : 0, "circles of confusion")
-    , motion(device, several ? 3 * planes.size : 0, "motion")
-    , lensWidth(device, several ? planes.size : 0, "lens filter width")
-    , motionWidth(device, several ? planes.size : 0, "motion filter width")
-    , motionDirection(device, several ? 2 * planes.size : 0, "motion direction")
-    , primaryDemand(device, several ? planes.size : 0, "primary demand")
-    , delta(device, several ? 3 * planes.size : 0, "point lights")
-    , emissionSquares(device, several ? planes.size : 0, "emission squares")
+    , primaryTaken(device, distributed ? planes.size : 0, "primary samples taken")
+    , hits(device, distributed ? planes.size : 0, "hits")
+    , confusion(device, distributed ? (shape.packed() ? 1 : 2) * planes.size : 0, "circles of confusion")
+    , motion(device, shape.ofMotion() * 3 * planes.size, "motion")
+    , lensWidth(shape.lean ? pixelSize : device::Buffer<float>(device, distributed ? planes.size : 0, "lens filter width"))
+    , motionWidth(device, shape.ofMotion() * planes.size, "motion filter width")
+    , motionDirection(device, shape.ofMotion() * 2 * planes.size, "motion direction")
+    , emissionSquares(device, distributed ? shape.ofAnalysis() * planes.size : 0, "emission squares")
+    , primaryDemand(
+          shape.lean ? emissionSquares : device::Buffer<float>(device, distributed ? planes.size : 0, "primary demand"))
+    , primaryWanted(shape.packed()
+              ? primaryDemand.part<std::uint32_t>(0, planes.size, "primary samples wanted")
+              : device::Buffer<std::uint32_t>(device, distributed ? planes.size : 0, "primary samples wanted"))
+    , delta(device, shape.ofDeltaLights() * 3 * planes.size, "point lights")
 {
     // Padding is read by gathers: it has to be finite, and objectId 0 there stays for good.
     for (device::Buffer<float>* b : { &position, &normal, &origin, &depth, &pixelSize, &diffuse, &specular, &emission, &gloss }) {
@@ -114,14 +136,12 @@ Frame::Frame(const device::Device& device, device::TimedQueue& queue, const Plan
 
 void Frame::clear(device::TimedQueue& queue)
 {
-    direct.fill(queue, 0.0f);
-    directNoisy.fill(queue, 0.0f);
-    indirect.fill(queue, 0.0f);
-    indirectNoisy.fill(queue, 0.0f);
-    samples.fill(queue, 0u);
-    indirectSamples.fill(queue, 0u);
-    rays.fill(queue, 0u);
-    pathRays.fill(queue, 0u);
+    for (device::Buffer<float>* b : { &direct, &directNoisy, &indirect, &indirectNoisy }) {
+        b->fill(queue, 0.0f);
+    }
+    for (device::Buffer<std::uint32_t>* b : { &samples, &indirectSamples, &rays, &pathRays }) {
+        b->fill(queue, 0u);
+    }
     if (!distributed) {
         return;
     }
@@ -136,40 +156,53 @@ void Frame::clear(device::TimedQueue& queue)
 bool TermShape::holds(const TermShape& other) const
 {
     return sums >= other.sums && values >= other.values && extremes >= other.extremes && analysed >= other.analysed
-        && distributed >= other.distributed && published >= other.published;
+        && distributed >= other.distributed && published >= other.published && lean == other.lean;
 }
 
 TermShape TermShape::with(const TermShape& other) const
 {
     return { std::max(sums, other.sums), std::max(values, other.values), std::max(extremes, other.extremes),
-        analysed || other.analysed, distributed || other.distributed, published || other.published };
+        analysed || other.analysed, distributed || other.distributed, published || other.published,
+        lean || other.lean };
 }
+
+namespace {
+
+/// Elements of so many planes of colours: packed ones have 6 bytes of 12.
+std::uint64_t colourSize(const PlaneLayout& layout, const TermShape& shape, std::uint64_t planes)
+{
+    return layout.size * planes / (shape.packed() ? 2 : 1);
+}
+
+} // namespace
 
 void Term::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const TermShape& shape)
 {
+    const std::uint64_t several = shape.distributed ? 1 : 0, kept = shape.lean ? 0 : 1, plain = shape.packed() ? 0 : 1;
+    plan.addItems("value", colourSize(layout, shape, shape.values), 4);
+    plan.addItems("texture", colourSize(layout, shape, several * 3), 4);
     planPlanes(plan, layout,
-        { { "sums", shape.sums }, { "value", shape.values }, { "samples taken", 1 }, { "samples wanted", 1 },
-            { "slopes and distances", shape.extremes }, { "filter width", shape.analysed ? 1u : 0u } });
-    if (shape.distributed) {
-        planPlanes(plan, layout, { { "texture", 3 }, { "plain mean", 1 }, { "squares", 1 }, { "texture squares", 1 }, { "demand", 1 },
-                { "radiance", shape.published ? 3u : 0u } });
-    }
+        { { "sums", shape.sums }, { "samples taken", kept }, { "slopes and distances", shape.extremes },
+            { "plain mean", shape.measured() }, { "squares", shape.measured() },
+            { "texture squares", shape.measured() * plain }, { "filter width", shape.analysed ? kept : 0 },
+            { "demand", several * kept }, { "samples wanted", plain }, { "radiance", shape.published ? 3u : 0u } });
 }
 
-Term::Term(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, const TermShape& planes)
+Term::Term(const device::Device& device, device::TimedQueue& queue, const Frame& frame, const TermShape& planes)
     : shape(planes)
-    , sums(device, layout.size * planes.sums, "sums")
-    , value(device, layout.size * planes.values, "value")
-    , taken(device, layout.size, "samples taken")
-    , wanted(device, layout.size, "samples wanted")
-    , extremes(device, layout.size * planes.extremes, "slopes and distances")
-    , beta(device, planes.analysed ? layout.size : 0, "filter width")
-    , texture(device, planes.distributed ? 3 * layout.size : 0, "texture")
-    , plain(device, planes.distributed ? layout.size : 0, "plain mean")
-    , squares(device, planes.distributed ? layout.size : 0, "squares")
-    , textureSquares(device, planes.distributed ? layout.size : 0, "texture squares")
-    , demand(device, planes.distributed ? layout.size : 0, "demand")
-    , radiance(device, planes.published ? 3 * layout.size : 0, "radiance of the term")
+    , sums(device, frame.layout.size * planes.sums, "sums")
+    , value(device, colourSize(frame.layout, planes, planes.values), "value")
+    , taken(planes.lean ? frame.primaryTaken : device::Buffer<std::uint32_t>(device, frame.layout.size, "samples taken"))
+    , extremes(device, frame.layout.size * planes.extremes, "slopes and distances")
+    , texture(device, colourSize(frame.layout, planes, planes.distributed ? 3 : 0), "texture")
+    , plain(device, planes.measured() * frame.layout.size, "plain mean")
+    , squares(device, planes.measured() * frame.layout.size, "squares")
+    , textureSquares(device, planes.packed() ? 0 : planes.measured() * frame.layout.size, "texture squares")
+    , beta(planes.lean ? plain : device::Buffer<float>(device, planes.analysed ? frame.layout.size : 0, "filter width"))
+    , demand(planes.lean ? squares : device::Buffer<float>(device, planes.distributed ? frame.layout.size : 0, "demand"))
+    , wanted(planes.packed() ? demand.part<std::uint32_t>(0, frame.layout.size, "samples wanted")
+                             : device::Buffer<std::uint32_t>(device, frame.layout.size, "samples wanted"))
+    , radiance(device, planes.published ? 3 * frame.layout.size : 0, "radiance of the term")
 {
     beta.fill(queue, 0.0f);
     wanted.fill(queue, 0u);
@@ -194,6 +227,12 @@ Scratch::Scratch(const device::Device& device, device::TimedQueue& queue, const 
     , rowsSpread(device, spreadPlanes * layout.size, "logarithms spread along rows")
     , spread(device, spreadPlanes * layout.size, "logarithms spread")
     , demand(device, layout.size, "demand")
+    , slopes(rowsSpread)
+    , width(rowsSpread)
+    , texture(rowsSpread)
+    , error(effective)
+    , ofTexture(rowsSpread)
+    , ofAllTextures(spread)
     , bounds(device, 6 * WEDGE_EXTENT_STRIPES, "visible bounds")
     , extent(device, 1, "visible extent")
     , histogramCounts(device, WEDGE_DEMAND_STRIPES * WEDGE_DEMAND_BINS, "demand histogram")
@@ -208,12 +247,45 @@ Scratch::Scratch(const device::Device& device, device::TimedQueue& queue, const 
     }
 }
 
+// Who lives when. Analysis of a light: slopes, demand (eroded slopes, then what is lit), logs, rowsSpread, spread, width and
+// error; variances: logs, ofTexture, ofAllTextures and one plane of each of the gather's. Filters of the image: the gather's,
+// texture, spread (a light's visibility), and, for shadows' motion, error and logs.
+Scratch::Scratch(
+    const device::Device& device, const PlaneLayout& layout, const FrameShape& frame, const device::Buffer<float>& memory)
+    : values(3)
+    , rowsFiltered(memory.part<float>(0, 3 * layout.size, "rows filtered"))
+    , filtered(memory.part<float>(3 * layout.size, 3 * layout.size, "filtered"))
+    , rowsEffective(memory.part<float>(6 * layout.size, layout.size, "effective count of rows"))
+    , effective(memory.part<float>(7 * layout.size, layout.size, "effective count"))
+    , logs(memory.part<float>(1 * layout.size, 2 * layout.size, "logarithms"))
+    , rowsSpread(memory.part<float>(3 * layout.size, 2 * layout.size, "logarithms spread along rows"))
+    , spread(memory.part<float>(5 * layout.size, 2 * layout.size, "logarithms spread"))
+    , demand(memory.part<float>(0, layout.size, "demand"))
+    , slopes(memory.part<float>(3 * layout.size, layout.size, "slopes and distances"))
+    , width(memory.part<float>(4 * layout.size, layout.size, "filter width"))
+    , texture(memory.part<float>(6 * layout.size, frame.shutter ? 3 * layout.size : 0, "texture"))
+    , error(effective)
+    , ofTexture(memory.part<float>(2 * layout.size, layout.size, "variance of texture"))
+    , ofAllTextures(spread)
+    , bounds(device, 6 * WEDGE_EXTENT_STRIPES, "visible bounds")
+    , extent(device, 1, "visible extent")
+    , histogramCounts(device, 0, "demand histogram")
+    , histogramPixels(device, 0, "shaded pixels")
+    , binCounts(device, 0, "demand bins")
+    , histogramSums(device, 0, "demand sums")
+    , binSums(device, 0, "demand bin sums")
+    , countScale(device, 0, "count scale")
+{
+}
+
 void Term::clear(device::TimedQueue& queue)
 {
     sums.fill(queue, 0.0f);
     value.fill(queue, 0.0f);
     extremes.fill(queue, 0.0f);
-    taken.fill(queue, 0u);
+    if (!shape.lean) {
+        taken.fill(queue, 0u);
+    }
     if (shape.distributed) {
         texture.fill(queue, 0.0f);
         plain.fill(queue, 0.0f);

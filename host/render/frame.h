@@ -20,8 +20,29 @@ struct PlaneLayout {
 
     std::uint32_t width, height;
     std::uint32_t stride; ///< elements from row to row
-    std::uint64_t size; ///< elements of a plane
+    std::uint64_t size; ///< elements of a plane, whole parts of buffers (device::partAlignment)
     bool operator==(const PlaneLayout&) const = default;
+};
+
+/// What the buffers of a frame are for.
+struct FrameShape {
+    bool distributed = false; ///< pixels have several receivers
+    /// A distributed frame of one image, of which nothing else is read: what that is not made of is left out, and planes
+    /// that are needed one after the other share their memory (docs/architecture.md has who lives when).
+    bool lean = false;
+    bool analysed = true; ///< with filters; of interest to lean frames alone, as what follows
+    bool shutter = true, deltaLights = true; ///< something moves while it is open; there are point or directional lights
+
+    bool operator==(const FrameShape&) const = default;
+
+    /// Terms are kept in fewer bits, kernels/accumulate.cl: not where means of many waves have to converge.
+    bool packed() const { return lean && analysed; }
+
+    // 1 or 0: what the planes of such buffers are to be multiplied by.
+    std::uint64_t kept() const { return lean ? 0 : 1; } ///< of no use to lean frames
+    std::uint64_t ofAnalysis() const { return !lean || analysed ? 1 : 0; }
+    std::uint64_t ofMotion() const { return distributed && (!lean || shutter) ? 1 : 0; }
+    std::uint64_t ofDeltaLights() const { return distributed && (!lean || deltaLights) ? 1 : 0; }
 };
 
 /// The buffers that all effects of a frame share. Vectors are three planes one after the other. With a pinhole and nothing
@@ -29,37 +50,41 @@ struct PlaneLayout {
 /// in planes of their own (waves.h).
 class Frame {
 public:
-    /// distributed: pixels have several receivers.
-    static void plan(device::MemoryPlan& plan, const PlaneLayout& layout, bool distributed);
+    static void plan(device::MemoryPlan& plan, const PlaneLayout& layout, const FrameShape& shape);
 
-    Frame(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, bool distributed);
+    Frame(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, const FrameShape& shape);
 
     PlaneLayout layout;
-    bool distributed;
+    FrameShape shape;
+    bool distributed; ///< shape.distributed
     device::Buffer<float> position, normal, origin; ///< G-buffer, see kernels/primary.cl
     device::Buffer<float> depth, pixelSize;
     device::Buffer<float> diffuse, specular, emission, gloss;
     device::Buffer<std::uint32_t> geometric; ///< geometric normal, packed
     device::Buffer<std::uint32_t> objectId;
-    device::Buffer<std::uint32_t> rays; ///< rays traced for each pixel, without the camera's
+    device::Buffer<std::uint32_t> rays; ///< rays traced for each pixel (of lean frames, of a wave), without the camera's
     device::Buffer<std::uint32_t> pathRays; ///< those of them that looked for the nearest surface of a path
+    // In lean frames all radiance is added to what is emitted: emission, beauty, direct and indirect are one buffer.
+    device::Buffer<float> beauty; ///< emission and all that is reflected
     device::Buffer<float> direct, directNoisy; ///< radiance, filtered and not
     device::Buffer<float> indirect, indirectNoisy; ///< radiance, or how open the hemisphere is
-    device::Buffer<float> beauty; ///< emission and all that is reflected
     device::Buffer<std::uint32_t> samples; ///< of all terms
     device::Buffer<std::uint32_t> indirectSamples; ///< of the indirect terms
     device::Buffer<std::uint32_t> receiverPixels, receiverViews; ///< WEDGE_RECEIVER_PARAMETERS: of no use here
     device::Buffer<float> receiverTimes; ///< likewise
 
     // Of distributed frames.
-    device::Buffer<std::uint32_t> primaryTaken, primaryWanted; ///< primary samples
+    device::Buffer<std::uint32_t> primaryTaken; ///< primary samples
     device::Buffer<std::uint32_t> hits; ///< those of them that met a surface
-    device::Buffer<float> confusion; ///< planes: least and largest signed radius of the circle of confusion, pixels
+    /// Planes: least and largest signed radius of the circle of confusion, pixels; packed, one plane of both.
+    device::Buffer<float> confusion;
     device::Buffer<float> motion; ///< planes: pixels that the surface moves while the shutter is open; largest difference
-    device::Buffer<float> lensWidth, motionWidth, motionDirection; ///< of the image's filters, see blurs() of distributed.cl
-    device::Buffer<float> primaryDemand;
-    device::Buffer<float> delta; ///< radiance from point and directional lights
+    device::Buffer<float> lensWidth; ///< of the image's filter, see blurs() of distributed.cl; lean: in the place of pixelSize
+    device::Buffer<float> motionWidth, motionDirection; ///< likewise, of textures' filter
     device::Buffer<float> emissionSquares; ///< mean squared luminance of a primary sample's emission
+    device::Buffer<float> primaryDemand; ///< of samples; in lean frames in the place of emissionSquares
+    device::Buffer<std::uint32_t> primaryWanted; ///< primary samples; packed, in the place of primaryDemand
+    device::Buffer<float> delta; ///< radiance from point and directional lights
 
     /// What kernels take for WEDGE_RECEIVER_PARAMETERS, the pixels being the receivers.
     auto receivers() const
@@ -78,9 +103,13 @@ struct TermShape {
     bool analysed = false; ///< with the buffers of analysis and filter
     bool distributed = false; ///< with those of pixels of several receivers, whose sums are the receivers' own
     bool published = false; ///< of those, with the radiance of the term alone
+    bool lean = false; ///< of those, of a lean frame
 
     /// Whether buffers of this shape serve terms of the other.
     bool holds(const TermShape& other) const;
+    /// 1 or 0: planes of each of what is measured for the analysis of terms of several receivers a pixel.
+    std::uint64_t measured() const { return distributed && (!lean || analysed) ? 1 : 0; }
+    bool packed() const { return lean && analysed; } ///< as FrameShape has it
     /// What serves both.
     TermShape with(const TermShape& other) const;
 };
@@ -91,7 +120,8 @@ class Term {
 public:
     static void plan(device::MemoryPlan& plan, const PlaneLayout& layout, const TermShape& shape);
 
-    Term(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, const TermShape& shape);
+    /// Of that frame.
+    Term(const device::Device& device, device::TimedQueue& queue, const Frame& frame, const TermShape& shape);
 
     /// Forgets the term before.
     void clear(device::TimedQueue& queue);
@@ -99,12 +129,17 @@ public:
     TermShape shape;
     device::Buffer<float> sums; ///< see area_light.cl, indirect.cl
     device::Buffer<float> value; ///< what is filtered
-    device::Buffer<std::uint32_t> taken, wanted; ///< samples
+    /// Samples. In lean frames these are the primary samples': between two passes over the image each term has as many.
+    device::Buffer<std::uint32_t> taken;
     device::Buffer<float> extremes; ///< of lights: s_min, s_max; of indirect light see indirect.cl
-    device::Buffer<float> beta; ///< metres
     device::Buffer<float> texture, plain, squares, textureSquares; ///< of distributed frames, see accumulate.cl
-    device::Buffer<float> demand; ///< likewise: of samples
+    device::Buffer<float> beta; ///< metres; in lean frames in the place of plain, which it is made with
+    device::Buffer<float> demand; ///< of distributed frames: of samples; in lean ones in the place of squares
+    device::Buffer<std::uint32_t> wanted; ///< samples; packed, in the place of demand
     device::Buffer<float> radiance; ///< likewise, as published: of the term alone
+
+    /// Samples taken, once all are.
+    const device::Buffer<std::uint32_t>& counts() const { return shape.lean ? wanted : taken; }
 
     /// What kernels take for WEDGE_TERM_PARAMETERS.
     auto accumulated() const
@@ -113,13 +148,19 @@ public:
     }
 };
 
-/// What analysis and filter need besides, for one term after the other.
+/// What analysis and filter need besides, for one term after the other. In lean frames it is made of the planes of one
+/// piece of memory, and those that overlap are not in use together; waves of receivers have the same memory before and
+/// after.
 class Scratch {
 public:
     /// values: planes of the terms' values at most.
     static void plan(device::MemoryPlan& plan, const PlaneLayout& layout, std::uint32_t values);
 
     Scratch(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, std::uint32_t values);
+    /// Of a lean frame, in that memory, which has leanPlanes() at least.
+    Scratch(const device::Device& device, const PlaneLayout& layout, const FrameShape& frame, const device::Buffer<float>& memory);
+
+    static std::uint32_t leanPlanes(const FrameShape& frame) { return frame.shutter ? 9 : 8; }
 
     std::uint32_t values;
     device::Buffer<float> rowsFiltered, filtered; ///< like value
@@ -127,6 +168,10 @@ public:
     device::Buffer<float> logs; ///< 4 planes: logarithms of slopes and weights, see analysis.cl; of indirect light variances
     device::Buffer<float> rowsSpread, spread; ///< 4 planes: the same, summed over a neighbourhood
     device::Buffer<float> demand; ///< and before that, eroded slopes
+    device::Buffer<float> slopes, width; ///< of packed terms: slopes or distances; widths while they are made
+    device::Buffer<float> texture; ///< of a packed term
+    device::Buffer<float> error; ///< of taking texture and irradiance apart
+    device::Buffer<float> ofTexture, ofAllTextures; ///< variance of one term's, and of all that is not irradiance
     device::Buffer<float> bounds, extent; ///< of what the camera sees, see reflectors.cl
     device::Buffer<std::uint32_t> histogramCounts, histogramPixels, binCounts; ///< see counts.cl
     device::Buffer<float> histogramSums, binSums, countScale;

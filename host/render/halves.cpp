@@ -13,6 +13,8 @@ namespace {
 const char* const pass = "mean of halves";
 const char* const file = "progressive.cl";
 
+constexpr FrameShape frameOfHalf { true, false, true, true, true };
+
 // Both halves' numbers are hashes of their seeds: any two seeds will do.
 constexpr std::uint32_t secondSeed = 0x9e3779b9u;
 
@@ -23,7 +25,7 @@ double ErrorEstimate::rmse() const { return std::sqrt(noise + (std::isnan(bias) 
 void Halves::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const std::vector<TermShape>& terms)
 {
     for (int half = 0; half < 2; ++half) {
-        Frame::plan(plan, layout, true);
+        Frame::plan(plan, layout, frameOfHalf);
         for (const TermShape& shape : terms) {
             Term::plan(plan, layout, shape);
         }
@@ -35,9 +37,9 @@ Halves::Halves(const device::Device& device, device::TimedQueue& queue, const Pl
     const std::vector<TermShape>& terms)
 {
     for (Half& half : halves_) {
-        half.frame = std::make_unique<Frame>(device, queue, layout, true);
+        half.frame = std::make_unique<Frame>(device, queue, layout, frameOfHalf);
         for (const TermShape& shape : terms) {
-            half.terms.push_back(std::make_unique<Term>(device, queue, layout, shape));
+            half.terms.push_back(std::make_unique<Term>(device, queue, *half.frame, shape));
         }
         half.emission = std::make_unique<device::Buffer<float>>(device, 3 * layout.size, "emission layer of a half");
     }

@@ -4,6 +4,7 @@
 #include "host/render/metadata.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -263,14 +264,10 @@ std::vector<std::string> selectLayers(const std::string& list, const Settings& s
     return selected;
 }
 
-bool needTermPlanes(const std::vector<std::string>& layers)
-{
-    return contains(layers, widthLayer) || contains(layers, "emission") || contains(layers, "direct") || contains(layers, "indirect");
-}
-
 image::LayeredImage readLayers(Renderer& renderer, const Settings& settings, const FrameStatistics& statistics,
     const std::vector<std::string>& layers)
 {
+    assert(layers.empty() || !renderer.frame().shape.lean);
     image::LayeredImage image;
     image.width = settings.width;
     image.height = settings.height;

@@ -39,12 +39,12 @@ void addRecords(std::vector<device::PassRecord>& sum, const std::vector<device::
     }
 }
 
-void Renderer::beginHalves(const Settings& settings, bool keepWidths)
+void Renderer::beginHalves(const Settings& settings, bool keepLayers)
 {
     frame_->clear(queue_);
     const bool lit = settings.integrator == Integrator::Path;
     halves_->begin(contextOf(settings), *waves_, lit ? deviceScene_->areaLightList.size() : 0,
-        cameraParams(scene_, frame_->layout.height, settings.antialias), keepWidths);
+        cameraParams(scene_, frame_->layout.height, settings.antialias), keepLayers);
 }
 
 void Renderer::rehearseHalves(const Settings& settings)
@@ -57,11 +57,11 @@ void Renderer::rehearseHalves(const Settings& settings)
 }
 
 FrameStatistics Renderer::renderProgressively(
-    const Settings& wanted, const Control& control, const std::function<void(const ProgressiveStep&)>& onStep, bool keepWidths)
+    const Settings& wanted, const Control& control, const std::function<void(const ProgressiveStep&)>& onStep, bool keepLayers)
 {
     Settings settings = wanted;
     settings.progressive = true;
-    allocate(settings);
+    allocate(settings, keepLayers);
     queue_.takeRecords();
     std::atomic<bool> stop { false };
     const Clock::time_point start = Clock::now();
@@ -80,7 +80,7 @@ FrameStatistics Renderer::renderProgressively(
     });
     // Frames between steps are to be whole: the halves look at the flag themselves, and the queue never does.
     queue_.setCancelFlag(nullptr);
-    beginHalves(settings, keepWidths);
+    beginHalves(settings, keepLayers);
     ProgressiveStep step;
     for (std::size_t i = 0; i < counts.size() && !(i > 0 && stop); ++i) {
         step.spp = counts[i];
@@ -88,7 +88,7 @@ FrameStatistics Renderer::renderProgressively(
         halves_->show(*frame_);
         step.error = halves_->error(*frame_);
         const bool good = step.error.rmse() <= control.targetError;
-        keepHalfPlanes(settings, keepWidths);
+        keepHalfPlanes(settings, keepLayers);
         queue_.finish();
         FrameStatistics statistics;
         statistics.passes = std::move(step.statistics.passes);
@@ -108,10 +108,10 @@ FrameStatistics Renderer::renderProgressively(
     return step.statistics;
 }
 
-void Renderer::keepHalfPlanes(const Settings& settings, bool keepWidths)
+void Renderer::keepHalfPlanes(const Settings& settings, bool keepLayers)
 {
     termPlanes_.clear();
-    for (std::size_t i = 0; keepWidths && i < halves_->terms().size(); ++i) {
+    for (std::size_t i = 0; keepLayers && i < halves_->terms().size(); ++i) {
         keepPlanes(settings, *halves_->terms()[i], halves_->analysed());
     }
 }

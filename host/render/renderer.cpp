@@ -37,24 +37,57 @@ std::uint32_t filteredPlanes(const Settings& settings, bool specular, bool distr
 /// Slopes of lights, and where things move what their shadows' motions add up to.
 std::uint32_t lightExtremes(const scene::Scene& scene) { return scene::geometryMoves(scene) ? 6 : 2; }
 
+/// What a frame's buffers are for. Lean are distributed frames of which nothing but the image is wanted, and that are made
+/// as by default: without counts from the spectrum, published slopes and widths from the nearest reflectors.
+FrameShape frameShape(const Settings& settings, const scene::Scene& scene, bool keepLayers)
+{
+    const bool usual = !settings.progressive && !settings.distributed.published && settings.slopes == Slopes::Smoothed
+        && !(settings.sampling == Sampling::Adaptive && settings.counts == Counts::Spectrum)
+        && settings.indirect.meanFraction > 0;
+    FrameShape shape;
+    shape.distributed = isDistributed(settings, scene);
+    shape.lean = shape.distributed && !keepLayers && (usual || !needsAnalysis(settings));
+    if (shape.lean) {
+        shape.analysed = needsAnalysis(settings);
+        shape.shutter = scene::geometryMoves(scene) || scene::cameraMoves(scene);
+        shape.deltaLights = !scene.pointLights.empty() || !scene.directionalLights.empty();
+    }
+    return shape;
+}
+
 /// What receivers of waves need for the terms in turn.
 TermShape receiverShape(const Settings& settings, const scene::Scene& scene, bool specular)
 {
-    return termShape(settings, specular).with({ 0, 0, lightExtremes(scene), false, false, false });
+    return termShape(settings, specular).with({ 0, 0, lightExtremes(scene), false, false, false, false });
 }
 
 /// One a term where pixels have several receivers, which serve all terms at once; else the one that all take turns in.
-std::vector<TermShape> termShapes(const Settings& settings, const scene::Scene& scene, bool specular, bool distributed)
+std::vector<TermShape> termShapes(const Settings& settings, const scene::Scene& scene, bool specular, const FrameShape& frame)
 {
-    if (!distributed) {
+    if (!frame.distributed) {
         return { termShape(settings, specular) };
     }
-    const bool analysed = needsAnalysis(settings);
+    TermShape shape { 0, 3, 3, needsAnalysis(settings), true, false, frame.lean };
+    shape.published = shape.analysed && settings.distributed.published;
+    TermShape light = shape;
+    light.sums = frame.lean ? 0 : 1;
+    light.extremes = lightExtremes(scene);
+    if (frame.lean) {
+        // Widths come from the least slope, and from the mean of reflectors' distances, which lie with the plain mean.
+        shape.extremes = 0;
+        light.extremes = shape.analysed && scene::geometryMoves(scene) ? light.extremes : 0;
+    }
     const std::size_t lights = settings.integrator == Integrator::Path ? scene.areaLights.size() : 0;
-    const bool published = analysed && settings.distributed.published;
-    std::vector<TermShape> shapes(lights, { 1, 3, lightExtremes(scene), analysed, true, published });
-    shapes.resize(lights + indirectTerms(settings, specular).size(), { 0, 3, 3, analysed, true, published });
+    std::vector<TermShape> shapes(lights, light);
+    shapes.resize(lights + indirectTerms(settings, specular).size(), shape);
     return shapes;
+}
+
+/// Bytes that waves and, between them, what analyses and filters have in turn.
+std::uint64_t leanBytes(const PlaneLayout& layout, const FrameShape& frame, const TermShape& receivers)
+{
+    const std::uint64_t scratch = frame.analysed ? Scratch::leanPlanes(frame) * layout.size * sizeof(float) : 0;
+    return std::max(scratch, Waves::bytes(receivers, frame.deltaLights));
 }
 
 device::BuildOptions programOptions(const scene::Scene& scene, const Options& options, Traversal traversal)
@@ -102,15 +135,16 @@ Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Opti
 
 Renderer::~Renderer() = default;
 
-device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings)
+device::MemoryPlan Renderer::plan(
+    const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings, bool keepLayers)
 {
     const PlaneLayout layout(settings.width, settings.height);
     device::MemoryPlan plan;
     DeviceScene::plan(plan, scene, hierarchy);
     const bool specular = hasSpecular(scene);
-    const bool distributed = isDistributed(settings, scene);
-    Frame::plan(plan, layout, distributed);
-    const std::vector<TermShape> shapes = termShapes(settings, scene, specular, distributed);
+    const FrameShape frame = frameShape(settings, scene, keepLayers);
+    Frame::plan(plan, layout, frame);
+    const std::vector<TermShape> shapes = termShapes(settings, scene, specular, frame);
     if (settings.progressive) {
         Halves::plan(plan, layout, shapes);
     } else {
@@ -118,33 +152,39 @@ device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hi
             Term::plan(plan, layout, shape);
         }
     }
-    if (distributed) {
-        Waves::plan(plan, layout, receiverShape(settings, scene, specular));
+    const TermShape receivers = receiverShape(settings, scene, specular);
+    if (frame.distributed) {
+        Waves::planTiles(plan, layout);
     }
-    if (needsAnalysis(settings)) {
-        Scratch::plan(plan, layout, filteredPlanes(settings, specular, distributed));
+    if (frame.lean) {
+        plan.add("receivers, or analysis and filters", leanBytes(layout, frame, receivers));
+    } else if (frame.distributed) {
+        plan.add("receivers", Waves::bytes(receivers, true));
+    }
+    if (needsAnalysis(settings) && !frame.lean) {
+        Scratch::plan(plan, layout, filteredPlanes(settings, specular, frame.distributed));
     }
     return plan;
 }
 
-void Renderer::allocate(const Settings& settings)
+void Renderer::allocate(const Settings& settings, bool keepLayers)
 {
     validate(settings);
-    plan(settings).check(device_.info(), options_.memoryLimit);
+    plan(settings, keepLayers).check(device_.info(), options_.memoryLimit);
     if (!deviceScene_) {
         deviceScene_ = std::make_unique<DeviceScene>(scene_, hierarchy_, device_, queue_);
     }
     const PlaneLayout layout(settings.width, settings.height);
-    const bool distributed = isDistributed(settings, scene_);
-    if (!frame_ || !(frame_->layout == layout) || frame_->distributed != distributed) {
+    const FrameShape frame = frameShape(settings, scene_, keepLayers);
+    if (!frame_ || !(frame_->layout == layout) || !(frame_->shape == frame)) {
         terms_.clear();
         halves_.reset();
         waves_.reset();
         scratch_.reset();
         frame_.reset();
-        frame_ = std::make_unique<Frame>(device_, queue_, layout, distributed);
+        frame_ = std::make_unique<Frame>(device_, queue_, layout, frame);
     }
-    std::vector<TermShape> shapes = termShapes(settings, scene_, deviceScene_->specular, distributed);
+    std::vector<TermShape> shapes = termShapes(settings, scene_, deviceScene_->specular, frame);
     if (settings.progressive) {
         if (!halves_ || !halves_->hold(layout, shapes)) {
             halves_.reset();
@@ -158,10 +198,14 @@ void Renderer::allocate(const Settings& settings)
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         if (!terms_[i] || !terms_[i]->shape.holds(shapes[i])) {
             terms_[i].reset();
-            terms_[i] = std::make_unique<Term>(device_, queue_, layout, shapes[i]);
+            terms_[i] = std::make_unique<Term>(device_, queue_, *frame_, shapes[i]);
         }
     }
-    allocateWaves(settings, layout);
+    if (frame.lean) {
+        allocateLeanWaves(settings, layout);
+    } else {
+        allocateWaves(settings, layout);
+    }
 }
 
 void Renderer::allocateWaves(const Settings& settings, const PlaneLayout& layout)
@@ -181,17 +225,32 @@ void Renderer::allocateWaves(const Settings& settings, const PlaneLayout& layout
     }
 }
 
-void Renderer::rehearse(const Settings& settings)
+void Renderer::allocateLeanWaves(const Settings& settings, const PlaneLayout& layout)
+{
+    const TermShape receivers = receiverShape(settings, scene_, deviceScene_->specular);
+    if (waves_ && waves_->shape.holds(receivers)) {
+        return;
+    }
+    waves_.reset();
+    scratch_.reset();
+    const device::Buffer<float> memory(
+        device_, leanBytes(layout, frame_->shape, receivers) / sizeof(float), "receivers, or analysis and filters");
+    waves_ = std::make_unique<Waves>(device_, layout, receivers, frame_->shape.deltaLights, memory);
+    scratch_ = frame_->shape.analysed ? std::make_unique<Scratch>(device_, layout, frame_->shape, memory)
+                                      : std::make_unique<Scratch>(device_, queue_, PlaneLayout(1, 1), 0);
+}
+
+void Renderer::rehearse(const Settings& settings, bool keepLayers)
 {
     const Clock::time_point start = Clock::now();
-    allocate(settings);
+    allocate(settings, keepLayers);
     passes_->setRehearsal(true);
     queue_.setProgress({});
     queue_.setCancelFlag(nullptr);
     if (settings.progressive) {
         rehearseHalves(settings);
     } else {
-        renderPasses(settings, false);
+        renderPasses(settings, keepLayers);
     }
     queue_.finish();
     passes_->setRehearsal(false);
@@ -210,10 +269,10 @@ double Renderer::workUnits(const Settings& settings) const
         + static_cast<double>(scene_.areaLights.size()) * settings.spp + paths;
 }
 
-FrameStatistics Renderer::render(const Settings& settings, const Control& control, bool keepWidths)
+FrameStatistics Renderer::render(const Settings& settings, const Control& control, bool keepLayers)
 {
     assert(!settings.progressive);
-    allocate(settings);
+    allocate(settings, keepLayers);
     queue_.takeRecords();
     std::atomic<bool> stop { false };
     const double total = workUnits(settings);
@@ -228,7 +287,7 @@ FrameStatistics Renderer::render(const Settings& settings, const Control& contro
         }
     });
     FrameStatistics statistics;
-    statistics.complete = renderPasses(settings, keepWidths);
+    statistics.complete = renderPasses(settings, keepLayers);
     queue_.finish();
     statistics.wallMilliseconds = 1e3 * secondsSince(start);
     queue_.setCancelFlag(nullptr);
@@ -242,7 +301,7 @@ FrameStatistics Renderer::completed(const Settings& settings, FrameStatistics st
     for (const device::PassRecord& record : statistics.passes) {
         statistics.deviceMilliseconds += record.milliseconds;
     }
-    statistics.memoryBytes = plan(settings).total();
+    statistics.memoryBytes = plan(settings, frame_->distributed && !frame_->shape.lean).total();
     countWork(settings, statistics);
     return statistics;
 }
@@ -259,7 +318,7 @@ TermContext Renderer::contextOf(const Settings& settings)
         scene::geometryMoves(scene_) || scene::cameraMoves(scene_) };
 }
 
-bool Renderer::renderPasses(const Settings& settings, bool keepWidths)
+bool Renderer::renderPasses(const Settings& settings, bool keepLayers)
 {
     frame_->clear(queue_);
     termPlanes_.clear();
@@ -267,14 +326,14 @@ bool Renderer::renderPasses(const Settings& settings, bool keepWidths)
     const TermContext context = contextOf(settings);
     const image::Window& output = context.window;
     if (frame_->distributed) {
-        return distributedPasses(context, keepWidths);
+        return distributedPasses(context, keepLayers);
     }
     bool complete = primaryPass(needsAnalysis(settings) ? context.fullFrame : context.sampledFrame, lit);
     const std::size_t lights = lit ? deviceScene_->areaLightList.size() : 0;
     for (std::uint32_t light = 0; complete && light < lights; ++light) {
         SoftShadows shadows(context, *terms_.front(), light);
         complete = shadows.render();
-        if (keepWidths) {
+        if (keepLayers) {
             keepPlanes(settings, *terms_.front(), shadows.analysed());
         }
     }
@@ -285,7 +344,7 @@ bool Renderer::renderPasses(const Settings& settings, bool keepWidths)
         if (complete) {
             Indirect indirect(context, *terms_.front(), term.component);
             complete = indirect.render();
-            if (keepWidths) {
+            if (keepLayers) {
                 keepPlanes(settings, *terms_.front(), indirect.analysed());
             }
         }
@@ -300,13 +359,13 @@ bool Renderer::renderPasses(const Settings& settings, bool keepWidths)
     return complete;
 }
 
-bool Renderer::distributedPasses(const TermContext& context, bool keepWidths)
+bool Renderer::distributedPasses(const TermContext& context, bool keepLayers)
 {
     const bool lit = context.settings.integrator == Integrator::Path;
     DistributedFrame distributed(context, *waves_, terms_, lit ? deviceScene_->areaLightList.size() : 0,
-        cameraParams(scene_, frame_->layout.height, context.settings.antialias), keepWidths);
+        cameraParams(scene_, frame_->layout.height, context.settings.antialias), keepLayers);
     const bool complete = distributed.render();
-    for (std::size_t i = 0; keepWidths && i < terms_.size(); ++i) {
+    for (std::size_t i = 0; keepLayers && i < terms_.size(); ++i) {
         keepPlanes(context.settings, *terms_[i], distributed.analysed());
     }
     return complete;

@@ -79,23 +79,28 @@ public:
     ~Renderer();
 
     /// Device memory that a frame of these settings takes, before anything of it is allocated.
-    static device::MemoryPlan plan(const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings);
-    device::MemoryPlan plan(const Settings& settings) const { return plan(scene_, hierarchy_, settings); }
+    /// keepLayers: as render() has it.
+    static device::MemoryPlan plan(
+        const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings, bool keepLayers = false);
+    device::MemoryPlan plan(const Settings& settings, bool keepLayers = false) const
+    {
+        return plan(scene_, hierarchy_, settings, keepLayers);
+    }
 
     /// Renders; the result stays on the device until the next call. Throws Error if memory does not suffice or the
-    /// device fails. keepWidths: fills termPlanes() for the width layers, and in distributed frames filters emission, direct
-    /// and indirect, which else only the beauty is made of.
-    FrameStatistics render(const Settings& settings, const Control& control = {}, bool keepWidths = false);
+    /// device fails. keepLayers: for frames of which layers will be read. It fills termPlanes() for those of widths, and in
+    /// distributed frames, which else keep little but the beauty, fills and filters all that layers show.
+    FrameStatistics render(const Settings& settings, const Control& control = {}, bool keepLayers = false);
 
     /// Renders in steps of ever more samples, which all stay and count, up to settings.spp (see stepCounts() in
     /// progressive.h). After each the image so far is on the device, as render() leaves it, and onStep is called. A cancelled
     /// or late render ends between two waves of samples, or before the next step; the last image has them all. Returns the
     /// statistics of all steps. Needs settings without published counts; always samples by the sequence. Throws as render().
     FrameStatistics renderProgressively(const Settings& settings, const Control& control,
-        const std::function<void(const ProgressiveStep&)>& onStep, bool keepWidths = false);
+        const std::function<void(const ProgressiveStep&)>& onStep, bool keepLayers = false);
 
     /// Launches all kernels of these settings at full size over nothing, so that no compilation falls into render().
-    void rehearse(const Settings& settings);
+    void rehearse(const Settings& settings, bool keepLayers = false);
 
     const scene::Scene& scene() const { return scene_; }
     bvh::Mode bvhMode() const { return options_.bvh; }
@@ -111,21 +116,23 @@ public:
     device::TimedQueue& queue() { return queue_; }
 
 private:
-    void allocate(const Settings& settings);
-    bool renderPasses(const Settings& settings, bool keepWidths);
+    void allocate(const Settings& settings, bool keepLayers);
+    bool renderPasses(const Settings& settings, bool keepLayers);
     /// lit: with area lights in view, and with what surfaces and background emit.
     bool primaryPass(const shared::FrameParams& params, bool lit);
     bool deltaLightPass(const shared::FrameParams& params);
     TermContext contextOf(const Settings& settings);
-    void beginHalves(const Settings& settings, bool keepWidths);
+    void beginHalves(const Settings& settings, bool keepLayers);
     void rehearseHalves(const Settings& settings);
-    void keepHalfPlanes(const Settings& settings, bool keepWidths);
+    void keepHalfPlanes(const Settings& settings, bool keepLayers);
     /// With the sums of the passes, memory, and what the frame counted.
     FrameStatistics completed(const Settings& settings, FrameStatistics statistics);
     void allocateWaves(const Settings& settings, const PlaneLayout& layout);
-    bool distributedPasses(const TermContext& context, bool keepWidths);
+    void allocateLeanWaves(const Settings& settings, const PlaneLayout& layout);
+    bool distributedPasses(const TermContext& context, bool keepLayers);
     void keepPlanes(const Settings& settings, const Term& term, bool analysed);
     void countWork(const Settings& settings, FrameStatistics& statistics);
+    void countLeanSamples(const Settings& settings, std::vector<std::uint32_t>& all, std::vector<std::uint32_t>& indirect);
     double workUnits(const Settings& settings) const;
 
     const scene::Scene& scene_;

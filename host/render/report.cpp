@@ -36,7 +36,7 @@ Json deviceSection(const Renderer& renderer)
         { "build_options", renderer.buildOptions() }, { "traversal", traversalName(renderer.traversal()) } };
 }
 
-Json sceneSection(const Renderer& renderer, const Settings& settings)
+Json sceneSection(const Renderer& renderer, std::uint64_t memoryBytes)
 {
     const scene::Summary s = scene::summary(renderer.scene());
     const bvh::Statistics& b = renderer.hierarchy().statistics;
@@ -44,7 +44,7 @@ Json sceneSection(const Renderer& renderer, const Settings& settings)
         { "objects", s.objects }, { "materials", s.materials }, { "textures", s.textures },
         { "area_lights", s.areaLights }, { "point_lights", s.pointLights },
         { "directional_lights", s.directionalLights }, { "geometry_bytes", s.geometryBytes },
-        { "texture_bytes", s.textureBytes }, { "memory_bytes", renderer.plan(settings).total() },
+        { "texture_bytes", s.textureBytes }, { "memory_bytes", memoryBytes },
         { "bvh",
             { { "mode", bvh::modeName(renderer.bvhMode()) }, { "nodes", b.nodes }, { "blocks", b.blocks }, { "triangles", b.triangles },
                 { "degenerate", b.degenerate }, { "skipped", b.skipped }, { "depth", b.depth },
@@ -135,7 +135,7 @@ std::string jsonReport(const Renderer& renderer, const Settings& settings, const
     Json report;
     report["wedge"] = version();
     report["device"] = deviceSection(renderer);
-    report["scene"] = sceneSection(renderer, settings);
+    report["scene"] = sceneSection(renderer, frames.empty() ? renderer.plan(settings).total() : frames.back().memoryBytes);
     report["method"] = methodSection(settings);
     report["setup"] = { { "load_ms", extras.loadMilliseconds },
         { "bvh_ms", 1e3 * renderer.hierarchy().statistics.buildSeconds },

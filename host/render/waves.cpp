@@ -1,5 +1,7 @@
 #include "host/render/waves.h"
 
+#include <cassert>
+
 namespace wedge::render {
 
 using device::PassKind;
@@ -13,51 +15,76 @@ std::uint64_t mostTiles(const PlaneLayout& layout)
     return across * ((layout.height + WEDGE_TILE - 1) / WEDGE_TILE);
 }
 
-constexpr std::uint64_t surfacePlanes = 3 * 6 + 2 + 12; // vectors; motion; single planes
+// Surfaces: vectors, motion, single planes; samples and rays; lists; shading by a light.
+constexpr std::uint64_t surfacePlanes = 3 * 6 + 2 + 10, otherPlanes = 4 + 2 + 2;
 
 } // namespace
 
-void Waves::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const TermShape& term)
+std::uint64_t Waves::bytes(const TermShape& term, bool deltaLights)
 {
-    const std::uint64_t planes = surfacePlanes + 8 + term.sums + term.values + term.extremes + 4;
-    plan.addItems("receivers", capacity, 4 * planes);
-    plan.addItems("tiles", mostTiles(layout), 8);
+    return sizeof(float) * planeSize
+        * (surfacePlanes + otherPlanes + term.sums + term.values + term.extremes + (deltaLights ? 6u : 0u));
+}
+
+void Waves::planTiles(device::MemoryPlan& plan, const PlaneLayout& layout) { plan.addItems("tiles", mostTiles(layout), 8); }
+
+template <class T>
+device::Buffer<T> Waves::Pieces::take(std::size_t count, const std::string& name)
+{
+    if (count == 0) {
+        // Some buffer that nothing is written to.
+        return memory.part<T>(0, 0, name);
+    }
+    planes += count;
+    return memory.part<T>((planes - count) * planeSize, count * planeSize, name);
+}
+
+Waves::Waves(const device::Device& device, const PlaneLayout& layout, const TermShape& term, bool deltaLights,
+    const device::Buffer<float>& memory)
+    : Waves(device, layout, term, deltaLights, Pieces { memory })
+{
 }
 
 Waves::Waves(const device::Device& device, const PlaneLayout& layout, const TermShape& term)
+    : Waves(device, layout, term, true, device::Buffer<float>(device, bytes(term, true) / sizeof(float), "receivers"))
+{
+}
+
+Waves::Waves(const device::Device& device, const PlaneLayout& layout, const TermShape& term, bool deltaLights, Pieces pieces)
     : shape(term)
-    , position(device, 3 * capacity, "receivers' positions")
-    , normal(device, 3 * capacity, "receivers' normals")
-    , origin(device, 3 * capacity, "receivers' origins")
-    , geometric(device, capacity, "receivers' geometric normals")
-    , objectId(device, capacity, "receivers' object ids")
-    , gloss(device, capacity, "receivers' gloss")
-    , pixelOf(device, capacity, "receivers' pixels")
-    , sampleOf(device, capacity, "receivers' samples")
-    , shareOf(device, capacity, "receivers' shares")
-    , view(device, capacity, "receivers' views")
-    , time(device, capacity, "receivers' times")
-    , diffuse(device, 3 * capacity, "receivers' diffuse")
-    , specular(device, 3 * capacity, "receivers' specular")
-    , emission(device, 3 * capacity, "receivers' emission")
-    , pixelSize(device, capacity, "receivers' pixel sizes")
-    , depth(device, capacity, "receivers' depths")
-    , motion(device, 2 * capacity, "receivers' motion")
-    , sums(device, term.sums * capacity, "receivers' sums")
-    , value(device, term.values * capacity, "receivers' values")
-    , extremes(device, term.extremes * capacity, "receivers' slopes and distances")
-    , taken(device, capacity, "receivers' samples taken")
-    , wanted(device, capacity, "receivers' samples wanted")
-    , rays(device, capacity, "receivers' rays")
-    , pathRays(device, capacity, "receivers' path rays")
-    , unshadowed(device, 2 * capacity, "receivers' unshadowed shading")
-    , radiance(device, 3 * capacity, "receivers' radiance")
-    , radianceNoisy(device, 3 * capacity, "receivers' unfiltered radiance")
+    , position(pieces.take<float>(3, "receivers' positions"))
+    , normal(pieces.take<float>(3, "receivers' normals"))
+    , origin(pieces.take<float>(3, "receivers' origins"))
+    , geometric(pieces.take<std::uint32_t>(1, "receivers' geometric normals"))
+    , objectId(pieces.take<std::uint32_t>(1, "receivers' object ids"))
+    , gloss(pieces.take<float>(1, "receivers' gloss"))
+    , pixelOf(pieces.take<std::uint32_t>(1, "receivers' pixels"))
+    , sampleOf(pieces.take<std::uint32_t>(1, "receivers' samples"))
+    , shareOf(pieces.take<std::uint32_t>(1, "receivers' shares"))
+    , view(pieces.take<std::uint32_t>(1, "receivers' views"))
+    , time(pieces.take<float>(1, "receivers' times"))
+    , diffuse(pieces.take<float>(3, "receivers' diffuse"))
+    , specular(pieces.take<float>(3, "receivers' specular"))
+    , emission(pieces.take<float>(3, "receivers' emission"))
+    , pixelSize(pieces.take<float>(1, "receivers' pixel sizes"))
+    , depth(pieces.take<float>(1, "receivers' depths"))
+    , motion(pieces.take<float>(2, "receivers' motion"))
+    , sums(pieces.take<float>(term.sums, "receivers' sums"))
+    , value(pieces.take<float>(term.values, "receivers' values"))
+    , extremes(pieces.take<float>(term.extremes, "receivers' slopes and distances"))
+    , taken(pieces.take<std::uint32_t>(1, "receivers' samples taken"))
+    , wanted(pieces.take<std::uint32_t>(1, "receivers' samples wanted"))
+    , rays(pieces.take<std::uint32_t>(1, "receivers' rays"))
+    , pathRays(pieces.take<std::uint32_t>(1, "receivers' path rays"))
+    , unshadowed(pieces.take<float>(2, "receivers' unshadowed shading"))
+    , radiance(pieces.take<float>(deltaLights ? 3 : 0, "receivers' radiance"))
+    , radianceNoisy(pieces.take<float>(deltaLights ? 3 : 0, "receivers' unfiltered radiance"))
     , tileReceivers(device, mostTiles(layout), "receivers of tiles")
     , tileFirst(device, mostTiles(layout), "first receivers of tiles")
-    , pixelFirst(device, capacity, "first receivers of pixels")
-    , pixelCount(device, capacity, "receivers of pixels")
+    , pixelFirst(pieces.take<std::uint32_t>(1, "first receivers of pixels"))
+    , pixelCount(pieces.take<std::uint32_t>(1, "receivers of pixels"))
 {
+    assert(pieces.planes * planeSize * sizeof(float) == bytes(term, deltaLights));
 }
 
 std::vector<shared::WaveParams> Waves::schedule(Passes& passes, const shared::FrameParams& params,
@@ -65,7 +92,7 @@ std::vector<shared::WaveParams> Waves::schedule(Passes& passes, const shared::Fr
 {
     camera_ = camera;
     params_ = params;
-    settings.planeSize = capacity;
+    settings.planeSize = planeSize;
     settings.lastSample = last;
     passes.list("lists", PassKind::Trace, "waves.cl", "countReceivers", params.tileCount, params, settings,
         frame.primaryTaken, frame.primaryWanted, tileReceivers);

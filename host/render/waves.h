@@ -15,12 +15,19 @@ namespace wedge::render {
 /// each of which is added to its pixels before the next.
 class Waves {
 public:
-    /// Receivers of a wave at most: enough to fill a large device, few enough to stay in a CPU's caches.
-    static constexpr std::uint32_t capacity = 1u << 17;
+    static constexpr std::uint32_t capacity = WEDGE_WAVE_RECEIVERS;
+    /// Elements from plane to plane: not a power of two, whose multiples caches confuse.
+    static constexpr std::uint32_t planeSize = capacity + device::partAlignment / sizeof(float);
 
-    static void plan(device::MemoryPlan& plan, const PlaneLayout& layout, const TermShape& term);
+    /// Bytes of what lies in their memory, and the rest.
+    static std::uint64_t bytes(const TermShape& term, bool deltaLights);
+    static void planTiles(device::MemoryPlan& plan, const PlaneLayout& layout);
 
-    /// term: planes that the receivers' terms need.
+    /// term: planes that the receivers' terms need. memory: what is on no use between the waves of one pass and those of the
+    /// next lies there, from the start on.
+    Waves(const device::Device& device, const PlaneLayout& layout, const TermShape& term, bool deltaLights,
+        const device::Buffer<float>& memory);
+    /// With memory of their own, and point or directional lights.
     Waves(const device::Device& device, const PlaneLayout& layout, const TermShape& term);
 
     /// The waves in which the pixels of frame get their primary samples up to frame.primaryWanted, or up to `last` samples.
@@ -68,6 +75,16 @@ public:
     device::Buffer<std::uint32_t> pixelFirst, pixelCount; ///< one a pixel of the wave's tiles
 
 private:
+    /// Planes of receivers, one buffer after the other, in one memory.
+    struct Pieces {
+        const device::Buffer<float>& memory;
+        std::size_t planes = 0; ///< taken so far
+
+        template <class T>
+        device::Buffer<T> take(std::size_t count, const std::string& name);
+    };
+    Waves(const device::Device& device, const PlaneLayout& layout, const TermShape& term, bool deltaLights, Pieces pieces);
+
     shared::FrameParams params_ {}; ///< of the pixels
     shared::CameraParams camera_ {};
 };

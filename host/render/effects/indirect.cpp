@@ -138,6 +138,7 @@ shared::ReflectorParams Indirect::reflectorParams(const image::Window& window) c
     p.meanFraction = in.meanFraction;
     p.countCap = static_cast<std::uint32_t>(in.maxSpp);
     p.fixedWidth = c_.settings.filtering == Filtering::Fixed ? c_.settings.fixedWidth : 0.0f;
+    p.meanOnly = c_.frame.shape.packed() ? 1 : 0;
     p.countExponent = in.countExponent;
     p.varianceSpread = c_.settings.varianceSpread;
     return p;
@@ -170,8 +171,13 @@ void Indirect::visibleExtent()
 void Indirect::widths()
 {
     visibleExtent();
-    c_.passes.rows("widths", PassKind::Analysis, "reflectors.cl", "reflectorWidths", reflectorParams(c_.full()), 1,
-        term_.extremes, c_.scratch.extent, c_.frame.pixelSize, c_.frame.gloss, term_.taken, term_.beta, term_.wanted);
+    const bool packed = c_.frame.shape.packed();
+    const device::Buffer<float>& reflectors = packed ? c_.scratch.slopes : term_.extremes;
+    if (packed) {
+        c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "unpackSecond", countParams(c_.full()), 1, term_.plain, reflectors);
+    }
+    c_.passes.rows("widths", PassKind::Analysis, "reflectors.cl", "reflectorWidths", reflectorParams(c_.full()), 1, reflectors,
+        c_.scratch.extent, c_.frame.pixelSize, c_.frame.gloss, term_.taken, packed ? c_.scratch.width : term_.beta, term_.wanted);
     analysed_ = true;
 }
 
@@ -229,7 +235,9 @@ void Indirect::sampleWave(Waves& waves, const shared::WaveParams& wave, double w
         s.nodes, s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, waves.receivers(), waves.specular, waves.wanted,
         std::numeric_limits<std::uint32_t>::max(), waves.sums, waves.taken, waves.value, waves.extremes, waves.rays,
         waves.pathRays);
-    waves.pixels(c_.passes, "accumulatePaths", wave, component_ == Component::Ambient ? 1u : 0u, waves.pixelFirst, waves.pixelCount, c_.frame.primaryTaken, c_.frame.hits,
+    shared::WaveParams adding = wave;
+    adding.omits |= term_.shape.extremes < 2 ? WEDGE_OMITS_EXTREMES : 0;
+    waves.pixels(c_.passes, "accumulatePaths", adding, component_ == Component::Ambient ? 1u : 0u, waves.pixelFirst, waves.pixelCount, c_.frame.primaryTaken, c_.frame.hits,
         waves.objectId, reflectance, waves.sums, waves.extremes, term_.accumulated(),
         c_.frame.samples, c_.frame.indirectSamples);
 }
@@ -244,8 +252,13 @@ void Indirect::publishedWidths(const shared::DistributedParams& params, const de
 
 void Indirect::filterDistributed(const shared::DistributedParams& params)
 {
+    // The gather's rows go elsewhere, and its columns know nothing of the value.
+    const device::Buffer<float>& value = c_.frame.shape.packed() ? c_.scratch.filtered : term_.value;
+    if (c_.frame.shape.packed()) {
+        c_.passes.rows("filter of indirect", PassKind::Filter, "distributed.cl", "unpackImage", params, 1, term_.value, value);
+    }
     gaussianFilter(c_.passes, { "filter of indirect", PassKind::Filter, "filter_indirect.cl" },
-        filterParams(c_.settings, c_.fullFrame, c_.full()), c_.full(), c_.frame, term_.value, term_.beta, c_.scratch,
+        filterParams(c_.settings, c_.fullFrame, c_.full()), c_.full(), c_.frame, value, term_.beta, c_.scratch,
         c_.scratch.filtered);
     addFilteredTerm(c_, term_, params, c_.frame.indirect);
 }

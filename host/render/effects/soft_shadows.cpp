@@ -200,8 +200,15 @@ void SoftShadows::smoothedWidths()
 {
     const shared::AnalysisParams p = analysisParams(c_.full());
     constexpr std::uint32_t planes = 2;
+    const bool packed = c_.frame.shape.packed();
+    const device::Buffer<float>& slopes = packed ? c_.scratch.slopes : term_.extremes;
+    if (packed) {
+        // Others had that memory, and what spreads comes from the padding, too.
+        c_.scratch.logs.fill(c_.passes.queue(), 0.0f);
+        c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "unpackSecond", p, 1, term_.plain, slopes);
+    }
     // The plane of demands is free until the counts are made.
-    c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "erodeSlopes", p, WEDGE_BLOCK_PIXELS, term_.extremes,
+    c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "erodeSlopes", p, WEDGE_BLOCK_PIXELS, slopes,
         c_.frame.objectId, c_.scratch.demand);
     c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "smoothSlopes", p, WEDGE_BLOCK_PIXELS, c_.scratch.demand,
         c_.frame.objectId, c_.scratch.logs);
@@ -209,8 +216,12 @@ void SoftShadows::smoothedWidths()
         c_.scratch.logs, c_.scratch.rowsSpread);
     c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "spreadColumns", p, WEDGE_BLOCK_PIXELS, planes,
         c_.scratch.rowsSpread, c_.scratch.spread);
+    if (packed) {
+        // Demands are not made yet, and slopes not eroded any more.
+        c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "luminanceOf", p, 1, 1u, term_.texture, c_.scratch.demand);
+    }
     c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "widths", p, 1, c_.scratch.logs, c_.scratch.spread,
-        c_.frame.objectId, c_.frame.pixelSize, term_.sums, term_.beta);
+        c_.frame.objectId, c_.frame.pixelSize, packed ? c_.scratch.demand : term_.sums, packed ? c_.scratch.width : term_.beta);
 }
 
 void SoftShadows::countsFromVariance()
@@ -263,7 +274,9 @@ void SoftShadows::sampleWave(Waves& waves, const shared::WaveParams& wave, bool 
             c_.scene.quadratures[index_], waves.position, waves.normal, waves.objectId,
             waves.specular, waves.gloss, waves.view, waves.unshadowed);
     }
-    waves.pixels(c_.passes, "accumulateLight", wave, light(), exact ? 1u : 0u, waves.pixelFirst, waves.pixelCount,
+    shared::WaveParams adding = wave;
+    adding.omits |= term_.shape.extremes < 2 ? WEDGE_OMITS_EXTREMES : 0;
+    waves.pixels(c_.passes, "accumulateLight", adding, light(), exact ? 1u : 0u, waves.pixelFirst, waves.pixelCount,
         c_.frame.primaryTaken, c_.frame.hits, waves.receivers(), waves.diffuse, waves.specular, waves.sums, waves.unshadowed, waves.extremes,
         term_.accumulated(), term_.sums, c_.frame.samples);
 }
@@ -281,8 +294,8 @@ void SoftShadows::blurShadows(const shared::DistributedParams& params)
 {
     Scratch& scratch = c_.scratch;
     c_.passes.rows("filter of motion", PassKind::Filter, "distributed.cl", "shadowBlurs", params, 1, term_.extremes,
-        term_.taken, term_.beta, scratch.demand, scratch.logs);
-    c_.passes.rows("filter of motion", PassKind::Filter, "blur.cl", "blurMotion", params, 1, 1u, scratch.demand, scratch.logs,
+        term_.counts(), term_.beta, scratch.error, scratch.logs);
+    c_.passes.rows("filter of motion", PassKind::Filter, "blur.cl", "blurMotion", params, 1, 1u, scratch.error, scratch.logs,
         scratch.filtered, scratch.rowsFiltered);
     c_.passes.rows("filter of motion", PassKind::Filter, "distributed.cl", "copyPlane", params, 1, scratch.rowsFiltered,
         scratch.filtered);

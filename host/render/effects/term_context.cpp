@@ -12,13 +12,20 @@ void addFilteredTerm(
     const TermContext& context, const Term& term, const shared::DistributedParams& params, device::Buffer<float>& radiance)
 {
     Scratch& scratch = context.scratch;
+    shared::DistributedParams p = params;
     const device::Buffer<float>* texture = &term.texture;
     if (context.shutter && context.settings.distributed.blur) {
+        if (context.frame.shape.packed()) {
+            texture = &scratch.texture;
+            context.passes.rows("filter of motion", device::PassKind::Filter, "distributed.cl", "unpackImage", params, 1,
+                term.texture, *texture);
+        }
         context.passes.rows("filter of motion", device::PassKind::Filter, "blur.cl", "blurMotion", params, 1, 3u,
-            context.frame.motionWidth, context.frame.motionDirection, term.texture, scratch.rowsFiltered);
+            context.frame.motionWidth, context.frame.motionDirection, *texture, scratch.rowsFiltered);
         texture = &scratch.rowsFiltered;
+        p.plainTexture = 1;
     }
-    context.passes.rows("composite", device::PassKind::Composite, "distributed.cl", "addFilteredTerm", params, 1, term.texture,
+    context.passes.rows("composite", device::PassKind::Composite, "distributed.cl", "addFilteredTerm", p, 1, term.texture,
         *texture, term.value, scratch.filtered, term.beta, term.radiance, radiance);
 }
 

@@ -1,0 +1,42 @@
+// Planes of pixels that may be packed (shared/packed.h): terms of frames of one image have them.
+#ifndef WEDGE_PACKED_PLANES_H
+#define WEDGE_PACKED_PLANES_H
+
+#include "pixel.h"
+#include "shared/packed.h"
+
+/// A colour of three planes, or of one and a half.
+WEDGE_FN Vec3 loadColour(__global const float* planes, uint planeSize, uint i, uint packed)
+{
+    if (packed == 0u) {
+        return loadVec(planes, planeSize, i);
+    }
+    PackedColour c;
+    c.low = ((__global const uint*)planes)[i];
+    c.high = ((__global const ushort*)(planes + planeSize))[i];
+    return unpackColour(c);
+}
+
+WEDGE_FN void storeColour(__global float* planes, uint planeSize, uint i, uint packed, Vec3 colour)
+{
+    if (packed == 0u) {
+        storeVec(planes, planeSize, i, colour);
+        return;
+    }
+    const PackedColour c = packColour(colour);
+    ((__global uint*)planes)[i] = c.low;
+    ((__global ushort*)(planes + planeSize))[i] = (ushort)c.high;
+}
+
+/// One of two numbers in a plane: the first (which: 0) or the second of all pixels.
+WEDGE_FN float loadShort(__global const float* plane, uint planeSize, uint i, uint which)
+{
+    return unpackShort(((__global const ushort*)plane)[which * planeSize + i]);
+}
+
+WEDGE_FN void storeShort(__global float* plane, uint planeSize, uint i, uint which, float x)
+{
+    ((__global ushort*)plane)[which * planeSize + i] = (ushort)packShort(x);
+}
+
+#endif
