@@ -11,7 +11,8 @@
 //
 // Packed planes (wave.packed) hold k and E in 47 bits each (packed_planes.h), and what one wave alone measures in 16: in
 // `plain` the factoring error (distributed.cl) and, after it, the one of the extremes that there is; in `squares` the
-// standard deviations of a primary sample's radiance and of its texture.
+// standard deviations of a primary sample's radiance and of its texture. Likewise pixelSize holds the gloss, too, and hits, after
+// these, the signed radius nearest to 0 of the circles of confusion.
 #include "light_sample.h"
 #include "packed_planes.h"
 #include "shared/bsdf.h"
@@ -314,10 +315,10 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
         sum.texture = vec3(0.0f, 0.0f, 0.0f);
         sum.textureSquared = sum.textures = 0.0f;
     }
-    const float plainWeight = (float)hits[p.i];
+    const float plainWeight = (float)loadHits(hits, p.i, wave.packed);
     const Vec3 weights = wave.published != 0u ? vec3(plainWeight, plainWeight, plainWeight)
                                               : vecScale(loadColour(texture, pixels, p.i, wave.packed), (float)termTaken[p.i]);
-    storeTermSums(wave, p, pixels, WEDGE_TERM_ARGUMENTS, termTaken[p.i], total, (float)hits[p.i], weights, &sum);
+    storeTermSums(wave, p, pixels, WEDGE_TERM_ARGUMENTS, termTaken[p.i], total, (float)loadHits(hits, p.i, wave.packed), weights, &sum);
     storeExtreme(wave, p, pixels, plain, extremes, sMin < INFINITY ? sMin : 0.0f);
     if (measures && all) {
         extremes[pixels + p.i] = sMax;
@@ -389,11 +390,11 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient, 
         farthest = fmax(farthest, reflectors[size + r]);
         inverse += reflectors[2u * size + r];
     }
-    const float counted = wave.published != 0u ? (float)hits[p.i]
-        : p.before > 0u                        ? (float)hits[p.i] / (float)p.before * (float)termTaken[p.i]
+    const float counted = wave.published != 0u ? (float)loadHits(hits, p.i, wave.packed)
+        : p.before > 0u                        ? (float)loadHits(hits, p.i, wave.packed) / (float)p.before * (float)termTaken[p.i]
                                                : 0.0f;
     const Vec3 known = vecMad(vecScale(floors, counted), loadColour(texture, pixels, p.i, wave.packed), own * (float)termTaken[p.i]);
-    storeTermSums(wave, p, pixels, WEDGE_TERM_ARGUMENTS, termTaken[p.i], total, (float)hits[p.i], known, &sum);
+    storeTermSums(wave, p, pixels, WEDGE_TERM_ARGUMENTS, termTaken[p.i], total, (float)loadHits(hits, p.i, wave.packed), known, &sum);
     storeExtreme(wave, p, pixels, plain, extremes, all ? (nearest < INFINITY ? nearest : 0.0f) : inverse);
     if (measures && all) {
         extremes[pixels + p.i] = farthest;
@@ -439,11 +440,8 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
     const Vec3 none = vec3(0.0f, 0.0f, 0.0f);
     Vec3 at = none, facing = none, kd = none, ks = none, emitted = none;
     float hit = 0.0f, exponent = 0.0f, edge = 0.0f, moveX = 0.0f, moveY = 0.0f, squared = 0.0f;
-    float low = INFINITY, high = -INFINITY;
-    if (p.before > 0u) {
-        low = wave.packed != 0u ? loadShort(confusionOf, pixels, p.i, 0u) : confusionOf[p.i];
-        high = wave.packed != 0u ? loadShort(confusionOf, pixels, p.i, 1u) : confusionOf[pixels + p.i];
-    }
+    const bool has = p.before > 0u && wave.packed == 0u;
+    float low = has ? confusionOf[p.i] : INFINITY, high = has ? confusionOf[pixels + p.i] : -INFINITY;
     uint object = objectOf[p.i], traced = 0u, paths = 0u;
     for (uint r = p.first; r < p.first + p.count; ++r) {
         const Vec3 e = loadVec(emission, size, r);
@@ -470,7 +468,7 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
         moveX += motion[r];
         moveY += motion[size + r];
     }
-    const float before = (float)p.before, count = (float)p.count, hits = (float)hitsOf[p.i];
+    const float before = (float)p.before, count = (float)p.count, hits = (float)loadHits(hitsOf, p.i, wave.packed);
     storeMean(emissionOf, pixels, p.i, before, emitted, count);
     const bool measures = (wave.omits & WEDGE_OMITS_ANALYSIS) == 0u, layers = (wave.omits & WEDGE_OMITS_LAYERS) == 0u;
     if (measures) {
@@ -482,8 +480,11 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
     }
     taken[p.i] = p.before + p.count;
     if (wave.packed != 0u) {
-        storeShort(confusionOf, pixels, p.i, 0u, low);
-        storeShort(confusionOf, pixels, p.i, 1u, high);
+        // The signed radius nearest to 0, or 0 where it changes its sign.
+        const float least = low > 0.0f ? low : high < 0.0f ? high : 0.0f;
+        const float had = p.before > 0u ? loadShort(confusionOf, pixels, p.i, 1u) : least;
+        const float nearest = fabs(had) < fabs(least) ? had : least;
+        storeShort(confusionOf, pixels, p.i, 1u, (had > 0.0f) == (least > 0.0f) && (had < 0.0f) == (least < 0.0f) ? nearest : 0.0f);
     } else {
         confusionOf[p.i] = low;
         confusionOf[pixels + p.i] = high;
@@ -497,11 +498,14 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
         }
         return;
     }
-    hitsOf[p.i] += (uint)hit;
+    storeHits(hitsOf, p.i, wave.packed, (uint)hits + (uint)hit);
     objectOf[p.i] = object;
     storeMean(positionOf, pixels, p.i, hits, at, hit);
     storeVec(normalOf, pixels, p.i, vecNormalize(vecMad(facing, loadVec(normalOf, pixels, p.i), hits)));
-    if (measures) {
+    if (measures && wave.packed != 0u) {
+        storeShort(pixelSizeOf, pixels, p.i, 0u, edge / hit);
+        storeShort(pixelSizeOf, pixels, p.i, 1u, exponent / hit);
+    } else if (measures) {
         glossOf[p.i] = meanWith(glossOf[p.i], hits, exponent, hit);
         pixelSizeOf[p.i] = meanWith(pixelSizeOf[p.i], hits, edge, hit);
     }

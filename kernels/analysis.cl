@@ -167,13 +167,14 @@ __kernel void widths(AnalysisParams p, __global const float* restrict logSlopes,
         return;
     }
     const uint i = pixelIndex(x, y, p.stride);
+    const float size = loadNumber(pixelSize, p.planeSize, i, p.packed, 0u);
     const float own = logSlopes[p.planeSize + i];
     const float near = spread[p.planeSize + i];
     const bool has = own > 0.0f || near > WEDGE_LEAST_SPREAD;
     const float logSlope = own > 0.0f ? logSlopes[i] : spread[i] / fmax(near, WEDGE_LEAST_SPREAD);
     const float slope = exp(0.69314718f * logSlope);
-    const float analysed = has ? filterWidth(slope, p.sigma, pixelSize[i], p.k, p.mu, p.alpha) : 0.0f;
-    const float wide = p.fixedWidth > 0.0f ? p.fixedWidth * pixelSize[i] : analysed;
+    const float analysed = has ? filterWidth(slope, p.sigma, size, p.k, p.mu, p.alpha) : 0.0f;
+    const float wide = p.fixedWidth > 0.0f ? p.fixedWidth * size : analysed;
     beta[i] = objectId[i] != 0u && sums[i] > 0.0f ? wide : -1.0f;
 }
 

@@ -44,7 +44,7 @@ __kernel void factoredWidths(DistributedParams p, __global const float* restrict
     }
     const bool apart = p.never == 0u && fabs(sum) <= p.factoringError * count;
     const float r = leastConfusion(p, confusion, i);
-    const float blurred = r >= p.leastRadius ? p.irradianceWidth * r * pixelSize[i] : 0.0f;
+    const float blurred = r >= p.leastRadius ? p.irradianceWidth * r * loadNumber(pixelSize, p.planeSize, i, p.packed, 0u) : 0.0f;
     beta[i] = apart && beta[i] >= 0.0f ? fmax(beta[i], blurred) : -1.0f;
 }
 

@@ -16,11 +16,13 @@ WEDGE_FN bool pixelOf(DistributedParams p, uint* x, uint* y, uint* i)
 }
 
 /// Smallest radius of the pixel's circles of confusion in pixels; 0 where it is in focus somewhere.
-/// confusion: least and largest signed radius (2 planes, or one that is packed).
+/// confusion: least and largest signed radius (2 planes; packed, with the hits).
 WEDGE_FN float leastConfusion(DistributedParams p, __global const float* confusion, uint i)
 {
-    const float low = p.packed != 0u ? loadShort(confusion, p.planeSize, i, 0u) : confusion[i];
-    const float high = p.packed != 0u ? loadShort(confusion, p.planeSize, i, 1u) : confusion[p.planeSize + i];
+    if (p.packed != 0u) {
+        return fabs(loadShort(confusion, p.planeSize, i, 1u));
+    }
+    const float low = confusion[i], high = confusion[p.planeSize + i];
     return low > 0.0f ? low : high < 0.0f ? -high : 0.0f;
 }
 

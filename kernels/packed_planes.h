@@ -34,6 +34,27 @@ WEDGE_FN float loadShort(__global const float* plane, uint planeSize, uint i, ui
     return unpackShort(((__global const ushort*)plane)[which * planeSize + i]);
 }
 
+/// A number of a plane of its own or, packed, of one that it shares.
+WEDGE_FN float loadNumber(__global const float* plane, uint planeSize, uint i, uint packed, uint which)
+{
+    return packed != 0u ? loadShort(plane, planeSize, i, which) : plane[i];
+}
+
+/// Primary samples with a surface: packed, these are whole numbers of 16 bits.
+WEDGE_FN uint loadHits(__global const uint* hits, uint i, uint packed)
+{
+    return packed != 0u ? ((__global const ushort*)hits)[i] : hits[i];
+}
+
+WEDGE_FN void storeHits(__global uint* hits, uint i, uint packed, uint count)
+{
+    if (packed != 0u) {
+        ((__global ushort*)hits)[i] = (ushort)count;
+    } else {
+        hits[i] = count;
+    }
+}
+
 WEDGE_FN void storeShort(__global float* plane, uint planeSize, uint i, uint which, float x)
 {
     ((__global ushort*)plane)[which * planeSize + i] = (ushort)packShort(x);

@@ -2,6 +2,7 @@
 //
 // Published (thesis section 4.5): widths and counts from each pixel's least and largest distance. Default: widths from
 // the harmonic mean of distances, counts from the variance of what the filter gathers.
+#include "packed_planes.h"
 #include "shared/indirect.h"
 #include "shared/path.h"
 #include "vector16.h"
@@ -80,6 +81,8 @@ __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict 
         return;
     }
     const uint i = pixelIndex(x, y, p.stride);
+    const float size = loadNumber(pixelSize, p.planeSize, i, p.meanOnly, 0u);
+    const float exponent = loadNumber(gloss, p.planeSize, i, p.meanOnly, 1u);
     // Any that there are have a sum of inverse distances, the last plane, too.
     const bool has = reflectors[i] > 0.0f;
     const float mean = (float)taken[i] / fmax(reflectors[(p.meanOnly != 0u ? 0u : 2u * p.planeSize) + i], 1e-20f);
@@ -88,11 +91,11 @@ __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict 
     const float far = p.extent > 0.0f ? p.extent : extent[0];
     const float zMin = fmax(has ? near : far, leastDistance(p, extent));
     const float zMax = fmax(p.meanOnly != 0u ? zMin : reflectors[p.planeSize + i], zMin);
-    const float bandlimit = bandlimitOf(p.component, gloss[i]);
-    const float gamma = p.component == WEDGE_COMPONENT_GLOSSY ? glossyGamma(fabs(gloss[i])) : WEDGE_DIFFUSE_GAMMA;
-    const float bandwidth = indirectBandwidth(zMin, bandlimit, pixelSize[i], p.mu, p.alpha);
-    const float wide = p.fixedWidth > 0.0f ? p.fixedWidth * pixelSize[i] : p.widthScale / bandwidth;
-    const float count = indirectCount(zMin, zMax, bandlimit, gamma, pixelSize[i], p.mu, p.alpha);
+    const float bandlimit = bandlimitOf(p.component, exponent);
+    const float gamma = p.component == WEDGE_COMPONENT_GLOSSY ? glossyGamma(fabs(exponent)) : WEDGE_DIFFUSE_GAMMA;
+    const float bandwidth = indirectBandwidth(zMin, bandlimit, size, p.mu, p.alpha);
+    const float wide = p.fixedWidth > 0.0f ? p.fixedWidth * size : p.widthScale / bandwidth;
+    const float count = indirectCount(zMin, zMax, bandlimit, gamma, size, p.mu, p.alpha);
     const float bounded = fmin(fmax(count, (float)WEDGE_INDIRECT_FIRST_RAYS), (float)p.countCap);
     beta[i] = taken[i] > 0u ? wide : -1.0f;
     if (p.meanOnly == 0u) {

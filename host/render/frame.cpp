@@ -69,7 +69,7 @@ void Frame::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const Fram
     const std::uint64_t kept = shape.kept(), analysis = shape.ofAnalysis(), motion = shape.ofMotion();
     planPlanes(plan, layout,
         { { "position", 3 }, { "normal", 3 }, { "origin", 3 * kept }, { "depth", kept }, { "pixel size", analysis },
-            { "diffuse", 3 * kept }, { "specular", 3 * kept }, { "emission", 3 }, { "gloss", analysis },
+            { "diffuse", 3 * kept }, { "specular", 3 * kept }, { "emission", 3 }, { "gloss", shape.packed() ? 0 : analysis },
             { "geometric normal", kept }, { "object id", 1 }, { "beauty", 3 * kept }, { "direct", 3 * kept },
             { "direct noisy", 3 * kept }, { "indirect", 3 * kept }, { "indirect noisy", 3 * kept }, { "samples", kept },
             { "indirect samples", kept } });
@@ -77,7 +77,7 @@ void Frame::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const Fram
     if (shape.distributed) {
         planPlanes(plan, layout,
             { { "primary samples taken", 1 }, { "primary samples wanted", shape.packed() ? 0u : 1u }, { "hits", 1 },
-                { "circles of confusion", shape.packed() ? 1u : 2u },
+                { "circles of confusion", shape.packed() ? 0u : 2u },
                 { "motion", 3 * motion }, { "lens filter width", kept }, { "motion filter", 3 * motion },
                 { "emission squares", analysis }, { "primary demand", kept }, { "point lights", 3 * shape.ofDeltaLights() } });
     }
@@ -95,7 +95,7 @@ Frame::Frame(const device::Device& device, device::TimedQueue& queue, const Plan
     , diffuse(device, shape.kept() * 3 * planes.size, "diffuse")
     , specular(device, shape.kept() * 3 * planes.size, "specular")
     , emission(device, 3 * planes.size, "emission")
-    , gloss(device, shape.ofAnalysis() * planes.size, "gloss")
+    , gloss(shape.packed() ? pixelSize : device::Buffer<float>(device, shape.ofAnalysis() * planes.size, "gloss"))
     , geometric(device, shape.kept() * planes.size, "geometric normal")
     , objectId(device, planes.size, "object id")
     , rays(device, rayCounters(planes, shape), "rays")
@@ -112,7 +112,8 @@ Frame::Frame(const device::Device& device, device::TimedQueue& queue, const Plan
     , receiverTimes(device, 0, "times of receivers")
     , primaryTaken(device, distributed ? planes.size : 0, "primary samples taken")
     , hits(device, distributed ? planes.size : 0, "hits")
-    , confusion(device, distributed ? (shape.packed() ? 1 : 2) * planes.size : 0, "circles of confusion")
+    , confusion(shape.packed() ? hits.part<float>(0, planes.size, "circles of confusion")
+                               : device::Buffer<float>(device, distributed ? 2 * planes.size : 0, "circles of confusion"))
     , motion(device, shape.ofMotion() * 3 * planes.size, "motion")
     , lensWidth(shape.lean ? pixelSize : device::Buffer<float>(device, distributed ? planes.size : 0, "lens filter width"))
     , motionWidth(device, shape.ofMotion() * planes.size, "motion filter width")

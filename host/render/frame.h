@@ -76,7 +76,7 @@ public:
     // Of distributed frames.
     device::Buffer<std::uint32_t> primaryTaken; ///< primary samples
     device::Buffer<std::uint32_t> hits; ///< those of them that met a surface
-    /// Planes: least and largest signed radius of the circle of confusion, pixels; packed, one plane of both.
+    /// Planes: least and largest signed radius of the circle of confusion, pixels; packed, the one nearest to 0, with hits.
     device::Buffer<float> confusion;
     device::Buffer<float> motion; ///< planes: pixels that the surface moves while the shutter is open; largest difference
     device::Buffer<float> lensWidth; ///< of the image's filter, see blurs() of distributed.cl; lean: in the place of pixelSize

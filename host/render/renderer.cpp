@@ -41,12 +41,12 @@ std::uint32_t lightExtremes(const scene::Scene& scene) { return scene::geometryM
 /// as by default: without counts from the spectrum, published slopes and widths from the nearest reflectors.
 FrameShape frameShape(const Settings& settings, const scene::Scene& scene, bool keepLayers)
 {
-    const bool usual = !settings.progressive && !settings.distributed.published && settings.slopes == Slopes::Smoothed
+    const bool usual = !settings.distributed.published && settings.slopes == Slopes::Smoothed
         && !(settings.sampling == Sampling::Adaptive && settings.counts == Counts::Spectrum)
         && settings.indirect.meanFraction > 0;
     FrameShape shape;
     shape.distributed = isDistributed(settings, scene);
-    shape.lean = shape.distributed && !keepLayers && (usual || !needsAnalysis(settings));
+    shape.lean = shape.distributed && !keepLayers && !settings.progressive && (usual || !needsAnalysis(settings));
     if (shape.lean) {
         shape.analysed = needsAnalysis(settings);
         shape.shutter = scene::geometryMoves(scene) || scene::cameraMoves(scene);

@@ -42,6 +42,7 @@ typedef struct {
     float varianceFloor; ///< least variance where there are slopes
     float varianceSpread; ///< fraction of the 5x5 neighbourhood's largest variance that a pixel takes at least
     Vec3 lightCentre;    ///< metres
+    uint packed;         ///< 1: sizes of pixels are packed, packed_planes.h
     uint leastCount;     ///< samples of the first pass, which every pixel takes
 } AnalysisParams;
 

@@ -71,7 +71,7 @@ FIELD(AnalysisParams, planeSize) FIELD(AnalysisParams, sigma) FIELD(AnalysisPara
 FIELD(AnalysisParams, k) FIELD(AnalysisParams, mu) FIELD(AnalysisParams, alpha) FIELD(AnalysisParams, fillRadius)
 FIELD(AnalysisParams, fillScale) FIELD(AnalysisParams, countCap) FIELD(AnalysisParams, fixedWidth)
 FIELD(AnalysisParams, countExponent) FIELD(AnalysisParams, varianceFloor) FIELD(AnalysisParams, varianceSpread)
-FIELD(AnalysisParams, lightCentre) FIELD(AnalysisParams, leastCount)
+FIELD(AnalysisParams, lightCentre) FIELD(AnalysisParams, packed) FIELD(AnalysisParams, leastCount)
 END(AnalysisParams)
 STRUCT(PathParams)
 FIELD(PathParams, component) FIELD(PathParams, bounces) FIELD(PathParams, sampler) FIELD(PathParams, lightSampling)

@@ -155,6 +155,7 @@ shared::AnalysisParams SoftShadows::analysisParams(const image::Window& window) 
     p.varianceFloor = c_.settings.varianceFloor;
     p.varianceSpread = c_.settings.varianceSpread;
     p.lightCentre = light().centre;
+    p.packed = c_.frame.shape.packed() ? 1 : 0;
     p.leastCount = WEDGE_FIRST_PASS_RAYS;
     return p;
 }
