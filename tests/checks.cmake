@@ -11,7 +11,7 @@ set_tests_properties(kernel_lint oclgrind_frame second_driver PROPERTIES TIMEOUT
 # The tests of the shared maths once more, under the sanitizers, whatever the build type: device code cannot be run
 # under them. With casts of floats out of range, which on devices give any value at all.
 add_executable(shared_maths_sanitized main.cpp kernel_rng_test.cpp kernel_maths_test.cpp kernel_bsdf_test.cpp
-                                      kernel_defocus_test.cpp kernel_camera_test.cpp)
+                                      kernel_defocus_test.cpp kernel_camera_test.cpp kernel_packed_test.cpp)
 target_compile_options(shared_maths_sanitized PRIVATE -O1 -g -fno-omit-frame-pointer -fno-sanitize-recover=all
                                                       -fsanitize=address,undefined,float-cast-overflow)
 target_link_options(shared_maths_sanitized PRIVATE -fsanitize=address,undefined)

@@ -350,3 +350,33 @@ TEST_CASE("counts that follow the demand, without filters, change the noise and 
         }
     });
 }
+
+TEST_CASE("a frame of the image alone, in fewer bits, is the one with all of its layers but for rounding")
+{
+    onEveryDevice([](const device::Device& device) {
+        scene::Scene scene = wallInFocus();
+        scene.camera.apertureRadius = 0.1f;
+        scene.camera.focusDistance = 2.5f;
+        render::Renderer renderer(scene, device, renderOptions());
+        for (const bool filtered : { false, true }) {
+            CAPTURE(filtered);
+            render::Settings settings = sized(filtered ? render::axisAligned(16) : render::monteCarlo(16), 61, 43);
+            settings.bounces = 1;
+            const image::Window all { 0, 0, 61, 43 };
+            const render::FrameStatistics full = renderer.render(settings, {}, true);
+            const std::vector<float> layered = pixels(renderer, renderer.frame().beauty, all);
+            const render::FrameStatistics lean = renderer.render(settings);
+            const std::vector<float> alone = pixels(renderer, renderer.frame().beauty, all);
+            CHECK(lean.memoryBytes < full.memoryBytes);
+            double squares = 0, sum = 0;
+            for (std::size_t i = 0; i < alone.size(); ++i) {
+                squares += (alone[i] - layered[i]) * (alone[i] - layered[i]);
+                sum += layered[i];
+            }
+            const double count = static_cast<double>(alone.size());
+            // Statistics of 8 bits change a few counts by one; sums are added up in another order.
+            CHECK(std::sqrt(squares / count) < (filtered ? 0.01 : 1e-5) * sum / count);
+            CHECK(sum / count > 0.05);
+        }
+    });
+}
