@@ -12,19 +12,24 @@ TEST_CASE("point lights: the mean of the receivers' radiance, black where there 
         for (const Rounds& rounds : { oneRound, threeRounds }) {
             Accumulation a(device, width, height, window, Receivers::All);
             const device::Buffer<float> direct = a.pixelBuffer(3);
+            auto squares = a.pixelBuffer(1);
             SurfacePixels surfaces(a);
             for (const auto& upTo : rounds) {
                 a.begin(upTo);
                 a.launch("accumulateDelta", a.lists.pixelFirst, a.lists.pixelCount, a.primaryTaken, a.objectId,
-                    a.vectors([](const SeenPoint& p) { return p.irradiance; }), direct);
+                    a.vectors([](const SeenPoint& p) { return p.irradiance; }), direct, squares);
                 accumulateSurfaces(a, surfaces);
             }
-            const auto radiance = a.read(direct);
+            const auto radiance = a.read(direct), squared = a.read(squares);
             checkElsewhere(a, radiance);
+            checkElsewhere(a, squared);
             a.waves.everyPixel([&](int x, int y) {
                 const std::vector<SeenPoint> seen = a.seen(x, y);
                 const glm::dvec3 sum = sumOf(seen, [](const SeenPoint& p) { return p.object != 0 ? p.irradiance : glm::dvec3(0); });
-                REQUIRE(nearTo(radiance.vector(x, y), sum / std::max<double>(1, static_cast<double>(seen.size()))));
+                const double n = std::max<double>(1, static_cast<double>(seen.size()));
+                REQUIRE(nearTo(radiance.vector(x, y), sum / n));
+                REQUIRE(nearTo(squared.at(x, y),
+                    sumOf(seen, [](const SeenPoint& p) { return p.object != 0 ? std::pow(luminanceOf(p.irradiance), 2) : 0.0; }) / n));
             });
         }
     });

@@ -351,6 +351,35 @@ TEST_CASE("counts that follow the demand, without filters, change the noise and 
     });
 }
 
+TEST_CASE("more samples asked for are taken: where the first ones saw little, and under point lights alone")
+{
+    onEveryDevice([](const device::Device& device) {
+        for (const bool pointLights : { false, true }) {
+            CAPTURE(pointLights);
+            scene::Scene scene = wallInFocus();
+            scene.camera.apertureRadius = 0.1f;
+            scene.camera.focusDistance = 2.5f;
+            (pointLights ? scene.areaLights.clear() : scene.pointLights.clear());
+            render::Renderer renderer(scene, device, renderOptions());
+            const render::Settings truth = sized(render::monteCarlo(400), 40, 30);
+            const std::vector<float> expected = renderPixels(renderer, truth);
+            double errors[2] = {}, primary[2] = {};
+            for (const int k : { 0, 1 }) {
+                render::Settings settings = sized(render::axisAligned(k == 0 ? 16 : 128), 40, 30);
+                settings.seed = 5;
+                const render::FrameStatistics frame = renderer.render(settings);
+                primary[k] = frame.primarySpp;
+                const std::vector<float> found = pixels(renderer, renderer.frame().beauty, { 0, 0, 40, 30 });
+                for (std::size_t i = 0; i < found.size(); ++i)
+                    errors[k] += (found[i] - expected[i]) * (found[i] - expected[i]);
+            }
+            CHECK(primary[1] > 4 * primary[0]);
+            // Of squares.
+            CHECK(errors[1] < 0.5 * errors[0]);
+        }
+    });
+}
+
 TEST_CASE("a frame of the image alone, in fewer bits, is the one with all of its layers but for rounding")
 {
     onEveryDevice([](const device::Device& device) {

@@ -66,7 +66,9 @@ TEST_CASE("settings that differ are described differently")
         [](auto& d) { d.blurExponent = 0.5f; }, [](auto& d) { d.shutterWidth = 0.5f; },
         [](auto& d) { d.shutterExponent = 0.5f; }, [](auto& d) { d.leastRadius = 3; },
         [](auto& d) { d.irradianceWidth = 0.5f; }, [](auto& d) { d.countExponent = 0.4f; },
-        [](auto& d) { d.varianceSpread = 0.5f; }, [](auto& d) { d.oneVelocity = 0.5f; } };
+        [](auto& d) { d.varianceSpread = 0.4f; }, [](auto& d) { d.leastShare = 0.4f; },
+        [](auto& d) { d.leastTermShare = 0.4f; }, [](auto& d) { d.leastPrimaries = 0.4f; },
+        [](auto& d) { d.leastSecondaries = 0.4f; }, [](auto& d) { d.oneVelocity = 0.5f; } };
     std::vector<decltype(describe(Settings()))> seen = { describe(axisAligned()) };
     for (const Change& change : changes)
         seen.push_back(describe(with(axisAligned(), change)));

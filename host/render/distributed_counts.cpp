@@ -58,6 +58,11 @@ void DistributedFrame::demands()
     p.alongMotion = 1 - p.still;
     c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "emissionVariance", p, 1, c_.frame.emission,
         c_.frame.emissionSquares, c_.frame.primaryTaken, c_.scratch.ofAllTextures);
+    if (c_.scene.deltaLightCount > 0) {
+        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "emissionVariance", p, 1, c_.frame.delta,
+            c_.frame.deltaSquares, c_.frame.primaryTaken, c_.scratch.demand);
+        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "addPlane", p, 1, c_.scratch.demand, c_.scratch.ofAllTextures);
+    }
     eachTerm([&](Term& term, float rays) { demandOf(term, rays); });
     // Nothing but lens and shutter averages textures and what emits.
     c_.scratch.demand.fill(c_.passes.queue(), -1.0f);
@@ -88,7 +93,9 @@ void DistributedFrame::counts()
     const DistributedFrame& guide = guide_ != nullptr && guide_->taken_ > 0 ? *guide_ : *this;
     const float first = static_cast<float>(std::min(d.firstPaths, c_.settings.spp)), most = static_cast<float>(d.maxSpp);
     const auto leastOf = [&](float share) { return std::max(first, std::floor(share * static_cast<float>(c_.settings.spp))); };
-    const float least = leastOf(d.leastShare), leastOfTerms = leastOf(std::max(d.leastShare, d.leastTermShare));
+    const float leastOfTerms = leastOf(std::max(d.leastShare, d.leastTermShare));
+    // Samples of terms go to new receivers: one at least.
+    const float least = std::min(std::max(leastOf(d.leastShare), first + 1.0f), static_cast<float>(c_.settings.spp));
     demands.push_back({ guide.c_.frame.primaryDemand.downloadAll(queue), c_.frame.primaryTaken.downloadAll(queue), 1.0f, least });
     double perPath = 1.0;
     std::size_t next = 0;

@@ -42,10 +42,10 @@ DistributedFrame::DistributedFrame(const TermContext& context, Waves& waves, con
     }
 }
 
-bool DistributedFrame::render()
+bool DistributedFrame::render(const std::atomic<bool>* stop)
 {
     begin();
-    const bool complete = refine();
+    const bool complete = refine(stop);
     compose();
     return complete;
 }
@@ -172,7 +172,7 @@ void DistributedFrame::deltaLights(const shared::WaveParams& wave)
         waves_.receiverParams(wave), 0.0, s.deltaLights, s.deltaLightCount, s.diameter, s.nodes, s.blocks, waves_.receivers(),
         waves_.diffuse, waves_.specular, waves_.radiance, waves_.radianceNoisy, waves_.rays);
     waves_.pixels(c_.passes, "accumulateDelta", wave, waves_.pixelFirst, waves_.pixelCount,
-        c_.frame.primaryTaken, waves_.objectId, waves_.radiance, c_.frame.delta);
+        c_.frame.primaryTaken, waves_.objectId, waves_.radiance, c_.frame.delta, c_.frame.deltaSquares);
 }
 
 shared::DistributedParams DistributedFrame::params(const image::Window& window) const

@@ -28,7 +28,7 @@ public:
 
     /// The whole frame: begin(), one refine(), compose(). Returns false if cancelled while sampling; the image is then made
     /// of what was sampled until then.
-    bool render();
+    bool render(const std::atomic<bool>* stop);
 
     /// Forgets all samples.
     void begin();

@@ -79,7 +79,7 @@ void Frame::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const Fram
             { { "primary samples taken", 1 }, { "primary samples wanted", shape.packed() ? 0u : 1u }, { "hits", 1 },
                 { "circles of confusion", shape.packed() ? 0u : 2u },
                 { "motion", 3 * motion }, { "lens filter width", kept }, { "motion filter", 3 * motion },
-                { "emission squares", analysis }, { "primary demand", kept }, { "point lights", 3 * shape.ofDeltaLights() } });
+                { "emission squares", analysis }, { "primary demand", kept }, { "point lights", 4 * shape.ofDeltaLights() } });
     }
 }
 
@@ -125,6 +125,7 @@ Frame::Frame(const device::Device& device, device::TimedQueue& queue, const Plan
               ? primaryDemand.part<std::uint32_t>(0, planes.size, "primary samples wanted")
               : device::Buffer<std::uint32_t>(device, distributed ? planes.size : 0, "primary samples wanted"))
     , delta(device, shape.ofDeltaLights() * 3 * planes.size, "point lights")
+    , deltaSquares(device, shape.ofDeltaLights() * planes.size, "squares of point lights")
 {
     // Padding is read by gathers: it has to be finite, and objectId 0 there stays for good.
     for (device::Buffer<float>* b : { &position, &normal, &origin, &depth, &pixelSize, &diffuse, &specular, &emission, &gloss }) {
@@ -146,7 +147,8 @@ void Frame::clear(device::TimedQueue& queue)
     if (!distributed) {
         return;
     }
-    for (device::Buffer<float>* b : { &position, &normal, &pixelSize, &depth, &diffuse, &specular, &emission, &gloss, &confusion, &motion, &lensWidth, &motionWidth, &delta, &emissionSquares }) {
+    for (device::Buffer<float>* b : { &position, &normal, &pixelSize, &depth, &diffuse, &specular, &emission, &gloss, &confusion, &motion, &lensWidth, &motionWidth, &delta, &deltaSquares,
+             &emissionSquares }) {
         b->fill(queue, 0.0f);
     }
     for (device::Buffer<std::uint32_t>* b : { &objectId, &primaryTaken, &primaryWanted, &hits }) {

@@ -85,6 +85,7 @@ public:
     device::Buffer<float> primaryDemand; ///< of samples; in lean frames in the place of emissionSquares
     device::Buffer<std::uint32_t> primaryWanted; ///< primary samples; packed, in the place of primaryDemand
     device::Buffer<float> delta; ///< radiance from point and directional lights
+    device::Buffer<float> deltaSquares; ///< mean squared luminance of a primary sample's
 
     /// What kernels take for WEDGE_RECEIVER_PARAMETERS, the pixels being the receivers.
     auto receivers() const

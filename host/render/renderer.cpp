@@ -277,7 +277,9 @@ FrameStatistics Renderer::render(const Settings& settings, const Control& contro
     std::atomic<bool> stop { false };
     const double total = workUnits(settings);
     const Clock::time_point start = Clock::now();
-    queue_.setCancelFlag(&stop);
+    // Of distributed frames waves are finished first: pixels without some of the terms would be wrong, not missing.
+    stop_ = &stop;
+    queue_.setCancelFlag(frame_->distributed ? nullptr : &stop);
     queue_.setProgress([&](double done) {
         if ((control.cancel != nullptr && control.cancel->load()) || (control.timeLimitSeconds > 0 && secondsSince(start) > control.timeLimitSeconds)) {
             stop = true;
@@ -290,6 +292,7 @@ FrameStatistics Renderer::render(const Settings& settings, const Control& contro
     statistics.complete = renderPasses(settings, keepLayers);
     queue_.finish();
     statistics.wallMilliseconds = 1e3 * secondsSince(start);
+    stop_ = nullptr;
     queue_.setCancelFlag(nullptr);
     queue_.setProgress({});
     statistics.passes = queue_.takeRecords();
@@ -364,7 +367,7 @@ bool Renderer::distributedPasses(const TermContext& context, bool keepLayers)
     const bool lit = context.settings.integrator == Integrator::Path;
     DistributedFrame distributed(context, *waves_, terms_, lit ? deviceScene_->areaLightList.size() : 0,
         cameraParams(scene_, frame_->layout.height, context.settings.antialias), keepLayers);
-    const bool complete = distributed.render();
+    const bool complete = distributed.render(stop_);
     for (std::size_t i = 0; keepLayers && i < terms_.size(); ++i) {
         keepPlanes(context.settings, *terms_[i], distributed.analysed());
     }
@@ -375,38 +378,6 @@ void Renderer::keepPlanes(const Settings& settings, const Term& term, bool analy
 {
     const std::string name = termNames(settings, scene_).at(termPlanes_.size());
     termPlanes_.push_back({ name, analysed ? term.beta.downloadAll(queue_) : std::vector<float>() });
-}
-
-bool Renderer::primaryPass(const shared::FrameParams& params, bool lit)
-{
-    const DeviceScene& s = *deviceScene_;
-    Frame& f = *frame_;
-    bool complete = true;
-    try {
-        passes_->tiles("primary rays", PassKind::Trace, "primary.cl", "primary", params, 1.0, s.nodes, s.blocks,
-            surfaceArguments(s), s.objectIds, s.areaLights, static_cast<std::uint32_t>(lit ? s.areaLightList.size() : 0),
-            f.position, f.normal, f.origin, f.geometric, f.objectId, f.depth, f.pixelSize, f.diffuse, f.specular, f.emission,
-            f.gloss);
-    } catch (const device::Cancelled&) {
-        complete = false;
-    }
-    if (!lit) {
-        f.emission.fill(queue_, 0.0f);
-    }
-    return complete;
-}
-
-bool Renderer::deltaLightPass(const shared::FrameParams& params)
-{
-    const DeviceScene& s = *deviceScene_;
-    Frame& f = *frame_;
-    try {
-        passes_->tiles("point lights", PassKind::Trace, "delta_lights.cl", "deltaLights", params, 1.0, s.deltaLights,
-            s.deltaLightCount, s.diameter, s.nodes, s.blocks, f.receivers(), f.diffuse, f.specular, f.direct, f.directNoisy, f.rays);
-    } catch (const device::Cancelled&) {
-        return false;
-    }
-    return true;
 }
 
 } // namespace wedge::render

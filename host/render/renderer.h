@@ -150,6 +150,7 @@ private:
     std::unique_ptr<Halves> halves_; ///< of progressive ones, of which frame_ is the mean
     std::vector<TermPlanes> termPlanes_;
     double setupSeconds_ = 0;
+    const std::atomic<bool>* stop_ = nullptr; ///< of the render in hand
 };
 
 } // namespace wedge::render

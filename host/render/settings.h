@@ -101,7 +101,7 @@ struct DistributedSettings {
     int firstPaths = 8; ///< primary samples of the first pass, each with one secondary of each term
     int maxSpp = 512; ///< most samples of a pixel and term
     bool published = false; ///< terms, widths and counts of chapter 5 and appendix B; spp has no say
-    float leastShare = 0; ///< of the mean count, that every pixel takes: counts follow variances, which may be seen late
+    float leastShare = 0.25f; ///< of the mean count, that every pixel takes: counts follow variances, which may be seen late
     float leastTermShare = 0.5f; ///< the same of samples of terms
     float leastPrimaries = 0.5f; ///< primary samples a sample of a term
     float leastSecondaries = 0.2f; ///< samples of a term a primary one where texture and irradiance are taken apart
