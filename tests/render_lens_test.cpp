@@ -1,5 +1,6 @@
 // Whole frames through lens and shutter, plain Monte Carlo, against closed forms and against frames without.
 #include "host/render/distributed_frame.h"
+#include "tests/lens_scene.h"
 #include "tests/lens_support.h"
 #include "tests/render_path_support.h"
 
@@ -105,24 +106,6 @@ void checkColumns(const Edge& edge, const device::Device& device)
     CHECK(c.worst < 4.5);
     CHECK(c.error < 0.02);
     CHECK(c.partial >= 8);
-}
-
-/// Boxes on a floor in the plane in focus of a lens in front of it, with an occluder out of view between them and a light.
-scene::Scene wallInFocus()
-{
-    SceneBuilder b;
-    b.scene.textures.push_back({ "", 2, 2, { 0xff8040u, 0xffffffu, 0x306090u, 0xc0c0c0u } });
-    b.scene.materials[0].diffuseTexture = 0;
-    b.scene.materials[0].specular = glm::vec3(0.2f);
-    b.scene.materials[0].exponent = 12;
-    b.scene.materials[0].emission = { 0.05f, 0, 0.1f };
-    b.quad({ 0, 0, 0 }, { 3, 0, 0 }, { 0, 3, 0 });
-    b.newObject();
-    b.quad({ 0.2f, 0.1f, 4 }, { 0.4f, 0, 0 }, { 0, 0.4f, 0 });
-    b.light({ -1, 1, 6 }, { 0, 0.5f, 0 }, { 0.5f, 0, 0 }, scene::LightProfile::Gaussian, 60);
-    b.scene.pointLights.push_back({ { 1, -1, 5 }, { 8, 6, 4 } });
-    b.camera({ 0, 0, 3 }, { 0, 0, 0 });
-    return b.scene;
 }
 
 bool sameBits(const std::vector<float>& a, const std::vector<float>& b)
@@ -347,65 +330,6 @@ TEST_CASE("counts that follow the demand, without filters, change the noise and 
             // Some pixels have more samples than the strata were made for.
             const std::vector<std::uint32_t> taken = renderer.frame().primaryTaken.downloadAll(renderer.queue());
             CHECK(*std::ranges::max_element(taken) > 30);
-        }
-    });
-}
-
-TEST_CASE("more samples asked for are taken: where the first ones saw little, and under point lights alone")
-{
-    onEveryDevice([](const device::Device& device) {
-        for (const bool pointLights : { false, true }) {
-            CAPTURE(pointLights);
-            scene::Scene scene = wallInFocus();
-            scene.camera.apertureRadius = 0.1f;
-            scene.camera.focusDistance = 2.5f;
-            (pointLights ? scene.areaLights.clear() : scene.pointLights.clear());
-            render::Renderer renderer(scene, device, renderOptions());
-            const render::Settings truth = sized(render::monteCarlo(400), 40, 30);
-            const std::vector<float> expected = renderPixels(renderer, truth);
-            double errors[2] = {}, primary[2] = {};
-            for (const int k : { 0, 1 }) {
-                render::Settings settings = sized(render::axisAligned(k == 0 ? 16 : 128), 40, 30);
-                settings.seed = 5;
-                const render::FrameStatistics frame = renderer.render(settings);
-                primary[k] = frame.primarySpp;
-                const std::vector<float> found = pixels(renderer, renderer.frame().beauty, { 0, 0, 40, 30 });
-                for (std::size_t i = 0; i < found.size(); ++i)
-                    errors[k] += (found[i] - expected[i]) * (found[i] - expected[i]);
-            }
-            CHECK(primary[1] > 4 * primary[0]);
-            // Of squares.
-            CHECK(errors[1] < 0.5 * errors[0]);
-        }
-    });
-}
-
-TEST_CASE("a frame of the image alone, in fewer bits, is the one with all of its layers but for rounding")
-{
-    onEveryDevice([](const device::Device& device) {
-        scene::Scene scene = wallInFocus();
-        scene.camera.apertureRadius = 0.1f;
-        scene.camera.focusDistance = 2.5f;
-        render::Renderer renderer(scene, device, renderOptions());
-        for (const bool filtered : { false, true }) {
-            CAPTURE(filtered);
-            render::Settings settings = sized(filtered ? render::axisAligned(16) : render::monteCarlo(16), 61, 43);
-            settings.bounces = 1;
-            const image::Window all { 0, 0, 61, 43 };
-            const render::FrameStatistics full = renderer.render(settings, {}, true);
-            const std::vector<float> layered = pixels(renderer, renderer.frame().beauty, all);
-            const render::FrameStatistics lean = renderer.render(settings);
-            const std::vector<float> alone = pixels(renderer, renderer.frame().beauty, all);
-            CHECK(lean.memoryBytes < full.memoryBytes);
-            double squares = 0, sum = 0;
-            for (std::size_t i = 0; i < alone.size(); ++i) {
-                squares += (alone[i] - layered[i]) * (alone[i] - layered[i]);
-                sum += layered[i];
-            }
-            const double count = static_cast<double>(alone.size());
-            // Statistics of 8 bits change a few counts by one; sums are added up in another order.
-            CHECK(std::sqrt(squares / count) < (filtered ? 0.01 : 1e-5) * sum / count);
-            CHECK(sum / count > 0.05);
         }
     });
 }
