@@ -5,7 +5,8 @@
 
 namespace wedge::test {
 
-/// Boxes on a floor in the plane in focus of a lens in front of it, with an occluder out of view between them and a light.
+/// Boxes on a floor in the plane in focus of a lens in front of it, with an occluder out of view between them and a
+/// light.
 inline scene::Scene wallInFocus()
 {
     SceneBuilder b;

@@ -31,8 +31,8 @@ struct Arguments {
     std::string device, json, references = defaultReferenceFolder();
 };
 
-/// One image: rays a pixel of the small image, RMS error of what is shown of it (radiance up to 1) against the antialiased
-/// reference, whose own noise is in it.
+/// One image: rays a pixel of the small image, RMS error of what is shown of it (radiance up to 1) against the
+/// antialiased reference, whose own noise is in it.
 struct Point {
     int spp;
     double rays, error, milliseconds;
@@ -53,7 +53,9 @@ image::RgbImage halved(const image::RgbImage& large)
             for (int c = 0; c < 3; ++c) {
                 const auto at = [&](int dx, int dy) {
                     return large.rgb[(static_cast<std::size_t>(2 * y + dy) * static_cast<std::size_t>(large.width)
-                                         + static_cast<std::size_t>(2 * x + dx)) * 3 + static_cast<std::size_t>(c)];
+                                         + static_cast<std::size_t>(2 * x + dx))
+                            * 3
+                        + static_cast<std::size_t>(c)];
                 };
                 small.rgb.push_back(0.25f * (at(0, 0) + at(1, 0) + at(0, 1) + at(1, 1)));
             }
@@ -78,7 +80,8 @@ public:
         , scene_(scene::loadScene(source.file()))
         , renderer_(scene_, device)
         , name_(source.name)
-        , reference_(obtainReference(renderer_, sized(render::monteCarlo(a.referenceSpp), a.side, referenceSeed, true), a.references, name_ + "_antialiased"))
+        , reference_(obtainReference(renderer_, sized(render::monteCarlo(a.referenceSpp), a.side, referenceSeed, true),
+              a.references, name_ + "_antialiased"))
     {
     }
 
@@ -111,7 +114,8 @@ private:
 
     Point measure(const render::Settings& wanted, bool antialias, int spp)
     {
-        const render::Settings settings = sized(wanted, antialias ? arguments_.side : 2 * arguments_.side, 1, antialias);
+        const render::Settings settings =
+            sized(wanted, antialias ? arguments_.side : 2 * arguments_.side, 1, antialias);
         renderer_.rehearse(settings);
         const render::FrameStatistics frame = renderer_.render(settings);
         const image::RgbImage found = imageOf(renderer_, settings, frame);
@@ -119,7 +123,8 @@ private:
         const double pixels = static_cast<double>(arguments_.side) * arguments_.side;
         const double rays = static_cast<double>(frame.primaryRays + frame.shadowRays + frame.indirectRays) / pixels;
         const Point out { spp, rays, rmse, frame.deviceMilliseconds };
-        progress("antialiasing", fmt::format("{}: {} pixels a side, {} spp: rmse {:.5f}", name_, settings.width, spp, out.error));
+        progress("antialiasing",
+            fmt::format("{}: {} pixels a side, {} spp: rmse {:.5f}", name_, settings.width, spp, out.error));
         return out;
     }
 
@@ -134,22 +139,24 @@ nlohmann::json dataOf(const Curve& curve)
 {
     nlohmann::json out { { "name", curve.name }, { "meaning", curve.meaning } };
     for (const Point& p : curve.points) {
-        out["points"].push_back({ { "spp", p.spp }, { "rays_per_pixel", p.rays }, { "rmse", p.error }, { "device_ms", p.milliseconds } });
+        out["points"].push_back(
+            { { "spp", p.spp }, { "rays_per_pixel", p.rays }, { "rmse", p.error }, { "device_ms", p.milliseconds } });
     }
     return out;
 }
 
 std::vector<SceneSource> knownScenes()
 {
-    return { generatedScene("cornell_figure", generator::makeCornellFigure), generatedScene("tentacles", generator::makeTentacles),
-        generatedScene("chess", generator::makeChess), generatedScene("room", generator::makeRoom) };
+    return { generatedScene("cornell_figure", generator::makeCornellFigure),
+        generatedScene("tentacles", generator::makeTentacles), generatedScene("chess", generator::makeChess),
+        generatedScene("room", generator::makeRoom) };
 }
 
 int measureAll(const Arguments& a)
 {
     const device::Device device = device::Device::open(a.device);
-    nlohmann::json all { { "schema", 1 }, { "benchmark", "antialiasing" }, { "device", device.info().name }, { "side", a.side },
-        { "reference_spp", a.referenceSpp } };
+    nlohmann::json all { { "schema", 1 }, { "benchmark", "antialiasing" }, { "device", device.info().name },
+        { "side", a.side }, { "reference_spp", a.referenceSpp } };
     std::vector<std::string> skipped;
     for (const SceneSource& source : chooseScenes(knownScenes(), a.scenes, skipped)) {
         Comparison comparison(source, device, a);
@@ -158,8 +165,8 @@ int measureAll(const Arguments& a)
         for (const Curve& curve : curves) {
             data["curves"].push_back(dataOf(curve));
             for (const Point& p : curve.points) {
-                fmt::print("{:<16} {:<12} {:4} spp {:7.1f} rays a pixel  rmse {:.5f} {:8.0f} ms\n", source.name, curve.name, p.spp, p.rays,
-                    p.error, p.milliseconds);
+                fmt::print("{:<16} {:<12} {:4} spp {:7.1f} rays a pixel  rmse {:.5f} {:8.0f} ms\n", source.name,
+                    curve.name, p.spp, p.rays, p.error, p.milliseconds);
             }
         }
         all["scenes"].push_back(data);
@@ -179,8 +186,10 @@ int main(int argc, char** argv)
     parser.add_option("--scene", a.scenes, "a scene's name or a scene file; again for more (all there are)");
     parser.add_option("--size", a.side, "pixels a side (256)")->check(CLI::Range(8, 4096));
     parser.add_option("--spp", a.spp, "samples a pixel of antialiased images (16 32 64)")->check(CLI::Range(1, 2048));
-    parser.add_option("--large-spp", a.largeSpp, "samples a pixel of images of four times the size (16 28)")->check(CLI::Range(1, 2048));
-    parser.add_option("--reference-spp", a.referenceSpp, "samples of the references (512)")->check(CLI::Range(16, 1 << 20));
+    parser.add_option("--large-spp", a.largeSpp, "samples a pixel of images of four times the size (16 28)")
+        ->check(CLI::Range(1, 2048));
+    parser.add_option("--reference-spp", a.referenceSpp, "samples of the references (512)")
+        ->check(CLI::Range(16, 1 << 20));
     parser.add_option("--reference-dir", a.references, "where references are kept (beside this program)");
     parser.add_option("--device", a.device, "cpu, gpu, an index, or part of a name");
     parser.add_option("--json", a.json, "where the results go, rewritten after each scene");
