@@ -87,7 +87,7 @@ WEDGE_FN float specularShading(SampleParams params, AreaLight light, Receiver r,
             return sampled;
         }
         return lobes < WEDGE_COARSE_LOBE ? unshadowedSpecular(light, r, nodes, WEDGE_COARSE_NODES)
-                    : unshadowedSpecular(light, r, nodes + 2u * WEDGE_COARSE_NODES, WEDGE_FINE_NODES);
+                    : unshadowedSpecular(light, r, nodes + WEDGE_FINE_OFFSET, WEDGE_FINE_NODES);
     }
     const Vec3 d = vecSub(light.centre, r.position);
     const float g = geometryTerm(r.normal, d, light.normal, light.twoSided);

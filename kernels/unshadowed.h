@@ -7,9 +7,13 @@
 
 /// The fine quadrature serves receivers nearer to the light's centre than this many of its largest half extents.
 #define WEDGE_NEAR_LIGHT 3.0f
+/// That of few nodes serves receivers farther than this many of them that see none of the light below their horizon.
+#define WEDGE_FAR_LIGHT 4.0f
 
 /// The coarse one serves lobes whose squared width is at least the light's squared angular half extent over this.
 #define WEDGE_COARSE_LOBE 2.0f
+/// Those of few nodes, far from the light, at least over this.
+#define WEDGE_FEW_LOBE 1.5f
 /// Lobes sharper than this, in the same measure, fall between the fine rule's nodes.
 #define WEDGE_SHARP_LOBE 40.0f
 
@@ -55,7 +59,7 @@ WEDGE_FN float16 unshadowedDiffuse(AreaLight light, Vec3x16 position, Vec3x16 no
 }
 
 /// The same mean by the coarse quadrature, and by the fine one in lanes of `wanted` that are near the light, or see a part of
-/// it below a horizon. nodes: the coarse quadrature's (coordinate, weight) pairs, then the fine one's.
+/// it below a horizon.
 WEDGE_FN float16 unshadowedWhere(AreaLight light, Vec3x16 position, Vec3x16 normal, __global const float* nodes, int16 wanted)
 {
     int16 hard;
@@ -68,8 +72,33 @@ WEDGE_FN float16 unshadowedWhere(AreaLight light, Vec3x16 position, Vec3x16 norm
         return coarse;
     }
     int16 unused;
-    const float16 fine = unshadowedDiffuse(light, position, normal, nodes + 2u * WEDGE_COARSE_NODES, WEDGE_FINE_NODES, &unused);
+    const float16 fine = unshadowedDiffuse(light, position, normal, nodes + WEDGE_FINE_OFFSET, WEDGE_FINE_NODES, &unused);
     return hard ? fine : coarse;
+}
+
+/// Lanes whose horizon goes through the light.
+WEDGE_FN int16 horizonAcross(AreaLight light, Vec3x16 toLight, Vec3x16 normal)
+{
+    const float16 reach = fabs(dot16(normal, splat3(light.halfU))) + fabs(dot16(normal, splat3(light.halfV)));
+    return fabs(dot16(normal, toLight)) <= reach;
+}
+
+/// unshadowedWhere(), in lanes that are far from the light with few nodes.
+WEDGE_FN float16 unshadowedOfFew(AreaLight light, Vec3x16 position, Vec3x16 normal, __global const float* nodes, int16 wanted)
+{
+    const Vec3x16 toLight = sub16(splat3(light.centre), position);
+    const float extent = fmax(vecLength(light.halfU), vecLength(light.halfV)) * WEDGE_FAR_LIGHT;
+    const int16 few = (dot16(toLight, toLight) >= extent * extent) & !horizonAcross(light, toLight, normal);
+    float16 shading = (float16)(0.0f);
+    if (any(wanted & few)) {
+        int16 unused;
+        shading = unshadowedDiffuse(light, position, normal, nodes + WEDGE_FEW_OFFSET, WEDGE_FEW_NODES, &unused);
+    }
+    if (any(wanted & !few)) {
+        const float16 other = unshadowedWhere(light, position, normal, nodes, wanted & !few);
+        shading = few ? shading : other;
+    }
+    return shading;
 }
 
 /// log2 x for normal x > 0, to 6e-8 of max(1, |log2 x|): logPositive() of sixteen.
@@ -101,6 +130,7 @@ WEDGE_FN Vec3x16 unit16(Vec3x16 a)
 /// What sixteen receivers reflect into their views.
 typedef struct {
     Vec3x16 position, normal, view; ///< view: unit, to the eye
+    float16 cosine;                 ///< of the view
     float16 exponent;
     int16 phong;                    ///< else Blinn-Phong
 } Receivers16;
@@ -109,16 +139,16 @@ typedef struct {
 WEDGE_FN float16 reflectedFrom(AreaLight light, Receivers16 r, Vec3 point)
 {
     const Vec3x16 d = sub16(splat3(point), r.position);
-    const float16 g = geometryTerm16(r.normal, d, light.normal, light.twoSided);
-    const Vec3x16 l = unit16(d);
-    Vec3x16 h;
-    h.x = l.x + r.view.x;
-    h.y = l.y + r.view.y;
-    h.z = l.z + r.view.z;
-    const float16 mirrored = 2.0f * dot16(r.normal, r.view) * dot16(r.normal, l) - dot16(r.view, l);
-    const float16 c = r.phong ? mirrored : dot16(r.normal, unit16(h));
-    const float16 lobe = exp2Block(r.exponent * accurateLog2(max16(c, (float16)(1e-30f))));
-    return ((c > 0.0f) & (g > 0.0f)) ? g * lobe : (float16)(0.0f);
+    const float16 inverse = rsqrt(max16(dot16(d, d), (float16)(1e-30f))), squared = inverse * inverse;
+    const float16 cosine = dot16(r.normal, d) * inverse, inView = dot16(r.view, d) * inverse;
+    const float16 emitter = -(d.x * light.normal.x + d.y * light.normal.y + d.z * light.normal.z) * inverse;
+    const float16 facing = light.twoSided != 0u ? fabs(emitter) : emitter;
+    // The cosine of Blinn-Phong is that of the half vector l + v, which is as long as sqrt(2 + 2 l.v).
+    const float16 c = r.phong ? 2.0f * r.cosine * cosine - inView : cosine + r.cosine;
+    const float16 length = r.phong ? (float16)(1.0f) : max16(2.0f + 2.0f * inView, (float16)(1e-6f));
+    const float16 squaredLobe = min16(c * c / length, (float16)(1.0f));
+    const float16 lobe = exp2Block(0.5f * r.exponent * accurateLog2(max16(squaredLobe, (float16)(1e-30f))));
+    return ((c > 0.0f) & (cosine > 0.0f) & (facing > 0.0f)) ? cosine * facing * squared * lobe : (float16)(0.0f);
 }
 
 /// unshadowedSpecular() of sixteen receivers, without the lobe's normalization.

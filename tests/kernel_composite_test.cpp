@@ -75,17 +75,6 @@ scene::AreaLight lamp(scene::LightProfile profile, bool twoSided)
     return light;
 }
 
-std::vector<float> nodesOf(const scene::AreaLight& light)
-{
-    std::vector<float> out;
-    for (const unsigned count : { WEDGE_COARSE_NODES, WEDGE_FINE_NODES })
-        for (const render::Node& node : render::profileRule(light.profile, light.cut, static_cast<int>(count))) {
-            out.push_back(static_cast<float>(node.position));
-            out.push_back(static_cast<float>(node.weight));
-        }
-    return out;
-}
-
 /// Integral over the light of radiance 1 times profile, geometry term and, in the specular case, the lobe.
 struct Integral {
     double value = 0;
@@ -134,7 +123,7 @@ TEST_CASE("addDiffuse: value times unshadowed shading times reflectance, in each
                     const auto samples = bench.filled(in.layout().size, 100u);
                     bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addDiffuse", in.params,
                         WEDGE_BLOCK_PIXELS, shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made,
-                        bench.buffer(nodesOf(light)), bench.buffer(in.position.values), bench.buffer(in.normal.values),
+                        bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values), bench.buffer(in.normal.values),
                         bench.buffer(in.objectId.values), bench.buffer(in.diffuse.values),
                         bench.buffer(in.value.values), bench.buffer(in.noisy.values), bench.buffer(in.taken.values),
                         direct, noisy, samples);
@@ -187,7 +176,7 @@ TEST_CASE("addSpecular: the second term times the lobe's unshadowed shading time
             const auto direct = bench.filled(3 * in.layout().size, 0.5f),
                        noisy = bench.filled(3 * in.layout().size, 0.25f);
             bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addSpecular", in.params, 1,
-                shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made, frame, bench.buffer(nodesOf(light)),
+                shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made, frame, bench.buffer(render::lightNodes(light)),
                 bench.buffer(in.position.values), bench.buffer(in.normal.values), bench.buffer(in.objectId.values),
                 bench.buffer(in.gloss.values), bench.buffer(in.specular.values), bench.buffer(in.value.values),
                 bench.buffer(in.noisy.values), bench.filled(4 * in.layout().size, 0.6f),
@@ -238,7 +227,7 @@ TEST_CASE("addSpecular: lobes too sharp for the quadrature take the mean weight 
         const auto direct = bench.filled(3 * in.layout().size, 0.0f), noisy = bench.filled(3 * in.layout().size, 0.0f);
         bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addSpecular", in.params, 1,
             shared::SampleParams { WEDGE_SHADING_RATIO, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made, shared::FrameParams {},
-            bench.buffer(nodesOf(light)), bench.buffer(in.position.values), bench.buffer(in.normal.values),
+            bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values), bench.buffer(in.normal.values),
             bench.buffer(in.objectId.values), bench.buffer(sharp), bench.buffer(in.specular.values),
             bench.buffer(in.value.values), bench.buffer(in.noisy.values), bench.filled(4 * in.layout().size, 0.6f),
             bench.buffer(std::vector<std::uint32_t>(in.layout().size, 3)), direct, noisy);

@@ -100,18 +100,6 @@ std::array<float, 256> srgbTable()
     return table;
 }
 
-std::vector<float> quadratureData(const scene::AreaLight& light)
-{
-    std::vector<float> out;
-    for (const auto count : { WEDGE_COARSE_NODES, WEDGE_FINE_NODES }) {
-        for (const Node& node : profileRule(light.profile, light.cut, static_cast<int>(count))) {
-            out.push_back(static_cast<float>(node.position));
-            out.push_back(static_cast<float>(node.weight));
-        }
-    }
-    return out;
-}
-
 } // namespace
 
 shared::AreaLight deviceLight(const scene::AreaLight& light)
@@ -199,7 +187,7 @@ DeviceScene::DeviceScene(
     srgbToLinear.upload(queue, srgbTable());
     for (const scene::AreaLight& light : scene.areaLights) {
         areaLightList.push_back(deviceLight(light));
-        const std::vector<float> rule = quadratureData(light);
+        const std::vector<float> rule = lightNodes(light);
         quadratures.emplace_back(device, rule.size(), "light quadrature");
         quadratures.back().upload(queue, rule);
     }

@@ -1,5 +1,7 @@
 #include "host/render/quadrature.h"
 
+#include "kernels/shared/light.h"
+
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -59,6 +61,32 @@ std::vector<Node> profileRule(scene::LightProfile profile, double cut, int count
         node.weight /= total;
     }
     return nodes;
+}
+
+std::vector<Node> threeNodeRule(scene::LightProfile profile, double cut)
+{
+    // Nodes 0 and +-x: the second and fourth moments fix x and its weight.
+    double second = 0.0, fourth = 0.0;
+    for (const Node& node : profileRule(profile, cut, 32)) {
+        const double squared = node.position * node.position;
+        second += node.weight * squared;
+        fourth += node.weight * squared * squared;
+    }
+    const double x = std::sqrt(fourth / second), weight = 0.5 * second * second / fourth;
+    return { { -x, weight }, { 0.0, 1.0 - 2.0 * weight }, { x, weight } };
+}
+
+std::vector<float> lightNodes(const scene::AreaLight& light)
+{
+    std::vector<float> out;
+    for (const std::vector<Node>& rule : { profileRule(light.profile, light.cut, WEDGE_COARSE_NODES),
+             profileRule(light.profile, light.cut, WEDGE_FINE_NODES), threeNodeRule(light.profile, light.cut) }) {
+        for (const Node& node : rule) {
+            out.push_back(static_cast<float>(node.position));
+            out.push_back(static_cast<float>(node.weight));
+        }
+    }
+    return out;
 }
 
 } // namespace wedge::render

@@ -25,9 +25,12 @@
 #define WEDGE_SAMPLER_SOBOL 0u
 #define WEDGE_SAMPLER_STRATIFIED 1u
 
-/// Nodes an axis of the coarse and of the fine quadrature over a light.
+/// Nodes an axis of the quadratures over a light; their (coordinate, weight) pairs are in this order.
 #define WEDGE_COARSE_NODES 5u
 #define WEDGE_FINE_NODES 12u
+#define WEDGE_FEW_NODES 3u ///< of the Gauss rule of the light's profile itself
+#define WEDGE_FINE_OFFSET (2u * WEDGE_COARSE_NODES)
+#define WEDGE_FEW_OFFSET (WEDGE_FINE_OFFSET + 2u * WEDGE_FINE_NODES)
 
 WEDGE_SHARED_BEGIN
 
