@@ -169,7 +169,7 @@ device::MemoryPlan Renderer::plan(
 
 void Renderer::allocate(const Settings& settings, bool keepLayers)
 {
-    validate(settings);
+    validate(settings, isDistributed(settings, scene_));
     plan(settings, keepLayers).check(device_.info(), options_.memoryLimit);
     if (!deviceScene_) {
         deviceScene_ = std::make_unique<DeviceScene>(scene_, hierarchy_, device_, queue_);

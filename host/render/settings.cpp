@@ -56,6 +56,17 @@ void validateDistributed(const DistributedSettings& d)
     requireRange(atLeast(d.oneVelocity, 0), "difference of motions", fmt::format("{}", d.oneVelocity), "a number of at least 0");
 }
 
+/// Of method aaf.
+void validateCounts(const Settings& s, bool distributed)
+{
+    const int least = leastSpp(s, distributed);
+    requireRange(s.spp >= least && s.maxSpp >= least && (!tracesPaths(s) || s.indirect.maxSpp >= least), "samples a pixel",
+        fmt::format("{} (at most {})", s.spp, tracesPaths(s) ? s.indirect.maxSpp : s.maxSpp),
+        fmt::format("{} or more{}: the first pass takes {}", least, tracesPaths(s) && !distributed ? " with indirect light" : "", least));
+    requireRange(!distributed || s.progressive || s.spp <= mostDistributedSpp, "samples a pixel", fmt::format("{}", s.spp),
+        fmt::format("{} or less through a lens or shutter, or with antialiasing", mostDistributedSpp));
+}
+
 using Descriptions = std::vector<std::pair<std::string, std::string>>;
 
 void describeIndirect(const IndirectSettings& in, Descriptions& out)
@@ -158,7 +169,15 @@ Settings asPublished(std::optional<float> wanted)
     return s;
 }
 
-void validate(const Settings& s)
+int leastSpp(const Settings& s, bool distributed)
+{
+    if (distributed) {
+        return s.progressive ? leastProgressiveSpp : s.distributed.firstPaths;
+    }
+    return static_cast<int>(tracesPaths(s) ? WEDGE_INDIRECT_FIRST_RAYS : WEDGE_FIRST_PASS_RAYS);
+}
+
+void validate(const Settings& s, bool distributed)
 {
     const auto text = [](auto value) { return fmt::format("{}", value); };
     requireRange(s.width >= 1 && s.height >= 1 && s.width <= 32768 && s.height <= 32768, "image size",
@@ -184,13 +203,8 @@ void validate(const Settings& s)
     validateDistributed(s.distributed);
     requireRange(!s.progressive || (!s.published && (s.method == Method::MonteCarlo || s.spp >= leastProgressiveSpp)),
         "samples a pixel of a progressive render", text(s.spp), "16 or more, and no published counts");
-    if (s.method == Method::AxisAligned && tracesPaths(s)) {
-        requireRange(in.maxSpp >= static_cast<int>(WEDGE_INDIRECT_FIRST_RAYS) && s.spp >= static_cast<int>(WEDGE_INDIRECT_FIRST_RAYS),
-            "samples a pixel", fmt::format("{} (at most {})", s.spp, in.maxSpp), "16 or more with indirect light: its first pass takes 16");
-    }
     if (s.method == Method::AxisAligned) {
-        requireRange(s.maxSpp >= static_cast<int>(WEDGE_FIRST_PASS_RAYS) && s.spp >= static_cast<int>(WEDGE_FIRST_PASS_RAYS),
-            "samples a pixel", fmt::format("{} (at most {})", s.spp, s.maxSpp), "9 or more: the first pass takes 9");
+        validateCounts(s, distributed);
         requireRange(s.shading != Shading::Inside || s.counts != Counts::Variance || s.sampling == Sampling::Uniform,
             "adaptive counts", "from variance, with the cosine inside the filtered term", "counts from the spectrum, or uniform ones");
     }
