@@ -1,8 +1,8 @@
 // composite.cl alone: terms to radiance, against integrals over the light in double.
 #include "host/render/device_scene.h"
-#include "host/render/quadrature.h"
 #include "kernels/shared/bsdf.h"
 #include "kernels/shared/path.h"
+#include "tests/lamp.h"
 #include "tests/render_oracles.h"
 #include "tests/render_support.h"
 
@@ -62,29 +62,6 @@ struct Receivers {
                 visit(x, y);
     }
 };
-
-scene::AreaLight lamp(scene::LightProfile profile, bool twoSided)
-{
-    scene::AreaLight light;
-    light.centre = { 0.2f, 2, -0.1f };
-    light.halfU = { 0.4f, 0.1f, 0 };
-    light.halfV = { 0, 0, 0.6f };
-    light.radiance = { 5, 4, 3 };
-    light.profile = profile;
-    light.twoSided = twoSided;
-    return light;
-}
-
-std::vector<float> nodesOf(const scene::AreaLight& light)
-{
-    std::vector<float> out;
-    for (const unsigned count : { WEDGE_COARSE_NODES, WEDGE_FINE_NODES })
-        for (const render::Node& node : render::profileRule(light.profile, light.cut, static_cast<int>(count))) {
-            out.push_back(static_cast<float>(node.position));
-            out.push_back(static_cast<float>(node.weight));
-        }
-    return out;
-}
 
 /// Integral over the light of radiance 1 times profile, geometry term and, in the specular case, the lobe.
 struct Integral {
