@@ -55,6 +55,13 @@ FrameShape frameShape(const Settings& settings, const scene::Scene& scene, bool 
     return shape;
 }
 
+/// Pixels over which filters reach, one after the other: those of terms, of shadows along their motion, and of the lens.
+int filterReach(const Settings& settings, const scene::Scene& scene)
+{
+    const bool moves = scene::geometryMoves(scene) || scene::cameraMoves(scene), lens = scene.camera.apertureRadius > 0;
+    return settings.maxRadius + WEDGE_MAX_RADIUS * ((moves ? 1 : 0) + (lens ? 1 : 0));
+}
+
 /// What receivers of waves need for the terms in turn.
 TermShape receiverShape(const Settings& settings, const scene::Scene& scene, bool specular)
 {
@@ -261,7 +268,8 @@ void Renderer::rehearse(const Settings& settings, bool keepLayers)
 
 double Renderer::workUnits(const Settings& settings) const
 {
-    const double paths = tracesPaths(settings) ? settings.spp * std::max(1, settings.bounces) * (hasSpecular(scene_) ? 2.0 : 1.0) : 0.0;
+    const double paths =
+        tracesPaths(settings) ? settings.spp * std::max(1, settings.bounces) * (hasSpecular(scene_) ? 2.0 : 1.0) : 0.0;
     if (settings.integrator == Integrator::AmbientOcclusion) {
         return 1.0 + settings.spp;
     }
@@ -281,7 +289,8 @@ FrameStatistics Renderer::render(const Settings& settings, const Control& contro
     stop_ = &stop;
     queue_.setCancelFlag(frame_->distributed ? nullptr : &stop);
     queue_.setProgress([&](double done) {
-        if ((control.cancel != nullptr && control.cancel->load()) || (control.timeLimitSeconds > 0 && secondsSince(start) > control.timeLimitSeconds)) {
+        if ((control.cancel != nullptr && control.cancel->load())
+            || (control.timeLimitSeconds > 0 && secondsSince(start) > control.timeLimitSeconds)) {
             stop = true;
         }
         if (control.progress) {
@@ -314,7 +323,7 @@ TermContext Renderer::contextOf(const Settings& settings)
     const image::Window output = outputWindow(settings);
     const image::Window whole { 0, 0, settings.width, settings.height };
     const image::Window sampled = needsAnalysis(settings)
-        ? blockWindow(output, settings.maxRadius, settings.width, settings.height)
+        ? blockWindow(output, filterReach(settings, scene_), settings.width, settings.height)
         : output;
     return { *passes_, *deviceScene_, *frame_, *scratch_, settings, frameParams(scene_, frame_->layout, whole, settings.seed),
         frameParams(scene_, frame_->layout, sampled, settings.seed), output,
