@@ -132,8 +132,9 @@ WEDGE_FN void addShadowMotion(CameraParams camera, SurfaceData surfaces, Hit hit
 __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light, CameraParams camera,
                         __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
                         WEDGE_SURFACE_PARAMETERS, WEDGE_RECEIVER_PARAMETERS,
-                        __global const uint* restrict wanted, __global float* restrict sums, __global uint* restrict taken, __global float* restrict value,
-                        __global float* restrict slopes, __global uint* restrict rays, uint firstGroup)
+                        __global const uint* restrict wanted, __global float* restrict sums,
+                        __global uint* restrict taken, __global float* restrict value, __global float* restrict slopes,
+                        __global uint* restrict rays, uint firstGroup)
 {
     const uint size = frame.planeSize;
     ReceiverPacket receivers;

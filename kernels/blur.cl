@@ -6,8 +6,6 @@
 
 /// Kernels end at this many standard deviations.
 #define WEDGE_BLUR_CUT 2.5f
-/// Pixels that the motion's kernel reaches at most.
-#define WEDGE_MOTION_REACH 160
 /// Least cosine between motions of pixels that are averaged.
 #define WEDGE_SAME_DIRECTION 0.9f
 

@@ -165,8 +165,9 @@ WEDGE_FN uint preparePaths(uint size, PathParams params, uint lastSample, __glob
 __kernel void samplePaths(FrameParams frame, PathParams params, __global const TraversalNode* restrict nodes,
                           __global const TriangleBlock* restrict blocks, WEDGE_SURFACE_PARAMETERS,
                           __global const AreaLight* restrict areaLights, __global const DeltaLight* restrict deltaLights,
-                          WEDGE_RECEIVER_PARAMETERS, __global const float* restrict specular, __global const uint* restrict wanted, uint lastSample,
-                          __global float* restrict sums, __global uint* restrict taken, __global float* restrict value,
+                          WEDGE_RECEIVER_PARAMETERS, __global const float* restrict specular,
+                          __global const uint* restrict wanted, uint lastSample, __global float* restrict sums,
+                          __global uint* restrict taken, __global float* restrict value,
                           __global float* restrict reflectors, __global uint* restrict rays,
                           __global uint* restrict pathRays, uint firstGroup)
 {

@@ -137,8 +137,8 @@ WEDGE_FN void samplePositions(SampleParams params, uint order, const uint* seed,
 }
 
 /// Sample index[lane] of count[lane] for each receiver. Weights are 0 in lanes without a pixel and below its horizon.
-WEDGE_FN void sampleLights(FrameParams frame, SampleParams params, AreaLight light, const ReceiverPacket* r, const uint* index, const uint* count,
-                           LightSamples* s)
+WEDGE_FN void sampleLights(FrameParams frame, SampleParams params, AreaLight light, const ReceiverPacket* r,
+                           const uint* index, const uint* count, LightSamples* s)
 {
     float u[WEDGE_PACKET_SIZE], v[WEDGE_PACKET_SIZE];
     samplePositions(params, hashCombine(frame.seed, params.light), r->seed, index, count, u, v);

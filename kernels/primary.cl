@@ -1,9 +1,10 @@
 // The primary pass: one ray through each pixel's centre, and what it hits, into the G-buffer.
 //
 // in   frame, BVH, surfaces, area lights (the camera sees those that are visible)
-// out  position, normal, origin (3 planes each), geometric (normal, packed), objectId (0: nothing to shade), depth (ray distance, +inf on a
-//      miss), pixelSize (projected edge of the pixel on the surface, metres), diffuse, specular, emission (3 each;
-//      emission holds background and light radiance where nothing is shaded), gloss (exponent; negative: Phong)
+// out  position, normal, origin (3 planes each), geometric (normal, packed), objectId (0: nothing to shade), depth (ray
+//      distance, +inf on a miss), pixelSize (projected edge of the pixel on the surface, metres), diffuse, specular,
+//      emission (3 each; emission holds background and light radiance where nothing is shaded), gloss (exponent;
+//      negative: Phong)
 #include "packet.h"
 #include "pixel.h"
 #include "seen_light.h"

@@ -68,8 +68,8 @@ WEDGE_FN float bandlimitOf(uint component, float gloss)
 
 /// Widths in metres (4.15), (4.16), -1 where the pixel has no such term, and counts (4.21).
 /// Of the distances there is the least, as published, or a fraction of their harmonic mean, in which rays that hit nothing
-/// count as infinitely far: an estimate of the same from all rays, with less noise. fixedWidth replaces the analysis. meanOnly: reflectors have but the last plane, the
-/// sum of inverse distances; no counts.
+/// count as infinitely far: an estimate of the same from all rays, with less noise. fixedWidth replaces the analysis.
+/// meanOnly: reflectors have but the last plane, the sum of inverse distances; no counts.
 __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict reflectors,
                               __global const float* restrict extent, __global const float* restrict pixelSize,
                               __global const float* restrict gloss, __global const uint* restrict taken,

@@ -189,13 +189,16 @@ WEDGE_FN Surface surfaceAt(SurfaceData data, Hit hit, Vec3 direction, float time
     const float tv = data.texcoords[2u * ia + 1u] * wa + data.texcoords[2u * ib + 1u] * hit.u
         + data.texcoords[2u * ic + 1u] * hit.v;
     if (material.diffuseTexture != WEDGE_NO_TEXTURE) {
-        s.diffuse = vecMul(s.diffuse, sampleTexture(data.textures, data.texels, data.srgbToLinear, material.diffuseTexture, tu, tv));
+        s.diffuse = vecMul(s.diffuse, sampleTexture(data.textures, data.texels, data.srgbToLinear,
+            material.diffuseTexture, tu, tv));
     }
     if (material.specularTexture != WEDGE_NO_TEXTURE) {
-        s.specular = vecMul(s.specular, sampleTexture(data.textures, data.texels, data.srgbToLinear, material.specularTexture, tu, tv));
+        s.specular = vecMul(s.specular, sampleTexture(data.textures, data.texels, data.srgbToLinear,
+            material.specularTexture, tu, tv));
     }
     if (material.emissionTexture != WEDGE_NO_TEXTURE) {
-        s.emission = vecMul(s.emission, sampleTexture(data.textures, data.texels, data.srgbToLinear, material.emissionTexture, tu, tv));
+        s.emission = vecMul(s.emission, sampleTexture(data.textures, data.texels, data.srgbToLinear,
+            material.emissionTexture, tu, tv));
     }
     if (material.exponentTexture != WEDGE_NO_TEXTURE) {
         s.exponent *= sampleTexture(data.textures, data.texels, data.srgbToLinear, material.exponentTexture, tu, tv).x;

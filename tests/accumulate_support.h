@@ -52,7 +52,9 @@ inline SeenPoint seenPoint(Receivers kind, int x, int y, std::uint32_t index)
     };
     const bool all = kind == Receivers::All, related = kind == Receivers::Related;
     SeenPoint p {};
-    p.object = kind != Receivers::LitSurfaces && random() % 5 == 0 ? 0 : 1 + static_cast<std::uint32_t>(random() % (x % 2 == 0 ? 2 : 1));
+    p.object = kind != Receivers::LitSurfaces && random() % 5 == 0
+        ? 0
+        : 1 + static_cast<std::uint32_t>(random() % (x % 2 == 0 ? 2 : 1));
     p.diffuse = all && random() % 6 == 0 ? glm::dvec3(0) : vector(0.05, 0.9);
     p.specular = all && random() % 3 == 0 ? glm::dvec3(0) : vector(0, 0.5);
     p.emission = vector(0, 2);
@@ -248,15 +250,18 @@ inline void accumulateSurfaces(Accumulation& a, SurfacePixels& out, const shared
         return a.receiverBuffer<float>(1, [&](const SeenPoint& p, std::size_t) { return value(p); });
     };
     a.launch("accumulateSurfaces", camera, a.lists.pixelFirst, a.lists.pixelCount, a.objectId,
-        a.vectors([](const SeenPoint& p) { return p.position; }), a.vectors([](const SeenPoint& p) { return p.normal; }),
-        single([](const SeenPoint& p) { return p.gloss; }), a.vectors([](const SeenPoint& p) { return p.diffuse; }),
-        a.vectors([](const SeenPoint& p) { return p.specular; }), a.vectors([](const SeenPoint& p) { return p.emission; }),
+        a.vectors([](const SeenPoint& p) { return p.position; }),
+        a.vectors([](const SeenPoint& p) { return p.normal; }), single([](const SeenPoint& p) { return p.gloss; }),
+        a.vectors([](const SeenPoint& p) { return p.diffuse; }),
+        a.vectors([](const SeenPoint& p) { return p.specular; }),
+        a.vectors([](const SeenPoint& p) { return p.emission; }),
         single([](const SeenPoint& p) { return p.pixelSize; }), single([](const SeenPoint& p) { return p.depth; }),
-        a.receiverBuffer<float>(2, [](const SeenPoint& p, std::size_t axis) { return p.motion[static_cast<int>(axis)]; }),
+        a.receiverBuffer<float>(
+            2, [](const SeenPoint& p, std::size_t axis) { return p.motion[static_cast<int>(axis)]; }),
         a.receiverBuffer<std::uint32_t>(1, [](const SeenPoint& p, std::size_t) { return p.rays; }),
-        a.receiverBuffer<std::uint32_t>(1, [](const SeenPoint& p, std::size_t) { return p.pathRays; }), a.primaryTaken, a.hits,
-        out.object, out.position, out.normal, out.gloss, out.diffuse, out.specular, out.emission, out.emissionSquares, out.pixelSize,
-        out.distance, out.confusion, out.motion, out.rays, out.pathRays);
+        a.receiverBuffer<std::uint32_t>(1, [](const SeenPoint& p, std::size_t) { return p.pathRays; }), a.primaryTaken,
+        a.hits, out.object, out.position, out.normal, out.gloss, out.diffuse, out.specular, out.emission,
+        out.emissionSquares, out.pixelSize, out.distance, out.confusion, out.motion, out.rays, out.pathRays);
     a.end();
 }
 

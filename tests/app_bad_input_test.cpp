@@ -26,6 +26,24 @@ TEST_CASE("wrong calls")
     checkRenderRefused(place, box, { "--spp" }, wrongCall, "--spp");
 }
 
+TEST_CASE("options that take no value are not given one")
+{
+    const Workplace place;
+    for (const std::string flag : { "--antialias", "--no-antialias", "--as-published", "--progressive", "--check-launches",
+             "--fast-math", "--quiet", "--verbose", "--help" }) {
+        for (const std::string value : { "no", "yes", "false", "true", "0", "1", "" }) {
+            checkRenderRefused(place, box, { flag + "=" + value }, wrongCall,
+                "option takes no value: " + flag + "=" + value + ": give " + flag + " alone");
+        }
+    }
+    checkRefused(place, { "compare", "a.exr", "b.exr", "--json=no" }, wrongCall, "--json=no");
+    checkRefused(place, { "info", box, "--json=no" }, wrongCall, "--json=no");
+    checkRefused(place, { "devices", "--json=1" }, wrongCall, "--json=1");
+    checkRefused(place, { "--version=no" }, wrongCall, "--version=no");
+    checkRefused(place, { "render", "--", "--quiet=no" }, failure, "--quiet=no: "); // a scene of that name
+    CHECK(place.run({ "render", box, "--quiet", "--size=8x6", "--spp=9", "-o", "a.exr" }).status == 0);
+}
+
 TEST_CASE("values out of range")
 {
     const Workplace place;

@@ -33,6 +33,15 @@ void writeScene(const Workplace& place, const std::string& name, const std::stri
 const std::string lens = "aperture = 0.4\nfocus = 2\n";
 const std::string shutter = "[shutter]\nclose = 1\n";
 
+/// The scene through a lens with that key in place of its 16 samples.
+void writeCounted(const Workplace& place, const std::string& name, const std::string& key, const std::string& integrator = "")
+{
+    writeScene(place, name, lens, "", integrator);
+    std::string text = place.text(name);
+    text.replace(text.find("spp = 16"), 8, key);
+    place.write(name, text);
+}
+
 image::LayeredImage rendered(const Workplace& place, const std::string& scene, Arguments more = {})
 {
     more.insert(more.end(), { "--size", "48x36" });
@@ -190,7 +199,6 @@ TEST_CASE("counts of frames through a lens, and options that have no effect on t
     };
     CHECK(setting({}, "distributedMaxSpp") == "512");
     CHECK(setting({ "--max-spp", "50" }, "distributedMaxSpp") == "50");
-    CHECK(setting({ "--max-spp", "5000" }, "distributedMaxSpp") == "2048");
     CHECK(setting({ "--spp", "300" }, "distributedMaxSpp") == "600");
     CHECK(setting({ "--as-published" }, "distributedMu") == "1");
     CHECK(setting({ "--as-published", "--mu", "1.5" }, "distributedMu") == "1.5");
@@ -202,6 +210,74 @@ TEST_CASE("counts of frames through a lens, and options that have no effect on t
             "option has no effect with method aaf through a lens or shutter, or with antialiasing: " + option[0]);
     }
     CHECK(setting({ "--method", "mc", "--sampler", "stratified" }, "sampler") == "stratified");
+}
+
+TEST_CASE("counts that frames through a lens cannot have are refused, and how to have them said")
+{
+    const Workplace place;
+    writeScene(place, "lens.toml", lens);
+    writeScene(place, "plain.toml");
+    writeCounted(place, "open.toml", "");
+    const auto refused = [&](const Arguments& more, const std::string& said) {
+        checkRenderRefused(place, "lens.toml", more, wrongCall, said);
+    };
+    const std::string many = "samples a pixel are too many for method aaf through a lens or shutter, or with antialiasing: ";
+    const std::string ways = ": give 2048 or less, or add --progressive or --method mc";
+    refused({ "--spp", "2049" }, many + "--spp 2049" + ways);
+    refused({ "--spp", "5000", "--max-spp", "3000" }, many + "--spp 5000" + ways);
+    refused({ "--max-spp", "2049" }, many + "--max-spp 2049: give 2048 or less");
+    refused({ "--max-spp", "2049", "--as-published" }, many + "--max-spp 2049");
+    checkRenderRefused(place, "open.toml", { "--mu", "40" }, wrongCall, many + "--mu 40: lower it, or give --spp, 2048 or less");
+    checkRenderRefused(place, "plain.toml", { "--antialias", "--spp", "2049" }, wrongCall, many + "--spp 2049" + ways);
+    refused({ "--spp", "7" }, "8 or more: the first pass takes 8");
+    refused({ "--spp", "7", "--bounces", "1" }, "8 or more: the first pass takes 8");
+    checkRenderRefused(place, "open.toml", { "--max-spp", "7" }, wrongCall, "8 or more: the first pass takes 8");
+    refused({ "--max-spp", "15", "--as-published" }, "16 or more");
+    refused({ "--as-published", "--spp", "20" },
+        "option has no effect where counts follow from the spectrum: --spp 20: set --mu, or leave out --as-published");
+    checkRenderRefused(place, "plain.toml", { "--progressive", "--falloff", "ratio" }, wrongCall,
+        "option has no effect with method aaf and --progressive: --falloff");
+    checkRenderRefused(place, "plain.toml", { "--progressive", "--max-spp", "100" }, wrongCall,
+        "option does not go with --progressive, whose counts grow from step to step: --max-spp");
+    const auto samples = [&](const Arguments& more) {
+        Arguments arguments = { "--size", "1x1" };
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return numberOf(render(place, "lens.toml", arguments), "samplesPerPixel");
+    };
+    CHECK(samples({ "--spp", "2048" }) == 2048);
+    CHECK(samples({ "--spp", "2049", "--method", "mc" }) == 2049);
+    CHECK(samples({ "--spp", "8", "--bounces", "1" }) == 8);
+    CHECK(samples({ "--as-published", "--max-spp", "16" }) == 16);
+}
+
+TEST_CASE("counts of a scene file that frames through a lens cannot have, and those that have no effect")
+{
+    const Workplace place;
+    writeCounted(place, "mean.toml", "spp = 2049");
+    writeCounted(place, "most.toml", "max_spp = 2049");
+    writeCounted(place, "mu.toml", "mu = 40");
+    writeCounted(place, "few.toml", "spp = 7");
+    writeCounted(place, "eight.toml", "spp = 8", "bounces = 1\n");
+    writeCounted(place, "capped.toml", "max_spp = 20");
+    const std::string lensed = " is too high for method aaf through a lens or shutter, or with antialiasing: ";
+    for (const char* command : { "render", "info" }) {
+        checkRefused(place, { command, "mean.toml" }, failure, "scene file mean.toml: spp" + lensed + "2049: give 2048 or less");
+        checkRefused(place, { command, "most.toml" }, failure, "scene file most.toml: max_spp" + lensed + "2049: give there, or");
+        checkRefused(place, { command, "mu.toml" }, failure, "scene file mu.toml: mu" + lensed + "40: lower it, or give --spp");
+        checkRefused(place, { command, "few.toml" }, failure, "spp is too low for method aaf: 7: give 8 or more, or method mc");
+    }
+    const std::vector<Arguments> fine = { { "mean.toml", "--spp", "20" }, { "mean.toml", "--aperture", "0" },
+        { "mean.toml", "--as-published" }, { "most.toml", "--max-spp", "30" }, { "most.toml", "--aperture", "0" },
+        { "mu.toml", "--spp", "20" }, { "few.toml", "--spp", "8" }, { "eight.toml" }, { "capped.toml", "--spp", "20" },
+        { "capped.toml", "--progressive", "--spp", "32" }, { "few.toml", "--progressive", "--spp", "2050" },
+        { "eight.toml", "--max-spp", "2048" }, { "few.toml", "--as-published", "--mu", "0.5" } };
+    for (const Arguments& call : fine) {
+        CAPTURE(call[0]);
+        Arguments arguments = { "render", "--quiet", "-o", "a.exr", "--size", "1x1" };
+        arguments.insert(arguments.end(), call.begin(), call.end());
+        const Outcome outcome = place.run(arguments);
+        CHECK_MESSAGE(outcome.status == 0, outcome.err);
+    }
 }
 
 } // namespace wedge::app::test

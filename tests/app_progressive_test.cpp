@@ -57,7 +57,8 @@ TEST_CASE("a target error ends a render without a count, and a time limit does")
 TEST_CASE("options of progressive renders that are wrong are refused in one line")
 {
     const Workplace place;
-    checkRenderRefused(place, box, { "--target-error", "0.1" }, wrongCall, "--target-error 0.1: leave it out, or add --progressive");
+    checkRenderRefused(
+        place, box, { "--target-error", "0.1" }, wrongCall, "--target-error 0.1: leave it out, or add --progressive");
     for (const std::string bad : { "0", "-1", "nan", "inf", "much", "" }) {
         checkRenderRefused(place, box, { "--progressive", "--target-error", bad }, wrongCall, "--target-error");
     }

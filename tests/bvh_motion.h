@@ -93,7 +93,9 @@ inline std::vector<MovingMesh> movingMeshes()
     add("to a line", some, toLine);
     TestMesh line = some;
     line.positions = out.back().close;
-    add("from a line", line, [&](std::size_t i, Vec3) { return vec3(some.positions[3 * i], some.positions[3 * i + 1], some.positions[3 * i + 2]); });
+    add("from a line", line, [&](std::size_t i, Vec3) {
+        return vec3(some.positions[3 * i], some.positions[3 * i + 1], some.positions[3 * i + 2]);
+    });
     add("inside out", some, [](std::size_t, Vec3 p) { return vecScale(p, -1); });
     // By a right angle, on straight paths instead of the circle's.
     add("turning", waves(16), [](std::size_t, Vec3 p) { return vec3(-p.z, p.y, p.x); });

@@ -18,7 +18,9 @@ bool hasVanished(const TestMesh& mesh, std::uint32_t triangle)
     float edge = 0, coordinate = 0;
     for (std::size_t corner = 0; corner < 3; corner++)
         for (std::size_t axis = 0; axis < 3; axis++) {
-            const auto at = [&](std::size_t c) { return mesh.positions[3 * std::size_t { mesh.indices[3 * triangle + c % 3] } + axis]; };
+            const auto at = [&](std::size_t c) {
+                return mesh.positions[3 * std::size_t { mesh.indices[3 * triangle + c % 3] } + axis];
+            };
             edge = std::max(edge, std::fabs(at(corner + 1) - at(corner)));
             coordinate = std::max(coordinate, std::fabs(at(corner)));
         }
@@ -98,7 +100,8 @@ TEST_CASE("Nothing at all, and nothing but what is never hit")
     TestMesh one { "one triangle", {}, {} };
     one.add({ -1, -1, 0, 1, -1, 0, 0, 1, 0 });
     const MovingMesh gone = withClose(one, [](std::size_t, Vec3) { return vec3(INFINITY, 0, 0); });
-    const MovingMesh point = withClose({ "point", std::vector<float>(9, 0.5f), { 0, 1, 2 } }, [](std::size_t, Vec3 p) { return p; });
+    const MovingMesh point =
+        withClose({ "point", std::vector<float>(9, 0.5f), { 0, 1, 2 } }, [](std::size_t, Vec3 p) { return p; });
     onAllWays([&](Ways& ways) {
         for (const MovingMesh* mesh : { &empty, &gone, &point }) {
             CAPTURE(mesh->open.name);
@@ -230,7 +233,8 @@ TEST_CASE("Packets see a triangle whose one corner moves, wherever it is")
             for (unsigned i = 0; i < 400; i++) {
                 const Vec3 at = pointOn(mesh.at(static_cast<float>(i) / 400), random);
                 for (unsigned k = 0; k < 16; k++)
-                    rays.push_back({ vec3(at.x, 1, at.z), 0, vec3(0.01f * static_cast<float>(k % 4), -1, 0.01f * static_cast<float>(k / 4)), infinity });
+                    rays.push_back({ vec3(at.x, 1, at.z), 0,
+                        vec3(0.01f * static_cast<float>(k % 4), -1, 0.01f * static_cast<float>(k / 4)), infinity });
             }
             CHECK(ways.check(mesh, tree, rays, randomTimes(rays.size(), 59)) > 500);
         }
@@ -292,7 +296,8 @@ TEST_CASE("Of what crosses halfway, the quality mode's tree is the cheaper one")
     const std::size_t parted = left.positions.size() / 3;
     for (std::size_t v = 0; v < both.positions.size() / 3; v++)
         both.positions[3 * v] += v < parted ? -3.0f : 3.0f;
-    const MovingMesh mesh = withClose(both, [&](std::size_t v, Vec3 p) { return vec3(p.x + (v < parted ? 6.0f : -6.0f), p.y, p.z); });
+    const MovingMesh mesh =
+        withClose(both, [&](std::size_t v, Vec3 p) { return vec3(p.x + (v < parted ? 6.0f : -6.0f), p.y, p.z); });
     const double halfway = mesh.build().statistics.sahCost;
     const double best = mesh.build(bvh::config(bvh::Mode::Quality)).statistics.sahCost;
     CHECK(best < 0.8 * halfway);

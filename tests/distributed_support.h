@@ -42,6 +42,21 @@ inline std::vector<Region> regions()
         { 45, 29, { 16, 20, 45, 29 } } };
 }
 
+/// Calls test(bench, region, random) for every device and each of regions(), with random numbers that go on from region to
+/// region.
+template <class Test>
+void onEveryRegion(unsigned seed, const Test& test)
+{
+    onEveryDevice([&](const device::Device& device) {
+        KernelBench bench(device);
+        std::mt19937 random(seed);
+        for (const Region& region : regions())
+            test(bench, region, random);
+    });
+}
+
+inline double luminanceOf(glm::dvec3 c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+
 template <class Visit>
 void everyPixel(const image::Window& window, const Visit& visit)
 {

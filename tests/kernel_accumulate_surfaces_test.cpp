@@ -28,8 +28,9 @@ TEST_CASE("point lights: the mean of the receivers' radiance, black where there 
                 const glm::dvec3 sum = sumOf(seen, [](const SeenPoint& p) { return p.object != 0 ? p.irradiance : glm::dvec3(0); });
                 const double n = std::max<double>(1, static_cast<double>(seen.size()));
                 REQUIRE(nearTo(radiance.vector(x, y), sum / n));
-                REQUIRE(nearTo(squared.at(x, y),
-                    sumOf(seen, [](const SeenPoint& p) { return p.object != 0 ? std::pow(luminanceOf(p.irradiance), 2) : 0.0; }) / n));
+                REQUIRE(nearTo(squared.at(x, y), sumOf(seen, [](const SeenPoint& p) {
+                    return p.object != 0 ? std::pow(luminanceOf(p.irradiance), 2) : 0.0;
+                }) / n));
             });
         }
     });
@@ -53,7 +54,8 @@ TEST_CASE("surfaces: means over hits of where they are, over samples of how they
             const auto emissionSquares = a.read(out.emissionSquares);
             const auto pixelSize = a.read(out.pixelSize), distance = a.read(out.distance);
             const auto confusion = a.read(out.confusion), motion = a.read(out.motion);
-            for (const Planes<float>* planes : { &position, &normal, &diffuse, &emission, &emissionSquares, &distance, &confusion, &motion })
+            for (const Planes<float>* planes :
+                { &position, &normal, &diffuse, &emission, &emissionSquares, &distance, &confusion, &motion })
                 checkElsewhere(a, *planes);
             const shared::CameraParams camera = lens();
             unsigned mixed = 0, missed = 0;
@@ -91,7 +93,8 @@ TEST_CASE("surfaces: means over hits of where they are, over samples of how they
                 if (hit.empty()) {
                     ++missed;
                     // As far as one of them went.
-                    REQUIRE(std::ranges::any_of(seen, [&](const SeenPoint& p) { return static_cast<float>(p.depth) == distance.at(x, y); }));
+                    REQUIRE(std::ranges::any_of(
+                        seen, [&](const SeenPoint& p) { return static_cast<float>(p.depth) == distance.at(x, y); }));
                     return;
                 }
                 const glm::dvec3 mean = sumOf(hit, [](const SeenPoint& p) { return p.position; }) / h;

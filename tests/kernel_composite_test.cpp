@@ -3,6 +3,7 @@
 #include "host/render/quadrature.h"
 #include "kernels/shared/bsdf.h"
 #include "kernels/shared/path.h"
+#include "tests/lamp.h"
 #include "tests/render_oracles.h"
 #include "tests/render_support.h"
 
@@ -62,18 +63,6 @@ struct Receivers {
                 visit(x, y);
     }
 };
-
-scene::AreaLight lamp(scene::LightProfile profile, bool twoSided)
-{
-    scene::AreaLight light;
-    light.centre = { 0.2f, 2, -0.1f };
-    light.halfU = { 0.4f, 0.1f, 0 };
-    light.halfV = { 0, 0, 0.6f };
-    light.radiance = { 5, 4, 3 };
-    light.profile = profile;
-    light.twoSided = twoSided;
-    return light;
-}
 
 /// Integral over the light of radiance 1 times profile, geometry term and, in the specular case, the lobe.
 struct Integral {

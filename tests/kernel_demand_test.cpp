@@ -10,8 +10,6 @@ namespace {
 
 constexpr double pi = 3.14159265358979;
 
-double luminanceOf(glm::dvec3 c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
-
 /// n / (n - 1), which makes the variance of n samples about their own mean unbiased; 0 where there is none to speak of.
 double unbiased(double n) { return n > 1 ? n / (n - 1) : 0; }
 
@@ -137,24 +135,19 @@ Planes<std::uint32_t> someCounts(const Region& region, std::mt19937& random, std
 
 TEST_CASE("variances: of the texture at most all of it, of the irradiance the rest; none of a sample or less")
 {
-    onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        unsigned seed = 0;
-        for (const Region& region : regions()) {
-            std::mt19937 random(++seed);
-            const Moments in(region, random);
-            const SplitPlanes found = splitVariance(bench, region, in);
-            int all = 0, some = 0;
-            everyPixel(region.window, [&](int x, int y) {
-                const auto [texture, irradiance] = in.expected(x, y);
-                REQUIRE(agree(found.ofTexture.at(x, y), texture, 1e-4, 2e-6));
-                REQUIRE(agree(found.ofIrradiance.at(x, y), irradiance, 1e-4, 2e-6));
-                all += texture > 0 && irradiance == 0 ? 1 : 0;
-                some += texture > 0 && irradiance > 0 ? 1 : 0;
-            });
-            CHECK((all > 3 || region.width * region.height < 100));
-            CHECK((some > 3 || region.width * region.height < 100));
-        }
+    onEveryRegion(0, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+        const Moments in(region, random);
+        const SplitPlanes found = splitVariance(bench, region, in);
+        int all = 0, some = 0;
+        everyPixel(region.window, [&](int x, int y) {
+            const auto [texture, irradiance] = in.expected(x, y);
+            REQUIRE(agree(found.ofTexture.at(x, y), texture, 1e-4, 2e-6));
+            REQUIRE(agree(found.ofIrradiance.at(x, y), irradiance, 1e-4, 2e-6));
+            all += texture > 0 && irradiance == 0 ? 1 : 0;
+            some += texture > 0 && irradiance > 0 ? 1 : 0;
+        });
+        CHECK((all > 3 || region.width * region.height < 100));
+        CHECK((some > 3 || region.width * region.height < 100));
     });
 }
 
@@ -199,51 +192,42 @@ TEST_CASE("variances: in the mean over pixels of few samples they are those of a
 
 TEST_CASE("emission: the variance of its luminance, none of a sample or less")
 {
-    onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        unsigned seed = 20;
-        for (const Region& region : regions()) {
-            std::mt19937 random(++seed);
-            const auto emission =
-                filledPlanes(region, 3, 1e30f, [&](int, int, std::size_t) { return uniform(random, 0, 5); });
-            const auto squares =
-                filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random, 0, 30); });
-            const auto taken = someCounts(region, random, 6);
-            Output<float> variance(bench, region, 1);
-            const auto e = bench.buffer(emission.values), e2 = bench.buffer(squares.values);
-            const auto n = bench.buffer(taken.values);
-            launchPixels(bench, "distributed.cl", "emissionVariance", paramsOf(region), e, e2, n, variance.buffer());
-            const Planes<float> found = variance.read();
-            everyPixel(region.window, [&](int x, int y) {
-                const double rest = squares.at(x, y) - std::pow(luminanceOf(emission.vector(x, y)), 2);
-                REQUIRE(agree(found.at(x, y), std::max(0.0, rest) * unbiased(taken.at(x, y)), 1e-4, 2e-5));
-            });
-        }
+    onEveryRegion(20, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+        const auto emission =
+            filledPlanes(region, 3, 1e30f, [&](int, int, std::size_t) { return uniform(random, 0, 5); });
+        const auto squares =
+            filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random, 0, 30); });
+        const auto taken = someCounts(region, random, 6);
+        Output<float> variance(bench, region, 1);
+        const auto e = bench.buffer(emission.values), e2 = bench.buffer(squares.values);
+        const auto n = bench.buffer(taken.values);
+        launchPixels(bench, "distributed.cl", "emissionVariance", paramsOf(region), e, e2, n, variance.buffer());
+        const Planes<float> found = variance.read();
+        everyPixel(region.window, [&](int x, int y) {
+            const double rest = squares.at(x, y) - std::pow(luminanceOf(emission.vector(x, y)), 2);
+            REQUIRE(agree(found.at(x, y), std::max(0.0, rest) * unbiased(taken.at(x, y)), 1e-4, 2e-5));
+        });
     });
 }
 
 TEST_CASE(
     "demand: a power of variance over what filters gather and rays cost, no less than a part of the largest around")
 {
-    onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        unsigned seed = 40;
-        for (const Region& region : regions())
-            for (const std::uint32_t alongMotion : { 0u, 1u })
-                for (const auto& [rays, exponent] : { std::pair(1.0f, 0.5f), { 4.0f, 0.35f } }) {
-                    std::mt19937 random(++seed);
-                    const Filters in(region, random);
-                    shared::DistributedParams p = paramsOf(region);
-                    p.alongMotion = alongMotion;
-                    p.rays = rays;
-                    p.countExponent = exponent;
-                    const Planes<float> found = sampleDemand(bench, region, p, in);
-                    everyPixel(region.window, [&](int x, int y) {
-                        CAPTURE(x);
-                        CAPTURE(y);
-                        REQUIRE(agree(found.at(x, y), in.expected(region, p, x, y), 1e-4));
-                    });
-                }
+    onEveryRegion(40, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+        for (const std::uint32_t alongMotion : { 0u, 1u })
+            for (const auto& [rays, exponent] : { std::pair(1.0f, 0.5f), { 4.0f, 0.35f } }) {
+                const Filters in(region, random);
+                shared::DistributedParams p = paramsOf(region);
+                p.alongMotion = alongMotion;
+                p.rays = rays;
+                p.countExponent = exponent;
+                const Planes<float> found = sampleDemand(bench, region, p, in);
+                everyPixel(region.window, [&](int x, int y) {
+                    CAPTURE(x);
+                    CAPTURE(y);
+                    REQUIRE(agree(found.at(x, y), in.expected(region, p, x, y), 1e-4));
+                });
+            }
     });
 }
 
@@ -273,50 +257,40 @@ TEST_CASE("demand: filters one after the other gather what their kernels, convol
 
 TEST_CASE("at least so many samples of one kind as of another, where taken apart and where not")
 {
-    onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        unsigned seed = 90;
-        for (const Region& region : regions()) {
-            std::mt19937 random(++seed);
-            const Filters in(region, random);
-            const Planes<float> before = in.effective;
-            Output<float> demand(bench, region, before);
-            const auto beta = bench.buffer(in.beta.values), least = bench.buffer(in.along.values);
-            launchPixels(
-                bench, "distributed.cl", "atLeast", paramsOf(region), 0.5f, 8.0f, beta, least, demand.buffer());
-            const Planes<float> found = demand.read();
-            int raised[2] = {};
-            everyPixel(region.window, [&](int x, int y) {
-                const bool apart = in.beta.at(x, y) >= 0;
-                const double bound = (apart ? 0.5 : 8.0) * in.along.at(x, y);
-                REQUIRE(agree(found.at(x, y), std::max<double>(before.at(x, y), bound)));
-                raised[apart ? 1 : 0] += bound > before.at(x, y) ? 1 : 0;
-            });
-            CHECK((region.width * region.height < 100 || (raised[0] > 0 && raised[1] > 0)));
-        }
+    onEveryRegion(90, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+        const Filters in(region, random);
+        const Planes<float> before = in.effective;
+        Output<float> demand(bench, region, before);
+        const auto beta = bench.buffer(in.beta.values), least = bench.buffer(in.along.values);
+        launchPixels(
+            bench, "distributed.cl", "atLeast", paramsOf(region), 0.5f, 8.0f, beta, least, demand.buffer());
+        const Planes<float> found = demand.read();
+        int raised[2] = {};
+        everyPixel(region.window, [&](int x, int y) {
+            const bool apart = in.beta.at(x, y) >= 0;
+            const double bound = (apart ? 0.5 : 8.0) * in.along.at(x, y);
+            REQUIRE(agree(found.at(x, y), std::max<double>(before.at(x, y), bound)));
+            raised[apart ? 1 : 0] += bound > before.at(x, y) ? 1 : 0;
+        });
+        CHECK((region.width * region.height < 100 || (raised[0] > 0 && raised[1] > 0)));
     });
 }
 
 TEST_CASE("counts: no more new primary samples than a wave has room for")
 {
-    onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        unsigned seed = 110;
-        for (const Region& region : regions()) {
-            std::mt19937 random(++seed);
-            const auto taken = someCounts(region, random, 900), wanted = someCounts(region, random, 4000);
-            const auto takenBuffer = bench.buffer(taken.values);
-            // Never fewer than there are.
-            Planes<std::uint32_t> atLeastTaken = wanted;
-            everyPixel({ 0, 0, region.width, region.height },
-                [&](int x, int y) { atLeastTaken.at(x, y) = std::max(wanted.at(x, y), taken.at(x, y)); });
-            Output<std::uint32_t> primary(bench, region, atLeastTaken);
-            launchPixels(bench, "distributed.cl", "limitStep", paramsOf(region), takenBuffer, primary.buffer());
-            const Planes<std::uint32_t> found = primary.read();
-            everyPixel(region.window, [&](int x, int y) {
-                const std::uint32_t steps = std::min(atLeastTaken.at(x, y) - taken.at(x, y), 1024u);
-                REQUIRE(found.at(x, y) == taken.at(x, y) + steps);
-            });
-        }
+    onEveryRegion(110, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+        const auto taken = someCounts(region, random, 900), wanted = someCounts(region, random, 4000);
+        const auto takenBuffer = bench.buffer(taken.values);
+        // Never fewer than there are.
+        Planes<std::uint32_t> atLeastTaken = wanted;
+        everyPixel({ 0, 0, region.width, region.height },
+            [&](int x, int y) { atLeastTaken.at(x, y) = std::max(wanted.at(x, y), taken.at(x, y)); });
+        Output<std::uint32_t> primary(bench, region, atLeastTaken);
+        launchPixels(bench, "distributed.cl", "limitStep", paramsOf(region), takenBuffer, primary.buffer());
+        const Planes<std::uint32_t> found = primary.read();
+        everyPixel(region.window, [&](int x, int y) {
+            const std::uint32_t steps = std::min(atLeastTaken.at(x, y) - taken.at(x, y), 1024u);
+            REQUIRE(found.at(x, y) == taken.at(x, y) + steps);
+        });
     });
 }

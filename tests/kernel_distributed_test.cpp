@@ -6,8 +6,6 @@ using namespace wedge::test;
 
 namespace {
 
-double luminanceOf(glm::dvec3 c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
-
 /// Least radius of circles of confusion.
 double leastRadius(double low, double high)
 {
@@ -84,53 +82,44 @@ Planes<float> factoredWidths(
 
 TEST_CASE("the factoring error is the signed luminance of k E - k mean(e)")
 {
-    onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        unsigned seed = 0;
-        for (const Region& region : regions()) {
-            std::mt19937 random(++seed);
-            const auto any = [&](int, int, std::size_t) { return random() % 6 == 0 ? 0 : uniform(random); };
-            const auto texture = filledPlanes(region, 3, 1e30f, any), value = filledPlanes(region, 3, 1e30f, any),
-                       plain = filledPlanes(region, 1, 1e30f, any);
-            Output<float> error(bench, region, 1);
-            const auto k = bench.buffer(texture.values), e = bench.buffer(value.values), m = bench.buffer(plain.values);
-            launchPixels(bench, "distributed.cl", "factoringError", paramsOf(region), k, e, m, error.buffer());
-            const Planes<float> found = error.read();
-            int negative = 0;
-            everyPixel(region.window, [&](int x, int y) {
-                const glm::dvec3 t = texture.vector(x, y);
-                const double expected = luminanceOf(t * value.vector(x, y)) - luminanceOf(t) * plain.at(x, y);
-                REQUIRE(agree(found.at(x, y), expected, 1e-5, 3e-7));
-                negative += expected < -0.1 ? 1 : 0;
-            });
-            CHECK((negative > 0 || region.width * region.height < 100));
-        }
+    onEveryRegion(0, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+        const auto any = [&](int, int, std::size_t) { return random() % 6 == 0 ? 0 : uniform(random); };
+        const auto texture = filledPlanes(region, 3, 1e30f, any), value = filledPlanes(region, 3, 1e30f, any),
+                   plain = filledPlanes(region, 1, 1e30f, any);
+        Output<float> error(bench, region, 1);
+        const auto k = bench.buffer(texture.values), e = bench.buffer(value.values), m = bench.buffer(plain.values);
+        launchPixels(bench, "distributed.cl", "factoringError", paramsOf(region), k, e, m, error.buffer());
+        const Planes<float> found = error.read();
+        int negative = 0;
+        everyPixel(region.window, [&](int x, int y) {
+            const glm::dvec3 t = texture.vector(x, y);
+            const double expected = luminanceOf(t * value.vector(x, y)) - luminanceOf(t) * plain.at(x, y);
+            REQUIRE(agree(found.at(x, y), expected, 1e-5, 3e-7));
+            negative += expected < -0.1 ? 1 : 0;
+        });
+        CHECK((negative > 0 || region.width * region.height < 100));
     });
 }
 
 TEST_CASE(
     "widths: apart where the mean error around of the same object is small, and as wide as the lens blurs at least")
 {
-    onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        unsigned seed = 50;
-        for (const Region& region : regions())
-            for (const std::uint32_t radius : { 0u, 1u, 2u, 5u })
-                for (const std::uint32_t never : { 0u, 1u }) {
-                    std::mt19937 random(++seed);
-                    const Widths in(region, random);
-                    shared::DistributedParams p = paramsOf(region);
-                    p.factoringRadius = radius;
-                    p.never = never;
-                    const Planes<float> found = factoredWidths(bench, region, p, in);
-                    everyPixel(region.window, [&](int x, int y) {
-                        CAPTURE(x);
-                        CAPTURE(y);
-                        const ExpectedWidth expected = in.expected(region, p, x, y);
-                        if (!expected.uncertain)
-                            REQUIRE(agree(found.at(x, y), expected.beta));
-                    });
-                }
+    onEveryRegion(50, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+        for (const std::uint32_t radius : { 0u, 1u, 2u, 5u })
+            for (const std::uint32_t never : { 0u, 1u }) {
+                const Widths in(region, random);
+                shared::DistributedParams p = paramsOf(region);
+                p.factoringRadius = radius;
+                p.never = never;
+                const Planes<float> found = factoredWidths(bench, region, p, in);
+                everyPixel(region.window, [&](int x, int y) {
+                    CAPTURE(x);
+                    CAPTURE(y);
+                    const ExpectedWidth expected = in.expected(region, p, x, y);
+                    if (!expected.uncertain)
+                        REQUIRE(agree(found.at(x, y), expected.beta));
+                });
+            }
     });
 }
 
@@ -164,28 +153,24 @@ TEST_CASE("widths: errors without a sign cancel, those of one sign do not, and o
 
 TEST_CASE("counts are the scaled demand to the nearest, within bounds, and never fewer than there are")
 {
-    onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        unsigned seed = 150;
-        for (const Region& region : regions())
-            for (const float scale : { 0.0f, 1.0f, 37.5f, 1e30f }) {
-                std::mt19937 random(++seed);
-                const auto demand = filledPlanes(region, 1, 1e30f,
-                    [&](int, int, std::size_t) { return random() % 5 == 0 ? 0.0 : std::exp(uniform(random, -6, 6)); });
-                const auto taken =
-                    filledPlanes(region, 1, 1u << 20, [&](int, int, std::size_t) { return random() % 40; });
-                Output<std::uint32_t> wanted(bench, region, 1);
-                const auto demands = bench.buffer(demand.values);
-                const auto takens = bench.buffer(taken.values);
-                launchPixels(bench, "distributed.cl", "scaleCounts", paramsOf(region), scale, 8u, 100u, demands, takens,
-                    wanted.buffer());
-                const Planes<std::uint32_t> found = wanted.read();
-                everyPixel(region.window, [&](int x, int y) {
-                    const double n = std::clamp(static_cast<double>(scale) * demand.at(x, y), 8.0, 100.0);
-                    if (std::fabs(n - std::floor(n) - 0.5) > 1e-4)
-                        REQUIRE(found.at(x, y)
-                            == std::max(static_cast<std::uint32_t>(std::floor(n + 0.5)), taken.at(x, y)));
-                });
-            }
+    onEveryRegion(150, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+        for (const float scale : { 0.0f, 1.0f, 37.5f, 1e30f }) {
+            const auto demand = filledPlanes(region, 1, 1e30f,
+                [&](int, int, std::size_t) { return random() % 5 == 0 ? 0.0 : std::exp(uniform(random, -6, 6)); });
+            const auto taken =
+                filledPlanes(region, 1, 1u << 20, [&](int, int, std::size_t) { return random() % 40; });
+            Output<std::uint32_t> wanted(bench, region, 1);
+            const auto demands = bench.buffer(demand.values);
+            const auto takens = bench.buffer(taken.values);
+            launchPixels(bench, "distributed.cl", "scaleCounts", paramsOf(region), scale, 8u, 100u, demands, takens,
+                wanted.buffer());
+            const Planes<std::uint32_t> found = wanted.read();
+            everyPixel(region.window, [&](int x, int y) {
+                const double n = std::clamp(static_cast<double>(scale) * demand.at(x, y), 8.0, 100.0);
+                if (std::fabs(n - std::floor(n) - 0.5) > 1e-4)
+                    REQUIRE(found.at(x, y)
+                        == std::max(static_cast<std::uint32_t>(std::floor(n + 0.5)), taken.at(x, y)));
+            });
+        }
     });
 }

@@ -67,8 +67,8 @@ Found launch(const device::Device& device, render::Traversal family, const Scatt
     const auto rayBuffer = bench.buffer(in.rays), directionBuffer = bench.buffer(directions());
     device::Kernel kernel = bench.library.kernel("self_hit.cl", "selfHit");
     kernel.setArgs(s.nodes, s.blocks, s.positions, s.normals, s.texcoords, s.indices, s.materialIds, s.materials,
-        s.textures, s.texels, s.srgbToLinear, s.positionsAtClose, s.normalsAtClose, rayBuffer, rayCount, directionBuffer, directionCount, length, triangle,
-        returns, points);
+        s.textures, s.texels, s.srgbToLinear, s.positionsAtClose, s.normalsAtClose, rayBuffer, rayCount,
+        directionBuffer, directionCount, length, triangle, returns, points);
     bench.queue.launch("self hits", device::PassKind::Trace, kernel, rayCount, 16);
     return { bench.read(triangle), bench.read(returns), bench.read(points) };
 }

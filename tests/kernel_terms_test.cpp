@@ -6,8 +6,6 @@ using namespace wedge::test;
 
 namespace {
 
-double luminanceOf(glm::dvec3 c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
-
 /// A term and what filters made of it.
 struct TermPlanes {
     Planes<float> texture, filteredTexture, value, filtered, beta, own, radiance;
@@ -50,26 +48,22 @@ bool nearTo(glm::dvec3 found, glm::dvec3 expected)
 template <class Launch, class Expected>
 void checkAdds(const Launch& launch, const Expected& expected)
 {
-    onEveryDevice([&](const device::Device& device) {
-        KernelBench bench(device);
-        unsigned seed = 0;
-        for (const Region& region : regions())
-            for (const std::uint32_t published : { 0u, 1u })
-                for (const std::uint32_t values : { 1u, 3u }) {
-                    CAPTURE(published);
-                    CAPTURE(values);
-                    std::mt19937 random(++seed);
-                    const TermPlanes term(region, random);
-                    shared::DistributedParams p = paramsOf(region);
-                    p.published = published;
-                    p.values = values;
-                    Output<float> radiance(bench, region, term.radiance);
-                    launch(bench, p, term, radiance.buffer());
-                    const Planes<float> found = radiance.read();
-                    everyPixel(region.window, [&](int x, int y) {
-                        REQUIRE(nearTo(found.vector(x, y), term.radiance.vector(x, y) + expected(p, term, x, y)));
-                    });
-                }
+    onEveryRegion(0, [&](KernelBench& bench, const Region& region, std::mt19937& random) {
+        for (const std::uint32_t published : { 0u, 1u })
+            for (const std::uint32_t values : { 1u, 3u }) {
+                CAPTURE(published);
+                CAPTURE(values);
+                const TermPlanes term(region, random);
+                shared::DistributedParams p = paramsOf(region);
+                p.published = published;
+                p.values = values;
+                Output<float> radiance(bench, region, term.radiance);
+                launch(bench, p, term, radiance.buffer());
+                const Planes<float> found = radiance.read();
+                everyPixel(region.window, [&](int x, int y) {
+                    REQUIRE(nearTo(found.vector(x, y), term.radiance.vector(x, y) + expected(p, term, x, y)));
+                });
+            }
     });
 }
 
@@ -110,55 +104,46 @@ TEST_CASE("a term without a filter adds texture times value, or as published wha
 
 TEST_CASE("a light's visibility: of its channels the mean that keeps the radiance's luminance; as published the first")
 {
-    onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        unsigned seed = 30;
-        for (const Region& region : regions())
-            for (const std::uint32_t published : { 0u, 1u }) {
-                std::mt19937 random(++seed);
-                const TermPlanes term(region, random);
-                shared::DistributedParams p = paramsOf(region);
-                p.published = published;
-                Output<float> visibility(bench, region, 1);
-                const auto k = bench.buffer(term.texture.values), e = bench.buffer(term.value.values);
-                launchPixels(bench, "distributed.cl", "visibilityOf", p, k, e, visibility.buffer());
-                const Planes<float> found = visibility.read();
-                everyPixel(region.window, [&](int x, int y) {
-                    if (published != 0) {
-                        REQUIRE(found.at(x, y) == term.value.at(x, y));
-                        return;
-                    }
-                    const double t = luminanceOf(term.texture.vector(x, y));
-                    REQUIRE(agree(t * found.at(x, y), luminanceOf(term.ownRadiance(false, x, y)), 1e-5, 1e-6));
-                    REQUIRE((t > 0 || found.at(x, y) == 0));
-                });
-            }
+    onEveryRegion(30, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+        for (const std::uint32_t published : { 0u, 1u }) {
+            const TermPlanes term(region, random);
+            shared::DistributedParams p = paramsOf(region);
+            p.published = published;
+            Output<float> visibility(bench, region, 1);
+            const auto k = bench.buffer(term.texture.values), e = bench.buffer(term.value.values);
+            launchPixels(bench, "distributed.cl", "visibilityOf", p, k, e, visibility.buffer());
+            const Planes<float> found = visibility.read();
+            everyPixel(region.window, [&](int x, int y) {
+                if (published != 0) {
+                    REQUIRE(found.at(x, y) == term.value.at(x, y));
+                    return;
+                }
+                const double t = luminanceOf(term.texture.vector(x, y));
+                REQUIRE(agree(t * found.at(x, y), luminanceOf(term.ownRadiance(false, x, y)), 1e-5, 1e-6));
+                REQUIRE((t > 0 || found.at(x, y) == 0));
+            });
+        }
     });
 }
 
 TEST_CASE("planes add up, and one is copied to another")
 {
-    onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        unsigned seed = 50;
-        for (const Region& region : regions()) {
-            std::mt19937 random(++seed);
-            const TermPlanes term(region, random);
-            const shared::DistributedParams p = paramsOf(region);
-            Output<float> sum(bench, region, term.radiance), copy(bench, region, 1), all(bench, region, 3);
-            const auto k = bench.buffer(term.texture.values), e = bench.buffer(term.value.values),
-                       own = bench.buffer(term.own.values);
-            launchPixels(bench, "distributed.cl", "addPlane", p, own, sum.buffer());
-            launchPixels(bench, "distributed.cl", "copyPlane", p, own, copy.buffer());
-            launchPixels(bench, "distributed.cl", "addAll", p, k, e, own, all.buffer());
-            const Planes<float> added = sum.read(), copied = copy.read(), beauty = all.read();
-            everyPixel(region.window, [&](int x, int y) {
-                REQUIRE(added.at(x, y) == term.radiance.at(x, y) + term.own.at(x, y));
-                REQUIRE(added.at(x, y, 1) == term.radiance.at(x, y, 1));
-                REQUIRE(copied.at(x, y) == term.own.at(x, y));
-                REQUIRE(nearTo(
-                    beauty.vector(x, y), term.texture.vector(x, y) + term.value.vector(x, y) + term.own.vector(x, y)));
-            });
-        }
+    onEveryRegion(50, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+        const TermPlanes term(region, random);
+        const shared::DistributedParams p = paramsOf(region);
+        Output<float> sum(bench, region, term.radiance), copy(bench, region, 1), all(bench, region, 3);
+        const auto k = bench.buffer(term.texture.values), e = bench.buffer(term.value.values),
+                   own = bench.buffer(term.own.values);
+        launchPixels(bench, "distributed.cl", "addPlane", p, own, sum.buffer());
+        launchPixels(bench, "distributed.cl", "copyPlane", p, own, copy.buffer());
+        launchPixels(bench, "distributed.cl", "addAll", p, k, e, own, all.buffer());
+        const Planes<float> added = sum.read(), copied = copy.read(), beauty = all.read();
+        everyPixel(region.window, [&](int x, int y) {
+            REQUIRE(added.at(x, y) == term.radiance.at(x, y) + term.own.at(x, y));
+            REQUIRE(added.at(x, y, 1) == term.radiance.at(x, y, 1));
+            REQUIRE(copied.at(x, y) == term.own.at(x, y));
+            REQUIRE(nearTo(
+                beauty.vector(x, y), term.texture.vector(x, y) + term.value.vector(x, y) + term.own.vector(x, y)));
+        });
     });
 }

@@ -3,6 +3,7 @@
 #include "host/render/quadrature.h"
 #include "kernels/shared/bsdf.h"
 #include "kernels/shared/wave.h"
+#include "tests/lamp.h"
 #include "tests/render_oracles.h"
 #include "tests/render_support.h"
 
@@ -14,18 +15,6 @@ namespace {
 constexpr std::size_t receiverCount = 411; ///< not whole blocks
 constexpr std::size_t planeSize = 432;
 constexpr float untouched = -7;
-
-scene::AreaLight lamp(scene::LightProfile profile, bool twoSided)
-{
-    scene::AreaLight light;
-    light.centre = { 0.2f, 2, -0.1f };
-    light.halfU = { 0.4f, 0.1f, 0 };
-    light.halfV = { 0, 0, 0.6f };
-    light.radiance = { 5, 4, 3 };
-    light.profile = profile;
-    light.twoSided = twoSided;
-    return light;
-}
 
 struct ReceiverPoint {
     bool surface;

@@ -84,7 +84,8 @@ TEST_CASE("sharedSamples: all are shared, in order, as evenly as whole numbers g
         const auto index = static_cast<std::uint32_t>(random() % count);
         REQUIRE(shared::sharedSamples(0, count, total) == 0);
         REQUIRE(shared::sharedSamples(count, count, total) == total);
-        REQUIRE(shared::sharedSamples(index, count, total) == std::uint64_t { index } * (total / count) + std::min(index, total % count));
+        REQUIRE(shared::sharedSamples(index, count, total)
+            == std::uint64_t { index } * (total / count) + std::min(index, total % count));
         const std::uint32_t own = shared::sharedSamples(index + 1, count, total) - shared::sharedSamples(index, count, total);
         REQUIRE(own >= total / count);
         REQUIRE(own <= (total + count - 1) / count);

@@ -1,10 +1,22 @@
 // Distributed frames: counts that grow with what is asked for, and frames that keep little.
 #include "tests/lens_scene.h"
+#include "tests/lens_support.h"
 
+#include <atomic>
 #include <cmath>
+#include <cstring>
 
 using namespace wedge;
 using namespace wedge::test;
+
+namespace {
+
+bool sameBits(const std::vector<float>& a, const std::vector<float>& b)
+{
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+} // namespace
 
 TEST_CASE("more samples asked for are taken: where the first ones saw little, and under point lights alone")
 {
@@ -61,6 +73,84 @@ TEST_CASE("a frame of the image alone, in fewer bits, is the one with all of its
             // Statistics of 8 bits change a few counts by one; sums are added up in another order.
             CHECK(std::sqrt(squares / count) < (filtered ? 0.01 : 1e-5) * sum / count);
             CHECK(sum / count > 0.05);
+        }
+    });
+}
+
+TEST_CASE("a stop within the first pass leaves the pixels that it has come to, unfiltered")
+{
+    onEveryDevice([](const device::Device& device) {
+        scene::Scene scene = wallInFocus(); // which shines by itself: no pixel is black
+        scene.camera.apertureRadius = 0.1f;
+        scene.camera.focusDistance = 2.5f;
+        constexpr int across = 200, down = 150, first = 8;
+        REQUIRE(across * down * first > static_cast<int>(render::Waves::capacity));
+        render::Renderer renderer(scene, device, renderOptions());
+        const std::vector<float> reference = renderPixels(renderer, sized(render::monteCarlo(16), across, down));
+        const std::atomic<bool> stop { true };
+        render::Control control;
+        control.cancel = &stop;
+        for (const bool keepLayers : { false, true }) {
+            CAPTURE(keepLayers);
+            const render::FrameStatistics frame =
+                renderer.render(sized(render::axisAligned(16), across, down), control, keepLayers);
+            CHECK_FALSE(frame.complete);
+            const std::vector<float> found = pixels(renderer, renderer.frame().beauty, { 0, 0, across, down });
+            CHECK(notFinite(found) == 0);
+            const auto taken = planesOf(renderer.frame().layout, renderer.frame().primaryTaken.downloadAll(renderer.queue()));
+            double sampled = 0, sum = 0, expected = 0;
+            std::size_t wrong = 0;
+            for (int y = 0; y < down; ++y)
+                for (int x = 0; x < across; ++x) {
+                    const std::size_t i = static_cast<std::size_t>(3 * (y * across + x));
+                    const bool isSampled = taken.at(x, y) > 0;
+                    wrong += isSampled == (found[i] > 0) && (!isSampled || taken.at(x, y) == first) ? 0 : 1;
+                    sampled += isSampled ? 1 : 0;
+                    for (std::size_t c = i; isSampled && c < i + 3; ++c) {
+                        sum += found[c];
+                        expected += reference[c];
+                    }
+                }
+            CHECK(wrong == 0);
+            CHECK(sampled > 0.4 * across * down);
+            CHECK(sampled < 0.6 * across * down);
+            CHECK(frame.primarySpp == doctest::Approx(first * sampled / (across * down)));
+            CHECK(sum == doctest::Approx(expected).epsilon(0.02));
+        }
+    });
+}
+
+TEST_CASE("a crop of a filtered frame has the bits of the whole one, with layers and without")
+{
+    onEveryDevice([](const device::Device& device) {
+        scene::Scene scene = smallScene();
+        scene.materials[0].specular = { 0.1f, 0.2f, 0.1f };
+        scene.materials[0].exponent = 15;
+        scene.pointLights.push_back({ { 1, 3, 2 }, { 2, 2, 2 } });
+        scene.camera.apertureRadius = 0.3f; // blurs widely, over what terms' filters reach themselves
+        displace(scene, { 0.1f, 0.05f, 0 });
+        constexpr int across = 150, down = 110;
+        render::Renderer renderer(scene, device, renderOptions());
+        struct Case {
+            bool published, keepLayers;
+            int bounces;
+        };
+        for (const Case& c : { Case { false, false, 1 }, { false, true, 0 }, { true, true, 0 } }) {
+            CAPTURE(c.published);
+            CAPTURE(c.keepLayers);
+            render::Settings settings = sized(c.published ? render::asPublished() : render::axisAligned(12), across, down);
+            settings.bounces = c.bounces;
+            const image::Window window { 3, 2, 33, 22 };
+            const auto part = [&](std::uint32_t seed, const image::Window& crop) {
+                settings.seed = seed;
+                settings.crop = crop;
+                renderer.render(settings, {}, c.keepLayers);
+                return pixels(renderer, renderer.frame().beauty, window);
+            };
+            const std::vector<float> whole = part(3, {});
+            // Another seed in between, so that what is left over from the whole image does not help.
+            CHECK_FALSE(sameBits(part(4, {}), whole));
+            CHECK(sameBits(part(3, window), whole));
         }
     });
 }

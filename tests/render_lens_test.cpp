@@ -178,7 +178,8 @@ TEST_CASE("a moving edge out of focus has the convolution of both: lens and time
     onEveryDevice([](const device::Device& device) {
         for (const auto shutter : { scene::ShutterProfile::Box, scene::ShutterProfile::Gaussian }) {
             Edge edge { 1.2, 2, 8.0 / Edge { 1.2, 2, 1 }.circle() };
-            edge.aperture = shutter == scene::ShutterProfile::Box ? scene::ApertureProfile::Uniform : scene::ApertureProfile::Gaussian;
+            edge.aperture = shutter == scene::ShutterProfile::Box ? scene::ApertureProfile::Uniform
+                                                                  : scene::ApertureProfile::Gaussian;
             edge.shutter = shutter;
             edge.moves = 18;
             checkColumns(edge, device);

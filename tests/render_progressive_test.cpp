@@ -157,7 +157,8 @@ TEST_CASE("samples of all steps count, and their widths are those of a frame wit
                 CHECK(s.deviceMilliseconds > taken[i - 1].step.statistics.deviceMilliseconds);
             }
         }
-        CHECK(static_cast<double>(raysOf(taken.back().step.statistics)) == doctest::Approx(static_cast<double>(raysOf(once))).epsilon(0.1));
+        CHECK(static_cast<double>(raysOf(taken.back().step.statistics))
+            == doctest::Approx(static_cast<double>(raysOf(once))).epsilon(0.1));
         CHECK(render::halfAt(filtered(64), 64).mu == render::axisAligned(64).mu);
         CHECK(render::halfAt(filtered(64), 16).mu == doctest::Approx(render::axisAligned(16).mu));
         CHECK(render::halfAt(filtered(64), 16).indirect.mu == doctest::Approx(render::axisAligned(16).indirect.mu));
@@ -260,10 +261,11 @@ TEST_CASE("a stop within a step or between two leaves a whole image")
         control.cancel = &cancel;
         // Between: asked for when the first step's image is there.
         std::vector<Step> some;
-        const render::FrameStatistics between = renderer.renderProgressively(filtered(64), control, [&](const render::ProgressiveStep& step) {
-            some.push_back({ step, pixels(renderer, renderer.frame().beauty, whole) });
-            cancel = true;
-        });
+        const render::FrameStatistics between =
+            renderer.renderProgressively(filtered(64), control, [&](const render::ProgressiveStep& step) {
+                some.push_back({ step, pixels(renderer, renderer.frame().beauty, whole) });
+                cancel = true;
+            });
         CHECK_FALSE(between.complete);
         REQUIRE(some.size() == 1);
         CHECK(sameBits(some[0].image, all[0].image));
@@ -298,7 +300,8 @@ TEST_CASE("ambient occlusion and indirect light are rendered progressively, too"
             const Honesty h = honesty(renderer, settings, references(renderer, reference));
             REQUIRE(h.ratios.size() == 3);
             for (std::size_t i = 0; i < h.ratios.size(); ++i) {
-                MESSAGE("bounces " << settings.bounces << " step " << i << ": error " << h.errors[i] << ", estimated over true " << h.ratios[i]);
+                MESSAGE("bounces " << settings.bounces << " step " << i << ": error " << h.errors[i]
+                                   << ", estimated over true " << h.ratios[i]);
                 CHECK(h.ratios[i] > 0.75);
                 CHECK(h.ratios[i] < 1.45);
             }

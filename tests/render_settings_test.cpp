@@ -23,8 +23,8 @@ Settings with(Settings settings, const Change& change)
 
 TEST_CASE("settings of distributed frames out of range are refused")
 {
-    CHECK_NOTHROW(validate(axisAligned()));
-    CHECK_NOTHROW(validate(asPublished()));
+    CHECK_NOTHROW(validate(axisAligned(), true));
+    CHECK_NOTHROW(validate(asPublished(), true));
     constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
     std::vector<Change> wrong = {
         [](auto& d) { d.firstPaths = 1; }, // no variance of one
@@ -46,7 +46,7 @@ TEST_CASE("settings of distributed frames out of range are refused")
             wrong.push_back([=](DistributedSettings& d) { d.*member = value; });
     for (std::size_t i = 0; i < wrong.size(); ++i) {
         CAPTURE(i);
-        CHECK_THROWS_AS(validate(with(axisAligned(), wrong[i])), UsageError);
+        CHECK_THROWS_AS(validate(with(axisAligned(), wrong[i]), true), UsageError);
     }
     const std::vector<Change> right = {
         [](auto& d) { d.firstPaths = d.maxSpp = 2; },
@@ -54,7 +54,42 @@ TEST_CASE("settings of distributed frames out of range are refused")
         [](auto& d) { d.factoringError = d.blurWidth = d.shutterWidth = d.irradianceWidth = d.countExponent = 0; },
     };
     for (const Change& change : right)
-        CHECK_NOTHROW(validate(with(axisAligned(), change)));
+        CHECK_NOTHROW(validate(with(axisAligned(mostDistributedSpp), change), true));
+}
+
+TEST_CASE("the fewest samples are those of the first pass, the most of a distributed frame what fits in a wave")
+{
+    Settings bounced = axisAligned(16), progressive = axisAligned(16);
+    bounced.bounces = 1;
+    progressive.progressive = true;
+    CHECK(leastSpp(axisAligned(), false) == 9);
+    CHECK(leastSpp(bounced, false) == 16);
+    CHECK(leastSpp(bounced, true) == 8);
+    CHECK(leastSpp(asPublished(), true) == 16);
+    CHECK(leastSpp(progressive, true) == 16);
+    const auto allowed = [](Settings settings, int spp, bool distributed) {
+        settings.spp = spp;
+        try {
+            validate(settings, distributed);
+            return true;
+        } catch (const UsageError&) {
+            return false;
+        }
+    };
+    for (const Settings& settings : { axisAligned(), bounced, progressive }) {
+        for (const bool distributed : { false, true }) {
+            if (settings.progressive && !distributed) {
+                continue; // all progressive frames are
+            }
+            const int least = leastSpp(settings, distributed);
+            CHECK(allowed(settings, least, distributed));
+            CHECK_FALSE(allowed(settings, least - 1, distributed));
+            CHECK(allowed(settings, mostDistributedSpp, distributed));
+            CHECK(allowed(settings, mostDistributedSpp + 1, distributed) == (!distributed || settings.progressive));
+        }
+    }
+    CHECK(allowed(monteCarlo(1), mostDistributedSpp + 1, true));
+    CHECK(allowed(monteCarlo(1), 1, true));
 }
 
 TEST_CASE("settings that differ are described differently")

@@ -19,12 +19,34 @@ using namespace wedge::app;
 
 constexpr const char* commandList = "name one: render, compare, devices, info";
 
+/// The command that is named, or else the program itself.
+const CLI::App& commandOf(const CLI::App& parser, int argc, char** argv)
+{
+    const auto isNamed = [&](const CLI::App* command) { return argc > 1 && command->get_name() == argv[1]; };
+    const std::vector<const CLI::App*> named = parser.get_subcommands(isNamed);
+    return named.empty() ? parser : *named.front();
+}
+
 /// "see wedge render --help", or of wedge itself where no command was named.
 std::string hint(const CLI::App& parser, int argc, char** argv)
 {
-    const bool named = argc > 1
-        && !parser.get_subcommands([&](const CLI::App* command) { return command->get_name() == argv[1]; }).empty();
-    return fmt::format("see wedge {}--help", named ? std::string(argv[1]) + " " : "");
+    const CLI::App& command = commandOf(parser, argc, argv);
+    return fmt::format("see wedge {}--help", &command == &parser ? "" : command.get_name() + " ");
+}
+
+/// Flags take no value; the parser would take one and not always for what it says.
+void refuseFlagValues(const CLI::App& parser, int argc, char** argv)
+{
+    const CLI::App& command = commandOf(parser, argc, argv);
+    const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    // What comes after "--" is no option.
+    for (auto at = arguments.begin(); at != std::ranges::find(arguments, "--"); ++at) {
+        const std::string name = at->substr(0, at->find('='));
+        const CLI::Option* option = name == *at ? nullptr : command.get_option_no_throw(name);
+        if (option != nullptr && option->get_expected_max() == 0) {
+            throw UsageError("option takes no value", *at, fmt::format("give {} alone, or leave it out", name));
+        }
+    }
 }
 
 /// The first argument of a wrong call that nobody expected.
@@ -69,6 +91,7 @@ int fail(const std::string& message, int status)
 int runCommand(CLI::App& parser, Action& action, int argc, char** argv)
 {
     try {
+        refuseFlagValues(parser, argc, argv);
         try {
             parser.parse(argc, argv);
         } catch (const CLI::Success& request) {

@@ -1,10 +1,9 @@
 #include "host/app/render_settings.h"
 
+#include "host/app/render_counts.h"
 #include "host/app/values.h"
 #include "host/error.h"
 #include "host/render/distributed_frame.h"
-#include "kernels/shared/indirect.h"
-#include "kernels/shared/wedge.h"
 
 #include <algorithm>
 
@@ -20,8 +19,6 @@ using render::Method;
 using render::Sampling;
 
 constexpr int defaultMonteCarloSpp = 64;
-// Of progressive renders, without and with something else that ends them.
-constexpr int defaultProgressiveSpp = 1024, openProgressiveSpp = 1 << 16;
 
 Method resolveMethod(const RenderOptions& options, const scene::Scene& scene)
 {
@@ -55,14 +52,6 @@ float publishedMu(const RenderOptions& o, const scene::Scene& scene)
     const bool uniform = std::ranges::any_of(
         scene.areaLights, [](const scene::AreaLight& light) { return light.profile == scene::LightProfile::Uniform; });
     return uniform || o.falloff == render::Shading::Inside ? 3.0f : 2.0f;
-}
-
-/// Samples at which a progressive render ends. Those of the file are for one image, and do not cut short what is to end
-/// otherwise.
-int progressiveSpp(const RenderOptions& o, const scene::Scene& scene)
-{
-    const bool endsOtherwise = o.timeLimitSeconds > 0 || o.targetError;
-    return o.spp ? *o.spp : endsOtherwise ? openProgressiveSpp : scene.settings.spp.value_or(defaultProgressiveSpp);
 }
 
 render::Settings preset(const RenderOptions& o, const scene::Scene& scene, Method method)
@@ -137,10 +126,7 @@ void applyIndirectCounts(const RenderOptions& o, render::Settings& s)
     }
 }
 
-/// Whether the mean count is given, and not what follows from the spectrum.
-bool meanIsGiven(const render::Settings& s) { return s.sampling == Sampling::Uniform || s.counts == Counts::Variance; }
-
-void applyAblations(const RenderOptions& o, render::Settings& s)
+void applyAblations(const RenderOptions& o, bool distributed, render::Settings& s)
 {
     s.sampling = o.sampling.value_or(s.sampling);
     s.filtering = o.filter.value_or(s.filtering);
@@ -157,30 +143,11 @@ void applyAblations(const RenderOptions& o, render::Settings& s)
     }
     if (o.spp && !meanIsGiven(s)) {
         throw UsageError("option has no effect where counts follow from the spectrum", fmt::format("--spp {}", *o.spp),
-            "set --mu, or add --counts variance or --sampling uniform");
+            distributed ? "set --mu, or leave out --as-published" : "set --mu, or add --counts variance or --sampling uniform");
     }
 }
 
-/// A count from the scene file that suits no aaf, whose first pass alone takes more.
-void requireFirstPass(
-    const std::string& key, const std::optional<int>& count, const scene::Scene& scene, const render::Settings& s)
-{
-    const int least =
-        render::tracesPaths(s) ? static_cast<int>(WEDGE_INDIRECT_FIRST_RAYS) : static_cast<int>(WEDGE_FIRST_PASS_RAYS);
-    if (count && *count < least) {
-        throw Error(fmt::format("scene file {}: {} is too low for method aaf", scene.path, key),
-            fmt::format("{}", *count), fmt::format("give {} or more, or method mc", least));
-    }
-}
-
-/// The most samples of a pixel of a distributed frame: as given, else the default's or twice the mean.
-void applyDistributedMost(const std::optional<int>& given, render::Settings& s)
-{
-    render::DistributedSettings& d = s.distributed;
-    d.maxSpp = std::clamp(given.value_or(std::max(d.maxSpp, 2 * s.spp)), d.firstPaths, render::mostDistributedSpp);
-}
-
-/// In frames through a lens or a shutter, and antialiased ones, method aaf has but one way to sample.
+/// In frames through a lens or a shutter, antialiased and progressive ones, method aaf has but one way to sample.
 void refuseUndistributed(const RenderOptions& o)
 {
     const std::pair<const char*, bool> given[] = { { "--falloff", o.falloff.has_value() },
@@ -188,40 +155,10 @@ void refuseUndistributed(const RenderOptions& o)
         { "--sampler", o.sampler.has_value() } };
     for (const auto& [name, isGiven] : given) {
         if (isGiven) {
-            throw UsageError("option has no effect with method aaf through a lens or shutter, or with antialiasing", name,
-                "leave it out");
+            throw UsageError(o.progressive ? "option has no effect with method aaf and --progressive"
+                                           : "option has no effect with method aaf through a lens or shutter, or with antialiasing",
+                name, "leave it out");
         }
-    }
-}
-
-/// The counts of method aaf: those of the file are looked at only where no option overrides them and they have an
-/// effect.
-void applyCounts(const RenderOptions& o, const scene::Scene& scene, render::Settings& s)
-{
-    const scene::Settings& file = scene.settings;
-    if (!o.maxSpp) {
-        requireFirstPass("max_spp", file.maxSpp, scene, s);
-    }
-    const std::optional<int> most = o.maxSpp ? o.maxSpp : file.maxSpp;
-    s.maxSpp = most.value_or(s.maxSpp);
-    s.indirect.maxSpp = most.value_or(s.indirect.maxSpp);
-    applyDistributedMost(most, s);
-    if (!meanIsGiven(s)) {
-        s.spp = render::Settings().spp; // not used
-        return;
-    }
-    if (!o.spp) {
-        requireFirstPass("spp", file.spp, scene, s);
-    }
-    const std::optional<int> mean = o.progressive ? progressiveSpp(o, scene) : o.spp ? o.spp : file.spp;
-    // mu alone may ask for fewer samples than the first paths take.
-    const int least = render::tracesPaths(s) ? static_cast<int>(WEDGE_INDIRECT_FIRST_RAYS) : 1;
-    s.spp = mean.value_or(std::max(s.spp, least));
-    if (mean && most && *most < *mean) {
-        throw UsageError("most samples of a pixel are below their mean",
-            fmt::format("{} {} and {} {}", o.maxSpp ? "--max-spp" : "the scene file's max_spp", *most,
-                o.spp ? "--spp" : "the scene file's spp", *mean),
-            "raise --max-spp or lower --spp");
     }
 }
 
@@ -229,15 +166,17 @@ void applyCounts(const RenderOptions& o, const scene::Scene& scene, render::Sett
 void checkProgressive(const RenderOptions& o)
 {
     if (!o.progressive) {
-        refuse(o.targetError.has_value(), "without --progressive", fmt::format("--target-error {}", o.targetError.value_or(0)),
-            "add --progressive");
+        refuse(o.targetError.has_value(), "without --progressive",
+            fmt::format("--target-error {}", o.targetError.value_or(0)), "add --progressive");
         return;
     }
     const std::pair<const char*, bool> given[] = { { "--as-published", o.asPublished },
-        { "--counts spectrum", o.counts == Counts::Spectrum }, { "--sampler stratified", o.sampler == render::Sampler::Stratified } };
+        { "--max-spp", o.maxSpp.has_value() }, { "--counts spectrum", o.counts == Counts::Spectrum },
+        { "--sampler stratified", o.sampler == render::Sampler::Stratified } };
     for (const auto& [name, isGiven] : given) {
         if (isGiven) {
-            throw UsageError("option does not go with --progressive, whose counts grow from step to step", name, "leave one of them out");
+            throw UsageError("option does not go with --progressive, whose counts grow from step to step", name,
+                "leave one of them out");
         }
     }
 }
@@ -275,14 +214,15 @@ render::Settings resolveSettings(const RenderOptions& o, const scene::Scene& sce
     s.progressive = o.progressive;
     applyIntegrator(o, file, s);
     s.antialias = o.antialias.value_or(file.antialias);
+    const bool distributed = render::isDistributed(s, scene);
     if (method == Method::AxisAligned) {
-        applyAblations(o, s);
-        applyCounts(o, scene, s);
-        if (render::isDistributed(s, scene)) {
+        if (distributed) {
             refuseUndistributed(o);
         }
+        applyAblations(o, distributed, s);
+        applyCounts(o, scene, distributed, s);
     }
-    render::validate(s);
+    render::validate(s, distributed);
     return s;
 }
 

@@ -61,7 +61,8 @@ void DistributedFrame::demands()
     if (c_.scene.deltaLightCount > 0) {
         c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "emissionVariance", p, 1, c_.frame.delta,
             c_.frame.deltaSquares, c_.frame.primaryTaken, c_.scratch.demand);
-        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "addPlane", p, 1, c_.scratch.demand, c_.scratch.ofAllTextures);
+        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "addPlane", p, 1, c_.scratch.demand,
+            c_.scratch.ofAllTextures);
     }
     eachTerm([&](Term& term, float rays) { demandOf(term, rays); });
     // Nothing but lens and shutter averages textures and what emits.
@@ -132,7 +133,8 @@ void DistributedFrame::counts()
     next = 0;
     eachTerm([&](Term& term, float) {
         c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "scaleCounts", p, 1, scale,
-            static_cast<std::uint32_t>(leastOfTerms), static_cast<std::uint32_t>(most), guide.terms_[next++]->demand, term.taken, term.wanted);
+            static_cast<std::uint32_t>(leastOfTerms), static_cast<std::uint32_t>(most), guide.terms_[next++]->demand,
+            term.taken, term.wanted);
     });
 }
 

@@ -15,10 +15,10 @@ namespace wedge::render {
 /// Whether pixels of such a frame have several receivers: through a lens, a shutter, or all of their square.
 bool isDistributed(const Settings& settings, const scene::Scene& scene);
 
-/// Defocus, motion blur and antialiasing together with the other effects: thesis chapter 5 and appendix B, docs/multiple-effects.md.
-/// A first pass finds circles of confusion, motion, slopes and distances; those make widths, and variances the counts of
-/// primary and secondary samples; a second pass takes them; irradiances are filtered where they can be taken apart from
-/// textures, then the image by what lens and shutter have blurred.
+/// Defocus, motion blur and antialiasing together with the other effects: thesis chapter 5 and appendix B,
+/// docs/multiple-effects.md. A first pass finds circles of confusion, motion, slopes and distances; those make widths,
+/// and variances the counts of primary and secondary samples; a second pass takes them; irradiances are filtered where
+/// they can be taken apart from textures, then the image by what lens and shutter have blurred.
 class DistributedFrame {
 public:
     /// terms: of `lights` area lights, then of the components of indirect light; each receiver serves them all.

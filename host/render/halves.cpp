@@ -48,7 +48,9 @@ Halves::Halves(const device::Device& device, device::TimedQueue& queue, const Pl
 bool Halves::hold(const PlaneLayout& layout, const std::vector<TermShape>& terms) const
 {
     const Half& half = halves_[0];
-    return half.frame->layout == layout && std::ranges::equal(half.terms, terms, [](const auto& term, const TermShape& shape) { return term->shape.holds(shape); });
+    return half.frame->layout == layout
+        && std::ranges::equal(
+            half.terms, terms, [](const auto& term, const TermShape& shape) { return term->shape.holds(shape); });
 }
 
 void Halves::begin(

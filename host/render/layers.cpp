@@ -89,7 +89,8 @@ public:
     void blurWidth(const std::string& name, const device::Buffer<float>& plane)
     {
         const bool filtered = frame().distributed && settings_.filtering != Filtering::None && settings_.distributed.blur;
-        const std::vector<float> values = filtered ? plane.downloadAll(renderer_.queue()) : std::vector<float>(frame().layout.size, 0.0f);
+        const std::vector<float> values =
+            filtered ? plane.downloadAll(renderer_.queue()) : std::vector<float>(frame().layout.size, 0.0f);
         channel(name + ".pixels", Where::Everywhere, [&](std::size_t i) { return values[i]; });
     }
 
@@ -173,18 +174,22 @@ const std::vector<Layer>& layerTable()
             [](LayerReader& r) { r.reflected("indirect.", r.frame().indirect); } },
         { { "indirectNoisy", "R G B: the same before the filter" },
             [](LayerReader& r) { r.reflected("indirectNoisy.", r.frame().indirectNoisy); } },
-        { { "samples", "Y: samples taken of all terms (area lights, indirect diffuse, indirect glossy) together" }, [](LayerReader& r) { r.samples(); } },
+        { { "samples", "Y: samples taken of all terms (area lights, indirect diffuse, indirect glossy) together" },
+            [](LayerReader& r) { r.samples(); } },
         { { "rays", "Y: rays traced for the pixel, the camera's included" }, [](LayerReader& r) { r.rays(); } },
         { { widthLayer,
-              "world, pixels: standard deviation of the filter in metres and in pixels, 0 where the term is not (method "
-              "aaf; of the area light; of several filterWidth1, filterWidth2, ...; of indirect light "
+              "world, pixels: standard deviation of the filter in metres and in pixels, 0 where the term is not "
+              "(method aaf; of the area light; of several filterWidth1, filterWidth2, ...; of indirect light "
               "filterWidthIndirect, filterWidthGlossy; of ambient occlusion filterWidthAmbient)" },
             [](LayerReader& r) { r.filterWidths(); } },
-        { { lensWidthLayer, "pixels: standard deviation of the image's filter of what the lens blurs, 0 where there is none (method aaf)" },
+        { { lensWidthLayer,
+              "pixels: standard deviation of the image's filter of what the lens blurs, 0 where there is none "
+              "(method aaf)" },
             [](LayerReader& r) { r.blurWidth(lensWidthLayer, r.frame().lensWidth); } },
         { { motionWidthLayer, "pixels: the same of textures of what moves, along its motion" },
             [](LayerReader& r) { r.blurWidth(motionWidthLayer, r.frame().motionWidth); } },
-        { { "motion", "U V: pixels to the right and down that the surface moves while the shutter is open, 0 on a miss" },
+        { { "motion",
+              "U V: pixels to the right and down that the surface moves while the shutter is open, 0 on a miss" },
             [](LayerReader& r) { r.ofDistributed("motion.", "UV", r.frame().motion); } },
         { { "primarySamples", "Y: rays from the camera, 1 without lens, shutter and antialiasing" },
             [](LayerReader& r) { r.primarySamples(); } },

@@ -23,7 +23,8 @@ const std::vector<LayerInfo>& knownLayers();
 std::vector<std::string> selectLayers(const std::string& list, const Settings& settings, const scene::Scene& scene);
 
 /// The last frame, over its crop: channels R, G and B, those of the layers, and the metadata of metadata.h.
-/// settings: those that the frame was rendered with, with keepLayers for other layers than the beauty. Throws Error if the device fails.
+/// settings: those that the frame was rendered with, with keepLayers for other layers than the beauty. Throws Error if
+/// the device fails.
 image::LayeredImage readLayers(Renderer& renderer, const Settings& settings, const FrameStatistics& statistics,
     const std::vector<std::string>& layers);
 

@@ -4,6 +4,7 @@
 #include "host/render/effects/indirect.h"
 #include "host/render/effects/soft_shadows.h"
 #include "host/render/halves.h"
+#include "kernels/shared/distributed.h"
 
 #include <algorithm>
 #include <cassert>
@@ -53,6 +54,13 @@ FrameShape frameShape(const Settings& settings, const scene::Scene& scene, bool 
         shape.deltaLights = !scene.pointLights.empty() || !scene.directionalLights.empty();
     }
     return shape;
+}
+
+/// Pixels over which filters reach, one after the other: those of terms, of shadows along their motion, and of the lens.
+int filterReach(const Settings& settings, const scene::Scene& scene)
+{
+    const bool moves = scene::geometryMoves(scene) || scene::cameraMoves(scene), lens = scene.camera.apertureRadius > 0;
+    return settings.maxRadius + (moves ? WEDGE_MOTION_REACH : 0) + (lens ? WEDGE_MAX_RADIUS : 0);
 }
 
 /// What receivers of waves need for the terms in turn.
@@ -169,7 +177,7 @@ device::MemoryPlan Renderer::plan(
 
 void Renderer::allocate(const Settings& settings, bool keepLayers)
 {
-    validate(settings);
+    validate(settings, isDistributed(settings, scene_));
     plan(settings, keepLayers).check(device_.info(), options_.memoryLimit);
     if (!deviceScene_) {
         deviceScene_ = std::make_unique<DeviceScene>(scene_, hierarchy_, device_, queue_);
@@ -261,7 +269,8 @@ void Renderer::rehearse(const Settings& settings, bool keepLayers)
 
 double Renderer::workUnits(const Settings& settings) const
 {
-    const double paths = tracesPaths(settings) ? settings.spp * std::max(1, settings.bounces) * (hasSpecular(scene_) ? 2.0 : 1.0) : 0.0;
+    const double paths =
+        tracesPaths(settings) ? settings.spp * std::max(1, settings.bounces) * (hasSpecular(scene_) ? 2.0 : 1.0) : 0.0;
     if (settings.integrator == Integrator::AmbientOcclusion) {
         return 1.0 + settings.spp;
     }
@@ -281,7 +290,8 @@ FrameStatistics Renderer::render(const Settings& settings, const Control& contro
     stop_ = &stop;
     queue_.setCancelFlag(frame_->distributed ? nullptr : &stop);
     queue_.setProgress([&](double done) {
-        if ((control.cancel != nullptr && control.cancel->load()) || (control.timeLimitSeconds > 0 && secondsSince(start) > control.timeLimitSeconds)) {
+        if ((control.cancel != nullptr && control.cancel->load())
+            || (control.timeLimitSeconds > 0 && secondsSince(start) > control.timeLimitSeconds)) {
             stop = true;
         }
         if (control.progress) {
@@ -314,7 +324,7 @@ TermContext Renderer::contextOf(const Settings& settings)
     const image::Window output = outputWindow(settings);
     const image::Window whole { 0, 0, settings.width, settings.height };
     const image::Window sampled = needsAnalysis(settings)
-        ? blockWindow(output, settings.maxRadius, settings.width, settings.height)
+        ? blockWindow(output, filterReach(settings, scene_), settings.width, settings.height)
         : output;
     return { *passes_, *deviceScene_, *frame_, *scratch_, settings, frameParams(scene_, frame_->layout, whole, settings.seed),
         frameParams(scene_, frame_->layout, sampled, settings.seed), output,

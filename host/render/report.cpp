@@ -46,9 +46,9 @@ Json sceneSection(const Renderer& renderer, std::uint64_t memoryBytes)
         { "directional_lights", s.directionalLights }, { "geometry_bytes", s.geometryBytes },
         { "texture_bytes", s.textureBytes }, { "memory_bytes", memoryBytes },
         { "bvh",
-            { { "mode", bvh::modeName(renderer.bvhMode()) }, { "nodes", b.nodes }, { "blocks", b.blocks }, { "triangles", b.triangles },
-                { "degenerate", b.degenerate }, { "skipped", b.skipped }, { "depth", b.depth },
-                { "sah_cost", b.sahCost }, { "bytes", b.bytes } } } };
+            { { "mode", bvh::modeName(renderer.bvhMode()) }, { "nodes", b.nodes }, { "blocks", b.blocks },
+                { "triangles", b.triangles }, { "degenerate", b.degenerate }, { "skipped", b.skipped },
+                { "depth", b.depth }, { "sah_cost", b.sahCost }, { "bytes", b.bytes } } } };
     out.update(cameraReport(renderer.scene()));
     return out;
 }
@@ -79,9 +79,11 @@ Json frameSection(const FrameStatistics& frame, const Settings& settings)
     }
     return { { "complete", frame.complete }, { "total_ms", frame.deviceMilliseconds },
         { "wall_ms", frame.wallMilliseconds }, { "overhead_fraction", frame.overheadFraction() },
-        { "spp_mean", frame.sppMean }, { "spp_primary", frame.primarySpp }, { "spp_direct", frame.directSpp }, { "spp_indirect", frame.indirectSpp }, { "shaded_pixels", frame.shadedPixels },
+        { "spp_mean", frame.sppMean }, { "spp_primary", frame.primarySpp }, { "spp_direct", frame.directSpp },
+        { "spp_indirect", frame.indirectSpp }, { "shaded_pixels", frame.shadedPixels },
         { "rays_per_pixel", raysPerPixel(frame, settings) }, { "mrays_s", megaraysPerSecond(frame) },
-        { "rays", { { "primary", frame.primaryRays }, { "shadow", frame.shadowRays }, { "indirect", frame.indirectRays } } },
+        { "rays",
+            { { "primary", frame.primaryRays }, { "shadow", frame.shadowRays }, { "indirect", frame.indirectRays } } },
         { "passes", passes }, { "memory_bytes", frame.memoryBytes } };
 }
 

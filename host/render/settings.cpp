@@ -44,16 +44,40 @@ void validateDistributed(const DistributedSettings& d)
 {
     const auto atLeast = [](float value, float least) { return std::isfinite(value) && value >= least; };
     const auto counts = [](int value, int least) { return value >= least && value <= mostDistributedSpp; };
-    requireRange(counts(d.firstPaths, 2), "samples of the first pass", fmt::format("{}", d.firstPaths), fmt::format("a whole number from 2 to {}", mostDistributedSpp));
-    requireRange(counts(d.maxSpp, d.firstPaths), "most samples of a pixel", fmt::format("{}", d.maxSpp), fmt::format("{} (those of the first pass) to {}", d.firstPaths, mostDistributedSpp));
-    requireRange(counts(d.mixedPaths, 1), "samples where motions differ", fmt::format("{}", d.mixedPaths), fmt::format("a whole number from 1 to {}", mostDistributedSpp));
-    requireRange(std::isfinite(d.mu) && d.mu >= 0.01f && d.mu <= 1000.0f, "mu", fmt::format("{}", d.mu), "a number from 0.01 to 1000");
-    requireRange(atLeast(d.factoringError, 0) && d.factoringRadius >= 0 && d.factoringRadius <= WEDGE_MAX_RADIUS, "factoring", fmt::format("error {} radius {}", d.factoringError, d.factoringRadius), fmt::format("an error of at least 0, a radius from 0 to {} pixels", WEDGE_MAX_RADIUS));
-    requireRange(atLeast(d.blurWidth, 0) && atLeast(d.shutterWidth, 0) && atLeast(d.irradianceWidth, 0), "filter widths", fmt::format("{} {} {}", d.blurWidth, d.shutterWidth, d.irradianceWidth), "numbers of at least 0");
-    requireRange(atLeast(d.blurExponent, 0) && atLeast(d.shutterExponent, 0) && atLeast(d.countExponent, 0), "exponents", fmt::format("{} {} {}", d.blurExponent, d.shutterExponent, d.countExponent), "numbers of at least 0");
-    requireRange(atLeast(d.leastRadius, 1e-3f), "least radius of a blur", fmt::format("{}", d.leastRadius), "pixels, 0.001 or more");
-    requireRange(atLeast(d.varianceSpread, 0) && d.varianceSpread <= 1, "spread of variances", fmt::format("{}", d.varianceSpread), "a number from 0 to 1");
+    requireRange(counts(d.firstPaths, 2), "samples of the first pass", fmt::format("{}", d.firstPaths),
+        fmt::format("a whole number from 2 to {}", mostDistributedSpp));
+    requireRange(counts(d.maxSpp, d.firstPaths), "most samples of a pixel", fmt::format("{}", d.maxSpp),
+        fmt::format("{} (those of the first pass) to {}", d.firstPaths, mostDistributedSpp));
+    requireRange(counts(d.mixedPaths, 1), "samples where motions differ", fmt::format("{}", d.mixedPaths),
+        fmt::format("a whole number from 1 to {}", mostDistributedSpp));
+    requireRange(std::isfinite(d.mu) && d.mu >= 0.01f && d.mu <= 1000.0f, "mu", fmt::format("{}", d.mu),
+        "a number from 0.01 to 1000");
+    requireRange(atLeast(d.factoringError, 0) && d.factoringRadius >= 0 && d.factoringRadius <= WEDGE_MAX_RADIUS,
+        "factoring", fmt::format("error {} radius {}", d.factoringError, d.factoringRadius),
+        fmt::format("an error of at least 0, a radius from 0 to {} pixels", WEDGE_MAX_RADIUS));
+    requireRange(atLeast(d.blurWidth, 0) && atLeast(d.shutterWidth, 0) && atLeast(d.irradianceWidth, 0),
+        "filter widths", fmt::format("{} {} {}", d.blurWidth, d.shutterWidth, d.irradianceWidth),
+        "numbers of at least 0");
+    requireRange(atLeast(d.blurExponent, 0) && atLeast(d.shutterExponent, 0) && atLeast(d.countExponent, 0),
+        "exponents", fmt::format("{} {} {}", d.blurExponent, d.shutterExponent, d.countExponent),
+        "numbers of at least 0");
+    requireRange(atLeast(d.leastRadius, 1e-3f), "least radius of a blur", fmt::format("{}", d.leastRadius),
+        "pixels, 0.001 or more");
+    requireRange(atLeast(d.varianceSpread, 0) && d.varianceSpread <= 1, "spread of variances",
+        fmt::format("{}", d.varianceSpread), "a number from 0 to 1");
     requireRange(atLeast(d.oneVelocity, 0), "difference of motions", fmt::format("{}", d.oneVelocity), "a number of at least 0");
+}
+
+/// Of method aaf.
+void validateCounts(const Settings& s, bool distributed)
+{
+    const int least = leastSpp(s, distributed);
+    requireRange(s.spp >= least && s.maxSpp >= least && (!tracesPaths(s) || s.indirect.maxSpp >= least),
+        "samples a pixel", fmt::format("{} (at most {})", s.spp, tracesPaths(s) ? s.indirect.maxSpp : s.maxSpp),
+        fmt::format("{} or more{}: the first pass takes {}", least,
+            tracesPaths(s) && !distributed ? " with indirect light" : "", least));
+    requireRange(!distributed || s.progressive || s.spp <= mostDistributedSpp, "samples a pixel", fmt::format("{}", s.spp),
+        fmt::format("{} or less through a lens or shutter, or with antialiasing", mostDistributedSpp));
 }
 
 using Descriptions = std::vector<std::pair<std::string, std::string>>;
@@ -75,16 +99,17 @@ void describeDistributed(const DistributedSettings& d, Descriptions& out)
 {
     const auto number = [](auto value) { return fmt::format("{}", value); };
     out.insert(out.end(),
-        { { "distributedCounts", d.published ? "spectrum" : "variance" }, { "distributedFirstPaths", number(d.firstPaths) },
-            { "distributedMaxSpp", number(d.maxSpp) }, { "distributedMu", number(d.mu) }, { "mixedPaths", number(d.mixedPaths) },
+        { { "distributedCounts", d.published ? "spectrum" : "variance" },
+            { "distributedFirstPaths", number(d.firstPaths) }, { "distributedMaxSpp", number(d.maxSpp) },
+            { "distributedMu", number(d.mu) }, { "mixedPaths", number(d.mixedPaths) },
             { "factoring", d.factoring == Factoring::Never ? "never" : "error" },
             { "factoringError", number(d.factoringError) }, { "factoringRadius", number(d.factoringRadius) },
-            { "blur", number(d.blur) }, { "blurWidth", number(d.blurWidth) }, { "blurExponent", number(d.blurExponent) },
-            { "shutterWidth", number(d.shutterWidth) }, { "shutterExponent", number(d.shutterExponent) },
-            { "leastRadius", number(d.leastRadius) },
-            { "leastShare", number(d.leastShare) }, { "leastTermShare", number(d.leastTermShare) }, { "leastPrimaries", number(d.leastPrimaries) },
-            { "leastSecondaries", number(d.leastSecondaries) }, { "irradianceWidth", number(d.irradianceWidth) },
-            { "distributedCountExponent", number(d.countExponent) },
+            { "blur", number(d.blur) }, { "blurWidth", number(d.blurWidth) },
+            { "blurExponent", number(d.blurExponent) }, { "shutterWidth", number(d.shutterWidth) },
+            { "shutterExponent", number(d.shutterExponent) }, { "leastRadius", number(d.leastRadius) },
+            { "leastShare", number(d.leastShare) }, { "leastTermShare", number(d.leastTermShare) },
+            { "leastPrimaries", number(d.leastPrimaries) }, { "leastSecondaries", number(d.leastSecondaries) },
+            { "irradianceWidth", number(d.irradianceWidth) }, { "distributedCountExponent", number(d.countExponent) },
             { "distributedVarianceSpread", number(d.varianceSpread) }, { "oneVelocity", number(d.oneVelocity) } });
 }
 
@@ -158,7 +183,15 @@ Settings asPublished(std::optional<float> wanted)
     return s;
 }
 
-void validate(const Settings& s)
+int leastSpp(const Settings& s, bool distributed)
+{
+    if (distributed) {
+        return s.progressive ? leastProgressiveSpp : s.distributed.firstPaths;
+    }
+    return static_cast<int>(tracesPaths(s) ? WEDGE_INDIRECT_FIRST_RAYS : WEDGE_FIRST_PASS_RAYS);
+}
+
+void validate(const Settings& s, bool distributed)
 {
     const auto text = [](auto value) { return fmt::format("{}", value); };
     requireRange(s.width >= 1 && s.height >= 1 && s.width <= 32768 && s.height <= 32768, "image size",
@@ -168,31 +201,36 @@ void validate(const Settings& s)
         "crop", fmt::format("{},{},{},{}", s.crop.x0, s.crop.y0, s.crop.x1, s.crop.y1),
         fmt::format("x0,y0,x1,y1 with x0 < x1 and y0 < y1 inside {}x{}", s.width, s.height));
     requireRange(s.spp >= 1 && s.spp <= largestSpp, "samples a pixel", text(s.spp), "a whole number from 1 to 1048576");
-    requireRange(s.maxSpp >= 1 && s.maxSpp <= largestSpp, "largest sample count", text(s.maxSpp), "a whole number from 1 to 1048576");
+    requireRange(s.maxSpp >= 1 && s.maxSpp <= largestSpp, "largest sample count", text(s.maxSpp),
+        "a whole number from 1 to 1048576");
     requireRange(std::isfinite(s.mu) && s.mu >= 0.01f && s.mu <= 1000.0f, "mu", text(s.mu), "a number from 0.01 to 1000");
-    requireRange(s.k > 0 && s.alpha > 0 && s.cut > 0, "filter constants", fmt::format("k {} alpha {} cut {}", s.k, s.alpha, s.cut), "positive numbers");
+    requireRange(s.k > 0 && s.alpha > 0 && s.cut > 0, "filter constants",
+        fmt::format("k {} alpha {} cut {}", s.k, s.alpha, s.cut), "positive numbers");
     requireRange(s.normalDegrees >= 0 && s.normalDegrees <= 180, "normal test", text(s.normalDegrees), "degrees from 0 to 180");
-    requireRange(s.maxRadius >= 1 && s.maxRadius <= WEDGE_MAX_RADIUS, "kernel radius", text(s.maxRadius), fmt::format("pixels from 1 to {}", WEDGE_MAX_RADIUS));
-    requireRange(s.fillRadius >= 0 && s.fillRadius <= static_cast<int>(WEDGE_ROW_PADDING), "slope spreading radius", text(s.fillRadius), fmt::format("pixels from 0 to {}", WEDGE_ROW_PADDING));
+    requireRange(s.maxRadius >= 1 && s.maxRadius <= WEDGE_MAX_RADIUS, "kernel radius", text(s.maxRadius),
+        fmt::format("pixels from 1 to {}", WEDGE_MAX_RADIUS));
+    requireRange(s.fillRadius >= 0 && s.fillRadius <= static_cast<int>(WEDGE_ROW_PADDING), "slope spreading radius",
+        text(s.fillRadius), fmt::format("pixels from 0 to {}", WEDGE_ROW_PADDING));
     requireRange(s.filtering != Filtering::Fixed || s.fixedWidth > 0, "fixed filter width", text(s.fixedWidth), "pixels above 0");
-    requireRange(s.bounces >= 0 && s.bounces <= mostBounces, "bounces", text(s.bounces), fmt::format("a whole number from 0 to {}", mostBounces));
+    requireRange(s.bounces >= 0 && s.bounces <= mostBounces, "bounces", text(s.bounces),
+        fmt::format("a whole number from 0 to {}", mostBounces));
     requireRange(s.integrator == Integrator::Path || s.bounces == 0, "bounces", text(s.bounces), "none with ambient occlusion");
     const IndirectSettings& in = s.indirect;
     requireRange(std::isfinite(in.mu) && in.mu >= 0.01f && in.mu <= 1000.0f, "mu", text(in.mu), "a number from 0.01 to 1000");
-    requireRange(in.alpha >= 0 && in.meanFraction >= 0 && in.widthScale > 0 && in.leastReflector > 0, "indirect filter constants", fmt::format("alpha {} width scale {} least reflector {}", in.alpha, in.widthScale, in.leastReflector), "positive numbers");
-    requireRange(std::isfinite(in.ambientDistance) && in.ambientDistance >= 0, "ambient occlusion distance", text(in.ambientDistance), "metres above 0");
+    requireRange(in.alpha >= 0 && in.meanFraction >= 0 && in.widthScale > 0 && in.leastReflector > 0,
+        "indirect filter constants",
+        fmt::format("alpha {} width scale {} least reflector {}", in.alpha, in.widthScale, in.leastReflector),
+        "positive numbers");
+    requireRange(std::isfinite(in.ambientDistance) && in.ambientDistance >= 0, "ambient occlusion distance",
+        text(in.ambientDistance), "metres above 0");
     validateDistributed(s.distributed);
     requireRange(!s.progressive || (!s.published && (s.method == Method::MonteCarlo || s.spp >= leastProgressiveSpp)),
         "samples a pixel of a progressive render", text(s.spp), "16 or more, and no published counts");
-    if (s.method == Method::AxisAligned && tracesPaths(s)) {
-        requireRange(in.maxSpp >= static_cast<int>(WEDGE_INDIRECT_FIRST_RAYS) && s.spp >= static_cast<int>(WEDGE_INDIRECT_FIRST_RAYS),
-            "samples a pixel", fmt::format("{} (at most {})", s.spp, in.maxSpp), "16 or more with indirect light: its first pass takes 16");
-    }
     if (s.method == Method::AxisAligned) {
-        requireRange(s.maxSpp >= static_cast<int>(WEDGE_FIRST_PASS_RAYS) && s.spp >= static_cast<int>(WEDGE_FIRST_PASS_RAYS),
-            "samples a pixel", fmt::format("{} (at most {})", s.spp, s.maxSpp), "9 or more: the first pass takes 9");
+        validateCounts(s, distributed);
         requireRange(s.shading != Shading::Inside || s.counts != Counts::Variance || s.sampling == Sampling::Uniform,
-            "adaptive counts", "from variance, with the cosine inside the filtered term", "counts from the spectrum, or uniform ones");
+            "adaptive counts", "from variance, with the cosine inside the filtered term",
+            "counts from the spectrum, or uniform ones");
     }
 }
 

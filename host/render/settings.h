@@ -195,8 +195,12 @@ constexpr int mostDistributedSpp = 2048;
 /// Most bounces that a path may have.
 constexpr int mostBounces = 1024;
 
-/// Throws UsageError if a value is out of its range.
-void validate(const Settings& settings);
+/// Fewest samples a pixel that method aaf takes: those of the first pass, of progressive frames of both halves'.
+/// distributed: whether pixels have several receivers, see isDistributed().
+int leastSpp(const Settings& settings, bool distributed);
+
+/// Throws UsageError if a value is out of its range. distributed: as above.
+void validate(const Settings& settings, bool distributed);
 
 /// "aaf" and the like.
 std::string methodName(Method method);

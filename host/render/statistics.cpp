@@ -10,12 +10,14 @@ using device::PassKind;
 
 double FrameStatistics::milliseconds(PassKind kind) const
 {
-    return std::accumulate(passes.begin(), passes.end(), 0.0, [&](double sum, const device::PassRecord& r) { return sum + (r.kind == kind ? r.milliseconds : 0.0); });
+    return std::accumulate(passes.begin(), passes.end(), 0.0,
+        [&](double sum, const device::PassRecord& r) { return sum + (r.kind == kind ? r.milliseconds : 0.0); });
 }
 
 double FrameStatistics::milliseconds(const std::string& pass) const
 {
-    return std::accumulate(passes.begin(), passes.end(), 0.0, [&](double sum, const device::PassRecord& r) { return sum + (r.name == pass ? r.milliseconds : 0.0); });
+    return std::accumulate(passes.begin(), passes.end(), 0.0,
+        [&](double sum, const device::PassRecord& r) { return sum + (r.name == pass ? r.milliseconds : 0.0); });
 }
 
 double FrameStatistics::overheadFraction() const
@@ -55,7 +57,8 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
     std::uint64_t total = 0, indirectTotal = 0, indirectPixels = 0;
     for (int y = output.y0; y < output.y1; ++y) {
         for (int x = output.x0; x < output.x1; ++x) {
-            const std::size_t i = shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), frame_->layout.stride);
+            const std::size_t i =
+                shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), frame_->layout.stride);
             if (objects[i] == 0) {
                 continue;
             }
@@ -76,14 +79,16 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
         std::uint64_t shown = 0;
         for (int y = output.y0; y < output.y1; ++y) {
             for (int x = output.x0; x < output.x1; ++x) {
-                shown += primary[shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), frame_->layout.stride)];
+                shown += primary[shared::pixelIndex(
+                    static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), frame_->layout.stride)];
             }
         }
         statistics.primarySpp = static_cast<double>(shown) / (static_cast<double>(output.width()) * output.height());
     }
     statistics.indirectRays = std::accumulate(pathRays.begin(), pathRays.end(), std::uint64_t { 0 });
     statistics.shadowRays = std::accumulate(rays.begin(), rays.end(), std::uint64_t { 0 }) - statistics.indirectRays;
-    const std::uint64_t directPixels = statistics.shadedPixels * (settings.integrator == Integrator::Path ? scene_.areaLights.size() : 0);
+    const std::uint64_t directPixels =
+        statistics.shadedPixels * (settings.integrator == Integrator::Path ? scene_.areaLights.size() : 0);
     const auto mean = [](std::uint64_t sum, std::uint64_t count) {
         return count > 0 ? static_cast<double>(sum) / static_cast<double>(count) : 0.0;
     };

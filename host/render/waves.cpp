@@ -149,10 +149,10 @@ void Waves::share(Passes& passes, const Term& term, const shared::WaveParams& wa
 
 void Waves::accumulateSurfaces(Passes& passes, Frame& frame, const shared::WaveParams& wave)
 {
-    pixels(passes, "accumulateSurfaces", wave, camera_, pixelFirst, pixelCount, objectId, position, normal,
-        gloss, diffuse, specular, emission, pixelSize, depth, motion, rays, pathRays, frame.primaryTaken, frame.hits,
-        frame.objectId, frame.position, frame.normal, frame.gloss, frame.diffuse, frame.specular, frame.emission, frame.emissionSquares,
-        frame.pixelSize, frame.depth, frame.confusion, frame.motion, frame.rays, frame.pathRays);
+    pixels(passes, "accumulateSurfaces", wave, camera_, pixelFirst, pixelCount, objectId, position, normal, gloss,
+        diffuse, specular, emission, pixelSize, depth, motion, rays, pathRays, frame.primaryTaken, frame.hits,
+        frame.objectId, frame.position, frame.normal, frame.gloss, frame.diffuse, frame.specular, frame.emission,
+        frame.emissionSquares, frame.pixelSize, frame.depth, frame.confusion, frame.motion, frame.rays, frame.pathRays);
 }
 
 } // namespace wedge::render

@@ -8,6 +8,9 @@
 /// Primary samples that a pixel takes in one step of a progressive frame at most: a wave holds those of a tile.
 #define WEDGE_MOST_NEW_SAMPLES 1024u
 
+/// Pixels that the kernel along a motion reaches at most.
+#define WEDGE_MOTION_REACH 160
+
 WEDGE_SHARED_BEGIN
 
 typedef struct {
@@ -28,10 +31,10 @@ typedef struct {
     float oneVelocity;       ///< largest difference of motions in a pixel that counts as one, as a fraction of the motion
     uint never;              ///< 1: textures and irradiances are never taken apart
     float samples;           ///< primary samples that a pixel is expected to have; 0: those that it has
-    uint published;          ///< 1: terms are kept as published, see accumulate.cl
+    uint published;          ///< 1: terms are kept as published, see accumulate.h
     float frames;            ///< of which the image is the mean: each has as many samples
     uint still;              ///< 1: nothing moves, and there are no planes of motions
-    uint packed;             ///< 1: terms' planes are packed, see accumulate.cl
+    uint packed;             ///< 1: terms' planes are packed, see accumulate.h
     uint plainTexture;       ///< 1: filtered textures are not
     uint alongMotion;        ///< of demands: 1, of textures, which are filtered along the motion, too
 } DistributedParams;

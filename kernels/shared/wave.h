@@ -30,9 +30,9 @@ typedef struct {
     uint lastSample; ///< primary samples that a pixel has at most when the wave is done
     uint sampler;    ///< WEDGE_SAMPLER_*
     uint firstPass;  ///< primary samples of a first pass with strata of its own; 0: none
-    uint published;  ///< 1: terms are kept as the thesis has them, see accumulate.cl
+    uint published;  ///< 1: terms are kept as the thesis has them, see accumulate.h
     uint omits;      ///< sum of WEDGE_OMITS_*
-    uint packed;     ///< 1: the pixels' planes of terms are packed, see accumulate.cl
+    uint packed;     ///< 1: the pixels' planes of terms are packed, see accumulate.h
 } WaveParams;
 
 /// Samples that a pixel has when the wave is done, if its planes say that it wants so many.

@@ -46,7 +46,8 @@ bool Indirect::render()
     const bool complete = sample();
     if (analysed_ && c_.settings.filtering != Filtering::None) {
         gaussianFilter(c_.passes, { "filter of indirect", PassKind::Filter, "filter_indirect.cl" },
-            filterParams(c_.settings, c_.fullFrame, c_.window), c_.window, c_.frame, term_.value, term_.beta, c_.scratch, c_.scratch.filtered);
+            filterParams(c_.settings, c_.fullFrame, c_.window), c_.window, c_.frame, term_.value, term_.beta,
+            c_.scratch, c_.scratch.filtered);
         composite(c_.scratch.filtered);
     } else {
         composite(term_.value);
@@ -58,7 +59,8 @@ bool Indirect::sample()
 {
     const auto spp = static_cast<std::uint32_t>(c_.settings.spp);
     if (c_.settings.method == Method::MonteCarlo) {
-        uniformCounts(c_.passes, countParams(blockWindow(c_.window, 0, c_.full().x1, c_.full().y1)), spp, c_.frame.objectId, term_.wanted);
+        uniformCounts(c_.passes, countParams(blockWindow(c_.window, 0, c_.full().x1, c_.full().y1)), spp,
+            c_.frame.objectId, term_.wanted);
         return samplePaths("paths", c_.sampledFrame, 0, spp, c_.settings.spp);
     }
     // All of the frame even for a crop: the counts' scale comes from all pixels, and a crop is to be the same pixels as
@@ -69,7 +71,8 @@ bool Indirect::sample()
     }
     widthsAndCounts();
     const bool uniform = c_.settings.sampling == Sampling::Uniform || c_.settings.indirect.counts == IndirectCounts::Uniform;
-    const auto most = static_cast<std::uint32_t>(uniform ? c_.settings.spp : std::max(c_.settings.indirect.maxSpp, c_.settings.spp));
+    const auto most =
+        static_cast<std::uint32_t>(uniform ? c_.settings.spp : std::max(c_.settings.indirect.maxSpp, c_.settings.spp));
     return samplePaths("second paths", c_.sampledFrame, WEDGE_INDIRECT_FIRST_RAYS, most, c_.settings.spp);
 }
 
@@ -174,7 +177,8 @@ void Indirect::widths()
     const bool packed = c_.frame.shape.packed();
     const device::Buffer<float>& reflectors = packed ? c_.scratch.slopes : term_.extremes;
     if (packed) {
-        c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "unpackSecond", countParams(c_.full()), 1, term_.plain, reflectors);
+        c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "unpackSecond", countParams(c_.full()), 1,
+            term_.plain, reflectors);
     }
     c_.passes.rows("widths", PassKind::Analysis, "reflectors.cl", "reflectorWidths", reflectorParams(c_.full()), 1, reflectors,
         c_.scratch.extent, c_.frame.pixelSize, c_.frame.gloss, term_.taken, packed ? c_.scratch.width : term_.beta, term_.wanted);
@@ -237,9 +241,9 @@ void Indirect::sampleWave(Waves& waves, const shared::WaveParams& wave, double w
         waves.pathRays);
     shared::WaveParams adding = wave;
     adding.omits |= term_.shape.extremes < 2 ? WEDGE_OMITS_EXTREMES : 0;
-    waves.pixels(c_.passes, "accumulatePaths", adding, component_ == Component::Ambient ? 1u : 0u, waves.pixelFirst, waves.pixelCount, c_.frame.primaryTaken, c_.frame.hits,
-        waves.objectId, reflectance, waves.sums, waves.extremes, term_.accumulated(),
-        c_.frame.samples, c_.frame.indirectSamples);
+    waves.pixels(c_.passes, "accumulatePaths", adding, component_ == Component::Ambient ? 1u : 0u, waves.pixelFirst,
+        waves.pixelCount, c_.frame.primaryTaken, c_.frame.hits, waves.objectId, reflectance, waves.sums, waves.extremes,
+        term_.accumulated(), c_.frame.samples, c_.frame.indirectSamples);
 }
 
 void Indirect::publishedWidths(const shared::DistributedParams& params, const device::Buffer<float>& flags)

@@ -46,7 +46,8 @@ bool SoftShadows::render()
     const bool complete = sample();
     if (analysed_ && c_.settings.filtering != Filtering::None) {
         gaussianFilter(c_.passes, { "filter", PassKind::Filter, "filter.cl" },
-            filterParams(c_.settings, c_.fullFrame, light(), c_.window), c_.window, c_.frame, term_.value, term_.beta, c_.scratch, c_.scratch.filtered);
+            filterParams(c_.settings, c_.fullFrame, light(), c_.window), c_.window, c_.frame, term_.value, term_.beta,
+            c_.scratch, c_.scratch.filtered);
         shade(c_.scratch.filtered);
     } else {
         shade(term_.value);
@@ -232,7 +233,8 @@ void SoftShadows::countsFromVariance()
         c_.scratch.effective.fill(c_.passes.queue(), 1.0f);
     } else {
         gaussianFilter(c_.passes, { "filter of first pass", PassKind::Analysis, "filter.cl" },
-            filterParams(c_.settings, c_.fullFrame, light(), c_.full()), c_.full(), c_.frame, term_.value, term_.beta, c_.scratch, c_.scratch.filtered);
+            filterParams(c_.settings, c_.fullFrame, light(), c_.full()), c_.full(), c_.frame, term_.value, term_.beta,
+            c_.scratch, c_.scratch.filtered);
     }
     const device::Buffer<float>& visibility = c_.settings.filtering == Filtering::None ? term_.value : c_.scratch.filtered;
     c_.passes.rows("counts", PassKind::Analysis, "counts.cl", "countDemand", p, WEDGE_BLOCK_PIXELS, visibility,
@@ -278,8 +280,8 @@ void SoftShadows::sampleWave(Waves& waves, const shared::WaveParams& wave, bool 
     shared::WaveParams adding = wave;
     adding.omits |= term_.shape.extremes < 2 ? WEDGE_OMITS_EXTREMES : 0;
     waves.pixels(c_.passes, "accumulateLight", adding, light(), exact ? 1u : 0u, waves.pixelFirst, waves.pixelCount,
-        c_.frame.primaryTaken, c_.frame.hits, waves.receivers(), waves.diffuse, waves.specular, waves.sums, waves.unshadowed, waves.extremes,
-        term_.accumulated(), term_.sums, c_.frame.samples);
+        c_.frame.primaryTaken, c_.frame.hits, waves.receivers(), waves.diffuse, waves.specular, waves.sums,
+        waves.unshadowed, waves.extremes, term_.accumulated(), term_.sums, c_.frame.samples);
 }
 
 void SoftShadows::publishedWidths(const shared::DistributedParams& params, const device::Buffer<float>& flags)

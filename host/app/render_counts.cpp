@@ -1,0 +1,117 @@
+#include "host/app/render_counts.h"
+
+#include "host/error.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace wedge::app {
+namespace {
+
+// Of progressive renders, without and with something else that ends them.
+constexpr int defaultProgressiveSpp = 1024, openProgressiveSpp = 1 << 16;
+
+constexpr const char* distributedFrames = "through a lens or shutter, or with antialiasing";
+
+/// A count from the scene file that suits no aaf, whose first pass alone takes more.
+void requireFirstPass(const std::string& key, const std::optional<int>& count, const scene::Scene& scene, int least)
+{
+    if (count && *count < least) {
+        throw Error(fmt::format("scene file {}: {} is too low for method aaf", scene.path, key), fmt::format("{}", *count),
+            fmt::format("give {} or more, or method mc", least));
+    }
+}
+
+/// A value, of an option or of the scene file, that asks for more samples of a pixel than a distributed frame can take.
+void refuseTooMany(bool isOption, const std::string& option, const std::string& key, const std::string& value,
+    const scene::Scene& scene, const std::string& remedy)
+{
+    if (isOption) {
+        throw UsageError(fmt::format("samples a pixel are too many for method aaf {}", distributedFrames), option + " " + value,
+            remedy);
+    }
+    throw Error(fmt::format("scene file {}: {} is too high for method aaf {}", scene.path, key, distributedFrames), value, remedy);
+}
+
+/// The mean of distributed frames that are not progressive; the steps of those are no larger than that either way.
+void requireDistributedMean(const RenderOptions& o, const scene::Scene& scene, int mean)
+{
+    if (mean <= render::mostDistributedSpp) {
+        return;
+    }
+    if (o.spp || scene.settings.spp) {
+        refuseTooMany(o.spp.has_value(), "--spp", "spp", fmt::format("{}", mean), scene,
+            fmt::format("give {} or less, or add --progressive or --method mc", render::mostDistributedSpp));
+    }
+    // What a mu alone asks for.
+    refuseTooMany(o.mu.has_value(), "--mu", "mu", fmt::format("{}", o.mu ? *o.mu : scene.settings.mu.value_or(0)), scene,
+        fmt::format("lower it, or give --spp, {} or less", render::mostDistributedSpp));
+}
+
+/// The most samples of a pixel of a distributed frame: as given, else the default's or twice the mean.
+void applyDistributedMost(const RenderOptions& o, const scene::Scene& scene, const std::optional<int>& given, bool distributed,
+    render::Settings& s)
+{
+    if (distributed && given && *given > render::mostDistributedSpp) {
+        refuseTooMany(o.maxSpp.has_value(), "--max-spp", "max_spp", fmt::format("{}", *given), scene,
+            fmt::format("{} {} or less", o.maxSpp ? "give" : "give there, or as --max-spp,", render::mostDistributedSpp));
+    }
+    render::DistributedSettings& d = s.distributed;
+    d.maxSpp = std::clamp(given.value_or(std::max(d.maxSpp, 2 * s.spp)), d.firstPaths, render::mostDistributedSpp);
+}
+
+void requireMeanBelowMost(const RenderOptions& o, const std::optional<int>& mean, const std::optional<int>& most)
+{
+    if (mean && most && *most < *mean) {
+        throw UsageError("most samples of a pixel are below their mean",
+            fmt::format("{} {} and {} {}", o.maxSpp ? "--max-spp" : "the scene file's max_spp", *most,
+                o.spp ? "--spp" : "the scene file's spp", *mean),
+            "raise --max-spp or lower --spp");
+    }
+}
+
+} // namespace
+
+int progressiveSpp(const RenderOptions& o, const scene::Scene& scene)
+{
+    const bool endsOtherwise = o.timeLimitSeconds > 0 || o.targetError;
+    return o.spp ? *o.spp : endsOtherwise ? openProgressiveSpp : scene.settings.spp.value_or(defaultProgressiveSpp);
+}
+
+bool meanIsGiven(const render::Settings& s)
+{
+    return s.sampling == render::Sampling::Uniform || s.counts == render::Counts::Variance;
+}
+
+void applyCounts(const RenderOptions& o, const scene::Scene& scene, bool distributed, render::Settings& s)
+{
+    const scene::Settings& file = scene.settings;
+    const int least = render::leastSpp(s, distributed);
+    const bool oneImage = !o.progressive;
+    // Counts of progressive renders grow from step to step without a bound of their own.
+    const std::optional<int> most = o.maxSpp ? o.maxSpp : oneImage ? file.maxSpp : std::nullopt;
+    if (!o.maxSpp) {
+        requireFirstPass("max_spp", most, scene, least);
+    }
+    s.maxSpp = most.value_or(s.maxSpp);
+    s.indirect.maxSpp = most.value_or(s.indirect.maxSpp);
+    if (!meanIsGiven(s)) {
+        s.spp = render::Settings().spp; // not used
+        applyDistributedMost(o, scene, most, distributed && oneImage, s);
+        return;
+    }
+    const std::optional<int> mean = o.spp ? o.spp : oneImage ? file.spp : progressiveSpp(o, scene);
+    if (!o.spp && mean == file.spp) {
+        requireFirstPass("spp", file.spp, scene, least);
+    }
+    // mu alone may ask for fewer samples than the first pass takes.
+    s.spp = mean.value_or(std::max(s.spp, least));
+    if (distributed && oneImage) {
+        requireDistributedMean(o, scene, s.spp);
+    }
+    applyDistributedMost(o, scene, most, distributed && oneImage, s);
+    requireMeanBelowMost(o, mean, most);
+}
+
+} // namespace wedge::app
