@@ -1,11 +1,13 @@
 // The image-space filter: a Gaussian of world-space standard deviation beta(x), as two one-dimensional passes.
 // Weights come from distances between the pixels' positions, so depth edges need no special case; neighbours of another
 // object or with another normal are left out. Distances are those in the plane parallel to a light, or, where the term is
-// of no light, plain ones. Each program that includes this sets WEDGE_GATHER_CHANNELS, the planes of value.
+// of no light, plain ones. Each program that includes this sets WEDGE_GATHER_CHANNELS, the planes of value. Those of packed frames
+// set WEDGE_GATHER_PACKED, too: normals are packed (packed_planes.h), and where nothing reads the effective counts,
+// WEDGE_GATHER_VALUE_ONLY. They are programs of their own since a test of a parameter in each tap takes several times as long.
 //
 // in   value, beta (metres; 0: keep the pixel's own value, still a neighbour of others; negative: neither), position,
 //      normal, objectId, and for the second pass the first one's effective counts
-// out  filtered (like value), effective unless valueOnly: (sum w)^2 / sum w^2, the number of equal samples that the gather
+// out  filtered (like value), effective: (sum w)^2 / sum w^2, the number of equal samples that the gather
 //      amounts to, times that of the pass before
 #ifndef WEDGE_GATHER_H
 #define WEDGE_GATHER_H
@@ -34,9 +36,8 @@ typedef struct {
 /// Normals of three planes, or of one that is packed.
 WEDGE_FN Vec3x16 loadNormalBlock(FilterParams p, __global const float* normal, int i)
 {
-    if (p.packed == 0u) {
-        return loadVecBlock(normal, p.planeSize, i);
-    }
+#ifdef WEDGE_GATHER_PACKED
+    (void)p;
     const int16 packed = as_int16(vload16(0, (__global const uint*)normal + i));
     const float scale = 1.0f / WEDGE_NORMAL_UNITS;
     Vec3x16 v;
@@ -44,6 +45,9 @@ WEDGE_FN Vec3x16 loadNormalBlock(FilterParams p, __global const float* normal, i
     v.y = convert_float16((packed << 12) >> 22) * scale;
     v.z = convert_float16((packed << 2) >> 22) * scale;
     return v;
+#else
+    return loadVecBlock(normal, p.planeSize, i);
+#endif
 }
 
 /// Squared distance between a pixel and its neighbour at offset d, as far as the light's shadow is concerned:
@@ -88,6 +92,16 @@ WEDGE_FN float16 radiusInPixels(FilterParams p, GatherBlock b, Vec3 step, float1
     const float16 metres = sqrt(distance16(p, b.slant, moved));
     const float16 pixels = ceil(reach / max16(metres, (float16)(1e-20f)));
     return min16(max16(pixels, (float16)(1.0f)), (float16)((float)p.maxRadius));
+}
+
+WEDGE_FN void storeEffective(float16 count, __global float* effective)
+{
+#ifdef WEDGE_GATHER_VALUE_ONLY
+    (void)count;
+    (void)effective;
+#else
+    vstore16(count, 0, effective);
+#endif
 }
 
 typedef struct {
@@ -139,9 +153,7 @@ WEDGE_FN void gatherLine(FilterParams p, uint x, uint y, int element, Vec3 step,
         for (uint c = 0u; c < WEDGE_GATHER_CHANNELS; ++c) {
             vstore16(own[c], 0, filtered + c * p.planeSize + i);
         }
-        if (p.valueOnly == 0u) {
-            vstore16(effectiveBefore, 0, effective + i);
-        }
+        storeEffective(effectiveBefore, effective + i);
         return;
     }
     b.beta = gathers ? b.beta : (float16)(1.0f);
@@ -169,10 +181,8 @@ WEDGE_FN void gatherLine(FilterParams p, uint x, uint y, int element, Vec3 step,
     for (uint c = 0u; c < WEDGE_GATHER_CHANNELS; ++c) {
         vstore16(gathers ? sum.channel[c] / sum.weight : own[c], 0, filtered + c * p.planeSize + i);
     }
-    if (p.valueOnly == 0u) {
-        const float16 count = gathers ? sum.weight * sum.weight / sum.squared : (float16)(1.0f);
-        vstore16(effectiveBefore * count, 0, effective + i);
-    }
+    const float16 count = gathers ? sum.weight * sum.weight / sum.squared : (float16)(1.0f);
+    storeEffective(effectiveBefore * count, effective + i);
 }
 
 /// Along x. The padding of the rows holds objectId 0, so no tap has to ask where the row ends.
@@ -199,8 +209,7 @@ __kernel void filterColumns(FilterParams p, __global const float* restrict value
     const uint y = p.y0 + get_global_id(1);
     if (x < p.x1 && y < p.y1) {
         gatherLine(p, x, y, (int)p.stride, p.down, (int)y, (int)(p.height - 1u - y), value, beta, position, normal,
-                   objectId, p.valueOnly != 0u ? (float16)(1.0f) : loadBlock(effectiveRows, (int)pixelIndex(x, y, p.stride)),
-                   filtered, effective);
+                   objectId, loadBlock(effectiveRows, (int)pixelIndex(x, y, p.stride)), filtered, effective);
     }
 }
 

@@ -25,8 +25,6 @@ typedef struct {
     uint width, stride, planeSize;
     uint x0, y0, x1, y1; ///< the pixels to produce, half open; x0 a multiple of WEDGE_BLOCK_PIXELS
     uint height;
-    uint packed;         ///< 1: normals are packed, packed_planes.h
-    uint valueOnly;      ///< 1: nothing reads the effective counts of the second pass, which are not written
 } FilterParams;
 
 /// The analysis of one light: slopes to widths and counts.

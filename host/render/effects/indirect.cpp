@@ -258,7 +258,7 @@ void Indirect::filterDistributed(const shared::DistributedParams& params)
         c_.passes.rows("filter of indirect", PassKind::Filter, "distributed.cl", "unpackImage", params, 1, term_.value, value);
     }
     gaussianFilter(c_.passes, { "filter of indirect", PassKind::Filter, "filter_indirect.cl" },
-        valueOnly(filterParams(c_.settings, c_.fullFrame, c_.full())), c_.full(), c_.frame, value, term_.beta, c_.scratch,
+        filterParams(c_.settings, c_.fullFrame, c_.full()), c_.full(), c_.frame, value, term_.beta, c_.scratch,
         c_.scratch.filtered);
     addFilteredTerm(c_, term_, params, c_.frame.indirect);
 }

@@ -309,7 +309,7 @@ void SoftShadows::filterDistributed(const shared::DistributedParams& params)
     device::Buffer<float>& visibility = c_.scratch.logs;
     c_.passes.rows("filter", PassKind::Filter, "distributed.cl", "visibilityOf", params, 1, term_.texture, term_.value, visibility);
     gaussianFilter(c_.passes, { "filter", PassKind::Filter, "filter_variance.cl" },
-        valueOnly(filterParams(c_.settings, c_.fullFrame, light(), c_.full())), c_.full(), c_.frame, visibility, term_.beta,
+        filterParams(c_.settings, c_.fullFrame, light(), c_.full()), c_.full(), c_.frame, visibility, term_.beta,
         c_.scratch, c_.scratch.filtered);
     if (c_.scene.moves && c_.settings.distributed.blur) {
         blurShadows(params);
