@@ -201,7 +201,8 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient, 
     const float counted = wave.published != 0u ? (float)loadHits(hits, p.i, wave.packed)
         : p.before > 0u                        ? (float)loadHits(hits, p.i, wave.packed) / (float)p.before * (float)termTaken[p.i]
                                                : 0.0f;
-    const Vec3 known = vecMad(vecScale(floors, counted), loadColour(texture, pixels, p.i, planes.textureBits), own * (float)termTaken[p.i]);
+    const Vec3 before = loadColour(texture, pixels, p.i, planes.textureBits);
+    const Vec3 known = vecMad(vecScale(floors, counted), before, own * (float)termTaken[p.i]);
     storeTermSums(wave, p, pixels, planes, termTaken[p.i], total, (float)loadHits(hits, p.i, wave.packed), known, &sum);
     storeExtreme(wave, p, pixels, plain, extremes, all ? (nearest < INFINITY ? nearest : 0.0f) : inverse);
     if (measures && all) {

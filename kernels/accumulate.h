@@ -7,11 +7,13 @@
 // As published (wave.published) E is the plain mean, that of lights holds the light's form factor (5.14), k the lobe
 // towards its centre (5.20), and the term's radiance L is kept apart.
 //
-// Packed planes (wave.packed) hold of k and E the one that is a fraction in 32 bits and the other in 47 (packed_planes.h), normals
-// in one plane, and what one wave alone measures in 16 bits: in `plain` the factoring error (distributed.cl) and, after it, the one of the extremes that there is; in `squares` the
-// standard deviations of a primary sample's radiance and of its texture. Likewise pixelSize holds the gloss, too, and hits, after
-// these, the signed radius nearest to 0 of the circles of confusion. Motions are the mean's two numbers, the first of which is
-// infinite where the pixel's motions differ (storeOneMotion): of surfaces in `motion`, of a light's shadows in `extremes`.
+// Packed planes (wave.packed) hold of k and E the one that is a fraction in 32 bits and the other in 47
+// (packed_planes.h), normals in one plane, and what one wave alone measures in 16 bits: in `plain` the factoring error
+// (distributed.cl) and, after it, the one of the extremes that there is; in `squares` the standard deviations of a
+// primary sample's radiance and of its texture. Likewise pixelSize holds the gloss, too, and hits, after these, the
+// signed radius nearest to 0 of the circles of confusion. Motions are the mean's two numbers, the first of which is
+// infinite where the pixel's motions differ (storeOneMotion): of surfaces in `motion`, of a light's shadows in
+// `extremes`.
 #ifndef WEDGE_ACCUMULATE_H
 #define WEDGE_ACCUMULATE_H
 
@@ -140,7 +142,8 @@ WEDGE_FN void storeTermSums(WaveParams wave, WavePixel p, uint pixels, TermPlane
     const float before = (float)p.before;
     // Receivers that took samples, misses included: samples are shared evenly.
     const float had = (float)min(taken, p.before), have = (float)min(total, p.count);
-    Vec3 e = loadColour(planes.value, pixels, p.i, planes.valueBits), t = loadColour(planes.texture, pixels, p.i, planes.textureBits);
+    Vec3 e = loadColour(planes.value, pixels, p.i, planes.valueBits);
+    Vec3 t = loadColour(planes.texture, pixels, p.i, planes.textureBits);
     e = vec3(weightedMean(e.x, known.x, s->weighted.x, s->weights.x), weightedMean(e.y, known.y, s->weighted.y, s->weights.y),
              weightedMean(e.z, known.z, s->weighted.z, s->weights.z));
     t = vec3(meanWith(t.x, before, s->texture.x, s->textures), meanWith(t.y, before, s->texture.y, s->textures),

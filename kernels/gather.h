@@ -1,9 +1,10 @@
 // The image-space filter: a Gaussian of world-space standard deviation beta(x), as two one-dimensional passes.
 // Weights come from distances between the pixels' positions, so depth edges need no special case; neighbours of another
 // object or with another normal are left out. Distances are those in the plane parallel to a light, or, where the term is
-// of no light, plain ones. Each program that includes this sets WEDGE_GATHER_CHANNELS, the planes of value. Those of packed frames
-// set WEDGE_GATHER_PACKED, too: normals are packed (packed_planes.h), and where nothing reads the effective counts,
-// WEDGE_GATHER_VALUE_ONLY. They are programs of their own since a test of a parameter in each tap takes several times as long.
+// of no light, plain ones. Each program that includes this sets WEDGE_GATHER_CHANNELS, the planes of value. Those of
+// packed frames set WEDGE_GATHER_PACKED, too: normals are packed (packed_planes.h), and where nothing reads the
+// effective counts, WEDGE_GATHER_VALUE_ONLY. They are programs of their own since a test of a parameter in each tap
+// takes several times as long.
 //
 // in   value, beta (metres; 0: keep the pixel's own value, still a neighbour of others; negative: neither), position,
 //      normal, objectId, and for the second pass the first one's effective counts

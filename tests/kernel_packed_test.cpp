@@ -1,4 +1,5 @@
-// Colours, directions and numbers in fewer bits (kernels/shared/packed.h), as C++: how exact they are, and what has no place in them.
+// Colours, directions and numbers in fewer bits (kernels/shared/packed.h), as C++: how exact they are, and what has no
+// place in them.
 #include "kernels/shared/packed.h"
 
 #include <doctest/doctest.h>

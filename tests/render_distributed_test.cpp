@@ -6,6 +6,33 @@
 using namespace wedge;
 using namespace wedge::test;
 
+namespace {
+
+enum class Moves { Nothing, Camera, Geometry };
+
+/// Through a lens, while the shutter is open.
+scene::Scene movingWall(Moves moves)
+{
+    scene::Scene scene = wallInFocus();
+    scene.camera.apertureRadius = 0.1f;
+    scene.camera.focusDistance = 2.5f;
+    const glm::vec3 shift(0.3f, 0.1f, 0);
+    if (moves == Moves::Camera) {
+        scene.cameraAtClose = scene.camera;
+        scene.cameraAtClose->eye += shift;
+        scene.cameraAtClose->lookAt += shift;
+    } else if (moves == Moves::Geometry) {
+        scene::Geometry& g = scene.geometry;
+        g.positionsAtClose = g.positions;
+        g.normalsAtClose = g.normals;
+        for (std::size_t i = 0; i < g.positions.size(); ++i)
+            g.positionsAtClose[i] += shift[static_cast<int>(i % 3)];
+    }
+    return scene;
+}
+
+} // namespace
+
 TEST_CASE("more samples asked for are taken: where the first ones saw little, and under point lights alone")
 {
     onEveryDevice([](const device::Device& device) {
@@ -38,12 +65,12 @@ TEST_CASE("more samples asked for are taken: where the first ones saw little, an
 TEST_CASE("a frame of the image alone, in fewer bits, is the one with all of its layers but for rounding")
 {
     onEveryDevice([](const device::Device& device) {
-        scene::Scene scene = wallInFocus();
-        scene.camera.apertureRadius = 0.1f;
-        scene.camera.focusDistance = 2.5f;
-        render::Renderer renderer(scene, device, renderOptions());
-        for (const bool filtered : { false, true }) {
+        for (const auto& [moves, filtered] : { std::pair(Moves::Nothing, false), { Moves::Nothing, true },
+                 { Moves::Camera, true }, { Moves::Geometry, true } }) {
+            CAPTURE(static_cast<int>(moves));
             CAPTURE(filtered);
+            const scene::Scene scene = movingWall(moves);
+            render::Renderer renderer(scene, device, renderOptions());
             render::Settings settings = sized(filtered ? render::axisAligned(16) : render::monteCarlo(16), 61, 43);
             settings.bounces = 1;
             const image::Window all { 0, 0, 61, 43 };
@@ -61,6 +88,22 @@ TEST_CASE("a frame of the image alone, in fewer bits, is the one with all of its
             // Statistics of 8 bits change a few counts by one; sums are added up in another order.
             CHECK(std::sqrt(squares / count) < (filtered ? 0.01 : 1e-5) * sum / count);
             CHECK(sum / count > 0.05);
+        }
+    });
+}
+
+TEST_CASE("a frame of the image alone takes less than 150 MB at 1024x1024 with an area light and a bounce")
+{
+    onEveryDevice([](const device::Device& device) {
+        for (const Moves moves : { Moves::Nothing, Moves::Camera, Moves::Geometry }) {
+            CAPTURE(static_cast<int>(moves));
+            scene::Scene scene = movingWall(moves);
+            scene.pointLights.clear();
+            render::Settings settings = sized(render::axisAligned(16), 1024, 1024);
+            settings.bounces = 1;
+            const render::Renderer renderer(scene, device, renderOptions());
+            CHECK(renderer.plan(settings).total() < 150'000'000);
+            CHECK(renderer.plan(settings, true).total() > 300'000'000);
         }
     });
 }

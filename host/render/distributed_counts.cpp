@@ -49,7 +49,8 @@ void DistributedFrame::demandOf(Term& term, float rays, bool light)
     const Scratch& scratch = c_.scratch;
     c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "splitVariance", p, 1, term.texture, term.textureSquares,
         term.value, term.squares, c_.frame.primaryTaken, scratch.ofTexture, scratch.logs);
-    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "addPlane", p, 1, scratch.ofTexture, scratch.ofAllTextures);
+    c_.passes.rows(
+        "counts", PassKind::Analysis, "distributed.cl", "addPlane", p, 1, scratch.ofTexture, scratch.ofAllTextures);
     gaussianFilter(c_.passes, { "filter of variance", PassKind::Analysis, "filter_variance.cl" },
         filterParams(c_.settings, c_.fullFrame, c_.full()), c_.full(), c_.frame, c_.scratch.logs, term.beta, c_.scratch,
         c_.scratch.filtered);

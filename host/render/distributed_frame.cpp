@@ -212,8 +212,8 @@ void DistributedFrame::widths()
         const bool packed = c_.frame.shape.packed();
         const device::Buffer<float>& error = packed ? term.plain : c_.scratch.error;
         if (!packed) {
-            c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "factoringError", params(c_.full()), 1, term.texture,
-                term.value, term.plain, error);
+            c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "factoringError", params(c_.full()), 1,
+                term.texture, term.value, term.plain, error);
         }
         if (i < lights_.size()) {
             lights_[i].widths();
@@ -228,7 +228,8 @@ void DistributedFrame::widths()
         }
     }
     // Packed motions are still means of which there will be more.
-    blurWidths(static_cast<float>(c_.settings.spp), c_.frame.shape.packed() ? c_.scratch.motionDirection : c_.frame.motionDirection);
+    blurWidths(static_cast<float>(c_.settings.spp),
+        c_.frame.shape.packed() ? c_.scratch.motionDirection : c_.frame.motionDirection);
 }
 
 void DistributedFrame::blurWidths(float samples, const device::Buffer<float>& directions)

@@ -69,22 +69,23 @@ void Frame::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const Fram
 {
     const std::uint64_t kept = shape.kept(), analysis = shape.ofAnalysis();
     planPlanes(plan, layout,
-        { { "position", 3 }, { "normal", shape.normalPlanes() }, { "origin", 3 * kept }, { "depth", kept }, { "pixel size", analysis },
-            { "diffuse", 3 * kept }, { "specular", 3 * kept }, { "emission", 3 }, { "gloss", shape.packed() ? 0 : analysis },
-            { "geometric normal", kept }, { "object id", 1 }, { "beauty", 3 * kept }, { "direct", 3 * kept },
-            { "direct noisy", 3 * kept }, { "indirect", 3 * kept }, { "indirect noisy", 3 * kept }, { "samples", kept },
-            { "indirect samples", kept } });
+        { { "position", 3 }, { "normal", shape.normalPlanes() }, { "origin", 3 * kept }, { "depth", kept },
+            { "pixel size", analysis }, { "diffuse", 3 * kept }, { "specular", 3 * kept }, { "emission", 3 },
+            { "gloss", shape.packed() ? 0 : analysis }, { "geometric normal", kept }, { "object id", 1 },
+            { "beauty", 3 * kept }, { "direct", 3 * kept }, { "direct noisy", 3 * kept }, { "indirect", 3 * kept },
+            { "indirect noisy", 3 * kept }, { "samples", kept }, { "indirect samples", kept } });
     plan.addItems("rays", rayCounters(layout, shape), 2 * 4);
     if (shape.distributed) {
         planPlanes(plan, layout,
             { { "primary samples taken", 1 }, { "primary samples wanted", shape.packed() ? 0u : 1u }, { "hits", 1 },
-                { "circles of confusion", shape.packed() ? 0u : 2u },
-                { "motion", shape.motionPlanes() }, { "lens filter width", kept }, { "motion filter", 3 * kept },
-                { "emission squares", analysis }, { "primary demand", kept }, { "point lights", 4 * shape.ofDeltaLights() } });
+                { "circles of confusion", shape.packed() ? 0u : 2u }, { "motion", shape.motionPlanes() },
+                { "lens filter width", kept }, { "motion filter", 3 * kept }, { "emission squares", analysis },
+                { "primary demand", kept }, { "point lights", 4 * shape.ofDeltaLights() } });
     }
 }
 
-Frame::Frame(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& planes, const FrameShape& wanted)
+Frame::Frame(
+    const device::Device& device, device::TimedQueue& queue, const PlaneLayout& planes, const FrameShape& wanted)
     : layout(planes)
     , shape(wanted)
     , distributed(shape.distributed)
@@ -113,12 +114,15 @@ Frame::Frame(const device::Device& device, device::TimedQueue& queue, const Plan
     , receiverTimes(device, 0, "times of receivers")
     , primaryTaken(device, distributed ? planes.size : 0, "primary samples taken")
     , hits(device, distributed ? planes.size : 0, "hits")
-    , confusion(shape.packed() ? hits.part<float>(0, planes.size, "circles of confusion")
-                               : device::Buffer<float>(device, distributed ? 2 * planes.size : 0, "circles of confusion"))
+    , confusion(shape.packed()
+              ? hits.part<float>(0, planes.size, "circles of confusion")
+              : device::Buffer<float>(device, distributed ? 2 * planes.size : 0, "circles of confusion"))
     , motion(device, shape.motionPlanes() * planes.size, "motion")
-    , lensWidth(shape.lean ? pixelSize : device::Buffer<float>(device, distributed ? planes.size : 0, "lens filter width"))
-    , motionWidth(shape.packed() ? motion
-                                 : device::Buffer<float>(device, distributed ? shape.kept() * planes.size : 0, "motion filter width"))
+    , lensWidth(
+          shape.lean ? pixelSize : device::Buffer<float>(device, distributed ? planes.size : 0, "lens filter width"))
+    , motionWidth(shape.packed()
+              ? motion
+              : device::Buffer<float>(device, distributed ? shape.kept() * planes.size : 0, "motion filter width"))
     , motionDirection(shape.packed()
               ? motion
               : device::Buffer<float>(device, distributed ? shape.kept() * 2 * planes.size : 0, "motion direction"))
@@ -163,17 +167,21 @@ void Frame::clear(device::TimedQueue& queue)
 bool TermShape::holds(const TermShape& other) const
 {
     return sums >= other.sums && values >= other.values && extremes >= other.extremes && analysed >= other.analysed
-        && distributed >= other.distributed && published >= other.published && lean == other.lean && light == other.light;
+        && distributed >= other.distributed && published >= other.published && lean == other.lean
+        && light == other.light;
 }
 
 TermShape TermShape::with(const TermShape& other) const
 {
     return { std::max(sums, other.sums), std::max(values, other.values), std::max(extremes, other.extremes),
-        analysed || other.analysed, distributed || other.distributed, published || other.published,
-        lean || other.lean, light || other.light };
+        analysed || other.analysed, distributed || other.distributed, published || other.published, lean || other.lean,
+        light || other.light };
 }
 
-std::uint64_t TermShape::textureBytes() const { return distributed ? (shared::textureBits(packed(), light) + 7) / 8 : 0; }
+std::uint64_t TermShape::textureBytes() const
+{
+    return distributed ? (shared::textureBits(packed(), light) + 7) / 8 : 0;
+}
 
 std::uint64_t TermShape::valueBytes() const
 {
@@ -196,14 +204,16 @@ Term::Term(const device::Device& device, device::TimedQueue& queue, const Frame&
     : shape(planes)
     , sums(device, frame.layout.size * planes.sums, "sums")
     , value(device, frame.layout.size * planes.valueBytes() / sizeof(float), "value")
-    , taken(planes.lean ? frame.primaryTaken : device::Buffer<std::uint32_t>(device, frame.layout.size, "samples taken"))
+    , taken(
+          planes.lean ? frame.primaryTaken : device::Buffer<std::uint32_t>(device, frame.layout.size, "samples taken"))
     , extremes(device, frame.layout.size * planes.extremes, "slopes and distances")
     , texture(device, frame.layout.size * planes.textureBytes() / sizeof(float), "texture")
     , plain(device, planes.measured() * frame.layout.size, "plain mean")
     , squares(device, planes.measured() * frame.layout.size, "squares")
     , textureSquares(device, planes.packed() ? 0 : planes.measured() * frame.layout.size, "texture squares")
     , beta(planes.lean ? plain : device::Buffer<float>(device, planes.analysed ? frame.layout.size : 0, "filter width"))
-    , demand(planes.lean ? squares : device::Buffer<float>(device, planes.distributed ? frame.layout.size : 0, "demand"))
+    , demand(
+          planes.lean ? squares : device::Buffer<float>(device, planes.distributed ? frame.layout.size : 0, "demand"))
     , wanted(planes.packed() ? demand.part<std::uint32_t>(0, frame.layout.size, "samples wanted")
                              : device::Buffer<std::uint32_t>(device, frame.layout.size, "samples wanted"))
     , radiance(device, planes.published ? 3 * frame.layout.size : 0, "radiance of the term")
@@ -221,7 +231,8 @@ void Scratch::plan(device::MemoryPlan& plan, const PlaneLayout& layout, std::uin
             { "logarithms spread", spreadPlanes }, { "demand", 1 } });
 }
 
-Scratch::Scratch(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, std::uint32_t planes)
+Scratch::Scratch(
+    const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, std::uint32_t planes)
     : values(planes)
     , rowsFiltered(device, planes * layout.size, "rows filtered")
     , filtered(device, planes * layout.size, "filtered")
@@ -252,10 +263,11 @@ Scratch::Scratch(const device::Device& device, device::TimedQueue& queue, const 
     }
 }
 
-// Who lives when. Widths of a light: slopes 0, demand 3 (eroded slopes, then what is lit), logs 4, rowsSpread 2, spread 0, width 2;
-// of indirect light: slopes 0, width 2. Counts: motionWidth 1, ofAllTextures 5, demand 3, and, for one term after the other,
-// ofTexture 0, logs 4 (variance), and one plane of the gather's each: 0, 3 and 2. Filters of the image: the gather's, and
-// of lights logs 4 (visibility, then the direction of shadows' motion) and error 2.
+// Who lives when, each with its first plane. Widths of a light: slopes 0, demand 3 (eroded slopes, then what is lit),
+// logs 4, rowsSpread 2, spread 0, width 2; of indirect light: slopes 0, width 2. Counts: motionWidth 1, ofAllTextures
+// 5, demand 3, and, for one term after the other, ofTexture 0, logs 4 (variance), and one plane of the gather's each:
+// 0, 3 and 2. Filters of the image: the gather's, and of lights logs 4 (visibility, then the direction of shadows'
+// motion) and error 2.
 Scratch::Scratch(const device::Device& device, const PlaneLayout& layout, const device::Buffer<float>& memory)
     : values(3)
     , rowsFiltered(memory.part<float>(0, 3 * layout.size, "rows filtered"))

@@ -80,7 +80,8 @@ public:
     device::Buffer<std::uint32_t> hits; ///< those of them that met a surface
     /// Planes: least and largest signed radius of the circle of confusion, pixels; packed, the one nearest to 0, with hits.
     device::Buffer<float> confusion;
-    /// Planes: pixels that the surface moves while the shutter is open; largest difference; packed, one, see accumulate.h.
+    /// Planes: pixels that the surface moves while the shutter is open; largest difference; packed, one, see
+    /// accumulate.h.
     device::Buffer<float> motion;
     device::Buffer<float> lensWidth; ///< of the image's filter, see blurs() of distributed.cl; lean: in the place of pixelSize
     /// Likewise, of textures' filter; packed, in the place of motion and together.

@@ -11,8 +11,8 @@
 
 WEDGE_SHARED_BEGIN
 
-/// Bits of a term's texture and value. Of lights the value is a visibility, of indirect light the texture a reflectance: both are
-/// fractions. The other has any range.
+/// Bits of a term's texture and value. Of lights the value is a visibility, of indirect light the texture a reflectance:
+/// both are fractions. The other has any range.
 WEDGE_FN uint textureBits(uint packed, bool light)
 {
     return packed == 0u ? WEDGE_PLAIN_BITS : light ? WEDGE_COLOUR_BITS : WEDGE_FRACTION_BITS;

@@ -220,7 +220,8 @@ void SoftShadows::smoothedWidths()
         c_.scratch.rowsSpread, c_.scratch.spread);
     if (packed) {
         // Demands are not made yet, and slopes not eroded any more.
-        c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "luminanceOf", p, 1, WEDGE_COLOUR_BITS, term_.texture, c_.scratch.demand);
+        c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "luminanceOf", p, 1, WEDGE_COLOUR_BITS,
+            term_.texture, c_.scratch.demand);
     }
     c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "widths", p, 1, c_.scratch.logs, c_.scratch.spread,
         c_.frame.objectId, c_.frame.pixelSize, packed ? c_.scratch.demand : term_.sums, packed ? c_.scratch.width : term_.beta);

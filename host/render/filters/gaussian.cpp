@@ -49,11 +49,11 @@ void gaussianFilter(Passes& passes, const FilterRun& run, shared::FilterParams p
     const image::Window rows { columns.x0, std::max(0, window.y0 - reach), columns.x1, std::min(height, window.y1 + reach) };
     const std::string program = (frame.shape.packed() ? "packed_" : "") + run.program;
     setRectangle(params, rows);
-    passes.rows(run.pass, run.kind, program, "filterRows", params, WEDGE_BLOCK_PIXELS, value, beta,
-        frame.position, frame.normal, frame.objectId, scratch.rowsFiltered, scratch.rowsEffective);
+    passes.rows(run.pass, run.kind, program, "filterRows", params, WEDGE_BLOCK_PIXELS, value, beta, frame.position,
+        frame.normal, frame.objectId, scratch.rowsFiltered, scratch.rowsEffective);
     setRectangle(params, columns);
-    passes.rows(run.pass, run.kind, program, "filterColumns", params, WEDGE_BLOCK_PIXELS, scratch.rowsFiltered,
-        beta, frame.position, frame.normal, frame.objectId, scratch.rowsEffective, filtered, scratch.effective);
+    passes.rows(run.pass, run.kind, program, "filterColumns", params, WEDGE_BLOCK_PIXELS, scratch.rowsFiltered, beta,
+        frame.position, frame.normal, frame.objectId, scratch.rowsEffective, filtered, scratch.effective);
 }
 
 } // namespace wedge::render
