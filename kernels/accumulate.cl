@@ -6,6 +6,21 @@
 #include "shared/camera.h"
 #include "shared/defocus.h"
 
+#ifdef WEDGE_MOTION
+/// What the first samples of a light tell of its shadows' motions: sums of x, y, squared lengths and ones.
+WEDGE_FN void storeShadows(WaveParams wave, WavePixel p, uint pixels, __global float* extremes, const float* sums)
+{
+    if (wave.packed == 0u) {
+        for (uint k = 0u; k < 4u; ++k) {
+            extremes[(2u + k) * pixels + p.i] += sums[k];
+        }
+        return;
+    }
+    const float count = fmax(sums[3], 1.0f), x = sums[0] / count, y = sums[1] / count;
+    storeOneMotion(wave, pixels, p.i, extremes, x, y, sqrt(fmax(sums[2] / count - x * x - y * y, 0.0f)));
+}
+#endif
+
 /// One area light.
 /// in      wave's planes: receivers, diffuse, specular, sums (as area_light.cl has them), slopes
 ///         exact: 1: unshadowed has the receivers' shading (wave_light.cl); 0: it is that of their samples
@@ -31,6 +46,7 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
     receivers.planeSize = wave.planeSize;
     receivers.receivers = wave.receivers;
     const uint size = wave.planeSize, pixels = frame.planeSize;
+    const TermPlanes planes = WEDGE_TERM_ARGUMENTS(true);
     const uint total = newTermSamples(wave, p.i, termTaken, termWanted);
     const bool measures = (wave.omits & WEDGE_OMITS_ANALYSIS) == 0u, all = (wave.omits & WEDGE_OMITS_EXTREMES) == 0u;
     // Packed, there is none before.
@@ -39,6 +55,9 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
     float weight = 0.0f, specularWeight = 0.0f;
     const bool weighed = total < p.count && wave.published == 0u
         && meanWeights(wave, p, total, objectId, diffuse, specular, sums, &weight, &specularWeight);
+#ifdef WEDGE_MOTION
+    float shadows[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
+#endif
     bool known = true;
     TermSums sum = noTermSums((float)p.count);
     for (uint k = 0u; k < p.count; ++k) {
@@ -79,8 +98,8 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
         sMin = slopes[r] > 0.0f ? fmin(sMin, slopes[r]) : sMin;
         sMax = fmax(sMax, slopes[size + r]);
 #ifdef WEDGE_MOTION
-        for (uint plane = 2u; measures && plane < 6u; ++plane) {
-            extremes[plane * pixels + p.i] += slopes[plane * size + r];
+        for (uint plane = 0u; measures && plane < 4u; ++plane) {
+            shadows[plane] += slopes[(2u + plane) * size + r];
         }
 #endif
         if (wave.published != 0u) {
@@ -95,14 +114,19 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
     }
     const float plainWeight = (float)loadHits(hits, p.i, wave.packed);
     const Vec3 weights = wave.published != 0u ? vec3(plainWeight, plainWeight, plainWeight)
-                                              : vecScale(loadColour(texture, pixels, p.i, wave.packed), (float)termTaken[p.i]);
-    storeTermSums(wave, p, pixels, WEDGE_TERM_ARGUMENTS, termTaken[p.i], total, (float)loadHits(hits, p.i, wave.packed), weights, &sum);
+                                              : vecScale(loadColour(texture, pixels, p.i, planes.textureBits), (float)termTaken[p.i]);
+    storeTermSums(wave, p, pixels, planes, termTaken[p.i], total, (float)loadHits(hits, p.i, wave.packed), weights, &sum);
     storeExtreme(wave, p, pixels, plain, extremes, sMin < INFINITY ? sMin : 0.0f);
     if (measures && all) {
         extremes[pixels + p.i] = sMax;
     }
+#ifdef WEDGE_MOTION
+    if (measures) {
+        storeShadows(wave, p, pixels, extremes, shadows);
+    }
+#endif
     if ((wave.omits & WEDGE_OMITS_LAYERS) == 0u) {
-        weightOf[p.i] = luminance(loadColour(texture, pixels, p.i, wave.packed));
+        weightOf[p.i] = luminance(loadColour(texture, pixels, p.i, planes.textureBits));
         samples[p.i] += total;
         termTaken[p.i] += total;
     }
@@ -146,6 +170,7 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient, 
         return;
     }
     const uint size = wave.planeSize, pixels = frame.planeSize;
+    const TermPlanes planes = WEDGE_TERM_ARGUMENTS(false);
     const uint total = newTermSamples(wave, p.i, termTaken, termWanted);
     const bool measures = (wave.omits & WEDGE_OMITS_ANALYSIS) == 0u, all = (wave.omits & WEDGE_OMITS_EXTREMES) == 0u;
     float nearest = measures && all && extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY;
@@ -176,8 +201,9 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient, 
     const float counted = wave.published != 0u ? (float)loadHits(hits, p.i, wave.packed)
         : p.before > 0u                        ? (float)loadHits(hits, p.i, wave.packed) / (float)p.before * (float)termTaken[p.i]
                                                : 0.0f;
-    const Vec3 known = vecMad(vecScale(floors, counted), loadColour(texture, pixels, p.i, wave.packed), own * (float)termTaken[p.i]);
-    storeTermSums(wave, p, pixels, WEDGE_TERM_ARGUMENTS, termTaken[p.i], total, (float)loadHits(hits, p.i, wave.packed), known, &sum);
+    const Vec3 before = loadColour(texture, pixels, p.i, planes.textureBits);
+    const Vec3 known = vecMad(vecScale(floors, counted), before, own * (float)termTaken[p.i]);
+    storeTermSums(wave, p, pixels, planes, termTaken[p.i], total, (float)loadHits(hits, p.i, wave.packed), known, &sum);
     storeExtreme(wave, p, pixels, plain, extremes, all ? (nearest < INFINITY ? nearest : 0.0f) : inverse);
     if (measures && all) {
         extremes[pixels + p.i] = farthest;
@@ -195,7 +221,8 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient, 
 /// in out  of pixels: means of position, normal, pixelSize, distance, gloss, diffuse, specular, emission, emissionSquares
 ///         (squared luminance); objectId (0:
 ///         no surface, WEDGE_MIXED: several objects); hits; confusion (planes: least and largest signed radius of
-///         the circle of confusion, pixels); motion (planes: mean x, mean y, largest difference from the mean's start);
+///         the circle of confusion, pixels); motion (planes: mean x, mean y, largest difference from the mean; packed:
+///         see accumulate.h);
 ///         rays, pathRays; taken
 __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParams camera,
                                  __global const uint* restrict pixelFirst, __global const uint* restrict pixelCount,
@@ -284,7 +311,8 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
     storeHits(hitsOf, p.i, wave.packed, (uint)hits + (uint)hit);
     objectOf[p.i] = object;
     storeMean(positionOf, pixels, p.i, hits, at, hit);
-    storeVec(normalOf, pixels, p.i, vecNormalize(vecMad(facing, loadVec(normalOf, pixels, p.i), hits)));
+    const Vec3 faced = loadNormal(normalOf, pixels, p.i, wave.packed);
+    storeNormal(normalOf, pixels, p.i, wave.packed, vecNormalize(vecMad(facing, faced, hits)));
     if (measures && wave.packed != 0u) {
         storeShort(pixelSizeOf, pixels, p.i, 0u, edge / hit);
         storeShort(pixelSizeOf, pixels, p.i, 1u, exponent / hit);
@@ -298,11 +326,21 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
     if ((wave.omits & WEDGE_OMITS_MOTION) != 0u) {
         return;
     }
-    const float meanX = meanWith(motionOf[p.i], hits, moveX, hit), meanY = meanWith(motionOf[pixels + p.i], hits, moveY, hit);
-    float spread = motionOf[2u * pixels + p.i];
+    const bool packed = wave.packed != 0u;
+    const float hadX = packed ? loadShort(motionOf, pixels, p.i, 0u) : motionOf[p.i];
+    const float hadY = packed ? loadShort(motionOf, pixels, p.i, 1u) : motionOf[pixels + p.i];
+    if (packed && hadX == INFINITY) {
+        return;
+    }
+    const float meanX = meanWith(hadX, hits, moveX, hit), meanY = meanWith(hadY, hits, moveY, hit);
+    float spread = packed ? 0.0f : motionOf[2u * pixels + p.i];
     for (uint r = p.first; r < p.first + p.count; ++r) {
         const float dx = motion[r] - meanX, dy = motion[size + r] - meanY;
         spread = objectId[r] != 0u ? fmax(spread, sqrt(dx * dx + dy * dy)) : spread;
+    }
+    if (packed) {
+        storeOneMotion(wave, pixels, p.i, motionOf, meanX, meanY, spread);
+        return;
     }
     motionOf[p.i] = meanX;
     motionOf[pixels + p.i] = meanY;

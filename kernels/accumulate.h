@@ -7,10 +7,13 @@
 // As published (wave.published) E is the plain mean, that of lights holds the light's form factor (5.14), k the lobe
 // towards its centre (5.20), and the term's radiance L is kept apart.
 //
-// Packed planes (wave.packed) hold k and E in 47 bits each (packed_planes.h), and what one wave alone measures in 16: in
-// `plain` the factoring error (distributed.cl) and, after it, the one of the extremes that there is; in `squares` the
-// standard deviations of a primary sample's radiance and of its texture. Likewise pixelSize holds the gloss, too, and hits, after
-// these, the signed radius nearest to 0 of the circles of confusion.
+// Packed planes (wave.packed) hold of k and E the one that is a fraction in 32 bits and the other in 47
+// (packed_planes.h), normals in one plane, and what one wave alone measures in 16 bits: in `plain` the factoring error
+// (distributed.cl) and, after it, the one of the extremes that there is; in `squares` the standard deviations of a
+// primary sample's radiance and of its texture. Likewise pixelSize holds the gloss, too, and hits, after these, the
+// signed radius nearest to 0 of the circles of confusion. Motions are the mean's two numbers, the first of which is
+// infinite where the pixel's motions differ (storeOneMotion): of surfaces in `motion`, of a light's shadows in
+// `extremes`.
 #ifndef WEDGE_ACCUMULATE_H
 #define WEDGE_ACCUMULATE_H
 
@@ -111,6 +114,7 @@ WEDGE_FN void addSamples(TermSums* s, Vec3 l, float irradiance, Vec3 weighted, V
 typedef struct {
     __global float *texture, *value, *plain, *squares, *textureSquares;
     __global float* radiance; ///< of the term alone, as published
+    uint textureBits, valueBits;
 } TermPlanes;
 
 WEDGE_FN float weightedMean(float mean, float known, float weighted, float weights)
@@ -138,13 +142,14 @@ WEDGE_FN void storeTermSums(WaveParams wave, WavePixel p, uint pixels, TermPlane
     const float before = (float)p.before;
     // Receivers that took samples, misses included: samples are shared evenly.
     const float had = (float)min(taken, p.before), have = (float)min(total, p.count);
-    Vec3 e = loadColour(planes.value, pixels, p.i, wave.packed), t = loadColour(planes.texture, pixels, p.i, wave.packed);
+    Vec3 e = loadColour(planes.value, pixels, p.i, planes.valueBits);
+    Vec3 t = loadColour(planes.texture, pixels, p.i, planes.textureBits);
     e = vec3(weightedMean(e.x, known.x, s->weighted.x, s->weights.x), weightedMean(e.y, known.y, s->weighted.y, s->weights.y),
              weightedMean(e.z, known.z, s->weighted.z, s->weights.z));
     t = vec3(meanWith(t.x, before, s->texture.x, s->textures), meanWith(t.y, before, s->texture.y, s->textures),
              meanWith(t.z, before, s->texture.z, s->textures));
-    storeColour(planes.value, pixels, p.i, wave.packed, e);
-    storeColour(planes.texture, pixels, p.i, wave.packed, t);
+    storeColour(planes.value, pixels, p.i, planes.valueBits, e);
+    storeColour(planes.texture, pixels, p.i, planes.textureBits, t);
     if (wave.packed != 0u) {
         if ((wave.omits & WEDGE_OMITS_ANALYSIS) == 0u) {
             storeMeasured(p, pixels, planes, t, e, have, s);
@@ -174,12 +179,16 @@ WEDGE_FN uint newTermSamples(WaveParams wave, uint i, __global const uint* taken
     __global const uint *restrict termWanted, __global uint *restrict termTaken, __global float *restrict texture,      \
         __global float *restrict value, __global float *restrict plain, __global float *restrict squares,               \
         __global float *restrict textureSquares, __global float *restrict termRadiance, __global float *restrict extremes
-#define WEDGE_TERM_ARGUMENTS termPlanes(texture, value, plain, squares, textureSquares, termRadiance)
+/// light: of a light; false: of indirect light.
+#define WEDGE_TERM_ARGUMENTS(light) \
+    termPlanes(wave.packed, light, texture, value, plain, squares, textureSquares, termRadiance)
 
-WEDGE_FN TermPlanes termPlanes(__global float* texture, __global float* value, __global float* plain, __global float* squares,
-                               __global float* textureSquares, __global float* radiance)
+WEDGE_FN TermPlanes termPlanes(uint packed, bool light, __global float* texture, __global float* value, __global float* plain,
+                               __global float* squares, __global float* textureSquares, __global float* radiance)
 {
     TermPlanes planes;
+    planes.textureBits = textureBits(packed, light);
+    planes.valueBits = valueBits(packed, light);
     planes.texture = texture;
     planes.value = value;
     planes.plain = plain;
@@ -219,6 +228,13 @@ WEDGE_FN bool meanWeights(WaveParams wave, WavePixel p, uint total, __global con
     *weight = reflected > 0.0f ? *weight / reflected : 0.0f;
     *specularWeight = mirrored > 0.0f ? *specularWeight / mirrored : 0.0f;
     return known > 0.0f;
+}
+
+/// A mean motion as packed planes have it. differing: length of a difference between the mean and what it is made of.
+WEDGE_FN void storeOneMotion(WaveParams wave, uint pixels, uint i, __global float* plane, float x, float y, float differing)
+{
+    const bool one = differing <= wave.oneVelocity * sqrt(x * x + y * y);
+    storePair(plane, pixels, i, one ? x : INFINITY, one ? y : 0.0f);
 }
 
 /// The one extreme that widths are made with.

@@ -132,15 +132,14 @@ __kernel void spreadColumns(AnalysisParams p, uint planes, __global const float*
     }
 }
 
-/// The luminance of a texture (3 planes): what widths() takes for the sums of a light's unshadowed samples.
-/// packed: as of packed_planes.h.
-__kernel void luminanceOf(AnalysisParams p, uint packed, __global const float* restrict image, __global float* restrict out)
+/// The luminance of a texture: what widths() takes for the sums of a light's unshadowed samples. bits: WEDGE_*_BITS.
+__kernel void luminanceOf(AnalysisParams p, uint bits, __global const float* restrict image, __global float* restrict out)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
     if (x < p.x1 && y < p.y1) {
         const uint i = pixelIndex(x, y, p.stride);
-        out[i] = luminance(loadColour(image, p.planeSize, i, packed));
+        out[i] = luminance(loadColour(image, p.planeSize, i, bits));
     }
 }
 

@@ -1,6 +1,7 @@
 // The image-space filters of lens and shutter (thesis 5.33, B.1): Gaussians around each pixel, as wide as what it shows is
 // blurred already. A pair of pixels is weighted by the narrower of both kernels, so that what is sharp does not leak into
 // what is blurred.
+#include "distributed_pixel.h"
 #include "pixel.h"
 #include "shared/distributed.h"
 
@@ -58,15 +59,50 @@ WEDGE_FN uint pixelAlong(DistributedParams p, uint x, uint y, uint i, float dx, 
     return px < 0 || py < 0 || px >= (int)p.width || py >= (int)p.height ? i : pixelIndex((uint)px, (uint)py, p.stride);
 }
 
-/// Weight of the pixel at j, k steps along the motion of that at i: 0 for another motion.
-WEDGE_FN float motionWeight(DistributedParams p, uint i, uint j, int k, __global const float* along,
-                            __global const float* directions)
+/// A pixel's filter along its motion, of that standard deviation and direction.
+typedef struct {
+    float sigma, x, y;
+} MotionBlur;
+
+/// As distributed.cl stores them: packed, `directions` have it all.
+WEDGE_FN MotionBlur motionBlur(DistributedParams p, uint i, __global const float* along, __global const float* directions)
 {
-    const float turn = directions[i] * directions[j] + directions[p.planeSize + i] * directions[p.planeSize + j];
-    return j != i && turn > WEDGE_SAME_DIRECTION ? blurWeight(along[i], along[j], fabs((float)k)) : 0.0f;
+    MotionBlur b;
+    if (p.packed == 0u) {
+        b.sigma = along[i];
+        b.x = directions[i];
+        b.y = directions[p.planeSize + i];
+        return b;
+    }
+    b.x = loadShort(directions, p.planeSize, i, 0u);
+    b.y = loadShort(directions, p.planeSize, i, 1u);
+    b.sigma = sqrt(b.x * b.x + b.y * b.y);
+    b.x = b.sigma > 0.0f ? b.x / b.sigma : 1.0f;
+    b.y = b.sigma > 0.0f ? b.y / b.sigma : 0.0f;
+    return b;
 }
 
-/// Along the motion; channels: planes, 1 or 3.
+/// Weight of a pixel k steps along the motion of another: 0 for another motion.
+WEDGE_FN float motionWeight(MotionBlur here, MotionBlur there, int k)
+{
+    const float turn = here.x * there.x + here.y * there.y;
+    return turn > WEDGE_SAME_DIRECTION ? blurWeight(here.sigma, there.sigma, fabs((float)k)) : 0.0f;
+}
+
+/// What is filtered along motions: one plane, or a term's texture.
+WEDGE_FN void loadChannels(DistributedParams p, uint channels, __global const float* in, uint i, float* out)
+{
+    if (channels == 1u) {
+        out[0] = in[i];
+        return;
+    }
+    const Vec3 k = loadTexture(p, in, i);
+    out[0] = k.x;
+    out[1] = k.y;
+    out[2] = k.z;
+}
+
+/// Along the motion; channels: 1, or 3 of a term's texture.
 __kernel void blurMotion(DistributedParams p, uint channels, __global const float* restrict along,
                          __global const float* restrict directions, __global const float* restrict in,
                          __global float* restrict out)
@@ -76,20 +112,19 @@ __kernel void blurMotion(DistributedParams p, uint channels, __global const floa
         return;
     }
     const uint n = p.planeSize, i = pixelIndex(x, y, p.stride);
-    const float dx = directions[i], dy = directions[n + i];
-    const int reach = min((int)(WEDGE_BLUR_CUT * along[i]), WEDGE_MOTION_REACH);
-    float sum[3];
-    for (uint c = 0u; c < channels; ++c) {
-        sum[c] = in[c * n + i];
-    }
+    const MotionBlur here = motionBlur(p, i, along, directions);
+    const int reach = min((int)(WEDGE_BLUR_CUT * here.sigma), WEDGE_MOTION_REACH);
+    float sum[3], there[3];
+    loadChannels(p, channels, in, i, sum);
     float weights = 1.0f;
     for (int k = -reach; k <= reach; ++k) {
-        const uint j = pixelAlong(p, x, y, i, dx, dy, k);
-        const float w = motionWeight(p, i, j, k, along, directions);
+        const uint j = pixelAlong(p, x, y, i, here.x, here.y, k);
+        const float w = j != i ? motionWeight(here, motionBlur(p, j, along, directions), k) : 0.0f;
         if (w > 0.0f) {
             weights += w;
+            loadChannels(p, channels, in, j, there);
             for (uint c = 0u; c < channels; ++c) {
-                sum[c] += w * in[c * n + j];
+                sum[c] += w * there[c];
             }
         }
     }

@@ -6,16 +6,12 @@
 #include "shared/bsdf.h"
 #include "shared/distributed.h"
 
-/// The signed luminance of L - k E with plain means k and E.
+/// The signed luminance of L - k E with plain means k and E. Packed, it is in `plain` already.
 __kernel void factoringError(DistributedParams p, __global const float* restrict texture, __global const float* restrict value,
                              __global const float* restrict plain, __global float* restrict error)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
-    if (p.packed != 0u) {
-        error[i] = loadShort(plain, p.planeSize, i, 0u);
         return;
     }
     const Vec3 k = loadVec(texture, p.planeSize, i);
@@ -24,6 +20,7 @@ __kernel void factoringError(DistributedParams p, __global const float* restrict
 
 /// Narrows nothing and widens beta, metres, to what the lens has blurred already (5.18), (5.22); takes pixels out whose error
 /// is too large (beta = -1: they keep their own, and are nobody's neighbours).
+/// in   error; packed, the term's plain means, with which it lies
 __kernel void factoredWidths(DistributedParams p, __global const float* restrict error, __global const float* restrict confusion,
                              __global const float* restrict pixelSize, __global const uint* restrict objectId,
                              __global float* restrict beta)
@@ -38,7 +35,7 @@ __kernel void factoredWidths(DistributedParams p, __global const float* restrict
         for (int dx = -min((int)x, reach); dx <= min((int)(p.width - 1u - x), reach); ++dx) {
             const int j = (int)i + dy * (int)p.stride + dx;
             const bool same = objectId[j] == objectId[i];
-            sum += same ? error[j] : 0.0f;
+            sum += same ? loadNumber(error, p.planeSize, (uint)j, p.packed, 0u) : 0.0f;
             count += same ? 1.0f : 0.0f;
         }
     }
@@ -60,8 +57,8 @@ __kernel void splitVariance(DistributedParams p, __global const float* restrict 
     if (!pixelOf(p, &x, &y, &i)) {
         return;
     }
-    const Vec3 k = loadColour(texture, p.planeSize, i, p.packed);
-    const float mean = luminance(vecMul(k, loadColour(value, p.planeSize, i, p.packed))), t = luminance(k);
+    const Vec3 k = loadTexture(p, texture, i);
+    const float mean = luminance(vecMul(k, loadValue(p, value, i))), t = luminance(k);
     const float n = (float)taken[i];
     const float unbiased = n > 1.0f ? n / (n - 1.0f) : 0.0f;
     float all, spread;
@@ -142,12 +139,12 @@ __kernel void atLeast(DistributedParams p, float apart, float together, __global
     }
 }
 
-/// A term's colour out of its packed planes.
+/// A term's value out of its packed planes.
 __kernel void unpackImage(DistributedParams p, __global const float* restrict in, __global float* restrict out)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
-        storeVec(out, p.planeSize, i, loadColour(in, p.planeSize, i, 1u));
+        storeVec(out, p.planeSize, i, loadValue(p, in, i));
     }
 }
 
@@ -183,11 +180,29 @@ __kernel void limitStep(DistributedParams p, __global const uint* restrict taken
     }
 }
 
+/// The filter along a motion (mx, my) of n samples; one: all that the pixel shows has it. Returns the standard deviation, pixels.
+/// out  directions: 2 planes, a unit vector; packed, one plane of two numbers, times the standard deviation
+WEDGE_FN float storeBlur(DistributedParams p, uint i, bool one, float mx, float my, float length, float n,
+                         __global float* directions)
+{
+    const float h = 0.5f * length;
+    const float along = one ? p.shutterWidth * h * pow(n * h, -p.shutterExponent) : 0.0f;
+    const float x = one ? mx / length : 1.0f, y = one ? my / length : 0.0f;
+    if (p.packed != 0u) {
+        storePair(directions, p.planeSize, i, along * x, along * y);
+    } else {
+        directions[i] = x;
+        directions[p.planeSize + i] = y;
+    }
+    return along;
+}
+
 /// Standard deviations in pixels of the image-space filters: of the blur that all of a pixel has, else 0.
-/// out  lens, along (the motion), directions of that (2 planes, unit); lens alone where all is still
-__kernel void blurs(DistributedParams p, __global const float* restrict confusion, __global const float* restrict motion,
+/// out  lens, along (the motion), directions of that (2 planes, unit; packed, see storeBlur); lens alone where all is still.
+///      Directions may be in the place of packed motions: of each pixel those are read first.
+__kernel void blurs(DistributedParams p, __global const float* restrict confusion, __global const float* motion,
                     __global const uint* restrict taken, __global float* restrict lens, __global float* restrict along,
-                    __global float* restrict directions)
+                    __global float* directions)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -199,19 +214,18 @@ __kernel void blurs(DistributedParams p, __global const float* restrict confusio
     if (p.still != 0u) {
         return;
     }
-    const float mx = motion[i], my = motion[p.planeSize + i];
+    const bool packed = p.packed != 0u;
+    const float mx = loadNumber(motion, p.planeSize, i, p.packed, 0u);
+    const float my = packed ? loadShort(motion, p.planeSize, i, 1u) : motion[p.planeSize + i];
     const float length = sqrt(mx * mx + my * my);
-    const bool one = length >= p.leastRadius && motion[2u * p.planeSize + i] <= p.oneVelocity * length;
-    const float h = 0.5f * length;
-    along[i] = one ? p.shutterWidth * h * pow(n * h, -p.shutterExponent) : 0.0f;
-    directions[i] = one ? mx / length : 1.0f;
-    directions[p.planeSize + i] = one ? my / length : 0.0f;
+    const bool alike = packed ? length < INFINITY : motion[2u * p.planeSize + i] <= p.oneVelocity * length;
+    along[i] = storeBlur(p, i, alike && length >= p.leastRadius, mx, my, length, n, directions);
 }
 
 /// Standard deviations in pixels of the filter of a light's irradiance along its shadows' motion (B.2): where all that move
 /// move alike, else 0.
-/// in   shadows: slopes and sums of motions as area_light.cl has them; taken: the light's samples
-/// out  along, directions (2 planes, unit)
+/// in   shadows: slopes and sums of motions as area_light.cl has them, or packed motions; taken: the light's samples
+/// out  along, directions as blurs() has them
 __kernel void shadowBlurs(DistributedParams p, __global const float* restrict shadows, __global const uint* restrict taken,
                           __global const float* restrict beta, __global float* restrict along,
                           __global float* restrict directions)
@@ -221,16 +235,23 @@ __kernel void shadowBlurs(DistributedParams p, __global const float* restrict sh
         return;
     }
     const uint n = p.planeSize;
-    const float count = fmax(shadows[5u * n + i], 1.0f);
-    const float mx = shadows[2u * n + i] / count, my = shadows[3u * n + i] / count;
-    const float squared = mx * mx + my * my, length = sqrt(squared);
-    const float spread = sqrt(fmax(shadows[4u * n + i] / count - squared, 0.0f));
-    const bool one = length >= p.leastRadius && spread <= p.oneVelocity * length && beta[i] >= 0.0f;
-    const float h = 0.5f * length;
     const float samples = p.frames * (p.samples > 0.0f ? p.samples : fmax((float)taken[i], 1.0f));
-    along[i] = one ? p.shutterWidth * h * pow(samples * h, -p.shutterExponent) : 0.0f;
-    directions[i] = one ? mx / length : 1.0f;
-    directions[n + i] = one ? my / length : 0.0f;
+    float mx, my, length;
+    bool alike;
+    if (p.packed != 0u) {
+        mx = loadShort(shadows, n, i, 0u);
+        my = loadShort(shadows, n, i, 1u);
+        length = sqrt(mx * mx + my * my);
+        alike = length < INFINITY;
+    } else {
+        const float count = fmax(shadows[5u * n + i], 1.0f);
+        mx = shadows[2u * n + i] / count;
+        my = shadows[3u * n + i] / count;
+        const float squared = mx * mx + my * my;
+        length = sqrt(squared);
+        alike = sqrt(fmax(shadows[4u * n + i] / count - squared, 0.0f)) <= p.oneVelocity * length;
+    }
+    along[i] = storeBlur(p, i, alike && length >= p.leastRadius && beta[i] >= 0.0f, mx, my, length, samples, directions);
 }
 
 /// A light's visibility in one plane: what its filter averages. As published it is in the first one already.
@@ -241,10 +262,10 @@ __kernel void visibilityOf(DistributedParams p, __global const float* restrict t
     if (!pixelOf(p, &x, &y, &i)) {
         return;
     }
-    const Vec3 k = loadColour(texture, p.planeSize, i, p.packed);
+    const Vec3 k = loadTexture(p, texture, i);
     const float t = luminance(k);
     visibility[i] = p.published != 0u ? value[i]
-        : t > 0.0f                    ? luminance(vecMul(k, loadColour(value, p.planeSize, i, p.packed))) / t
+        : t > 0.0f                    ? luminance(vecMul(k, loadValue(p, value, i))) / t
                                       : 0.0f;
 }
 
@@ -253,7 +274,7 @@ WEDGE_FN Vec3 ownRadiance(DistributedParams p, uint i, __global const float* tex
                           __global const float* termRadiance)
 {
     return p.published != 0u ? loadVec(termRadiance, p.planeSize, i)
-                             : vecMul(loadColour(texture, p.planeSize, i, p.packed), loadColour(value, p.planeSize, i, p.packed));
+                             : vecMul(loadTexture(p, texture, i), loadValue(p, value, i));
 }
 
 /// radiance += a term: where it is taken apart filteredTexture filtered (p.values planes), elsewhere its own.
@@ -268,9 +289,12 @@ __kernel void addFilteredTerm(DistributedParams p, __global const float* restric
     }
     const uint n = p.planeSize;
     const Vec3 e = p.values == 3u ? loadVec(filtered, n, i) : vec3(filtered[i], filtered[i], filtered[i]);
-    const uint packed = p.plainTexture != 0u ? 0u : p.packed;
-    const Vec3 term = beta[i] >= 0.0f ? vecMul(loadColour(filteredTexture, n, i, packed), e)
-                                      : ownRadiance(p, i, texture, value, termRadiance);
+    Vec3 term;
+    if (beta[i] >= 0.0f) {
+        term = vecMul(p.plainTexture != 0u ? loadVec(filteredTexture, n, i) : loadTexture(p, filteredTexture, i), e);
+    } else {
+        term = ownRadiance(p, i, texture, value, termRadiance);
+    }
     storeVec(radiance, n, i, vecAdd(loadVec(radiance, n, i), term));
 }
 

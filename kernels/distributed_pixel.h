@@ -15,6 +15,17 @@ WEDGE_FN bool pixelOf(DistributedParams p, uint* x, uint* y, uint* i)
     return *x < p.x1 && *y < p.y1;
 }
 
+/// A term's texture and value; of a light its value has one plane where it is filtered.
+WEDGE_FN Vec3 loadTexture(DistributedParams p, __global const float* texture, uint i)
+{
+    return loadColour(texture, p.planeSize, i, textureBits(p.packed, p.values == 1u));
+}
+
+WEDGE_FN Vec3 loadValue(DistributedParams p, __global const float* value, uint i)
+{
+    return loadColour(value, p.planeSize, i, valueBits(p.packed, p.values == 1u));
+}
+
 /// Smallest radius of the pixel's circles of confusion in pixels; 0 where it is in focus somewhere.
 /// confusion: least and largest signed radius (2 planes; packed, with the hits).
 WEDGE_FN float leastConfusion(DistributedParams p, __global const float* confusion, uint i)

@@ -1,15 +1,19 @@
 // The image-space filter: a Gaussian of world-space standard deviation beta(x), as two one-dimensional passes.
 // Weights come from distances between the pixels' positions, so depth edges need no special case; neighbours of another
 // object or with another normal are left out. Distances are those in the plane parallel to a light, or, where the term is
-// of no light, plain ones. Each program that includes this sets WEDGE_GATHER_CHANNELS, the planes of value.
+// of no light, plain ones. Each program that includes this sets WEDGE_GATHER_CHANNELS, the planes of value. Those of
+// packed frames set WEDGE_GATHER_PACKED, too: normals are packed (packed_planes.h), and where nothing reads the
+// effective counts, WEDGE_GATHER_VALUE_ONLY. They are programs of their own since a test of a parameter in each tap
+// takes several times as long.
 //
 // in   value, beta (metres; 0: keep the pixel's own value, still a neighbour of others; negative: neither), position,
 //      normal, objectId, and for the second pass the first one's effective counts
-// out  filtered (like value), effective: (sum w)^2 / sum w^2, the number of equal samples that the gather amounts
-//      to, times that of the pass before
+// out  filtered (like value), effective: (sum w)^2 / sum w^2, the number of equal samples that the gather
+//      amounts to, times that of the pass before
 #ifndef WEDGE_GATHER_H
 #define WEDGE_GATHER_H
 
+#include "packed_planes.h"
 #include "shared/filter_params.h"
 #include "vector16.h"
 
@@ -29,6 +33,23 @@ typedef struct {
     float16 limit; ///< (cut beta)^2
     float16 radius;
 } GatherBlock;
+
+/// Normals of three planes, or of one that is packed.
+WEDGE_FN Vec3x16 loadNormalBlock(FilterParams p, __global const float* normal, int i)
+{
+#ifdef WEDGE_GATHER_PACKED
+    (void)p;
+    const int16 packed = as_int16(vload16(0, (__global const uint*)normal + i));
+    const float scale = 1.0f / WEDGE_NORMAL_UNITS;
+    Vec3x16 v;
+    v.x = convert_float16((packed << 22) >> 22) * scale;
+    v.y = convert_float16((packed << 12) >> 22) * scale;
+    v.z = convert_float16((packed << 2) >> 22) * scale;
+    return v;
+#else
+    return loadVecBlock(normal, p.planeSize, i);
+#endif
+}
 
 /// Squared distance between a pixel and its neighbour at offset d, as far as the light's shadow is concerned:
 /// d less its part along the light's normal (3.12), or, oblique, slid along the ray to the light's centre onto the
@@ -74,6 +95,16 @@ WEDGE_FN float16 radiusInPixels(FilterParams p, GatherBlock b, Vec3 step, float1
     return min16(max16(pixels, (float16)(1.0f)), (float16)((float)p.maxRadius));
 }
 
+WEDGE_FN void storeEffective(float16 count, __global float* effective)
+{
+#ifdef WEDGE_GATHER_VALUE_ONLY
+    (void)count;
+    (void)effective;
+#else
+    vstore16(count, 0, effective);
+#endif
+}
+
 typedef struct {
     float16 weight, squared;
     float16 channel[WEDGE_GATHER_CHANNELS];
@@ -86,7 +117,7 @@ WEDGE_FN void gatherTap(FilterParams p, GatherBlock b, int j, float steps, __glo
 {
     const uint16 object = loadIdBlock(objectId, j);
     const float16 betaThere = loadBlock(beta, j);
-    const Vec3x16 normalThere = loadVecBlock(normal, p.planeSize, j);
+    const Vec3x16 normalThere = loadNormalBlock(p, normal, j);
     const float16 squared = distance16(p, b.slant, sub16(loadVecBlock(position, p.planeSize, j), b.position));
     const int16 taken = (object == b.object) & (betaThere >= 0.0f) & (dot16(b.normal, normalThere) >= p.normalCosine)
         & (squared <= b.limit) & (steps <= b.radius);
@@ -123,12 +154,12 @@ WEDGE_FN void gatherLine(FilterParams p, uint x, uint y, int element, Vec3 step,
         for (uint c = 0u; c < WEDGE_GATHER_CHANNELS; ++c) {
             vstore16(own[c], 0, filtered + c * p.planeSize + i);
         }
-        vstore16(effectiveBefore, 0, effective + i);
+        storeEffective(effectiveBefore, effective + i);
         return;
     }
     b.beta = gathers ? b.beta : (float16)(1.0f);
     b.position = loadVecBlock(position, p.planeSize, i);
-    b.normal = loadVecBlock(normal, p.planeSize, i);
+    b.normal = loadNormalBlock(p, normal, i);
     b.slant = slantOf(p, b.position);
     b.scale = -WEDGE_HALF_LOG2E / (b.beta * b.beta);
     b.limit = p.cut * p.cut * b.beta * b.beta;
@@ -152,7 +183,7 @@ WEDGE_FN void gatherLine(FilterParams p, uint x, uint y, int element, Vec3 step,
         vstore16(gathers ? sum.channel[c] / sum.weight : own[c], 0, filtered + c * p.planeSize + i);
     }
     const float16 count = gathers ? sum.weight * sum.weight / sum.squared : (float16)(1.0f);
-    vstore16(effectiveBefore * count, 0, effective + i);
+    storeEffective(effectiveBefore * count, effective + i);
 }
 
 /// Along x. The padding of the rows holds objectId 0, so no tap has to ask where the row ends.
@@ -169,11 +200,11 @@ __kernel void filterRows(FilterParams p, __global const float* restrict value, _
     }
 }
 
-/// Along y.
+/// Along y. The effective counts may be in the place of those of the rows: of each block these are read first.
 __kernel void filterColumns(FilterParams p, __global const float* restrict value, __global const float* restrict beta,
                             __global const float* restrict position, __global const float* restrict normal,
-                            __global const uint* restrict objectId, __global const float* restrict effectiveRows,
-                            __global float* restrict filtered, __global float* restrict effective)
+                            __global const uint* restrict objectId, __global const float* effectiveRows,
+                            __global float* restrict filtered, __global float* effective)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);

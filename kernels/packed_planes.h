@@ -1,15 +1,18 @@
-// Planes of pixels that may be packed (shared/packed.h): terms of frames of one image have them.
+// Planes of pixels that may be packed (shared/packed.h): frames of one image have them.
 #ifndef WEDGE_PACKED_PLANES_H
 #define WEDGE_PACKED_PLANES_H
 
 #include "pixel.h"
 #include "shared/packed.h"
 
-/// A colour of three planes, or of one and a half.
-WEDGE_FN Vec3 loadColour(__global const float* planes, uint planeSize, uint i, uint packed)
+/// A colour of three planes, of one and a half, or of one.
+WEDGE_FN Vec3 loadColour(__global const float* planes, uint planeSize, uint i, uint bits)
 {
-    if (packed == 0u) {
+    if (bits == WEDGE_PLAIN_BITS) {
         return loadVec(planes, planeSize, i);
+    }
+    if (bits == WEDGE_FRACTION_BITS) {
+        return unpackFraction(((__global const uint*)planes)[i]);
     }
     PackedColour c;
     c.low = ((__global const uint*)planes)[i];
@@ -17,15 +20,34 @@ WEDGE_FN Vec3 loadColour(__global const float* planes, uint planeSize, uint i, u
     return unpackColour(c);
 }
 
-WEDGE_FN void storeColour(__global float* planes, uint planeSize, uint i, uint packed, Vec3 colour)
+WEDGE_FN void storeColour(__global float* planes, uint planeSize, uint i, uint bits, Vec3 colour)
 {
-    if (packed == 0u) {
+    if (bits == WEDGE_PLAIN_BITS) {
         storeVec(planes, planeSize, i, colour);
+        return;
+    }
+    if (bits == WEDGE_FRACTION_BITS) {
+        ((__global uint*)planes)[i] = packFraction(colour);
         return;
     }
     const PackedColour c = packColour(colour);
     ((__global uint*)planes)[i] = c.low;
     ((__global ushort*)(planes + planeSize))[i] = (ushort)c.high;
+}
+
+/// A unit vector of three planes, or of one.
+WEDGE_FN Vec3 loadNormal(__global const float* planes, uint planeSize, uint i, uint packed)
+{
+    return packed != 0u ? unpackNormal(((__global const uint*)planes)[i]) : loadVec(planes, planeSize, i);
+}
+
+WEDGE_FN void storeNormal(__global float* planes, uint planeSize, uint i, uint packed, Vec3 normal)
+{
+    if (packed != 0u) {
+        ((__global uint*)planes)[i] = packNormal(normal);
+    } else {
+        storeVec(planes, planeSize, i, normal);
+    }
 }
 
 /// One of two numbers in a plane: the first (which: 0) or the second of all pixels.
@@ -58,6 +80,13 @@ WEDGE_FN void storeHits(__global uint* hits, uint i, uint packed, uint count)
 WEDGE_FN void storeShort(__global float* plane, uint planeSize, uint i, uint which, float x)
 {
     ((__global ushort*)plane)[which * planeSize + i] = (ushort)packShort(x);
+}
+
+/// A vector on the image in one plane of two numbers.
+WEDGE_FN void storePair(__global float* plane, uint planeSize, uint i, float x, float y)
+{
+    storeShort(plane, planeSize, i, 0u, x);
+    storeShort(plane, planeSize, i, 1u, y);
 }
 
 #endif

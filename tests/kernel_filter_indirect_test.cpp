@@ -1,7 +1,9 @@
 // filter_indirect.cl and filter_variance.cl alone: the gather over plain distances, of three planes and of one.
+#include "kernels/shared/packed.h"
 #include "tests/filter_run.h"
 
 #include <algorithm>
+#include <bit>
 
 using namespace wedge;
 using namespace wedge::test;
@@ -203,5 +205,46 @@ TEST_CASE("on a smooth scene two passes over plain distances are close to the ga
                 CHECK(worst < 0.015);
                 CHECK(std::sqrt(effect) > 0.01);
             }
+    });
+}
+
+namespace {
+
+/// The normals as packed planes hold them, and that plane in the place of the three.
+void packNormals(FilterImage& plain, FilterImage& packed)
+{
+    everyPixel(plain, [&](int x, int y) {
+        const std::uint32_t bits = shared::packNormal(toShared(plain.normal.vector(x, y)));
+        packed.normal.at(x, y) = std::bit_cast<float>(bits);
+        plain.normal.setVector(x, y, toGlm(shared::unpackNormal(bits)));
+    });
+}
+
+} // namespace
+
+TEST_CASE("packed programs: what the others make of the same normals, without counts of three planes")
+{
+    onEveryDevice([](const device::Device& device) {
+        for (const Program& program : programs) {
+            CAPTURE(program.file);
+            FilterRun filter(device, {}, program.file), packedFilter(device, {}, "packed_" + program.file);
+            const bool counts = program.planes == 1;
+            for (const Shape shape : { Shape::Tilted, Shape::Steps, Shape::Rough }) {
+                FilterImage plain = unlit(61, 29, shape, 50, program.planes), packed = plain;
+                packNormals(plain, packed);
+                const FilterResult expected = filter(plain), found = packedFilter(packed);
+                int filtered = 0;
+                everyPixel(plain, [&](int x, int y) {
+                    CAPTURE(x);
+                    CAPTURE(y);
+                    for (std::size_t c = 0; c < static_cast<std::size_t>(program.planes); ++c) {
+                        REQUIRE(found.value.at(x, y, c) == doctest::Approx(expected.value.at(x, y, c)).epsilon(1e-5));
+                        filtered += found.value.at(x, y, c) != plain.value.at(x, y, c) ? 1 : 0;
+                    }
+                    REQUIRE(found.effective.at(x, y) == doctest::Approx(counts ? expected.effective.at(x, y) : -7.0f));
+                });
+                CHECK(filtered > 100);
+            }
+        }
     });
 }

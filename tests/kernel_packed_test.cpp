@@ -1,4 +1,5 @@
-// Colours and numbers in fewer bits (kernels/shared/packed.h), as C++: how exact they are, and what has no place in them.
+// Colours, directions and numbers in fewer bits (kernels/shared/packed.h), as C++: how exact they are, and what has no
+// place in them.
 #include "kernels/shared/packed.h"
 
 #include <doctest/doctest.h>
@@ -79,4 +80,97 @@ TEST_CASE("numbers: 8 bits of precision, signs and the whole range")
     CHECK(unpackShort(packShort(0.0f)) == 0.0f);
     CHECK(unpackShort(packShort(-1.0f)) == -1.0f);
     CHECK(unpackShort(packShort(infinity)) == infinity);
+}
+
+namespace {
+
+/// Allowed difference of a fraction whose largest channel is that: half a unit of 9 bits, or of the least exponent.
+float halfUnit(float largest) { return std::max(largest / 512.0f * 1.001f, 0x1p-25f); }
+
+} // namespace
+
+TEST_CASE("fractions: exact to 1/512 of the largest channel, down to the least unit")
+{
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> unit(0, 1), magnitude(-9, 4);
+    for (int k = 0; k < 20000; ++k) {
+        const float scale = k % 2 == 0 ? 1.0f : std::pow(10.0f, magnitude(random));
+        const Vec3 c = vec3(scale * unit(random), k % 3 == 0 ? 0.0f : scale * unit(random), scale * unit(random));
+        const Vec3 found = unpackFraction(packFraction(c));
+        const float allowed = halfUnit(std::max({ c.x, c.y, c.z }));
+        REQUIRE(std::fabs(found.x - c.x) <= allowed);
+        REQUIRE(std::fabs(found.y - c.y) <= allowed);
+        REQUIRE(std::fabs(found.z - c.z) <= allowed);
+        const Vec3 again = unpackFraction(packFraction(found));
+        REQUIRE(again.x == found.x);
+        REQUIRE(again.y == found.y);
+        REQUIRE(again.z == found.z);
+    }
+}
+
+TEST_CASE("fractions: black and powers of two are exact, what is just below them is near, grey stays grey")
+{
+    for (const float value : { 0.0f, 1.0f, 0.5f, 0.25f, 2.0f, 0x1p-24f, 0x1p-10f, 32768.0f }) {
+        const Vec3 found = unpackFraction(packFraction(vec3(value, value, value)));
+        CHECK(found.x == value);
+        CHECK(found.y == value);
+        CHECK(found.z == value);
+        for (const float below : { 0x1.fffffep-1f, 0.9995f, 0.999f, 0.998f }) {
+            const float near = unpackFraction(packFraction(vec3(0, value * below, 0))).y;
+            CHECK(std::fabs(near - value * below) <= halfUnit(value));
+        }
+    }
+    CHECK(packFraction(vec3(0, 0, 0)) == 0);
+    CHECK(unpackFraction(packFraction(vec3(1e-9f, 0, 1e-20f))).x == 0);
+    const Vec3 mixed = unpackFraction(packFraction(vec3(1, 1e-5f, 0.5f)));
+    CHECK(mixed.x == 1);
+    CHECK(mixed.y == 0);
+    CHECK(mixed.z == 0.5f);
+}
+
+TEST_CASE("fractions: what is negative or no number is 0, what is too large the largest there is")
+{
+    const Vec3 found = unpackFraction(packFraction(vec3(-1.0f, notANumber, 0.25f)));
+    CHECK(found.x == 0);
+    CHECK(found.y == 0);
+    CHECK(found.z == 0.25f);
+    for (const float huge : { 65408.0f, 65500.0f, 1e9f, infinity }) {
+        CHECK(unpackFraction(packFraction(vec3(1, huge, 0))).y == 65408.0f);
+    }
+}
+
+TEST_CASE("normals: each part to half a unit of 1/511, with its sign; no bits are no direction")
+{
+    std::mt19937 random(4);
+    std::normal_distribution<float> normal;
+    for (int k = 0; k < 20000; ++k) {
+        const Vec3 v = vecNormalize(vec3(normal(random), normal(random), k % 5 == 0 ? 0.0f : normal(random)));
+        const Vec3 found = unpackNormal(packNormal(v));
+        const float allowed = 0.5001f / 511.0f;
+        REQUIRE(std::fabs(found.x - v.x) <= allowed);
+        REQUIRE(std::fabs(found.y - v.y) <= allowed);
+        REQUIRE(std::fabs(found.z - v.z) <= allowed);
+        REQUIRE(vecDot(found, v) > 0.998f);
+        REQUIRE(packNormal(found) == packNormal(v));
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const float sign : { -1.0f, 1.0f }) {
+            const Vec3 v = vec3(axis == 0 ? sign : 0, axis == 1 ? sign : 0, axis == 2 ? sign : 0);
+            const Vec3 found = unpackNormal(packNormal(v));
+            CHECK(found.x == v.x);
+            CHECK(found.y == v.y);
+            CHECK(found.z == v.z);
+        }
+    }
+    CHECK(vecDot(unpackNormal(0), unpackNormal(0)) == 0);
+}
+
+TEST_CASE("terms: the fraction has the fewer bits, the other the more, and what is not packed all")
+{
+    for (const bool light : { false, true }) {
+        CHECK(textureBits(0, light) == WEDGE_PLAIN_BITS);
+        CHECK(valueBits(0, light) == WEDGE_PLAIN_BITS);
+        CHECK(textureBits(1, light) == (light ? WEDGE_COLOUR_BITS : WEDGE_FRACTION_BITS));
+        CHECK(valueBits(1, light) == (light ? WEDGE_FRACTION_BITS : WEDGE_COLOUR_BITS));
+    }
 }

@@ -36,19 +36,26 @@ void DistributedFrame::publishedCounts()
     });
 }
 
-void DistributedFrame::demandOf(Term& term, float rays)
+const device::Buffer<float>& DistributedFrame::motionWidth() const
+{
+    return c_.frame.shape.packed() ? c_.scratch.motionWidth : c_.frame.motionWidth;
+}
+
+void DistributedFrame::demandOf(Term& term, float rays, bool light)
 {
     shared::DistributedParams p = params(c_.full());
+    p.values = light ? 1 : 3;
     p.rays = rays;
     const Scratch& scratch = c_.scratch;
     c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "splitVariance", p, 1, term.texture, term.textureSquares,
         term.value, term.squares, c_.frame.primaryTaken, scratch.ofTexture, scratch.logs);
+    c_.passes.rows(
+        "counts", PassKind::Analysis, "distributed.cl", "addPlane", p, 1, scratch.ofTexture, scratch.ofAllTextures);
     gaussianFilter(c_.passes, { "filter of variance", PassKind::Analysis, "filter_variance.cl" },
         filterParams(c_.settings, c_.fullFrame, c_.full()), c_.full(), c_.frame, c_.scratch.logs, term.beta, c_.scratch,
         c_.scratch.filtered);
     c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "sampleDemand", p, 1, c_.scratch.filtered,
-        c_.scratch.effective, term.beta, c_.frame.lensWidth, c_.frame.motionWidth, term.demand);
-    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "addPlane", p, 1, scratch.ofTexture, scratch.ofAllTextures);
+        c_.scratch.effective, term.beta, c_.frame.lensWidth, motionWidth(), term.demand);
 }
 
 void DistributedFrame::demands()
@@ -64,11 +71,12 @@ void DistributedFrame::demands()
         c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "addPlane", p, 1, c_.scratch.demand,
             c_.scratch.ofAllTextures);
     }
-    eachTerm([&](Term& term, float rays) { demandOf(term, rays); });
+    std::size_t next = 0;
+    eachTerm([&](Term& term, float rays) { demandOf(term, rays, next++ < lights_.size()); });
     // Nothing but lens and shutter averages textures and what emits.
     c_.scratch.demand.fill(c_.passes.queue(), -1.0f);
     c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "sampleDemand", p, 1, c_.scratch.ofAllTextures,
-        c_.scratch.effective, c_.scratch.demand, c_.frame.lensWidth, c_.frame.motionWidth, c_.frame.primaryDemand);
+        c_.scratch.effective, c_.scratch.demand, c_.frame.lensWidth, motionWidth(), c_.frame.primaryDemand);
     const DistributedSettings& d = c_.settings.distributed;
     const auto atLeast = [&](float apart, float together, const Term& term, const device::Buffer<float>& least,
                              const device::Buffer<float>& demand) {

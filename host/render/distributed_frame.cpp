@@ -134,9 +134,10 @@ bool DistributedFrame::sample(const shared::FrameParams& frame, std::uint32_t la
     settings.sampler = samplerOf(c_);
     settings.published = c_.settings.method == Method::AxisAligned && c_.settings.distributed.published ? 1 : 0;
     if (c_.frame.shape.lean) {
-        settings.omits = WEDGE_OMITS_LAYERS | (c_.frame.shape.shutter ? 0u : WEDGE_OMITS_MOTION)
+        settings.omits = WEDGE_OMITS_LAYERS | (c_.frame.shape.ofMotion() == 1 ? 0u : WEDGE_OMITS_MOTION)
             | (slopes ? 0u : WEDGE_OMITS_ANALYSIS) | (slopes && c_.frame.shape.packed() ? WEDGE_OMITS_COUNTS : 0u);
         settings.packed = c_.frame.shape.packed() ? 1 : 0;
+        settings.oneVelocity = c_.settings.distributed.oneVelocity;
     }
     const std::vector<shared::WaveParams> waves = waves_.schedule(c_.passes, frame, camera_, c_.frame, settings, last);
     for (const shared::WaveParams& wave : waves) {
@@ -208,29 +209,35 @@ void DistributedFrame::widths()
     // The error of taking a term apart comes first: in lean frames widths take the place of what it is made of.
     for (std::size_t i = 0; i < terms_.size(); ++i) {
         Term& term = *terms_[i];
-        c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "factoringError", params(c_.full()), 1, term.texture,
-            term.value, term.plain, c_.scratch.error);
+        const bool packed = c_.frame.shape.packed();
+        const device::Buffer<float>& error = packed ? term.plain : c_.scratch.error;
+        if (!packed) {
+            c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "factoringError", params(c_.full()), 1,
+                term.texture, term.value, term.plain, error);
+        }
         if (i < lights_.size()) {
             lights_[i].widths();
         } else {
             paths_[i - lights_.size()].widths();
         }
-        const device::Buffer<float>& width = c_.frame.shape.packed() ? c_.scratch.width : term.beta;
-        c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "factoredWidths", params(c_.full()), 1, c_.scratch.error,
+        const device::Buffer<float>& width = packed ? c_.scratch.width : term.beta;
+        c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "factoredWidths", params(c_.full()), 1, error,
             c_.frame.confusion, c_.frame.pixelSize, c_.frame.objectId, width);
-        if (c_.frame.shape.packed()) {
+        if (packed) {
             c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "copyPlane", params(c_.full()), 1, width, term.beta);
         }
     }
-    blurWidths(static_cast<float>(c_.settings.spp));
+    // Packed motions are still means of which there will be more.
+    blurWidths(static_cast<float>(c_.settings.spp),
+        c_.frame.shape.packed() ? c_.scratch.motionDirection : c_.frame.motionDirection);
 }
 
-void DistributedFrame::blurWidths(float samples)
+void DistributedFrame::blurWidths(float samples, const device::Buffer<float>& directions)
 {
     shared::DistributedParams p = params(c_.full());
     p.samples = samples;
     c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "blurs", p, 1, c_.frame.confusion, c_.frame.motion,
-        c_.frame.primaryTaken, c_.frame.lensWidth, c_.frame.motionWidth, c_.frame.motionDirection);
+        c_.frame.primaryTaken, c_.frame.lensWidth, motionWidth(), directions);
 }
 
 void DistributedFrame::copy(const device::Buffer<float>& image, device::Buffer<float>& to)
@@ -240,9 +247,10 @@ void DistributedFrame::copy(const device::Buffer<float>& image, device::Buffer<f
 
 void DistributedFrame::addUnfiltered(device::Buffer<float>& direct, device::Buffer<float>& indirect)
 {
-    const shared::DistributedParams p = params(c_.full());
+    shared::DistributedParams p = params(c_.full());
     for (std::size_t i = 0; i < terms_.size(); ++i) {
         const Term& term = *terms_[i];
+        p.values = i < lights_.size() ? 1 : 3;
         c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "addTerm", p, 1, term.texture, term.value,
             term.radiance, i < lights_.size() ? direct : indirect);
     }
@@ -282,7 +290,7 @@ void DistributedFrame::filter()
         addUnfiltered(c_.frame.direct, c_.frame.indirect);
         return;
     }
-    blurWidths(0.0f);
+    blurWidths(0.0f, c_.frame.motionDirection);
     shared::DistributedParams p = params(c_.full());
     p.values = 1;
     for (SoftShadows& light : lights_) {

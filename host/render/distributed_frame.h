@@ -59,14 +59,16 @@ private:
     void widths();
     void publishedCounts();
     void demands();
-    void demandOf(Term& term, float rays);
+    void demandOf(Term& term, float rays, bool light);
     void counts();
     void limitStep();
     void startSums();
     void filter();
     void copy(const device::Buffer<float>& image, device::Buffer<float>& to);
     void addUnfiltered(device::Buffer<float>& direct, device::Buffer<float>& indirect);
-    void blurWidths(float samples);
+    void blurWidths(float samples, const device::Buffer<float>& directions);
+    /// What the motion's filters are made with: of packed frames for the analysis alone.
+    const device::Buffer<float>& motionWidth() const;
     void blur(device::Buffer<float>& image);
     shared::DistributedParams params(const image::Window& window) const;
     /// Calls f(term, rays of a sample) for each term.

@@ -1,6 +1,7 @@
 #include "host/render/frame.h"
 
 #include "kernels/shared/filter_params.h"
+#include "kernels/shared/packed.h"
 #include "kernels/shared/path.h"
 #include "kernels/shared/wave.h"
 
@@ -66,29 +67,30 @@ PlaneLayout::PlaneLayout(int imageWidth, int imageHeight)
 
 void Frame::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const FrameShape& shape)
 {
-    const std::uint64_t kept = shape.kept(), analysis = shape.ofAnalysis(), motion = shape.ofMotion();
+    const std::uint64_t kept = shape.kept(), analysis = shape.ofAnalysis();
     planPlanes(plan, layout,
-        { { "position", 3 }, { "normal", 3 }, { "origin", 3 * kept }, { "depth", kept }, { "pixel size", analysis },
-            { "diffuse", 3 * kept }, { "specular", 3 * kept }, { "emission", 3 }, { "gloss", shape.packed() ? 0 : analysis },
-            { "geometric normal", kept }, { "object id", 1 }, { "beauty", 3 * kept }, { "direct", 3 * kept },
-            { "direct noisy", 3 * kept }, { "indirect", 3 * kept }, { "indirect noisy", 3 * kept }, { "samples", kept },
-            { "indirect samples", kept } });
+        { { "position", 3 }, { "normal", shape.normalPlanes() }, { "origin", 3 * kept }, { "depth", kept },
+            { "pixel size", analysis }, { "diffuse", 3 * kept }, { "specular", 3 * kept }, { "emission", 3 },
+            { "gloss", shape.packed() ? 0 : analysis }, { "geometric normal", kept }, { "object id", 1 },
+            { "beauty", 3 * kept }, { "direct", 3 * kept }, { "direct noisy", 3 * kept }, { "indirect", 3 * kept },
+            { "indirect noisy", 3 * kept }, { "samples", kept }, { "indirect samples", kept } });
     plan.addItems("rays", rayCounters(layout, shape), 2 * 4);
     if (shape.distributed) {
         planPlanes(plan, layout,
             { { "primary samples taken", 1 }, { "primary samples wanted", shape.packed() ? 0u : 1u }, { "hits", 1 },
-                { "circles of confusion", shape.packed() ? 0u : 2u },
-                { "motion", 3 * motion }, { "lens filter width", kept }, { "motion filter", 3 * motion },
-                { "emission squares", analysis }, { "primary demand", kept }, { "point lights", 4 * shape.ofDeltaLights() } });
+                { "circles of confusion", shape.packed() ? 0u : 2u }, { "motion", shape.motionPlanes() },
+                { "lens filter width", kept }, { "motion filter", 3 * kept }, { "emission squares", analysis },
+                { "primary demand", kept }, { "point lights", 4 * shape.ofDeltaLights() } });
     }
 }
 
-Frame::Frame(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& planes, const FrameShape& wanted)
+Frame::Frame(
+    const device::Device& device, device::TimedQueue& queue, const PlaneLayout& planes, const FrameShape& wanted)
     : layout(planes)
     , shape(wanted)
     , distributed(shape.distributed)
     , position(device, 3 * planes.size, "position")
-    , normal(device, 3 * planes.size, "normal")
+    , normal(device, shape.normalPlanes() * planes.size, "normal")
     , origin(device, shape.kept() * 3 * planes.size, "origin")
     , depth(device, shape.kept() * planes.size, "depth")
     , pixelSize(device, shape.ofAnalysis() * planes.size, "pixel size")
@@ -112,12 +114,18 @@ Frame::Frame(const device::Device& device, device::TimedQueue& queue, const Plan
     , receiverTimes(device, 0, "times of receivers")
     , primaryTaken(device, distributed ? planes.size : 0, "primary samples taken")
     , hits(device, distributed ? planes.size : 0, "hits")
-    , confusion(shape.packed() ? hits.part<float>(0, planes.size, "circles of confusion")
-                               : device::Buffer<float>(device, distributed ? 2 * planes.size : 0, "circles of confusion"))
-    , motion(device, shape.ofMotion() * 3 * planes.size, "motion")
-    , lensWidth(shape.lean ? pixelSize : device::Buffer<float>(device, distributed ? planes.size : 0, "lens filter width"))
-    , motionWidth(device, shape.ofMotion() * planes.size, "motion filter width")
-    , motionDirection(device, shape.ofMotion() * 2 * planes.size, "motion direction")
+    , confusion(shape.packed()
+              ? hits.part<float>(0, planes.size, "circles of confusion")
+              : device::Buffer<float>(device, distributed ? 2 * planes.size : 0, "circles of confusion"))
+    , motion(device, shape.motionPlanes() * planes.size, "motion")
+    , lensWidth(
+          shape.lean ? pixelSize : device::Buffer<float>(device, distributed ? planes.size : 0, "lens filter width"))
+    , motionWidth(shape.packed()
+              ? motion
+              : device::Buffer<float>(device, distributed ? shape.kept() * planes.size : 0, "motion filter width"))
+    , motionDirection(shape.packed()
+              ? motion
+              : device::Buffer<float>(device, distributed ? shape.kept() * 2 * planes.size : 0, "motion direction"))
     , emissionSquares(device, distributed ? shape.ofAnalysis() * planes.size : 0, "emission squares")
     , primaryDemand(
           shape.lean ? emissionSquares : device::Buffer<float>(device, distributed ? planes.size : 0, "primary demand"))
@@ -159,31 +167,32 @@ void Frame::clear(device::TimedQueue& queue)
 bool TermShape::holds(const TermShape& other) const
 {
     return sums >= other.sums && values >= other.values && extremes >= other.extremes && analysed >= other.analysed
-        && distributed >= other.distributed && published >= other.published && lean == other.lean;
+        && distributed >= other.distributed && published >= other.published && lean == other.lean
+        && light == other.light;
 }
 
 TermShape TermShape::with(const TermShape& other) const
 {
     return { std::max(sums, other.sums), std::max(values, other.values), std::max(extremes, other.extremes),
-        analysed || other.analysed, distributed || other.distributed, published || other.published,
-        lean || other.lean };
+        analysed || other.analysed, distributed || other.distributed, published || other.published, lean || other.lean,
+        light || other.light };
 }
 
-namespace {
-
-/// Elements of so many planes of colours: packed ones have 6 bytes of 12.
-std::uint64_t colourSize(const PlaneLayout& layout, const TermShape& shape, std::uint64_t planes)
+std::uint64_t TermShape::textureBytes() const
 {
-    return layout.size * planes / (shape.packed() ? 2 : 1);
+    return distributed ? (shared::textureBits(packed(), light) + 7) / 8 : 0;
 }
 
-} // namespace
+std::uint64_t TermShape::valueBytes() const
+{
+    return packed() ? (shared::valueBits(1, light) + 7) / 8 : std::uint64_t { values } * sizeof(float);
+}
 
 void Term::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const TermShape& shape)
 {
     const std::uint64_t several = shape.distributed ? 1 : 0, kept = shape.lean ? 0 : 1, plain = shape.packed() ? 0 : 1;
-    plan.addItems("value", colourSize(layout, shape, shape.values), 4);
-    plan.addItems("texture", colourSize(layout, shape, several * 3), 4);
+    plan.addItems("value", layout.size, shape.valueBytes());
+    plan.addItems("texture", layout.size, shape.textureBytes());
     planPlanes(plan, layout,
         { { "sums", shape.sums }, { "samples taken", kept }, { "slopes and distances", shape.extremes },
             { "plain mean", shape.measured() }, { "squares", shape.measured() },
@@ -194,15 +203,17 @@ void Term::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const TermS
 Term::Term(const device::Device& device, device::TimedQueue& queue, const Frame& frame, const TermShape& planes)
     : shape(planes)
     , sums(device, frame.layout.size * planes.sums, "sums")
-    , value(device, colourSize(frame.layout, planes, planes.values), "value")
-    , taken(planes.lean ? frame.primaryTaken : device::Buffer<std::uint32_t>(device, frame.layout.size, "samples taken"))
+    , value(device, frame.layout.size * planes.valueBytes() / sizeof(float), "value")
+    , taken(
+          planes.lean ? frame.primaryTaken : device::Buffer<std::uint32_t>(device, frame.layout.size, "samples taken"))
     , extremes(device, frame.layout.size * planes.extremes, "slopes and distances")
-    , texture(device, colourSize(frame.layout, planes, planes.distributed ? 3 : 0), "texture")
+    , texture(device, frame.layout.size * planes.textureBytes() / sizeof(float), "texture")
     , plain(device, planes.measured() * frame.layout.size, "plain mean")
     , squares(device, planes.measured() * frame.layout.size, "squares")
     , textureSquares(device, planes.packed() ? 0 : planes.measured() * frame.layout.size, "texture squares")
     , beta(planes.lean ? plain : device::Buffer<float>(device, planes.analysed ? frame.layout.size : 0, "filter width"))
-    , demand(planes.lean ? squares : device::Buffer<float>(device, planes.distributed ? frame.layout.size : 0, "demand"))
+    , demand(
+          planes.lean ? squares : device::Buffer<float>(device, planes.distributed ? frame.layout.size : 0, "demand"))
     , wanted(planes.packed() ? demand.part<std::uint32_t>(0, frame.layout.size, "samples wanted")
                              : device::Buffer<std::uint32_t>(device, frame.layout.size, "samples wanted"))
     , radiance(device, planes.published ? 3 * frame.layout.size : 0, "radiance of the term")
@@ -220,7 +231,8 @@ void Scratch::plan(device::MemoryPlan& plan, const PlaneLayout& layout, std::uin
             { "logarithms spread", spreadPlanes }, { "demand", 1 } });
 }
 
-Scratch::Scratch(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, std::uint32_t planes)
+Scratch::Scratch(
+    const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, std::uint32_t planes)
     : values(planes)
     , rowsFiltered(device, planes * layout.size, "rows filtered")
     , filtered(device, planes * layout.size, "filtered")
@@ -232,8 +244,9 @@ Scratch::Scratch(const device::Device& device, device::TimedQueue& queue, const 
     , demand(device, layout.size, "demand")
     , slopes(rowsSpread)
     , width(rowsSpread)
-    , texture(rowsSpread)
     , error(effective)
+    , motionWidth(device, 0, "motion filter width")
+    , motionDirection(device, 0, "motion direction")
     , ofTexture(rowsSpread)
     , ofAllTextures(spread)
     , bounds(device, 6 * WEDGE_EXTENT_STRIPES, "visible bounds")
@@ -250,26 +263,28 @@ Scratch::Scratch(const device::Device& device, device::TimedQueue& queue, const 
     }
 }
 
-// Who lives when. Analysis of a light: slopes, demand (eroded slopes, then what is lit), logs, rowsSpread, spread, width and
-// error; variances: logs, ofTexture, ofAllTextures and one plane of each of the gather's. Filters of the image: the gather's,
-// texture, spread (a light's visibility), and, for shadows' motion, error and logs.
-Scratch::Scratch(
-    const device::Device& device, const PlaneLayout& layout, const FrameShape& frame, const device::Buffer<float>& memory)
+// Who lives when, each with its first plane. Widths of a light: slopes 0, demand 3 (eroded slopes, then what is lit),
+// logs 4, rowsSpread 2, spread 0, width 2; of indirect light: slopes 0, width 2. Counts: motionWidth 1, ofAllTextures
+// 5, demand 3, and, for one term after the other, ofTexture 0, logs 4 (variance), and one plane of the gather's each:
+// 0, 3 and 2. Filters of the image: the gather's, and of lights logs 4 (visibility, then the direction of shadows'
+// motion) and error 2.
+Scratch::Scratch(const device::Device& device, const PlaneLayout& layout, const device::Buffer<float>& memory)
     : values(3)
     , rowsFiltered(memory.part<float>(0, 3 * layout.size, "rows filtered"))
     , filtered(memory.part<float>(3 * layout.size, 3 * layout.size, "filtered"))
-    , rowsEffective(memory.part<float>(6 * layout.size, layout.size, "effective count of rows"))
-    , effective(memory.part<float>(7 * layout.size, layout.size, "effective count"))
-    , logs(memory.part<float>(1 * layout.size, 2 * layout.size, "logarithms"))
-    , rowsSpread(memory.part<float>(3 * layout.size, 2 * layout.size, "logarithms spread along rows"))
-    , spread(memory.part<float>(5 * layout.size, 2 * layout.size, "logarithms spread"))
-    , demand(memory.part<float>(0, layout.size, "demand"))
-    , slopes(memory.part<float>(3 * layout.size, layout.size, "slopes and distances"))
-    , width(memory.part<float>(4 * layout.size, layout.size, "filter width"))
-    , texture(memory.part<float>(6 * layout.size, frame.shutter ? 3 * layout.size : 0, "texture"))
-    , error(effective)
-    , ofTexture(memory.part<float>(2 * layout.size, layout.size, "variance of texture"))
-    , ofAllTextures(spread)
+    , rowsEffective(memory.part<float>(2 * layout.size, layout.size, "effective count of rows"))
+    , effective(rowsEffective)
+    , logs(memory.part<float>(4 * layout.size, 2 * layout.size, "logarithms"))
+    , rowsSpread(memory.part<float>(2 * layout.size, 2 * layout.size, "logarithms spread along rows"))
+    , spread(memory.part<float>(0, 2 * layout.size, "logarithms spread"))
+    , demand(memory.part<float>(3 * layout.size, layout.size, "demand"))
+    , slopes(memory.part<float>(0, layout.size, "slopes and distances"))
+    , width(rowsEffective)
+    , error(rowsEffective)
+    , motionWidth(memory.part<float>(layout.size, layout.size, "motion filter width"))
+    , motionDirection(demand)
+    , ofTexture(slopes)
+    , ofAllTextures(memory.part<float>(5 * layout.size, layout.size, "variance of textures"))
     , bounds(device, 6 * WEDGE_EXTENT_STRIPES, "visible bounds")
     , extent(device, 1, "visible extent")
     , histogramCounts(device, 0, "demand histogram")

@@ -35,13 +35,15 @@ struct FrameShape {
 
     bool operator==(const FrameShape&) const = default;
 
-    /// Terms are kept in fewer bits, kernels/accumulate.cl: not where means of many waves have to converge.
+    /// What pixels keep is in fewer bits, kernels/accumulate.cl: not where means of many waves have to converge.
     bool packed() const { return lean && analysed; }
+    std::uint64_t normalPlanes() const { return packed() ? 1 : 3; }
+    std::uint64_t motionPlanes() const { return ofMotion() * (packed() ? 1 : 3); }
 
     // 1 or 0: what the planes of such buffers are to be multiplied by.
     std::uint64_t kept() const { return lean ? 0 : 1; } ///< of no use to lean frames
     std::uint64_t ofAnalysis() const { return !lean || analysed ? 1 : 0; }
-    std::uint64_t ofMotion() const { return distributed && (!lean || shutter) ? 1 : 0; }
+    std::uint64_t ofMotion() const { return distributed && (!lean || (shutter && analysed)) ? 1 : 0; }
     std::uint64_t ofDeltaLights() const { return distributed && (!lean || deltaLights) ? 1 : 0; }
 };
 
@@ -78,9 +80,12 @@ public:
     device::Buffer<std::uint32_t> hits; ///< those of them that met a surface
     /// Planes: least and largest signed radius of the circle of confusion, pixels; packed, the one nearest to 0, with hits.
     device::Buffer<float> confusion;
-    device::Buffer<float> motion; ///< planes: pixels that the surface moves while the shutter is open; largest difference
+    /// Planes: pixels that the surface moves while the shutter is open; largest difference; packed, one, see
+    /// accumulate.h.
+    device::Buffer<float> motion;
     device::Buffer<float> lensWidth; ///< of the image's filter, see blurs() of distributed.cl; lean: in the place of pixelSize
-    device::Buffer<float> motionWidth, motionDirection; ///< likewise, of textures' filter
+    /// Likewise, of textures' filter; packed, in the place of motion and together.
+    device::Buffer<float> motionWidth, motionDirection;
     device::Buffer<float> emissionSquares; ///< mean squared luminance of a primary sample's emission
     device::Buffer<float> primaryDemand; ///< of samples; in lean frames in the place of emissionSquares
     device::Buffer<std::uint32_t> primaryWanted; ///< primary samples; packed, in the place of primaryDemand
@@ -100,17 +105,21 @@ public:
 /// Planes that the terms of a frame need.
 struct TermShape {
     std::uint32_t sums = 0, values = 0; ///< accumulated; filtered
-    std::uint32_t extremes = 0; ///< slopes, or distances of reflectors
+    std::uint32_t extremes = 0; ///< slopes, or distances of reflectors; packed, of lights the motion of shadows
     bool analysed = false; ///< with the buffers of analysis and filter
     bool distributed = false; ///< with those of pixels of several receivers, whose sums are the receivers' own
     bool published = false; ///< of those, with the radiance of the term alone
     bool lean = false; ///< of those, of a lean frame
+    bool light = false; ///< of those, of a light: what packed planes have fewer bits of
 
     /// Whether buffers of this shape serve terms of the other.
     bool holds(const TermShape& other) const;
     /// 1 or 0: planes of each of what is measured for the analysis of terms of several receivers a pixel.
     std::uint64_t measured() const { return distributed && (!lean || analysed) ? 1 : 0; }
     bool packed() const { return lean && analysed; } ///< as FrameShape has it
+    /// Bytes of a pixel's texture and value.
+    std::uint64_t textureBytes() const;
+    std::uint64_t valueBytes() const;
     /// What serves both.
     TermShape with(const TermShape& other) const;
 };
@@ -151,17 +160,17 @@ public:
 
 /// What analysis and filter need besides, for one term after the other. In lean frames it is made of the planes of one
 /// piece of memory, and those that overlap are not in use together; waves of receivers have the same memory before and
-/// after.
+/// after. No gather has both three planes and effective counts there.
 class Scratch {
 public:
     /// values: planes of the terms' values at most.
     static void plan(device::MemoryPlan& plan, const PlaneLayout& layout, std::uint32_t values);
 
     Scratch(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, std::uint32_t values);
-    /// Of a lean frame, in that memory, which has leanPlanes() at least.
-    Scratch(const device::Device& device, const PlaneLayout& layout, const FrameShape& frame, const device::Buffer<float>& memory);
+    /// Of a lean frame, in that memory, which has leanPlanes at least.
+    Scratch(const device::Device& device, const PlaneLayout& layout, const device::Buffer<float>& memory);
 
-    static std::uint32_t leanPlanes(const FrameShape& frame) { return frame.shutter ? 9 : 8; }
+    static constexpr std::uint32_t leanPlanes = 6;
 
     std::uint32_t values;
     device::Buffer<float> rowsFiltered, filtered; ///< like value
@@ -170,8 +179,8 @@ public:
     device::Buffer<float> rowsSpread, spread; ///< 4 planes: the same, summed over a neighbourhood
     device::Buffer<float> demand; ///< and before that, eroded slopes
     device::Buffer<float> slopes, width; ///< of packed terms: slopes or distances; widths while they are made
-    device::Buffer<float> texture; ///< of a packed term
     device::Buffer<float> error; ///< of taking texture and irradiance apart
+    device::Buffer<float> motionWidth, motionDirection; ///< of packed frames, for the demands; before any gather
     device::Buffer<float> ofTexture, ofAllTextures; ///< variance of one term's, and of all that is not irradiance
     device::Buffer<float> bounds, extent; ///< of what the camera sees, see reflectors.cl
     device::Buffer<std::uint32_t> histogramCounts, histogramPixels, binCounts; ///< see counts.cl

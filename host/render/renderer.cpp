@@ -66,7 +66,7 @@ int filterReach(const Settings& settings, const scene::Scene& scene)
 /// What receivers of waves need for the terms in turn.
 TermShape receiverShape(const Settings& settings, const scene::Scene& scene, bool specular)
 {
-    return termShape(settings, specular).with({ 0, 0, lightExtremes(scene), false, false, false, false });
+    return termShape(settings, specular).with({ 0, 0, lightExtremes(scene), false, false, false, false, false });
 }
 
 /// One a term where pixels have several receivers, which serve all terms at once; else the one that all take turns in.
@@ -75,15 +75,16 @@ std::vector<TermShape> termShapes(const Settings& settings, const scene::Scene& 
     if (!frame.distributed) {
         return { termShape(settings, specular) };
     }
-    TermShape shape { 0, 3, 3, needsAnalysis(settings), true, false, frame.lean };
+    TermShape shape { 0, 3, 3, needsAnalysis(settings), true, false, frame.lean, false };
     shape.published = shape.analysed && settings.distributed.published;
     TermShape light = shape;
+    light.light = true;
     light.sums = frame.lean ? 0 : 1;
     light.extremes = lightExtremes(scene);
     if (frame.lean) {
         // Widths come from the least slope, and from the mean of reflectors' distances, which lie with the plain mean.
         shape.extremes = 0;
-        light.extremes = shape.analysed && scene::geometryMoves(scene) ? light.extremes : 0;
+        light.extremes = shape.analysed && scene::geometryMoves(scene) ? 1 : 0;
     }
     const std::size_t lights = settings.integrator == Integrator::Path ? scene.areaLights.size() : 0;
     std::vector<TermShape> shapes(lights, light);
@@ -94,7 +95,7 @@ std::vector<TermShape> termShapes(const Settings& settings, const scene::Scene& 
 /// Bytes that waves and, between them, what analyses and filters have in turn.
 std::uint64_t leanBytes(const PlaneLayout& layout, const FrameShape& frame, const TermShape& receivers)
 {
-    const std::uint64_t scratch = frame.analysed ? Scratch::leanPlanes(frame) * layout.size * sizeof(float) : 0;
+    const std::uint64_t scratch = frame.analysed ? Scratch::leanPlanes * layout.size * sizeof(float) : 0;
     return std::max(scratch, Waves::bytes(receivers, frame.deltaLights));
 }
 
@@ -244,7 +245,7 @@ void Renderer::allocateLeanWaves(const Settings& settings, const PlaneLayout& la
     const device::Buffer<float> memory(
         device_, leanBytes(layout, frame_->shape, receivers) / sizeof(float), "receivers, or analysis and filters");
     waves_ = std::make_unique<Waves>(device_, layout, receivers, frame_->shape.deltaLights, memory);
-    scratch_ = frame_->shape.analysed ? std::make_unique<Scratch>(device_, layout, frame_->shape, memory)
+    scratch_ = frame_->shape.analysed ? std::make_unique<Scratch>(device_, layout, memory)
                                       : std::make_unique<Scratch>(device_, queue_, PlaneLayout(1, 1), 0);
 }
 

@@ -27,7 +27,7 @@ typedef struct {
     float countExponent;     ///< counts ~ (variance / gathered pixels / rays of a sample)^this
     float varianceSpread;    ///< fraction of the 5x5 neighbourhood's largest variance that a pixel takes at least
     float rays;              ///< of one sample of the term
-    uint values;             ///< planes of the term's value: 1, visibility; 3, radiance
+    uint values;             ///< planes of what is filtered of the term: 1, a light's visibility; 3, radiance
     float oneVelocity;       ///< largest difference of motions in a pixel that counts as one, as a fraction of the motion
     uint never;              ///< 1: textures and irradiances are never taken apart
     float samples;           ///< primary samples that a pixel is expected to have; 0: those that it has

@@ -32,7 +32,8 @@ typedef struct {
     uint firstPass;  ///< primary samples of a first pass with strata of its own; 0: none
     uint published;  ///< 1: terms are kept as the thesis has them, see accumulate.h
     uint omits;      ///< sum of WEDGE_OMITS_*
-    uint packed;     ///< 1: the pixels' planes of terms are packed, see accumulate.h
+    uint packed;     ///< 1: the pixels' planes are packed, see accumulate.h
+    float oneVelocity; ///< largest difference of motions that packed planes take for one, as a fraction of the motion
 } WaveParams;
 
 /// Samples that a pixel has when the wave is done, if its planes say that it wants so many.

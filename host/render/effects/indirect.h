@@ -32,7 +32,7 @@ std::vector<IndirectTerm> indirectTerms(const Settings& settings, bool specular)
 class Indirect {
 public:
     /// What a component's term needs. analysed: with filter.
-    static TermShape termShape(bool analysed) { return { 4, 3, 3, analysed, false, false }; }
+    static TermShape termShape(bool analysed) { return { 4, 3, 3, analysed, false, false, false, false }; }
 
     Indirect(const TermContext& context, Term& term, Component component);
 

@@ -3,6 +3,7 @@
 #include "host/render/filters/gaussian.h"
 #include "host/render/sample_counts.h"
 #include "kernels/shared/light.h"
+#include "kernels/shared/packed.h"
 #include "kernels/shared/wedge.h"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ float gaussianScale(float sigma)
 TermShape SoftShadows::termShape(bool specular, bool analysed)
 {
     const std::uint32_t channels = specular ? 2 : 1;
-    return { 2 * channels, channels, 2, analysed, false, false };
+    return { 2 * channels, channels, 2, analysed, false, false, false, false };
 }
 
 SoftShadows::SoftShadows(const TermContext& context, Term& term, std::uint32_t index)
@@ -220,7 +221,8 @@ void SoftShadows::smoothedWidths()
         c_.scratch.rowsSpread, c_.scratch.spread);
     if (packed) {
         // Demands are not made yet, and slopes not eroded any more.
-        c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "luminanceOf", p, 1, 1u, term_.texture, c_.scratch.demand);
+        c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "luminanceOf", p, 1, WEDGE_COLOUR_BITS,
+            term_.texture, c_.scratch.demand);
     }
     c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "widths", p, 1, c_.scratch.logs, c_.scratch.spread,
         c_.frame.objectId, c_.frame.pixelSize, packed ? c_.scratch.demand : term_.sums, packed ? c_.scratch.width : term_.beta);
@@ -307,11 +309,11 @@ void SoftShadows::blurShadows(const shared::DistributedParams& params)
 void SoftShadows::filterDistributed(const shared::DistributedParams& params)
 {
     // Nothing else keeps anything there while the image is made.
-    device::Buffer<float>& visibility = c_.scratch.spread;
+    device::Buffer<float>& visibility = c_.scratch.logs;
     c_.passes.rows("filter", PassKind::Filter, "distributed.cl", "visibilityOf", params, 1, term_.texture, term_.value, visibility);
     gaussianFilter(c_.passes, { "filter", PassKind::Filter, "filter_variance.cl" },
-        filterParams(c_.settings, c_.fullFrame, light(), c_.full()), c_.full(), c_.frame, visibility, term_.beta, c_.scratch,
-        c_.scratch.filtered);
+        filterParams(c_.settings, c_.fullFrame, light(), c_.full()), c_.full(), c_.frame, visibility, term_.beta,
+        c_.scratch, c_.scratch.filtered);
     if (c_.scene.moves && c_.settings.distributed.blur) {
         blurShadows(params);
     }

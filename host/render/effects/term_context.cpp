@@ -15,13 +15,8 @@ void addFilteredTerm(
     shared::DistributedParams p = params;
     const device::Buffer<float>* texture = &term.texture;
     if (context.shutter && context.settings.distributed.blur) {
-        if (context.frame.shape.packed()) {
-            texture = &scratch.texture;
-            context.passes.rows("filter of motion", device::PassKind::Filter, "distributed.cl", "unpackImage", params, 1,
-                term.texture, *texture);
-        }
         context.passes.rows("filter of motion", device::PassKind::Filter, "blur.cl", "blurMotion", params, 1, 3u,
-            context.frame.motionWidth, context.frame.motionDirection, *texture, scratch.rowsFiltered);
+            context.frame.motionWidth, context.frame.motionDirection, term.texture, scratch.rowsFiltered);
         texture = &scratch.rowsFiltered;
         p.plainTexture = 1;
     }

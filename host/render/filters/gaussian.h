@@ -24,13 +24,13 @@ shared::FilterParams filterParams(const Settings& settings, const shared::FrameP
 struct FilterRun {
     std::string_view pass;
     device::PassKind kind;
-    std::string program; ///< a file that includes kernels/gather.h
+    std::string program; ///< a file that includes kernels/gather.h; packed frames take the one called packed_...
 };
 
 /// The separable world-space Gaussian of kernels/gather.h from `value` into `filtered`, as many planes as the program
-/// has channels, and the effective counts into scratch.effective, over window; widths are beta. It reads up to
-/// params.maxRadius pixels beyond the window. No state; scratch.rowsFiltered and rowsEffective are overwritten.
-/// params: of filterParams(); its rectangle does not matter.
+/// has channels, and the effective counts into scratch.effective (but not those of packed frames' three channels), over
+/// window; widths are beta. It reads up to params.maxRadius pixels beyond the window. No state; scratch.rowsFiltered
+/// and rowsEffective are overwritten. params: of filterParams(); its rectangle does not matter.
 void gaussianFilter(Passes& passes, const FilterRun& run, shared::FilterParams params, const image::Window& window,
     const Frame& frame, const device::Buffer<float>& value, const device::Buffer<float>& beta, Scratch& scratch,
     device::Buffer<float>& filtered);
