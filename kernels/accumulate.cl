@@ -35,7 +35,8 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
                               __global const uint* restrict hits, WEDGE_RECEIVER_PARAMETERS,
                               __global const float* restrict diffuse, __global const float* restrict specular,
                               __global const float* restrict sums, __global const float* restrict unshadowed,
-                              __global const float* restrict slopes, WEDGE_TERM_PARAMETERS, __global float* restrict weightOf, __global uint* restrict samples)
+                              __global const float* restrict slopes, WEDGE_TERM_PARAMETERS, __global float* restrict weightOf,
+                              __global uint* restrict samples)
 {
     WavePixel p;
     if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
@@ -114,7 +115,8 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
     }
     const float plainWeight = (float)loadHits(hits, p.i, wave.packed);
     const Vec3 weights = wave.published != 0u ? vec3(plainWeight, plainWeight, plainWeight)
-                                              : vecScale(loadColour(texture, pixels, p.i, planes.textureBits), (float)termTaken[p.i]);
+                                              : vecScale(loadColour(texture, pixels, p.i, planes.textureBits),
+                                                         (float)termTaken[p.i]);
     storeTermSums(wave, p, pixels, planes, termTaken[p.i], total, (float)loadHits(hits, p.i, wave.packed), weights, &sum);
     storeExtreme(wave, p, pixels, plain, extremes, sMin < INFINITY ? sMin : 0.0f);
     if (measures && all) {

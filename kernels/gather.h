@@ -69,7 +69,8 @@ WEDGE_FN Vec3x16 slantOf(FilterParams p, Vec3x16 position)
     Vec3x16 l = sub16(splat3(p.lightCentre), position);
     const float16 inverse = rsqrt(max16(dot16(l, l), (float16)(1e-20f)));
     const float16 cosine = (l.x * p.lightNormal.x + l.y * p.lightNormal.y + l.z * p.lightNormal.z) * inverse;
-    const float16 bounded = fabs(cosine) < WEDGE_MIN_OBLIQUE_COSINE ? copysign((float16)(WEDGE_MIN_OBLIQUE_COSINE), cosine) : cosine;
+    const float16 least = (float16)(WEDGE_MIN_OBLIQUE_COSINE);
+    const float16 bounded = fabs(cosine) < least ? copysign(least, cosine) : cosine;
     const float16 scale = inverse / bounded;
     l.x *= scale;
     l.y *= scale;

@@ -155,8 +155,8 @@ void Frame::clear(device::TimedQueue& queue)
     if (!distributed) {
         return;
     }
-    for (device::Buffer<float>* b : { &position, &normal, &pixelSize, &depth, &diffuse, &specular, &emission, &gloss, &confusion, &motion, &lensWidth, &motionWidth, &delta, &deltaSquares,
-             &emissionSquares }) {
+    for (device::Buffer<float>* b : { &position, &normal, &pixelSize, &depth, &diffuse, &specular, &emission, &gloss, &confusion,
+             &motion, &lensWidth, &motionWidth, &delta, &deltaSquares, &emissionSquares }) {
         b->fill(queue, 0.0f);
     }
     for (device::Buffer<std::uint32_t>* b : { &objectId, &primaryTaken, &primaryWanted, &hits }) {
@@ -258,7 +258,8 @@ Scratch::Scratch(
     , binSums(device, WEDGE_DEMAND_BINS, "demand bin sums")
     , countScale(device, 1, "count scale")
 {
-    for (device::Buffer<float>* b : { &rowsFiltered, &filtered, &rowsEffective, &effective, &logs, &rowsSpread, &spread, &demand }) {
+    for (device::Buffer<float>* b :
+        { &rowsFiltered, &filtered, &rowsEffective, &effective, &logs, &rowsSpread, &spread, &demand }) {
         b->fill(queue, 0.0f);
     }
 }
@@ -332,7 +333,8 @@ Axes axesOf(const scene::Camera& camera, std::uint32_t height)
 
 } // namespace
 
-shared::FrameParams frameParams(const scene::Scene& scene, const PlaneLayout& layout, const image::Window& window, std::uint32_t seed)
+shared::FrameParams frameParams(
+    const scene::Scene& scene, const PlaneLayout& layout, const image::Window& window, std::uint32_t seed)
 {
     const Axes axes = axesOf(scene::middleCamera(scene), layout.height);
     shared::FrameParams p {};
