@@ -82,7 +82,7 @@ WEDGE_FN float specularShading(SampleParams params, AreaLight light, Receiver r,
     }
     if (params.shading == WEDGE_SHADING_RATIO) {
         const Vec3 toLight = vecSub(light.centre, r.position);
-        const float lobes = lobesAcross(light, vecDot(toLight, toLight), r.lobe.exponent);
+        const float lobes = lobesAcross(light, toLight, r.view, r.lobe.exponent, r.lobe.model == WEDGE_SPECULAR_PHONG);
         if (lobes > WEDGE_SHARP_LOBE) {
             return sampled;
         }

@@ -17,12 +17,17 @@
 /// Lobes sharper than this, in the same measure, fall between the fine rule's nodes.
 #define WEDGE_SHARP_LOBE 40.0f
 
-/// Squared angular half extent of the light over the squared width of a lobe: exponent m is about 1/sqrt(m) wide, and the
-/// coarse rule does for a light that is small beside it. squared: distance to the light's centre.
-WEDGE_FN float lobesAcross(AreaLight light, float squared, float exponent)
+/// Square of the light's larger half extent, m^2.
+WEDGE_FN float squaredExtent(AreaLight light) { return fmax(vecDot(light.halfU, light.halfU), vecDot(light.halfV, light.halfV)); }
+
+/// Squared angular half extent of the light over the squared width of a lobe, which at exponent m is about 1/sqrt(m): of the
+/// half vector, and so of Blinn-Phong |l + v| times as much of l, far less where both graze. toLight: from the receiver to the
+/// light's centre, metres; view: unit, to the eye.
+WEDGE_FN float lobesAcross(AreaLight light, Vec3 toLight, Vec3 view, float exponent, bool phong)
 {
-    const float extent = fmax(vecDot(light.halfU, light.halfU), vecDot(light.halfV, light.halfV));
-    return extent * fmax(exponent, 1.0f) / squared;
+    const float squared = vecDot(toLight, toLight);
+    const float widening = phong ? 1.0f : fmax(2.0f + 2.0f * vecDot(view, toLight) * rsqrt(squared), 1e-6f);
+    return squaredExtent(light) * fmax(exponent, 1.0f) / (squared * widening);
 }
 
 /// Geometry terms of 16 receivers and one point of the light, 1/m^2; see geometryTerm().
@@ -87,8 +92,8 @@ WEDGE_FN int16 horizonAcross(AreaLight light, Vec3x16 toLight, Vec3x16 normal)
 WEDGE_FN float16 unshadowedOfFew(AreaLight light, Vec3x16 position, Vec3x16 normal, __global const float* nodes, int16 wanted)
 {
     const Vec3x16 toLight = sub16(splat3(light.centre), position);
-    const float extent = fmax(vecLength(light.halfU), vecLength(light.halfV)) * WEDGE_FAR_LIGHT;
-    const int16 few = (dot16(toLight, toLight) >= extent * extent) & !horizonAcross(light, toLight, normal);
+    const int16 far = dot16(toLight, toLight) >= squaredExtent(light) * WEDGE_FAR_LIGHT * WEDGE_FAR_LIGHT;
+    const int16 few = far & !horizonAcross(light, toLight, normal);
     float16 shading = (float16)(0.0f);
     if (any(wanted & few)) {
         int16 unused;
@@ -134,6 +139,15 @@ typedef struct {
     float16 exponent;
     int16 phong;                    ///< else Blinn-Phong
 } Receivers16;
+
+/// lobesAcross() of sixteen.
+WEDGE_FN float16 lobesAcross16(AreaLight light, Vec3x16 toLight, Receivers16 r)
+{
+    const float16 squared = dot16(toLight, toLight);
+    const float16 widening = max16(2.0f + 2.0f * dot16(r.view, toLight) * rsqrt(squared), (float16)(1e-6f));
+    const float16 across = squaredExtent(light) * max16(r.exponent, (float16)(1.0f)) / squared;
+    return r.phong ? across : across / widening;
+}
 
 /// Lobe times geometry term of one point of the light, without the lobe's normalization; lobeValue().
 WEDGE_FN float16 reflectedFrom(AreaLight light, Receivers16 r, Vec3 point)

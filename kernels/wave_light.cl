@@ -36,8 +36,8 @@ WEDGE_FN float16 specularShading16(WaveParams wave, AreaLight light, __global co
     r.phong = signedExponent < 0.0f;
     const Vec3x16 toLight = sub16(splat3(light.centre), position);
     const float16 squared = dot16(toLight, toLight);
-    const float extent = lobesAcross(light, 1.0f, 1.0f); // squared
-    const float16 across = extent * max16(r.exponent, (float16)(1.0f)) / squared;
+    const float extent = squaredExtent(light);
+    const float16 across = lobesAcross16(light, toLight, r);
     const int16 sharp = across > WEDGE_SHARP_LOBE, horizon = horizonAcross(light, toLight, normal);
     const int16 fine = (across >= WEDGE_COARSE_LOBE) | (squared < extent * WEDGE_NEAR_LIGHT * WEDGE_NEAR_LIGHT);
     const int16 few = !horizon & (across < WEDGE_FEW_LOBE) & (squared >= extent * WEDGE_FAR_LIGHT * WEDGE_FAR_LIGHT);

@@ -66,13 +66,18 @@ public:
     }
 
     /// A buffer in this one's memory, of `count` elements of U from this one's element `first` on, which lies at a multiple of
-    /// partAlignment bytes. Both keep the memory alive; kernels may have but one of two that overlap.
+    /// partAlignment bytes. Both keep the memory alive. A part that is all of it is the same memory object, of which a kernel may
+    /// have both, for different elements; of others that overlap it may have but one.
     template <class U>
     Buffer<U> part(std::size_t first, std::size_t count, std::string name) const
     {
         requireInside("part of", (count * sizeof(U) + sizeof(T) - 1) / sizeof(T), first);
         assert(first * sizeof(T) % partAlignment == 0);
         Buffer<U> out(std::move(name), count);
+        if (out.bytes() == bytes() && count > 0) {
+            out.buffer_ = buffer_;
+            return out;
+        }
         const cl_buffer_region region { first * sizeof(T), std::max<std::size_t>(count, 1) * sizeof(U) };
         cl::Buffer whole = buffer_;
         checked("part of buffer " + name_, "its device",
