@@ -14,13 +14,19 @@ constexpr int defaultProgressiveSpp = 1024, openProgressiveSpp = 1 << 16;
 
 constexpr const char* distributedFrames = "through a lens or shutter, or with antialiasing";
 
-/// A count from the scene file that suits no aaf, whose first pass alone takes more.
-void requireFirstPass(const std::string& key, const std::optional<int>& count, const scene::Scene& scene, int least)
+/// A count that suits no aaf, whose first pass alone takes more. isOption: it is that option's value, else the scene file's.
+void requireFirstPass(bool isOption, const std::string& option, const std::string& key, const std::optional<int>& count,
+    const scene::Scene& scene, int least)
 {
-    if (count && *count < least) {
-        throw Error(fmt::format("scene file {}: {} is too low for method aaf", scene.path, key), fmt::format("{}", *count),
-            fmt::format("give {} or more, or method mc", least));
+    if (!count || *count >= least) {
+        return;
     }
+    if (isOption) {
+        throw UsageError("samples a pixel are too few for method aaf", fmt::format("{} {}", option, *count),
+            fmt::format("give {} or more, or add --method mc", least));
+    }
+    throw Error(fmt::format("scene file {}: {} is too low for method aaf", scene.path, key), fmt::format("{}", *count),
+        fmt::format("give {} or more, or method mc", least));
 }
 
 /// A value, of an option or of the scene file, that asks for more samples of a pixel than a distributed frame can take.
@@ -91,9 +97,7 @@ void applyCounts(const RenderOptions& o, const scene::Scene& scene, bool distrib
     const bool oneImage = !o.progressive;
     // Counts of progressive renders grow from step to step without a bound of their own.
     const std::optional<int> most = o.maxSpp ? o.maxSpp : oneImage ? file.maxSpp : std::nullopt;
-    if (!o.maxSpp) {
-        requireFirstPass("max_spp", most, scene, least);
-    }
+    requireFirstPass(o.maxSpp.has_value(), "--max-spp", "max_spp", most, scene, least);
     s.maxSpp = most.value_or(s.maxSpp);
     s.indirect.maxSpp = most.value_or(s.indirect.maxSpp);
     if (!meanIsGiven(s)) {
@@ -102,8 +106,8 @@ void applyCounts(const RenderOptions& o, const scene::Scene& scene, bool distrib
         return;
     }
     const std::optional<int> mean = o.spp ? o.spp : oneImage ? file.spp : progressiveSpp(o, scene);
-    if (!o.spp && mean == file.spp) {
-        requireFirstPass("spp", file.spp, scene, least);
+    if (o.spp || mean == file.spp) {
+        requireFirstPass(o.spp.has_value(), "--spp", "spp", mean, scene, least);
     }
     // mu alone may ask for fewer samples than the first pass takes.
     s.spp = mean.value_or(std::max(s.spp, least));

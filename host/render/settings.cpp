@@ -224,8 +224,9 @@ void validate(const Settings& s, bool distributed)
     requireRange(std::isfinite(in.ambientDistance) && in.ambientDistance >= 0, "ambient occlusion distance",
         text(in.ambientDistance), "metres above 0");
     validateDistributed(s.distributed);
-    requireRange(!s.progressive || (!s.published && (s.method == Method::MonteCarlo || s.spp >= leastProgressiveSpp)),
-        "samples a pixel of a progressive render", text(s.spp), "16 or more, and no published counts");
+    requireRange(!s.progressive || !s.published, "progressive render", "as published", "counts that are not the published ones");
+    requireRange(!s.progressive || s.method == Method::MonteCarlo || s.spp >= leastProgressiveSpp,
+        "samples a pixel of a progressive render", text(s.spp), fmt::format("{} or more", leastProgressiveSpp));
     if (s.method == Method::AxisAligned) {
         validateCounts(s, distributed);
         requireRange(s.shading != Shading::Inside || s.counts != Counts::Variance || s.sampling == Sampling::Uniform,
