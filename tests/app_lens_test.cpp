@@ -221,6 +221,7 @@ TEST_CASE("counts that frames through a lens cannot have are refused, and how to
     const auto refused = [&](const Arguments& more, const std::string& said) {
         checkRenderRefused(place, "lens.toml", more, wrongCall, said);
     };
+    const std::string few = "samples a pixel are too few for method aaf: ";
     const std::string many = "samples a pixel are too many for method aaf through a lens or shutter, or with antialiasing: ";
     const std::string ways = ": give 2048 or less, or add --progressive or --method mc";
     refused({ "--spp", "2049" }, many + "--spp 2049" + ways);
@@ -229,9 +230,9 @@ TEST_CASE("counts that frames through a lens cannot have are refused, and how to
     refused({ "--max-spp", "2049", "--as-published" }, many + "--max-spp 2049");
     checkRenderRefused(place, "open.toml", { "--mu", "40" }, wrongCall, many + "--mu 40: lower it, or give --spp, 2048 or less");
     checkRenderRefused(place, "plain.toml", { "--antialias", "--spp", "2049" }, wrongCall, many + "--spp 2049" + ways);
-    refused({ "--spp", "7" }, "8 or more: the first pass takes 8");
-    refused({ "--spp", "7", "--bounces", "1" }, "8 or more: the first pass takes 8");
-    checkRenderRefused(place, "open.toml", { "--max-spp", "7" }, wrongCall, "8 or more: the first pass takes 8");
+    refused({ "--spp", "7" }, few + "--spp 7: give 8 or more");
+    refused({ "--spp", "7", "--bounces", "1" }, few + "--spp 7: give 8 or more");
+    checkRenderRefused(place, "open.toml", { "--max-spp", "7" }, wrongCall, few + "--max-spp 7: give 8 or more");
     refused({ "--max-spp", "15", "--as-published" }, "16 or more");
     refused({ "--as-published", "--spp", "20" },
         "option has no effect where counts follow from the spectrum: --spp 20: set --mu, or leave out --as-published");
