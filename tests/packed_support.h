@@ -1,4 +1,5 @@
-// Planes of pixels in fewer bits (kernels/packed_planes.h), made of plain ones and read back, and what rounding is allowed.
+// Planes of pixels in fewer bits (kernels/packed_planes.h), made of plain ones and read back, and what rounding is
+// allowed.
 #pragma once
 
 #include "kernels/shared/packed.h"

@@ -17,7 +17,8 @@ struct Keeping {
 /// The planes after all rounds, unpacked.
 struct SurfacesFound {
     Planes<std::uint32_t> object, rays, pathRays, taken, hits;
-    Planes<float> position, normal, gloss, diffuse, specular, emission, emissionSquares, pixelSize, distance, confusion, motion;
+    Planes<float> position, normal, gloss, diffuse, specular, emission, emissionSquares, pixelSize, distance, confusion,
+        motion;
 
     SurfacesFound(Accumulation& a, const SurfacePixels& p)
         : object(a.read(p.object))
@@ -37,8 +38,8 @@ struct SurfacesFound {
         , confusion(a.packed != 0 ? numbersOf(a.read(p.confusion), 1) : a.read(p.confusion))
         , motion(a.read(p.motion))
     {
-        for (const Planes<float>* planes : { &position, &normal, &gloss, &pixelSize, &diffuse, &emission, &emissionSquares,
-                 &distance, &confusion })
+        for (const Planes<float>* planes :
+            { &position, &normal, &gloss, &pixelSize, &diffuse, &emission, &emissionSquares, &distance, &confusion })
             checkElsewhere(a, *planes);
         if (a.packed == 0) {
             checkElsewhere(a, motion);
@@ -63,7 +64,8 @@ inline std::vector<SeenPoint> hitsOf(std::vector<SeenPoint> seen)
 }
 
 /// Least and largest radius; packed, the one nearest to 0, or 0 where there are both signs. Returns the latter.
-inline double requireConfusion(const SurfacesFound& found, std::uint32_t packed, const std::vector<SeenPoint>& seen, int x, int y)
+inline double requireConfusion(
+    const SurfacesFound& found, std::uint32_t packed, const std::vector<SeenPoint>& seen, int x, int y)
 {
     const shared::CameraParams camera = lens();
     double low = 1e30, high = -1e30;
@@ -105,7 +107,8 @@ inline void requireMotion(const SurfacesFound& found, const std::vector<SeenPoin
 enum class OneMotion { One, Several, Uncertain };
 inline OneMotion requireOneMotion(const Accumulation& a, const SurfacesFound& found, const Rounds& rounds, int x, int y)
 {
-    const double x0 = shared::unpackShort(shortOf(found.motion, x, y, 0)), y0 = shared::unpackShort(shortOf(found.motion, x, y, 1));
+    const double x0 = shared::unpackShort(shortOf(found.motion, x, y, 0)),
+                 y0 = shared::unpackShort(shortOf(found.motion, x, y, 1));
     const std::vector<SeenPoint> seen = a.seen(x, y);
     glm::dvec2 mean(0);
     double hits = 0;
@@ -139,16 +142,18 @@ inline OneMotion requireOneMotion(const Accumulation& a, const SurfacesFound& fo
 }
 
 /// What the waves that measure have seen of a pixel: of all, or packed of the first one.
-inline void requireMeasured(const SurfacesFound& found, std::uint32_t packed, const std::vector<SeenPoint>& seen, int x, int y)
+inline void requireMeasured(
+    const SurfacesFound& found, std::uint32_t packed, const std::vector<SeenPoint>& seen, int x, int y)
 {
     // What is seen to emit may have no surface, like a light.
-    REQUIRE(nearTo(found.emissionSquares.at(x, y),
-        sumOf(seen, [](const SeenPoint& p) { return std::pow(luminanceOf(p.emission), 2); })
-            / std::max<double>(1, static_cast<double>(seen.size()))));
+    REQUIRE(nearTo(found.emissionSquares.at(x, y), sumOf(seen, [](const SeenPoint& p) {
+        return std::pow(luminanceOf(p.emission), 2);
+    }) / std::max<double>(1, static_cast<double>(seen.size()))));
     const std::vector<SeenPoint> hit = hitsOf(seen);
     const double h = std::max<double>(1, static_cast<double>(hit.size())), tolerance = packed != 0 ? 1.0 / 256 : 2e-5;
     REQUIRE(nearTo(found.gloss.at(x, y), sumOf(hit, [](const SeenPoint& p) { return p.gloss; }) / h, tolerance));
-    REQUIRE(nearTo(found.pixelSize.at(x, y), sumOf(hit, [](const SeenPoint& p) { return p.pixelSize; }) / h, tolerance));
+    REQUIRE(
+        nearTo(found.pixelSize.at(x, y), sumOf(hit, [](const SeenPoint& p) { return p.pixelSize; }) / h, tolerance));
 }
 
 /// What layers show: lean frames leave it as it was.
@@ -178,7 +183,8 @@ inline void requireLayers(const Accumulation& a, const SurfacesFound& found, int
 }
 
 /// Where a pixel's hits are and what they are.
-inline void requirePlace(const Accumulation& a, const SurfacesFound& found, const std::vector<SeenPoint>& hit, bool oneWave, int x, int y)
+inline void requirePlace(
+    const Accumulation& a, const SurfacesFound& found, const std::vector<SeenPoint>& hit, bool oneWave, int x, int y)
 {
     const double h = static_cast<double>(hit.size());
     REQUIRE(nearTo(found.position.vector(x, y), sumOf(hit, [](const SeenPoint& p) { return p.position; }) / h));
@@ -203,7 +209,8 @@ struct SurfaceKinds {
 };
 
 /// Holds all pixels after those rounds against the points that they have seen.
-inline SurfaceKinds requireSurfaces(Accumulation& a, const SurfacesFound& found, const Rounds& rounds, const Keeping& keeping)
+inline SurfaceKinds requireSurfaces(
+    Accumulation& a, const SurfacesFound& found, const Rounds& rounds, const Keeping& keeping)
 {
     SurfaceKinds kinds;
     std::uint32_t rays = 0, pathRays = 0;
@@ -220,8 +227,9 @@ inline SurfaceKinds requireSurfaces(Accumulation& a, const SurfacesFound& found,
             expected = p.object == hit[0].object ? expected : 0xffffffffu;
         REQUIRE(found.object.at(x, y) == expected);
         kinds.mixed += expected == 0xffffffffu ? 1 : 0;
-        REQUIRE(nearTo(found.emission.vector(x, y),
-            sumOf(seen, [](const SeenPoint& p) { return p.emission; }) / std::max<double>(1, static_cast<double>(seen.size()))));
+        REQUIRE(nearTo(found.emission.vector(x, y), sumOf(seen, [](const SeenPoint& p) {
+            return p.emission;
+        }) / std::max<double>(1, static_cast<double>(seen.size()))));
         std::vector<SeenPoint> measured = seen;
         if (a.packed != 0)
             measured.resize(rounds[0](x, y));
