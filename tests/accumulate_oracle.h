@@ -115,9 +115,10 @@ struct TermPixels {
     Planes<std::uint32_t> before, after; ///< samples taken before and after a round
     device::Buffer<float> texture, value, plain, squares, textureSquares, radiance, extremes, weightOf;
     device::Buffer<std::uint32_t> wanted, taken, samples, ofPaths;
-    std::vector<TermMeans> means;
+    std::vector<TermMeans> means, measured; ///< measured: after the first wave, which alone measures packed terms
     std::size_t round = 0;
     TermCount count;
+    bool light = false; ///< or indirect light
 
     TermPixels(Accumulation& a, TermCount counts, double floor = 0)
         : before(a.waves.layout, 1, 0u)
@@ -149,14 +150,25 @@ struct TermPixels {
             after.at(x, y) += count(x, y, primary, round);
         });
         wanted = a.waves.bench.buffer(after.values);
+        // Lean frames know from elsewhere how many there are before a wave.
+        taken = a.packed != 0 ? a.waves.bench.buffer(before.values) : taken;
         ++round;
     }
+    std::uint32_t bitsOfTexture(const Accumulation& a) const { return shared::textureBits(a.packed, light); }
+    std::uint32_t bitsOfValue(const Accumulation& a) const { return shared::valueBits(a.packed, light); }
     /// For WEDGE_TERM_PARAMETERS.
     auto planes() const
     {
         return std::tie(wanted, taken, texture, value, plain, squares, textureSquares, radiance, extremes);
     }
 
+    /// Adds the receivers' slopes or distances to the expected ones; before expect().
+    void expectExtremes(const Accumulation& a, const std::function<const double*(const SeenPoint&)>& of, int planes)
+    {
+        for (std::size_t r = 0; r < a.points.size(); ++r)
+            means[after.index(a.lists.x(r), a.lists.y(r))].addExtremes(
+                { { a.points[r], a.shareOf(r, before, after), true, {}, {}, {}, 0, {} } }, of, planes);
+    }
     /// Adds the wave to the expected means: `of` tells what a pixel's receivers, whose samples are set, add.
     template <class Of>
     void expect(const Accumulation& a, const Of& of)
@@ -169,27 +181,56 @@ struct TermPixels {
             of(waves[i]);
             means[i].add(waves[i], a.published != 0);
         }
+        measured = round == 1 ? means : measured;
+        for (TermMeans& m : means) {
+            m.texture = rounded(m.texture, bitsOfTexture(a));
+            m.value = rounded(m.value, bitsOfValue(a));
+        }
     }
 
     /// Holds what the kernels made against the means.
     void check(Accumulation& a) const
     {
-        const auto k = a.read(texture), e = a.read(value), unweighted = a.read(plain), own = a.read(radiance);
-        const auto squared = a.read(squares), squaredTexture = a.read(textureSquares), found = a.read(extremes);
+        const auto k = coloursOf(a.read(texture), bitsOfTexture(a)), e = coloursOf(a.read(value), bitsOfValue(a));
+        const auto own = a.read(radiance);
+        for (const Planes<float>* plane : { &k, &e, &own })
+            checkElsewhere(a, *plane);
+        int apart = 0, pixels = 0;
+        a.waves.everyPixel([&](int x, int y) {
+            CAPTURE(x);
+            CAPTURE(y);
+            const TermMeans& m = means[after.index(x, y)];
+            // A rounding decides between two of packed ones.
+            const double unitOfTexture = unitOf(m.texture, bitsOfTexture(a)), unitOfValue = unitOf(m.value, bitsOfValue(a));
+            const bool nearTexture = nearTo(k.vector(x, y), m.texture), nearValue = nearTo(e.vector(x, y), m.value, 1e-4);
+            REQUIRE((nearTexture || glm::length(k.vector(x, y) - m.texture) <= 1.5 * unitOfTexture));
+            for (std::size_t c = 0; c < 3; ++c)
+                REQUIRE(std::fabs(e.at(x, y, c) - m.value[static_cast<int>(c)])
+                    <= 1e-4 * m.value[static_cast<int>(c)] + 1e-6 + unitOfValue);
+            apart += nearTexture && nearValue ? 0 : 1;
+            ++pixels;
+            REQUIRE(nearTo(own.vector(x, y), a.published != 0 ? m.radiance : glm::dvec3(0), 1e-4));
+        });
+        CHECK((a.packed == 0 || apart < 0.1 * pixels));
+        if (a.packed != 0)
+            checkMeasuredPacked(a);
+        else
+            checkMeasured(a);
+    }
+    void checkMeasured(Accumulation& a) const
+    {
+        const auto unweighted = a.read(plain), squared = a.read(squares), squaredTexture = a.read(textureSquares);
+        const auto found = a.read(extremes);
         const auto ran = a.read(taken), all = a.read(samples);
-        for (const Planes<float>* plane : { &k, &e, &unweighted, &own, &squared, &squaredTexture, &found })
+        for (const Planes<float>* plane : { &unweighted, &squared, &squaredTexture, &found })
             checkElsewhere(a, *plane);
         a.waves.everyPixel([&](int x, int y) {
             CAPTURE(x);
             CAPTURE(y);
             const TermMeans& m = means[after.index(x, y)];
-            REQUIRE(nearTo(k.vector(x, y), m.texture));
-            for (std::size_t c = 0; c < 3; ++c)
-                REQUIRE(nearTo(e.at(x, y, c), m.value[static_cast<int>(c)], 1e-4));
             REQUIRE(nearTo(unweighted.at(x, y), m.plain, 1e-4));
             REQUIRE(nearTo(squared.at(x, y), m.squares, 1e-4));
             REQUIRE(nearTo(squaredTexture.at(x, y), m.textureSquares, 1e-4));
-            REQUIRE(nearTo(own.vector(x, y), a.published != 0 ? m.radiance : glm::dvec3(0), 1e-4));
             REQUIRE(nearTo(found.at(x, y), m.leastOrNone()));
             REQUIRE(nearTo(found.at(x, y, 1), m.largest));
             for (std::size_t plane = 2; plane < 6; ++plane)
@@ -197,6 +238,62 @@ struct TermPixels {
             REQUIRE(ran.at(x, y) == after.at(x, y));
             REQUIRE(all.at(x, y) == after.at(x, y));
         });
+    }
+    /// The error of taking the term apart, deviations, and the least slope or the sum of inverse distances, of the first wave.
+    void checkMeasuredPacked(Accumulation& a) const
+    {
+        const auto error = numbersOf(a.read(plain), 0), extreme = numbersOf(a.read(plain), 1);
+        const auto deviation = numbersOf(a.read(squares), 0), ofTexture = numbersOf(a.read(squares), 1);
+        for (const Planes<float>* plane : { &error, &extreme, &deviation, &ofTexture })
+            checkElsewhere(a, *plane);
+        int errors[2] = {}, deviations = 0;
+        a.waves.everyPixel([&](int x, int y) {
+            CAPTURE(x);
+            CAPTURE(y);
+            const TermMeans& m = measured[after.index(x, y)];
+            const double t = luminanceOf(m.texture), l = luminanceOf(m.texture * m.value), difference = l - t * m.plain;
+            REQUIRE(std::fabs(error.at(x, y) - difference) <= unitOf(difference) + 1e-5 * (l + t * m.plain));
+            const double variances[] = { std::max(0.0, m.squares - l * l), std::max(0.0, m.textureSquares - t * t) };
+            REQUIRE(nearTo(std::pow(deviation.at(x, y), 2), variances[0], 0.01 + 1e-5 * m.squares / (variances[0] + 1e-9)));
+            REQUIRE(nearTo(
+                std::pow(ofTexture.at(x, y), 2), variances[1], 0.01 + 1e-5 * m.textureSquares / (variances[1] + 1e-9)));
+            REQUIRE(nearTo(extreme.at(x, y), light ? m.leastOrNone() : m.sums[0], 1.0 / 256));
+            ++errors[difference > 0 ? 1 : 0];
+            deviations += variances[0] > 0.01 && variances[1] > 0.01 ? 1 : 0;
+        });
+        CHECK(errors[0] > 10);
+        CHECK(errors[1] > 10);
+        CHECK(deviations > 10);
+        for (const std::uint32_t added : a.waves.bench.read(samples))
+            REQUIRE(added == 0);
+    }
+    /// The one motion of a light's shadows in the first wave, or that there are several.
+    void checkShadows(Accumulation& a) const
+    {
+        const auto motions = a.read(extremes);
+        int one = 0, several = 0;
+        a.waves.everyPixel([&](int x, int y) {
+            CAPTURE(x);
+            CAPTURE(y);
+            const double* sums = measured[after.index(x, y)].sums;
+            const double n = std::max(sums[3], 1.0), mx = sums[0] / n, my = sums[1] / n, squared = mx * mx + my * my;
+            const double spread = std::max(0.0, sums[2] / n - squared), allowed = std::pow(a.oneVelocity, 2) * squared;
+            if (sums[3] > 0 && std::fabs(spread - allowed) < 1e-4)
+                return;
+            const double foundX = shared::unpackShort(shortOf(motions, x, y, 0)),
+                         foundY = shared::unpackShort(shortOf(motions, x, y, 1));
+            if (spread > allowed) {
+                REQUIRE(foundX == std::numeric_limits<double>::infinity());
+                REQUIRE(foundY == 0);
+                ++several;
+                return;
+            }
+            REQUIRE(nearTo(foundX, mx, 1.0 / 256));
+            REQUIRE(nearTo(foundY, my, 1.0 / 256));
+            one += mx > 0 ? 1 : 0;
+        });
+        CHECK(one > 20);
+        CHECK(several > 20);
     }
 };
 

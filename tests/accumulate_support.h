@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/shared/camera.h"
+#include "tests/packed_support.h"
 #include "tests/wave_support.h"
 
 #include <functional>
@@ -112,13 +113,18 @@ public:
         waves.everyPixel([&](int x, int y) { wanted.at(x, y) = upTo(x, y); });
         lists = waves.oneWave(taken, wanted);
         lists.wave.published = published;
+        lists.wave.packed = packed;
+        lists.wave.omits = omits;
+        lists.wave.oneVelocity = oneVelocity;
         points.clear();
         for (std::size_t r = 0; r < lists.wave.receivers; ++r)
             points.push_back(seenPoint(kind, lists.x(r), lists.y(r), lists.samples[r]));
         objectId = receiverBuffer<std::uint32_t>(1, [](const SeenPoint& p, std::size_t) { return p.object; });
     }
+    /// In lean frames the first wave alone measures.
     void end()
     {
+        omits |= packed != 0 ? WEDGE_OMITS_ANALYSIS : 0;
         waves.everyPixel([&](int x, int y) { taken.at(x, y) = std::max(taken.at(x, y), wanted.at(x, y)); });
     }
 
@@ -161,10 +167,13 @@ public:
         return waves.bench.buffer(out);
     }
 
+    /// What planes hold beside the window. Packed, bits beside it in one layout are in it in the other.
+    float beside() const { return packed != 0 ? 0.0f : elsewhere; }
+
     /// A pixel's planes: 0 in the window.
     device::Buffer<float> pixelBuffer(std::size_t planes)
     {
-        Planes<float> out(waves.layout, planes, elsewhere);
+        Planes<float> out(waves.layout, planes, beside());
         for (std::size_t plane = 0; plane < planes; ++plane)
             waves.everyPixel([&](int x, int y) { out.at(x, y, plane) = 0; });
         return waves.bench.buffer(out.values);
@@ -197,7 +206,15 @@ public:
     device::Buffer<std::uint32_t> primaryTaken, hits; ///< as accumulateSurfaces keeps them
     WaveLists lists;
     Receivers kind;
-    std::uint32_t published = 0; ///< as of WaveParams
+    /// As lean frames with filters have it. Call it before there are planes.
+    void pack()
+    {
+        packed = 1;
+        omits = WEDGE_OMITS_LAYERS | WEDGE_OMITS_EXTREMES;
+    }
+
+    std::uint32_t published = 0, packed = 0, omits = 0; ///< as of WaveParams
+    float oneVelocity = 0.1f;
     std::vector<SeenPoint> points; ///< of the wave's receivers
     device::Buffer<std::uint32_t> objectId;
 };
@@ -279,9 +296,9 @@ auto sumOf(const std::vector<SeenPoint>& points, const Value& value)
 inline void checkElsewhere(const Accumulation& a, const Planes<float>& plane)
 {
     for (int x = 0; x < width; ++x)
-        REQUIRE(plane.at(x, window.y1) == Accumulation::elsewhere);
+        REQUIRE(plane.at(x, window.y1) == a.beside());
     for (int y = 0; y < height; ++y)
-        REQUIRE(plane.at(window.x0 - 1, y) == Accumulation::elsewhere);
+        REQUIRE(plane.at(window.x0 - 1, y) == a.beside());
     REQUIRE(a.waves.window.x1 == window.x1);
 }
 

@@ -22,6 +22,7 @@ TermPixels accumulated(Accumulation& a, const Rounds& rounds, TermCount count, b
     for (const auto& upTo : rounds) {
         a.begin(upTo);
         term.begin(a);
+        term.expectExtremes(a, [](const SeenPoint& p) { return p.reflectors; }, 3);
         term.expect(a, [&](std::vector<TermSample>& wave) {
             for (TermSample& s : wave)
                 if (s.point.object != 0) {
@@ -33,10 +34,6 @@ TermPixels accumulated(Accumulation& a, const Rounds& rounds, TermCount count, b
                         a.published != 0 ? glm::dvec3(1) : (s.texture + leastTexture) * static_cast<double>(s.samples);
                 }
         });
-        for (std::size_t r = 0; r < a.points.size(); ++r)
-            term.means[term.after.index(a.lists.x(r), a.lists.y(r))].addExtremes(
-                { { a.points[r], a.shareOf(r, term.before, term.after), true, {}, {}, {}, 0, {} } },
-                [](const SeenPoint& p) { return p.reflectors; }, 3);
         accumulatePaths(a, term, ambient, reflectance, irradiance);
         accumulateSurfaces(a, surfaces);
     }
@@ -45,26 +42,29 @@ TermPixels accumulated(Accumulation& a, const Rounds& rounds, TermCount count, b
 
 } // namespace
 
-TEST_CASE("paths: the means over receivers, each with samples, few with some, or a wave without any; also as published")
+TEST_CASE("paths: the means over receivers, each with samples, few with some, or a wave without any; as published, packed")
 {
     onEveryDevice([](const device::Device& device) {
         for (const bool glossy : { false, true })
-            for (const std::uint32_t published : { 0u, 1u })
+            for (const auto& [published, packed] : { std::pair(0u, false), { 1u, false }, { 0u, true } })
                 for (const TermCount count : { more, oneEach, fewer, skipping })
                     for (const Rounds& rounds : { oneRound, threeRounds }) {
                         CAPTURE(glossy);
                         CAPTURE(published);
+                        CAPTURE(packed);
                         CAPTURE(rounds.size());
                         CAPTURE(nameOf(count));
                         Accumulation a(device, width, height, window, Receivers::All);
                         a.published = published;
+                        if (packed)
+                            a.pack();
                         const auto arrives = [](const SeenPoint& p) { return p.irradiance; };
                         const TermPixels term = accumulated(
                             a, rounds, count, false,
                             [&](const SeenPoint& p) { return glossy ? p.specular : p.diffuse; }, arrives, arrives);
                         term.check(a);
                         const auto ofPaths = a.read(term.ofPaths);
-                        a.waves.everyPixel([&](int x, int y) { REQUIRE(ofPaths.at(x, y) == term.after.at(x, y)); });
+                        a.waves.everyPixel([&](int x, int y) { REQUIRE(ofPaths.at(x, y) == (a.packed != 0 ? 0 : term.after.at(x, y))); });
                     }
     });
 }

@@ -84,18 +84,28 @@ Defines definesOf(bool specular, bool motion = false)
 
 void addWave(Accumulation& a, TermPixels& term, const LightCase& how, bool motion)
 {
+    term.light = true;
     term.begin(a);
+    term.expectExtremes(a, [](const SeenPoint& p) { return p.slopes; }, motion ? 6 : 2);
     term.expect(a, [&](std::vector<TermSample>& wave) { lightSamples(wave, how); });
-    for (std::size_t r = 0; r < a.points.size(); ++r)
-        term.means[term.after.index(a.lists.x(r), a.lists.y(r))].addExtremes(
-            { { a.points[r], a.shareOf(r, term.before, term.after), true, {}, {}, {}, 0, {} } },
-            [](const SeenPoint& p) { return p.slopes; }, motion ? 6 : 2);
     accumulateLight(a, term, lamp(), how.exact, how.specular);
+}
+
+TermPixels accumulated(Accumulation& a, const Rounds& rounds, const LightCase& how, bool motion)
+{
+    TermPixels term(a, how.count);
+    SurfacePixels surfaces(a);
+    for (const auto& upTo : rounds) {
+        a.begin(upTo);
+        addWave(a, term, how, motion);
+        accumulateSurfaces(a, surfaces);
+    }
+    return term;
 }
 
 } // namespace
 
-TEST_CASE("lights: the means over receivers, each with samples, few with some, or a wave without any")
+TEST_CASE("lights: the means over receivers, each with samples, few with some, or a wave without any; packed, too")
 {
     onEveryDevice([](const device::Device& device) {
         for (const bool exact : { false, true })
@@ -105,23 +115,25 @@ TEST_CASE("lights: the means over receivers, each with samples, few with some, o
                         // Without a second round it skips none.
                         if (rounds.size() == 1 && count == skipping)
                             continue;
-                        CAPTURE(exact);
-                        CAPTURE(specular);
-                        CAPTURE(rounds.size());
-                        CAPTURE(nameOf(count));
-                        const bool motion = count == fewer;
-                        Accumulation a(device, width, height, window, Receivers::All, definesOf(specular, motion));
-                        TermPixels term(a, count);
-                        SurfacePixels surfaces(a);
-                        for (const auto& upTo : rounds) {
-                            a.begin(upTo);
-                            addWave(a, term, { exact, specular, count }, motion);
-                            accumulateSurfaces(a, surfaces);
+                        for (const bool packed : { false, true }) {
+                            CAPTURE(exact);
+                            CAPTURE(specular);
+                            CAPTURE(rounds.size());
+                            CAPTURE(nameOf(count));
+                            CAPTURE(packed);
+                            const bool motion = count == fewer;
+                            Accumulation a(device, width, height, window, Receivers::All, definesOf(specular, motion));
+                            if (packed)
+                                a.pack();
+                            const TermPixels term = accumulated(a, rounds, { exact, specular, count }, motion);
+                            term.check(a);
+                            if (packed && motion)
+                                term.checkShadows(a);
+                            const auto texture = a.read(term.texture), weight = a.read(term.weightOf);
+                            a.waves.everyPixel([&](int x, int y) {
+                                REQUIRE(nearTo(weight.at(x, y), packed ? 0 : luminanceOf(texture.vector(x, y))));
+                            });
                         }
-                        term.check(a);
-                        const auto texture = a.read(term.texture), weight = a.read(term.weightOf);
-                        a.waves.everyPixel(
-                            [&](int x, int y) { REQUIRE(nearTo(weight.at(x, y), luminanceOf(texture.vector(x, y)))); });
                     }
     });
 }
@@ -134,13 +146,7 @@ TEST_CASE(
             for (const Rounds& rounds : { oneRound, threeRounds }) {
                 Accumulation a(device, width, height, window, kind, definesOf(true));
                 const LightCase how { false, true, oneEach };
-                TermPixels term(a, oneEach);
-                SurfacePixels surfaces(a);
-                for (const auto& upTo : rounds) {
-                    a.begin(upTo);
-                    addWave(a, term, how, false);
-                    accumulateSurfaces(a, surfaces);
-                }
+                const TermPixels term = accumulated(a, rounds, how, false);
                 const auto texture = a.read(term.texture), value = a.read(term.value), plain = a.read(term.plain);
                 double largest = 0;
                 a.waves.everyPixel([&](int x, int y) {

@@ -1,6 +1,7 @@
 // blur.cl alone: rows, columns and lines along motions against gathers over the whole image in double.
 #include "kernels/shared/frame.h"
 #include "tests/distributed_support.h"
+#include "tests/packed_support.h"
 
 using namespace wedge;
 using namespace wedge::test;
@@ -38,6 +39,28 @@ struct Blurred {
         everyPixel({ 0, 0, region.width, region.height }, visit);
     }
 
+    /// What is left of it in fewer bits: of directions times widths, and of a light's texture.
+    void round()
+    {
+        everywhere([&](int x, int y) {
+            const glm::dvec2 along(rounded(double { sigma.at(x, y) } * direction.at(x, y)),
+                rounded(double { sigma.at(x, y) } * direction.at(x, y, 1)));
+            const double width = glm::length(along);
+            sigma.at(x, y) = static_cast<float>(width);
+            direction.at(x, y) = static_cast<float>(width > 0 ? along.x / width : 1);
+            direction.at(x, y, 1) = static_cast<float>(width > 0 ? along.y / width : 0);
+            value.setVector(x, y, rounded(value.vector(x, y), shared::textureBits(1, true)));
+        });
+    }
+    /// One plane of the product of both parts of directions with widths.
+    Planes<float> packedDirections() const
+    {
+        Planes<float> parts[2] = { sigma, sigma };
+        for (std::size_t i = 0; i < 2 * sigma.values.size(); ++i)
+            parts[i / sigma.values.size()].values[i % sigma.values.size()] *= direction.values[i];
+        return packedNumbers(parts[0], parts[1]);
+    }
+
     Region region;
     Planes<float> sigma, direction, value;
 };
@@ -64,13 +87,17 @@ Planes<float> lensFiltered(KernelBench& bench, const Blurred& image, const std::
     return out.read();
 }
 
-Planes<float> motionFiltered(KernelBench& bench, const Blurred& image, std::uint32_t channels = 3)
+Planes<float> motionFiltered(KernelBench& bench, const Blurred& image, std::uint32_t channels = 3, std::uint32_t packed = 0)
 {
     Output<float> out(bench, image.region, 3);
-    const auto sigma = bench.buffer(image.sigma.values), direction = bench.buffer(image.direction.values),
-               value = bench.buffer(image.value.values);
-    launchPixels(
-        bench, "blur.cl", "blurMotion", paramsOf(image.region), channels, sigma, direction, value, out.buffer());
+    shared::DistributedParams p = paramsOf(image.region);
+    p.packed = packed;
+    // Packed, widths are read from directions alone.
+    const auto sigma = packed != 0 ? bench.filled(1, 0.0f) : bench.buffer(image.sigma.values);
+    const auto direction = bench.buffer((packed != 0 ? image.packedDirections() : image.direction).values);
+    const auto value = bench.buffer(
+        channels == 3 ? packedColours(image.value, shared::textureBits(packed, true)).values : image.value.values);
+    launchPixels(bench, "blur.cl", "blurMotion", p, channels, sigma, direction, value, out.buffer());
     return out.read();
 }
 
@@ -152,19 +179,24 @@ TEST_CASE("rows and columns are the gather over all pixels, the narrower kernel 
     });
 }
 
-TEST_CASE("lines along motions are the gather over all steps, in every direction")
+TEST_CASE("lines along motions are the gather over all steps, in every direction; packed, too")
 {
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);
         unsigned seed = 10;
         int uncertain = 0, pixels = 0;
         for (const Region& region : regions())
-            for (const double angle : { 0.0, 0.7, 1.7, 2.9, -0.5, -1.3, -2.6 }) {
+            for (const auto& [angle, packed] : { std::pair(0.0, 0u), { 0.7, 0u }, { 1.7, 0u }, { 2.9, 0u }, { -0.5, 0u },
+                     { -1.3, 0u }, { -2.6, 0u }, { 0.0, 1u }, { 1.7, 1u }, { -2.6, 1u } }) {
                 CAPTURE(angle);
+                CAPTURE(packed);
+                const double middle = angle;
                 Blurred image = randomImage(region, ++seed);
                 std::mt19937 random(seed);
-                image.everywhere([&](int x, int y) { image.setDirection(x, y, angle + uniform(random, -0.25, 0.25)); });
-                const auto found = motionFiltered(bench, image);
+                image.everywhere([&](int x, int y) { image.setDirection(x, y, middle + uniform(random, -0.25, 0.25)); });
+                if (packed != 0)
+                    image.round();
+                const auto found = motionFiltered(bench, image, 3, packed);
                 everyPixel(region.window, [&](int x, int y) {
                     const MotionOracle expected = motionOracle(image, x, y);
                     ++pixels;
@@ -182,13 +214,17 @@ TEST_CASE("one channel leaves the other planes alone and is what the first of th
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);
         const Region region(45, 29, { 16, 3, 41, 20 });
-        const Blurred image = randomImage(region, 3);
-        const auto three = motionFiltered(bench, image), one = motionFiltered(bench, image, 1);
-        everyPixel(region.window, [&](int x, int y) {
-            REQUIRE(one.at(x, y) == three.at(x, y));
-            REQUIRE(one.at(x, y, 1) == untouched<float>());
-            REQUIRE(one.at(x, y, 2) == untouched<float>());
-        });
+        Blurred image = randomImage(region, 3);
+        for (const std::uint32_t packed : { 0u, 1u }) {
+            if (packed != 0)
+                image.round();
+            const auto three = motionFiltered(bench, image, 3, packed), one = motionFiltered(bench, image, 1, packed);
+            everyPixel(region.window, [&](int x, int y) {
+                REQUIRE(one.at(x, y) == three.at(x, y));
+                REQUIRE(one.at(x, y, 1) == untouched<float>());
+                REQUIRE(one.at(x, y, 2) == untouched<float>());
+            });
+        }
     });
 }
 

@@ -1,5 +1,6 @@
 // distributed.cl alone: variances of pixels, which samples those ask for, and bounds of counts.
 #include "tests/distributed_support.h"
+#include "tests/packed_support.h"
 
 #include <array>
 
@@ -16,21 +17,40 @@ double unbiased(double n) { return n > 1 ? n / (n - 1) : 0; }
 /// What splitVariance takes, and what it is to make of it.
 struct Moments {
     Planes<float> texture, textureSquares, value, squares;
+    Planes<float> deviation, textureDeviation; ///< packed
     Planes<std::uint32_t> taken;
 
-    Moments(const Region& region, std::mt19937& random)
+    /// Packed with p.packed: what they are then.
+    Moments(const Region& region, std::mt19937& random, const shared::DistributedParams& p = {})
         : texture(filledPlanes(
             region, 3, 1e30f, [&](int, int, std::size_t) { return random() % 6 == 0 ? 0 : uniform(random); }))
         , textureSquares(filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random); }))
         , value(filledPlanes(
               region, 3, 1e30f, [&](int, int, std::size_t) { return random() % 6 == 0 ? 0 : uniform(random, 0, 2); }))
         , squares(filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random, 0, 2); }))
+        , deviation(squares)
+        , textureDeviation(squares)
         , taken(filledPlanes(region, 1, 1000u, [&](int, int, std::size_t) { return random() % 12; }))
     {
         everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
             if (random() % 9 == 0)
                 texture.setVector(x, y, { 0, 0, 0 });
+            if (p.packed != 0)
+                round(p, x, y);
         });
+    }
+    /// Packed, squares are those of deviations of so many bits.
+    void round(const shared::DistributedParams& p, int x, int y)
+    {
+        const glm::dvec3 k = rounded(texture.vector(x, y), shared::textureBits(1, p.values == 1));
+        const glm::dvec3 e = rounded(value.vector(x, y), shared::valueBits(1, p.values == 1));
+        texture.setVector(x, y, k);
+        value.setVector(x, y, e);
+        const double l = luminanceOf(k * e), t = luminanceOf(k);
+        deviation.at(x, y) = rounded(squares.at(x, y));
+        textureDeviation.at(x, y) = rounded(textureSquares.at(x, y));
+        squares.at(x, y) = static_cast<float>(l * l + std::pow(deviation.at(x, y), 2));
+        textureSquares.at(x, y) = static_cast<float>(t * t + std::pow(textureDeviation.at(x, y), 2));
     }
     std::array<double, 2> expected(int x, int y) const
     {
@@ -45,13 +65,17 @@ struct Moments {
 struct SplitPlanes {
     Planes<float> ofTexture, ofIrradiance;
 };
-SplitPlanes splitVariance(KernelBench& bench, const Region& region, const Moments& in)
+SplitPlanes splitVariance(
+    KernelBench& bench, const Region& region, const Moments& in, const shared::DistributedParams& p)
 {
     Output<float> first(bench, region, 1), second(bench, region, 1);
-    const auto k = bench.buffer(in.texture.values), k2 = bench.buffer(in.textureSquares.values),
-               e = bench.buffer(in.value.values), l2 = bench.buffer(in.squares.values);
+    const bool light = p.values == 1;
+    const auto k = bench.buffer(packedColours(in.texture, shared::textureBits(p.packed, light)).values),
+               e = bench.buffer(packedColours(in.value, shared::valueBits(p.packed, light)).values),
+               k2 = bench.buffer(in.textureSquares.values),
+               l2 = bench.buffer((p.packed != 0 ? packedNumbers(in.deviation, in.textureDeviation) : in.squares).values);
     const auto taken = bench.buffer(in.taken.values);
-    launchPixels(bench, "distributed.cl", "splitVariance", paramsOf(region), k, k2, e, l2, taken, first.buffer(),
+    launchPixels(bench, "distributed.cl", "splitVariance", p, k, k2, e, l2, taken, first.buffer(),
         second.buffer());
     return { first.read(), second.read() };
 }
@@ -133,21 +157,28 @@ Planes<std::uint32_t> someCounts(const Region& region, std::mt19937& random, std
 
 } // namespace
 
-TEST_CASE("variances: of the texture at most all of it, of the irradiance the rest; none of a sample or less")
+TEST_CASE("variances: of the texture at most all of it, of the irradiance the rest; none of a sample or less; packed, too")
 {
     onEveryRegion(0, [](KernelBench& bench, const Region& region, std::mt19937& random) {
-        const Moments in(region, random);
-        const SplitPlanes found = splitVariance(bench, region, in);
-        int all = 0, some = 0;
-        everyPixel(region.window, [&](int x, int y) {
-            const auto [texture, irradiance] = in.expected(x, y);
-            REQUIRE(agree(found.ofTexture.at(x, y), texture, 1e-4, 2e-6));
-            REQUIRE(agree(found.ofIrradiance.at(x, y), irradiance, 1e-4, 2e-6));
-            all += texture > 0 && irradiance == 0 ? 1 : 0;
-            some += texture > 0 && irradiance > 0 ? 1 : 0;
-        });
-        CHECK((all > 3 || region.width * region.height < 100));
-        CHECK((some > 3 || region.width * region.height < 100));
+        for (const auto& [packed, values] : { std::pair(0u, 1u), { 1u, 1u }, { 1u, 3u } }) {
+            CAPTURE(packed);
+            CAPTURE(values);
+            shared::DistributedParams p = paramsOf(region);
+            p.packed = packed;
+            p.values = values;
+            const Moments in(region, random, p);
+            const SplitPlanes found = splitVariance(bench, region, in, p);
+            int all = 0, some = 0;
+            everyPixel(region.window, [&](int x, int y) {
+                const auto [texture, irradiance] = in.expected(x, y);
+                REQUIRE(agree(found.ofTexture.at(x, y), texture, 1e-4, 4e-6));
+                REQUIRE(agree(found.ofIrradiance.at(x, y), irradiance, 1e-4, 4e-6));
+                all += texture > 0 && irradiance < 1e-6 ? 1 : 0;
+                some += texture > 0 && irradiance > 1e-6 ? 1 : 0;
+            });
+            CHECK((all > 3 || region.width * region.height < 100));
+            CHECK((some > 3 || region.width * region.height < 100));
+        }
     });
 }
 
@@ -176,7 +207,7 @@ TEST_CASE("variances: in the mean over pixels of few samples they are those of a
                 in.squares.at(x, y) = static_cast<float>(l[1]);
                 in.taken.at(x, y) = n;
             });
-            const SplitPlanes found = splitVariance(bench, region, in);
+            const SplitPlanes found = splitVariance(bench, region, in, paramsOf(region));
             double texture = 0, irradiance = 0;
             everyPixel(region.window, [&](int x, int y) {
                 texture += found.ofTexture.at(x, y) / (120.0 * 90.0);

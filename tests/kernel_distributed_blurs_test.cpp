@@ -1,7 +1,9 @@
 // distributed.cl alone: deviations and directions of the filters of what lens and shutter blur.
 #include "tests/distributed_support.h"
+#include "tests/packed_support.h"
 
 #include <array>
+#include <limits>
 
 using namespace wedge;
 using namespace wedge::test;
@@ -21,7 +23,7 @@ struct Samples {
 };
 constexpr std::array<Samples, 3> sampleKinds = { { { 1, 0 }, { 1, 16 }, { 2, 0 } } };
 
-/// The default exponents, and those of the setting as published.
+/// The default exponents, and those of the setting as published; each plain and packed.
 std::vector<shared::DistributedParams> settingsOf(const Region& region, const Samples& samples)
 {
     std::vector<shared::DistributedParams> out(2, paramsOf(region));
@@ -34,6 +36,10 @@ std::vector<shared::DistributedParams> settingsOf(const Region& region, const Sa
         p.frames = samples.frames;
         p.samples = samples.expected;
     }
+    for (std::size_t k = 0; k < 2; ++k) {
+        out.push_back(out[k]);
+        out.back().packed = 1;
+    }
     return out;
 }
 
@@ -43,7 +49,7 @@ struct Motion {
     /// One motion, and long enough.
     bool one(const shared::DistributedParams& p) const
     {
-        return speed() >= p.leastRadius && spread <= p.oneVelocity * speed();
+        return speed() < std::numeric_limits<double>::infinity() && speed() >= p.leastRadius && spread <= p.oneVelocity * speed();
     }
     /// Whether a rounding decides.
     bool uncertain(const shared::DistributedParams& p) const
@@ -56,6 +62,15 @@ struct Motion {
 void requireAlong(
     const shared::DistributedParams& p, const Motion& m, bool apart, double n, float along, float dx, float dy)
 {
+    if (p.packed != 0) {
+        // Direction times deviation, of 8 bits.
+        const double expected = apart && m.one(p) ? bestWidth(p.shutterWidth, p.shutterExponent, m.speed() / 2, n, 1) : 0;
+        const double scale = expected > 0 ? expected / m.speed() : 0;
+        REQUIRE(agree(along, expected));
+        REQUIRE(agree(dx, scale > 0 ? scale * m.x : 0, 1.0 / 256));
+        REQUIRE(agree(dy, scale > 0 ? scale * m.y : 0, 1.0 / 256));
+        return;
+    }
     if (!apart || !m.one(p)) {
         REQUIRE(along == 0);
         REQUIRE(dx == 1);
@@ -65,6 +80,31 @@ void requireAlong(
     REQUIRE(agree(along, bestWidth(p.shutterWidth, p.shutterExponent, m.speed() / 2, n, 1)));
     REQUIRE(agree(dx, m.x / m.speed(), 1e-4));
     REQUIRE(agree(dy, m.y / m.speed(), 1e-4));
+}
+
+/// A packed motion, or infinity where there are several.
+Motion packedMotion(const shared::DistributedParams& p, const Motion& m)
+{
+    if (m.spread > p.oneVelocity * m.speed())
+        return { std::numeric_limits<double>::infinity(), 0, 0 };
+    return { rounded(m.x), rounded(m.y), 0 };
+}
+
+/// The directions that a kernel has stored in a plane that was `before`; fails if it has changed others than the window's.
+Planes<float> directionsOf(KernelBench& bench, const Region& region, const device::Buffer<float>& buffer, const Planes<float>& before)
+{
+    const Planes<float> after = planesOf(region.layout, bench.read(buffer));
+    Planes<float> out(region.layout, 2, 0.0f);
+    for (std::size_t k = 0; k < 2; ++k) {
+        const Planes<float> numbers = numbersOf(after, k), old = numbersOf(before, k);
+        everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
+            const image::Window& w = region.window;
+            const bool inside = x >= w.x0 && x < w.x1 && y >= w.y0 && y < w.y1;
+            REQUIRE((inside || numbers.at(x, y) == old.at(x, y)));
+            out.at(x, y, k) = numbers.at(x, y);
+        });
+    }
+    return out;
 }
 
 Planes<std::uint32_t> randomTaken(const Region& region, std::mt19937& random)
@@ -117,6 +157,49 @@ std::vector<glm::dvec2> randomMotions(std::mt19937& random)
     return out;
 }
 
+struct BlursFound {
+    Planes<float> lens, along, directions;
+};
+/// Packed, circles of confusion are with the hits, and directions take the place of motions.
+BlursFound blurs(KernelBench& bench, const Region& region, const shared::DistributedParams& p, const Planes<float>& confusion,
+    const Planes<float>& motion, const Planes<std::uint32_t>& taken)
+{
+    const Planes<float> hits = filledPlanes(region, 1, 1e30f, [](int x, int, std::size_t) { return x; });
+    Output<float> lens(bench, region, 1), along(bench, region, 1), directions(bench, region, 2);
+    const auto takens = bench.buffer(taken.values);
+    if (p.packed == 0) {
+        const auto confusions = bench.buffer(confusion.values), motions = bench.buffer(motion.values);
+        launchPixels(bench, "distributed.cl", "blurs", p, confusions, motions, takens, lens.buffer(), along.buffer(),
+            directions.buffer());
+        return { lens.read(), along.read(), directions.read() };
+    }
+    Planes<float> ofY = motion;
+    std::copy_n(motion.values.begin() + static_cast<std::ptrdiff_t>(region.layout.size), region.layout.size, ofY.values.begin());
+    const Planes<float> both = packedNumbers(motion, ofY);
+    const auto confusions = bench.buffer(packedNumbers(hits, confusion).values), motions = bench.buffer(both.values);
+    launchPixels(
+        bench, "distributed.cl", "blurs", p, confusions, motions, takens, lens.buffer(), along.buffer(), motions);
+    return { lens.read(), along.read(), directionsOf(bench, region, motions, both) };
+}
+
+/// shadows: six planes, or packed the first two in one.
+BlursFound shadowBlurs(KernelBench& bench, const Region& region, const shared::DistributedParams& p, const Planes<float>& shadows,
+    const Planes<float>& beta, const Planes<std::uint32_t>& taken)
+{
+    Planes<float> ofY = shadows;
+    std::copy_n(shadows.values.begin() + static_cast<std::ptrdiff_t>(region.layout.size), region.layout.size, ofY.values.begin());
+    const auto shadowed = bench.buffer((p.packed != 0 ? packedNumbers(shadows, ofY) : shadows).values);
+    const auto betas = bench.buffer(beta.values);
+    const auto takens = bench.buffer(taken.values);
+    Output<float> along(bench, region, 1), directions(bench, region, 2);
+    const Planes<float> before(region.layout, 1, 0.0f);
+    const auto packed = bench.buffer(before.values);
+    launchPixels(bench, "distributed.cl", "shadowBlurs", p, shadowed, takens, betas, along.buffer(),
+        p.packed != 0 ? packed : directions.buffer());
+    const Planes<float> width = along.read();
+    return { width, width, p.packed != 0 ? directionsOf(bench, region, packed, before) : directions.read() };
+}
+
 } // namespace
 
 TEST_CASE("blurs: of the lens where all of the pixel is blurred, of the shutter where it has one motion")
@@ -128,7 +211,7 @@ TEST_CASE("blurs: of the lens where all of the pixel is blurred, of the shutter 
             for (const Samples& samples : sampleKinds)
                 for (const shared::DistributedParams& p : settingsOf(region, samples)) {
                     std::mt19937 random(++seed);
-                    const auto confusion = filledPlanes(region, 2, 1e30f, [&](int x, int y, std::size_t plane) {
+                    auto confusion = filledPlanes(region, 2, 1e30f, [&](int x, int y, std::size_t plane) {
                         const double middle = ((x + y) % 3 - 1) * 12,
                                      half = random() % 4 == 0 ? 20 : uniform(random, 0, 12);
                         return plane == 0 ? middle - half : middle + half;
@@ -141,14 +224,15 @@ TEST_CASE("blurs: of the lens where all of the pixel is blurred, of the shutter 
                                 random() % 3 == 0 ? 0 : speed * uniform(random, 0, 0.2) });
                         if (random() % 5 == 0)
                             motion.setVector(x, y, { 0, 0, uniform(random, 0, 9) });
+                        if (p.packed == 0)
+                            return;
+                        const Motion m = packedMotion(p, { motion.at(x, y), motion.at(x, y, 1), motion.at(x, y, 2) });
+                        motion.setVector(x, y, { m.x, m.y, 0 });
+                        const float low = confusion.at(x, y), high = confusion.at(x, y, 1);
+                        confusion.at(x, y) = confusion.at(x, y, 1) = rounded(low > 0 ? low : high < 0 ? high : 0.0);
                     });
                     const auto taken = randomTaken(region, random);
-                    Output<float> lens(bench, region, 1), along(bench, region, 1), directions(bench, region, 2);
-                    const auto confusions = bench.buffer(confusion.values), motions = bench.buffer(motion.values);
-                    const auto takens = bench.buffer(taken.values);
-                    launchPixels(bench, "distributed.cl", "blurs", p, confusions, motions, takens, lens.buffer(),
-                        along.buffer(), directions.buffer());
-                    const Planes<float> ofLens = lens.read(), ofMotion = along.read(), direction = directions.read();
+                    const BlursFound found = blurs(bench, region, p, confusion, motion, taken);
                     everyPixel(region.window, [&](int x, int y) {
                         CAPTURE(x);
                         CAPTURE(y);
@@ -156,11 +240,11 @@ TEST_CASE("blurs: of the lens where all of the pixel is blurred, of the shutter 
                                      n = samples.of(taken.at(x, y));
                         const double r = low <= 0 && high >= 0 ? 0 : std::min(std::fabs(low), std::fabs(high));
                         if (std::fabs(r - p.leastRadius) > 1e-5)
-                            REQUIRE(agree(ofLens.at(x, y),
+                            REQUIRE(agree(found.lens.at(x, y),
                                 r > p.leastRadius ? bestWidth(p.blurWidth, p.blurExponent, r, n, 2) : 0));
                         const Motion m { motion.at(x, y), motion.at(x, y, 1), motion.at(x, y, 2) };
                         if (!m.uncertain(p))
-                            requireAlong(p, m, true, n, ofMotion.at(x, y), direction.at(x, y), direction.at(x, y, 1));
+                            requireAlong(p, m, true, n, found.along.at(x, y), found.directions.at(x, y), found.directions.at(x, y, 1));
                     });
                 }
     });
@@ -186,30 +270,31 @@ TEST_CASE("shadows' blurs: of the mean motion of those that move, where they mov
                         const double values[] = { sums.x, sums.y, sums.squared, sums.count };
                         for (std::size_t k = 0; k < 4; ++k)
                             shadows.at(x, y, 2 + k) = static_cast<float>(values[k]);
+                        if (p.packed != 0) {
+                            const Motion m = packedMotion(p, all.empty() ? Motion {} : motionOf(all));
+                            shadows.at(x, y) = static_cast<float>(m.x);
+                            shadows.at(x, y, 1) = static_cast<float>(m.y);
+                        }
                     });
                     const auto beta = filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) {
                         return random() % 4 == 0 ? -1 : random() % 4 == 0 ? 0 : 0.1;
                     });
                     const auto taken = randomTaken(region, random);
-                    Output<float> along(bench, region, 1), directions(bench, region, 2);
-                    const auto shadowed = bench.buffer(shadows.values), betas = bench.buffer(beta.values);
-                    const auto takens = bench.buffer(taken.values);
-                    launchPixels(bench, "distributed.cl", "shadowBlurs", p, shadowed, takens, betas, along.buffer(),
-                        directions.buffer());
-                    const Planes<float> width = along.read(), direction = directions.read();
+                    const BlursFound is = shadowBlurs(bench, region, p, shadows, beta, taken);
                     everyPixel(region.window, [&](int x, int y) {
                         CAPTURE(x);
                         CAPTURE(y);
                         const auto& all = motions[shadows.index(x, y)];
-                        const Motion m = all.empty() ? Motion {} : motionOf(all);
+                        const Motion mean = all.empty() ? Motion {} : motionOf(all);
+                        const Motion m = p.packed != 0 ? packedMotion(p, mean) : mean;
                         ++pixels;
                         if (m.uncertain(p)) {
                             ++uncertain;
                             return;
                         }
                         ++found[m.one(p) ? 1 : 0];
-                        requireAlong(p, m, beta.at(x, y) >= 0, samples.of(taken.at(x, y)), width.at(x, y),
-                            direction.at(x, y), direction.at(x, y, 1));
+                        requireAlong(p, m, beta.at(x, y) >= 0, samples.of(taken.at(x, y)), is.along.at(x, y),
+                            is.directions.at(x, y), is.directions.at(x, y, 1));
                     });
                 }
         CHECK(uncertain < 0.01 * pixels);

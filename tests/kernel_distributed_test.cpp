@@ -1,5 +1,6 @@
 // distributed.cl alone: where texture and irradiance may be taken apart, how wide filters are, and counts of demands.
 #include "tests/distributed_support.h"
+#include "tests/packed_support.h"
 
 using namespace wedge;
 using namespace wedge::test;
@@ -35,7 +36,8 @@ struct Widths {
     Planes<float> error, confusion, pixelSize, beta;
     Planes<std::uint32_t> objectId;
 
-    Widths(const Region& region, std::mt19937& random)
+    /// packed: rounded to what is left of them.
+    Widths(const Region& region, std::mt19937& random, std::uint32_t packed = 0)
         : error(filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random, -0.05, 0.07); }))
         , confusion(randomConfusion(region, random))
         , pixelSize(filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random, 1e-3, 0.1); }))
@@ -47,6 +49,12 @@ struct Widths {
             return random() % 9 == 0 ? random() % 3 : 1u + static_cast<unsigned>(x / 9 + y / 7) % 2;
         }))
     {
+        everyPixel({ 0, 0, packed != 0 ? region.width : 0, region.height }, [&](int x, int y) {
+            error.at(x, y) = rounded(error.at(x, y));
+            pixelSize.at(x, y) = rounded(pixelSize.at(x, y));
+            const float low = confusion.at(x, y), high = confusion.at(x, y, 1);
+            confusion.at(x, y) = confusion.at(x, y, 1) = rounded(low > 0 ? low : high < 0 ? high : 0.0);
+        });
     }
     ExpectedWidth expected(const Region& region, const shared::DistributedParams& p, int x, int y) const
     {
@@ -71,8 +79,12 @@ Planes<float> factoredWidths(
     KernelBench& bench, const Region& region, const shared::DistributedParams& p, const Widths& in)
 {
     Output<float> beta(bench, region, in.beta);
-    const auto error = bench.buffer(in.error.values), confusion = bench.buffer(in.confusion.values),
-               size = bench.buffer(in.pixelSize.values);
+    // With what else there is in these planes: slopes, hits and gloss.
+    const Planes<float> other = filledPlanes(region, 1, 1e30f, [](int x, int, std::size_t) { return x; });
+    const bool packed = p.packed != 0;
+    const auto error = bench.buffer((packed ? packedNumbers(in.error, other) : in.error).values),
+               confusion = bench.buffer((packed ? packedNumbers(other, in.confusion) : in.confusion).values),
+               size = bench.buffer((packed ? packedNumbers(in.pixelSize, other) : in.pixelSize).values);
     const auto objects = bench.buffer(in.objectId.values);
     launchPixels(bench, "distributed.cl", "factoredWidths", p, error, confusion, size, objects, beta.buffer());
     return beta.read();
@@ -102,13 +114,15 @@ TEST_CASE("the factoring error is the signed luminance of k E - k mean(e)")
 }
 
 TEST_CASE(
-    "widths: apart where the mean error around of the same object is small, and as wide as the lens blurs at least")
+    "widths: apart where the mean error around of the same object is small, and as wide as the lens blurs at least; packed, too")
 {
     onEveryRegion(50, [](KernelBench& bench, const Region& region, std::mt19937& random) {
         for (const std::uint32_t radius : { 0u, 1u, 2u, 5u })
-            for (const std::uint32_t never : { 0u, 1u }) {
-                const Widths in(region, random);
+            for (const auto& [never, packed] : { std::pair(0u, 0u), { 1u, 0u }, { 0u, 1u }, { 1u, 1u } }) {
+                CAPTURE(packed);
+                const Widths in(region, random, packed);
                 shared::DistributedParams p = paramsOf(region);
+                p.packed = packed;
                 p.factoringRadius = radius;
                 p.never = never;
                 const Planes<float> found = factoredWidths(bench, region, p, in);

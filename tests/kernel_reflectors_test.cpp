@@ -1,5 +1,6 @@
 // reflectors.cl alone: distances of reflectors to widths and counts, against the same in double.
 #include "kernels/shared/indirect.h"
+#include "tests/packed_support.h"
 #include "tests/reflector_support.h"
 
 #include <algorithm>
@@ -39,6 +40,9 @@ struct Widths {
     std::vector<std::uint32_t> wanted;
 };
 
+constexpr std::uint32_t noCount = 777; ///< before the kernel
+
+/// p.meanOnly: as lean frames have pixels, with sums of inverse distances alone and gloss beside sizes.
 Widths widthsOf(KernelBench& bench, shared::ReflectorParams p, float extent, const std::vector<Found>& pixels)
 {
     const render::PlaneLayout layout(static_cast<int>(pixels.size()), 1);
@@ -49,15 +53,19 @@ Widths widthsOf(KernelBench& bench, shared::ReflectorParams p, float extent, con
     Planes<std::uint32_t> taken(layout, 1, 0u);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const int x = static_cast<int>(i);
-        reflectors.setVector(x, 0, { pixels[i].nearest, pixels[i].farthest, pixels[i].inverse });
+        if (p.meanOnly != 0)
+            reflectors.at(x, 0) = pixels[i].inverse;
+        else
+            reflectors.setVector(x, 0, { pixels[i].nearest, pixels[i].farthest, pixels[i].inverse });
         pixelSize.at(x, 0) = pixels[i].pixelSize;
         gloss.at(x, 0) = pixels[i].gloss;
         taken.at(x, 0) = pixels[i].taken;
     }
+    pixelSize = p.meanOnly != 0 ? packedNumbers(pixelSize, gloss) : pixelSize;
     const auto beta = bench.filled(layout.size, -7.0f);
-    const auto wanted = bench.filled(layout.size, 777u);
+    const auto wanted = bench.filled(layout.size, noCount);
     launchRows(bench, "reflectorWidths", p, 1, bench.buffer(reflectors.values), bench.filled(1, extent),
-        bench.buffer(pixelSize.values), bench.buffer(gloss.values), bench.buffer(taken.values), beta, wanted);
+        bench.buffer(pixelSize.values), bench.buffer((p.meanOnly != 0 ? pixelSize : gloss).values), bench.buffer(taken.values), beta, wanted);
     const Planes<float> betas = planesOf(layout, bench.read(beta));
     const Planes<std::uint32_t> counts = planesOf(layout, bench.read(wanted));
     Widths out;
@@ -154,7 +162,10 @@ void checkWidths(KernelBench& bench, const shared::ReflectorParams& p, float ext
         CAPTURE(p.component);
         REQUIRE(std::isfinite(found.beta[i]));
         REQUIRE(close(found.beta[i], expected.beta, 1e-4));
-        REQUIRE(std::fabs(found.wanted[i] - expected.wanted) <= 0.501 + 1e-3 * expected.wanted);
+        if (p.meanOnly != 0)
+            REQUIRE(found.wanted[i] == noCount);
+        else
+            REQUIRE(std::fabs(found.wanted[i] - expected.wanted) <= 0.501 + 1e-3 * expected.wanted);
     }
 }
 
@@ -215,6 +226,23 @@ TEST_CASE("widths are (4.16) and counts (4.21) of the least distance, or of a fr
         KernelBench bench(device);
         for (const shared::ReflectorParams& p : settings())
             checkWidths(bench, p, 4.0f, randomPixels(150, 3, 9));
+    });
+}
+
+TEST_CASE("widths of lean frames: from the mean alone, with sizes and exponents of 16 bits, and no counts")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        std::vector<Found> pixels = randomPixels(150, 3, 10);
+        for (Found& f : pixels) {
+            f.pixelSize = rounded(f.pixelSize);
+            f.gloss = rounded(f.gloss);
+        }
+        for (shared::ReflectorParams p : settings()) {
+            p.meanOnly = 1;
+            if (p.meanFraction > 0)
+                checkWidths(bench, p, 4.0f, pixels);
+        }
     });
 }
 

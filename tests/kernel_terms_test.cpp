@@ -1,5 +1,6 @@
 // distributed.cl alone: filtered terms back into radiance.
 #include "tests/distributed_support.h"
+#include "tests/packed_support.h"
 
 using namespace wedge;
 using namespace wedge::test;
@@ -10,7 +11,8 @@ namespace {
 struct TermPlanes {
     Planes<float> texture, filteredTexture, value, filtered, beta, own, radiance;
 
-    TermPlanes(const Region& region, std::mt19937& random)
+    /// With p.packed texture and value are rounded as such; buffers of them have what textureOf() and valueOf() return.
+    TermPlanes(const Region& region, std::mt19937& random, const shared::DistributedParams& p = {})
         : texture(planes(region, 3, random))
         , filteredTexture(planes(region, 3, random))
         , value(planes(region, 3, random))
@@ -25,7 +27,25 @@ struct TermPlanes {
         everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
             if (random() % 9 == 0)
                 texture.setVector(x, y, { 0, 0, 0 });
+            texture.setVector(x, y, rounded(texture.vector(x, y), bitsOfTexture(p)));
+            value.setVector(x, y, rounded(value.vector(x, y), bitsOfValue(p)));
+            if (p.plainTexture == 0)
+                filteredTexture.setVector(x, y, rounded(filteredTexture.vector(x, y), bitsOfTexture(p)));
         });
+    }
+    static std::uint32_t bitsOfTexture(const shared::DistributedParams& p)
+    {
+        return shared::textureBits(p.packed, p.values == 1);
+    }
+    static std::uint32_t bitsOfValue(const shared::DistributedParams& p)
+    {
+        return shared::valueBits(p.packed, p.values == 1);
+    }
+    Planes<float> textureOf(const shared::DistributedParams& p) const { return packedColours(texture, bitsOfTexture(p)); }
+    Planes<float> valueOf(const shared::DistributedParams& p) const { return packedColours(value, bitsOfValue(p)); }
+    Planes<float> filteredTextureOf(const shared::DistributedParams& p) const
+    {
+        return p.plainTexture != 0 ? filteredTexture : packedColours(filteredTexture, bitsOfTexture(p));
     }
     static Planes<float> planes(const Region& region, std::size_t count, std::mt19937& random)
     {
@@ -44,19 +64,27 @@ bool nearTo(glm::dvec3 found, glm::dvec3 expected)
     return glm::length(found - expected) <= 1e-6 * (1 + glm::length(expected));
 }
 
+/// How terms are kept: as of DistributedParams.
+struct Kept {
+    std::uint32_t published, packed, plainTexture;
+};
+
 /// What `launch(p, term, buffer of radiance)` leaves there, against expected(p, term, x, y) added to what was.
 template <class Launch, class Expected>
 void checkAdds(const Launch& launch, const Expected& expected)
 {
     onEveryRegion(0, [&](KernelBench& bench, const Region& region, std::mt19937& random) {
-        for (const std::uint32_t published : { 0u, 1u })
+        for (const Kept& kept : { Kept { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 1, 1 } })
             for (const std::uint32_t values : { 1u, 3u }) {
-                CAPTURE(published);
+                CAPTURE(kept.published);
+                CAPTURE(kept.packed);
                 CAPTURE(values);
-                const TermPlanes term(region, random);
                 shared::DistributedParams p = paramsOf(region);
-                p.published = published;
+                p.published = kept.published;
+                p.packed = kept.packed;
+                p.plainTexture = kept.plainTexture;
                 p.values = values;
+                const TermPlanes term(region, random, p);
                 Output<float> radiance(bench, region, term.radiance);
                 launch(bench, p, term, radiance.buffer());
                 const Planes<float> found = radiance.read();
@@ -74,8 +102,9 @@ TEST_CASE("a filtered term adds the filtered texture times the filtered value wh
     checkAdds(
         [](KernelBench& bench, const shared::DistributedParams& p, const TermPlanes& term,
             const device::Buffer<float>& radiance) {
-            const auto k = bench.buffer(term.texture.values), filteredK = bench.buffer(term.filteredTexture.values),
-                       e = bench.buffer(term.value.values), filteredE = bench.buffer(term.filtered.values),
+            const auto k = bench.buffer(term.textureOf(p).values),
+                       filteredK = bench.buffer(term.filteredTextureOf(p).values),
+                       e = bench.buffer(term.valueOf(p).values), filteredE = bench.buffer(term.filtered.values),
                        beta = bench.buffer(term.beta.values), own = bench.buffer(term.own.values);
             launchPixels(
                 bench, "distributed.cl", "addFilteredTerm", p, k, filteredK, e, filteredE, beta, own, radiance);
@@ -93,7 +122,7 @@ TEST_CASE("a term without a filter adds texture times value, or as published wha
     checkAdds(
         [](KernelBench& bench, const shared::DistributedParams& p, const TermPlanes& term,
             const device::Buffer<float>& radiance) {
-            const auto k = bench.buffer(term.texture.values), e = bench.buffer(term.value.values),
+            const auto k = bench.buffer(term.textureOf(p).values), e = bench.buffer(term.valueOf(p).values),
                        own = bench.buffer(term.own.values);
             launchPixels(bench, "distributed.cl", "addTerm", p, k, e, own, radiance);
         },
@@ -105,12 +134,14 @@ TEST_CASE("a term without a filter adds texture times value, or as published wha
 TEST_CASE("a light's visibility: of its channels the mean that keeps the radiance's luminance; as published the first")
 {
     onEveryRegion(30, [](KernelBench& bench, const Region& region, std::mt19937& random) {
-        for (const std::uint32_t published : { 0u, 1u }) {
-            const TermPlanes term(region, random);
+        for (const auto& [published, packed] : { std::pair(0u, 0u), { 1u, 0u }, { 0u, 1u } }) {
+            CAPTURE(packed);
             shared::DistributedParams p = paramsOf(region);
             p.published = published;
+            p.packed = packed;
+            const TermPlanes term(region, random, p);
             Output<float> visibility(bench, region, 1);
-            const auto k = bench.buffer(term.texture.values), e = bench.buffer(term.value.values);
+            const auto k = bench.buffer(term.textureOf(p).values), e = bench.buffer(term.valueOf(p).values);
             launchPixels(bench, "distributed.cl", "visibilityOf", p, k, e, visibility.buffer());
             const Planes<float> found = visibility.read();
             everyPixel(region.window, [&](int x, int y) {
@@ -144,6 +175,49 @@ TEST_CASE("planes add up, and one is copied to another")
             REQUIRE(copied.at(x, y) == term.own.at(x, y));
             REQUIRE(nearTo(
                 beauty.vector(x, y), term.texture.vector(x, y) + term.value.vector(x, y) + term.own.vector(x, y)));
+        });
+    });
+}
+
+TEST_CASE("images add up, and a term's value is the same unpacked")
+{
+    onEveryRegion(60, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+        for (const std::uint32_t packed : { 0u, 1u })
+            for (const std::uint32_t values : { 1u, 3u }) {
+                CAPTURE(packed);
+                CAPTURE(values);
+                shared::DistributedParams p = paramsOf(region);
+                p.packed = packed;
+                p.values = values;
+                const TermPlanes term(region, random, p);
+                Output<float> sum(bench, region, term.radiance), unpacked(bench, region, 3);
+                const auto own = bench.buffer(term.own.values), value = bench.buffer(term.valueOf(p).values);
+                launchPixels(bench, "distributed.cl", "addImage", p, own, sum.buffer());
+                launchPixels(bench, "distributed.cl", "unpackImage", p, value, unpacked.buffer());
+                const Planes<float> added = sum.read(), image = unpacked.read();
+                everyPixel(region.window, [&](int x, int y) {
+                    REQUIRE(nearTo(added.vector(x, y), term.radiance.vector(x, y) + term.own.vector(x, y)));
+                    REQUIRE(image.vector(x, y) == term.value.vector(x, y));
+                });
+            }
+    });
+}
+
+TEST_CASE("counts of a lean frame's term: those wanted where the pixel had new primary samples, else those of the first pass")
+{
+    onEveryRegion(70, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+        const auto counts = [&](std::uint32_t least, std::uint32_t most) {
+            return filledPlanes(region, 1, 1u << 20,
+                [&](int, int, std::size_t) { return least + static_cast<std::uint32_t>(random()) % (most - least); });
+        };
+        const Planes<std::uint32_t> primary = counts(6, 12), wanted = counts(1, 100);
+        constexpr std::uint32_t first = 8;
+        Output<std::uint32_t> settled(bench, region, wanted);
+        const auto taken = bench.buffer(primary.values);
+        launchPixels(bench, "distributed.cl", "settleCounts", paramsOf(region), first, taken, settled.buffer());
+        const Planes<std::uint32_t> found = settled.read();
+        everyPixel(region.window, [&](int x, int y) {
+            REQUIRE(found.at(x, y) == (primary.at(x, y) > first ? wanted.at(x, y) : primary.at(x, y)));
         });
     });
 }

@@ -39,6 +39,43 @@ scene::Scene movingWall(Moves moves)
     return scene;
 }
 
+/// A wall as wide as it takes, with a light before it, that moves to the left by so many pixels of an image of that height.
+scene::Scene racingWall(int height, float pixels)
+{
+    SceneBuilder b;
+    std::vector<std::uint32_t> stripes;
+    std::mt19937 random(1);
+    for (int k = 0; k < 64; ++k)
+        stripes.push_back(static_cast<std::uint32_t>(random()) & 0xffffffu);
+    b.scene.textures.push_back({ "", 64, 1, stripes });
+    b.scene.materials[0].diffuseTexture = 0;
+    constexpr float distance = 3, fov = 4;
+    const float pixel = 2 * distance * std::tan(0.5f * fov * 3.14159265f / 180) / static_cast<float>(height);
+    b.quad({ 0, 0, 0 }, { 20, 0, 0 }, { 0, 2, 0 });
+    b.newObject();
+    b.quad({ -3, 0, 2 }, { 8, 0, 0 }, { 0, 0, 0.3f });
+    b.light({ -2, 1, 3 }, { 0, 0.5f, 0 }, { 0.5f, 0, 0 }, scene::LightProfile::Gaussian, 60);
+    b.camera({ 0, 0, distance }, { 0, 0, 0 }, { 0, 1, 0 }, fov);
+    displace(b.scene, { -pixels * pixel, 0, 0 });
+    return b.scene;
+}
+
+/// Renders the crop and the whole image, and compares the bits of the window.
+void requireCropOfWhole(
+    render::Renderer& renderer, render::Settings settings, const image::Window& window, bool keepLayers)
+{
+    const auto part = [&](std::uint32_t seed, const image::Window& crop) {
+        settings.seed = seed;
+        settings.crop = crop;
+        renderer.render(settings, {}, keepLayers);
+        return pixels(renderer, renderer.frame().beauty, window);
+    };
+    const std::vector<float> whole = part(3, {});
+    // Another seed in between, so that what is left over from the whole image does not help.
+    CHECK_FALSE(sameBits(part(4, {}), whole));
+    CHECK(sameBits(part(3, window), whole));
+}
+
 } // namespace
 
 TEST_CASE("more samples asked for are taken: where the first ones saw little, and under point lights alone")
@@ -162,17 +199,22 @@ TEST_CASE("a crop of a filtered frame has the bits of the whole one, with layers
             CAPTURE(c.keepLayers);
             render::Settings settings = sized(c.published ? render::asPublished() : render::axisAligned(12), across, down);
             settings.bounces = c.bounces;
-            const image::Window window { 3, 2, 33, 22 };
-            const auto part = [&](std::uint32_t seed, const image::Window& crop) {
-                settings.seed = seed;
-                settings.crop = crop;
-                renderer.render(settings, {}, c.keepLayers);
-                return pixels(renderer, renderer.frame().beauty, window);
-            };
-            const std::vector<float> whole = part(3, {});
-            // Another seed in between, so that what is left over from the whole image does not help.
-            CHECK_FALSE(sameBits(part(4, {}), whole));
-            CHECK(sameBits(part(3, window), whole));
+            requireCropOfWhole(renderer, settings, { 3, 2, 33, 22 }, c.keepLayers);
+        }
+    });
+}
+
+TEST_CASE("a crop of a frame filtered along long motions has the bits of the whole one, with layers and without")
+{
+    onEveryDevice([](const device::Device& device) {
+        // Beyond the reach of filters along motions and of a term after them, from a crop at its left.
+        constexpr int across = 340, down = 12;
+        const scene::Scene scene = racingWall(down, 600);
+        render::Renderer renderer(scene, device, renderOptions());
+        for (const bool keepLayers : { false, true }) {
+            CAPTURE(keepLayers);
+            const render::Settings settings = sized(render::axisAligned(10), across, down);
+            requireCropOfWhole(renderer, settings, { 3, 2, 33, 10 }, keepLayers);
         }
     });
 }

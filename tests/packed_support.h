@@ -1,0 +1,128 @@
+// Planes of pixels in fewer bits (kernels/packed_planes.h), made of plain ones and read back, and what rounding is
+// allowed.
+#pragma once
+
+#include "kernels/shared/packed.h"
+#include "tests/render_support.h"
+
+#include <cstdint>
+#include <cstring>
+
+namespace wedge::test {
+
+/// The 16 bits of pixel (x, y) in the first (which: 0) or second half of a plane.
+template <class T>
+std::uint16_t shortOf(const Planes<T>& plane, int x, int y, std::size_t which)
+{
+    std::uint16_t out;
+    const char* bytes = reinterpret_cast<const char*>(plane.values.data());
+    std::memcpy(&out, bytes + sizeof(out) * (which * plane.layout.size + plane.index(x, y)), sizeof(out));
+    return out;
+}
+
+/// One of the two numbers of each pixel.
+inline Planes<float> numbersOf(const Planes<float>& packed, std::size_t which)
+{
+    Planes<float> out(packed.layout, 1, 0.0f);
+    for (int y = 0; y < static_cast<int>(packed.layout.height); ++y)
+        for (int x = 0; x < static_cast<int>(packed.layout.width); ++x)
+            out.at(x, y) = shared::unpackShort(shortOf(packed, x, y, which));
+    return out;
+}
+
+/// Bits of a float.
+inline std::uint32_t wordOf(float x)
+{
+    std::uint32_t out;
+    std::memcpy(&out, &x, sizeof(out));
+    return out;
+}
+inline float floatOf(std::uint32_t word)
+{
+    float out;
+    std::memcpy(&out, &word, sizeof(out));
+    return out;
+}
+
+/// The vectors of planes of so many bits (shared/packed.h).
+inline Planes<float> coloursOf(const Planes<float>& packed, std::uint32_t bits)
+{
+    if (bits == WEDGE_PLAIN_BITS)
+        return packed;
+    Planes<float> out(packed.layout, 3, 0.0f);
+    for (int y = 0; y < static_cast<int>(packed.layout.height); ++y)
+        for (int x = 0; x < static_cast<int>(packed.layout.width); ++x) {
+            const std::uint32_t low = wordOf(packed.at(x, y));
+            // The upper bits are in the second plane's first half.
+            const shared::Vec3 c = bits == WEDGE_FRACTION_BITS
+                ? shared::unpackFraction(low)
+                : shared::unpackColour({ low, shortOf(packed, x, y, 2) });
+            out.setVector(x, y, { c.x, c.y, c.z });
+        }
+    return out;
+}
+
+inline Planes<float> normalsOf(const Planes<float>& packed)
+{
+    Planes<float> out(packed.layout, 3, 0.0f);
+    for (int y = 0; y < static_cast<int>(packed.layout.height); ++y)
+        for (int x = 0; x < static_cast<int>(packed.layout.width); ++x) {
+            const shared::Vec3 n = shared::unpackNormal(wordOf(packed.at(x, y)));
+            out.setVector(x, y, { n.x, n.y, n.z });
+        }
+    return out;
+}
+
+/// What is left of a number or a colour once it is packed.
+inline float rounded(double x) { return shared::unpackShort(shared::packShort(static_cast<float>(x))); }
+inline glm::dvec3 rounded(glm::dvec3 c, std::uint32_t bits)
+{
+    if (bits == WEDGE_PLAIN_BITS)
+        return c;
+    const shared::Vec3 v = shared::vec3(static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z));
+    const shared::Vec3 out = bits == WEDGE_FRACTION_BITS ? shared::unpackFraction(shared::packFraction(v))
+                                                         : shared::unpackColour(shared::packColour(v));
+    return { out.x, out.y, out.z };
+}
+
+/// A unit of the last place at most of numbers near to x.
+inline double unitOf(double x) { return std::fabs(x) / 127; }
+/// Of colours, in all channels.
+inline double unitOf(glm::dvec3 c, std::uint32_t bits)
+{
+    const double largest = std::max({ c.x, c.y, c.z });
+    return bits == WEDGE_PLAIN_BITS ? 0 : bits == WEDGE_FRACTION_BITS ? std::max(largest / 255, 1e-7) : largest / 4095;
+}
+
+/// Two planes of numbers in one, rounded.
+inline Planes<float> packedNumbers(const Planes<float>& first, const Planes<float>& second)
+{
+    Planes<float> out(first.layout, 1, 0.0f);
+    const std::size_t n = first.layout.size;
+    char* bytes = reinterpret_cast<char*>(out.values.data());
+    for (std::size_t i = 0; i < 2 * n; ++i) {
+        const auto bits = static_cast<std::uint16_t>(shared::packShort(i < n ? first.values[i] : second.values[i - n]));
+        std::memcpy(bytes + sizeof(bits) * i, &bits, sizeof(bits));
+    }
+    return out;
+}
+
+/// Three planes of colours in fewer bits, or as they are.
+inline Planes<float> packedColours(const Planes<float>& colours, std::uint32_t bits)
+{
+    if (bits == WEDGE_PLAIN_BITS)
+        return colours;
+    const std::size_t n = colours.layout.size;
+    Planes<float> out(colours.layout, 2, 0.0f);
+    char* high = reinterpret_cast<char*>(out.values.data() + n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const shared::Vec3 c = shared::vec3(colours.values[i], colours.values[n + i], colours.values[2 * n + i]);
+        const shared::PackedColour packed = shared::packColour(c);
+        const auto bits16 = static_cast<std::uint16_t>(packed.high);
+        out.values[i] = floatOf(bits == WEDGE_FRACTION_BITS ? shared::packFraction(c) : packed.low);
+        std::memcpy(high + sizeof(bits16) * i, &bits16, sizeof(bits16));
+    }
+    return out;
+}
+
+} // namespace wedge::test
