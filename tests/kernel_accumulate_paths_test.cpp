@@ -64,7 +64,9 @@ TEST_CASE("paths: the means over receivers, each with samples, few with some, or
                             [&](const SeenPoint& p) { return glossy ? p.specular : p.diffuse; }, arrives, arrives);
                         term.check(a);
                         const auto ofPaths = a.read(term.ofPaths);
-                        a.waves.everyPixel([&](int x, int y) { REQUIRE(ofPaths.at(x, y) == (a.packed != 0 ? 0 : term.after.at(x, y))); });
+                        a.waves.everyPixel([&](int x, int y) {
+                            REQUIRE(ofPaths.at(x, y) == (a.packed != 0 ? 0 : term.after.at(x, y)));
+                        });
                     }
     });
 }

@@ -166,8 +166,8 @@ TEST_CASE("addSpecular: the second term times the lobe's unshadowed shading time
                        noisy = bench.filled(3 * in.layout().size, 0.25f);
             bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addSpecular", in.params, 1,
                 shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made, frame,
-                bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values), bench.buffer(in.normal.values), bench.buffer(in.objectId.values),
-                bench.buffer(in.gloss.values), bench.buffer(in.specular.values), bench.buffer(in.value.values),
+                bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values), bench.buffer(in.normal.values),
+                bench.buffer(in.objectId.values), bench.buffer(in.gloss.values), bench.buffer(in.specular.values), bench.buffer(in.value.values),
                 bench.buffer(in.noisy.values), bench.filled(4 * in.layout().size, 0.6f),
                 bench.buffer(std::vector<std::uint32_t>(in.layout().size, 3)), direct, noisy);
             const Planes<float> found = planesOf(in.layout(), bench.read(direct));

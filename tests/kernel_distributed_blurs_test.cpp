@@ -91,7 +91,8 @@ Motion packedMotion(const shared::DistributedParams& p, const Motion& m)
 }
 
 /// The directions that a kernel has stored in a plane that was `before`; fails if it has changed others than the window's.
-Planes<float> directionsOf(KernelBench& bench, const Region& region, const device::Buffer<float>& buffer, const Planes<float>& before)
+Planes<float> directionsOf(
+    KernelBench& bench, const Region& region, const device::Buffer<float>& buffer, const Planes<float>& before)
 {
     const Planes<float> after = planesOf(region.layout, bench.read(buffer));
     Planes<float> out(region.layout, 2, 0.0f);
@@ -244,7 +245,8 @@ TEST_CASE("blurs: of the lens where all of the pixel is blurred, of the shutter 
                                 r > p.leastRadius ? bestWidth(p.blurWidth, p.blurExponent, r, n, 2) : 0));
                         const Motion m { motion.at(x, y), motion.at(x, y, 1), motion.at(x, y, 2) };
                         if (!m.uncertain(p))
-                            requireAlong(p, m, true, n, found.along.at(x, y), found.directions.at(x, y), found.directions.at(x, y, 1));
+                            requireAlong(
+                                p, m, true, n, found.along.at(x, y), found.directions.at(x, y), found.directions.at(x, y, 1));
                     });
                 }
     });

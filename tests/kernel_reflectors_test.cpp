@@ -65,7 +65,8 @@ Widths widthsOf(KernelBench& bench, shared::ReflectorParams p, float extent, con
     const auto beta = bench.filled(layout.size, -7.0f);
     const auto wanted = bench.filled(layout.size, noCount);
     launchRows(bench, "reflectorWidths", p, 1, bench.buffer(reflectors.values), bench.filled(1, extent),
-        bench.buffer(pixelSize.values), bench.buffer((p.meanOnly != 0 ? pixelSize : gloss).values), bench.buffer(taken.values), beta, wanted);
+        bench.buffer(pixelSize.values),
+        bench.buffer((p.meanOnly != 0 ? pixelSize : gloss).values), bench.buffer(taken.values), beta, wanted);
     const Planes<float> betas = planesOf(layout, bench.read(beta));
     const Planes<std::uint32_t> counts = planesOf(layout, bench.read(wanted));
     Widths out;
