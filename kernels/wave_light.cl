@@ -47,7 +47,7 @@ WEDGE_FN float16 specularShading16(WaveParams wave, AreaLight light, __global co
         sum = unshadowedLobes(light, r, nodes + WEDGE_FEW_OFFSET, WEDGE_FEW_NODES);
     }
     if (any(wanted & !few & !fine)) {
-        sum = !few & !fine ? unshadowedLobes(light, r, nodes, WEDGE_COARSE_NODES) : sum;
+        sum = (!few & !fine) ? unshadowedLobes(light, r, nodes, WEDGE_COARSE_NODES) : sum;
     }
     if (any(wanted & fine)) {
         sum = fine ? unshadowedLobes(light, r, nodes + WEDGE_FINE_OFFSET, WEDGE_FINE_NODES) : sum;
