@@ -1,12 +1,12 @@
 #include "benchmarks/bvh_build/builders.h"
 
+#include "benchmarks/common/embree.h"
 #include "bvh/refit.h"
 #include "host/error.h"
 
 #include <atomic>
 #include <cassert>
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -65,7 +65,7 @@ public:
     {
         if (!device_)
             throw Error("Embree", fmt::format("error {}", static_cast<int>(rtcGetDeviceError(nullptr))),
-                "install a libembree 3.13 that this machine can run");
+                "install a libembree, 3.13 or 4, that this machine can run");
         rtcSetDeviceMemoryMonitorFunction(device_, count, this);
     }
     EmbreeDevice(const EmbreeDevice&) = delete;

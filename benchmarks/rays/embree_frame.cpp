@@ -108,14 +108,13 @@ void EmbreeFrame::store(const Shaded& pixel)
 
 void EmbreeFrame::renderPixel(RTCScene scene, std::size_t i)
 {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    EmbreeQuery query(false);
     Shaded pixel = startPixel(i);
     const Vec3 d = direction(pixel);
     RTCRayHit rayHit {};
     rayHit.ray = rayOf(frame_.eye, d, infinity);
     rayHit.hit.geomID = rayHit.hit.primID = rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene, &context, &rayHit);
+    query.intersect(scene, rayHit);
     pixel.hit = rayHit.hit.geomID != RTC_INVALID_GEOMETRY_ID;
     if (pixel.hit) {
         pixel.surface = surfaces_.at({ rayHit.ray.tfar, rayHit.hit.u, rayHit.hit.v, rayHit.hit.primID }, d);
@@ -125,7 +124,7 @@ void EmbreeFrame::renderPixel(RTCScene scene, std::size_t i)
                 if (!(s.weight > 0))
                     continue;
                 RTCRay shadow = rayOf(pixel.surface.origin, s.ray, WEDGE_SHADOW_RAY_END);
-                rtcOccluded1(scene, &context, &shadow);
+                query.occluded(scene, shadow);
                 pixel.visible += shadow.tfar >= 0 ? s.weight : 0.0f;
             }
             endLight(pixel, light);
@@ -136,9 +135,7 @@ void EmbreeFrame::renderPixel(RTCScene scene, std::size_t i)
 
 void EmbreeFrame::renderBlock(RTCScene scene, std::size_t first)
 {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    EmbreeQuery query(true);
     std::array<Shaded, packetRays> pixels;
     alignas(64) int valid[packetRays];
     RTCRayHit16 hits;
@@ -149,7 +146,7 @@ void EmbreeFrame::renderBlock(RTCScene scene, std::size_t first)
         hits.hit.geomID[lane] = hits.hit.primID[lane] = hits.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
         valid[lane] = -1;
     }
-    rtcIntersect16(valid, scene, &context, &hits);
+    query.intersect(valid, scene, hits);
     for (std::size_t lane = 0; lane < packetRays; ++lane) {
         Shaded& pixel = pixels[lane];
         pixel.hit = hits.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
@@ -169,7 +166,7 @@ void EmbreeFrame::renderBlock(RTCScene scene, std::size_t first)
                 valid[lane] = s.weight > 0 ? -1 : 0;
                 setLane(shadows, lane, pixel.surface.origin, s.ray, WEDGE_SHADOW_RAY_END);
             }
-            rtcOccluded16(valid, scene, &context, &shadows);
+            query.occluded(valid, scene, shadows);
             for (std::size_t lane = 0; lane < packetRays; ++lane)
                 pixels[lane].visible += valid[lane] != 0 && shadows.tfar[lane] >= 0 ? weights[lane] : 0.0f;
         }

@@ -63,7 +63,7 @@ void EmbreeScene::check(const char* call) const
     if (error != RTC_ERROR_NONE)
         throw Error(fmt::format("Embree, build {}", build_.name),
             fmt::format("{} failed with code {}", call, static_cast<int>(error)),
-            "check its version, 3.13 is needed, and the memory left");
+            "check its version, 3.13 or 4, and the memory left");
 }
 
 std::string EmbreeScene::version()

@@ -1,13 +1,13 @@
 #pragma once
 
+#include "benchmarks/common/embree.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
-
-#include <embree3/rtcore.h>
 
 namespace wedge::benchmark {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstring>
 
 namespace wedge::benchmark {
@@ -10,14 +11,6 @@ namespace {
 constexpr std::size_t chunk = 1024; ///< rays that a thread takes at a time
 constexpr std::size_t streamRays = 256; ///< rays of a stream: they stay within the nearest cache
 static_assert(chunk % streamRays == 0 && streamRays % packetRays == 0);
-
-RTCIntersectContext contextFor(bool coherent)
-{
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    return context;
-}
 
 void load(const bvh::Ray& ray, RTCRay& to)
 {
@@ -93,18 +86,18 @@ void EmbreeRays::store(std::size_t ray, const RTCRayHit& from)
 
 void EmbreeRays::single(RTCScene scene, std::size_t first, std::size_t last)
 {
-    RTCIntersectContext context = contextFor(set_.coherent);
+    EmbreeQuery query(set_.coherent);
     for (std::size_t i = first; i < last; ++i) {
         RTCRayHit rayHit;
         load(set_.rays[i], rayHit);
         const bool live = isLive(set_.rays[i]);
         if (set_.anyHit) {
             if (live)
-                rtcOccluded1(scene, &context, &rayHit.ray);
+                query.occluded(scene, rayHit.ray);
             occluded_[i] = rayHit.ray.tfar < 0 ? 1 : 0;
         } else {
             if (live)
-                rtcIntersect1(scene, &context, &rayHit);
+                query.intersect(scene, rayHit);
             store(i, rayHit);
         }
     }
@@ -112,7 +105,7 @@ void EmbreeRays::single(RTCScene scene, std::size_t first, std::size_t last)
 
 void EmbreeRays::packets(RTCScene scene, std::size_t first, std::size_t last)
 {
-    RTCIntersectContext context = contextFor(set_.coherent);
+    EmbreeQuery query(set_.coherent);
     RTCRayHit16 rayHit;
     std::fill_n(rayHit.ray.mask, packetRays, ~0u);
     std::fill_n(rayHit.ray.id, packetRays, 0u);
@@ -126,13 +119,13 @@ void EmbreeRays::packets(RTCScene scene, std::size_t first, std::size_t last)
         for (std::size_t lane = 0; lane < packetRays; ++lane)
             valid[lane] = packet.tMax[lane] > packet.tMin[lane] ? -1 : 0;
         if (set_.anyHit) {
-            rtcOccluded16(valid, scene, &context, &rayHit.ray);
+            query.occluded(valid, scene, rayHit.ray);
             for (std::size_t lane = 0; lane < packetRays; ++lane)
                 occluded_[p * packetRays + lane] = rayHit.ray.tfar[lane] < 0 ? 1 : 0;
         } else {
             std::fill_n(rayHit.hit.geomID, packetRays, RTC_INVALID_GEOMETRY_ID);
             std::fill_n(rayHit.hit.primID, packetRays, RTC_INVALID_GEOMETRY_ID);
-            rtcIntersect16(valid, scene, &context, &rayHit);
+            query.intersect(valid, scene, rayHit);
             Found& found = found_[p];
             std::memcpy(found.t, rayHit.ray.tfar, sizeof found.t);
             std::memcpy(found.u, rayHit.hit.u, sizeof found.u);
@@ -142,9 +135,10 @@ void EmbreeRays::packets(RTCScene scene, std::size_t first, std::size_t last)
     }
 }
 
+#if WEDGE_EMBREE_MAJOR == 3
 void EmbreeRays::stream(RTCScene scene, std::size_t first, std::size_t last)
 {
-    RTCIntersectContext context = contextFor(set_.coherent);
+    EmbreeQuery query(set_.coherent);
     std::array<RTCRayHit, streamRays> rays;
     for (std::size_t begin = first; begin < last; begin += streamRays) {
         const std::size_t count = std::min(streamRays, last - begin);
@@ -155,16 +149,19 @@ void EmbreeRays::stream(RTCScene scene, std::size_t first, std::size_t last)
         }
         const auto n = static_cast<unsigned>(count);
         if (set_.anyHit) {
-            rtcOccluded1M(scene, &context, &rays[0].ray, n, sizeof rays[0]);
+            query.occludedStream(scene, rays.data(), n);
             for (std::size_t i = 0; i < count; ++i)
                 occluded_[begin + i] = rays[i].ray.tfar < 0 ? 1 : 0;
         } else {
-            rtcIntersect1M(scene, &context, rays.data(), n, sizeof rays[0]);
+            query.intersectStream(scene, rays.data(), n);
             for (std::size_t i = 0; i < count; ++i)
                 store(begin + i, rays[i]);
         }
     }
 }
+#else
+void EmbreeRays::stream(RTCScene, std::size_t, std::size_t) { assert(!"Embree 4 has no streams"); }
+#endif
 
 std::vector<shared::Hit> EmbreeRays::hits() const
 {

@@ -92,7 +92,8 @@ std::vector<EmbreeColumn> BuiltScene::columns() const
         out.push_back({ "embree single" + suffix, scene.get(), EmbreeWay::Single });
         if (build.width == 0 && !build.robust) {
             out.push_back({ "embree packets" + suffix, scene.get(), EmbreeWay::Packets });
-            out.push_back({ "embree stream" + suffix, scene.get(), EmbreeWay::Stream });
+            if (embreeHasStreams)
+                out.push_back({ "embree stream" + suffix, scene.get(), EmbreeWay::Stream });
         }
     }
     return out;

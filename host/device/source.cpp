@@ -4,6 +4,7 @@
 #include "kernels/embedded_kernels.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
