@@ -27,7 +27,8 @@ build    nlohmann-json3-dev      reports
 build    doctest-dev             the tests; configuring looks for it
 build    ?libembree-dev          what benchmarks measure rays and builds against
 test     clang-15|clang-19|clang front end of three GPU targets, lints the kernels; compiles the fuzzing targets
-test     ?libfuzzer-15-dev|libfuzzer-19-dev  drives the fuzzing targets
+test     ?libfuzzer-15-dev|libfuzzer-19-dev            drives the fuzzing targets
+test     ?libclang-common-15-dev|libclang-rt-19-dev    sanitizers of that clang, for the same
 test     ?oclgrind               runs kernels and reports bad accesses and races
 test     ?mesa-opencl-icd        a second OpenCL driver, of another vendor
 develop  clang-format            lays out the sources

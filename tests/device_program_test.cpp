@@ -62,11 +62,11 @@ std::string provenance(const Device& device, const std::string& value)
 TEST_CASE("options: defines, fast maths and what drivers could misread")
 {
     const Device device = Device::open("");
-    CHECK(ProgramLibrary(device, {}).optionsString() == "-cl-std=CL1.2");
+    CHECK(ProgramLibrary(device, {}).optionsString() == "-cl-std=CL1.2 -w");
     BuildOptions options;
     options.defines = { { "A", "1" }, { "FLAG", "" } };
     options.fastMath = true;
-    CHECK(ProgramLibrary(device, options).optionsString() == "-cl-std=CL1.2 -cl-fast-relaxed-math -DA=1 -DFLAG");
+    CHECK(ProgramLibrary(device, options).optionsString() == "-cl-std=CL1.2 -w -cl-fast-relaxed-math -DA=1 -DFLAG");
     options.defines = { { "A", "1 + 1" } };
     CHECK(contains(errorOf([&] { ProgramLibrary(device, options); }), "1 + 1"));
 }

@@ -23,7 +23,7 @@ Json toJson(const DeviceInfo& d)
         { "clock_mhz", d.clockMegahertz }, { "native_float_width", d.nativeFloatWidth },
         { "memory_bytes", d.globalMemory }, { "max_allocation_bytes", d.maxAllocation },
         { "local_memory_bytes", d.localMemory }, { "max_work_group", d.maxWorkGroup }, { "doubles", d.doubles },
-        { "unusable", d.unusable } };
+        { "unusable", d.unusable }, { "quirks", d.quirks } };
 }
 
 void print(const DeviceInfo& d)
@@ -32,6 +32,9 @@ void print(const DeviceInfo& d)
     fmt::print("   {}, {}, driver {}\n", d.platform, d.deviceVersion, d.driver);
     fmt::print("   {} compute units, {} memory, {} at once, work-groups of {}\n", d.computeUnits,
         device::mebibytes(d.globalMemory), device::mebibytes(d.maxAllocation), d.maxWorkGroup);
+    for (const std::string& quirk : d.quirks) {
+        fmt::print("   quirk: {}\n", quirk);
+    }
     if (!d.unusable.empty()) {
         fmt::print("   unusable: {}\n", d.unusable);
     }

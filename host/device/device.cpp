@@ -1,6 +1,8 @@
 #include "host/device/device.h"
 
 #include "host/device/cl_error.h"
+#include "host/device/driver_cache.h"
+#include "host/device/quirks.h"
 
 #include <fmt/format.h>
 
@@ -20,6 +22,7 @@ struct Candidate {
 
 std::vector<cl::Platform> platforms()
 {
+    DriverCache::ofProcess(); // before the driver asks where its cache is
     std::vector<cl::Platform> found;
     try {
         cl::Platform::get(&found);
@@ -150,6 +153,7 @@ Device::Device(DeviceInfo info, cl::Device device)
     checked("opening the device", info_.name, [this] {
         context_ = cl::Context(device_);
         info_.hostTimers = probeHostTimers(context_, device_);
+        info_.quirks = applyQuirks(info_);
     });
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace wedge::device {
 
@@ -49,9 +50,11 @@ struct DeviceInfo {
     /// Most items of one bounded launch. CPU drivers may compile a kernel once for grids below 65535 items and once
     /// more for larger ones; batches that stay below never pay the second compilation in the middle of a frame.
     std::size_t maxTiledItems = 0;
+    /// Those in force, a line each for the user (quirks.h).
+    std::vector<std::string> quirks;
 };
 
-/// Queries one device; hostTimers is a guess. Throws wedge::Error if a query fails.
+/// Queries one device and applies its quirks; hostTimers is a guess. Throws wedge::Error if a query fails.
 DeviceInfo queryDevice(const cl::Platform& platform, const cl::Device& device, unsigned index);
 
 /// The event's START..END in milliseconds, or nothing where the times cannot be true: no start, an end before the

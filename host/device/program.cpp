@@ -1,6 +1,7 @@
 #include "host/device/program.h"
 
 #include "host/device/cl_error.h"
+#include "host/device/driver_cache.h"
 #include "host/device/source.h"
 
 #include <fmt/format.h>
@@ -68,7 +69,8 @@ std::string compilerEnvironment()
 {
     std::vector<std::string> settings;
     for (char** variable = environ; variable != nullptr && *variable != nullptr; ++variable) {
-        if (std::string_view(*variable).starts_with("POCL_")) {
+        const std::string_view setting(*variable);
+        if (setting.starts_with("POCL_") && !setting.starts_with("POCL_CACHE_DIR=")) {
             settings.emplace_back(*variable);
         }
     }
@@ -110,6 +112,11 @@ Kernel ProgramLibrary::kernel(const std::string& file, const std::string& name)
 std::string ProgramLibrary::optionsString() const
 {
     std::string text = "-cl-std=CL1.2";
+    if (options_.kernelDir.empty()) {
+        // Nobody but who edits kernels wants warnings, and some drivers print their number on the user's terminal: PoCL, of
+        // its own built-ins, where the processor has no vectors of 16 floats.
+        text += " -w";
+    }
     if (options_.fastMath) {
         text += " -cl-fast-relaxed-math";
     }
@@ -122,6 +129,7 @@ std::string ProgramLibrary::optionsString() const
 cl::Program ProgramLibrary::obtain(const std::string& file)
 {
     const std::string source = flattenKernel(options_.kernelDir, file).text;
+    const DriverCache::Mark mark;
     const std::string key = cacheKey(source);
     if (const auto binary = disk_.load(key)) {
         if (cl::Program program; load(*binary, program)) {

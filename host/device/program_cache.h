@@ -27,6 +27,7 @@ public:
     /// the oldest entries beyond a few hundred.
     void store(std::string_view key, const Binary& binary) const;
 
+    const std::filesystem::path& folder() const { return folder_; }
     /// Where the entry of a key lies; empty if the cache is off.
     std::filesystem::path entry(std::string_view key) const;
 

@@ -1,5 +1,6 @@
 #include "host/render/renderer.h"
 
+#include "host/device/driver_cache.h"
 #include "host/render/distributed_frame.h"
 #include "host/render/effects/indirect.h"
 #include "host/render/effects/soft_shadows.h"
@@ -252,6 +253,7 @@ void Renderer::allocateLeanWaves(const Settings& settings, const PlaneLayout& la
 void Renderer::rehearse(const Settings& settings, bool keepLayers)
 {
     const Clock::time_point start = Clock::now();
+    const device::DriverCache::Mark mark; // drivers compile at the first launch
     allocate(settings, keepLayers);
     passes_->setRehearsal(true);
     queue_.setProgress({});

@@ -1,0 +1,59 @@
+#include "host/device/quirks.h"
+
+#include <charconv>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+namespace wedge::device {
+namespace {
+
+constexpr const char* workGroupMethod = "POCL_WORK_GROUP_METHOD"; // read whenever PoCL compiles a kernel
+constexpr const char* continuations = "cbs";
+
+/// The whole number behind a word: 18 of "... LLVM 18.1.8 ..." and "LLVM ".
+std::optional<int> numberBehind(std::string_view text, std::string_view word)
+{
+    const std::size_t at = text.find(word);
+    if (at == std::string_view::npos) {
+        return std::nullopt;
+    }
+    const std::string_view rest = text.substr(at + word.size());
+    int number = 0;
+    const auto [end, status] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
+    return status == std::errc() ? std::optional(number) : std::nullopt;
+}
+
+} // namespace
+
+bool poclFailsToCompile(std::string_view platformVersion)
+{
+    const std::optional<int> pocl = numberBehind(platformVersion, "PoCL ");
+    const std::optional<int> llvm = numberBehind(platformVersion, "LLVM ");
+    return pocl && llvm && *pocl < 7 && *llvm >= 18;
+}
+
+std::vector<std::string> applyQuirks(const DeviceInfo& info)
+{
+    std::vector<std::string> inForce;
+    if (poclFailsToCompile(info.platformVersion)) {
+        ::setenv(workGroupMethod, continuations, 0);
+        if (std::string_view(std::getenv(workGroupMethod)) == continuations) {
+            inForce.push_back(fmt::format("{}={}: this version ends the process while it compiles by its other methods",
+                workGroupMethod, continuations));
+        }
+    }
+    if (info.hostTimers) {
+        inForce.emplace_back("passes are timed by the host's clock: the driver's times are none");
+    }
+    if (info.type == DeviceType::Cpu) {
+        inForce.push_back(
+            fmt::format("launches of at most {} items: drivers for CPUs may compile once more for larger ones",
+                info.maxTiledItems));
+    }
+    return inForce;
+}
+
+} // namespace wedge::device
