@@ -4,13 +4,24 @@
 set -euo pipefail
 cd "${1:?kernel_lint.sh: error: no folder of kernels: name it}"
 
-if ! command -v clang-15 >/dev/null; then
-    echo "kernel_lint: clang-15 is missing: run scripts/install_dependencies.sh test" >&2
+# Any clang from 15 on; the newest that is here.
+least=15
+newest=0
+for name in clang $(compgen -c clang- | grep -xE 'clang-[0-9]+' | sort -u); do
+    version=$("$name" -dumpversion 2>/dev/null | cut -d. -f1)
+    if [ "${version:-0}" -gt "$newest" ]; then
+        newest=$version
+        clang=$name
+    fi
+done
+if [ "$newest" -lt $least ]; then
+    echo "kernel_lint: no clang of version $least or newer: run scripts/install_dependencies.sh test" >&2
     exit 1
 fi
+export clang
 
 lint() { # TARGET FILE DEFINE...
-    clang-15 -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -fsyntax-only -Wall -Wextra -Werror -nogpulib -I. \
+    "$clang" -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -fsyntax-only -Wall -Wextra -Werror -nogpulib -I. \
         -target "$@" || { echo "kernel_lint: failed: $*" >&2; return 1; }
 }
 export -f lint
@@ -33,4 +44,4 @@ for target in spir64 nvptx64 amdgcn; do
         done
     done
 done | xargs -0 -n 1 -P "$(nproc)" bash -c
-echo "kernel_lint: ${#files[@]} programs pass, under both families of traversals, at rest and moving, for spir64, nvptx64 and amdgcn"
+echo "kernel_lint: ${#files[@]} programs pass with $clang $newest, under both families of traversals, at rest and moving, for spir64, nvptx64 and amdgcn"
