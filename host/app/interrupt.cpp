@@ -10,15 +10,18 @@
 namespace wedge::app {
 namespace {
 
-constexpr std::array<int, 2> watched = { SIGINT, SIGTERM };
+constexpr std::array<int, 3> watched = { SIGINT, SIGTERM, SIGHUP };
 
-std::atomic<bool> interrupted { false };
+std::atomic<bool> interrupted { false }, asked { false }, hungUp { false };
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch it");
 std::array<struct sigaction, watched.size()> previous;
 
-extern "C" void onSignal(int)
+extern "C" void onSignal(int signal)
 {
-    if (interrupted.exchange(true)) {
+    interrupted = true;
+    if (signal == SIGHUP) {
+        hungUp = true;
+    } else if (asked.exchange(true)) {
         _exit(statusInterrupted);
     }
 }
@@ -43,6 +46,9 @@ InterruptGuard::~InterruptGuard()
 {
     for (std::size_t i = 0; i < watched.size(); ++i) {
         sigaction(watched[i], &previous[i], nullptr);
+    }
+    if (hungUp) {
+        std::signal(SIGHUP, SIG_IGN);
     }
 }
 
