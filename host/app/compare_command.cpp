@@ -66,7 +66,7 @@ void writeErrorMap(const std::string& path, const RgbImage& a, const RgbImage& b
 void checkErrorMap(const CompareOptions& options)
 {
     if (formatOf(options.errorMap) != ImageFormat::Png) {
-        throw UsageError("error map of unknown format", options.errorMap, "end its name in .png");
+        throw UsageError("error map of another format than PNG", options.errorMap, "end its name in .png");
     }
     refuseOverwriting({ options.errorMap }, { options.image, options.reference });
     image::checkWritable(options.errorMap);

@@ -111,9 +111,7 @@ void printText(const Facts& f)
 int info(const std::string& path, bool json, bvh::Mode mode)
 {
     const Facts facts = gather(path, mode);
-    for (const std::string& warning : facts.scene.warnings) {
-        warn(warning);
-    }
+    warnOf(facts.scene.warnings);
     json ? printJson(facts) : printText(facts);
     requireSaid();
     return 0;

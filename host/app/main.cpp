@@ -115,6 +115,7 @@ int main(int argc, char** argv)
             "wedge renders soft shadows and indirect light from few samples, on any OpenCL device.", "wedge");
         parser.set_version_flag("--version", std::string("wedge ") + render::version());
         parser.get_formatter()->column_width(32);
+        parser.require_subcommand(0, 1); // more than one, and the last would be taken for all
         Action action;
         addRenderCommand(parser, action);
         addCompareCommand(parser, action);

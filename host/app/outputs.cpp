@@ -47,7 +47,7 @@ Place placeOf(const std::string& path)
 
 } // namespace
 
-ImageFormat formatOf(const std::string& path)
+std::optional<ImageFormat> formatOf(const std::string& path)
 {
     std::string extension = std::filesystem::path(path).extension().string();
     std::ranges::transform(
@@ -58,7 +58,7 @@ ImageFormat formatOf(const std::string& path)
     if (extension == ".png") {
         return ImageFormat::Png;
     }
-    throw UsageError("output of unknown format", path, "end its name in .exr or .png");
+    return std::nullopt;
 }
 
 std::vector<Output> planOutputs(const std::vector<std::string>& paths, const std::string& scene)
@@ -68,7 +68,11 @@ std::vector<Output> planOutputs(const std::vector<std::string>& paths, const std
     }
     std::vector<Output> outputs;
     for (const std::string& path : paths) {
-        outputs.push_back({ path, formatOf(path) });
+        const std::optional<ImageFormat> format = formatOf(path);
+        if (!format) {
+            throw UsageError("output of unknown format", path, "end its name in .exr or .png");
+        }
+        outputs.push_back({ path, *format });
     }
     return outputs;
 }

@@ -2,6 +2,7 @@
 
 #include "host/image/image.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,8 @@ struct Output {
     ImageFormat format = ImageFormat::Exr;
 };
 
-/// The format that the name's extension tells. Throws UsageError for others.
-ImageFormat formatOf(const std::string& path);
+/// The format that the name's extension tells, if any.
+std::optional<ImageFormat> formatOf(const std::string& path);
 
 /// The outputs that the paths name; without any, the scene's name with .exr in the current folder. Throws UsageError
 /// for other extensions.

@@ -134,9 +134,7 @@ void RenderJob::load()
     extras_.loadMilliseconds = millisecondsSince(start);
     progress_.clear();
     if (!options_.quiet) {
-        for (const std::string& warning : scene_.warnings) {
-            warn(warning);
-        }
+        warnOf(scene_.warnings);
     }
     applyLens(options_, scene_);
     settings_ = resolveSettings(options_, scene_);

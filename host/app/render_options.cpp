@@ -69,7 +69,7 @@ void addFrameOptions(CLI::App& parser, RenderOptions& o)
     addValue(parser, whatGroup, "--reference", "FILE", "Compare with this image (.exr, .png or .hdr) of the same size",
         [&o](const std::string& text) { o.reference = text; });
     addValue(parser, whatGroup, "--report", "FILE", "Write a report as JSON",
-        [&o](const std::string& text) { o.report = text; });
+        [&o](const std::string& text) { o.report = fileName("--report", text); });
 }
 
 void addIntegratorOptions(CLI::App& parser, RenderOptions& o)
