@@ -28,6 +28,20 @@ extern "C" void onSignal(int signal)
 
 } // namespace
 
+void keepIgnoring()
+{
+    sigset_t ignored;
+    sigemptyset(&ignored);
+    for (const int signal : watched) {
+        struct sigaction action = {};
+        if (sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) {
+            sigaddset(&ignored, signal);
+        }
+    }
+    // Blocked they stay away, whoever handles them: LLVM, which drivers compile with, does without asking.
+    pthread_sigmask(SIG_BLOCK, &ignored, nullptr);
+}
+
 InterruptGuard::InterruptGuard()
 {
     struct sigaction action = {};
@@ -35,10 +49,7 @@ InterruptGuard::InterruptGuard()
     action.sa_flags = SA_RESTART; // drivers don't expect interrupted system calls
     sigemptyset(&action.sa_mask);
     for (std::size_t i = 0; i < watched.size(); ++i) {
-        sigaction(watched[i], nullptr, &previous[i]);
-        if (previous[i].sa_handler != SIG_IGN) {
-            sigaction(watched[i], &action, nullptr);
-        }
+        sigaction(watched[i], &action, &previous[i]);
     }
 }
 

@@ -2,6 +2,7 @@
 #include "host/app/arguments.h"
 #include "host/app/commands.h"
 #include "host/app/console.h"
+#include "host/app/interrupt.h"
 #include "host/error.h"
 #include "host/render/metadata.h"
 
@@ -110,6 +111,7 @@ int runCommand(CLI::App& parser, Action& action, int argc, char** argv)
 int main(int argc, char** argv)
 {
     prepareProcess();
+    keepIgnoring();
     try {
         CLI::App parser(
             "wedge renders soft shadows and indirect light from few samples, on any OpenCL device.", "wedge");
