@@ -22,7 +22,7 @@ const CLI::Option* optionNamed(const CLI::App& command, const std::string& argum
 void checkValue(const CLI::App& command, const std::string& name, const std::string& value)
 {
     if (value.empty() || value == "--") {
-        throw UsageError("option has no value", name, "give it one value");
+        throw UsageError("option has no value", value.empty() ? name + " (empty)" : name, "give it one value");
     }
     if (value.starts_with("--") && optionNamed(command, value) != nullptr) {
         throw UsageError(fmt::format("option has no value, {} being another", value), name,

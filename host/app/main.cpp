@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 #include <sstream>
 #include <stdexcept>
@@ -45,7 +46,8 @@ std::string hint(const CLI::App& parser, int argc, char** argv)
 std::string firstExtra(const CLI::App& parser)
 {
     const std::vector<std::string> extras = parser.remaining(true);
-    return extras.empty() ? "" : extras.front();
+    const auto first = std::ranges::find_if(extras, [](const std::string& extra) { return extra != "--"; });
+    return first == extras.end() ? "" : *first;
 }
 
 /// The parser's complaint in the form of all errors. Its messages begin with the option's name.
@@ -106,6 +108,33 @@ int runCommand(CLI::App& parser, Action& action, int argc, char** argv)
     }
 }
 
+/// Says what was thrown; call where it is caught. Returns the exit status.
+int failed()
+{
+    try {
+        throw;
+    } catch (const Error& error) {
+        return fail(error.what(), statusFailure);
+    } catch (const Errors& errors) {
+        std::ranges::for_each(errors.lines, complain);
+        return statusFailure;
+    } catch (const std::bad_alloc&) {
+        return fail(outOfMemory, statusFailure);
+    } catch (const std::length_error&) { // a size that no memory could hold
+        return fail(outOfMemory, statusFailure);
+    } catch (const std::filesystem::filesystem_error& error) {
+        return fail(message("file system", error.what(), "check the name and the permissions"), statusFailure);
+    } catch (const std::system_error& error) { // no more threads, memory or files for this process
+        return fail(
+            message("the system refuses", error.what(), "give the process more, or render less"), statusFailure);
+    } catch (const std::exception& error) {
+        return fail(
+            message("unexpected failure", error.what(), "this is a fault in wedge, please report it"), statusFailure);
+    } catch (...) {
+        return fail("unexpected failure: unknown: this is a fault in wedge, please report it", statusFailure);
+    }
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -117,29 +146,14 @@ int main(int argc, char** argv)
             "wedge renders soft shadows and indirect light from few samples, on any OpenCL device.", "wedge");
         parser.set_version_flag("--version", std::string("wedge ") + render::version());
         parser.get_formatter()->column_width(32);
-        parser.require_subcommand(0, 1); // more than one, and the last would be taken for all
+        parser.require_subcommand(0, 1); // of more than one the last would be taken for all
         Action action;
         addRenderCommand(parser, action);
         addCompareCommand(parser, action);
         addDevicesCommand(parser, action);
         addInfoCommand(parser, action);
         return runCommand(parser, action, argc, argv);
-    } catch (const Error& error) {
-        return fail(error.what(), statusFailure);
-    } catch (const Errors& errors) {
-        std::ranges::for_each(errors.lines, complain);
-        return statusFailure;
-    } catch (const std::bad_alloc&) {
-        return fail(outOfMemory, statusFailure);
-    } catch (const std::length_error&) { // a size that no memory could hold
-        return fail(outOfMemory, statusFailure);
-    } catch (const std::system_error& error) { // no more threads, memory or files for this process
-        return fail(
-            message("the system refuses", error.what(), "give the process more, or render less"), statusFailure);
-    } catch (const std::exception& error) {
-        return fail(
-            message("unexpected failure", error.what(), "this is a fault in wedge, please report it"), statusFailure);
     } catch (...) {
-        return fail("unexpected failure: unknown: this is a fault in wedge, please report it", statusFailure);
+        return failed();
     }
 }
