@@ -11,7 +11,10 @@ most=2 # seconds
 times=$(mktemp)
 trap 'rm -f "$times"' EXIT
 
-"$test" --test-case='kernels are compiled*' > /dev/null
+"$test" --test-case='kernels are compiled*' > /dev/null || {
+    echo "measure_hostile.sh: error: not even a small scene renders: run $test" >&2
+    exit 1
+}
 status=0
 WEDGE_HOSTILE_TIMES=$times "$test" --test-case-exclude='kernels are compiled*' || status=1
 
