@@ -119,15 +119,10 @@ void checkStopped(const image::LayeredImage& image)
     CHECK(std::ranges::all_of(values(image, "G"), [](float v) { return std::isfinite(v) && v >= 0; }));
 }
 
-/// Waits until the program says that its kernels are ready and it renders, gives it time for some samples, interrupts.
+/// Gives the program time for some samples and interrupts it.
 void interruptRendering(const Workplace& place, pid_t process, int milliseconds)
 {
-    siginfo_t ended {};
-    // Bounded, so that a program that never says so fails the test instead of running for ever.
-    for (int i = 0; i < 9000 && !contains(place.said(), "kernels ready") && ended.si_pid == 0; ++i) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT);
-    }
+    waitUntilRendering(place, process);
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
     kill(process, SIGINT);
 }

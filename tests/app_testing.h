@@ -50,6 +50,7 @@ public:
         REQUIRE(::mkdtemp(name.data()) != nullptr);
         root_ = name;
         std::filesystem::create_directory(path());
+        std::filesystem::create_directory(temporary());
         // Kernels compiled by one run serve the next ones.
         ::setenv("WEDGE_CACHE_DIR", WEDGE_TEST_CACHE, 1);
     }
@@ -63,6 +64,9 @@ public:
     Workplace& operator=(const Workplace&) = delete;
 
     std::filesystem::path path() const { return root_ / "work"; }
+    std::filesystem::path temporary() const { return root_ / "tmp"; } ///< the program's folder for temporary files
+
+    bool ignoreHangups = false; ///< whether the program is started so
 
     void write(const std::string& name, const std::string& text) const
     {
@@ -111,8 +115,10 @@ private:
         const pid_t child = fork();
         REQUIRE(child >= 0);
         if (child == 0) {
-            // Shells start background jobs with SIGINT ignored; the program must see it.
+            // Shells start background jobs with SIGINT ignored, and nohup others with SIGHUP; the program must see them.
             signal(SIGINT, SIG_DFL);
+            signal(SIGHUP, ignoreHangups ? SIG_IGN : SIG_DFL);
+            setenv("TMPDIR", temporary().c_str(), 1);
             dup2(open("/dev/null", O_RDONLY), 0);
             dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
             dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
@@ -126,6 +132,17 @@ private:
 
     std::filesystem::path root_;
 };
+
+/// Waits until the program says, with --verbose, that its kernels are ready and it renders.
+inline void waitUntilRendering(const Workplace& place, pid_t process)
+{
+    siginfo_t ended {};
+    // Bounded, so that a program that never says so fails the test instead of running for ever.
+    for (int i = 0; i < 9000 && !contains(place.said(), "kernels ready") && ended.si_pid == 0; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOHANG | WNOWAIT);
+    }
+}
 
 /// The values of a channel that has to be there.
 inline const std::vector<float>& values(const image::LayeredImage& image, const std::string& channel)

@@ -5,11 +5,14 @@
 #include "host/error.h"
 #include "tests/image_test_support.h"
 
+#include <array>
 #include <csignal>
 #include <doctest/doctest.h>
+#include <fcntl.h>
 #include <functional>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 using namespace wedge::image;
 using namespace wedge::image::test;
@@ -128,6 +131,44 @@ TEST_CASE("new files get the permissions that the process gives files, and links
     throughLink.commit();
     CHECK(std::filesystem::is_symlink(directory / "link"));
     CHECK(readBytes(directory / "a") == "through");
+}
+
+TEST_CASE("a link to a file that is not there yet stays a link, and the file appears")
+{
+    const TempDirectory directory;
+    std::filesystem::create_directory(directory / "d");
+    std::filesystem::create_symlink("d/b", directory / "link");
+    std::filesystem::create_symlink("link", directory / "second");
+    CHECK(behindLinks(directory / "second") == directory / "d/b");
+    CHECK(behindLinks(directory / "a") == directory / "a");
+    checkWritable(directory / "second");
+    CHECK(std::filesystem::is_empty(directory / "d"));
+    AtomicFile file(directory / "second");
+    file.write("through both");
+    file.commit();
+    CHECK(std::filesystem::is_symlink(directory / "second"));
+    CHECK(std::filesystem::is_symlink(directory / "link"));
+    CHECK(readBytes(directory / "d/b") == "through both");
+    std::filesystem::create_symlink("circle", directory / "circle");
+    CHECK(messageOf([&] { checkWritable(directory / "circle"); }).find("symbolic links") != std::string::npos);
+}
+
+TEST_CASE("a pipe is written to who reads it, and nobody is waited for")
+{
+    const TempDirectory directory;
+    const std::string path = directory / "pipe";
+    REQUIRE(mkfifo(path.c_str(), 0600) == 0);
+    checkWritable(path); // somebody may read it by then
+    CHECK(messageOf([&] { const AtomicFile file(path); }).find("start what reads the pipe first") != std::string::npos);
+    const int reader = open(path.c_str(), O_RDONLY | O_NONBLOCK);
+    REQUIRE(reader >= 0);
+    AtomicFile file(path);
+    file.write("through");
+    file.commit();
+    std::array<char, 16> bytes {};
+    CHECK(read(reader, bytes.data(), bytes.size()) == 7);
+    CHECK(std::string(bytes.data()) == "through");
+    close(reader);
 }
 
 TEST_CASE("a path that cannot be written is refused before the work, without a trace")

@@ -1,6 +1,9 @@
 #include "host/app/commands.h"
+#include "host/app/console.h"
+#include "host/app/outputs.h"
 #include "host/app/reference.h"
 #include "host/app/values.h"
+#include "host/error.h"
 #include "host/image/atomic_file.h"
 #include "host/image/colour.h"
 #include "host/image/metrics.h"
@@ -60,10 +63,19 @@ void writeErrorMap(const std::string& path, const RgbImage& a, const RgbImage& b
     image::writePng(path, map);
 }
 
+void checkErrorMap(const CompareOptions& options)
+{
+    if (formatOf(options.errorMap) != ImageFormat::Png) {
+        throw UsageError("error map of another format than PNG", options.errorMap, "end its name in .png");
+    }
+    refuseOverwriting({ options.errorMap }, { options.image, options.reference });
+    image::checkWritable(options.errorMap);
+}
+
 int compare(const CompareOptions& options)
 {
     if (!options.errorMap.empty()) {
-        image::checkWritable(options.errorMap);
+        checkErrorMap(options);
     }
     const RgbImage a = image::readImage(options.image);
     const RgbImage b = image::readImage(options.reference);
@@ -76,24 +88,24 @@ int compare(const CompareOptions& options)
         const double value = metrics[i].measure(a, b);
         json[metrics[i].name] = value;
         if (!options.json) {
-            options.metric ? fmt::print("{:.9g}\n", value)
-                           : fmt::print("{:<7} {:.6g}{}\n", metrics[i].name, value, metrics[i].unit);
+            options.metric ? say("{:.9g}\n", value) : say("{:<7} {:.6g}{}\n", metrics[i].name, value, metrics[i].unit);
         }
     }
     const std::size_t invalid = image::countInvalidPixels(a, b);
     if (!options.metric) {
         json["invalid_pixels"] = invalid;
         if (!options.json) {
-            fmt::print("invalid pixels {}\n", invalid);
+            say("invalid pixels {}\n", invalid);
         }
     }
     warnOfInvalidPixels(invalid, a);
     if (options.json) {
-        fmt::print("{}\n", json.dump(2));
+        say("{}\n", json.dump(2));
     }
     if (!options.errorMap.empty()) {
         writeErrorMap(options.errorMap, a, b);
     }
+    requireSaid();
     return 0;
 }
 

@@ -1,4 +1,5 @@
 #include "host/app/commands.h"
+#include "host/app/console.h"
 #include "host/device/device.h"
 #include "host/device/memory_plan.h"
 #include "host/error.h"
@@ -28,15 +29,15 @@ Json toJson(const DeviceInfo& d)
 
 void print(const DeviceInfo& d)
 {
-    fmt::print("{}  {} ({})\n", d.index, d.name, device::deviceTypeName(d.type));
-    fmt::print("   {}, {}, driver {}\n", d.platform, d.deviceVersion, d.driver);
-    fmt::print("   {} compute units, {} memory, {} at once, work-groups of {}\n", d.computeUnits,
+    say("{}  {} ({})\n", d.index, printable(d.name), device::deviceTypeName(d.type));
+    say("   {}, {}, driver {}\n", printable(d.platform), printable(d.deviceVersion), printable(d.driver));
+    say("   {} compute units, {} memory, {} at once, work-groups of {}\n", d.computeUnits,
         device::mebibytes(d.globalMemory), device::mebibytes(d.maxAllocation), d.maxWorkGroup);
     for (const std::string& quirk : d.quirks) {
         fmt::print("   quirk: {}\n", quirk);
     }
     if (!d.unusable.empty()) {
-        fmt::print("   unusable: {}\n", d.unusable);
+        say("   unusable: {}\n", d.unusable);
     }
 }
 
@@ -48,7 +49,8 @@ int listDevices(bool json)
         for (const DeviceInfo& d : devices) {
             list.push_back(toJson(d));
         }
-        fmt::print("{}\n", list.dump(2, ' ', false, Json::error_handler_t::replace));
+        say("{}\n", list.dump(2, ' ', false, Json::error_handler_t::replace));
+        requireSaid();
         return 0;
     }
     if (devices.empty()) {
@@ -58,6 +60,7 @@ int listDevices(bool json)
     for (const DeviceInfo& d : devices) {
         print(d);
     }
+    requireSaid();
     return 0;
 }
 

@@ -1,4 +1,5 @@
 #include "host/app/commands.h"
+#include "host/app/console.h"
 #include "host/app/render_options.h"
 #include "host/app/render_settings.h"
 #include "host/app/values.h"
@@ -6,6 +7,7 @@
 #include "host/render/renderer.h"
 #include "host/render/report.h"
 #include "host/scene/scene.h"
+#include "host/text.h"
 
 #include <memory>
 
@@ -41,25 +43,22 @@ Facts gather(const std::string& path, bvh::Mode mode)
     return facts;
 }
 
-void addCamera(const Facts& f, Json& json)
-{
-    json.update(render::cameraReport(f.scene));
-}
+void addCamera(const Facts& f, Json& json) { json.update(render::cameraReport(f.scene)); }
 
 void printCamera(const Facts& f)
 {
     const scene::Camera& camera = f.scene.camera;
     if (camera.apertureRadius > 0.0f)
-        fmt::print("lens       {} aperture of radius {:g} m, in focus at {:g} m\n",
-            scene::profileName(camera.apertureProfile), camera.apertureRadius, scene::distanceInFocus(camera));
+        say("lens       {} aperture of radius {:g} m, in focus at {:g} m\n", scene::profileName(camera.apertureProfile),
+            camera.apertureRadius, scene::distanceInFocus(camera));
     else
-        fmt::print("lens       pinhole\n");
+        say("lens       pinhole\n");
     if (!scene::geometryMoves(f.scene) && !scene::cameraMoves(f.scene))
-        fmt::print("shutter    nothing moves\n");
+        say("shutter    nothing moves\n");
     else
-        fmt::print("shutter    {}, from {:g} to {:g}: {} moving triangles, camera {}\n",
-            scene::profileName(f.scene.shutterProfile), f.scene.shutterOpen, f.scene.shutterClose, f.summary.movingTriangles,
-            scene::cameraMoves(f.scene) ? "moves" : "at rest");
+        say("shutter    {}, from {:g} to {:g}: {} moving triangles, camera {}\n",
+            scene::profileName(f.scene.shutterProfile), f.scene.shutterOpen, f.scene.shutterClose,
+            f.summary.movingTriangles, scene::cameraMoves(f.scene) ? "moves" : "at rest");
 }
 
 void printJson(const Facts& f)
@@ -83,39 +82,38 @@ void printJson(const Facts& f)
         { "triangles", b.triangles }, { "degenerate", b.degenerate }, { "skipped", b.skipped }, { "depth", b.depth },
         { "sah_cost", b.sahCost }, { "bytes", b.bytes }, { "build_ms", 1e3 * b.buildSeconds } };
     json["warnings"] = f.scene.warnings;
-    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    say("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
 void printText(const Facts& f)
 {
     const scene::Summary& s = f.summary;
     const bvh::Statistics& b = f.bvh;
-    fmt::print("scene      {}\n", f.scene.path);
-    fmt::print("triangles  {} ({} vertices, {})\n", s.triangles, s.vertices, device::mebibytes(s.geometryBytes));
-    fmt::print("objects    {}\n", s.objects);
+    say("scene      {}\n", printable(f.scene.path));
+    say("triangles  {} ({} vertices, {})\n", s.triangles, s.vertices, device::mebibytes(s.geometryBytes));
+    say("objects    {}\n", s.objects);
     for (std::size_t i = 0; i < f.scene.geometry.objectNames.size(); ++i) {
-        fmt::print("           {} {}\n", i + 1, f.scene.geometry.objectNames[i]);
+        say("           {} {}\n", i + 1, printable(f.scene.geometry.objectNames[i]));
     }
-    fmt::print("materials  {}, textures {} ({})\n", s.materials, s.textures, device::mebibytes(s.textureBytes));
-    fmt::print("lights     {} area, {} point, {} directional\n", s.areaLights, s.pointLights, s.directionalLights);
+    say("materials  {}, textures {} ({})\n", s.materials, s.textures, device::mebibytes(s.textureBytes));
+    say("lights     {} area, {} point, {} directional\n", s.areaLights, s.pointLights, s.directionalLights);
     printCamera(f);
     if (!s.bounds.empty()) {
-        fmt::print("bounds     [{:g}, {:g}, {:g}] to [{:g}, {:g}, {:g}] m\n", s.bounds.lo.x, s.bounds.lo.y,
-            s.bounds.lo.z, s.bounds.hi.x, s.bounds.hi.y, s.bounds.hi.z);
+        say("bounds     [{:g}, {:g}, {:g}] to [{:g}, {:g}, {:g}] m\n", s.bounds.lo.x, s.bounds.lo.y, s.bounds.lo.z,
+            s.bounds.hi.x, s.bounds.hi.y, s.bounds.hi.z);
     }
-    fmt::print("bvh        {}: {} nodes, {} blocks, {}, depth {}, SAH cost {:.2f}, built in {:.1f} ms\n",
+    say("bvh        {}: {} nodes, {} blocks, {}, depth {}, SAH cost {:.2f}, built in {:.1f} ms\n",
         bvh::modeName(f.mode), b.nodes, b.blocks, device::mebibytes(b.bytes), b.depth, b.sahCost, 1e3 * b.buildSeconds);
-    fmt::print("           {} triangles without area, {} left out\n", b.degenerate, b.skipped);
-    fmt::print("memory on the device at {}x{}\n{}", f.settings.width, f.settings.height, f.memory.table());
+    say("           {} triangles without area, {} left out\n", b.degenerate, b.skipped);
+    say("memory on the device at {}x{}\n{}", f.settings.width, f.settings.height, f.memory.table());
 }
 
 int info(const std::string& path, bool json, bvh::Mode mode)
 {
     const Facts facts = gather(path, mode);
-    for (const std::string& warning : facts.scene.warnings) {
-        fmt::print(stderr, "wedge: warning: {}\n", warning);
-    }
+    warnOf(facts.scene.warnings);
     json ? printJson(facts) : printText(facts);
+    requireSaid();
     return 0;
 }
 

@@ -10,20 +10,37 @@
 namespace wedge::app {
 namespace {
 
-constexpr std::array<int, 2> watched = { SIGINT, SIGTERM };
+constexpr std::array<int, 3> watched = { SIGINT, SIGTERM, SIGHUP };
 
-std::atomic<bool> interrupted { false };
+std::atomic<bool> interrupted { false }, asked { false }, hungUp { false };
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch it");
 std::array<struct sigaction, watched.size()> previous;
 
-extern "C" void onSignal(int)
+extern "C" void onSignal(int signal)
 {
-    if (interrupted.exchange(true)) {
+    interrupted = true;
+    if (signal == SIGHUP) {
+        hungUp = true;
+    } else if (asked.exchange(true)) {
         _exit(statusInterrupted);
     }
 }
 
 } // namespace
+
+void keepIgnoring()
+{
+    sigset_t ignored;
+    sigemptyset(&ignored);
+    for (const int signal : watched) {
+        struct sigaction action = {};
+        if (sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) {
+            sigaddset(&ignored, signal);
+        }
+    }
+    // Blocked they stay away, whoever handles them: LLVM, which drivers compile with, does without asking.
+    pthread_sigmask(SIG_BLOCK, &ignored, nullptr);
+}
 
 InterruptGuard::InterruptGuard()
 {
@@ -32,10 +49,7 @@ InterruptGuard::InterruptGuard()
     action.sa_flags = SA_RESTART; // drivers don't expect interrupted system calls
     sigemptyset(&action.sa_mask);
     for (std::size_t i = 0; i < watched.size(); ++i) {
-        sigaction(watched[i], nullptr, &previous[i]);
-        if (previous[i].sa_handler != SIG_IGN) {
-            sigaction(watched[i], &action, nullptr);
-        }
+        sigaction(watched[i], &action, &previous[i]);
     }
 }
 
@@ -43,6 +57,9 @@ InterruptGuard::~InterruptGuard()
 {
     for (std::size_t i = 0; i < watched.size(); ++i) {
         sigaction(watched[i], &previous[i], nullptr);
+    }
+    if (hungUp) {
+        std::signal(SIGHUP, SIG_IGN);
     }
 }
 

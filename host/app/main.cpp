@@ -1,12 +1,19 @@
 // The program: parse the command line, run the command, turn whatever goes wrong into one line and an exit status.
+#include "host/app/arguments.h"
 #include "host/app/commands.h"
+#include "host/app/console.h"
+#include "host/app/interrupt.h"
 #include "host/error.h"
 #include "host/render/metadata.h"
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <new>
+#include <sstream>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -17,6 +24,7 @@ namespace {
 using namespace wedge;
 using namespace wedge::app;
 
+constexpr const char* outOfMemory = "host memory: exhausted: render a smaller image or a smaller scene";
 constexpr const char* commandList = "name one: render, compare, devices, info";
 
 /// The command that is named, or else the program itself.
@@ -34,26 +42,12 @@ std::string hint(const CLI::App& parser, int argc, char** argv)
     return fmt::format("see wedge {}--help", &command == &parser ? "" : command.get_name() + " ");
 }
 
-/// Flags take no value; the parser would take one and not always for what it says.
-void refuseFlagValues(const CLI::App& parser, int argc, char** argv)
-{
-    const CLI::App& command = commandOf(parser, argc, argv);
-    const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
-    // What comes after "--" is no option.
-    for (auto at = arguments.begin(); at != std::ranges::find(arguments, "--"); ++at) {
-        const std::string name = at->substr(0, at->find('='));
-        const CLI::Option* option = name == *at ? nullptr : command.get_option_no_throw(name);
-        if (option != nullptr && option->get_expected_max() == 0) {
-            throw UsageError("option takes no value", *at, fmt::format("give {} alone, or leave it out", name));
-        }
-    }
-}
-
 /// The first argument of a wrong call that nobody expected.
 std::string firstExtra(const CLI::App& parser)
 {
     const std::vector<std::string> extras = parser.remaining(true);
-    return extras.empty() ? "" : extras.front();
+    const auto first = std::ranges::find_if(extras, [](const std::string& extra) { return extra != "--"; });
+    return first == extras.end() ? "" : *first;
 }
 
 /// The parser's complaint in the form of all errors. Its messages begin with the option's name.
@@ -78,24 +72,30 @@ UsageError usageError(const CLI::App& parser, const CLI::ParseError& error)
     return { "wrong call", text, "correct it" };
 }
 
-int fail(const std::string& message, int status)
+int fail(std::string_view message, int status)
 {
-    std::string line = message;
-    std::replace_if(
-        line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-    std::fflush(stdout);
-    fmt::print(stderr, "wedge: error: {}\n", line);
+    complain(message);
+    return status;
+}
+
+/// What --help and --version print is their result.
+int answer(const CLI::App& parser, const CLI::Success& request)
+{
+    std::ostringstream text;
+    const int status = parser.exit(request, text, text);
+    put(stdout, text.str());
+    requireSaid();
     return status;
 }
 
 int runCommand(CLI::App& parser, Action& action, int argc, char** argv)
 {
     try {
-        refuseFlagValues(parser, argc, argv);
+        checkArguments(commandOf(parser, argc, argv), { argv + std::min(argc, 1), argv + argc });
         try {
             parser.parse(argc, argv);
         } catch (const CLI::Success& request) {
-            return parser.exit(request); // --help, --version
+            return answer(parser, request);
         } catch (const CLI::ParseError& error) {
             throw usageError(parser, error);
         }
@@ -108,28 +108,52 @@ int runCommand(CLI::App& parser, Action& action, int argc, char** argv)
     }
 }
 
+/// Says what was thrown; call where it is caught. Returns the exit status.
+int failed()
+{
+    try {
+        throw;
+    } catch (const Error& error) {
+        return fail(error.what(), statusFailure);
+    } catch (const Errors& errors) {
+        std::ranges::for_each(errors.lines, complain);
+        return statusFailure;
+    } catch (const std::bad_alloc&) {
+        return fail(outOfMemory, statusFailure);
+    } catch (const std::length_error&) { // a size that no memory could hold
+        return fail(outOfMemory, statusFailure);
+    } catch (const std::filesystem::filesystem_error& error) {
+        return fail(message("file system", error.what(), "check the name and the permissions"), statusFailure);
+    } catch (const std::system_error& error) { // no more threads, memory or files for this process
+        return fail(
+            message("the system refuses", error.what(), "give the process more, or render less"), statusFailure);
+    } catch (const std::exception& error) {
+        return fail(
+            message("unexpected failure", error.what(), "this is a fault in wedge, please report it"), statusFailure);
+    } catch (...) {
+        return fail("unexpected failure: unknown: this is a fault in wedge, please report it", statusFailure);
+    }
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
+    prepareProcess();
+    keepIgnoring();
     try {
-        CLI::App parser("wedge renders soft shadows and indirect light from few samples, on any OpenCL device.", "wedge");
+        CLI::App parser(
+            "wedge renders soft shadows and indirect light from few samples, on any OpenCL device.", "wedge");
         parser.set_version_flag("--version", std::string("wedge ") + render::version());
         parser.get_formatter()->column_width(32);
+        parser.require_subcommand(0, 1); // of more than one the last would be taken for all
         Action action;
         addRenderCommand(parser, action);
         addCompareCommand(parser, action);
         addDevicesCommand(parser, action);
         addInfoCommand(parser, action);
         return runCommand(parser, action, argc, argv);
-    } catch (const Error& error) {
-        return fail(error.what(), statusFailure);
-    } catch (const std::bad_alloc&) {
-        return fail("host memory: exhausted: render a smaller image or a smaller scene", statusFailure);
-    } catch (const std::exception& error) {
-        return fail(fmt::format("unexpected failure: {}: this is a fault in wedge, please report it", error.what()),
-            statusFailure);
     } catch (...) {
-        return fail("unexpected failure: unknown: this is a fault in wedge, please report it", statusFailure);
+        return failed();
     }
 }

@@ -1,5 +1,6 @@
 #include "host/app/outputs.h"
 
+#include "host/app/console.h"
 #include "host/error.h"
 #include "host/image/atomic_file.h"
 #include "host/image/exr.h"
@@ -8,11 +9,45 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <tuple>
+
+#include <sys/stat.h>
 
 namespace wedge::app {
 namespace {
 
-ImageFormat formatOf(const std::string& path)
+/// Which file a path leads to, whether it is there or would be made: a folder and a name in it.
+struct Place {
+    dev_t device = 0;
+    ino_t folder = 0;
+    std::string name; // of a file in the folder; where there is no such folder, the whole path
+    bool replaceable = true; // and no device or pipe, which can be written twice
+
+    bool operator==(const Place& other) const
+    {
+        return std::tie(device, folder, name) == std::tie(other.device, other.folder, other.name) && replaceable
+            && other.replaceable;
+    }
+};
+
+Place placeOf(const std::string& path)
+{
+    const std::filesystem::path file = image::behindLinks(path);
+    const std::string folder = file.has_parent_path() ? file.parent_path().string() : ".";
+    struct stat status = {};
+    Place place { 0, 0, file.lexically_normal().string(), true };
+    if (stat(folder.c_str(), &status) == 0) {
+        place = { status.st_dev, status.st_ino, file.filename().string(), true };
+    }
+    if (stat(file.c_str(), &status) == 0) {
+        place.replaceable = S_ISREG(status.st_mode);
+    }
+    return place;
+}
+
+} // namespace
+
+std::optional<ImageFormat> formatOf(const std::string& path)
 {
     std::string extension = std::filesystem::path(path).extension().string();
     std::ranges::transform(
@@ -23,10 +58,8 @@ ImageFormat formatOf(const std::string& path)
     if (extension == ".png") {
         return ImageFormat::Png;
     }
-    throw UsageError("output of unknown format", path.empty() ? "(empty name)" : path, "end its name in .exr or .png");
+    return std::nullopt;
 }
-
-} // namespace
 
 std::vector<Output> planOutputs(const std::vector<std::string>& paths, const std::string& scene)
 {
@@ -35,32 +68,65 @@ std::vector<Output> planOutputs(const std::vector<std::string>& paths, const std
     }
     std::vector<Output> outputs;
     for (const std::string& path : paths) {
-        if (std::ranges::any_of(outputs, [&](const Output& other) { return other.path == path; })) {
-            throw UsageError("output is named twice", path, "give each output a name of its own");
+        const std::optional<ImageFormat> format = formatOf(path);
+        if (!format) {
+            throw UsageError("output of unknown format", path, "end its name in .exr or .png");
         }
-        outputs.push_back({ path, formatOf(path) });
+        outputs.push_back({ path, *format });
     }
     return outputs;
 }
 
-void requireWritable(const std::vector<Output>& outputs, const std::string& report)
+void refuseOverwriting(const std::vector<std::string>& written, const std::vector<std::string>& read)
 {
-    for (const Output& output : outputs) {
-        image::checkWritable(output.path);
+    std::vector<Place> inputs, outputs;
+    for (const std::string& path : read) {
+        if (!path.empty()) {
+            inputs.push_back(placeOf(path));
+        }
     }
-    if (!report.empty()) {
-        image::checkWritable(report);
+    for (const std::string& path : written) {
+        if (path.empty()) {
+            continue;
+        }
+        const Place place = placeOf(path);
+        if (std::ranges::count(outputs, place) > 0) {
+            throw UsageError("output is named twice", path, "give each output a name of its own");
+        }
+        if (std::ranges::count(inputs, place) > 0) {
+            throw UsageError("output is a file that is read", path, "give it a name of its own");
+        }
+        outputs.push_back(place);
     }
 }
 
-void writeOutputs(const std::vector<Output>& outputs, const image::LayeredImage& image, float exposureStops)
+void requireWritable(const std::vector<Output>& outputs, const std::string& report)
 {
-    for (const Output& output : outputs) {
-        if (output.format == ImageFormat::Exr) {
-            image::writeExr(output.path, image);
-        } else {
-            image::writePng(output.path, image::beauty(image), exposureStops);
+    std::vector<std::string> lines;
+    const auto check = [&lines](const std::string& path) {
+        try {
+            image::checkWritable(path);
+        } catch (const Error& error) {
+            lines.emplace_back(error.what());
         }
+    };
+    for (const Output& output : outputs) {
+        check(output.path);
+    }
+    if (!report.empty()) {
+        check(report);
+    }
+    if (!lines.empty()) {
+        throw Errors(std::move(lines));
+    }
+}
+
+void writeImage(const Output& output, const image::LayeredImage& image, float exposureStops)
+{
+    if (output.format == ImageFormat::Exr) {
+        image::writeExr(output.path, image);
+    } else {
+        image::writePng(output.path, image::beauty(image), exposureStops);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "host/image/image.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,15 +16,22 @@ struct Output {
     ImageFormat format = ImageFormat::Exr;
 };
 
-/// The outputs that the paths name, their formats told by the extension; without any, the scene's name with .exr in the
-/// current folder. Throws UsageError for other extensions and for a path named twice.
+/// The format that the name's extension tells, if any.
+std::optional<ImageFormat> formatOf(const std::string& path);
+
+/// The outputs that the paths name; without any, the scene's name with .exr in the current folder. Throws UsageError
+/// for other extensions.
 std::vector<Output> planOutputs(const std::vector<std::string>& paths, const std::string& scene);
 
-/// Throws the Error that writing would end in, as far as can be told now. report: a path, or "".
+/// Throws UsageError where two of the files that are written are one, and where one of them is read: under whatever
+/// spelling, also through symbolic links. Empty paths stand for none.
+void refuseOverwriting(const std::vector<std::string>& written, const std::vector<std::string>& read);
+
+/// Throws the Errors that writing would end in, as far as can be told now. report: a path, or "".
 void requireWritable(const std::vector<Output>& outputs, const std::string& report);
 
-/// Writes the image to each, whole or not at all. Throws Error.
-void writeOutputs(const std::vector<Output>& outputs, const image::LayeredImage& image, float exposureStops);
+/// Writes the image, whole or not at all. Throws Error.
+void writeImage(const Output& output, const image::LayeredImage& image, float exposureStops);
 
 /// Writes text to a file, whole or not at all. Throws Error.
 void writeText(const std::string& path, const std::string& text);

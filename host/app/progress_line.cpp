@@ -1,5 +1,8 @@
 #include "host/app/progress_line.h"
 
+#include "host/app/console.h"
+#include "host/text.h"
+
 #include <cmath>
 
 #include <fmt/format.h>
@@ -31,7 +34,7 @@ ProgressLine::ProgressLine(bool wanted)
 void ProgressLine::show(const std::string& text)
 {
     if (active_) {
-        fmt::print(stderr, "\r\033[K{}", text);
+        put(stderr, fmt::format("\r\033[K{}", printable(shortened(text, 200))));
         std::fflush(stderr);
         shown_ = true;
     }
@@ -56,7 +59,7 @@ void ProgressLine::update(double fraction)
 void ProgressLine::clear()
 {
     if (shown_) {
-        fmt::print(stderr, "\r\033[K");
+        put(stderr, "\r\033[K");
         std::fflush(stderr);
         shown_ = false;
     }

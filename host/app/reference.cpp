@@ -1,5 +1,6 @@
 #include "host/app/reference.h"
 
+#include "host/app/console.h"
 #include "host/error.h"
 #include "host/image/read_image.h"
 
@@ -40,10 +41,9 @@ image::RgbImage readReference(const std::string& path, const render::Settings& s
 void warnOfInvalidPixels(std::size_t invalid, const image::RgbImage& image)
 {
     if (invalid > 0) {
-        fmt::print(stderr,
-            "wedge: warning: pixels that are not finite in the image or the reference: {} of {}: rmse, relmse and psnr "
-            "leave them out\n",
-            invalid, static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+        warn(fmt::format("pixels that are not finite in the image or the reference: {} of {}: rmse, relmse and psnr "
+                         "leave them out",
+            invalid, static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)));
     }
 }
 

@@ -1,4 +1,6 @@
 #include "host/app/commands.h"
+#include "host/app/console.h"
+#include "host/app/image_writer.h"
 #include "host/app/interrupt.h"
 #include "host/app/outputs.h"
 #include "host/app/pass_table.h"
@@ -35,7 +37,7 @@ class RenderJob {
 public:
     explicit RenderJob(const RenderOptions& options)
         : options_(options)
-        , outputs_(planOutputs(options.outputs, options.scene))
+        , images_(planOutputs(options.outputs, options.scene), options.exposureStops)
         , progress_(!options.quiet)
     {
     }
@@ -51,19 +53,23 @@ private:
     void showStep(const render::ProgressiveStep& step);
     std::string endOfSteps() const;
     void write();
+    void finishImages();
     void writeReport();
     void finish();
 
     template <class... Args>
-    void say(fmt::format_string<Args...> format, Args&&... args) const
+    void tell(fmt::format_string<Args...> format, Args&&... args) const
     {
         if (!options_.quiet) {
-            fmt::print(format, std::forward<Args>(args)...);
+            say(format, std::forward<Args>(args)...);
         }
     }
 
     const RenderOptions& options_;
-    std::vector<Output> outputs_;
+    std::optional<InterruptGuard>
+        guard_; // goes last, so that no late signal ends the program before it says how it went
+    ImageWriter images_;
+    std::vector<std::string> failures_; // lines about outputs
     ProgressLine progress_;
     scene::Scene scene_;
     render::ReportExtras extras_;
@@ -72,7 +78,7 @@ private:
     std::optional<image::RgbImage> reference_;
     std::unique_ptr<render::Renderer> renderer_;
     render::FrameStatistics statistics_;
-    bool interrupted_ = false;
+    bool interrupted_ = false, reported_ = false;
     double fraction_ = 0;
 };
 
@@ -81,8 +87,18 @@ int RenderJob::run()
     checkCall();
     load();
     prepare();
-    render();
+    try {
+        render();
+    } catch (...) {
+        // An earlier image of a progressive render may be all that there will be.
+        finishImages();
+        std::ranges::for_each(failures_, complain);
+        throw;
+    }
     finish();
+    if (!failures_.empty()) {
+        throw Errors(failures_);
+    }
     return interrupted_ ? statusInterrupted : 0;
 }
 
@@ -95,17 +111,19 @@ void RenderJob::checkCall() const
     if (options_.devices.size() > 1) {
         throw UsageError("several devices cannot render one image yet", options_.devices[1], "give one --device");
     }
-    const bool anyExr = std::ranges::any_of(outputs_, [](const Output& o) { return o.format == ImageFormat::Exr; });
+    const std::vector<Output>& outputs = images_.outputs();
+    const bool anyExr = std::ranges::any_of(outputs, [](const Output& o) { return o.format == ImageFormat::Exr; });
     if (!options_.layers.empty() && !anyExr) {
         throw UsageError("layers have no file to go to", options_.layers, "add an output that ends in .exr");
     }
-    if (!options_.kernelDir.empty() && !std::filesystem::is_directory(options_.kernelDir)) {
+    std::error_code ignored;
+    if (!options_.kernelDir.empty() && !std::filesystem::is_directory(options_.kernelDir, ignored)) {
         throw Error("kernel folder", options_.kernelDir, "name an existing folder");
     }
-    if (std::ranges::any_of(outputs_, [&](const Output& o) { return o.path == options_.report; })) {
-        throw UsageError("report and image have one name", options_.report, "give each a name of its own");
-    }
-    requireWritable(outputs_, options_.report);
+    std::vector<std::string> written = { options_.report };
+    std::ranges::transform(outputs, std::back_inserter(written), &Output::path);
+    refuseOverwriting(written, { options_.scene, options_.reference });
+    requireWritable(outputs, options_.report);
 }
 
 void RenderJob::load()
@@ -116,9 +134,7 @@ void RenderJob::load()
     extras_.loadMilliseconds = millisecondsSince(start);
     progress_.clear();
     if (!options_.quiet) {
-        for (const std::string& warning : scene_.warnings) {
-            fmt::print(stderr, "wedge: warning: {}\n", warning);
-        }
+        warnOf(scene_.warnings);
     }
     applyLens(options_, scene_);
     settings_ = resolveSettings(options_, scene_);
@@ -144,16 +160,16 @@ void RenderJob::prepare()
     progress_.clear();
 
     const device::MemoryPlan plan = renderer_->plan(settings_, !layers_.empty());
-    say("scene {}: {} triangles\n", scene_.path, scene_.geometry.indices.size() / 3);
-    say("device {} ({})\n", device.info().name, device.info().platform);
+    tell("scene {}: {} triangles\n", printable(scene_.path), scene_.geometry.indices.size() / 3);
+    tell("device {} ({})\n", device.info().name, device.info().platform);
     if (options_.verbose) {
-        say("traversal {}\nbvh {}\n", render::traversalName(renderer_->traversal()), bvh::modeName(options.bvh));
+        tell("traversal {}\nbvh {}\n", render::traversalName(renderer_->traversal()), bvh::modeName(options.bvh));
         for (const auto& [name, value] : render::describe(settings_)) {
-            say("{} {}\n", name, value);
+            tell("{} {}\n", name, value);
         }
-        say("device memory\n{}", plan.table());
+        tell("device memory\n{}", plan.table());
     } else {
-        say("device memory {}\n", device::mebibytes(plan.total()));
+        tell("device memory {}\n", device::mebibytes(plan.total()));
     }
     std::fflush(stdout);
     progress_.show("building kernels");
@@ -164,13 +180,13 @@ void RenderJob::prepare()
 void RenderJob::render()
 {
     // Before this, an interrupt simply ends the program: there is nothing yet to write.
-    const InterruptGuard guard;
+    guard_.emplace();
     if (options_.verbose) {
-        say("kernels ready after {:.1f} s\n", renderer_->setupSeconds());
+        tell("kernels ready after {:.1f} s\n", renderer_->setupSeconds());
         std::fflush(stdout);
     }
     render::Control control;
-    control.cancel = &guard.flag();
+    control.cancel = &guard_->flag();
     control.timeLimitSeconds = options_.timeLimitSeconds;
     control.progress = [this](double fraction) {
         fraction_ = fraction;
@@ -182,16 +198,18 @@ void RenderJob::render()
         statistics_ = renderer_->render(settings_, control, !layers_.empty());
     }
     progress_.clear();
-    interrupted_ = !statistics_.complete && guard.flag();
+    interrupted_ = !statistics_.complete && guard_->flag();
     if (!statistics_.complete) {
-        fmt::print(stderr, "wedge: {} at {:.0f} %: writing what is there\n",
-            interrupted_ ? "interrupted" : "time limit reached", 100 * fraction_);
+        put(stderr,
+            fmt::format("wedge: {} at {:.0f} %: writing what is there\n",
+                interrupted_ ? "interrupted" : "time limit reached", 100 * fraction_));
     }
     if (settings_.progressive) {
         extras_.ended = endOfSteps();
     } else {
         write();
     }
+    finishImages();
     writeReport();
 }
 
@@ -200,9 +218,6 @@ void RenderJob::renderSteps(const render::Control& control)
     render::Control until = control;
     until.targetError = options_.targetError.value_or(0);
     extras_.targetError = options_.targetError;
-    for (const Output& output : outputs_) {
-        extras_.files.push_back(output.path);
-    }
     statistics_ = renderer_->renderProgressively(
         settings_, until, [this](const render::ProgressiveStep& step) { showStep(step); }, !layers_.empty());
 }
@@ -216,7 +231,7 @@ void RenderJob::showStep(const render::ProgressiveStep& step)
     extras_.steps.push_back(step);
     extras_.steps.back().statistics.passes.clear();
     const double error = step.error.rmse();
-    say("{} spp, {:.1f} rays a pixel, {:.1f} s: error {}\n", step.spp, render::raysPerPixel(statistics_, settings_),
+    tell("{} spp, {:.1f} rays a pixel, {:.1f} s: error {}\n", step.spp, render::raysPerPixel(statistics_, settings_),
         1e-3 * statistics_.wallMilliseconds, std::isnan(error) ? "unknown" : fmt::format("{:.3g}", error));
     std::fflush(stdout);
 }
@@ -232,35 +247,54 @@ std::string RenderJob::endOfSteps() const
 /// The image that the renderer has now.
 void RenderJob::write()
 {
-    const image::LayeredImage image = render::readLayers(*renderer_, settings_, statistics_, layers_);
+    const auto image =
+        std::make_shared<const image::LayeredImage>(render::readLayers(*renderer_, settings_, statistics_, layers_));
+    const std::vector<std::string> errors = images_.write(image);
+    if (settings_.progressive && !options_.quiet) {
+        for (const std::string& error : errors) {
+            warn(error + "; trying again after the next step");
+        }
+    }
     if (reference_) {
-        extras_.error = image::compare(image::beauty(image), *reference_);
+        extras_.error = image::compare(image::beauty(*image), *reference_);
         if (!options_.quiet) {
             warnOfInvalidPixels(extras_.error->invalidPixels, *reference_);
         }
     }
-    writeOutputs(outputs_, image, options_.exposureStops);
+}
+
+void RenderJob::finishImages()
+{
+    std::ranges::copy(images_.finish(), std::back_inserter(failures_));
+    extras_.files = images_.written();
 }
 
 void RenderJob::writeReport()
 {
-    if (!options_.report.empty()) {
+    if (options_.report.empty()) {
+        return;
+    }
+    try {
         writeText(options_.report, render::jsonReport(*renderer_, settings_, { statistics_ }, extras_));
+        reported_ = true;
+    } catch (const Error& error) {
+        failures_.emplace_back(error.what());
     }
 }
 
 void RenderJob::finish()
 {
-    say("\n{}", passTable(statistics_, settings_));
+    tell("\n{}", passTable(statistics_, settings_));
     if (extras_.error) {
-        say("error against {}: {}\n", extras_.reference, describe(*extras_.error));
+        tell("error against {}: {}\n", printable(extras_.reference), describe(*extras_.error));
     }
-    for (const Output& output : outputs_) {
-        say("wrote {}\n", output.path);
+    for (const std::string& path : images_.written()) {
+        tell("wrote {}\n", printable(path));
     }
-    if (!options_.report.empty()) {
-        say("wrote {}\n", options_.report);
+    if (reported_) {
+        tell("wrote {}\n", printable(options_.report));
     }
+    std::fflush(stdout);
 }
 
 } // namespace

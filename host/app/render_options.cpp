@@ -69,7 +69,7 @@ void addFrameOptions(CLI::App& parser, RenderOptions& o)
     addValue(parser, whatGroup, "--reference", "FILE", "Compare with this image (.exr, .png or .hdr) of the same size",
         [&o](const std::string& text) { o.reference = text; });
     addValue(parser, whatGroup, "--report", "FILE", "Write a report as JSON",
-        [&o](const std::string& text) { o.report = text; });
+        [&o](const std::string& text) { o.report = fileName("--report", text); });
 }
 
 void addIntegratorOptions(CLI::App& parser, RenderOptions& o)
@@ -96,8 +96,8 @@ void addCameraOptions(CLI::App& parser, RenderOptions& o)
             "Sample all of a pixel's square in place of its centre, or not")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
         ->group(whatGroup);
-    addValue(parser, whatGroup, "--aperture", "M", "Radius of the lens in metres, 0 for a pinhole. Default: the scene's",
-        [&o](const std::string& text) {
+    addValue(parser, whatGroup, "--aperture", "M",
+        "Radius of the lens in metres, 0 for a pinhole. Default: the scene's", [&o](const std::string& text) {
             o.aperture = static_cast<float>(finiteNumber("--aperture", text, 0, scene::mostAperture));
         });
     addValue(parser, whatGroup, "--focus", "M", "Metres to the plane in focus of the lens. Default: the scene's",
@@ -154,7 +154,8 @@ void addProgressiveOptions(CLI::App& parser, RenderOptions& o)
 {
     parser
         .add_flag("--progressive", o.progressive,
-            "Render in steps of ever more samples, all of which count in the next, and write the image after each, up to "
+            "Render in steps of ever more samples, all of which count in the next, and write the image after each, up "
+            "to "
             "--spp, --time-limit or --target-error")
         ->group(howGroup);
     addValue(parser, howGroup, "--target-error", "E",
@@ -190,7 +191,9 @@ std::string footer()
     for (const render::LayerInfo& layer : render::knownLayers()) {
         text += fmt::format("  {:<17} {}\n", layer.name, layer.meaning);
     }
-    return text + "\nExit status: 0 done, 1 failure, 2 wrong call, 130 interrupted (what was there is written).\n";
+    return text
+        + "\nExit status: 0 done, 1 failure, 2 wrong call, 130 interrupted by a signal (what was there is "
+          "written).\n";
 }
 
 } // namespace

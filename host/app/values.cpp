@@ -91,6 +91,14 @@ image::Window cropWindow(const std::string& option, const std::string& text)
     return { x0, y0, x1, y1 };
 }
 
+std::string fileName(const std::string& option, const std::string& text)
+{
+    if (text == "-") {
+        fail(option, text, "give /dev/stdout for the standard output, or ./- for a file of that name");
+    }
+    return text;
+}
+
 std::size_t choice(const std::string& option, const std::string& text, const std::vector<std::string>& choices)
 {
     const auto found = std::ranges::find(choices, text);

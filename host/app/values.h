@@ -24,6 +24,9 @@ std::pair<int, int> imageSize(const std::string& option, const std::string& text
 /// "x0,y0,x1,y1" with 0 <= x0 < x1 and 0 <= y0 < y1; whether it lies inside the image is not known here.
 image::Window cropWindow(const std::string& option, const std::string& text);
 
+/// The name of a file to write, and not "-", which elsewhere stands for the standard output.
+std::string fileName(const std::string& option, const std::string& text);
+
 /// The names of bvh::Mode, in the order of its values.
 inline const std::vector<std::string> bvhModes = { "fast", "default", "quality" };
 

@@ -32,6 +32,8 @@ std::string remedyFor(int error)
         return "free some space, or write elsewhere";
     case ENAMETOOLONG:
         return "use a shorter name";
+    case ENXIO:
+        return "start what reads the pipe first, or write elsewhere";
     default:
         return "write elsewhere";
     }
@@ -44,35 +46,54 @@ std::string temporaryBeside(const std::filesystem::path& target)
     return (target.parent_path() / fmt::format(".wedge-{}-{}.tmp", getpid(), count++)).string();
 }
 
+[[noreturn]] void fail(const std::string& path, int error)
+{
+    throw Error(fmt::format("cannot write file ({})", std::generic_category().message(error)),
+        path.empty() ? "(empty name)" : path, path.empty() ? "give a file name" : remedyFor(error));
+}
+
+struct Target {
+    std::string path; // with symbolic links followed
+    bool direct = false; // a device or a pipe
+};
+
+Target targetOf(const std::string& path)
+{
+    struct stat status = {};
+    if (path.empty())
+        fail(path, ENOENT);
+    if (stat(path.c_str(), &status) == 0) {
+        if (S_ISDIR(status.st_mode))
+            fail(path, EISDIR);
+        if (S_ISBLK(status.st_mode))
+            fail(path, EBUSY);
+        if (faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0)
+            fail(path, errno);
+        return { behindLinks(path), !S_ISREG(status.st_mode) };
+    }
+    if (errno != ENOENT)
+        fail(path, errno);
+    if (path.back() == '/')
+        fail(path, EISDIR);
+    return { behindLinks(path), false };
+}
+
 } // namespace
 
 AtomicFile::AtomicFile(const std::string& path)
     : path_(path)
-    , target_(path)
 {
-    struct stat status = {};
-    if (path.empty())
-        fail("cannot write file", ENOENT);
-    if (stat(path.c_str(), &status) == 0) {
-        if (S_ISDIR(status.st_mode))
-            fail("cannot write file", EISDIR);
-        if (faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0)
-            fail("cannot write file", errno);
-        direct_ = !S_ISREG(status.st_mode);
-        std::error_code ignored;
-        const std::filesystem::path resolved = std::filesystem::canonical(path, ignored);
-        if (!direct_ && !resolved.empty())
-            target_ = resolved.string();
-    } else if (errno != ENOENT) {
-        fail("cannot write file", errno);
-    } else if (path.back() == '/') {
-        fail("cannot write file", EISDIR);
-    }
+    const Target target = targetOf(path);
+    target_ = target.path;
+    direct_ = target.direct;
     tempPath_ = direct_ ? path : temporaryBeside(target_);
-    const int flags = direct_ ? O_WRONLY | O_CLOEXEC : O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
+    // Without waiting for a reader of a pipe, who may never come.
+    const int flags = direct_ ? O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK : O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
     file_ = open(tempPath_.c_str(), flags, 0666);
     if (file_ < 0)
-        fail("cannot write file", errno);
+        fail(path_, errno);
+    if (direct_)
+        fcntl(file_, F_SETFL, fcntl(file_, F_GETFL) & ~O_NONBLOCK);
 }
 
 AtomicFile::~AtomicFile()
@@ -90,7 +111,7 @@ void AtomicFile::write(std::string_view bytes)
         if (written < 0 && errno == EINTR)
             continue;
         if (written < 0)
-            fail("cannot write file", errno);
+            fail(path_, errno);
         bytes.remove_prefix(static_cast<std::size_t>(written));
     }
 }
@@ -99,12 +120,12 @@ void AtomicFile::commit()
 {
     // Some file systems report a full disk only when the bytes reach it. Pipes and devices cannot be synchronised.
     if (!direct_ && fsync(file_) != 0)
-        fail("cannot write file", errno);
+        fail(path_, errno);
     closeFile();
     if (direct_)
         return;
     if (std::rename(tempPath_.c_str(), target_.c_str()) != 0)
-        fail("cannot write file", errno);
+        fail(path_, errno);
     tempPath_.clear();
 }
 
@@ -114,19 +135,28 @@ void AtomicFile::closeFile()
     const int error = errno;
     file_ = -1;
     if (result != 0 && error != EINTR)
-        fail("cannot write file", error);
-}
-
-void AtomicFile::fail(const std::string& what, int error) const
-{
-    throw Error(fmt::format("{} ({})", what, std::generic_category().message(error)),
-        path_.empty() ? "(empty name)" : path_, path_.empty() ? "give a file name" : remedyFor(error));
+        fail(path_, error);
 }
 
 void checkWritable(const std::string& path)
 {
     // Making the temporary file asks every question there is; dropping it leaves nothing behind.
-    const AtomicFile probe(path);
+    if (!targetOf(path).direct)
+        const AtomicFile probe(path);
+}
+
+std::string behindLinks(const std::string& path)
+{
+    constexpr int most = 40; // as many as Linux follows
+    std::filesystem::path name = path;
+    std::error_code error;
+    for (int i = 0; i < most && std::filesystem::is_symlink(std::filesystem::symlink_status(name, error)); ++i) {
+        const std::filesystem::path next = std::filesystem::read_symlink(name, error);
+        if (error)
+            break;
+        name = next.is_absolute() ? next : name.parent_path() / next;
+    }
+    return name.string();
 }
 
 } // namespace wedge::image

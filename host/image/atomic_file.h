@@ -7,11 +7,12 @@ namespace wedge::image {
 
 /// An output file that appears whole or not at all: bytes go to a temporary file in the same directory, and commit()
 /// renames it. Without a commit the destructor removes the temporary file, and a file that was there stays as it was.
-/// A path that leads to a device or a pipe (/dev/stdout) is written directly, as it cannot be replaced.
+/// The file behind a symbolic link is the one that appears, also where it is not there yet. A path that leads to a
+/// device or a pipe (/dev/stdout) is written directly, as it cannot be replaced.
 class AtomicFile {
 public:
     /// Creates the temporary file. Throws Error where the directory is missing or not writable, or the path is a
-    /// directory or a file that may not be written.
+    /// directory, a disk or a file that may not be written, or a pipe that nobody reads.
     explicit AtomicFile(const std::string& path);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
@@ -27,7 +28,6 @@ public:
     const std::string& tempPath() const { return tempPath_; }
 
 private:
-    [[noreturn]] void fail(const std::string& what, int error) const;
     void closeFile();
 
     std::string path_; // as the user gave it, for messages
@@ -38,7 +38,10 @@ private:
 };
 
 /// Throws the Error that writing the path would end in, as far as can be told now: call it before the work starts.
-/// Leaves no trace.
+/// Leaves no trace, and does not open pipes, whose readers would take that for all there is.
 void checkWritable(const std::string& path);
+
+/// The path with the symbolic links of its last part followed, to what is there or would be made.
+std::string behindLinks(const std::string& path);
 
 } // namespace wedge::image

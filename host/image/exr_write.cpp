@@ -86,11 +86,21 @@ std::vector<std::uint32_t> toIntegers(const std::vector<float>& values)
     return integers;
 }
 
+/// Compressing many float layers is the slowest part of writing; OpenEXR does it block by block on its own pool. Where
+/// no thread can be had the picture is written without.
+void startThreads()
+{
+    try {
+        if (Imf::globalThreadCount() == 0)
+            Imf::setGlobalThreadCount(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+    } catch (const std::exception&) {
+        Imf::setGlobalThreadCount(0);
+    }
+}
+
 std::string encode(const LayeredImage& image)
 {
-    // Compressing many float layers is the slowest part of writing; OpenEXR does it block by block on its own pool.
-    if (Imf::globalThreadCount() == 0)
-        Imf::setGlobalThreadCount(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+    startThreads();
     Imf::StdOSStream stream;
     std::deque<std::vector<std::uint32_t>> integers;
     Imf::FrameBuffer frame;

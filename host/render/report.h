@@ -21,7 +21,7 @@ struct ReportExtras {
     std::vector<ProgressiveStep> steps; ///< of a progressive render; their statistics without passes will do
     std::optional<double> targetError; ///< likewise
     std::string ended; ///< likewise: by what
-    std::vector<std::string> files; ///< likewise: written after each step
+    std::vector<std::string> files; ///< likewise: what the last image was written to
 };
 
 /// All rays of the frame, by the pixels that it shows.
