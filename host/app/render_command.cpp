@@ -8,6 +8,7 @@
 #include "host/app/reference.h"
 #include "host/app/render_options.h"
 #include "host/app/render_settings.h"
+#include "host/device/driver_cache.h"
 #include "host/error.h"
 #include "host/render/layers.h"
 #include "host/render/report.h"
@@ -148,6 +149,9 @@ void RenderJob::load()
 void RenderJob::prepare()
 {
     const device::Device device = device::Device::open(options_.devices.empty() ? "" : options_.devices[0]);
+    if (const std::string notice = device::DriverCache::ofProcess().notice(); !notice.empty() && !options_.quiet) {
+        warn(notice);
+    }
     render::Options options;
     options.kernelDir = options_.kernelDir;
     options.fastMath = options_.fastMath;
