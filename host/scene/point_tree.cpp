@@ -1,0 +1,86 @@
+#include "host/scene/point_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace wedge::scene {
+namespace {
+
+constexpr std::uint32_t leafSize = 8;
+
+/// Whether a box is certainly on the right of the line from a to b.
+bool rightOf(const glm::dvec2& lo, const glm::dvec2& hi, const glm::dvec2& a, const glm::dvec2& b)
+{
+    const glm::dvec2 normal(a.y - b.y, b.x - a.x); // to the left
+    const double x = normal.x * ((normal.x > 0.0 ? hi.x : lo.x) - a.x);
+    const double y = normal.y * ((normal.y > 0.0 ? hi.y : lo.y) - a.y);
+    return x + y < -1e-14 * (std::abs(x) + std::abs(y));
+}
+
+} // namespace
+
+void PointTree::build(std::span<const glm::dvec2> points)
+{
+    points_ = points;
+    order_.resize(points.size());
+    std::iota(order_.begin(), order_.end(), 0u);
+    leaf_.assign(points.size(), 0);
+    on_.assign(points.size(), 0);
+    nodes_.assign(1, {});
+    nodes_[0].end = static_cast<std::uint32_t>(points.size());
+    for (std::uint32_t node = 0; node < nodes_.size(); ++node)
+        split(node);
+}
+
+void PointTree::split(std::uint32_t index)
+{
+    Node& node = nodes_[index];
+    for (std::uint32_t i = node.begin; i < node.end; ++i) {
+        node.lo = glm::min(node.lo, points_[order_[i]]);
+        node.hi = glm::max(node.hi, points_[order_[i]]);
+    }
+    if (node.end - node.begin <= leafSize) {
+        for (std::uint32_t i = node.begin; i < node.end; ++i)
+            leaf_[order_[i]] = index;
+        return;
+    }
+    const int axis = node.hi.x - node.lo.x >= node.hi.y - node.lo.y ? 0 : 1;
+    const auto begin = order_.begin() + node.begin, end = order_.begin() + node.end;
+    const std::uint32_t middle = (node.begin + node.end) / 2;
+    std::nth_element(begin, order_.begin() + middle, end,
+        [&](std::uint32_t a, std::uint32_t b) { return points_[a][axis] < points_[b][axis]; });
+    Node first, second;
+    first.parent = second.parent = index;
+    first.begin = node.begin;
+    first.end = second.begin = middle;
+    second.end = node.end;
+    node.child = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.push_back(first); // ends the life of `node`
+    nodes_.push_back(second);
+}
+
+void PointTree::set(std::uint32_t point, bool on)
+{
+    if ((on_[point] != 0) == on)
+        return;
+    on_[point] = on;
+    for (std::uint32_t node = leaf_[point];; node = nodes_[node].parent) {
+        nodes_[node].on += on ? 1u : ~0u;
+        if (node == 0)
+            return;
+    }
+}
+
+bool PointTree::apart(const Node& node, const Triangle& t)
+{
+    const glm::dvec2 lo = glm::min(glm::min(t.a, t.b), t.c), hi = glm::max(glm::max(t.a, t.b), t.c);
+    if (node.lo.x > hi.x || node.lo.y > hi.y || node.hi.x < lo.x || node.hi.y < lo.y)
+        return true;
+    if (node.lo == node.hi && (node.lo == t.a || node.lo == t.c))
+        return true;
+    return rightOf(node.lo, node.hi, t.a, t.b) || rightOf(node.lo, node.hi, t.b, t.c)
+        || rightOf(node.lo, node.hi, t.c, t.a);
+}
+
+} // namespace wedge::scene
