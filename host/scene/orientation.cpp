@@ -37,12 +37,19 @@ bool certainlyNotZero(double product, double other)
     return std::abs(product - other) > 1e-15 * (std::abs(product) + std::abs(other));
 }
 
+/// Whether the difference of two points is exact and of so few bits that a product with another such one is exact too.
+bool isShort(const glm::dvec2& difference, const glm::dvec2& from, const glm::dvec2& to)
+{
+    return glm::dvec2(glm::vec2(difference)) == difference && from + difference == to && to - difference == from;
+}
+
 } // namespace
 
 int orientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
 {
-    const double left = (b.x - a.x) * (c.y - a.y), right = (b.y - a.y) * (c.x - a.x);
-    if (certainlyNotZero(left, right))
+    const glm::dvec2 ab = b - a, ac = c - a;
+    const double left = ab.x * ac.y, right = ab.y * ac.x;
+    if (certainlyNotZero(left, right) || (isShort(ab, a, b) && isShort(ac, a, c)))
         return signOf(left - right);
     // The product of two numbers of 24 bits is exact in 53.
     return signOfSum(std::array { b.x * c.y, -(b.y * c.x), a.y * c.x, -(a.x * c.y), a.x * b.y, -(a.y * b.x) });
