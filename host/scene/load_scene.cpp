@@ -1,3 +1,5 @@
+#include "host/scene/load_scene.h"
+
 #include "host/error.h"
 #include "host/scene/camera_framing.h"
 #include "host/scene/camera_section.h"
@@ -18,9 +20,9 @@ namespace {
 
 constexpr std::uintmax_t maxSceneFile = std::uintmax_t { 64 } << 20;
 
-void loadSceneFile(const std::filesystem::path& path, Scene& scene, Warnings& warnings)
+void readSceneText(const std::string& text, const std::filesystem::path& path, Scene& scene, Warnings& warnings)
 {
-    const toml::table document = parseToml(readFile(path, "scene file", maxSceneFile), path);
+    const toml::table document = parseToml(text, path);
     TextureSet textures;
     TableReader root(document, path, "the scene");
     readImage(root, scene);
@@ -57,6 +59,17 @@ void loadBareMesh(const std::filesystem::path& path, Scene& scene, Warnings& war
 
 } // namespace
 
+Scene parseScene(const std::string& text, const std::filesystem::path& path)
+{
+    Scene scene;
+    Warnings warnings;
+    scene.path = path.string();
+    readSceneText(text, path, scene, warnings);
+    checkScene(scene, warnings);
+    scene.warnings = warnings.lines();
+    return scene;
+}
+
 Scene loadScene(const std::string& path)
 {
     Scene scene;
@@ -64,7 +77,7 @@ Scene loadScene(const std::string& path)
     scene.path = path;
     const std::string extension = lowerExtension(path);
     if (extension == ".toml")
-        loadSceneFile(path, scene, warnings);
+        readSceneText(readFile(path, "scene file", maxSceneFile), path, scene, warnings);
     else if (extension == ".obj")
         loadBareMesh(path, scene, warnings);
     else

@@ -31,12 +31,6 @@ int signOfSum(const std::array<double, n>& summands)
     return sign;
 }
 
-/// Whether the rounded cross product of two differences of floats is certainly not zero in any component.
-bool certainlyNotZero(double product, double other)
-{
-    return std::abs(product - other) > 1e-15 * (std::abs(product) + std::abs(other));
-}
-
 /// Whether the difference of two points is exact and of so few bits that a product with another such one is exact too.
 bool isShort(const glm::dvec2& difference, const glm::dvec2& from, const glm::dvec2& to)
 {
@@ -45,12 +39,11 @@ bool isShort(const glm::dvec2& difference, const glm::dvec2& from, const glm::dv
 
 } // namespace
 
-int orientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
+int exactOrientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
 {
     const glm::dvec2 ab = b - a, ac = c - a;
-    const double left = ab.x * ac.y, right = ab.y * ac.x;
-    if (certainlyNotZero(left, right) || (isShort(ab, a, b) && isShort(ac, a, c)))
-        return signOf(left - right);
+    if (isShort(ab, a, b) && isShort(ac, a, c))
+        return signOf(ab.x * ac.y - ab.y * ac.x);
     // The product of two numbers of 24 bits is exact in 53.
     return signOfSum(std::array { b.x * c.y, -(b.y * c.x), a.y * c.x, -(a.x * c.y), a.x * b.y, -(a.y * b.x) });
 }

@@ -9,15 +9,6 @@ namespace {
 
 constexpr std::uint32_t leafSize = 8;
 
-/// Whether a box is certainly on the right of the line from a to b.
-bool rightOf(const glm::dvec2& lo, const glm::dvec2& hi, const glm::dvec2& a, const glm::dvec2& b)
-{
-    const glm::dvec2 normal(a.y - b.y, b.x - a.x); // to the left
-    const double x = normal.x * ((normal.x > 0.0 ? hi.x : lo.x) - a.x);
-    const double y = normal.y * ((normal.y > 0.0 ? hi.y : lo.y) - a.y);
-    return x + y < -1e-14 * (std::abs(x) + std::abs(y));
-}
-
 } // namespace
 
 void PointTree::build(std::span<const glm::dvec2> points)
@@ -33,13 +24,35 @@ void PointTree::build(std::span<const glm::dvec2> points)
         split(node);
 }
 
+void PointTree::fit(Node& node) const
+{
+    node.origin = points_[order_[node.begin]];
+    glm::dvec2 farthest = node.origin;
+    const auto distance = [&](const glm::dvec2& p) { return glm::dot(p - node.origin, p - node.origin); };
+    for (std::uint32_t i = node.begin; i < node.end; ++i) {
+        const glm::dvec2& point = points_[order_[i]];
+        node.lo = glm::min(node.lo, point);
+        node.hi = glm::max(node.hi, point);
+        if (distance(point) > distance(farthest))
+            farthest = point;
+    }
+    const double length = glm::length(farthest - node.origin);
+    if (length > 0.0 && std::isfinite(length))
+        node.along = (farthest - node.origin) / length;
+    for (std::uint32_t i = node.begin; i < node.end; ++i) {
+        const glm::dvec2 d = points_[order_[i]] - node.origin;
+        const double along = glm::dot(d, node.along), across = node.along.x * d.y - node.along.y * d.x;
+        node.alongLo = std::min(node.alongLo, along);
+        node.alongHi = std::max(node.alongHi, along);
+        node.acrossLo = std::min(node.acrossLo, across);
+        node.acrossHi = std::max(node.acrossHi, across);
+    }
+}
+
 void PointTree::split(std::uint32_t index)
 {
     Node& node = nodes_[index];
-    for (std::uint32_t i = node.begin; i < node.end; ++i) {
-        node.lo = glm::min(node.lo, points_[order_[i]]);
-        node.hi = glm::max(node.hi, points_[order_[i]]);
-    }
+    fit(node);
     if (node.end - node.begin <= leafSize) {
         for (std::uint32_t i = node.begin; i < node.end; ++i)
             leaf_[order_[i]] = index;
@@ -72,6 +85,19 @@ void PointTree::set(std::uint32_t point, bool on)
     }
 }
 
+/// Whether all points of the node are certainly on the right of the line from a to b.
+bool PointTree::rightOf(const Node& node, const glm::dvec2& a, const glm::dvec2& b)
+{
+    const glm::dvec2 left(a.y - b.y, b.x - a.x);
+    const double along = glm::dot(left, node.along), across = left.y * node.along.x - left.x * node.along.y;
+    const double farAlong = along * (along > 0.0 ? node.alongHi : node.alongLo);
+    const double farAcross = across * (across > 0.0 ? node.acrossHi : node.acrossLo);
+    const double x = left.x * (node.origin.x - a.x), y = left.y * (node.origin.y - a.y);
+    const double scale = std::abs(x) + std::abs(y)
+        + (std::abs(left.x) + std::abs(left.y)) * (node.alongHi - node.alongLo + node.acrossHi - node.acrossLo);
+    return x + y + farAlong + farAcross < -1e-14 * scale;
+}
+
 bool PointTree::apart(const Node& node, const Triangle& t)
 {
     const glm::dvec2 lo = glm::min(glm::min(t.a, t.b), t.c), hi = glm::max(glm::max(t.a, t.b), t.c);
@@ -79,8 +105,7 @@ bool PointTree::apart(const Node& node, const Triangle& t)
         return true;
     if (node.lo == node.hi && (node.lo == t.a || node.lo == t.c))
         return true;
-    return rightOf(node.lo, node.hi, t.a, t.b) || rightOf(node.lo, node.hi, t.b, t.c)
-        || rightOf(node.lo, node.hi, t.c, t.a);
+    return rightOf(node, t.a, t.b) || rightOf(node, t.b, t.c) || rightOf(node, t.c, t.a);
 }
 
 } // namespace wedge::scene

@@ -52,12 +52,17 @@ public:
 private:
     struct Node {
         glm::dvec2 lo { std::numeric_limits<double>::max() }, hi { std::numeric_limits<double>::lowest() };
+        /// A second box, along the points: outlines are thin lines that go any way.
+        glm::dvec2 origin { 0.0 }, along { 1.0, 0.0 }; ///< across: along turned to the left
+        double alongLo = 0.0, alongHi = 0.0, acrossLo = 0.0, acrossHi = 0.0;
         std::uint32_t begin = 0, end = 0; ///< in order_
         std::uint32_t child = 0, parent = 0; ///< the first of two children; 0: a leaf
         std::uint32_t on = 0;
     };
 
+    void fit(Node& node) const;
     void split(std::uint32_t node);
+    static bool rightOf(const Node& node, const glm::dvec2& a, const glm::dvec2& b);
     /// Certainly no point of the node is in the triangle, or all are at a or c.
     static bool apart(const Node& node, const Triangle& triangle);
 

@@ -9,8 +9,8 @@
 namespace wedge::scene {
 namespace {
 
-/// Honest faces need less than 100 steps a corner.
-constexpr std::size_t mostSteps = 1000;
+/// Faces of 10,000 corners that do not cross themselves need 10 to 100 steps a corner.
+constexpr std::size_t mostSteps = 150;
 
 /// Rounding of coordinates makes outlines cross that touch; so much of the area is not worth a word.
 constexpr double negligible = 1e-5;
@@ -35,23 +35,17 @@ Split Triangulator::split(std::span<const glm::vec3> corners)
     project(corners);
     start();
     bool crossed = windsTwice();
-    std::size_t next = 0;
     while (left_ > 2) {
-        if (next == queue_.size()) {
-            queue_.clear();
-            next = 0;
-            if (!cutSmallest() && !turnRound())
-                break;
-            continue;
-        }
-        const Candidate candidate = queue_[next++];
-        if (ring_[candidate.vertex].version != candidate.version)
-            continue;
-        if (isEar(candidate.vertex)) {
-            cut(candidate.vertex);
-        } else {
-            blocked_.push_back({ areaAt(candidate.vertex), candidate.vertex, candidate.version });
-            std::push_heap(blocked_.begin(), blocked_.end());
+        if (const auto vertex = pop(queue_)) {
+            if (isEar(*vertex))
+                cut(*vertex);
+            else
+                push(blocked_, areaAt(*vertex), *vertex);
+        } else if (const auto smallest = pop(blocked_)) {
+            lost_ += areaAt(*smallest);
+            cut(*smallest);
+        } else if (!turnRound()) {
+            break;
         }
     }
     crossed = crossed || lost_ > negligible * area_;
@@ -157,7 +151,7 @@ void Triangulator::classify(std::uint32_t index)
         return;
     }
     if (vertex.turn == Turn::Convex)
-        queue_.push_back({ 0.0, index, vertex.version });
+        push(queue_, glm::dot(c - a, c - a), index);
     if (vertex.turn != Turn::Convex && !hasObstacles_) {
         obstacles_.build(points_);
         hasObstacles_ = true;
@@ -220,9 +214,8 @@ bool Triangulator::blocks(std::uint32_t other, std::uint32_t index) const
     const glm::dvec2& p = points_[other];
     if (other == index || p == a || p == c)
         return false;
-    const int ab = orientation(a, b, p), bc = orientation(b, c, p);
     if (p != b)
-        return ab >= 0 && bc >= 0 && orientation(c, a, p) >= 0;
+        return orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 && orientation(c, a, p) >= 0;
     // It touches the tip: from outside, unless one of its edges goes into the triangle.
     const auto inside = [&](std::uint32_t end) {
         return orientation(a, b, points_[end]) > 0 && orientation(b, c, points_[end]) > 0;
@@ -230,20 +223,23 @@ bool Triangulator::blocks(std::uint32_t other, std::uint32_t index) const
     return inside(ring_[other].before) || inside(ring_[other].after);
 }
 
-/// Cuts off the smallest of the vertices that are convex and no ears. Returns false when there is none.
-bool Triangulator::cutSmallest()
+void Triangulator::push(std::vector<Candidate>& heap, double size, std::uint32_t vertex) const
 {
-    while (!blocked_.empty()) {
-        std::pop_heap(blocked_.begin(), blocked_.end());
-        const Candidate smallest = blocked_.back();
-        blocked_.pop_back();
-        if (ring_[smallest.vertex].version != smallest.version)
-            continue;
-        lost_ += smallest.area;
-        cut(smallest.vertex);
-        return true;
+    heap.push_back({ size, vertex, ring_[vertex].version });
+    std::push_heap(heap.begin(), heap.end());
+}
+
+/// The smallest candidate whose neighbours are still the same, taken off the heap.
+std::optional<std::uint32_t> Triangulator::pop(std::vector<Candidate>& heap) const
+{
+    while (!heap.empty()) {
+        std::pop_heap(heap.begin(), heap.end());
+        const Candidate smallest = heap.back();
+        heap.pop_back();
+        if (ring_[smallest.vertex].version == smallest.version)
+            return smallest.vertex;
     }
-    return false;
+    return std::nullopt;
 }
 
 /// What is left has no convex vertex: a part that the outline goes around the other way. Returns false when it is a

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,9 +41,9 @@ private:
         Turn turn = Turn::Gone;
     };
     struct Candidate {
-        double area;
+        double size;
         std::uint32_t vertex, version;
-        bool operator<(const Candidate& other) const { return area > other.area; } // the heap's top is the smallest
+        bool operator<(const Candidate& other) const { return size > other.size; } // the heap's top is the smallest
     };
 
     Split splitQuad(std::span<const glm::vec3> corners);
@@ -55,7 +56,8 @@ private:
     void cut(std::uint32_t vertex);
     bool isEar(std::uint32_t vertex);
     bool blocks(std::uint32_t other, std::uint32_t vertex) const;
-    bool cutSmallest();
+    void push(std::vector<Candidate>& heap, double size, std::uint32_t vertex) const;
+    std::optional<std::uint32_t> pop(std::vector<Candidate>& heap) const;
     bool turnRound();
     double areaAt(std::uint32_t vertex) const;
 
@@ -63,7 +65,8 @@ private:
     std::vector<glm::dvec2> points_; ///< the corners in the plane, where the face goes around counter-clockwise
     std::vector<Vertex> ring_;
     std::vector<std::uint32_t> stale_; ///< whose neighbours changed
-    std::vector<Candidate> queue_, blocked_;
+    std::vector<Candidate> queue_; ///< heap of convex vertices, the shortest diagonal first: it makes no slivers
+    std::vector<Candidate> blocked_; ///< heap of those that are no ears, the smallest area first
     PointTree obstacles_; ///< on: corners that are not convex, while hasObstacles_
     bool hasObstacles_ = false;
     std::size_t left_ = 0, steps_ = 0;
