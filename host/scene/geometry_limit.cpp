@@ -42,8 +42,8 @@ void GeometryLimit::add(const Mesh& mesh, std::size_t copies, std::size_t nameBy
     const std::string remedy = "use fewer copies, or simpler meshes";
     if (mesh.triangles() > 0 && copies > (mostTriangles - triangles_) / mesh.triangles())
         throw Error(where + ": the scene has too many triangles",
-            fmt::format("{} copies of {} here", copies, mesh.triangles()),
-            fmt::format("{}; {} triangles is the most", remedy, mostTriangles));
+            fmt::format("{} and {} times {}", triangles_, copies, mesh.triangles()),
+            fmt::format("{}; {} is the most", remedy, mostTriangles));
     triangles_ += copies * mesh.triangles();
     bytes_ += static_cast<double>(copies) * bytesOf(mesh, nameBytes);
     // The other half is for the hierarchy and the picture.

@@ -22,10 +22,10 @@ constexpr glm::vec3 diffuseOfTexture(0.6f);
 const std::map<std::string_view, const char*> unsupported = { { "map_d", "a texture of transparency (map_d)" },
     { "bump", "a bump map (bump, map_bump)" }, { "map_bump", "a bump map (bump, map_bump)" },
     { "map_Bump", "a bump map (bump, map_bump)" }, { "norm", "a normal map (norm)" }, { "disp", "displacement (disp)" },
-    { "refl", "a reflection map (refl)" }, { "Pr", "roughness and metal (Pr, Pm, Ps, Pc)" },
-    { "Pm", "roughness and metal (Pr, Pm, Ps, Pc)" }, { "Ps", "roughness and metal (Pr, Pm, Ps, Pc)" },
-    { "Pc", "roughness and metal (Pr, Pm, Ps, Pc)" }, { "map_Pr", "roughness and metal (Pr, Pm, Ps, Pc)" },
-    { "map_Pm", "roughness and metal (Pr, Pm, Ps, Pc)" }, { "map_Ps", "roughness and metal (Pr, Pm, Ps, Pc)" } };
+    { "refl", "a reflection map (refl)" }, { "Pr", "roughness or metal (Pr, Pm, Ps, Pc)" },
+    { "Pm", "roughness or metal (Pr, Pm, Ps, Pc)" }, { "Ps", "roughness or metal (Pr, Pm, Ps, Pc)" },
+    { "Pc", "roughness or metal (Pr, Pm, Ps, Pc)" }, { "map_Pr", "roughness or metal (Pr, Pm, Ps, Pc)" },
+    { "map_Pm", "roughness or metal (Pr, Pm, Ps, Pc)" }, { "map_Ps", "roughness or metal (Pr, Pm, Ps, Pc)" } };
 
 /// Reads one library; a member reads one statement.
 class Library {
