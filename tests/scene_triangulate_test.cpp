@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -134,6 +135,39 @@ Outline withHoles(std::size_t holes)
     return outline;
 }
 
+/// The outer boundary of cells that grow at random on a grid, every grid point a corner. Where cells touch in a point
+/// the boundary passes it twice, and goes on with the same cell or with the other.
+Outline cells(Random& random, int count, bool sameCell)
+{
+    using Cell = std::pair<int, int>;
+    const std::array<Cell, 4> ways = { Cell { 1, 0 }, Cell { 0, 1 }, Cell { -1, 0 }, Cell { 0, -1 } };
+    std::set<Cell> grown = { { 0, 0 } };
+    while (grown.size() < static_cast<std::size_t>(count)) {
+        const Cell& from = *std::next(grown.begin(), static_cast<std::ptrdiff_t>(number(random, 0, grown.size() - 1)));
+        const Cell& way = ways[number(random, 0, 3)];
+        grown.emplace(from.first + way.first, from.second + way.second);
+    }
+    // Whether a step from a point has a cell on its left and none on its right.
+    const auto isEdge = [&](const Cell& at, std::size_t way) {
+        const auto [x, y] = at;
+        const std::array<Cell, 4> left = { Cell { x, y }, Cell { x - 1, y }, Cell { x - 1, y - 1 }, Cell { x, y - 1 } };
+        return grown.contains(left[way]) && !grown.contains(left[(way + 3) % 4]);
+    };
+    Outline outline;
+    Cell point = *grown.begin(); // the leftmost column's lowest: the step to the right is one of the outer boundary
+    std::size_t way = 0;
+    const Cell first = point;
+    do {
+        outline.push_back(at(point.first, point.second));
+        point = { point.first + ways[way].first, point.second + ways[way].second };
+        const std::size_t turn = sameCell ? 1 : 3;
+        way = (way + turn) % 4;
+        while (!isEdge(point, way))
+            way = (way + 4 - turn) % 4;
+    } while (point != first || way != 0);
+    return outline;
+}
+
 /// Corners repeated, and others added in the middle of sides.
 Outline withExtras(Random& random, const Outline& outline, bool middles)
 {
@@ -256,6 +290,19 @@ TEST_CASE("corners on one line and repeated ones, with integer coordinates: exac
     }
 }
 
+TEST_CASE("outlines that touch themselves in corners")
+{
+    Random random(4);
+    for (int i = 0; i < 4000; ++i) {
+        const Outline outline = cells(random, 2 + i % 60, i % 2 == 0);
+        const Result result = splitFlat(outline);
+        CAPTURE(i);
+        CHECK(result.split == Split::Whole);
+        CHECK(result.triangles == outline.size() - 2);
+        CHECK(result.lost == 0.0);
+    }
+}
+
 TEST_CASE("holes that a bridge walked twice joins to the outline")
 {
     const Outline hole = { at(0, 0), at(3, 0), at(3, 3), at(0, 3), at(0, 0), at(1, 1), at(1, 2), at(2, 2), at(2, 1),
@@ -283,6 +330,11 @@ TEST_CASE("holes that a bridge walked twice joins to the outline")
     const Outline touching = { at(0, 0), at(4, 0), at(4, 4), at(0, 4), at(0, 0), at(1, 2), at(2, 1) };
     CHECK(splitFlat(touching).lost == 0.0);
     CHECK(splitFlat(touching).triangles == 5);
+    // A notch that reaches as far as the corner opposite of it, whose own ear would be the first to go.
+    const Outline notch = { at(0, 0), at(1, 0), at(9, 7), at(9, 8), at(0, 0), at(8, 9), at(7, 9), at(0, 1) };
+    CHECK(splitFlat(notch).split == Split::Whole);
+    CHECK(splitFlat(notch).triangles == 4); // two lobes that touch
+    CHECK(splitFlat(notch).lost < 1e-12);
     Outline petals;
     for (int i = 0; i < 50; ++i) {
         const double angle = 2.0 * std::numbers::pi * i / 50.0;
@@ -325,6 +377,10 @@ TEST_CASE("outlines that cross themselves are told, and what can be kept is")
     for (int i = 0; i < 5; ++i)
         pentagram.push_back(at(std::cos(0.8 * std::numbers::pi * i), std::sin(0.8 * std::numbers::pi * i)));
     CHECK(splitFlat(pentagram).split == Split::Crossed);
+    Outline twice = { at(0, 0), at(2, 0), at(3, 2), at(2, 4), at(0, 4), at(-1, 2) };
+    CHECK(splitFlat(twice).split == Split::Whole);
+    twice.insert(twice.end(), { at(0, 0), at(2, 0), at(3, 2), at(2, 4), at(0, 4), at(-1, 2) });
+    CHECK(splitFlat(twice).split == Split::Crossed);
     Random random(3);
     for (int i = 0; i < 200; ++i) {
         Outline tangle;
