@@ -42,7 +42,8 @@ TEST_CASE("scene files nest so deep and no deeper")
 {
     CHECK(error(repeated("a.", 31'000) + "a = 1\n")
         == "scene file s.toml:1:32: key has too many parts: more than 16: nest it less");
-    CHECK(contains(error(std::string("\n[") + repeated("a . ", 31'000) + "a]\n"), "s.toml:2:64: key has too many parts"));
+    CHECK(
+        contains(error(std::string("\n[") + repeated("a . ", 31'000) + "a]\n"), "s.toml:2:64: key has too many parts"));
     CHECK(contains(error(std::string("[[") + repeated("'a'.", 31'000) + "a]]\n"), "key has too many parts"));
     CHECK(contains(error("x = {" + repeated("a.", 31'000) + "a = 1}\n"), "key has too many parts"));
     CHECK(contains(error("x = {b = 1, " + repeated("\"a\".", 31'000) + "a = 1}\n"), "key has too many parts"));
@@ -85,11 +86,11 @@ TEST_CASE("long names are near nothing, and messages stay short")
 
 TEST_CASE("thousands of materials, meshes, lights, keys and shapes")
 {
-    const std::size_t many = 10'000;
+    const std::size_t many = 5'000;
     const Scene chosen = load(numbered("[[material]]\nname = \"m#\"\n", many)
         + numbered("[[mesh]]\nfile = \"m.obj\"\nmaterial = \"m#\"\n", many));
     CHECK(chosen.geometry.materialIds.back() == many - 1);
-    CHECK(load(mesh + "instances = [" + repeated("{},", 100'000) + "]\n").geometry.objectIds.size() == 100'000);
+    CHECK(load(mesh + "instances = [" + repeated("{},", 30'000) + "]\n").geometry.objectIds.size() == 30'000);
     CHECK(load(mesh + numbered("[[mesh.shape]]\ntime = #\nfile = \"m.obj\"\n", many)).geometry.indices.size() == 3);
     CHECK(load(mesh + "key = [" + numbered("{time = #},", many) + "]\n").geometry.indices.size() == 3);
     CHECK(load(mesh + repeated("[[light]]\ntype = \"point\"\nposition = [0, 1, 2]\nintensity = 1\n", many))
@@ -112,7 +113,7 @@ TEST_CASE("more triangles than there may be are refused before they are made")
     // Few triangles whose objects' names are long.
     const std::string name = "name = \"" + std::string(500'000, 'n') + "\"\n";
     CHECK(contains(errorOf(folder.write("t.toml",
-                       "[[mesh]]\nfile = \"o.obj\"\n" + name + "instances = [" + repeated("{},", 1'000'000) + "]\n")),
+                       "[[mesh]]\nfile = \"o.obj\"\n" + name + "instances = [" + repeated("{},", 100'000) + "]\n")),
         "mesh file not found"));
     folder.write("o.obj", triangleObj);
     CHECK(contains(errorOf(folder.path("t.toml")), "take more than half of the memory"));
@@ -134,7 +135,7 @@ TEST_CASE("many corners at one place are smoothed")
 {
     const TemporaryFolder folder;
     folder.write("m.obj",
-        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n" + repeated("f 1 2 3\n", 50'000) + repeated("f 1 4 2\n", 50'000));
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n" + repeated("f 1 2 3\n", 20'000) + repeated("f 1 4 2\n", 20'000));
     const Scene smooth = loadScene(folder.write("s.toml", mesh + "smooth = true\n"));
     CHECK(glm::distance(vectorAt(smooth.geometry.normals, 0), glm::normalize(glm::vec3(0, 1, 1))) < 1e-5f);
     const Scene creased = loadScene(folder.write("s.toml", mesh + "smooth = 80\n"));
@@ -154,10 +155,10 @@ TEST_CASE("large faces, those too that cross themselves")
         ring.append(" ").append(std::to_string(i));
     for (int i = 0; i < 9998; ++i)
         tangle.append(" ").append(std::to_string(i * 7919 % 9998 + 1));
-    const Scene whole = loadScene(folder.write("comb.obj", comb + repeated("f" + ring + "\n", 10)));
-    CHECK(whole.geometry.indices.size() == 3 * (10 * 9996 + 2));
+    const Scene whole = loadScene(folder.write("comb.obj", comb + repeated("f" + ring + "\n", 3)));
+    CHECK(whole.geometry.indices.size() == 3 * (3 * 9996 + 2));
     CHECK(!warns(whole, "crosses itself"));
-    const Scene crossed = loadScene(folder.write("tangle.obj", comb + repeated("f" + tangle + "\n", 10)));
+    const Scene crossed = loadScene(folder.write("tangle.obj", comb + repeated("f" + tangle + "\n", 3)));
     CHECK(warns(crossed, "tangle.obj:9999: face of 9998 corners crosses itself"));
     CHECK(contains(errorOf(folder.write("big.obj", comb + "f" + ring + " 1 2 3\n")),
         "big.obj:9999: face has too many corners: '10001'"));
