@@ -11,6 +11,7 @@
 #include "host/scene/mesh_files.h"
 #include "host/scene/mesh_keys.h"
 #include "host/scene/mesh_shapes.h"
+#include "host/scene/nearest.h"
 #include "host/scene/smooth_normals.h"
 #include "host/scene/transform.h"
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
-#include <map>
 
 #include <fmt/format.h>
 
 #include "host/error.h"
+#include "host/scene/name_list.h"
 #include "host/scene/orientation.h"
 #include "host/scene/statements.h"
 #include "host/scene/triangulate.h"
@@ -17,26 +17,6 @@ namespace {
 
 constexpr std::size_t maxCorners = 10'000;
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
-/// Names in order, each once.
-class NameList {
-public:
-    std::uint32_t add(std::string_view name)
-    {
-        auto known = indices_.find(name);
-        if (known == indices_.end()) {
-            known = indices_.emplace(name, static_cast<std::uint32_t>(names_.size())).first;
-            names_.emplace_back(name);
-        }
-        return known->second;
-    }
-    std::size_t size() const { return names_.size(); }
-    std::vector<std::string> take() { return std::move(names_); }
-
-private:
-    std::vector<std::string> names_;
-    std::map<std::string, std::uint32_t, std::less<>> indices_;
-};
 
 /// Walks the text; one call of a member reads one statement.
 class Parser {

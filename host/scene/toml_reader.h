@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -81,9 +80,5 @@ private:
 
 /// Parses a scene file's text. Throws Error with file, line and column for text that is not TOML, or nested too deep.
 toml::table parseToml(const std::string& text, const std::filesystem::path& file);
-
-/// The candidate nearest to a word when it is near enough for a slip of the fingers, or an empty string. Words of more
-/// than 64 letters are near nothing.
-std::string nearest(const std::string& word, const std::set<std::string>& candidates);
 
 } // namespace wedge::scene
