@@ -117,6 +117,11 @@ TEST_CASE("more triangles than there may be are refused before they are made")
         "mesh file not found"));
     folder.write("o.obj", triangleObj);
     CHECK(contains(errorOf(folder.path("t.toml")), "take more than half of the memory"));
+    folder.write("o.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + numbered("o #\nf 1 2 3\n", 50'000));
+    const std::string instance = "{name = \"" + std::string(500'000, 'n') + "\"},";
+    CHECK(contains(
+        errorOf(folder.write("t.toml", "[[mesh]]\nfile = \"o.obj\"\ninstances = [" + repeated(instance, 10) + "]\n")),
+        "take more than half of the memory"));
 }
 
 TEST_CASE("each library is read once, and not too many are looked for")

@@ -26,12 +26,12 @@ double memoryThere()
     return bytes;
 }
 
-double bytesOf(const Mesh& mesh, std::size_t nameBytes)
+double bytesOf(const Mesh& mesh)
 {
     const std::size_t attributes = std::max({ mesh.positions.size(), mesh.normals.size(), mesh.texcoords.size() });
     std::size_t bytes = std::min(attributes, mesh.corners.size()) * vertexBytes + mesh.triangles() * triangleBytes;
     for (const std::string& name : mesh.objectNames)
-        bytes += sizeof(std::string) + name.size() + nameBytes;
+        bytes += sizeof(std::string) + name.size();
     return static_cast<double>(bytes);
 }
 
@@ -45,7 +45,8 @@ void GeometryLimit::add(const Mesh& mesh, std::size_t copies, std::size_t nameBy
             fmt::format("{} and {} times {}", triangles_, copies, mesh.triangles()),
             fmt::format("{}; {} is the most", remedy, mostTriangles));
     triangles_ += copies * mesh.triangles();
-    bytes_ += static_cast<double>(copies) * bytesOf(mesh, nameBytes);
+    bytes_ += static_cast<double>(copies) * bytesOf(mesh)
+        + static_cast<double>(nameBytes) * static_cast<double>(mesh.objectNames.size());
     // The other half is for the hierarchy and the picture.
     const double most = 0.5 * memoryThere();
     if (bytes_ > most)

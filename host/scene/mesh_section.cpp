@@ -119,6 +119,17 @@ struct MeshTable {
     const MeshFiles::Entry& entry;
 };
 
+/// Of what the copies of a [[mesh]] put before the names of its objects.
+std::size_t nameBytes(TableReader& table, std::size_t copies)
+{
+    std::size_t bytes = copies * table.text("name").value_or("").size();
+    for (const char* key : { "instances", "instance" }) {
+        for (TableReader& instance : table.tables(key))
+            bytes += instance.text("name").value_or("").size();
+    }
+    return bytes;
+}
+
 /// Reads the files of all meshes and counts what they will take.
 std::vector<MeshTable> readFiles(TableReader& root, MeshFiles& files, Warnings& warnings)
 {
@@ -130,8 +141,9 @@ std::vector<MeshTable> readFiles(TableReader& root, MeshFiles& files, Warnings& 
         const std::string where = table.where("file");
         if (entry.mesh.flat == entry.mesh.triangles())
             warnings.add("meshes without area", where + ": mesh has no triangle with an area, nothing of it is seen");
-        const std::size_t copies = table.count("instances") + table.count("instance") + table.count("shape");
-        limit.add(entry.mesh, std::max<std::size_t>(copies, 1), table.text("name").value_or("").size(), where);
+        const std::size_t instances = table.count("instances") + table.count("instance");
+        const std::size_t copies = std::max<std::size_t>(instances + table.count("shape"), 1);
+        limit.add(entry.mesh, copies, nameBytes(table, copies), where);
         meshes.push_back({ table, entry });
     }
     return meshes;
