@@ -1,6 +1,6 @@
 #include "host/scene/material_section.h"
 
-#include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ int readTextureKey(TableReader& table, const std::string& key, TextureSet& textu
     }
 }
 
-Material readMaterial(TableReader& table, TextureSet& textures, std::vector<std::string>& warnings)
+Material readMaterial(TableReader& table, TextureSet& textures, Warnings& warnings)
 {
     Material m;
     m.name = table.require("name", table.text("name"));
@@ -40,21 +40,19 @@ Material readMaterial(TableReader& table, TextureSet& textures, std::vector<std:
     if (table.choice("model", { "phong", "blinn_phong" }).value_or("blinn_phong") == "phong")
         m.specularModel = SpecularModel::Phong;
     table.finish();
-    const std::string energy = energyWarning({ m }, table.where("diffuse"));
-    if (!energy.empty())
-        warnings.push_back(energy);
+    warnOfEnergy({ m }, table.where("diffuse"), warnings);
     return m;
 }
 
 } // namespace
 
-std::vector<Material> readMaterials(TableReader& root, TextureSet& textures, std::vector<std::string>& warnings)
+std::vector<Material> readMaterials(TableReader& root, TextureSet& textures, Warnings& warnings)
 {
     std::vector<Material> materials;
+    std::set<std::string> names;
     for (TableReader& table : root.tables("material")) {
         Material material = readMaterial(table, textures, warnings);
-        const auto same = [&](const Material& other) { return other.name == material.name; };
-        if (std::any_of(materials.begin(), materials.end(), same))
+        if (!names.insert(material.name).second)
             table.fail("name", "is taken", fmt::format("'{}'", material.name), "give every material its own name");
         materials.push_back(std::move(material));
     }

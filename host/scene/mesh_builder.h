@@ -6,7 +6,7 @@
 
 #include <glm/glm.hpp>
 
-#include "host/scene/obj_reader.h"
+#include "host/scene/mesh.h"
 #include "host/scene/scene.h"
 
 namespace wedge::scene {

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "host/scene/keyframes.h"
-#include "host/scene/paths.h"
 
 namespace wedge::scene {
 namespace {
@@ -25,21 +24,6 @@ void checkTriangles(TableReader& table, const Mesh& shape, const Mesh& mesh)
                 fmt::format("triangle {} of {} has other corners", c / 3 + 1, mesh.corners.size() / 3),
                 remedy + "; polygons of more than 3 corners may be split otherwise");
     }
-}
-
-Mesh readShape(TableReader& table, const Mesh& mesh, const std::function<void(Mesh&)>& finish)
-{
-    const std::filesystem::path path = table.require("file", table.path("file"));
-    table.finish();
-    if (lowerExtension(path) != ".obj")
-        table.fail("file", "has an unknown format", path.string(), "name a Wavefront .obj file");
-    // Of a shape only the places count, so what is wrong with its materials is not told.
-    TextureSet textures;
-    std::vector<std::string> warnings;
-    Mesh shape = readObj(path, textures, warnings);
-    checkTriangles(table, shape, mesh);
-    finish(shape);
-    return shape;
 }
 
 /// Normals may be shared otherwise in each shape, so that a normal stands for a pair of theirs.
@@ -62,11 +46,22 @@ void blendNormals(const Mesh& a, const Mesh& b, float weight, Mesh& out)
 
 } // namespace
 
-MeshShapes::MeshShapes(TableReader& table, const Mesh& mesh, const std::function<void(Mesh&)>& finish)
+MeshShapes::MeshShapes(TableReader& table, const Mesh& mesh, MeshFiles& files, const std::function<void(Mesh&)>& finish)
 {
+    std::map<const Mesh*, std::shared_ptr<const Mesh>> finished;
     for (TableReader& shape : table.tables("shape")) {
         times_.push_back(readKeyTime(shape, times_));
-        shapes_.push_back(readShape(shape, mesh, finish));
+        const std::filesystem::path path = readMeshPath(shape);
+        shape.finish();
+        const Mesh& read = files.shape(path);
+        std::shared_ptr<const Mesh>& known = finished[&read];
+        if (!known) {
+            checkTriangles(shape, read, mesh);
+            const auto own = std::make_shared<Mesh>(read);
+            finish(*own);
+            known = own;
+        }
+        shapes_.push_back(known);
     }
 }
 
@@ -76,7 +71,7 @@ Mesh MeshShapes::at(double time, const Mesh& mesh) const
     if (empty())
         return out;
     const KeySpan span = spanAt(times_, time);
-    const Mesh &a = shapes_[span.from], &b = shapes_[span.to];
+    const Mesh &a = *shapes_[span.from], &b = *shapes_[span.to];
     const auto weight = static_cast<float>(span.weight);
     for (std::size_t i = 0; i < out.positions.size(); ++i)
         out.positions[i] = glm::mix(a.positions[i], b.positions[i], weight);

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
-#include "host/scene/obj_reader.h"
+#include "host/scene/mesh_files.h"
 #include "host/scene/toml_reader.h"
 
 namespace wedge::scene {
@@ -13,7 +14,7 @@ class MeshShapes {
 public:
     /// Reads them from a [[mesh]]. mesh: whose triangles they must have. finish: what is done to every shape once it
     /// is read, such as smoothing. Throws Error for times out of order, files that cannot be read, and other triangles.
-    MeshShapes(TableReader& table, const Mesh& mesh, const std::function<void(Mesh&)>& finish);
+    MeshShapes(TableReader& table, const Mesh& mesh, MeshFiles& files, const std::function<void(Mesh&)>& finish);
 
     bool empty() const { return times_.empty(); }
 
@@ -23,7 +24,7 @@ public:
 
 private:
     std::vector<double> times_;
-    std::vector<Mesh> shapes_;
+    std::vector<std::shared_ptr<const Mesh>> shapes_; ///< those of one file are one
 };
 
 } // namespace wedge::scene

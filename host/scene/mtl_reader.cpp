@@ -1,158 +1,232 @@
 #include "host/scene/mtl_reader.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <map>
-#include <sstream>
 
 #include <fmt/format.h>
-#include <tiny_obj_loader.h>
 
 #include "host/error.h"
+#include "host/scene/mtl_texture.h"
 #include "host/scene/paths.h"
+#include "host/scene/statements.h"
 
 namespace wedge::scene {
 namespace {
 
 constexpr std::uintmax_t maxMtlFile = std::uintmax_t { 256 } << 20;
 
-bool isNumber(const std::string& token)
-{
-    double value = 0.0;
-    const char* begin = token.data() + (token.starts_with('+') ? 1 : 0);
-    const char* end = token.data() + token.size();
-    return std::from_chars(begin, end, value).ptr == end && begin != end;
-}
+/// What is written beside a texture without a colour of its own is what other programs take.
+constexpr glm::vec3 diffuseOfTexture(0.6f);
 
-/// Writes all three numbers behind the options -o, -s and -t of a texture line: tinyobjloader always takes three
-/// tokens there, the file's name too where numbers were left out.
-std::string completeTextureOptions(const std::string& line)
-{
-    std::istringstream in(line);
-    std::string out, token;
-    while (in >> token) {
-        out += token + ' ';
-        if (token != "-o" && token != "-s" && token != "-t")
-            continue;
-        const char* fill = token == "-s" ? "1 " : "0 ";
-        int count = 0;
-        std::streampos mark = in.tellg();
-        for (std::string number; count < 3 && in >> number && isNumber(number); ++count) {
-            out += number + ' ';
-            mark = in.tellg();
+/// Statements that change the look in other programs, and what messages call them.
+const std::map<std::string_view, const char*> unsupported = { { "map_d", "a texture of transparency (map_d)" },
+    { "bump", "a bump map (bump, map_bump)" }, { "map_bump", "a bump map (bump, map_bump)" },
+    { "map_Bump", "a bump map (bump, map_bump)" }, { "norm", "a normal map (norm)" }, { "disp", "displacement (disp)" },
+    { "refl", "a reflection map (refl)" }, { "Pr", "roughness or metal (Pr, Pm, Ps, Pc)" },
+    { "Pm", "roughness or metal (Pr, Pm, Ps, Pc)" }, { "Ps", "roughness or metal (Pr, Pm, Ps, Pc)" },
+    { "Pc", "roughness or metal (Pr, Pm, Ps, Pc)" }, { "map_Pr", "roughness or metal (Pr, Pm, Ps, Pc)" },
+    { "map_Pm", "roughness or metal (Pr, Pm, Ps, Pc)" }, { "map_Ps", "roughness or metal (Pr, Pm, Ps, Pc)" } };
+
+/// Reads one library; a member reads one statement.
+class Library {
+public:
+    Library(const std::filesystem::path& path, TextureSet& textures, Warnings& warnings)
+        : where_("material file " + path.string())
+        , folder_(path.parent_path())
+        , warnings_(warnings)
+        , textures_(textures)
+    {
+    }
+
+    std::vector<Material> read(std::string_view text)
+    {
+        StatementReader statements(text);
+        while (statements.next()) {
+            const std::string_view keyword = statements.word();
+            if (keyword == "newmtl")
+                begin(statements.rest());
+            else if (isOpen_)
+                statement(keyword, statements);
         }
-        in.clear();
-        in.seekg(mark);
-        for (; count < 3; ++count)
-            out += fill;
-    }
-    return out;
-}
-
-bool isTextureLineWithOptions(const std::string& line)
-{
-    const std::size_t begin = line.find_first_not_of(" \t");
-    return begin != std::string::npos && line.compare(begin, 4, "map_") == 0 && line.find(" -") != std::string::npos;
-}
-
-std::string repaired(const std::string& text)
-{
-    std::istringstream in(text);
-    std::string out, line;
-    while (std::getline(in, line))
-        out += (isTextureLineWithOptions(line) ? completeTextureOptions(line) : line) + '\n';
-    return out;
-}
-
-/// One library being read: where messages point to and where textures go.
-struct Library {
-    const std::filesystem::path& path;
-    TextureSet& textures;
-    std::vector<std::string>& warnings;
-
-    void warn(const std::string& material, const std::string& text) const
-    {
-        warnings.push_back(fmt::format("material file {}: material '{}': {}", path.string(), material, text));
+        end();
+        if (materials_.empty())
+            throw Error(where_ + " has no materials", "no line begins with newmtl and a name",
+                "name a Wavefront material library");
+        for (const auto& [what, left] : leftOut_)
+            warnings_.add("statements of material files without effect",
+                fmt::format("{}: {} has no effect here; {} material(s) have it, '{}' is the first", where_, what,
+                    left.materials, left.first));
+        warnOfEnergy(materials_, where_, warnings_);
+        return std::move(materials_);
     }
 
-    glm::vec3 colour(const tinyobj::real_t* rgb, const char* key, const std::string& material) const
+private:
+    /// What the statements of a material say besides what Material holds.
+    struct Extra {
+        bool hasDiffuse = false;
+        int illumination = 2;
+        MtlTexture diffuse, specular, exponent, emission;
+    };
+    struct LeftOut {
+        std::size_t materials = 0;
+        std::string first;
+        std::size_t last = 0; ///< number of the last material that was counted
+    };
+
+    void warn(std::string_view kind, const std::string& text)
     {
-        glm::vec3 value(rgb[0], rgb[1], rgb[2]);
-        for (int i = 0; i < 3; ++i) {
-            if (!std::isfinite(value[i]) || value[i] < 0.0f) {
-                warn(material, fmt::format("{} has the value {}, 0 is used", key, value[i]));
-                value[i] = 0.0f;
-            }
+        warnings_.add(kind, fmt::format("{}: material '{}': {}", where_, material_.name, text));
+    }
+
+    void leaveOut(const std::string& what)
+    {
+        LeftOut& left = leftOut_[what];
+        if (left.materials > 0 && left.last == materials_.size())
+            return;
+        if (left.materials++ == 0)
+            left.first = material_.name;
+        left.last = materials_.size();
+    }
+
+    void begin(std::string_view name)
+    {
+        end();
+        isOpen_ = !name.empty();
+        material_ = {};
+        extra_ = {};
+        material_.name = name;
+        material_.diffuse = glm::vec3(0.0f);
+    }
+
+    void statement(std::string_view keyword, StatementReader& in)
+    {
+        if (keyword == "Kd") {
+            material_.diffuse = colour("Kd", in);
+            extra_.hasDiffuse = true;
+        } else if (keyword == "Ks")
+            material_.specular = colour("Ks", in);
+        else if (keyword == "Ke")
+            material_.emission = colour("Ke", in);
+        else if (keyword == "Ns")
+            material_.exponent = number("Ns", in.word(), 1.0f);
+        else if (keyword == "map_Kd")
+            extra_.diffuse = parseMtlTexture(in);
+        else if (keyword == "map_Ks")
+            extra_.specular = parseMtlTexture(in);
+        else if (keyword == "map_Ns")
+            extra_.exponent = parseMtlTexture(in);
+        else if (keyword == "map_Ke")
+            extra_.emission = parseMtlTexture(in);
+        else
+            otherStatement(keyword, in);
+    }
+
+    void otherStatement(std::string_view keyword, StatementReader& in)
+    {
+        float value = 0.0f;
+        if (keyword == "d" || keyword == "Tr") {
+            std::string_view word = in.word();
+            if (word == "-halo")
+                word = in.word();
+            const bool isNumber = parseNumber(word, value) == NumberKind::Good;
+            if (isNumber && (keyword == "d" ? value < 1.0f : value > 0.0f))
+                leaveOut("transparency (d, Tr)");
+        } else if (keyword == "illum") {
+            const bool isNumber = parseNumber(in.word(), value) == NumberKind::Good;
+            extra_.illumination = isNumber && value >= 0.0f && value < 100.0f ? static_cast<int>(value) : 2;
+        } else if (keyword == "Tf") {
+            if (colour("Tf", in) != glm::vec3(1.0f))
+                leaveOut("a transmission filter (Tf)");
+        } else if (const auto known = unsupported.find(keyword); known != unsupported.end()) {
+            leaveOut(known->second);
+        }
+    }
+
+    /// A value that makes no sense is told and replaced.
+    float number(const char* key, std::string_view word, float replacement)
+    {
+        float value = 0.0f;
+        if (parseNumber(word, value) == NumberKind::Good && value >= 0.0f)
+            return value;
+        warn("values of material files", fmt::format("{} has the value {}, {:g} is used", key, word, replacement));
+        return replacement;
+    }
+
+    /// One number stands for a grey, as the format has it.
+    glm::vec3 colour(const char* key, StatementReader& in)
+    {
+        glm::vec3 value(number(key, in.word(), 0.0f));
+        for (int i = 1; i < 3; ++i) {
+            const std::string_view word = in.word();
+            if (word.empty() || word.front() == '#')
+                return value;
+            value[i] = number(key, word, 0.0f);
         }
         return value;
     }
 
-    int texture(const std::string& name, const tinyobj::texture_option_t& option, const std::string& material) const
+    int texture(const MtlTexture& statement)
     {
-        if (name.empty())
+        if (statement.name.empty())
             return -1;
-        const auto& s = option.scale;
-        const auto& o = option.origin_offset;
-        if (s[0] != 1 || s[1] != 1 || o[0] != 0 || o[1] != 0 || option.clamp)
-            warn(material, fmt::format("the options -s, -o and -clamp of texture '{}' are not supported", name));
+        if (statement.hasUnsupported)
+            warn("options of textures",
+                fmt::format("the options -s, -o and -clamp of texture '{}' are not supported", statement.name));
         try {
-            return textures.add(resolvePath(name, path.parent_path(), "material file " + path.string()));
+            return textures_.add(resolvePath(statement.name, folder_, where_));
         } catch (const Error& error) {
-            warn(material, fmt::format("{}; the plain colour is used", error.what()));
+            warn("textures that cannot be used", fmt::format("{}; the plain colour is used", error.what()));
             return -1;
         }
     }
 
-    Material convert(const tinyobj::material_t& m) const
+    void end()
     {
-        Material out;
-        out.name = m.name;
-        out.diffuse = colour(m.diffuse, "Kd", m.name);
-        out.specular = colour(m.specular, "Ks", m.name);
-        out.emission = colour(m.emission, "Ke", m.name);
-        out.exponent = m.shininess;
-        if (!std::isfinite(out.exponent) || out.exponent < 0.0f) {
-            warn(m.name, fmt::format("Ns has the value {}, 1 is used", out.exponent));
-            out.exponent = 1.0f;
+        if (!isOpen_)
+            return;
+        Material& m = material_;
+        m.diffuseTexture = texture(extra_.diffuse);
+        m.specularTexture = texture(extra_.specular);
+        m.exponentTexture = texture(extra_.exponent);
+        m.emissionTexture = texture(extra_.emission);
+        if (!extra_.hasDiffuse && !extra_.diffuse.name.empty())
+            m.diffuse = diffuseOfTexture;
+        if (m.diffuseTexture >= 0 && m.diffuse == glm::vec3(0.0f)) {
+            warn("black colours beside textures", "Kd is black and would hide its texture, white is used");
+            m.diffuse = glm::vec3(1.0f);
         }
-        out.diffuseTexture = texture(m.diffuse_texname, m.diffuse_texopt, m.name);
-        out.specularTexture = texture(m.specular_texname, m.specular_texopt, m.name);
-        out.exponentTexture = texture(m.specular_highlight_texname, m.specular_highlight_texopt, m.name);
-        out.emissionTexture = texture(m.emissive_texname, m.emissive_texopt, m.name);
-        if (out.diffuseTexture >= 0 && out.diffuse == glm::vec3(0.0f)) {
-            warn(m.name, "Kd is black and would hide its texture, white is used");
-            out.diffuse = glm::vec3(1.0f);
-        }
-        if (m.dissolve < 1.0f)
-            warn(m.name, "transparency (d, Tr) is not supported, it is opaque");
-        return out;
+        const bool shines = m.specular != glm::vec3(0.0f);
+        if (extra_.illumination != 2 && (extra_.illumination != 1 || shines))
+            leaveOut("an illumination model other than diffuse and highlight (illum)");
+        materials_.push_back(m);
+        isOpen_ = false;
     }
+
+    const std::string where_;
+    const std::filesystem::path folder_;
+    Warnings& warnings_;
+    TextureSet& textures_;
+    std::vector<Material> materials_;
+    bool isOpen_ = false; ///< material_ and extra_ are being read
+    Material material_;
+    Extra extra_;
+    std::map<std::string, LeftOut> leftOut_;
 };
 
 } // namespace
 
-std::vector<Material> readMtl(
-    const std::filesystem::path& path, TextureSet& textures, std::vector<std::string>& warnings)
+std::vector<Material> readMtl(const std::filesystem::path& path, TextureSet& textures, Warnings& warnings)
 {
-    std::istringstream stream(repaired(readFile(path, "material file", maxMtlFile)));
-    std::map<std::string, int> names;
-    std::vector<tinyobj::material_t> read;
-    std::string warning, error;
-    tinyobj::LoadMtl(&names, &read, &stream, &warning, &error);
-    const Library library { path, textures, warnings };
-    std::vector<Material> materials;
-    for (const tinyobj::material_t& material : read) {
-        if (!material.name.empty()) // the loader ends every library with a nameless material
-            materials.push_back(library.convert(material));
-    }
-    const std::string energy = energyWarning(materials, "material file " + path.string());
-    if (!energy.empty())
-        warnings.push_back(energy);
-    return materials;
+    return parseMtl(readFile(path, "material file", maxMtlFile), path, textures, warnings);
 }
 
-std::string energyWarning(const std::vector<Material>& materials, const std::string& where)
+std::vector<Material> parseMtl(
+    std::string_view text, const std::filesystem::path& path, TextureSet& textures, Warnings& warnings)
+{
+    return Library(path, textures, warnings).read(text);
+}
+
+void warnOfEnergy(const std::vector<Material>& materials, const std::string& where, Warnings& warnings)
 {
     const auto reflected = [](const Material& m) {
         const glm::vec3 sum = m.diffuse + m.specular;
@@ -161,11 +235,12 @@ std::string energyWarning(const std::vector<Material>& materials, const std::str
     const auto tooMuch = [&](const Material& m) { return reflected(m) > 1.0f + 1e-5f; };
     const auto count = std::count_if(materials.begin(), materials.end(), tooMuch);
     if (count == 0)
-        return {};
+        return;
     const auto worst = std::max_element(materials.begin(), materials.end(),
         [&](const Material& a, const Material& b) { return reflected(a) < reflected(b); });
-    return fmt::format("{}: {} material(s) reflect more light than they get; diffuse + specular of '{}' reaches {:.3g}",
-        where, count, worst->name, reflected(*worst));
+    warnings.add("materials that reflect more light than they get",
+        fmt::format("{}: {} material(s) reflect more light than they get; diffuse + specular of '{}' reaches {:.3g}",
+            where, count, worst->name, reflected(*worst)));
 }
 
 } // namespace wedge::scene

@@ -28,7 +28,7 @@ void readQuadShape(TableReader& table, AreaLight& light)
     }
 }
 
-void readQuad(TableReader& table, Scene& scene)
+void readQuad(TableReader& table, Scene& scene, Warnings& warnings)
 {
     AreaLight light;
     light.name = table.text("name").value_or("");
@@ -41,7 +41,7 @@ void readQuad(TableReader& table, Scene& scene)
         std::swap(light.halfU, light.halfV);
     light.twoSided = table.boolean("two_sided").value_or(light.twoSided);
     light.visible = table.boolean("visible").value_or(light.visible);
-    checkAreaLight(light, table.where("type"), scene.warnings);
+    checkAreaLight(light, table.where("type"), warnings);
     scene.areaLights.push_back(light);
 }
 
@@ -133,12 +133,12 @@ void readBackground(TableReader& root, Scene& scene)
     table->finish();
 }
 
-void readLights(TableReader& root, Scene& scene)
+void readLights(TableReader& root, Scene& scene, Warnings& warnings)
 {
     for (TableReader& table : root.tables("light")) {
         const std::string type = table.require("type", table.choice("type", { "quad", "point", "directional" }));
         if (type == "quad")
-            readQuad(table, scene);
+            readQuad(table, scene, warnings);
         else if (type == "point")
             readPoint(table, scene);
         else

@@ -2,6 +2,7 @@
 
 #include "host/scene/scene.h"
 #include "host/scene/toml_reader.h"
+#include "host/scene/warnings.h"
 
 namespace wedge::scene {
 
@@ -10,6 +11,6 @@ namespace wedge::scene {
 void readImage(TableReader& root, Scene& scene);
 void readIntegrator(TableReader& root, Scene& scene);
 void readBackground(TableReader& root, Scene& scene);
-void readLights(TableReader& root, Scene& scene);
+void readLights(TableReader& root, Scene& scene, Warnings& warnings);
 
 } // namespace wedge::scene

@@ -1,8 +1,10 @@
 #include "host/scene/smooth_normals.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <unordered_map>
 
@@ -60,6 +62,71 @@ std::vector<std::vector<std::size_t>> cornersByPosition(const Mesh& mesh)
     return groups;
 }
 
+/// More corners than this at one position are not compared one by one.
+constexpr std::size_t manyCorners = 512;
+
+/// The mean of planes, or `own` where opposite ones cancel.
+glm::vec3 meanNormal(const glm::dvec3& sum, const glm::dvec3& own)
+{
+    return glm::vec3(glm::normalize(glm::length(sum) < 1e-6 ? own : sum));
+}
+
+void smoothGroup(
+    Mesh& mesh, const std::vector<std::size_t>& group, const std::vector<CornerPlane>& planes, double limit)
+{
+    const std::size_t firstNew = mesh.normals.size();
+    for (const std::size_t c : group) {
+        if (mesh.corners[c].normal >= 0 || planes[c].angle <= 0.0)
+            continue;
+        glm::dvec3 sum(0.0);
+        for (const std::size_t other : group) {
+            if (glm::dot(planes[c].normal, planes[other].normal) >= limit)
+                sum += planes[other].angle * planes[other].normal;
+        }
+        const glm::vec3 normal = meanNormal(sum, planes[c].normal);
+        const auto begin = mesh.normals.begin() + static_cast<std::ptrdiff_t>(firstNew);
+        const auto known = std::find(begin, mesh.normals.end(), normal);
+        mesh.corners[c].normal = static_cast<int>(known - mesh.normals.begin());
+        if (known == mesh.normals.end())
+            mesh.normals.push_back(normal);
+    }
+}
+
+/// Planes whose normals agree to a sixteenth stand for one another, so that there are at most some thousands to
+/// compare.
+void smoothLargeGroup(
+    Mesh& mesh, const std::vector<std::size_t>& group, const std::vector<CornerPlane>& planes, double limit)
+{
+    struct Cell {
+        glm::dvec3 sum { 0.0 }, normal { 0.0 };
+        int index = -1; ///< of its smooth normal
+    };
+    std::map<std::array<int, 3>, Cell> cells;
+    const auto cellOf = [&](std::size_t c) -> Cell& {
+        const glm::dvec3 rounded = glm::round(16.0 * planes[c].normal);
+        return cells[{ static_cast<int>(rounded.x), static_cast<int>(rounded.y), static_cast<int>(rounded.z) }];
+    };
+    for (const std::size_t c : group) {
+        if (planes[c].angle > 0.0)
+            cellOf(c).sum += planes[c].angle * planes[c].normal;
+    }
+    for (auto& [key, cell] : cells)
+        cell.normal = glm::normalize(cell.sum);
+    for (auto& [key, cell] : cells) {
+        glm::dvec3 sum(0.0);
+        for (const auto& [otherKey, other] : cells) {
+            if (glm::dot(cell.normal, other.normal) >= limit)
+                sum += other.sum;
+        }
+        cell.index = static_cast<int>(mesh.normals.size());
+        mesh.normals.push_back(meanNormal(sum, cell.normal));
+    }
+    for (const std::size_t c : group) {
+        if (mesh.corners[c].normal < 0 && planes[c].angle > 0.0)
+            mesh.corners[c].normal = cellOf(c).index;
+    }
+}
+
 } // namespace
 
 void smoothNormals(Mesh& mesh, float maxAngle)
@@ -67,26 +134,8 @@ void smoothNormals(Mesh& mesh, float maxAngle)
     const std::vector<CornerPlane> planes = cornerPlanes(mesh);
     // A little slack lets an angle given exactly, such as 90, include the edges that have it.
     const double limit = std::cos(double { maxAngle } * std::numbers::pi / 180.0) - 1e-6;
-    for (const std::vector<std::size_t>& group : cornersByPosition(mesh)) {
-        const std::size_t firstNew = mesh.normals.size();
-        for (const std::size_t c : group) {
-            if (mesh.corners[c].normal >= 0 || planes[c].angle <= 0.0)
-                continue;
-            glm::dvec3 sum(0.0);
-            for (const std::size_t other : group) {
-                if (glm::dot(planes[c].normal, planes[other].normal) >= limit)
-                    sum += planes[other].angle * planes[other].normal;
-            }
-            if (glm::length(sum) < 1e-6) // opposite planes cancel
-                sum = planes[c].normal;
-            const glm::vec3 normal(glm::normalize(sum));
-            const auto begin = mesh.normals.begin() + static_cast<std::ptrdiff_t>(firstNew);
-            const auto known = std::find(begin, mesh.normals.end(), normal);
-            mesh.corners[c].normal = static_cast<int>(known - mesh.normals.begin());
-            if (known == mesh.normals.end())
-                mesh.normals.push_back(normal);
-        }
-    }
+    for (const std::vector<std::size_t>& group : cornersByPosition(mesh))
+        (group.size() > manyCorners ? smoothLargeGroup : smoothGroup)(mesh, group, planes, limit);
 }
 
 void flattenNormals(Mesh& mesh)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/scene/obj_reader.h"
+#include "host/scene/mesh.h"
 
 namespace wedge::scene {
 

@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "host/error.h"
+#include "host/scene/nearest.h"
 #include "host/scene/paths.h"
+#include "host/scene/toml_limits.h"
 #include "host/scene/validate.h"
+#include "host/text.h"
 
 namespace wedge::scene {
 namespace {
@@ -22,51 +25,14 @@ std::string shown(const toml::node& node)
     node.visit([&](const auto& n) { out << n; });
     std::string text = out.str();
     std::replace(text.begin(), text.end(), '\n', ' ');
-    return text.size() > 60 ? text.substr(0, 57) + "..." : text;
-}
-
-/// Number of letters to insert, delete or replace to turn a into b (Levenshtein).
-std::size_t editDistance(const std::string& a, const std::string& b)
-{
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t { 0 });
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({ replaced, row[j] + 1, row[j + 1] + 1 });
-        }
-    }
-    return row.back();
-}
-
-std::string lettersOnly(std::string text)
-{
-    std::erase_if(text, [](char c) { return c == '_' || c == '-'; });
-    return lowerCase(text);
+    return shortened(text, 60);
 }
 
 } // namespace
 
-std::string nearest(const std::string& word, const std::set<std::string>& candidates)
-{
-    const std::string plain = lettersOnly(word);
-    std::string best;
-    std::size_t bestDistance = plain.size() / 3 + 1;
-    for (const std::string& candidate : candidates) {
-        const std::size_t distance = editDistance(plain, lettersOnly(candidate));
-        if (distance <= bestDistance && (best.empty() || distance < bestDistance)) {
-            best = candidate;
-            bestDistance = distance;
-        }
-    }
-    return best;
-}
-
 toml::table parseToml(const std::string& text, const std::filesystem::path& file)
 {
+    checkTomlDepth(text, file);
     try {
         return toml::parse(text, file.string());
     } catch (const toml::parse_error& error) {
@@ -78,14 +44,15 @@ toml::table parseToml(const std::string& text, const std::filesystem::path& file
 
 TableReader::TableReader(const toml::table& table, const std::filesystem::path& file, std::string name)
     : table_(&table)
-    , file_(file)
+    , file_(&file)
     , name_(std::move(name))
 {
 }
 
 const toml::node* TableReader::find(const std::string& key)
 {
-    known_.insert(key);
+    if (std::find(known_.begin(), known_.end(), key) == known_.end())
+        known_.push_back(key);
     return table_->get(key);
 }
 
@@ -106,7 +73,7 @@ bool TableReader::isBoolean(const std::string& key)
 std::string TableReader::position(const toml::node& node) const
 {
     const toml::source_position at = node.source().begin;
-    return fmt::format("scene file {}:{}:{}", file_.string(), at.line, at.column);
+    return fmt::format("scene file {}:{}:{}", file_->string(), at.line, at.column);
 }
 
 std::string TableReader::where(const std::string& key) const
@@ -257,7 +224,7 @@ std::optional<std::filesystem::path> TableReader::path(const std::string& key)
         return std::nullopt;
     if (value->empty())
         fail(key, "is empty", "''", "name a file");
-    return resolvePath(*value, file_.parent_path(), where(key));
+    return resolvePath(*value, file_->parent_path(), where(key));
 }
 
 std::vector<TableReader> TableReader::tables(const std::string& key)
@@ -267,7 +234,7 @@ std::vector<TableReader> TableReader::tables(const std::string& key)
         return {};
     const std::string name = name_ == "the scene" ? key : fmt::format("{}.{}", name_, key);
     if (const toml::table* one = node->as_table())
-        return { TableReader(*one, file_, name) };
+        return { TableReader(*one, *file_, name) };
     if (!node->is_array())
         wrongType(key, *node, "a table");
     std::vector<TableReader> readers;
@@ -275,9 +242,17 @@ std::vector<TableReader> TableReader::tables(const std::string& key)
         if (!element.is_table())
             throw Error(fmt::format("{}: entry of {} is not a table", position(element), name), shown(element),
                 "write it as { key = value, ... }");
-        readers.emplace_back(*element.as_table(), file_, name);
+        readers.emplace_back(*element.as_table(), *file_, name);
     }
     return readers;
+}
+
+std::size_t TableReader::count(const std::string& key)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return 0;
+    return node->is_array() ? node->as_array()->size() : 1;
 }
 
 std::optional<TableReader> TableReader::table(const std::string& key)
@@ -294,13 +269,14 @@ void TableReader::finish() const
 {
     for (const auto& [key, node] : *table_) {
         const std::string name(key.str());
-        if (known_.contains(name))
+        if (std::find(known_.begin(), known_.end(), name) != known_.end())
             continue;
+        const std::set<std::string> known(known_.begin(), known_.end());
         const toml::source_position at = key.source().begin;
-        const std::string near = nearest(name, known_);
-        throw Error(fmt::format("scene file {}:{}:{}: unknown key in {}", file_.string(), at.line, at.column, name_),
+        const std::string near = nearest(name, known);
+        throw Error(fmt::format("scene file {}:{}:{}: unknown key in {}", file_->string(), at.line, at.column, name_),
             fmt::format("'{}'", name),
-            near.empty() ? fmt::format("use one of: {}", fmt::join(known_, ", "))
+            near.empty() ? fmt::format("use one of: {}", fmt::join(known, ", "))
                          : fmt::format("did you mean '{}'?", near));
     }
 }

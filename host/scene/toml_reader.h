@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -16,7 +15,7 @@ namespace wedge::scene {
 /// rejects the keys that nobody asked for. All messages give file, line and column, the value and the way out.
 class TableReader {
 public:
-    /// name: how messages call the table ("[camera]"). The table must outlive the reader.
+    /// name: how messages call the table ("[camera]"). The table and the path must outlive the reader.
     TableReader(const toml::table& table, const std::filesystem::path& file, std::string name);
 
     bool has(const std::string& key);
@@ -41,6 +40,8 @@ public:
     /// A table, or several: [key], [[key]], { ... } or [{ ... }, ...]. Their names are name() + ".key".
     std::vector<TableReader> tables(const std::string& key);
     std::optional<TableReader> table(const std::string& key);
+    /// How many tables() gives.
+    std::size_t count(const std::string& key);
 
     /// The value of a getter's answer; Error when the key is absent.
     template <class T>
@@ -72,15 +73,12 @@ private:
     void appendNumbers(const std::string& key, const toml::node& node, int depth, std::vector<double>& out) const;
 
     const toml::table* table_;
-    std::filesystem::path file_;
+    const std::filesystem::path* file_;
     std::string name_;
-    std::set<std::string> known_;
+    std::vector<std::string> known_; ///< few: what the getters were asked for
 };
 
-/// Parses a scene file's text. Throws Error with file, line and column for text that is not TOML.
+/// Parses a scene file's text. Throws Error with file, line and column for text that is not TOML, or nested too deep.
 toml::table parseToml(const std::string& text, const std::filesystem::path& file);
-
-/// The candidate nearest to a word when it is near enough for a slip of the fingers, or an empty string.
-std::string nearest(const std::string& word, const std::set<std::string>& candidates);
 
 } // namespace wedge::scene

@@ -47,7 +47,7 @@ void checkCamera(const Camera& camera, const std::string& where)
             "use at least 0.001 and less than 180 degrees");
 }
 
-void checkAreaLight(const AreaLight& light, const std::string& where, std::vector<std::string>& warnings)
+void checkAreaLight(const AreaLight& light, const std::string& where, Warnings& warnings)
 {
     const double lengthU = glm::length(glm::dvec3(light.halfU));
     const double lengthV = glm::length(glm::dvec3(light.halfV));
@@ -67,7 +67,7 @@ void checkAreaLight(const AreaLight& light, const std::string& where, std::vecto
         throw Error(where + ": light's cut is out of range", fmt::format("{:g}", light.cut),
             "use more than 0 and at most 8 standard deviations");
     if (area < 4.0 * lengthU * lengthV * (1.0 - 1e-4))
-        warnings.push_back(where + ": light's edges are not at right angles, filter widths assume they are");
+        warnings.add("lights' edges", where + ": light's edges are not at right angles, filter widths assume they are");
 }
 
 void checkBareMesh(const Bounds& bounds, const std::string& where)
@@ -78,14 +78,14 @@ void checkBareMesh(const Bounds& bounds, const std::string& where)
             "scale it down, or write a scene file");
 }
 
-void checkScene(Scene& scene)
+void checkScene(const Scene& scene, Warnings& warnings)
 {
     assert(scene.geometry.positionsAtClose.size() == scene.geometry.normalsAtClose.size());
     assert(!geometryMoves(scene) || scene.geometry.positionsAtClose.size() == scene.geometry.positions.size());
     if (scene.geometry.indices.empty())
-        scene.warnings.push_back(fmt::format("scene {}: no mesh, only lights and background are seen", scene.path));
+        warnings.add("meshes", fmt::format("scene {}: no mesh, only lights and background are seen", scene.path));
     if (scene.areaLights.empty() && scene.pointLights.empty() && scene.directionalLights.empty())
-        scene.warnings.push_back(fmt::format("scene {}: no light, surfaces stay black", scene.path));
+        warnings.add("lights", fmt::format("scene {}: no light, surfaces stay black", scene.path));
 }
 
 } // namespace wedge::scene

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "host/scene/scene.h"
+#include "host/scene/warnings.h"
 
 namespace wedge::scene {
 
@@ -19,12 +20,12 @@ void checkCamera(const Camera& camera, const std::string& where);
 
 /// Error when the light has no area, when its area or its radiance times area is beyond what single precision takes, or
 /// when its cut is not in (0, 8]; a warning when its sides are not at right angles.
-void checkAreaLight(const AreaLight& light, const std::string& where, std::vector<std::string>& warnings);
+void checkAreaLight(const AreaLight& light, const std::string& where, Warnings& warnings);
 
 /// Error for a bare mesh that is too large for a light of its own.
 void checkBareMesh(const Bounds& bounds, const std::string& where);
 
 /// Warnings about a whole scene: nothing to see, nothing that lights it.
-void checkScene(Scene& scene);
+void checkScene(const Scene& scene, Warnings& warnings);
 
 } // namespace wedge::scene

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "host/scene/statements.h"
+
+namespace wedge::scene {
+
+/// What a texture statement of an MTL file says.
+struct MtlTexture {
+    std::string name; ///< to the end of the line, spaces and all; empty: none
+    bool hasUnsupported = false; ///< an option that moves, scales or clamps it
+};
+
+/// Reads what follows the keyword: options and a file name.
+MtlTexture parseMtlTexture(StatementReader& statement);
+
+} // namespace wedge::scene

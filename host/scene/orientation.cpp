@@ -1,0 +1,61 @@
+#include "host/scene/orientation.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace wedge::scene {
+namespace {
+
+int signOf(double value) { return (value > 0.0) - (value < 0.0); }
+
+/// The sign of an exact sum: an expansion of terms that do not overlap grows by one summand at a time (Shewchuk,
+/// Adaptive Precision Floating-Point Arithmetic, 1997), and its largest term has the sign of all.
+template <std::size_t n>
+int signOfSum(const std::array<double, n>& summands)
+{
+    std::array<double, n> expansion {};
+    for (std::size_t i = 0; i < n; ++i) {
+        double carried = summands[i];
+        for (std::size_t k = 0; k < i; ++k) {
+            const double sum = carried + expansion[k];
+            const double virtualPart = sum - carried;
+            expansion[k] = (carried - (sum - virtualPart)) + (expansion[k] - virtualPart);
+            carried = sum;
+        }
+        expansion[i] = carried;
+    }
+    int sign = 0;
+    for (const double term : expansion)
+        sign = term == 0.0 ? sign : signOf(term);
+    return sign;
+}
+
+/// Whether the difference of two points is exact and of so few bits that a product with another such one is exact too.
+bool isShort(const glm::dvec2& difference, const glm::dvec2& from, const glm::dvec2& to)
+{
+    return glm::dvec2(glm::vec2(difference)) == difference && from + difference == to && to - difference == from;
+}
+
+} // namespace
+
+int exactOrientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
+{
+    const glm::dvec2 ab = b - a, ac = c - a;
+    if (isShort(ab, a, b) && isShort(ac, a, c))
+        return signOf(ab.x * ac.y - ab.y * ac.x);
+    // The product of two numbers of 24 bits is exact in 53.
+    return signOfSum(std::array { b.x * c.y, -(b.y * c.x), a.y * c.x, -(a.x * c.y), a.x * b.y, -(a.y * b.x) });
+}
+
+bool onOneLine(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto flat = [axis](const glm::vec3& p) { return glm::dvec2(p[axis], p[(axis + 1) % 3]); };
+        if (orientation(flat(a), flat(b), flat(c)) != 0)
+            return false;
+    }
+    return true;
+}
+
+} // namespace wedge::scene

@@ -1,0 +1,138 @@
+// Material libraries: what the file says, and a word about what is left out.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "host/scene/mtl_reader.h"
+#include "scene_support.h"
+
+using namespace scene_test;
+using wedge::scene::Material;
+using wedge::scene::parseMtl;
+using wedge::scene::TextureSet;
+using wedge::scene::Warnings;
+
+namespace {
+
+struct Library {
+    std::vector<Material> materials;
+    std::vector<std::string> warnings;
+};
+
+Library parse(const std::string& text)
+{
+    TextureSet textures;
+    Warnings warnings;
+    const std::vector<Material> materials = parseMtl(text, "m.mtl", textures, warnings);
+    return { materials, warnings.lines() };
+}
+
+std::string errorOfLibrary(const std::string& text)
+{
+    try {
+        parse(text);
+    } catch (const wedge::Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST_CASE("what a material does not say")
+{
+    const Library bare = parse("newmtl a\n");
+    REQUIRE(bare.materials.size() == 1);
+    CHECK(bare.materials[0].diffuse == glm::vec3(0.0f));
+    CHECK(bare.materials[0].specular == glm::vec3(0.0f));
+    CHECK(bare.materials[0].exponent == 1.0f);
+    CHECK(bare.warnings.empty());
+    // One number is a grey; a texture without a colour of its own gets 0.6.
+    CHECK(parse("newmtl a\nKd 0.25\n").materials[0].diffuse == glm::vec3(0.25f));
+    CHECK(parse("newmtl a\nmap_Kd none.png\n").materials[0].diffuse == glm::vec3(0.6f));
+    CHECK(parse("newmtl a\nKd 0.1 0.2 0.3 # dark\nmap_Kd none.png\n").materials[0].diffuse
+        == glm::vec3(0.1f, 0.2f, 0.3f));
+}
+
+TEST_CASE("names, line ends, and statements outside of materials")
+{
+    const Library ends = parse("Kd 1 0 0\nnewmtl  two words \r\n\tKd 0 1 0\rnewmtl\nKd 9 9 9\nnewmtl b\nKd 0 \\\n0 1");
+    REQUIRE(ends.materials.size() == 2);
+    CHECK(ends.materials[0].name == "two words");
+    CHECK(ends.materials[0].diffuse == glm::vec3(0, 1, 0));
+    CHECK(ends.materials[1].diffuse == glm::vec3(0, 0, 1));
+    // A comment ends with its line, even where it looks as if it went on.
+    CHECK(parse("newmtl a\n# C:\\textures\\\nKd 1 0 0\n").materials[0].diffuse == glm::vec3(1, 0, 0));
+}
+
+TEST_CASE("values that make no sense")
+{
+    const Library wrong = parse("newmtl a\nKd 1 x 0\nKs nan inf -1\nNs\nKe 1e99\n");
+    CHECK(wrong.materials[0].diffuse == glm::vec3(1, 0, 0));
+    CHECK(wrong.materials[0].specular == glm::vec3(0));
+    CHECK(wrong.materials[0].emission == glm::vec3(0));
+    CHECK(wrong.materials[0].exponent == 1.0f);
+    REQUIRE(wrong.warnings.size() == 6);
+    CHECK(wrong.warnings[0] == "material file m.mtl: material 'a': Kd has the value x, 0 is used");
+    CHECK(wrong.warnings[4] == "material file m.mtl: material 'a': Ns has the value , 1 is used");
+}
+
+TEST_CASE("what would change the look is named once a library")
+{
+    const Library left = parse("newmtl a\nKd 0.5\nmap_d a.png\nmap_bump b.png\nbump b.png\nd 0.5\nillum 7\nTf 1 1 1\n"
+                               "newmtl b\nTr 0.5\nnorm c.png\ndisp d.png\nrefl e.png\nPr 0.5\nPm 1\nTf 0.5 1 1\nd 0.1\n"
+                               "newmtl c\nd 1\nTr 0\nillum 2\nNi 1.5\nKa 1 1 1\nmap_Ka f.png\n");
+    CHECK(left.warnings.size() == 9);
+    const auto says = [&](const std::string& what, int materials, const std::string& first) {
+        const std::string line = "material file m.mtl: " + what + " has no effect here; " + std::to_string(materials)
+            + " material(s) have it, '" + first + "' is the first";
+        return std::count(left.warnings.begin(), left.warnings.end(), line);
+    };
+    CHECK(says("transparency (d, Tr)", 2, "a") == 1);
+    CHECK(says("a texture of transparency (map_d)", 1, "a") == 1);
+    CHECK(says("a bump map (bump, map_bump)", 1, "a") == 1);
+    CHECK(says("a normal map (norm)", 1, "b") == 1);
+    CHECK(says("displacement (disp)", 1, "b") == 1);
+    CHECK(says("a reflection map (refl)", 1, "b") == 1);
+    CHECK(says("roughness or metal (Pr, Pm, Ps, Pc)", 1, "b") == 1);
+    CHECK(says("a transmission filter (Tf)", 1, "b") == 1);
+    CHECK(says("an illumination model other than diffuse and highlight (illum)", 1, "a") == 1);
+    // Without a highlight 1 is the same as 2.
+    CHECK(parse("newmtl a\nillum 1\nKd 0.5\n").warnings.empty());
+    CHECK(parse("newmtl a\nillum 1\nKd 0.5\nKs 0.5\n").warnings.size() == 1);
+    CHECK(parse("newmtl a\nillum 0\n").warnings.size() == 1);
+}
+
+TEST_CASE("options of textures")
+{
+    const auto warned = [](const std::string& statement) {
+        const Library library = parse("newmtl a\nKd 0.5\nmap_Ks " + statement + "\n");
+        REQUIRE(!library.warnings.empty()); // there is no such file
+        CHECK(contains(library.warnings.back(), "texture file not found: my file.png"));
+        return library.warnings.size() == 2;
+    };
+    CHECK(!warned("my file.png"));
+    CHECK(!warned("-s 1 1 1 -o 0 0 0 my file.png"));
+    CHECK(!warned("-blendu on -mm 0 1 -bm 1 -clamp off -texres 64 -imfchan r -type sphere -boost 2 my file.png"));
+    CHECK(warned("-s 2 my file.png"));
+    CHECK(warned("-s 1 1 2 my file.png"));
+    CHECK(warned("-o 0.5 0 my file.png"));
+    CHECK(warned("-clamp on my file.png"));
+    CHECK(parse("newmtl a\nmap_Kd\nmap_Ks -s 1\n").warnings.empty()); // no file is named
+}
+
+TEST_CASE("files that are no libraries")
+{
+    const std::string none = "material file m.mtl has no materials: no line begins with newmtl and a name: name a "
+                             "Wavefront material library";
+    CHECK(errorOfLibrary("") == none);
+    CHECK(errorOfLibrary("root:x:0:0:root:/root:/bin/bash\n") == none);
+    CHECK(errorOfLibrary("newmtl\n") == none);
+    const TemporaryFolder folder;
+    folder.write("passwd", "root:x:0:0:root:/root:/bin/bash\n");
+    folder.write("m.obj", "mtllib passwd\n" + std::string(triangleObj));
+    CHECK(contains(
+        errorOf(folder.write("s.toml", mesh + "mtl = \"passwd\"\n")), "material file passwd has no materials"));
+    CHECK(warns(wedge::scene::loadScene(folder.write("t.toml", mesh)), "passwd has no materials"));
+}
