@@ -19,7 +19,6 @@ build    libopenexr-dev          OpenEXR images with layers
 build    libpng-dev              PNG images
 build    libstb-dev              HDR images as references, JPEG and others as textures
 build    libtomlplusplus-dev     scene files, with line and column of every key
-build    libtinyobjloader-dev    meshes and their materials
 build    libglm-dev              transforms of the scene
 build    libcli11-dev            the command line
 build    libfmt-dev              text
