@@ -91,6 +91,11 @@ image::Window cropWindow(const std::string& option, const std::string& text)
     return { x0, y0, x1, y1 };
 }
 
+std::int64_t texturePixels(const std::string& option, const std::string& text)
+{
+    return wholeNumber(option, text, 1, scene::mostTexturePixels);
+}
+
 std::size_t choice(const std::string& option, const std::string& text, const std::vector<std::string>& choices)
 {
     const auto found = std::ranges::find(choices, text);

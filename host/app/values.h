@@ -24,6 +24,9 @@ std::pair<int, int> imageSize(const std::string& option, const std::string& text
 /// "x0,y0,x1,y1" with 0 <= x0 < x1 and 0 <= y0 < y1; whether it lies inside the image is not known here.
 image::Window cropWindow(const std::string& option, const std::string& text);
 
+/// Pixels of a texture, 1 to scene::mostTexturePixels.
+std::int64_t texturePixels(const std::string& option, const std::string& text);
+
 /// The names of bvh::Mode, in the order of its values.
 inline const std::vector<std::string> bvhModes = { "fast", "default", "quality" };
 

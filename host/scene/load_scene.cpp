@@ -16,10 +16,10 @@ namespace {
 
 constexpr std::uintmax_t maxSceneFile = std::uintmax_t { 64 } << 20;
 
-void loadSceneFile(const std::filesystem::path& path, Scene& scene)
+void loadSceneFile(const std::filesystem::path& path, const LoadOptions& options, Scene& scene)
 {
     const toml::table document = parseToml(readFile(path, "scene file", maxSceneFile), path);
-    TextureSet textures;
+    TextureSet textures(options.maxTexturePixels);
     TableReader root(document, path, "the scene");
     readImage(root, scene);
     readIntegrator(root, scene);
@@ -36,9 +36,9 @@ void loadSceneFile(const std::filesystem::path& path, Scene& scene)
     scene.textures = textures.take();
 }
 
-void loadBareMesh(const std::filesystem::path& path, Scene& scene)
+void loadBareMesh(const std::filesystem::path& path, const LoadOptions& options, Scene& scene)
 {
-    TextureSet textures;
+    TextureSet textures(options.maxTexturePixels);
     Mesh mesh = readObj(path, textures, scene.warnings);
     scene.materials = mesh.palette;
     addInstance(scene.geometry, indexMesh(mesh, 0), Placement(), -1, "", "mesh file " + path.string());
@@ -51,15 +51,15 @@ void loadBareMesh(const std::filesystem::path& path, Scene& scene)
 
 } // namespace
 
-Scene loadScene(const std::string& path)
+Scene loadScene(const std::string& path, const LoadOptions& options)
 {
     Scene scene;
     scene.path = path;
     const std::string extension = lowerExtension(path);
     if (extension == ".toml")
-        loadSceneFile(path, scene);
+        loadSceneFile(path, options, scene);
     else if (extension == ".obj")
-        loadBareMesh(path, scene);
+        loadBareMesh(path, options, scene);
     else
         throw Error("scene has an unknown format", path, "name a scene file (.toml) or a mesh (.obj)");
     checkScene(scene);

@@ -34,7 +34,7 @@ Mesh readShape(TableReader& table, const Mesh& mesh, const std::function<void(Me
     if (lowerExtension(path) != ".obj")
         table.fail("file", "has an unknown format", path.string(), "name a Wavefront .obj file");
     // Of a shape only the places count, so what is wrong with its materials is not told.
-    TextureSet textures;
+    TextureSet textures = TextureSet::none();
     std::vector<std::string> warnings;
     Mesh shape = readObj(path, textures, warnings);
     checkTriangles(table, shape, mesh);
