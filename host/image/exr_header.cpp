@@ -31,6 +31,12 @@ public:
     }
     std::uint64_t position() const { return at_; }
     std::uint64_t left() const { return size_ - at_; }
+    void seek(std::uint64_t position)
+    {
+        at_ = 0;
+        advance(position);
+        in_.seekg(at_);
+    }
     void skip(std::uint64_t count)
     {
         advance(count);
@@ -49,6 +55,11 @@ public:
         for (int shift = 0; shift < 32; shift += 8)
             value |= std::uint32_t { byte() } << shift;
         return value;
+    }
+    std::uint64_t u64()
+    {
+        const std::uint64_t low = u32();
+        return low | std::uint64_t { u32() } << 32;
     }
     std::int32_t i32() { return static_cast<std::int32_t>(u32()); }
     std::string name()
@@ -129,6 +140,7 @@ void checkPreview(Cursor& in, std::uint64_t size)
     const std::uint64_t width = in.u32(), height = in.u32();
     if (width > size || height > size || 8 + 4 * width * height != size)
         throw Failure("its preview has not the size that it says");
+    in.skip(size - 8);
 }
 
 void readValue(Cursor& in, const std::string& name, const std::string& type, std::uint64_t size, Part& part)
@@ -211,8 +223,22 @@ void requireModest(std::uint64_t bytes, std::uint64_t fileBytes)
         throw Failure("its chunks or tiles are too large for a file of " + std::to_string(fileBytes) + " bytes");
 }
 
-/// The number of chunks that the part must have at least, of levels the finest.
-std::uint64_t checkPart(const Part& part, bool tiled, std::uint64_t fileBytes)
+/// How the pixels of a part, of levels the finest, are cut into chunks.
+struct Grid {
+    std::uint64_t width = 0, height = 0; // of the picture
+    std::uint64_t chunkWidth = 0, chunkHeight = 0;
+    std::uint64_t columns() const { return (width + chunkWidth - 1) / chunkWidth; }
+    std::uint64_t rows() const { return (height + chunkHeight - 1) / chunkHeight; }
+    std::uint64_t count() const { return columns() * rows(); }
+    /// Pixels of a chunk, which the picture's edge may cut.
+    std::uint64_t pixels(std::uint64_t chunk) const
+    {
+        const std::uint64_t x = chunk % columns() * chunkWidth, y = chunk / columns() * chunkHeight;
+        return std::min(chunkWidth, width - x) * std::min(chunkHeight, height - y);
+    }
+};
+
+Grid checkPart(const Part& part, bool tiled, std::uint64_t fileBytes)
 {
     if (!part.data || !part.display || !part.compression || part.channels == 0 || (tiled && !part.tiles))
         throw Failure("its header is not complete");
@@ -227,18 +253,34 @@ std::uint64_t checkPart(const Part& part, bool tiled, std::uint64_t fileBytes)
     if (raw > modest && raw / decode::mostPixelsPerByte > fileBytes)
         throw Failure("it claims " + std::to_string(part.channels) + " channels of " + std::to_string(size.width) + "x"
             + std::to_string(size.height) + " pixels in " + std::to_string(fileBytes) + " bytes");
-    if (!tiled) {
-        const std::uint64_t rows = rowsPerChunk(*part.compression);
-        requireModest(width * rows * part.bytesPerPixel, fileBytes);
-        return (height + rows - 1) / rows;
+    Grid grid { width, height, width, rowsPerChunk(*part.compression) };
+    if (tiled) {
+        grid.chunkWidth = part.tiles->width;
+        grid.chunkHeight = part.tiles->height;
+        constexpr std::uint64_t mostSide = 1 << 16;
+        if (std::min(grid.chunkWidth, grid.chunkHeight) < 1 || std::max(grid.chunkWidth, grid.chunkHeight) > mostSide)
+            throw Failure("the size of its tiles is out of range");
     }
-    rowsPerChunk(*part.compression);
-    const Tiles& tiles = *part.tiles;
-    constexpr std::uint64_t mostSide = 1 << 16;
-    if (tiles.width < 1 || tiles.height < 1 || tiles.width > mostSide || tiles.height > mostSide)
-        throw Failure("the size of its tiles is out of range");
-    requireModest(std::max(width, tiles.width) * tiles.height * part.bytesPerPixel, fileBytes);
-    return ((width + tiles.width - 1) / tiles.width) * ((height + tiles.height - 1) / tiles.height);
+    requireModest(std::max(width, grid.chunkWidth) * grid.chunkHeight * part.bytesPerPixel, fileBytes);
+    return grid;
+}
+
+/// Each chunk has its place in the table that begins here, and its bytes are there. OpenEXR would go in search of
+/// those that are not, and take what its memory happens to hold for those that are too short.
+void checkChunks(Cursor& in, const Part& part, const Grid& grid, std::uint64_t headBytes)
+{
+    const std::uint64_t table = in.position();
+    for (std::uint64_t chunk = 0; chunk < grid.count(); ++chunk) {
+        in.seek(table + 8 * chunk);
+        const std::uint64_t at = in.u64(), end = in.position() + in.left();
+        if (at < table || at > end || end - at < headBytes)
+            throw Failure("a chunk of its pixels is missing or damaged");
+        in.seek(at + headBytes - 4);
+        const std::uint64_t size = in.u32();
+        const bool whole = *part.compression == 0 ? size == grid.pixels(chunk) * part.bytesPerPixel : size > 0;
+        if (!whole || size > in.left())
+            throw Failure("a chunk of its pixels is missing or damaged");
+    }
 }
 
 [[noreturn]] void failAsDeep()
@@ -262,23 +304,32 @@ void checkExrHeaders(Imf::IStream& stream, std::uint64_t fileBytes)
         failAsDeep();
     const bool multiPart = version & multiPartFlag;
     std::uint64_t chunks = 0;
-    for (int parts = 0;; ++parts) {
+    std::optional<Part> first;
+    Grid firstGrid;
+    const auto isTiled = [&](const Part& part) {
+        // The type has a zero behind it where a program wrote that, too.
+        return multiPart ? part.type.starts_with("tiledimage") : (version & tiledFlag) != 0;
+    };
+    for (int parts = 0; parts == 0 || multiPart; ++parts) {
         Part part;
-        if (!readPart(in, part) && (parts > 0 || !multiPart))
+        if (!readPart(in, part) && parts > 0)
             break;
         if (parts == mostParts)
             throw Failure("it has more than " + std::to_string(mostParts) + " parts");
-        // The type has a zero behind it where a program wrote that, too.
-        const bool deep = part.type.starts_with("deep"), tiledType = part.type.starts_with("tiledimage");
-        if (multiPart && deep)
+        if (multiPart && part.type.starts_with("deep"))
             failAsDeep();
-        chunks += checkPart(part, multiPart ? tiledType : (version & tiledFlag) != 0, fileBytes);
-        if (!multiPart)
-            break;
+        const Grid grid = checkPart(part, isTiled(part), fileBytes);
+        chunks += grid.count();
+        if (!first) {
+            first = std::move(part);
+            firstGrid = grid;
+        }
     }
     // Each chunk has a place in the table, and says at least which it is and how long.
     if (chunks * 16 > in.left())
         throw Failure("it ends before the picture does");
+    // Before its pixels a chunk has the part where there are several, its row or its tile and level, and its bytes.
+    checkChunks(in, *first, firstGrid, (multiPart ? 4 : 0) + (isTiled(*first) ? 16 : 4) + 4);
     stream.seekg(0);
 }
 
