@@ -301,7 +301,7 @@ TEST_CASE("no damaged byte crashes the reader")
     for (std::uint32_t i = 0; i < 400; ++i) {
         std::string damaged = whole;
         const auto at = static_cast<std::size_t>(hashed(i, 1, 0, 1) * 0.2 * static_cast<double>(whole.size()));
-        damaged[at] = static_cast<char>(hashed(i, 2, 0, 1) * 256.0);
+        damaged[at] = static_cast<char>(static_cast<int>(hashed(i, 2, 0, 1) * 256.0));
         writeBytes(path, damaged);
         refused += readError(path) != "no error";
     }

@@ -144,10 +144,6 @@ void check(Decoder& decoder, std::size_t fileBytes, const Limits& limits)
         && coefficients / coefficientsPerByte > static_cast<std::int64_t>(fileBytes))
         throw Failure("it is progressive and would take " + std::to_string(coefficients >> 20) + " MiB to decode",
             "save it as PNG, or as a JPEG that is not progressive");
-    // Every block takes a bit at the least.
-    if (limits.unquestioned < std::int64_t { jpeg.image_width } * jpeg.image_height
-        && std::int64_t { jpeg.image_width } * jpeg.image_height / 512 > static_cast<std::int64_t>(fileBytes))
-        throw Failure("it ends before the picture does");
 }
 
 /// Inks to light. Adobe's programs, which say that they wrote the file, store what is left of the light.

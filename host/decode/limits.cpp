@@ -16,8 +16,9 @@ void Limits::admit(Size size, std::size_t fileBytes) const
             "it has " + claim + ", at most " + std::to_string(side) + " a side are read", "scale the image down");
     if (size.pixels() > pixels)
         throw Failure("it has " + claim + ", at most " + std::to_string(pixels) + " are read", remedy);
-    if (size.pixels() > unquestioned && size.pixels() / mostPixelsPerByte > static_cast<std::int64_t>(fileBytes))
-        throw Failure("it claims " + claim + " in " + std::to_string(fileBytes) + " bytes");
+    const std::int64_t perByte = size.pixels() > 2 * unquestioned ? usualPixelsPerByte : mostPixelsPerByte;
+    if (size.pixels() > unquestioned && size.pixels() / perByte > static_cast<std::int64_t>(fileBytes))
+        throw Failure("it claims " + claim + " in " + std::to_string(fileBytes) + " bytes", remedy);
     if (size.pixels() > together)
         throw Failure("it has " + claim + ", of the textures of all the scene only " + std::to_string(together)
                 + " more are read",

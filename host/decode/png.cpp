@@ -3,7 +3,6 @@
 #include <cmath>
 #include <csetjmp>
 #include <cstring>
-#include <string>
 
 #include <png.h>
 
@@ -132,17 +131,6 @@ PngReader::~PngReader() = default;
 
 Size PngReader::size() const { return { static_cast<int>(decoder_->width), static_cast<int>(decoder_->height) }; }
 
-void PngReader::admit(const Limits& limits) const
-{
-    constexpr std::uint64_t modest = std::uint64_t { 1 } << 28, mostPacked = 512;
-    limits.admit(size(), decoder_->bytes.size());
-    const std::uint64_t rows = std::uint64_t { png_get_rowbytes(decoder_->png, decoder_->info) } * decoder_->height;
-    if (rows > modest && rows / mostPacked > decoder_->bytes.size())
-        throw Failure("it claims " + std::to_string(rows >> 20) + " MiB of pixels in "
-                + std::to_string(decoder_->bytes.size()) + " bytes",
-            "save it with 8 bits a channel");
-}
-
 double PngReader::gamma() const { return decoder_->gamma; }
 
 void PngReader::readRows(PngSamples samples, const std::function<void(const Row&)>& row)
@@ -174,7 +162,7 @@ void PngReader::readRows(PngSamples samples, const std::function<void(const Row&
 Picture decodePng(Bytes bytes, const Limits& limits)
 {
     PngReader reader(bytes);
-    reader.admit(limits);
+    limits.admit(reader.size(), bytes.size());
     Picture picture(reader.size());
     reader.readRows(PngSamples::Rgba8, [&](const PngReader::Row& row) {
         std::uint32_t* to = picture.rowFromTop(row.y);

@@ -24,9 +24,6 @@ public:
 
     Size size() const;
 
-    /// Holds the size against the limits, and beyond 256 MiB of packed rows these against the file: at most 512 : 1.
-    void admit(const Limits& limits) const;
-
     /// The gamma of the encoding that the file states, or 0 where it is sRGB, as it is where nothing is stated.
     double gamma() const;
 

@@ -33,7 +33,7 @@ public:
     std::pair<int, int> open() override
     {
         png_.emplace(decode::bytesOf(bytes_));
-        png_->admit(decode::referenceLimits);
+        decode::referenceLimits.admit(png_->size(), bytes_.size());
         return { png_->size().width, png_->size().height };
     }
 

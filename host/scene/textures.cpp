@@ -21,6 +21,7 @@ Texture TextureSet::read(const std::filesystem::path& path)
     const auto fileBytes = static_cast<std::int64_t>(bytes.size());
     decode::Limits limits;
     limits.pixels = maxPixels_;
+    limits.unquestioned = std::max(limits.unquestioned, maxPixels_ / 4); // who allows more, trusts the files
     limits.together =
         std::min(sceneFactor * maxPixels_, std::max(maxPixels_, pixelsPerByte * (bytes_ + fileBytes))) - pixels_;
     limits.remedy = "scale the image down, or raise --max-texture-pixels";

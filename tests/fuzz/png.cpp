@@ -7,7 +7,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     try {
         const wedge::decode::Bytes bytes(data, size);
         wedge::decode::PngReader reader(bytes);
-        reader.admit(fuzzLimits);
+        fuzzLimits.admit(reader.size(), size);
         unsigned sum = 0;
         reader.readRows(wedge::decode::PngSamples::Rgb16, [&](const wedge::decode::PngReader::Row& row) {
             for (int x = row.first; x < reader.size().width; x += row.step)
