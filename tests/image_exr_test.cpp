@@ -276,8 +276,7 @@ TEST_CASE("files that cannot be read give one line that says why")
     CHECK(contains(readError(path), "it is empty"));
     writeBytes(path, "this is a text file, not an image, and long enough to hold a header of some kind");
     CHECK(readError(path)
-        == "cannot read EXR image (it is no EXR): " + path
-            + ": check that the file is whole and of its type");
+        == "cannot read EXR image (it is no EXR): " + path + ": check that the file is whole and of its type");
 
     writeExr(path, layered(60, 50, { 0, 0, 60, 50 }));
     const std::string whole = readBytes(path);

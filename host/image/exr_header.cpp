@@ -1,15 +1,12 @@
 #include "host/image/exr_header.h"
+#include "host/image/exr_part.h"
 
-#include "host/decode/failure.h"
 #include "host/decode/limits.h"
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <optional>
-#include <set>
 #include <string>
-#include <string_view>
 
 namespace wedge::image {
 
@@ -18,184 +15,9 @@ namespace {
 using decode::Failure;
 
 constexpr std::uint32_t tiledFlag = 0x200, deepFlag = 0x800, multiPartFlag = 0x1000, knownFlags = 0x1e00;
-constexpr std::uint64_t mostChannels = 1024;
 constexpr int mostParts = 256;
 
-/// Reads little-endian numbers, and knows how much of the file is left.
-class Cursor {
-public:
-    Cursor(Imf::IStream& in, std::uint64_t size)
-        : in_(in)
-        , size_(size)
-    {
-    }
-    std::uint64_t position() const { return at_; }
-    std::uint64_t left() const { return size_ - at_; }
-    void seek(std::uint64_t position)
-    {
-        at_ = 0;
-        advance(position);
-        in_.seekg(at_);
-    }
-    void skip(std::uint64_t count)
-    {
-        advance(count);
-        in_.seekg(at_);
-    }
-    std::uint8_t byte()
-    {
-        char c = 0;
-        advance(1);
-        in_.read(&c, 1);
-        return static_cast<std::uint8_t>(c);
-    }
-    std::uint32_t u32()
-    {
-        std::uint32_t value = 0;
-        for (int shift = 0; shift < 32; shift += 8)
-            value |= std::uint32_t { byte() } << shift;
-        return value;
-    }
-    std::uint64_t u64()
-    {
-        const std::uint64_t low = u32();
-        return low | std::uint64_t { u32() } << 32;
-    }
-    std::int32_t i32() { return static_cast<std::int32_t>(u32()); }
-    std::string name()
-    {
-        std::string text;
-        while (const std::uint8_t c = byte()) {
-            if (text.size() == 255)
-                throw Failure("a name in its header is too long");
-            text += static_cast<char>(c);
-        }
-        return text;
-    }
-
-private:
-    void advance(std::uint64_t count)
-    {
-        if (count > left())
-            throw Failure("it ends inside its header");
-        at_ += count;
-    }
-
-    Imf::IStream& in_;
-    std::uint64_t size_, at_ = 0;
-};
-
-struct Box {
-    std::int64_t x0 = 0, y0 = 0, x1 = 0, y1 = 0; // inclusive
-    std::int64_t width() const { return x1 - x0 + 1; }
-    std::int64_t height() const { return y1 - y0 + 1; }
-};
-
-struct Tiles {
-    std::uint64_t width = 0, height = 0;
-};
-
-struct Part {
-    std::set<std::string> names;
-    std::optional<Box> data, display;
-    std::optional<unsigned> compression;
-    std::optional<Tiles> tiles;
-    std::uint64_t channels = 0, bytesPerPixel = 0;
-    std::string type;
-};
-
-/// Sizes of the types that have but one; OpenEXR reads so much whatever the file says.
-std::optional<std::uint64_t> fixedSize(const std::string& type)
-{
-    static const std::map<std::string_view, std::uint64_t> sizes = { { "box2i", 16 }, { "box2f", 16 },
-        { "chromaticities", 32 }, { "compression", 1 }, { "deepImageState", 1 }, { "double", 8 }, { "envmap", 1 },
-        { "float", 4 }, { "int", 4 }, { "keycode", 28 }, { "lineOrder", 1 }, { "m33d", 72 }, { "m33f", 36 },
-        { "m44d", 128 }, { "m44f", 64 }, { "rational", 8 }, { "tiledesc", 9 }, { "timecode", 8 }, { "v2d", 16 },
-        { "v2f", 8 }, { "v2i", 8 }, { "v3d", 24 }, { "v3f", 12 }, { "v3i", 12 } };
-    const auto found = sizes.find(type);
-    return found == sizes.end() ? std::nullopt : std::optional(found->second);
-}
-
-void readChannels(Cursor& in, Part& part)
-{
-    while (!in.name().empty()) {
-        const std::uint32_t kind = in.u32(); // uint, half, float
-        in.skip(4); // whether a perceptual scale, and nothing
-        in.skip(8); // sampling, which is checked where it matters
-        if (kind > 2 || ++part.channels > mostChannels)
-            throw Failure(kind > 2 ? "a channel is of an unknown kind"
-                                   : "it has more than " + std::to_string(mostChannels) + " channels");
-        part.bytesPerPixel += kind == 1 ? 2 : 4;
-    }
-}
-
-void checkStrings(Cursor& in, std::uint64_t end)
-{
-    while (in.position() < end)
-        in.skip(in.u32());
-}
-
-void checkPreview(Cursor& in, std::uint64_t size)
-{
-    const std::uint64_t width = in.u32(), height = in.u32();
-    if (width > size || height > size || 8 + 4 * width * height != size)
-        throw Failure("its preview has not the size that it says");
-    in.skip(size - 8);
-}
-
-void readValue(Cursor& in, const std::string& name, const std::string& type, std::uint64_t size, Part& part)
-{
-    const std::uint64_t end = in.position() + size;
-    const auto fixed = fixedSize(type);
-    if (size > in.left() || (fixed && *fixed != size) || (type == "floatvector" && size % 4 != 0))
-        throw Failure("its attribute '" + name + "' has not the size that it says");
-    if (type == "chlist") {
-        if (name == "channels")
-            readChannels(in, part);
-        else {
-            Part unused;
-            readChannels(in, unused);
-        }
-    } else if (type == "box2i" && (name == "dataWindow" || name == "displayWindow")) {
-        Box box { in.i32(), in.i32(), in.i32(), in.i32() };
-        (name == "dataWindow" ? part.data : part.display) = box;
-    } else if (name == "compression" && type == "compression") {
-        part.compression = in.byte();
-    } else if (name == "tiles" && type == "tiledesc") {
-        part.tiles = Tiles { in.u32(), in.u32() };
-        const unsigned mode = in.byte();
-        if (mode % 16 > 2 || mode / 16 > 1)
-            throw Failure("its tiles are of an unknown mode");
-    } else if (name == "type" && type == "string" && size < 64) {
-        while (in.position() < end)
-            part.type += static_cast<char>(in.byte());
-    } else if (type == "stringvector") {
-        checkStrings(in, end);
-    } else if (type == "preview") {
-        checkPreview(in, size);
-    } else {
-        in.skip(size);
-    }
-    if (in.position() != end)
-        throw Failure("its attribute '" + name + "' has not the size that it says");
-}
-
-/// False where there is no further part.
-bool readPart(Cursor& in, Part& part)
-{
-    for (std::string name = in.name(); !name.empty(); name = in.name()) {
-        if (!part.names.insert(name).second)
-            throw Failure("its attribute '" + name + "' is there twice");
-        const std::string type = in.name();
-        const std::int32_t size = in.i32();
-        if (size < 0)
-            throw Failure("its attribute '" + name + "' has not the size that it says");
-        readValue(in, name, type, static_cast<std::uint64_t>(size), part);
-    }
-    return !part.names.empty();
-}
-
-decode::Size sizeOf(const Box& box)
+decode::Size sizeOf(const ExrBox& box)
 {
     // Far enough from the ends of 32 bits that differences of coordinates have room.
     constexpr std::int64_t farthest = 1 << 24;
@@ -238,7 +60,7 @@ struct Grid {
     }
 };
 
-Grid checkPart(const Part& part, bool tiled, std::uint64_t fileBytes)
+Grid checkPart(const ExrPart& part, bool tiled, std::uint64_t fileBytes)
 {
     if (!part.data || !part.display || !part.compression || part.channels == 0 || (tiled && !part.tiles))
         throw Failure("its header is not complete");
@@ -267,7 +89,7 @@ Grid checkPart(const Part& part, bool tiled, std::uint64_t fileBytes)
 
 /// Each chunk has its place in the table that begins here, and its bytes are there. OpenEXR would go in search of
 /// those that are not, and take what its memory happens to hold for those that are too short.
-void checkChunks(Cursor& in, const Part& part, const Grid& grid, std::uint64_t headBytes)
+void checkChunks(ExrCursor& in, const ExrPart& part, const Grid& grid, std::uint64_t headBytes)
 {
     const std::uint64_t table = in.position();
     for (std::uint64_t chunk = 0; chunk < grid.count(); ++chunk) {
@@ -292,7 +114,7 @@ void checkChunks(Cursor& in, const Part& part, const Grid& grid, std::uint64_t h
 
 void checkExrHeaders(Imf::IStream& stream, std::uint64_t fileBytes)
 {
-    Cursor in(stream, fileBytes);
+    ExrCursor in(stream, fileBytes);
     if (fileBytes == 0)
         throw Failure("it is empty");
     if (fileBytes < 8 || in.u32() != 0x01312f76)
@@ -304,15 +126,15 @@ void checkExrHeaders(Imf::IStream& stream, std::uint64_t fileBytes)
         failAsDeep();
     const bool multiPart = version & multiPartFlag;
     std::uint64_t chunks = 0;
-    std::optional<Part> first;
+    std::optional<ExrPart> first;
     Grid firstGrid;
-    const auto isTiled = [&](const Part& part) {
+    const auto isTiled = [&](const ExrPart& part) {
         // The type has a zero behind it where a program wrote that, too.
         return multiPart ? part.type.starts_with("tiledimage") : (version & tiledFlag) != 0;
     };
     for (int parts = 0; parts == 0 || multiPart; ++parts) {
-        Part part;
-        if (!readPart(in, part) && parts > 0)
+        ExrPart part;
+        if (!readExrPart(in, part) && parts > 0)
             break;
         if (parts == mostParts)
             throw Failure("it has more than " + std::to_string(mostParts) + " parts");

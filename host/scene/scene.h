@@ -141,7 +141,8 @@ constexpr double leastAmbientDistance = 1e-12, mostAmbientDistance = 1e12;
 constexpr double mostAperture = 1e12, leastFocus = 1e-12, mostFocus = 1e12;
 
 struct LoadOptions {
-    /// Pixels that one texture may have, at least 1 and at most mostTexturePixels; all together may have 16 times as many.
+    /// Pixels that one texture may have, at least 1 and at most mostTexturePixels; all together may have 16 times as
+    /// many.
     std::int64_t maxTexturePixels = std::int64_t { 1 } << 26;
 };
 constexpr std::int64_t mostTexturePixels = std::int64_t { 1 } << 30;
