@@ -17,7 +17,7 @@ build    pocl-opencl-icd         an OpenCL device that needs no GPU: PoCL on the
 build    libtbb-dev              oneTBB: builds the hierarchy in parallel
 build    libopenexr-dev          OpenEXR images with layers
 build    libpng-dev              PNG images
-build    libstb-dev              HDR images as references, JPEG and others as textures
+build    libjpeg62-turbo-dev     JPEG images as textures
 build    libtomlplusplus-dev     scene files, with line and column of every key
 build    libglm-dev              transforms of the scene
 build    libcli11-dev            the command line

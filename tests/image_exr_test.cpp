@@ -270,14 +270,13 @@ TEST_CASE("files that cannot be read give one line that says why")
 {
     const TempDirectory directory;
     const std::string path = directory / "a.exr";
-    CHECK(readError(path) == "cannot read EXR image (no such file): " + path + ": check the name");
-    CHECK(contains(readError(directory.path()), "it is a directory"));
+    CHECK(readError(path) == "EXR image not found: " + path + ": check the path");
+    CHECK(contains(readError(directory.path()), "EXR image is a folder"));
     writeBytes(path, "");
     CHECK(contains(readError(path), "it is empty"));
     writeBytes(path, "this is a text file, not an image, and long enough to hold a header of some kind");
     CHECK(readError(path)
-        == "cannot read EXR image (File is not an image file.): " + path
-            + ": check that the file is whole and of its type");
+        == "cannot read EXR image (it is no EXR): " + path + ": check that the file is whole and of its type");
 
     writeExr(path, layered(60, 50, { 0, 0, 60, 50 }));
     const std::string whole = readBytes(path);
@@ -301,7 +300,7 @@ TEST_CASE("no damaged byte crashes the reader")
     for (std::uint32_t i = 0; i < 400; ++i) {
         std::string damaged = whole;
         const auto at = static_cast<std::size_t>(hashed(i, 1, 0, 1) * 0.2 * static_cast<double>(whole.size()));
-        damaged[at] = static_cast<char>(hashed(i, 2, 0, 1) * 256.0);
+        damaged[at] = static_cast<char>(static_cast<int>(hashed(i, 2, 0, 1) * 256.0));
         writeBytes(path, damaged);
         refused += readError(path) != "no error";
     }
@@ -325,8 +324,8 @@ TEST_CASE("a header that claims a huge image takes no memory")
     };
     CHECK(contains(claiming(0x7ffffffe, 0), path));
     CHECK(contains(claiming(0x3fff, 0), path));
-    CHECK(contains(claiming(0x3fff, 20000), "it claims 16384x16384 pixels in "));
-    CHECK(contains(claiming(0x7fff, 40000), "image is too large (32768x32768 pixels, at most 268435456 are read)"));
+    CHECK(contains(claiming(0x3fff, 20000), "it has 16384x16384 pixels, at most 67108864 are read"));
+    CHECK(contains(claiming(0x7fff, 40000), "it has 32768x32768 pixels, at most 67108864 are read"));
 }
 
 TEST_CASE("an unknown extension is refused with those that are known")

@@ -152,8 +152,8 @@ TEST_CASE("PNG files that cannot be read give one line that says why")
 {
     const TempDirectory directory;
     const std::string path = directory / "a.png";
-    CHECK(readError(path) == "cannot read PNG image (no such file): " + path + ": check the name");
-    CHECK(contains(readError(directory.path()), "it is a directory"));
+    CHECK(readError(path) == "PNG image not found: " + path + ": check the path");
+    CHECK(contains(readError(directory.path()), "PNG image is a folder"));
     writeBytes(path, "");
     CHECK(contains(readError(path), "it is empty"));
     writeBytes(path, "not a picture at all");

@@ -22,7 +22,7 @@ struct Library {
 
 Library parse(const std::string& text)
 {
-    TextureSet textures;
+    TextureSet textures(std::int64_t { 1 } << 20);
     Warnings warnings;
     const std::vector<Material> materials = parseMtl(text, "m.mtl", textures, warnings);
     return { materials, warnings.lines() };

@@ -77,9 +77,10 @@ int compare(const CompareOptions& options)
     if (!options.errorMap.empty()) {
         checkErrorMap(options);
     }
-    const RgbImage a = image::readImage(options.image);
-    const RgbImage b = image::readImage(options.reference);
-    image::requireSameSize(a, b);
+    image::ImageFile imageFile(options.image), referenceFile(options.reference);
+    image::requireSameSize(imageFile, referenceFile);
+    const RgbImage a = imageFile.read();
+    const RgbImage b = referenceFile.read();
     nlohmann::ordered_json json;
     for (std::size_t i = 0; i < std::size(metrics); ++i) {
         if (options.metric && *options.metric != i) {

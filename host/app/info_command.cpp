@@ -30,10 +30,10 @@ struct Facts {
 };
 
 /// What a frame of the scene's own settings would take, asked without a device.
-Facts gather(const std::string& path, bvh::Mode mode)
+Facts gather(const std::string& path, bvh::Mode mode, const scene::LoadOptions& load)
 {
     Facts facts;
-    facts.scene = scene::loadScene(path);
+    facts.scene = scene::loadScene(path, load);
     facts.summary = scene::summary(facts.scene);
     facts.mode = mode;
     const render::Hierarchy hierarchy = render::buildHierarchy(facts.scene, mode);
@@ -108,9 +108,9 @@ void printText(const Facts& f)
     say("memory on the device at {}x{}\n{}", f.settings.width, f.settings.height, f.memory.table());
 }
 
-int info(const std::string& path, bool json, bvh::Mode mode)
+int info(const std::string& path, bool json, bvh::Mode mode, const scene::LoadOptions& load)
 {
-    const Facts facts = gather(path, mode);
+    const Facts facts = gather(path, mode, load);
     warnOf(facts.scene.warnings);
     json ? printJson(facts) : printText(facts);
     requireSaid();
@@ -133,7 +133,14 @@ void addInfoCommand(CLI::App& parser, Action& action)
     command->add_option_function<std::string>("--bvh", setMode, "How the hierarchy is built")
         ->type_name("fast|default|quality")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    command->callback([=, &action] { action = [=] { return info(*path, *json, *mode); }; });
+    const auto load = std::make_shared<scene::LoadOptions>();
+    const auto setPixels = [load](const std::string& text) {
+        load->maxTexturePixels = texturePixels("--max-texture-pixels", text);
+    };
+    command->add_option_function<std::string>("--max-texture-pixels", setPixels, "Refuse textures of more pixels")
+        ->type_name("N")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    command->callback([=, &action] { action = [=] { return info(*path, *json, *mode, *load); }; });
 }
 
 } // namespace wedge::app

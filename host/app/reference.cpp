@@ -24,17 +24,17 @@ image::RgbImage cut(const image::RgbImage& image, const image::Window& window)
 
 image::RgbImage readReference(const std::string& path, const render::Settings& settings)
 {
-    image::RgbImage image = image::readImage(path);
+    image::ImageFile file(path); // its size is known before it is decoded
     const image::Window& crop = settings.crop;
     const bool cropped = crop.width() > 0;
-    if (image.width == settings.width && image.height == settings.height) {
-        return cropped ? cut(image, crop) : image;
+    if (file.width() == settings.width && file.height() == settings.height) {
+        return cropped ? cut(file.read(), crop) : file.read();
     }
-    if (cropped && image.width == crop.width() && image.height == crop.height()) {
-        return image;
+    if (cropped && file.width() == crop.width() && file.height() == crop.height()) {
+        return file.read();
     }
     throw Error("reference " + path + " has another size than the image",
-        fmt::format("{}x{} and {}x{}", image.width, image.height, settings.width, settings.height),
+        fmt::format("{}x{} and {}x{}", file.width(), file.height(), settings.width, settings.height),
         "render with --size of the reference, or give another reference");
 }
 

@@ -131,7 +131,7 @@ void RenderJob::load()
 {
     const Clock::time_point start = Clock::now();
     progress_.show("reading " + options_.scene);
-    scene_ = scene::loadScene(options_.scene);
+    scene_ = scene::loadScene(options_.scene, options_.load);
     extras_.loadMilliseconds = millisecondsSince(start);
     progress_.clear();
     if (!options_.quiet) {

@@ -142,6 +142,9 @@ void addDeviceOptions(CLI::App& parser, RenderOptions& o)
         [&o](const std::string& text) {
             o.memoryLimitBytes = static_cast<std::uint64_t>(wholeNumber("--memory-limit", text, 1, 1 << 30)) << 20;
         });
+    addValue(parser, howGroup, "--max-texture-pixels", "N",
+        "Refuse textures of more pixels. Default: 67108864; all together may have 16 times as many",
+        [&o](const std::string& text) { o.load.maxTexturePixels = texturePixels("--max-texture-pixels", text); });
     addValue(parser, howGroup, "--kernel-dir", "DIR", "Kernels to use in place of the built-in ones",
         [&o](const std::string& text) { o.kernelDir = text; });
     parser

@@ -3,6 +3,7 @@
 #include "host/image/image.h"
 #include "host/render/hierarchy.h"
 #include "host/render/settings.h"
+#include "host/scene/scene.h"
 
 #include <cstdint>
 #include <optional>
@@ -39,6 +40,7 @@ struct RenderOptions {
     bool progressive = false;
     std::optional<double> targetError; ///< radiance
     std::uint64_t memoryLimitBytes = 0; ///< 0: the device's
+    scene::LoadOptions load;
     std::string kernelDir;
     std::optional<render::Traversal> traversal;
     std::optional<bvh::Mode> bvh;

@@ -99,6 +99,11 @@ std::string fileName(const std::string& option, const std::string& text)
     return text;
 }
 
+std::int64_t texturePixels(const std::string& option, const std::string& text)
+{
+    return wholeNumber(option, text, 1, scene::mostTexturePixels);
+}
+
 std::size_t choice(const std::string& option, const std::string& text, const std::vector<std::string>& choices)
 {
     const auto found = std::ranges::find(choices, text);

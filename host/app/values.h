@@ -27,6 +27,9 @@ image::Window cropWindow(const std::string& option, const std::string& text);
 /// The name of a file to write, and not "-", which elsewhere stands for the standard output.
 std::string fileName(const std::string& option, const std::string& text);
 
+/// Pixels of a texture, 1 to scene::mostTexturePixels.
+std::int64_t texturePixels(const std::string& option, const std::string& text);
+
 /// The names of bvh::Mode, in the order of its values.
 inline const std::vector<std::string> bvhModes = { "fast", "default", "quality" };
 

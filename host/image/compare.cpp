@@ -1,11 +1,13 @@
 #include "host/image/colour.h"
 #include "host/image/metrics.h"
+#include "host/image/read_image.h"
 
 #include "host/error.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 namespace wedge::image {
 
@@ -20,14 +22,28 @@ std::size_t countInvalidPixels(const RgbImage& image, const RgbImage& reference)
     return count;
 }
 
+namespace {
+
+void requireSame(std::pair<int, int> image, std::pair<int, int> reference)
+{
+    if (image != reference)
+        throw Error("image and reference differ in size",
+            fmt::format("{}x{} and {}x{}", image.first, image.second, reference.first, reference.second),
+            "compare images of one size");
+}
+
+} // namespace
+
 void requireSameSize(const RgbImage& image, const RgbImage& reference)
 {
     requireConsistent(image);
     requireConsistent(reference);
-    if (image.width != reference.width || image.height != reference.height)
-        throw Error("image and reference differ in size",
-            fmt::format("{}x{} and {}x{}", image.width, image.height, reference.width, reference.height),
-            "compare images of one size");
+    requireSame({ image.width, image.height }, { reference.width, reference.height });
+}
+
+void requireSameSize(const ImageFile& image, const ImageFile& reference)
+{
+    requireSame({ image.width(), image.height() }, { reference.width(), reference.height() });
 }
 
 Comparison compare(const RgbImage& image, const RgbImage& reference)

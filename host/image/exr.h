@@ -16,7 +16,8 @@ void writeExr(const std::string& path, const LayeredImage& image);
 /// Reads the first part of an EXR: scanline or tiled (the full resolution of a mip map), any compression, half, float
 /// and uint channels as floats, in alphabetical order. Coordinates are moved so that the display window starts at
 /// (0, 0). Attributes of the types of MetadataValue come back as metadata, those that describe the format itself do
-/// not. Throws Error for a file that is missing, not an EXR, truncated, damaged, too large, or has subsampled channels.
+/// not. Throws Error for a file that is missing, not an EXR, truncated, damaged, too large for its bytes, or has deep
+/// data or subsampled channels.
 LayeredImage readExr(const std::string& path);
 
 } // namespace wedge::image

@@ -1,8 +1,11 @@
 #include "host/image/exr.h"
 #include "host/image/exr_attributes.h"
-#include "host/image/input_checks.h"
+#include "host/image/exr_header.h"
+#include "host/image/readers.h"
 
-#include "host/error.h"
+#include "host/decode/failure.h"
+#include "host/decode/limits.h"
+#include "host/file.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFloatAttribute.h>
@@ -13,10 +16,41 @@
 #include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <algorithm>
+#include <optional>
+#include <stdexcept>
 
 namespace wedge::image {
 
 namespace {
+
+/// The file that was opened and checked; OpenEXR would open the name once more.
+class FileStream : public Imf::IStream {
+public:
+    explicit FileStream(const std::string& path)
+        : Imf::IStream(path.c_str())
+        , file_(openFile(path, "EXR image"))
+    {
+    }
+    std::uint64_t bytes() const { return file_.bytes; }
+
+    bool read(char to[], int count) override
+    {
+        const auto wanted = static_cast<std::size_t>(count);
+        if (count < 0 || std::fread(to, 1, wanted, file_.stream.get()) != wanted)
+            throw std::runtime_error("it ends before the picture does");
+        return tellg() < bytes();
+    }
+    std::uint64_t tellg() override { return static_cast<std::uint64_t>(ftello(file_.stream.get())); }
+    void seekg(std::uint64_t position) override
+    {
+        if (fseeko(file_.stream.get(), static_cast<off_t>(std::min(position, bytes())), SEEK_SET) != 0)
+            throw std::runtime_error("a place in it cannot be reached");
+    }
+    void clear() override { std::clearerr(file_.stream.get()); }
+
+private:
+    OpenFile file_;
+};
 
 std::map<std::string, MetadataValue> readMetadata(const Imf::Header& header)
 {
@@ -41,62 +75,101 @@ std::map<std::string, MetadataValue> readMetadata(const Imf::Header& header)
     return metadata;
 }
 
-void requireSize(const std::string& path, const Imf::Header& header)
-{
-    // Wide integers, because a damaged file may name any corner.
-    const Imath::Box2i data = header.dataWindow();
-    const Imath::Box2i display = header.displayWindow();
-    int channels = 0;
-    for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
-        ++channels;
-        if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
-            throw Error(
-                std::string("EXR channel ") + it.name() + " is subsampled", path, "convert the image to R, G and B");
+class ExrImage : public ImageFile::Reader {
+public:
+    explicit ExrImage(const std::string& path)
+        : path_(path)
+        , stream_(path)
+    {
     }
-    requireDecodable(
-        path, std::int64_t { data.max.x } - data.min.x + 1, std::int64_t { data.max.y } - data.min.y + 1, 4 * channels);
-    requireDecodable(path, std::int64_t { display.max.x } - display.min.x + 1,
-        std::int64_t { display.max.y } - display.min.y + 1, 1);
-}
 
-LayeredImage read(const std::string& path)
-{
-    Imf::InputFile file(path.c_str());
-    const Imf::Header& header = file.header();
-    requireSize(path, header);
-    const Imath::Box2i data = header.dataWindow();
-    const Imath::Box2i display = header.displayWindow();
-    LayeredImage image;
-    image.width = display.max.x - display.min.x + 1;
-    image.height = display.max.y - display.min.y + 1;
-    image.window = { data.min.x - display.min.x, data.min.y - display.min.y, data.max.x - display.min.x + 1,
-        data.max.y - display.min.y + 1 };
-    image.metadata = readMetadata(header);
-    const std::size_t pixels = static_cast<std::size_t>(image.window.width()) * image.window.height();
-    for (auto it = header.channels().begin(); it != header.channels().end(); ++it)
-        image.channels.push_back({ it.name(), std::vector<float>(pixels), it.channel().type == Imf::UINT });
-    Imf::FrameBuffer frame;
-    for (Channel& channel : image.channels) // half and uint are converted to float by OpenEXR
-        frame.insert(channel.name, Imf::Slice::Make(Imf::FLOAT, channel.values.data(), data));
-    file.setFrameBuffer(frame);
-    file.readPixels(data.min.y, data.max.y);
-    return image;
-}
+    std::pair<int, int> open() override
+    {
+        checkExrHeaders(stream_, stream_.bytes());
+        file_.emplace(stream_);
+        const Imath::Box2i data = file_->header().dataWindow();
+        const Imath::Box2i display = file_->header().displayWindow();
+        layout_.width = display.max.x - display.min.x + 1;
+        layout_.height = display.max.y - display.min.y + 1;
+        layout_.window = { data.min.x - display.min.x, data.min.y - display.min.y, data.max.x - display.min.x + 1,
+            data.max.y - display.min.y + 1 };
+        const Imf::ChannelList& channels = file_->header().channels();
+        for (auto it = channels.begin(); it != channels.end(); ++it) {
+            if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
+                throw decode::Failure(
+                    std::string("its channel ") + it.name() + " is subsampled", "convert the image to R, G and B");
+            layout_.channels.push_back({ it.name(), {}, it.channel().type == Imf::UINT });
+        }
+        return { layout_.window.width(), layout_.window.height() };
+    }
+
+    /// The root colour; other channels are passed over.
+    RgbImage read() override
+    {
+        const auto channels = beautyChannels(layout_, path_);
+        const bool gray = channels[0] == channels[1];
+        RgbImage image { layout_.window.width(), layout_.window.height(), {} };
+        image.rgb.resize(3 * pixels());
+        const std::size_t pixelBytes = 3 * sizeof(float);
+        Imf::FrameBuffer frame;
+        for (std::size_t c = 0; c < (gray ? 1 : 3); ++c)
+            frame.insert(channels[c]->name,
+                Imf::Slice::Make(Imf::FLOAT, image.rgb.data() + c, dataWindow(), pixelBytes,
+                    pixelBytes * static_cast<std::size_t>(image.width)));
+        readPixels(frame);
+        for (std::size_t i = 0; gray && i < image.rgb.size(); i += 3)
+            image.rgb[i + 1] = image.rgb[i + 2] = image.rgb[i];
+        return image;
+    }
+
+    LayeredImage readAll()
+    {
+        constexpr std::size_t modest = std::size_t { 1 } << 26, perByte = 256;
+        const std::size_t values = pixels() * layout_.channels.size();
+        if (values > modest && values / perByte > stream_.bytes())
+            throw decode::Failure("it has " + std::to_string(layout_.channels.size()) + " channels of "
+                + std::to_string(pixels()) + " pixels in " + std::to_string(stream_.bytes()) + " bytes");
+        LayeredImage image = layout_;
+        image.metadata = readMetadata(file_->header());
+        Imf::FrameBuffer frame;
+        for (Channel& channel : image.channels) { // half and uint are converted to float by OpenEXR
+            channel.values.resize(pixels());
+            frame.insert(channel.name, Imf::Slice::Make(Imf::FLOAT, channel.values.data(), dataWindow()));
+        }
+        readPixels(frame);
+        return image;
+    }
+
+private:
+    std::size_t pixels() const
+    {
+        return static_cast<std::size_t>(layout_.window.width()) * static_cast<std::size_t>(layout_.window.height());
+    }
+    Imath::Box2i dataWindow() const { return file_->header().dataWindow(); }
+    void readPixels(const Imf::FrameBuffer& frame)
+    {
+        file_->setFrameBuffer(frame);
+        file_->readPixels(dataWindow().min.y, dataWindow().max.y);
+    }
+
+    std::string path_;
+    FileStream stream_;
+    std::optional<Imf::InputFile> file_;
+    LayeredImage layout_; // all but values and metadata
+};
 
 } // namespace
 
+std::unique_ptr<ImageFile::Reader> exrReader(const std::string& path) { return std::make_unique<ExrImage>(path); }
+
 LayeredImage readExr(const std::string& path)
 {
-    requireReadableFile(path, "EXR image");
     try {
-        return read(path);
-    } catch (const Error&) {
-        throw;
+        ExrImage image(path);
+        image.open();
+        return image.readAll();
     } catch (const std::exception& error) {
-        // OpenEXR names the file as well, which the user need not read twice.
-        const std::string reason = error.what();
-        const std::size_t named = reason.find(path + "\". ");
-        failToRead(path, "EXR image", named == std::string::npos ? reason : reason.substr(named + path.size() + 3));
+        failToRead(path, "EXR image", error);
     }
 }
 

@@ -25,18 +25,23 @@ const Channel* LayeredImage::find(std::string_view name) const
     return found == channels.end() ? nullptr : &*found;
 }
 
-RgbImage beauty(const LayeredImage& image, const std::string& name)
+std::array<const Channel*, 3> beautyChannels(const LayeredImage& image, const std::string& name)
 {
     const Channel* gray = image.find("Y");
     const Channel* red = image.find("R");
     const Channel* green = image.find("G");
     const Channel* blue = image.find("B");
-    if (!(red && green && blue)) {
-        if (red || green || blue || !gray)
-            throw Error(name + " has no colour at its root, its channels are", listOfChannels(image),
-                "use an image with the channels R, G and B");
-        red = green = blue = gray;
-    }
+    if (red && green && blue)
+        return { red, green, blue };
+    if (red || green || blue || !gray)
+        throw Error(name + " has no colour at its root, its channels are", listOfChannels(image),
+            "use an image with the channels R, G and B");
+    return { gray, gray, gray };
+}
+
+RgbImage beauty(const LayeredImage& image, const std::string& name)
+{
+    const auto [red, green, blue] = beautyChannels(image, name);
     RgbImage result { image.window.width(), image.window.height(), {} };
     result.rgb.reserve(red->values.size() * 3);
     for (std::size_t i = 0; i < red->values.size(); ++i) {

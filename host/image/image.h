@@ -55,8 +55,12 @@ struct RgbImage {
     std::vector<float> rgb;
 };
 
-/// The root colour of the image over its data window: channels R, G and B, or Y alone as a gray.
+/// The channels that are the root colour: R, G and B, or Y three times.
 /// Throws Error, which calls the image by the name given, where it has neither.
+std::array<const Channel*, 3> beautyChannels(const LayeredImage& image, const std::string& name);
+
+/// The root colour of the image over its data window: channels R, G and B, or Y alone as a gray.
+/// Throws Error as beautyChannels.
 RgbImage beauty(const LayeredImage& image, const std::string& name = "image");
 
 } // namespace wedge::image

@@ -7,6 +7,8 @@
 
 namespace wedge::image {
 
+class ImageFile;
+
 /// All metrics take linear images of one size, the image first and the reference second, and throw Error with both
 /// sizes where these differ. A pixel with a NaN or infinite channel in either image is invalid: rmse, relMse and psnr
 /// leave it out (and are NaN where no pixel is left), while ssim and flip, which look at neighbourhoods, see it as a
@@ -61,5 +63,8 @@ std::size_t countInvalidPixels(const RgbImage& image, const RgbImage& reference)
 
 /// Throws Error with both sizes where they differ, and std::logic_error where an image is empty or contradicts itself.
 void requireSameSize(const RgbImage& image, const RgbImage& reference);
+
+/// The same for files of which the headers have been read.
+void requireSameSize(const ImageFile& image, const ImageFile& reference);
 
 } // namespace wedge::image

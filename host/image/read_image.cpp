@@ -1,54 +1,103 @@
 #include "host/image/read_image.h"
 
-#include "host/image/exr.h"
-#include "host/image/input_checks.h"
-#include "host/image/png.h"
+#include "host/image/readers.h"
 
+#include "host/decode/hdr.h"
 #include "host/error.h"
+#include "host/file.h"
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <memory>
-#include <stb/stb_image.h>
+#include <optional>
 
 namespace wedge::image {
 
 namespace {
 
-RgbImage readHdr(const std::string& path)
-{
-    requireReadableFile(path, "HDR image");
-    if (!stbi_is_hdr(path.c_str()))
-        failToRead(path, "HDR image", "it is not Radiance HDR");
-    int width = 0;
-    int height = 0;
-    int channels = 0;
-    if (!stbi_info(path.c_str(), &width, &height, &channels))
-        failToRead(path, "HDR image", stbi_failure_reason());
-    requireDecodable(path, width, height, 12);
-    const std::unique_ptr<float, decltype(&stbi_image_free)> data(
-        stbi_loadf(path.c_str(), &width, &height, &channels, 3), stbi_image_free);
-    if (!data)
-        failToRead(path, "HDR image", stbi_failure_reason());
-    const std::size_t count = static_cast<std::size_t>(width) * height * 3;
-    return { width, height, std::vector<float>(data.get(), data.get() + count) };
-}
+class HdrImage : public ImageFile::Reader {
+public:
+    explicit HdrImage(const std::string& path)
+        : bytes_(readFile(path, "HDR image", maxImageFile))
+    {
+    }
+
+    std::pair<int, int> open() override
+    {
+        hdr_.emplace(decode::bytesOf(bytes_));
+        decode::referenceLimits.admit(hdr_->size(), bytes_.size());
+        return { hdr_->size().width, hdr_->size().height };
+    }
+
+    RgbImage read() override
+    {
+        const decode::Size size = hdr_->size();
+        RgbImage image { size.width, size.height, {} };
+        image.rgb.reserve(static_cast<std::size_t>(size.pixels()) * 3);
+        hdr_->readRows([&](int, std::span<const decode::Rgbe> pixels) {
+            for (const decode::Rgbe& p : pixels) {
+                for (std::size_t c = 0; c < 3; ++c)
+                    image.rgb.push_back(decode::hdrValue(p[c], p[3]));
+            }
+        });
+        return image;
+    }
+
+private:
+    std::string bytes_;
+    std::optional<decode::HdrReader> hdr_;
+};
 
 } // namespace
 
-RgbImage readImage(const std::string& path)
+void failToRead(const std::string& path, const std::string& kind, const std::exception& reason)
+{
+    if (const auto* error = dynamic_cast<const Error*>(&reason))
+        throw Error(*error);
+    std::string line = reason.what();
+    // OpenEXR names the file as well, which the user need not read twice.
+    const std::size_t named = line.find(path + "\". ");
+    if (named != std::string::npos)
+        line.erase(0, named + path.size() + 3);
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    const auto* failure = dynamic_cast<const decode::Failure*>(&reason);
+    throw Error("cannot read " + kind + " (" + line + ")", path,
+        failure ? failure->remedy() : "check that the file is whole and of its type");
+}
+
+ImageFile::ImageFile(const std::string& path)
+    : path_(path)
 {
     std::string extension = std::filesystem::path(path).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
         [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-    if (extension == ".exr")
-        return beauty(readExr(path), path);
-    if (extension == ".png")
-        return readPng(path);
-    if (extension == ".hdr")
-        return readHdr(path);
-    throw Error("image file of unknown format", path, "use .exr, .png or .hdr");
+    if (extension != ".exr" && extension != ".png" && extension != ".hdr")
+        throw Error("image file of unknown format", path, "use .exr, .png or .hdr");
+    kind_ = extension == ".exr" ? "EXR image" : extension == ".png" ? "PNG image" : "HDR image";
+    try {
+        if (extension == ".exr")
+            reader_ = exrReader(path);
+        else if (extension == ".png")
+            reader_ = pngReader(path);
+        else
+            reader_ = std::make_unique<HdrImage>(path);
+        std::tie(width_, height_) = reader_->open();
+    } catch (const std::exception& error) {
+        failToRead(path, kind_, error);
+    }
 }
+
+ImageFile::~ImageFile() = default;
+
+RgbImage ImageFile::read()
+{
+    try {
+        return reader_->read();
+    } catch (const std::exception& error) {
+        failToRead(path_, kind_, error);
+    }
+}
+
+RgbImage readImage(const std::string& path) { return ImageFile(path).read(); }
 
 } // namespace wedge::image

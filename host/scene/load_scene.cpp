@@ -20,10 +20,11 @@ namespace {
 
 constexpr std::uintmax_t maxSceneFile = std::uintmax_t { 64 } << 20;
 
-void readSceneText(const std::string& text, const std::filesystem::path& path, Scene& scene, Warnings& warnings)
+void readSceneText(const std::string& text, const std::filesystem::path& path, const LoadOptions& options, Scene& scene,
+    Warnings& warnings)
 {
     const toml::table document = parseToml(text, path);
-    TextureSet textures;
+    TextureSet textures(options.maxTexturePixels);
     TableReader root(document, path, "the scene");
     readImage(root, scene);
     readIntegrator(root, scene);
@@ -40,9 +41,9 @@ void readSceneText(const std::string& text, const std::filesystem::path& path, S
     scene.textures = textures.take();
 }
 
-void loadBareMesh(const std::filesystem::path& path, Scene& scene, Warnings& warnings)
+void loadBareMesh(const std::filesystem::path& path, const LoadOptions& options, Scene& scene, Warnings& warnings)
 {
-    TextureSet textures;
+    TextureSet textures(options.maxTexturePixels);
     const std::string where = "mesh file " + path.string();
     const Mesh mesh = readObj(path, textures, warnings);
     if (mesh.flat == mesh.triangles())
@@ -64,22 +65,22 @@ Scene parseScene(const std::string& text, const std::filesystem::path& path)
     Scene scene;
     Warnings warnings;
     scene.path = path.string();
-    readSceneText(text, path, scene, warnings);
+    readSceneText(text, path, LoadOptions(), scene, warnings);
     checkScene(scene, warnings);
     scene.warnings = warnings.lines();
     return scene;
 }
 
-Scene loadScene(const std::string& path)
+Scene loadScene(const std::string& path, const LoadOptions& options)
 {
     Scene scene;
     Warnings warnings;
     scene.path = path;
     const std::string extension = lowerExtension(path);
     if (extension == ".toml")
-        readSceneText(readFile(path, "scene file", maxSceneFile), path, scene, warnings);
+        readSceneText(readFile(path, "scene file", maxSceneFile), path, options, scene, warnings);
     else if (extension == ".obj")
-        loadBareMesh(path, scene, warnings);
+        loadBareMesh(path, options, scene, warnings);
     else
         throw Error("scene has an unknown format", path, "name a scene file (.toml) or a mesh (.obj)");
     checkScene(scene, warnings);

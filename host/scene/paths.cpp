@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
 
 #include <fmt/format.h>
 
@@ -42,30 +39,6 @@ fs::path resolvePath(const std::string& text, const fs::path& folder, const std:
     std::replace(expanded.begin(), expanded.end(), '\\', '/');
     const fs::path path(expanded);
     return path.is_absolute() ? path : (folder / path).lexically_normal();
-}
-
-std::string readFile(const fs::path& path, const std::string& kind, std::uintmax_t limit)
-{
-    std::error_code code;
-    const fs::file_status status = fs::status(path, code);
-    if (!fs::exists(status))
-        throw Error(kind + " not found", path.string(), "check the path");
-    if (fs::is_directory(status))
-        throw Error(kind + " is a folder", path.string(), "name a file in it");
-    if (!fs::is_regular_file(status))
-        throw Error(kind + " is not a regular file", path.string(), "copy it to a regular file first");
-    const std::uintmax_t size = fs::file_size(path, code);
-    if (!code && size > limit)
-        throw Error(kind + " is larger than " + std::to_string(limit) + " bytes",
-            fmt::format("{} ({} bytes)", path.string(), size), "split it or simplify it");
-    std::ifstream stream(path, std::ios::binary);
-    std::string text(code ? 0 : static_cast<std::size_t>(size), '\0');
-    if (stream)
-        stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (code || !stream)
-        throw Error(kind + " cannot be read", fmt::format("{} ({})", path.string(), std::strerror(errno)),
-            "check its permissions");
-    return text;
 }
 
 std::string lowerCase(std::string text)

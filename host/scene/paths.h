@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "host/file.h"
+
 namespace wedge::scene {
 
 /// text with every ${NAME} replaced by that environment variable. Throws Error where one is unset or a brace is
@@ -12,10 +14,6 @@ std::string expandVariables(const std::string& text, const std::string& where);
 /// Expands variables, turns backslashes into slashes and makes the path relative to `folder` where it is not absolute.
 std::filesystem::path resolvePath(
     const std::string& text, const std::filesystem::path& folder, const std::string& where);
-
-/// The whole of a file. Throws Error when it is missing, a folder, unreadable or larger than `limit` bytes; `kind`
-/// ("mesh file") names it in the message.
-std::string readFile(const std::filesystem::path& path, const std::string& kind, std::uintmax_t limit);
 
 /// The file's extension in lower case, with its dot.
 std::string lowerExtension(const std::filesystem::path& path);

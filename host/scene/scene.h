@@ -140,9 +140,16 @@ constexpr double leastAmbientDistance = 1e-12, mostAmbientDistance = 1e12;
 /// Metres: a lens has a radius of at most this, and a distance in focus from least to most.
 constexpr double mostAperture = 1e12, leastFocus = 1e-12, mostFocus = 1e12;
 
+struct LoadOptions {
+    /// Pixels that one texture may have, at least 1 and at most mostTexturePixels; all together may have 16 times as
+    /// many.
+    std::int64_t maxTexturePixels = std::int64_t { 1 } << 26;
+};
+constexpr std::int64_t mostTexturePixels = std::int64_t { 1 } << 30;
+
 /// Reads a scene file (.toml, docs/scene-format.md) or a bare mesh (.obj), which gets a camera that frames it, an
 /// area light above and a floor. Throws Error naming file, line and value for anything that cannot be rendered.
-Scene loadScene(const std::string& path);
+Scene loadScene(const std::string& path, const LoadOptions& options = {});
 
 /// Whether anything that can be hit moves while the shutter is open.
 inline bool geometryMoves(const Scene& scene) { return !scene.geometry.positionsAtClose.empty(); }

@@ -1,29 +1,40 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "host/error.h"
 #include "host/scene/scene.h"
 
 namespace wedge::scene {
 
-/// Decodes an 8-bit image (PNG, JPEG, TGA, BMP, ...) with row 0 at the bottom. Throws Error when the file is missing,
-/// not an image, or has a side of more than 32768 pixels.
-Texture readTexture(const std::filesystem::path& path);
-
-/// The textures of a scene, each file once.
+/// The textures of a scene, each file once. What they may take together is bounded: 16 times what one image may have,
+/// and beyond what one may have 64 pixels a byte of their files, so that many small files do not add up to gigabytes.
 class TextureSet {
 public:
-    /// The index of the file's texture in textures(). Throws as readTexture.
+    /// maxPixels: of one image.
+    explicit TextureSet(std::int64_t maxPixels)
+        : maxPixels_(maxPixels)
+    {
+    }
+
+    /// The index in take() of a file's texture: PNG, JPEG, BMP, TGA or Radiance HDR. Throws Error when it is missing,
+    /// no regular file, no image, damaged, or beyond the limits; for the same file again without reading it again.
     int add(const std::filesystem::path& path);
 
     std::vector<Texture> take() { return std::move(textures_); }
 
 private:
+    Texture read(const std::filesystem::path& path);
+
+    std::int64_t maxPixels_;
+    std::int64_t pixels_ = 0, bytes_ = 0; ///< of all textures and of their files
     std::vector<Texture> textures_;
-    std::map<std::string, int> indices_;
+    std::map<std::string, std::variant<int, Error>> known_; ///< by path, without links
 };
 
 } // namespace wedge::scene

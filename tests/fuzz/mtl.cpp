@@ -11,7 +11,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
-    wedge::scene::TextureSet textures;
+    wedge::scene::TextureSet textures(1 << 16);
     wedge::scene::Warnings warnings;
     try {
         for (const wedge::scene::Material& material :

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "host/decode/bytes.h"
+#include "host/decode/picture.h"
+
+namespace wedge::decode {
+
+/// Whether the bytes begin with a header of this format that does not contradict itself; it has no signature.
+bool isTga(Bytes bytes);
+
+/// Truevision TGA: colour-mapped, true-colour and grey (8 bits, or 16 with alpha), plain and run-length coded, 15, 16
+/// (five bits a channel, the sixteenth is ignored), 24 and 32 bits (with alpha), from any corner.
+/// Throws Failure for all else, beyond the limits, and where data are missing.
+Picture decodeTga(Bytes bytes, const Limits& limits);
+
+} // namespace wedge::decode

@@ -1,0 +1,67 @@
+// Image files that the command line and scenes name: limits, sizes before pixels, and files that never end.
+#include "tests/app_testing.h"
+
+#include <sys/stat.h>
+
+using namespace wedge;
+using namespace wedge::app::test;
+
+namespace {
+
+const std::string scene =
+    "[[mesh]]\nfile = \"m.obj\"\nmaterial = \"a\"\n[[material]]\nname = \"a\"\ndiffuse_texture = \"t\"\n";
+const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 0 -1\nf 1 2 3\n";
+
+/// A flat bitmap of 2x2 pixels.
+const std::string bitmap("BM\0\0\0\0\0\0\0\0\x1a\0\0\0\x0c\0\0\0\2\0\2\0\1\0\x18\0abcdef\0\0abcdef\0\0", 42);
+
+/// Radiance of that size without a pixel.
+std::string hdr(int width, int height)
+{
+    return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X " + std::to_string(width) + "\n";
+}
+
+} // namespace
+
+TEST_CASE("--max-texture-pixels")
+{
+    const Workplace place;
+    place.write("s.toml", scene);
+    place.write("m.obj", mesh);
+    place.write("t", bitmap);
+    CHECK(place.run({ "info", "s.toml" }).status == 0);
+    CHECK(place.run({ "info", "s.toml", "--max-texture-pixels", "4" }).status == 0);
+    for (const char* command : { "info", "render" }) {
+        checkRefused(place, { command, "s.toml", "--max-texture-pixels", "3" }, failure, "raise --max-texture-pixels");
+        for (const char* bad : { "0", "-1", "1073741825", "2e6", "" })
+            checkRefused(place, { command, "s.toml", "--max-texture-pixels", bad }, wrongCall, "from 1 to 1073741824");
+    }
+}
+
+TEST_CASE("sizes are compared before pixels are decoded")
+{
+    const Workplace place;
+    place.write("m.obj", mesh);
+    place.write("a.hdr", hdr(20, 10));
+    place.write("b.hdr", hdr(10, 20));
+    checkRefused(place, { "compare", "a.hdr", "b.hdr" }, failure, "20x10 and 10x20");
+    checkRefused(place, { "compare", "a.hdr", "a.hdr" }, failure, "it ends before the picture does");
+    checkRefused(
+        place, { "render", "m.obj", "--quiet", "--size", "30x30", "--reference", "a.hdr" }, failure, "20x10 and 30x30");
+    checkRefused(
+        place, { "render", "m.obj", "--quiet", "--size", "20x10", "--reference", "a.hdr" }, failure, "it ends before");
+}
+
+TEST_CASE("a file that never ends is no image")
+{
+    const Workplace place;
+    place.write("s.toml", scene);
+    place.write("m.obj", mesh);
+    for (const char* name : { "t", "a.png", "a.exr", "a.hdr" })
+        REQUIRE(mkfifo((place.path() / name).c_str(), 0600) == 0);
+    checkRefused(place, { "info", "s.toml" }, failure, "not a regular file");
+    for (const char* name : { "a.png", "a.exr", "a.hdr" }) {
+        checkRefused(place, { "compare", name, name }, failure, "not a regular file");
+        checkRefused(place, { "render", "m.obj", "--quiet", "--reference", name }, failure, "not a regular file");
+    }
+}
