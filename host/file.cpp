@@ -57,6 +57,9 @@ std::string readFile(const std::filesystem::path& path, const std::string& kind,
     errno = 0;
     if (std::fread(text.data(), 1, text.size(), file.stream.get()) != text.size())
         failToRead(path, kind, errno != 0 ? errno : EIO);
+    // What the system makes up as it is read has no size of its own, and would be taken for empty.
+    if (std::fgetc(file.stream.get()) != EOF || std::ferror(file.stream.get()) != 0)
+        throw Error(kind + " is longer than the system says", path.string(), "copy it to a regular file first");
     return text;
 }
 

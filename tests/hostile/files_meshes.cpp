@@ -80,7 +80,7 @@ Rows lengths()
         fine("20,000 materials that are missing", three + numbered("usemtl m", 20'000, "\nf 1 2 3\n"), "not found"),
         fine(
             "one material that is missing, 20,000 times", three + repeated("usemtl m\nf 1 2 3\n", 20'000), "not found"),
-        fine("20,000 libraries that are missing", numbered("mtllib m", 20'000, ".mtl\n") + triangle),
+        fine("900 libraries that are missing", numbered("mtllib m", 900, ".mtl\n") + triangle, "more"),
         fine("20,000 groups", three + numbered("g g", 20'000, "\nf 1 2 3\n")),
         fine("20,000 objects", three + numbered("o o", 20'000, "\nf 1 2 3\n")),
         fine("20,000 faces of two corners", three + repeated("f 1 2\n", 20'000) + "f 1 2 3\n"),
