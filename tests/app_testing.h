@@ -15,6 +15,7 @@
 #include <functional>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -145,10 +146,10 @@ inline void waitUntilRendering(const Workplace& place, pid_t process)
 }
 
 /// The values of a channel that has to be there.
-inline const std::vector<float>& values(const image::LayeredImage& image, const std::string& channel)
+inline const std::vector<float>& values(const image::LayeredImage& image, std::string_view channel)
 {
     const image::Channel* found = image.find(channel);
-    INFO("channel ", channel);
+    INFO("channel ", std::string(channel));
     REQUIRE(found != nullptr);
     return found->values;
 }
