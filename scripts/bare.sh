@@ -38,13 +38,14 @@ cleanUp() {
 trap cleanUp EXIT
 
 # The packages come from where this system's own come, a mirror or a proxy included.
-mirror=$(apt-get indextargets --format '$(REPO_URI)' 2>/dev/null | grep -v security | sort | uniq -c | sort -rn | awk 'NR == 1 { print $2 }')
-if [ ! -e "$root/etc/debian_version" ]; then
+mirror=$(apt-get indextargets --format '$(REPO_URI)' 2>/dev/null | grep -v security | sort | uniq -c | sort -rn | awk 'NR == 1 { print $2 }') || mirror=
+if [ ! -e "$root/bare.complete" ]; then # what an interrupted call left is no system
     echo "== building $suite in $root"
     mkdir -p "$root"
     debootstrap --variant=minbase "$suite" "$root" ${mirror:+"$mirror"} >"$root.log" 2>&1 ||
         fail "debootstrap failed: $(tail -n 1 "$root.log"): see $root.log"
     rm -f "$root.log"
+    touch "$root/bare.complete"
 fi
 [ ! -e /etc/resolv.conf ] || cp /etc/resolv.conf "$root/etc/resolv.conf"
 [ ! -d /etc/apt/apt.conf.d ] || cp -r /etc/apt/apt.conf.d/. "$root/etc/apt/apt.conf.d/"

@@ -47,14 +47,20 @@ TEST_CASE("formats that are not read are named")
 TEST_CASE("limits: of a side, of pixels, of pixels a byte, and of all textures together")
 {
     const Limits limits;
-    CHECK(admission({ 4096, 4096 }, 0, limits) == "");
-    CHECK(admission({ 4097, 4096 }, 4096 * 4097 / 1100 - 1, limits) == "it claims 4097x4096 pixels in 15254 bytes");
-    CHECK(admission({ 4097, 4096 }, 4096 * 4097 / 1100, limits) == "");
+    CHECK(admission({ 4096, 2048 }, 0, limits) == "");
+    CHECK(admission({ 4097, 2048 }, 2048 * 4097 / 1100 - 1, limits) == "it claims 4097x2048 pixels in 7626 bytes");
+    CHECK(admission({ 4097, 2048 }, 2048 * 4097 / 1100, limits) == "");
     // A picture of one colour packs 1032 : 1 at the best.
-    CHECK(admission({ 5792, 5792 }, 5792 * 5792 / 1032, limits) == "");
+    CHECK(admission({ 4096, 4096 }, 4096 * 4096 / 1032, limits) == "");
+    CHECK(admission({ 4097, 4096 }, 4096 * 4097 / 1032, limits) != "");
     CHECK(admission({ 8192, 8192 }, 8192 * 8192 / 32, limits) == "");
     CHECK(admission({ 8192, 8192 }, 8192 * 8192 / 32 - 1, limits) == "it claims 8192x8192 pixels in 2097151 bytes");
     CHECK(admission({ 8192, 8192 }, 8192 * 8192 / 1032, { .unquestioned = 1 << 25 }) == "");
+    // Images that are measured cost more.
+    CHECK(admission({ 2048, 1024 }, 0, wedge::decode::referenceLimits) == "");
+    CHECK(admission({ 2048, 2048 }, 600, wedge::decode::referenceLimits) != "");
+    CHECK(admission({ 2896, 2896 }, 2'000'000, wedge::decode::referenceLimits) != "");
+    CHECK(admission({ 2896, 2896 }, 2'100'000, wedge::decode::referenceLimits) == "");
     CHECK(admission({ 8193, 8192 }, 1 << 30, limits) == "it has 8193x8192 pixels, at most 67108864 are read");
     CHECK(admission({ 32769, 1 }, 1 << 30, limits) == "it has 32769x1 pixels, at most 32768 a side are read");
     CHECK(admission({ 0, 5 }, 100, limits) == "it has 0x5 pixels");

@@ -59,6 +59,9 @@ public:
         REQUIRE(::pipe(ready) == 0);
         process_ = ::fork();
         if (process_ == 0) {
+            for (const int signal : { SIGINT, SIGTERM, SIGHUP }) {
+                ::signal(signal, SIG_DFL); // the test's own are not the program's
+            }
             DriverCache cache(root);
             const DriverCache::Mark mark(cache);
             (void)!::write(ready[1], "x", 1);
@@ -75,10 +78,10 @@ public:
     Other(const Other&) = delete;
     Other& operator=(const Other&) = delete;
 
-    void die()
+    void die(int signal = SIGKILL)
     {
         if (process_ > 0) {
-            ::kill(process_, SIGKILL);
+            ::kill(process_, signal);
             ::waitpid(process_, nullptr, 0);
             process_ = 0;
         }
@@ -132,6 +135,19 @@ TEST_CASE("a cache that another process works in is left alone until that ends")
     alive.die();
     CHECK(folder.start() != "");
     CHECK_FALSE(fs::exists(folder.file()));
+}
+
+TEST_CASE("a process that the user ended takes its mark along")
+{
+    const CacheFolder folder;
+    for (const int signal : { SIGINT, SIGTERM, SIGHUP }) {
+        Other other(folder.root());
+        CHECK(folder.marks() == 1);
+        other.die(signal);
+        CHECK(folder.marks() == 0);
+    }
+    CHECK(folder.start() == "");
+    CHECK(fs::exists(folder.file()));
 }
 
 TEST_CASE("a folder that the user chose is named and left alone")

@@ -160,7 +160,7 @@ TEST_CASE("EXR: sizes are held against the file")
     CHECK(contains(refusal({ .width = 0 }), "it has 0x2 pixels"));
     CHECK(contains(refusal({ .width = 0x80000000 }), "window is out of range"));
     CHECK(contains(
-        refusal({ .width = 2000, .height = 2000, .channelCount = 100 }), "it claims 100 channels of 2000x2000 pixels"));
+        refusal({ .width = 1400, .height = 1400, .channelCount = 200 }), "it claims 200 channels of 1400x1400 pixels"));
     CHECK(contains(refusal({ .channelCount = 1025 }), "it has more than 1024 channels"));
     CHECK(contains(refusal({ .channelCount = 0 }), "its header is not complete"));
     CHECK(contains(refusal({ .width = 65536, .height = 16, .compression = 9 }), "its chunks or tiles are too large"));

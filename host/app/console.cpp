@@ -53,13 +53,8 @@ void complain(std::string_view text) { line("wedge: error: ", text); }
 
 void warnOf(const std::vector<std::string>& warnings)
 {
-    constexpr std::size_t most = 40; // more than a screen full nobody reads
-    const std::size_t said = warnings.size() > most ? most - 1 : warnings.size();
-    for (std::size_t i = 0; i < said; ++i) {
-        warn(warnings[i]);
-    }
-    if (said < warnings.size()) {
-        warn(fmt::format("{} more warnings", warnings.size() - said));
+    for (const std::string& warning : warnings) {
+        warn(warning);
     }
 }
 

@@ -29,7 +29,7 @@ void say(fmt::format_string<Args...> format, Args&&... args)
 void warn(std::string_view text);
 void complain(std::string_view text);
 
-/// What there is to warn of in a scene; of very many warnings the first, and how many more there are.
+/// What there is to warn of in a scene, which has at most ten of a kind.
 void warnOf(const std::vector<std::string>& warnings);
 
 /// Throws Error if anything that went to stdout did not arrive.

@@ -1,6 +1,7 @@
 #include "host/app/commands.h"
 #include "host/app/console.h"
 #include "host/device/device.h"
+#include "host/device/driver_cache.h"
 #include "host/device/memory_plan.h"
 #include "host/error.h"
 
@@ -34,7 +35,7 @@ void print(const DeviceInfo& d)
     say("   {} compute units, {} memory, {} at once, work-groups of {}\n", d.computeUnits,
         device::mebibytes(d.globalMemory), device::mebibytes(d.maxAllocation), d.maxWorkGroup);
     for (const std::string& quirk : d.quirks) {
-        fmt::print("   quirk: {}\n", quirk);
+        say("   quirk: {}\n", printable(quirk));
     }
     if (!d.unusable.empty()) {
         say("   unusable: {}\n", d.unusable);
@@ -44,6 +45,9 @@ void print(const DeviceInfo& d)
 int listDevices(bool json)
 {
     const std::vector<DeviceInfo> devices = device::listDevices();
+    if (const std::string& notice = device::DriverCache::ofProcess().notice(); !notice.empty()) {
+        warn(notice);
+    }
     if (json) {
         Json list = Json::array();
         for (const DeviceInfo& d : devices) {

@@ -87,13 +87,14 @@ void printJson(const Facts& f)
 
 void printText(const Facts& f)
 {
+    constexpr std::size_t longestName = 200; // JSON has names of any length whole
     const scene::Summary& s = f.summary;
     const bvh::Statistics& b = f.bvh;
     say("scene      {}\n", printable(f.scene.path));
     say("triangles  {} ({} vertices, {})\n", s.triangles, s.vertices, device::mebibytes(s.geometryBytes));
     say("objects    {}\n", s.objects);
     for (std::size_t i = 0; i < f.scene.geometry.objectNames.size(); ++i) {
-        say("           {} {}\n", i + 1, printable(f.scene.geometry.objectNames[i]));
+        say("           {} {}\n", i + 1, printable(shortened(f.scene.geometry.objectNames[i], longestName)));
     }
     say("materials  {}, textures {} ({})\n", s.materials, s.textures, device::mebibytes(s.textureBytes));
     say("lights     {} area, {} point, {} directional\n", s.areaLights, s.pointLights, s.directionalLights);

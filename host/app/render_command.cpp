@@ -283,6 +283,9 @@ void RenderJob::writeReport()
         reported_ = true;
     } catch (const Error& error) {
         failures_.emplace_back(error.what());
+    } catch (const std::exception& error) {
+        failures_.push_back(
+            message(fmt::format("cannot write report ({})", error.what()), options_.report, "write elsewhere"));
     }
 }
 

@@ -15,7 +15,7 @@ namespace wedge::app {
 namespace {
 
 constexpr std::size_t longestName = 100; // so that it stands whole in a line of an error, in which
-constexpr std::size_t longestPath = 220; // it can be read and copied
+constexpr std::size_t longestPath = 170; // it can be read and copied
 constexpr int mostTries = 1000;
 
 std::string stemOf(const std::string& path)

@@ -20,7 +20,9 @@ struct Limits {
     int side = 32768;
     /// Beyond so many pixels the claim is held against the size of the file: at most mostPixelsPerByte, and beyond
     /// twice as many usualPixelsPerByte.
-    std::int64_t unquestioned = std::int64_t { 1 } << 24;
+    std::int64_t unquestioned = std::int64_t { 1 } << 23;
+    /// No picture of real detail has more pixels a byte. It keeps a file of less than a megabyte below 2^25 pixels.
+    std::int64_t usualPixelsPerByte = 32;
     /// Pixels that are left of what all images of a scene may have together.
     std::int64_t together = std::numeric_limits<std::int64_t>::max();
     /// How the user allows more.
@@ -34,12 +36,10 @@ struct Limits {
 /// this.
 constexpr std::int64_t mostPixelsPerByte = 1100;
 
-/// No picture of real detail has more. It keeps a file of less than a megabyte below 2^25 pixels.
-constexpr std::int64_t usualPixelsPerByte = 32;
-
-/// For images that are measured: 32-bit floats, three a pixel, of any shape.
+/// For images that are measured: 32-bit floats, three a pixel, of any shape, and of the metrics 100 bytes a pixel and half
+/// a microsecond: of less than a megabyte they have at most 2^22.
 constexpr Limits referenceLimits {
-    .side = 1 << 16, .unquestioned = std::int64_t { 1 } << 22, .remedy = "use a smaller image"
+    .side = 1 << 16, .unquestioned = std::int64_t { 1 } << 21, .usualPixelsPerByte = 4, .remedy = "use a smaller image"
 };
 
 } // namespace wedge::decode

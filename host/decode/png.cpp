@@ -64,7 +64,9 @@ bool PngReader::Decoder::readHeader()
 {
     png = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, leave, ignore);
     info = png != nullptr ? png_create_info_struct(png) : nullptr;
-    if (info == nullptr || setjmp(png_jmpbuf(png)))
+    if (info == nullptr)
+        return false;
+    if (setjmp(png_jmpbuf(png)))
         return false;
     png_set_read_fn(png, this, read);
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX); // Limits has its own

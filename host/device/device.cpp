@@ -91,6 +91,9 @@ std::optional<Candidate> select(const std::vector<Candidate>& all, const std::st
                 isOfType(DeviceType::Gpu), isOfType(DeviceType::Cpu), [](const auto&) { return true; } });
     }
     const std::string wanted = lowered(selector);
+    if (wanted.find_first_not_of(" \t") == std::string::npos) {
+        return std::nullopt; // a part of many a name, and nobody's choice
+    }
     if (wanted == "cpu" || wanted == "gpu") {
         return firstUsable(all, isOfType(wanted == "cpu" ? DeviceType::Cpu : DeviceType::Gpu));
     }

@@ -2,6 +2,9 @@
 
 #include "host/device/program_cache.h"
 
+#include <algorithm>
+#include <array>
+#include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -64,12 +67,12 @@ std::vector<fs::path> marksIn(const fs::path& folder)
 
 bool isLocked(const fs::path& mark)
 {
-    const int file = openLocked(mark, LOCK_EX | LOCK_NB);
-    if (file < 0) {
-        return true; // or not to be opened: then nobody can tell, and nothing is removed
+    const int file = ::open(mark.c_str(), O_RDWR | O_CLOEXEC);
+    const bool free = file >= 0 && ::flock(file, LOCK_EX | LOCK_NB) == 0;
+    if (file >= 0) {
+        ::close(file);
     }
-    ::close(file);
-    return false;
+    return !free; // or not to be opened: then nobody can tell, and nothing is removed
 }
 
 /// What is in the folder goes, the folder stays: the driver of this process may have been told of it.
@@ -82,6 +85,45 @@ void empty(const fs::path& folder)
     }
     for (const fs::path& entry : entries) {
         fs::remove_all(entry, ignored);
+    }
+}
+
+// A process that the user ends in the middle of compiling did not die of its cache: it takes its mark along.
+constexpr std::array<int, 3> ending = { SIGINT, SIGTERM, SIGHUP };
+std::array<char, 4096> markToRemove; // for the handler, which may not allocate
+std::array<bool, ending.size()> caught;
+
+extern "C" void endWithoutMark(int signal)
+{
+    ::unlink(markToRemove.data());
+    ::signal(signal, SIG_DFL);
+    ::raise(signal);
+}
+
+/// Only of signals that would end the process as it is.
+void catchEnding(const std::string& mark)
+{
+    if (mark.size() >= markToRemove.size()) {
+        return;
+    }
+    *std::copy(mark.begin(), mark.end(), markToRemove.begin()) = '\0';
+    for (std::size_t i = 0; i < ending.size(); ++i) {
+        struct sigaction now { };
+        caught[i] = ::sigaction(ending[i], nullptr, &now) == 0 && now.sa_handler == SIG_DFL;
+        if (caught[i]) {
+            ::signal(ending[i], endWithoutMark);
+        }
+    }
+}
+
+void catchEndingNoMore()
+{
+    for (std::size_t i = 0; i < ending.size(); ++i) {
+        struct sigaction now { };
+        if (caught[i] && ::sigaction(ending[i], nullptr, &now) == 0 && now.sa_handler == endWithoutMark) {
+            ::signal(ending[i], SIG_DFL);
+        }
+        caught[i] = false;
     }
 }
 
@@ -151,6 +193,9 @@ void DriverCache::setMark()
     }
     mark_ = root_ / fmt::format("{}{}", ::getpid(), markExtension);
     file_ = openLocked(mark_, LOCK_EX | LOCK_NB);
+    if (file_ >= 0) {
+        catchEnding(mark_.string());
+    }
 }
 
 void DriverCache::removeMark()
@@ -158,6 +203,8 @@ void DriverCache::removeMark()
     if (file_ < 0) {
         return;
     }
+    catchEndingNoMore();
+    const Turn turn(root_); // who looks at marks sees it locked, or not at all
     std::error_code ignored;
     fs::remove(mark_, ignored);
     ::close(file_);

@@ -43,6 +43,10 @@ std::vector<std::string> applyQuirks(const DeviceInfo& info)
         if (std::string_view(std::getenv(workGroupMethod)) == continuations) {
             inForce.push_back(fmt::format("{}={}: this version ends the process while it compiles by its other methods",
                 workGroupMethod, continuations));
+        } else {
+            inForce.push_back(
+                fmt::format("{}={} is set: this version may end the process while it compiles, {} does not",
+                    workGroupMethod, std::getenv(workGroupMethod), continuations));
         }
     }
     if (info.hostTimers) {

@@ -1,6 +1,7 @@
 #include "host/device/source.h"
 
 #include "host/error.h"
+#include "host/file.h"
 #include "kernels/embedded_kernels.hpp"
 
 #include <fmt/format.h>
@@ -8,8 +9,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -18,6 +17,8 @@ namespace wedge::device {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::uintmax_t maxKernelFile = std::uintmax_t { 16 } << 20;
 
 struct SourceFile {
     std::string path; ///< relative to kernels/, normalised: what makes it the same file
@@ -94,10 +95,9 @@ private:
         const std::string path = wanted.lexically_normal().generic_string();
         if (!kernelDir_.empty()) {
             const fs::path onDisk = (kernelDir_ / path).lexically_normal();
-            std::ifstream stream(onDisk, std::ios::binary);
-            if (stream && fs::is_regular_file(onDisk)) {
-                return SourceFile { path, onDisk.generic_string(),
-                    std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()) };
+            std::error_code absent;
+            if (fs::exists(onDisk, absent)) {
+                return SourceFile { path, onDisk.generic_string(), readFile(onDisk, "kernel file", maxKernelFile) };
             }
         }
         for (const EmbeddedKernel& kernel : embeddedKernels()) {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <new>
 #include <optional>
 
 namespace wedge::image {
@@ -54,6 +55,8 @@ void failToRead(const std::string& path, const std::string& kind, const std::exc
 {
     if (const auto* error = dynamic_cast<const Error*>(&reason))
         throw Error(*error);
+    if (dynamic_cast<const std::bad_alloc*>(&reason) != nullptr)
+        throw Error("cannot read " + kind + " (host memory is exhausted)", path, "use a smaller image");
     std::string line = reason.what();
     // OpenEXR names the file as well, which the user need not read twice.
     const std::size_t named = line.find(path + "\". ");

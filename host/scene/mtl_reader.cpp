@@ -8,6 +8,7 @@
 #include "host/error.h"
 #include "host/scene/mtl_texture.h"
 #include "host/scene/paths.h"
+#include "host/text.h"
 #include "host/scene/statements.h"
 
 namespace wedge::scene {
@@ -75,7 +76,7 @@ private:
 
     void warn(std::string_view kind, const std::string& text)
     {
-        warnings_.add(kind, fmt::format("{}: material '{}': {}", where_, material_.name, text));
+        warnings_.add(kind, fmt::format("{}: material '{}': {}", where_, shownName_, text));
     }
 
     void leaveOut(const std::string& what)
@@ -95,6 +96,7 @@ private:
         material_ = {};
         extra_ = {};
         material_.name = name;
+        shownName_ = shortened(name, maxMessage / 3); // once, and not for each of its warnings
         material_.diffuse = glm::vec3(0.0f);
     }
 
@@ -209,6 +211,7 @@ private:
     std::vector<Material> materials_;
     bool isOpen_ = false; ///< material_ and extra_ are being read
     Material material_;
+    std::string shownName_; ///< its name in messages
     Extra extra_;
     std::map<std::string, LeftOut> leftOut_;
 };

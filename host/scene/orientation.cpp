@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace wedge::scene {
 namespace {
@@ -34,6 +35,9 @@ int signOfSum(const std::array<double, n>& summands)
 /// Whether the difference of two points is exact and of so few bits that a product with another such one is exact too.
 bool isShort(const glm::dvec2& difference, const glm::dvec2& from, const glm::dvec2& to)
 {
+    constexpr double most = std::numeric_limits<float>::max();
+    if (!(std::abs(difference.x) <= most && std::abs(difference.y) <= most))
+        return false;
     return glm::dvec2(glm::vec2(difference)) == difference && from + difference == to && to - difference == from;
 }
 

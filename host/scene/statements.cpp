@@ -99,7 +99,8 @@ NumberKind parseNumber(std::string_view word, float& value)
     const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), read);
     if (code == std::errc::result_out_of_range) {
         const std::size_t exponent = word.find_first_of("eE");
-        const bool tiny = exponent != std::string_view::npos && word.substr(exponent + 1).starts_with('-');
+        const bool tiny = exponent != std::string_view::npos ? word.substr(exponent + 1).starts_with('-')
+                                                             : word.find_first_not_of("-0") == word.find('.');
         return tiny ? NumberKind::Good : NumberKind::NotFinite;
     }
     if (code != std::errc {} || end != word.data() + word.size())

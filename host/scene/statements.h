@@ -10,8 +10,9 @@ namespace wedge::scene {
 /// both; a backslash before the end continues a line on the next.
 class StatementReader {
 public:
+    /// A byte order mark before the text is skipped.
     explicit StatementReader(std::string_view text)
-        : text_(text)
+        : text_(text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text)
     {
     }
 

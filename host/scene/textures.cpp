@@ -1,6 +1,7 @@
 #include "host/scene/textures.h"
 
 #include <algorithm>
+#include <new>
 
 #include <fmt/format.h>
 
@@ -10,7 +11,7 @@
 namespace wedge::scene {
 namespace {
 
-constexpr std::uintmax_t maxTextureFile = std::uintmax_t { 1 } << 30;
+constexpr std::uintmax_t maxTextureFile = std::uintmax_t { 256 } << 20; // read whole
 
 } // namespace
 
@@ -21,7 +22,7 @@ Texture TextureSet::read(const std::filesystem::path& path)
     const auto fileBytes = static_cast<std::int64_t>(bytes.size());
     decode::Limits limits;
     limits.pixels = maxPixels_;
-    limits.unquestioned = std::max(limits.unquestioned, maxPixels_ / 4); // who allows more, trusts the files
+    limits.unquestioned = std::max(limits.unquestioned, maxPixels_ / 8); // who allows more, trusts the files
     limits.together =
         std::min(sceneFactor * maxPixels_, std::max(maxPixels_, pixelsPerByte * (bytes_ + fileBytes))) - pixels_;
     limits.remedy = "scale the image down, or raise --max-texture-pixels";
@@ -30,6 +31,8 @@ Texture TextureSet::read(const std::filesystem::path& path)
         bytes_ += fileBytes;
         pixels_ += picture.size.pixels();
         return { path.string(), picture.size.width, picture.size.height, std::move(picture.rgba) };
+    } catch (const std::bad_alloc&) {
+        throw Error("texture file cannot be decoded (host memory is exhausted)", path.string(), "scale the image down");
     } catch (const decode::Failure& failure) {
         throw Error(
             fmt::format("texture file cannot be decoded ({})", failure.what()), path.string(), failure.remedy());

@@ -67,7 +67,8 @@ private:
             if (c == '\\' && quote == '"') {
                 ++at_;
             } else if (isLong && text_.substr(at_).starts_with(three)) {
-                at_ = std::min(text_.find_first_not_of(quote, at_), std::min(at_ + 5, text_.size()));
+                for (int i = 0; i < 5 && at_ < text_.size() && text_[at_] == quote; ++i) // two may belong to the string
+                    ++at_;
                 return;
             } else if (!isLong && (c == quote || c == '\n')) {
                 at_ += c == quote;

@@ -167,21 +167,12 @@ void record(const Row& row, double seconds)
     }
 }
 
-/// Compilers of drivers say such lines by themselves, when kernels are compiled for the first time.
-bool isOfDriver(const std::string& line)
-{
-    return line.ends_with(" warnings generated.") || line.ends_with(" warning generated.");
-}
-
 void checkSaid(const Row& row, const Outcome& outcome)
 {
     CHECK(outcome.err.size() <= mostSaid);
     std::istringstream lines(outcome.err.substr(0, 2 * mostSaid));
     int errors = 0;
     for (std::string line; std::getline(lines, line);) {
-        if (isOfDriver(line)) {
-            continue;
-        }
         CAPTURE(line);
         CHECK(line.starts_with("wedge: "));
         CHECK(line.size() <= longestLine);
