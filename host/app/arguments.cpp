@@ -25,7 +25,7 @@ void checkValue(const CLI::App& command, const std::string& name, const std::str
         throw UsageError("option has no value", value.empty() ? name + " (empty)" : name, "give it one value");
     }
     if (value.starts_with("--") || optionNamed(command, value) != nullptr) {
-        throw UsageError(fmt::format("option has no value, {} being another", value), name,
+        throw UsageError(fmt::format("option has no value, {} looking like another", value), name,
             fmt::format("give it one value; a file of that name is ./{}", value));
     }
 }

@@ -84,6 +84,8 @@ Rows names()
         wrong("three", { "compare", "a.exr", "b.exr", "c.exr" }),
         wrong("-o=", { "render", scene, "-o=a.exr" }, "-o=a.exr"), wrong("a text", { "render", scene, "-o", "a.txt" }),
         wrong("an extension alone", { "render", scene, "-o", ".exr" }),
+        wrong("a mistyped option as report", { "render", scene, "--report", "--quite" }, "--quite"),
+        wrong("a short option as report", { "render", scene, "--report", "-h" }, "-h"),
         wrong("- as output", { "render", scene, "-o", "-" }),
         wrong("- as report", { "render", scene, "--report", "-" }, "--report"),
         wrong("a map of text", { "compare", "a.exr", "b.exr", "--error-map", "foo.txt" }, ".png"),
@@ -104,7 +106,7 @@ Rows names()
     failing("a file as kernel folder", { "render", scene, "--kernel-dir", scene }, "kernel folder");
     failing("an image as scene", { "info", "a.png" }, "a.png");
     for (const std::string& device :
-        { longName, escape, std::string("99999999999999999999"), std::string(" ") + rightToLeft }) {
+        { longName, escape, std::string("99999999999999999999"), std::string(" "), std::string(" ") + rightToLeft }) {
         rows.push_back({ .name = "call: --device " + device.substr(0, 30),
             .call = tiny({ "--device", device }),
             .says = "no such OpenCL device",
@@ -124,7 +126,7 @@ Rows rightCalls()
             .makes = { made } };
     };
     return { right("a mesh named like an option", { "info", "--", "-x.obj" }, "-x.obj"),
-        right("an output named like an option", tiny({ "-o", "--odd.exr" }), "--odd.exr"),
+        right("an output named like an option", tiny({ "-o", "./--odd.exr" }), "--odd.exr"),
         right("a short option with its value", tiny({ "-oa.exr" }), "a.exr"),
         right("a negative number", tiny({ "--exposure", "-1", "-o", "a.png" }), "a.png"),
         right("the last of many", tiny({ "--seed", "1", "--seed", "2", "-o", "a.exr" }), "a.exr"),

@@ -80,6 +80,8 @@ Rows lengths()
         fine("20,000 materials that are missing", three + numbered("usemtl m", 20'000, "\nf 1 2 3\n"), "not found"),
         fine(
             "one material that is missing, 20,000 times", three + repeated("usemtl m\nf 1 2 3\n", 20'000), "not found"),
+        fine("a byte order mark", "\xef\xbb\xbfv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+        fine("a tiny number in full", "v 0." + std::string(400, '0') + "1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
         fine("900 libraries that are missing", numbered("mtllib m", 900, ".mtl\n") + triangle, "more"),
         fine("20,000 groups", three + numbered("g g", 20'000, "\nf 1 2 3\n")),
         fine("20,000 objects", three + numbered("o o", 20'000, "\nf 1 2 3\n")),
@@ -136,6 +138,8 @@ Rows oddLibraries()
                         "ELF\0\1\2\3",
                 8)
                 + std::string(3000, '\xfe')),
+        libraries("a long name with 100,000 faults",
+            "newmtl " + std::string(450'000, 'n') + "\n" + repeated("Ns x\n", 100'000)),
         libraries("no name", "newmtl\nKd 1 1 1\n"), libraries("Kd without material", "Kd 1 1 1\n"),
         libraries("Kd nan", m + "Kd nan nan nan\n"), libraries("Kd of words", m + "Kd a b c\n"),
         libraries("Kd of a spectrum", m + "Kd spectral file.rfl 1\n"), libraries("Ns inf", m + "Ns inf\n"),
