@@ -2,6 +2,8 @@
 
 #include "host/image/read_image.h"
 
+#include <cstdint>
+
 namespace wedge::image {
 
 /// Most bytes of a PNG or HDR file, which is read as a whole.
