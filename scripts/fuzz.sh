@@ -36,8 +36,8 @@ bash scripts/install_dependencies.sh build test
 # The first clang that has the runtime of libFuzzer beside it.
 compiler=
 for name in clang++ $(compgen -c clang++- | grep -xE 'clang\+\+-[0-9]+' | sort -t- -k2 -rn -u); do
-    version=$("$name" -dumpversion 2>/dev/null | cut -d. -f1)
-    if [ "${version:-0}" -ge 15 ] && [ -e "$("$name" -print-resource-dir)/lib/linux/libclang_rt.fuzzer-$(uname -m).a" ]; then
+    version=$("$name" -dumpversion 2>/dev/null | cut -d. -f1) || version=0
+    if [ "${version:-0}" -ge 15 ] && [ -e "$("$name" -print-resource-dir 2>/dev/null)/lib/linux/libclang_rt.fuzzer-$(uname -m).a" ]; then
         compiler=$name
         break
     fi

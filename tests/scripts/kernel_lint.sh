@@ -8,7 +8,7 @@ cd "${1:?kernel_lint.sh: error: no folder of kernels: name it}"
 least=15
 newest=0
 for name in clang $(compgen -c clang- | grep -xE 'clang-[0-9]+' | sort -u); do
-    version=$("$name" -dumpversion 2>/dev/null | cut -d. -f1)
+    version=$("$name" -dumpversion 2>/dev/null | cut -d. -f1) || version=0
     if [ "${version:-0}" -gt "$newest" ]; then
         newest=$version
         clang=$name
