@@ -35,7 +35,8 @@ TEST_CASE("--max-texture-pixels")
         checkRefused(place, { command, "s.toml", "--max-texture-pixels", "3" }, failure, "raise --max-texture-pixels");
         for (const char* bad : { "0", "-1", "1073741825", "2e6" })
             checkRefused(place, { command, "s.toml", "--max-texture-pixels", bad }, wrongCall, "from 1 to 1073741824");
-        checkRefused(place, { command, "s.toml", "--max-texture-pixels", "" }, wrongCall, "--max-texture-pixels (empty)");
+        checkRefused(
+            place, { command, "s.toml", "--max-texture-pixels", "" }, wrongCall, "--max-texture-pixels (empty)");
     }
 }
 

@@ -155,7 +155,8 @@ TEST_CASE("JPEG: sizes that lie, and what would take libjpeg too much memory or 
     const std::size_t at = large.find(text({ 0xff, 0xc2 })) + 5;
     large.replace(at, 4, text({ 0x15, 0x18, 0x15, 0x18 })); // 5400 x 5400
     large.append(40000, ' ');
-    CHECK(failureOf(large, decodeJpeg, { .unquestioned = 1 << 25 }) == "it is progressive and would take 166 MiB to decode");
+    CHECK(failureOf(large, decodeJpeg, { .unquestioned = 1 << 25 })
+        == "it is progressive and would take 166 MiB to decode");
 
     // DC, then an AC coefficient again and again, a bit better each time: a legal file of any number of scans.
     std::vector<jpeg_scan_info> scans = { { 1, { 0, 0, 0, 0 }, 0, 0, 0, 0 } };

@@ -36,8 +36,8 @@ struct Limits {
 /// this.
 constexpr std::int64_t mostPixelsPerByte = 1100;
 
-/// For images that are measured: 32-bit floats, three a pixel, of any shape, and of the metrics 100 bytes a pixel and half
-/// a microsecond: of less than a megabyte they have at most 2^22.
+/// For images that are measured: 32-bit floats, three a pixel, of any shape, and of the metrics 100 bytes a pixel and
+/// half a microsecond: of less than a megabyte they have at most 2^22.
 constexpr Limits referenceLimits {
     .side = 1 << 16, .unquestioned = std::int64_t { 1 } << 21, .usualPixelsPerByte = 4, .remedy = "use a smaller image"
 };

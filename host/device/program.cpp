@@ -113,8 +113,8 @@ std::string ProgramLibrary::optionsString() const
 {
     std::string text = "-cl-std=CL1.2";
     if (options_.kernelDir.empty()) {
-        // Nobody but who edits kernels wants warnings, and some drivers print their number on the user's terminal: PoCL, of
-        // its own built-ins, where the processor has no vectors of 16 floats.
+        // Nobody but who edits kernels wants warnings, and some drivers print their number on the user's terminal:
+        // PoCL, of its own built-ins, where the processor has no vectors of 16 floats.
         text += " -w";
     }
     if (options_.fastMath) {

@@ -8,8 +8,8 @@
 #include "host/error.h"
 #include "host/scene/mtl_texture.h"
 #include "host/scene/paths.h"
-#include "host/text.h"
 #include "host/scene/statements.h"
+#include "host/text.h"
 
 namespace wedge::scene {
 namespace {
