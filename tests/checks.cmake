@@ -6,7 +6,8 @@ add_test(NAME oclgrind_frame COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/oc
 add_test(NAME second_driver COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/second_driver.sh $<TARGET_FILE:wedge>
                                     $<TARGET_FILE:bvh_traverse_test> $<TARGET_FILE:bvh_traverse_families_test>
                                     $<TARGET_FILE:bvh_watertight_test>)
-set_tests_properties(kernel_lint oclgrind_frame second_driver PROPERTIES TIMEOUT 600)
+# Simulated devices are slow, and slower still beside other tests.
+set_tests_properties(kernel_lint oclgrind_frame second_driver PROPERTIES TIMEOUT 1200)
 # What the system has no package for cannot be run, and its test says so.
 set_tests_properties(oclgrind_frame second_driver PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: this system has no ")
 
