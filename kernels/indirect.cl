@@ -46,8 +46,9 @@ WEDGE_FN void firstRays(FrameParams frame, PathParams params, SampleParams sampl
         weight[lane] = 1.0f;
 #ifdef WEDGE_SPECULAR
         if (params.component == WEDGE_COMPONENT_GLOSSY) {
-            l = sampleLobe(r->lobe[lane], n, r->view[lane], vec2(u[lane], v[lane]));
-            weight[lane] = lobeOverPdf(r->lobe[lane], n, r->view[lane], l) * vecDot(n, l);
+            const Lobe lobe = laneLobe(r, lane);
+            l = sampleLobe(lobe, n, laneView(r, lane), vec2(u[lane], v[lane]));
+            weight[lane] = lobeOverPdf(lobe, n, laneView(r, lane), l) * vecDot(n, l);
         }
 #endif
         const bool wanted = r->pixel[lane] != WEDGE_NO_PIXEL && paths->index[lane] < last[lane];

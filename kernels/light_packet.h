@@ -19,10 +19,25 @@ typedef struct {
     float time[WEDGE_PACKET_SIZE]; ///< of the receiver's primary ray, and so of all its others
 #endif
 #ifdef WEDGE_SPECULAR
-    Lobe lobe[WEDGE_PACKET_SIZE];
-    Vec3 view[WEDGE_PACKET_SIZE]; ///< unit, to the eye
+    float viewX[WEDGE_PACKET_SIZE], viewY[WEDGE_PACKET_SIZE], viewZ[WEDGE_PACKET_SIZE]; ///< unit, to the eye
+    float exponent[WEDGE_PACKET_SIZE], normalization[WEDGE_PACKET_SIZE], leastCosine[WEDGE_PACKET_SIZE]; ///< of the lobe
+    uint model[WEDGE_PACKET_SIZE];
 #endif
 } ReceiverPacket;
+
+#ifdef WEDGE_SPECULAR
+WEDGE_INLINE Lobe laneLobe(const ReceiverPacket* r, uint lane)
+{
+    Lobe lobe;
+    lobe.exponent = r->exponent[lane];
+    lobe.model = r->model[lane];
+    lobe.normalization = r->normalization[lane];
+    lobe.leastCosine = r->leastCosine[lane];
+    return lobe;
+}
+
+WEDGE_INLINE Vec3 laneView(const ReceiverPacket* r, uint lane) { return vec3(r->viewX[lane], r->viewY[lane], r->viewZ[lane]); }
+#endif
 
 #define WEDGE_NO_PIXEL 0xffffffffu
 
@@ -72,8 +87,15 @@ WEDGE_FN void loadReceivers(FrameParams frame, uint light, uint firstGroup, Rece
         receivers->time[lane] = shaded && frame.receivers > 0u ? data.time[i] : 0.0f;
 #endif
 #ifdef WEDGE_SPECULAR
-        receivers->view[lane] = shaded ? viewOf(frame, data, i, p) : vecNormalize(vecSub(frame.eye, p));
-        receivers->lobe[lane] = glossLobe(receivers->gloss[lane]);
+        const Vec3 view = shaded ? viewOf(frame, data, i, p) : vecNormalize(vecSub(frame.eye, p));
+        receivers->viewX[lane] = view.x;
+        receivers->viewY[lane] = view.y;
+        receivers->viewZ[lane] = view.z;
+        const Lobe lobe = glossLobe(receivers->gloss[lane]);
+        receivers->exponent[lane] = lobe.exponent;
+        receivers->model[lane] = lobe.model;
+        receivers->normalization[lane] = lobe.normalization;
+        receivers->leastCosine[lane] = lobe.leastCosine;
 #endif
     }
 }
@@ -157,16 +179,18 @@ WEDGE_FN void sampleLights(FrameParams frame, SampleParams params, AreaLight lig
         s->rayY[lane] = point.y - r->originY[lane];
         s->rayZ[lane] = point.z - r->originZ[lane];
         s->diffuse[lane] = separate && geometry > 0.0f ? 1.0f : geometry;
-#ifdef WEDGE_SPECULAR
-        s->specular[lane] = 0.0f;
-        if (geometry > 0.0f) {
-            s->specular[lane] = separate ? 1.0f
-                                         : geometry * lobeValue(r->lobe[lane], normal, r->view[lane], vecNormalize(d));
-        }
-#else
-        s->specular[lane] = 0.0f;
-#endif
+        s->specular[lane] = separate && geometry > 0.0f ? 1.0f : 0.0f;
     }
+#ifdef WEDGE_SPECULAR
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const Vec3 normal = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
+        const Vec3 moved = vec3(r->originX[lane] - r->positionX[lane], r->originY[lane] - r->positionY[lane],
+                                r->originZ[lane] - r->positionZ[lane]);
+        const Vec3 l = vecNormalize(vecAdd(vec3(s->rayX[lane], s->rayY[lane], s->rayZ[lane]), moved));
+        const float value = s->diffuse[lane] * lobeValue(laneLobe(r, lane), normal, laneView(r, lane), l);
+        s->specular[lane] = separate ? s->specular[lane] : value;
+    }
+#endif
 }
 
 /// The shadow rays of samples whose weight is not 0.

@@ -16,7 +16,7 @@ typedef struct {
 } Receiver;
 
 /// The lobe of a gloss plane's value: its exponent, negative for Phong.
-WEDGE_FN Lobe glossLobe(float gloss)
+WEDGE_INLINE Lobe glossLobe(float gloss)
 {
     return makeLobe(fabs(gloss), gloss < 0.0f ? WEDGE_SPECULAR_PHONG : WEDGE_SPECULAR_BLINN_PHONG);
 }

@@ -10,40 +10,48 @@
 #define WEDGE_DIFFUSE_DIRECTION_SEED 0x64696666u
 #define WEDGE_SPECULAR_DIRECTION_SEED 0x73706563u
 
-/// Density in 1/sr of reflected directions of the diffuse or the specular part.
-WEDGE_FN float directionPdf(const ReceiverPacket* r, uint lane, bool specular, Vec3 l)
-{
-    const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
-#ifdef WEDGE_SPECULAR
-    if (specular) {
-        return lobePdf(r->lobe[lane], n, r->view[lane], l);
-    }
-#else
-    (void)specular;
-#endif
-    return fmax(0.0f, vecDot(n, l)) * WEDGE_INV_PI;
-}
-
 /// Weights of the lanes' points on the light against reflected directions, multiplied into s.
 WEDGE_FN void weighPoints(SampleParams params, AreaLight light, const ReceiverPacket* r, LightSamples* s)
 {
     light.pick = 1.0f;
+    const float used = params.lightSampling == WEDGE_LIGHTS_MET ? 0.0f : 1.0f;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        if (!(s->diffuse[lane] > 0.0f)) {
-            continue;
-        }
-        if (params.lightSampling == WEDGE_LIGHTS_MET) {
-            s->diffuse[lane] = s->specular[lane] = 0.0f;
-            continue;
-        }
         const Vec3 ray = vec3(s->rayX[lane], s->rayY[lane], s->rayZ[lane]);
         const Vec3 l = vecNormalize(ray);
+        const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
         const Vec3 origin = vec3(r->originX[lane], r->originY[lane], r->originZ[lane]);
         const LightMeeting m = meetLight(light, origin, l);
         const float p = lightPdf(light, clamp(m.a, -1.0f, 1.0f), clamp(m.b, -1.0f, 1.0f), vecLength(ray), vecDot(l, light.normal));
-        s->diffuse[lane] *= powerHeuristic(p, directionPdf(r, lane, false, l));
-        s->specular[lane] *= s->specular[lane] > 0.0f ? powerHeuristic(p, directionPdf(r, lane, true, l)) : 1.0f;
+        const float diffuse = used * powerHeuristic(p, fmax(0.0f, vecDot(n, l)) * WEDGE_INV_PI);
+        s->diffuse[lane] *= s->diffuse[lane] > 0.0f ? diffuse : 1.0f;
+#ifdef WEDGE_SPECULAR
+        const float specular = used * powerHeuristic(p, lobePdf(laneLobe(r, lane), n, laneView(r, lane), l));
+        s->specular[lane] *= s->specular[lane] > 0.0f ? specular : 1.0f;
+#endif
     }
+}
+
+/// A reflected direction of the diffuse or the specular part for the numbers u; in *pdf its density, 1/sr, and in *reflected what
+/// the part reflects over that density, without the diffuse part's 1 / pi, which the light's points leave out too.
+WEDGE_INLINE Vec3 reflectedDirection(const ReceiverPacket* r, uint lane, bool specular, Vec2 u, float* pdf, float* reflected)
+{
+    const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
+#ifdef WEDGE_SPECULAR
+    if (specular) {
+        const Lobe lobe = laneLobe(r, lane);
+        const Vec3 l = sampleLobe(lobe, n, laneView(r, lane), u);
+        const LobeAt at = lobeAt(lobe, n, laneView(r, lane), l);
+        *pdf = at.pdf;
+        *reflected = at.value * vecDot(n, l) / fmax(at.pdf, 1e-30f);
+        return l;
+    }
+#else
+    (void)specular;
+#endif
+    const Vec3 l = cosineDirection(n, u);
+    *pdf = fmax(0.0f, vecDot(n, l)) * WEDGE_INV_PI;
+    *reflected = 1.0f / WEDGE_INV_PI;
+    return l;
 }
 
 /// One reflected direction a lane: the ray to where it meets the light into `packet`, and in weight what it counts in its
@@ -54,34 +62,29 @@ WEDGE_FN void meetDirections(SampleParams params, AreaLight light, const Receive
     light.pick = 1.0f;
     float u[WEDGE_PACKET_SIZE], v[WEDGE_PACKET_SIZE];
     uint seed[WEDGE_PACKET_SIZE];
+    const uint kind = specular ? WEDGE_SPECULAR_DIRECTION_SEED : WEDGE_DIFFUSE_DIRECTION_SEED;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        seed[lane] = hashCombine(r->seed[lane], specular ? WEDGE_SPECULAR_DIRECTION_SEED : WEDGE_DIFFUSE_DIRECTION_SEED);
+        seed[lane] = hashCombine(r->seed[lane], kind);
     }
-    samplePositions(params, specular ? WEDGE_SPECULAR_DIRECTION_SEED : WEDGE_DIFFUSE_DIRECTION_SEED, seed, index, count, u, v);
+    samplePositions(params, kind, seed, index, count, u, v);
+    float x[WEDGE_PACKET_SIZE], y[WEDGE_PACKET_SIZE], z[WEDGE_PACKET_SIZE], end[WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        float pdf, reflected;
+        const Vec3 l = reflectedDirection(r, lane, specular, vec2(u[lane], v[lane]), &pdf, &reflected);
         const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
         const Vec3 origin = vec3(r->originX[lane], r->originY[lane], r->originZ[lane]);
-        Vec3 l = cosineDirection(n, vec2(u[lane], v[lane]));
-        float value = WEDGE_INV_PI; // only a lobe's is used
-#ifdef WEDGE_SPECULAR
-        if (specular) {
-            l = sampleLobe(r->lobe[lane], n, r->view[lane], vec2(u[lane], v[lane]));
-            value = lobeValue(r->lobe[lane], n, r->view[lane], l);
-        }
-#endif
         const LightMeeting m = meetLight(light, origin, l);
-        const float cosine = vecDot(n, l);
-        const float pdf = directionPdf(r, lane, specular, l);
-        weight[lane] = 0.0f;
-        if (r->pixel[lane] != WEDGE_NO_PIXEL && index[lane] < last[lane] && m.t < INFINITY && cosine > 0.0f && pdf > 0.0f) {
-            const float w = params.lightSampling == WEDGE_LIGHTS_MET
-                ? 1.0f
-                : powerHeuristic(pdf, lightPdf(light, m.a, m.b, m.t, m.facing));
-            // The diffuse term leaves out 1 / pi, as the light's points do.
-            const float reflected = specular ? value * cosine / pdf : 1.0f / WEDGE_INV_PI;
-            weight[lane] = w * reflected * metProfile(light, m) / light.profileArea;
-        }
-        setRay(packet, lane, origin, l, 0.0f, weight[lane] > 0.0f ? m.t * WEDGE_SHADOW_RAY_END : 0.0f);
+        const bool meets = m.t < INFINITY && vecDot(n, l) > 0.0f && pdf > 0.0f && index[lane] < last[lane];
+        const float w = params.lightSampling == WEDGE_LIGHTS_MET ? 1.0f : powerHeuristic(pdf, lightPdf(light, m.a, m.b, m.t, m.facing));
+        weight[lane] = meets ? w * reflected * metProfile(light, m) / light.profileArea : 0.0f;
+        end[lane] = weight[lane] > 0.0f ? m.t * WEDGE_SHADOW_RAY_END : 0.0f;
+        x[lane] = l.x;
+        y[lane] = l.y;
+        z[lane] = l.z;
+    }
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        // Lanes without a receiver have no samples to take either: see the callers.
+        setRay(packet, lane, vec3(r->originX[lane], r->originY[lane], r->originZ[lane]), vec3(x[lane], y[lane], z[lane]), 0.0f, end[lane]);
         setTime(packet, lane, receiverTime(r, lane));
     }
 }

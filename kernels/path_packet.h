@@ -73,8 +73,9 @@ WEDGE_FN Vec3 scatter(const Surface* s, const Scattering* how, Vec3 l, float* pd
     Vec3 value = vecScale(s->diffuse, WEDGE_INV_PI);
     *pdf = how->diffuseShare * fmax(0.0f, vecDot(s->normal, l)) * WEDGE_INV_PI;
     if (how->glossy) {
-        value = vecMad(value, s->specular, lobeValue(how->lobe, s->normal, how->view, l));
-        *pdf += (1.0f - how->diffuseShare) * lobePdf(how->lobe, s->normal, how->view, l);
+        const LobeAt at = lobeAt(how->lobe, s->normal, how->view, l);
+        value = vecMad(value, s->specular, at.value);
+        *pdf += (1.0f - how->diffuseShare) * at.pdf;
     }
     return value;
 }

@@ -116,7 +116,7 @@ WEDGE_INLINE float metProfile(AreaLight light, LightMeeting m)
 }
 
 /// Weight of a sample of density p where another technique has density q (power heuristic, Veach 1997).
-WEDGE_FN float powerHeuristic(float p, float q)
+WEDGE_INLINE float powerHeuristic(float p, float q)
 {
     // By the ratio, so that no square overflows.
     const float ratio = q / fmax(p, 1e-30f);

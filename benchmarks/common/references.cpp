@@ -21,6 +21,7 @@ namespace {
 
 constexpr const char* noiseKey = "referenceNoise";
 constexpr const char* kernelsKey = "referenceKernels";
+constexpr const char* deviationLayer = "deviation";
 
 /// Of the kernels that an image, or a layer of it, is made by.
 std::string kernelFingerprint(const render::Renderer& renderer, const render::Settings& settings, const std::string& layer)
@@ -51,6 +52,7 @@ std::string pathOf(const render::Renderer& renderer, const render::Settings& set
     Fingerprint f;
     add(f, renderer.scene());
     f.add(layer);
+    f.add(deviationLayer); // files without it are of older versions
     for (const auto& [key, value] : render::describe(settings)) {
         f.add(key);
         f.add(value);
@@ -74,6 +76,20 @@ image::RgbImage half(
     return imageOf(renderer, settings, statistics, layer);
 }
 
+/// Adds the channels PREFIX R, G and B.
+void addChannels(image::LayeredImage& out, const std::string& prefix, const image::RgbImage& from)
+{
+    const std::size_t pixels = from.rgb.size() / 3;
+    const char* names[] = { "R", "G", "B" };
+    for (std::size_t c = 0; c < 3; ++c) {
+        image::Channel channel { prefix + names[c], std::vector<float>(pixels) };
+        for (std::size_t i = 0; i < pixels; ++i) {
+            channel.values[i] = from.rgb[3 * i + c];
+        }
+        out.channels.push_back(std::move(channel));
+    }
+}
+
 image::LayeredImage layered(const Reference& reference, const std::string& kernels)
 {
     const image::RgbImage& from = reference.image;
@@ -81,30 +97,11 @@ image::LayeredImage layered(const Reference& reference, const std::string& kerne
     out.width = from.width;
     out.height = from.height;
     out.window = { 0, 0, from.width, from.height };
-    const std::size_t pixels = from.rgb.size() / 3;
-    const char* names[] = { "R", "G", "B" };
-    for (std::size_t c = 0; c < 3; ++c) {
-        image::Channel channel { names[c], std::vector<float>(pixels) };
-        for (std::size_t i = 0; i < pixels; ++i) {
-            channel.values[i] = from.rgb[3 * i + c];
-        }
-        out.channels.push_back(std::move(channel));
-    }
+    addChannels(out, "", from);
+    addChannels(out, deviationLayer + std::string("."), reference.deviation);
     out.metadata[noiseKey] = static_cast<float>(reference.noise);
     out.metadata[kernelsKey] = kernels;
     return out;
-}
-
-Reference readBack(const std::string& path, int spp, const std::string& usedKernels)
-{
-    const image::LayeredImage file = image::readExr(path);
-    const auto noise = file.metadata.find(noiseKey);
-    const auto kernels = file.metadata.find(kernelsKey);
-    if (noise == file.metadata.end() || kernels == file.metadata.end()) {
-        throw Error("reference " + path, "was not written by a benchmark", "delete it");
-    }
-    return { image::beauty(file, path), std::get<float>(noise->second), spp, path, true,
-        std::get<std::string>(kernels->second) != usedKernels };
 }
 
 /// Leaves of all channels those of a layer, as the image's colour.
@@ -114,6 +111,21 @@ void takeForBeauty(image::LayeredImage& frame, const std::string& layer)
     for (image::Channel& channel : frame.channels) {
         channel.name.erase(0, layer.size() + 1);
     }
+}
+
+Reference readBack(const std::string& path, int spp, const std::string& usedKernels)
+{
+    image::LayeredImage file = image::readExr(path);
+    const auto noise = file.metadata.find(noiseKey);
+    const auto kernels = file.metadata.find(kernelsKey);
+    if (noise == file.metadata.end() || kernels == file.metadata.end()) {
+        throw Error("reference " + path, "was not written by a benchmark", "delete it");
+    }
+    Reference out { image::beauty(file, path), std::get<float>(noise->second), spp, path, true,
+        std::get<std::string>(kernels->second) != usedKernels, {} };
+    takeForBeauty(file, deviationLayer);
+    out.deviation = image::beauty(file, path);
+    return out;
 }
 
 } // namespace
@@ -141,11 +153,14 @@ Reference obtainReference(render::Renderer& renderer, const render::Settings& se
     if (std::filesystem::exists(path)) {
         return readBack(path, settings.spp, kernels);
     }
-    Reference out { half(renderer, settings, 0, layer), 0, settings.spp, path };
+    Reference out { half(renderer, settings, 0, layer), 0, settings.spp, path, false, false, {} };
     const image::RgbImage second = half(renderer, settings, 1, layer);
     // Both halves have the error e; their difference has sqrt 2 e, their mean e / sqrt 2.
     // As the file keeps it, so that a later run reports the same.
     out.noise = static_cast<float>(0.5 * image::rmse(out.image, second));
+    out.deviation = second;
+    std::ranges::transform(
+        out.image.rgb, second.rgb, out.deviation.rgb.begin(), [](float a, float b) { return 0.5f * (a - b); });
     std::ranges::transform(
         out.image.rgb, second.rgb, out.image.rgb.begin(), [](float a, float b) { return 0.5f * (a + b); });
     std::error_code failed;

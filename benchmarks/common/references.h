@@ -16,6 +16,8 @@ struct Reference {
     std::string path; ///< where it is kept
     bool cached = false; ///< read, not rendered
     bool otherKernels = false; ///< cached, and rendered with kernels of other source text
+    /// Half of the difference of the halves: its square is, pixel by pixel, what the squared error is expected to be.
+    image::RgbImage deviation;
 };
 
 /// The renderer's last frame, or a layer of it that has a colour. Throws Error if a value is NaN or infinite.

@@ -14,6 +14,8 @@ void ObjWriter::object(const std::string& name, const std::string& material)
     fmt::format_to(std::back_inserter(text_), "o {}\nusemtl {}\n", name, material);
 }
 
+void ObjWriter::material(const std::string& name) { fmt::format_to(std::back_inserter(text_), "usemtl {}\n", name); }
+
 std::size_t ObjWriter::vertex(const glm::dvec3& p)
 {
     fmt::format_to(std::back_inserter(text_), "v {:.6g} {:.6g} {:.6g}\n", p.x, p.y, p.z);

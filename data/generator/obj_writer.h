@@ -14,6 +14,8 @@ class ObjWriter {
 public:
     /// Begins an object with one material; the triangles that follow are its.
     void object(const std::string& name, const std::string& material);
+    /// Of the triangles that follow, which stay in the object.
+    void material(const std::string& name);
 
     /// Adds a vertex without or with a normal and a texture coordinate; returns what triangle() takes.
     std::size_t vertex(const glm::dvec3& position);

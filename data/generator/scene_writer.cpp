@@ -21,6 +21,8 @@ std::string mtlText(const GeneratedScene& scene)
     for (const scene::Material& m : scene.materials) {
         text += fmt::format("newmtl {}\nKd {:.6g} {:.6g} {:.6g}\nKs {:.6g} {:.6g} {:.6g}\nNs {:.6g}\n", m.name,
             m.diffuse.x, m.diffuse.y, m.diffuse.z, m.specular.x, m.specular.y, m.specular.z, m.exponent);
+        if (m.emission != glm::vec3(0.0f))
+            text += fmt::format("Ke {:.6g} {:.6g} {:.6g}\n", m.emission.x, m.emission.y, m.emission.z);
         if (m.diffuseTexture >= 0)
             text += fmt::format("map_Kd {}\n", textureFile(scene, static_cast<std::size_t>(m.diffuseTexture)));
         text += '\n';
@@ -68,6 +70,10 @@ std::string lightText(const scene::AreaLight& light)
         text += "profile = \"uniform\"\n";
     else
         text += fmt::format("profile = \"gaussian\"\ncut = {:g}\n", light.cut);
+    if (light.twoSided)
+        text += "two_sided = true\n";
+    if (!light.visible)
+        text += "visible = false\n";
     return text;
 }
 
@@ -80,12 +86,16 @@ std::string tomlText(const GeneratedScene& scene)
         text += fmt::format("[shutter]\nopen = 0\nclose = {:g}\n\n", scene.shutterClose);
     text +=
         fmt::format("[image]\nwidth = 640\nheight = 480\n\n[background]\nradiance = {}\n\n", list(scene.background));
-    if (scene.bounces > 0)
-        text += fmt::format("[integrator]\nbounces = {}\n\n", scene.bounces);
+    if (scene.bounces > 0 || scene.antialias)
+        text += fmt::format("[integrator]\n{}{}\n", scene.bounces > 0 ? fmt::format("bounces = {}\n", scene.bounces) : "",
+            scene.antialias ? "antialias = true\n" : "");
     text += fmt::format("[[mesh]]\nfile = \"{}.obj\"\n\n", scene.name);
     for (const MovingPart& part : scene.parts)
         text += partText(scene, part);
-    return text + lightText(scene.light);
+    text += lightText(scene.light);
+    for (const scene::AreaLight& light : scene.furtherLights)
+        text += '\n' + lightText(light);
+    return text;
 }
 
 } // namespace

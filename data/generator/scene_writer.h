@@ -47,8 +47,10 @@ struct GeneratedScene {
     double shutterClose = 0.0; ///< it opens at 0
     scene::Camera camera;
     scene::AreaLight light;
+    std::vector<scene::AreaLight> furtherLights;
     glm::vec3 background { 0.35f, 0.42f, 0.5f };
     int bounces = 0;
+    bool antialias = false;
 };
 
 /// Of the mesh and of all parts.

@@ -2,6 +2,7 @@
 #ifndef WEDGE_SHARED_BSDF_H
 #define WEDGE_SHARED_BSDF_H
 
+#include "maths.h"
 #include "rng.h"
 #include "vec.h"
 
@@ -14,12 +15,11 @@ WEDGE_SHARED_BEGIN
 /// What multiplies the power of the cosine so that the lobe reflects at most what arrives, 1/sr. Phong:
 /// (m + 2) / 2 pi (Lafortune and Willems 1994); Blinn-Phong: (m + 2)(m + 4) / 8 pi (2^(-m/2) + m), the exact
 /// albedo at normal incidence.
-WEDGE_FN float specularNormalization(float exponent, uint model)
+WEDGE_INLINE float specularNormalization(float exponent, uint model)
 {
-    if (model == WEDGE_SPECULAR_PHONG) {
-        return (exponent + 2.0f) * (0.5f * WEDGE_INV_PI);
-    }
-    return (exponent + 2.0f) * (exponent + 4.0f) * (0.125f * WEDGE_INV_PI) / (pow(2.0f, -0.5f * exponent) + exponent);
+    const float phong = (exponent + 2.0f) * (0.5f * WEDGE_INV_PI);
+    const float blinn = (exponent + 2.0f) * (exponent + 4.0f) * (0.125f * WEDGE_INV_PI) / (exp2Bounded(-0.5f * exponent) + exponent);
+    return model == WEDGE_SPECULAR_PHONG ? phong : blinn;
 }
 
 /// A specular lobe with what does not depend on directions worked out once.
@@ -30,27 +30,43 @@ typedef struct {
     float leastCosine; ///< below it the lobe is under 1e-7 of its peak and counts as 0: most of a scene's directions
 } Lobe;
 
-WEDGE_FN Lobe makeLobe(float exponent, uint model)
+WEDGE_INLINE Lobe makeLobe(float exponent, uint model)
 {
     Lobe lobe;
     lobe.exponent = exponent;
     lobe.model = model;
     lobe.normalization = specularNormalization(exponent, model);
-    lobe.leastCosine = exp(-16.118096f / fmax(exponent, 1e-3f));
+    lobe.leastCosine = exp2Bounded(-23.2534966f / fmax(exponent, 1e-3f));
     return lobe;
 }
 
-/// The lobe in 1/sr for unit vectors: n normal, v to the viewer, l to the light, both above n's horizon.
-WEDGE_FN float lobeValue(Lobe lobe, Vec3 n, Vec3 v, Vec3 l)
+/// What a lobe is in one direction, 1/sr.
+typedef struct {
+    float value; ///< the reflection
+    float pdf;   ///< density at which sampleLobe() gives the direction
+} LobeAt;
+
+/// For unit vectors: n normal, v to the viewer, l to the light, both above n's horizon.
+WEDGE_INLINE LobeAt lobeAt(Lobe lobe, Vec3 n, Vec3 v, Vec3 l)
 {
-    float c;
-    if (lobe.model == WEDGE_SPECULAR_PHONG) {
-        c = 2.0f * vecDot(n, v) * vecDot(n, l) - vecDot(v, l);
-    } else {
-        c = vecDot(n, vecNormalize(vecAdd(v, l)));
-    }
-    return c > lobe.leastCosine ? lobe.normalization * pow(c, lobe.exponent) : 0.0f;
+    const bool phong = lobe.model == WEDGE_SPECULAR_PHONG;
+    const Vec3 sum = vecAdd(v, l);
+    const float inverse = 1.0f / fmax(vecLength(sum), 1e-20f);
+    const float across = vecDot(v, sum) * inverse; // of the half vector to the view
+    const float mirrored = 2.0f * vecDot(n, v) * vecDot(n, l) - vecDot(v, l);
+    const float c = phong ? mirrored : vecDot(n, sum) * inverse;
+    const float power = powPositive(fmax(c, 1e-30f), lobe.exponent);
+    const float density = (lobe.exponent + 1.0f) * (0.5f * WEDGE_INV_PI) * power;
+    const float mirroredHalf = across > 1e-6f ? density / (4.0f * fmax(across, 1e-6f)) : 0.0f;
+    const bool inside = c > lobe.leastCosine;
+    LobeAt at;
+    at.value = inside ? lobe.normalization * power : 0.0f;
+    at.pdf = inside ? (phong ? density : mirroredHalf) : 0.0f;
+    return at;
 }
+
+/// The lobe's reflection alone, see lobeAt().
+WEDGE_INLINE float lobeValue(Lobe lobe, Vec3 n, Vec3 v, Vec3 l) { return lobeAt(lobe, n, v, l).value; }
 
 /// Luminance of linear Rec.709.
 WEDGE_INLINE float luminance(Vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
@@ -88,51 +104,43 @@ WEDGE_INLINE Vec3 cosineDirection(Vec3 n, Vec2 u)
 }
 
 /// Direction about the unit vector n whose cosine c to it has the density (m + 1) / 2 pi c^m.
-WEDGE_FN Vec3 powerCosineDirection(Vec3 n, float exponent, Vec2 u)
+WEDGE_INLINE Vec3 powerCosineDirection(Vec3 n, float exponent, Vec2 u)
 {
-    const float c = pow(1.0f - u.x, 1.0f / (exponent + 1.0f));
+    const float c = powPositive(fmax(1.0f - u.x, 1e-30f), 1.0f / (exponent + 1.0f));
     const float r = sqrt(fmax(0.0f, 1.0f - c * c));
-    const float phi = 6.28318531f * u.y;
+    float sine, cosine;
+    sinCosTurn(u.y, &sine, &cosine);
     Vec3 s, t;
     tangentFrame(n, &s, &t);
-    return vecMad(vecMad(vecScale(s, r * cos(phi)), t, r * sin(phi)), n, c);
+    return vecMad(vecMad(vecScale(s, r * cosine), t, r * sine), n, c);
 }
 
 /// A direction distributed as the lobe is, see lobePdf(); it may lie below n's horizon, where the lobe reflects nothing.
 /// Phong: about the mirrored view; Blinn-Phong: the view mirrored by a half vector about n.
-WEDGE_FN Vec3 sampleLobe(Lobe lobe, Vec3 n, Vec3 v, Vec2 u)
+WEDGE_INLINE Vec3 sampleLobe(Lobe lobe, Vec3 n, Vec3 v, Vec2 u)
 {
-    if (lobe.model == WEDGE_SPECULAR_PHONG) {
-        return powerCosineDirection(vecMad(vecScale(v, -1.0f), n, 2.0f * vecDot(n, v)), lobe.exponent, u);
-    }
-    const Vec3 h = powerCosineDirection(n, lobe.exponent, u);
-    return vecMad(vecScale(v, -1.0f), h, 2.0f * vecDot(v, h));
+    const bool phong = lobe.model == WEDGE_SPECULAR_PHONG;
+    const Vec3 mirrored = vecMad(vecScale(v, -1.0f), n, 2.0f * vecDot(n, v));
+    const Vec3 axis = vec3(phong ? mirrored.x : n.x, phong ? mirrored.y : n.y, phong ? mirrored.z : n.z);
+    const Vec3 h = powerCosineDirection(axis, lobe.exponent, u);
+    const Vec3 l = vecMad(vecScale(v, -1.0f), h, 2.0f * vecDot(v, h));
+    return vec3(phong ? h.x : l.x, phong ? h.y : l.y, phong ? h.z : l.z);
 }
 
 /// Density in 1/sr of sampleLobe() at the unit vector l.
-WEDGE_FN float lobePdf(Lobe lobe, Vec3 n, Vec3 v, Vec3 l)
-{
-    const float scale = (lobe.exponent + 1.0f) * (0.5f * WEDGE_INV_PI);
-    if (lobe.model == WEDGE_SPECULAR_PHONG) {
-        const float c = 2.0f * vecDot(n, v) * vecDot(n, l) - vecDot(v, l);
-        return c > lobe.leastCosine ? scale * pow(c, lobe.exponent) : 0.0f;
-    }
-    const Vec3 h = vecNormalize(vecAdd(v, l));
-    const float c = vecDot(n, h);
-    const float across = vecDot(v, h);
-    return c > lobe.leastCosine && across > 1e-6f ? scale * pow(c, lobe.exponent) / (4.0f * across) : 0.0f;
-}
+WEDGE_INLINE float lobePdf(Lobe lobe, Vec3 n, Vec3 v, Vec3 l) { return lobeAt(lobe, n, v, l).pdf; }
 
 /// lobeValue() over lobePdf() at a direction that sampleLobe() gave; 0 where the lobe is cut off.
-WEDGE_FN float lobeOverPdf(Lobe lobe, Vec3 n, Vec3 v, Vec3 l)
+WEDGE_INLINE float lobeOverPdf(Lobe lobe, Vec3 n, Vec3 v, Vec3 l)
 {
+    const bool phong = lobe.model == WEDGE_SPECULAR_PHONG;
     const float scale = 6.28318531f * lobe.normalization / (lobe.exponent + 1.0f);
-    if (lobe.model == WEDGE_SPECULAR_PHONG) {
-        return 2.0f * vecDot(n, v) * vecDot(n, l) - vecDot(v, l) > lobe.leastCosine ? scale : 0.0f;
-    }
     const Vec3 h = vecNormalize(vecAdd(v, l));
+    const float mirrored = 2.0f * vecDot(n, v) * vecDot(n, l) - vecDot(v, l);
+    const float c = phong ? mirrored : vecDot(n, h);
     // Where l is next to -v, rounding may put the half vector on the wrong side of v.
-    return vecDot(n, h) > lobe.leastCosine ? 4.0f * fmax(vecDot(v, h), 0.0f) * scale : 0.0f;
+    const float jacobian = phong ? 1.0f : 4.0f * fmax(vecDot(v, h), 0.0f);
+    return c > lobe.leastCosine ? jacobian * scale : 0.0f;
 }
 
 /// The same for a lobe that is used once.

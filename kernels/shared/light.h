@@ -2,6 +2,7 @@
 #ifndef WEDGE_SHARED_LIGHT_H
 #define WEDGE_SHARED_LIGHT_H
 
+#include "maths.h"
 #include "rng.h"
 #include "vec.h"
 
@@ -76,24 +77,6 @@ typedef struct {
     uint padding[2];
 } SampleParams;
 
-/// Natural logarithm of a normal x > 0, to 4e-8 of max(1, |log x|). Straight-line code, unlike the library's, so that
-/// loops over samples become vectors. log(1 + z) = z - z^2/2 + z^3 P(z), P a least-squares fit over [1/sqrt 2, sqrt 2].
-WEDGE_INLINE float logPositive(float x)
-{
-    const uint shifted = as_uint(x) + (0x3f800000u - 0x3f3504f3u);
-    const float exponent = (float)((int)(shifted >> 23) - 127);
-    const float z = as_float((shifted & 0x007fffffu) + 0x3f3504f3u) - 1.0f;
-    float p = -0.0766083002f;
-    p = 0.127863303f + p * z;
-    p = -0.131616011f + p * z;
-    p = 0.141978756f + p * z;
-    p = -0.166227534f + p * z;
-    p = 0.200014129f + p * z;
-    p = -0.250008464f + p * z;
-    p = 0.333333284f + p * z;
-    return exponent * 0.693147181f + (z - 0.5f * z * z + z * z * z * p);
-}
-
 /// Inverse error function for |x| < 1 (Giles, Approximating the erfinv function, 2010; single precision). Both of its
 /// ranges are worked out and one is chosen, again for vectors.
 WEDGE_INLINE float erfInverse(float x)
@@ -137,13 +120,13 @@ WEDGE_FN Vec3 vectorToLight(DeltaLight light, float sceneDiameter, Vec3 origin)
 }
 
 /// The light's profile at local coordinates (a, b), 1 at the centre.
-WEDGE_FN float lightProfile(float a, float b, uint profile, float cut)
+WEDGE_INLINE float lightProfile(float a, float b, uint profile, float cut)
 {
-    return profile == WEDGE_PROFILE_GAUSSIAN ? exp(-0.5f * cut * cut * (a * a + b * b)) : 1.0f;
+    return profile == WEDGE_PROFILE_GAUSSIAN ? exp2Bounded(-0.721347520f * cut * cut * (a * a + b * b)) : 1.0f;
 }
 
 /// The point of the light at local coordinates (a, b), metres.
-WEDGE_FN Vec3 lightPoint(Vec3 centre, Vec3 halfU, Vec3 halfV, float a, float b)
+WEDGE_INLINE Vec3 lightPoint(Vec3 centre, Vec3 halfU, Vec3 halfV, float a, float b)
 {
     return vecMad(vecMad(centre, halfU, a), halfV, b);
 }
