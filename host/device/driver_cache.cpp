@@ -1,5 +1,7 @@
 #include "host/device/driver_cache.h"
 
+#include "host/device/cache_folder.h"
+#include "host/device/cache_record.h"
 #include "host/device/program_cache.h"
 
 #include <algorithm>
@@ -18,74 +20,23 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* variable = "POCL_CACHE_DIR";
-constexpr std::string_view markExtension = ".mark";
-
-/// A file that is open and locked, or neither. The lock goes with the process, however that ends.
-int openLocked(const fs::path& path, int how)
-{
-    const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (file >= 0 && ::flock(file, how) != 0) {
-        ::close(file);
-        return -1;
-    }
-    return file;
-}
-
-/// Held while marks are set or looked at, so that none appears in between.
-class Turn {
-public:
-    explicit Turn(const fs::path& root)
-        : file_(openLocked(root / "driver.lock", LOCK_EX))
-    {
-    }
-    ~Turn()
-    {
-        if (file_ >= 0) {
-            ::close(file_);
-        }
-    }
-    Turn(const Turn&) = delete;
-    Turn& operator=(const Turn&) = delete;
-
-    bool held() const { return file_ >= 0; }
-
-private:
-    int file_;
-};
-
-std::vector<fs::path> marksIn(const fs::path& folder)
-{
-    std::vector<fs::path> marks;
-    std::error_code failed;
-    for (fs::directory_iterator it(folder, failed), end; !failed && it != end; it.increment(failed)) {
-        if (it->path().extension() == markExtension) {
-            marks.push_back(it->path());
-        }
-    }
-    return marks;
-}
-
+/// A mark that cannot be opened tells nothing, and must not keep the others from telling.
 bool isLocked(const fs::path& mark)
 {
-    const int file = ::open(mark.c_str(), O_RDWR | O_CLOEXEC);
-    const bool free = file >= 0 && ::flock(file, LOCK_EX | LOCK_NB) == 0;
+    const int file = ::open(mark.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    const bool locked = file >= 0 && ::flock(file, LOCK_EX | LOCK_NB) != 0;
     if (file >= 0) {
         ::close(file);
     }
-    return !free; // or not to be opened: then nobody can tell, and nothing is removed
+    return locked;
 }
 
-/// What is in the folder goes, the folder stays: the driver of this process may have been told of it.
-void empty(const fs::path& folder)
+/// Removes the marks of processes that died, and returns how many those were.
+std::size_t removeAll(const std::vector<fs::path>& marks)
 {
     std::error_code ignored;
-    std::vector<fs::path> entries;
-    for (fs::directory_iterator it(folder, ignored), end; !ignored && it != end; it.increment(ignored)) {
-        entries.push_back(it->path());
-    }
-    for (const fs::path& entry : entries) {
-        fs::remove_all(entry, ignored);
-    }
+    return static_cast<std::size_t>(
+        std::ranges::count_if(marks, [&](const fs::path& mark) { return fs::remove(mark, ignored); }));
 }
 
 // A process that the user ends in the middle of compiling did not die of its cache: it takes its mark along.
@@ -129,8 +80,8 @@ void catchEndingNoMore()
 
 } // namespace
 
-DriverCache::DriverCache(fs::path root)
-    : root_(std::move(root))
+DriverCache::DriverCache(const fs::path& root)
+    : folder_(ownCacheFolder(root))
 {
 }
 
@@ -141,57 +92,54 @@ DriverCache& DriverCache::ofProcess()
         auto* made = new DriverCache(ProgramCache::fromEnvironment().folder());
         const char* users = std::getenv(variable);
         made->recover(users == nullptr ? "" : users);
-        std::error_code failed;
-        if (users == nullptr && !made->root_.empty()) {
-            fs::create_directories(made->folder(), failed);
-            if (!failed) {
-                ::setenv(variable, made->folder().c_str(), 0);
-            }
+        if (users == nullptr && !made->folder_.empty()) {
+            ::setenv(variable, made->folder_.c_str(), 0);
         }
         return made;
     }();
     return cache;
 }
 
-fs::path DriverCache::folder() const { return root_.empty() ? fs::path() : root_ / "driver"; }
-
 void DriverCache::recover(const std::string& users)
 {
-    if (root_.empty() || marksIn(root_).empty()) {
+    if (folder_.empty()) {
         return;
     }
-    const Turn turn(root_);
-    const std::vector<fs::path> marks = marksIn(root_);
-    for (const fs::path& mark : marks) {
-        if (!turn.held() || isLocked(mark)) {
-            return;
-        }
-    }
-    std::error_code ignored;
-    for (const fs::path& mark : marks) {
-        fs::remove(mark, ignored);
-    }
-    if (marks.empty()) {
+    const Turn turn(folder_);
+    if (!turn.held()) {
         return;
     }
+    const std::vector<fs::path> marks = marksIn(folder_);
+    const bool othersWork = std::ranges::any_of(marks, isLocked);
+    const bool died = !othersWork && removeAll(marks) > 0;
     const std::string what = "an earlier run ended while the OpenCL driver compiled or fetched kernels";
     if (!users.empty()) {
-        notice_ = fmt::format("{}: {}={}: if that happens again, empty this folder", what, variable, users);
+        if (died) {
+            notice_ = fmt::format("{}: {}={}: if that happens again, empty this folder", what, variable, users);
+        }
         return;
     }
-    empty(folder());
-    notice_ = fmt::format("{}: its cache may be damaged and was emptied: {}", what, folder().string());
+    CacheRecord record(folder_);
+    if (died) {
+        emptyCacheFolder(folder_);
+        notice_ = fmt::format("{}: its cache may be damaged and was emptied: {}", what, folder_.string());
+    } else if (!record.isValid() && !othersWork) {
+        emptyCacheFolder(folder_);
+        notice_ = fmt::format(
+            "the record of the OpenCL driver's cache is damaged: the cache was emptied: {}", folder_.string());
+    } else if (const std::size_t damaged = record.removeDamaged(othersWork); damaged > 0) {
+        notice_ = fmt::format("the OpenCL driver's cache was damaged: files removed, to be compiled again: {} in {}",
+            damaged, folder_.string());
+    }
 }
 
 void DriverCache::setMark()
 {
-    std::error_code ignored;
-    fs::create_directories(root_, ignored);
-    const Turn turn(root_);
+    const Turn turn(folder_);
     if (!turn.held()) {
         return;
     }
-    mark_ = root_ / fmt::format("{}{}", ::getpid(), markExtension);
+    mark_ = folder_ / markName(::getpid());
     file_ = openLocked(mark_, LOCK_EX | LOCK_NB);
     if (file_ >= 0) {
         catchEnding(mark_.string());
@@ -203,8 +151,11 @@ void DriverCache::removeMark()
     if (file_ < 0) {
         return;
     }
+    const Turn turn(folder_); // who looks at marks sees it locked, or not at all
+    if (turn.held()) {
+        CacheRecord(folder_).takeIn();
+    }
     catchEndingNoMore();
-    const Turn turn(root_); // who looks at marks sees it locked, or not at all
     std::error_code ignored;
     fs::remove(mark_, ignored);
     ::close(file_);
@@ -214,7 +165,7 @@ void DriverCache::removeMark()
 DriverCache::Mark::Mark(DriverCache& cache)
     : cache_(cache)
 {
-    if (cache_.holders_++ == 0 && !cache_.root_.empty()) {
+    if (cache_.holders_++ == 0 && !cache_.folder_.empty()) {
         cache_.setMark();
     }
 }

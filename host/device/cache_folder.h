@@ -1,0 +1,43 @@
+// The folder in which a driver keeps its compiled kernels for us: what in it is ours to remove.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace wedge::device {
+
+/// The folder wedge-pocl below root, made where it is not there yet; empty if it cannot be had: without a root, where
+/// it cannot be written, or where something of that name is not of our making. It is told by a file put in when it is
+/// made. It has to belong to this user as well, since of folders that another user's driver makes in it this one's
+/// could write to none, and would not build.
+std::filesystem::path ownCacheFolder(const std::filesystem::path& root);
+
+/// A file that is open and locked (how: as flock has it), or -1. The lock goes with the process, however that ends.
+int openLocked(const std::filesystem::path& path, int how);
+
+/// Held while marks and the record are looked at or changed, so that nothing changes in between.
+class Turn {
+public:
+    explicit Turn(const std::filesystem::path& folder);
+    ~Turn();
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+    bool held() const { return file_ >= 0; }
+
+private:
+    int file_;
+};
+
+/// Removes what the driver left in the folder and the record of it, and nothing where it is not, or no longer, ours.
+/// The folder stays: the driver of this process may have been told of it.
+void emptyCacheFolder(const std::filesystem::path& folder);
+
+/// The marks of processes in the folder: empty regular files that are named by a number.
+std::vector<std::filesystem::path> marksIn(const std::filesystem::path& folder);
+
+/// The name of the mark of a process.
+std::string markName(long process);
+
+} // namespace wedge::device
