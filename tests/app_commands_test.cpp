@@ -1,6 +1,7 @@
 // The program's commands end to end: what they print and report, precedence, and renders that are stopped.
 #include "tests/app_testing.h"
 
+#include "host/image/png.h"
 #include "host/image/read_image.h"
 
 #include <cmath>
@@ -314,6 +315,43 @@ TEST_CASE("compare prints one number, all, or a map")
     const image::RgbImage map = image::readImage(place.path() / "map.png");
     CHECK(map.width == 64);
     CHECK(*std::ranges::max_element(map.rgb) > 0);
+}
+
+/// A picture of one colour, as large as one that a render of next to nothing writes, in few bytes.
+void writePlain(const Workplace& place, int width, int height)
+{
+    const std::vector<float> plane(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.5f);
+    image::writeExr((place.path() / "plain.exr").string(),
+        { width, height, { 0, 0, width, height },
+            { { "R", plane, false }, { "G", plane, false }, { "B", plane, false } }, {} });
+    image::writePng(
+        (place.path() / "plain.png").string(), { width, height, std::vector<float>(3 * plane.size(), 0.5f) });
+}
+
+TEST_CASE("large pictures in few bytes are read by who allows as many pixels, or renders as many")
+{
+    const Workplace place;
+    writePlain(place, 2600, 1640);
+    for (const char* name : { "plain.exr", "plain.png" }) {
+        const Outcome refused = place.run({ "compare", name, name, "--metric", "rmse" });
+        CHECK(refused.status == 1);
+        CHECK(contains(
+            refused.err, std::string(name) + ": use a smaller image, or allow as many pixels with --max-pixels"));
+        CHECK(place.run({ "compare", name, name, "--metric", "rmse", "--max-pixels", "4264000" }).out == "0\n");
+        CHECK(place.run({ "compare", name, name, "--metric", "rmse", "--max-pixels", "4263999" }).status == 1);
+    }
+    CHECK(place.run({ "compare", "plain.exr", "plain.exr", "--max-pixels", "0" }).status == 2);
+    const std::vector<std::string> call = { "render", box, "--method", "mc", "--spp", "1", "--crop", "0,0,16,16",
+        "--reference", "plain.exr", "-o", "b.exr", "--size" };
+    const auto sized = [&](const std::string& size) {
+        std::vector<std::string> all = call;
+        all.push_back(size);
+        return place.run(all);
+    };
+    CHECK(sized("2600x1640").status == 0);
+    const Outcome other = sized("64x64");
+    CHECK(other.status == 1);
+    CHECK(contains(other.err, "plain.exr: give one of the frame's size"));
 }
 
 } // namespace

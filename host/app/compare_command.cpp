@@ -3,6 +3,7 @@
 #include "host/app/outputs.h"
 #include "host/app/reference.h"
 #include "host/app/values.h"
+#include "host/decode/limits.h"
 #include "host/error.h"
 #include "host/image/atomic_file.h"
 #include "host/image/colour.h"
@@ -23,6 +24,7 @@ namespace {
 struct CompareOptions {
     std::string image, reference, errorMap;
     std::optional<std::size_t> metric;
+    std::optional<std::int64_t> maxPixels;
     bool json = false;
 };
 
@@ -72,12 +74,23 @@ void checkErrorMap(const CompareOptions& options)
     image::checkWritable(options.errorMap);
 }
 
+/// Who says how many pixels may be read has looked at the files, which are then no longer asked for their bytes.
+decode::Limits limitsOf(const CompareOptions& options)
+{
+    decode::Limits limits = decode::referenceLimits;
+    limits.remedy = "use a smaller image, or allow as many pixels with --max-pixels";
+    limits.pixels = options.maxPixels.value_or(limits.pixels);
+    limits.unquestioned = options.maxPixels.value_or(limits.unquestioned);
+    return limits;
+}
+
 int compare(const CompareOptions& options)
 {
     if (!options.errorMap.empty()) {
         checkErrorMap(options);
     }
-    image::ImageFile imageFile(options.image), referenceFile(options.reference);
+    const decode::Limits limits = limitsOf(options);
+    image::ImageFile imageFile(options.image, limits), referenceFile(options.reference, limits);
     image::requireSameSize(imageFile, referenceFile);
     const RgbImage a = imageFile.read();
     const RgbImage b = referenceFile.read();
@@ -124,6 +137,15 @@ void addCompareCommand(CLI::App& parser, Action& action)
             [options](const std::string& text) { options->metric = choice("--metric", text, metricNames()); },
             "Print this number alone")
         ->type_name("rmse|relmse|psnr|ssim|flip")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    command
+        ->add_option_function<std::string>(
+            "--max-pixels",
+            [options](const std::string& text) {
+                options->maxPixels = wholeNumber("--max-pixels", text, 1, std::int64_t { 1 } << 30);
+            },
+            "Read images of up to so many pixels, however few bytes their files have")
+        ->type_name("N")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     command->add_flag("--json", options->json, "Print JSON; a value that is not finite is null");
     command->add_option("--error-map", options->errorMap, "Write where FLIP sees the error, as a grey PNG")

@@ -1,8 +1,11 @@
 #include "host/app/reference.h"
 
 #include "host/app/console.h"
+#include "host/decode/limits.h"
 #include "host/error.h"
 #include "host/image/read_image.h"
+
+#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -24,7 +27,13 @@ image::RgbImage cut(const image::RgbImage& image, const image::Window& window)
 
 image::RgbImage readReference(const std::string& path, const render::Settings& settings)
 {
-    image::ImageFile file(path); // its size is known before it is decoded
+    // Its size is known before it is decoded. As many pixels as the frame has are what was asked for.
+    decode::Limits limits = decode::referenceLimits;
+    const std::int64_t framePixels = std::int64_t { settings.width } * settings.height;
+    limits.pixels = std::max(limits.pixels, framePixels);
+    limits.unquestioned = std::max(limits.unquestioned, framePixels);
+    limits.remedy = "give one of the frame's size";
+    image::ImageFile file(path, limits);
     const image::Window& crop = settings.crop;
     const bool cropped = crop.width() > 0;
     if (file.width() == settings.width && file.height() == settings.height) {

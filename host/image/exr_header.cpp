@@ -60,12 +60,12 @@ struct Grid {
     }
 };
 
-Grid checkPart(const ExrPart& part, bool tiled, std::uint64_t fileBytes)
+Grid checkPart(const ExrPart& part, bool tiled, std::uint64_t fileBytes, const decode::Limits& limits)
 {
     if (!part.data || !part.display || !part.compression || part.channels == 0 || (tiled && !part.tiles))
         throw Failure("its header is not complete");
     const decode::Size size = sizeOf(*part.data);
-    decode::referenceLimits.admit(size, fileBytes);
+    limits.admit(size, fileBytes);
     const decode::Size frame = sizeOf(*part.display);
     if (frame.width < 1 || frame.height < 1)
         throw Failure("its display window is empty");
@@ -112,7 +112,7 @@ void checkChunks(ExrCursor& in, const ExrPart& part, const Grid& grid, std::uint
 
 } // namespace
 
-void checkExrHeaders(Imf::IStream& stream, std::uint64_t fileBytes)
+void checkExrHeaders(Imf::IStream& stream, std::uint64_t fileBytes, const decode::Limits& limits)
 {
     ExrCursor in(stream, fileBytes);
     if (fileBytes == 0)
@@ -140,7 +140,7 @@ void checkExrHeaders(Imf::IStream& stream, std::uint64_t fileBytes)
             throw Failure("it has more than " + std::to_string(mostParts) + " parts");
         if (multiPart && part.type.starts_with("deep"))
             failAsDeep();
-        const Grid grid = checkPart(part, isTiled(part), fileBytes);
+        const Grid grid = checkPart(part, isTiled(part), fileBytes, limits);
         chunks += grid.count();
         if (!first) {
             first = std::move(part);

@@ -77,15 +77,16 @@ std::map<std::string, MetadataValue> readMetadata(const Imf::Header& header)
 
 class ExrImage : public ImageFile::Reader {
 public:
-    explicit ExrImage(const std::string& path)
+    explicit ExrImage(const std::string& path, const decode::Limits& limits = decode::referenceLimits)
         : path_(path)
+        , limits_(limits)
         , stream_(path)
     {
     }
 
     std::pair<int, int> open() override
     {
-        checkExrHeaders(stream_, stream_.bytes());
+        checkExrHeaders(stream_, stream_.bytes(), limits_);
         file_.emplace(stream_);
         const Imath::Box2i data = file_->header().dataWindow();
         const Imath::Box2i display = file_->header().displayWindow();
@@ -153,6 +154,7 @@ private:
     }
 
     std::string path_;
+    decode::Limits limits_;
     FileStream stream_;
     std::optional<Imf::InputFile> file_;
     LayeredImage layout_; // all but values and metadata
@@ -160,7 +162,10 @@ private:
 
 } // namespace
 
-std::unique_ptr<ImageFile::Reader> exrReader(const std::string& path) { return std::make_unique<ExrImage>(path); }
+std::unique_ptr<ImageFile::Reader> exrReader(const std::string& path, const decode::Limits& limits)
+{
+    return std::make_unique<ExrImage>(path, limits);
+}
 
 LayeredImage readExr(const std::string& path)
 {

@@ -25,15 +25,16 @@ std::vector<float> linearValues(double gamma)
 
 class PngImage : public ImageFile::Reader {
 public:
-    explicit PngImage(const std::string& path)
-        : bytes_(readFile(path, "PNG image", maxImageFile))
+    explicit PngImage(const std::string& path, const decode::Limits& limits = decode::referenceLimits)
+        : limits_(limits)
+        , bytes_(readFile(path, "PNG image", maxImageFile))
     {
     }
 
     std::pair<int, int> open() override
     {
         png_.emplace(decode::bytesOf(bytes_));
-        decode::referenceLimits.admit(png_->size(), bytes_.size());
+        limits_.admit(png_->size(), bytes_.size());
         return { png_->size().width, png_->size().height };
     }
 
@@ -55,13 +56,17 @@ public:
     }
 
 private:
+    decode::Limits limits_;
     std::string bytes_;
     std::optional<decode::PngReader> png_;
 };
 
 } // namespace
 
-std::unique_ptr<ImageFile::Reader> pngReader(const std::string& path) { return std::make_unique<PngImage>(path); }
+std::unique_ptr<ImageFile::Reader> pngReader(const std::string& path, const decode::Limits& limits)
+{
+    return std::make_unique<PngImage>(path, limits);
+}
 
 RgbImage readPng(const std::string& path)
 {

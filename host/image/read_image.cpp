@@ -18,15 +18,16 @@ namespace {
 
 class HdrImage : public ImageFile::Reader {
 public:
-    explicit HdrImage(const std::string& path)
-        : bytes_(readFile(path, "HDR image", maxImageFile))
+    HdrImage(const std::string& path, const decode::Limits& limits)
+        : limits_(limits)
+        , bytes_(readFile(path, "HDR image", maxImageFile))
     {
     }
 
     std::pair<int, int> open() override
     {
         hdr_.emplace(decode::bytesOf(bytes_));
-        decode::referenceLimits.admit(hdr_->size(), bytes_.size());
+        limits_.admit(hdr_->size(), bytes_.size());
         return { hdr_->size().width, hdr_->size().height };
     }
 
@@ -45,6 +46,7 @@ public:
     }
 
 private:
+    decode::Limits limits_;
     std::string bytes_;
     std::optional<decode::HdrReader> hdr_;
 };
@@ -68,7 +70,7 @@ void failToRead(const std::string& path, const std::string& kind, const std::exc
         failure ? failure->remedy() : "check that the file is whole and of its type");
 }
 
-ImageFile::ImageFile(const std::string& path)
+ImageFile::ImageFile(const std::string& path, const decode::Limits& limits)
     : path_(path)
 {
     std::string extension = std::filesystem::path(path).extension().string();
@@ -79,11 +81,11 @@ ImageFile::ImageFile(const std::string& path)
     kind_ = extension == ".exr" ? "EXR image" : extension == ".png" ? "PNG image" : "HDR image";
     try {
         if (extension == ".exr")
-            reader_ = exrReader(path);
+            reader_ = exrReader(path, limits);
         else if (extension == ".png")
-            reader_ = pngReader(path);
+            reader_ = pngReader(path, limits);
         else
-            reader_ = std::make_unique<HdrImage>(path);
+            reader_ = std::make_unique<HdrImage>(path, limits);
         std::tie(width_, height_) = reader_->open();
     } catch (const std::exception& error) {
         failToRead(path, kind_, error);

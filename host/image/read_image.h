@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/decode/limits.h"
 #include "host/image/image.h"
 
 #include <memory>
@@ -13,9 +14,8 @@ namespace wedge::image {
 /// from sRGB), .hdr (Radiance).
 class ImageFile {
 public:
-    /// Throws Error for other extensions, and for files that cannot be read, or are too large to be (2^26 pixels, or
-    /// many more than a file of so few bytes can hold).
-    explicit ImageFile(const std::string& path);
+    /// Throws Error for other extensions, and for files that cannot be read, or are beyond the limits.
+    explicit ImageFile(const std::string& path, const decode::Limits& limits = decode::referenceLimits);
     ~ImageFile();
 
     int width() const { return width_; }

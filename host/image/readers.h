@@ -10,8 +10,8 @@ namespace wedge::image {
 constexpr std::uintmax_t maxImageFile = std::uintmax_t { 1 } << 30;
 
 // One reader a format. What they throw may be any exception.
-std::unique_ptr<ImageFile::Reader> pngReader(const std::string& path);
-std::unique_ptr<ImageFile::Reader> exrReader(const std::string& path);
+std::unique_ptr<ImageFile::Reader> pngReader(const std::string& path, const decode::Limits& limits);
+std::unique_ptr<ImageFile::Reader> exrReader(const std::string& path, const decode::Limits& limits);
 
 /// The Error for an image file ("PNG image") that cannot be read for that reason, on one line.
 [[noreturn]] void failToRead(const std::string& path, const std::string& kind, const std::exception& reason);
