@@ -168,6 +168,54 @@ TEST_CASE("EXR: sizes are held against the file")
     CHECK(contains(refusal({ .height = 60000 }, 900000), "it ends before the picture does")); // 16 bytes a row
 }
 
+TEST_CASE("EXR: more channels than layers are held against the file, those of layers of an empty scene are not")
+{
+    const std::string claims = "it claims 1024 channels of 512x480 pixels in ";
+    CHECK(contains(refusal({ .width = 512, .height = 480, .channelCount = 1024 }, 1'000'000), claims));
+    CHECK(contains(refusal({ .width = 1920, .height = 1080, .channelCount = 65 }, 300'000), "it claims 65 channels"));
+    CHECK(contains(
+        refusal({ .width = 1920, .height = 1080, .channelCount = 64 }, 300), "it ends before the picture does"));
+    const TempDirectory directory;
+    writeBytes(directory / "a.exr",
+        Exr { .width = 512, .height = 480, .channelCount = 1024 }.bytes() + std::string(100, '\0'));
+    try {
+        wedge::decode::Limits limits = wedge::decode::referenceLimits;
+        limits.unquestioned = 1 << 24;
+        ImageFile(directory / "a.exr", limits);
+    } catch (const wedge::Error& error) {
+        CHECK(contains(error.what(), "it ends before the picture does"));
+    }
+}
+
+TEST_CASE("EXR: a channel of fewer pixels is refused by its name")
+{
+    const std::string full = number(1) + number(1);
+    for (const std::string& sampling : { number(2) + number(1), number(1) + number(2), number(0) + number(0) }) {
+        std::string file = Exr {}.bytes();
+        const std::size_t second = file.find(full, file.find(full) + 1);
+        file.replace(second, sampling.size(), sampling);
+        const TempDirectory directory;
+        writeBytes(directory / "a.exr", file + std::string(1000, '\0'));
+        CHECK(contains(readError(directory / "a.exr"),
+            "its channel G is subsampled): " + (directory / "a.exr") + ": convert the image to R, G and B"));
+    }
+}
+
+TEST_CASE("EXR: parts of unknown types, and chunks that no file holds, are refused")
+{
+    const std::string scanLines = attribute("type", "string", "scanlineimage");
+    const auto chunks = [](std::uint32_t count) { return attribute("chunkCount", "int", number(count)); };
+    CHECK(contains(refusal({ .flags = multiPart, .more = attribute("type", "string", "foo") + chunks(0xffffffff) }),
+        "a part is of the unknown type 'foo'"));
+    CHECK(contains(refusal({ .flags = multiPart }), "a part is of the unknown type ''"));
+    for (const std::uint32_t count : { 0u, 0xffffffffu, 0x7fffffffu, 130u }) {
+        CAPTURE(count);
+        CHECK(
+            contains(refusal({ .flags = multiPart, .more = scanLines + chunks(count) }, 600), " chunks of pixels in "));
+    }
+    CHECK(contains(refusal({ .flags = multiPart, .more = scanLines + chunks(2) }), "it ends "));
+}
+
 TEST_CASE("EXR: tiles are held against the file")
 {
     CHECK(contains(refusal({ .flags = tiled }), "its header is not complete"));

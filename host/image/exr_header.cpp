@@ -60,6 +60,22 @@ struct Grid {
     }
 };
 
+/// All channels of a chunk are unpacked, whatever is read of them, at about half a gigabyte a second. As many as all
+/// layers of a render, of as many pixels as go unquestioned, do so as well, since those of an empty scene are next to
+/// nothing packed. Nobody needs the more channels of a small file.
+void requireModestChannels(
+    const ExrPart& part, const decode::Size& size, std::uint64_t fileBytes, const decode::Limits& limits)
+{
+    constexpr std::uint64_t layers = 64, bytesOfLayers = 4 * layers, bytesOfMore = layers, perByte = 64;
+    const std::uint64_t unquestioned =
+        static_cast<std::uint64_t>(limits.unquestioned) * (part.channels <= layers ? bytesOfLayers : bytesOfMore);
+    const std::uint64_t raw = static_cast<std::uint64_t>(size.pixels()) * part.bytesPerPixel;
+    if (raw > unquestioned && raw / perByte > fileBytes)
+        throw Failure("it claims " + std::to_string(part.channels) + " channels of " + std::to_string(size.width) + "x"
+                + std::to_string(size.height) + " pixels in " + std::to_string(fileBytes) + " bytes",
+            limits.remedy);
+}
+
 Grid checkPart(const ExrPart& part, bool tiled, std::uint64_t fileBytes, const decode::Limits& limits)
 {
     if (!part.data || !part.display || !part.compression || part.channels == 0 || (tiled && !part.tiles))
@@ -69,12 +85,8 @@ Grid checkPart(const ExrPart& part, bool tiled, std::uint64_t fileBytes, const d
     const decode::Size frame = sizeOf(*part.display);
     if (frame.width < 1 || frame.height < 1)
         throw Failure("its display window is empty");
+    requireModestChannels(part, size, fileBytes, limits);
     const auto width = static_cast<std::uint64_t>(size.width), height = static_cast<std::uint64_t>(size.height);
-    const std::uint64_t raw = width * height * part.bytesPerPixel;
-    constexpr std::uint64_t modest = std::uint64_t { 1 } << 28;
-    if (raw > modest && raw / decode::mostPixelsPerByte > fileBytes)
-        throw Failure("it claims " + std::to_string(part.channels) + " channels of " + std::to_string(size.width) + "x"
-            + std::to_string(size.height) + " pixels in " + std::to_string(fileBytes) + " bytes");
     Grid grid { width, height, width, rowsPerChunk(*part.compression) };
     if (tiled) {
         grid.chunkWidth = part.tiles->width;
@@ -110,6 +122,26 @@ void checkChunks(ExrCursor& in, const ExrPart& part, const Grid& grid, std::uint
     throw Failure("it has deep data", "flatten it, and save it with the channels R, G and B");
 }
 
+/// OpenEXR takes memory for a table of so many chunks, which of types that it does not know are not counted otherwise.
+void checkType(const ExrPart& part, bool multiPart, std::uint64_t fileBytes)
+{
+    const std::string type = part.type.substr(0, part.type.find('\0')); // some programs write the zero, too
+    if (multiPart && type.starts_with("deep"))
+        failAsDeep();
+    if (multiPart && type != "scanlineimage" && type != "tiledimage")
+        throw Failure("a part is of the unknown type '" + type + "'", "save it as scan lines or tiles");
+    if (part.chunkCount && (*part.chunkCount < 1 || static_cast<std::uint64_t>(*part.chunkCount) > fileBytes / 8))
+        throw Failure("it claims " + std::to_string(*part.chunkCount) + " chunks of pixels in "
+            + std::to_string(fileBytes) + " bytes");
+}
+
+/// OpenEXR reads it at another size than the rest, which no pixel here has.
+void requireFullSampling(const ExrPart& part)
+{
+    if (part.subsampled)
+        throw Failure("its channel " + *part.subsampled + " is subsampled", "convert the image to R, G and B");
+}
+
 } // namespace
 
 void checkExrHeaders(Imf::IStream& stream, std::uint64_t fileBytes, const decode::Limits& limits)
@@ -138,11 +170,11 @@ void checkExrHeaders(Imf::IStream& stream, std::uint64_t fileBytes, const decode
             break;
         if (parts == mostParts)
             throw Failure("it has more than " + std::to_string(mostParts) + " parts");
-        if (multiPart && part.type.starts_with("deep"))
-            failAsDeep();
+        checkType(part, multiPart, fileBytes);
         const Grid grid = checkPart(part, isTiled(part), fileBytes, limits);
         chunks += grid.count();
         if (!first) {
+            requireFullSampling(part);
             first = std::move(part);
             firstGrid = grid;
         }

@@ -25,10 +25,12 @@ std::optional<std::uint64_t> fixedSize(const std::string& type)
 
 void readChannels(ExrCursor& in, ExrPart& part)
 {
-    while (!in.name().empty()) {
+    for (std::string name = in.name(); !name.empty(); name = in.name()) {
         const std::uint32_t kind = in.u32(); // uint, half, float
         in.skip(4); // whether a perceptual scale, and nothing
-        in.skip(8); // sampling, which is checked where it matters
+        const std::uint32_t across = in.u32(), down = in.u32();
+        if ((across != 1 || down != 1) && !part.subsampled)
+            part.subsampled = name;
         if (kind > 2 || ++part.channels > mostChannels)
             throw Failure(kind > 2 ? "a channel is of an unknown kind"
                                    : "it has more than " + std::to_string(mostChannels) + " channels");
@@ -73,6 +75,8 @@ void readValue(ExrCursor& in, const std::string& name, const std::string& type, 
         const unsigned mode = in.byte();
         if (mode % 16 > 2 || mode / 16 > 1)
             throw Failure("its tiles are of an unknown mode");
+    } else if (name == "chunkCount" && type == "int") {
+        part.chunkCount = in.i32();
     } else if (name == "type" && type == "string" && size < 64) {
         while (in.position() < end)
             part.type += static_cast<char>(in.byte());

@@ -91,6 +91,8 @@ struct ExrPart {
     std::optional<unsigned> compression;
     std::optional<ExrTiles> tiles;
     std::uint64_t channels = 0, bytesPerPixel = 0;
+    std::optional<std::string> subsampled; ///< the first channel that is
+    std::optional<std::int32_t> chunkCount;
     std::string type;
 };
 

@@ -96,9 +96,6 @@ public:
             data.max.y - display.min.y + 1 };
         const Imf::ChannelList& channels = file_->header().channels();
         for (auto it = channels.begin(); it != channels.end(); ++it) {
-            if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
-                throw decode::Failure(
-                    std::string("its channel ") + it.name() + " is subsampled", "convert the image to R, G and B");
             layout_.channels.push_back({ it.name(), {}, it.channel().type == Imf::UINT });
         }
         return { layout_.window.width(), layout_.window.height() };

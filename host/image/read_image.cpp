@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <new>
 #include <optional>
+#include <stdexcept>
 
 namespace wedge::image {
 
@@ -57,7 +58,8 @@ void failToRead(const std::string& path, const std::string& kind, const std::exc
 {
     if (const auto* error = dynamic_cast<const Error*>(&reason))
         throw Error(*error);
-    if (dynamic_cast<const std::bad_alloc*>(&reason) != nullptr)
+    if (dynamic_cast<const std::bad_alloc*>(&reason) != nullptr
+        || dynamic_cast<const std::length_error*>(&reason) != nullptr) // a size that no memory could hold
         throw Error("cannot read " + kind + " (host memory is exhausted)", path, "use a smaller image");
     std::string line = reason.what();
     // OpenEXR names the file as well, which the user need not read twice.
