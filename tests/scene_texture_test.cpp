@@ -91,6 +91,19 @@ TEST_CASE("many small files of many pixels do not add up")
         "of the textures of all the scene only 3584 more are read"));
 }
 
+TEST_CASE("files that fail after their size was let through count as well")
+{
+    const TemporaryFolder folder;
+    TextureSet textures(1 << 12);
+    for (const char* name : { "a.tga", "b.tga", "c.tga", "d.tga" }) {
+        const std::string bytes = tga(32, 32);
+        CHECK(contains(addError(textures, folder.write(name, bytes.substr(0, bytes.size() - 1))),
+            "it ends before the picture does"));
+    }
+    CHECK(contains(
+        addError(textures, folder.write("e.tga", tga(32, 32))), "of the textures of all the scene only 0 more"));
+}
+
 TEST_CASE("what is wrong with a texture is said again without reading it again")
 {
     const TemporaryFolder folder;

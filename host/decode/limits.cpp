@@ -23,6 +23,8 @@ void Limits::admit(Size size, std::size_t fileBytes) const
         throw Failure("it has " + claim + ", of the textures of all the scene only " + std::to_string(together)
                 + " more are read",
             remedy);
+    if (admitted != nullptr)
+        *admitted += size.pixels();
 }
 
 } // namespace wedge::decode

@@ -25,6 +25,9 @@ struct Limits {
     std::int64_t usualPixelsPerByte = 32;
     /// Pixels that are left of what all images of a scene may have together.
     std::int64_t together = std::numeric_limits<std::int64_t>::max();
+    /// Where admit() adds up the pixels that it has let through, if anywhere: a file costs its time also where it
+    /// fails.
+    std::int64_t* admitted = nullptr;
     /// How the user allows more.
     const char* remedy = "scale the image down";
 

@@ -23,13 +23,14 @@ Texture TextureSet::read(const std::filesystem::path& path)
     decode::Limits limits;
     limits.pixels = maxPixels_;
     limits.unquestioned = std::max(limits.unquestioned, maxPixels_ / 8); // who allows more, trusts the files
-    limits.together =
-        std::min(sceneFactor * maxPixels_, std::max(maxPixels_, pixelsPerByte * (bytes_ + fileBytes))) - pixels_;
+    const std::int64_t allowed =
+        std::min(sceneFactor * maxPixels_, std::max(maxPixels_, pixelsPerByte * (bytes_ + fileBytes)));
+    limits.together = std::max<std::int64_t>(0, allowed - pixels_);
+    limits.admitted = &pixels_;
     limits.remedy = "scale the image down, or raise --max-texture-pixels";
     try {
         decode::Picture picture = decode::decodeTexture(decode::bytesOf(bytes), limits);
         bytes_ += fileBytes;
-        pixels_ += picture.size.pixels();
         return { path.string(), picture.size.width, picture.size.height, std::move(picture.rgba) };
     } catch (const std::bad_alloc&) {
         throw Error("texture file cannot be decoded (host memory is exhausted)", path.string(), "scale the image down");

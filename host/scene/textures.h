@@ -14,6 +14,7 @@ namespace wedge::scene {
 
 /// The textures of a scene, each file once. What they may take together is bounded: 16 times what one image may have,
 /// and beyond what one may have 64 pixels a byte of their files, so that many small files do not add up to gigabytes.
+/// Those that fail after their size was let through count, too, and their bytes do not.
 class TextureSet {
 public:
     /// maxPixels: of one image.
@@ -32,7 +33,8 @@ private:
     Texture read(const std::filesystem::path& path);
 
     std::int64_t maxPixels_;
-    std::int64_t pixels_ = 0, bytes_ = 0; ///< of all textures and of their files
+    std::int64_t pixels_ = 0,
+                 bytes_ = 0; ///< of all textures, also such as failed, and of the files of those that did not
     std::vector<Texture> textures_;
     std::map<std::string, std::variant<int, Error>> known_; ///< by path, without links
 };
