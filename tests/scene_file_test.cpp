@@ -262,6 +262,34 @@ TEST_CASE("environment variables in paths")
     CHECK(contains(errorOf(withPath("${WEDGE/m.obj")), "path has '${' without '}'"));
 }
 
+TEST_CASE("paths are bounded, before and after their variables, and no byte of them is 0")
+{
+    const TemporaryFolder folder;
+    folder.write("m.obj", triangleObj);
+    ::setenv("WEDGE_SCENE_TEST_LONG", std::string(1000, '/').c_str(), 1);
+    const std::string variable = "${WEDGE_SCENE_TEST_LONG}", tooLong = ": path is too long, more than 4095 bytes";
+    const auto error = [&](const std::string& path) {
+        return errorOf(folder.write("s.toml", "[[mesh]]\nfile = \"" + path + "\"\n"));
+    };
+    const std::string most = folder.path("m.obj");
+    CHECK(error(std::string(4095 - most.size(), '/') + most) == "");
+    CHECK(contains(error(std::string(4096 - most.size(), '/') + most), "scene file s.toml:2:8" + tooLong));
+    std::string five;
+    for (int i = 0; i < 5; ++i)
+        five += variable;
+    CHECK(error(five.substr(0, 4 * variable.size()) + most) == "");
+    CHECK(contains(error(five + most), "scene file s.toml:2:8" + tooLong));
+    CHECK(contains(
+        error("m.obj\\u0000.png"), "scene file s.toml:2:8: path has a byte of value 0: m.obj\\x00.png: leave it out"));
+    folder.write("s.obj", "mtllib " + five + "m.mtl\n" + triangleObj);
+    CHECK(warns(wedge::scene::loadScene(folder.path("s.obj")), "path is too long"));
+    folder.write("m.mtl", "newmtl a\nmap_Kd " + five + "a.png\n");
+    folder.write("s.obj", std::string("mtllib m.mtl\n") + triangleObj);
+    CHECK(warns(wedge::scene::loadScene(folder.path("s.obj")), "path is too long"));
+    folder.write("m.mtl", std::string("newmtl a\nmap_Kd a\0.png\n", 22));
+    CHECK(warns(wedge::scene::loadScene(folder.path("s.obj")), "m.mtl holds binary data"));
+}
+
 TEST_CASE("transforms: steps in order, matrices row by row, mirrors keep the outside out")
 {
     const auto first = [](const std::string& keys) {

@@ -226,6 +226,9 @@ std::vector<Material> readMtl(const std::filesystem::path& path, TextureSet& tex
 std::vector<Material> parseMtl(
     std::string_view text, const std::filesystem::path& path, TextureSet& textures, Warnings& warnings)
 {
+    if (text.find('\0') != std::string_view::npos)
+        throw Error("material file " + path.string() + " holds binary data", "a byte of value 0",
+            "name a Wavefront material library");
     return Library(path, textures, warnings).read(text);
 }
 

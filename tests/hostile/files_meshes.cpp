@@ -91,6 +91,8 @@ Rows lengths()
         fine("an object's name of 5 MB", "o " + std::string(5 * megabyte, 'n') + "\n" + triangle),
         fine("a material's name of 5 MB", "usemtl " + std::string(5 * megabyte, 'n') + "\n" + triangle),
         fine("a library's name of 5 MB", "mtllib " + std::string(5 * megabyte, 'n') + "\n" + triangle),
+        fine("a library's name of many variables", "mtllib " + repeated("${PATH}", 140'000) + "\n" + triangle,
+            "path is too long"),
         fine("a library's name of a million words", "mtllib" + repeated(" a", megabyte / 2) + "\n" + triangle),
         fine("a group of a million names", "g" + repeated(" a", megabyte / 2) + "\n" + triangle),
         fine("two long names of materials",

@@ -134,7 +134,8 @@ Rows values()
         scenes("a variable that is not set", "[[mesh]]\nfile = '${WEDGE_NOT_SET}/m.obj'\n", "WEDGE_NOT_SET"),
         scenes("a variable without end", "[[mesh]]\nfile = '${WEDGE'\n"),
         scenes("a variable without name", "[[mesh]]\nfile = '${}'\n"),
-        scenes("many variables", "[[mesh]]\nfile = '" + repeated("${HOME}", 10'000) + "'\n"),
+        scenes("many variables", "[[mesh]]\nfile = '" + repeated("${PATH}", 140'000) + "'\n", "path is too long"),
+        scenes("a path with a zero byte", "[[mesh]]\nfile = \"m.obj\\u0000.png\"\n", "path has a byte of value 0"),
         scenes("a shape of another mesh",
             "[shutter]\nclose = 1\n" + mesh
                 + "shape = [{ time = 0, file = 'm.obj' }, { time = 1, file = 's.toml' }]\n"),
