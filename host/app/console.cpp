@@ -15,9 +15,17 @@ namespace {
 constexpr std::size_t maxLine = 400;
 int lostOutput = 0; // errno of the first write to stdout that failed
 
+/// What fails to be written here is lost, and a later call would succeed for want of anything to write.
+void flushSaid()
+{
+    if (std::fflush(stdout) != 0 && lostOutput == 0) {
+        lostOutput = errno;
+    }
+}
+
 void line(std::string_view prefix, std::string_view text)
 {
-    std::fflush(stdout);
+    flushSaid();
     const std::size_t most = maxLine - prefix.size();
     put(stderr, fmt::format("{}{}\n", prefix, shortened(printable(shortened(text, 2 * most)), most)));
 }
@@ -60,9 +68,7 @@ void warnOf(const std::vector<std::string>& warnings)
 
 void requireSaid()
 {
-    if (std::fflush(stdout) != 0 && lostOutput == 0) {
-        lostOutput = errno;
-    }
+    flushSaid();
     if (lostOutput != 0) {
         throw Error(fmt::format("cannot write to standard output ({})", std::generic_category().message(lostOutput)),
             "the result", "send it elsewhere");

@@ -1,3 +1,4 @@
+#include "tests/hostile/bytes.h"
 #include "tests/hostile/row.h"
 
 #include <sys/stat.h>
@@ -152,6 +153,16 @@ Rows sameFiles()
         same("the error map and the reference", {}, { "compare", "a.png", "b.png", "--error-map", "b.png" }, read) };
 }
 
+/// An EXR of one pixel that is not a number, of which compare warns amid its result.
+std::string exrOfNan()
+{
+    ExrParts parts;
+    parts.dataWindow = parts.displayWindow = { 0, 0, 0, 0 };
+    const auto chunk = static_cast<std::uint32_t>(exr(parts).size() + 8);
+    parts.body = little32(chunk) + little32(0) + little32(0) + little32(6) + repeated(std::string("\0\x7e", 2), 3);
+    return exr(parts);
+}
+
 /// Standard streams that are closed or full.
 Rows streams()
 {
@@ -171,7 +182,9 @@ Rows streams()
             .start = start,
             .makes = { "a.exr", "b.png", "r.json" } };
     };
-    return { result("info, full", { "info", scene }, full), result("info, closed", { "info", scene }, closed),
+    Row compared = result("compare, with a warning, full", { "compare", "a.exr", "a.exr" }, full);
+    compared.prepare = file("a.exr", exrOfNan());
+    return { compared, result("info, full", { "info", scene }, full), result("info, closed", { "info", scene }, closed),
         result("info as JSON, full", { "info", scene, "--json" }, full), result("devices, full", { "devices" }, full),
         result("devices as JSON, full", { "devices", "--json" }, full), result("help, full", { "--help" }, full),
         result("help of a command, full", { "render", "--help" }, full), result("version, full", { "--version" }, full),
