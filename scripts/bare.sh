@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # bare.sh [SUITE [ROOT [COMMAND...]]]: runs the README's two commands, or the given ones, in a bare Debian, on a clone of
-# this repository's last commit. SUITE: bookworm (12, the default), trixie (13) or sid. ROOT: where the system is built and
-# kept for the next time; a temporary folder that is removed by default. Needs root, debootstrap and git. Exit status 0 if
-# all commands succeed, 1 if one does not, 2 for a wrong call or a system that cannot be built.
+# this repository's last commit. SUITE: bookworm (12, the default), trixie (13) or sid. ROOT: where the system of
+# that suite is built and kept for the next time; a temporary folder that is removed by default. Needs root, debootstrap and
+# git. Exit status 0 if all commands succeed, 1 if one does not, 2 for a wrong call or a system that cannot be built.
 set -euo pipefail
 sources=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
@@ -45,8 +45,13 @@ if [ ! -e "$root/bare.complete" ]; then # what an interrupted call left is no sy
     debootstrap --variant=minbase "$suite" "$root" ${mirror:+"$mirror"} >"$root.log" 2>&1 ||
         fail "debootstrap failed: $(tail -n 1 "$root.log"): see $root.log"
     rm -f "$root.log"
-    touch "$root/bare.complete"
+    echo "$suite" >"$root/bare.complete"
 fi
+# A root of another suite would say ok for what it did not run.
+built=$(<"$root/bare.complete")
+[ -n "$built" ] ||
+    fail "the system in ROOT is of an older version of this script, which did not say of which suite: $root: remove it to build it again"
+[ "$built" = "$suite" ] || fail "the system in ROOT is $built, not $suite: $root: name another folder, or remove this one"
 [ ! -e /etc/resolv.conf ] || cp /etc/resolv.conf "$root/etc/resolv.conf"
 [ ! -d /etc/apt/apt.conf.d ] || cp -r /etc/apt/apt.conf.d/. "$root/etc/apt/apt.conf.d/"
 for point in "${mounted[@]}"; do

@@ -6,6 +6,8 @@ add_test(NAME oclgrind_frame COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/oc
 add_test(NAME second_driver COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/second_driver.sh $<TARGET_FILE:wedge>
                                     $<TARGET_FILE:bvh_traverse_test> $<TARGET_FILE:bvh_traverse_families_test>
                                     $<TARGET_FILE:bvh_watertight_test>)
+add_test(NAME bare_root COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/bare_root.sh ${CMAKE_SOURCE_DIR}/scripts/bare.sh)
+set_tests_properties(bare_root PROPERTIES SKIP_RETURN_CODE 77)
 # Simulated devices are slow, and slower still beside other tests.
 set_tests_properties(kernel_lint oclgrind_frame second_driver PROPERTIES TIMEOUT 1200)
 # What the system has no package for cannot be run, and its test says so.
