@@ -279,6 +279,29 @@ TEST_CASE("a folder that this user cannot write, or another one owns, is not use
     CHECK(DriverCache(folder.root()).folder() == folder.driver());
 }
 
+TEST_CASE("a mark that cannot be opened does not keep the cache from being emptied")
+{
+    const CacheFolder folder;
+    Other(folder.root()).die();
+    writeText(folder.driver() / "1.mark", "");
+    fs::permissions(folder.driver() / "1.mark", fs::perms::none);
+    const bool superuser = ::geteuid() == 0; // who may open everything, and so becomes another one
+    constexpr uid_t user = 12345;
+    if (superuser) {
+        for (const auto& entry : fs::recursive_directory_iterator(folder.root())) {
+            REQUIRE(::chown(entry.path().c_str(), user, user) == 0);
+        }
+        REQUIRE(::seteuid(user) == 0);
+    }
+    const std::string notice = folder.start(), again = folder.start();
+    if (superuser) {
+        REQUIRE(::seteuid(0) == 0);
+    }
+    CHECK(notice.find("was emptied") != std::string::npos);
+    CHECK(again == "");
+    CHECK_FALSE(fs::exists(folder.file()));
+}
+
 TEST_CASE("without a folder, or where it cannot be made, there are no marks and no errors")
 {
     DriverCache none { fs::path() };

@@ -20,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* variable = "POCL_CACHE_DIR";
-/// A mark that cannot be opened tells nothing, and must not keep the others from telling.
+/// A mark that cannot be opened is of nobody at work, whose are this user's, and must not keep the cache as it is for
+/// ever.
 bool isLocked(const fs::path& mark)
 {
     const int file = ::open(mark.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
