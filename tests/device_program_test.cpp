@@ -250,6 +250,20 @@ TEST_CASE("a damaged cache entry is ignored and replaced")
     }
 }
 
+TEST_CASE("of hundreds of entries the oldest are dropped, and nothing else")
+{
+    const TemporaryFolder folder;
+    for (int i = 0; i < 305; ++i) {
+        writeText(folder.path() / ("theirs" + std::to_string(i) + ".clbin"), "");
+    }
+    const ProgramCache cache(folder.path());
+    for (int i = 0; i < 305; ++i) {
+        cache.store(std::to_string(i), { 'x' });
+    }
+    CHECK(filesOf(folder.path()).size() == 305 + 300);
+    CHECK(fs::exists(folder.path() / "theirs304.clbin"));
+}
+
 TEST_CASE("the cache can be off, and a folder that cannot be written costs nothing but time")
 {
     const Device device = Device::open("");

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -35,6 +36,16 @@ std::uint64_t hash(const Bytes& bytes)
         value = (value ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
     }
     return value;
+}
+
+/// By its name, which is a hash: others of the folder are not ours to drop.
+bool isEntry(const fs::directory_entry& entry)
+{
+    const std::string stem = entry.path().stem().string();
+    std::error_code ignored;
+    return entry.path().extension() == extension && stem.size() == 16
+        && std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isxdigit(c) != 0; })
+        && entry.symlink_status(ignored).type() == fs::file_type::regular;
 }
 
 } // namespace
@@ -118,7 +129,7 @@ void ProgramCache::dropOldest() const
     std::error_code ignored;
     std::vector<std::pair<fs::file_time_type, fs::path>> entries;
     for (fs::directory_iterator it(folder_, ignored), end; it != end; it.increment(ignored)) {
-        if (it->path().extension() == extension) {
+        if (isEntry(*it)) {
             entries.emplace_back(it->last_write_time(ignored), it->path());
         }
     }
