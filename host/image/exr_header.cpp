@@ -60,9 +60,9 @@ struct Grid {
     }
 };
 
-/// All channels of a chunk are unpacked, whatever is read of them, at about half a gigabyte a second. As many as all
-/// layers of a render, of as many pixels as go unquestioned, do so as well, since those of an empty scene are next to
-/// nothing packed. Nobody needs the more channels of a small file.
+/// All channels of a chunk are unpacked, whatever is read of them, at three seconds a gigabyte. As many channels as a
+/// render has layers may be there for as many pixels as go unquestioned, since those of an empty scene pack to next to
+/// nothing; a small file has no need of more.
 void requireModestChannels(
     const ExrPart& part, const decode::Size& size, std::uint64_t fileBytes, const decode::Limits& limits)
 {
