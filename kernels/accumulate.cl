@@ -3,6 +3,7 @@
 // and in textures, and not at all in irradiances, positions and normals. What a pixel keeps of a
 // term: accumulate.h.
 #include "accumulate.h"
+#include "shared/indirect.h"
 #include "shared/camera.h"
 #include "shared/defocus.h"
 
@@ -206,7 +207,9 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient, 
     const Vec3 before = loadColour(texture, pixels, p.i, planes.textureBits);
     const Vec3 known = vecMad(vecScale(floors, counted), before, own * (float)termTaken[p.i]);
     storeTermSums(wave, p, pixels, planes, termTaken[p.i], total, (float)loadHits(hits, p.i, wave.packed), known, &sum);
-    storeExtreme(wave, p, pixels, plain, extremes, all ? (nearest < INFINITY ? nearest : 0.0f) : inverse);
+    // Of one number for both, a mean that is as near as its fraction and the nearest distance say.
+    const float closest = nearest < INFINITY ? WEDGE_NEAREST_FRACTION * (float)total / fmax(nearest, 1e-20f) : 0.0f;
+    storeExtreme(wave, p, pixels, plain, extremes, all ? (nearest < INFINITY ? nearest : 0.0f) : fmax(inverse, closest));
     if (measures && all) {
         extremes[pixels + p.i] = farthest;
         extremes[2u * pixels + p.i] = inverse;

@@ -86,7 +86,8 @@ WEDGE_FN void storeTerm(SampleParams params, uint size, uint i, const TermSums* 
     const float specular = sums->specular[lane], specularVisible = sums->specularVisible[lane];
     sumPlanes[2u * size + i] = specular;
     sumPlanes[3u * size + i] = specularVisible;
-    // A lobe that no sample reached says nothing; 0 would darken the highlights of neighbours that gather it.
+    // A lobe that no sample reached says nothing: what is seen of the light at all stands for what it sees. 0 would darken
+    // its highlight, and those of neighbours that gather it.
     const bool reached = specular > 0.0f || params.shading == WEDGE_SHADING_INSIDE;
     value[size + i] = reached ? termValue(params.shading, specular, specularVisible, taken) : value[i];
 #endif
@@ -139,6 +140,7 @@ __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light,
     const uint size = frame.planeSize;
     ReceiverPacket receivers;
     loadReceivers(frame, params.light, firstGroup, WEDGE_RECEIVER_ARGUMENTS, &receivers);
+    takePart(params, light, &receivers);
     TermSums sum;
     const SurfaceData surfaces = WEDGE_SURFACE_ARGUMENTS;
     (void)surfaces;
@@ -212,6 +214,7 @@ __kernel void secondPass(FrameParams frame, SampleParams params, AreaLight light
     const uint size = frame.planeSize;
     ReceiverPacket receivers;
     loadReceivers(frame, params.light, firstGroup, WEDGE_RECEIVER_ARGUMENTS, &receivers);
+    takePart(params, light, &receivers);
     TermSums sum;
     uint index[WEDGE_PACKET_SIZE], count[WEDGE_PACKET_SIZE], last[WEDGE_PACKET_SIZE], occluded[WEDGE_PACKET_SIZE];
     const bool directions = params.lightSampling != WEDGE_LIGHTS_SAMPLED && params.shading == WEDGE_SHADING_INSIDE;

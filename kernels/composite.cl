@@ -5,23 +5,6 @@
 #include "shared/path.h"
 #include "unshadowed.h"
 
-/// The same mean of lobe times geometry term, one receiver.
-WEDGE_FN float unshadowedSpecular(AreaLight light, Receiver r, __global const float* nodes, uint count)
-{
-    float sum = 0.0f;
-    for (uint a = 0u; a < count; ++a) {
-        for (uint b = 0u; b < count; ++b) {
-            const Vec3 point = lightPoint(light.centre, light.halfU, light.halfV, nodes[2u * a], nodes[2u * b]);
-            const Vec3 d = vecSub(point, r.position);
-            const float g = geometryTerm(r.normal, d, light.normal, light.twoSided);
-            if (g > 0.0f) {
-                sum += nodes[2u * a + 1u] * nodes[2u * b + 1u] * specularWeight(r, d, g);
-            }
-        }
-    }
-    return sum;
-}
-
 /// Adds light's value times `shading` (already times the reflectance) to planes of radiance.
 WEDGE_FN void addBlock(__global float* planes, uint size, int i, float16 value, Vec3x16 shading)
 {
@@ -61,7 +44,7 @@ __kernel void addDiffuse(AnalysisParams p, SampleParams params, AreaLight light,
     if (params.shading == WEDGE_SHADING_SEPARATE) {
         shading = geometryTerm16(facing, sub16(splat3(light.centre), at), light.normal, light.twoSided);
     } else if (params.shading == WEDGE_SHADING_RATIO) {
-        shading = unshadowedWhere(light, at, facing, nodes, surface);
+        shading = unshadowedDiffuse(light, mattReceivers(at, facing), nodes, surface);
     }
     shading = surface ? shading * WEDGE_INV_PI : (float16)(0.0f);
     const Vec3x16 kd = loadVecBlock(diffuse, size, i);
@@ -73,57 +56,51 @@ __kernel void addDiffuse(AnalysisParams p, SampleParams params, AreaLight light,
     addBlock(directNoisy, size, i, loadBlock(noisy, i), reflected);
 }
 
-/// One receiver's unshadowed specular shading in the way of the term.
-/// sampled: the mean weight of the samples taken, which is what such a lobe falls back on.
-WEDGE_FN float specularShading(SampleParams params, AreaLight light, Receiver r, __global const float* nodes, float sampled)
+/// Directions of each lobe that is too sharp for a rule.
+#define WEDGE_LOBE_DIRECTIONS 256u
+
+/// Unshadowed specular shading in the way of the term, of lanes `wanted`.
+WEDGE_FN float16 specularShading(SampleParams params, AreaLight light, Receivers16 r, __global const float* nodes, int16 wanted)
 {
     if (params.shading == WEDGE_SHADING_INSIDE) {
-        return 1.0f;
+        return (float16)(1.0f);
     }
     if (params.shading == WEDGE_SHADING_RATIO) {
-        const Vec3 toLight = vecSub(light.centre, r.position);
-        const float lobes = lobesAcross(light, toLight, r.view, r.lobe.exponent, r.lobe.model == WEDGE_SPECULAR_PHONG);
-        if (lobes > WEDGE_SHARP_LOBE) {
-            return sampled;
-        }
-        return lobes < WEDGE_COARSE_LOBE ? unshadowedSpecular(light, r, nodes, WEDGE_COARSE_NODES)
-                    : unshadowedSpecular(light, r, nodes + WEDGE_FINE_OFFSET, WEDGE_FINE_NODES);
+        return unshadowedSpecular(light, r, nodes, wanted, WEDGE_LOBE_DIRECTIONS);
     }
-    const Vec3 d = vecSub(light.centre, r.position);
-    const float g = geometryTerm(r.normal, d, light.normal, light.twoSided);
-    return g > 0.0f ? specularWeight(r, d, g) : 0.0f;
+    return arrivesFrom(light, r, splat3(light.centre), true) * normalization16(r);
 }
 
-/// One light's specular reflection; value and noisy hold the specular term in their second plane,
-/// sums its weights in the third.
+/// One light's specular reflection; value and noisy hold the specular term in their second plane.
 __kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light, FrameParams frame,
                           __global const float* restrict nodes, __global const float* restrict position,
                           __global const float* restrict normal, __global const uint* restrict objectId,
                           __global const float* restrict gloss, __global const float* restrict specular,
                           __global const float* restrict value, __global const float* restrict noisy,
-                          __global const float* restrict sums, __global const uint* restrict taken,
                           __global float* restrict direct, __global float* restrict directNoisy)
 {
-    const uint x = p.x0 + get_global_id(0);
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
     if (x >= p.x1 || y >= p.y1) {
         return;
     }
     const uint size = p.planeSize;
-    const uint i = pixelIndex(x, y, p.stride);
-    const Vec3 ks = loadVec(specular, size, i);
-    if (objectId[i] == 0u || !(ks.x + ks.y + ks.z > 0.0f)) {
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const Vec3x16 ks = loadVecBlock(specular, size, i);
+    const int16 mirrors = (loadIdBlock(objectId, i) != 0u) & (ks.x + ks.y + ks.z > 0.0f);
+    if (!any(mirrors)) {
         return;
     }
-    Receiver r;
-    r.position = loadVec(position, size, i);
-    r.normal = loadVec(normal, size, i);
-    r.view = vecNormalize(vecSub(frame.eye, r.position));
-    r.lobe = glossLobe(gloss[i]);
-    const float sampled = taken[i] > 0u ? sums[2u * size + i] / (float)taken[i] : 0.0f;
-    const Vec3 reflected = vecScale(vecMul(ks, light.power), specularShading(params, light, r, nodes, sampled));
-    storeVec(direct, size, i, vecMad(loadVec(direct, size, i), reflected, value[size + i]));
-    storeVec(directNoisy, size, i, vecMad(loadVec(directNoisy, size, i), reflected, noisy[size + i]));
+    const Vec3x16 at = loadVecBlock(position, size, i);
+    const Receivers16 r = glossyReceivers(at, loadVecBlock(normal, size, i), unit16(sub16(splat3(frame.eye), at)), loadBlock(gloss, i));
+    const float16 shading = mirrors ? specularShading(params, light, r, nodes, mirrors) : (float16)(0.0f);
+    Vec3x16 reflected;
+    reflected.x = shading * ks.x * light.power.x;
+    reflected.y = shading * ks.y * light.power.y;
+    reflected.z = shading * ks.z * light.power.z;
+    // What misses hold is not looked at: 0 times a NaN would let it in.
+    addBlock(direct, size, i, mirrors ? loadBlock(value + size, i) : (float16)(0.0f), reflected);
+    addBlock(directNoisy, size, i, mirrors ? loadBlock(noisy + size, i) : (float16)(0.0f), reflected);
 }
 
 /// One term of indirect light.

@@ -21,6 +21,11 @@
 #define WEDGE_MIN_OBLIQUE_COSINE 0.05f
 /// Least cosine between view ray and surface in the estimate of a pixel's step on the surface.
 #define WEDGE_MIN_STEP_COSINE 0.05f
+/// Largest sine between the way to a neighbour and a pixel's surface: what is farther from it is another surface, such as the
+/// floor beyond a table's edge, also where the light's rays make both one (distance16).
+#define WEDGE_MOST_RISE 0.3f
+/// Most that a neighbour counts for what it sees of the surface, against the pixel: where surfaces turn away, samples are few.
+#define WEDGE_MOST_AREA 4.0f
 /// log2(e) / 2
 #define WEDGE_HALF_LOG2E 0.72134752f
 
@@ -32,6 +37,7 @@ typedef struct {
     float16 beta;
     float16 limit; ///< (cut beta)^2
     float16 radius;
+    float16 area; ///< of the surface that the pixel sees, as surfaceArea() has it
 } GatherBlock;
 
 /// Normals of three planes, or of one that is packed.
@@ -59,6 +65,16 @@ WEDGE_FN float16 distance16(FilterParams p, Vec3x16 slant, Vec3x16 d)
     const float16 along = d.x * p.lightNormal.x + d.y * p.lightNormal.y + d.z * p.lightNormal.z;
     const Vec3x16 e = mad16(d, slant, -along);
     return dot16(e, e);
+}
+
+/// Surface that a pixel sees, but for a factor that all pixels share: z^3 / |n.d| at depth z and vector d from the eye. The
+/// convolutions (3.10) and (4.16) are integrals over the surface, and pixels are not alike in what they see of it.
+WEDGE_FN float16 surfaceArea(FilterParams p, Vec3x16 position, Vec3x16 normal)
+{
+    const Vec3x16 d = sub16(position, splat3(p.eye));
+    const float16 z = d.x * p.forward.x + d.y * p.forward.y + d.z * p.forward.z;
+    const float16 facing = max16(fabs(dot16(normal, d)), WEDGE_MIN_STEP_COSINE * fabs(z));
+    return z * z * z / max16(facing, (float16)(1e-20f));
 }
 
 WEDGE_FN Vec3x16 slantOf(FilterParams p, Vec3x16 position)
@@ -119,16 +135,24 @@ WEDGE_FN void gatherTap(FilterParams p, GatherBlock b, int j, float steps, __glo
     const uint16 object = loadIdBlock(objectId, j);
     const float16 betaThere = loadBlock(beta, j);
     const Vec3x16 normalThere = loadNormalBlock(p, normal, j);
-    const float16 squared = distance16(p, b.slant, sub16(loadVecBlock(position, p.planeSize, j), b.position));
-    const int16 taken = (object == b.object) & (betaThere >= 0.0f) & (dot16(b.normal, normalThere) >= p.normalCosine)
+    const Vec3x16 there = loadVecBlock(position, p.planeSize, j);
+    const Vec3x16 d = sub16(there, b.position);
+    const float16 squared = distance16(p, b.slant, d);
+    int16 taken = (object == b.object) & (betaThere >= 0.0f) & (dot16(b.normal, normalThere) >= p.normalCosine)
         & (squared <= b.limit) & (steps <= b.radius);
+    float16 area = (float16)(1.0f);
+    if (p.surface != 0u) {
+        const float16 rise = dot16(b.normal, d);
+        taken &= rise * rise <= WEDGE_MOST_RISE * WEDGE_MOST_RISE * dot16(d, d);
+        area = min16(surfaceArea(p, there, normalThere) / b.area, (float16)(WEDGE_MOST_AREA));
+    }
     float16 scale = b.scale;
     if (p.narrower != 0u) {
         // A pixel with no kernel of its own (beta 0) does not narrow its neighbours'.
         const float16 own = betaThere > 0.0f ? min16(b.beta, betaThere) : b.beta;
         scale = -WEDGE_HALF_LOG2E / (own * own);
     }
-    const float16 w = taken ? exp2Block(squared * scale) : (float16)(0.0f);
+    const float16 w = taken ? area * exp2Block(squared * scale) : (float16)(0.0f);
     sum->weight += w;
     sum->squared += w * w;
     // Not the weight alone: 0 times a NaN would let it in.
@@ -162,6 +186,7 @@ WEDGE_FN void gatherLine(FilterParams p, uint x, uint y, int element, Vec3 step,
     b.position = loadVecBlock(position, p.planeSize, i);
     b.normal = loadNormalBlock(p, normal, i);
     b.slant = slantOf(p, b.position);
+    b.area = surfaceArea(p, b.position, b.normal);
     b.scale = -WEDGE_HALF_LOG2E / (b.beta * b.beta);
     b.limit = p.cut * p.cut * b.beta * b.beta;
     b.radius = gathers ? radiusInPixels(p, b, step, p.cut * b.beta) : (float16)(0.0f);

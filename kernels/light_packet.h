@@ -15,6 +15,10 @@ typedef struct {
     float positionX[WEDGE_PACKET_SIZE], positionY[WEDGE_PACKET_SIZE], positionZ[WEDGE_PACKET_SIZE];
     float normalX[WEDGE_PACKET_SIZE], normalY[WEDGE_PACKET_SIZE], normalZ[WEDGE_PACKET_SIZE];
     float gloss[WEDGE_PACKET_SIZE]; ///< as in the plane of that name
+    uint cut[WEDGE_PACKET_SIZE], turned[WEDGE_PACKET_SIZE]; ///< of the light's part that is sampled, see LightPart
+    float first[WEDGE_PACKET_SIZE], range[WEDGE_PACKET_SIZE], height[WEDGE_PACKET_SIZE];
+    float inner[WEDGE_PACKET_SIZE], outer[WEDGE_PACKET_SIZE];
+    bool anyCut;
 #ifdef WEDGE_MOTION
     float time[WEDGE_PACKET_SIZE]; ///< of the receiver's primary ray, and so of all its others
 #endif
@@ -100,6 +104,38 @@ WEDGE_FN void loadReceivers(FrameParams frame, uint light, uint firstGroup, Rece
     }
 }
 
+WEDGE_INLINE LightPart lanePart(const ReceiverPacket* r, uint lane)
+{
+    LightPart part;
+    part.cut = r->cut[lane];
+    part.turned = r->turned[lane];
+    part.first = r->first[lane];
+    part.range = r->range[lane];
+    part.height = r->height[lane];
+    part.inner = r->inner[lane];
+    part.outer = r->outer[lane];
+    return part;
+}
+
+/// Samples of the light are of its part above each lane's horizon; as published of all of it, and those below are void.
+WEDGE_FN void takePart(SampleParams params, AreaLight light, ReceiverPacket* r)
+{
+    uint any = 0u;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const LightPart part = partAboveHorizon(light, vec3(r->positionX[lane], r->positionY[lane], r->positionZ[lane]),
+                                                vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]));
+        r->cut[lane] = params.shading != WEDGE_SHADING_SEPARATE ? part.cut : 0u;
+        r->turned[lane] = part.turned;
+        r->first[lane] = part.first;
+        r->range[lane] = part.range;
+        r->height[lane] = part.height;
+        r->inner[lane] = part.inner;
+        r->outer[lane] = part.outer;
+        any |= r->cut[lane];
+    }
+    r->anyCut = any != 0u;
+}
+
 /// Position in [0,1)^2 of sample `index` of `count`.
 WEDGE_FN Vec2 stratifiedPosition(SampleParams params, uint index, uint count, uint order, uint seed)
 {
@@ -165,16 +201,27 @@ WEDGE_FN void sampleLights(FrameParams frame, SampleParams params, AreaLight lig
     float u[WEDGE_PACKET_SIZE], v[WEDGE_PACKET_SIZE];
     samplePositions(params, hashCombine(frame.seed, params.light), r->seed, index, count, u, v);
     const bool separate = params.shading == WEDGE_SHADING_SEPARATE;
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        u[lane] = lightCoordinate(u[lane], light.profile, light.cut, light.erfCut);
-        v[lane] = lightCoordinate(v[lane], light.profile, light.cut, light.erfCut);
+    float mass[WEDGE_PACKET_SIZE];
+    if (r->anyCut) {
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const PartSample p = samplePart(light, lanePart(r, lane), vec2(u[lane], v[lane]));
+            u[lane] = p.a;
+            v[lane] = p.b;
+            mass[lane] = r->cut[lane] != 0u ? p.mass : 1.0f;
+        }
+    } else {
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            u[lane] = lightCoordinate(u[lane], light.profile, light.cut, light.erfCut);
+            v[lane] = lightCoordinate(v[lane], light.profile, light.cut, light.erfCut);
+            mass[lane] = 1.0f;
+        }
     }
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const Vec3 point = lightPoint(light.centre, light.halfU, light.halfV, u[lane], v[lane]);
         const Vec3 position = vec3(r->positionX[lane], r->positionY[lane], r->positionZ[lane]);
         const Vec3 normal = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
         const Vec3 d = vecSub(point, position);
-        const float geometry = geometryTerm(normal, d, light.normal, light.twoSided);
+        const float geometry = mass[lane] * geometryTerm(normal, d, light.normal, light.twoSided);
         s->rayX[lane] = point.x - r->originX[lane];
         s->rayY[lane] = point.y - r->originY[lane];
         s->rayZ[lane] = point.z - r->originZ[lane];

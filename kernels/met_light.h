@@ -10,6 +10,13 @@
 #define WEDGE_DIFFUSE_DIRECTION_SEED 0x64696666u
 #define WEDGE_SPECULAR_DIRECTION_SEED 0x73706563u
 
+/// What the samples at local coordinates (a, b) of the light's part that a lane samples weigh.
+WEDGE_INLINE float laneMass(AreaLight light, const ReceiverPacket* r, uint lane, float a, float b)
+{
+    const float mass = r->anyCut ? partMass(light, lanePart(r, lane), a, b) : 1.0f;
+    return r->cut[lane] != 0u ? mass : 1.0f;
+}
+
 /// Weights of the lanes' points on the light against reflected directions, multiplied into s.
 WEDGE_FN void weighPoints(SampleParams params, AreaLight light, const ReceiverPacket* r, LightSamples* s)
 {
@@ -21,7 +28,8 @@ WEDGE_FN void weighPoints(SampleParams params, AreaLight light, const ReceiverPa
         const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
         const Vec3 origin = vec3(r->originX[lane], r->originY[lane], r->originZ[lane]);
         const LightMeeting m = meetLight(light, origin, l);
-        const float p = lightPdf(light, clamp(m.a, -1.0f, 1.0f), clamp(m.b, -1.0f, 1.0f), vecLength(ray), vecDot(l, light.normal));
+        const float a = clamp(m.a, -1.0f, 1.0f), b = clamp(m.b, -1.0f, 1.0f);
+        const float p = lightPdf(light, a, b, vecLength(ray), vecDot(l, light.normal)) / laneMass(light, r, lane, a, b);
         const float diffuse = used * powerHeuristic(p, fmax(0.0f, vecDot(n, l)) * WEDGE_INV_PI);
         s->diffuse[lane] *= s->diffuse[lane] > 0.0f ? diffuse : 1.0f;
 #ifdef WEDGE_SPECULAR
@@ -75,7 +83,7 @@ WEDGE_FN void meetDirections(SampleParams params, AreaLight light, const Receive
         const Vec3 origin = vec3(r->originX[lane], r->originY[lane], r->originZ[lane]);
         const LightMeeting m = meetLight(light, origin, l);
         const bool meets = m.t < INFINITY && vecDot(n, l) > 0.0f && pdf > 0.0f && index[lane] < last[lane];
-        const float w = params.lightSampling == WEDGE_LIGHTS_MET ? 1.0f : powerHeuristic(pdf, lightPdf(light, m.a, m.b, m.t, m.facing));
+        const float w = params.lightSampling == WEDGE_LIGHTS_MET ? 1.0f : powerHeuristic(pdf, lightPdf(light, m.a, m.b, m.t, m.facing) / laneMass(light, r, lane, m.a, m.b));
         weight[lane] = meets ? w * reflected * metProfile(light, m) / light.profileArea : 0.0f;
         end[lane] = weight[lane] > 0.0f ? m.t * WEDGE_SHADOW_RAY_END : 0.0f;
         x[lane] = l.x;

@@ -67,9 +67,9 @@ WEDGE_FN float bandlimitOf(uint component, float gloss)
 }
 
 /// Widths in metres (4.15), (4.16), -1 where the pixel has no such term, and counts (4.21).
-/// Of the distances there is the least, as published, or a fraction of their harmonic mean, in which rays that hit nothing
-/// count as infinitely far: an estimate of the same from all rays, with less noise. fixedWidth replaces the analysis.
-/// meanOnly: reflectors have but the last plane, the sum of inverse distances; no counts.
+/// Of the distances there is the least, as published, or, if that is nearer, a fraction of their harmonic mean, in which rays
+/// that hit nothing count as infinitely far: an estimate of the same from all rays, with less noise. fixedWidth replaces the analysis.
+/// meanOnly: reflectors have but one plane, the sum of inverse distances, or what stands for it (WEDGE_NEAREST_FRACTION); no counts.
 __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict reflectors,
                               __global const float* restrict extent, __global const float* restrict pixelSize,
                               __global const float* restrict gloss, __global const uint* restrict taken,
@@ -86,7 +86,9 @@ __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict 
     // Any that there are have a sum of inverse distances, the last plane, too.
     const bool has = reflectors[i] > 0.0f;
     const float mean = (float)taken[i] / fmax(reflectors[(p.meanOnly != 0u ? 0u : 2u * p.planeSize) + i], 1e-20f);
-    const float near = p.meanFraction > 0.0f ? p.meanFraction * mean : reflectors[i];
+    // What is nearer than the fraction of the mean counts itself: of open scenes most rays hit nothing.
+    const float fraction = p.meanOnly != 0u ? p.meanFraction * mean : fmin(p.meanFraction * mean, reflectors[i]);
+    const float near = p.meanFraction > 0.0f ? fraction : reflectors[i];
     // Where no ray hit anything, nothing is nearer than what there is is large.
     const float far = p.extent > 0.0f ? p.extent : extent[0];
     const float zMin = fmax(has ? near : far, leastDistance(p, extent));

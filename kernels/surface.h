@@ -20,7 +20,7 @@ typedef struct {
     __global const MaterialData* materials;
     __global const TextureData* textures;
     __global const uint* texels;
-    __global const float* srgbToLinear; ///< 256 entries
+    __global const float* srgbToLinear; ///< 256 entries of colours, then 256 of plain numbers
     /// When the shutter closes; positions and normals are those when it opens. Nobody reads them without WEDGE_MOTION.
     __global const float *positionsAtClose, *normalsAtClose;
 } SurfaceData;
@@ -201,7 +201,8 @@ WEDGE_FN Surface surfaceAt(SurfaceData data, Hit hit, Vec3 direction, float time
             material.emissionTexture, tu, tv));
     }
     if (material.exponentTexture != WEDGE_NO_TEXTURE) {
-        s.exponent *= sampleTexture(data.textures, data.texels, data.srgbToLinear, material.exponentTexture, tu, tv).x;
+        // An exponent is a number and no colour: nothing has encoded it.
+        s.exponent *= sampleTexture(data.textures, data.texels, data.srgbToLinear + 256, material.exponentTexture, tu, tv).x;
     }
     return s;
 }

@@ -1,14 +1,25 @@
-// What a light would send to receivers if nothing were between: by quadrature, sixteen receivers at once.
+// What a light would send to receivers if nothing were between: by quadrature, sixteen receivers at once. The one place for
+// it: frames of pixels (composite.cl) and of waves (wave_light.cl) take the same rules.
+//
+// Means over the light of the geometry term, or of it times a lobe, by the rule that is exact enough for each receiver:
+//   few     3 x 3 nodes of the profile's own Gauss rule: far from the light
+//   coarse  5 x 5 nodes
+//   fine    12 x 12: near the light, or for lobes narrower than it
+//   fitted  16 x 16 in coordinates fitted to the receiver: at the light, or where its horizon crosses it
+//   sampled directions of the lobe: where it is far narrower than the light, or narrower at all where the fitted rule would do
 #ifndef WEDGE_UNSHADOWED_H
 #define WEDGE_UNSHADOWED_H
 
 #include "light_sample.h"
+#include "scene_light.h"
 #include "vector16.h"
 
-/// The fine quadrature serves receivers nearer to the light's centre than this many of its largest half extents.
+/// The fine rule serves receivers nearer to the light's centre than this many of its largest half extents.
 #define WEDGE_NEAR_LIGHT 3.0f
-/// That of few nodes serves receivers farther than this many of them that see none of the light below their horizon.
+/// That of few nodes serves receivers farther than this many of them.
 #define WEDGE_FAR_LIGHT 4.0f
+/// The fitted rule serves receivers nearer to a point of the light than this many of them.
+#define WEDGE_AT_LIGHT 1.0f
 
 /// The coarse one serves lobes whose squared width is at least the light's squared angular half extent over this.
 #define WEDGE_COARSE_LOBE 2.0f
@@ -16,95 +27,15 @@
 #define WEDGE_FEW_LOBE 1.5f
 /// Lobes sharper than this, in the same measure, fall between the fine rule's nodes.
 #define WEDGE_SHARP_LOBE 40.0f
+/// The same of the fitted rule's, which are dense where the light is near and not where the lobe is.
+#define WEDGE_SHARP_FITTED_LOBE 10.0f
+
+/// Fitted coordinates are no flatter than this: as good as plain ones, and rounding stays small.
+#define WEDGE_FLATTEST 4.0f
+#define WEDGE_STEEPEST 1e-4f
 
 /// Square of the light's larger half extent, m^2.
 WEDGE_FN float squaredExtent(AreaLight light) { return fmax(vecDot(light.halfU, light.halfU), vecDot(light.halfV, light.halfV)); }
-
-/// Squared angular half extent of the light over the squared width of a lobe, which at exponent m is about 1/sqrt(m): of the
-/// half vector, and so of Blinn-Phong |l + v| times as much of l, far less where both graze. toLight: from the receiver to the
-/// light's centre, metres; view: unit, to the eye.
-WEDGE_FN float lobesAcross(AreaLight light, Vec3 toLight, Vec3 view, float exponent, bool phong)
-{
-    const float squared = vecDot(toLight, toLight);
-    const float widening = phong ? 1.0f : fmax(2.0f + 2.0f * vecDot(view, toLight) * rsqrt(squared), 1e-6f);
-    return squaredExtent(light) * fmax(exponent, 1.0f) / (squared * widening);
-}
-
-/// Geometry terms of 16 receivers and one point of the light, 1/m^2; see geometryTerm().
-WEDGE_FN float16 geometryTerm16(Vec3x16 normal, Vec3x16 d, Vec3 lightNormal, uint twoSided)
-{
-    const float16 receiver = dot16(normal, d);
-    const float16 emitter = -(d.x * lightNormal.x + d.y * lightNormal.y + d.z * lightNormal.z);
-    const float16 facing = twoSided != 0u ? fabs(emitter) : emitter;
-    const float16 squared = dot16(d, d);
-    const int16 lit = (receiver > 0.0f) & (facing > 0.0f);
-    return lit ? receiver * facing / (squared * squared) : (float16)(0.0f);
-}
-
-/// Profile-weighted mean of the geometry term over the light by tensor-product Gauss quadrature. nodes: coordinate
-/// and weight of each of `count` nodes of one axis, the weights summing to 1. *edge: lanes where the light is partly
-/// below a horizon, so that the integrand has a kink.
-WEDGE_FN float16 unshadowedDiffuse(AreaLight light, Vec3x16 position, Vec3x16 normal, __global const float* nodes,
-                                   uint count, int16* edge)
-{
-    float16 sum = (float16)(0.0f);
-    int16 someZero = (int16)(0);
-    int16 someLit = (int16)(0);
-    for (uint a = 0u; a < count; ++a) {
-        for (uint b = 0u; b < count; ++b) {
-            const Vec3 point = lightPoint(light.centre, light.halfU, light.halfV, nodes[2u * a], nodes[2u * b]);
-            const float16 g = geometryTerm16(normal, sub16(splat3(point), position), light.normal, light.twoSided);
-            someZero |= g == 0.0f;
-            someLit |= g > 0.0f;
-            sum += nodes[2u * a + 1u] * nodes[2u * b + 1u] * g;
-        }
-    }
-    *edge = someZero & someLit;
-    return sum;
-}
-
-/// The same mean by the coarse quadrature, and by the fine one in lanes of `wanted` that are near the light, or see a part of
-/// it below a horizon.
-WEDGE_FN float16 unshadowedWhere(AreaLight light, Vec3x16 position, Vec3x16 normal, __global const float* nodes, int16 wanted)
-{
-    int16 hard;
-    const float16 coarse = unshadowedDiffuse(light, position, normal, nodes, WEDGE_COARSE_NODES, &hard);
-    const Vec3x16 toLight = sub16(splat3(light.centre), position);
-    const float extent = fmax(vecLength(light.halfU), vecLength(light.halfV)) * WEDGE_NEAR_LIGHT;
-    hard |= dot16(toLight, toLight) < extent * extent;
-    hard &= wanted;
-    if (!any(hard)) {
-        return coarse;
-    }
-    int16 unused;
-    const float16 fine = unshadowedDiffuse(light, position, normal, nodes + WEDGE_FINE_OFFSET, WEDGE_FINE_NODES, &unused);
-    return hard ? fine : coarse;
-}
-
-/// Lanes whose horizon goes through the light.
-WEDGE_FN int16 horizonAcross(AreaLight light, Vec3x16 toLight, Vec3x16 normal)
-{
-    const float16 reach = fabs(dot16(normal, splat3(light.halfU))) + fabs(dot16(normal, splat3(light.halfV)));
-    return fabs(dot16(normal, toLight)) <= reach;
-}
-
-/// unshadowedWhere(), in lanes that are far from the light with few nodes.
-WEDGE_FN float16 unshadowedOfFew(AreaLight light, Vec3x16 position, Vec3x16 normal, __global const float* nodes, int16 wanted)
-{
-    const Vec3x16 toLight = sub16(splat3(light.centre), position);
-    const int16 far = dot16(toLight, toLight) >= squaredExtent(light) * WEDGE_FAR_LIGHT * WEDGE_FAR_LIGHT;
-    const int16 few = far & !horizonAcross(light, toLight, normal);
-    float16 shading = (float16)(0.0f);
-    if (any(wanted & few)) {
-        int16 unused;
-        shading = unshadowedDiffuse(light, position, normal, nodes + WEDGE_FEW_OFFSET, WEDGE_FEW_NODES, &unused);
-    }
-    if (any(wanted & !few)) {
-        const float16 other = unshadowedWhere(light, position, normal, nodes, wanted & !few);
-        shading = few ? shading : other;
-    }
-    return shading;
-}
 
 /// log2 x for normal x > 0, to 6e-8 of max(1, |log2 x|): logPositive() of sixteen.
 WEDGE_FN float16 accurateLog2(float16 x)
@@ -132,15 +63,182 @@ WEDGE_FN Vec3x16 unit16(Vec3x16 a)
     return a;
 }
 
-/// What sixteen receivers reflect into their views.
+/// What sixteen receivers reflect into their views. Without a lobe the first two count alone.
 typedef struct {
-    Vec3x16 position, normal, view; ///< view: unit, to the eye
-    float16 cosine;                 ///< of the view
+    Vec3x16 position, normal;
+    Vec3x16 view;   ///< unit, to the eye
+    float16 cosine; ///< of the view
     float16 exponent;
-    int16 phong;                    ///< else Blinn-Phong
+    int16 phong; ///< else Blinn-Phong
 } Receivers16;
 
-/// lobesAcross() of sixteen.
+WEDGE_FN Receivers16 mattReceivers(Vec3x16 position, Vec3x16 normal)
+{
+    Receivers16 r;
+    r.position = position;
+    r.normal = normal;
+    r.view = normal;
+    r.cosine = r.exponent = (float16)(1.0f);
+    r.phong = (int16)(0);
+    return r;
+}
+
+/// gloss: exponents, negative for Phong.
+WEDGE_FN Receivers16 glossyReceivers(Vec3x16 position, Vec3x16 normal, Vec3x16 view, float16 gloss)
+{
+    Receivers16 r = mattReceivers(position, normal);
+    r.view = view;
+    r.cosine = dot16(normal, view);
+    r.exponent = fabs(gloss);
+    r.phong = gloss < 0.0f;
+    return r;
+}
+
+/// Geometry terms of 16 receivers and points of the light d away, 1/m^2; see geometryTerm().
+WEDGE_FN float16 geometryTerm16(Vec3x16 normal, Vec3x16 d, Vec3 lightNormal, uint twoSided)
+{
+    const float16 receiver = dot16(normal, d);
+    const float16 emitter = -(d.x * lightNormal.x + d.y * lightNormal.y + d.z * lightNormal.z);
+    const float16 facing = twoSided != 0u ? fabs(emitter) : emitter;
+    const float16 squared = dot16(d, d);
+    const int16 lit = (receiver > 0.0f) & (facing > 0.0f);
+    return lit ? receiver * facing / (squared * squared) : (float16)(0.0f);
+}
+
+/// lobeValue() without the lobe's normalization, in the direction of d.
+WEDGE_FN float16 lobePower16(Receivers16 r, Vec3x16 d)
+{
+    const float16 inverse = rsqrt(max16(dot16(d, d), (float16)(1e-30f)));
+    const float16 cosine = dot16(r.normal, d) * inverse, inView = dot16(r.view, d) * inverse;
+    // The cosine of Blinn-Phong is that of the half vector l + v, which is as long as sqrt(2 + 2 l.v).
+    const float16 c = r.phong ? 2.0f * r.cosine * cosine - inView : cosine + r.cosine;
+    const float16 length = r.phong ? (float16)(1.0f) : max16(2.0f + 2.0f * inView, (float16)(1e-6f));
+    const float16 squaredLobe = min16(c * c / length, (float16)(1.0f));
+    const float16 lobe = exp2Block(0.5f * r.exponent * accurateLog2(max16(squaredLobe, (float16)(1e-30f))));
+    return c > 0.0f ? lobe : (float16)(0.0f);
+}
+
+/// specularNormalization() of sixteen.
+WEDGE_FN float16 normalization16(Receivers16 r)
+{
+    const float16 m = r.exponent;
+    const float16 phong = (m + 2.0f) * (0.5f * WEDGE_INV_PI);
+    const float16 blinn = (m + 2.0f) * (m + 4.0f) * (0.125f * WEDGE_INV_PI) / (exp2Block(-0.5f * m) + m);
+    return r.phong ? phong : blinn;
+}
+
+/// The integrand at points of the light.
+WEDGE_FN float16 arrivesFrom(AreaLight light, Receivers16 r, Vec3x16 point, bool lobes)
+{
+    const Vec3x16 d = sub16(point, r.position);
+    const float16 g = geometryTerm16(r.normal, d, light.normal, light.twoSided);
+    return lobes ? g * lobePower16(r, d) : g;
+}
+
+/// By a tensor product. nodes: coordinate and weight of each of `count` nodes of one axis, the weights summing to 1.
+WEDGE_FN float16 meanOverNodes(AreaLight light, Receivers16 r, __global const float* nodes, uint count, bool lobes)
+{
+    float16 sum = (float16)(0.0f);
+    for (uint a = 0u; a < count; ++a) {
+        for (uint b = 0u; b < count; ++b) {
+            const Vec3 point = lightPoint(light.centre, light.halfU, light.halfV, nodes[2u * a], nodes[2u * b]);
+            sum += nodes[2u * a + 1u] * nodes[2u * b + 1u] * arrivesFrom(light, r, splat3(point), lobes);
+        }
+    }
+    return sum;
+}
+
+WEDGE_FN Vec3x16 choose16(int16 first, Vec3 a, Vec3 b)
+{
+    Vec3x16 v;
+    v.x = first ? (float16)(a.x) : (float16)(b.x);
+    v.y = first ? (float16)(a.y) : (float16)(b.y);
+    v.z = first ? (float16)(a.z) : (float16)(b.z);
+    return v;
+}
+
+/// An interval of one axis of the light, and coordinates t on it: x = at + flat sinh t, which are dense around the point `at`
+/// that is nearest to the receiver, as the integrand is steep there (Johnston and Elliott, A sinh transformation for evaluating
+/// nearly singular boundary element integrals, 2005).
+typedef struct {
+    float16 at, flat, middle, extent;
+} FittedAxis;
+
+WEDGE_FN float16 arcSinh16(float16 x)
+{
+    const float16 a = fabs(x);
+    return copysign(0.693147181f * accurateLog2(a + sqrt(a * a + 1.0f)), x);
+}
+
+WEDGE_FN FittedAxis fittedAxis(float16 lo, float16 hi, float16 at, float16 flat)
+{
+    FittedAxis axis;
+    axis.at = at;
+    axis.flat = min16(max16(flat, (float16)(WEDGE_STEEPEST)), (float16)(WEDGE_FLATTEST));
+    const float16 first = arcSinh16((lo - at) / axis.flat), last = arcSinh16((hi - at) / axis.flat);
+    axis.middle = 0.5f * (first + last);
+    axis.extent = max16(0.5f * (last - first), (float16)(0.0f));
+    return axis;
+}
+
+/// The point of a node in [-1, 1] on the axis; *weight: of the node's weight, what the point counts.
+WEDGE_FN float16 fittedPoint(FittedAxis axis, float node, float16* weight)
+{
+    const float16 up = exp2Block(1.44269504f * (axis.middle + axis.extent * node)), down = 1.0f / up;
+    *weight = axis.extent * axis.flat * 0.5f * (up + down);
+    return axis.at + axis.flat * 0.5f * (up - down);
+}
+
+/// Where points of an axis in [-1, 1] begin and end to be above a horizon: height + slope x > 0.
+WEDGE_FN float16 lowestAbove(float16 height, float16 slope)
+{
+    const float16 edge = -height / (slope != 0.0f ? slope : (float16)(1.0f));
+    return slope > 0.0f ? min16(max16(edge, (float16)(-1.0f)), (float16)(1.0f)) : (float16)(-1.0f);
+}
+
+WEDGE_FN float16 highestAbove(float16 height, float16 slope) { return -lowestAbove(height, -slope); }
+
+/// By nodes fitted to each receiver: over the part of the light above its horizon alone, and dense where the light is near.
+/// nodes: the Gauss-Legendre rule.
+WEDGE_FN float16 meanFitted(AreaLight light, Receivers16 r, __global const float* nodes, bool lobes)
+{
+    const Vec3x16 toLight = sub16(splat3(light.centre), r.position);
+    const float16 height = dot16(r.normal, toLight);
+    const float16 u = dot16(r.normal, splat3(light.halfU)), v = dot16(r.normal, splat3(light.halfV));
+    // The horizon is to cross the inner axis rather than to run along it.
+    const int16 turned = fabs(v) > fabs(u);
+    const Vec3x16 inner = choose16(turned, light.halfV, light.halfU), outer = choose16(turned, light.halfU, light.halfV);
+    const float16 innerSlope = turned ? v : u, outerSlope = turned ? u : v;
+    const float16 innerSquared = dot16(inner, inner), outerSquared = dot16(outer, outer);
+    const float16 above = toLight.x * light.normal.x + toLight.y * light.normal.y + toLight.z * light.normal.z;
+    const float16 innerFoot = -dot16(toLight, inner) / innerSquared;
+    const float16 highest = height + fabs(innerSlope);
+    const FittedAxis b = fittedAxis(lowestAbove(highest, outerSlope), highestAbove(highest, outerSlope),
+                                    -dot16(toLight, outer) / outerSquared, fabs(above) * rsqrt(outerSquared));
+    const float falloff = light.profile == WEDGE_PROFILE_GAUSSIAN ? -0.721347520f * light.cut * light.cut : 0.0f;
+    float16 sum = (float16)(0.0f);
+    for (uint i = 0u; i < WEDGE_FITTED_NODES; ++i) {
+        float16 outerWeight;
+        const float16 y = fittedPoint(b, nodes[2u * i], &outerWeight);
+        const float16 there = height + outerSlope * y, away = y - b.at;
+        const float16 distance = sqrt(above * above + away * away * outerSquared);
+        const FittedAxis a = fittedAxis(lowestAbove(there, innerSlope), highestAbove(there, innerSlope), innerFoot,
+                                        distance * rsqrt(innerSquared));
+        float16 line = (float16)(0.0f);
+        for (uint k = 0u; k < WEDGE_FITTED_NODES; ++k) {
+            float16 weight;
+            const float16 x = fittedPoint(a, nodes[2u * k], &weight);
+            const Vec3x16 point = mad16(mad16(splat3(light.centre), inner, x), outer, y);
+            line += nodes[2u * k + 1u] * weight * exp2Block(falloff * x * x) * arrivesFrom(light, r, point, lobes);
+        }
+        sum += nodes[2u * i + 1u] * outerWeight * exp2Block(falloff * y * y) * line;
+    }
+    const int16 some = highest + fabs(outerSlope) > 0.0f;
+    return some ? sum * (vecLength(vecCross(light.halfU, light.halfV)) / light.profileArea) : (float16)(0.0f);
+}
+
+/// Squared angular half extent of the light over the squared width of the lobe, which at exponent m is about 1/sqrt(m): of the
+/// half vector, and so of Blinn-Phong |l + v| times as much of l, far less where both graze.
 WEDGE_FN float16 lobesAcross16(AreaLight light, Vec3x16 toLight, Receivers16 r)
 {
     const float16 squared = dot16(toLight, toLight);
@@ -149,33 +247,142 @@ WEDGE_FN float16 lobesAcross16(AreaLight light, Vec3x16 toLight, Receivers16 r)
     return r.phong ? across : across / widening;
 }
 
-/// Lobe times geometry term of one point of the light, without the lobe's normalization; lobeValue().
-WEDGE_FN float16 reflectedFrom(AreaLight light, Receivers16 r, Vec3 point)
+/// Lanes whose horizon goes through the light.
+WEDGE_FN int16 horizonAcross(AreaLight light, Vec3x16 toLight, Vec3x16 normal)
 {
-    const Vec3x16 d = sub16(splat3(point), r.position);
-    const float16 inverse = rsqrt(max16(dot16(d, d), (float16)(1e-30f))), squared = inverse * inverse;
-    const float16 cosine = dot16(r.normal, d) * inverse, inView = dot16(r.view, d) * inverse;
-    const float16 emitter = -(d.x * light.normal.x + d.y * light.normal.y + d.z * light.normal.z) * inverse;
-    const float16 facing = light.twoSided != 0u ? fabs(emitter) : emitter;
-    // The cosine of Blinn-Phong is that of the half vector l + v, which is as long as sqrt(2 + 2 l.v).
-    const float16 c = r.phong ? 2.0f * r.cosine * cosine - inView : cosine + r.cosine;
-    const float16 length = r.phong ? (float16)(1.0f) : max16(2.0f + 2.0f * inView, (float16)(1e-6f));
-    const float16 squaredLobe = min16(c * c / length, (float16)(1.0f));
-    const float16 lobe = exp2Block(0.5f * r.exponent * accurateLog2(max16(squaredLobe, (float16)(1e-30f))));
-    return ((c > 0.0f) & (cosine > 0.0f) & (facing > 0.0f)) ? cosine * facing * squared * lobe : (float16)(0.0f);
+    const float16 reach = fabs(dot16(normal, splat3(light.halfU))) + fabs(dot16(normal, splat3(light.halfV)));
+    return fabs(dot16(normal, toLight)) <= reach;
 }
 
-/// unshadowedSpecular() of sixteen receivers, without the lobe's normalization.
-WEDGE_FN float16 unshadowedLobes(AreaLight light, Receivers16 r, __global const float* nodes, uint count)
+/// Squared distance to the light's nearest point; of a parallelogram about that.
+WEDGE_FN float16 squaredDistanceTo(AreaLight light, Vec3x16 toLight)
 {
-    float16 sum = (float16)(0.0f);
-    for (uint a = 0u; a < count; ++a) {
-        for (uint b = 0u; b < count; ++b) {
-            const Vec3 point = lightPoint(light.centre, light.halfU, light.halfV, nodes[2u * a], nodes[2u * b]);
-            sum += nodes[2u * a + 1u] * nodes[2u * b + 1u] * reflectedFrom(light, r, point);
+    const Vec3x16 u = splat3(light.halfU), v = splat3(light.halfV);
+    const float16 one = (float16)(1.0f);
+    const float16 a = min16(max16(-dot16(toLight, u) / dot16(u, u), -one), one);
+    const float16 b = min16(max16(-dot16(toLight, v) / dot16(v, v), -one), one);
+    const Vec3x16 d = mad16(mad16(toLight, u, a), v, b);
+    return dot16(d, d);
+}
+
+/// Profile-weighted mean over the light of the geometry term, 1/m^2, of lanes `wanted`; lobes: of lobe times geometry term,
+/// 1/(sr m^2), without the lobe's normalization, and nothing in lanes of *sampled, whose lobes are too sharp for a rule.
+WEDGE_FN float16 unshadowedMean(AreaLight light, Receivers16 r, __global const float* nodes, int16 wanted, bool lobes,
+                                int16* sampled)
+{
+    const Vec3x16 toLight = sub16(splat3(light.centre), r.position);
+    const float16 squared = dot16(toLight, toLight);
+    const float extent = squaredExtent(light);
+    const float16 across = lobes ? lobesAcross16(light, toLight, r) : (float16)(0.0f);
+    const int16 horizon = horizonAcross(light, toLight, r.normal);
+    const int16 fitted = horizon | (squaredDistanceTo(light, toLight) < extent * WEDGE_AT_LIGHT * WEDGE_AT_LIGHT);
+    const int16 few = !fitted & (across < WEDGE_FEW_LOBE) & (squared >= extent * WEDGE_FAR_LIGHT * WEDGE_FAR_LIGHT);
+    const int16 fine = !fitted & ((across >= WEDGE_COARSE_LOBE) | (squared < extent * WEDGE_NEAR_LIGHT * WEDGE_NEAR_LIGHT));
+    *sampled = (across > WEDGE_SHARP_LOBE) | (fitted & (across > WEDGE_SHARP_FITTED_LOBE));
+    const int16 ruled = wanted & !*sampled;
+    float16 mean = (float16)(0.0f);
+    if (any(ruled & few)) {
+        mean = meanOverNodes(light, r, nodes + WEDGE_FEW_OFFSET, WEDGE_FEW_NODES, lobes);
+    }
+    if (any(ruled & !few & !fine & !fitted)) {
+        const float16 coarse = meanOverNodes(light, r, nodes, WEDGE_COARSE_NODES, lobes);
+        mean = few ? mean : coarse;
+    }
+    if (any(ruled & fine)) {
+        const float16 other = meanOverNodes(light, r, nodes + WEDGE_FINE_OFFSET, WEDGE_FINE_NODES, lobes);
+        mean = fine ? other : mean;
+    }
+    if (any(ruled & fitted)) {
+        const float16 other = meanFitted(light, r, nodes + WEDGE_FITTED_OFFSET, lobes);
+        mean = fitted ? other : mean;
+    }
+    return ruled ? mean : (float16)(0.0f);
+}
+
+WEDGE_FN float16 unshadowedDiffuse(AreaLight light, Receivers16 r, __global const float* nodes, int16 wanted)
+{
+    int16 none;
+    return unshadowedMean(light, r, nodes, wanted, false, &none);
+}
+
+/// Sixteen receivers as arrays, for loops over lanes.
+typedef struct {
+    float positionX[WEDGE_BLOCK_PIXELS], positionY[WEDGE_BLOCK_PIXELS], positionZ[WEDGE_BLOCK_PIXELS];
+    float normalX[WEDGE_BLOCK_PIXELS], normalY[WEDGE_BLOCK_PIXELS], normalZ[WEDGE_BLOCK_PIXELS];
+    float viewX[WEDGE_BLOCK_PIXELS], viewY[WEDGE_BLOCK_PIXELS], viewZ[WEDGE_BLOCK_PIXELS];
+    float exponent[WEDGE_BLOCK_PIXELS], normalization[WEDGE_BLOCK_PIXELS];
+    uint model[WEDGE_BLOCK_PIXELS];
+} ReceiverLanes;
+
+WEDGE_FN ReceiverLanes lanesOf(Receivers16 r)
+{
+    ReceiverLanes lanes;
+    vstore16(r.position.x, 0, lanes.positionX);
+    vstore16(r.position.y, 0, lanes.positionY);
+    vstore16(r.position.z, 0, lanes.positionZ);
+    vstore16(r.normal.x, 0, lanes.normalX);
+    vstore16(r.normal.y, 0, lanes.normalY);
+    vstore16(r.normal.z, 0, lanes.normalZ);
+    vstore16(r.view.x, 0, lanes.viewX);
+    vstore16(r.view.y, 0, lanes.viewY);
+    vstore16(r.view.z, 0, lanes.viewZ);
+    vstore16(r.exponent, 0, lanes.exponent);
+    vstore16(normalization16(r), 0, lanes.normalization);
+    vstore16(r.phong ? (uint16)(WEDGE_SPECULAR_PHONG) : (uint16)(WEDGE_SPECULAR_BLINN_PHONG), 0, lanes.model);
+    return lanes;
+}
+
+/// What one direction of a lane's lobe brings, for the numbers u.
+WEDGE_INLINE float broughtByLobe(AreaLight light, const ReceiverLanes* r, uint lane, Vec2 u)
+{
+    const Vec3 p = vec3(r->positionX[lane], r->positionY[lane], r->positionZ[lane]);
+    const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
+    const Vec3 v = vec3(r->viewX[lane], r->viewY[lane], r->viewZ[lane]);
+    Lobe lobe;
+    lobe.exponent = r->exponent[lane];
+    lobe.model = r->model[lane];
+    lobe.normalization = r->normalization[lane];
+    lobe.leastCosine = 0.0f;
+    const Vec3 l = sampleLobe(lobe, n, v, u);
+    const LightMeeting m = meetLight(light, p, l);
+    const float cosine = vecDot(n, l);
+    const float value = lobeOverPdf(lobe, n, v, l) * cosine * metProfile(light, m);
+    return m.t < INFINITY && cosine > 0.0f ? value : 0.0f;
+}
+
+/// The mean of lobe times geometry term by `count` directions of the lobe: nothing is in the way, so that they need no rays. An
+/// additive sequence (Roberts' R2), shifted in each receiver by what its position gives.
+WEDGE_FN float16 unshadowedByLobe(AreaLight light, Receivers16 receivers, uint count)
+{
+    const ReceiverLanes r = lanesOf(receivers);
+    float sum[WEDGE_BLOCK_PIXELS], u[WEDGE_BLOCK_PIXELS], v[WEDGE_BLOCK_PIXELS];
+    for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
+        const uint seed = hashCombine(hashCombine(as_uint(r.positionX[lane]), as_uint(r.positionY[lane])), as_uint(r.positionZ[lane]));
+        u[lane] = toUnitFloat(seed);
+        v[lane] = toUnitFloat(hashUint(seed));
+        sum[lane] = 0.0f;
+    }
+    for (uint k = 0u; k < count; ++k) {
+        for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
+            sum[lane] += broughtByLobe(light, &r, lane, vec2(u[lane], v[lane]));
+            const float nextU = u[lane] + 0.754877666f, nextV = v[lane] + 0.569840291f;
+            u[lane] = nextU >= 1.0f ? nextU - 1.0f : nextU;
+            v[lane] = nextV >= 1.0f ? nextV - 1.0f : nextV;
         }
     }
-    return sum;
+    return vload16(0, sum) / ((float)count * light.profileArea);
+}
+
+/// Mean of lobe times geometry term over the light, 1/(sr m^2), of lanes `wanted`, 0 elsewhere. directions: of each lobe that is
+/// too sharp for a rule.
+WEDGE_FN float16 unshadowedSpecular(AreaLight light, Receivers16 r, __global const float* nodes, int16 wanted, uint directions)
+{
+    int16 sharp;
+    float16 mean = unshadowedMean(light, r, nodes, wanted, true, &sharp) * normalization16(r);
+    if (any(wanted & sharp)) {
+        mean = (wanted & sharp) ? unshadowedByLobe(light, r, directions) : mean;
+    }
+    return wanted ? mean : (float16)(0.0f);
 }
 
 #endif

@@ -71,7 +71,7 @@ inline FilterImage randomImage(int width, int height, Shape shape, unsigned seed
     p.lightNormal = toShared(glm::normalize(glm::dvec3(0.1, -1, 0.2)));
     p.normalCosine = 0.9848f;
     p.cut = 3;
-    p.oblique = p.narrower = 1;
+    p.oblique = p.narrower = p.surface = 1;
     p.maxRadius = WEDGE_MAX_RADIUS;
     p.width = p.x1 = static_cast<std::uint32_t>(width);
     p.height = p.y1 = static_cast<std::uint32_t>(height);
@@ -182,6 +182,25 @@ public:
         return glm::dot(e, e);
     }
 
+    /// Surface that a pixel sees, but for a common factor: z^3 / |n.d|.
+    double area(int x, int y) const
+    {
+        const glm::dvec3 d = image_.position.vector(x, y) - toGlm(image_.params.eye);
+        const double z = glm::dot(d, toGlm(image_.params.forward));
+        return z * z * z / std::max(std::fabs(glm::dot(image_.normal.vector(x, y), d)), 0.05 * std::fabs(z));
+    }
+
+    /// What a neighbour counts for the surface that it sees: 0 off the pixel's own. *doubt: a rounding may decide.
+    double surface(int x, int y, int qx, int qy, bool* doubt) const
+    {
+        if (image_.params.surface == 0)
+            return 1.0;
+        const glm::dvec3 d = image_.position.vector(qx, qy) - position_;
+        const double rise = std::fabs(glm::dot(image_.normal.vector(x, y), d)) / std::max(glm::length(d), 1e-30);
+        *doubt = *doubt || std::fabs(rise - 0.3) < 1e-4;
+        return rise > 0.3 ? 0.0 : std::min(area(qx, qy) / area(x, y), 4.0);
+    }
+
     /// Pixels along image step `step` that `reach` metres on the tangent plane take, not rounded.
     double pixels(int x, int y, shared::Vec3 step, double reach) const
     {
@@ -229,12 +248,15 @@ inline OracleResult gatherLine(const FilterImage& image, const OracleResult& in,
                     doubt = true;
                 if (k != 0 && (facing < p.normalCosine || squared > limit))
                     continue;
+                const double seen = k == 0 ? 1.0 : geometry.surface(x, y, qx, qy, &doubt);
+                if (seen == 0)
+                    continue;
                 doubt |= (nearRadius && std::abs(k) >= radius && radius < static_cast<int>(p.maxRadius))
                     || in.uncertain(qx, qy);
                 if (std::abs(k) > radius)
                     continue;
                 const double width1 = p.narrower != 0 && there > 0 && k != 0 ? std::min(beta, there) : beta;
-                const double w = k == 0 ? 1.0 : std::exp(-0.5 * squared / (width1 * width1));
+                const double w = k == 0 ? 1.0 : seen * std::exp(-0.5 * squared / (width1 * width1));
                 weights += w;
                 squares += w * w;
                 for (int c = 0; c < in.channels; ++c)
@@ -289,7 +311,8 @@ inline std::vector<double> oracleSquare(const FilterImage& image)
                         || squared > p.cut * p.cut * beta * beta)
                         continue;
                     const double width = p.narrower != 0 ? std::min(beta, there) : beta;
-                    const double w = std::exp(-0.5 * squared / (width * width));
+                    bool unused = false;
+                    const double w = geometry.surface(x, y, qx, qy, &unused) * std::exp(-0.5 * squared / (width * width));
                     weights += w;
                     sum += w * image.value.at(qx, qy);
                 }

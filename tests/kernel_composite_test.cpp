@@ -164,12 +164,11 @@ TEST_CASE("addSpecular: the second term times the lobe's unshadowed shading time
         for (const std::uint32_t shading : { WEDGE_SHADING_SEPARATE, WEDGE_SHADING_INSIDE, WEDGE_SHADING_RATIO }) {
             const auto direct = bench.filled(3 * in.layout().size, 0.5f),
                        noisy = bench.filled(3 * in.layout().size, 0.25f);
-            bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addSpecular", in.params, 1,
-                shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made, frame,
+            bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addSpecular", in.params,
+                WEDGE_BLOCK_PIXELS, shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made, frame,
                 bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values), bench.buffer(in.normal.values),
                 bench.buffer(in.objectId.values), bench.buffer(in.gloss.values), bench.buffer(in.specular.values), bench.buffer(in.value.values),
-                bench.buffer(in.noisy.values), bench.filled(4 * in.layout().size, 0.6f),
-                bench.buffer(std::vector<std::uint32_t>(in.layout().size, 3)), direct, noisy);
+                bench.buffer(in.noisy.values), direct, noisy);
             const Planes<float> found = planesOf(in.layout(), bench.read(direct));
             const Planes<float> foundNoisy = planesOf(in.layout(), bench.read(noisy));
             CAPTURE(shading);
@@ -205,28 +204,54 @@ TEST_CASE("addSpecular: the second term times the lobe's unshadowed shading time
     });
 }
 
-TEST_CASE("addSpecular: lobes too sharp for the quadrature take the mean weight of the samples")
+TEST_CASE("addSpecular: a mirror shows the light's own radiance, where it shows the light")
 {
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device, { { "WEDGE_SPECULAR", "1" } });
-        const scene::AreaLight light = lamp(scene::LightProfile::Gaussian, false);
-        const shared::AreaLight made = render::deviceLight(light);
-        const Receivers in(33, 6, 4);
-        const std::vector<float> sharp(in.gloss.values.size(), 1e6f);
-        const auto direct = bench.filled(3 * in.layout().size, 0.0f), noisy = bench.filled(3 * in.layout().size, 0.0f);
-        bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addSpecular", in.params, 1,
-            shared::SampleParams { WEDGE_SHADING_RATIO, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made, shared::FrameParams {},
-            bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values), bench.buffer(in.normal.values),
-            bench.buffer(in.objectId.values), bench.buffer(sharp), bench.buffer(in.specular.values),
-            bench.buffer(in.value.values), bench.buffer(in.noisy.values), bench.filled(4 * in.layout().size, 0.6f),
-            bench.buffer(std::vector<std::uint32_t>(in.layout().size, 3)), direct, noisy);
-        const Planes<float> found = planesOf(in.layout(), bench.read(direct));
-        in.everyPixel([&](int x, int y) {
-            const double expected = in.objectId.at(x, y) != 0
-                ? in.specular.at(x, y, 1) * made.power.y * (0.6 / 3) * in.value.at(x, y, 1)
-                : 0.0;
-            REQUIRE(found.at(x, y, 1) == doctest::Approx(expected).epsilon(1e-5));
-        });
+        for (const scene::LightProfile profile : { scene::LightProfile::Uniform, scene::LightProfile::Gaussian }) {
+            const scene::AreaLight light = lamp(profile, false);
+            const shared::AreaLight made = render::deviceLight(light);
+            Receivers in(64, 6, 4);
+            std::mt19937 random(11);
+            const glm::dvec3 eye(0.5, 1, 6);
+            std::vector<double> shown;
+            in.everyPixel([&](int x, int y) {
+                // Each mirrors the eye's ray to a point of the light's plane, most of them on the light.
+                const double a = uniform(random, -1.5, 1.5), b = uniform(random, -1.5, 1.5);
+                const glm::dvec3 at = in.position.vector(x, y), l = glm::normalize(pointOf(light, a, b) - at);
+                in.normal.setVector(x, y, glm::normalize(glm::normalize(eye - at) + l));
+                in.specular.setVector(x, y, { 1, 1, 1 });
+                in.objectId.at(x, y) = 1;
+                const bool faces = glm::dot(l, lightNormal(light)) < -0.1;
+                const bool edge = std::fabs(std::fabs(a) - 1) < 0.15 || std::fabs(std::fabs(b) - 1) < 0.15;
+                const bool hit = faces && std::fabs(a) < 1 && std::fabs(b) < 1;
+                shown.push_back(edge || (!faces && glm::dot(l, lightNormal(light)) < 0.1) ? -1 : hit ? profileAt(light, a, b) : 0);
+            });
+            shared::FrameParams frame {};
+            frame.eye = shared::vec3(0.5f, 1, 6);
+            const std::vector<float> sharp(in.gloss.values.size(), -1e6f), whole(in.value.values.size(), 1.0f);
+            const auto direct = bench.filled(3 * in.layout().size, 0.0f), noisy = bench.filled(3 * in.layout().size, 0.0f);
+            bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addSpecular", in.params,
+                WEDGE_BLOCK_PIXELS, shared::SampleParams { WEDGE_SHADING_RATIO, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made, frame,
+                bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values), bench.buffer(in.normal.values),
+                bench.buffer(in.objectId.values), bench.buffer(sharp), bench.buffer(in.specular.values), bench.buffer(whole),
+                bench.buffer(whole), direct, noisy);
+            const Planes<float> found = planesOf(in.layout(), bench.read(direct));
+            std::size_t next = 0;
+            int lit = 0;
+            in.everyPixel([&](int x, int y) {
+                const double expected = shown[next++];
+                if (expected < 0)
+                    return;
+                // A lobe of exponent m reflects (m + 2) / (m + 1) of what arrives, times the cosine.
+                const glm::dvec3 at = in.position.vector(x, y);
+                const double cosine = glm::dot(in.normal.vector(x, y), glm::normalize(eye - at));
+                const double reflected = expected * light.radiance.y * cosine;
+                REQUIRE(std::fabs(found.at(x, y, 1) - reflected) <= 0.02 * light.radiance.y * cosine);
+                lit += expected > 0.1 ? 1 : 0;
+            });
+            CHECK(lit > 60);
+        }
     });
 }
 

@@ -107,6 +107,98 @@ TEST_CASE("light coordinates follow the light's profile, cut and all")
     CHECK(lightProfile(0.9f, -0.9f, WEDGE_PROFILE_UNIFORM, 2) == 1.0f);
 }
 
+TEST_CASE("light coordinates stay on the light at every cut, and lightFraction undoes them")
+{
+    for (const float cut : { 0.5f, 2.0f, 4.0f, 6.0f, 8.0f }) {
+        CAPTURE(cut);
+        const auto mass = static_cast<float>(std::erf(cut / std::sqrt(2.0)));
+        for (const uint profile : { WEDGE_PROFILE_GAUSSIAN, WEDGE_PROFILE_UNIFORM }) {
+            for (const float u : { 0.0f, 1e-7f, 0.25f, 0.5f, 0.999f, 0.99999994f }) {
+                const float a = lightCoordinate(u, profile, cut, mass);
+                CHECK(std::fabs(a) <= 1.0f);
+                CHECK(std::fabs(lightFraction(a, profile, cut, mass) - u) < 2e-6f);
+            }
+        }
+    }
+}
+
+TEST_CASE("elementary functions are those of the library")
+{
+    double power = 0, turn = 0, logarithm = 0, error = 0;
+    for (int i = 0; i <= 4000; ++i) {
+        const float x = static_cast<float>(std::exp(-80.0 + 0.04 * i)), u = static_cast<float>(i) / 4000.0f;
+        logarithm = std::max(logarithm, std::fabs(logPositive(x) - std::log(static_cast<double>(x))) / 80);
+        error = std::max(error, std::fabs(errorFunction(8 * u - 4) - std::erf(8.0 * u - 4.0)));
+        for (const float exponent : { 0.0f, 0.3f, 1.0f, 12.0f, 2000.0f }) {
+            const double exact = std::pow(static_cast<double>(u), static_cast<double>(exponent));
+            if (u > 0 && exact > 1e-30)
+                power = std::max(power, std::fabs(powPositive(u, exponent) / exact - 1) / std::max(1.0, -std::log2(exact)));
+        }
+        float s, c;
+        sinCosTurn(u, &s, &c);
+        turn = std::max({ turn, std::fabs(s - std::sin(2 * pi * u)), std::fabs(c - std::cos(2 * pi * u)) });
+    }
+    CHECK(logarithm < 1e-7);
+    CHECK(error < 5e-7);
+    CHECK(power < 1e-6);
+    CHECK(turn < 5e-7);
+    CHECK(powPositive(0.5f, 1e6f) < 1.2e-38f); // far below what a float holds
+    CHECK(powPositive(1.0f, 1e6f) == 1.0f);
+    CHECK(exp2Bounded(-1e30f) > 0.0f);
+    CHECK(exp2Bounded(3.0f) == 8.0f);
+}
+
+TEST_CASE("samples of the part of a light above a horizon are above it, and their weights make up that part's power")
+{
+    std::mt19937 random(7);
+    const auto number = [&](float lo, float hi) { return lo + (hi - lo) * static_cast<float>(random()) / 4294967296.0f; };
+    int cut = 0, whole = 0;
+    for (int run = 0; run < 600; ++run) {
+        AreaLight light {};
+        light.halfU = vec3(number(0.1f, 2), 0, 0);
+        light.halfV = vec3(0, number(0.1f, 2), 0);
+        light.profile = run % 2 == 0 ? WEDGE_PROFILE_GAUSSIAN : WEDGE_PROFILE_UNIFORM;
+        light.cut = number(1, 4);
+        light.erfCut = static_cast<float>(std::erf(light.cut / std::sqrt(2.0)));
+        const Vec3 normal = vecNormalize(vec3(number(-1, 1), number(-1, 1), number(-1, 1)));
+        const Vec3 position = vec3(number(-2, 2), number(-2, 2), number(0.1f, 2));
+        const LightPart part = partAboveHorizon(light, position, normal);
+        const auto height = [&](float a, float b) {
+            return vecDot(normal, vecSub(lightPoint(light.centre, light.halfU, light.halfV, a, b), position));
+        };
+        constexpr int steps = 128;
+        // Moments of the profile over what is above: by a grid of the whole light, and by the part's samples.
+        double expected[2] = { 0, 0 }, found[2] = { 0, 0 };
+        int below = 0;
+        for (int i = 0; i < steps; ++i)
+            for (int k = 0; k < steps; ++k) {
+                const Vec2 u = vec2((static_cast<float>(i) + 0.5f) / steps, (static_cast<float>(k) + 0.5f) / steps);
+                const float a = lightCoordinate(u.x, light.profile, light.cut, light.erfCut);
+                const float b = lightCoordinate(u.y, light.profile, light.cut, light.erfCut);
+                if (height(a, b) > 0) {
+                    expected[0] += 1.0 / (steps * steps);
+                    expected[1] += (a + 2.0 * b) / (steps * steps);
+                }
+                const PartSample s = samplePart(light, part, u);
+                REQUIRE(std::fabs(s.a) <= 1);
+                REQUIRE(std::fabs(s.b) <= 1);
+                REQUIRE(s.mass == doctest::Approx(part.cut != 0 ? partMass(light, part, s.a, s.b) : 1.0f).epsilon(2e-3));
+                below += part.cut != 0 && height(s.a, s.b) < -0.02f * (std::fabs(part.inner) + std::fabs(part.outer)) ? 1 : 0;
+                if (height(s.a, s.b) > 0) {
+                    found[0] += static_cast<double>(s.mass) / (steps * steps);
+                    found[1] += s.mass * (s.a + 2.0 * s.b) / (steps * steps);
+                }
+            }
+        REQUIRE(below <= steps); // the border's, by what rounding adds
+        REQUIRE(std::fabs(found[0] - expected[0]) < 6e-3);
+        REQUIRE(std::fabs(found[1] - expected[1]) < 2e-2);
+        cut += part.cut != 0 && expected[0] > 0 && expected[0] < 0.5 ? 1 : 0;
+        whole += part.cut == 0 ? 1 : 0;
+    }
+    CHECK(cut > 50);
+    CHECK(whole > 100);
+}
+
 TEST_CASE("the geometry term is cos cos / d^2, and 0 wherever no light arrives")
 {
     const Vec3 up = vec3(0, 1, 0), down = vec3(0, -1, 0);

@@ -158,6 +158,77 @@ TEST_CASE("an unoccluded uniform quad gives Lambert's formula")
     });
 }
 
+TEST_CASE("lights that the floor's horizon cuts, and lights next to it: no pixel is dark that sees a part of one")
+{
+    onEveryDevice([](const device::Device& device) {
+        struct Case {
+            const char* name;
+            glm::vec3 centre, halfU, halfV;
+            scene::LightProfile profile;
+        };
+        const Case cases[] = {
+            { "a panel, 20 % of it above the floor", { 0, -0.3f, -1 }, { 0.5f, 0, 0 }, { 0, 0.5f, 0 }, scene::LightProfile::Uniform },
+            { "the same, Gaussian", { 0, -0.3f, -1 }, { 0.5f, 0, 0 }, { 0, 0.5f, 0 }, scene::LightProfile::Gaussian },
+            { "a tip of it", { 0, -0.45f, -1 }, { 0.35f, 0.35f, 0 }, { -0.35f, 0.35f, 0 }, scene::LightProfile::Gaussian },
+            { "a lamp 2 cm above the floor", { 0, 0.02f, 0 }, { 0.5f, 0, 0 }, { 0, 0, 0.5f }, scene::LightProfile::Gaussian },
+        };
+        for (const Case& c : cases) {
+            const std::string name = c.name;
+            CAPTURE(name);
+            SceneBuilder b;
+            b.quad({ 0, 0, 0 }, { 0, 0, 3 }, { 3, 0, 0 });
+            b.light(c.centre, c.halfU, c.halfV, c.profile, 7);
+            b.scene.areaLights[0].twoSided = true;
+            b.scene.areaLights[0].visible = false;
+            b.camera({ 0, 3, 4 }, { 0, 0, 0 });
+            render::Renderer renderer(b.scene, device, renderOptions());
+            const scene::AreaLight& light = b.scene.areaLights[0];
+            const image::Window all { 0, 0, 60, 44 };
+            for (const bool filtered : { false, true }) {
+                const render::Settings settings =
+                    sized(filtered ? render::axisAligned(28) : render::monteCarlo(256), 60, 44);
+                const std::vector<float> beauty = renderPixels(renderer, settings);
+                const std::vector<float> position = pixels(renderer, renderer.frame().position, all);
+                const std::vector<float> id = pixels(renderer, renderer.frame().depth, all);
+                double worst = 0, squared = 0, total = 0;
+                unsigned dark = 0;
+                for (std::size_t i = 0; i < id.size(); ++i) {
+                    if (!std::isfinite(id[i]))
+                        continue;
+                    const glm::dvec3 at(position[3 * i], position[3 * i + 1], position[3 * i + 2]);
+                    double sum = 0, nearest = 1e30;
+                    constexpr int steps = 160;
+                    for (int j = 0; j < steps; ++j)
+                        for (int k = 0; k < steps; ++k) {
+                            const double u = 2 * (j + 0.5) / steps - 1, v = 2 * (k + 0.5) / steps - 1;
+                            const glm::dvec3 d = pointOf(light, u, v) - at;
+                            sum += profileAt(light, u, v) * geometry({ 0, 1, 0 }, d, lightNormal(light), true);
+                            nearest = std::min(nearest, glm::length(d));
+                        }
+                    if (nearest < 3.0 * 1.0 / steps) // the grid is too coarse to tell
+                        continue;
+                    const double expected = 7 * 0.7 / std::numbers::pi * sum * lightArea(light) / (steps * steps);
+                    const double error = beauty[3 * i + 1] - expected;
+                    dark += beauty[3 * i + 1] <= 0.5 * expected && expected > 1e-6 ? 1 : 0;
+                    worst = std::max(worst, std::fabs(error) / (expected + 1e-3));
+                    squared += error * error;
+                    total += expected * expected;
+                }
+                MESSAGE(name << std::string(filtered ? ", aaf" : ", mc") << ": worst " << worst << ", RMS "
+                                            << std::sqrt(squared / total));
+                CHECK(dark == 0);
+                // Nothing is in the way: the filtered frame has the quadrature's error, and that of the grid above.
+                if (filtered) {
+                    CHECK(worst < 0.02);
+                    CHECK(std::sqrt(squared / total) < 3e-3);
+                } else {
+                    CHECK(std::sqrt(squared / total) < 0.1);
+                }
+            }
+        }
+    });
+}
+
 TEST_CASE("point and directional lights are exact")
 {
     onEveryDevice([](const device::Device& device) {

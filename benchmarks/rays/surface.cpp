@@ -38,8 +38,9 @@ HostSurfaces::HostSurfaces(const scene::Scene& scene)
 SurfacePoint HostSurfaces::at(const shared::Hit& hit, shared::Vec3 direction) const
 {
     const scene::Geometry& g = scene_.geometry;
+    static constexpr float noTexels[512] = {}; // of scenes without textures
     const kernel::SurfaceData data { g.positions.data(), g.normals.data(), g.texcoords.data(), g.indices.data(),
-        g.materialIds.data(), materials_.data(), nullptr, nullptr, nullptr, nullptr, nullptr };
+        g.materialIds.data(), materials_.data(), nullptr, nullptr, noTexels, nullptr, nullptr };
     const kernel::Surface s = kernel::surfaceAt(data, hit, direction, 0.0f);
     return { s.position, s.origin, s.normal, s.geometric, s.diffuse, s.emission };
 }

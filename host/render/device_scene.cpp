@@ -90,12 +90,14 @@ void setPicks(std::vector<shared::AreaLight>& area, std::vector<shared::DeltaLig
     }
 }
 
-std::array<float, 256> srgbTable()
+/// What the bytes of textures mean: those of colours, which are sRGB-encoded, then those of plain numbers.
+std::array<float, 512> texelTable()
 {
-    std::array<float, 256> table {};
-    for (std::size_t i = 0; i < table.size(); ++i) {
+    std::array<float, 512> table {};
+    for (std::size_t i = 0; i < 256; ++i) {
         const double v = static_cast<double>(i) / 255.0;
         table[i] = static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+        table[256 + i] = static_cast<float>(v);
     }
     return table;
 }
@@ -170,7 +172,7 @@ DeviceScene::DeviceScene(
     , materials(device, scene.materials.size(), "materials")
     , textures(device, scene.textures.size(), "textures")
     , texels(device, texelCount(scene), "texels")
-    , srgbToLinear(device, 256, "sRGB table")
+    , srgbToLinear(device, 512, "sRGB table")
     , areaLights(device, scene.areaLights.size(), "area lights")
     , deltaLights(device, scene.pointLights.size() + scene.directionalLights.size(), "point and directional lights")
 {
@@ -184,7 +186,7 @@ DeviceScene::DeviceScene(
         offset += t.rgba.size();
     }
     textures.upload(queue, infos);
-    srgbToLinear.upload(queue, srgbTable());
+    srgbToLinear.upload(queue, texelTable());
     for (const scene::AreaLight& light : scene.areaLights) {
         areaLightList.push_back(deviceLight(light));
         const std::vector<float> rule = lightNodes(light);

@@ -159,6 +159,7 @@ Settings asPublished(std::optional<float> wanted)
     s.slopes = Slopes::Published;
     s.oblique = false;
     s.narrower = false;
+    s.surface = false;
     s.mu = mu;
     s.fillRadius = 5;
     s.fillSigma = 0.0f;
@@ -287,7 +288,7 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
             { { "counts", s.counts == Counts::Spectrum ? "spectrum" : "variance" },
                 { "slopes", s.slopes == Slopes::Published ? "published" : "smoothed" }, { "mu", number(s.mu) },
                 { "k", number(s.k) }, { "alpha", number(s.alpha) }, { "oblique", number(s.oblique) },
-                { "narrower", number(s.narrower) }, { "normalDegrees", number(s.normalDegrees) },
+                { "narrower", number(s.narrower) }, { "surface", number(s.surface) }, { "normalDegrees", number(s.normalDegrees) },
                 { "cut", number(s.cut) }, { "maxRadius", number(s.maxRadius) },
                 { "fillSigma", number(s.fillSigma) }, { "fillRadius", number(s.fillRadius) },
                 { "countExponent", number(s.countExponent) }, { "varianceFloor", number(s.varianceFloor) },

@@ -83,7 +83,7 @@ struct IndirectSettings {
     float widthScale = 0.5f; ///< standard deviation times bandwidth: beta = widthScale / Omega_r; thesis (4.16): 2
     ReflectorExtent extent = ReflectorExtent::Visible;
     float leastReflector = 0.005f; ///< reflectors nearer than this fraction of the extent count as this far
-    float meanFraction = 0.3f; ///< of the harmonic mean of distances that stands for the least one; 0: the least itself
+    float meanFraction = 0.3f; ///< WEDGE_NEAREST_FRACTION: of the harmonic mean of distances, for the least one; 0: the least itself
     IndirectCounts counts = IndirectCounts::Variance;
     float countExponent = 0.4f; ///< counts ~ (variance / gathered pixels)^this
     int maxSpp = 256; ///< most samples of a pixel
@@ -156,6 +156,7 @@ struct Settings {
 
     bool oblique = true; ///< distances along the ray to the light's centre instead of (3.12)
     bool narrower = true; ///< a pair of pixels is weighted by the narrower of both kernels
+    bool surface = true; ///< pixels weigh by the surface that they see, and those off a pixel's own surface are left out
     float normalDegrees = 10.0f; ///< neighbours whose normals differ by more are not gathered
     float cut = 3.0f; ///< kernel radius in standard deviations
     int maxRadius = 40; ///< kernel radius in pixels at most

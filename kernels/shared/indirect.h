@@ -12,6 +12,10 @@
 /// Scaling of counts for cosine-weighted samples (section 4.4.3).
 #define WEDGE_DIFFUSE_GAMMA 0.4f
 
+/// Of the harmonic mean of distances, what stands for the least one, if none is nearer; where planes have no room for both the
+/// mean and the least, it is built into what they have.
+#define WEDGE_NEAREST_FRACTION 0.3f
+
 WEDGE_SHARED_BEGIN
 
 /// Bandlimit of a specular lobe's transfer function (A.3), (A.5): fits to the exponents 4 to 50. Beyond them they go on

@@ -32,6 +32,8 @@
 #define WEDGE_FEW_NODES 3u ///< of the Gauss rule of the light's profile itself
 #define WEDGE_FINE_OFFSET (2u * WEDGE_COARSE_NODES)
 #define WEDGE_FEW_OFFSET (WEDGE_FINE_OFFSET + 2u * WEDGE_FINE_NODES)
+#define WEDGE_FITTED_NODES 16u ///< of the Gauss-Legendre rule on [-1, 1], weights summing to 2, for rules fitted to a receiver
+#define WEDGE_FITTED_OFFSET (WEDGE_FEW_OFFSET + 2u * WEDGE_FEW_NODES)
 
 WEDGE_SHARED_BEGIN
 
@@ -105,12 +107,47 @@ WEDGE_INLINE float erfInverse(float x)
     return (w < 5.0f ? central : tail) * x;
 }
 
+/// Error function, to 3e-7 (Abramowitz and Stegun 7.1.26).
+WEDGE_INLINE float errorFunction(float x)
+{
+    const float t = 1.0f / (1.0f + 0.3275911f * fabs(x));
+    const float p = t * (0.254829592f + t * (-0.284496736f + t * (1.421413741f + t * (-1.453152027f + t * 1.061405429f))));
+    const float y = 1.0f - p * exp2Bounded(-1.44269504f * x * x);
+    return x < 0.0f ? -y : y;
+}
+
 /// Local light coordinate in [-1, 1] of the uniform number u in [0, 1), distributed as the light's profile.
 WEDGE_INLINE float lightCoordinate(float u, uint profile, float cut, float erfCut)
 {
     const float x = 2.0f * u - 1.0f;
-    return profile == WEDGE_PROFILE_GAUSSIAN ? 1.41421356f * erfInverse(x * erfCut) / cut : x;
+    // A wide cut has erfCut round to 1, and the inverse of 1 lies anywhere.
+    const float bounded = clamp(x * erfCut, -0.99999994f, 0.99999994f);
+    const float gaussian = clamp(1.41421356f * erfInverse(bounded) / cut, -1.0f, 1.0f);
+    return profile == WEDGE_PROFILE_GAUSSIAN ? gaussian : x;
 }
+
+/// The number whose lightCoordinate() is a.
+WEDGE_INLINE float lightFraction(float a, uint profile, float cut, float erfCut)
+{
+    const float gaussian = 0.5f + 0.5f * errorFunction(0.70710678f * a * cut) / erfCut;
+    return profile == WEDGE_PROFILE_GAUSSIAN ? gaussian : 0.5f + 0.5f * a;
+}
+
+/// The part of a light above the horizon of a receiver, and how it is sampled: first the outer of the light's axes, as far as
+/// points of it may be above, then the inner one, along which the horizon changes most, from the horizon on. So every sample is
+/// of light that may arrive, be there ever so little.
+typedef struct {
+    uint cut;    ///< 0: all of the light is above, or nothing: the rest does not matter
+    uint turned; ///< 1: the inner axis is halfV
+    float first, range; ///< sample numbers of the outer axis
+    float height;       ///< of the light's centre over the horizon, metres
+    float inner, outer; ///< of the half axes
+} LightPart;
+
+/// A sample of it: local coordinates, and what it weighs against one of the whole light.
+typedef struct {
+    float a, b, mass;
+} PartSample;
 
 /// From a receiver to the light, to where its shadow ray ends at t = 1.
 WEDGE_FN Vec3 vectorToLight(DeltaLight light, float sceneDiameter, Vec3 origin)
@@ -129,6 +166,61 @@ WEDGE_INLINE float lightProfile(float a, float b, uint profile, float cut)
 WEDGE_INLINE Vec3 lightPoint(Vec3 centre, Vec3 halfU, Vec3 halfV, float a, float b)
 {
     return vecMad(vecMad(centre, halfU, a), halfV, b);
+}
+
+/// Sample numbers of one axis whose points are above a horizon, height + slope a > 0: the first, and how far they reach.
+WEDGE_INLINE Vec2 numbersAbove(AreaLight light, float height, float slope)
+{
+    // Also where nothing is above, by a rounding: then the end that is nearest to it.
+    const bool cut = height < fabs(slope);
+    const float along = fabs(slope) > 1e-20f ? slope : 1e-20f;
+    const float at = lightFraction(clamp(-height / along, -1.0f, 1.0f), light.profile, light.cut, light.erfCut);
+    // What rounding leaves out would be missing from the light: a little too much costs nothing.
+    const float lo = cut && along > 0.0f ? clamp(at - 2e-6f, 0.0f, 0.99999f) : 0.0f;
+    const float hi = cut && along < 0.0f ? clamp(at + 2e-6f, 0.00001f, 1.0f) : 1.0f;
+    return vec2(lo, hi - lo);
+}
+
+WEDGE_INLINE LightPart partAboveHorizon(AreaLight light, Vec3 position, Vec3 normal)
+{
+    LightPart part;
+    const float u = vecDot(normal, light.halfU), v = vecDot(normal, light.halfV);
+    part.height = vecDot(normal, vecSub(light.centre, position));
+    part.cut = fabs(part.height) < fabs(u) + fabs(v) ? 1u : 0u;
+    part.turned = fabs(v) > fabs(u) ? 1u : 0u;
+    part.inner = part.turned != 0u ? v : u;
+    part.outer = part.turned != 0u ? u : v;
+    const Vec2 numbers = numbersAbove(light, part.height + fabs(part.inner), part.outer);
+    part.first = part.cut != 0u ? numbers.x : 0.0f;
+    part.range = part.cut != 0u ? numbers.y : 1.0f;
+    return part;
+}
+
+/// Sample numbers of the inner axis beside coordinate `outer` of the other one.
+WEDGE_INLINE Vec2 innerNumbers(AreaLight light, LightPart part, float outer)
+{
+    const Vec2 above = numbersAbove(light, part.height + part.outer * outer, part.inner);
+    return vec2(part.cut != 0u ? above.x : 0.0f, part.cut != 0u ? above.y : 1.0f);
+}
+
+/// What samples at local coordinates (a, b) weigh.
+WEDGE_INLINE float partMass(AreaLight light, LightPart part, float a, float b)
+{
+    return part.range * innerNumbers(light, part, part.turned != 0u ? a : b).y;
+}
+
+/// The sample of the numbers u, distributed as the light's profile along the inner axis.
+WEDGE_INLINE PartSample samplePart(AreaLight light, LightPart part, Vec2 u)
+{
+    const bool turned = part.cut != 0u && part.turned != 0u;
+    const float outer = lightCoordinate(part.first + part.range * (turned ? u.x : u.y), light.profile, light.cut, light.erfCut);
+    const Vec2 numbers = innerNumbers(light, part, outer);
+    const float inner = lightCoordinate(numbers.x + numbers.y * (turned ? u.y : u.x), light.profile, light.cut, light.erfCut);
+    PartSample s;
+    s.a = turned ? outer : inner;
+    s.b = turned ? inner : outer;
+    s.mass = part.range * numbers.y;
+    return s;
 }
 
 /// The geometry term of receiver normal n and light normal m over the vector d from receiver to light (metres):

@@ -77,14 +77,15 @@ void placeLights(LotteryScene& s, Random random)
     for (int i = 0; i < s.traits.lights; ++i) {
         const double size = s.stage.size * logarithmic(random, 0.02, 0.35);
         const glm::dvec2 half(size, size * random.uniform(0.4, 1));
-        const double angle = random.uniform(0, 6.283185307), level = random.uniform(0.2, 1.2) / std::sqrt(s.traits.lights);
+        const double angle = random.uniform(0, 6.283185307), level = random.uniform(0.4, 1.6) / std::sqrt(s.traits.lights);
         scene::AreaLight light = i < low ? lowLight(s.stage, random, half, angle) : highLight(s.stage, random, half, angle);
         light.profile = chance(random, 0.4) ? scene::LightProfile::Uniform : scene::LightProfile::Gaussian;
         light.cut = static_cast<float>(random.uniform(1, 3));
         light.twoSided = chance(random, 0.1);
         light.visible = chance(random, 0.6);
         const glm::dvec3 tint = within(random, glm::dvec3(0.7), glm::dvec3(1.0));
-        light.radiance = glm::vec3(tint) * radianceOf(light, std::max(0.6 * s.stage.size, 2 * size), level);
+        const double reach = 0.35 * glm::length(s.stage.hi - s.stage.lo);
+        light.radiance = glm::vec3(tint) * radianceOf(light, std::max(reach, 2 * size), level);
         if (i == 0)
             s.scene.light = light;
         else

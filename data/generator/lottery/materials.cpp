@@ -33,7 +33,7 @@ image::RgbImage pattern(Random& random)
 /// Lambert, or with a highlight beside the diffuse part; sharp: of an exponent that the hard case asks for.
 void addMaterial(LotteryScene& s, Random& random, const std::string& name, bool sharp, std::vector<std::string>& list)
 {
-    scene::Material m = matt(name, colour(random, 0.1, 0.85));
+    scene::Material m = matt(name, colour(random, 0.2, 0.9));
     const bool glossy = sharp || chance(random, 0.4), phong = chance(random, 0.4);
     const double exponent = sharp ? logarithmic(random, 201, 2000) : logarithmic(random, 3, 200);
     const float strength = static_cast<float>(random.uniform(0.05, 0.5));

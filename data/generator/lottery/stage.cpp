@@ -64,13 +64,15 @@ void placeCamera(LotteryScene& s, Random random)
     const glm::dvec3 middle(0.5 * (stage.lo + stage.hi)), extent = stage.hi - stage.lo;
     const bool nearWall = chance(random, 0.3);
     const double edge = nearWall ? 0.49 : random.uniform(0.25, 0.45);
-    const double angle = random.uniform(0, 6.283185307), height = random.uniform(0.2, 0.85) * stage.hi.y;
+    // On open ground from where its walls are not.
+    const double angle = stage.open ? random.uniform(-0.5, 2.1) : random.uniform(0, 6.283185307);
+    const double height = random.uniform(0.2, 0.85) * stage.hi.y;
     // On the rim of a square, so that something of the stage is before the camera.
     const glm::dvec2 round(std::cos(angle), std::sin(angle));
     const glm::dvec2 rim = round / std::max(std::abs(round.x), std::abs(round.y));
     const double away = stage.open ? random.uniform(0.9, 1.6) : 1.0;
     const glm::dvec3 eye(middle.x + away * edge * extent.x * rim.x, height, middle.z + away * edge * extent.z * rim.y);
-    const glm::dvec3 target = middle + extent * within(random, { -0.2, -0.45, -0.2 }, { 0.2, 0.0, 0.2 });
+    const glm::dvec3 target = middle + extent * within(random, { -0.2, -0.5, -0.2 }, { 0.2, stage.open ? -0.3 : -0.1, 0.2 });
     s.scene.camera.eye = glm::vec3(eye);
     s.scene.camera.lookAt = glm::vec3(target);
     s.scene.camera.verticalFov = static_cast<float>(random.uniform(35, 75));

@@ -139,7 +139,7 @@ Place placeFor(const LotteryScene& s, Random& random)
     const glm::dvec3 eye(s.scene.camera.eye), extent = s.stage.hi - s.stage.lo;
     Place p {};
     for (int tries = 0; tries < 20; ++tries) {
-        p.size = s.stage.size * logarithmic(random, 0.08, 0.5);
+        p.size = s.stage.size * logarithmic(random, 0.12, 0.6);
         p.degrees = random.uniform(0, 360);
         p.foot = s.stage.lo + extent * within(random, { 0.1, 0, 0.1 }, { 0.9, 1, 0.9 });
         const double where = random.uniform(0, 1);

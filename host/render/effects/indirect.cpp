@@ -261,9 +261,11 @@ void Indirect::filterDistributed(const shared::DistributedParams& params)
     if (c_.frame.shape.packed()) {
         c_.passes.rows("filter of indirect", PassKind::Filter, "distributed.cl", "unpackImage", params, 1, term_.value, value);
     }
-    gaussianFilter(c_.passes, { "filter of indirect", PassKind::Filter, "filter_indirect.cl" },
-        filterParams(c_.settings, c_.fullFrame, c_.full()), c_.full(), c_.frame, value, term_.beta, c_.scratch,
-        c_.scratch.filtered);
+    const shared::FilterParams filter = c_.settings.distributed.published
+        ? publishedParams(c_.settings, c_.fullFrame, c_.full())
+        : filterParams(c_.settings, c_.fullFrame, c_.full());
+    gaussianFilter(c_.passes, { "filter of indirect", PassKind::Filter, "filter_indirect.cl" }, filter, c_.full(), c_.frame,
+        value, term_.beta, c_.scratch, c_.scratch.filtered);
     addFilteredTerm(c_, term_, params, c_.frame.indirect);
 }
 

@@ -252,9 +252,9 @@ void SoftShadows::shade(const device::Buffer<float>& value)
         light(), c_.scene.quadratures[index_], c_.frame.position, c_.frame.normal, c_.frame.objectId, c_.frame.diffuse, value,
         term_.value, term_.taken, c_.frame.direct, c_.frame.directNoisy, c_.frame.samples);
     if (c_.scene.specular) {
-        c_.passes.rows("composite", PassKind::Composite, "composite.cl", "addSpecular", p, 1, sampleParams(), light(),
+        c_.passes.rows("composite", PassKind::Composite, "composite.cl", "addSpecular", p, WEDGE_BLOCK_PIXELS, sampleParams(), light(),
             c_.fullFrame, c_.scene.quadratures[index_], c_.frame.position, c_.frame.normal, c_.frame.objectId, c_.frame.gloss,
-            c_.frame.specular, value, term_.value, term_.sums, term_.taken, c_.frame.direct, c_.frame.directNoisy);
+            c_.frame.specular, value, term_.value, c_.frame.direct, c_.frame.directNoisy);
     }
 }
 
@@ -311,9 +311,11 @@ void SoftShadows::filterDistributed(const shared::DistributedParams& params)
     // Nothing else keeps anything there while the image is made.
     device::Buffer<float>& visibility = c_.scratch.logs;
     c_.passes.rows("filter", PassKind::Filter, "distributed.cl", "visibilityOf", params, 1, term_.texture, term_.value, visibility);
-    gaussianFilter(c_.passes, { "filter", PassKind::Filter, "filter_variance.cl" },
-        filterParams(c_.settings, c_.fullFrame, light(), c_.full()), c_.full(), c_.frame, visibility, term_.beta,
-        c_.scratch, c_.scratch.filtered);
+    const shared::FilterParams filter = c_.settings.distributed.published
+        ? publishedParams(c_.settings, c_.fullFrame, c_.full())
+        : filterParams(c_.settings, c_.fullFrame, light(), c_.full());
+    gaussianFilter(c_.passes, { "filter", PassKind::Filter, "filter_variance.cl" }, filter, c_.full(), c_.frame, visibility,
+        term_.beta, c_.scratch, c_.scratch.filtered);
     if (c_.scene.moves && c_.settings.distributed.blur) {
         blurShadows(params);
     }

@@ -18,6 +18,7 @@ shared::FilterParams filterParams(
     p.normalCosine = std::cos(glm::radians(settings.normalDegrees));
     p.cut = settings.cut;
     p.narrower = settings.narrower ? 1 : 0;
+    p.surface = settings.surface ? 1 : 0;
     p.maxRadius = static_cast<std::uint32_t>(settings.maxRadius);
     p.width = frame.width;
     p.height = frame.height;
@@ -34,6 +35,14 @@ shared::FilterParams filterParams(const Settings& settings, const shared::FrameP
     p.lightCentre = light.centre;
     p.lightNormal = light.normal;
     p.oblique = settings.oblique ? 1 : 0;
+    return p;
+}
+
+shared::FilterParams publishedParams(
+    const Settings& settings, const shared::FrameParams& frame, const image::Window& window)
+{
+    shared::FilterParams p = filterParams(settings, frame, window);
+    p.narrower = 1;
     return p;
 }
 

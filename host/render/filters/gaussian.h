@@ -27,6 +27,11 @@ struct FilterRun {
     std::string program; ///< a file that includes kernels/gather.h; packed frames take the one called packed_...
 };
 
+/// Of the irradiances of distributed frames as published: (5.31) measures distances in space, also those of lights, and of both of a
+/// pair the narrower kernel counts.
+shared::FilterParams publishedParams(
+    const Settings& settings, const shared::FrameParams& frame, const image::Window& window);
+
 /// The separable world-space Gaussian of kernels/gather.h from `value` into `filtered`, as many planes as the program
 /// has channels, and the effective counts into scratch.effective (but not those of packed frames' three channels), over
 /// window; widths are beta. It reads up to params.maxRadius pixels beyond the window. No state; scratch.rowsFiltered
