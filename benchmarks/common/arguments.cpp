@@ -9,9 +9,7 @@
 #include <fmt/format.h>
 
 namespace wedge::benchmark {
-namespace {
 
-/// "64x48" into a plan's size.
 void setSize(MeasurePlan& plan, const std::string& text)
 {
     const char* end = text.data() + text.size();
@@ -23,8 +21,6 @@ void setSize(MeasurePlan& plan, const std::string& text)
         throw UsageError("--size", text, fmt::format("give WIDTHxHEIGHT, each from 8 to {}", scene::maxImageSide));
     }
 }
-
-} // namespace
 
 void addOptions(CLI::App& parser, Arguments& a, const std::string& table, const MeasurePlan& plan,
     const MeasurePlan& quick, const std::string& quickMeans)
@@ -42,7 +38,8 @@ void addOptions(CLI::App& parser, Arguments& a, const std::string& table, const 
             fmt::format("samples of the references ({}, quick {})", plan.referenceSpp, quick.referenceSpp))
         ->check(CLI::Range(16, 1 << 20));
     parser.add_option("--size", a.size,
-        fmt::format("WIDTHxHEIGHT of the images ({}x{}, quick {}x{})", plan.width, plan.height, quick.width, quick.height));
+        fmt::format(
+            "WIDTHxHEIGHT of the images ({}x{}, quick {}x{})", plan.width, plan.height, quick.width, quick.height));
     parser.add_flag("--timing-only", a.timingOnly, "only what " + table + " has");
     parser.add_flag("--list", a.list, "list the scenes");
 }

@@ -22,6 +22,9 @@ struct Arguments {
 void addOptions(CLI::App& parser, Arguments& a, const std::string& table, const MeasurePlan& plan,
     const MeasurePlan& quick, const std::string& quickMeans);
 
+/// "64x48" into a plan's size. Throws UsageError.
+void setSize(MeasurePlan& plan, const std::string& text);
+
 /// What the arguments change in a plan. spp of references become a multiple of `halves`. Throws UsageError.
 void apply(const Arguments& arguments, MeasurePlan& plan, int halves);
 

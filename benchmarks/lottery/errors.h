@@ -12,7 +12,8 @@ namespace wedge::benchmark {
 struct SquaredError {
     double mean = 0; ///< over all pixels
     double trimmed = 0; ///< without the pixels of largest error, worstPixels of them
-    double deviation = 0; ///< standard error of `mean`, as a fraction of it, from the scatter between the seeds; 0 for one seed
+    double deviation =
+        0; ///< standard error of `mean`, as a fraction of it, from the scatter between the seeds; 0 for one seed
     double bias = 0; ///< mean of the images over that of the reference, less 1
     double biasDeviation = 0; ///< standard error of `bias`, likewise; 0 for one seed
 

@@ -1,4 +1,5 @@
 // lottery: scenes that nobody designed, plain and filtered; docs/benchmarks.md.
+#include "benchmarks/common/arguments.h"
 #include "benchmarks/common/lab.h"
 #include "benchmarks/common/program.h"
 #include "benchmarks/common/scene_source.h"
@@ -17,8 +18,8 @@ using namespace wedge::benchmark;
 
 constexpr std::uint32_t mostSeeds = 100000;
 
-struct Arguments {
-    std::string seeds, json, device, references = defaultReferenceFolder(), images, scenes;
+struct LotteryArguments {
+    std::string seeds, json, device, references = defaultReferenceFolder(), images, scenes, size;
     bool quick = false;
     int referenceSpp = 0;
 };
@@ -50,7 +51,7 @@ std::vector<std::uint32_t> seedsOf(const std::string& text)
     return out;
 }
 
-LotteryPlan planOf(const Arguments& a)
+LotteryPlan planOf(const LotteryArguments& a)
 {
     LotteryPlan plan;
     plan.quick = a.quick;
@@ -60,12 +61,18 @@ LotteryPlan planOf(const Arguments& a)
     if (a.referenceSpp > 0) {
         plan.referenceSpp = a.referenceSpp + a.referenceSpp % 2;
     }
+    if (!a.size.empty()) {
+        MeasurePlan size;
+        setSize(size, a.size);
+        plan.width = size.width;
+        plan.height = size.height;
+    }
     plan.referenceFolder = a.references;
     plan.imageFolder = a.images;
     return plan;
 }
 
-int writeScenes(const Arguments& a, const std::vector<std::uint32_t>& seeds)
+int writeScenes(const LotteryArguments& a, const std::vector<std::uint32_t>& seeds)
 {
     for (const std::uint32_t seed : seeds) {
         lotteryScene(seed, a.scenes);
@@ -73,7 +80,7 @@ int writeScenes(const Arguments& a, const std::vector<std::uint32_t>& seeds)
     return 0;
 }
 
-int measureAll(const Arguments& a)
+int measureAll(const LotteryArguments& a)
 {
     const std::vector<std::uint32_t> seeds = seedsOf(a.seeds.empty() ? a.quick ? "1:10" : "1:200" : a.seeds);
     if (!a.scenes.empty()) {
@@ -95,8 +102,8 @@ int measureAll(const Arguments& a)
         results.push_back(measureSeed(seed, device, plan));
         const Verdict v = verdictOf(results.back(), plan.compared);
         progress("lottery",
-            fmt::format("seed {}: {:.2f} of mc's error, {:.1f} times the samples saved, slope {:.2f}, {:.1f} s", seed, v.againstPlain.value,
-                v.savedSamples, v.slope, results.back().seconds));
+            fmt::format("seed {}: {:.2f} of mc's error, {:.1f} times the samples saved, slope {:.2f}, {:.1f} s", seed,
+                v.againstPlain.value, v.savedSamples, v.slope, results.back().seconds));
         if (!a.json.empty()) {
             writeJson(a.json, lotteryResults(results, plan, device.info()));
         }
@@ -111,13 +118,16 @@ int measureAll(const Arguments& a)
 int main(int argc, char** argv)
 {
     CLI::App parser("Measures filtered against plain images of random scenes.", "lottery");
-    Arguments a;
+    LotteryArguments a;
     parser.add_option("--seeds", a.seeds, "scenes, A:B or one (1:200)");
     parser.add_flag("--quick", a.quick, "seeds 1:10, references of 2048 samples: to see that it works, not to report");
-    parser.add_option("--json", a.json, "results, rewritten after each scene; a call that was interrupted goes on from there");
+    parser.add_option(
+        "--json", a.json, "results, rewritten after each scene; a call that was interrupted goes on from there");
     parser.add_option("--device", a.device, "cpu, gpu, an index, or part of a name");
     parser.add_option("--reference-dir", a.references, "where references are kept (beside this program)");
-    parser.add_option("--reference-spp", a.referenceSpp, "samples of the references (4096)")->check(CLI::Range(2, 1 << 20));
+    parser.add_option("--reference-spp", a.referenceSpp, "samples of the references (4096)")
+        ->check(CLI::Range(2, 1 << 20));
+    parser.add_option("--size", a.size, "WIDTHxHEIGHT of the images (128x96)");
     parser.add_option("--images", a.images, "a folder for pictures: reference, mc and aaf of each scene");
     parser.add_option("--write-scenes", a.scenes, "only write the scenes' files into that folder");
     return runProgram(parser, argc, argv, [&] { return measureAll(a); });

@@ -32,7 +32,8 @@ public:
         , scene_(scene)
         , renderer_(scene, device)
         , name_(name)
-        , reference_(obtainReference(renderer_, sized(render::monteCarlo(plan.referenceSpp), referenceSeed), plan.referenceFolder, name))
+        , reference_(obtainReference(
+              renderer_, sized(render::monteCarlo(plan.referenceSpp), referenceSeed), plan.referenceFolder, name))
     {
     }
 
@@ -80,7 +81,8 @@ private:
 
     LotteryPoint pointOf(int spp, const Renders& renders) const
     {
-        return { spp, squaredError(renders.images, reference_), summarize(renders.device).median, summarize(renders.wall).median };
+        return { spp, squaredError(renders.images, reference_), summarize(renders.device).median,
+            summarize(renders.wall).median };
     }
 
     void measureBlurs(const std::vector<image::RgbImage>& plain, LotteryResult& out)
@@ -119,7 +121,8 @@ private:
             return;
         }
         const auto write = [&](const char* what, const image::RgbImage& image) {
-            image::writePng((std::filesystem::path(plan_.imageFolder) / fmt::format("{}_{}.png", name_, what)).string(), image);
+            image::writePng(
+                (std::filesystem::path(plan_.imageFolder) / fmt::format("{}_{}.png", name_, what)).string(), image);
         };
         write("reference", reference_.image);
         write("mc", plain.images.front());

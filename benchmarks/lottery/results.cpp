@@ -16,9 +16,9 @@ namespace {
 std::string methodFingerprint()
 {
     Fingerprint f;
-    for (const char* file : { "accumulate.cl", "analysis.cl", "area_light.cl", "blur.cl", "composite.cl", "counts.cl", "delta_lights.cl",
-             "distributed.cl", "filter.cl", "filter_indirect.cl", "filter_variance.cl", "indirect.cl", "primary.cl", "reflectors.cl",
-             "wave_light.cl", "wave_primary.cl", "waves.cl" }) {
+    for (const char* file : { "accumulate.cl", "analysis.cl", "area_light.cl", "blur.cl", "composite.cl", "counts.cl",
+             "delta_lights.cl", "distributed.cl", "filter.cl", "filter_indirect.cl", "filter_variance.cl",
+             "indirect.cl", "primary.cl", "reflectors.cl", "wave_light.cl", "wave_primary.cl", "waves.cl" }) {
         f.add(device::flattenKernel("", file).text);
     }
     for (const auto& [key, value] : render::describe(render::axisAligned())) {
@@ -62,14 +62,15 @@ Json dataOf(const LotteryResult& r, int compared)
 {
     const Verdict v = verdictOf(r, compared);
     return { { "seed", r.seed }, { "hard_cases", generator::hardCases(r.traits) }, { "bounces", r.traits.bounces },
-        { "lights", r.traits.lights }, { "antialias", r.traits.antialias }, { "lens", r.traits.lens }, { "motion", r.traits.motion },
-        { "triangles", r.triangles }, { "seconds", number(r.seconds) }, { "reference_noise", number(r.referenceNoise) },
-        { "against_mc", number(v.againstPlain.value) }, { "against_fixed_blur", number(v.againstBlur.value) },
+        { "lights", r.traits.lights }, { "antialias", r.traits.antialias }, { "lens", r.traits.lens },
+        { "motion", r.traits.motion }, { "triangles", r.triangles }, { "seconds", number(r.seconds) },
+        { "reference_noise", number(r.referenceNoise) }, { "against_mc", number(v.againstPlain.value) },
+        { "against_fixed_blur", number(v.againstBlur.value) },
         { "against_mc_in_equal_time", number(v.againstEqualTime.value) }, { "saved_samples", number(v.savedSamples) },
         { "saved_samples_trimmed", number(v.savedTrimmed) }, { "saved_time", number(v.savedTime) },
-        { "saved_wall_time", number(v.savedWallTime) }, { "slope", number(v.slope) }, { "mc_slope", number(v.plainSlope) },
-        { "bias", number(v.bias) }, { "mc", dataOf(r.plain) }, { "aaf", dataOf(r.filtered) }, { "fixed_blur", dataOf(r.fixedBlur) },
-        { "fixed_blur_name", r.fixedBlurName } };
+        { "saved_wall_time", number(v.savedWallTime) }, { "slope", number(v.slope) },
+        { "mc_slope", number(v.plainSlope) }, { "bias", number(v.bias) }, { "mc", dataOf(r.plain) },
+        { "aaf", dataOf(r.filtered) }, { "fixed_blur", dataOf(r.fixedBlur) }, { "fixed_blur_name", r.fixedBlurName } };
 }
 
 LotteryResult resultOf(const Json& j)
@@ -89,14 +90,15 @@ LotteryResult resultOf(const Json& j)
 
 Json dataOf(const LotteryPlan& plan)
 {
-    return { { "width", plan.width }, { "height", plan.height }, { "budgets", plan.budgets }, { "compared", plan.compared },
-        { "pooled_up_to", plan.pooledUpTo }, { "seeds", plan.seeds }, { "reference_spp", plan.referenceSpp },
-        { "kernels", methodFingerprint() } };
+    return { { "width", plan.width }, { "height", plan.height }, { "budgets", plan.budgets },
+        { "compared", plan.compared }, { "pooled_up_to", plan.pooledUpTo }, { "seeds", plan.seeds },
+        { "reference_spp", plan.referenceSpp }, { "kernels", methodFingerprint() } };
 }
 
 } // namespace
 
-Json lotteryResults(const std::vector<LotteryResult>& results, const LotteryPlan& plan, const device::DeviceInfo& device)
+Json lotteryResults(
+    const std::vector<LotteryResult>& results, const LotteryPlan& plan, const device::DeviceInfo& device)
 {
     Json out = resultSkeleton("lottery", device);
     for (const Claim& claim : lotteryClaims(results, plan.compared)) {
@@ -110,7 +112,8 @@ Json lotteryResults(const std::vector<LotteryResult>& results, const LotteryPlan
     return out;
 }
 
-std::vector<LotteryResult> resumeLottery(const std::string& path, const LotteryPlan& plan, const device::DeviceInfo& device)
+std::vector<LotteryResult> resumeLottery(
+    const std::string& path, const LotteryPlan& plan, const device::DeviceInfo& device)
 {
     std::ifstream file(path);
     if (path.empty() || !file) {

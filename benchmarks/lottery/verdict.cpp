@@ -25,7 +25,8 @@ double smallErrorAsOne(double rmse) { return std::max(rmse, 1e-12); }
 /// Of what is a setting's: samples, or time.
 using Value = std::function<double(const LotteryPoint&)>;
 
-/// milliseconds = fixed + each * samples, least squares of relative errors: single frames are too short to be timed well.
+/// milliseconds = fixed + each * samples, least squares of relative errors: single frames are too short to be timed
+/// well.
 struct TimeLine {
     double fixed = 0, each = 0;
 
@@ -54,7 +55,8 @@ public:
     PlainCurve(const std::vector<LotteryPoint>& points, const Value& rmse)
     {
         for (const LotteryPoint& p : points) {
-            const double least = curve_.empty() ? std::numeric_limits<double>::infinity() : curve_.back().error * (1.0 - 1e-6);
+            const double least =
+                curve_.empty() ? std::numeric_limits<double>::infinity() : curve_.back().error * (1.0 - 1e-6);
             curve_.push_back({ static_cast<double>(p.spp), std::min(smallErrorAsOne(rmse(p)), least) });
         }
     }
@@ -106,7 +108,8 @@ Ratio ratio(double a, double deviationA, double b, double deviationB)
     return { value, value * std::hypot(deviationA, deviationB) };
 }
 
-double medianOf(const std::vector<LotteryResult>& results, int compared, const std::function<double(const Verdict&)>& value)
+double medianOf(
+    const std::vector<LotteryResult>& results, int compared, const std::function<double(const Verdict&)>& value)
 {
     std::vector<double> values;
     for (const LotteryResult& r : results) {
@@ -138,7 +141,9 @@ struct Totals {
     }
     double slopeAt(double fraction) const
     {
-        return slopes.empty() ? 0 : slopes[static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(slopes.size()))) - 1];
+        return slopes.empty()
+            ? 0
+            : slopes[static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(slopes.size()))) - 1];
     }
 };
 
@@ -150,13 +155,15 @@ Verdict verdictOf(const LotteryResult& r, int compared)
     const Value device = &LotteryPoint::deviceMilliseconds, wall = &LotteryPoint::wallMilliseconds;
     const PlainCurve curve(r.plain, rmseOf);
     const PlainCurve trimmed(r.plain, [](const LotteryPoint& p) { return p.error.trimmedRmse(); });
-    const TimeLine plainTime(r.plain, device), plainWall(r.plain, wall), filteredTime(r.filtered, device), filteredWall(r.filtered, wall);
+    const TimeLine plainTime(r.plain, device), plainWall(r.plain, wall), filteredTime(r.filtered, device),
+        filteredWall(r.filtered, wall);
     const double error = smallErrorAsOne(rmseOf(filtered)), deviation = filtered.error.rmseDeviation();
     const double needed = curve.samplesFor(error), milliseconds = filteredTime.milliseconds(compared);
     Verdict v;
     v.againstPlain = ratio(error, deviation, rmseOf(plain), plain.error.rmseDeviation());
     v.againstBlur = ratio(error, deviation, r.fixedBlur.rmse(), r.fixedBlur.rmseDeviation());
-    v.againstEqualTime = ratio(error, deviation, curve.errorAt(plainTime.samples(milliseconds)), plain.error.rmseDeviation());
+    v.againstEqualTime =
+        ratio(error, deviation, curve.errorAt(plainTime.samples(milliseconds)), plain.error.rmseDeviation());
     v.savedSamples = needed / compared;
     v.savedTrimmed = trimmed.samplesFor(smallErrorAsOne(filtered.error.trimmedRmse())) / compared;
     v.savedTime = plainTime.milliseconds(needed) / milliseconds;
@@ -176,13 +183,18 @@ std::vector<Claim> lotteryClaims(const std::vector<LotteryResult>& results, int 
     const auto take = [&](const ClaimList& list) { out.insert(out.end(), list.claims.begin(), list.claims.end()); };
     const auto savings = [&](const char* name, int bounces, std::optional<double> goal) {
         std::vector<LotteryResult> chosen;
-        std::ranges::copy_if(results, std::back_inserter(chosen), [&](const LotteryResult& r) { return r.traits.bounces == bounces; });
+        std::ranges::copy_if(
+            results, std::back_inserter(chosen), [&](const LotteryResult& r) { return r.traits.bounces == bounces; });
         ClaimList list("lottery", name);
         list.add("scenes", static_cast<double>(chosen.size()), "scenes");
-        list.add("saved_time_median", medianOf(chosen, compared, [](const Verdict& v) { return v.savedTime; }), "1", {}, goal);
-        list.add("saved_wall_time_median", medianOf(chosen, compared, [](const Verdict& v) { return v.savedWallTime; }), "1");
-        list.add("saved_samples_median", medianOf(chosen, compared, [](const Verdict& v) { return v.savedSamples; }), "1");
-        list.add("saved_samples_trimmed_median", medianOf(chosen, compared, [](const Verdict& v) { return v.savedTrimmed; }), "1");
+        list.add("saved_time_median", medianOf(chosen, compared, [](const Verdict& v) { return v.savedTime; }), "1", {},
+            goal);
+        list.add("saved_wall_time_median", medianOf(chosen, compared, [](const Verdict& v) { return v.savedWallTime; }),
+            "1");
+        list.add(
+            "saved_samples_median", medianOf(chosen, compared, [](const Verdict& v) { return v.savedSamples; }), "1");
+        list.add("saved_samples_trimmed_median",
+            medianOf(chosen, compared, [](const Verdict& v) { return v.savedTrimmed; }), "1");
         take(list);
     };
     savings("direct", 0, 4.0);
@@ -203,8 +215,8 @@ std::vector<Claim> lotteryClaims(const std::vector<LotteryResult>& results, int 
 
 std::string lotteryTable(const std::vector<LotteryResult>& results, int compared)
 {
-    std::string text = fmt::format("{:>6} {:>3} {:>6} {:>6} {:>6} {:>7} {:>7} {:>6} {:>6} {:>8}  {}\n", "seed", "b", "/mc", "/blur",
-        "/time", "samples", "time", "slope", "mc's", "bias %", "traits");
+    std::string text = fmt::format("{:>6} {:>3} {:>6} {:>6} {:>6} {:>7} {:>7} {:>6} {:>6} {:>8}  {}\n", "seed", "b",
+        "/mc", "/blur", "/time", "samples", "time", "slope", "mc's", "bias %", "traits");
     for (const LotteryResult& r : results) {
         const Verdict v = verdictOf(r, compared);
         std::vector<std::string> traits = generator::hardCases(r.traits);
@@ -220,10 +232,11 @@ std::string lotteryTable(const std::vector<LotteryResult>& results, int compared
         const auto marked = [](const Ratio& ratio, double bound) {
             return fmt::format("{:.2f}{}", ratio.value, ratio.exceeds(bound) ? "!" : "");
         };
-        text += fmt::format("{:>6} {:>3} {:>6} {:>6} {:>6} {:>7.1f} {:>7.1f} {:>6.2f} {:>6.2f} {:>8.2f}  {} lights {}\n", r.seed,
+        text += fmt::format(
+            "{:>6} {:>3} {:>6} {:>6} {:>6} {:>7.1f} {:>7.1f} {:>6.2f} {:>6.2f} {:>8.2f}  {} lights {}\n", r.seed,
             r.traits.bounces, marked(v.againstPlain, mostAgainstPlain), marked(v.againstBlur, mostAgainstBlur),
-            marked(v.againstEqualTime, mostAgainstEqualTime), v.savedSamples, v.savedTime, v.slope, v.plainSlope, 100 * v.bias,
-            r.traits.lights, fmt::join(traits, " "));
+            marked(v.againstEqualTime, mostAgainstEqualTime), v.savedSamples, v.savedTime, v.slope, v.plainSlope,
+            100 * v.bias, r.traits.lights, fmt::join(traits, " "));
     }
     text += '\n';
     for (const Claim& claim : lotteryClaims(results, compared)) {

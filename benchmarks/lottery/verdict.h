@@ -19,7 +19,8 @@ struct Verdict {
     Ratio againstPlain; ///< filtered over plain, equal samples
     Ratio againstBlur; ///< filtered over the best fixed blur, equal samples
     Ratio againstEqualTime; ///< filtered over plain in the filtered frame's device time
-    double savedSamples = 0, savedTrimmed = 0; ///< plain samples of equal error over the filtered's; trimmed: worst pixels apart
+    double savedSamples = 0,
+           savedTrimmed = 0; ///< plain samples of equal error over the filtered's; trimmed: worst pixels apart
     double savedTime = 0, savedWallTime = 0; ///< the same in device time, and by the host's clock
     double slope = 0, plainSlope = 0; ///< d log error / d log samples, from `compared` to the largest budget
     double slopeDeviation = 0;

@@ -87,8 +87,9 @@ std::string tomlText(const GeneratedScene& scene)
     text +=
         fmt::format("[image]\nwidth = 640\nheight = 480\n\n[background]\nradiance = {}\n\n", list(scene.background));
     if (scene.bounces > 0 || scene.antialias)
-        text += fmt::format("[integrator]\n{}{}\n", scene.bounces > 0 ? fmt::format("bounces = {}\n", scene.bounces) : "",
-            scene.antialias ? "antialias = true\n" : "");
+        text +=
+            fmt::format("[integrator]\n{}{}\n", scene.bounces > 0 ? fmt::format("bounces = {}\n", scene.bounces) : "",
+                scene.antialias ? "antialias = true\n" : "");
     text += fmt::format("[[mesh]]\nfile = \"{}.obj\"\n\n", scene.name);
     for (const MovingPart& part : scene.parts)
         text += partText(scene, part);

@@ -145,6 +145,8 @@ Settings axisAligned(std::optional<int> spp, std::optional<float> mu)
     // A pixel may take ten times the mean, but no more than validate() accepts.
     s.maxSpp = std::max(s.maxSpp, std::min(10 * std::min(s.spp, largestSpp), largestSpp));
     s.indirect.maxSpp = s.maxSpp;
+    // A bound that stood still would end what edges of lights gain from more samples.
+    s.distributed.maxSpp = std::clamp(10 * std::min(s.spp, largestSpp), s.distributed.maxSpp, mostDistributedSpp);
     return s;
 }
 

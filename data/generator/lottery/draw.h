@@ -19,13 +19,13 @@ inline Random stream(std::uint32_t seed, Stream subject)
 inline bool chance(Random& random, double probability) { return random.uniform(0, 1) < probability; }
 
 /// From lo to hi, both included.
-inline int whole(Random& random, int lo, int hi)
-{
-    return lo + static_cast<int>(random.uniform(0, 1) * (hi - lo + 1));
-}
+inline int whole(Random& random, int lo, int hi) { return lo + static_cast<int>(random.uniform(0, 1) * (hi - lo + 1)); }
 
 /// Even over the logarithm.
-inline double logarithmic(Random& random, double lo, double hi) { return lo * std::exp(random.uniform(0, 1) * std::log(hi / lo)); }
+inline double logarithmic(Random& random, double lo, double hi)
+{
+    return lo * std::exp(random.uniform(0, 1) * std::log(hi / lo));
+}
 
 /// Components of their own in [lo, hi), drawn in order.
 inline glm::dvec3 within(Random& random, const glm::dvec3& lo, const glm::dvec3& hi)

@@ -1,5 +1,5 @@
-#include "data/generator/lottery/stage.h"
 #include "data/generator/light_level.h"
+#include "data/generator/lottery/stage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,8 +49,11 @@ scene::AreaLight lowLight(const Stage& stage, Random& random, const glm::dvec2& 
     const double height = half.y * random.uniform(-0.6, 1.1);
     const glm::dvec3 level(std::cos(heading), 0, std::sin(heading));
     switch (whole(random, 0, 3)) {
-    case 0: return quad({ at.x, height, at.z }, level, half, 0.0);
-    case 1: return quad({ at.x, height, at.z }, glm::normalize(level - glm::dvec3(0, random.uniform(0, 1), 0)), half, angle);
+    case 0:
+        return quad({ at.x, height, at.z }, level, half, 0.0);
+    case 1:
+        return quad(
+            { at.x, height, at.z }, glm::normalize(level - glm::dvec3(0, random.uniform(0, 1), 0)), half, angle);
     case 2: { // just above the floor, or before the back wall
         if (chance(random, 0.5))
             return quad({ at.x, gap, at.z }, { 0, 1, 0 }, half, angle);
@@ -77,8 +80,10 @@ void placeLights(LotteryScene& s, Random random)
     for (int i = 0; i < s.traits.lights; ++i) {
         const double size = s.stage.size * logarithmic(random, 0.02, 0.35);
         const glm::dvec2 half(size, size * random.uniform(0.4, 1));
-        const double angle = random.uniform(0, 6.283185307), level = random.uniform(0.4, 1.6) / std::sqrt(s.traits.lights);
-        scene::AreaLight light = i < low ? lowLight(s.stage, random, half, angle) : highLight(s.stage, random, half, angle);
+        const double angle = random.uniform(0, 6.283185307),
+                     level = random.uniform(0.4, 1.6) / std::sqrt(s.traits.lights);
+        scene::AreaLight light =
+            i < low ? lowLight(s.stage, random, half, angle) : highLight(s.stage, random, half, angle);
         light.profile = chance(random, 0.4) ? scene::LightProfile::Uniform : scene::LightProfile::Gaussian;
         light.cut = static_cast<float>(random.uniform(1, 3));
         light.twoSided = chance(random, 0.1);
@@ -98,7 +103,8 @@ void placeEmitters(LotteryScene& s, Random random)
     const int count = s.traits.smallEmitters ? whole(random, 1, 4) : 0;
     for (int i = 0; i < count; ++i) {
         const double radius = s.stage.size * logarithmic(random, 0.005, 0.04), level = random.uniform(0.05, 0.4);
-        glm::dvec3 at = s.stage.lo + (s.stage.hi - s.stage.lo) * within(random, { 0.15, 0.02, 0.15 }, { 0.85, 0.8, 0.85 });
+        glm::dvec3 at =
+            s.stage.lo + (s.stage.hi - s.stage.lo) * within(random, { 0.15, 0.02, 0.15 }, { 0.85, 0.8, 0.85 });
         at.y = std::max(at.y, radius);
         scene::Material m = matt(fmt::format("emitter{}", i), glm::vec3(0.2f));
         const double far = 0.4 * s.stage.size / radius; // at this many radii a white surface sends out `level`

@@ -5,9 +5,9 @@
 
 namespace wedge::generator {
 
-/// A scene that nobody designed: a room or open ground with things in it, under 1 to 16 area lights, as the traits of the
-/// seed say. Its name is "lottery_" and the seed. Materials whose names begin with "phong" are meant to have Phong's lobe,
-/// which MTL files cannot say.
+/// A scene that nobody designed: a room or open ground with things in it, under 1 to 16 area lights, as the traits of
+/// the seed say. Its name is "lottery_" and the seed. Materials whose names begin with "phong" are meant to have
+/// Phong's lobe, which MTL files cannot say.
 GeneratedScene makeLottery(std::uint32_t seed);
 
 } // namespace wedge::generator

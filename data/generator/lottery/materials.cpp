@@ -17,16 +17,23 @@ glm::vec3 colour(Random& random, double lo, double hi)
 
 image::RgbImage pattern(Random& random)
 {
-    const glm::dvec3 light = colour(random, 0.5, 0.9), dark = colour(random, 0.05, 0.3), third = colour(random, 0.1, 0.7);
+    const glm::dvec3 light = colour(random, 0.5, 0.9), dark = colour(random, 0.05, 0.3),
+                     third = colour(random, 0.1, 0.7);
     const int kind = whole(random, 0, 5), count = whole(random, 3, 12);
     const auto seed = static_cast<unsigned>(whole(random, 1, 1000));
     switch (kind) {
-    case 0: return wood(light, dark, count, seed);
-    case 1: return checkedCloth(light, dark, count);
-    case 2: return tiles(light, dark, count, seed);
-    case 3: return wallpaper(light, dark, third, count);
-    case 4: return bricks(light, dark, count, seed);
-    default: return speckled(light, dark, 4 * count, seed);
+    case 0:
+        return wood(light, dark, count, seed);
+    case 1:
+        return checkedCloth(light, dark, count);
+    case 2:
+        return tiles(light, dark, count, seed);
+    case 3:
+        return wallpaper(light, dark, third, count);
+    case 4:
+        return bricks(light, dark, count, seed);
+    default:
+        return speckled(light, dark, 4 * count, seed);
     }
 }
 

@@ -10,7 +10,8 @@ namespace {
 void room(LotteryScene& s, Random& random)
 {
     const glm::dvec3 half(random.uniform(1, 5), random.uniform(1.1, 2), random.uniform(1, 5));
-    s.stage = { { -half.x, 0, -half.z }, { half.x, 2 * half.y, half.z }, 2 * std::min({ half.x, half.y, half.z }), false };
+    s.stage = { { -half.x, 0, -half.z }, { half.x, 2 * half.y, half.z }, 2 * std::min({ half.x, half.y, half.z }),
+        false };
     const glm::dvec3 lo = s.stage.lo, hi = s.stage.hi, x(hi.x - lo.x, 0, 0), y(0, hi.y, 0), z(0, 0, hi.z - lo.z);
     const auto wall = [&](const char* name, const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v) {
         begin(s, s.scene.mesh, name, oneOf(random, s.surfaces));
@@ -72,7 +73,8 @@ void placeCamera(LotteryScene& s, Random random)
     const glm::dvec2 rim = round / std::max(std::abs(round.x), std::abs(round.y));
     const double away = stage.open ? random.uniform(0.9, 1.6) : 1.0;
     const glm::dvec3 eye(middle.x + away * edge * extent.x * rim.x, height, middle.z + away * edge * extent.z * rim.y);
-    const glm::dvec3 target = middle + extent * within(random, { -0.2, -0.5, -0.2 }, { 0.2, stage.open ? -0.3 : -0.1, 0.2 });
+    const glm::dvec3 target =
+        middle + extent * within(random, { -0.2, -0.5, -0.2 }, { 0.2, stage.open ? -0.3 : -0.1, 0.2 });
     s.scene.camera.eye = glm::vec3(eye);
     s.scene.camera.lookAt = glm::vec3(target);
     s.scene.camera.verticalFov = static_cast<float>(random.uniform(35, 75));

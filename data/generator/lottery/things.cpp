@@ -42,7 +42,8 @@ void vessel(ObjWriter& mesh, const Place& p, Random& random)
     for (int i = 1; i <= points; ++i)
         profile.push_back({ random.uniform(0.06, 0.4), static_cast<double>(i) / points, 0 });
     for (int i = points; i >= 1; --i) // its inside
-        profile.push_back({ std::max(0.03, profile[static_cast<std::size_t>(i) + 1].x - 0.03), static_cast<double>(i) / points - 0.02, 0 });
+        profile.push_back({ std::max(0.03, profile[static_cast<std::size_t>(i) + 1].x - 0.03),
+            static_cast<double>(i) / points - 0.02, 0 });
     profile.push_back({ 0, 0.1, 0 });
     texturedSkin(mesh, placed(turned(profile, 4, 28), standing(p.foot, p.degrees, p.size)), { 3, 3 });
 }
@@ -68,7 +69,8 @@ void table(ObjWriter& mesh, const Place& p, Random& random)
     texturedBox(mesh, p.foot + glm::dvec3(0, high, 0), half, p.size, axes);
     for (const double x : { -1.0, 1.0 })
         for (const double z : { -1.0, 1.0 })
-            box(mesh, p.foot + axes * glm::dvec3(x * (half.x - leg), 0.5 * high, z * (half.z - leg)), { leg, 0.5 * high, leg }, axes);
+            box(mesh, p.foot + axes * glm::dvec3(x * (half.x - leg), 0.5 * high, z * (half.z - leg)),
+                { leg, 0.5 * high, leg }, axes);
 }
 
 void fence(ObjWriter& mesh, const Place& p, Random& random)
@@ -77,7 +79,8 @@ void fence(ObjWriter& mesh, const Place& p, Random& random)
     const int bars = whole(random, 4, 20);
     const double step = p.size / bars, bar = step * random.uniform(0.1, 0.4);
     for (int i = 0; i < bars; ++i)
-        box(mesh, p.foot + axes * glm::dvec3((i + 0.5) * step - 0.5 * p.size, 0.5 * p.size, 0), { bar, 0.5 * p.size, bar }, axes);
+        box(mesh, p.foot + axes * glm::dvec3((i + 0.5) * step - 0.5 * p.size, 0.5 * p.size, 0),
+            { bar, 0.5 * p.size, bar }, axes);
     for (const double y : { 0.2, 0.9 })
         box(mesh, p.foot + glm::dvec3(0, y * p.size, 0), { 0.5 * p.size, bar, 0.5 * bar }, axes);
 }
@@ -110,12 +113,15 @@ void shards(ObjWriter& mesh, const Place& p, Random& random)
 /// A lump with bumps, smooth where the mesh is.
 void rock(ObjWriter& mesh, const Place& p, Random& random)
 {
-    const glm::dvec3 wave = within(random, glm::dvec3(2), glm::dvec3(7)), phase = within(random, glm::dvec3(0), glm::dvec3(2 * pi));
+    const glm::dvec3 wave = within(random, glm::dvec3(2), glm::dvec3(7)),
+                     phase = within(random, glm::dvec3(0), glm::dvec3(2 * pi));
     const double bump = random.uniform(0.03, 0.25);
     const auto point = [&](double u, double v) {
         const double theta = pi * (1.0 - v), phi = 2 * pi * u;
         const glm::dvec3 out(std::sin(theta) * std::sin(phi), std::cos(theta), std::sin(theta) * std::cos(phi));
-        const double r = 1.0 + bump * std::sin(wave.x * out.x + phase.x) * std::sin(wave.y * out.y + phase.y) * std::sin(wave.z * out.z + phase.z);
+        const double r = 1.0
+            + bump * std::sin(wave.x * out.x + phase.x) * std::sin(wave.y * out.y + phase.y)
+                * std::sin(wave.z * out.z + phase.z);
         return p.foot + 0.5 * p.size * (r * out + glm::dvec3(0, 0.9, 0));
     };
     sheet(mesh, 36, 24, point, { 3, 2 });
@@ -125,7 +131,8 @@ void rock(ObjWriter& mesh, const Place& p, Random& random)
 void board(ObjWriter& mesh, const Place& p, Random& random)
 {
     const double lean = random.uniform(-0.6, 0.6);
-    const glm::dmat3 axes = turn(p.degrees) * glm::dmat3(1, 0, 0, 0, std::cos(lean), std::sin(lean), 0, -std::sin(lean), std::cos(lean));
+    const glm::dmat3 axes =
+        turn(p.degrees) * glm::dmat3(1, 0, 0, 0, std::cos(lean), std::sin(lean), 0, -std::sin(lean), std::cos(lean));
     const double high = 0.5 * p.size * random.uniform(0.5, 1);
     texturedBox(mesh, p.foot + glm::dvec3(0, high, 0), { 0.5 * p.size, high, 0.01 * p.size }, p.size, axes);
 }
@@ -173,7 +180,8 @@ void placeThings(LotteryScene& s, Random random, Random motion)
         make(part.mesh, { { 0, 0, 0 }, place.size, place.degrees }, random);
         const glm::dvec3 way = place.size * motion.uniform(0.05, 0.5) * direction(motion);
         const auto turned = static_cast<float>(motion.uniform(-15, 15));
-        part.keys = { { 0.0, { 0, 1, 0, 0 }, glm::vec3(place.foot) }, { 1.0, { 0, 1, 0, turned }, glm::vec3(place.foot + way) } };
+        part.keys = { { 0.0, { 0, 1, 0, 0 }, glm::vec3(place.foot) },
+            { 1.0, { 0, 1, 0, turned }, glm::vec3(place.foot + way) } };
         s.scene.parts.push_back(std::move(part));
         s.scene.shutterClose = 1.0;
     }

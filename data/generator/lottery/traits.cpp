@@ -20,7 +20,10 @@ LotteryTraits lotteryTraits(std::uint32_t seed)
     t.lens = chance(random, 0.2);
     t.motion = chance(random, 0.15);
     const double many = random.uniform(0, 1);
-    t.lights = many < 0.4 ? 1 : many < 0.7 ? whole(random, 2, 3) : many < 0.9 ? whole(random, 4, 8) : whole(random, 9, 16);
+    t.lights = many < 0.4 ? 1
+        : many < 0.7      ? whole(random, 2, 3)
+        : many < 0.9      ? whole(random, 4, 8)
+                          : whole(random, 9, 16);
     t.things = static_cast<int>(logarithmic(random, 5, 50));
     return t;
 }
