@@ -11,6 +11,12 @@ fail() {
     exit 2
 }
 
+# Mounts of its own: nobody else sees them, and they end with this process however it ends. Left in a root that someone then
+# removes, /dev would be gone for the whole system.
+if [ -z "${WEDGE_BARE_MOUNTS:-}" ] && [ "$(id -u)" -eq 0 ]; then
+    exec env WEDGE_BARE_MOUNTS=own unshare --mount --propagation private "${BASH_SOURCE[0]}" "$@"
+fi
+
 suite=${1:-bookworm}
 case $suite in bookworm | trixie | sid) ;; *) fail "unknown suite: $suite: choose bookworm, trixie or sid" ;; esac
 root=${2:-}
@@ -19,7 +25,7 @@ commands=("$@")
 [ ${#commands[@]} -gt 0 ] || commands=(./demo.sh ./test.sh)
 
 [ "$(id -u)" -eq 0 ] || fail "debootstrap and chroot need root: run this as root"
-for tool in debootstrap git chroot mountpoint; do
+for tool in debootstrap git chroot mountpoint unshare; do
     command -v "$tool" >/dev/null || fail "$tool is missing: install it first"
 done
 if [ -z "$root" ]; then
