@@ -14,6 +14,7 @@ fail() {
 # Mounts of its own: nobody else sees them, and they end with this process however it ends. Left in a root that someone then
 # removes, /dev would be gone for the whole system.
 if [ -z "${WEDGE_BARE_MOUNTS:-}" ] && [ "$(id -u)" -eq 0 ]; then
+    command -v unshare >/dev/null || fail "unshare is missing: install util-linux first"
     exec env WEDGE_BARE_MOUNTS=own unshare --mount --propagation private "${BASH_SOURCE[0]}" "$@"
 fi
 
@@ -25,7 +26,7 @@ commands=("$@")
 [ ${#commands[@]} -gt 0 ] || commands=(./demo.sh ./test.sh)
 
 [ "$(id -u)" -eq 0 ] || fail "debootstrap and chroot need root: run this as root"
-for tool in debootstrap git chroot mountpoint unshare; do
+for tool in debootstrap git chroot mountpoint; do
     command -v "$tool" >/dev/null || fail "$tool is missing: install it first"
 done
 if [ -z "$root" ]; then

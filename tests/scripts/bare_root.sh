@@ -12,6 +12,8 @@ for tool in debootstrap chroot mount mountpoint; do
     printf '#!/bin/sh\nexit 1\n' >"$folder/tools/$tool"
     chmod +x "$folder/tools/$tool"
 done
+printf '#!/bin/sh\nshift 3 # --mount --propagation private\nexec "$@"\n' >"$folder/tools/unshare"
+chmod +x "$folder/tools/unshare"
 
 # expect CONTENT SUITE TEXT: what bare.sh says of a root with that content of bare.complete.
 expect() {
