@@ -199,7 +199,8 @@ TEST_CASE("counts of frames through a lens, and options that have no effect on t
     };
     CHECK(setting({}, "distributedMaxSpp") == "512");
     CHECK(setting({ "--max-spp", "50" }, "distributedMaxSpp") == "50");
-    CHECK(setting({ "--spp", "300" }, "distributedMaxSpp") == "600");
+    CHECK(setting({ "--spp", "100" }, "distributedMaxSpp") == "1000");
+    CHECK(setting({ "--spp", "300" }, "distributedMaxSpp") == "2048");
     CHECK(setting({ "--as-published" }, "distributedMu") == "1");
     CHECK(setting({ "--as-published", "--mu", "1.5" }, "distributedMu") == "1.5");
     CHECK(setting({ "--as-published" }, "distributedCounts") == "spectrum");

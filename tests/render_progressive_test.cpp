@@ -160,6 +160,9 @@ TEST_CASE("samples of all steps count, and their widths are those of a frame wit
         CHECK(static_cast<double>(raysOf(taken.back().step.statistics))
             == doctest::Approx(static_cast<double>(raysOf(once))).epsilon(0.1));
         CHECK(render::halfAt(filtered(64), 64).mu == render::axisAligned(64).mu);
+        for (const int spp : { 16, 28, 40, 500 })
+            CHECK(render::halfAt(filtered(64), spp).distributed.factoringError
+                == doctest::Approx(render::axisAligned(spp).distributed.factoringError));
         CHECK(render::halfAt(filtered(64), 16).mu == doctest::Approx(render::axisAligned(16).mu));
         CHECK(render::halfAt(filtered(64), 16).indirect.mu == doctest::Approx(render::axisAligned(16).indirect.mu));
     });

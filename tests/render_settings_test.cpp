@@ -21,6 +21,17 @@ Settings with(Settings settings, const Change& change)
 
 } // namespace
 
+TEST_CASE("what bounds the error of distributed frames goes on with the samples")
+{
+    // More samples of a pixel at most, and less error by taking texture and irradiance apart.
+    CHECK(axisAligned().distributed.maxSpp == 512);
+    CHECK(axisAligned(28).distributed.maxSpp == 512);
+    CHECK(axisAligned(100).distributed.maxSpp == 1000);
+    CHECK(axisAligned(512).distributed.maxSpp == mostDistributedSpp);
+    CHECK(axisAligned(9).distributed.factoringError == axisAligned().distributed.factoringError);
+    CHECK(axisAligned(112).distributed.factoringError == doctest::Approx(0.5f * axisAligned(28).distributed.factoringError));
+}
+
 TEST_CASE("settings of distributed frames out of range are refused")
 {
     CHECK_NOTHROW(validate(axisAligned(), true));

@@ -81,12 +81,12 @@ EmbreeFrame::Sample EmbreeFrame::sample(const Shaded& pixel, std::size_t index, 
     const std::uint32_t seed =
         shared::hashCombine(shared::hashCombine(frame_.seed, static_cast<std::uint32_t>(index)), number);
     const shared::Vec2 u = shared::sobolOwen(static_cast<std::uint32_t>(k), seed);
-    const float a = shared::lightCoordinate(u.x, light.profile, light.cut, light.erfCut);
-    const float b = shared::lightCoordinate(u.y, light.profile, light.cut, light.erfCut);
-    const Vec3 point = shared::lightPoint(light.centre, light.halfU, light.halfV, a, b);
+    const shared::LightPart part = shared::partAboveHorizon(light, pixel.surface.position, pixel.surface.normal);
+    const shared::PartSample s = shared::samplePart(light, part, u);
+    const Vec3 point = shared::lightPoint(light.centre, light.halfU, light.halfV, s.a, s.b);
     const Vec3 d = vecSub(point, pixel.surface.position);
     return { vecSub(point, pixel.surface.origin),
-        shared::geometryTerm(pixel.surface.normal, d, light.normal, light.twoSided) };
+        s.mass * shared::geometryTerm(pixel.surface.normal, d, light.normal, light.twoSided) };
 }
 
 void EmbreeFrame::endLight(Shaded& pixel, std::size_t light) const

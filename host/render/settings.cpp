@@ -33,6 +33,10 @@ float widthRatio(float from, float to)
     return std::pow(std::max(1.0f, to - evenSamples) / std::max(1.0f, from - evenSamples), widthExponent);
 }
 
+/// What the error that taking apart may make (5.30) is multiplied by at a count: it goes with the noise, or no number of samples
+/// would bring it down.
+float factoringRatio(int spp) { return std::min(1.0f, std::sqrt(referenceSpp / static_cast<float>(std::max(spp, 1)))); }
+
 void requireRange(bool inRange, const std::string& what, const std::string& value, const std::string& range)
 {
     if (!inRange) {
@@ -145,6 +149,7 @@ Settings axisAligned(std::optional<int> spp, std::optional<float> mu)
     // A pixel may take ten times the mean, but no more than validate() accepts.
     s.maxSpp = std::max(s.maxSpp, std::min(10 * std::min(s.spp, largestSpp), largestSpp));
     s.indirect.maxSpp = s.maxSpp;
+    s.distributed.factoringError *= factoringRatio(s.spp);
     // A bound that stood still would end what edges of lights gain from more samples.
     s.distributed.maxSpp = std::clamp(10 * std::min(s.spp, largestSpp), s.distributed.maxSpp, mostDistributedSpp);
     return s;
@@ -246,6 +251,7 @@ Settings halfAt(const Settings& settings, int spp)
     s.mu *= ratio;
     s.indirect.mu *= ratio;
     s.distributed.frames = 2;
+    s.distributed.factoringError *= factoringRatio(spp) / factoringRatio(settings.spp);
     s.distributed.leastShare = 0.25f;
     s.distributed.leastPrimaries = 0.5f;
     s.distributed.maxSpp = std::max(s.distributed.maxSpp, std::min(10 * std::min(s.spp, largestSpp), largestSpp));

@@ -8,7 +8,7 @@ bare=$1
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 mkdir "$folder/tools" "$folder/root"
-for tool in debootstrap chroot mount mountpoint; do
+for tool in debootstrap git chroot mount mountpoint; do
     printf '#!/bin/sh\nexit 1\n' >"$folder/tools/$tool"
     chmod +x "$folder/tools/$tool"
 done
