@@ -56,10 +56,11 @@ InterruptGuard::InterruptGuard()
 InterruptGuard::~InterruptGuard()
 {
     for (std::size_t i = 0; i < watched.size(); ++i) {
-        sigaction(watched[i], &previous[i], nullptr);
-    }
-    if (hungUp) {
-        std::signal(SIGHUP, SIG_IGN);
+        if (watched[i] == SIGHUP && hungUp) {
+            std::signal(SIGHUP, SIG_IGN); // at once: not even for a moment is it what ends the program
+        } else {
+            sigaction(watched[i], &previous[i], nullptr);
+        }
     }
 }
 
