@@ -54,7 +54,6 @@ std::vector<std::uint32_t> seedsOf(const std::string& text)
 LotteryPlan planOf(const LotteryArguments& a)
 {
     LotteryPlan plan;
-    plan.quick = a.quick;
     if (a.quick) {
         plan.referenceSpp = 2048;
     }

@@ -14,7 +14,6 @@ namespace wedge::benchmark {
 
 /// What is rendered of each scene.
 struct LotteryPlan {
-    bool quick = false;
     int width = 128, height = 96;
     std::vector<int> budgets { 16, 28, 64, 256, 512 }; ///< samples a pixel, ascending
     int compared = 28; ///< the one of them that methods are compared at
