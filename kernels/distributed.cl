@@ -7,8 +7,8 @@
 #include "shared/distributed.h"
 
 /// The signed luminance of L - k E with plain means k and E. Packed, it is in `plain` already.
-__kernel void factoringError(DistributedParams p, __global const float* restrict texture, __global const float* restrict value,
-                             __global const float* restrict plain, __global float* restrict error)
+__kernel void factoringError(DistributedParams p, __global const float* restrict texture,
+    __global const float* restrict value, __global const float* restrict plain, __global float* restrict error)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -18,12 +18,12 @@ __kernel void factoringError(DistributedParams p, __global const float* restrict
     error[i] = luminance(vecMul(k, loadVec(value, p.planeSize, i))) - luminance(k) * plain[i];
 }
 
-/// Narrows nothing and widens beta, metres, to what the lens has blurred already (5.18), (5.22); takes pixels out whose error
-/// is too large (beta = -1: they keep their own, and are nobody's neighbours).
-/// in   error; packed, the term's plain means, with which it lies
-__kernel void factoredWidths(DistributedParams p, __global const float* restrict error, __global const float* restrict confusion,
-                             __global const float* restrict pixelSize, __global const uint* restrict objectId,
-                             __global float* restrict beta)
+/// Narrows nothing and widens beta, metres, to what the lens has blurred already (5.18), (5.22); takes pixels out whose
+/// error is too large (beta = -1: they keep their own, and are nobody's neighbours). in   error; packed, the term's
+/// plain means, with which it lies
+__kernel void factoredWidths(DistributedParams p, __global const float* restrict error,
+    __global const float* restrict confusion, __global const float* restrict pixelSize,
+    __global const uint* restrict objectId, __global float* restrict beta)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -41,17 +41,17 @@ __kernel void factoredWidths(DistributedParams p, __global const float* restrict
     }
     const bool apart = p.never == 0u && fabs(sum) <= p.factoringError * count;
     const float r = leastConfusion(p, confusion, i);
-    const float blurred = r >= p.leastRadius ? p.irradianceWidth * r * loadNumber(pixelSize, p.planeSize, i, p.packed, 0u) : 0.0f;
+    const float blurred =
+        r >= p.leastRadius ? p.irradianceWidth * r * loadNumber(pixelSize, p.planeSize, i, p.packed, 0u) : 0.0f;
     beta[i] = apart && beta[i] >= 0.0f ? fmax(beta[i], blurred) : -1.0f;
 }
 
-/// A term's variance a primary sample, in two: what the texture makes, which every pixel has to average by itself, and the
-/// rest, which the irradiance's filter averages.
-/// out  ofTexture, ofIrradiance
+/// A term's variance a primary sample, in two: what the texture makes, which every pixel has to average by itself, and
+/// the rest, which the irradiance's filter averages. out  ofTexture, ofIrradiance
 __kernel void splitVariance(DistributedParams p, __global const float* restrict texture,
-                            __global const float* restrict textureSquares, __global const float* restrict value,
-                            __global const float* restrict squares, __global const uint* restrict taken,
-                            __global float* restrict ofTexture, __global float* restrict ofIrradiance)
+    __global const float* restrict textureSquares, __global const float* restrict value,
+    __global const float* restrict squares, __global const uint* restrict taken, __global float* restrict ofTexture,
+    __global float* restrict ofIrradiance)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -78,8 +78,7 @@ __kernel void splitVariance(DistributedParams p, __global const float* restrict 
 
 /// The variance of what is seen to emit, a primary sample.
 __kernel void emissionVariance(DistributedParams p, __global const float* restrict emission,
-                               __global const float* restrict squares, __global const uint* restrict taken,
-                               __global float* restrict variance)
+    __global const float* restrict squares, __global const uint* restrict taken, __global float* restrict variance)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -89,34 +88,41 @@ __kernel void emissionVariance(DistributedParams p, __global const float* restri
     variance[i] = n > 1.0f ? fmax(squares[i] - mean * mean, 0.0f) * n / (n - 1.0f) : 0.0f;
 }
 
-/// Equal samples that Gaussians one after the other amount to: that of the irradiance alone gathers so many, the image's have
-/// the standard deviations lens, and, along one direction, along (pixels). Their covariances add up.
+/// Equal samples that Gaussians one after the other amount to: that of the irradiance alone gathers so many, the
+/// image's have the standard deviations lens, and, along one direction, along (pixels). Their covariances add up.
 WEDGE_FN float gatheredBy(float irradiance, float lens, float along)
 {
     const float across = irradiance / (4.0f * 3.14159265f) + lens * lens;
     return fmax(4.0f * 3.14159265f * sqrt(across * (across + along * along)), 1.0f);
 }
 
-/// Demand of a term's samples: (v / K / rays)^exponent, v at least varianceSpread of the largest within 5x5 pixels. effective:
-/// pixels that the irradiance's filter gathers; lens, along: standard deviations of the image-space filters, pixels.
-__kernel void sampleDemand(DistributedParams p, __global const float* restrict variance, __global const float* restrict effective,
-                           __global const float* restrict beta, __global const float* restrict lens,
-                           __global const float* restrict along, __global float* restrict demand)
+/// Demand of a term's samples: (v / K / rays)^exponent of a pixel's neighbours, the mean of v / K of the eight nearest,
+/// at least varianceSpread of the largest within 5x5; not of its own, if it has any (reflectors.cl says why). variance:
+/// v; effective: pixels that the irradiance's filter gathers; lens, along: standard deviations of the image-space
+/// filters, pixels.
+__kernel void sampleDemand(DistributedParams p, __global const float* restrict variance,
+    __global const float* restrict effective, __global const float* restrict beta, __global const float* restrict lens,
+    __global const float* restrict along, __global float* restrict demand)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
         return;
     }
-    float largest = 0.0f;
+    float largest = 0.0f, sum = 0.0f, count = 0.0f, ofOwn = 0.0f;
     for (int dy = -min((int)y, 2); dy <= min((int)(p.height - 1u - y), 2); ++dy) {
         for (int dx = -min((int)x, 2); dx <= min((int)(p.width - 1u - x), 2); ++dx) {
-            largest = fmax(largest, variance[(int)i + dy * (int)p.stride + dx]);
+            const int j = (int)i + dy * (int)p.stride + dx;
+            const float irradiance = beta[j] > 0.0f ? fmax(effective[j], 1.0f) : 1.0f;
+            const float there = variance[j] / gatheredBy(irradiance, lens[j], p.alongMotion != 0u ? along[j] : 0.0f);
+            const bool own = dx == 0 && dy == 0, nearest = abs(dx) <= 1 && abs(dy) <= 1;
+            ofOwn = own ? there : ofOwn;
+            largest = own ? largest : fmax(largest, there);
+            sum += nearest && !own ? there : 0.0f;
+            count += nearest && !own ? 1.0f : 0.0f;
         }
     }
-    const float v = fmax(variance[i], p.varianceSpread * largest);
-    const float irradiance = beta[i] > 0.0f ? fmax(effective[i], 1.0f) : 1.0f;
-    const float gathered = gatheredBy(irradiance, lens[i], p.alongMotion != 0u ? along[i] : 0.0f);
-    demand[i] = v > 1e-30f ? pow(v / (gathered * p.rays), p.countExponent) : 0.0f;
+    const float v = count > 0.0f ? fmax(sum / count, p.varianceSpread * largest) : ofOwn;
+    demand[i] = v > 1e-30f ? pow(v / p.rays, p.countExponent) : 0.0f;
 }
 
 /// sum += part.
@@ -128,10 +134,10 @@ __kernel void addPlane(DistributedParams p, __global const float* restrict part,
     }
 }
 
-/// At least as many samples of one kind as of another, times apart where texture and irradiance are taken apart (beta >= 0),
-/// times together elsewhere.
+/// At least as many samples of one kind as of another, times apart where texture and irradiance are taken apart (beta
+/// >= 0), times together elsewhere.
 __kernel void atLeast(DistributedParams p, float apart, float together, __global const float* restrict beta,
-                      __global const float* restrict least, __global float* restrict demand)
+    __global const float* restrict least, __global float* restrict demand)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
@@ -148,10 +154,10 @@ __kernel void unpackImage(DistributedParams p, __global const float* restrict in
     }
 }
 
-/// wanted = clamp(scale demand, least, most), and never less than `taken`. Both may be one plane: of each pixel demand is read
-/// first.
+/// wanted = clamp(scale demand, least, most), and never less than `taken`. Both may be one plane: of each pixel demand
+/// is read first.
 __kernel void scaleCounts(DistributedParams p, float scale, uint least, uint most, __global const float* demand,
-                          __global const uint* restrict taken, __global uint* wanted)
+    __global const uint* restrict taken, __global uint* wanted)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
@@ -160,10 +166,10 @@ __kernel void scaleCounts(DistributedParams p, float scale, uint least, uint mos
     }
 }
 
-/// Counts of a term's samples after the last wave of a lean frame: pixels without new primary samples took none of the term.
-/// in out  counts: wanted; taken
-__kernel void settleCounts(DistributedParams p, uint first, __global const uint* restrict primaryTaken,
-                           __global uint* restrict counts)
+/// Counts of a term's samples after the last wave of a lean frame: pixels without new primary samples took none of the
+/// term. in out  counts: wanted; taken
+__kernel void settleCounts(
+    DistributedParams p, uint first, __global const uint* restrict primaryTaken, __global uint* restrict counts)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
@@ -180,10 +186,11 @@ __kernel void limitStep(DistributedParams p, __global const uint* restrict taken
     }
 }
 
-/// The filter along a motion (mx, my) of n samples; one: all that the pixel shows has it. Returns the standard deviation, pixels.
-/// out  directions: 2 planes, a unit vector; packed, one plane of two numbers, times the standard deviation
-WEDGE_FN float storeBlur(DistributedParams p, uint i, bool one, float mx, float my, float length, float n,
-                         __global float* directions)
+/// The filter along a motion (mx, my) of n samples; one: all that the pixel shows has it. Returns the standard
+/// deviation, pixels. out  directions: 2 planes, a unit vector; packed, one plane of two numbers, times the standard
+/// deviation
+WEDGE_FN float storeBlur(
+    DistributedParams p, uint i, bool one, float mx, float my, float length, float n, __global float* directions)
 {
     const float h = 0.5f * length;
     const float along = one ? p.shutterWidth * h * pow(n * h, -p.shutterExponent) : 0.0f;
@@ -198,11 +205,12 @@ WEDGE_FN float storeBlur(DistributedParams p, uint i, bool one, float mx, float 
 }
 
 /// Standard deviations in pixels of the image-space filters: of the blur that all of a pixel has, else 0.
-/// out  lens, along (the motion), directions of that (2 planes, unit; packed, see storeBlur); lens alone where all is still.
+/// out  lens, along (the motion), directions of that (2 planes, unit; packed, see storeBlur); lens alone where all is
+/// still.
 ///      Directions may be in the place of packed motions: of each pixel those are read first.
 __kernel void blurs(DistributedParams p, __global const float* restrict confusion, __global const float* motion,
-                    __global const uint* restrict taken, __global float* restrict lens, __global float* restrict along,
-                    __global float* directions)
+    __global const uint* restrict taken, __global float* restrict lens, __global float* restrict along,
+    __global float* directions)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -222,13 +230,12 @@ __kernel void blurs(DistributedParams p, __global const float* restrict confusio
     along[i] = storeBlur(p, i, alike && length >= p.leastRadius, mx, my, length, n, directions);
 }
 
-/// Standard deviations in pixels of the filter of a light's irradiance along its shadows' motion (B.2): where all that move
-/// move alike, else 0.
-/// in   shadows: slopes and sums of motions as area_light.cl has them, or packed motions; taken: the light's samples
-/// out  along, directions as blurs() has them
-__kernel void shadowBlurs(DistributedParams p, __global const float* restrict shadows, __global const uint* restrict taken,
-                          __global const float* restrict beta, __global float* restrict along,
-                          __global float* restrict directions)
+/// Standard deviations in pixels of the filter of a light's irradiance along its shadows' motion (B.2): where all that
+/// move move alike, else 0. in   shadows: slopes and sums of motions as area_light.cl has them, or packed motions;
+/// taken: the light's samples out  along, directions as blurs() has them
+__kernel void shadowBlurs(DistributedParams p, __global const float* restrict shadows,
+    __global const uint* restrict taken, __global const float* restrict beta, __global float* restrict along,
+    __global float* restrict directions)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -251,12 +258,13 @@ __kernel void shadowBlurs(DistributedParams p, __global const float* restrict sh
         length = sqrt(squared);
         alike = sqrt(fmax(shadows[4u * n + i] / count - squared, 0.0f)) <= p.oneVelocity * length;
     }
-    along[i] = storeBlur(p, i, alike && length >= p.leastRadius && beta[i] >= 0.0f, mx, my, length, samples, directions);
+    along[i] =
+        storeBlur(p, i, alike && length >= p.leastRadius && beta[i] >= 0.0f, mx, my, length, samples, directions);
 }
 
 /// A light's visibility in one plane: what its filter averages. As published it is in the first one already.
-__kernel void visibilityOf(DistributedParams p, __global const float* restrict texture, __global const float* restrict value,
-                           __global float* restrict visibility)
+__kernel void visibilityOf(DistributedParams p, __global const float* restrict texture,
+    __global const float* restrict value, __global float* restrict visibility)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -264,14 +272,12 @@ __kernel void visibilityOf(DistributedParams p, __global const float* restrict t
     }
     const Vec3 k = loadTexture(p, texture, i);
     const float t = luminance(k);
-    visibility[i] = p.published != 0u ? value[i]
-        : t > 0.0f                    ? luminance(vecMul(k, loadValue(p, value, i))) / t
-                                      : 0.0f;
+    visibility[i] = p.published != 0u ? value[i] : t > 0.0f ? luminance(vecMul(k, loadValue(p, value, i))) / t : 0.0f;
 }
 
 /// A term's own radiance, k E; as published L, termRadiance.
 WEDGE_FN Vec3 ownRadiance(DistributedParams p, uint i, __global const float* texture, __global const float* value,
-                          __global const float* termRadiance)
+    __global const float* termRadiance)
 {
     return p.published != 0u ? loadVec(termRadiance, p.planeSize, i)
                              : vecMul(loadTexture(p, texture, i), loadValue(p, value, i));
@@ -279,9 +285,9 @@ WEDGE_FN Vec3 ownRadiance(DistributedParams p, uint i, __global const float* tex
 
 /// radiance += a term: where it is taken apart filteredTexture filtered (p.values planes), elsewhere its own.
 __kernel void addFilteredTerm(DistributedParams p, __global const float* restrict texture,
-                              __global const float* restrict filteredTexture, __global const float* restrict value,
-                              __global const float* restrict filtered, __global const float* restrict beta,
-                              __global const float* restrict termRadiance, __global float* restrict radiance)
+    __global const float* restrict filteredTexture, __global const float* restrict value,
+    __global const float* restrict filtered, __global const float* restrict beta,
+    __global const float* restrict termRadiance, __global float* restrict radiance)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -300,7 +306,7 @@ __kernel void addFilteredTerm(DistributedParams p, __global const float* restric
 
 /// radiance += a term without any filter.
 __kernel void addTerm(DistributedParams p, __global const float* restrict texture, __global const float* restrict value,
-                      __global const float* restrict termRadiance, __global float* restrict radiance)
+    __global const float* restrict termRadiance, __global float* restrict radiance)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
@@ -319,8 +325,8 @@ __kernel void addImage(DistributedParams p, __global const float* restrict image
 }
 
 /// beauty = emission + direct + indirect (3 planes each).
-__kernel void addAll(DistributedParams p, __global const float* restrict emission, __global const float* restrict direct,
-                     __global const float* restrict indirect, __global float* restrict beauty)
+__kernel void addAll(DistributedParams p, __global const float* restrict emission,
+    __global const float* restrict direct, __global const float* restrict indirect, __global float* restrict beauty)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {

@@ -10,7 +10,7 @@
 /// Bounds of what the camera sees, one stripe of rows each: planes of WEDGE_EXTENT_STRIPES least x, y, z and largest x,
 /// y, z.
 __kernel void visibleBounds(ReflectorParams p, __global const float* restrict position,
-                            __global const uint* restrict objectId, __global float* restrict bounds)
+    __global const uint* restrict objectId, __global float* restrict bounds)
 {
     const uint stripe = get_global_id(0);
     if (stripe >= WEDGE_EXTENT_STRIPES) {
@@ -67,13 +67,14 @@ WEDGE_FN float bandlimitOf(uint component, float gloss)
 }
 
 /// Widths in metres (4.15), (4.16), -1 where the pixel has no such term, and counts (4.21).
-/// Of the distances there is the least, as published, or, if that is nearer, a fraction of their harmonic mean, in which rays
-/// that hit nothing count as infinitely far: an estimate of the same from all rays, with less noise. fixedWidth replaces the analysis.
-/// meanOnly: reflectors have but one plane, the sum of inverse distances, or what stands for it (WEDGE_NEAREST_FRACTION); no counts.
+/// Of the distances there is the least, as published, or, if that is nearer, a fraction of their harmonic mean, in
+/// which rays that hit nothing count as infinitely far: an estimate of the same from all rays, with less noise.
+/// fixedWidth replaces the analysis. meanOnly: reflectors have but one plane, the sum of inverse distances, or what
+/// stands for it (WEDGE_NEAREST_FRACTION); no counts.
 __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict reflectors,
-                              __global const float* restrict extent, __global const float* restrict pixelSize,
-                              __global const float* restrict gloss, __global const uint* restrict taken,
-                              __global float* restrict beta, __global uint* restrict wanted)
+    __global const float* restrict extent, __global const float* restrict pixelSize,
+    __global const float* restrict gloss, __global const uint* restrict taken, __global float* restrict beta,
+    __global uint* restrict wanted)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -105,10 +106,10 @@ __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict 
     }
 }
 
-/// Variance of a sample's luminance as the image shows it, (sum l^2 - n mean^2) / (n - 1) times the squared luminance of
-/// the reflectance: planes R, G, B, all 1 for ambient occlusion.
-__kernel void sampleVariance(ReflectorParams p, __global const float* restrict sums, __global const uint* restrict taken,
-                             __global const float* restrict reflectance, __global float* restrict variance)
+/// Variance of a sample's luminance as the image shows it, (sum l^2 - n mean^2) / (n - 1) times the squared luminance
+/// of the reflectance: planes R, G, B, all 1 for ambient occlusion.
+__kernel void sampleVariance(ReflectorParams p, __global const float* restrict sums,
+    __global const uint* restrict taken, __global const float* restrict reflectance, __global float* restrict variance)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -121,17 +122,19 @@ __kernel void sampleVariance(ReflectorParams p, __global const float* restrict s
     const float16 total = 0.2126f * sum.x + 0.7152f * sum.y + 0.0722f * sum.z;
     const float16 spread = loadBlock(sums + 3u * p.planeSize, i) - total * total / max16(n, (float16)(1.0f));
     const Vec3x16 k = loadVecBlock(reflectance, p.planeSize, i);
-    const float16 shown = p.component == WEDGE_COMPONENT_AMBIENT ? (float16)(1.0f)
-                                                                 : 0.2126f * k.x + 0.7152f * k.y + 0.0722f * k.z;
+    const float16 shown =
+        p.component == WEDGE_COMPONENT_AMBIENT ? (float16)(1.0f) : 0.2126f * k.x + 0.7152f * k.y + 0.0722f * k.z;
     const float16 v = max16(spread, (float16)(0.0f)) / max16(n - 1.0f, (float16)(1.0f));
     vstore16(n > 1.0f ? v * shown * shown : (float16)(0.0f), 0, variance + i);
 }
 
-/// demand = (v / K)^exponent, 0 where there is no variance. v: filtered, and at least varianceSpread of the largest
-/// within 5x5 pixels of the same object.
-__kernel void pathDemand(ReflectorParams p, __global const float* restrict variance, __global const float* restrict effective,
-                         __global const float* restrict beta, __global const uint* restrict objectId,
-                         __global float* restrict demand)
+/// demand = (v / K)^exponent of a pixel's neighbours of the same object, 0 where there is none: the mean of v / K of
+/// the eight nearest, at least varianceSpread of the largest within 5x5. Not of the pixel's own, if it has any: a count
+/// that follows the samples that it then divides makes their mean too small, as pixels whose first samples happened to
+/// be bright take more, which outvote those. variance: v; effective: K, pixels that the filter gathers.
+__kernel void pathDemand(ReflectorParams p, __global const float* restrict variance,
+    __global const float* restrict effective, __global const float* restrict beta,
+    __global const uint* restrict objectId, __global float* restrict demand)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -140,16 +143,27 @@ __kernel void pathDemand(ReflectorParams p, __global const float* restrict varia
     }
     const int i = (int)pixelIndex(x, y, p.stride);
     const uint16 object = loadIdBlock(objectId, i);
-    float16 largest = (float16)(0.0f);
+    const float16 one = (float16)(1.0f), none = (float16)(0.0f);
+    float16 largest = none, sum = none, count = none, within = none, own = none;
     for (int dy = -(int)min(y, 2u); dy <= (int)min(p.height - 1u - y, 2u); ++dy) {
         for (int dx = -2; dx <= 2; ++dx) {
             const int j = i + dy * (int)p.stride + dx;
+            const float16 there = loadBlock(variance, j) / max16(loadBlock(effective, j), one);
+            if (dx == 0 && dy == 0) {
+                own = there;
+                continue;
+            }
             const int16 same = (loadIdBlock(objectId, j) == object) & (loadBlock(beta, j) >= 0.0f);
-            largest = same ? max16(largest, loadBlock(variance, j)) : largest;
+            largest = same ? max16(largest, there) : largest;
+            within += same ? one : none;
+            if (abs(dx) <= 1 && abs(dy) <= 1) {
+                sum += same ? there : none;
+                count += same ? one : none;
+            }
         }
     }
-    const float16 v = max16(loadBlock(variance, i), p.varianceSpread * largest);
-    const float16 k = max16(loadBlock(effective, i), (float16)(1.0f));
+    const float16 around = max16(sum / max16(count, one), p.varianceSpread * largest);
+    const float16 v = within > 0.0f ? around : own;
     const int16 wants = (v > 1e-30f) & (loadBlock(beta, i) >= 0.0f);
-    vstore16(wants ? exp2Block(p.countExponent * log2Block(v / k)) : (float16)(0.0f), 0, demand + i);
+    vstore16(wants ? exp2Block(p.countExponent * log2Block(v)) : none, 0, demand + i);
 }

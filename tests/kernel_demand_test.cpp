@@ -73,10 +73,10 @@ SplitPlanes splitVariance(
     const auto k = bench.buffer(packedColours(in.texture, shared::textureBits(p.packed, light)).values),
                e = bench.buffer(packedColours(in.value, shared::valueBits(p.packed, light)).values),
                k2 = bench.buffer(in.textureSquares.values),
-               l2 = bench.buffer((p.packed != 0 ? packedNumbers(in.deviation, in.textureDeviation) : in.squares).values);
+               l2 =
+                   bench.buffer((p.packed != 0 ? packedNumbers(in.deviation, in.textureDeviation) : in.squares).values);
     const auto taken = bench.buffer(in.taken.values);
-    launchPixels(bench, "distributed.cl", "splitVariance", p, k, k2, e, l2, taken, first.buffer(),
-        second.buffer());
+    launchPixels(bench, "distributed.cl", "splitVariance", p, k, k2, e, l2, taken, first.buffer(), second.buffer());
     return { first.read(), second.read() };
 }
 
@@ -110,12 +110,22 @@ struct Filters {
     }
     double expected(const Region& region, const shared::DistributedParams& p, int x, int y) const
     {
-        double largest = 0;
+        double largest = 0, sum = 0;
+        int nearest = 0;
         for (int py = y - 2; py <= y + 2; ++py)
-            for (int px = x - 2; px <= x + 2; ++px)
-                largest = region.contains(px, py) ? std::max(largest, double { variance.at(px, py) }) : largest;
-        const double v = std::max<double>(variance.at(x, y), p.varianceSpread * largest);
-        return v > 1e-30 ? std::pow(v / (gathered(p, x, y) * p.rays), p.countExponent) : 0;
+            for (int px = x - 2; px <= x + 2; ++px) {
+                if (!region.contains(px, py) || (px == x && py == y))
+                    continue;
+                const double there = variance.at(px, py) / gathered(p, px, py);
+                largest = std::max(largest, there);
+                if (std::abs(px - x) <= 1 && std::abs(py - y) <= 1) {
+                    sum += there;
+                    ++nearest;
+                }
+            }
+        const double v =
+            nearest > 0 ? std::max(sum / nearest, p.varianceSpread * largest) : variance.at(x, y) / gathered(p, x, y);
+        return v > 1e-30 ? std::pow(v / p.rays, p.countExponent) : 0;
     }
 };
 Planes<float> sampleDemand(
@@ -157,7 +167,8 @@ Planes<std::uint32_t> someCounts(const Region& region, std::mt19937& random, std
 
 } // namespace
 
-TEST_CASE("variances: of the texture at most all of it, of the irradiance the rest; none of a sample or less; packed, too")
+TEST_CASE(
+    "variances: of the texture at most all of it, of the irradiance the rest; none of a sample or less; packed, too")
 {
     onEveryRegion(0, [](KernelBench& bench, const Region& region, std::mt19937& random) {
         for (const auto& [packed, values] : { std::pair(0u, 1u), { 1u, 1u }, { 1u, 3u } }) {
@@ -241,8 +252,8 @@ TEST_CASE("emission: the variance of its luminance, none of a sample or less")
     });
 }
 
-TEST_CASE(
-    "demand: a power of variance over what filters gather and rays cost, no less than a part of the largest around")
+TEST_CASE("demand: a power of the neighbours' variance over what filters gather and rays cost, no less than a part of "
+          "the largest")
 {
     onEveryRegion(40, [](KernelBench& bench, const Region& region, std::mt19937& random) {
         for (const std::uint32_t alongMotion : { 0u, 1u })
@@ -293,8 +304,7 @@ TEST_CASE("at least so many samples of one kind as of another, where taken apart
         const Planes<float> before = in.effective;
         Output<float> demand(bench, region, before);
         const auto beta = bench.buffer(in.beta.values), least = bench.buffer(in.along.values);
-        launchPixels(
-            bench, "distributed.cl", "atLeast", paramsOf(region), 0.5f, 8.0f, beta, least, demand.buffer());
+        launchPixels(bench, "distributed.cl", "atLeast", paramsOf(region), 0.5f, 8.0f, beta, least, demand.buffer());
         const Planes<float> found = demand.read();
         int raised[2] = {};
         everyPixel(region.window, [&](int x, int y) {

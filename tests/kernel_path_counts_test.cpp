@@ -63,7 +63,8 @@ TEST_CASE("sampleVariance is the variance of the samples' luminance as the image
     });
 }
 
-TEST_CASE("pathDemand weighs the filtered variance, at least a fraction of the object's largest within 5x5")
+TEST_CASE("pathDemand weighs the neighbours' variance, at least a fraction of the object's largest within 5x5, and "
+          "never its own")
 {
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);
@@ -87,20 +88,31 @@ TEST_CASE("pathDemand weighs the filtered variance, at least a fraction of the o
                 shared::ReflectorParams p = paramsFor(layout);
                 p.y1 = p.height = static_cast<std::uint32_t>(height);
                 const auto out = bench.filled(layout.size, -7.0f);
-                launchRows(bench, "pathDemand", p, block, bench.buffer(variance.values),
-                    bench.buffer(effective.values), bench.buffer(beta.values), bench.buffer(objectId.values), out);
+                launchRows(bench, "pathDemand", p, block, bench.buffer(variance.values), bench.buffer(effective.values),
+                    bench.buffer(beta.values), bench.buffer(objectId.values), out);
                 const Planes<float> found = planesOf(layout, bench.read(out));
                 everyPixel(layout, [&](int x, int y) {
                     if (y >= height)
                         return;
-                    double largest = 0;
+                    double largest = 0, sum = 0;
+                    int nearest = 0, within = 0;
+                    const auto over = [&](int px, int py) {
+                        return variance.at(px, py) / std::max<double>(effective.at(px, py), 1);
+                    };
                     for (int qy = std::max(0, y - 2); qy <= std::min(height - 1, y + 2); ++qy)
                         for (int qx = std::max(0, x - 2); qx <= std::min(width - 1, x + 2); ++qx)
-                            if (objectId.at(qx, qy) == objectId.at(x, y) && beta.at(qx, qy) >= 0)
-                                largest = std::max<double>(largest, variance.at(qx, qy));
-                    const double v = std::max<double>(variance.at(x, y), 0.25 * largest);
+                            if (objectId.at(qx, qy) == objectId.at(x, y) && beta.at(qx, qy) >= 0
+                                && (qx != x || qy != y)) {
+                                largest = std::max(largest, over(qx, qy));
+                                ++within;
+                                if (std::abs(qx - x) <= 1 && std::abs(qy - y) <= 1) {
+                                    sum += over(qx, qy);
+                                    ++nearest;
+                                }
+                            }
+                    const double v = within > 0 ? std::max(sum / std::max(nearest, 1), 0.25 * largest) : over(x, y);
                     const bool wants = beta.at(x, y) >= 0 && v > 1e-30;
-                    const double expected = wants ? std::pow(v / std::max<double>(effective.at(x, y), 1), 0.4) : 0.0;
+                    const double expected = wants ? std::pow(v, 0.4) : 0.0;
                     REQUIRE(close(found.at(x, y), expected, 1e-3));
                 });
             }

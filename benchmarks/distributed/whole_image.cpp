@@ -81,7 +81,7 @@ const std::vector<TimingColumn>& distributedColumns()
             ofPasses("lists", { "lists" }),
             ofPasses("accumulate", { "accumulate" }),
             ofPasses("widths", { "widths" }),
-            ofPasses("counts", { "counts", "filter of variance" }),
+            ofPasses("counts", { "counts", "pixels gathered" }),
             widthsAndCounts(),
             ofPasses("filter_lens_and_shutter", { "filter of lens and shutter" }),
             { "overhead_wall_fraction", wallOverhead },

@@ -51,7 +51,7 @@ const std::vector<TimingColumn>& indirectColumns()
             tracing(),
             ofPasses("widths", { "widths" }),
             ofPasses("counts", { "counts" }),
-            ofPasses("first_pass_filter", { "filter of variance", "filter of first pass" }),
+            ofPasses("first_pass_filter", { "pixels gathered", "filter of first pass" }),
             widthsAndCounts(),
             ofPasses("filter_indirect", { "filter of indirect" }),
         };

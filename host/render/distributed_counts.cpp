@@ -47,14 +47,15 @@ void DistributedFrame::demandOf(Term& term, float rays, bool light)
     p.values = light ? 1 : 3;
     p.rays = rays;
     const Scratch& scratch = c_.scratch;
-    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "splitVariance", p, 1, term.texture, term.textureSquares,
-        term.value, term.squares, c_.frame.primaryTaken, scratch.ofTexture, scratch.logs);
+    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "splitVariance", p, 1, term.texture,
+        term.textureSquares, term.value, term.squares, c_.frame.primaryTaken, scratch.ofTexture, scratch.logs);
     c_.passes.rows(
         "counts", PassKind::Analysis, "distributed.cl", "addPlane", p, 1, scratch.ofTexture, scratch.ofAllTextures);
-    gaussianFilter(c_.passes, { "filter of variance", PassKind::Analysis, "filter_variance.cl" },
+    // For the effective counts alone.
+    gaussianFilter(c_.passes, { "pixels gathered", PassKind::Analysis, "filter_variance.cl" },
         filterParams(c_.settings, c_.fullFrame, c_.full()), c_.full(), c_.frame, c_.scratch.logs, term.beta, c_.scratch,
         c_.scratch.filtered);
-    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "sampleDemand", p, 1, c_.scratch.filtered,
+    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "sampleDemand", p, 1, c_.scratch.logs,
         c_.scratch.effective, term.beta, c_.frame.lensWidth, motionWidth(), term.demand);
 }
 
@@ -80,9 +81,12 @@ void DistributedFrame::demands()
     const DistributedSettings& d = c_.settings.distributed;
     const auto atLeast = [&](float apart, float together, const Term& term, const device::Buffer<float>& least,
                              const device::Buffer<float>& demand) {
-        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "atLeast", p, 1, apart, together, term.beta, least, demand);
+        c_.passes.rows(
+            "counts", PassKind::Analysis, "distributed.cl", "atLeast", p, 1, apart, together, term.beta, least, demand);
     };
-    eachTerm([&](Term& term, float) { atLeast(d.leastPrimaries, d.leastPrimaries, term, term.demand, c_.frame.primaryDemand); });
+    eachTerm([&](Term& term, float) {
+        atLeast(d.leastPrimaries, d.leastPrimaries, term, term.demand, c_.frame.primaryDemand);
+    });
     // Where a term is not taken apart its texture is known at receivers that sample it alone.
     eachTerm([&](Term& term, float) { atLeast(d.leastSecondaries, 1.0f, term, c_.frame.primaryDemand, term.demand); });
 }
@@ -100,16 +104,21 @@ void DistributedFrame::counts()
     std::vector<Demand> demands;
     device::TimedQueue& queue = c_.passes.queue();
     const DistributedFrame& guide = guide_ != nullptr && guide_->taken_ > 0 ? *guide_ : *this;
-    const float first = static_cast<float>(std::min(d.firstPaths, c_.settings.spp)), most = static_cast<float>(d.maxSpp);
-    const auto leastOf = [&](float share) { return std::max(first, std::floor(share * static_cast<float>(c_.settings.spp))); };
+    const float first = static_cast<float>(std::min(d.firstPaths, c_.settings.spp)),
+                most = static_cast<float>(d.maxSpp);
+    const auto leastOf = [&](float share) {
+        return std::max(first, std::floor(share * static_cast<float>(c_.settings.spp)));
+    };
     const float leastOfTerms = leastOf(std::max(d.leastShare, d.leastTermShare));
     // Samples of terms go to new receivers: one at least.
     const float least = std::min(std::max(leastOf(d.leastShare), first + 1.0f), static_cast<float>(c_.settings.spp));
-    demands.push_back({ guide.c_.frame.primaryDemand.downloadAll(queue), c_.frame.primaryTaken.downloadAll(queue), 1.0f, least });
+    demands.push_back(
+        { guide.c_.frame.primaryDemand.downloadAll(queue), c_.frame.primaryTaken.downloadAll(queue), 1.0f, least });
     double perPath = 1.0;
     std::size_t next = 0;
     eachTerm([&](Term& term, float rays) {
-        demands.push_back({ guide.terms_[next++]->demand.downloadAll(queue), term.taken.downloadAll(queue), rays, leastOfTerms });
+        demands.push_back(
+            { guide.terms_[next++]->demand.downloadAll(queue), term.taken.downloadAll(queue), rays, leastOfTerms });
         perPath += rays;
     });
     const std::size_t pixels = std::size_t { c_.fullFrame.width } * c_.fullFrame.height;
@@ -136,8 +145,8 @@ void DistributedFrame::counts()
     const shared::DistributedParams p = params(c_.full());
     const auto scale = static_cast<float>(low);
     c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "scaleCounts", p, 1, scale,
-        static_cast<std::uint32_t>(least), static_cast<std::uint32_t>(most), guide.c_.frame.primaryDemand, c_.frame.primaryTaken,
-        c_.frame.primaryWanted);
+        static_cast<std::uint32_t>(least), static_cast<std::uint32_t>(most), guide.c_.frame.primaryDemand,
+        c_.frame.primaryTaken, c_.frame.primaryWanted);
     next = 0;
     eachTerm([&](Term& term, float) {
         c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "scaleCounts", p, 1, scale,
@@ -148,8 +157,8 @@ void DistributedFrame::counts()
 
 void DistributedFrame::limitStep()
 {
-    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "limitStep", params(c_.full()), 1, c_.frame.primaryTaken,
-        c_.frame.primaryWanted);
+    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "limitStep", params(c_.full()), 1,
+        c_.frame.primaryTaken, c_.frame.primaryWanted);
 }
 
 } // namespace wedge::render

@@ -70,7 +70,8 @@ bool Indirect::sample()
         return false;
     }
     widthsAndCounts();
-    const bool uniform = c_.settings.sampling == Sampling::Uniform || c_.settings.indirect.counts == IndirectCounts::Uniform;
+    const bool uniform =
+        c_.settings.sampling == Sampling::Uniform || c_.settings.indirect.counts == IndirectCounts::Uniform;
     const auto most =
         static_cast<std::uint32_t>(uniform ? c_.settings.spp : std::max(c_.settings.indirect.maxSpp, c_.settings.spp));
     return samplePaths("second paths", c_.sampledFrame, WEDGE_INDIRECT_FIRST_RAYS, most, c_.settings.spp);
@@ -90,7 +91,7 @@ shared::PathParams Indirect::pathParams() const
     p.deltaLights = c_.scene.deltaLightCount;
     p.sceneDiameter = c_.scene.diameter;
     p.ambientDistance = c_.settings.indirect.ambientDistance > 0 ? c_.settings.indirect.ambientDistance
-                                                               : std::numeric_limits<float>::infinity();
+                                                                 : std::numeric_limits<float>::infinity();
     return p;
 }
 
@@ -110,9 +111,9 @@ bool Indirect::samplePaths(
             };
             const double share = done(std::min(last + slice, most)) - done(last);
             last += std::min(slice, most - last);
-            c_.passes.tiles(pass, PassKind::Trace, "indirect.cl", "samplePaths", frame, units * share, pathParams(), s.nodes,
-                s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, f.receivers(), f.specular, term_.wanted, last,
-                term_.sums, term_.taken, term_.value, term_.extremes, f.rays, f.pathRays);
+            c_.passes.tiles(pass, PassKind::Trace, "indirect.cl", "samplePaths", frame, units * share, pathParams(),
+                s.nodes, s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, f.receivers(), f.specular,
+                term_.wanted, last, term_.sums, term_.taken, term_.value, term_.extremes, f.rays, f.pathRays);
             if (c_.passes.rehearsal()) {
                 break;
             }
@@ -180,8 +181,9 @@ void Indirect::widths()
         c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "unpackSecond", countParams(c_.full()), 1,
             term_.plain, reflectors);
     }
-    c_.passes.rows("widths", PassKind::Analysis, "reflectors.cl", "reflectorWidths", reflectorParams(c_.full()), 1, reflectors,
-        c_.scratch.extent, c_.frame.pixelSize, c_.frame.gloss, term_.taken, packed ? c_.scratch.width : term_.beta, term_.wanted);
+    c_.passes.rows("widths", PassKind::Analysis, "reflectors.cl", "reflectorWidths", reflectorParams(c_.full()), 1,
+        reflectors, c_.scratch.extent, c_.frame.pixelSize, c_.frame.gloss, term_.taken,
+        packed ? c_.scratch.width : term_.beta, term_.wanted);
     analysed_ = true;
 }
 
@@ -191,7 +193,8 @@ void Indirect::widthsAndCounts()
     const bool uniform = c_.settings.sampling == Sampling::Uniform || in.counts == IndirectCounts::Uniform;
     widths();
     if (uniform) {
-        uniformCounts(c_.passes, countParams(c_.full()), static_cast<std::uint32_t>(c_.settings.spp), term_.taken, term_.wanted);
+        uniformCounts(
+            c_.passes, countParams(c_.full()), static_cast<std::uint32_t>(c_.settings.spp), term_.taken, term_.wanted);
     } else if (in.counts == IndirectCounts::Variance) {
         countsFromVariance();
     }
@@ -210,16 +213,18 @@ void Indirect::countsFromVariance()
     device::Buffer<float>& gathered = c_.scratch.spread;
     c_.passes.rows("counts", PassKind::Analysis, "reflectors.cl", "sampleVariance", p, WEDGE_BLOCK_PIXELS, term_.sums,
         term_.taken, reflectance(), variance);
-    const bool filtered = c_.settings.filtering != Filtering::None;
-    if (filtered) {
-        gaussianFilter(c_.passes, { "filter of variance", PassKind::Analysis, "filter_variance.cl" },
-            filterParams(c_.settings, c_.fullFrame, c_.full()), c_.full(), c_.frame, variance, term_.beta, c_.scratch, gathered);
+    if (c_.settings.filtering != Filtering::None) {
+        // For the effective counts alone.
+        gaussianFilter(c_.passes, { "pixels gathered", PassKind::Analysis, "filter_variance.cl" },
+            filterParams(c_.settings, c_.fullFrame, c_.full()), c_.full(), c_.frame, variance, term_.beta, c_.scratch,
+            gathered);
     } else {
         c_.scratch.effective.fill(c_.passes.queue(), 1.0f);
     }
-    c_.passes.rows("counts", PassKind::Analysis, "reflectors.cl", "pathDemand", p, WEDGE_BLOCK_PIXELS,
-        filtered ? gathered : variance, c_.scratch.effective, term_.beta, c_.frame.objectId, c_.scratch.demand);
-    countsFromDemand(c_.passes, countParams(c_.full()), static_cast<float>(c_.settings.spp), term_.taken, c_.scratch, term_.wanted);
+    c_.passes.rows("counts", PassKind::Analysis, "reflectors.cl", "pathDemand", p, WEDGE_BLOCK_PIXELS, variance,
+        c_.scratch.effective, term_.beta, c_.frame.objectId, c_.scratch.demand);
+    countsFromDemand(
+        c_.passes, countParams(c_.full()), static_cast<float>(c_.settings.spp), term_.taken, c_.scratch, term_.wanted);
 }
 
 void Indirect::composite(const device::Buffer<float>& value)
@@ -235,10 +240,10 @@ void Indirect::sampleWave(Waves& waves, const shared::WaveParams& wave, double w
     const DeviceScene& s = c_.scene;
     const device::Buffer<float>& reflectance = component_ == Component::Glossy ? waves.specular : waves.diffuse;
     waves.share(c_.passes, term_, wave);
-    c_.passes.tiles("paths", PassKind::Trace, "indirect.cl", "samplePaths", waves.receiverParams(wave), workUnits, pathParams(),
-        s.nodes, s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, waves.receivers(), waves.specular, waves.wanted,
-        std::numeric_limits<std::uint32_t>::max(), waves.sums, waves.taken, waves.value, waves.extremes, waves.rays,
-        waves.pathRays);
+    c_.passes.tiles("paths", PassKind::Trace, "indirect.cl", "samplePaths", waves.receiverParams(wave), workUnits,
+        pathParams(), s.nodes, s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, waves.receivers(),
+        waves.specular, waves.wanted, std::numeric_limits<std::uint32_t>::max(), waves.sums, waves.taken, waves.value,
+        waves.extremes, waves.rays, waves.pathRays);
     shared::WaveParams adding = wave;
     adding.omits |= term_.shape.extremes < 2 ? WEDGE_OMITS_EXTREMES : 0;
     waves.pixels(c_.passes, "accumulatePaths", adding, component_ == Component::Ambient ? 1u : 0u, waves.pixelFirst,
@@ -248,9 +253,9 @@ void Indirect::sampleWave(Waves& waves, const shared::WaveParams& wave, double w
 
 void Indirect::publishedWidths(const shared::DistributedParams& params, const device::Buffer<float>& flags)
 {
-    c_.passes.rows("widths", PassKind::Analysis, "published.cl", "publishedReflectors", params, 1, c_.settings.distributed.mu,
-        static_cast<std::uint32_t>(component_), flags, term_.extremes, c_.frame.gloss, c_.frame.confusion, c_.frame.pixelSize,
-        c_.frame.objectId, term_.beta, term_.demand);
+    c_.passes.rows("widths", PassKind::Analysis, "published.cl", "publishedReflectors", params, 1,
+        c_.settings.distributed.mu, static_cast<std::uint32_t>(component_), flags, term_.extremes, c_.frame.gloss,
+        c_.frame.confusion, c_.frame.pixelSize, c_.frame.objectId, term_.beta, term_.demand);
     analysed_ = true;
 }
 
@@ -259,13 +264,14 @@ void Indirect::filterDistributed(const shared::DistributedParams& params)
     // The gather's rows go elsewhere, and its columns know nothing of the value.
     const device::Buffer<float>& value = c_.frame.shape.packed() ? c_.scratch.filtered : term_.value;
     if (c_.frame.shape.packed()) {
-        c_.passes.rows("filter of indirect", PassKind::Filter, "distributed.cl", "unpackImage", params, 1, term_.value, value);
+        c_.passes.rows(
+            "filter of indirect", PassKind::Filter, "distributed.cl", "unpackImage", params, 1, term_.value, value);
     }
     const shared::FilterParams filter = c_.settings.distributed.published
         ? publishedParams(c_.settings, c_.fullFrame, c_.full())
         : filterParams(c_.settings, c_.fullFrame, c_.full());
-    gaussianFilter(c_.passes, { "filter of indirect", PassKind::Filter, "filter_indirect.cl" }, filter, c_.full(), c_.frame,
-        value, term_.beta, c_.scratch, c_.scratch.filtered);
+    gaussianFilter(c_.passes, { "filter of indirect", PassKind::Filter, "filter_indirect.cl" }, filter, c_.full(),
+        c_.frame, value, term_.beta, c_.scratch, c_.scratch.filtered);
     addFilteredTerm(c_, term_, params, c_.frame.indirect);
 }
 
