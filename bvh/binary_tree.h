@@ -38,8 +38,8 @@ struct BinaryTree {
     tbb::enumerable_thread_specific<NodeArena> arenas;
 };
 
-/// Inner nodes on the longest path of any binary tree that splitting makes; reinsertion may make it WEDGE_BVH_STACK deep. Deep branches of the SAH fall
-/// back to median splits in time, which 2^31 triangles need 31 of.
+/// Inner nodes on the longest path of any binary tree that splitting makes; reinsertion may make it WEDGE_BVH_STACK
+/// deep. Deep branches of the SAH fall back to median splits in time, which 2^31 triangles need 31 of.
 inline constexpr unsigned maxBinaryHeight = 64;
 static_assert(maxBinaryHeight <= WEDGE_BVH_STACK, "a tree collapsed to two children a node must fit the stack");
 

@@ -90,10 +90,10 @@ Box nodeBox(const BvhNode& node)
     return box;
 }
 
-/// The box with room for the roundings of kernels at all times. A vertex is between where it is at both ends whatever the
-/// rounding, since that is monotonous, and so beyond no plane that stands still. Of one that moves, with u = 2^-24 and the
-/// largest coordinate m, a vertex' displacement is rounded by 2um at most, its product with the time by 2um and the sum
-/// by um; the plane's product and sum by as much.
+/// The box with room for the roundings of kernels at all times. A vertex is between where it is at both ends whatever
+/// the rounding, since that is monotonous, and so beyond no plane that stands still. Of one that moves, with u = 2^-24
+/// and the largest coordinate m, a vertex' displacement is rounded by 2um at most, its product with the time by 2um and
+/// the sum by um; the plane's product and sum by as much.
 MovingBox widened(MovingBox box)
 {
     const Float4 size = maxOf(maxOf(maxOf(box.open.hi, -box.open.lo), maxOf(box.close.hi, -box.close.lo)),
@@ -114,8 +114,10 @@ Array<MovingNode> movingNodes(const Array<BvhNode>& open, const Array<BvhNode>& 
             for (unsigned slot = 0; slot < WEDGE_BVH_WIDTH; slot++) {
                 const std::uint32_t child = open[i].child[slot];
                 nodes[i].child[slot] = child;
-                setBox(nodes[i], slot, child == WEDGE_BVH_LEAF ? MovingBox::empty()
-                    : widened({ scaled(slotBox(open[i], slot)), scaled(slotBox(close[i], slot)) }));
+                setBox(nodes[i], slot,
+                    child == WEDGE_BVH_LEAF
+                        ? MovingBox::empty()
+                        : widened({ scaled(slotBox(open[i], slot)), scaled(slotBox(close[i], slot)) }));
             }
         }
     });
@@ -145,7 +147,8 @@ struct MovingTriangle {
             float edges[2][3];
             for (std::size_t axis = 0; axis < 3; axis++)
                 for (std::size_t e = 0; e < 2; e++)
-                    edges[e][axis] = (open[e + 1][axis] + move[e + 1][axis] * time) - (open[0][axis] + move[0][axis] * time);
+                    edges[e][axis] =
+                        (open[e + 1][axis] + move[e + 1][axis] * time) - (open[0][axis] + move[0][axis] * time);
             if (!isDegenerate(edges[0], edges[1]))
                 return false;
         }

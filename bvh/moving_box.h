@@ -31,8 +31,8 @@ struct MovingBox {
     double halfArea() const { return (open.halfArea() + 4 * halfAreaAt(0.5f) + close.halfArea()) / 6; }
 };
 
-/// From a plane at the opening to itself at the closing, the float next to it that is no more (direction -infinity) or no
-/// less (infinity), so that planes never move into their box.
+/// From a plane at the opening to itself at the closing, the float next to it that is no more (direction -infinity) or
+/// no less (infinity), so that planes never move into their box.
 inline float displacement(float open, float close, float direction)
 {
     const float d = close - open;

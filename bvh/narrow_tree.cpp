@@ -163,6 +163,9 @@ private:
 
 std::vector<BvhNode4> narrow(const Bvh& bvh) { return Narrowing<Bvh, BvhNode4, Box>(bvh).run(); }
 
-std::vector<MovingNode4> narrow(const MovingBvh& bvh) { return Narrowing<MovingBvh, MovingNode4, MovingBox>(bvh).run(); }
+std::vector<MovingNode4> narrow(const MovingBvh& bvh)
+{
+    return Narrowing<MovingBvh, MovingNode4, MovingBox>(bvh).run();
+}
 
 } // namespace wedge::bvh

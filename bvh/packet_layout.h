@@ -15,8 +15,8 @@ namespace wedge::bvh {
 inline constexpr std::size_t rayWords = sizeof(Ray) / sizeof(float), hitWords = sizeof(shared::Hit) / sizeof(float);
 
 /// Rays as RayPacket of kernels/packet.h holds them, `lanes` to a packet: the same word of all its rays side by side.
-/// Lanes that the last packet has over hold rays of an empty interval. times: one a ray, for programs with WEDGE_MOTION;
-/// empty for those without.
+/// Lanes that the last packet has over hold rays of an empty interval. times: one a ray, for programs with
+/// WEDGE_MOTION; empty for those without.
 inline std::vector<float> packRays(std::span<const Ray> rays, std::size_t lanes, std::span<const float> times = {})
 {
     assert(times.empty() || times.size() == rays.size());

@@ -1,11 +1,11 @@
 // From a wave's receivers to its pixels. Planes of pixels hold means over the primary samples taken so far; each kernel
-// here adds a pixel's new receivers, which lie together in the wave. Samples that hit nothing count as black in radiance
-// and in textures, and not at all in irradiances, positions and normals. What a pixel keeps of a
-// term: accumulate.h.
+// here adds a pixel's new receivers, which lie together in the wave. Samples that hit nothing count as black in
+// radiance and in textures, and not at all in irradiances, positions and normals. What a pixel keeps of a term:
+// accumulate.h.
 #include "accumulate.h"
-#include "shared/indirect.h"
 #include "shared/camera.h"
 #include "shared/defocus.h"
+#include "shared/indirect.h"
 
 #ifdef WEDGE_MOTION
 /// What the first samples of a light tell of its shadows' motions: sums of x, y, squared lengths and ones.
@@ -27,17 +27,18 @@ WEDGE_FN void storeShadows(WaveParams wave, WavePixel p, uint pixels, __global f
 ///         exact: 1: unshadowed has the receivers' shading (wave_light.cl); 0: it is that of their samples
 ///         hits: the pixels' primary samples with a surface, before the wave
 ///         termTaken, termWanted: the pixels' samples of the light before and after the wave
-/// in out  of pixels: texture (3), value (visibility, 3), plain (its luminance, unweighted), squares and textureSquares (mean
-///         squared luminance of a primary sample's radiance, and of its texture), termRadiance (3, as published), extremes
-///         (slopes, and shadows' motions), weightOf (mean luminance of the texture), samples (of all terms), termTaken
+/// in out  of pixels: texture (3), value (visibility, 3), plain (its luminance, unweighted), squares and textureSquares
+/// (mean
+///         squared luminance of a primary sample's radiance, and of its texture), termRadiance (3, as published),
+///         extremes (slopes, and shadows' motions), weightOf (mean luminance of the texture), samples (of all terms),
+///         termTaken
 __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight light, uint exact,
-                              __global const uint* restrict pixelFirst,
-                              __global const uint* restrict pixelCount, __global const uint* restrict taken,
-                              __global const uint* restrict hits, WEDGE_RECEIVER_PARAMETERS,
-                              __global const float* restrict diffuse, __global const float* restrict specular,
-                              __global const float* restrict sums, __global const float* restrict unshadowed,
-                              __global const float* restrict slopes, WEDGE_TERM_PARAMETERS, __global float* restrict weightOf,
-                              __global uint* restrict samples)
+    __global const uint* restrict pixelFirst, __global const uint* restrict pixelCount,
+    __global const uint* restrict taken, __global const uint* restrict hits, WEDGE_RECEIVER_PARAMETERS,
+    __global const float* restrict diffuse, __global const float* restrict specular,
+    __global const float* restrict sums, __global const float* restrict unshadowed,
+    __global const float* restrict slopes, WEDGE_TERM_PARAMETERS, __global float* restrict weightOf,
+    __global uint* restrict samples)
 {
     WavePixel p;
     if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
@@ -107,7 +108,8 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
         if (wave.published != 0u) {
             addSamples(&sum, l, seen, vec3(seen, seen, seen), vec3(1.0f, 1.0f, 1.0f));
         } else {
-            addSamples(&sum, exact != 0u ? vecScale(t, seen) : l, seen, vecScale(l, (float)n), vecScale(sampled, (float)n));
+            addSamples(
+                &sum, exact != 0u ? vecScale(t, seen) : l, seen, vecScale(l, (float)n), vecScale(sampled, (float)n));
         }
     }
     if (!known) {
@@ -115,10 +117,11 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
         sum.textureSquared = sum.textures = 0.0f;
     }
     const float plainWeight = (float)loadHits(hits, p.i, wave.packed);
-    const Vec3 weights = wave.published != 0u ? vec3(plainWeight, plainWeight, plainWeight)
-                                              : vecScale(loadColour(texture, pixels, p.i, planes.textureBits),
-                                                         (float)termTaken[p.i]);
-    storeTermSums(wave, p, pixels, planes, termTaken[p.i], total, (float)loadHits(hits, p.i, wave.packed), weights, &sum);
+    const Vec3 weights = wave.published != 0u
+        ? vec3(plainWeight, plainWeight, plainWeight)
+        : vecScale(loadColour(texture, pixels, p.i, planes.textureBits), (float)termTaken[p.i]);
+    storeTermSums(
+        wave, p, pixels, planes, termTaken[p.i], total, (float)loadHits(hits, p.i, wave.packed), weights, &sum);
     storeExtreme(wave, p, pixels, plain, extremes, sMin < INFINITY ? sMin : 0.0f);
     if (measures && all) {
         extremes[pixels + p.i] = sMax;
@@ -135,12 +138,12 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
     }
 }
 
-/// Point and directional lights: `lit`, the receivers' radiance from them. deltaSquares: mean squared luminance of a primary
-/// sample's.
+/// Point and directional lights: `lit`, the receivers' radiance from them. deltaSquares: mean squared luminance of a
+/// primary sample's.
 __kernel void accumulateDelta(FrameParams frame, WaveParams wave, __global const uint* restrict pixelFirst,
-                              __global const uint* restrict pixelCount, __global const uint* restrict taken,
-                              __global const uint* restrict objectId, __global const float* restrict lit,
-                              __global float* restrict delta, __global float* restrict deltaSquares)
+    __global const uint* restrict pixelCount, __global const uint* restrict taken,
+    __global const uint* restrict objectId, __global const float* restrict lit, __global float* restrict delta,
+    __global float* restrict deltaSquares)
 {
     WavePixel p;
     if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
@@ -161,12 +164,12 @@ __kernel void accumulateDelta(FrameParams frame, WaveParams wave, __global const
 /// in      ambient: 1 for ambient occlusion: the irradiance is what is open of the hemisphere, the texture white
 ///         wave's planes: objectId, reflectance (3), sums, reflectors (as indirect.cl has them); hits, as of a light
 /// in out  as of a light; extremes: reflectors of pixels, like those of receivers; indirectSamples
-__kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient, __global const uint* restrict pixelFirst,
-                              __global const uint* restrict pixelCount, __global const uint* restrict taken,
-                              __global const uint* restrict hits, __global const uint* restrict objectId,
-                              __global const float* restrict reflectance, __global const float* restrict sums,
-                              __global const float* restrict reflectors, WEDGE_TERM_PARAMETERS,
-                              __global uint* restrict samples, __global uint* restrict indirectSamples)
+__kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient,
+    __global const uint* restrict pixelFirst, __global const uint* restrict pixelCount,
+    __global const uint* restrict taken, __global const uint* restrict hits, __global const uint* restrict objectId,
+    __global const float* restrict reflectance, __global const float* restrict sums,
+    __global const float* restrict reflectors, WEDGE_TERM_PARAMETERS, __global uint* restrict samples,
+    __global uint* restrict indirectSamples)
 {
     WavePixel p;
     if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
@@ -178,7 +181,9 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient, 
     const bool measures = (wave.omits & WEDGE_OMITS_ANALYSIS) == 0u, all = (wave.omits & WEDGE_OMITS_EXTREMES) == 0u;
     float nearest = measures && all && extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY;
     float farthest = measures && all ? extremes[pixels + p.i] : 0.0f;
-    float inverse = measures && all ? extremes[2u * pixels + p.i] : measures && wave.packed == 0u ? extremes[p.i] : 0.0f;
+    float inverse = measures && all     ? extremes[2u * pixels + p.i]
+        : measures && wave.packed == 0u ? extremes[p.i]
+                                        : 0.0f;
     const float floor = wave.published != 0u ? 1.0f : WEDGE_LEAST_TEXTURE, own = wave.published != 0u ? 0.0f : 1.0f;
     const Vec3 floors = vec3(floor, floor, floor), white = vec3(1.0f, 1.0f, 1.0f);
     TermSums sum = noTermSums((float)p.count);
@@ -202,14 +207,15 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient, 
         inverse += reflectors[2u * size + r];
     }
     const float counted = wave.published != 0u ? (float)loadHits(hits, p.i, wave.packed)
-        : p.before > 0u                        ? (float)loadHits(hits, p.i, wave.packed) / (float)p.before * (float)termTaken[p.i]
-                                               : 0.0f;
+        : p.before > 0u ? (float)loadHits(hits, p.i, wave.packed) / (float)p.before * (float)termTaken[p.i]
+                        : 0.0f;
     const Vec3 before = loadColour(texture, pixels, p.i, planes.textureBits);
     const Vec3 known = vecMad(vecScale(floors, counted), before, own * (float)termTaken[p.i]);
     storeTermSums(wave, p, pixels, planes, termTaken[p.i], total, (float)loadHits(hits, p.i, wave.packed), known, &sum);
     // Of one number for both, a mean that is as near as its fraction and the nearest distance say.
     const float closest = nearest < INFINITY ? WEDGE_NEAREST_FRACTION * (float)total / fmax(nearest, 1e-20f) : 0.0f;
-    storeExtreme(wave, p, pixels, plain, extremes, all ? (nearest < INFINITY ? nearest : 0.0f) : fmax(inverse, closest));
+    storeExtreme(
+        wave, p, pixels, plain, extremes, all ? (nearest < INFINITY ? nearest : 0.0f) : fmax(inverse, closest));
     if (measures && all) {
         extremes[pixels + p.i] = farthest;
         extremes[2u * pixels + p.i] = inverse;
@@ -223,29 +229,26 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient, 
 
 /// Where and what the receivers are, and what they emit; closes the wave.
 /// in      wave's planes: as wave_primary.cl fills them, rays, pathRays
-/// in out  of pixels: means of position, normal, pixelSize, distance, gloss, diffuse, specular, emission, emissionSquares
+/// in out  of pixels: means of position, normal, pixelSize, distance, gloss, diffuse, specular, emission,
+/// emissionSquares
 ///         (squared luminance); objectId (0:
 ///         no surface, WEDGE_MIXED: several objects); hits; confusion (planes: least and largest signed radius of
 ///         the circle of confusion, pixels); motion (planes: mean x, mean y, largest difference from the mean; packed:
 ///         see accumulate.h);
 ///         rays, pathRays; taken
 __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParams camera,
-                                 __global const uint* restrict pixelFirst, __global const uint* restrict pixelCount,
-                                 __global const uint* restrict objectId, __global const float* restrict position,
-                                 __global const float* restrict normal, __global const float* restrict gloss,
-                                 __global const float* restrict diffuse, __global const float* restrict specular,
-                                 __global const float* restrict emission, __global const float* restrict pixelSize,
-                                 __global const float* restrict depth, __global const float* restrict motion,
-                                 __global const uint* restrict rays, __global const uint* restrict pathRays,
-                                 __global uint* restrict taken, __global uint* restrict hitsOf,
-                                 __global uint* restrict objectOf, __global float* restrict positionOf,
-                                 __global float* restrict normalOf, __global float* restrict glossOf,
-                                 __global float* restrict diffuseOf, __global float* restrict specularOf,
-                                 __global float* restrict emissionOf, __global float* restrict emissionSquaresOf,
-                                 __global float* restrict pixelSizeOf,
-                                 __global float* restrict distanceOf, __global float* restrict confusionOf,
-                                 __global float* restrict motionOf, __global uint* restrict raysOf,
-                                 __global uint* restrict pathRaysOf)
+    __global const uint* restrict pixelFirst, __global const uint* restrict pixelCount,
+    __global const uint* restrict objectId, __global const float* restrict position,
+    __global const float* restrict normal, __global const float* restrict gloss, __global const float* restrict diffuse,
+    __global const float* restrict specular, __global const float* restrict emission,
+    __global const float* restrict pixelSize, __global const float* restrict depth,
+    __global const float* restrict motion, __global const uint* restrict rays, __global const uint* restrict pathRays,
+    __global uint* restrict taken, __global uint* restrict hitsOf, __global uint* restrict objectOf,
+    __global float* restrict positionOf, __global float* restrict normalOf, __global float* restrict glossOf,
+    __global float* restrict diffuseOf, __global float* restrict specularOf, __global float* restrict emissionOf,
+    __global float* restrict emissionSquaresOf, __global float* restrict pixelSizeOf,
+    __global float* restrict distanceOf, __global float* restrict confusionOf, __global float* restrict motionOf,
+    __global uint* restrict raysOf, __global uint* restrict pathRaysOf)
 {
     WavePixel p;
     if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
@@ -299,7 +302,8 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
         const float least = low > 0.0f ? low : high < 0.0f ? high : 0.0f;
         const float had = p.before > 0u ? loadShort(confusionOf, pixels, p.i, 1u) : least;
         const float nearest = fabs(had) < fabs(least) ? had : least;
-        storeShort(confusionOf, pixels, p.i, 1u, (had > 0.0f) == (least > 0.0f) && (had < 0.0f) == (least < 0.0f) ? nearest : 0.0f);
+        storeShort(confusionOf, pixels, p.i, 1u,
+            (had > 0.0f) == (least > 0.0f) && (had < 0.0f) == (least < 0.0f) ? nearest : 0.0f);
     } else {
         confusionOf[p.i] = low;
         confusionOf[pixels + p.i] = high;

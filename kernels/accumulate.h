@@ -1,11 +1,11 @@
 // What a pixel keeps of a term, and how a wave's receivers are added to it (accumulate.cl).
 //
-// Of each term a pixel keeps the mean texture k (reflectance; of lights times the unshadowed shading) of all receivers, and
-// of those that took samples of the term the mean irradiance E (of lights: visibility), each channel weighted by the texture
-// and by the samples, so that their product is the radiance of the term, and neither holds what belongs to the other;
-// besides, the plain mean of E's luminance, by which thesis (5.30) judges whether texture and irradiance may be taken apart.
-// As published (wave.published) E is the plain mean, that of lights holds the light's form factor (5.14), k the lobe
-// towards its centre (5.20), and the term's radiance L is kept apart.
+// Of each term a pixel keeps the mean texture k (reflectance; of lights times the unshadowed shading) of all receivers,
+// and of those that took samples of the term the mean irradiance E (of lights: visibility), each channel weighted by
+// the texture and by the samples, so that their product is the radiance of the term, and neither holds what belongs to
+// the other; besides, the plain mean of E's luminance, by which thesis (5.30) judges whether texture and irradiance may
+// be taken apart. As published (wave.published) E is the plain mean, that of lights holds the light's form factor
+// (5.14), k the lobe towards its centre (5.20), and the term's radiance L is kept apart.
 //
 // Packed planes (wave.packed) hold of k and E the one that is a fraction in 32 bits and the other in 47
 // (packed_planes.h), normals in one plane, and what one wave alone measures in 16 bits: in `plain` the factoring error
@@ -27,14 +27,14 @@
 
 /// A pixel and its receivers in the wave.
 typedef struct {
-    uint i;            ///< in planes of pixels
-    uint slot;         ///< in planes of the wave's pixels
+    uint i; ///< in planes of pixels
+    uint slot; ///< in planes of the wave's pixels
     uint first, count; ///< receivers
-    uint before;       ///< primary samples that its means hold already
+    uint before; ///< primary samples that its means hold already
 } WavePixel;
 
-WEDGE_FN bool wavePixel(FrameParams frame, WaveParams wave, __global const uint* pixelFirst, __global const uint* pixelCount,
-                        __global const uint* taken, WavePixel* p)
+WEDGE_FN bool wavePixel(FrameParams frame, WaveParams wave, __global const uint* pixelFirst,
+    __global const uint* pixelCount, __global const uint* taken, WavePixel* p)
 {
     const uint slot = get_global_id(0);
     uint x, y;
@@ -59,13 +59,15 @@ WEDGE_FN float meanWith(float mean, float before, float sum, float count)
 WEDGE_FN void storeMean(__global float* planes, uint size, uint i, float before, Vec3 sum, float count)
 {
     const Vec3 mean = loadVec(planes, size, i);
-    storeVec(planes, size, i, vec3(meanWith(mean.x, before, sum.x, count), meanWith(mean.y, before, sum.y, count),
-                                   meanWith(mean.z, before, sum.z, count)));
+    storeVec(planes, size, i,
+        vec3(meanWith(mean.x, before, sum.x, count), meanWith(mean.y, before, sum.y, count),
+            meanWith(mean.z, before, sum.z, count)));
 }
 
-/// Texture and irradiance of a receiver under one light as published; visible: of its samples, the fraction that sees it.
-WEDGE_FN void publishedReceiver(FrameParams frame, ReceiverData data, AreaLight light, uint r, Vec3 kd, Vec3 ks, float visible,
-                                Vec3* texture, float* irradiance)
+/// Texture and irradiance of a receiver under one light as published; visible: of its samples, the fraction that sees
+/// it.
+WEDGE_FN void publishedReceiver(FrameParams frame, ReceiverData data, AreaLight light, uint r, Vec3 kd, Vec3 ks,
+    float visible, Vec3* texture, float* irradiance)
 {
     const Receiver at = loadReceiver(frame, data, r);
     const Vec3 d = vecSub(light.centre, at.position);
@@ -80,7 +82,7 @@ typedef struct {
     float textureSquared, textures; ///< textures: receivers whose texture is known, misses included
     Vec3 radiance;
     Vec3 weighted, weights; ///< irradiance times its weight, and the weights
-    float plain, counted;   ///< luminances of irradiances, and how many
+    float plain, counted; ///< luminances of irradiances, and how many
     float squared;
 } TermSums;
 
@@ -122,8 +124,8 @@ WEDGE_FN float weightedMean(float mean, float known, float weighted, float weigh
     return known + weights > 0.0f ? (mean * known + weighted) / (known + weights) : 0.0f;
 }
 
-/// What the analysis is made of, of the first wave of a pixel's; t, e: its mean texture and irradiance, of `have` receivers
-/// with samples.
+/// What the analysis is made of, of the first wave of a pixel's; t, e: its mean texture and irradiance, of `have`
+/// receivers with samples.
 WEDGE_FN void storeMeasured(WavePixel p, uint pixels, TermPlanes planes, Vec3 t, Vec3 e, float have, const TermSums* s)
 {
     const float mean = luminance(vecMul(t, e)), texture = luminance(t);
@@ -134,20 +136,21 @@ WEDGE_FN void storeMeasured(WavePixel p, uint pixels, TermPlanes planes, Vec3 t,
     storeShort(planes.squares, pixels, p.i, 1u, sqrt(fmax(textureSquared - texture * texture, 0.0f)));
 }
 
-/// taken: samples of the term before the wave, total: in it; hits: receivers with a surface before; known: what the mean
-/// value weighs so far.
-WEDGE_FN void storeTermSums(WaveParams wave, WavePixel p, uint pixels, TermPlanes planes, uint taken, uint total, float hits,
-                            Vec3 known, const TermSums* s)
+/// taken: samples of the term before the wave, total: in it; hits: receivers with a surface before; known: what the
+/// mean value weighs so far.
+WEDGE_FN void storeTermSums(WaveParams wave, WavePixel p, uint pixels, TermPlanes planes, uint taken, uint total,
+    float hits, Vec3 known, const TermSums* s)
 {
     const float before = (float)p.before;
     // Receivers that took samples, misses included: samples are shared evenly.
     const float had = (float)min(taken, p.before), have = (float)min(total, p.count);
     Vec3 e = loadColour(planes.value, pixels, p.i, planes.valueBits);
     Vec3 t = loadColour(planes.texture, pixels, p.i, planes.textureBits);
-    e = vec3(weightedMean(e.x, known.x, s->weighted.x, s->weights.x), weightedMean(e.y, known.y, s->weighted.y, s->weights.y),
-             weightedMean(e.z, known.z, s->weighted.z, s->weights.z));
+    e = vec3(weightedMean(e.x, known.x, s->weighted.x, s->weights.x),
+        weightedMean(e.y, known.y, s->weighted.y, s->weights.y),
+        weightedMean(e.z, known.z, s->weighted.z, s->weights.z));
     t = vec3(meanWith(t.x, before, s->texture.x, s->textures), meanWith(t.y, before, s->texture.y, s->textures),
-             meanWith(t.z, before, s->texture.z, s->textures));
+        meanWith(t.z, before, s->texture.z, s->textures));
     storeColour(planes.value, pixels, p.i, planes.valueBits, e);
     storeColour(planes.texture, pixels, p.i, planes.textureBits, t);
     if (wave.packed != 0u) {
@@ -165,8 +168,8 @@ WEDGE_FN void storeTermSums(WaveParams wave, WavePixel p, uint pixels, TermPlane
     }
 }
 
-/// Samples of a term that the wave takes for pixel i. What is wanted is not looked at where the planes do not hold it: squares
-/// are in its place then.
+/// Samples of a term that the wave takes for pixel i. What is wanted is not looked at where the planes do not hold it:
+/// squares are in its place then.
 WEDGE_FN uint newTermSamples(WaveParams wave, uint i, __global const uint* taken, __global const uint* wanted)
 {
     const uint before = taken[i];
@@ -175,16 +178,17 @@ WEDGE_FN uint newTermSamples(WaveParams wave, uint i, __global const uint* taken
 }
 
 /// Parameters of the kernels that add to a term, and its planes made of them.
-#define WEDGE_TERM_PARAMETERS                                                                                           \
-    __global const uint *restrict termWanted, __global uint *restrict termTaken, __global float *restrict texture,      \
-        __global float *restrict value, __global float *restrict plain, __global float *restrict squares,               \
-        __global float *restrict textureSquares, __global float *restrict termRadiance, __global float *restrict extremes
+#define WEDGE_TERM_PARAMETERS                                                                                          \
+    __global const uint *restrict termWanted, __global uint *restrict termTaken, __global float *restrict texture,     \
+        __global float *restrict value, __global float *restrict plain, __global float *restrict squares,              \
+        __global float *restrict textureSquares, __global float *restrict termRadiance,                                \
+        __global float *restrict extremes
 /// light: of a light; false: of indirect light.
-#define WEDGE_TERM_ARGUMENTS(light) \
+#define WEDGE_TERM_ARGUMENTS(light)                                                                                    \
     termPlanes(wave.packed, light, texture, value, plain, squares, textureSquares, termRadiance)
 
-WEDGE_FN TermPlanes termPlanes(uint packed, bool light, __global float* texture, __global float* value, __global float* plain,
-                               __global float* squares, __global float* textureSquares, __global float* radiance)
+WEDGE_FN TermPlanes termPlanes(uint packed, bool light, __global float* texture, __global float* value,
+    __global float* plain, __global float* squares, __global float* textureSquares, __global float* radiance)
 {
     TermPlanes planes;
     planes.textureBits = textureBits(packed, light);
@@ -198,11 +202,11 @@ WEDGE_FN TermPlanes termPlanes(uint packed, bool light, __global float* texture,
     return planes;
 }
 
-/// Mean unshadowed weights of a light's samples, diffuse and specular, over the receivers that took some, each as much as it
-/// reflects: what textures of the others are made with. Returns false if none of them is known.
+/// Mean unshadowed weights of a light's samples, diffuse and specular, over the receivers that took some, each as much
+/// as it reflects: what textures of the others are made with. Returns false if none of them is known.
 WEDGE_FN bool meanWeights(WaveParams wave, WavePixel p, uint total, __global const uint* objectId,
-                          __global const float* diffuse, __global const float* specular, __global const float* sums,
-                          float* weight, float* specularWeight)
+    __global const float* diffuse, __global const float* specular, __global const float* sums, float* weight,
+    float* specularWeight)
 {
     const uint size = wave.planeSize;
     float reflected = 0.0f, mirrored = 0.0f, known = 0.0f;
@@ -231,14 +235,16 @@ WEDGE_FN bool meanWeights(WaveParams wave, WavePixel p, uint total, __global con
 }
 
 /// A mean motion as packed planes have it. differing: length of a difference between the mean and what it is made of.
-WEDGE_FN void storeOneMotion(WaveParams wave, uint pixels, uint i, __global float* plane, float x, float y, float differing)
+WEDGE_FN void storeOneMotion(
+    WaveParams wave, uint pixels, uint i, __global float* plane, float x, float y, float differing)
 {
     const bool one = differing <= wave.oneVelocity * sqrt(x * x + y * y);
     storePair(plane, pixels, i, one ? x : INFINITY, one ? y : 0.0f);
 }
 
 /// The one extreme that widths are made with.
-WEDGE_FN void storeExtreme(WaveParams wave, WavePixel p, uint pixels, __global float* plain, __global float* extremes, float x)
+WEDGE_FN void storeExtreme(
+    WaveParams wave, WavePixel p, uint pixels, __global float* plain, __global float* extremes, float x)
 {
     if ((wave.omits & WEDGE_OMITS_ANALYSIS) != 0u) {
         return;

@@ -13,8 +13,8 @@
 #define WEDGE_LEAST_SPREAD 1e-4f
 
 /// 3x3 minimum of s_min over occluded pixels of the same object; 0 where there is none.
-__kernel void erodeSlopes(AnalysisParams p, __global const float* restrict slopes, __global const uint* restrict objectId,
-                          __global float* restrict eroded)
+__kernel void erodeSlopes(AnalysisParams p, __global const float* restrict slopes,
+    __global const uint* restrict objectId, __global float* restrict eroded)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -37,8 +37,8 @@ __kernel void erodeSlopes(AnalysisParams p, __global const float* restrict slope
 
 /// 3x3 mean of log2 s over the pixels of the same object that have a slope. out planes: log2 of the slope, weight
 /// (1 where there is one, else 0).
-__kernel void smoothSlopes(AnalysisParams p, __global const float* restrict eroded, __global const uint* restrict objectId,
-                           __global float* restrict logSlopes)
+__kernel void smoothSlopes(AnalysisParams p, __global const float* restrict eroded,
+    __global const uint* restrict objectId, __global float* restrict logSlopes)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -68,8 +68,7 @@ __kernel void smoothSlopes(AnalysisParams p, __global const float* restrict erod
 /// Distances of the published fallback: planes d1 w, d2_max w, d2_min w, w with w = 1 at occluded pixels, else 0;
 /// d1 = receiver to the light's centre in metres, d2 = d1 / (1 + s) (3.4).
 __kernel void publishedDistances(AnalysisParams p, __global const float* restrict slopes,
-                                 __global const float* restrict position, __global const uint* restrict objectId,
-                                 __global float* restrict distances)
+    __global const float* restrict position, __global const uint* restrict objectId, __global float* restrict distances)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -92,7 +91,7 @@ __kernel void publishedDistances(AnalysisParams p, __global const float* restric
 /// One direction of a separable weighted sum over `planes` planes whose last is the weight (values arrive multiplied
 /// by their weights). element: 1 for rows, the stride for columns.
 WEDGE_FN void spreadLine(AnalysisParams p, uint x, uint y, int element, int before, int after, uint planes,
-                         __global const float* in, __global float* out)
+    __global const float* in, __global float* out)
 {
     const int i = (int)pixelIndex(x, y, p.stride);
     const int radius = (int)p.fillRadius;
@@ -123,7 +122,8 @@ __kernel void spreadRows(AnalysisParams p, uint planes, __global const float* re
     }
 }
 
-__kernel void spreadColumns(AnalysisParams p, uint planes, __global const float* restrict in, __global float* restrict out)
+__kernel void spreadColumns(
+    AnalysisParams p, uint planes, __global const float* restrict in, __global float* restrict out)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -133,7 +133,8 @@ __kernel void spreadColumns(AnalysisParams p, uint planes, __global const float*
 }
 
 /// The luminance of a texture: what widths() takes for the sums of a light's unshadowed samples. bits: WEDGE_*_BITS.
-__kernel void luminanceOf(AnalysisParams p, uint bits, __global const float* restrict image, __global float* restrict out)
+__kernel void luminanceOf(
+    AnalysisParams p, uint bits, __global const float* restrict image, __global float* restrict out)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -157,8 +158,8 @@ __kernel void unpackSecond(AnalysisParams p, __global const float* restrict pack
 /// Widths of the default setting, metres: from the pixel's own smoothed slope, else from what spread to it, else 0
 /// (nothing near is in shadow). -1 where the pixel sees nothing of the light. fixedWidth replaces the analysis.
 __kernel void widths(AnalysisParams p, __global const float* restrict logSlopes, __global const float* restrict spread,
-                     __global const uint* restrict objectId, __global const float* restrict pixelSize,
-                     __global const float* restrict sums, __global float* restrict beta)
+    __global const uint* restrict objectId, __global const float* restrict pixelSize,
+    __global const float* restrict sums, __global float* restrict beta)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -180,9 +181,9 @@ __kernel void widths(AnalysisParams p, __global const float* restrict logSlopes,
 /// Widths (3.13) and sample counts (3.21) of the published setting; distances: the sums of publishedDistances over
 /// the window. A pixel with no occluded one near keeps the first pass's samples and is not filtered.
 __kernel void publishedWidths(AnalysisParams p, __global const float* restrict slopes,
-                              __global const float* restrict distances, __global const uint* restrict objectId,
-                              __global const float* restrict pixelSize, __global const float* restrict sums,
-                              __global float* restrict beta, __global uint* restrict wanted)
+    __global const float* restrict distances, __global const uint* restrict objectId,
+    __global const float* restrict pixelSize, __global const float* restrict sums, __global float* restrict beta,
+    __global uint* restrict wanted)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);

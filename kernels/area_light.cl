@@ -1,18 +1,18 @@
 // Shadow rays to one area light: the first pass finds the nearest occluder along each ray and measures slopes, the
-// second only asks whether there is one. Plain Monte Carlo, which has the second alone, also follows reflected directions
-// that meet the light (met_light.h).
+// second only asks whether there is one. Plain Monte Carlo, which has the second alone, also follows reflected
+// directions that meet the light (met_light.h).
 //
 // in      frame, BVH, the light, receivers; wanted: samples of each when the pass ends
 // in out  sums (planes: diffuse weights, diffuse weights of visible samples, and the same for specular),
 //         taken (samples so far), rays (rays traced for the pixel, all lights)
 // out     value (planes: diffuse, specular): what is filtered; slopes (planes: s_min, s_max; 0 where no ray was
-//         occluded; where things move, then of the shadows' motions in the image, pixels while the shutter is open: sums of
-//         x, y and squares, and how many)
+//         occluded; where things move, then of the shadows' motions in the image, pixels while the shutter is open:
+//         sums of x, y and squares, and how many)
 #include "met_light.h"
 #include "packet.h"
 #include "shared/camera.h"
-#include "surface.h"
 #include "shared/wedge.h"
+#include "surface.h"
 
 /// Occluders count as at least this part of the shadow ray's length away from the light.
 #define WEDGE_LEAST_LIGHT_DISTANCE 0.02f
@@ -52,8 +52,8 @@ WEDGE_FN void addSamples(const LightSamples* s, const uint* occluded, TermSums* 
 
 /// One reflected direction of the diffuse part and one of the specular part a lane, into the visible sums.
 WEDGE_FN void addDirections(SampleParams params, AreaLight light, __global const TraversalNode* restrict nodes,
-                            __global const TriangleBlock* restrict blocks, const ReceiverPacket* receivers,
-                            const uint* index, const uint* last, const uint* count, TermSums* sums)
+    __global const TriangleBlock* restrict blocks, const ReceiverPacket* receivers, const uint* index, const uint* last,
+    const uint* count, TermSums* sums)
 {
 #ifdef WEDGE_SPECULAR
     const uint parts = 2u;
@@ -76,7 +76,7 @@ WEDGE_FN void addDirections(SampleParams params, AreaLight light, __global const
 }
 
 WEDGE_FN void storeTerm(SampleParams params, uint size, uint i, const TermSums* sums, uint lane, uint taken,
-                        __global float* sumPlanes, __global uint* takenPlane, __global float* value)
+    __global float* sumPlanes, __global uint* takenPlane, __global float* value)
 {
     const float weights = sums->diffuse[lane], visible = sums->diffuseVisible[lane];
     sumPlanes[i] = weights;
@@ -86,8 +86,8 @@ WEDGE_FN void storeTerm(SampleParams params, uint size, uint i, const TermSums* 
     const float specular = sums->specular[lane], specularVisible = sums->specularVisible[lane];
     sumPlanes[2u * size + i] = specular;
     sumPlanes[3u * size + i] = specularVisible;
-    // A lobe that no sample reached says nothing: what is seen of the light at all stands for what it sees. 0 would darken
-    // its highlight, and those of neighbours that gather it.
+    // A lobe that no sample reached says nothing: what is seen of the light at all stands for what it sees. 0 would
+    // darken its highlight, and those of neighbours that gather it.
     const bool reached = specular > 0.0f || params.shading == WEDGE_SHADING_INSIDE;
     value[size + i] = reached ? termValue(params.shading, specular, specularVisible, taken) : value[i];
 #endif
@@ -110,10 +110,10 @@ WEDGE_FN ShadowMotion noShadowMotion(void)
     return m;
 }
 
-/// Adds the motion in the image of the shadow that hit, `along` of the way to the light's point, throws at the lane's receiver:
-/// the occluder's, seen from that point, on the receiver's plane.
-WEDGE_FN void addShadowMotion(CameraParams camera, SurfaceData surfaces, Hit hit, const ReceiverPacket* r, uint lane, Vec3 ray,
-                              ShadowMotion* m)
+/// Adds the motion in the image of the shadow that hit, `along` of the way to the light's point, throws at the lane's
+/// receiver: the occluder's, seen from that point, on the receiver's plane.
+WEDGE_FN void addShadowMotion(
+    CameraParams camera, SurfaceData surfaces, Hit hit, const ReceiverPacket* r, uint lane, Vec3 ray, ShadowMotion* m)
 {
     const Vec3 p = vec3(r->positionX[lane], r->positionY[lane], r->positionZ[lane]);
     const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
@@ -131,11 +131,10 @@ WEDGE_FN void addShadowMotion(CameraParams camera, SurfaceData surfaces, Hit hit
 #endif
 
 __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light, CameraParams camera,
-                        __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
-                        WEDGE_SURFACE_PARAMETERS, WEDGE_RECEIVER_PARAMETERS,
-                        __global const uint* restrict wanted, __global float* restrict sums,
-                        __global uint* restrict taken, __global float* restrict value, __global float* restrict slopes,
-                        __global uint* restrict rays, uint firstGroup)
+    __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
+    WEDGE_SURFACE_PARAMETERS, WEDGE_RECEIVER_PARAMETERS, __global const uint* restrict wanted,
+    __global float* restrict sums, __global uint* restrict taken, __global float* restrict value,
+    __global float* restrict slopes, __global uint* restrict rays, uint firstGroup)
 {
     const uint size = frame.planeSize;
     ReceiverPacket receivers;
@@ -181,7 +180,7 @@ __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light,
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
             if (occluded[lane] != 0u) {
                 addShadowMotion(camera, surfaces, packetHit(&hits, lane), &receivers, lane,
-                                vec3(s.rayX[lane], s.rayY[lane], s.rayZ[lane]), &shadows);
+                    vec3(s.rayX[lane], s.rayY[lane], s.rayZ[lane]), &shadows);
             }
         }
 #endif
@@ -205,11 +204,10 @@ __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light,
     }
 }
 
-__kernel void secondPass(FrameParams frame, SampleParams params, AreaLight light, __global const TraversalNode* restrict nodes,
-                         __global const TriangleBlock* restrict blocks, WEDGE_RECEIVER_PARAMETERS,
-                         __global const uint* restrict wanted, uint lastSample, __global float* restrict sums,
-                         __global uint* restrict taken, __global float* restrict value, __global uint* restrict rays,
-                         uint firstGroup)
+__kernel void secondPass(FrameParams frame, SampleParams params, AreaLight light,
+    __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
+    WEDGE_RECEIVER_PARAMETERS, __global const uint* restrict wanted, uint lastSample, __global float* restrict sums,
+    __global uint* restrict taken, __global float* restrict value, __global uint* restrict rays, uint firstGroup)
 {
     const uint size = frame.planeSize;
     ReceiverPacket receivers;

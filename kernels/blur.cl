@@ -1,6 +1,6 @@
-// The image-space filters of lens and shutter (thesis 5.33, B.1): Gaussians around each pixel, as wide as what it shows is
-// blurred already. A pair of pixels is weighted by the narrower of both kernels, so that what is sharp does not leak into
-// what is blurred.
+// The image-space filters of lens and shutter (thesis 5.33, B.1): Gaussians around each pixel, as wide as what it shows
+// is blurred already. A pair of pixels is weighted by the narrower of both kernels, so that what is sharp does not leak
+// into what is blurred.
 #include "distributed_pixel.h"
 #include "pixel.h"
 #include "shared/distributed.h"
@@ -18,7 +18,7 @@ WEDGE_FN float blurWeight(float sigma, float there, float d)
 
 /// One direction of the lens' filter. element: 1 along x, the stride along y.
 WEDGE_FN void blurLine(DistributedParams p, uint i, int before, int after, int element, __global const float* lens,
-                       __global const float* in, __global float* out)
+    __global const float* in, __global float* out)
 {
     const uint n = p.planeSize;
     Vec3 sum = loadVec(in, n, i);
@@ -35,7 +35,7 @@ WEDGE_FN void blurLine(DistributedParams p, uint i, int before, int after, int e
 }
 
 __kernel void blurRows(DistributedParams p, __global const float* restrict lens, __global const float* restrict in,
-                       __global float* restrict out)
+    __global float* restrict out)
 {
     const uint x = p.x0 + get_global_id(0), y = p.y0 + get_global_id(1);
     if (x < p.x1 && y < p.y1) {
@@ -44,7 +44,7 @@ __kernel void blurRows(DistributedParams p, __global const float* restrict lens,
 }
 
 __kernel void blurColumns(DistributedParams p, __global const float* restrict lens, __global const float* restrict in,
-                          __global float* restrict out)
+    __global float* restrict out)
 {
     const uint x = p.x0 + get_global_id(0), y = p.y0 + get_global_id(1);
     if (x < p.x1 && y < p.y1) {
@@ -65,7 +65,8 @@ typedef struct {
 } MotionBlur;
 
 /// As distributed.cl stores them: packed, `directions` have it all.
-WEDGE_FN MotionBlur motionBlur(DistributedParams p, uint i, __global const float* along, __global const float* directions)
+WEDGE_FN MotionBlur motionBlur(
+    DistributedParams p, uint i, __global const float* along, __global const float* directions)
 {
     MotionBlur b;
     if (p.packed == 0u) {
@@ -104,8 +105,7 @@ WEDGE_FN void loadChannels(DistributedParams p, uint channels, __global const fl
 
 /// Along the motion; channels: 1, or 3 of a term's texture.
 __kernel void blurMotion(DistributedParams p, uint channels, __global const float* restrict along,
-                         __global const float* restrict directions, __global const float* restrict in,
-                         __global float* restrict out)
+    __global const float* restrict directions, __global const float* restrict in, __global float* restrict out)
 {
     const uint x = p.x0 + get_global_id(0), y = p.y0 + get_global_id(1);
     if (x >= p.x1 || y >= p.y1) {

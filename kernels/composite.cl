@@ -18,13 +18,11 @@ WEDGE_FN void addBlock(__global float* planes, uint size, int i, float16 value, 
 ///         fine one's
 ///         taken: the samples of value
 /// in out  direct, directNoisy (3 planes each), samples (of all lights)
-__kernel void addDiffuse(AnalysisParams p, SampleParams params, AreaLight light,
-                       __global const float* restrict nodes, __global const float* restrict position,
-                       __global const float* restrict normal, __global const uint* restrict objectId,
-                       __global const float* restrict diffuse, __global const float* restrict value,
-                       __global const float* restrict noisy, __global const uint* restrict taken,
-                       __global float* restrict direct, __global float* restrict directNoisy,
-                       __global uint* restrict samples)
+__kernel void addDiffuse(AnalysisParams p, SampleParams params, AreaLight light, __global const float* restrict nodes,
+    __global const float* restrict position, __global const float* restrict normal,
+    __global const uint* restrict objectId, __global const float* restrict diffuse,
+    __global const float* restrict value, __global const float* restrict noisy, __global const uint* restrict taken,
+    __global float* restrict direct, __global float* restrict directNoisy, __global uint* restrict samples)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -60,7 +58,8 @@ __kernel void addDiffuse(AnalysisParams p, SampleParams params, AreaLight light,
 #define WEDGE_LOBE_DIRECTIONS 256u
 
 /// Unshadowed specular shading in the way of the term, of lanes `wanted`.
-WEDGE_FN float16 specularShading(SampleParams params, AreaLight light, Receivers16 r, __global const float* nodes, int16 wanted)
+WEDGE_FN float16 specularShading(
+    SampleParams params, AreaLight light, Receivers16 r, __global const float* nodes, int16 wanted)
 {
     if (params.shading == WEDGE_SHADING_INSIDE) {
         return (float16)(1.0f);
@@ -73,11 +72,10 @@ WEDGE_FN float16 specularShading(SampleParams params, AreaLight light, Receivers
 
 /// One light's specular reflection; value and noisy hold the specular term in their second plane.
 __kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light, FrameParams frame,
-                          __global const float* restrict nodes, __global const float* restrict position,
-                          __global const float* restrict normal, __global const uint* restrict objectId,
-                          __global const float* restrict gloss, __global const float* restrict specular,
-                          __global const float* restrict value, __global const float* restrict noisy,
-                          __global float* restrict direct, __global float* restrict directNoisy)
+    __global const float* restrict nodes, __global const float* restrict position,
+    __global const float* restrict normal, __global const uint* restrict objectId, __global const float* restrict gloss,
+    __global const float* restrict specular, __global const float* restrict value, __global const float* restrict noisy,
+    __global float* restrict direct, __global float* restrict directNoisy)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -92,7 +90,8 @@ __kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light
         return;
     }
     const Vec3x16 at = loadVecBlock(position, size, i);
-    const Receivers16 r = glossyReceivers(at, loadVecBlock(normal, size, i), unit16(sub16(splat3(frame.eye), at)), loadBlock(gloss, i));
+    const Receivers16 r =
+        glossyReceivers(at, loadVecBlock(normal, size, i), unit16(sub16(splat3(frame.eye), at)), loadBlock(gloss, i));
     const float16 shading = mirrors ? specularShading(params, light, r, nodes, mirrors) : (float16)(0.0f);
     Vec3x16 reflected;
     reflected.x = shading * ks.x * light.power.x;
@@ -108,10 +107,9 @@ __kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light
 ///         component: WEDGE_COMPONENT_*; of ambient occlusion the open part of the hemisphere is shown, on white
 /// in out  indirect, indirectNoisy (3 planes each), samples (of all terms), indirectSamples
 __kernel void addIndirect(AnalysisParams p, uint component, __global const float* restrict reflectance,
-                          __global const float* restrict value, __global const float* restrict noisy,
-                          __global const uint* restrict taken, __global float* restrict indirect,
-                          __global float* restrict indirectNoisy, __global uint* restrict samples,
-                          __global uint* restrict indirectSamples)
+    __global const float* restrict value, __global const float* restrict noisy, __global const uint* restrict taken,
+    __global float* restrict indirect, __global float* restrict indirectNoisy, __global uint* restrict samples,
+    __global uint* restrict indirectSamples)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -137,9 +135,9 @@ __kernel void addIndirect(AnalysisParams p, uint component, __global const float
 }
 
 /// beauty = emission + direct + indirect, at misses emission alone (3 planes each).
-__kernel void addEmission(AnalysisParams p, __global const float* restrict emission, __global const float* restrict direct,
-                          __global const float* restrict indirect, __global const uint* restrict objectId,
-                          __global float* restrict beauty)
+__kernel void addEmission(AnalysisParams p, __global const float* restrict emission,
+    __global const float* restrict direct, __global const float* restrict indirect,
+    __global const uint* restrict objectId, __global float* restrict beauty)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);

@@ -19,9 +19,9 @@ WEDGE_FN float16 binaryVariance(float16 p)
 
 /// demand = (v / K)^exponent, 0 where no slope reaches. v is at least varianceSpread of the largest within 5x5 pixels
 /// of the same object, and at least varianceFloor: nine rays miss thin occluders.
-__kernel void countDemand(AnalysisParams p, __global const float* restrict filtered, __global const float* restrict effective,
-                          __global const float* restrict beta, __global const uint* restrict objectId,
-                          __global float* restrict demand)
+__kernel void countDemand(AnalysisParams p, __global const float* restrict filtered,
+    __global const float* restrict effective, __global const float* restrict beta,
+    __global const uint* restrict objectId, __global float* restrict demand)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -52,8 +52,8 @@ __kernel void countDemand(AnalysisParams p, __global const float* restrict filte
 /// Per stripe of rows: a histogram of log2 demand. counts and sums: WEDGE_DEMAND_BINS a stripe; shaded: pixels that
 /// take samples at all, a stripe: those whose mask is not 0. Pixels without demand are in no bin.
 __kernel void demandHistogram(AnalysisParams p, __global const float* restrict demand,
-                              __global const uint* restrict mask, __global uint* restrict counts,
-                              __global float* restrict sums, __global uint* restrict shaded)
+    __global const uint* restrict mask, __global uint* restrict counts, __global float* restrict sums,
+    __global uint* restrict shaded)
 {
     const uint stripe = get_global_id(0);
     if (stripe >= WEDGE_DEMAND_STRIPES) {
@@ -91,12 +91,11 @@ __kernel void demandHistogram(AnalysisParams p, __global const float* restrict d
     shaded[stripe] = pixels;
 }
 
-/// Finds C such that the mean of clamp(C demand, least, cap) over the shaded pixels is `mean`, by bisection on the summed
-/// histograms, and writes it to scale[0]. One work-item. The mean grows with C, so 40 halvings settle it.
+/// Finds C such that the mean of clamp(C demand, least, cap) over the shaded pixels is `mean`, by bisection on the
+/// summed histograms, and writes it to scale[0]. One work-item. The mean grows with C, so 40 halvings settle it.
 __kernel void solveCountScale(float mean, float least, float cap, __global const uint* restrict counts,
-                              __global const float* restrict sums, __global const uint* restrict shaded,
-                              __global uint* restrict binCounts, __global float* restrict binSums,
-                              __global float* restrict scale)
+    __global const float* restrict sums, __global const uint* restrict shaded, __global uint* restrict binCounts,
+    __global float* restrict binSums, __global float* restrict scale)
 {
     if (get_global_id(0) != 0u) {
         return;
@@ -140,8 +139,8 @@ __kernel void solveCountScale(float mean, float least, float cap, __global const
 }
 
 /// Wanted samples: clamp(C demand, leastCount, cap); 0 where the mask is.
-__kernel void countsFromDemand(AnalysisParams p, __global const float* restrict demand, __global const float* restrict scale,
-                               __global const uint* restrict mask, __global uint* restrict wanted)
+__kernel void countsFromDemand(AnalysisParams p, __global const float* restrict demand,
+    __global const float* restrict scale, __global const uint* restrict mask, __global uint* restrict wanted)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -154,7 +153,8 @@ __kernel void countsFromDemand(AnalysisParams p, __global const float* restrict 
 }
 
 /// The same count for every pixel of the mask.
-__kernel void uniformCounts(AnalysisParams p, uint count, __global const uint* restrict mask, __global uint* restrict wanted)
+__kernel void uniformCounts(
+    AnalysisParams p, uint count, __global const uint* restrict mask, __global uint* restrict wanted)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);

@@ -6,11 +6,10 @@
 #include "packet.h"
 
 __kernel void deltaLights(FrameParams frame, __global const DeltaLight* restrict lights, uint lightCount,
-                          float sceneDiameter, __global const TraversalNode* restrict nodes,
-                          __global const TriangleBlock* restrict blocks, WEDGE_RECEIVER_PARAMETERS,
-                          __global const float* restrict diffuse, __global const float* restrict specular,
-                          __global float* restrict direct, __global float* restrict directNoisy,
-                          __global uint* restrict rays, uint firstGroup)
+    float sceneDiameter, __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
+    WEDGE_RECEIVER_PARAMETERS, __global const float* restrict diffuse, __global const float* restrict specular,
+    __global float* restrict direct, __global float* restrict directNoisy, __global uint* restrict rays,
+    uint firstGroup)
 {
     ReceiverPacket receivers;
     const ReceiverData data = WEDGE_RECEIVER_ARGUMENTS;
@@ -43,8 +42,8 @@ __kernel void deltaLights(FrameParams frame, __global const DeltaLight* restrict
             const Receiver r = loadReceiver(frame, data, i);
             const Vec3 toLight = vectorToLight(light, sceneDiameter, r.origin);
             const float falloff = light.directional != 0u ? cosine[lane] : cosine[lane] / vecDot(toLight, toLight);
-            const Vec3 lobe = vecScale(loadVec(specular, frame.planeSize, i),
-                                       lobeValue(r.lobe, r.normal, r.view, vecNormalize(toLight)));
+            const Vec3 lobe = vecScale(
+                loadVec(specular, frame.planeSize, i), lobeValue(r.lobe, r.normal, r.view, vecNormalize(toLight)));
             const Vec3 reflected = vecMad(lobe, loadVec(diffuse, frame.planeSize, i), WEDGE_INV_PI);
             radiance[lane] = vecMad(radiance[lane], vecMul(reflected, light.colour), falloff);
         }

@@ -1,7 +1,7 @@
 // The image-space filter: a Gaussian of world-space standard deviation beta(x), as two one-dimensional passes.
 // Weights come from distances between the pixels' positions, so depth edges need no special case; neighbours of another
-// object or with another normal are left out. Distances are those in the plane parallel to a light, or, where the term is
-// of no light, plain ones. Each program that includes this sets WEDGE_GATHER_CHANNELS, the planes of value. Those of
+// object or with another normal are left out. Distances are those in the plane parallel to a light, or, where the term
+// is of no light, plain ones. Each program that includes this sets WEDGE_GATHER_CHANNELS, the planes of value. Those of
 // packed frames set WEDGE_GATHER_PACKED, too: normals are packed (packed_planes.h), and where nothing reads the
 // effective counts, WEDGE_GATHER_VALUE_ONLY. They are programs of their own since a test of a parameter in each tap
 // takes several times as long.
@@ -21,10 +21,11 @@
 #define WEDGE_MIN_OBLIQUE_COSINE 0.05f
 /// Least cosine between view ray and surface in the estimate of a pixel's step on the surface.
 #define WEDGE_MIN_STEP_COSINE 0.05f
-/// Largest sine between the way to a neighbour and a pixel's surface: what is farther from it is another surface, such as the
-/// floor beyond a table's edge, also where the light's rays make both one (distance16).
+/// Largest sine between the way to a neighbour and a pixel's surface: what is farther from it is another surface, such
+/// as the floor beyond a table's edge, also where the light's rays make both one (distance16).
 #define WEDGE_MOST_RISE 0.3f
-/// Most that a neighbour counts for what it sees of the surface, against the pixel: where surfaces turn away, samples are few.
+/// Most that a neighbour counts for what it sees of the surface, against the pixel: where surfaces turn away, samples
+/// are few.
 #define WEDGE_MOST_AREA 4.0f
 /// log2(e) / 2
 #define WEDGE_HALF_LOG2E 0.72134752f
@@ -67,8 +68,8 @@ WEDGE_FN float16 distance16(FilterParams p, Vec3x16 slant, Vec3x16 d)
     return dot16(e, e);
 }
 
-/// Surface that a pixel sees, but for a factor that all pixels share: z^3 / |n.d| at depth z and vector d from the eye. The
-/// convolutions (3.10) and (4.16) are integrals over the surface, and pixels are not alike in what they see of it.
+/// Surface that a pixel sees, but for a factor that all pixels share: z^3 / |n.d| at depth z and vector d from the eye.
+/// The convolutions (3.10) and (4.16) are integrals over the surface, and pixels are not alike in what they see of it.
 WEDGE_FN float16 surfaceArea(FilterParams p, Vec3x16 position, Vec3x16 normal)
 {
     const Vec3x16 d = sub16(position, splat3(p.eye));
@@ -129,8 +130,8 @@ typedef struct {
 
 /// Adds the neighbours at element offset `offset`, `steps` pixels away.
 WEDGE_FN void gatherTap(FilterParams p, GatherBlock b, int j, float steps, __global const float* value,
-                        __global const float* beta, __global const float* position, __global const float* normal,
-                        __global const uint* objectId, GatherSum* sum)
+    __global const float* beta, __global const float* position, __global const float* normal,
+    __global const uint* objectId, GatherSum* sum)
 {
     const uint16 object = loadIdBlock(objectId, j);
     const float16 betaThere = loadBlock(beta, j);
@@ -162,9 +163,9 @@ WEDGE_FN void gatherTap(FilterParams p, GatherBlock b, int j, float steps, __glo
 }
 
 WEDGE_FN void gatherLine(FilterParams p, uint x, uint y, int element, Vec3 step, int before, int after,
-                         __global const float* value, __global const float* beta, __global const float* position,
-                         __global const float* normal, __global const uint* objectId, float16 effectiveBefore,
-                         __global float* filtered, __global float* effective)
+    __global const float* value, __global const float* beta, __global const float* position,
+    __global const float* normal, __global const uint* objectId, float16 effectiveBefore, __global float* filtered,
+    __global float* effective)
 {
     const int i = (int)pixelIndex(x, y, p.stride);
     GatherBlock b;
@@ -214,29 +215,28 @@ WEDGE_FN void gatherLine(FilterParams p, uint x, uint y, int element, Vec3 step,
 
 /// Along x. The padding of the rows holds objectId 0, so no tap has to ask where the row ends.
 __kernel void filterRows(FilterParams p, __global const float* restrict value, __global const float* restrict beta,
-                         __global const float* restrict position, __global const float* restrict normal,
-                         __global const uint* restrict objectId, __global float* restrict filtered,
-                         __global float* restrict effective)
+    __global const float* restrict position, __global const float* restrict normal,
+    __global const uint* restrict objectId, __global float* restrict filtered, __global float* restrict effective)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
     if (x < p.x1 && y < p.y1) {
         gatherLine(p, x, y, 1, p.right, WEDGE_MAX_RADIUS, WEDGE_MAX_RADIUS, value, beta, position, normal, objectId,
-                   (float16)(1.0f), filtered, effective);
+            (float16)(1.0f), filtered, effective);
     }
 }
 
 /// Along y. The effective counts may be in the place of those of the rows: of each block these are read first.
 __kernel void filterColumns(FilterParams p, __global const float* restrict value, __global const float* restrict beta,
-                            __global const float* restrict position, __global const float* restrict normal,
-                            __global const uint* restrict objectId, __global const float* effectiveRows,
-                            __global float* restrict filtered, __global float* effective)
+    __global const float* restrict position, __global const float* restrict normal,
+    __global const uint* restrict objectId, __global const float* effectiveRows, __global float* restrict filtered,
+    __global float* effective)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
     if (x < p.x1 && y < p.y1) {
         gatherLine(p, x, y, (int)p.stride, p.down, (int)y, (int)(p.height - 1u - y), value, beta, position, normal,
-                   objectId, loadBlock(effectiveRows, (int)pixelIndex(x, y, p.stride)), filtered, effective);
+            objectId, loadBlock(effectiveRows, (int)pixelIndex(x, y, p.stride)), filtered, effective);
     }
 }
 

@@ -18,7 +18,7 @@ typedef struct {
 } PathSums;
 
 WEDGE_FN void loadSums(uint size, const ReceiverPacket* receivers, __global const float* sums,
-                       __global const float* reflectors, PathSums* out)
+    __global const float* reflectors, PathSums* out)
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const bool shaded = receivers->pixel[lane] != WEDGE_NO_PIXEL;
@@ -35,7 +35,7 @@ WEDGE_FN void loadSums(uint size, const ReceiverPacket* receivers, __global cons
 /// First rays of one sample a lane, and in weight what their radiance counts. Directions below the horizon of either
 /// normal are not traced.
 WEDGE_FN void firstRays(FrameParams frame, PathParams params, SampleParams sampling, const ReceiverPacket* r,
-                        const Vec3* geometric, const PathPacket* paths, const uint* last, RayPacket* rays, float* weight)
+    const Vec3* geometric, const PathPacket* paths, const uint* last, RayPacket* rays, float* weight)
 {
     float u[WEDGE_PACKET_SIZE], v[WEDGE_PACKET_SIZE];
     samplePositions(sampling, hashCombine(frame.seed, params.component), r->seed, paths->index, paths->count, u, v);
@@ -60,7 +60,7 @@ WEDGE_FN void firstRays(FrameParams frame, PathParams params, SampleParams sampl
 
 /// How far it is to the nearest surface, and nothing else.
 WEDGE_FN void traceAmbient(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
-                           const RayPacket* rays, PathPacket* paths)
+    const RayPacket* rays, PathPacket* paths)
 {
     PacketHits hits;
     closestHits(nodes, blocks, rays, &hits);
@@ -96,8 +96,8 @@ WEDGE_FN void addPaths(const PathPacket* paths, const float* weight, const uint*
 }
 
 WEDGE_FN void storeSums(uint size, const ReceiverPacket* receivers, const PathSums* s, const PathPacket* paths,
-                        __global float* sums, __global uint* taken, __global float* value, __global float* reflectors,
-                        __global uint* rays, __global uint* pathRays)
+    __global float* sums, __global uint* taken, __global float* value, __global float* reflectors, __global uint* rays,
+    __global uint* pathRays)
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const uint i = receivers->pixel[lane];
@@ -140,11 +140,11 @@ WEDGE_FN SampleParams samplingOf(PathParams params)
     return sampling;
 }
 
-/// Sets each lane's geometric normal, samples taken and wanted, and where this launch ends; takes lanes out of `receivers`
-/// that do not have the component. Returns the most samples that a lane takes now.
+/// Sets each lane's geometric normal, samples taken and wanted, and where this launch ends; takes lanes out of
+/// `receivers` that do not have the component. Returns the most samples that a lane takes now.
 WEDGE_FN uint preparePaths(uint size, PathParams params, uint lastSample, __global const float* specular,
-                           __global const uint* geometric, __global const uint* taken, __global const uint* wanted,
-                           ReceiverPacket* receivers, Vec3* facing, PathPacket* paths, uint* last)
+    __global const uint* geometric, __global const uint* taken, __global const uint* wanted, ReceiverPacket* receivers,
+    Vec3* facing, PathPacket* paths, uint* last)
 {
     uint steps = 0u;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
@@ -164,13 +164,12 @@ WEDGE_FN uint preparePaths(uint size, PathParams params, uint lastSample, __glob
 }
 
 __kernel void samplePaths(FrameParams frame, PathParams params, __global const TraversalNode* restrict nodes,
-                          __global const TriangleBlock* restrict blocks, WEDGE_SURFACE_PARAMETERS,
-                          __global const AreaLight* restrict areaLights, __global const DeltaLight* restrict deltaLights,
-                          WEDGE_RECEIVER_PARAMETERS, __global const float* restrict specular,
-                          __global const uint* restrict wanted, uint lastSample, __global float* restrict sums,
-                          __global uint* restrict taken, __global float* restrict value,
-                          __global float* restrict reflectors, __global uint* restrict rays,
-                          __global uint* restrict pathRays, uint firstGroup)
+    __global const TriangleBlock* restrict blocks, WEDGE_SURFACE_PARAMETERS,
+    __global const AreaLight* restrict areaLights, __global const DeltaLight* restrict deltaLights,
+    WEDGE_RECEIVER_PARAMETERS, __global const float* restrict specular, __global const uint* restrict wanted,
+    uint lastSample, __global float* restrict sums, __global uint* restrict taken, __global float* restrict value,
+    __global float* restrict reflectors, __global uint* restrict rays, __global uint* restrict pathRays,
+    uint firstGroup)
 {
     const uint size = frame.planeSize;
     const LightData lights = lightData(params, areaLights, deltaLights);
@@ -180,8 +179,8 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
     Vec3 facing[WEDGE_PACKET_SIZE];
     PathPacket paths;
     uint last[WEDGE_PACKET_SIZE];
-    const uint steps = preparePaths(size, params, lastSample, specular, geometric, taken, wanted, &receivers,
-                                    facing, &paths, last);
+    const uint steps =
+        preparePaths(size, params, lastSample, specular, geometric, taken, wanted, &receivers, facing, &paths, last);
     PathSums sum;
     loadSums(size, &receivers, sums, reflectors, &sum);
     const SurfaceData surfaces = WEDGE_SURFACE_ARGUMENTS;

@@ -28,7 +28,8 @@ WEDGE_FN LaneMask dropFirstLane(LaneMask lanes) { return lanes & (lanes - 1); }
 
 /// The children of a node that the ray enters by t = tCull, and where it enters each. Boxes are widened by more than
 /// their roundings, so fusing multiply-adds, or not, loses no hit.
-WEDGE_FN LaneMask intersectBoxes(__global const TraversalNode* node, const TraversalRay* ray, float tCull, float8* tEnter)
+WEDGE_FN LaneMask intersectBoxes(
+    __global const TraversalNode* node, const TraversalRay* ray, float tCull, float8* tEnter)
 {
 #pragma OPENCL FP_CONTRACT ON
     __global const float* planes = node->loX;
@@ -58,7 +59,8 @@ typedef struct {
     float8 x, y;
 } ShearedVertices;
 
-WEDGE_FN ShearedVertices shear(const TraversalRay* ray, __global const float* vertex, float8* px, float8* py, float8* pz)
+WEDGE_FN ShearedVertices shear(
+    const TraversalRay* ray, __global const float* vertex, float8* px, float8* py, float8* pz)
 {
     *px = WEDGE_CORNERS8(vertex + ray->axisX, WEDGE_TIME_OF(ray)) - ray->testOrigin.x;
     *py = WEDGE_CORNERS8(vertex + ray->axisY, WEDGE_TIME_OF(ray)) - ray->testOrigin.y;
@@ -98,14 +100,18 @@ WEDGE_FN bool intersectBlock(__global const TriangleBlock* block, const Traversa
     // t is that of the plane: next to a triangle it is surer of its sign than what the three sides interpolate. The
     // normal is the triangle's own, not that of the rounded differences to the origin.
     const float time = WEDGE_TIME_OF(ray);
-    const float8 e1x = edge(ray->axisX, block->v0x, block->v1x, time), e2x = edge(ray->axisX, block->v0x, block->v2x, time);
-    const float8 e1y = edge(ray->axisY, block->v0x, block->v1x, time), e2y = edge(ray->axisY, block->v0x, block->v2x, time);
-    const float8 e1z = edge(ray->axisZ, block->v0x, block->v1x, time), e2z = edge(ray->axisZ, block->v0x, block->v2x, time);
+    const float8 e1x = edge(ray->axisX, block->v0x, block->v1x, time),
+                 e2x = edge(ray->axisX, block->v0x, block->v2x, time);
+    const float8 e1y = edge(ray->axisY, block->v0x, block->v1x, time),
+                 e2y = edge(ray->axisY, block->v0x, block->v2x, time);
+    const float8 e1z = edge(ray->axisZ, block->v0x, block->v1x, time),
+                 e2z = edge(ray->axisZ, block->v0x, block->v2x, time);
     const float8 nx = e1y * e2z - e1z * e2y, ny = e1z * e2x - e1x * e2z, nz = e1x * e2y - e1y * e2x;
     const Vec3 d = ray->testDirection;
     const float8 t = (nx * ax + ny * ay + nz * az) / (nx * d.x + ny * d.y + nz * d.z);
 #ifdef WEDGE_MOTION
-    const int8 in = inside & (t > ray->tMin) & (t <= hit->t) & WEDGE_SPANS_AREA(nx, ny, nz, e1x, e1y, e1z, e2x, e2y, e2z);
+    const int8 in =
+        inside & (t > ray->tMin) & (t <= hit->t) & WEDGE_SPANS_AREA(nx, ny, nz, e1x, e1y, e1z, e2x, e2y, e2z);
 #else
     const int8 in = inside & (t > ray->tMin) & (t <= hit->t);
 #endif

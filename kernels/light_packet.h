@@ -1,5 +1,5 @@
-// Samples of an area light for the pixels of a packet, lane by lane. Loops over lanes are kept apart and simple, so that
-// compilers turn them into vectors.
+// Samples of an area light for the pixels of a packet, lane by lane. Loops over lanes are kept apart and simple, so
+// that compilers turn them into vectors.
 #ifndef WEDGE_LIGHT_PACKET_H
 #define WEDGE_LIGHT_PACKET_H
 
@@ -10,7 +10,7 @@
 /// What the samples are for. Lanes without a pixel to shade have pixel = WEDGE_NO_PIXEL and a zero normal.
 typedef struct {
     uint pixel[WEDGE_PACKET_SIZE]; ///< index in the planes of the receivers
-    uint seed[WEDGE_PACKET_SIZE];  ///< of pixel and light
+    uint seed[WEDGE_PACKET_SIZE]; ///< of pixel and light
     float originX[WEDGE_PACKET_SIZE], originY[WEDGE_PACKET_SIZE], originZ[WEDGE_PACKET_SIZE];
     float positionX[WEDGE_PACKET_SIZE], positionY[WEDGE_PACKET_SIZE], positionZ[WEDGE_PACKET_SIZE];
     float normalX[WEDGE_PACKET_SIZE], normalY[WEDGE_PACKET_SIZE], normalZ[WEDGE_PACKET_SIZE];
@@ -24,7 +24,8 @@ typedef struct {
 #endif
 #ifdef WEDGE_SPECULAR
     float viewX[WEDGE_PACKET_SIZE], viewY[WEDGE_PACKET_SIZE], viewZ[WEDGE_PACKET_SIZE]; ///< unit, to the eye
-    float exponent[WEDGE_PACKET_SIZE], normalization[WEDGE_PACKET_SIZE], leastCosine[WEDGE_PACKET_SIZE]; ///< of the lobe
+    float exponent[WEDGE_PACKET_SIZE], normalization[WEDGE_PACKET_SIZE],
+        leastCosine[WEDGE_PACKET_SIZE]; ///< of the lobe
     uint model[WEDGE_PACKET_SIZE];
 #endif
 } ReceiverPacket;
@@ -40,7 +41,10 @@ WEDGE_INLINE Lobe laneLobe(const ReceiverPacket* r, uint lane)
     return lobe;
 }
 
-WEDGE_INLINE Vec3 laneView(const ReceiverPacket* r, uint lane) { return vec3(r->viewX[lane], r->viewY[lane], r->viewZ[lane]); }
+WEDGE_INLINE Vec3 laneView(const ReceiverPacket* r, uint lane)
+{
+    return vec3(r->viewX[lane], r->viewY[lane], r->viewZ[lane]);
+}
 #endif
 
 #define WEDGE_NO_PIXEL 0xffffffffu
@@ -59,13 +63,15 @@ WEDGE_FN float receiverTime(const ReceiverPacket* r, uint lane)
 
 /// One sample a lane.
 typedef struct {
-    float rayX[WEDGE_PACKET_SIZE], rayY[WEDGE_PACKET_SIZE], rayZ[WEDGE_PACKET_SIZE]; ///< from origin to the light's point
-    float diffuse[WEDGE_PACKET_SIZE];  ///< weight of the sample's visibility in the diffuse term, 0: no ray is needed
+    float rayX[WEDGE_PACKET_SIZE], rayY[WEDGE_PACKET_SIZE],
+        rayZ[WEDGE_PACKET_SIZE]; ///< from origin to the light's point
+    float diffuse[WEDGE_PACKET_SIZE]; ///< weight of the sample's visibility in the diffuse term, 0: no ray is needed
     float specular[WEDGE_PACKET_SIZE]; ///< the same in the specular term
 } LightSamples;
 
 /// The receivers of this work-item, and what is to be shaded there.
-WEDGE_FN void loadReceivers(FrameParams frame, uint light, uint firstGroup, ReceiverData data, ReceiverPacket* receivers)
+WEDGE_FN void loadReceivers(
+    FrameParams frame, uint light, uint firstGroup, ReceiverData data, ReceiverPacket* receivers)
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         uint i = 0u, x = 0u, y = 0u;
@@ -123,7 +129,7 @@ WEDGE_FN void takePart(SampleParams params, AreaLight light, ReceiverPacket* r)
     uint any = 0u;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const LightPart part = partAboveHorizon(light, vec3(r->positionX[lane], r->positionY[lane], r->positionZ[lane]),
-                                                vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]));
+            vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]));
         r->cut[lane] = params.shading != WEDGE_SHADING_SEPARATE ? part.cut : 0u;
         r->turned[lane] = part.turned;
         r->first[lane] = part.first;
@@ -140,13 +146,14 @@ WEDGE_FN void takePart(SampleParams params, AreaLight light, ReceiverPacket* r)
 WEDGE_FN Vec2 stratifiedPosition(SampleParams params, uint index, uint count, uint order, uint seed)
 {
     // Each pass has strata of its own: the count of the second is not known during the first.
-    return index < params.firstPass ? stratified(index, params.firstPass, order, seed)
-                                    : stratified(index - params.firstPass, count - params.firstPass, order, hashUint(seed));
+    return index < params.firstPass
+        ? stratified(index, params.firstPass, order, seed)
+        : stratified(index - params.firstPass, count - params.firstPass, order, hashUint(seed));
 }
 
 /// stratifiedPosition() of all lanes, which are at the same sample of as many: the stratum is found once.
-WEDGE_FN void samplePositionsTogether(SampleParams params, uint order, const uint* seed, uint index, uint count, float* u,
-                                      float* v)
+WEDGE_FN void samplePositionsTogether(
+    SampleParams params, uint order, const uint* seed, uint index, uint count, float* u, float* v)
 {
     const bool first = index < params.firstPass;
     const uint i = first ? index : index - params.firstPass;
@@ -160,10 +167,10 @@ WEDGE_FN void samplePositionsTogether(SampleParams params, uint order, const uin
     }
 }
 
-/// Position in [0,1)^2 of sample `index` of `count` of each lane; those of lanes that have taken all theirs do not matter.
-/// order: of the strata, the same in all pixels of a light.
-WEDGE_FN void samplePositions(SampleParams params, uint order, const uint* seed, const uint* index, const uint* count,
-                              float* u, float* v)
+/// Position in [0,1)^2 of sample `index` of `count` of each lane; those of lanes that have taken all theirs do not
+/// matter. order: of the strata, the same in all pixels of a light.
+WEDGE_FN void samplePositions(
+    SampleParams params, uint order, const uint* seed, const uint* index, const uint* count, float* u, float* v)
 {
     if (params.sampler == WEDGE_SAMPLER_SOBOL) {
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
@@ -196,7 +203,7 @@ WEDGE_FN void samplePositions(SampleParams params, uint order, const uint* seed,
 
 /// Sample index[lane] of count[lane] for each receiver. Weights are 0 in lanes without a pixel and below its horizon.
 WEDGE_FN void sampleLights(FrameParams frame, SampleParams params, AreaLight light, const ReceiverPacket* r,
-                           const uint* index, const uint* count, LightSamples* s)
+    const uint* index, const uint* count, LightSamples* s)
 {
     float u[WEDGE_PACKET_SIZE], v[WEDGE_PACKET_SIZE];
     samplePositions(params, hashCombine(frame.seed, params.light), r->seed, index, count, u, v);
@@ -232,7 +239,7 @@ WEDGE_FN void sampleLights(FrameParams frame, SampleParams params, AreaLight lig
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const Vec3 normal = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
         const Vec3 moved = vec3(r->originX[lane] - r->positionX[lane], r->originY[lane] - r->positionY[lane],
-                                r->originZ[lane] - r->positionZ[lane]);
+            r->originZ[lane] - r->positionZ[lane]);
         const Vec3 l = vecNormalize(vecAdd(vec3(s->rayX[lane], s->rayY[lane], s->rayZ[lane]), moved));
         const float value = s->diffuse[lane] * lobeValue(laneLobe(r, lane), normal, laneView(r, lane), l);
         s->specular[lane] = separate ? s->specular[lane] : value;
@@ -245,8 +252,8 @@ WEDGE_FN void shadowRays(const ReceiverPacket* r, const LightSamples* s, RayPack
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         setRay(packet, lane, vec3(r->originX[lane], r->originY[lane], r->originZ[lane]),
-               vec3(s->rayX[lane], s->rayY[lane], s->rayZ[lane]), 0.0f,
-               s->diffuse[lane] > 0.0f ? WEDGE_SHADOW_RAY_END : 0.0f);
+            vec3(s->rayX[lane], s->rayY[lane], s->rayZ[lane]), 0.0f,
+            s->diffuse[lane] > 0.0f ? WEDGE_SHADOW_RAY_END : 0.0f);
         setTime(packet, lane, receiverTime(r, lane));
     }
 }

@@ -8,11 +8,11 @@
 
 /// The point a sample is for.
 typedef struct {
-    Vec3 origin;   ///< where its shadow rays start
+    Vec3 origin; ///< where its shadow rays start
     Vec3 position; ///< what is shaded
-    Vec3 normal;   ///< unit
-    Vec3 view;     ///< unit, to the eye
-    Lobe lobe;     ///< of the specular reflection
+    Vec3 normal; ///< unit
+    Vec3 view; ///< unit, to the eye
+    Lobe lobe; ///< of the specular reflection
 } Receiver;
 
 /// The lobe of a gloss plane's value: its exponent, negative for Phong.

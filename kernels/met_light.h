@@ -1,5 +1,5 @@
-// The other technique of direct light: reflected directions of a packet's pixels that happen to meet the light. Where a lobe
-// is sharp or the light near, they find it better than points on it do.
+// The other technique of direct light: reflected directions of a packet's pixels that happen to meet the light. Where a
+// lobe is sharp or the light near, they find it better than points on it do.
 #ifndef WEDGE_MET_LIGHT_H
 #define WEDGE_MET_LIGHT_H
 
@@ -39,9 +39,11 @@ WEDGE_FN void weighPoints(SampleParams params, AreaLight light, const ReceiverPa
     }
 }
 
-/// A reflected direction of the diffuse or the specular part for the numbers u; in *pdf its density, 1/sr, and in *reflected what
-/// the part reflects over that density, without the diffuse part's 1 / pi, which the light's points leave out too.
-WEDGE_INLINE Vec3 reflectedDirection(const ReceiverPacket* r, uint lane, bool specular, Vec2 u, float* pdf, float* reflected)
+/// A reflected direction of the diffuse or the specular part for the numbers u; in *pdf its density, 1/sr, and in
+/// *reflected what the part reflects over that density, without the diffuse part's 1 / pi, which the light's points
+/// leave out too.
+WEDGE_INLINE Vec3 reflectedDirection(
+    const ReceiverPacket* r, uint lane, bool specular, Vec2 u, float* pdf, float* reflected)
 {
     const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
 #ifdef WEDGE_SPECULAR
@@ -62,10 +64,10 @@ WEDGE_INLINE Vec3 reflectedDirection(const ReceiverPacket* r, uint lane, bool sp
     return l;
 }
 
-/// One reflected direction a lane: the ray to where it meets the light into `packet`, and in weight what it counts in its
-/// term if nothing is in the way; 0 where it meets nothing.
-WEDGE_FN void meetDirections(SampleParams params, AreaLight light, const ReceiverPacket* r, bool specular, const uint* index,
-                             const uint* last, const uint* count, RayPacket* packet, float* weight)
+/// One reflected direction a lane: the ray to where it meets the light into `packet`, and in weight what it counts in
+/// its term if nothing is in the way; 0 where it meets nothing.
+WEDGE_FN void meetDirections(SampleParams params, AreaLight light, const ReceiverPacket* r, bool specular,
+    const uint* index, const uint* last, const uint* count, RayPacket* packet, float* weight)
 {
     light.pick = 1.0f;
     float u[WEDGE_PACKET_SIZE], v[WEDGE_PACKET_SIZE];
@@ -83,7 +85,9 @@ WEDGE_FN void meetDirections(SampleParams params, AreaLight light, const Receive
         const Vec3 origin = vec3(r->originX[lane], r->originY[lane], r->originZ[lane]);
         const LightMeeting m = meetLight(light, origin, l);
         const bool meets = m.t < INFINITY && vecDot(n, l) > 0.0f && pdf > 0.0f && index[lane] < last[lane];
-        const float w = params.lightSampling == WEDGE_LIGHTS_MET ? 1.0f : powerHeuristic(pdf, lightPdf(light, m.a, m.b, m.t, m.facing) / laneMass(light, r, lane, m.a, m.b));
+        const float w = params.lightSampling == WEDGE_LIGHTS_MET
+            ? 1.0f
+            : powerHeuristic(pdf, lightPdf(light, m.a, m.b, m.t, m.facing) / laneMass(light, r, lane, m.a, m.b));
         weight[lane] = meets ? w * reflected * metProfile(light, m) / light.profileArea : 0.0f;
         end[lane] = weight[lane] > 0.0f ? m.t * WEDGE_SHADOW_RAY_END : 0.0f;
         x[lane] = l.x;
@@ -92,7 +96,8 @@ WEDGE_FN void meetDirections(SampleParams params, AreaLight light, const Receive
     }
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         // Lanes without a receiver have no samples to take either: see the callers.
-        setRay(packet, lane, vec3(r->originX[lane], r->originY[lane], r->originZ[lane]), vec3(x[lane], y[lane], z[lane]), 0.0f, end[lane]);
+        setRay(packet, lane, vec3(r->originX[lane], r->originY[lane], r->originZ[lane]),
+            vec3(x[lane], y[lane], z[lane]), 0.0f, end[lane]);
         setTime(packet, lane, receiverTime(r, lane));
     }
 }

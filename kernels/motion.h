@@ -1,6 +1,6 @@
-// Coordinates at a ray's time, where geometry moves while the shutter is open: programs with WEDGE_MOTION, whose nodes and
-// blocks hold what they are at the opening and how far they move (shared/bvh_types.h). In programs without, each of these
-// is the load that it stands for, and times do not exist.
+// Coordinates at a ray's time, where geometry moves while the shutter is open: programs with WEDGE_MOTION, whose nodes
+// and blocks hold what they are at the opening and how far they move (shared/bvh_types.h). In programs without, each of
+// these is the load that it stands for, and times do not exist.
 #ifndef WEDGE_MOTION_H
 #define WEDGE_MOTION_H
 
@@ -27,11 +27,11 @@
 #define WEDGE_LOWEST8(p) (vload8(0, p) + WEDGE_MIN(vload8(0, (p) + WEDGE_NODE_MOTION), (float8)(0.0f)))
 #define WEDGE_HIGHEST8(p) (vload8(0, p) + WEDGE_MAX(vload8(0, (p) + WEDGE_NODE_MOTION), (float8)(0.0f)))
 
-/// Whether the edges e1 and e2 with the cross product n span an area, lane by lane. Triangles that have none for a moment
-/// cannot be taken out beforehand, and where n is nothing but rounding so is t. Largest components stand for lengths, so
-/// that nothing leaves a float's range: sines below 4.8e-7 never pass, those above 2.6e-6 always.
+/// Whether the edges e1 and e2 with the cross product n span an area, lane by lane. Triangles that have none for a
+/// moment cannot be taken out beforehand, and where n is nothing but rounding so is t. Largest components stand for
+/// lengths, so that nothing leaves a float's range: sines below 4.8e-7 never pass, those above 2.6e-6 always.
 #define WEDGE_LARGEST(x, y, z) WEDGE_MAX(WEDGE_MAX(fabs(x), fabs(y)), fabs(z))
-#define WEDGE_SPANS_AREA(nx, ny, nz, e1x, e1y, e1z, e2x, e2y, e2z) \
+#define WEDGE_SPANS_AREA(nx, ny, nz, e1x, e1y, e1z, e2x, e2y, e2z)                                                     \
     (WEDGE_LARGEST(nx, ny, nz) > 1.46e-6f * WEDGE_LARGEST(e1x, e1y, e1z) * WEDGE_LARGEST(e2x, e2y, e2z))
 
 #else

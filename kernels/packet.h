@@ -1,5 +1,5 @@
-// Rays in packets: WEDGE_PACKET_SIZE neighbours that run through much the same nodes, such as those of a block of pixels
-// to the eye or to one light. Any set of rays is traced right; distant ones only gain nothing.
+// Rays in packets: WEDGE_PACKET_SIZE neighbours that run through much the same nodes, such as those of a block of
+// pixels to the eye or to one light. Any set of rays is traced right; distant ones only gain nothing.
 //
 // Callers fill a RayPacket in a loop over its lanes, and read the hits in another. Where the device has no use for
 // packets (the scalar family), a packet is one ray and the same kernels run with loops of one.
@@ -9,7 +9,8 @@
 #include "packet_size.h"
 #include "traverse.h"
 
-/// The rays origin + t direction, tMin < t < tMax, at their times; the conditions of closestHit. A lane without a ray has tMax = 0.
+/// The rays origin + t direction, tMin < t < tMax, at their times; the conditions of closestHit. A lane without a ray
+/// has tMax = 0.
 typedef struct {
     float originX[WEDGE_PACKET_SIZE], originY[WEDGE_PACKET_SIZE], originZ[WEDGE_PACKET_SIZE], tMin[WEDGE_PACKET_SIZE];
     float directionX[WEDGE_PACKET_SIZE], directionY[WEDGE_PACKET_SIZE], directionZ[WEDGE_PACKET_SIZE];
@@ -37,8 +38,8 @@ WEDGE_INLINE void setRay(RayPacket* packet, uint lane, Vec3 origin, Vec3 directi
     packet->tMax[lane] = tMax;
 }
 
-/// Sets the time of a lane's ray, from 0, where the shutter opens, to 1, where it closes. Each lane of a packet needs one
-/// before it is traced, with a ray or without. Where nothing moves there is nothing to do.
+/// Sets the time of a lane's ray, from 0, where the shutter opens, to 1, where it closes. Each lane of a packet needs
+/// one before it is traced, with a ray or without. Where nothing moves there is nothing to do.
 WEDGE_INLINE void setTime(RayPacket* packet, uint lane, float time)
 {
 #ifdef WEDGE_MOTION

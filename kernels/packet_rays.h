@@ -76,8 +76,9 @@ WEDGE_FN void loadPacket(const RayPacket* packet, float unit, TraversalPacket* p
 
 /// The axes of the triangle test.
 typedef struct {
-    uint x, y, z; ///< where their coordinates start in a vertex of a block, in floats; for rays that have them in common
-    bool mixed;   ///< the rays do not
+    uint x, y,
+        z; ///< where their coordinates start in a vertex of a block, in floats; for rays that have them in common
+    bool mixed; ///< the rays do not
 } TestAxes;
 
 /// The axes of the live rays' tests.

@@ -8,7 +8,7 @@
 /// highDirection, and each of the two ends bounds t by a plane of a box: from below or from above.
 typedef struct {
     float nearScale, nearOffset; ///< t >= plane scale + offset
-    float farScale, farOffset;   ///< t <= plane scale + offset; infinite where directions differ in sign
+    float farScale, farOffset; ///< t <= plane scale + offset; infinite where directions differ in sign
     float turnedScale, turnedOffset; ///< a second t >=, of the high plane, where directions differ in sign
     uint nearPlane, farPlane; ///< in floats from the node's start
 } ShaftAxis;
@@ -28,14 +28,12 @@ typedef struct {
 WEDGE_FN PacketExtent packetExtent(const TraversalPacket* p, int16 live)
 {
     const float16 none = (float16)(3e38f);
-    const float16 low = mergeEighths(
-        mergeQuarters(mergeHalves(live ? p->x.origin : none, live ? p->y.origin : none),
-            mergeHalves(live ? p->z.origin : none, live ? p->x.nearScale : none)),
+    const float16 low = mergeEighths(mergeQuarters(mergeHalves(live ? p->x.origin : none, live ? p->y.origin : none),
+                                         mergeHalves(live ? p->z.origin : none, live ? p->x.nearScale : none)),
         mergeQuarters(mergeHalves(live ? p->y.nearScale : none, live ? p->z.nearScale : none),
             mergeHalves(live ? p->tMin : none, none)));
-    const float16 high = mergeEighths(
-        mergeQuarters(mergeHalves(live ? -p->x.origin : none, live ? -p->y.origin : none),
-            mergeHalves(live ? -p->z.origin : none, live ? -p->x.nearScale : none)),
+    const float16 high = mergeEighths(mergeQuarters(mergeHalves(live ? -p->x.origin : none, live ? -p->y.origin : none),
+                                          mergeHalves(live ? -p->z.origin : none, live ? -p->x.nearScale : none)),
         mergeQuarters(mergeHalves(live ? -p->y.nearScale : none, live ? -p->z.nearScale : none), none));
     float least[16];
     vstore16(mergeSixteenths(low, high), 0, least);
@@ -70,7 +68,8 @@ WEDGE_FN ShaftAxis shaftAxis(const PacketExtent* extent, int axis, const PacketA
         s.nearScale = nearScale;
         s.nearOffset = nearOffset - (fabs(nearOffset) * WEDGE_WIDEN_ORIGIN + fabs(nearScale) * WEDGE_WIDEN_PLANE);
         s.farScale = farScale * WEDGE_WIDEN_T;
-        s.farOffset = farOffset * WEDGE_WIDEN_T + fabs(farOffset) * WEDGE_WIDEN_ORIGIN + fabs(farScale) * WEDGE_WIDEN_PLANE;
+        s.farOffset =
+            farOffset * WEDGE_WIDEN_T + fabs(farOffset) * WEDGE_WIDEN_ORIGIN + fabs(farScale) * WEDGE_WIDEN_PLANE;
         s.nearPlane = start + (up ? 0 : WEDGE_BVH_WIDTH);
         s.farPlane = start + (up ? WEDGE_BVH_WIDTH : 0);
         return s;
@@ -79,7 +78,8 @@ WEDGE_FN ShaftAxis shaftAxis(const PacketExtent* extent, int axis, const PacketA
     // The reciprocals say nothing about the fastest rays either way, which spread the shaft.
     const float down = smallestOf16(live ? a->direction : (float16)(0.0f));
     const float up = largestOf16(live ? a->direction : (float16)(0.0f));
-    const float highScale2 = boundedReciprocal(WEDGE_MAX(up, 1e-30f)), lowScale2 = boundedReciprocal(WEDGE_MIN(down, -1e-30f));
+    const float highScale2 = boundedReciprocal(WEDGE_MAX(up, 1e-30f)),
+                lowScale2 = boundedReciprocal(WEDGE_MIN(down, -1e-30f));
     const float nearOffset = -highOrigin * highScale2, turnedOffset = -lowOrigin * lowScale2;
     s.nearScale = highScale2;
     s.nearOffset = nearOffset - (fabs(nearOffset) * WEDGE_WIDEN_ORIGIN + fabs(highScale2) * WEDGE_WIDEN_PLANE);
@@ -139,15 +139,18 @@ WEDGE_FN float8 shaftPlanes(__global const float* planes, uint start)
 WEDGE_FN LaneMask shaftBoxes(__global const TraversalNode* node, const Shaft* shaft, float tCull, float8* tEnter)
 {
     __global const float* planes = node->loX;
-    const ShaftSlab x = intersectSlab(&shaft->x, shaftPlanes(planes, shaft->x.nearPlane), shaftPlanes(planes, shaft->x.farPlane));
-    const ShaftSlab y = intersectSlab(&shaft->y, shaftPlanes(planes, shaft->y.nearPlane), shaftPlanes(planes, shaft->y.farPlane));
-    const ShaftSlab z = intersectSlab(&shaft->z, shaftPlanes(planes, shaft->z.nearPlane), shaftPlanes(planes, shaft->z.farPlane));
+    const ShaftSlab x =
+        intersectSlab(&shaft->x, shaftPlanes(planes, shaft->x.nearPlane), shaftPlanes(planes, shaft->x.farPlane));
+    const ShaftSlab y =
+        intersectSlab(&shaft->y, shaftPlanes(planes, shaft->y.nearPlane), shaftPlanes(planes, shaft->y.farPlane));
+    const ShaftSlab z =
+        intersectSlab(&shaft->z, shaftPlanes(planes, shaft->z.nearPlane), shaftPlanes(planes, shaft->z.farPlane));
     return intersectSlabs(shaft, x, y, z, tCull, tEnter);
 }
 
 /// The slab of the shaft and the bounds of 8 triangles along one axis.
-WEDGE_FN ShaftSlab triangleSlab(const ShaftAxis* a, bool nearIsLow, __global const float* v0, __global const float* v1,
-    __global const float* v2)
+WEDGE_FN ShaftSlab triangleSlab(
+    const ShaftAxis* a, bool nearIsLow, __global const float* v0, __global const float* v1, __global const float* v2)
 {
     const float8 p = vload8(0, v0), q = vload8(0, v1), r = vload8(0, v2);
 #ifdef WEDGE_MOTION
@@ -165,14 +168,17 @@ WEDGE_FN ShaftSlab triangleSlab(const ShaftAxis* a, bool nearIsLow, __global con
 WEDGE_FN LaneMask shaftTriangles(__global const TriangleBlock* block, const Shaft* shaft, float tCull)
 {
     const ShaftSlab x = triangleSlab(&shaft->x, shaft->x.nearPlane == 0, block->v0x, block->v1x, block->v2x);
-    const ShaftSlab y = triangleSlab(&shaft->y, shaft->y.nearPlane == 2 * WEDGE_BVH_WIDTH, block->v0y, block->v1y, block->v2y);
-    const ShaftSlab z = triangleSlab(&shaft->z, shaft->z.nearPlane == 4 * WEDGE_BVH_WIDTH, block->v0z, block->v1z, block->v2z);
+    const ShaftSlab y =
+        triangleSlab(&shaft->y, shaft->y.nearPlane == 2 * WEDGE_BVH_WIDTH, block->v0y, block->v1y, block->v2y);
+    const ShaftSlab z =
+        triangleSlab(&shaft->z, shaft->z.nearPlane == 4 * WEDGE_BVH_WIDTH, block->v0z, block->v1z, block->v2z);
     float8 tEnter;
     return intersectSlabs(shaft, x, y, z, tCull, &tEnter);
 }
 
 /// The rays that enter the box of a node's child by their tFar. FP_CONTRACT as in intersectBoxes.
-WEDGE_FN LaneMask16 raysMeetBox(__global const TraversalNode* node, uint child, const TraversalPacket* p, const Shaft* shaft)
+WEDGE_FN LaneMask16 raysMeetBox(
+    __global const TraversalNode* node, uint child, const TraversalPacket* p, const Shaft* shaft)
 {
 #pragma OPENCL FP_CONTRACT ON
     __global const float* planes = node->loX + child;

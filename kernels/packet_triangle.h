@@ -10,7 +10,8 @@ typedef struct {
 } TurnedPoints;
 
 /// turnAxes() of one point by the axis of each ray.
-WEDGE_FN TurnedPoints turnPoint(WEDGE_PACKET_COORDINATE x, WEDGE_PACKET_COORDINATE y, WEDGE_PACKET_COORDINATE z, int16 axis)
+WEDGE_FN TurnedPoints turnPoint(
+    WEDGE_PACKET_COORDINATE x, WEDGE_PACKET_COORDINATE y, WEDGE_PACKET_COORDINATE z, int16 axis)
 {
     const float16 vx = x, vy = y, vz = z;
     const int16 largestX = axis == 0, largestY = axis == 1;
@@ -36,8 +37,8 @@ WEDGE_FN TurnedPoints loadTurned(__global const float* vertex, const TestAxes* a
 }
 
 /// One coordinate of the edge between two vertices.
-WEDGE_FN WEDGE_PACKET_COORDINATE packetEdge(__global const float* from, __global const float* to, uint i,
-    const TraversalPacket* rays)
+WEDGE_FN WEDGE_PACKET_COORDINATE packetEdge(
+    __global const float* from, __global const float* to, uint i, const TraversalPacket* rays)
 {
     (void)rays; // where nothing moves
     return WEDGE_CORNER(to, i, WEDGE_TIME_OF(rays)) - WEDGE_CORNER(from, i, WEDGE_TIME_OF(rays));
@@ -69,8 +70,10 @@ WEDGE_FN int16 packetArea(__global const float* v0, __global const float* v1, __
     const TurnedPoints* n, const TraversalPacket* rays)
 {
     const uint y = WEDGE_BLOCK_SIZE, z = 2 * WEDGE_BLOCK_SIZE;
-    const float16 e1x = packetEdge(v0, v1, 0, rays), e1y = packetEdge(v0, v1, y, rays), e1z = packetEdge(v0, v1, z, rays);
-    const float16 e2x = packetEdge(v0, v2, 0, rays), e2y = packetEdge(v0, v2, y, rays), e2z = packetEdge(v0, v2, z, rays);
+    const float16 e1x = packetEdge(v0, v1, 0, rays), e1y = packetEdge(v0, v1, y, rays),
+                  e1z = packetEdge(v0, v1, z, rays);
+    const float16 e2x = packetEdge(v0, v2, 0, rays), e2y = packetEdge(v0, v2, y, rays),
+                  e2z = packetEdge(v0, v2, z, rays);
     return WEDGE_SPANS_AREA(n->x, n->y, n->z, e1x, e1y, e1z, e2x, e2y, e2z);
 }
 #endif

@@ -20,14 +20,19 @@ WEDGE_FN TraversalRay rayOfLane(const TraversalPacket* p, uint lane)
     TraversalRay r;
     r.tMin = WEDGE_LANE(p->tMin, lane);
     r.tMax = WEDGE_LANE(p->tFar, lane);
-    r.nearScale = vec3(WEDGE_LANE(p->x.nearScale, lane), WEDGE_LANE(p->y.nearScale, lane), WEDGE_LANE(p->z.nearScale, lane));
-    r.nearOffset = vec3(WEDGE_LANE(p->x.nearOffset, lane), WEDGE_LANE(p->y.nearOffset, lane), WEDGE_LANE(p->z.nearOffset, lane));
-    r.farScale = vec3(WEDGE_LANE(p->x.farScale, lane), WEDGE_LANE(p->y.farScale, lane), WEDGE_LANE(p->z.farScale, lane));
-    r.farOffset = vec3(WEDGE_LANE(p->x.farOffset, lane), WEDGE_LANE(p->y.farOffset, lane), WEDGE_LANE(p->z.farOffset, lane));
+    r.nearScale =
+        vec3(WEDGE_LANE(p->x.nearScale, lane), WEDGE_LANE(p->y.nearScale, lane), WEDGE_LANE(p->z.nearScale, lane));
+    r.nearOffset =
+        vec3(WEDGE_LANE(p->x.nearOffset, lane), WEDGE_LANE(p->y.nearOffset, lane), WEDGE_LANE(p->z.nearOffset, lane));
+    r.farScale =
+        vec3(WEDGE_LANE(p->x.farScale, lane), WEDGE_LANE(p->y.farScale, lane), WEDGE_LANE(p->z.farScale, lane));
+    r.farOffset =
+        vec3(WEDGE_LANE(p->x.farOffset, lane), WEDGE_LANE(p->y.farOffset, lane), WEDGE_LANE(p->z.farOffset, lane));
     choosePlanes(&r);
-    r.testOrigin = vec3(WEDGE_LANE(p->testOriginX, lane), WEDGE_LANE(p->testOriginY, lane), WEDGE_LANE(p->testOriginZ, lane));
-    r.testDirection
-        = vec3(WEDGE_LANE(p->testDirectionX, lane), WEDGE_LANE(p->testDirectionY, lane), WEDGE_LANE(p->testDirectionZ, lane));
+    r.testOrigin =
+        vec3(WEDGE_LANE(p->testOriginX, lane), WEDGE_LANE(p->testOriginY, lane), WEDGE_LANE(p->testOriginZ, lane));
+    r.testDirection = vec3(
+        WEDGE_LANE(p->testDirectionX, lane), WEDGE_LANE(p->testDirectionY, lane), WEDGE_LANE(p->testDirectionZ, lane));
     r.shearX = WEDGE_LANE(p->shearX, lane);
     r.shearY = WEDGE_LANE(p->shearY, lane);
     chooseAxes(&r, ((const int*)&p->axis)[lane]);
@@ -65,8 +70,9 @@ WEDGE_FN void traverseAlone(__global const TraversalNode* restrict nodes, __glob
 }
 
 /// Walks the hierarchy with the rays of a packet. With any, a ray that hit something has tFar < 0.
-WEDGE_FN void traversePacket(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
-    const Shaft* shaft, const TestAxes* axes, TraversalPacket* p, const bool any)
+WEDGE_FN void traversePacket(__global const TraversalNode* restrict nodes,
+    __global const TriangleBlock* restrict blocks, const Shaft* shaft, const TestAxes* axes, TraversalPacket* p,
+    const bool any)
 {
     // One more than single rays need: all children of a node go onto it before the nearest comes off again.
     uint stack[WEDGE_BVH_STACK + 1];

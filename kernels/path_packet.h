@@ -19,21 +19,22 @@
 
 /// Dimensions of a path's random numbers: 0 for its first direction, then these for each vertex.
 #define WEDGE_VERTEX_DIMENSIONS 3u
-#define WEDGE_DIMENSION_LIGHT 1u     ///< point on the light
+#define WEDGE_DIMENSION_LIGHT 1u ///< point on the light
 #define WEDGE_DIMENSION_DIRECTION 2u ///< direction that the path goes on in
-#define WEDGE_DIMENSION_CHOICE 3u    ///< which light, which lobe
+#define WEDGE_DIMENSION_CHOICE 3u ///< which light, which lobe
 
 typedef struct {
     Vec3 throughput[WEDGE_PACKET_SIZE];
-    Vec3 radiance[WEDGE_PACKET_SIZE];  ///< so far
-    float pdf[WEDGE_PACKET_SIZE];      ///< of the current ray's direction, 1/sr
+    Vec3 radiance[WEDGE_PACKET_SIZE]; ///< so far
+    float pdf[WEDGE_PACKET_SIZE]; ///< of the current ray's direction, 1/sr
     float distance[WEDGE_PACKET_SIZE]; ///< to the first surface, metres; +inf where there is none
     uint seed[WEDGE_PACKET_SIZE];
     uint index[WEDGE_PACKET_SIZE], count[WEDGE_PACKET_SIZE]; ///< sample and number of samples, as samplePositions()
     uint rays[WEDGE_PACKET_SIZE], shadowRays[WEDGE_PACKET_SIZE];
 } PathPacket;
 
-/// The random pair of one dimension of a lane's path. Strata of different dimensions are paired at random in each pixel.
+/// The random pair of one dimension of a lane's path. Strata of different dimensions are paired at random in each
+/// pixel.
 WEDGE_FN Vec2 pathPair(SampleParams params, const PathPacket* paths, uint lane, uint vertex, uint dimension)
 {
     const uint seed = hashCombine(paths->seed[lane], vertex * WEDGE_VERTEX_DIMENSIONS + dimension);
@@ -81,8 +82,8 @@ WEDGE_FN Vec3 scatter(const Surface* s, const Scattering* how, Vec3 l, float* pd
 }
 
 /// A shadow ray of the lane at its vertex into `shadow`, and in *light what it brings if nothing is in the way.
-WEDGE_FN void chooseLight(LightData lights, SampleParams params, PathPacket* paths, uint lane, uint vertex, const Surface* s,
-                          const Scattering* how, RayPacket* shadow, Vec3* light)
+WEDGE_FN void chooseLight(LightData lights, SampleParams params, PathPacket* paths, uint lane, uint vertex,
+    const Surface* s, const Scattering* how, RayPacket* shadow, Vec3* light)
 {
     const Vec2 choice = pathPair(params, paths, lane, vertex, WEDGE_DIMENSION_CHOICE);
     const Vec2 point = pathPair(params, paths, lane, vertex, WEDGE_DIMENSION_LIGHT);
@@ -100,15 +101,15 @@ WEDGE_FN void chooseLight(LightData lights, SampleParams params, PathPacket* pat
     paths->shadowRays[lane] += 1u;
 }
 
-/// Sends the lane's path on from its vertex, or ends it: returns whether there is a next ray. last: the path has all its
-/// bounces, and the ray is only for the lights it meets.
+/// Sends the lane's path on from its vertex, or ends it: returns whether there is a next ray. last: the path has all
+/// its bounces, and the ray is only for the lights it meets.
 WEDGE_FN bool goOn(LightData lights, SampleParams params, PathPacket* paths, uint lane, uint vertex, bool last,
-                   const Surface* s, const Scattering* how, RayPacket* rays)
+    const Surface* s, const Scattering* how, RayPacket* rays)
 {
     const Vec2 u = pathPair(params, paths, lane, vertex, WEDGE_DIMENSION_DIRECTION);
     const float choice = pathPair(params, paths, lane, vertex, WEDGE_DIMENSION_CHOICE).y;
-    const Vec3 l = choice < how->diffuseShare ? cosineDirection(s->normal, u)
-                                              : sampleLobe(how->lobe, s->normal, how->view, u);
+    const Vec3 l =
+        choice < how->diffuseShare ? cosineDirection(s->normal, u) : sampleLobe(how->lobe, s->normal, how->view, u);
     const float cosine = vecDot(s->normal, l);
     if (!(cosine > 0.0f) || !(vecDot(s->geometric, l) > 0.0f)) {
         return false;
@@ -149,12 +150,10 @@ WEDGE_FN Vec3 rayDirectionOf(const RayPacket* rays, uint lane)
     return vec3(rays->directionX[lane], rays->directionY[lane], rays->directionZ[lane]);
 }
 
-/// Traces the paths whose first rays (unit directions; tMax 0: no path) are in `rays`, all rays of a path at the time of
-/// its first: fills paths->radiance, distance and
-/// counts of rays. `bounces` surfaces a path, at least 1.
+/// Traces the paths whose first rays (unit directions; tMax 0: no path) are in `rays`, all rays of a path at the time
+/// of its first: fills paths->radiance, distance and counts of rays. `bounces` surfaces a path, at least 1.
 WEDGE_FN void tracePaths(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
-                         SurfaceData surfaces, LightData lights, SampleParams params, uint bounces, RayPacket* rays,
-                         PathPacket* paths)
+    SurfaceData surfaces, LightData lights, SampleParams params, uint bounces, RayPacket* rays, PathPacket* paths)
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         paths->throughput[lane] = vec3(1.0f, 1.0f, 1.0f);

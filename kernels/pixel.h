@@ -33,8 +33,8 @@ WEDGE_FN bool tilePixel(FrameParams frame, uint firstGroup, uint lane, uint* x, 
 /// Cosine that the projected pixel size does not go below, against infinities at grazing views.
 #define WEDGE_MIN_VIEW_COSINE 0.01f
 
-/// Projected edge in metres of a pixel on a surface of that normal, where the ray of that direction, whose part along the
-/// view axis is 1, meets it at t.
+/// Projected edge in metres of a pixel on a surface of that normal, where the ray of that direction, whose part along
+/// the view axis is 1, meets it at t.
 WEDGE_FN float projectedPixel(FrameParams frame, Vec3 normal, Vec3 direction, float t)
 {
     const float length = vecLength(direction);

@@ -13,19 +13,17 @@
 /// Through the centre of a pixel.
 WEDGE_FN Vec3 pixelDirection(FrameParams frame, uint x, uint y)
 {
-    return cameraDirection(frame.forward, frame.right, frame.down, (float)frame.width, (float)frame.height, (float)x + 0.5f,
-                           (float)y + 0.5f);
+    return cameraDirection(frame.forward, frame.right, frame.down, (float)frame.width, (float)frame.height,
+        (float)x + 0.5f, (float)y + 0.5f);
 }
 
 __kernel void primary(FrameParams frame, __global const TraversalNode* restrict nodes,
-                      __global const TriangleBlock* restrict blocks, WEDGE_SURFACE_PARAMETERS,
-                      __global const uint* restrict objectIds, __global const AreaLight* restrict lights,
-                      uint lightCount, __global float* restrict position, __global float* restrict normal,
-                      __global float* restrict origin, __global uint* restrict geometric,
-                      __global uint* restrict objectId, __global float* restrict depth,
-                      __global float* restrict pixelSize, __global float* restrict diffuse,
-                      __global float* restrict specular, __global float* restrict emission,
-                      __global float* restrict gloss, uint firstGroup)
+    __global const TriangleBlock* restrict blocks, WEDGE_SURFACE_PARAMETERS, __global const uint* restrict objectIds,
+    __global const AreaLight* restrict lights, uint lightCount, __global float* restrict position,
+    __global float* restrict normal, __global float* restrict origin, __global uint* restrict geometric,
+    __global uint* restrict objectId, __global float* restrict depth, __global float* restrict pixelSize,
+    __global float* restrict diffuse, __global float* restrict specular, __global float* restrict emission,
+    __global float* restrict gloss, uint firstGroup)
 {
     const SurfaceData data = WEDGE_SURFACE_ARGUMENTS;
     const uint size = frame.planeSize;

@@ -1,4 +1,5 @@
-// Progressive frames: two independent halves, of which the image is the mean, and how far from the truth they say it is.
+// Progressive frames: two independent halves, of which the image is the mean, and how far from the truth they say it
+// is.
 #include "distributed_pixel.h"
 #include "pixel.h"
 #include "shared/distributed.h"
@@ -14,15 +15,12 @@ __kernel void copyImage(DistributedParams p, __global const float* restrict in, 
 }
 
 /// What the first half weighs of two with so many samples: one that has none yet has no say.
-WEDGE_FN float shareOfFirst(uint first, uint second)
-{
-    return second == 0u ? 1.0f : first == 0u ? 0.0f : 0.5f;
-}
+WEDGE_FN float shareOfFirst(uint first, uint second) { return second == 0u ? 1.0f : first == 0u ? 0.0f : 0.5f; }
 
 /// mean = the mean of the halves' `planes`; takenA, takenB: their primary samples.
 __kernel void meanOfHalves(DistributedParams p, uint planes, __global const uint* restrict takenA,
-                           __global const uint* restrict takenB, __global const float* restrict a,
-                           __global const float* restrict b, __global float* restrict mean)
+    __global const uint* restrict takenB, __global const float* restrict a, __global const float* restrict b,
+    __global float* restrict mean)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -35,17 +33,16 @@ __kernel void meanOfHalves(DistributedParams p, uint planes, __global const uint
     }
 }
 
-/// What is known of surfaces alone, of both halves' hits: positions, normals (3 planes each), sizes of pixels, distances
-/// (that of one half where the other missed) and objects (WEDGE_MIXED where they differ).
-__kernel void joinSurfaces(DistributedParams p, __global const uint* restrict hitsA, __global const uint* restrict hitsB,
-                           __global const float* restrict positionA, __global const float* restrict positionB,
-                           __global const float* restrict normalA, __global const float* restrict normalB,
-                           __global const float* restrict pixelSizeA, __global const float* restrict pixelSizeB,
-                           __global const float* restrict depthA, __global const float* restrict depthB,
-                           __global const uint* restrict objectA, __global const uint* restrict objectB,
-                           __global float* restrict position, __global float* restrict normal,
-                           __global float* restrict pixelSize, __global float* restrict depth,
-                           __global uint* restrict object)
+/// What is known of surfaces alone, of both halves' hits: positions, normals (3 planes each), sizes of pixels,
+/// distances (that of one half where the other missed) and objects (WEDGE_MIXED where they differ).
+__kernel void joinSurfaces(DistributedParams p, __global const uint* restrict hitsA,
+    __global const uint* restrict hitsB, __global const float* restrict positionA,
+    __global const float* restrict positionB, __global const float* restrict normalA,
+    __global const float* restrict normalB, __global const float* restrict pixelSizeA,
+    __global const float* restrict pixelSizeB, __global const float* restrict depthA,
+    __global const float* restrict depthB, __global const uint* restrict objectA, __global const uint* restrict objectB,
+    __global float* restrict position, __global float* restrict normal, __global float* restrict pixelSize,
+    __global float* restrict depth, __global uint* restrict object)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -63,8 +60,8 @@ __kernel void joinSurfaces(DistributedParams p, __global const uint* restrict hi
 }
 
 /// sum = a + b.
-__kernel void sumOfHalves(DistributedParams p, __global const uint* restrict a, __global const uint* restrict b,
-                          __global uint* restrict sum)
+__kernel void sumOfHalves(
+    DistributedParams p, __global const uint* restrict a, __global const uint* restrict b, __global uint* restrict sum)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
@@ -72,8 +69,8 @@ __kernel void sumOfHalves(DistributedParams p, __global const uint* restrict a, 
     }
 }
 
-WEDGE_FN Vec3 unfiltered(uint n, uint i, __global const float* emission, __global const float* direct,
-                         __global const float* indirect)
+WEDGE_FN Vec3 unfiltered(
+    uint n, uint i, __global const float* emission, __global const float* direct, __global const float* indirect)
 {
     return vecAdd(vecAdd(loadVec(emission, n, i), loadVec(direct, n, i)), loadVec(indirect, n, i));
 }
@@ -81,14 +78,13 @@ WEDGE_FN Vec3 unfiltered(uint n, uint i, __global const float* emission, __globa
 /// The squared error of the mean of the halves F_A and F_B, in two parts, each the mean over the channels.
 /// in   beauty: F; emission, direct, indirect: what sums to N, the same before any filter, whose mean is the truth
 /// out  noise: ((F_A - F_B) / 2)^2, on average the variance of the mean
-///      bias: (F_A - N_A) (F_B - N_B), on average the squared bias, as the halves know nothing of each other; 0 without a
-///      filter (filtered: 0)
+///      bias: (F_A - N_A) (F_B - N_B), on average the squared bias, as the halves know nothing of each other; 0 without
+///      a filter (filtered: 0)
 __kernel void errorOfHalves(DistributedParams p, uint filtered, __global const float* restrict beautyA,
-                            __global const float* restrict emissionA, __global const float* restrict directA,
-                            __global const float* restrict indirectA, __global const float* restrict beautyB,
-                            __global const float* restrict emissionB, __global const float* restrict directB,
-                            __global const float* restrict indirectB, __global float* restrict noise,
-                            __global float* restrict bias)
+    __global const float* restrict emissionA, __global const float* restrict directA,
+    __global const float* restrict indirectA, __global const float* restrict beautyB,
+    __global const float* restrict emissionB, __global const float* restrict directB,
+    __global const float* restrict indirectB, __global float* restrict noise, __global float* restrict bias)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {

@@ -1,5 +1,5 @@
-// The analysis of distributed frames as thesis chapter 5 and appendix B have it: flags (5.30), widths (5.18), (5.22), counts
-// (5.24) to (5.28), with (5.29).
+// The analysis of distributed frames as thesis chapter 5 and appendix B have it: flags (5.30), widths (5.18), (5.22),
+// counts (5.24) to (5.28), with (5.29).
 #include "distributed_pixel.h"
 #include "pixel.h"
 #include "shared/defocus.h"
@@ -19,8 +19,8 @@ WEDGE_FN float largestConfusion(DistributedParams p, __global const float* confu
 }
 
 /// 1 where |L - k E| is small enough (5.30), else 0.
-__kernel void publishedFlags(DistributedParams p, __global const float* restrict texture, __global const float* restrict value,
-                             __global const float* restrict termRadiance, __global float* restrict flags)
+__kernel void publishedFlags(DistributedParams p, __global const float* restrict texture,
+    __global const float* restrict value, __global const float* restrict termRadiance, __global float* restrict flags)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -57,9 +57,9 @@ WEDGE_FN float publishedWidth(bool apart, float bandlimit, float pixelSize)
 /// A light's widths (5.18) and counts (5.25), (5.27). slopes: s_min, s_max; lightExtent: l_I, metres.
 /// out  beta, demand: the count
 __kernel void publishedShadows(DistributedParams p, float mu, float lightExtent, __global const float* restrict flags,
-                               __global const float* restrict slopes, __global const float* restrict confusion,
-                               __global const float* restrict pixelSize, __global const uint* restrict objectId,
-                               __global float* restrict beta, __global float* restrict demand)
+    __global const float* restrict slopes, __global const float* restrict confusion,
+    __global const float* restrict pixelSize, __global const uint* restrict objectId, __global float* restrict beta,
+    __global float* restrict demand)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -71,22 +71,23 @@ __kernel void publishedShadows(DistributedParams p, float mu, float lightExtent,
     const float factored = scaledBandlimit(shadowBandlimit(sMin, lightExtent, pixelSize[i], rMin), mu);
     const float combined = scaledBandlimit(defocusBandlimit(rMin), mu);
     beta[i] = objectId[i] != 0u ? publishedWidth(apart, factored, pixelSize[i]) : -1.0f;
-    demand[i] = objectId[i] != 0u ? directCount(apart ? factored : combined, rMax, sMax, lightExtent, pixelSize[i]) : 0.0f;
+    demand[i] =
+        objectId[i] != 0u ? directCount(apart ? factored : combined, rMax, sMax, lightExtent, pixelSize[i]) : 0.0f;
 }
 
 /// A component's widths (5.22) and counts (5.26), (5.28). reflectors: z_min, z_max.
 __kernel void publishedReflectors(DistributedParams p, float mu, uint component, __global const float* restrict flags,
-                                  __global const float* restrict reflectors, __global const float* restrict gloss,
-                                  __global const float* restrict confusion, __global const float* restrict pixelSize,
-                                  __global const uint* restrict objectId, __global float* restrict beta,
-                                  __global float* restrict demand)
+    __global const float* restrict reflectors, __global const float* restrict gloss,
+    __global const float* restrict confusion, __global const float* restrict pixelSize,
+    __global const uint* restrict objectId, __global float* restrict beta, __global float* restrict demand)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
         return;
     }
     const uint model = gloss[i] < 0.0f ? WEDGE_SPECULAR_PHONG : WEDGE_SPECULAR_BLINN_PHONG;
-    const float transfer = component == WEDGE_COMPONENT_GLOSSY ? glossyBandlimit(fabs(gloss[i]), model) : WEDGE_DIFFUSE_BANDLIMIT;
+    const float transfer =
+        component == WEDGE_COMPONENT_GLOSSY ? glossyBandlimit(fabs(gloss[i]), model) : WEDGE_DIFFUSE_BANDLIMIT;
     const float rMin = leastConfusion(p, confusion, i), rMax = largestConfusion(p, confusion, i);
     const bool apart = medianFlag(p, flags, x, y);
     const float factored = scaledBandlimit(indirectBandlimit(reflectors[i], transfer, pixelSize[i], rMin), mu);
@@ -99,7 +100,7 @@ __kernel void publishedReflectors(DistributedParams p, float mu, uint component,
 
 /// n_p: (5.24), where something moves (B.3), and `mixed` where motions differ.
 __kernel void publishedPrimary(DistributedParams p, float mu, float mixed, __global const float* restrict confusion,
-                               __global const float* restrict motion, __global float* restrict demand)
+    __global const float* restrict motion, __global float* restrict demand)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -116,8 +117,7 @@ __kernel void publishedPrimary(DistributedParams p, float mu, float mixed, __glo
 
 /// wanted = the largest demand within 3x3 pixels, rounded up, `most` at most; but never less than `least` and `taken`.
 __kernel void publishedCounts(DistributedParams p, uint most, __global const float* restrict demand,
-                              __global const uint* restrict least, __global const uint* restrict taken,
-                              __global uint* restrict wanted)
+    __global const uint* restrict least, __global const uint* restrict taken, __global uint* restrict wanted)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {

@@ -61,7 +61,8 @@ WEDGE_FN void choosePlanes(TraversalRay* ray)
     ray->farZ = 9 * WEDGE_NODE_WIDTH - ray->nearZ;
 }
 
-/// Finds the coordinates of vertices in the axes of the triangle test. largest: axis of the direction's largest component.
+/// Finds the coordinates of vertices in the axes of the triangle test. largest: axis of the direction's largest
+/// component.
 WEDGE_FN void chooseAxes(TraversalRay* ray, int largest)
 {
     ray->axisX = (largest == 0 ? 1 : largest == 1 ? 2 : 0) * WEDGE_BLOCK_SIZE;
@@ -74,8 +75,8 @@ WEDGE_FN void chooseAxes(TraversalRay* ray, int largest)
 WEDGE_FN float boundedTime(float time) { return time > 0.0f ? WEDGE_MIN(time, 1.0f) : 0.0f; }
 #endif
 
-/// Prepares the ray origin + t direction, tMin < t < tMax, at the time; a negative tMin counts as 0. unit: that of the root
-/// node. Returns false where it can hit nothing: a component is not finite or the interval is empty.
+/// Prepares the ray origin + t direction, tMin < t < tMax, at the time; a negative tMin counts as 0. unit: that of the
+/// root node. Returns false where it can hit nothing: a component is not finite or the interval is empty.
 WEDGE_FN bool prepareRay(TraversalRay* ray, float unit, Vec3 origin, Vec3 direction, float tMin, float tMax, float time)
 {
 #pragma OPENCL FP_CONTRACT ON

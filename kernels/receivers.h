@@ -1,5 +1,5 @@
-// Receivers: points of surfaces that light is gathered for. They are the pixels of a rectangle, one each, in the frame's own
-// planes; or those of a wave, in planes of the wave's, many to a pixel (waves.cl).
+// Receivers: points of surfaces that light is gathered for. They are the pixels of a rectangle, one each, in the
+// frame's own planes; or those of a wave, in planes of the wave's, many to a pixel (waves.cl).
 #ifndef WEDGE_RECEIVERS_H
 #define WEDGE_RECEIVERS_H
 
@@ -12,16 +12,16 @@ typedef struct {
     __global const uint* objectId; ///< 0: nothing to shade
     __global const float* gloss;
     __global const uint* pixelOf; ///< of a wave: x in the lower 16 bits, y in the upper
-    __global const uint* view;    ///< of a wave: packed direction to where the primary ray came from
-    __global const float* time;   ///< of a wave: in [0, 1] while the shutter is open
+    __global const uint* view; ///< of a wave: packed direction to where the primary ray came from
+    __global const float* time; ///< of a wave: in [0, 1] while the shutter is open
 } ReceiverData;
 
 /// A kernel's parameters that say where its receivers are, and the ReceiverData made of them.
-#define WEDGE_RECEIVER_PARAMETERS                                                                                       \
-    __global const float *restrict position, __global const float *restrict normal, __global const float *restrict origin, \
-        __global const uint *restrict geometric, __global const uint *restrict objectId,                                \
-        __global const float *restrict gloss, __global const uint *restrict pixelOf, __global const uint *restrict view, \
-        __global const float *restrict time
+#define WEDGE_RECEIVER_PARAMETERS                                                                                      \
+    __global const float *restrict position, __global const float *restrict normal,                                    \
+        __global const float *restrict origin, __global const uint *restrict geometric,                                \
+        __global const uint *restrict objectId, __global const float *restrict gloss,                                  \
+        __global const uint *restrict pixelOf, __global const uint *restrict view, __global const float *restrict time
 #define WEDGE_RECEIVER_ARGUMENTS receiverData(position, normal, origin, geometric, objectId, gloss, pixelOf, view, time)
 
 WEDGE_FN ReceiverData receiverData(WEDGE_RECEIVER_PARAMETERS)

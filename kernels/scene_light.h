@@ -16,10 +16,10 @@ typedef struct {
 
 /// One sample of one light.
 typedef struct {
-    Vec3 ray;        ///< from the shadow ray's origin to the light's point
-    Vec3 direction;  ///< unit, from the shaded point
+    Vec3 ray; ///< from the shadow ray's origin to the light's point
+    Vec3 direction; ///< unit, from the shaded point
     Vec3 irradiance; ///< on the shaded point, over the probability of the sample; 0: no need to trace
-    float pdf;       ///< density of the direction, 1/sr; 0 for point and directional lights
+    float pdf; ///< density of the direction, 1/sr; 0 for point and directional lights
 } LightChoice;
 
 /// Density in 1/sr at which a vertex samples an area light's point, local coordinates (a, b), in a direction in which

@@ -5,7 +5,7 @@
 #include "scene_light.h"
 
 typedef struct {
-    float t;        ///< along the camera direction; +inf where no light is hit
+    float t; ///< along the camera direction; +inf where no light is hit
     Vec3 radiance;
 } LightHit;
 

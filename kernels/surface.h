@@ -12,10 +12,10 @@
 
 /// The scene's geometry and materials.
 typedef struct {
-    __global const float* positions;  ///< 3 a vertex
-    __global const float* normals;    ///< 3 a vertex, zero: use the geometric normal
-    __global const float* texcoords;  ///< 2 a vertex
-    __global const uint* indices;     ///< 3 a triangle
+    __global const float* positions; ///< 3 a vertex
+    __global const float* normals; ///< 3 a vertex, zero: use the geometric normal
+    __global const float* texcoords; ///< 2 a vertex
+    __global const uint* indices; ///< 3 a triangle
     __global const uint* materialIds; ///< 1 a triangle
     __global const MaterialData* materials;
     __global const TextureData* textures;
@@ -26,15 +26,15 @@ typedef struct {
 } SurfaceData;
 
 /// The scene's geometry and materials among a kernel's parameters, and the SurfaceData made of them.
-#define WEDGE_SURFACE_PARAMETERS                                                                                        \
-    __global const float *restrict positions, __global const float *restrict normals,                                   \
-        __global const float *restrict texcoords, __global const uint *restrict indices,                                \
-        __global const uint *restrict materialIds, __global const MaterialData *restrict materials,                     \
-        __global const TextureData *restrict textures, __global const uint *restrict texels,                            \
-        __global const float *restrict srgbToLinear, __global const float *restrict positionsAtClose,                    \
+#define WEDGE_SURFACE_PARAMETERS                                                                                       \
+    __global const float *restrict positions, __global const float *restrict normals,                                  \
+        __global const float *restrict texcoords, __global const uint *restrict indices,                               \
+        __global const uint *restrict materialIds, __global const MaterialData *restrict materials,                    \
+        __global const TextureData *restrict textures, __global const uint *restrict texels,                           \
+        __global const float *restrict srgbToLinear, __global const float *restrict positionsAtClose,                  \
         __global const float *restrict normalsAtClose
-#define WEDGE_SURFACE_ARGUMENTS                                                                                         \
-    surfaceData(positions, normals, texcoords, indices, materialIds, materials, textures, texels, srgbToLinear,         \
+#define WEDGE_SURFACE_ARGUMENTS                                                                                        \
+    surfaceData(positions, normals, texcoords, indices, materialIds, materials, textures, texels, srgbToLinear,        \
         positionsAtClose, normalsAtClose)
 
 WEDGE_FN SurfaceData surfaceData(WEDGE_SURFACE_PARAMETERS)
@@ -55,9 +55,9 @@ WEDGE_FN SurfaceData surfaceData(WEDGE_SURFACE_PARAMETERS)
 }
 
 typedef struct {
-    Vec3 position;  ///< metres, on the triangle
-    Vec3 origin;    ///< where rays start: position lifted off the surface on the viewer's side
-    Vec3 normal;    ///< unit shading normal on the viewer's side
+    Vec3 position; ///< metres, on the triangle
+    Vec3 origin; ///< where rays start: position lifted off the surface on the viewer's side
+    Vec3 normal; ///< unit shading normal on the viewer's side
     Vec3 geometric; ///< unit geometric normal on the viewer's side
     Vec3 diffuse, specular, emission;
     float exponent;
@@ -123,7 +123,8 @@ WEDGE_FN Vec3 liftToTangentPlane(Vec3 p, Vec3 vertex, Vec3 normal)
 /// normals suggest, so that a coarse mesh does not shadow itself at the terminator (Hanika, Hacking the Shadow
 /// Terminator, Ray Tracing Gems II, 2021), then off the plane by the rounding error of everything that made p:
 /// a bound from the coordinates themselves instead of one global distance.
-WEDGE_FN Vec3 rayOrigin(Vec3 p, Vec3 geometric, Vec3 a, Vec3 b, Vec3 c, Vec3 na, Vec3 nb, Vec3 nc, bool smooth, float u, float v)
+WEDGE_FN Vec3 rayOrigin(
+    Vec3 p, Vec3 geometric, Vec3 a, Vec3 b, Vec3 c, Vec3 na, Vec3 nb, Vec3 nc, bool smooth, float u, float v)
 {
     Vec3 lifted = p;
     if (smooth) {
@@ -136,8 +137,8 @@ WEDGE_FN Vec3 rayOrigin(Vec3 p, Vec3 geometric, Vec3 a, Vec3 b, Vec3 c, Vec3 na,
     const float z = fmax(fmax(fabs(a.z), fabs(b.z)), fabs(c.z));
     const float error = WEDGE_ORIGIN_ULPS * WEDGE_ULP
         * (fabs(geometric.x) * x + fabs(geometric.y) * y + fabs(geometric.z) * z + 0.125f * fmax(fmax(x, y), z));
-    // And by as much towards the middle of the triangle: a point on its edge lies in the neighbour's plane, too, and a ray
-    // from there would pass the neighbour by.
+    // And by as much towards the middle of the triangle: a point on its edge lies in the neighbour's plane, too, and a
+    // ray from there would pass the neighbour by.
     const Vec3 inwards = vecSub(vecScale(vecAdd(vecAdd(a, b), c), 1.0f / 3.0f), p);
     lifted = vecMad(lifted, inwards, fmin(error / fmax(vecLength(inwards), 1e-30f), 1.0f));
     return vecMad(lifted, geometric, error);
@@ -186,23 +187,24 @@ WEDGE_FN Surface surfaceAt(SurfaceData data, Hit hit, Vec3 direction, float time
         return s;
     }
     const float tu = data.texcoords[2u * ia] * wa + data.texcoords[2u * ib] * hit.u + data.texcoords[2u * ic] * hit.v;
-    const float tv = data.texcoords[2u * ia + 1u] * wa + data.texcoords[2u * ib + 1u] * hit.u
-        + data.texcoords[2u * ic + 1u] * hit.v;
+    const float tv =
+        data.texcoords[2u * ia + 1u] * wa + data.texcoords[2u * ib + 1u] * hit.u + data.texcoords[2u * ic + 1u] * hit.v;
     if (material.diffuseTexture != WEDGE_NO_TEXTURE) {
-        s.diffuse = vecMul(s.diffuse, sampleTexture(data.textures, data.texels, data.srgbToLinear,
-            material.diffuseTexture, tu, tv));
+        s.diffuse = vecMul(
+            s.diffuse, sampleTexture(data.textures, data.texels, data.srgbToLinear, material.diffuseTexture, tu, tv));
     }
     if (material.specularTexture != WEDGE_NO_TEXTURE) {
-        s.specular = vecMul(s.specular, sampleTexture(data.textures, data.texels, data.srgbToLinear,
-            material.specularTexture, tu, tv));
+        s.specular = vecMul(
+            s.specular, sampleTexture(data.textures, data.texels, data.srgbToLinear, material.specularTexture, tu, tv));
     }
     if (material.emissionTexture != WEDGE_NO_TEXTURE) {
-        s.emission = vecMul(s.emission, sampleTexture(data.textures, data.texels, data.srgbToLinear,
-            material.emissionTexture, tu, tv));
+        s.emission = vecMul(
+            s.emission, sampleTexture(data.textures, data.texels, data.srgbToLinear, material.emissionTexture, tu, tv));
     }
     if (material.exponentTexture != WEDGE_NO_TEXTURE) {
         // An exponent is a number and no colour: nothing has encoded it.
-        s.exponent *= sampleTexture(data.textures, data.texels, data.srgbToLinear + 256, material.exponentTexture, tu, tv).x;
+        s.exponent *=
+            sampleTexture(data.textures, data.texels, data.srgbToLinear + 256, material.exponentTexture, tu, tv).x;
     }
     return s;
 }

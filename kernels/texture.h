@@ -11,14 +11,11 @@ WEDGE_FN Vec3 texelRgb(__global const uint* texels, __global const float* srgbTo
 }
 
 /// i modulo n for -1 <= i <= n, n >= 1.
-WEDGE_FN uint wrapIndex(int i, uint n)
-{
-    return i < 0 ? n - 1u : (uint)i < n ? (uint)i : 0u;
-}
+WEDGE_FN uint wrapIndex(int i, uint n) { return i < 0 ? n - 1u : (uint)i < n ? (uint)i : 0u; }
 
 /// Linear RGB of texture `texture` at (u, v), v up, repeated outside [0, 1).
 WEDGE_FN Vec3 sampleTexture(__global const TextureData* textures, __global const uint* texels,
-                            __global const float* srgbToLinear, uint texture, float u, float v)
+    __global const float* srgbToLinear, uint texture, float u, float v)
 {
     const TextureData info = textures[texture];
     // Reduced to one period first: an integer conversion of a huge coordinate is undefined.

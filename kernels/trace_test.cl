@@ -14,8 +14,8 @@ WEDGE_FN float rayTime(__global const float* rays, uint count, uint i)
 #endif
 }
 
-/// rays: 8 floats a ray, ox oy oz tMin dx dy dz tMax; rayTime() says where times are. hits: one a ray. One work-item a ray;
-/// more do nothing.
+/// rays: 8 floats a ray, ox oy oz tMin dx dy dz tMax; rayTime() says where times are. hits: one a ray. One work-item a
+/// ray; more do nothing.
 __kernel void traceClosest(__global const float* restrict rays, __global Hit* restrict hits,
     __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks, uint count)
 {

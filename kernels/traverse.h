@@ -1,5 +1,6 @@
-// What kernels trace rays with: closestHit and anyHit over nodes of type TraversalNode. Two families of traversals stand
-// behind them; the host chooses one by what the device is (Options::traversal) and uploads the nodes that it walks.
+// What kernels trace rays with: closestHit and anyHit over nodes of type TraversalNode. Two families of traversals
+// stand behind them; the host chooses one by what the device is (Options::traversal) and uploads the nodes that it
+// walks.
 #ifndef WEDGE_TRAVERSE_H
 #define WEDGE_TRAVERSE_H
 
@@ -38,8 +39,8 @@ WEDGE_FN Hit closestHit(__global const TraversalNode* restrict nodes, __global c
 }
 
 /// Whether any triangle lies at tMin < t < tMax; the conditions of closestHit.
-WEDGE_FN bool anyHit(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks, Vec3 origin,
-    Vec3 direction, float tMin, float tMax, float time)
+WEDGE_FN bool anyHit(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
+    Vec3 origin, Vec3 direction, float tMin, float tMax, float time)
 {
     TraversalRay ray;
     if (!prepareRay(&ray, nodes->unit, origin, direction, tMin, tMax, time))

@@ -53,12 +53,12 @@ WEDGE_FN bool intersectTriangle(__global const TriangleBlock* block, uint lane, 
     __global const float* v0 = block->v0x + lane;
     __global const float* v1 = block->v1x + lane;
     __global const float* v2 = block->v2x + lane;
-    const Vec3 p0 = vec3(WEDGE_CORNER(v0, ray->axisX, WEDGE_TIME_OF(ray)), WEDGE_CORNER(v0, ray->axisY, WEDGE_TIME_OF(ray)),
-        WEDGE_CORNER(v0, ray->axisZ, WEDGE_TIME_OF(ray)));
-    const Vec3 p1 = vec3(WEDGE_CORNER(v1, ray->axisX, WEDGE_TIME_OF(ray)), WEDGE_CORNER(v1, ray->axisY, WEDGE_TIME_OF(ray)),
-        WEDGE_CORNER(v1, ray->axisZ, WEDGE_TIME_OF(ray)));
-    const Vec3 p2 = vec3(WEDGE_CORNER(v2, ray->axisX, WEDGE_TIME_OF(ray)), WEDGE_CORNER(v2, ray->axisY, WEDGE_TIME_OF(ray)),
-        WEDGE_CORNER(v2, ray->axisZ, WEDGE_TIME_OF(ray)));
+    const Vec3 p0 = vec3(WEDGE_CORNER(v0, ray->axisX, WEDGE_TIME_OF(ray)),
+        WEDGE_CORNER(v0, ray->axisY, WEDGE_TIME_OF(ray)), WEDGE_CORNER(v0, ray->axisZ, WEDGE_TIME_OF(ray)));
+    const Vec3 p1 = vec3(WEDGE_CORNER(v1, ray->axisX, WEDGE_TIME_OF(ray)),
+        WEDGE_CORNER(v1, ray->axisY, WEDGE_TIME_OF(ray)), WEDGE_CORNER(v1, ray->axisZ, WEDGE_TIME_OF(ray)));
+    const Vec3 p2 = vec3(WEDGE_CORNER(v2, ray->axisX, WEDGE_TIME_OF(ray)),
+        WEDGE_CORNER(v2, ray->axisY, WEDGE_TIME_OF(ray)), WEDGE_CORNER(v2, ray->axisZ, WEDGE_TIME_OF(ray)));
     const Vec3 a = vecSub(p0, ray->testOrigin), b = vecSub(p1, ray->testOrigin), c = vecSub(p2, ray->testOrigin);
     const float ax = a.x - ray->shearX * a.z, ay = a.y - ray->shearY * a.z;
     const float bx = b.x - ray->shearX * b.z, by = b.y - ray->shearY * b.z;
@@ -90,8 +90,8 @@ WEDGE_FN bool intersectTriangle(__global const TriangleBlock* block, uint lane, 
 }
 
 /// Tests the triangles of a leaf. Returns whether any was hit; with any, after the first.
-WEDGE_FN bool intersectLeaf(__global const TriangleBlock* block, uint blockCount, const TraversalRay* ray, const bool any,
-    Hit* hit)
+WEDGE_FN bool intersectLeaf(
+    __global const TriangleBlock* block, uint blockCount, const TraversalRay* ray, const bool any, Hit* hit)
 {
     bool found = false;
     for (uint i = 0; i < blockCount * WEDGE_BLOCK_SIZE; i++) {

@@ -1,12 +1,13 @@
-// What a light would send to receivers if nothing were between: by quadrature, sixteen receivers at once. The one place for
-// it: frames of pixels (composite.cl) and of waves (wave_light.cl) take the same rules.
+// What a light would send to receivers if nothing were between: by quadrature, sixteen receivers at once. The one place
+// for it: frames of pixels (composite.cl) and of waves (wave_light.cl) take the same rules.
 //
 // Means over the light of the geometry term, or of it times a lobe, by the rule that is exact enough for each receiver:
 //   few     3 x 3 nodes of the profile's own Gauss rule: far from the light
 //   coarse  5 x 5 nodes
 //   fine    12 x 12: near the light, or for lobes narrower than it
 //   fitted  16 x 16 in coordinates fitted to the receiver: at the light, or where its horizon crosses it
-//   sampled directions of the lobe: where it is far narrower than the light, or narrower at all where the fitted rule would do
+//   sampled directions of the lobe: where it is far narrower than the light, or narrower at all where the fitted rule
+//   would do
 #ifndef WEDGE_UNSHADOWED_H
 #define WEDGE_UNSHADOWED_H
 
@@ -35,7 +36,10 @@
 #define WEDGE_STEEPEST 1e-4f
 
 /// Square of the light's larger half extent, m^2.
-WEDGE_FN float squaredExtent(AreaLight light) { return fmax(vecDot(light.halfU, light.halfU), vecDot(light.halfV, light.halfV)); }
+WEDGE_FN float squaredExtent(AreaLight light)
+{
+    return fmax(vecDot(light.halfU, light.halfU), vecDot(light.halfV, light.halfV));
+}
 
 /// log2 x for normal x > 0, to 6e-8 of max(1, |log2 x|): logPositive() of sixteen.
 WEDGE_FN float16 accurateLog2(float16 x)
@@ -66,7 +70,7 @@ WEDGE_FN Vec3x16 unit16(Vec3x16 a)
 /// What sixteen receivers reflect into their views. Without a lobe the first two count alone.
 typedef struct {
     Vec3x16 position, normal;
-    Vec3x16 view;   ///< unit, to the eye
+    Vec3x16 view; ///< unit, to the eye
     float16 cosine; ///< of the view
     float16 exponent;
     int16 phong; ///< else Blinn-Phong
@@ -157,9 +161,9 @@ WEDGE_FN Vec3x16 choose16(int16 first, Vec3 a, Vec3 b)
     return v;
 }
 
-/// An interval of one axis of the light, and coordinates t on it: x = at + flat sinh t, which are dense around the point `at`
-/// that is nearest to the receiver, as the integrand is steep there (Johnston and Elliott, A sinh transformation for evaluating
-/// nearly singular boundary element integrals, 2005).
+/// An interval of one axis of the light, and coordinates t on it: x = at + flat sinh t, which are dense around the
+/// point `at` that is nearest to the receiver, as the integrand is steep there (Johnston and Elliott, A sinh
+/// transformation for evaluating nearly singular boundary element integrals, 2005).
 typedef struct {
     float16 at, flat, middle, extent;
 } FittedAxis;
@@ -198,8 +202,8 @@ WEDGE_FN float16 lowestAbove(float16 height, float16 slope)
 
 WEDGE_FN float16 highestAbove(float16 height, float16 slope) { return -lowestAbove(height, -slope); }
 
-/// By nodes fitted to each receiver: over the part of the light above its horizon alone, and dense where the light is near.
-/// nodes: the Gauss-Legendre rule.
+/// By nodes fitted to each receiver: over the part of the light above its horizon alone, and dense where the light is
+/// near. nodes: the Gauss-Legendre rule.
 WEDGE_FN float16 meanFitted(AreaLight light, Receivers16 r, __global const float* nodes, bool lobes)
 {
     const Vec3x16 toLight = sub16(splat3(light.centre), r.position);
@@ -207,14 +211,15 @@ WEDGE_FN float16 meanFitted(AreaLight light, Receivers16 r, __global const float
     const float16 u = dot16(r.normal, splat3(light.halfU)), v = dot16(r.normal, splat3(light.halfV));
     // The horizon is to cross the inner axis rather than to run along it.
     const int16 turned = fabs(v) > fabs(u);
-    const Vec3x16 inner = choose16(turned, light.halfV, light.halfU), outer = choose16(turned, light.halfU, light.halfV);
+    const Vec3x16 inner = choose16(turned, light.halfV, light.halfU),
+                  outer = choose16(turned, light.halfU, light.halfV);
     const float16 innerSlope = turned ? v : u, outerSlope = turned ? u : v;
     const float16 innerSquared = dot16(inner, inner), outerSquared = dot16(outer, outer);
     const float16 above = toLight.x * light.normal.x + toLight.y * light.normal.y + toLight.z * light.normal.z;
     const float16 innerFoot = -dot16(toLight, inner) / innerSquared;
     const float16 highest = height + fabs(innerSlope);
     const FittedAxis b = fittedAxis(lowestAbove(highest, outerSlope), highestAbove(highest, outerSlope),
-                                    -dot16(toLight, outer) / outerSquared, fabs(above) * rsqrt(outerSquared));
+        -dot16(toLight, outer) / outerSquared, fabs(above) * rsqrt(outerSquared));
     const float falloff = light.profile == WEDGE_PROFILE_GAUSSIAN ? -0.721347520f * light.cut * light.cut : 0.0f;
     float16 sum = (float16)(0.0f);
     for (uint i = 0u; i < WEDGE_FITTED_NODES; ++i) {
@@ -222,8 +227,8 @@ WEDGE_FN float16 meanFitted(AreaLight light, Receivers16 r, __global const float
         const float16 y = fittedPoint(b, nodes[2u * i], &outerWeight);
         const float16 there = height + outerSlope * y, away = y - b.at;
         const float16 distance = sqrt(above * above + away * away * outerSquared);
-        const FittedAxis a = fittedAxis(lowestAbove(there, innerSlope), highestAbove(there, innerSlope), innerFoot,
-                                        distance * rsqrt(innerSquared));
+        const FittedAxis a = fittedAxis(
+            lowestAbove(there, innerSlope), highestAbove(there, innerSlope), innerFoot, distance * rsqrt(innerSquared));
         float16 line = (float16)(0.0f);
         for (uint k = 0u; k < WEDGE_FITTED_NODES; ++k) {
             float16 weight;
@@ -237,8 +242,8 @@ WEDGE_FN float16 meanFitted(AreaLight light, Receivers16 r, __global const float
     return some ? sum * (vecLength(vecCross(light.halfU, light.halfV)) / light.profileArea) : (float16)(0.0f);
 }
 
-/// Squared angular half extent of the light over the squared width of the lobe, which at exponent m is about 1/sqrt(m): of the
-/// half vector, and so of Blinn-Phong |l + v| times as much of l, far less where both graze.
+/// Squared angular half extent of the light over the squared width of the lobe, which at exponent m is about 1/sqrt(m):
+/// of the half vector, and so of Blinn-Phong |l + v| times as much of l, far less where both graze.
 WEDGE_FN float16 lobesAcross16(AreaLight light, Vec3x16 toLight, Receivers16 r)
 {
     const float16 squared = dot16(toLight, toLight);
@@ -265,10 +270,11 @@ WEDGE_FN float16 squaredDistanceTo(AreaLight light, Vec3x16 toLight)
     return dot16(d, d);
 }
 
-/// Profile-weighted mean over the light of the geometry term, 1/m^2, of lanes `wanted`; lobes: of lobe times geometry term,
-/// 1/(sr m^2), without the lobe's normalization, and nothing in lanes of *sampled, whose lobes are too sharp for a rule.
-WEDGE_FN float16 unshadowedMean(AreaLight light, Receivers16 r, __global const float* nodes, int16 wanted, bool lobes,
-                                int16* sampled)
+/// Profile-weighted mean over the light of the geometry term, 1/m^2, of lanes `wanted`; lobes: of lobe times geometry
+/// term, 1/(sr m^2), without the lobe's normalization, and nothing in lanes of *sampled, whose lobes are too sharp for
+/// a rule.
+WEDGE_FN float16 unshadowedMean(
+    AreaLight light, Receivers16 r, __global const float* nodes, int16 wanted, bool lobes, int16* sampled)
 {
     const Vec3x16 toLight = sub16(splat3(light.centre), r.position);
     const float16 squared = dot16(toLight, toLight);
@@ -277,7 +283,8 @@ WEDGE_FN float16 unshadowedMean(AreaLight light, Receivers16 r, __global const f
     const int16 horizon = horizonAcross(light, toLight, r.normal);
     const int16 fitted = horizon | (squaredDistanceTo(light, toLight) < extent * WEDGE_AT_LIGHT * WEDGE_AT_LIGHT);
     const int16 few = !fitted & (across < WEDGE_FEW_LOBE) & (squared >= extent * WEDGE_FAR_LIGHT * WEDGE_FAR_LIGHT);
-    const int16 fine = !fitted & ((across >= WEDGE_COARSE_LOBE) | (squared < extent * WEDGE_NEAR_LIGHT * WEDGE_NEAR_LIGHT));
+    const int16 fine =
+        !fitted & ((across >= WEDGE_COARSE_LOBE) | (squared < extent * WEDGE_NEAR_LIGHT * WEDGE_NEAR_LIGHT));
     *sampled = (across > WEDGE_SHARP_LOBE) | (fitted & (across > WEDGE_SHARP_FITTED_LOBE));
     const int16 ruled = wanted & !*sampled;
     float16 mean = (float16)(0.0f);
@@ -350,14 +357,15 @@ WEDGE_INLINE float broughtByLobe(AreaLight light, const ReceiverLanes* r, uint l
     return m.t < INFINITY && cosine > 0.0f ? value : 0.0f;
 }
 
-/// The mean of lobe times geometry term by `count` directions of the lobe: nothing is in the way, so that they need no rays. An
-/// additive sequence (Roberts' R2), shifted in each receiver by what its position gives.
+/// The mean of lobe times geometry term by `count` directions of the lobe: nothing is in the way, so that they need no
+/// rays. An additive sequence (Roberts' R2), shifted in each receiver by what its position gives.
 WEDGE_FN float16 unshadowedByLobe(AreaLight light, Receivers16 receivers, uint count)
 {
     const ReceiverLanes r = lanesOf(receivers);
     float sum[WEDGE_BLOCK_PIXELS], u[WEDGE_BLOCK_PIXELS], v[WEDGE_BLOCK_PIXELS];
     for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
-        const uint seed = hashCombine(hashCombine(as_uint(r.positionX[lane]), as_uint(r.positionY[lane])), as_uint(r.positionZ[lane]));
+        const uint seed = hashCombine(
+            hashCombine(as_uint(r.positionX[lane]), as_uint(r.positionY[lane])), as_uint(r.positionZ[lane]));
         u[lane] = toUnitFloat(seed);
         v[lane] = toUnitFloat(hashUint(seed));
         sum[lane] = 0.0f;
@@ -373,9 +381,10 @@ WEDGE_FN float16 unshadowedByLobe(AreaLight light, Receivers16 receivers, uint c
     return vload16(0, sum) / ((float)count * light.profileArea);
 }
 
-/// Mean of lobe times geometry term over the light, 1/(sr m^2), of lanes `wanted`, 0 elsewhere. directions: of each lobe that is
-/// too sharp for a rule.
-WEDGE_FN float16 unshadowedSpecular(AreaLight light, Receivers16 r, __global const float* nodes, int16 wanted, uint directions)
+/// Mean of lobe times geometry term over the light, 1/(sr m^2), of lanes `wanted`, 0 elsewhere. directions: of each
+/// lobe that is too sharp for a rule.
+WEDGE_FN float16 unshadowedSpecular(
+    AreaLight light, Receivers16 r, __global const float* nodes, int16 wanted, uint directions)
 {
     int16 sharp;
     float16 mean = unshadowedMean(light, r, nodes, wanted, true, &sharp) * normalization16(r);

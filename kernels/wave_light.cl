@@ -20,13 +20,14 @@ WEDGE_FN Vec3x16 unpackDirection16(uint16 packed)
 #endif
 
 /// in   nodes: as of unshadowed.h; wave's planes: position, normal, specular (3 each), objectId, gloss, view
-/// out  unshadowed: mean geometry term over the light, 1/m^2, as the light's samples estimate it; 0 without a surface; in a
+/// out  unshadowed: mean geometry term over the light, 1/m^2, as the light's samples estimate it; 0 without a surface;
+/// in a
 ///      second plane, where something is specular, mean lobe times geometry term, 1/(sr m^2)
-__kernel void unshadowedReceivers(FrameParams frame, WaveParams wave, AreaLight light, __global const float* restrict nodes,
-                                  __global const float* restrict position, __global const float* restrict normal,
-                                  __global const uint* restrict objectId, __global const float* restrict specular,
-                                  __global const float* restrict gloss, __global const uint* restrict view,
-                                  __global float* restrict unshadowed)
+__kernel void unshadowedReceivers(FrameParams frame, WaveParams wave, AreaLight light,
+    __global const float* restrict nodes, __global const float* restrict position,
+    __global const float* restrict normal, __global const uint* restrict objectId,
+    __global const float* restrict specular, __global const float* restrict gloss, __global const uint* restrict view,
+    __global float* restrict unshadowed)
 {
     const uint first = get_global_id(0) * WEDGE_BLOCK_PIXELS;
     if (frame.tileCount == 0u || first >= wave.receivers) {
@@ -42,7 +43,8 @@ __kernel void unshadowedReceivers(FrameParams frame, WaveParams wave, AreaLight 
     const int16 mirrors = surface & (ks.x + ks.y + ks.z > 0.0f);
     float16 lobes = (float16)(0.0f);
     if (any(mirrors)) {
-        const Receivers16 r = glossyReceivers(at, facing, unpackDirection16(loadIdBlock(view, (int)first)), loadBlock(gloss, (int)first));
+        const Receivers16 r =
+            glossyReceivers(at, facing, unpackDirection16(loadIdBlock(view, (int)first)), loadBlock(gloss, (int)first));
         lobes = unshadowedSpecular(light, r, nodes, mirrors, WEDGE_LOBE_DIRECTIONS);
     }
     vstore16(lobes, 0, unshadowed + wave.planeSize + first);

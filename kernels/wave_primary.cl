@@ -2,11 +2,12 @@
 //
 // in   frame, camera, wave, BVH, surfaces, area lights (the camera sees those that are visible); pixelOf, sampleOf,
 //      wanted: primary samples of each pixel
-// out  planes of the wave: position, normal, origin (3 each), geometric (normal, packed), objectId (0: nothing to shade),
+// out  planes of the wave: position, normal, origin (3 each), geometric (normal, packed), objectId (0: nothing to
+// shade),
 //      gloss (exponent; negative: Phong), view (packed direction back along the ray), time, diffuse, specular, emission
 //      (3 each; emission holds background and light radiance where nothing is shaded), pixelSize (metres), depth
-//      (along the view axis; +inf on a miss), motion (2 planes: pixels that the point moves in the image from shutter open
-//      to close), rays and pathRays (0: for the effects to count in)
+//      (along the view axis; +inf on a miss), motion (2 planes: pixels that the point moves in the image from shutter
+//      open to close), rays and pathRays (0: for the effects to count in)
 #include "packet.h"
 #include "receivers.h"
 #include "seen_light.h"
@@ -27,11 +28,13 @@ WEDGE_FN Vec2 cameraPair(FrameParams frame, WaveParams wave, uint what, uint x, 
     }
     // Strata of lens, time, light and hemisphere are paired at random: each pixel has an order of its own.
     const bool first = index < wave.firstPass;
-    return first ? stratified(index, wave.firstPass, hashUint(seed ^ 0x55555555u), seed)
-                 : stratified(index - wave.firstPass, count - wave.firstPass, hashUint(seed ^ 0x33333333u), hashUint(seed));
+    return first
+        ? stratified(index, wave.firstPass, hashUint(seed ^ 0x55555555u), seed)
+        : stratified(index - wave.firstPass, count - wave.firstPass, hashUint(seed ^ 0x33333333u), hashUint(seed));
 }
 
-WEDGE_FN CameraRay primaryRay(FrameParams frame, CameraParams camera, WaveParams wave, uint x, uint y, uint index, uint count)
+WEDGE_FN CameraRay primaryRay(
+    FrameParams frame, CameraParams camera, WaveParams wave, uint x, uint y, uint index, uint count)
 {
     Vec2 lens = vec2(0.0f, 0.0f), at = vec2(0.5f, 0.5f);
     float time = 0.0f;
@@ -48,17 +51,16 @@ WEDGE_FN CameraRay primaryRay(FrameParams frame, CameraParams camera, WaveParams
     return cameraRay(camera, (float)frame.width, (float)frame.height, (float)x + at.x, (float)y + at.y, lens, time);
 }
 
-__kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wave, __global const TraversalNode* restrict nodes,
-                          __global const TriangleBlock* restrict blocks, WEDGE_SURFACE_PARAMETERS,
-                          __global const uint* restrict objectIds, __global const AreaLight* restrict lights, uint lightCount,
-                          __global const uint* restrict pixelOf, __global const uint* restrict sampleOf,
-                          __global const uint* restrict wanted, __global float* restrict position,
-                          __global float* restrict normal, __global float* restrict origin, __global uint* restrict geometric,
-                          __global uint* restrict objectId, __global float* restrict gloss, __global uint* restrict view,
-                          __global float* restrict time, __global float* restrict diffuse, __global float* restrict specular,
-                          __global float* restrict emission, __global float* restrict pixelSize,
-                          __global float* restrict depth, __global float* restrict motion, __global uint* restrict rays,
-                          __global uint* restrict pathRays, uint firstGroup)
+__kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wave,
+    __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
+    WEDGE_SURFACE_PARAMETERS, __global const uint* restrict objectIds, __global const AreaLight* restrict lights,
+    uint lightCount, __global const uint* restrict pixelOf, __global const uint* restrict sampleOf,
+    __global const uint* restrict wanted, __global float* restrict position, __global float* restrict normal,
+    __global float* restrict origin, __global uint* restrict geometric, __global uint* restrict objectId,
+    __global float* restrict gloss, __global uint* restrict view, __global float* restrict time,
+    __global float* restrict diffuse, __global float* restrict specular, __global float* restrict emission,
+    __global float* restrict pixelSize, __global float* restrict depth, __global float* restrict motion,
+    __global uint* restrict rays, __global uint* restrict pathRays, uint firstGroup)
 {
     const SurfaceData data = WEDGE_SURFACE_ARGUMENTS;
     const uint size = wave.planeSize;

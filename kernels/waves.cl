@@ -1,4 +1,5 @@
-// Lists of receivers: which pixels take how many primary samples, which samples of lights and paths each of those takes.
+// Lists of receivers: which pixels take how many primary samples, which samples of lights and paths each of those
+// takes.
 //
 // A wave has the receivers of consecutive tiles, pixel by pixel, so that the receivers of a packet are neighbours or
 // samples of one pixel, and a pixel's are all in one wave.
@@ -16,7 +17,7 @@ WEDGE_FN uint newSamples(WaveParams wave, uint taken, uint wanted)
 /// in   taken, wanted: primary samples of each pixel
 /// out  tileReceivers: one a tile, in the order of tiles
 __kernel void countReceivers(FrameParams frame, WaveParams wave, __global const uint* restrict taken,
-                             __global const uint* restrict wanted, __global uint* restrict tileReceivers)
+    __global const uint* restrict wanted, __global uint* restrict tileReceivers)
 {
     const uint slot = get_global_id(0);
     if (slot >= frame.tileCount) {
@@ -36,13 +37,12 @@ __kernel void countReceivers(FrameParams frame, WaveParams wave, __global const 
 /// The receivers of a wave.
 /// in   taken, wanted as above; tileFirst: of each tile, where its receivers start in the wave
 /// out  pixelOf: as in receivers.h; sampleOf: index of the primary sample; shareOf: which of its pixel's receivers of
-///      this wave it is, and, in the upper 16 bits, how many they are; pixelFirst, pixelCount: of each pixel of the wave's
-///      tiles, its receivers
+///      this wave it is, and, in the upper 16 bits, how many they are; pixelFirst, pixelCount: of each pixel of the
+///      wave's tiles, its receivers
 __kernel void listReceivers(FrameParams frame, WaveParams wave, __global const uint* restrict taken,
-                            __global const uint* restrict wanted, __global const uint* restrict tileFirst,
-                            __global uint* restrict pixelOf, __global uint* restrict sampleOf,
-                            __global uint* restrict shareOf, __global uint* restrict pixelFirst,
-                            __global uint* restrict pixelCount)
+    __global const uint* restrict wanted, __global const uint* restrict tileFirst, __global uint* restrict pixelOf,
+    __global uint* restrict sampleOf, __global uint* restrict shareOf, __global uint* restrict pixelFirst,
+    __global uint* restrict pixelCount)
 {
     const uint tile = get_global_id(0);
     if (tile >= wave.tiles) {
@@ -69,10 +69,9 @@ __kernel void listReceivers(FrameParams frame, WaveParams wave, __global const u
 /// in   taken, wanted: the pixels' samples of the term
 /// out  first, last: of each receiver, half open; sums, extremes (planes of the wave): 0
 __kernel void shareSamples(FrameParams frame, WaveParams wave, __global const uint* restrict pixelOf,
-                           __global const uint* restrict shareOf, __global const uint* restrict taken,
-                           __global const uint* restrict wanted, uint sumPlanes, uint extremePlanes,
-                           __global uint* restrict first, __global uint* restrict last, __global float* restrict sums,
-                           __global float* restrict extremes)
+    __global const uint* restrict shareOf, __global const uint* restrict taken, __global const uint* restrict wanted,
+    uint sumPlanes, uint extremePlanes, __global uint* restrict first, __global uint* restrict last,
+    __global float* restrict sums, __global float* restrict extremes)
 {
     const uint receiver = get_global_id(0);
     if (receiver >= wave.receivers) {

@@ -203,8 +203,10 @@ struct TermPixels {
             CAPTURE(y);
             const TermMeans& m = means[after.index(x, y)];
             // A rounding decides between two of packed ones.
-            const double unitOfTexture = unitOf(m.texture, bitsOfTexture(a)), unitOfValue = unitOf(m.value, bitsOfValue(a));
-            const bool nearTexture = nearTo(k.vector(x, y), m.texture), nearValue = nearTo(e.vector(x, y), m.value, 1e-4);
+            const double unitOfTexture = unitOf(m.texture, bitsOfTexture(a)),
+                         unitOfValue = unitOf(m.value, bitsOfValue(a));
+            const bool nearTexture = nearTo(k.vector(x, y), m.texture),
+                       nearValue = nearTo(e.vector(x, y), m.value, 1e-4);
             REQUIRE((nearTexture || glm::length(k.vector(x, y) - m.texture) <= 1.5 * unitOfTexture));
             for (std::size_t c = 0; c < 3; ++c)
                 REQUIRE(std::fabs(e.at(x, y, c) - m.value[static_cast<int>(c)])
@@ -241,7 +243,8 @@ struct TermPixels {
             REQUIRE(all.at(x, y) == after.at(x, y));
         });
     }
-    /// The error of taking the term apart, deviations, and the least slope or the sum of inverse distances, of the first wave.
+    /// The error of taking the term apart, deviations, and the least slope or the sum of inverse distances, of the
+    /// first wave.
     void checkMeasuredPacked(Accumulation& a) const
     {
         const auto error = numbersOf(a.read(plain), 0), extreme = numbersOf(a.read(plain), 1);
@@ -256,7 +259,8 @@ struct TermPixels {
             const double t = luminanceOf(m.texture), l = luminanceOf(m.texture * m.value), difference = l - t * m.plain;
             REQUIRE(std::fabs(error.at(x, y) - difference) <= unitOf(difference) + 1e-5 * (l + t * m.plain));
             const double variances[] = { std::max(0.0, m.squares - l * l), std::max(0.0, m.textureSquares - t * t) };
-            REQUIRE(nearTo(std::pow(deviation.at(x, y), 2), variances[0], 0.01 + 1e-5 * m.squares / (variances[0] + 1e-9)));
+            REQUIRE(
+                nearTo(std::pow(deviation.at(x, y), 2), variances[0], 0.01 + 1e-5 * m.squares / (variances[0] + 1e-9)));
             REQUIRE(nearTo(
                 std::pow(ofTexture.at(x, y), 2), variances[1], 0.01 + 1e-5 * m.textureSquares / (variances[1] + 1e-9)));
             REQUIRE(nearTo(extreme.at(x, y), light ? m.leastOrNone() : m.nearness(), 1.0 / 256));

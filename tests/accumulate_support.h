@@ -141,7 +141,8 @@ public:
     template <class Value>
     device::Buffer<float> vectors(const Value& value)
     {
-        return receiverBuffer<float>(3, [&](const SeenPoint& p, std::size_t c) { return value(p)[static_cast<int>(c)]; });
+        return receiverBuffer<float>(
+            3, [&](const SeenPoint& p, std::size_t c) { return value(p)[static_cast<int>(c)]; });
     }
 
     /// Samples that a receiver has of a term whose pixels go from `before` to `after`.
@@ -155,8 +156,8 @@ public:
 
     /// Planes of sums over the samples that receivers have of a term whose pixels go from `before` to `after`.
     template <class Value>
-    device::Buffer<float> sums(std::size_t planes, const Planes<std::uint32_t>& before, const Planes<std::uint32_t>& after,
-        const Value& mean)
+    device::Buffer<float> sums(
+        std::size_t planes, const Planes<std::uint32_t>& before, const Planes<std::uint32_t>& after, const Value& mean)
     {
         std::vector<float> out(planes * lists.wave.planeSize);
         for (std::size_t r = 0; r < points.size(); ++r) {
@@ -226,13 +227,13 @@ const image::Window window { 3, 2, 28, 17 };
 using Rounds = std::vector<std::function<std::uint32_t(int, int)>>;
 inline std::uint32_t total(int x, int y) { return static_cast<std::uint32_t>((x * 5 + y * 3) % 10); }
 inline const Rounds oneRound = { total };
-inline const Rounds threeRounds = { [](int x, int y) { return total(x, y) / 3; }, [](int x, int y) { return total(x, y) * 2 / 3; },
-    total };
+inline const Rounds threeRounds = { [](int x, int y) { return total(x, y) / 3; },
+    [](int x, int y) { return total(x, y) * 2 / 3; }, total };
 /// The planes that accumulateSurfaces fills.
 struct SurfacePixels {
     device::Buffer<std::uint32_t> object, rays, pathRays;
-    device::Buffer<float> position, normal, gloss, diffuse, specular, emission, emissionSquares, pixelSize, distance, confusion,
-        motion;
+    device::Buffer<float> position, normal, gloss, diffuse, specular, emission, emissionSquares, pixelSize, distance,
+        confusion, motion;
     explicit SurfacePixels(Accumulation& a)
         : object(a.waves.bench.filled(a.waves.layout.size, 0u))
         , rays(a.waves.bench.filled(a.waves.layout.size, 0u))

@@ -29,8 +29,8 @@ TEST_CASE("wrong calls")
 TEST_CASE("options that take no value are not given one")
 {
     const Workplace place;
-    for (const std::string flag : { "--antialias", "--no-antialias", "--as-published", "--progressive", "--check-launches",
-             "--fast-math", "--quiet", "--verbose", "--help" }) {
+    for (const std::string flag : { "--antialias", "--no-antialias", "--as-published", "--progressive",
+             "--check-launches", "--fast-math", "--quiet", "--verbose", "--help" }) {
         for (const std::string value : { "no", "yes", "false", "true", "0", "1", "" }) {
             checkRenderRefused(place, box, { flag + "=" + value }, wrongCall,
                 "option takes no value: " + flag + "=" + value + ": give " + flag + " alone");

@@ -34,7 +34,8 @@ const std::string lens = "aperture = 0.4\nfocus = 2\n";
 const std::string shutter = "[shutter]\nclose = 1\n";
 
 /// The scene through a lens with that key in place of its 16 samples.
-void writeCounted(const Workplace& place, const std::string& name, const std::string& key, const std::string& integrator = "")
+void writeCounted(
+    const Workplace& place, const std::string& name, const std::string& key, const std::string& integrator = "")
 {
     writeScene(place, name, lens, "", integrator);
     std::string text = place.text(name);
@@ -223,13 +224,15 @@ TEST_CASE("counts that frames through a lens cannot have are refused, and how to
         checkRenderRefused(place, "lens.toml", more, wrongCall, said);
     };
     const std::string few = "samples a pixel are too few for method aaf: ";
-    const std::string many = "samples a pixel are too many for method aaf through a lens or shutter, or with antialiasing: ";
+    const std::string many =
+        "samples a pixel are too many for method aaf through a lens or shutter, or with antialiasing: ";
     const std::string ways = ": give 2048 or less, or add --progressive or --method mc";
     refused({ "--spp", "2049" }, many + "--spp 2049" + ways);
     refused({ "--spp", "5000", "--max-spp", "3000" }, many + "--spp 5000" + ways);
     refused({ "--max-spp", "2049" }, many + "--max-spp 2049: give 2048 or less");
     refused({ "--max-spp", "2049", "--as-published" }, many + "--max-spp 2049");
-    checkRenderRefused(place, "open.toml", { "--mu", "40" }, wrongCall, many + "--mu 40: lower it, or give --spp, 2048 or less");
+    checkRenderRefused(
+        place, "open.toml", { "--mu", "40" }, wrongCall, many + "--mu 40: lower it, or give --spp, 2048 or less");
     checkRenderRefused(place, "plain.toml", { "--antialias", "--spp", "2049" }, wrongCall, many + "--spp 2049" + ways);
     refused({ "--spp", "7" }, few + "--spp 7: give 8 or more");
     refused({ "--spp", "7", "--bounces", "1" }, few + "--spp 7: give 8 or more");
@@ -263,10 +266,14 @@ TEST_CASE("counts of a scene file that frames through a lens cannot have, and th
     writeCounted(place, "capped.toml", "max_spp = 20");
     const std::string lensed = " is too high for method aaf through a lens or shutter, or with antialiasing: ";
     for (const char* command : { "render", "info" }) {
-        checkRefused(place, { command, "mean.toml" }, failure, "scene file mean.toml: spp" + lensed + "2049: give 2048 or less");
-        checkRefused(place, { command, "most.toml" }, failure, "scene file most.toml: max_spp" + lensed + "2049: give there, or");
-        checkRefused(place, { command, "mu.toml" }, failure, "scene file mu.toml: mu" + lensed + "40: lower it, or give --spp");
-        checkRefused(place, { command, "few.toml" }, failure, "spp is too low for method aaf: 7: give 8 or more, or method mc");
+        checkRefused(
+            place, { command, "mean.toml" }, failure, "scene file mean.toml: spp" + lensed + "2049: give 2048 or less");
+        checkRefused(place, { command, "most.toml" }, failure,
+            "scene file most.toml: max_spp" + lensed + "2049: give there, or");
+        checkRefused(
+            place, { command, "mu.toml" }, failure, "scene file mu.toml: mu" + lensed + "40: lower it, or give --spp");
+        checkRefused(
+            place, { command, "few.toml" }, failure, "spp is too low for method aaf: 7: give 8 or more, or method mc");
     }
     const std::vector<Arguments> fine = { { "mean.toml", "--spp", "20" }, { "mean.toml", "--aperture", "0" },
         { "mean.toml", "--as-published" }, { "most.toml", "--max-spp", "30" }, { "most.toml", "--aperture", "0" },

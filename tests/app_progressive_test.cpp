@@ -9,8 +9,9 @@ namespace {
 TEST_CASE("each step is said, reported, and its image written")
 {
     const Workplace place;
-    const Outcome outcome = place.run({ "render", box, "--size", "64x48", "--progressive", "--spp", "64", "-o", "a.exr", "-o",
-        "b.png", "--layers", "emission,direct,indirectNoisy,filterWidth", "--bounces", "1", "--report", "r.json" });
+    const Outcome outcome =
+        place.run({ "render", box, "--size", "64x48", "--progressive", "--spp", "64", "-o", "a.exr", "-o", "b.png",
+            "--layers", "emission,direct,indirectNoisy,filterWidth", "--bounces", "1", "--report", "r.json" });
     REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
     CHECK(outcome.err == "");
     const nlohmann::json report = nlohmann::json::parse(place.text("r.json"));
@@ -46,8 +47,8 @@ TEST_CASE("a target error ends a render without a count, and a time limit does")
     CHECK(first.at("ended_by") == "target error");
     CHECK(first.at("target_error") == 0.5);
     CHECK(first.at("steps").back().at("error") <= 0.5);
-    const Outcome limit = place.run({ "render", box, "--size", "32x24", "--progressive", "--time-limit", "0.3", "-o", "a.exr",
-        "--report", "r.json" });
+    const Outcome limit = place.run({ "render", box, "--size", "32x24", "--progressive", "--time-limit", "0.3", "-o",
+        "a.exr", "--report", "r.json" });
     CHECK(limit.status == 0);
     CHECK(contains(limit.err, "time limit"));
     CHECK(nlohmann::json::parse(place.text("r.json")).at("progressive").at("ended_by") == "time limit");

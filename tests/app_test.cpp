@@ -61,7 +61,8 @@ TEST_CASE("all layers of a frame fit together")
         "normal.Z", "position.X", "position.Y", "position.Z", "depth.Z", "emission.R", "emission.G", "emission.B",
         "direct.R", "direct.G", "direct.B", "directNoisy.R", "directNoisy.G", "directNoisy.B", "samples.Y", "rays.Y",
         "filterWidth1.world", "filterWidth1.pixels", "filterWidth2.world", "filterWidth2.pixels",
-        "filterWidthLens.pixels", "filterWidthMotion.pixels", "motion.U", "motion.V", "primarySamples.Y", "objectId.I" };
+        "filterWidthLens.pixels", "filterWidthMotion.pixels", "motion.U", "motion.V", "primarySamples.Y",
+        "objectId.I" };
     std::set<std::string> found;
     for (const image::Channel& channel : image.channels) {
         found.insert(channel.name);
@@ -76,7 +77,8 @@ TEST_CASE("all layers of a frame fit together")
         const bool miss = at("objectId.I") == 0;
         misses += miss;
         rays += at("rays.Y");
-        wrong["one ray from the camera, at rest"] += at("primarySamples.Y") != 1 || at("motion.U") != 0 || at("motion.V") != 0;
+        wrong["one ray from the camera, at rest"] +=
+            at("primarySamples.Y") != 1 || at("motion.U") != 0 || at("motion.V") != 0;
         wrong["nothing to blur"] += at("filterWidthLens.pixels") != 0 || at("filterWidthMotion.pixels") != 0;
         for (const std::string c : { "R", "G", "B" }) {
             wrong["beauty = emission + direct"] += at(c) != at("emission." + c) + at("direct." + c);

@@ -116,7 +116,8 @@ private:
         const pid_t child = fork();
         REQUIRE(child >= 0);
         if (child == 0) {
-            // Shells start background jobs with SIGINT ignored, and nohup others with SIGHUP; the program must see them.
+            // Shells start background jobs with SIGINT ignored, and nohup others with SIGHUP; the program must see
+            // them.
             signal(SIGINT, SIG_DFL);
             signal(SIGHUP, ignoreHangups ? SIG_IGN : SIG_DFL);
             setenv("TMPDIR", temporary().c_str(), 1);

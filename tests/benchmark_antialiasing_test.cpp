@@ -36,9 +36,11 @@ TEST_CASE("curves of sampled squares, of four times the pixels and of unfiltered
             CHECK(point["rmse"].get<double>() < 0.05); // a black image's is 0.2
         }
     }
-    // Unfiltered, each sample is a primary ray and, where it sees a surface, a shadow ray; of four times the pixels each has
-    // one primary ray.
-    const auto rays = [&](std::size_t curve) { return scene["curves"][curve]["points"][0]["rays_per_pixel"].get<double>(); };
+    // Unfiltered, each sample is a primary ray and, where it sees a surface, a shadow ray; of four times the pixels
+    // each has one primary ray.
+    const auto rays = [&](std::size_t curve) {
+        return scene["curves"][curve]["points"][0]["rays_per_pixel"].get<double>();
+    };
     const double surfaces = rays(2) / 9 - 1;
     CHECK(surfaces > 0.5);
     CHECK(surfaces < 1);
@@ -53,10 +55,10 @@ TEST_CASE("wrong calls end in one line")
         {
             { { "--scene", "nothing" }, 2, "cornell_figure, tentacles, chess, room" },
             { { "--size", "4" }, 2, "--size" },
-            { { "--scene", box, "--size", "8", "--spp", "7", "--reference-spp", "16", "--reference-dir", "references" }, 2,
-                "8 or more" },
-            { { "--scene", box, "--size", "8", "--spp", "9", "--large-spp", "9", "--reference-spp", "16", "--reference-dir",
-                  "references", "--json", "gone/r.json" },
+            { { "--scene", box, "--size", "8", "--spp", "7", "--reference-spp", "16", "--reference-dir", "references" },
+                2, "8 or more" },
+            { { "--scene", box, "--size", "8", "--spp", "9", "--large-spp", "9", "--reference-spp", "16",
+                  "--reference-dir", "references", "--json", "gone/r.json" },
                 1, "gone/r.json" },
         });
 }

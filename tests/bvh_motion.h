@@ -21,7 +21,8 @@ struct MovingMesh {
     {
         TestMesh out = open;
         for (std::size_t i = 0; i < close.size(); i++) {
-            const bool valid = std::fabs(open.positions[i]) <= bvh::maxCoordinate && std::fabs(close[i]) <= bvh::maxCoordinate;
+            const bool valid =
+                std::fabs(open.positions[i]) <= bvh::maxCoordinate && std::fabs(close[i]) <= bvh::maxCoordinate;
             const float displacement = close[i] - open.positions[i], moved = displacement * time;
             out.positions[i] = valid ? open.positions[i] + moved : std::numeric_limits<float>::quiet_NaN();
         }
@@ -130,7 +131,8 @@ public:
         visit(0);
         for (std::size_t i = 0; i < mesh_.open.triangles(); i++)
             if (isValid(i) != (seen_.count(i) == 1))
-                problems_.push_back("triangle is there and should not be, or the other way round: " + std::to_string(i));
+                problems_.push_back(
+                    "triangle is there and should not be, or the other way round: " + std::to_string(i));
         if (seen_.size() != hierarchy_.statistics.triangles)
             problems_.emplace_back("the statistics have another number of triangles");
         problems_.resize(std::min<std::size_t>(problems_.size(), 10));
@@ -155,7 +157,8 @@ private:
         for (std::size_t corner = 0; corner < 3; corner++)
             for (std::size_t axis = 0; axis < 3; axis++)
                 for (const double end : { 0.0, 1.0 })
-                    if (!(std::fabs(at(triangle, corner, axis, end) / double { unit_ }) <= double { bvh::maxCoordinate }))
+                    if (!(std::fabs(at(triangle, corner, axis, end) / double { unit_ })
+                            <= double { bvh::maxCoordinate }))
                         return false;
         return true;
     }
@@ -184,7 +187,8 @@ private:
     {
         const std::uint32_t leaf = node.child[slot];
         const float* const planes[6] = { node.loX, node.hiX, node.loY, node.hiY, node.loZ, node.hiZ };
-        const float* const moves[6] = { node.moveLoX, node.moveHiX, node.moveLoY, node.moveHiY, node.moveLoZ, node.moveHiZ };
+        const float* const moves[6] = { node.moveLoX, node.moveHiX, node.moveLoY, node.moveHiY, node.moveLoZ,
+            node.moveHiZ };
         const std::size_t first = (leaf & ~WEDGE_BVH_LEAF) >> 3;
         for (std::size_t row = 0; row < 9 * WEDGE_BLOCK_SIZE * (leaf & 7u); row++) {
             const std::size_t vertex = row / WEDGE_BLOCK_SIZE % 9, lane = row % WEDGE_BLOCK_SIZE, axis = vertex % 3;

@@ -17,7 +17,8 @@ scene::Scene movingScene()
     scene::Geometry& g = scene.geometry;
     const glm::dmat3 turn(0.9, 0.1, -0.2, -0.1, 1.1, 0.05, 0.2, 0.1, 0.95);
     for (std::size_t i = 0; i < g.positions.size(); i += 3) {
-        const glm::dvec3 p = turn * glm::dvec3(g.positions[i], g.positions[i + 1], g.positions[i + 2]) + glm::dvec3(0.1, 0.2, -0.1);
+        const glm::dvec3 p =
+            turn * glm::dvec3(g.positions[i], g.positions[i + 1], g.positions[i + 2]) + glm::dvec3(0.1, 0.2, -0.1);
         const glm::dvec3 open(g.normals[i], g.normals[i + 1], g.normals[i + 2]);
         // Some turn far, so that halfway they are short.
         const glm::dvec3 n = turn * open + glm::length(open) * glm::dvec3(i % 2 ? 0.9 : 0.0, 0, 0);
@@ -151,7 +152,8 @@ TEST_CASE("surfaces are where the ray's time says, with its normals, and know wh
             const double t = found.out[15 * i + 14];
             const glm::dvec3 position = found.vector(i, 0);
             const glm::dvec3 onRay(ray[0] + t * ray[4], ray[1] + t * ray[5], ray[2] + t * ray[6]);
-            CHECK(glm::length(position - interpolated(g, g.positions, g.positionsAtClose, found, i, times[i], false)) < 2e-6);
+            CHECK(glm::length(position - interpolated(g, g.positions, g.positionsAtClose, found, i, times[i], false))
+                < 2e-6);
             CHECK(glm::length(position - onRay) < 2e-5);
             const glm::dvec3 motion = interpolated(g, g.positions, g.positionsAtClose, found, i, 1, false)
                 - interpolated(g, g.positions, g.positionsAtClose, found, i, 0, false);

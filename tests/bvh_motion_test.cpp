@@ -66,7 +66,8 @@ struct Ways {
     }
 
     /// Checks all ways against every triangle. Returns how many rays hit.
-    std::size_t check(const MovingMesh& mesh, const MovingTree& tree, std::span<const Ray> rays, std::span<const float> times)
+    std::size_t check(
+        const MovingMesh& mesh, const MovingTree& tree, std::span<const Ray> rays, std::span<const float> times)
     {
         const Hits hits = trace(mesh, tree, rays, times);
         std::size_t found = 0;
@@ -146,7 +147,8 @@ TEST_CASE("Boxes contain what is below them at every time, in trees of every mod
         for (const bvh::Mode mode : { bvh::Mode::Fast, bvh::Mode::Default, bvh::Mode::Quality }) {
             CAPTURE(mesh.open.name);
             const bvh::MovingBvh built = mesh.build(bvh::config(mode));
-            CHECK(faultsOf(built, std::span<const shared::MovingNode>(built.nodes), mesh) == std::vector<std::string>());
+            CHECK(
+                faultsOf(built, std::span<const shared::MovingNode>(built.nodes), mesh) == std::vector<std::string>());
             const std::vector<shared::MovingNode4> narrow = bvh::narrow(built);
             CHECK(faultsOf(built, std::span<const shared::MovingNode4>(narrow), mesh) == std::vector<std::string>());
         }
@@ -188,10 +190,12 @@ TEST_CASE("Times beyond the shutter count as its ends, and those that are no num
     const std::vector<Ray> rays = randomRays(mesh.open, 320, 23);
     const float nan = std::numeric_limits<float>::quiet_NaN();
     onAllWays([&](Ways& ways) {
-        for (const auto& [time, meant] : { std::pair(-1.0f, 0.0f), { 2.0f, 1.0f }, { infinity, 1.0f }, { nan, 0.0f } }) {
+        for (const auto& [time, meant] :
+            { std::pair(-1.0f, 0.0f), { 2.0f, 1.0f }, { infinity, 1.0f }, { nan, 0.0f } }) {
             CAPTURE(time);
             const std::vector<float> beyond(rays.size(), time), within(rays.size(), meant);
-            const Ways::Hits expected = ways.trace(mesh, tree, rays, within), found = ways.trace(mesh, tree, rays, beyond);
+            const Ways::Hits expected = ways.trace(mesh, tree, rays, within),
+                             found = ways.trace(mesh, tree, rays, beyond);
             CHECK(sameBits(expected.closest, found.closest));
             CHECK(expected.any == found.any);
         }

@@ -72,7 +72,8 @@ public:
     {
         return closestPacked(tree, bvh::packRays(rays, packetSize(), times), rays.size());
     }
-    std::vector<std::uint32_t> anyPackets(const MovingTree& tree, std::span<const Ray> rays, std::span<const float> times)
+    std::vector<std::uint32_t> anyPackets(
+        const MovingTree& tree, std::span<const Ray> rays, std::span<const float> times)
     {
         return anyPacked(tree, bvh::packRays(rays, packetSize(), times), rays.size());
     }
@@ -124,8 +125,8 @@ private:
     std::vector<Hit> closestPacked(const AnyTree& tree, const std::vector<float>& packed, std::size_t rays)
     {
         const std::size_t packets = (rays + packetSize() - 1) / packetSize();
-        const auto words = run<std::uint32_t>("traceClosestPackets", tree, std::span(packed), packets,
-            packets * packetSize() * bvh::hitWords);
+        const auto words = run<std::uint32_t>(
+            "traceClosestPackets", tree, std::span(packed), packets, packets * packetSize() * bvh::hitWords);
         return bvh::unpackHits(words, packetSize(), rays);
     }
 

@@ -42,8 +42,8 @@ inline std::vector<Region> regions()
         { 45, 29, { 16, 20, 45, 29 } } };
 }
 
-/// Calls test(bench, region, random) for every device and each of regions(), with random numbers that go on from region to
-/// region.
+/// Calls test(bench, region, random) for every device and each of regions(), with random numbers that go on from region
+/// to region.
 template <class Test>
 void onEveryRegion(unsigned seed, const Test& test)
 {

@@ -312,7 +312,8 @@ inline std::vector<double> oracleSquare(const FilterImage& image)
                         continue;
                     const double width = p.narrower != 0 ? std::min(beta, there) : beta;
                     bool unused = false;
-                    const double w = geometry.surface(x, y, qx, qy, &unused) * std::exp(-0.5 * squared / (width * width));
+                    const double w =
+                        geometry.surface(x, y, qx, qy, &unused) * std::exp(-0.5 * squared / (width * width));
                     weights += w;
                     sum += w * image.value.at(qx, qy);
                 }

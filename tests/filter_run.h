@@ -66,7 +66,8 @@ private:
 };
 
 /// Compares with the oracle wherever no test of it hangs on a rounding. Returns the fraction of pixels left out.
-inline double compare(const FilterImage& image, const FilterResult& found, const OracleResult& expected, int channels = 1)
+inline double compare(
+    const FilterImage& image, const FilterResult& found, const OracleResult& expected, int channels = 1)
 {
     const int width = image.width(), height = image.height();
     int uncertain = 0, wrong = 0;

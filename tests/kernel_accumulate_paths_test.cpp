@@ -22,7 +22,8 @@ TermPixels accumulated(Accumulation& a, const Rounds& rounds, TermCount count, b
     for (const auto& upTo : rounds) {
         a.begin(upTo);
         term.begin(a);
-        term.expectExtremes(a, [](const SeenPoint& p) { return p.reflectors; }, 3);
+        term.expectExtremes(
+            a, [](const SeenPoint& p) { return p.reflectors; }, 3);
         term.expect(a, [&](std::vector<TermSample>& wave) {
             for (TermSample& s : wave)
                 if (s.point.object != 0) {
@@ -42,7 +43,8 @@ TermPixels accumulated(Accumulation& a, const Rounds& rounds, TermCount count, b
 
 } // namespace
 
-TEST_CASE("paths: the means over receivers, each with samples, few with some, or a wave without any; as published, packed")
+TEST_CASE(
+    "paths: the means over receivers, each with samples, few with some, or a wave without any; as published, packed")
 {
     onEveryDevice([](const device::Device& device) {
         for (const bool glossy : { false, true })

@@ -23,7 +23,8 @@ TEST_CASE("point lights: the mean of the receivers' radiance, black where there 
             checkElsewhere(a, squared);
             a.waves.everyPixel([&](int x, int y) {
                 const std::vector<SeenPoint> seen = a.seen(x, y);
-                const glm::dvec3 sum = sumOf(seen, [](const SeenPoint& p) { return p.object != 0 ? p.irradiance : glm::dvec3(0); });
+                const glm::dvec3 sum =
+                    sumOf(seen, [](const SeenPoint& p) { return p.object != 0 ? p.irradiance : glm::dvec3(0); });
                 const double n = std::max<double>(1, static_cast<double>(seen.size()));
                 REQUIRE(nearTo(radiance.vector(x, y), sum / n));
                 REQUIRE(nearTo(squared.at(x, y), sumOf(seen, [](const SeenPoint& p) {
@@ -34,10 +35,12 @@ TEST_CASE("point lights: the mean of the receivers' radiance, black where there 
     });
 }
 
-TEST_CASE("surfaces: means over hits of where they are, over samples of how they look; least, largest and counts; packed, too")
+TEST_CASE("surfaces: means over hits of where they are, over samples of how they look; least, largest and counts; "
+          "packed, too")
 {
     onEveryDevice([](const device::Device& device) {
-        for (const Keeping& keeping : { Keeping { 0, 0, true }, { 1, 0.1f, true }, { 1, 1.5f, true }, { 1, 0.1f, false } })
+        for (const Keeping& keeping :
+            { Keeping { 0, 0, true }, { 1, 0.1f, true }, { 1, 1.5f, true }, { 1, 0.1f, false } })
             for (const Rounds& rounds : { oneRound, threeRounds }) {
                 CAPTURE(keeping.packed);
                 CAPTURE(keeping.oneVelocity);

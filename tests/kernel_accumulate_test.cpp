@@ -86,7 +86,8 @@ void addWave(Accumulation& a, TermPixels& term, const LightCase& how, bool motio
 {
     term.light = true;
     term.begin(a);
-    term.expectExtremes(a, [](const SeenPoint& p) { return p.slopes; }, motion ? 6 : 2);
+    term.expectExtremes(
+        a, [](const SeenPoint& p) { return p.slopes; }, motion ? 6 : 2);
     term.expect(a, [&](std::vector<TermSample>& wave) { lightSamples(wave, how); });
     accumulateLight(a, term, lamp(), how.exact, how.specular);
 }

@@ -53,8 +53,8 @@ public:
         const shared::FrameParams& f = traced_.params;
         const shared::AreaLight& light = traced_.onDevice.areaLightList[p.light];
         const std::uint32_t order = shared::hashCombine(f.seed, p.light);
-        const std::uint32_t seed = shared::hashCombine(order,
-            static_cast<std::uint32_t>(y) * f.width + static_cast<std::uint32_t>(x));
+        const std::uint32_t seed =
+            shared::hashCombine(order, static_cast<std::uint32_t>(y) * f.width + static_cast<std::uint32_t>(x));
         HostSum sum;
         shared::LightPart part = shared::partAboveHorizon(light, at(position_, x, y), at(normal_, x, y));
         part.cut = p.shading == WEDGE_SHADING_SEPARATE ? 0 : part.cut;
@@ -71,7 +71,8 @@ public:
             const shared::PartSample sample = shared::samplePart(light, part, u);
             const shared::Vec3 point = shared::lightPoint(light.centre, light.halfU, light.halfV, sample.a, sample.b);
             const float g = sample.mass
-                * shared::geometryTerm(at(normal_, x, y), shared::vecSub(point, at(position_, x, y)), light.normal, light.twoSided);
+                * shared::geometryTerm(
+                    at(normal_, x, y), shared::vecSub(point, at(position_, x, y)), light.normal, light.twoSided);
             if (!(g > 0))
                 continue;
             const double weight = p.shading == WEDGE_SHADING_SEPARATE ? 1.0 : g;

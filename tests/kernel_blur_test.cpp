@@ -87,7 +87,8 @@ Planes<float> lensFiltered(KernelBench& bench, const Blurred& image, const std::
     return out.read();
 }
 
-Planes<float> motionFiltered(KernelBench& bench, const Blurred& image, std::uint32_t channels = 3, std::uint32_t packed = 0)
+Planes<float> motionFiltered(
+    KernelBench& bench, const Blurred& image, std::uint32_t channels = 3, std::uint32_t packed = 0)
 {
     Output<float> out(bench, image.region, 3);
     shared::DistributedParams p = paramsOf(image.region);
@@ -186,14 +187,15 @@ TEST_CASE("lines along motions are the gather over all steps, in every direction
         unsigned seed = 10;
         int uncertain = 0, pixels = 0;
         for (const Region& region : regions())
-            for (const auto& [angle, packed] : { std::pair(0.0, 0u), { 0.7, 0u }, { 1.7, 0u }, { 2.9, 0u }, { -0.5, 0u },
-                     { -1.3, 0u }, { -2.6, 0u }, { 0.0, 1u }, { 1.7, 1u }, { -2.6, 1u } }) {
+            for (const auto& [angle, packed] : { std::pair(0.0, 0u), { 0.7, 0u }, { 1.7, 0u }, { 2.9, 0u },
+                     { -0.5, 0u }, { -1.3, 0u }, { -2.6, 0u }, { 0.0, 1u }, { 1.7, 1u }, { -2.6, 1u } }) {
                 CAPTURE(angle);
                 CAPTURE(packed);
                 const double middle = angle;
                 Blurred image = randomImage(region, ++seed);
                 std::mt19937 random(seed);
-                image.everywhere([&](int x, int y) { image.setDirection(x, y, middle + uniform(random, -0.25, 0.25)); });
+                image.everywhere(
+                    [&](int x, int y) { image.setDirection(x, y, middle + uniform(random, -0.25, 0.25)); });
                 if (packed != 0)
                     image.round();
                 const auto found = motionFiltered(bench, image, 3, packed);

@@ -33,10 +33,7 @@ double uniform(std::mt19937& random, double lo = 0, double hi = 1)
 /// As the sampler's numbers: below 1.
 float unitFloat(std::mt19937& random) { return static_cast<float>(random() >> 8) * 0x1p-24f; }
 
-Vec3 narrowed(glm::dvec3 v)
-{
-    return vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
-}
+Vec3 narrowed(glm::dvec3 v) { return vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)); }
 glm::dvec3 wide(Vec3 v) { return { v.x, v.y, v.z }; }
 
 /// A camera at rest, its axes those of a turned frame, a pixel's step 0.004.
@@ -75,10 +72,7 @@ CameraParams movingCamera(float apertureRadius = 0)
 
 glm::dvec3 pointAt(const CameraRay& ray, double depth) { return wide(ray.origin) + depth * wide(ray.direction); }
 
-Vec2 lensPoint(std::mt19937& random)
-{
-    return aperturePoint(0, vec2(unitFloat(random), unitFloat(random)));
-}
+Vec2 lensPoint(std::mt19937& random) { return aperturePoint(0, vec2(unitFloat(random), unitFloat(random))); }
 
 /// Probability of counts of `values` in cells of equal share of the distribution whose cumulative function is given.
 double equalCellsP(const std::vector<double>& values, const std::function<double(double)>& cumulative)
@@ -101,7 +95,8 @@ TEST_CASE("a pinhole at rest looks along cameraDirection() from the eye, whateve
     std::mt19937 random(1);
     const CameraParams c = stillCamera();
     for (int k = 0; k < 1000; ++k) {
-        const auto x = static_cast<float>(uniform(random, 0, width)), y = static_cast<float>(uniform(random, 0, height));
+        const auto x = static_cast<float>(uniform(random, 0, width)),
+                   y = static_cast<float>(uniform(random, 0, height));
         const float time = unitFloat(random);
         const CameraRay ray = cameraRay(c, width, height, x, y, lensPoint(random), time);
         const Vec3 d = cameraDirection(c.forward, c.right, c.down, width, height, x, y);
@@ -116,7 +111,8 @@ TEST_CASE("all rays of an image point, over the lens, meet in one point of the p
     std::mt19937 random(2);
     for (const CameraParams& c : { stillCamera(0.05f), movingCamera(0.2f) })
         for (int k = 0; k < 300; ++k) {
-            const auto x = static_cast<float>(uniform(random, 0, width)), y = static_cast<float>(uniform(random, 0, height));
+            const auto x = static_cast<float>(uniform(random, 0, width)),
+                       y = static_cast<float>(uniform(random, 0, height));
             const float time = unitFloat(random);
             const CameraRay central = cameraRay(c, width, height, x, y, vec2(0, 0), time);
             const glm::dvec3 met = pointAt(central, c.focusDistance);
@@ -196,7 +192,9 @@ TEST_CASE("shutterTime is in [0, 1] and as the shutter transmits")
         // Half of the time is two standard deviations.
         const double root2 = std::numbers::sqrt2;
         const auto passed = [&](double t) {
-            return gaussian != 0 ? std::clamp(0.5 + 0.5 * std::erf((t - 0.5) * 4 / root2) / std::erf(2 / root2), 0.0, 1.0) : t;
+            return gaussian != 0
+                ? std::clamp(0.5 + 0.5 * std::erf((t - 0.5) * 4 / root2) / std::erf(2 / root2), 0.0, 1.0)
+                : t;
         };
         CHECK(equalCellsP(times, passed) > 1e-4);
         const double cutDensity = 2 * std::exp(-2.0) / std::sqrt(2 * std::numbers::pi);
@@ -228,7 +226,8 @@ TEST_CASE("circleOfConfusion() is how far a point's image moves with the lens po
         const double r = radiusAt(c, depth);
         REQUIRE((r > 0) == (depth < c.focusDistance));
         // The lens' ray through pixel x meets that depth where the central ray of pixel x + r u does.
-        const auto x = static_cast<float>(uniform(random, 0, width)), y = static_cast<float>(uniform(random, 0, height));
+        const auto x = static_cast<float>(uniform(random, 0, width)),
+                   y = static_cast<float>(uniform(random, 0, height));
         const Vec2 u = lensPoint(random);
         const CameraRay ray = cameraRay(c, width, height, x, y, u, 0);
         const glm::dvec3 met = pointAt(ray, depth);
@@ -247,7 +246,8 @@ TEST_CASE("projectPoint finds the image point of a pinhole's ray, also when the 
     const auto farthest = [&](const CameraParams& c, float time) {
         double worst = 0;
         for (int k = 0; k < 500; ++k) {
-            const auto x = static_cast<float>(uniform(random, 0, width)), y = static_cast<float>(uniform(random, 0, height));
+            const auto x = static_cast<float>(uniform(random, 0, width)),
+                       y = static_cast<float>(uniform(random, 0, height));
             const CameraRay ray = cameraRay(c, width, height, x, y, vec2(0, 0), time);
             const Vec2 image = projectPoint(c, narrowed(pointAt(ray, uniform(random, 0.3, 30))), time);
             worst = std::max<double>(worst, std::hypot(image.x - (x - 0.5f * width), image.y - (y - 0.5f * height)));
@@ -263,7 +263,8 @@ TEST_CASE("projectPoint finds the image point of a pinhole's ray, also when the 
     const CameraParams turned = movingCamera();
     CHECK(farthest(turned, 0) < 0.003);
     CHECK(farthest(turned, 1) < 0.003);
-    const double cosine = glm::dot(wide(turned.forward), glm::normalize(wide(vecAdd(turned.forward, turned.forwardMotion))));
+    const double cosine =
+        glm::dot(wide(turned.forward), glm::normalize(wide(vecAdd(turned.forward, turned.forwardMotion))));
     const double angle = std::acos(cosine);
     CHECK(angle > 0.03);
     CHECK(farthest(turned, 0.5f) < 0.003 + 2 * std::hypot(width, height) / 2 * angle * angle / 4);

@@ -111,11 +111,11 @@ TEST_CASE("addDiffuse: value times unshadowed shading times reflectance, in each
                                noisy = bench.filled(3 * in.layout().size, 0.25f);
                     const auto samples = bench.filled(in.layout().size, 100u);
                     bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addDiffuse", in.params,
-                        WEDGE_BLOCK_PIXELS, shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made,
-                        bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values), bench.buffer(in.normal.values),
-                        bench.buffer(in.objectId.values), bench.buffer(in.diffuse.values),
-                        bench.buffer(in.value.values), bench.buffer(in.noisy.values), bench.buffer(in.taken.values),
-                        direct, noisy, samples);
+                        WEDGE_BLOCK_PIXELS, shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} },
+                        made, bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values),
+                        bench.buffer(in.normal.values), bench.buffer(in.objectId.values),
+                        bench.buffer(in.diffuse.values), bench.buffer(in.value.values), bench.buffer(in.noisy.values),
+                        bench.buffer(in.taken.values), direct, noisy, samples);
                     const Planes<float> found = planesOf(in.layout(), bench.read(direct));
                     const Planes<float> foundNoisy = planesOf(in.layout(), bench.read(noisy));
                     const Planes<std::uint32_t> counts = planesOf(in.layout(), bench.read(samples));
@@ -166,9 +166,10 @@ TEST_CASE("addSpecular: the second term times the lobe's unshadowed shading time
                        noisy = bench.filled(3 * in.layout().size, 0.25f);
             bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addSpecular", in.params,
                 WEDGE_BLOCK_PIXELS, shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made, frame,
-                bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values), bench.buffer(in.normal.values),
-                bench.buffer(in.objectId.values), bench.buffer(in.gloss.values), bench.buffer(in.specular.values), bench.buffer(in.value.values),
-                bench.buffer(in.noisy.values), direct, noisy);
+                bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values),
+                bench.buffer(in.normal.values), bench.buffer(in.objectId.values), bench.buffer(in.gloss.values),
+                bench.buffer(in.specular.values), bench.buffer(in.value.values), bench.buffer(in.noisy.values), direct,
+                noisy);
             const Planes<float> found = planesOf(in.layout(), bench.read(direct));
             const Planes<float> foundNoisy = planesOf(in.layout(), bench.read(noisy));
             CAPTURE(shading);
@@ -225,17 +226,20 @@ TEST_CASE("addSpecular: a mirror shows the light's own radiance, where it shows 
                 const bool faces = glm::dot(l, lightNormal(light)) < -0.1;
                 const bool edge = std::fabs(std::fabs(a) - 1) < 0.15 || std::fabs(std::fabs(b) - 1) < 0.15;
                 const bool hit = faces && std::fabs(a) < 1 && std::fabs(b) < 1;
-                shown.push_back(edge || (!faces && glm::dot(l, lightNormal(light)) < 0.1) ? -1 : hit ? profileAt(light, a, b) : 0);
+                shown.push_back(edge || (!faces && glm::dot(l, lightNormal(light)) < 0.1) ? -1
+                        : hit                                                             ? profileAt(light, a, b)
+                                                                                          : 0);
             });
             shared::FrameParams frame {};
             frame.eye = shared::vec3(0.5f, 1, 6);
             const std::vector<float> sharp(in.gloss.values.size(), -1e6f), whole(in.value.values.size(), 1.0f);
-            const auto direct = bench.filled(3 * in.layout().size, 0.0f), noisy = bench.filled(3 * in.layout().size, 0.0f);
+            const auto direct = bench.filled(3 * in.layout().size, 0.0f),
+                       noisy = bench.filled(3 * in.layout().size, 0.0f);
             bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addSpecular", in.params,
-                WEDGE_BLOCK_PIXELS, shared::SampleParams { WEDGE_SHADING_RATIO, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made, frame,
-                bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values), bench.buffer(in.normal.values),
-                bench.buffer(in.objectId.values), bench.buffer(sharp), bench.buffer(in.specular.values), bench.buffer(whole),
-                bench.buffer(whole), direct, noisy);
+                WEDGE_BLOCK_PIXELS, shared::SampleParams { WEDGE_SHADING_RATIO, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} },
+                made, frame, bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values),
+                bench.buffer(in.normal.values), bench.buffer(in.objectId.values), bench.buffer(sharp),
+                bench.buffer(in.specular.values), bench.buffer(whole), bench.buffer(whole), direct, noisy);
             const Planes<float> found = planesOf(in.layout(), bench.read(direct));
             std::size_t next = 0;
             int lit = 0;
@@ -273,7 +277,8 @@ TEST_CASE("addIndirect: terms times reflectance add up, with their samples; ambi
             });
             const auto indirect = bench.filled(3 * in.layout().size, 0.5f),
                        indirectNoisy = bench.filled(3 * in.layout().size, 0.25f);
-            const auto samples = bench.filled(in.layout().size, 7u), indirectSamples = bench.filled(in.layout().size, 0u);
+            const auto samples = bench.filled(in.layout().size, 7u),
+                       indirectSamples = bench.filled(in.layout().size, 0u);
             const auto add = [&](std::uint32_t component, const Planes<float>& reflectance) {
                 bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addIndirect", in.params,
                     WEDGE_BLOCK_PIXELS, component, bench.buffer(reflectance.values), bench.buffer(value.values),
@@ -324,7 +329,8 @@ TEST_CASE("addEmission: emission and reflection on surfaces, emission alone else
         const Planes<float> found = planesOf(in.layout(), bench.read(beauty));
         in.everyPixel([&](int x, int y) {
             for (std::size_t c = 0; c < 3; ++c) {
-                const float reflected = in.objectId.at(x, y) != 0 ? in.diffuse.at(x, y, c) + in.normal.at(x, y, c) : 0.0f;
+                const float reflected =
+                    in.objectId.at(x, y) != 0 ? in.diffuse.at(x, y, c) + in.normal.at(x, y, c) : 0.0f;
                 REQUIRE(found.at(x, y, c) == in.position.at(x, y, c) + reflected);
             }
         });

@@ -49,7 +49,8 @@ struct Motion {
     /// One motion, and long enough.
     bool one(const shared::DistributedParams& p) const
     {
-        return speed() < std::numeric_limits<double>::infinity() && speed() >= p.leastRadius && spread <= p.oneVelocity * speed();
+        return speed() < std::numeric_limits<double>::infinity() && speed() >= p.leastRadius
+            && spread <= p.oneVelocity * speed();
     }
     /// Whether a rounding decides.
     bool uncertain(const shared::DistributedParams& p) const
@@ -64,7 +65,8 @@ void requireAlong(
 {
     if (p.packed != 0) {
         // Direction times deviation, of 8 bits.
-        const double expected = apart && m.one(p) ? bestWidth(p.shutterWidth, p.shutterExponent, m.speed() / 2, n, 1) : 0;
+        const double expected =
+            apart && m.one(p) ? bestWidth(p.shutterWidth, p.shutterExponent, m.speed() / 2, n, 1) : 0;
         const double scale = expected > 0 ? expected / m.speed() : 0;
         REQUIRE(agree(along, expected));
         REQUIRE(agree(dx, scale > 0 ? scale * m.x : 0, 1.0 / 256));
@@ -90,7 +92,8 @@ Motion packedMotion(const shared::DistributedParams& p, const Motion& m)
     return { rounded(m.x), rounded(m.y), 0 };
 }
 
-/// The directions that a kernel has stored in a plane that was `before`; fails if it has changed others than the window's.
+/// The directions that a kernel has stored in a plane that was `before`; fails if it has changed others than the
+/// window's.
 Planes<float> directionsOf(
     KernelBench& bench, const Region& region, const device::Buffer<float>& buffer, const Planes<float>& before)
 {
@@ -162,8 +165,8 @@ struct BlursFound {
     Planes<float> lens, along, directions;
 };
 /// Packed, circles of confusion are with the hits, and directions take the place of motions.
-BlursFound blurs(KernelBench& bench, const Region& region, const shared::DistributedParams& p, const Planes<float>& confusion,
-    const Planes<float>& motion, const Planes<std::uint32_t>& taken)
+BlursFound blurs(KernelBench& bench, const Region& region, const shared::DistributedParams& p,
+    const Planes<float>& confusion, const Planes<float>& motion, const Planes<std::uint32_t>& taken)
 {
     const Planes<float> hits = filledPlanes(region, 1, 1e30f, [](int x, int, std::size_t) { return x; });
     Output<float> lens(bench, region, 1), along(bench, region, 1), directions(bench, region, 2);
@@ -175,7 +178,8 @@ BlursFound blurs(KernelBench& bench, const Region& region, const shared::Distrib
         return { lens.read(), along.read(), directions.read() };
     }
     Planes<float> ofY = motion;
-    std::copy_n(motion.values.begin() + static_cast<std::ptrdiff_t>(region.layout.size), region.layout.size, ofY.values.begin());
+    std::copy_n(motion.values.begin() + static_cast<std::ptrdiff_t>(region.layout.size), region.layout.size,
+        ofY.values.begin());
     const Planes<float> both = packedNumbers(motion, ofY);
     const auto confusions = bench.buffer(packedNumbers(hits, confusion).values), motions = bench.buffer(both.values);
     launchPixels(
@@ -184,11 +188,12 @@ BlursFound blurs(KernelBench& bench, const Region& region, const shared::Distrib
 }
 
 /// shadows: six planes, or packed the first two in one.
-BlursFound shadowBlurs(KernelBench& bench, const Region& region, const shared::DistributedParams& p, const Planes<float>& shadows,
-    const Planes<float>& beta, const Planes<std::uint32_t>& taken)
+BlursFound shadowBlurs(KernelBench& bench, const Region& region, const shared::DistributedParams& p,
+    const Planes<float>& shadows, const Planes<float>& beta, const Planes<std::uint32_t>& taken)
 {
     Planes<float> ofY = shadows;
-    std::copy_n(shadows.values.begin() + static_cast<std::ptrdiff_t>(region.layout.size), region.layout.size, ofY.values.begin());
+    std::copy_n(shadows.values.begin() + static_cast<std::ptrdiff_t>(region.layout.size), region.layout.size,
+        ofY.values.begin());
     const auto shadowed = bench.buffer((p.packed != 0 ? packedNumbers(shadows, ofY) : shadows).values);
     const auto betas = bench.buffer(beta.values);
     const auto takens = bench.buffer(taken.values);
@@ -245,8 +250,8 @@ TEST_CASE("blurs: of the lens where all of the pixel is blurred, of the shutter 
                                 r > p.leastRadius ? bestWidth(p.blurWidth, p.blurExponent, r, n, 2) : 0));
                         const Motion m { motion.at(x, y), motion.at(x, y, 1), motion.at(x, y, 2) };
                         if (!m.uncertain(p))
-                            requireAlong(
-                                p, m, true, n, found.along.at(x, y), found.directions.at(x, y), found.directions.at(x, y, 1));
+                            requireAlong(p, m, true, n, found.along.at(x, y), found.directions.at(x, y),
+                                found.directions.at(x, y, 1));
                     });
                 }
     });

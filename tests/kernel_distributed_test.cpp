@@ -113,8 +113,8 @@ TEST_CASE("the factoring error is the signed luminance of k E - k mean(e)")
     });
 }
 
-TEST_CASE(
-    "widths: apart where the mean error around of the same object is small, and as wide as the lens blurs at least; packed, too")
+TEST_CASE("widths: apart where the mean error around of the same object is small, and as wide as the lens blurs at "
+          "least; packed, too")
 {
     onEveryRegion(50, [](KernelBench& bench, const Region& region, std::mt19937& random) {
         for (const std::uint32_t radius : { 0u, 1u, 2u, 5u })
@@ -171,8 +171,7 @@ TEST_CASE("counts are the scaled demand to the nearest, within bounds, and never
         for (const float scale : { 0.0f, 1.0f, 37.5f, 1e30f }) {
             const auto demand = filledPlanes(region, 1, 1e30f,
                 [&](int, int, std::size_t) { return random() % 5 == 0 ? 0.0 : std::exp(uniform(random, -6, 6)); });
-            const auto taken =
-                filledPlanes(region, 1, 1u << 20, [&](int, int, std::size_t) { return random() % 40; });
+            const auto taken = filledPlanes(region, 1, 1u << 20, [&](int, int, std::size_t) { return random() % 40; });
             Output<std::uint32_t> wanted(bench, region, 1);
             const auto demands = bench.buffer(demand.values);
             const auto takens = bench.buffer(taken.values);
@@ -182,8 +181,8 @@ TEST_CASE("counts are the scaled demand to the nearest, within bounds, and never
             everyPixel(region.window, [&](int x, int y) {
                 const double n = std::clamp(static_cast<double>(scale) * demand.at(x, y), 8.0, 100.0);
                 if (std::fabs(n - std::floor(n) - 0.5) > 1e-4)
-                    REQUIRE(found.at(x, y)
-                        == std::max(static_cast<std::uint32_t>(std::floor(n + 0.5)), taken.at(x, y)));
+                    REQUIRE(
+                        found.at(x, y) == std::max(static_cast<std::uint32_t>(std::floor(n + 0.5)), taken.at(x, y)));
             });
         }
     });

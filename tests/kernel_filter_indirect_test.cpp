@@ -137,8 +137,8 @@ TEST_CASE("without a light: a constant field comes out unchanged to rounding")
             double worst = 0;
             everyPixel(image, [&](int x, int y) {
                 for (int c = 0; c < planes; ++c)
-                    worst = std::max(
-                        worst, std::fabs(result.value.at(x, y, static_cast<std::size_t>(c)) / (0.7 + c) - 1));
+                    worst =
+                        std::max(worst, std::fabs(result.value.at(x, y, static_cast<std::size_t>(c)) / (0.7 + c) - 1));
             });
             CHECK(worst < 3e-6);
         }
@@ -199,8 +199,8 @@ TEST_CASE("on a smooth scene two passes over plain distances are close to the ga
                 });
                 const double ratio = std::sqrt(difference / effect);
                 MESSAGE("scene " << seed << (narrower ? std::string(", narrower of both") : std::string(", own width"))
-                                 << ": RMS difference "
-                                 << std::sqrt(difference) << ", worst " << worst << ", of the filter's effect " << ratio);
+                                 << ": RMS difference " << std::sqrt(difference) << ", worst " << worst
+                                 << ", of the filter's effect " << ratio);
                 CHECK(ratio < 0.1);
                 CHECK(worst < 0.015);
                 CHECK(std::sqrt(effect) > 0.01);

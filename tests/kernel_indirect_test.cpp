@@ -71,8 +71,9 @@ public:
         const render::DeviceScene& s = traced.onDevice;
         const render::Frame& f = traced.frame;
         traced.bench.passes.tiles("paths", device::PassKind::Trace, "indirect.cl", "samplePaths", traced.params, 1.0,
-            params, s.nodes, s.blocks, render::surfaceArguments(s), s.areaLights, s.deltaLights, f.receivers(), f.specular,
-            traced.bench.buffer(wanted), last, sums_, traced.taken, value_, reflectors_, f.rays, f.pathRays);
+            params, s.nodes, s.blocks, render::surfaceArguments(s), s.areaLights, s.deltaLights, f.receivers(),
+            f.specular, traced.bench.buffer(wanted), last, sums_, traced.taken, value_, reflectors_, f.rays,
+            f.pathRays);
     }
     PathResult result()
     {
@@ -123,8 +124,7 @@ HostAmbient hostAmbient(
             continue;
         }
         ++out.rays;
-        const shared::Hit hit =
-            bvh::closestHit(run.traced.hierarchy, { origin, 0.0f, l, run.params.ambientDistance });
+        const shared::Hit hit = bvh::closestHit(run.traced.hierarchy, { origin, 0.0f, l, run.params.ambientDistance });
         if (hit.triangle == WEDGE_NO_TRIANGLE)
             continue;
         out.hits += 1;
@@ -154,7 +154,8 @@ TEST_CASE("ambient: hits and their distances are those of the host's traversal a
             run.sample(count, count);
             const PathResult found = run.result();
             const auto id = run.traced.read(run.traced.frame.objectId);
-            const auto origin = run.traced.read(run.traced.frame.origin), normal = run.traced.read(run.traced.frame.normal);
+            const auto origin = run.traced.read(run.traced.frame.origin),
+                       normal = run.traced.read(run.traced.frame.normal);
             const auto geometric = run.traced.read(run.traced.frame.geometric);
             unsigned differ = 0, surfaces = 0, partly = 0, none = 0, below = 0;
             run.traced.everyPixel([&](int x, int y) {
@@ -206,7 +207,8 @@ TEST_CASE("samples in two calls, the second with counts of its own, are the samp
         std::vector<std::uint32_t> counts(run.traced.layout.size);
         for (std::size_t i = 0; i < counts.size(); ++i)
             counts[i] = 16 + static_cast<std::uint32_t>(i) % 13;
-        for (const std::uint32_t component : { WEDGE_COMPONENT_DIFFUSE, WEDGE_COMPONENT_GLOSSY, WEDGE_COMPONENT_AMBIENT })
+        for (const std::uint32_t component :
+            { WEDGE_COMPONENT_DIFFUSE, WEDGE_COMPONENT_GLOSSY, WEDGE_COMPONENT_AMBIENT })
             for (const std::uint32_t sampler : { WEDGE_SAMPLER_SOBOL, WEDGE_SAMPLER_STRATIFIED }) {
                 CAPTURE(component);
                 CAPTURE(sampler);
@@ -254,7 +256,8 @@ TEST_CASE("one bounce under an emitting quad converges to its form factor times 
             for (int i = 0; i < steps; ++i)
                 for (int k = 0; k < steps; ++k) {
                     const glm::dvec3 d = glm::dvec3(0.2 + 0.7 * (2 * (i + 0.5) / steps - 1), 0.8,
-                                             -0.3 + 0.5 * (2 * (k + 0.5) / steps - 1)) - at;
+                                             -0.3 + 0.5 * (2 * (k + 0.5) / steps - 1))
+                        - at;
                     const double r2 = glm::dot(d, d);
                     factor += d.y * d.y / (std::numbers::pi * r2 * r2) * (4 * 0.7 * 0.5) / (steps * steps);
                 }
@@ -288,8 +291,8 @@ TEST_CASE("pixels whose rays hit nothing have value and reflectors 0, those with
             std::vector<std::uint32_t> wanted(run.traced.layout.size, 24);
             run.traced.everyPixel([&](int x, int y) {
                 if ((x + y) % 5 == 0)
-                    wanted[shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
-                        run.traced.layout.stride)] = 0;
+                    wanted[shared::pixelIndex(
+                        static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), run.traced.layout.stride)] = 0;
             });
             run.sample(wanted, 24);
             const PathResult found = run.result();
@@ -321,7 +324,8 @@ TEST_CASE("both families of traversals give the same sums")
         const Defines wideDefines { { "WEDGE_SPECULAR", "1" } };
         const Defines scalarDefines { { "WEDGE_SPECULAR", "1" }, { "WEDGE_TRAVERSAL_SCALAR", "1" } };
         PathRun wide(scene, device, 37, 23, wideDefines), scalar(scene, device, 37, 23, scalarDefines);
-        for (const std::uint32_t component : { WEDGE_COMPONENT_DIFFUSE, WEDGE_COMPONENT_GLOSSY, WEDGE_COMPONENT_AMBIENT }) {
+        for (const std::uint32_t component :
+            { WEDGE_COMPONENT_DIFFUSE, WEDGE_COMPONENT_GLOSSY, WEDGE_COMPONENT_AMBIENT }) {
             for (PathRun* run : { &wide, &scalar }) {
                 run->params.component = component;
                 run->params.bounces = 3;

@@ -132,7 +132,8 @@ TEST_CASE("elementary functions are those of the library")
         for (const float exponent : { 0.0f, 0.3f, 1.0f, 12.0f, 2000.0f }) {
             const double exact = std::pow(static_cast<double>(u), static_cast<double>(exponent));
             if (u > 0 && exact > 1e-30)
-                power = std::max(power, std::fabs(powPositive(u, exponent) / exact - 1) / std::max(1.0, -std::log2(exact)));
+                power =
+                    std::max(power, std::fabs(powPositive(u, exponent) / exact - 1) / std::max(1.0, -std::log2(exact)));
         }
         float s, c;
         sinCosTurn(u, &s, &c);
@@ -151,7 +152,9 @@ TEST_CASE("elementary functions are those of the library")
 TEST_CASE("samples of the part of a light above a horizon are above it, and their weights make up that part's power")
 {
     std::mt19937 random(7);
-    const auto number = [&](float lo, float hi) { return lo + (hi - lo) * static_cast<float>(random()) / 4294967296.0f; };
+    const auto number = [&](float lo, float hi) {
+        return lo + (hi - lo) * static_cast<float>(random()) / 4294967296.0f;
+    };
     int cut = 0, whole = 0;
     for (int run = 0; run < 600; ++run) {
         AreaLight light {};
@@ -182,8 +185,11 @@ TEST_CASE("samples of the part of a light above a horizon are above it, and thei
                 const PartSample s = samplePart(light, part, u);
                 REQUIRE(std::fabs(s.a) <= 1);
                 REQUIRE(std::fabs(s.b) <= 1);
-                REQUIRE(s.mass == doctest::Approx(part.cut != 0 ? partMass(light, part, s.a, s.b) : 1.0f).epsilon(2e-3));
-                below += part.cut != 0 && height(s.a, s.b) < -0.02f * (std::fabs(part.inner) + std::fabs(part.outer)) ? 1 : 0;
+                REQUIRE(
+                    s.mass == doctest::Approx(part.cut != 0 ? partMass(light, part, s.a, s.b) : 1.0f).epsilon(2e-3));
+                below += part.cut != 0 && height(s.a, s.b) < -0.02f * (std::fabs(part.inner) + std::fabs(part.outer))
+                    ? 1
+                    : 0;
                 if (height(s.a, s.b) > 0) {
                     found[0] += static_cast<double>(s.mass) / (steps * steps);
                     found[1] += s.mass * (s.a + 2.0 * s.b) / (steps * steps);
@@ -312,8 +318,8 @@ TEST_CASE("directions in 32 bits come back as unit vectors within 1e-4 radians")
     for (int i = 0; i < 20000; ++i) {
         // Every other one near the fold of the map.
         const double h = i % 2 == 0 ? z(random) : 1e-4 * z(random), r = std::sqrt(1 - h * h), a = angle(random);
-        directions.push_back(vec3(
-            static_cast<float>(r * std::cos(a)), static_cast<float>(r * std::sin(a)), static_cast<float>(h)));
+        directions.push_back(
+            vec3(static_cast<float>(r * std::cos(a)), static_cast<float>(r * std::sin(a)), static_cast<float>(h)));
     }
     double worst = 0;
     for (const Vec3 d : directions) {

@@ -65,8 +65,8 @@ Widths widthsOf(KernelBench& bench, shared::ReflectorParams p, float extent, con
     const auto beta = bench.filled(layout.size, -7.0f);
     const auto wanted = bench.filled(layout.size, noCount);
     launchRows(bench, "reflectorWidths", p, 1, bench.buffer(reflectors.values), bench.filled(1, extent),
-        bench.buffer(pixelSize.values),
-        bench.buffer((p.meanOnly != 0 ? pixelSize : gloss).values), bench.buffer(taken.values), beta, wanted);
+        bench.buffer(pixelSize.values), bench.buffer((p.meanOnly != 0 ? pixelSize : gloss).values),
+        bench.buffer(taken.values), beta, wanted);
     const Planes<float> betas = planesOf(layout, bench.read(beta));
     const Planes<std::uint32_t> counts = planesOf(layout, bench.read(wanted));
     Widths out;
@@ -92,7 +92,8 @@ Expected expectedOf(const shared::ReflectorParams& p, double extent, const Found
     const double gamma =
         glossy ? std::acos(std::pow(std::sqrt(0.5), 1 / std::max(m, 1.0))) / (0.5 * std::numbers::pi) : 0.4;
     const double harmonic = f.taken / std::max<double>(f.inverse, 1e-20);
-    const double fraction = p.meanOnly != 0 ? p.meanFraction * harmonic : std::min<double>(p.meanFraction * harmonic, f.nearest);
+    const double fraction =
+        p.meanOnly != 0 ? p.meanFraction * harmonic : std::min<double>(p.meanFraction * harmonic, f.nearest);
     const double near = p.meanFraction > 0 ? fraction : f.nearest;
     const double zMin = std::max({ f.nearest > 0 ? near : size, p.leastReflector * size, 1e-12 });
     const double zMax = std::max<double>(f.farthest, zMin);

@@ -41,7 +41,10 @@ struct TermPlanes {
     {
         return shared::valueBits(p.packed, p.values == 1);
     }
-    Planes<float> textureOf(const shared::DistributedParams& p) const { return packedColours(texture, bitsOfTexture(p)); }
+    Planes<float> textureOf(const shared::DistributedParams& p) const
+    {
+        return packedColours(texture, bitsOfTexture(p));
+    }
     Planes<float> valueOf(const shared::DistributedParams& p) const { return packedColours(value, bitsOfValue(p)); }
     Planes<float> filteredTextureOf(const shared::DistributedParams& p) const
     {
@@ -203,7 +206,8 @@ TEST_CASE("images add up, and a term's value is the same unpacked")
     });
 }
 
-TEST_CASE("counts of a lean frame's term: those wanted where the pixel had new primary samples, else those of the first pass")
+TEST_CASE(
+    "counts of a lean frame's term: those wanted where the pixel had new primary samples, else those of the first pass")
 {
     onEveryRegion(70, [](KernelBench& bench, const Region& region, std::mt19937& random) {
         const auto counts = [&](std::uint32_t least, std::uint32_t most) {

@@ -259,7 +259,8 @@ TEST_CASE("specular: the mean of lobe times geometry term, of both models, by a 
                     const double scale = peak * (expected.horizon ? unclipped(near) : expected.diffuse);
                     REQUIRE(value >= 0);
                     // Directions of sharp lobes are but a few for each receiver, whose errors are their own.
-                    const double tolerance = across > 40 || ((expected.horizon || near > 0.4) && across > 10) ? 1.0 : 4e-3;
+                    const double tolerance =
+                        across > 40 || ((expected.horizon || near > 0.4) && across > 10) ? 1.0 : 4e-3;
                     CAPTURE(across);
                     CAPTURE(near);
                     CAPTURE(expected.horizon);

@@ -86,7 +86,8 @@ TEST_CASE("sharedSamples: all are shared, in order, as evenly as whole numbers g
         REQUIRE(shared::sharedSamples(count, count, total) == total);
         REQUIRE(shared::sharedSamples(index, count, total)
             == std::uint64_t { index } * (total / count) + std::min(index, total % count));
-        const std::uint32_t own = shared::sharedSamples(index + 1, count, total) - shared::sharedSamples(index, count, total);
+        const std::uint32_t own =
+            shared::sharedSamples(index + 1, count, total) - shared::sharedSamples(index, count, total);
         REQUIRE(own >= total / count);
         REQUIRE(own <= (total + count - 1) / count);
     }
@@ -153,7 +154,8 @@ TEST_CASE("listReceivers: over all waves every new sample once, a pixel's togeth
                         }
                         REQUIRE(at == wave.receivers);
                         for (std::size_t i = at; i < l.pixels.size(); ++i)
-                            REQUIRE((l.pixels[i] == untouched && l.samples[i] == untouched && l.shares[i] == untouched));
+                            REQUIRE(
+                                (l.pixels[i] == untouched && l.samples[i] == untouched && l.shares[i] == untouched));
                         REQUIRE(l.firsts.back() == untouched);
                         REQUIRE(l.counts.back() == untouched);
                     }
@@ -192,8 +194,9 @@ TEST_CASE("shareSamples: a term's new samples follow each other over the pixel's
             const std::size_t size = l.wave.planeSize;
             const auto first = bench.bench.filled(size, untouched), last = bench.bench.filled(size, untouched);
             const auto sums = bench.bench.filled(4 * size, -7.0f), extremes = bench.bench.filled(3 * size, -7.0f);
-            bench.launch("shareSamples", l.wave.receivers, l.wave, l.pixelOf, l.shareOf, bench.bench.buffer(term.taken.values),
-                bench.bench.buffer(term.wanted.values), sumPlanes, extremePlanes, first, last, sums, extremes);
+            bench.launch("shareSamples", l.wave.receivers, l.wave, l.pixelOf, l.shareOf,
+                bench.bench.buffer(term.taken.values), bench.bench.buffer(term.wanted.values), sumPlanes, extremePlanes,
+                first, last, sums, extremes);
             const std::vector<std::uint32_t> from = bench.bench.read(first), to = bench.bench.read(last);
             std::uint32_t uneven = 0, none = 0;
             for (std::uint32_t slot = 0; slot < l.wave.tiles * WEDGE_TILE_PIXELS; ++slot) {
@@ -244,7 +247,8 @@ TEST_CASE("the host's schedule: waves of whole tiles in order, none too large, a
                 shared::WaveParams settings {};
                 settings.sampler = WEDGE_SAMPLER_STRATIFIED;
                 settings.published = 1;
-                const std::vector<shared::WaveParams> found = waves.schedule(bench.passes, params, {}, frame, settings, last);
+                const std::vector<shared::WaveParams> found =
+                    waves.schedule(bench.passes, params, {}, frame, settings, last);
                 std::uint64_t receivers = 0, expected = 0;
                 std::uint32_t tile = 0;
                 for (const shared::WaveParams& wave : found) {

@@ -22,8 +22,8 @@ inline void displace(scene::Scene& scene, glm::vec3 by)
         g.positionsAtClose[i] += by[static_cast<int>(i % 3)];
 }
 
-/// Share of a disc of unit radius to the left of x, weighted by a uniform profile or a Gaussian of which the radius is two
-/// standard deviations.
+/// Share of a disc of unit radius to the left of x, weighted by a uniform profile or a Gaussian of which the radius is
+/// two standard deviations.
 inline double discShare(scene::ApertureProfile profile, double x)
 {
     x = std::clamp(x, -1.0, 1.0);
@@ -43,8 +43,8 @@ inline double discShare(scene::ApertureProfile profile, double x)
     return left(x) / all;
 }
 
-/// Share of the lens through which a pixel sees what lies to the left of `reach` pixels from its middle, with a circle of
-/// confusion of that signed radius.
+/// Share of the lens through which a pixel sees what lies to the left of `reach` pixels from its middle, with a circle
+/// of confusion of that signed radius.
 inline double lensShare(scene::ApertureProfile profile, double circle, double reach)
 {
     if (std::fabs(circle) < 1e-9)
@@ -53,7 +53,8 @@ inline double lensShare(scene::ApertureProfile profile, double circle, double re
     return discShare(profile, reach / std::fabs(circle));
 }
 
-/// Area of the unit square at (x, y) inside a triangle of counter-clockwise or clockwise corners (Sutherland and Hodgman).
+/// Area of the unit square at (x, y) inside a triangle of counter-clockwise or clockwise corners (Sutherland and
+/// Hodgman).
 inline double coverage(const glm::dvec2 (&corners)[3], double x, double y)
 {
     const auto cross = [](glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; };

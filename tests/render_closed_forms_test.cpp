@@ -167,10 +167,13 @@ TEST_CASE("lights that the floor's horizon cuts, and lights next to it: no pixel
             scene::LightProfile profile;
         };
         const Case cases[] = {
-            { "a panel, 20 % of it above the floor", { 0, -0.3f, -1 }, { 0.5f, 0, 0 }, { 0, 0.5f, 0 }, scene::LightProfile::Uniform },
+            { "a panel, 20 % of it above the floor", { 0, -0.3f, -1 }, { 0.5f, 0, 0 }, { 0, 0.5f, 0 },
+                scene::LightProfile::Uniform },
             { "the same, Gaussian", { 0, -0.3f, -1 }, { 0.5f, 0, 0 }, { 0, 0.5f, 0 }, scene::LightProfile::Gaussian },
-            { "a tip of it", { 0, -0.45f, -1 }, { 0.35f, 0.35f, 0 }, { -0.35f, 0.35f, 0 }, scene::LightProfile::Gaussian },
-            { "a lamp 2 cm above the floor", { 0, 0.02f, 0 }, { 0.5f, 0, 0 }, { 0, 0, 0.5f }, scene::LightProfile::Gaussian },
+            { "a tip of it", { 0, -0.45f, -1 }, { 0.35f, 0.35f, 0 }, { -0.35f, 0.35f, 0 },
+                scene::LightProfile::Gaussian },
+            { "a lamp 2 cm above the floor", { 0, 0.02f, 0 }, { 0.5f, 0, 0 }, { 0, 0, 0.5f },
+                scene::LightProfile::Gaussian },
         };
         for (const Case& c : cases) {
             const std::string name = c.name;
@@ -215,7 +218,7 @@ TEST_CASE("lights that the floor's horizon cuts, and lights next to it: no pixel
                     total += expected * expected;
                 }
                 MESSAGE(name << std::string(filtered ? ", aaf" : ", mc") << ": worst " << worst << ", RMS "
-                                            << std::sqrt(squared / total));
+                             << std::sqrt(squared / total));
                 CHECK(dark == 0);
                 // Nothing is in the way: the filtered frame has the quadrature's error, and that of the grid above.
                 if (filtered) {

@@ -39,7 +39,8 @@ scene::Scene movingWall(Moves moves)
     return scene;
 }
 
-/// A wall as wide as it takes, with a light before it, that moves to the left by so many pixels of an image of that height.
+/// A wall as wide as it takes, with a light before it, that moves to the left by so many pixels of an image of that
+/// height.
 scene::Scene racingWall(int height, float pixels)
 {
     SceneBuilder b;
@@ -157,7 +158,8 @@ TEST_CASE("a stop within the first pass leaves the pixels that it has come to, u
             CHECK_FALSE(frame.complete);
             const std::vector<float> found = pixels(renderer, renderer.frame().beauty, { 0, 0, across, down });
             CHECK(notFinite(found) == 0);
-            const auto taken = planesOf(renderer.frame().layout, renderer.frame().primaryTaken.downloadAll(renderer.queue()));
+            const auto taken =
+                planesOf(renderer.frame().layout, renderer.frame().primaryTaken.downloadAll(renderer.queue()));
             double sampled = 0, sum = 0, expected = 0;
             std::size_t wrong = 0;
             for (int y = 0; y < down; ++y)
@@ -197,7 +199,8 @@ TEST_CASE("a crop of a filtered frame has the bits of the whole one, with layers
         for (const Case& c : { Case { false, false, 1 }, { false, true, 0 }, { true, true, 0 } }) {
             CAPTURE(c.published);
             CAPTURE(c.keepLayers);
-            render::Settings settings = sized(c.published ? render::asPublished() : render::axisAligned(12), across, down);
+            render::Settings settings =
+                sized(c.published ? render::asPublished() : render::axisAligned(12), across, down);
             settings.bounces = c.bounces;
             requireCropOfWhole(renderer, settings, { 3, 2, 33, 22 }, c.keepLayers);
         }

@@ -181,7 +181,8 @@ TEST_CASE("indirect light: the error of the filtered image falls with the sample
             settings.seed = seed;
             return indirectPixels(renderer, sized(settings, 64, 64));
         };
-        const std::vector<float> reference = frame(render::monteCarlo(256), 11), second = frame(render::monteCarlo(256), 12);
+        const std::vector<float> reference = frame(render::monteCarlo(256), 11),
+                                 second = frame(render::monteCarlo(256), 12);
         const auto error = [&](const render::Settings& settings) {
             return std::sqrt(std::max(0.0, squaredError(frame(settings, 3), reference, second)));
         };
@@ -195,7 +196,8 @@ TEST_CASE("indirect light: the error of the filtered image falls with the sample
     });
 }
 
-TEST_CASE("ambient occlusion shows how open surfaces are, on white, whatever their material and light; the rest is black")
+TEST_CASE(
+    "ambient occlusion shows how open surfaces are, on white, whatever their material and light; the rest is black")
 {
     onEveryDevice([](const device::Device& device) {
         scene::Scene scene = richScene();
@@ -220,7 +222,8 @@ TEST_CASE("ambient occlusion shows how open surfaces are, on white, whatever the
                 for (int x = 0; x < width; ++x) {
                     const std::size_t i = static_cast<std::size_t>(3 * (y * width + x));
                     const bool surface = id[shared::pixelIndex(static_cast<std::uint32_t>(x),
-                                             static_cast<std::uint32_t>(y), f.layout.stride)] != 0;
+                                             static_cast<std::uint32_t>(y), f.layout.stride)]
+                        != 0;
                     (surface ? surfaces : holes) += 1;
                     shaded += surface && beauty[i] < 0.9f ? 1 : 0;
                     sum += beauty[i];
@@ -316,7 +319,8 @@ TEST_CASE("paths through scenes that a renderer may stumble over bring back numb
             CAPTURE(nasty.name);
             render::Renderer renderer(nasty.scene, device, renderOptions());
             for (const Named& m : methods(3))
-                for (const render::Settings& settings : { sized(m.settings, 21, 16), ambient(sized(m.settings, 1, 1)) }) {
+                for (const render::Settings& settings :
+                    { sized(m.settings, 21, 16), ambient(sized(m.settings, 1, 1)) }) {
                     CAPTURE(m.name);
                     renderer.render(settings, {}, true);
                     const render::Frame& f = renderer.frame();

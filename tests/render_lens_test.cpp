@@ -44,15 +44,16 @@ struct Edge {
             displace(b.scene, { moves * pixel, 0, 0 });
         return b.scene;
     }
-    /// Light that arrives at the middle of pixel x: from all of the lens and of the time for which the edge is to the right
-    /// of where the ray meets its plane.
+    /// Light that arrives at the middle of pixel x: from all of the lens and of the time for which the edge is to the
+    /// right of where the ray meets its plane.
     double expected(int x) const
     {
         const int steps = moves == 0 ? 1 : radius == 0 ? 4000 : 300;
         double sum = 0, weights = 0;
         for (int i = 0; i < steps; ++i) {
             const double t = (i + 0.5) / steps;
-            const double weight = shutter == scene::ShutterProfile::Gaussian ? std::exp(-0.5 * 16 * (t - 0.5) * (t - 0.5)) : 1;
+            const double weight =
+                shutter == scene::ShutterProfile::Gaussian ? std::exp(-0.5 * 16 * (t - 0.5) * (t - 0.5)) : 1;
             const double reach = start + moves * t - (x + 0.5);
             sum += weight * lensShare(aperture, circle(), reach);
             weights += weight;
@@ -61,8 +62,8 @@ struct Edge {
     }
 };
 
-/// Means of the columns of an image of rows that are all alike, over several seeds, against what is expected: the largest
-/// deviation in its standard deviations.
+/// Means of the columns of an image of rows that are all alike, over several seeds, against what is expected: the
+/// largest deviation in its standard deviations.
 struct Columns {
     double worst = 0;
     double error = 0; ///< the largest standard deviation of a column's mean

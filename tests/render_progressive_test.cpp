@@ -1,4 +1,5 @@
-// Progressive renders: samples stay and count, the error that they tell is the true one, and stopping leaves whole images.
+// Progressive renders: samples stay and count, the error that they tell is the true one, and stopping leaves whole
+// images.
 #include "host/render/progressive.h"
 #include "tests/lens_support.h"
 #include "tests/render_support.h"
@@ -45,7 +46,8 @@ struct Step {
 };
 
 /// All steps of a render with their images.
-std::vector<Step> steps(render::Renderer& renderer, const render::Settings& settings, const render::Control& control = {})
+std::vector<Step> steps(
+    render::Renderer& renderer, const render::Settings& settings, const render::Control& control = {})
 {
     std::vector<Step> out;
     renderer.renderProgressively(settings, control, [&](const render::ProgressiveStep& step) {
@@ -73,7 +75,8 @@ References references(render::Renderer& renderer, render::Settings settings)
     return out;
 }
 
-/// Root of the mean squared error of an image: the noise of references has no part in the product of what it is away from them.
+/// Root of the mean squared error of an image: the noise of references has no part in the product of what it is away
+/// from them.
 double trueError(const std::vector<float>& image, const References& truth)
 {
     double sum = 0;
@@ -110,7 +113,8 @@ void checkHonesty(const device::Device& device, const scene::Scene& scene, const
             CAPTURE(method);
             CAPTURE(i);
             CAPTURE(h.errors[i]);
-            MESSAGE(name << " " << method << " step " << i << ": error " << h.errors[i] << ", estimated over true " << h.ratios[i]);
+            MESSAGE(name << " " << method << " step " << i << ": error " << h.errors[i] << ", estimated over true "
+                         << h.ratios[i]);
             CHECK(h.ratios[i] > 0.8);
             CHECK(h.ratios[i] < 1.25);
         }
@@ -150,7 +154,8 @@ TEST_CASE("samples of all steps count, and their widths are those of a frame wit
             const render::FrameStatistics& s = taken[i].step.statistics;
             CAPTURE(i);
             // Two lights and the camera: three rays a sample, none of which is taken twice.
-            CHECK(static_cast<double>(raysOf(s)) == doctest::Approx(3.0 * taken[i].step.spp * width * height).epsilon(0.2));
+            CHECK(static_cast<double>(raysOf(s))
+                == doctest::Approx(3.0 * taken[i].step.spp * width * height).epsilon(0.2));
             CHECK(s.complete == (i == 2));
             if (i > 0) {
                 CHECK(raysOf(s) > raysOf(taken[i - 1].step.statistics));

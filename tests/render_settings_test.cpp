@@ -29,7 +29,8 @@ TEST_CASE("what bounds the error of distributed frames goes on with the samples"
     CHECK(axisAligned(100).distributed.maxSpp == 1000);
     CHECK(axisAligned(512).distributed.maxSpp == mostDistributedSpp);
     CHECK(axisAligned(9).distributed.factoringError == axisAligned().distributed.factoringError);
-    CHECK(axisAligned(112).distributed.factoringError == doctest::Approx(0.5f * axisAligned(28).distributed.factoringError));
+    CHECK(axisAligned(112).distributed.factoringError
+        == doctest::Approx(0.5f * axisAligned(28).distributed.factoringError));
 }
 
 TEST_CASE("settings of distributed frames out of range are refused")

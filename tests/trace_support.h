@@ -44,8 +44,8 @@ public:
         bench.passes.tiles("primary", device::PassKind::Trace, "primary.cl", "primary", params, 1.0, onDevice.nodes,
             onDevice.blocks, render::surfaceArguments(onDevice), onDevice.objectIds, onDevice.areaLights,
             static_cast<std::uint32_t>(onDevice.areaLightList.size()), frame.position, frame.normal, frame.origin,
-            frame.geometric, frame.objectId, frame.depth, frame.pixelSize, frame.diffuse, frame.specular, frame.emission,
-            frame.gloss);
+            frame.geometric, frame.objectId, frame.depth, frame.pixelSize, frame.diffuse, frame.specular,
+            frame.emission, frame.gloss);
     }
     /// p.firstPass samples of each pixel, the first of their light.
     void firstPass(const shared::SampleParams& p)
@@ -59,8 +59,8 @@ public:
     void secondPass(const shared::SampleParams& p, std::uint32_t last)
     {
         bench.passes.tiles("second", device::PassKind::Trace, "area_light.cl", "secondPass", params, 1.0, p,
-            onDevice.areaLightList[p.light], onDevice.nodes, onDevice.blocks, frame.receivers(), wanted, last, sums, taken,
-            value, frame.rays);
+            onDevice.areaLightList[p.light], onDevice.nodes, onDevice.blocks, frame.receivers(), wanted, last, sums,
+            taken, value, frame.rays);
     }
     template <class T>
     Planes<T> read(const device::Buffer<T>& buffer)

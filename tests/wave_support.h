@@ -23,7 +23,8 @@ class WaveBench {
 public:
     static constexpr std::uint32_t untouched = 0xdddddddd;
 
-    WaveBench(const device::Device& device, int width, int height, image::Window pixelWindow, const Defines& defines = {})
+    WaveBench(
+        const device::Device& device, int width, int height, image::Window pixelWindow, const Defines& defines = {})
         : bench(device, defines)
         , layout(width, height)
         , window(pixelWindow)
@@ -46,8 +47,8 @@ public:
     {
         const std::size_t receivers = wave.planeSize, pixels = std::size_t { wave.tiles } * WEDGE_TILE_PIXELS + 5;
         WaveLists out { wave, bench.filled(receivers, untouched), bench.filled(receivers, untouched),
-            bench.filled(receivers, untouched), bench.filled(pixels, untouched), bench.filled(pixels, untouched), {}, {}, {},
-            {}, {} };
+            bench.filled(receivers, untouched), bench.filled(pixels, untouched), bench.filled(pixels, untouched), {},
+            {}, {}, {}, {} };
         launch("listReceivers", wave.tiles, wave, bench.buffer(taken.values), bench.buffer(wanted.values),
             bench.buffer(tileFirst), out.pixelOf, out.sampleOf, out.shareOf, out.pixelFirst, out.pixelCount);
         out.pixels = bench.read(out.pixelOf);

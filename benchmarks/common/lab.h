@@ -36,7 +36,10 @@ public:
     virtual double sppOf(const render::FrameStatistics& frame) const = 0;
     virtual double raysOf(const render::FrameStatistics& frame) const = 0; ///< of the whole image
     /// What rays are counted by: the pixels that see something.
-    virtual double pixelsOf(const render::FrameStatistics& frame) const { return static_cast<double>(frame.shadedPixels); }
+    virtual double pixelsOf(const render::FrameStatistics& frame) const
+    {
+        return static_cast<double>(frame.shadedPixels);
+    }
     virtual float muOf(const render::Settings& settings) const = 0;
     virtual std::string describe(const render::Settings& settings) const = 0; ///< a few words
 };

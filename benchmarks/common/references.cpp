@@ -24,7 +24,8 @@ constexpr const char* kernelsKey = "referenceKernels";
 constexpr const char* deviationLayer = "deviation";
 
 /// Of the kernels that an image, or a layer of it, is made by.
-std::string kernelFingerprint(const render::Renderer& renderer, const render::Settings& settings, const std::string& layer)
+std::string kernelFingerprint(
+    const render::Renderer& renderer, const render::Settings& settings, const std::string& layer)
 {
     const bool distributed = render::isDistributed(settings, renderer.scene());
     std::vector<const char*> files = { distributed ? "wave_primary.cl" : "primary.cl" };

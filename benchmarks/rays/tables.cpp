@@ -58,8 +58,7 @@ std::string throughputTables(const RayResults& results)
 
 std::string ratioTable(const RayResults& results)
 {
-    std::string out =
-        "\nOurs (packets) over Embree's, median of paired runs\n\n"
+    std::string out = "\nOurs (packets) over Embree's, median of paired runs\n\n"
         + head({ "scene", "rays", "over single", "over packets high", "over best", "which", "quality: over single",
             "over packets high", "over best" });
     for (const RaySceneResult& scene : results.scenes)

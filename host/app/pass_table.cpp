@@ -47,8 +47,8 @@ std::string passTable(const render::FrameStatistics& s, const render::Settings& 
     text += fmt::format("{:<{}}  {:<9}  {:>10.2f}  {:>6.1f}\n", "device time", width, "", s.deviceMilliseconds, 100.0);
     text += fmt::format("{:<{}}  {:<9}  {:>10.2f}\n", "wall clock", width, "", s.wallMilliseconds);
     text += fmt::format("overhead (analysis, filter, composite) {:.1f} %\n", 100 * s.overheadFraction());
-    text += fmt::format("samples {:.1f} a shaded pixel and term, rays {:.1f} a pixel, {:.1f} Mrays/s\n",
-        s.sppMean, render::raysPerPixel(s, settings), render::megaraysPerSecond(s));
+    text += fmt::format("samples {:.1f} a shaded pixel and term, rays {:.1f} a pixel, {:.1f} Mrays/s\n", s.sppMean,
+        render::raysPerPixel(s, settings), render::megaraysPerSecond(s));
     return text;
 }
 

@@ -14,7 +14,8 @@ constexpr int defaultProgressiveSpp = 1024, openProgressiveSpp = 1 << 16;
 
 constexpr const char* distributedFrames = "through a lens or shutter, or with antialiasing";
 
-/// A count that suits no aaf, whose first pass alone takes more. isOption: it is that option's value, else the scene file's.
+/// A count that suits no aaf, whose first pass alone takes more. isOption: it is that option's value, else the scene
+/// file's.
 void requireFirstPass(bool isOption, const std::string& option, const std::string& key, const std::optional<int>& count,
     const scene::Scene& scene, int least)
 {
@@ -34,10 +35,11 @@ void refuseTooMany(bool isOption, const std::string& option, const std::string& 
     const scene::Scene& scene, const std::string& remedy)
 {
     if (isOption) {
-        throw UsageError(fmt::format("samples a pixel are too many for method aaf {}", distributedFrames), option + " " + value,
-            remedy);
+        throw UsageError(fmt::format("samples a pixel are too many for method aaf {}", distributedFrames),
+            option + " " + value, remedy);
     }
-    throw Error(fmt::format("scene file {}: {} is too high for method aaf {}", scene.path, key, distributedFrames), value, remedy);
+    throw Error(fmt::format("scene file {}: {} is too high for method aaf {}", scene.path, key, distributedFrames),
+        value, remedy);
 }
 
 /// The mean of distributed frames that are not progressive; the steps of those are no larger than that either way.
@@ -51,17 +53,18 @@ void requireDistributedMean(const RenderOptions& o, const scene::Scene& scene, i
             fmt::format("give {} or less, or add --progressive or --method mc", render::mostDistributedSpp));
     }
     // What a mu alone asks for.
-    refuseTooMany(o.mu.has_value(), "--mu", "mu", fmt::format("{}", o.mu ? *o.mu : scene.settings.mu.value_or(0)), scene,
-        fmt::format("lower it, or give --spp, {} or less", render::mostDistributedSpp));
+    refuseTooMany(o.mu.has_value(), "--mu", "mu", fmt::format("{}", o.mu ? *o.mu : scene.settings.mu.value_or(0)),
+        scene, fmt::format("lower it, or give --spp, {} or less", render::mostDistributedSpp));
 }
 
 /// The most samples of a pixel of a distributed frame: as given, else the default's or twice the mean.
-void applyDistributedMost(const RenderOptions& o, const scene::Scene& scene, const std::optional<int>& given, bool distributed,
-    render::Settings& s)
+void applyDistributedMost(const RenderOptions& o, const scene::Scene& scene, const std::optional<int>& given,
+    bool distributed, render::Settings& s)
 {
     if (distributed && given && *given > render::mostDistributedSpp) {
         refuseTooMany(o.maxSpp.has_value(), "--max-spp", "max_spp", fmt::format("{}", *given), scene,
-            fmt::format("{} {} or less", o.maxSpp ? "give" : "give there, or as --max-spp,", render::mostDistributedSpp));
+            fmt::format(
+                "{} {} or less", o.maxSpp ? "give" : "give there, or as --max-spp,", render::mostDistributedSpp));
     }
     render::DistributedSettings& d = s.distributed;
     d.maxSpp = std::clamp(given.value_or(std::max(d.maxSpp, 2 * s.spp)), d.firstPaths, render::mostDistributedSpp);

@@ -13,9 +13,9 @@ int progressiveSpp(const RenderOptions& options, const scene::Scene& scene);
 /// Whether the mean count is given, and not what follows from the spectrum.
 bool meanIsGiven(const render::Settings& settings);
 
-/// The counts of method aaf: those of the file are looked at only where no option overrides them and they have an effect.
-/// distributed: whether pixels have several receivers, see render::isDistributed(). Throws UsageError for options and Error
-/// for values of the file that are out of the range of such frames or contradict each other.
+/// The counts of method aaf: those of the file are looked at only where no option overrides them and they have an
+/// effect. distributed: whether pixels have several receivers, see render::isDistributed(). Throws UsageError for
+/// options and Error for values of the file that are out of the range of such frames or contradict each other.
 void applyCounts(const RenderOptions& options, const scene::Scene& scene, bool distributed, render::Settings& settings);
 
 } // namespace wedge::app

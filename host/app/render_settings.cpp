@@ -143,7 +143,8 @@ void applyAblations(const RenderOptions& o, bool distributed, render::Settings& 
     }
     if (o.spp && !meanIsGiven(s)) {
         throw UsageError("option has no effect where counts follow from the spectrum", fmt::format("--spp {}", *o.spp),
-            distributed ? "set --mu, or leave out --as-published" : "set --mu, or add --counts variance or --sampling uniform");
+            distributed ? "set --mu, or leave out --as-published"
+                        : "set --mu, or add --counts variance or --sampling uniform");
     }
 }
 
@@ -155,8 +156,9 @@ void refuseUndistributed(const RenderOptions& o)
         { "--sampler", o.sampler.has_value() } };
     for (const auto& [name, isGiven] : given) {
         if (isGiven) {
-            throw UsageError(o.progressive ? "option has no effect with method aaf and --progressive"
-                                           : "option has no effect with method aaf through a lens or shutter, or with antialiasing",
+            throw UsageError(o.progressive
+                    ? "option has no effect with method aaf and --progressive"
+                    : "option has no effect with method aaf through a lens or shutter, or with antialiasing",
                 name, "leave it out");
         }
     }
@@ -193,8 +195,8 @@ void applyLens(const RenderOptions& o, scene::Scene& scene)
     if (scene.cameraAtClose) {
         apply(*scene.cameraAtClose);
     }
-    refuse(o.focus && scene.camera.apertureRadius == 0, "with a pinhole", fmt::format("--focus {}", o.focus.value_or(0)),
-        "add --aperture");
+    refuse(o.focus && scene.camera.apertureRadius == 0, "with a pinhole",
+        fmt::format("--focus {}", o.focus.value_or(0)), "add --aperture");
 }
 
 render::Settings resolveSettings(const RenderOptions& o, const scene::Scene& scene)

@@ -5,7 +5,8 @@
 
 namespace wedge::app {
 
-/// Puts the lens that the options describe in the place of the scene's. Throws UsageError for a plane in focus of a pinhole.
+/// Puts the lens that the options describe in the place of the scene's. Throws UsageError for a plane in focus of a
+/// pinhole.
 void applyLens(const RenderOptions& options, scene::Scene& scene);
 
 /// The settings of the frame: options before what the scene file says, that before the defaults. Throws UsageError

@@ -65,9 +65,9 @@ public:
         return shared;
     }
 
-    /// A buffer in this one's memory, of `count` elements of U from this one's element `first` on, which lies at a multiple of
-    /// partAlignment bytes. Both keep the memory alive. A part that is all of it is the same memory object, of which a kernel may
-    /// have both, for different elements; of others that overlap it may have but one.
+    /// A buffer in this one's memory, of `count` elements of U from this one's element `first` on, which lies at a
+    /// multiple of partAlignment bytes. Both keep the memory alive. A part that is all of it is the same memory object,
+    /// of which a kernel may have both, for different elements; of others that overlap it may have but one.
     template <class U>
     Buffer<U> part(std::size_t first, std::size_t count, std::string name) const
     {

@@ -11,8 +11,7 @@ namespace wedge::device {
 namespace {
 
 constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
-constexpr const char* wayOut =
-    "render a smaller image with --size, or choose a device with more memory with --device";
+constexpr const char* wayOut = "render a smaller image with --size, or choose a device with more memory with --device";
 
 std::uint64_t saturatingAdd(std::uint64_t a, std::uint64_t b) { return b > most - a ? most : a + b; }
 std::uint64_t saturatingMul(std::uint64_t a, std::uint64_t b) { return b != 0 && a > most / b ? most : a * b; }

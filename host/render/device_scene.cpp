@@ -66,11 +66,13 @@ std::vector<shared::DeltaLight> deltaLightData(const scene::Scene& scene)
     return out;
 }
 
-/// Probabilities with which path vertices choose each light: by what it sends out, so that strong ones are sampled more.
-/// A directional light counts with what falls on the scene.
+/// Probabilities with which path vertices choose each light: by what it sends out, so that strong ones are sampled
+/// more. A directional light counts with what falls on the scene.
 void setPicks(std::vector<shared::AreaLight>& area, std::vector<shared::DeltaLight>& delta, float diameter)
 {
-    const auto powerOf = [&](const shared::AreaLight& l) { return shared::luminance(l.power) * (l.twoSided != 0 ? 2.0f : 1.0f); };
+    const auto powerOf = [&](const shared::AreaLight& l) {
+        return shared::luminance(l.power) * (l.twoSided != 0 ? 2.0f : 1.0f);
+    };
     const auto fluxOf = [&](const shared::DeltaLight& l) {
         return shared::luminance(l.colour) * (l.directional != 0 ? diameter * diameter : 4.0f);
     };
@@ -164,8 +166,10 @@ DeviceScene::DeviceScene(
     , positions(device::Buffer<float>::readOnly(device, queue, scene.geometry.positions, "positions"))
     , normals(device::Buffer<float>::readOnly(device, queue, scene.geometry.normals, "normals"))
     , texcoords(device::Buffer<float>::readOnly(device, queue, scene.geometry.texcoords, "texture coordinates"))
-    , positionsAtClose(device::Buffer<float>::readOnly(device, queue, scene.geometry.positionsAtClose, "positions at closing"))
-    , normalsAtClose(device::Buffer<float>::readOnly(device, queue, scene.geometry.normalsAtClose, "normals at closing"))
+    , positionsAtClose(
+          device::Buffer<float>::readOnly(device, queue, scene.geometry.positionsAtClose, "positions at closing"))
+    , normalsAtClose(
+          device::Buffer<float>::readOnly(device, queue, scene.geometry.normalsAtClose, "normals at closing"))
     , indices(device::Buffer<std::uint32_t>::readOnly(device, queue, scene.geometry.indices, "indices"))
     , materialIds(device::Buffer<std::uint32_t>::readOnly(device, queue, scene.geometry.materialIds, "material ids"))
     , objectIds(device::Buffer<std::uint32_t>::readOnly(device, queue, scene.geometry.objectIds, "object ids"))

@@ -26,10 +26,10 @@ public:
     /// Adds what the scene will take to the plan.
     static void plan(device::MemoryPlan& plan, const scene::Scene& scene, const Hierarchy& hierarchy);
 
-    /// Uploads everything; scene and hierarchy must outlive this, since a CPU device works on their memory. Throws Error
-    /// from the device.
-    DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device,
-        device::TimedQueue& queue);
+    /// Uploads everything; scene and hierarchy must outlive this, since a CPU device works on their memory. Throws
+    /// Error from the device.
+    DeviceScene(
+        const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device, device::TimedQueue& queue);
 
     DeviceScene(const scene::Scene&, Hierarchy&&, const device::Device&, device::TimedQueue&) = delete;
 

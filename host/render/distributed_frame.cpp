@@ -20,12 +20,13 @@ constexpr std::uint32_t monteCarloRound = 16;
 
 bool isDistributed(const Settings& settings, const scene::Scene& scene)
 {
-    return scene.camera.apertureRadius > 0 || scene::geometryMoves(scene) || scene::cameraMoves(scene) || settings.antialias
-        || settings.progressive;
+    return scene.camera.apertureRadius > 0 || scene::geometryMoves(scene) || scene::cameraMoves(scene)
+        || settings.antialias || settings.progressive;
 }
 
-DistributedFrame::DistributedFrame(const TermContext& context, Waves& waves, const std::vector<std::unique_ptr<Term>>& terms,
-    std::size_t lights, const shared::CameraParams& camera, bool keepLayers)
+DistributedFrame::DistributedFrame(const TermContext& context, Waves& waves,
+    const std::vector<std::unique_ptr<Term>>& terms, std::size_t lights, const shared::CameraParams& camera,
+    bool keepLayers)
     : c_(context)
     , waves_(waves)
     , terms_(terms)
@@ -170,10 +171,10 @@ void DistributedFrame::deltaLights(const shared::WaveParams& wave)
     const DeviceScene& s = c_.scene;
     waves_.radiance.fill(c_.passes.queue(), 0.0f);
     c_.passes.tiles("point and directional lights", PassKind::Trace, "delta_lights.cl", "deltaLights",
-        waves_.receiverParams(wave), 0.0, s.deltaLights, s.deltaLightCount, s.diameter, s.nodes, s.blocks, waves_.receivers(),
-        waves_.diffuse, waves_.specular, waves_.radiance, waves_.radianceNoisy, waves_.rays);
-    waves_.pixels(c_.passes, "accumulateDelta", wave, waves_.pixelFirst, waves_.pixelCount,
-        c_.frame.primaryTaken, waves_.objectId, waves_.radiance, c_.frame.delta, c_.frame.deltaSquares);
+        waves_.receiverParams(wave), 0.0, s.deltaLights, s.deltaLightCount, s.diameter, s.nodes, s.blocks,
+        waves_.receivers(), waves_.diffuse, waves_.specular, waves_.radiance, waves_.radianceNoisy, waves_.rays);
+    waves_.pixels(c_.passes, "accumulateDelta", wave, waves_.pixelFirst, waves_.pixelCount, c_.frame.primaryTaken,
+        waves_.objectId, waves_.radiance, c_.frame.delta, c_.frame.deltaSquares);
 }
 
 shared::DistributedParams DistributedFrame::params(const image::Window& window) const
@@ -224,7 +225,8 @@ void DistributedFrame::widths()
         c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "factoredWidths", params(c_.full()), 1, error,
             c_.frame.confusion, c_.frame.pixelSize, c_.frame.objectId, width);
         if (packed) {
-            c_.passes.rows("widths", PassKind::Analysis, "distributed.cl", "copyPlane", params(c_.full()), 1, width, term.beta);
+            c_.passes.rows(
+                "widths", PassKind::Analysis, "distributed.cl", "copyPlane", params(c_.full()), 1, width, term.beta);
         }
     }
     // Packed motions are still means of which there will be more.
@@ -262,13 +264,13 @@ void DistributedFrame::startSums()
         const bool analysed = c_.frame.shape.analysed;
         const std::uint32_t first = analysed ? firstPaths() : std::numeric_limits<std::uint32_t>::max();
         eachTerm([&](Term& term, float) {
-            c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "settleCounts", params(c_.full()), 1, first,
-                c_.frame.primaryTaken, term.wanted);
+            c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "settleCounts", params(c_.full()), 1,
+                first, c_.frame.primaryTaken, term.wanted);
         });
         // All that is reflected is added to what is emitted.
         if (c_.frame.shape.ofDeltaLights() == 1) {
-            c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "addImage", params(c_.full()), 1, c_.frame.delta,
-                c_.frame.beauty);
+            c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "addImage", params(c_.full()), 1,
+                c_.frame.delta, c_.frame.beauty);
         }
         return;
     }
@@ -309,8 +311,8 @@ void DistributedFrame::compose(device::Buffer<float>* emission)
     }
     filter();
     if (!c_.frame.shape.lean) {
-        c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "addAll", params(c_.full()), 1, c_.frame.emission,
-            c_.frame.direct, c_.frame.indirect, c_.frame.beauty);
+        c_.passes.rows("composite", PassKind::Composite, "distributed.cl", "addAll", params(c_.full()), 1,
+            c_.frame.emission, c_.frame.direct, c_.frame.indirect, c_.frame.beauty);
     }
     if (emission != nullptr) {
         copy(c_.frame.emission, *emission);
@@ -332,8 +334,10 @@ void DistributedFrame::blur(device::Buffer<float>& image)
     const char* pass = "filter of lens and shutter";
     const shared::DistributedParams p = params(c_.full());
     if (camera_.apertureRadius > 0) {
-        c_.passes.rows(pass, PassKind::Filter, "blur.cl", "blurRows", p, 1, c_.frame.lensWidth, image, c_.scratch.rowsFiltered);
-        c_.passes.rows(pass, PassKind::Filter, "blur.cl", "blurColumns", p, 1, c_.frame.lensWidth, c_.scratch.rowsFiltered, image);
+        c_.passes.rows(
+            pass, PassKind::Filter, "blur.cl", "blurRows", p, 1, c_.frame.lensWidth, image, c_.scratch.rowsFiltered);
+        c_.passes.rows(
+            pass, PassKind::Filter, "blur.cl", "blurColumns", p, 1, c_.frame.lensWidth, c_.scratch.rowsFiltered, image);
     }
 }
 

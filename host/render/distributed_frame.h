@@ -22,27 +22,28 @@ bool isDistributed(const Settings& settings, const scene::Scene& scene);
 class DistributedFrame {
 public:
     /// terms: of `lights` area lights, then of the components of indirect light; each receiver serves them all.
-    /// keepLayers: filters emission, direct and indirect apart, too, so that they sum to the beauty; not of lean frames.
+    /// keepLayers: filters emission, direct and indirect apart, too, so that they sum to the beauty; not of lean
+    /// frames.
     DistributedFrame(const TermContext& context, Waves& waves, const std::vector<std::unique_ptr<Term>>& terms,
         std::size_t lights, const shared::CameraParams& camera, bool keepLayers);
 
-    /// The whole frame: begin(), one refine(), compose(). Returns false if cancelled while sampling; the image is then made
-    /// of what was sampled until then.
+    /// The whole frame: begin(), one refine(), compose(). Returns false if cancelled while sampling; the image is then
+    /// made of what was sampled until then.
     bool render(const std::atomic<bool>* stop);
 
     /// Forgets all samples.
     void begin();
     /// Takes samples up to the settings' mean count. Those that there are stay and count: the analysis is made anew of
-    /// all of them, and what is sampled are the differences. The settings that the context refers to may change from one
-    /// call to the next. stop: looked at between waves, which are then whole; null: the queue's flag cancels anywhere.
-    /// Returns false if stopped or cancelled.
+    /// all of them, and what is sampled are the differences. The settings that the context refers to may change from
+    /// one call to the next. stop: looked at between waves, which are then whole; null: the queue's flag cancels
+    /// anywhere. Returns false if stopped or cancelled.
     bool refine(const std::atomic<bool>* stop = nullptr);
-    /// Makes the image of the samples taken so far. emission: where its filtered layer goes; null: in its own place, and no
-    /// sample can be added any more.
+    /// Makes the image of the samples taken so far. emission: where its filtered layer goes; null: in its own place,
+    /// and no sample can be added any more.
     void compose(device::Buffer<float>* emission = nullptr);
 
-    /// Counts follow the demands of another frame of the same terms once it has any: counts that know nothing of what they
-    /// are for leave means unbiased. It is to live as long as this one refines.
+    /// Counts follow the demands of another frame of the same terms once it has any: counts that know nothing of what
+    /// they are for leave means unbiased. It is to live as long as this one refines.
     void followDemandsOf(const DistributedFrame& other) { guide_ = &other; }
 
     /// Whether terms got widths.

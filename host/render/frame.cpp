@@ -136,7 +136,8 @@ Frame::Frame(
     , deltaSquares(device, shape.ofDeltaLights() * planes.size, "squares of point lights")
 {
     // Padding is read by gathers: it has to be finite, and objectId 0 there stays for good.
-    for (device::Buffer<float>* b : { &position, &normal, &origin, &depth, &pixelSize, &diffuse, &specular, &emission, &gloss }) {
+    for (device::Buffer<float>* b :
+        { &position, &normal, &origin, &depth, &pixelSize, &diffuse, &specular, &emission, &gloss }) {
         b->fill(queue, 0.0f);
     }
     objectId.fill(queue, 0u);
@@ -155,8 +156,8 @@ void Frame::clear(device::TimedQueue& queue)
     if (!distributed) {
         return;
     }
-    for (device::Buffer<float>* b : { &position, &normal, &pixelSize, &depth, &diffuse, &specular, &emission, &gloss, &confusion,
-             &motion, &lensWidth, &motionWidth, &delta, &deltaSquares, &emissionSquares }) {
+    for (device::Buffer<float>* b : { &position, &normal, &pixelSize, &depth, &diffuse, &specular, &emission, &gloss,
+             &confusion, &motion, &lensWidth, &motionWidth, &delta, &deltaSquares, &emissionSquares }) {
         b->fill(queue, 0.0f);
     }
     for (device::Buffer<std::uint32_t>* b : { &objectId, &primaryTaken, &primaryWanted, &hits }) {
@@ -226,8 +227,8 @@ Term::Term(const device::Device& device, device::TimedQueue& queue, const Frame&
 void Scratch::plan(device::MemoryPlan& plan, const PlaneLayout& layout, std::uint32_t values)
 {
     planPlanes(plan, layout,
-        { { "rows filtered", values }, { "filtered", values }, { "effective count of rows", 1 }, { "effective count", 1 },
-            { "logarithms", spreadPlanes }, { "logarithms spread along rows", spreadPlanes },
+        { { "rows filtered", values }, { "filtered", values }, { "effective count of rows", 1 },
+            { "effective count", 1 }, { "logarithms", spreadPlanes }, { "logarithms spread along rows", spreadPlanes },
             { "logarithms spread", spreadPlanes }, { "demand", 1 } });
 }
 

@@ -27,11 +27,12 @@ struct PlaneLayout {
 /// What the buffers of a frame are for.
 struct FrameShape {
     bool distributed = false; ///< pixels have several receivers
-    /// A distributed frame of one image, of which nothing else is read: what that is not made of is left out, and planes
-    /// that are needed one after the other share their memory (docs/architecture.md has who lives when).
+    /// A distributed frame of one image, of which nothing else is read: what that is not made of is left out, and
+    /// planes that are needed one after the other share their memory (docs/architecture.md has who lives when).
     bool lean = false;
     bool analysed = true; ///< with filters; of interest to lean frames alone, as what follows
-    bool shutter = true, deltaLights = true; ///< something moves while it is open; there are point or directional lights
+    bool shutter = true,
+         deltaLights = true; ///< something moves while it is open; there are point or directional lights
 
     bool operator==(const FrameShape&) const = default;
 
@@ -47,9 +48,9 @@ struct FrameShape {
     std::uint64_t ofDeltaLights() const { return distributed && (!lean || deltaLights) ? 1 : 0; }
 };
 
-/// The buffers that all effects of a frame share. Vectors are three planes one after the other. With a pinhole and nothing
-/// that moves the pixels are the receivers of light; else these planes hold means over a pixel's receivers, and those are
-/// in planes of their own (waves.h).
+/// The buffers that all effects of a frame share. Vectors are three planes one after the other. With a pinhole and
+/// nothing that moves the pixels are the receivers of light; else these planes hold means over a pixel's receivers, and
+/// those are in planes of their own (waves.h).
 class Frame {
 public:
     static void plan(device::MemoryPlan& plan, const PlaneLayout& layout, const FrameShape& shape);
@@ -64,7 +65,8 @@ public:
     device::Buffer<float> diffuse, specular, emission, gloss;
     device::Buffer<std::uint32_t> geometric; ///< geometric normal, packed
     device::Buffer<std::uint32_t> objectId;
-    device::Buffer<std::uint32_t> rays; ///< rays traced for each pixel (of lean frames, of a wave), without the camera's
+    device::Buffer<std::uint32_t>
+        rays; ///< rays traced for each pixel (of lean frames, of a wave), without the camera's
     device::Buffer<std::uint32_t> pathRays; ///< those of them that looked for the nearest surface of a path
     // In lean frames all radiance is added to what is emitted: emission, beauty, direct and indirect are one buffer.
     device::Buffer<float> beauty; ///< emission and all that is reflected
@@ -78,12 +80,14 @@ public:
     // Of distributed frames.
     device::Buffer<std::uint32_t> primaryTaken; ///< primary samples
     device::Buffer<std::uint32_t> hits; ///< those of them that met a surface
-    /// Planes: least and largest signed radius of the circle of confusion, pixels; packed, the one nearest to 0, with hits.
+    /// Planes: least and largest signed radius of the circle of confusion, pixels; packed, the one nearest to 0, with
+    /// hits.
     device::Buffer<float> confusion;
     /// Planes: pixels that the surface moves while the shutter is open; largest difference; packed, one, see
     /// accumulate.h.
     device::Buffer<float> motion;
-    device::Buffer<float> lensWidth; ///< of the image's filter, see blurs() of distributed.cl; lean: in the place of pixelSize
+    device::Buffer<float>
+        lensWidth; ///< of the image's filter, see blurs() of distributed.cl; lean: in the place of pixelSize
     /// Likewise, of textures' filter; packed, in the place of motion and together.
     device::Buffer<float> motionWidth, motionDirection;
     device::Buffer<float> emissionSquares; ///< mean squared luminance of a primary sample's emission
@@ -95,7 +99,8 @@ public:
     /// What kernels take for WEDGE_RECEIVER_PARAMETERS, the pixels being the receivers.
     auto receivers() const
     {
-        return std::tie(position, normal, origin, geometric, objectId, gloss, receiverPixels, receiverViews, receiverTimes);
+        return std::tie(
+            position, normal, origin, geometric, objectId, gloss, receiverPixels, receiverViews, receiverTimes);
     }
 
     /// Zeroes what a frame accumulates.
@@ -124,8 +129,8 @@ struct TermShape {
     TermShape with(const TermShape& other) const;
 };
 
-/// One term: what was accumulated, and what the analysis made of it. Where the pixels are the receivers, one such serves one
-/// term after the other.
+/// One term: what was accumulated, and what the analysis made of it. Where the pixels are the receivers, one such
+/// serves one term after the other.
 class Term {
 public:
     static void plan(device::MemoryPlan& plan, const PlaneLayout& layout, const TermShape& shape);
@@ -175,7 +180,8 @@ public:
     std::uint32_t values;
     device::Buffer<float> rowsFiltered, filtered; ///< like value
     device::Buffer<float> rowsEffective, effective; ///< equal samples that the gather amounts to
-    device::Buffer<float> logs; ///< 4 planes: logarithms of slopes and weights, see analysis.cl; of indirect light variances
+    device::Buffer<float>
+        logs; ///< 4 planes: logarithms of slopes and weights, see analysis.cl; of indirect light variances
     device::Buffer<float> rowsSpread, spread; ///< 4 planes: the same, summed over a neighbourhood
     device::Buffer<float> demand; ///< and before that, eroded slopes
     device::Buffer<float> slopes, width; ///< of packed terms: slopes or distances; widths while they are made
@@ -197,12 +203,13 @@ void setRectangle(Params& params, const image::Window& window)
     params.y1 = static_cast<std::uint32_t>(window.y1);
 }
 
-/// The frame's constants for the pixels of `window`, tiles included. The camera is that of the middle of the shutter's time.
+/// The frame's constants for the pixels of `window`, tiles included. The camera is that of the middle of the shutter's
+/// time.
 shared::FrameParams frameParams(
     const scene::Scene& scene, const PlaneLayout& layout, const image::Window& window, std::uint32_t seed);
 
-/// The lens, the shutter and the camera's motion for an image of that height. antialias: a pixel's rays go through all of
-/// its square.
+/// The lens, the shutter and the camera's motion for an image of that height. antialias: a pixel's rays go through all
+/// of its square.
 shared::CameraParams cameraParams(const scene::Scene& scene, std::uint32_t height, bool antialias);
 
 } // namespace wedge::render

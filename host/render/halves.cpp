@@ -63,7 +63,8 @@ void Halves::begin(
         half.frame->clear(context.passes.queue());
         TermContext own { context.passes, context.scene, *half.frame, context.scratch, step_, context.fullFrame,
             context.sampledFrame, context.window, context.shutter };
-        own.fullFrame.seed = own.sampledFrame.seed = context.fullFrame.seed + static_cast<std::uint32_t>(i) * secondSeed;
+        own.fullFrame.seed = own.sampledFrame.seed =
+            context.fullFrame.seed + static_cast<std::uint32_t>(i) * secondSeed;
         half.image = std::make_unique<DistributedFrame>(own, waves, half.terms, lights, camera, keepLayers);
         half.image->begin();
         if (i == 0) {
@@ -106,10 +107,12 @@ void Halves::show(Frame& shown)
     const shared::DistributedParams p = params();
     const Frame& a = *halves_[0].frame;
     const Frame& b = *halves_[1].frame;
-    const auto mean = [&](const device::Buffer<float>& first, const device::Buffer<float>& second, device::Buffer<float>& out) {
-        passes.rows(pass, PassKind::Composite, file, "meanOfHalves", p, 1, 3u, a.primaryTaken, b.primaryTaken, first, second, out);
+    const auto mean = [&](const device::Buffer<float>& first, const device::Buffer<float>& second,
+                          device::Buffer<float>& out) {
+        passes.rows(pass, PassKind::Composite, file, "meanOfHalves", p, 1, 3u, a.primaryTaken, b.primaryTaken, first,
+            second, out);
     };
-    for (device::Buffer<float> Frame::* planes : { &Frame::beauty, &Frame::direct, &Frame::directNoisy, &Frame::indirect,
+    for (device::Buffer<float> Frame::*planes : { &Frame::beauty, &Frame::direct, &Frame::directNoisy, &Frame::indirect,
              &Frame::indirectNoisy, &Frame::diffuse, &Frame::specular }) {
         mean(a.*planes, b.*planes, shown.*planes);
     }
@@ -117,7 +120,7 @@ void Halves::show(Frame& shown)
     passes.rows(pass, PassKind::Composite, file, "joinSurfaces", p, 1, a.hits, b.hits, a.position, b.position, a.normal,
         b.normal, a.pixelSize, b.pixelSize, a.depth, b.depth, a.objectId, b.objectId, shown.position, shown.normal,
         shown.pixelSize, shown.depth, shown.objectId);
-    for (device::Buffer<std::uint32_t> Frame::* counts :
+    for (device::Buffer<std::uint32_t> Frame::*counts :
         { &Frame::samples, &Frame::indirectSamples, &Frame::rays, &Frame::pathRays, &Frame::primaryTaken }) {
         passes.rows(pass, PassKind::Composite, file, "sumOfHalves", p, 1, a.*counts, b.*counts, shown.*counts);
     }
@@ -132,16 +135,17 @@ ErrorEstimate Halves::error(Frame& shown) const
     Passes& passes = context_->passes;
     const Frame& a = *halves_[0].frame;
     const Frame& b = *halves_[1].frame;
-    passes.rows(pass, PassKind::Composite, file, "errorOfHalves", params(), 1, analysed() ? 1u : 0u, a.beauty, a.emission,
-        a.directNoisy, a.indirectNoisy, b.beauty, b.emission, b.directNoisy, b.indirectNoisy, shown.lensWidth, shown.motionWidth);
+    passes.rows(pass, PassKind::Composite, file, "errorOfHalves", params(), 1, analysed() ? 1u : 0u, a.beauty,
+        a.emission, a.directNoisy, a.indirectNoisy, b.beauty, b.emission, b.directNoisy, b.indirectNoisy,
+        shown.lensWidth, shown.motionWidth);
     const std::vector<float> noise = shown.lensWidth.downloadAll(passes.queue());
     const std::vector<float> bias = shown.motionWidth.downloadAll(passes.queue());
     const image::Window window = context_->window;
     ErrorEstimate sum { 0, 0 };
     for (int y = window.y0; y < window.y1; ++y) {
         for (int x = window.x0; x < window.x1; ++x) {
-            const std::size_t i = shared::pixelIndex(
-                static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), shown.layout.stride);
+            const std::size_t i =
+                shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), shown.layout.stride);
             sum.noise += noise[i];
             sum.bias += bias[i];
         }

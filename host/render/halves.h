@@ -18,9 +18,9 @@ struct ErrorEstimate {
     double rmse() const;
 };
 
-/// The two halves of a progressive frame: distributed frames of samples that are independent of each other, both of which
-/// keep what they have sampled from step to step. The image is their mean, and they tell its error: see errorOfHalves
-/// in kernels/progressive.cl.
+/// The two halves of a progressive frame: distributed frames of samples that are independent of each other, both of
+/// which keep what they have sampled from step to step. The image is their mean, and they tell its error: see
+/// errorOfHalves in kernels/progressive.cl.
 class Halves {
 public:
     /// terms: the shapes of a half's.
@@ -32,9 +32,10 @@ public:
     /// Whether the buffers serve frames of this layout and these terms.
     bool hold(const PlaneLayout& layout, const std::vector<TermShape>& terms) const;
 
-    /// Starts anew. context: of all but the frame; its settings are those of the last step, and outlive the steps. lights: area
-    /// lights among the terms.
-    void begin(const TermContext& context, Waves& waves, std::size_t lights, const shared::CameraParams& camera, bool keepLayers);
+    /// Starts anew. context: of all but the frame; its settings are those of the last step, and outlive the steps.
+    /// lights: area lights among the terms.
+    void begin(const TermContext& context, Waves& waves, std::size_t lights, const shared::CameraParams& camera,
+        bool keepLayers);
 
     /// Takes samples up to spp a pixel of both halves together; each has half of them, rounded down, but one at least.
     /// Returns false if stopped.

@@ -59,7 +59,8 @@ std::span<const std::byte> Hierarchy::blocks() const
 std::span<const std::byte> Hierarchy::nodes() const
 {
     if (moves) {
-        return traversal == Traversal::Scalar ? std::as_bytes(std::span(movingNarrow)) : std::as_bytes(std::span(moving.nodes));
+        return traversal == Traversal::Scalar ? std::as_bytes(std::span(movingNarrow))
+                                              : std::as_bytes(std::span(moving.nodes));
     }
     return traversal == Traversal::Scalar ? std::as_bytes(std::span(narrow)) : std::as_bytes(std::span(bvh.nodes));
 }
@@ -68,8 +69,9 @@ Hierarchy buildHierarchy(const scene::Scene& scene, bvh::Mode mode, Traversal fa
 {
     const scene::Geometry& g = scene.geometry;
     const bvh::Mesh mesh { g.positions, g.indices };
-    return scene::geometryMoves(scene) ? Hierarchy(bvh::buildMoving(mesh, g.positionsAtClose, bvh::config(mode)), family)
-                                       : Hierarchy(bvh::build(mesh, bvh::config(mode)), family);
+    return scene::geometryMoves(scene)
+        ? Hierarchy(bvh::buildMoving(mesh, g.positionsAtClose, bvh::config(mode)), family)
+        : Hierarchy(bvh::build(mesh, bvh::config(mode)), family);
 }
 
 } // namespace wedge::render

@@ -67,7 +67,8 @@ public:
         channel("primarySamples.Y", Where::Everywhere, [&](std::size_t i) { return static_cast<float>(values[i]); });
     }
 
-    /// What is reflected: everywhere in distributed frames, where filters carry it to pixels that hit nothing themselves.
+    /// What is reflected: everywhere in distributed frames, where filters carry it to pixels that hit nothing
+    /// themselves.
     void reflected(const std::string& layer, const device::Buffer<float>& planes)
     {
         vector(layer, "RGB", planes, frame().distributed ? Where::Everywhere : Where::OnSurfaces);
@@ -88,7 +89,8 @@ public:
     /// 0 also where the image is not filtered.
     void blurWidth(const std::string& name, const device::Buffer<float>& plane)
     {
-        const bool filtered = frame().distributed && settings_.filtering != Filtering::None && settings_.distributed.blur;
+        const bool filtered =
+            frame().distributed && settings_.filtering != Filtering::None && settings_.distributed.blur;
         const std::vector<float> values =
             filtered ? plane.downloadAll(renderer_.queue()) : std::vector<float>(frame().layout.size, 0.0f);
         channel(name + ".pixels", Where::Everywhere, [&](std::size_t i) { return values[i]; });

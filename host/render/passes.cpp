@@ -28,8 +28,8 @@ image::Window blockWindow(const image::Window& window, int margin, int width, in
     constexpr int block = static_cast<int>(WEDGE_BLOCK_PIXELS);
     const int left = std::max(0, window.x0 - margin);
     const int right = window.x1 + margin;
-    return { left / block * block, std::max(0, window.y0 - margin), std::min(width, (right + block - 1) / block * block),
-        std::min(height, window.y1 + margin) };
+    return { left / block * block, std::max(0, window.y0 - margin),
+        std::min(width, (right + block - 1) / block * block), std::min(height, window.y1 + margin) };
 }
 
 } // namespace wedge::render

@@ -33,7 +33,7 @@ public:
     bool rehearsal() const { return rehearsal_; }
 
     /// A pass over the tiles of frame's rectangle. The kernel takes FrameParams first and firstGroup last.
-    template<class... Args>
+    template <class... Args>
     void tiles(std::string_view pass, device::PassKind kind, const std::string& file, const std::string& kernel,
         shared::FrameParams frame, double workUnits, const Args&... args)
     {
@@ -50,9 +50,9 @@ public:
     }
 
     /// A pass over blocks of 16 pixels of a row (`across` = 16), or over pixels (`across` = 1). The kernel takes
-    /// Params, which have the rectangle, first. Large images go in bands of rows, so that no launch is long. The pass is
-    /// recorded as moving its buffers once, which is the least it can.
-    template<class Params, class... Args>
+    /// Params, which have the rectangle, first. Large images go in bands of rows, so that no launch is long. The pass
+    /// is recorded as moving its buffers once, which is the least it can.
+    template <class Params, class... Args>
     void rows(std::string_view pass, device::PassKind kind, const std::string& file, const std::string& kernel,
         Params params, std::uint32_t across, const Args&... args)
     {
@@ -75,8 +75,8 @@ public:
         queue_.addBytes(pass, kind, touched);
     }
 
-    /// A pass over `items` items of a list. The kernel takes FrameParams first, and tests for the end itself. Its time is all
-    /// that is recorded.
+    /// A pass over `items` items of a list. The kernel takes FrameParams first, and tests for the end itself. Its time
+    /// is all that is recorded.
     template <class... Args>
     void list(std::string_view pass, device::PassKind kind, const std::string& file, const std::string& kernel,
         std::size_t items, shared::FrameParams frame, const Args&... args)
@@ -97,7 +97,7 @@ private:
     static constexpr std::uint32_t bandPixels = 1u << 21;
     static constexpr std::size_t listGroup = 16;
 
-    template<class T>
+    template <class T>
     static std::uint64_t bufferBytes(const T& argument)
     {
         if constexpr (device::HoldsBuffer<T>) {

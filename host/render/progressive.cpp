@@ -56,8 +56,8 @@ void Renderer::rehearseHalves(const Settings& settings)
     halves_->error(*frame_);
 }
 
-FrameStatistics Renderer::renderProgressively(
-    const Settings& wanted, const Control& control, const std::function<void(const ProgressiveStep&)>& onStep, bool keepLayers)
+FrameStatistics Renderer::renderProgressively(const Settings& wanted, const Control& control,
+    const std::function<void(const ProgressiveStep&)>& onStep, bool keepLayers)
 {
     Settings settings = wanted;
     settings.progressive = true;

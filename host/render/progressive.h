@@ -14,8 +14,8 @@ struct ProgressiveStep {
     ErrorEstimate error { 0, 0 };
 };
 
-/// The samples a pixel after each step, of both halves together: 16, 32, 64, ..., and the largest even number up to `spp`, but
-/// no less than 2.
+/// The samples a pixel after each step, of both halves together: 16, 32, 64, ..., and the largest even number up to
+/// `spp`, but no less than 2.
 std::vector<int> stepCounts(int spp);
 
 /// Adds what passes of the same names cost; new ones go to the end.

@@ -20,8 +20,8 @@ std::vector<Node> gaussLegendre(int count);
 /// normalised to sum 1.
 std::vector<Node> profileRule(scene::LightProfile profile, double cut, int count);
 
-/// The Gauss rule of three nodes whose weight function is the profile itself, weights summing to 1: averages polynomials of
-/// degree 5 over one axis of the profile exactly.
+/// The Gauss rule of three nodes whose weight function is the profile itself, weights summing to 1: averages
+/// polynomials of degree 5 over one axis of the profile exactly.
 std::vector<Node> threeNodeRule(scene::LightProfile profile, double cut);
 
 /// (position, weight) of all rules that the kernels have for a light (WEDGE_COARSE_NODES and what follows in

@@ -39,8 +39,8 @@ std::uint32_t filteredPlanes(const Settings& settings, bool specular, bool distr
 /// Slopes of lights, and where things move what their shadows' motions add up to.
 std::uint32_t lightExtremes(const scene::Scene& scene) { return scene::geometryMoves(scene) ? 6 : 2; }
 
-/// What a frame's buffers are for. Lean are distributed frames of which nothing but the image is wanted, and that are made
-/// as by default: without counts from the spectrum, published slopes and widths from the nearest reflectors.
+/// What a frame's buffers are for. Lean are distributed frames of which nothing but the image is wanted, and that are
+/// made as by default: without counts from the spectrum, published slopes and widths from the nearest reflectors.
 FrameShape frameShape(const Settings& settings, const scene::Scene& scene, bool keepLayers)
 {
     const bool usual = !settings.distributed.published && settings.slopes == Slopes::Smoothed
@@ -57,7 +57,8 @@ FrameShape frameShape(const Settings& settings, const scene::Scene& scene, bool 
     return shape;
 }
 
-/// Pixels over which filters reach, one after the other: those of terms, of shadows along their motion, and of the lens.
+/// Pixels over which filters reach, one after the other: those of terms, of shadows along their motion, and of the
+/// lens.
 int filterReach(const Settings& settings, const scene::Scene& scene)
 {
     const bool moves = scene::geometryMoves(scene) || scene::cameraMoves(scene), lens = scene.camera.apertureRadius > 0;
@@ -71,7 +72,8 @@ TermShape receiverShape(const Settings& settings, const scene::Scene& scene, boo
 }
 
 /// One a term where pixels have several receivers, which serve all terms at once; else the one that all take turns in.
-std::vector<TermShape> termShapes(const Settings& settings, const scene::Scene& scene, bool specular, const FrameShape& frame)
+std::vector<TermShape> termShapes(
+    const Settings& settings, const scene::Scene& scene, bool specular, const FrameShape& frame)
 {
     if (!frame.distributed) {
         return { termShape(settings, specular) };
@@ -329,7 +331,8 @@ TermContext Renderer::contextOf(const Settings& settings)
     const image::Window sampled = needsAnalysis(settings)
         ? blockWindow(output, filterReach(settings, scene_), settings.width, settings.height)
         : output;
-    return { *passes_, *deviceScene_, *frame_, *scratch_, settings, frameParams(scene_, frame_->layout, whole, settings.seed),
+    return { *passes_, *deviceScene_, *frame_, *scratch_, settings,
+        frameParams(scene_, frame_->layout, whole, settings.seed),
         frameParams(scene_, frame_->layout, sampled, settings.seed), output,
         scene::geometryMoves(scene_) || scene::cameraMoves(scene_) };
 }

@@ -34,7 +34,8 @@ struct Control {
     std::function<void(double fraction)> progress; ///< called now and then with what is done, 0 to 1
     const std::atomic<bool>* cancel = nullptr; ///< set from elsewhere: stop soon
     double timeLimitSeconds = 0; ///< stop sampling after this long; 0: never
-    double targetError = 0; ///< progressive renders stop when their estimated RMS error, radiance, is no larger; 0: never
+    double targetError =
+        0; ///< progressive renders stop when their estimated RMS error, radiance, is no larger; 0: never
 };
 
 /// Filter widths of one term, for the layers, a plane as on the device; empty if the term was not analysed.
@@ -88,14 +89,15 @@ public:
     }
 
     /// Renders; the result stays on the device until the next call. Throws Error if memory does not suffice or the
-    /// device fails. keepLayers: for frames of which layers will be read. It fills termPlanes() for those of widths, and in
-    /// distributed frames, which else keep little but the beauty, fills and filters all that layers show.
+    /// device fails. keepLayers: for frames of which layers will be read. It fills termPlanes() for those of widths,
+    /// and in distributed frames, which else keep little but the beauty, fills and filters all that layers show.
     FrameStatistics render(const Settings& settings, const Control& control = {}, bool keepLayers = false);
 
     /// Renders in steps of ever more samples, which all stay and count, up to settings.spp (see stepCounts() in
-    /// progressive.h). After each the image so far is on the device, as render() leaves it, and onStep is called. A cancelled
-    /// or late render ends between two waves of samples, or before the next step; the last image has them all. Returns the
-    /// statistics of all steps. Needs settings without published counts; always samples by the sequence. Throws as render().
+    /// progressive.h). After each the image so far is on the device, as render() leaves it, and onStep is called. A
+    /// cancelled or late render ends between two waves of samples, or before the next step; the last image has them
+    /// all. Returns the statistics of all steps. Needs settings without published counts; always samples by the
+    /// sequence. Throws as render().
     FrameStatistics renderProgressively(const Settings& settings, const Control& control,
         const std::function<void(const ProgressiveStep&)>& onStep, bool keepLayers = false);
 
@@ -132,7 +134,8 @@ private:
     bool distributedPasses(const TermContext& context, bool keepLayers);
     void keepPlanes(const Settings& settings, const Term& term, bool analysed);
     void countWork(const Settings& settings, FrameStatistics& statistics);
-    void countLeanSamples(const Settings& settings, std::vector<std::uint32_t>& all, std::vector<std::uint32_t>& indirect);
+    void countLeanSamples(
+        const Settings& settings, std::vector<std::uint32_t>& all, std::vector<std::uint32_t>& indirect);
     double workUnits(const Settings& settings) const;
 
     const scene::Scene& scene_;

@@ -73,9 +73,9 @@ Json frameSection(const FrameStatistics& frame, const Settings& settings)
 {
     Json passes = Json::array();
     for (const device::PassRecord& pass : frame.passes) {
-        passes.push_back({ { "name", pass.name }, { "kind", device::passKindName(pass.kind) },
-            { "ms", pass.milliseconds }, { "bytes", pass.bytes }, { "launches", pass.launches },
-            { "kernels", pass.kernels } });
+        passes.push_back(
+            { { "name", pass.name }, { "kind", device::passKindName(pass.kind) }, { "ms", pass.milliseconds },
+                { "bytes", pass.bytes }, { "launches", pass.launches }, { "kernels", pass.kernels } });
     }
     return { { "complete", frame.complete }, { "total_ms", frame.deviceMilliseconds },
         { "wall_ms", frame.wallMilliseconds }, { "overhead_fraction", frame.overheadFraction() },
@@ -93,9 +93,10 @@ Json progressiveSection(const ReportExtras& extras, const Settings& settings)
     Json steps = Json::array();
     for (const ProgressiveStep& step : extras.steps) {
         const FrameStatistics& s = step.statistics;
-        steps.push_back({ { "spp", step.spp }, { "spp_mean", s.sppMean }, { "rays_per_pixel", raysPerPixel(s, settings) },
-            { "error", step.error.rmse() }, { "noise", step.error.noise }, { "bias", step.error.bias },
-            { "wall_ms", s.wallMilliseconds }, { "files", extras.files } });
+        steps.push_back(
+            { { "spp", step.spp }, { "spp_mean", s.sppMean }, { "rays_per_pixel", raysPerPixel(s, settings) },
+                { "error", step.error.rmse() }, { "noise", step.error.noise }, { "bias", step.error.bias },
+                { "wall_ms", s.wallMilliseconds }, { "files", extras.files } });
     }
     return { { "target_error", extras.targetError ? Json(*extras.targetError) : Json() }, { "ended_by", extras.ended },
         { "steps", steps } };
@@ -112,8 +113,7 @@ Json cameraReport(const scene::Scene& scene)
         { "shutter",
             { { "open", scene.shutterOpen }, { "close", scene.shutterClose },
                 { "profile", scene::profileName(scene.shutterProfile) } } },
-        { "camera_moves", scene::cameraMoves(scene) },
-        { "moving_triangles", scene::summary(scene).movingTriangles } };
+        { "camera_moves", scene::cameraMoves(scene) }, { "moving_triangles", scene::summary(scene).movingTriangles } };
 }
 
 double raysPerPixel(const FrameStatistics& statistics, const Settings& settings)
@@ -137,7 +137,8 @@ std::string jsonReport(const Renderer& renderer, const Settings& settings, const
     Json report;
     report["wedge"] = version();
     report["device"] = deviceSection(renderer);
-    report["scene"] = sceneSection(renderer, frames.empty() ? renderer.plan(settings).total() : frames.back().memoryBytes);
+    report["scene"] =
+        sceneSection(renderer, frames.empty() ? renderer.plan(settings).total() : frames.back().memoryBytes);
     report["method"] = methodSection(settings);
     report["setup"] = { { "load_ms", extras.loadMilliseconds },
         { "bvh_ms", 1e3 * renderer.hierarchy().statistics.buildSeconds },

@@ -9,15 +9,16 @@ void countsFromDemand(Passes& passes, const shared::AnalysisParams& params, floa
 {
     device::TimedQueue& queue = passes.queue();
     device::Kernel& histogram = passes.find("counts.cl", "demandHistogram");
-    histogram.setArgs(params, scratch.demand, mask, scratch.histogramCounts, scratch.histogramSums, scratch.histogramPixels);
+    histogram.setArgs(
+        params, scratch.demand, mask, scratch.histogramCounts, scratch.histogramSums, scratch.histogramPixels);
     queue.launch("counts", PassKind::Analysis, histogram, WEDGE_DEMAND_STRIPES, 1);
     device::Kernel& solve = passes.find("counts.cl", "solveCountScale");
     solve.setArgs(mean, static_cast<float>(params.leastCount), static_cast<float>(params.countCap),
         scratch.histogramCounts, scratch.histogramSums, scratch.histogramPixels, scratch.binCounts, scratch.binSums,
         scratch.countScale);
     queue.launch("counts", PassKind::Analysis, solve, 1, 1);
-    passes.rows("counts", PassKind::Analysis, "counts.cl", "countsFromDemand", params, 1, scratch.demand, scratch.countScale,
-        mask, wanted);
+    passes.rows("counts", PassKind::Analysis, "counts.cl", "countsFromDemand", params, 1, scratch.demand,
+        scratch.countScale, mask, wanted);
 }
 
 void uniformCounts(Passes& passes, const shared::AnalysisParams& params, std::uint32_t count,

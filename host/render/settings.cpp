@@ -17,8 +17,8 @@ namespace {
 constexpr float referenceSpp = 28.0f;
 constexpr float referenceMu = 2.0f;
 // Bias of a kernel of width beta grows as beta^2; its noise falls with beta and, faster than plain Monte Carlo's, with
-// the count: widths that keep both in step go as a power of the count. Measured from 9 to 112 samples on two scenes, with
-// about five samples of the first pass, which it spends where nothing is in shadow, left out.
+// the count: widths that keep both in step go as a power of the count. Measured from 9 to 112 samples on two scenes,
+// with about five samples of the first pass, which it spends where nothing is in shadow, left out.
 constexpr float widthExponent = 1.0f / 3.0f;
 constexpr float evenSamples = 5.0f;
 // The same for indirect light.
@@ -33,8 +33,8 @@ float widthRatio(float from, float to)
     return std::pow(std::max(1.0f, to - evenSamples) / std::max(1.0f, from - evenSamples), widthExponent);
 }
 
-/// What the error that taking apart may make (5.30) is multiplied by at a count: it goes with the noise, or no number of samples
-/// would bring it down.
+/// What the error that taking apart may make (5.30) is multiplied by at a count: it goes with the noise, or no number
+/// of samples would bring it down.
 float factoringRatio(int spp) { return std::min(1.0f, std::sqrt(referenceSpp / static_cast<float>(std::max(spp, 1)))); }
 
 void requireRange(bool inRange, const std::string& what, const std::string& value, const std::string& range)
@@ -69,7 +69,8 @@ void validateDistributed(const DistributedSettings& d)
         "pixels, 0.001 or more");
     requireRange(atLeast(d.varianceSpread, 0) && d.varianceSpread <= 1, "spread of variances",
         fmt::format("{}", d.varianceSpread), "a number from 0 to 1");
-    requireRange(atLeast(d.oneVelocity, 0), "difference of motions", fmt::format("{}", d.oneVelocity), "a number of at least 0");
+    requireRange(
+        atLeast(d.oneVelocity, 0), "difference of motions", fmt::format("{}", d.oneVelocity), "a number of at least 0");
 }
 
 /// Of method aaf.
@@ -80,7 +81,8 @@ void validateCounts(const Settings& s, bool distributed)
         "samples a pixel", fmt::format("{} (at most {})", s.spp, tracesPaths(s) ? s.indirect.maxSpp : s.maxSpp),
         fmt::format("{} or more{}: the first pass takes {}", least,
             tracesPaths(s) && !distributed ? " with indirect light" : "", least));
-    requireRange(!distributed || s.progressive || s.spp <= mostDistributedSpp, "samples a pixel", fmt::format("{}", s.spp),
+    requireRange(!distributed || s.progressive || s.spp <= mostDistributedSpp, "samples a pixel",
+        fmt::format("{}", s.spp),
         fmt::format("{} or less through a lens or shutter, or with antialiasing", mostDistributedSpp));
 }
 
@@ -211,20 +213,25 @@ void validate(const Settings& s, bool distributed)
     requireRange(s.spp >= 1 && s.spp <= largestSpp, "samples a pixel", text(s.spp), "a whole number from 1 to 1048576");
     requireRange(s.maxSpp >= 1 && s.maxSpp <= largestSpp, "largest sample count", text(s.maxSpp),
         "a whole number from 1 to 1048576");
-    requireRange(std::isfinite(s.mu) && s.mu >= 0.01f && s.mu <= 1000.0f, "mu", text(s.mu), "a number from 0.01 to 1000");
+    requireRange(
+        std::isfinite(s.mu) && s.mu >= 0.01f && s.mu <= 1000.0f, "mu", text(s.mu), "a number from 0.01 to 1000");
     requireRange(s.k > 0 && s.alpha > 0 && s.cut > 0, "filter constants",
         fmt::format("k {} alpha {} cut {}", s.k, s.alpha, s.cut), "positive numbers");
-    requireRange(s.normalDegrees >= 0 && s.normalDegrees <= 180, "normal test", text(s.normalDegrees), "degrees from 0 to 180");
+    requireRange(
+        s.normalDegrees >= 0 && s.normalDegrees <= 180, "normal test", text(s.normalDegrees), "degrees from 0 to 180");
     requireRange(s.maxRadius >= 1 && s.maxRadius <= WEDGE_MAX_RADIUS, "kernel radius", text(s.maxRadius),
         fmt::format("pixels from 1 to {}", WEDGE_MAX_RADIUS));
     requireRange(s.fillRadius >= 0 && s.fillRadius <= static_cast<int>(WEDGE_ROW_PADDING), "slope spreading radius",
         text(s.fillRadius), fmt::format("pixels from 0 to {}", WEDGE_ROW_PADDING));
-    requireRange(s.filtering != Filtering::Fixed || s.fixedWidth > 0, "fixed filter width", text(s.fixedWidth), "pixels above 0");
+    requireRange(s.filtering != Filtering::Fixed || s.fixedWidth > 0, "fixed filter width", text(s.fixedWidth),
+        "pixels above 0");
     requireRange(s.bounces >= 0 && s.bounces <= mostBounces, "bounces", text(s.bounces),
         fmt::format("a whole number from 0 to {}", mostBounces));
-    requireRange(s.integrator == Integrator::Path || s.bounces == 0, "bounces", text(s.bounces), "none with ambient occlusion");
+    requireRange(
+        s.integrator == Integrator::Path || s.bounces == 0, "bounces", text(s.bounces), "none with ambient occlusion");
     const IndirectSettings& in = s.indirect;
-    requireRange(std::isfinite(in.mu) && in.mu >= 0.01f && in.mu <= 1000.0f, "mu", text(in.mu), "a number from 0.01 to 1000");
+    requireRange(
+        std::isfinite(in.mu) && in.mu >= 0.01f && in.mu <= 1000.0f, "mu", text(in.mu), "a number from 0.01 to 1000");
     requireRange(in.alpha >= 0 && in.meanFraction >= 0 && in.widthScale > 0 && in.leastReflector > 0,
         "indirect filter constants",
         fmt::format("alpha {} width scale {} least reflector {}", in.alpha, in.widthScale, in.leastReflector),
@@ -232,7 +239,8 @@ void validate(const Settings& s, bool distributed)
     requireRange(std::isfinite(in.ambientDistance) && in.ambientDistance >= 0, "ambient occlusion distance",
         text(in.ambientDistance), "metres above 0");
     validateDistributed(s.distributed);
-    requireRange(!s.progressive || !s.published, "progressive render", "as published", "counts that are not the published ones");
+    requireRange(
+        !s.progressive || !s.published, "progressive render", "as published", "counts that are not the published ones");
     requireRange(!s.progressive || s.method == Method::MonteCarlo || s.spp >= leastProgressiveSpp,
         "samples a pixel of a progressive render", text(s.spp), fmt::format("{} or more", leastProgressiveSpp));
     if (s.method == Method::AxisAligned) {
@@ -296,11 +304,11 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
             { { "counts", s.counts == Counts::Spectrum ? "spectrum" : "variance" },
                 { "slopes", s.slopes == Slopes::Published ? "published" : "smoothed" }, { "mu", number(s.mu) },
                 { "k", number(s.k) }, { "alpha", number(s.alpha) }, { "oblique", number(s.oblique) },
-                { "narrower", number(s.narrower) }, { "surface", number(s.surface) }, { "normalDegrees", number(s.normalDegrees) },
-                { "cut", number(s.cut) }, { "maxRadius", number(s.maxRadius) },
-                { "fillSigma", number(s.fillSigma) }, { "fillRadius", number(s.fillRadius) },
-                { "countExponent", number(s.countExponent) }, { "varianceFloor", number(s.varianceFloor) },
-                { "varianceSpread", number(s.varianceSpread) } });
+                { "narrower", number(s.narrower) }, { "surface", number(s.surface) },
+                { "normalDegrees", number(s.normalDegrees) }, { "cut", number(s.cut) },
+                { "maxRadius", number(s.maxRadius) }, { "fillSigma", number(s.fillSigma) },
+                { "fillRadius", number(s.fillRadius) }, { "countExponent", number(s.countExponent) },
+                { "varianceFloor", number(s.varianceFloor) }, { "varianceSpread", number(s.varianceSpread) } });
     }
     if (s.method == Method::AxisAligned && tracesPaths(s)) {
         describeIndirect(s.indirect, out);

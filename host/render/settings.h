@@ -79,11 +79,13 @@ enum class IndirectCounts {
 /// Indirect light and ambient occlusion; docs/indirect.md has the equations.
 struct IndirectSettings {
     float mu = 1.0f; ///< sampling beyond the critical rate, (4.15), (4.21)
-    float alpha = 0.65f; ///< spatial bandlimit relative to the pixel's: no width is below widthScale / (mu alpha) pixels
+    float alpha =
+        0.65f; ///< spatial bandlimit relative to the pixel's: no width is below widthScale / (mu alpha) pixels
     float widthScale = 0.5f; ///< standard deviation times bandwidth: beta = widthScale / Omega_r; thesis (4.16): 2
     ReflectorExtent extent = ReflectorExtent::Visible;
     float leastReflector = 0.005f; ///< reflectors nearer than this fraction of the extent count as this far
-    float meanFraction = 0.3f; ///< WEDGE_NEAREST_FRACTION: of the harmonic mean of distances, for the least one; 0: the least itself
+    float meanFraction =
+        0.3f; ///< WEDGE_NEAREST_FRACTION: of the harmonic mean of distances, for the least one; 0: the least itself
     IndirectCounts counts = IndirectCounts::Variance;
     float countExponent = 0.4f; ///< counts ~ (variance / gathered pixels)^this
     int maxSpp = 256; ///< most samples of a pixel
@@ -101,18 +103,21 @@ struct DistributedSettings {
     int firstPaths = 8; ///< primary samples of the first pass, each with one secondary of each term
     int maxSpp = 512; ///< most samples of a pixel and term
     bool published = false; ///< terms, widths and counts of chapter 5 and appendix B; spp has no say
-    float leastShare = 0.25f; ///< of the mean count, that every pixel takes: counts follow variances, which may be seen late
+    float leastShare =
+        0.25f; ///< of the mean count, that every pixel takes: counts follow variances, which may be seen late
     float leastTermShare = 0.5f; ///< the same of samples of terms
     float leastPrimaries = 0.5f; ///< primary samples a sample of a term
     float leastSecondaries = 0.2f; ///< samples of a term a primary one where texture and irradiance are taken apart
-    int frames = 1; ///< independent ones of which the image is the mean: filters are as narrow as the samples of all allow
+    int frames =
+        1; ///< independent ones of which the image is the mean: filters are as narrow as the samples of all allow
     float mu = 1.0f; ///< as published: bandwidths beyond the critical ones (5.29)
     int mixedPaths = 64; ///< as published: primary samples where motions differ
     Factoring factoring = Factoring::Error;
     float factoringError = 0.01f; ///< radiance
     int factoringRadius = 2; ///< pixels: errors are averaged over a square
     bool blur = true; ///< the image is filtered by what lens and shutter blur
-    float blurWidth = 0.65f; ///< standard deviation of that filter: blurWidth r (n r^2)^-blurExponent pixels, of the circle
+    float blurWidth =
+        0.65f; ///< standard deviation of that filter: blurWidth r (n r^2)^-blurExponent pixels, of the circle
     float blurExponent = 0.176f; ///< of confusion's radius r and n primary samples
     float shutterWidth = 0.86f; ///< likewise shutterWidth h (n h)^-shutterExponent, of half the motion's length, h
     float shutterExponent = 0.25f;
@@ -156,7 +161,8 @@ struct Settings {
 
     bool oblique = true; ///< distances along the ray to the light's centre instead of (3.12)
     bool narrower = true; ///< a pair of pixels is weighted by the narrower of both kernels
-    bool surface = true; ///< pixels weigh by the surface that they see, and those off a pixel's own surface are left out
+    bool surface =
+        true; ///< pixels weigh by the surface that they see, and those off a pixel's own surface are left out
     float normalDegrees = 10.0f; ///< neighbours whose normals differ by more are not gathered
     float cut = 3.0f; ///< kernel radius in standard deviations
     int maxRadius = 40; ///< kernel radius in pixels at most
@@ -176,12 +182,13 @@ Settings monteCarlo(int spp);
 /// from the count, so that either one alone converges.
 Settings axisAligned(std::optional<int> spp = {}, std::optional<float> mu = {});
 
-/// Axis-aligned filtering as thesis chapters 3 and 4 have it. Without mu, each effect's own: 2 for soft shadows, 0.9 for
-/// indirect light.
+/// Axis-aligned filtering as thesis chapters 3 and 4 have it. Without mu, each effect's own: 2 for soft shadows, 0.9
+/// for indirect light.
 Settings asPublished(std::optional<float> mu = {});
 
-/// The settings of one of the two halves of a progressive render when both together have spp samples a pixel: widths go with
-/// the samples of both, as axisAligned() has it, since their mean is as little noisy as one frame with all of them.
+/// The settings of one of the two halves of a progressive render when both together have spp samples a pixel: widths go
+/// with the samples of both, as axisAligned() has it, since their mean is as little noisy as one frame with all of
+/// them.
 Settings halfAt(const Settings& settings, int spp);
 
 /// The pixels that a frame of these settings produces: the crop, or all.
@@ -206,8 +213,8 @@ void validate(const Settings& settings, bool distributed);
 /// "aaf" and the like.
 std::string methodName(Method method);
 
-/// Name and value of each setting that shapes the image, for metadata and report; of method aaf also those that shape none
-/// but distributed frames, whether this is one or not.
+/// Name and value of each setting that shapes the image, for metadata and report; of method aaf also those that shape
+/// none but distributed frames, whether this is one or not.
 std::vector<std::pair<std::string, std::string>> describe(const Settings& settings);
 
 } // namespace wedge::render

@@ -22,12 +22,14 @@ double FrameStatistics::milliseconds(const std::string& pass) const
 
 double FrameStatistics::overheadFraction() const
 {
-    const double overhead = milliseconds(PassKind::Analysis) + milliseconds(PassKind::Filter) + milliseconds(PassKind::Composite);
+    const double overhead =
+        milliseconds(PassKind::Analysis) + milliseconds(PassKind::Filter) + milliseconds(PassKind::Composite);
     return deviceMilliseconds > 0 ? overhead / deviceMilliseconds : 0.0;
 }
 
 // Lean frames have no planes of such sums.
-void Renderer::countLeanSamples(const Settings& settings, std::vector<std::uint32_t>& all, std::vector<std::uint32_t>& indirect)
+void Renderer::countLeanSamples(
+    const Settings& settings, std::vector<std::uint32_t>& all, std::vector<std::uint32_t>& indirect)
 {
     const std::size_t lights = settings.integrator == Integrator::Path ? scene_.areaLights.size() : 0;
     all.assign(frame_->layout.size, 0);
@@ -50,7 +52,8 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
     }
     const std::vector<std::uint32_t> rays = planeOf(frame_->rays), pathRays = planeOf(frame_->pathRays);
     const std::vector<std::uint32_t> objects = planeOf(frame_->objectId);
-    const std::vector<float> specular = frame_->distributed ? std::vector<float> {} : frame_->specular.downloadAll(queue_);
+    const std::vector<float> specular =
+        frame_->distributed ? std::vector<float> {} : frame_->specular.downloadAll(queue_);
     const image::Window output = outputWindow(settings);
     const std::vector<IndirectTerm> terms = indirectTerms(settings, deviceScene_->specular);
     const std::size_t size = frame_->layout.size;

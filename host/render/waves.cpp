@@ -26,7 +26,10 @@ std::uint64_t Waves::bytes(const TermShape& term, bool deltaLights)
         * (surfacePlanes + otherPlanes + term.sums + term.values + term.extremes + (deltaLights ? 6u : 0u));
 }
 
-void Waves::planTiles(device::MemoryPlan& plan, const PlaneLayout& layout) { plan.addItems("tiles", mostTiles(layout), 8); }
+void Waves::planTiles(device::MemoryPlan& plan, const PlaneLayout& layout)
+{
+    plan.addItems("tiles", mostTiles(layout), 8);
+}
 
 template <class T>
 device::Buffer<T> Waves::Pieces::take(std::size_t count, const std::string& name)
@@ -50,7 +53,8 @@ Waves::Waves(const device::Device& device, const PlaneLayout& layout, const Term
 {
 }
 
-Waves::Waves(const device::Device& device, const PlaneLayout& layout, const TermShape& term, bool deltaLights, Pieces pieces)
+Waves::Waves(
+    const device::Device& device, const PlaneLayout& layout, const TermShape& term, bool deltaLights, Pieces pieces)
     : shape(term)
     , position(pieces.take<float>(3, "receivers' positions"))
     , normal(pieces.take<float>(3, "receivers' normals"))
@@ -104,7 +108,8 @@ std::vector<shared::WaveParams> Waves::schedule(Passes& passes, const shared::Fr
     std::vector<shared::WaveParams> waves;
     constexpr std::uint32_t tilesOfWave = capacity / WEDGE_TILE_PIXELS;
     for (std::uint32_t tile = 0; tile < params.tileCount; ++tile) {
-        const bool fits = !waves.empty() && waves.back().tiles < tilesOfWave && waves.back().receivers + counts[tile] <= capacity;
+        const bool fits =
+            !waves.empty() && waves.back().tiles < tilesOfWave && waves.back().receivers + counts[tile] <= capacity;
         if (!fits) {
             waves.push_back(settings);
             waves.back().firstTile = tile;
@@ -136,9 +141,9 @@ void Waves::trace(Passes& passes, const DeviceScene& scene, const Frame& frame, 
     traced.tileCount = receiverParams(wave).tileCount;
     passes.tiles("primary rays", PassKind::Trace, "wave_primary.cl", "wavePrimary", traced, workUnits, camera_, wave,
         scene.nodes, scene.blocks, surfaceArguments(scene), scene.objectIds, scene.areaLights,
-        static_cast<std::uint32_t>(lit ? scene.areaLightList.size() : 0), pixelOf, sampleOf, frame.primaryWanted, position,
-        normal, origin, geometric, objectId, gloss, view, time, diffuse, specular, emission, pixelSize, depth, motion, rays,
-        pathRays);
+        static_cast<std::uint32_t>(lit ? scene.areaLightList.size() : 0), pixelOf, sampleOf, frame.primaryWanted,
+        position, normal, origin, geometric, objectId, gloss, view, time, diffuse, specular, emission, pixelSize, depth,
+        motion, rays, pathRays);
 }
 
 void Waves::share(Passes& passes, const Term& term, const shared::WaveParams& wave)

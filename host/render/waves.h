@@ -23,15 +23,16 @@ public:
     static std::uint64_t bytes(const TermShape& term, bool deltaLights);
     static void planTiles(device::MemoryPlan& plan, const PlaneLayout& layout);
 
-    /// term: planes that the receivers' terms need. memory: what is on no use between the waves of one pass and those of the
-    /// next lies there, from the start on.
+    /// term: planes that the receivers' terms need. memory: what is on no use between the waves of one pass and those
+    /// of the next lies there, from the start on.
     Waves(const device::Device& device, const PlaneLayout& layout, const TermShape& term, bool deltaLights,
         const device::Buffer<float>& memory);
     /// With memory of their own, and point or directional lights.
     Waves(const device::Device& device, const PlaneLayout& layout, const TermShape& term);
 
-    /// The waves in which the pixels of frame get their primary samples up to frame.primaryWanted, or up to `last` samples.
-    /// settings: sampler, firstPass and shading; the rest is filled in. They are for those pixels until the next schedule.
+    /// The waves in which the pixels of frame get their primary samples up to frame.primaryWanted, or up to `last`
+    /// samples. settings: sampler, firstPass and shading; the rest is filled in. They are for those pixels until the
+    /// next schedule.
     std::vector<shared::WaveParams> schedule(Passes& passes, const shared::FrameParams& params,
         const shared::CameraParams& camera, const Frame& frame, shared::WaveParams settings, std::uint32_t last);
 
@@ -59,7 +60,10 @@ public:
     }
 
     /// What kernels take for WEDGE_RECEIVER_PARAMETERS.
-    auto receivers() const { return std::tie(position, normal, origin, geometric, objectId, gloss, pixelOf, view, time); }
+    auto receivers() const
+    {
+        return std::tie(position, normal, origin, geometric, objectId, gloss, pixelOf, view, time);
+    }
 
     TermShape shape;
     device::Buffer<float> position, normal, origin;
@@ -83,7 +87,8 @@ private:
         template <class T>
         device::Buffer<T> take(std::size_t count, const std::string& name);
     };
-    Waves(const device::Device& device, const PlaneLayout& layout, const TermShape& term, bool deltaLights, Pieces pieces);
+    Waves(const device::Device& device, const PlaneLayout& layout, const TermShape& term, bool deltaLights,
+        Pieces pieces);
 
     shared::FrameParams params_ {}; ///< of the pixels
     shared::CameraParams camera_ {};

@@ -45,7 +45,10 @@ Camera middleCamera(const Scene& scene)
     return camera;
 }
 
-const char* profileName(ApertureProfile profile) { return profile == ApertureProfile::Gaussian ? "gaussian" : "uniform"; }
+const char* profileName(ApertureProfile profile)
+{
+    return profile == ApertureProfile::Gaussian ? "gaussian" : "uniform";
+}
 
 const char* profileName(ShutterProfile profile) { return profile == ShutterProfile::Gaussian ? "gaussian" : "box"; }
 

@@ -18,7 +18,8 @@ WEDGE_SHARED_BEGIN
 WEDGE_INLINE float specularNormalization(float exponent, uint model)
 {
     const float phong = (exponent + 2.0f) * (0.5f * WEDGE_INV_PI);
-    const float blinn = (exponent + 2.0f) * (exponent + 4.0f) * (0.125f * WEDGE_INV_PI) / (exp2Bounded(-0.5f * exponent) + exponent);
+    const float blinn =
+        (exponent + 2.0f) * (exponent + 4.0f) * (0.125f * WEDGE_INV_PI) / (exp2Bounded(-0.5f * exponent) + exponent);
     return model == WEDGE_SPECULAR_PHONG ? phong : blinn;
 }
 
@@ -43,7 +44,7 @@ WEDGE_INLINE Lobe makeLobe(float exponent, uint model)
 /// What a lobe is in one direction, 1/sr.
 typedef struct {
     float value; ///< the reflection
-    float pdf;   ///< density at which sampleLobe() gives the direction
+    float pdf; ///< density at which sampleLobe() gives the direction
 } LobeAt;
 
 /// For unit vectors: n normal, v to the viewer, l to the light, both above n's horizon.
@@ -82,9 +83,9 @@ WEDGE_INLINE void tangentFrame(Vec3 n, Vec3* s, Vec3* t)
     *t = vec3(b, sign + n.y * n.y * a, -n.y);
 }
 
-/// Direction about the unit vector n of density cos / pi for u in [0,1)^2: the concentric map of Shirley and Chiu (1997)
-/// raised onto the hemisphere. Sine and cosine of at most pi / 4 by their series, so that loops over lanes become
-/// vectors. Length 1 to 1e-6.
+/// Direction about the unit vector n of density cos / pi for u in [0,1)^2: the concentric map of Shirley and Chiu
+/// (1997) raised onto the hemisphere. Sine and cosine of at most pi / 4 by their series, so that loops over lanes
+/// become vectors. Length 1 to 1e-6.
 WEDGE_INLINE Vec3 cosineDirection(Vec3 n, Vec2 u)
 {
     const float a = 2.0f * u.x - 1.0f;
@@ -115,8 +116,8 @@ WEDGE_INLINE Vec3 powerCosineDirection(Vec3 n, float exponent, Vec2 u)
     return vecMad(vecMad(vecScale(s, r * cosine), t, r * sine), n, c);
 }
 
-/// A direction distributed as the lobe is, see lobePdf(); it may lie below n's horizon, where the lobe reflects nothing.
-/// Phong: about the mirrored view; Blinn-Phong: the view mirrored by a half vector about n.
+/// A direction distributed as the lobe is, see lobePdf(); it may lie below n's horizon, where the lobe reflects
+/// nothing. Phong: about the mirrored view; Blinn-Phong: the view mirrored by a half vector about n.
 WEDGE_INLINE Vec3 sampleLobe(Lobe lobe, Vec3 n, Vec3 v, Vec2 u)
 {
     const bool phong = lobe.model == WEDGE_SPECULAR_PHONG;

@@ -46,7 +46,8 @@ typedef struct {
 } BvhNode4;
 
 /// Nodes over geometry that moves while the shutter is open: the node at its opening, and how far each plane moves from
-/// there until it closes, rounded outwards. A child's box at time t in [0, 1] is plane + t move. Empty slots do not move.
+/// there until it closes, rounded outwards. A child's box at time t in [0, 1] is plane + t move. Empty slots do not
+/// move.
 typedef struct {
     float loX[WEDGE_BVH_WIDTH], hiX[WEDGE_BVH_WIDTH];
     float loY[WEDGE_BVH_WIDTH], hiY[WEDGE_BVH_WIDTH];

@@ -6,7 +6,8 @@
 
 /// Apertures and shutters that are Gaussian end at this many standard deviations.
 #define WEDGE_APERTURE_CUT 2.0f
-/// Parallel to forward, of a point that is projected, metres: what is nearer, or behind, is projected as if it were here.
+/// Parallel to forward, of a point that is projected, metres: what is nearer, or behind, is projected as if it were
+/// here.
 #define WEDGE_LEAST_DEPTH 1e-6f
 #define WEDGE_TWO_PI 6.28318531f
 

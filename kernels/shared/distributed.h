@@ -16,27 +16,28 @@ WEDGE_SHARED_BEGIN
 typedef struct {
     uint x0, y0, x1, y1; ///< the pixels to produce, half open; x0 a multiple of WEDGE_BLOCK_PIXELS
     uint width, height, stride, planeSize;
-    float factoringError;    ///< largest |L - k E| of pixels whose irradiance is filtered, thesis (5.30)
-    uint factoringRadius;    ///< pixels: the error is the mean of the signed one over a square of this radius
-    float blurWidth;         ///< standard deviation of the image-space filter: blurWidth r (n r^2)^-blurExponent pixels, of
-    float blurExponent;      ///< the circle of confusion's radius r and n primary samples
-    float shutterWidth;      ///< likewise shutterWidth h (n h)^-shutterExponent of half the motion's length, h
+    float factoringError; ///< largest |L - k E| of pixels whose irradiance is filtered, thesis (5.30)
+    uint factoringRadius; ///< pixels: the error is the mean of the signed one over a square of this radius
+    float blurWidth; ///< standard deviation of the image-space filter: blurWidth r (n r^2)^-blurExponent pixels, of
+    float blurExponent; ///< the circle of confusion's radius r and n primary samples
+    float shutterWidth; ///< likewise shutterWidth h (n h)^-shutterExponent of half the motion's length, h
     float shutterExponent;
-    float leastRadius;       ///< pixels: smaller circles of confusion and motions are not filtered
-    float irradianceWidth;   ///< of the irradiance's filter: its least standard deviation in radii of the circle of confusion
-    float countExponent;     ///< counts ~ (variance / gathered pixels / rays of a sample)^this
-    float varianceSpread;    ///< fraction of the 5x5 neighbourhood's largest variance that a pixel takes at least
-    float rays;              ///< of one sample of the term
-    uint values;             ///< planes of what is filtered of the term: 1, a light's visibility; 3, radiance
-    float oneVelocity;       ///< largest difference of motions in a pixel that counts as one, as a fraction of the motion
-    uint never;              ///< 1: textures and irradiances are never taken apart
-    float samples;           ///< primary samples that a pixel is expected to have; 0: those that it has
-    uint published;          ///< 1: terms are kept as published, see accumulate.h
-    float frames;            ///< of which the image is the mean: each has as many samples
-    uint still;              ///< 1: nothing moves, and there are no planes of motions
-    uint packed;             ///< 1: terms' planes are packed, see accumulate.h
-    uint plainTexture;       ///< 1: filtered textures are not
-    uint alongMotion;        ///< of demands: 1, of textures, which are filtered along the motion, too
+    float leastRadius; ///< pixels: smaller circles of confusion and motions are not filtered
+    float irradianceWidth; ///< of the irradiance's filter: its least standard deviation in radii of the circle of
+                           ///< confusion
+    float countExponent; ///< counts ~ (variance / gathered pixels / rays of a sample)^this
+    float varianceSpread; ///< fraction of the 5x5 neighbourhood's largest variance that a pixel takes at least
+    float rays; ///< of one sample of the term
+    uint values; ///< planes of what is filtered of the term: 1, a light's visibility; 3, radiance
+    float oneVelocity; ///< largest difference of motions in a pixel that counts as one, as a fraction of the motion
+    uint never; ///< 1: textures and irradiances are never taken apart
+    float samples; ///< primary samples that a pixel is expected to have; 0: those that it has
+    uint published; ///< 1: terms are kept as published, see accumulate.h
+    float frames; ///< of which the image is the mean: each has as many samples
+    uint still; ///< 1: nothing moves, and there are no planes of motions
+    uint packed; ///< 1: terms' planes are packed, see accumulate.h
+    uint plainTexture; ///< 1: filtered textures are not
+    uint alongMotion; ///< of demands: 1, of textures, which are filtered along the motion, too
 } DistributedParams;
 
 WEDGE_SHARED_END

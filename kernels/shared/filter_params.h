@@ -12,39 +12,39 @@ WEDGE_SHARED_BEGIN
 
 /// The gather of the separable Gaussian (thesis 3.10 to 3.12) around one light.
 typedef struct {
-    Vec3 eye;          ///< metres
-    Vec3 forward;      ///< unit
-    Vec3 right, down;  ///< image-plane steps of one pixel at distance 1
-    Vec3 lightCentre;  ///< metres
-    Vec3 lightNormal;  ///< unit
+    Vec3 eye; ///< metres
+    Vec3 forward; ///< unit
+    Vec3 right, down; ///< image-plane steps of one pixel at distance 1
+    Vec3 lightCentre; ///< metres
+    Vec3 lightNormal; ///< unit
     float normalCosine; ///< neighbours whose normal is farther off than this cosine are not gathered
-    float cut;          ///< kernel radius in standard deviations
-    uint oblique;       ///< 1: distance measured along the ray to the light's centre; 0: along its normal (3.12)
-    uint narrower;      ///< 1: the narrower of both pixels' kernels weights a pair; 0: the gathering pixel's
-    uint maxRadius;     ///< pixels, at most WEDGE_MAX_RADIUS
+    float cut; ///< kernel radius in standard deviations
+    uint oblique; ///< 1: distance measured along the ray to the light's centre; 0: along its normal (3.12)
+    uint narrower; ///< 1: the narrower of both pixels' kernels weights a pair; 0: the gathering pixel's
+    uint maxRadius; ///< pixels, at most WEDGE_MAX_RADIUS
     uint width, stride, planeSize;
     uint x0, y0, x1, y1; ///< the pixels to produce, half open; x0 a multiple of WEDGE_BLOCK_PIXELS
     uint height;
-    uint surface;       ///< 1: neighbours weigh by the surface that they see, and those off the pixel's surface are left out
+    uint surface; ///< 1: neighbours weigh by the surface that they see, and those off the pixel's surface are left out
 } FilterParams;
 
 /// The analysis of one light: slopes to widths and counts.
 typedef struct {
     uint x0, y0, x1, y1; ///< the pixels to produce, half open; x0 a multiple of WEDGE_BLOCK_PIXELS
     uint width, height, stride, planeSize;
-    float sigma;         ///< metres, the light's standard deviation
-    float lightSize;     ///< metres, sqrt(A_l) of (3.21)
-    float k, mu, alpha;  ///< of (3.13) and (3.21)
-    uint fillRadius;     ///< pixels that slopes spread to pixels without one, at most WEDGE_ROW_PADDING
-    float fillScale;     ///< -log2(e) / (2 s^2) of the spreading Gaussian of s pixels; 0: plain mean
-    uint countCap;       ///< most samples a pixel may take
-    float fixedWidth;    ///< pixels; more than 0: this width everywhere in place of the analysis
+    float sigma; ///< metres, the light's standard deviation
+    float lightSize; ///< metres, sqrt(A_l) of (3.21)
+    float k, mu, alpha; ///< of (3.13) and (3.21)
+    uint fillRadius; ///< pixels that slopes spread to pixels without one, at most WEDGE_ROW_PADDING
+    float fillScale; ///< -log2(e) / (2 s^2) of the spreading Gaussian of s pixels; 0: plain mean
+    uint countCap; ///< most samples a pixel may take
+    float fixedWidth; ///< pixels; more than 0: this width everywhere in place of the analysis
     float countExponent; ///< of the counts from variance: n ~ (v / K)^exponent
     float varianceFloor; ///< least variance where there are slopes
     float varianceSpread; ///< fraction of the 5x5 neighbourhood's largest variance that a pixel takes at least
-    Vec3 lightCentre;    ///< metres
-    uint packed;         ///< 1: sizes of pixels are packed, packed_planes.h
-    uint leastCount;     ///< samples of the first pass, which every pixel takes
+    Vec3 lightCentre; ///< metres
+    uint packed; ///< 1: sizes of pixels are packed, packed_planes.h
+    uint leastCount; ///< samples of the first pass, which every pixel takes
 } AnalysisParams;
 
 WEDGE_SHARED_END

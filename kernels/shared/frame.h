@@ -18,18 +18,18 @@
 WEDGE_SHARED_BEGIN
 
 typedef struct {
-    uint width, height;  ///< pixels of the full image
-    uint stride;         ///< floats from one row of a plane to the next
-    uint planeSize;      ///< floats of a plane
+    uint width, height; ///< pixels of the full image
+    uint stride; ///< floats from one row of a plane to the next
+    uint planeSize; ///< floats of a plane
     uint x0, y0, x1, y1; ///< the rectangle of pixels to work on, half open
-    uint tilesX;         ///< tiles of that rectangle in x
+    uint tilesX; ///< tiles of that rectangle in x
     uint tileCount;
     uint tileStep; ///< coprime to tileCount: consecutive work-groups take distant tiles
     uint seed;
-    Vec3 eye;     ///< metres
+    Vec3 eye; ///< metres
     Vec3 forward; ///< unit
-    Vec3 right;   ///< image-plane step of one pixel in x at distance 1
-    Vec3 down;    ///< image-plane step of one pixel in y at distance 1
+    Vec3 right; ///< image-plane step of one pixel in x at distance 1
+    Vec3 down; ///< image-plane step of one pixel in y at distance 1
     Vec3 background;
     uint receivers; ///< of a wave, which lie one after the other; 0: the pixels of the rectangle are the receivers
 } FrameParams;

@@ -1,5 +1,5 @@
-// The frequency analysis of indirect light (thesis chapter 4 and appendix A): bandlimits of the transfer functions, from
-// them and the reflectors' distances the width of the image filter and the number of samples.
+// The frequency analysis of indirect light (thesis chapter 4 and appendix A): bandlimits of the transfer functions,
+// from them and the reflectors' distances the width of the image filter and the number of samples.
 #ifndef WEDGE_SHARED_INDIRECT_H
 #define WEDGE_SHARED_INDIRECT_H
 
@@ -12,8 +12,8 @@
 /// Scaling of counts for cosine-weighted samples (section 4.4.3).
 #define WEDGE_DIFFUSE_GAMMA 0.4f
 
-/// Of the harmonic mean of distances, what stands for the least one, if none is nearer; where planes have no room for both the
-/// mean and the least, it is built into what they have.
+/// Of the harmonic mean of distances, what stands for the least one, if none is nearer; where planes have no room for
+/// both the mean and the least, it is built into what they have.
 #define WEDGE_NEAREST_FRACTION 0.3f
 
 WEDGE_SHARED_BEGIN
@@ -41,7 +41,8 @@ WEDGE_FN float indirectBandwidth(float zMin, float bandlimit, float pixelSize, f
 }
 
 /// Samples a pixel needs, (4.21), as a real number; pixelSize = sqrt(A_p).
-WEDGE_FN float indirectCount(float zMin, float zMax, float bandlimit, float gamma, float pixelSize, float mu, float alpha)
+WEDGE_FN float indirectCount(
+    float zMin, float zMax, float bandlimit, float gamma, float pixelSize, float mu, float alpha)
 {
     const float spatial = mu * bandlimit * pixelSize / zMin + alpha;
     const float angular = bandlimit * (1.0f + mu * zMax / zMin);

@@ -15,8 +15,8 @@
 
 /// How a light's samples are weighted and what is filtered (docs/soft-shadows.md).
 #define WEDGE_SHADING_SEPARATE 0u ///< h = mean visibility, shaded with the light's centre (the thesis)
-#define WEDGE_SHADING_INSIDE 1u   ///< the shaded radiance itself, cosine inside (Fig. 3.11a; plain Monte Carlo)
-#define WEDGE_SHADING_RATIO 2u    ///< visibility weighted by the shading, times the unshadowed shading
+#define WEDGE_SHADING_INSIDE 1u ///< the shaded radiance itself, cosine inside (Fig. 3.11a; plain Monte Carlo)
+#define WEDGE_SHADING_RATIO 2u ///< visibility weighted by the shading, times the unshadowed shading
 
 /// How area lights are found: by points on them, by reflected directions that meet them, or by both.
 #define WEDGE_LIGHTS_BOTH 0u
@@ -32,7 +32,8 @@
 #define WEDGE_FEW_NODES 3u ///< of the Gauss rule of the light's profile itself
 #define WEDGE_FINE_OFFSET (2u * WEDGE_COARSE_NODES)
 #define WEDGE_FEW_OFFSET (WEDGE_FINE_OFFSET + 2u * WEDGE_FINE_NODES)
-#define WEDGE_FITTED_NODES 16u ///< of the Gauss-Legendre rule on [-1, 1], weights summing to 2, for rules fitted to a receiver
+#define WEDGE_FITTED_NODES                                                                                             \
+    16u ///< of the Gauss-Legendre rule on [-1, 1], weights summing to 2, for rules fitted to a receiver
 #define WEDGE_FITTED_OFFSET (WEDGE_FEW_OFFSET + 2u * WEDGE_FEW_NODES)
 
 WEDGE_SHARED_BEGIN
@@ -40,19 +41,19 @@ WEDGE_SHARED_BEGIN
 /// A planar quad light. Local coordinates (a, b) in [-1, 1]^2 map to centre + a halfU + b halfV.
 typedef struct {
     Vec3 centre;
-    float sigma;     ///< metres: standard deviation of the profile, geometric mean of the two axes
-    Vec3 halfU;      ///< metres
-    float cut;       ///< half extent in standard deviations (Gaussian)
-    Vec3 halfV;      ///< metres
-    float erfCut;    ///< erf(cut / sqrt 2): the Gaussian's mass inside the cut, one axis
-    Vec3 normal;     ///< unit, the side that emits
-    uint profile;    ///< WEDGE_PROFILE_*
-    Vec3 power;      ///< W/sr: radiance at the centre times the integral of the profile over the quad
-    uint twoSided;   ///< 1: both sides emit
-    Vec3 radiance;   ///< W/(m^2 sr) at the centre
-    uint visible;    ///< 1: the camera sees it
+    float sigma; ///< metres: standard deviation of the profile, geometric mean of the two axes
+    Vec3 halfU; ///< metres
+    float cut; ///< half extent in standard deviations (Gaussian)
+    Vec3 halfV; ///< metres
+    float erfCut; ///< erf(cut / sqrt 2): the Gaussian's mass inside the cut, one axis
+    Vec3 normal; ///< unit, the side that emits
+    uint profile; ///< WEDGE_PROFILE_*
+    Vec3 power; ///< W/sr: radiance at the centre times the integral of the profile over the quad
+    uint twoSided; ///< 1: both sides emit
+    Vec3 radiance; ///< W/(m^2 sr) at the centre
+    uint visible; ///< 1: the camera sees it
     float profileArea; ///< m^2: the profile's integral over the quad
-    float pick;        ///< probability that a path's vertex samples this light
+    float pick; ///< probability that a path's vertex samples this light
     uint padding[2];
 } AreaLight;
 
@@ -70,9 +71,9 @@ typedef struct {
 
 /// How a light is sampled and weighted.
 typedef struct {
-    uint shading;      ///< WEDGE_SHADING_*
-    uint sampler;   ///< WEDGE_SAMPLER_*
-    uint light;     ///< index of the light, part of the random seed
+    uint shading; ///< WEDGE_SHADING_*
+    uint sampler; ///< WEDGE_SAMPLER_*
+    uint light; ///< index of the light, part of the random seed
     uint firstPass; ///< samples of a first pass with strata of its own; 0: none
     uint lightSampling; ///< WEDGE_LIGHTS_*, for WEDGE_SHADING_INSIDE without a first pass
     uint strata; ///< samples that strata are made for after the first pass; 0: as many as the receiver is to have
@@ -111,7 +112,8 @@ WEDGE_INLINE float erfInverse(float x)
 WEDGE_INLINE float errorFunction(float x)
 {
     const float t = 1.0f / (1.0f + 0.3275911f * fabs(x));
-    const float p = t * (0.254829592f + t * (-0.284496736f + t * (1.421413741f + t * (-1.453152027f + t * 1.061405429f))));
+    const float p =
+        t * (0.254829592f + t * (-0.284496736f + t * (1.421413741f + t * (-1.453152027f + t * 1.061405429f))));
     const float y = 1.0f - p * exp2Bounded(-1.44269504f * x * x);
     return x < 0.0f ? -y : y;
 }
@@ -133,14 +135,14 @@ WEDGE_INLINE float lightFraction(float a, uint profile, float cut, float erfCut)
     return profile == WEDGE_PROFILE_GAUSSIAN ? gaussian : 0.5f + 0.5f * a;
 }
 
-/// The part of a light above the horizon of a receiver, and how it is sampled: first the outer of the light's axes, as far as
-/// points of it may be above, then the inner one, along which the horizon changes most, from the horizon on. So every sample is
-/// of light that may arrive, be there ever so little.
+/// The part of a light above the horizon of a receiver, and how it is sampled: first the outer of the light's axes, as
+/// far as points of it may be above, then the inner one, along which the horizon changes most, from the horizon on. So
+/// every sample is of light that may arrive, be there ever so little.
 typedef struct {
-    uint cut;    ///< 0: all of the light is above, or nothing: the rest does not matter
+    uint cut; ///< 0: all of the light is above, or nothing: the rest does not matter
     uint turned; ///< 1: the inner axis is halfV
     float first, range; ///< sample numbers of the outer axis
-    float height;       ///< of the light's centre over the horizon, metres
+    float height; ///< of the light's centre over the horizon, metres
     float inner, outer; ///< of the half axes
 } LightPart;
 
@@ -168,7 +170,8 @@ WEDGE_INLINE Vec3 lightPoint(Vec3 centre, Vec3 halfU, Vec3 halfV, float a, float
     return vecMad(vecMad(centre, halfU, a), halfV, b);
 }
 
-/// Sample numbers of one axis whose points are above a horizon, height + slope a > 0: the first, and how far they reach.
+/// Sample numbers of one axis whose points are above a horizon, height + slope a > 0: the first, and how far they
+/// reach.
 WEDGE_INLINE Vec2 numbersAbove(AreaLight light, float height, float slope)
 {
     // Also where nothing is above, by a rounding: then the end that is nearest to it.
@@ -213,9 +216,11 @@ WEDGE_INLINE float partMass(AreaLight light, LightPart part, float a, float b)
 WEDGE_INLINE PartSample samplePart(AreaLight light, LightPart part, Vec2 u)
 {
     const bool turned = part.cut != 0u && part.turned != 0u;
-    const float outer = lightCoordinate(part.first + part.range * (turned ? u.x : u.y), light.profile, light.cut, light.erfCut);
+    const float outer =
+        lightCoordinate(part.first + part.range * (turned ? u.x : u.y), light.profile, light.cut, light.erfCut);
     const Vec2 numbers = innerNumbers(light, part, outer);
-    const float inner = lightCoordinate(numbers.x + numbers.y * (turned ? u.y : u.x), light.profile, light.cut, light.erfCut);
+    const float inner =
+        lightCoordinate(numbers.x + numbers.y * (turned ? u.y : u.x), light.profile, light.cut, light.erfCut);
     PartSample s;
     s.a = turned ? outer : inner;
     s.b = turned ? inner : outer;

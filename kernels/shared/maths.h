@@ -1,5 +1,5 @@
-// Elementary functions as straight-line code, unlike the library's: loops over samples become vectors, and the host computes
-// the same bits.
+// Elementary functions as straight-line code, unlike the library's: loops over samples become vectors, and the host
+// computes the same bits.
 #ifndef WEDGE_SHARED_MATHS_H
 #define WEDGE_SHARED_MATHS_H
 

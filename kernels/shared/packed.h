@@ -11,8 +11,8 @@
 
 WEDGE_SHARED_BEGIN
 
-/// Bits of a term's texture and value. Of lights the value is a visibility, of indirect light the texture a reflectance:
-/// both are fractions. The other has any range.
+/// Bits of a term's texture and value. Of lights the value is a visibility, of indirect light the texture a
+/// reflectance: both are fractions. The other has any range.
 WEDGE_FN uint textureBits(uint packed, bool light)
 {
     return packed == 0u ? WEDGE_PLAIN_BITS : light ? WEDGE_COLOUR_BITS : WEDGE_FRACTION_BITS;
@@ -22,7 +22,7 @@ WEDGE_FN uint valueBits(uint packed, bool light) { return textureBits(packed, !l
 
 /// A colour in 47 bits: an exponent of 8 bits and 13 bits a channel, which are exact to 1/16384 of twice the largest.
 typedef struct {
-    uint low;  ///< red, green, and 6 bits of blue
+    uint low; ///< red, green, and 6 bits of blue
     uint high; ///< 7 bits of blue, exponent
 } PackedColour;
 
@@ -54,8 +54,8 @@ WEDGE_FN Vec3 unpackColour(PackedColour packed)
     return vec3(scale * (float)(packed.low & 8191u), scale * (float)(packed.low >> 13 & 8191u), scale * (float)b);
 }
 
-/// A colour in 32 bits: an exponent of 5 bits and 9 bits a channel, which are exact to 1/1024 of twice the largest, or to 1e-7.
-/// From 0 to 65408: for reflectances and fractions. Channels below 0 and what is no number count as 0.
+/// A colour in 32 bits: an exponent of 5 bits and 9 bits a channel, which are exact to 1/1024 of twice the largest, or
+/// to 1e-7. From 0 to 65408: for reflectances and fractions. Channels below 0 and what is no number count as 0.
 WEDGE_FN uint packFraction(Vec3 c)
 {
     const float largest = fmin(fmax(fmax(c.x, c.y), fmax(c.z, 0.0f)), 65408.0f);
@@ -72,7 +72,8 @@ WEDGE_FN uint packFraction(Vec3 c)
 WEDGE_FN Vec3 unpackFraction(uint packed)
 {
     const float scale = as_float(((packed >> 27) + 103u) << 23);
-    return vec3(scale * (float)(packed & 511u), scale * (float)(packed >> 9 & 511u), scale * (float)(packed >> 18 & 511u));
+    return vec3(
+        scale * (float)(packed & 511u), scale * (float)(packed >> 9 & 511u), scale * (float)(packed >> 18 & 511u));
 }
 
 /// Units of packNormal().
@@ -90,7 +91,7 @@ WEDGE_FN Vec3 unpackNormal(uint packed)
 {
     const float scale = 1.0f / WEDGE_NORMAL_UNITS;
     return vec3(scale * (float)((int)(packed << 22) >> 22), scale * (float)((int)(packed << 12) >> 22),
-                scale * (float)((int)(packed << 2) >> 22));
+        scale * (float)((int)(packed << 2) >> 22));
 }
 
 /// The upper 16 bits of a float, rounded: 8 bits of precision and its whole range.

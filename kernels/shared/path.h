@@ -6,7 +6,7 @@
 
 /// What a term holds.
 #define WEDGE_COMPONENT_DIFFUSE 0u ///< radiance that arrives, cosine-weighted mean
-#define WEDGE_COMPONENT_GLOSSY 1u  ///< radiance that the specular lobe reflects, without its colour
+#define WEDGE_COMPONENT_GLOSSY 1u ///< radiance that the specular lobe reflects, without its colour
 #define WEDGE_COMPONENT_AMBIENT 2u ///< fraction of the cosine-weighted hemisphere in which something is near
 
 /// Stripes of rows that each reduce what the camera sees.
@@ -15,13 +15,13 @@
 WEDGE_SHARED_BEGIN
 
 typedef struct {
-    uint component;     ///< WEDGE_COMPONENT_*
-    uint bounces;       ///< at least 1
-    uint sampler;       ///< WEDGE_SAMPLER_*
+    uint component; ///< WEDGE_COMPONENT_*
+    uint bounces; ///< at least 1
+    uint sampler; ///< WEDGE_SAMPLER_*
     uint lightSampling; ///< WEDGE_LIGHTS_*
-    uint firstPass;     ///< samples of a first pass with strata of its own; 0: none
+    uint firstPass; ///< samples of a first pass with strata of its own; 0: none
     uint areaLights, deltaLights;
-    float sceneDiameter;   ///< metres
+    float sceneDiameter; ///< metres
     float ambientDistance; ///< metres; surfaces farther away do not count for the ambient component
     uint strata; ///< as of SampleParams
     uint padding[2];
@@ -32,16 +32,16 @@ typedef struct {
     uint x0, y0, x1, y1; ///< the pixels to produce, half open; x0 a multiple of WEDGE_BLOCK_PIXELS
     uint width, height, stride, planeSize;
     uint component;
-    float mu, alpha;     ///< of (4.15) and (4.21)
-    float widthScale;    ///< standard deviation times bandwidth
-    float extent;        ///< metres; 0: what the camera sees
+    float mu, alpha; ///< of (4.15) and (4.21)
+    float widthScale; ///< standard deviation times bandwidth
+    float extent; ///< metres; 0: what the camera sees
     float leastReflector; ///< fraction of the extent that distances are clamped to
-    float meanFraction;  ///< of the harmonic mean distance that stands for the least one; 0: the least one itself
-    uint countCap;       ///< most samples a pixel may take
-    float fixedWidth;    ///< pixels; more than 0: this width everywhere in place of the analysis
+    float meanFraction; ///< of the harmonic mean distance that stands for the least one; 0: the least one itself
+    uint countCap; ///< most samples a pixel may take
+    float fixedWidth; ///< pixels; more than 0: this width everywhere in place of the analysis
     float countExponent; ///< of the counts from variance: n ~ (v / K)^exponent
     float varianceSpread; ///< fraction of the 5x5 neighbourhood's largest variance that a pixel takes at least
-    uint meanOnly;       ///< 1: of reflectors there is but the sum of inverse distances; pixels' sizes and gloss are packed
+    uint meanOnly; ///< 1: of reflectors there is but the sum of inverse distances; pixels' sizes and gloss are packed
 } ReflectorParams;
 
 WEDGE_SHARED_END

@@ -30,7 +30,10 @@ WEDGE_INLINE uint hashUint(uint x)
     return x;
 }
 
-WEDGE_INLINE uint hashCombine(uint seed, uint value) { return hashUint(seed ^ (value + 0x9e3779b9u + (seed << 6) + (seed >> 2))); }
+WEDGE_INLINE uint hashCombine(uint seed, uint value)
+{
+    return hashUint(seed ^ (value + 0x9e3779b9u + (seed << 6) + (seed >> 2)));
+}
 
 /// The upper 24 bits as a float in [0, 1).
 WEDGE_INLINE float toUnitFloat(uint x) { return (float)(x >> 8) * (1.0f / 16777216.0f); }

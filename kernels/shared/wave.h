@@ -10,10 +10,10 @@
 /// Receivers of a wave at most: enough to fill a large device, few enough to stay in a CPU's caches.
 #define WEDGE_WAVE_RECEIVERS (1u << 17)
 
-/// What a wave is not to add to its pixels, which have no planes of it, or have other things in them: what layers show and
-/// counts of samples that follow from others, with rays counted for the wave's pixels in place of the image's; motion; all
-/// that the analysis is made of; of that, slopes and distances but for one plane; the pixels' wanted samples, which are then as
-/// many as the last of the wave.
+/// What a wave is not to add to its pixels, which have no planes of it, or have other things in them: what layers show
+/// and counts of samples that follow from others, with rays counted for the wave's pixels in place of the image's;
+/// motion; all that the analysis is made of; of that, slopes and distances but for one plane; the pixels' wanted
+/// samples, which are then as many as the last of the wave.
 #define WEDGE_OMITS_LAYERS 1u
 #define WEDGE_OMITS_MOTION 2u
 #define WEDGE_OMITS_ANALYSIS 4u
@@ -26,13 +26,13 @@ WEDGE_SHARED_BEGIN
 typedef struct {
     uint firstTile, tiles; ///< of the frame's rectangle, in the order in which tiles are taken
     uint receivers;
-    uint planeSize;  ///< elements of a plane of the wave's
+    uint planeSize; ///< elements of a plane of the wave's
     uint lastSample; ///< primary samples that a pixel has at most when the wave is done
-    uint sampler;    ///< WEDGE_SAMPLER_*
-    uint firstPass;  ///< primary samples of a first pass with strata of its own; 0: none
-    uint published;  ///< 1: terms are kept as the thesis has them, see accumulate.h
-    uint omits;      ///< sum of WEDGE_OMITS_*
-    uint packed;     ///< 1: the pixels' planes are packed, see accumulate.h
+    uint sampler; ///< WEDGE_SAMPLER_*
+    uint firstPass; ///< primary samples of a first pass with strata of its own; 0: none
+    uint published; ///< 1: terms are kept as the thesis has them, see accumulate.h
+    uint omits; ///< sum of WEDGE_OMITS_*
+    uint packed; ///< 1: the pixels' planes are packed, see accumulate.h
     float oneVelocity; ///< largest difference of motions that packed planes take for one, as a fraction of the motion
 } WaveParams;
 

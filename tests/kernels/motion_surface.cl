@@ -5,9 +5,8 @@
 /// rays: 8 floats each, as in trace_test.cl; times: one each. triangle: what each hit; out: 15 floats each, of that hit
 /// u v, then position, shading normal, geometric normal and motion, and the distance to the ray's origin.
 __kernel void motionSurface(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
-                            WEDGE_SURFACE_PARAMETERS, __global const float* restrict rays,
-                            __global const float* restrict times, uint count, __global uint* restrict triangle,
-                            __global float* restrict out)
+    WEDGE_SURFACE_PARAMETERS, __global const float* restrict rays, __global const float* restrict times, uint count,
+    __global uint* restrict triangle, __global float* restrict out)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count) {

@@ -5,9 +5,9 @@
 /// rays: 8 floats each, as in trace_test.cl; directions: 3 floats each, unit.
 /// out: triangle hit first and how many of the rays from there hit it again; points: position and origin (6 floats).
 __kernel void selfHit(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
-                      WEDGE_SURFACE_PARAMETERS, __global const float* restrict rays, uint count,
-                      __global const float* restrict directions, uint directionCount, float length,
-                      __global uint* restrict triangle, __global uint* restrict returns, __global float* restrict points)
+    WEDGE_SURFACE_PARAMETERS, __global const float* restrict rays, uint count,
+    __global const float* restrict directions, uint directionCount, float length, __global uint* restrict triangle,
+    __global uint* restrict returns, __global float* restrict points)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count) {

@@ -26,9 +26,9 @@ struct IndirectTerm {
 /// The indirect terms of a frame. specular: the scene reflects so.
 std::vector<IndirectTerm> indirectTerms(const Settings& settings, bool specular);
 
-/// Indirect light by paths, thesis chapters 4 and 5, and ambient occlusion by the same means: distances of reflectors, widths
-/// and counts (kernels/shared/indirect.h), paths, filter, modulation by the surface's reflectance. One component; each is a
-/// term of its own.
+/// Indirect light by paths, thesis chapters 4 and 5, and ambient occlusion by the same means: distances of reflectors,
+/// widths and counts (kernels/shared/indirect.h), paths, filter, modulation by the surface's reflectance. One
+/// component; each is a term of its own.
 class Indirect {
 public:
     /// What a component's term needs. analysed: with filter.
@@ -36,8 +36,8 @@ public:
 
     Indirect(const TermContext& context, Term& term, Component component);
 
-    /// The pixels being the receivers: samples, filters and adds the component to frame.indirect and indirectNoisy. Returns
-    /// false if cancelled while sampling; what was sampled until then is filtered and added all the same.
+    /// The pixels being the receivers: samples, filters and adds the component to frame.indirect and indirectNoisy.
+    /// Returns false if cancelled while sampling; what was sampled until then is filtered and added all the same.
     bool render();
 
     /// As SoftShadows has them.
@@ -51,7 +51,8 @@ public:
 
 private:
     bool sample();
-    bool samplePaths(const char* pass, const shared::FrameParams& frame, std::uint32_t from, std::uint32_t most, double mean);
+    bool samplePaths(
+        const char* pass, const shared::FrameParams& frame, std::uint32_t from, std::uint32_t most, double mean);
     void widthsAndCounts();
     void visibleExtent();
     void countsFromVariance();

@@ -60,12 +60,12 @@ bool SoftShadows::sample()
 {
     const auto spp = static_cast<std::uint32_t>(c_.settings.spp);
     if (c_.settings.method == Method::MonteCarlo) {
-        uniformCounts(c_.passes, analysisParams(blockWindow(c_.window, 0, c_.full().x1, c_.full().y1)), spp, c_.frame.objectId,
-            term_.wanted);
+        uniformCounts(c_.passes, analysisParams(blockWindow(c_.window, 0, c_.full().x1, c_.full().y1)), spp,
+            c_.frame.objectId, term_.wanted);
         return secondPass(0);
     }
-    // All of the frame even for a crop: the counts' scale comes from all pixels, and a crop is to be the same pixels as the
-    // whole image.
+    // All of the frame even for a crop: the counts' scale comes from all pixels, and a crop is to be the same pixels as
+    // the whole image.
     uniformCounts(c_.passes, analysisParams(c_.full()), WEDGE_FIRST_PASS_RAYS, c_.frame.objectId, term_.wanted);
     if (!firstPass()) {
         return false;
@@ -97,9 +97,10 @@ std::uint32_t SoftShadows::lightSampling() const
 bool SoftShadows::firstPass()
 {
     try {
-        c_.passes.tiles("first pass", PassKind::Trace, "area_light.cl", "firstPass", c_.fullFrame, WEDGE_FIRST_PASS_RAYS,
-            sampleParams(), light(), shared::CameraParams {}, c_.scene.nodes, c_.scene.blocks, surfaceArguments(c_.scene),
-            c_.frame.receivers(), term_.wanted, term_.sums, term_.taken, term_.value, term_.extremes, c_.frame.rays);
+        c_.passes.tiles("first pass", PassKind::Trace, "area_light.cl", "firstPass", c_.fullFrame,
+            WEDGE_FIRST_PASS_RAYS, sampleParams(), light(), shared::CameraParams {}, c_.scene.nodes, c_.scene.blocks,
+            surfaceArguments(c_.scene), c_.frame.receivers(), term_.wanted, term_.sums, term_.taken, term_.value,
+            term_.extremes, c_.frame.rays);
     } catch (const device::Cancelled&) {
         return false;
     }
@@ -123,8 +124,8 @@ bool SoftShadows::secondPass(std::uint32_t from)
             const double share = done(std::min(last + slice, most)) - done(last);
             last += std::min(slice, most - last);
             c_.passes.tiles(plain ? "shadow rays" : "second pass", PassKind::Trace, "area_light.cl", "secondPass",
-                c_.sampledFrame, units * share, sampleParams(), light(), c_.scene.nodes, c_.scene.blocks, c_.frame.receivers(),
-                term_.wanted, last, term_.sums, term_.taken, term_.value, c_.frame.rays);
+                c_.sampledFrame, units * share, sampleParams(), light(), c_.scene.nodes, c_.scene.blocks,
+                c_.frame.receivers(), term_.wanted, last, term_.sums, term_.taken, term_.value, c_.frame.rays);
             if (c_.passes.rehearsal()) {
                 break;
             }
@@ -178,8 +179,8 @@ void SoftShadows::widthsAndCounts()
 {
     widths();
     if (c_.settings.sampling == Sampling::Uniform) {
-        uniformCounts(c_.passes, analysisParams(c_.full()), static_cast<std::uint32_t>(c_.settings.spp), c_.frame.objectId,
-            term_.wanted);
+        uniformCounts(c_.passes, analysisParams(c_.full()), static_cast<std::uint32_t>(c_.settings.spp),
+            c_.frame.objectId, term_.wanted);
     } else if (c_.settings.counts == Counts::Variance) {
         countsFromVariance();
     }
@@ -189,14 +190,14 @@ void SoftShadows::publishedWidths()
 {
     const shared::AnalysisParams p = analysisParams(c_.full());
     constexpr std::uint32_t planes = 4;
-    c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "publishedDistances", p, WEDGE_BLOCK_PIXELS, term_.extremes,
-        c_.frame.position, c_.frame.objectId, c_.scratch.logs);
+    c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "publishedDistances", p, WEDGE_BLOCK_PIXELS,
+        term_.extremes, c_.frame.position, c_.frame.objectId, c_.scratch.logs);
     c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "spreadRows", p, WEDGE_BLOCK_PIXELS, planes,
         c_.scratch.logs, c_.scratch.rowsSpread);
     c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "spreadColumns", p, WEDGE_BLOCK_PIXELS, planes,
         c_.scratch.rowsSpread, c_.scratch.spread);
-    c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "publishedWidths", p, 1, term_.extremes, c_.scratch.spread,
-        c_.frame.objectId, c_.frame.pixelSize, term_.sums, term_.beta, term_.wanted);
+    c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "publishedWidths", p, 1, term_.extremes,
+        c_.scratch.spread, c_.frame.objectId, c_.frame.pixelSize, term_.sums, term_.beta, term_.wanted);
 }
 
 void SoftShadows::smoothedWidths()
@@ -213,8 +214,8 @@ void SoftShadows::smoothedWidths()
     // The plane of demands is free until the counts are made.
     c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "erodeSlopes", p, WEDGE_BLOCK_PIXELS, slopes,
         c_.frame.objectId, c_.scratch.demand);
-    c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "smoothSlopes", p, WEDGE_BLOCK_PIXELS, c_.scratch.demand,
-        c_.frame.objectId, c_.scratch.logs);
+    c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "smoothSlopes", p, WEDGE_BLOCK_PIXELS,
+        c_.scratch.demand, c_.frame.objectId, c_.scratch.logs);
     c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "spreadRows", p, WEDGE_BLOCK_PIXELS, planes,
         c_.scratch.logs, c_.scratch.rowsSpread);
     c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "spreadColumns", p, WEDGE_BLOCK_PIXELS, planes,
@@ -225,7 +226,8 @@ void SoftShadows::smoothedWidths()
             term_.texture, c_.scratch.demand);
     }
     c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "widths", p, 1, c_.scratch.logs, c_.scratch.spread,
-        c_.frame.objectId, c_.frame.pixelSize, packed ? c_.scratch.demand : term_.sums, packed ? c_.scratch.width : term_.beta);
+        c_.frame.objectId, c_.frame.pixelSize, packed ? c_.scratch.demand : term_.sums,
+        packed ? c_.scratch.width : term_.beta);
 }
 
 void SoftShadows::countsFromVariance()
@@ -238,7 +240,8 @@ void SoftShadows::countsFromVariance()
             filterParams(c_.settings, c_.fullFrame, light(), c_.full()), c_.full(), c_.frame, term_.value, term_.beta,
             c_.scratch, c_.scratch.filtered);
     }
-    const device::Buffer<float>& visibility = c_.settings.filtering == Filtering::None ? term_.value : c_.scratch.filtered;
+    const device::Buffer<float>& visibility =
+        c_.settings.filtering == Filtering::None ? term_.value : c_.scratch.filtered;
     c_.passes.rows("counts", PassKind::Analysis, "counts.cl", "countDemand", p, WEDGE_BLOCK_PIXELS, visibility,
         c_.scratch.effective, term_.beta, c_.frame.objectId, c_.scratch.demand);
     countsFromDemand(c_.passes, p, static_cast<float>(c_.settings.spp), c_.frame.objectId, c_.scratch, term_.wanted);
@@ -248,13 +251,14 @@ void SoftShadows::shade(const device::Buffer<float>& value)
 {
     const image::Window window = blockWindow(c_.window, 0, c_.full().x1, c_.full().y1);
     const shared::AnalysisParams p = analysisParams(window);
-    c_.passes.rows("composite", PassKind::Composite, "composite.cl", "addDiffuse", p, WEDGE_BLOCK_PIXELS, sampleParams(),
-        light(), c_.scene.quadratures[index_], c_.frame.position, c_.frame.normal, c_.frame.objectId, c_.frame.diffuse, value,
-        term_.value, term_.taken, c_.frame.direct, c_.frame.directNoisy, c_.frame.samples);
+    c_.passes.rows("composite", PassKind::Composite, "composite.cl", "addDiffuse", p, WEDGE_BLOCK_PIXELS,
+        sampleParams(), light(), c_.scene.quadratures[index_], c_.frame.position, c_.frame.normal, c_.frame.objectId,
+        c_.frame.diffuse, value, term_.value, term_.taken, c_.frame.direct, c_.frame.directNoisy, c_.frame.samples);
     if (c_.scene.specular) {
-        c_.passes.rows("composite", PassKind::Composite, "composite.cl", "addSpecular", p, WEDGE_BLOCK_PIXELS, sampleParams(), light(),
-            c_.fullFrame, c_.scene.quadratures[index_], c_.frame.position, c_.frame.normal, c_.frame.objectId, c_.frame.gloss,
-            c_.frame.specular, value, term_.value, c_.frame.direct, c_.frame.directNoisy);
+        c_.passes.rows("composite", PassKind::Composite, "composite.cl", "addSpecular", p, WEDGE_BLOCK_PIXELS,
+            sampleParams(), light(), c_.fullFrame, c_.scene.quadratures[index_], c_.frame.position, c_.frame.normal,
+            c_.frame.objectId, c_.frame.gloss, c_.frame.specular, value, term_.value, c_.frame.direct,
+            c_.frame.directNoisy);
     }
 }
 
@@ -263,21 +267,20 @@ void SoftShadows::sampleWave(Waves& waves, const shared::WaveParams& wave, bool 
     const shared::FrameParams receivers = waves.receiverParams(wave);
     waves.share(c_.passes, term_, wave);
     if (slopes) {
-        c_.passes.tiles("first pass", PassKind::Trace, "area_light.cl", "firstPass", receivers, workUnits, sampleParams(),
-            light(), waves.camera(), c_.scene.nodes, c_.scene.blocks, surfaceArguments(c_.scene), waves.receivers(),
-            waves.wanted, waves.sums, waves.taken, waves.value,
-            waves.extremes, waves.rays);
+        c_.passes.tiles("first pass", PassKind::Trace, "area_light.cl", "firstPass", receivers, workUnits,
+            sampleParams(), light(), waves.camera(), c_.scene.nodes, c_.scene.blocks, surfaceArguments(c_.scene),
+            waves.receivers(), waves.wanted, waves.sums, waves.taken, waves.value, waves.extremes, waves.rays);
     } else {
-        c_.passes.tiles("shadow rays", PassKind::Trace, "area_light.cl", "secondPass", receivers, workUnits, sampleParams(),
-            light(), c_.scene.nodes, c_.scene.blocks, waves.receivers(), waves.wanted,
+        c_.passes.tiles("shadow rays", PassKind::Trace, "area_light.cl", "secondPass", receivers, workUnits,
+            sampleParams(), light(), c_.scene.nodes, c_.scene.blocks, waves.receivers(), waves.wanted,
             std::numeric_limits<std::uint32_t>::max(), waves.sums, waves.taken, waves.value, waves.rays);
     }
     const bool exact = c_.settings.method == Method::AxisAligned && !c_.settings.distributed.published;
     if (exact) {
         c_.passes.list("unshadowed shading", PassKind::Trace, "wave_light.cl", "unshadowedReceivers",
             (wave.receivers + WEDGE_BLOCK_PIXELS - 1) / WEDGE_BLOCK_PIXELS, receivers, wave, light(),
-            c_.scene.quadratures[index_], waves.position, waves.normal, waves.objectId,
-            waves.specular, waves.gloss, waves.view, waves.unshadowed);
+            c_.scene.quadratures[index_], waves.position, waves.normal, waves.objectId, waves.specular, waves.gloss,
+            waves.view, waves.unshadowed);
     }
     shared::WaveParams adding = wave;
     adding.omits |= term_.shape.extremes < 2 ? WEDGE_OMITS_EXTREMES : 0;
@@ -289,9 +292,9 @@ void SoftShadows::sampleWave(Waves& waves, const shared::WaveParams& wave, bool 
 void SoftShadows::publishedWidths(const shared::DistributedParams& params, const device::Buffer<float>& flags)
 {
     // The light's effective half extent is two standard deviations, as in chapter 3.
-    c_.passes.rows("widths", PassKind::Analysis, "published.cl", "publishedShadows", params, 1, c_.settings.distributed.mu,
-        2.0f * light().sigma, flags, term_.extremes, c_.frame.confusion, c_.frame.pixelSize, c_.frame.objectId, term_.beta,
-        term_.demand);
+    c_.passes.rows("widths", PassKind::Analysis, "published.cl", "publishedShadows", params, 1,
+        c_.settings.distributed.mu, 2.0f * light().sigma, flags, term_.extremes, c_.frame.confusion, c_.frame.pixelSize,
+        c_.frame.objectId, term_.beta, term_.demand);
     analysed_ = true;
 }
 
@@ -300,8 +303,8 @@ void SoftShadows::blurShadows(const shared::DistributedParams& params)
     Scratch& scratch = c_.scratch;
     c_.passes.rows("filter of motion", PassKind::Filter, "distributed.cl", "shadowBlurs", params, 1, term_.extremes,
         term_.counts(), term_.beta, scratch.error, scratch.logs);
-    c_.passes.rows("filter of motion", PassKind::Filter, "blur.cl", "blurMotion", params, 1, 1u, scratch.error, scratch.logs,
-        scratch.filtered, scratch.rowsFiltered);
+    c_.passes.rows("filter of motion", PassKind::Filter, "blur.cl", "blurMotion", params, 1, 1u, scratch.error,
+        scratch.logs, scratch.filtered, scratch.rowsFiltered);
     c_.passes.rows("filter of motion", PassKind::Filter, "distributed.cl", "copyPlane", params, 1, scratch.rowsFiltered,
         scratch.filtered);
 }
@@ -310,12 +313,13 @@ void SoftShadows::filterDistributed(const shared::DistributedParams& params)
 {
     // Nothing else keeps anything there while the image is made.
     device::Buffer<float>& visibility = c_.scratch.logs;
-    c_.passes.rows("filter", PassKind::Filter, "distributed.cl", "visibilityOf", params, 1, term_.texture, term_.value, visibility);
+    c_.passes.rows("filter", PassKind::Filter, "distributed.cl", "visibilityOf", params, 1, term_.texture, term_.value,
+        visibility);
     const shared::FilterParams filter = c_.settings.distributed.published
         ? publishedParams(c_.settings, c_.fullFrame, c_.full())
         : filterParams(c_.settings, c_.fullFrame, light(), c_.full());
-    gaussianFilter(c_.passes, { "filter", PassKind::Filter, "filter_variance.cl" }, filter, c_.full(), c_.frame, visibility,
-        term_.beta, c_.scratch, c_.scratch.filtered);
+    gaussianFilter(c_.passes, { "filter", PassKind::Filter, "filter_variance.cl" }, filter, c_.full(), c_.frame,
+        visibility, term_.beta, c_.scratch, c_.scratch.filtered);
     if (c_.scene.moves && c_.settings.distributed.blur) {
         blurShadows(params);
     }

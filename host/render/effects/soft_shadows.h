@@ -17,8 +17,8 @@ public:
     /// index: of the light.
     SoftShadows(const TermContext& context, Term& term, std::uint32_t index);
 
-    /// The pixels being the receivers: samples, filters and adds the light to frame.direct and directNoisy. Returns false if
-    /// cancelled while sampling; what was sampled until then is filtered and added all the same.
+    /// The pixels being the receivers: samples, filters and adds the light to frame.direct and directNoisy. Returns
+    /// false if cancelled while sampling; what was sampled until then is filtered and added all the same.
     bool render();
 
     /// In a distributed frame: the samples of a wave's receivers, added to their pixels. slopes: also measures those.

@@ -5,11 +5,12 @@ namespace wedge::render {
 std::uint32_t samplerOf(const TermContext& context)
 {
     const bool counts = context.frame.distributed && context.settings.method == Method::AxisAligned;
-    return static_cast<std::uint32_t>(counts || context.settings.progressive ? Sampler::Sobol : context.settings.sampler);
+    return static_cast<std::uint32_t>(
+        counts || context.settings.progressive ? Sampler::Sobol : context.settings.sampler);
 }
 
-void addFilteredTerm(
-    const TermContext& context, const Term& term, const shared::DistributedParams& params, device::Buffer<float>& radiance)
+void addFilteredTerm(const TermContext& context, const Term& term, const shared::DistributedParams& params,
+    device::Buffer<float>& radiance)
 {
     Scratch& scratch = context.scratch;
     shared::DistributedParams p = params;
@@ -20,8 +21,8 @@ void addFilteredTerm(
         texture = &scratch.rowsFiltered;
         p.plainTexture = 1;
     }
-    context.passes.rows("composite", device::PassKind::Composite, "distributed.cl", "addFilteredTerm", p, 1, term.texture,
-        *texture, term.value, scratch.filtered, term.beta, term.radiance, radiance);
+    context.passes.rows("composite", device::PassKind::Composite, "distributed.cl", "addFilteredTerm", p, 1,
+        term.texture, *texture, term.value, scratch.filtered, term.beta, term.radiance, radiance);
 }
 
 } // namespace wedge::render

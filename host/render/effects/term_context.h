@@ -31,7 +31,7 @@ struct TermContext {
 std::uint32_t samplerOf(const TermContext& context);
 
 /// In a distributed frame, adds a term to a radiance: with its filtered value, scratch.filtered, where it has one.
-void addFilteredTerm(
-    const TermContext& context, const Term& term, const shared::DistributedParams& params, device::Buffer<float>& radiance);
+void addFilteredTerm(const TermContext& context, const Term& term, const shared::DistributedParams& params,
+    device::Buffer<float>& radiance);
 
 } // namespace wedge::render

@@ -55,7 +55,8 @@ void gaussianFilter(Passes& passes, const FilterRun& run, shared::FilterParams p
     const int reach = static_cast<int>(params.maxRadius);
     // The columns' taps reach rows above and below the window, which the rows pass has to have done.
     const image::Window columns = blockWindow(window, 0, width, height);
-    const image::Window rows { columns.x0, std::max(0, window.y0 - reach), columns.x1, std::min(height, window.y1 + reach) };
+    const image::Window rows { columns.x0, std::max(0, window.y0 - reach), columns.x1,
+        std::min(height, window.y1 + reach) };
     const std::string program = (frame.shape.packed() ? "packed_" : "") + run.program;
     setRectangle(params, rows);
     passes.rows(run.pass, run.kind, program, "filterRows", params, WEDGE_BLOCK_PIXELS, value, beta, frame.position,

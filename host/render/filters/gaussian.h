@@ -27,8 +27,8 @@ struct FilterRun {
     std::string program; ///< a file that includes kernels/gather.h; packed frames take the one called packed_...
 };
 
-/// Of the irradiances of distributed frames as published: (5.31) measures distances in space, also those of lights, and of both of a
-/// pair the narrower kernel counts.
+/// Of the irradiances of distributed frames as published: (5.31) measures distances in space, also those of lights, and
+/// of both of a pair the narrower kernel counts.
 shared::FilterParams publishedParams(
     const Settings& settings, const shared::FrameParams& frame, const image::Window& window);
 

@@ -1,5 +1,5 @@
 #include "left.h"
 // line 2
-#include "right.h"
 #include "left.h"
+#include "right.h"
 __kernel void unused(__global int* result) { result[0] = alsoUndeclared; }

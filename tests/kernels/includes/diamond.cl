@@ -1,5 +1,5 @@
 #include "left.h"
-  #  include "right.h" // both include bottom.h
+#include "right.h" // both include bottom.h
 /* a comment may speak of
 #include "nowhere.h"
 without meaning it */
