@@ -5,7 +5,8 @@
 // in      frame, BVH, the light, receivers; wanted: samples of each when the pass ends
 // in out  sums (planes: diffuse weights, diffuse weights of visible samples, and the same for specular),
 //         taken (samples so far), rays (rays traced for the pixel, all lights)
-// out     value (planes: diffuse, specular): what is filtered; slopes (planes: s_min, s_max; 0 where no ray was
+// out     value (planes: diffuse, specular; of frames with a first pass, then the same of the first of the samples' two
+//         parts, firstPart()): what is filtered; slopes (planes: s_min, s_max; 0 where no ray was
 //         occluded; where things move, then of the shadows' motions in the image, pixels while the shutter is open:
 //         sums of x, y and squares, and how many)
 #include "met_light.h"
@@ -23,6 +24,36 @@ typedef struct {
     float specular[WEDGE_PACKET_SIZE], specularVisible[WEDGE_PACKET_SIZE];
     uint rays[WEDGE_PACKET_SIZE];
 } TermSums;
+
+/// The sums when the first of two parts of the samples was complete.
+typedef struct {
+    float diffuse[WEDGE_PACKET_SIZE], diffuseVisible[WEDGE_PACKET_SIZE];
+    float specular[WEDGE_PACKET_SIZE], specularVisible[WEDGE_PACKET_SIZE];
+    uint samples[WEDGE_PACKET_SIZE]; ///< in that part; WEDGE_NO_PART: it is known already, or not wanted
+    uint complete[WEDGE_PACKET_SIZE];
+} PartSums;
+
+#define WEDGE_NO_PART 0xffffffffu
+
+WEDGE_FN void startPart(uint lane, uint samples, PartSums* part)
+{
+    part->diffuse[lane] = part->diffuseVisible[lane] = part->specular[lane] = part->specularVisible[lane] = 0.0f;
+    part->samples[lane] = samples;
+    part->complete[lane] = 0u;
+}
+
+/// Keeps the sums of lanes that have just as many samples.
+WEDGE_FN void keepPart(const uint* index, const TermSums* sums, PartSums* part)
+{
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const bool now = index[lane] == part->samples[lane];
+        part->complete[lane] = now ? 1u : part->complete[lane];
+        part->diffuse[lane] = now ? sums->diffuse[lane] : part->diffuse[lane];
+        part->diffuseVisible[lane] = now ? sums->diffuseVisible[lane] : part->diffuseVisible[lane];
+        part->specular[lane] = now ? sums->specular[lane] : part->specular[lane];
+        part->specularVisible[lane] = now ? sums->specularVisible[lane] : part->specularVisible[lane];
+    }
+}
 
 /// Samples that a receiver's strata are made for, which is to have `wanted`.
 WEDGE_FN uint strataCount(SampleParams params, uint wanted) { return params.strata > 0u ? params.strata : wanted; }
@@ -94,6 +125,24 @@ WEDGE_FN void storeTerm(SampleParams params, uint size, uint i, const TermSums* 
     takenPlane[i] = taken;
 }
 
+/// What the first part alone would be filtered as.
+WEDGE_FN void storePart(SampleParams params, uint size, uint i, const PartSums* part, uint lane, __global float* value)
+{
+    if (part->complete[lane] == 0u) {
+        return;
+    }
+    const uint n = part->samples[lane];
+    const float diffuse = termValue(params.shading, part->diffuse[lane], part->diffuseVisible[lane], n);
+#ifdef WEDGE_SPECULAR
+    const bool reached = part->specular[lane] > 0.0f || params.shading == WEDGE_SHADING_INSIDE;
+    value[2u * size + i] = diffuse;
+    value[3u * size + i] =
+        reached ? termValue(params.shading, part->specular[lane], part->specularVisible[lane], n) : diffuse;
+#else
+    value[size + i] = diffuse;
+#endif
+}
+
 #ifdef WEDGE_MOTION
 /// What moves of the shadows at a packet's receivers.
 typedef struct {
@@ -141,6 +190,8 @@ __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light,
     loadReceivers(frame, params.light, firstGroup, WEDGE_RECEIVER_ARGUMENTS, &receivers);
     takePart(params, light, &receivers);
     TermSums sum;
+    PartSums part;
+    const bool parts = params.firstPass > 0u;
     const SurfaceData surfaces = WEDGE_SURFACE_ARGUMENTS;
     (void)surfaces;
     (void)camera;
@@ -161,6 +212,7 @@ __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light,
         last[lane] = shaded ? wanted[i] : 0u;
         count[lane] = strataCount(params, last[lane]);
         steps = max(steps, last[lane] - min(index[lane], last[lane]));
+        startPart(lane, parts ? params.firstPass / 2u : WEDGE_NO_PART, &part);
     }
     for (uint step = 0u; step < steps; ++step) {
         LightSamples s;
@@ -185,6 +237,9 @@ __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light,
         }
 #endif
         addSamples(&s, occluded, &sum);
+        if (parts) {
+            keepPart(index, &sum, &part);
+        }
     }
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const uint i = receivers.pixel[lane];
@@ -192,6 +247,7 @@ __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light,
             continue;
         }
         storeTerm(params, size, i, &sum, lane, index[lane], sums, taken, value);
+        storePart(params, size, i, &part, lane, value);
         slopes[i] = sMax[lane] > 0.0f ? sMin[lane] : 0.0f;
         slopes[size + i] = sMax[lane];
 #ifdef WEDGE_MOTION
@@ -214,6 +270,8 @@ __kernel void secondPass(FrameParams frame, SampleParams params, AreaLight light
     loadReceivers(frame, params.light, firstGroup, WEDGE_RECEIVER_ARGUMENTS, &receivers);
     takePart(params, light, &receivers);
     TermSums sum;
+    PartSums part;
+    const bool parts = params.firstPass > 0u;
     uint index[WEDGE_PACKET_SIZE], count[WEDGE_PACKET_SIZE], last[WEDGE_PACKET_SIZE], occluded[WEDGE_PACKET_SIZE];
     const bool directions = params.lightSampling != WEDGE_LIGHTS_SAMPLED && params.shading == WEDGE_SHADING_INSIDE;
     uint steps = 0u;
@@ -224,6 +282,10 @@ __kernel void secondPass(FrameParams frame, SampleParams params, AreaLight light
         count[lane] = strataCount(params, shaded ? wanted[i] : 0u);
         last[lane] = shaded ? min(wanted[i], lastSample) : 0u;
         steps = max(steps, last[lane] > index[lane] ? last[lane] - index[lane] : 0u);
+        // The first pass kept its own half for those that stay below twice its count.
+        const uint all = shaded ? wanted[i] : 0u;
+        startPart(
+            lane, parts && all >= 2u * params.firstPass ? firstPart(all, params.firstPass) : WEDGE_NO_PART, &part);
         sum.diffuse[lane] = shaded ? sums[i] : 0.0f;
         sum.diffuseVisible[lane] = shaded ? sums[size + i] : 0.0f;
         sum.specular[lane] = sum.specularVisible[lane] = 0.0f;
@@ -232,6 +294,9 @@ __kernel void secondPass(FrameParams frame, SampleParams params, AreaLight light
         sum.specularVisible[lane] = shaded ? sums[3u * size + i] : 0.0f;
 #endif
         sum.rays[lane] = 0u;
+    }
+    if (parts) {
+        keepPart(index, &sum, &part);
     }
     for (uint step = 0u; step < steps; ++step) {
         LightSamples s;
@@ -245,11 +310,15 @@ __kernel void secondPass(FrameParams frame, SampleParams params, AreaLight light
         shadowRays(&receivers, &s, &packet);
         anyHits(nodes, blocks, &packet, occluded);
         addSamples(&s, occluded, &sum);
+        if (parts) {
+            keepPart(index, &sum, &part);
+        }
     }
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const uint i = receivers.pixel[lane];
         if (i != WEDGE_NO_PIXEL && index[lane] > taken[i]) {
             storeTerm(params, size, i, &sum, lane, index[lane], sums, taken, value);
+            storePart(params, size, i, &part, lane, value);
             rays[i] += sum.rays[lane];
         }
     }

@@ -3,6 +3,7 @@
 #include "light_sample.h"
 #include "shared/filter_params.h"
 #include "shared/path.h"
+#include "shared/wedge.h"
 #include "unshadowed.h"
 
 /// Adds light's value times `shading` (already times the reflectance) to planes of radiance.
@@ -13,16 +14,47 @@ WEDGE_FN void addBlock(__global float* planes, uint size, int i, float16 value, 
     vstore16(loadBlock(planes + 2u * size, i) + value * shading.z, 0, planes + 2u * size + i);
 }
 
+/// Planes of a light's values.
+#ifdef WEDGE_SPECULAR
+#define WEDGE_LIGHT_VALUES 2u
+#else
+#define WEDGE_LIGHT_VALUES 1u
+#endif
+
+/// A number whose square is, in the mean, the variance of a mean of so many samples: the difference between it and the
+/// mean of the first of two parts (firstPart()), times sqrt(h / (n - h)) of the h of n samples that are in that part. 0
+/// without a first pass.
+WEDGE_FN float16 deviation16(float16 mean, float16 ofPart, uint16 taken, uint firstPass)
+{
+    if (firstPass == 0u) {
+        return (float16)(0.0f);
+    }
+    const float16 n = convert_float16(taken);
+    const float16 h = n >= (float)(2u * firstPass) ? floor(0.5f * n) : (float16)((float)(firstPass / 2u));
+    return n > h ? (ofPart - mean) * sqrt(h / max16(n - h, (float16)(1.0f))) : (float16)(0.0f);
+}
+
+/// Adds deviations of one term, times what it is shaded with, to those of the luminance.
+WEDGE_FN void addDeviation(__global float* plane, int i, float16 deviation, Vec3x16 shading)
+{
+    const float16 shown = 0.2126f * shading.x + 0.7152f * shading.y + 0.0722f * shading.z;
+    vstore16(loadBlock(plane, i) + deviation * shown, 0, plane + i);
+}
+
 /// One light's diffuse reflection.
-/// in      value: filtered; noisy: not filtered; nodes: the coarse quadrature's (coordinate, weight) pairs, then the
-///         fine one's
+/// in      value: filtered; noisy: not filtered, and of frames with a first pass (params.firstPass) the same of the
+/// first
+///         of two parts of the samples; nodes: of the quadratures, (coordinate, weight) pairs
 ///         taken: the samples of value
-/// in out  direct, directNoisy (3 planes each), samples (of all lights)
+/// in out  direct, directNoisy (3 planes each), deviation (of directNoisy's luminance, as deviation16() has it),
+/// samples
+///         (of all lights)
 __kernel void addDiffuse(AnalysisParams p, SampleParams params, AreaLight light, __global const float* restrict nodes,
     __global const float* restrict position, __global const float* restrict normal,
     __global const uint* restrict objectId, __global const float* restrict diffuse,
     __global const float* restrict value, __global const float* restrict noisy, __global const uint* restrict taken,
-    __global float* restrict direct, __global float* restrict directNoisy, __global uint* restrict samples)
+    __global float* restrict direct, __global float* restrict directNoisy, __global float* restrict deviation,
+    __global uint* restrict samples)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -51,7 +83,12 @@ __kernel void addDiffuse(AnalysisParams p, SampleParams params, AreaLight light,
     reflected.y = shading * kd.y * light.power.y;
     reflected.z = shading * kd.z * light.power.z;
     addBlock(direct, size, i, loadBlock(value, i), reflected);
-    addBlock(directNoisy, size, i, loadBlock(noisy, i), reflected);
+    const float16 mean = loadBlock(noisy, i);
+    addBlock(directNoisy, size, i, mean, reflected);
+    if (params.firstPass > 0u) {
+        const float16 ofPart = loadBlock(noisy + WEDGE_LIGHT_VALUES * size, i);
+        addDeviation(deviation, i, deviation16(mean, ofPart, loadIdBlock(taken, i), params.firstPass), reflected);
+    }
 }
 
 /// Directions of each lobe that is too sharp for a rule.
@@ -70,12 +107,14 @@ WEDGE_FN float16 specularShading(
     return arrivesFrom(light, r, splat3(light.centre), true) * normalization16(r);
 }
 
-/// One light's specular reflection; value and noisy hold the specular term in their second plane.
+/// One light's specular reflection; value and noisy hold the specular term in their second plane, that of the first
+/// part of the samples is in the fourth.
 __kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light, FrameParams frame,
     __global const float* restrict nodes, __global const float* restrict position,
     __global const float* restrict normal, __global const uint* restrict objectId, __global const float* restrict gloss,
     __global const float* restrict specular, __global const float* restrict value, __global const float* restrict noisy,
-    __global float* restrict direct, __global float* restrict directNoisy)
+    __global const uint* restrict taken, __global float* restrict direct, __global float* restrict directNoisy,
+    __global float* restrict deviation)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -99,17 +138,24 @@ __kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light
     reflected.z = shading * ks.z * light.power.z;
     // What misses hold is not looked at: 0 times a NaN would let it in.
     addBlock(direct, size, i, mirrors ? loadBlock(value + size, i) : (float16)(0.0f), reflected);
-    addBlock(directNoisy, size, i, mirrors ? loadBlock(noisy + size, i) : (float16)(0.0f), reflected);
+    const float16 mean = mirrors ? loadBlock(noisy + size, i) : (float16)(0.0f);
+    addBlock(directNoisy, size, i, mean, reflected);
+    if (params.firstPass > 0u) {
+        const float16 ofPart = mirrors ? loadBlock(noisy + 3u * size, i) : (float16)(0.0f);
+        addDeviation(deviation, i, deviation16(mean, ofPart, loadIdBlock(taken, i), params.firstPass), reflected);
+    }
 }
 
 /// One term of indirect light.
-/// in      reflectance: 3 planes; value, noisy: 3 planes each, filtered and not; taken: the samples of value
+/// in      reflectance: 3 planes; value, noisy: 3 planes each, filtered and not, and after the latter 3 of the first of
+/// two
+///         parts of the samples, in frames with a first pass of so many; taken: the samples of value
 ///         component: WEDGE_COMPONENT_*; of ambient occlusion the open part of the hemisphere is shown, on white
-/// in out  indirect, indirectNoisy (3 planes each), samples (of all terms), indirectSamples
-__kernel void addIndirect(AnalysisParams p, uint component, __global const float* restrict reflectance,
+/// in out  indirect, indirectNoisy (3 planes each), deviation (as of lights), samples (of all terms), indirectSamples
+__kernel void addIndirect(AnalysisParams p, uint component, uint firstPass, __global const float* restrict reflectance,
     __global const float* restrict value, __global const float* restrict noisy, __global const uint* restrict taken,
-    __global float* restrict indirect, __global float* restrict indirectNoisy, __global uint* restrict samples,
-    __global uint* restrict indirectSamples)
+    __global float* restrict indirect, __global float* restrict indirectNoisy, __global float* restrict deviation,
+    __global uint* restrict samples, __global uint* restrict indirectSamples)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -122,6 +168,8 @@ __kernel void addIndirect(AnalysisParams p, uint component, __global const float
     vstore16(loadIdBlock(samples, i) + count, 0, samples + i);
     vstore16(loadIdBlock(indirectSamples, i) + count, 0, indirectSamples + i);
     const bool ambient = component == WEDGE_COMPONENT_AMBIENT;
+    const float luminances[3] = { 0.2126f, 0.7152f, 0.0722f };
+    float16 off = (float16)(0.0f);
     for (uint plane = 0u; plane < 3u; ++plane) {
         const int j = i + (int)(plane * p.planeSize);
         const float16 filtered = loadBlock(value, j);
@@ -131,6 +179,13 @@ __kernel void addIndirect(AnalysisParams p, uint component, __global const float
         const float16 shownNoisy = has ? k * (ambient ? 1.0f - unfiltered : unfiltered) : (float16)(0.0f);
         vstore16(loadBlock(indirect, j) + shown, 0, indirect + j);
         vstore16(loadBlock(indirectNoisy, j) + shownNoisy, 0, indirectNoisy + j);
+        if (firstPass > 0u) {
+            const float16 ofPart = loadBlock(noisy + 3u * p.planeSize, j);
+            off += has ? luminances[plane] * k * deviation16(unfiltered, ofPart, count, firstPass) : (float16)(0.0f);
+        }
+    }
+    if (firstPass > 0u) {
+        vstore16(loadBlock(deviation, i) + off, 0, deviation + i);
     }
 }
 

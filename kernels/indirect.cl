@@ -4,8 +4,10 @@
 // in out  sums (planes: R, G, B, squared luminance), taken (samples so far), reflectors (planes: least and largest
 //         distance in metres of a surface that a ray hit, 0 where none did; sum of inverse distances), rays (all),
 //         pathRays (those that look for the nearest surface)
-// out     value (R, G, B): means, which are filtered
+// out     value (R, G, B): means, which are filtered; of frames with a first pass then those of the first of the
+//         samples' two parts (firstPart())
 #include "path_packet.h"
+#include "shared/wedge.h"
 
 #define WEDGE_PATH_SEED 0x70617468u
 
@@ -15,6 +17,8 @@ typedef struct {
     float squared[WEDGE_PACKET_SIZE];
     float nearest[WEDGE_PACKET_SIZE], farthest[WEDGE_PACKET_SIZE], inverse[WEDGE_PACKET_SIZE];
     uint rays[WEDGE_PACKET_SIZE], pathRays[WEDGE_PACKET_SIZE];
+    Vec3 part[WEDGE_PACKET_SIZE]; ///< radiance when the first of two parts of the samples was complete
+    uint partSamples[WEDGE_PACKET_SIZE], partComplete[WEDGE_PACKET_SIZE];
 } PathSums;
 
 WEDGE_FN void loadSums(uint size, const ReceiverPacket* receivers, __global const float* sums,
@@ -29,6 +33,19 @@ WEDGE_FN void loadSums(uint size, const ReceiverPacket* receivers, __global cons
         out->farthest[lane] = shaded ? reflectors[size + i] : 0.0f;
         out->inverse[lane] = shaded ? reflectors[2u * size + i] : 0.0f;
         out->rays[lane] = out->pathRays[lane] = 0u;
+        out->part[lane] = vec3(0.0f, 0.0f, 0.0f);
+        out->partComplete[lane] = 0u;
+    }
+}
+
+/// Keeps the radiance of lanes that have as many samples as the first part.
+WEDGE_FN void keepPart(const PathPacket* paths, PathSums* sums)
+{
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        if (paths->index[lane] == sums->partSamples[lane]) {
+            sums->part[lane] = sums->radiance[lane];
+            sums->partComplete[lane] = 1u;
+        }
     }
 }
 
@@ -107,6 +124,9 @@ WEDGE_FN void storeSums(uint size, const ReceiverPacket* receivers, const PathSu
         storeVec(sums, size, i, s->radiance[lane]);
         sums[3u * size + i] = s->squared[lane];
         storeVec(value, size, i, vecScale(s->radiance[lane], 1.0f / (float)paths->index[lane]));
+        if (s->partComplete[lane] != 0u) {
+            storeVec(value + 3u * size, size, i, vecScale(s->part[lane], 1.0f / (float)s->partSamples[lane]));
+        }
         taken[i] = paths->index[lane];
         reflectors[i] = s->nearest[lane] < INFINITY ? s->nearest[lane] : 0.0f;
         reflectors[size + i] = s->farthest[lane];
@@ -183,6 +203,13 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
         preparePaths(size, params, lastSample, specular, geometric, taken, wanted, &receivers, facing, &paths, last);
     PathSums sum;
     loadSums(size, &receivers, sums, reflectors, &sum);
+    const bool parts = params.firstPass > 0u;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        sum.partSamples[lane] = parts ? firstPart(paths.count[lane], params.firstPass) : 0xffffffffu;
+    }
+    if (parts) {
+        keepPart(&paths, &sum);
+    }
     const SurfaceData surfaces = WEDGE_SURFACE_ARGUMENTS;
     for (uint step = 0u; step < steps; ++step) {
         RayPacket packet;
@@ -196,6 +223,9 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
         addPaths(&paths, weight, last, &sum);
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
             paths.index[lane] += paths.index[lane] < last[lane] ? 1u : 0u;
+        }
+        if (parts) {
+            keepPart(&paths, &sum);
         }
     }
     storeSums(size, &receivers, &sum, &paths, sums, taken, value, reflectors, rays, pathRays);

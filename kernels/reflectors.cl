@@ -58,6 +58,9 @@ WEDGE_FN float leastDistance(ReflectorParams p, __global const float* extent)
     return fmax(p.leastReflector * (p.extent > 0.0f ? p.extent : extent[0]), 1e-12f);
 }
 
+/// Pixels around one, either way, whose rays tell how near what surrounds it is.
+#define WEDGE_NEARNESS_REACH 2
+
 /// Bandlimit of a pixel's transfer function; gloss: exponents, negative for Phong.
 WEDGE_FN float bandlimitOf(uint component, float gloss)
 {
@@ -66,15 +69,34 @@ WEDGE_FN float bandlimitOf(uint component, float gloss)
         : WEDGE_DIFFUSE_BANDLIMIT;
 }
 
+/// Harmonic mean of the distances that the rays of the object's pixels around found, infinite where none hit anything;
+/// as published of the pixel's own. A few rays miss what is near and small, and the filter would then blur what it
+/// lights.
+WEDGE_FN float nearness(ReflectorParams p, uint x, uint y, uint i, __global const float* inverse,
+    __global const uint* objectId, __global const uint* taken)
+{
+    const int reach = p.meanFraction > 0.0f ? WEDGE_NEARNESS_REACH : 0;
+    float sum = 0.0f, rays = 0.0f;
+    for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
+        for (int dx = -min((int)x, reach); dx <= min((int)(p.width - 1u - x), reach); ++dx) {
+            const int j = (int)i + dy * (int)p.stride + dx;
+            const bool same = objectId[j] == objectId[i];
+            sum += same ? inverse[j] : 0.0f;
+            rays += same ? (float)taken[j] : 0.0f;
+        }
+    }
+    return sum > 0.0f ? rays / sum : INFINITY;
+}
+
 /// Widths in metres (4.15), (4.16), -1 where the pixel has no such term, and counts (4.21).
 /// Of the distances there is the least, as published, or, if that is nearer, a fraction of their harmonic mean, in
 /// which rays that hit nothing count as infinitely far: an estimate of the same from all rays, with less noise.
 /// fixedWidth replaces the analysis. meanOnly: reflectors have but one plane, the sum of inverse distances, or what
 /// stands for it (WEDGE_NEAREST_FRACTION); no counts.
 __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict reflectors,
-    __global const float* restrict extent, __global const float* restrict pixelSize,
-    __global const float* restrict gloss, __global const uint* restrict taken, __global float* restrict beta,
-    __global uint* restrict wanted)
+    __global const uint* restrict objectId, __global const float* restrict extent,
+    __global const float* restrict pixelSize, __global const float* restrict gloss, __global const uint* restrict taken,
+    __global float* restrict beta, __global uint* restrict wanted)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -84,12 +106,12 @@ __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict 
     const uint i = pixelIndex(x, y, p.stride);
     const float size = loadNumber(pixelSize, p.planeSize, i, p.meanOnly, 0u);
     const float exponent = loadNumber(gloss, p.planeSize, i, p.meanOnly, 1u);
-    // Any that there are have a sum of inverse distances, the last plane, too.
-    const bool has = reflectors[i] > 0.0f;
-    const float mean = (float)taken[i] / fmax(reflectors[(p.meanOnly != 0u ? 0u : 2u * p.planeSize) + i], 1e-20f);
+    const float mean = nearness(p, x, y, i, reflectors + (p.meanOnly != 0u ? 0u : 2u * p.planeSize), objectId, taken);
+    const bool has = reflectors[i] > 0.0f || mean < INFINITY;
     // What is nearer than the fraction of the mean counts itself: of open scenes most rays hit nothing.
-    const float fraction = p.meanOnly != 0u ? p.meanFraction * mean : fmin(p.meanFraction * mean, reflectors[i]);
-    const float near = p.meanFraction > 0.0f ? fraction : reflectors[i];
+    const float least = p.meanOnly == 0u && reflectors[i] > 0.0f ? reflectors[i] : INFINITY;
+    const float fraction = fmin(p.meanFraction * mean, least);
+    const float near = p.meanFraction > 0.0f ? fraction : least;
     // Where no ray hit anything, nothing is nearer than what there is is large.
     const float far = p.extent > 0.0f ? p.extent : extent[0];
     const float zMin = fmax(has ? near : far, leastDistance(p, extent));

@@ -238,6 +238,46 @@ TEST_CASE("slices of any length give the same bits, and pixels that want no more
     });
 }
 
+TEST_CASE("what the first part of the samples alone would be is kept beside the mean")
+{
+    onEveryDevice([](const device::Device& device) {
+        for (const bool glossy : { false, true }) {
+            scene::Scene scene = smallScene();
+            scene.materials[0].specular = glm::vec3(glossy ? 0.3f : 0.0f);
+            scene.materials[0].exponent = 20;
+            TracedScene traced(scene, device, 33, 21,
+                glossy ? Defines { { "WEDGE_SPECULAR", "1" } } : Defines {});
+            traced.primary();
+            const auto id = traced.read(traced.frame.objectId);
+            shared::SampleParams p = sampling(WEDGE_SHADING_RATIO, WEDGE_SAMPLER_SOBOL);
+            const auto values = [&](std::uint32_t wanted) {
+                want(traced, wanted);
+                p.firstPass = std::min(wanted, 9u);
+                traced.firstPass(p);
+                p.firstPass = 9;
+                traced.secondPass(p, 23);
+                traced.secondPass(p, 1000);
+                return traced.read(traced.value);
+            };
+            const std::size_t channels = glossy ? 2 : 1;
+            for (const auto& [wanted, part] : { std::pair(40u, 20u), { 70u, 35u }, { 18u, 9u }, { 12u, 4u }, { 9u, 4u } }) {
+                CAPTURE(wanted);
+                const Planes<float> found = values(wanted), expected = values(part);
+                int differs = 0;
+                traced.everyPixel([&](int x, int y) {
+                    if (id.at(x, y) == 0)
+                        return;
+                    for (std::size_t c = 0; c < channels; ++c) {
+                        REQUIRE(found.at(x, y, channels + c) == expected.at(x, y, c));
+                        differs += found.at(x, y, c) != found.at(x, y, channels + c) ? 1 : 0;
+                    }
+                });
+                CHECK(differs > 20);
+            }
+        }
+    });
+}
+
 TEST_CASE("with gloss the specular sums hold the lobe's weights of the same samples")
 {
     onEveryDevice([](const device::Device& device) {

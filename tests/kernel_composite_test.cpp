@@ -7,6 +7,8 @@
 #include "tests/render_oracles.h"
 #include "tests/render_support.h"
 
+#include <array>
+
 using namespace wedge;
 using namespace wedge::test;
 
@@ -34,6 +36,7 @@ struct Receivers {
                 for (std::size_t c = 0; c < 2; ++c) {
                     value.at(x, y, c) = static_cast<float>(uniform(random));
                     noisy.at(x, y, c) = static_cast<float>(uniform(random));
+                    noisy.at(x, y, c + 2) = static_cast<float>(uniform(random));
                 }
                 taken.at(x, y) = objectId.at(x, y) != 0 ? 9 + static_cast<std::uint32_t>(random() % 90) : 0;
             }
@@ -45,7 +48,7 @@ struct Receivers {
         , specular(layout, 3, 0.0f)
         , gloss(layout, 1, 0.0f)
         , value(layout, 2, 0.0f)
-        , noisy(layout, 2, 0.0f)
+        , noisy(layout, 4, 0.0f)
         , objectId(layout, 1, 0u)
         , taken(layout, 1, 0u)
     {
@@ -63,6 +66,20 @@ struct Receivers {
                 visit(x, y);
     }
 };
+
+/// What a term of reflected luminance `shown` adds to the deviation: its part's difference, times sqrt(h / (n - h)), h the samples
+/// of the part, half of n, or of a first pass of nine four where that has more than a quarter of them.
+double deviationOf(double mean, double ofPart, std::uint32_t n, double shown)
+{
+    const std::uint32_t h = n >= 18 ? n / 2 : 4;
+    return n > h ? shown * (ofPart - mean) * std::sqrt(static_cast<double>(h) / (n - h)) : 0.0;
+}
+
+double shownLuminance(const Planes<float>& reflectance, int x, int y, shared::Vec3 power)
+{
+    const glm::dvec3 k = reflectance.vector(x, y);
+    return 0.2126 * k.x * power.x + 0.7152 * k.y * power.y + 0.0722 * k.z * power.z;
+}
 
 /// Integral over the light of radiance 1 times profile, geometry term and, in the specular case, the lobe.
 struct Integral {
@@ -110,14 +127,16 @@ TEST_CASE("addDiffuse: value times unshadowed shading times reflectance, in each
                     const auto direct = bench.filled(3 * in.layout().size, 0.5f),
                                noisy = bench.filled(3 * in.layout().size, 0.25f);
                     const auto samples = bench.filled(in.layout().size, 100u);
+                    const auto deviation = bench.filled(in.layout().size, 0.125f);
                     bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addDiffuse", in.params,
                         WEDGE_BLOCK_PIXELS, shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} },
                         made, bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values),
                         bench.buffer(in.normal.values), bench.buffer(in.objectId.values),
                         bench.buffer(in.diffuse.values), bench.buffer(in.value.values), bench.buffer(in.noisy.values),
-                        bench.buffer(in.taken.values), direct, noisy, samples);
+                        bench.buffer(in.taken.values), direct, noisy, deviation, samples);
                     const Planes<float> found = planesOf(in.layout(), bench.read(direct));
                     const Planes<float> foundNoisy = planesOf(in.layout(), bench.read(noisy));
+                    const Planes<float> foundDeviation = planesOf(in.layout(), bench.read(deviation));
                     const Planes<std::uint32_t> counts = planesOf(in.layout(), bench.read(samples));
                     CAPTURE(shading);
                     CAPTURE(twoSided);
@@ -139,6 +158,13 @@ TEST_CASE("addDiffuse: value times unshadowed shading times reflectance, in each
                         const double slack = tolerance * (reflected + (integral.horizon ? 0.3 : 1e-3));
                         REQUIRE(std::fabs(found.at(x, y, 1) - 0.5 - in.value.at(x, y) * reflected) <= slack);
                         REQUIRE(std::fabs(foundNoisy.at(x, y, 1) - 0.25 - in.noisy.at(x, y) * reflected) <= slack);
+                        const double shown = surface
+                            ? shade / made.power.y / 3.14159265358979 * shownLuminance(in.diffuse, x, y, made.power)
+                            : 0.0;
+                        const double off =
+                            deviationOf(in.noisy.at(x, y), in.noisy.at(x, y, 1), in.taken.at(x, y), shown);
+                        REQUIRE(std::fabs(foundDeviation.at(x, y) - 0.125 - off)
+                            <= tolerance * (shown + (integral.horizon ? 0.3 : 1e-3)));
                     });
                 }
     });
@@ -163,13 +189,15 @@ TEST_CASE("addSpecular: the second term times the lobe's unshadowed shading time
         frame.eye = shared::vec3(0.5f, 1, 6);
         for (const std::uint32_t shading : { WEDGE_SHADING_SEPARATE, WEDGE_SHADING_INSIDE, WEDGE_SHADING_RATIO }) {
             const auto direct = bench.filled(3 * in.layout().size, 0.5f),
-                       noisy = bench.filled(3 * in.layout().size, 0.25f);
+                       noisy = bench.filled(3 * in.layout().size, 0.25f),
+                       deviation = bench.filled(in.layout().size, 0.125f);
             bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addSpecular", in.params,
                 WEDGE_BLOCK_PIXELS, shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made, frame,
                 bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values),
                 bench.buffer(in.normal.values), bench.buffer(in.objectId.values), bench.buffer(in.gloss.values),
-                bench.buffer(in.specular.values), bench.buffer(in.value.values), bench.buffer(in.noisy.values), direct,
-                noisy);
+                bench.buffer(in.specular.values), bench.buffer(in.value.values), bench.buffer(in.noisy.values),
+                bench.buffer(in.taken.values), direct, noisy, deviation);
+            const Planes<float> foundDeviation = planesOf(in.layout(), bench.read(deviation));
             const Planes<float> found = planesOf(in.layout(), bench.read(direct));
             const Planes<float> foundNoisy = planesOf(in.layout(), bench.read(noisy));
             CAPTURE(shading);
@@ -199,6 +227,12 @@ TEST_CASE("addSpecular: the second term times the lobe's unshadowed shading time
                     std::fabs(found.at(x, y, 2) - 0.5 - in.value.at(x, y, 1) * reflected) <= slack * (reflected + 0.3));
                 REQUIRE(std::fabs(foundNoisy.at(x, y, 2) - 0.25 - in.noisy.at(x, y, 1) * reflected)
                     <= slack * (reflected + 0.3));
+                const double shown = in.objectId.at(x, y) != 0
+                    ? shade / made.power.z * shownLuminance(in.specular, x, y, made.power)
+                    : 0.0;
+                const double off =
+                    deviationOf(in.noisy.at(x, y, 1), in.noisy.at(x, y, 3), in.taken.at(x, y), shown);
+                REQUIRE(std::fabs(foundDeviation.at(x, y) - 0.125 - off) <= slack * (shown + 0.3));
             });
             CHECK(bright > 30);
         }
@@ -239,7 +273,8 @@ TEST_CASE("addSpecular: a mirror shows the light's own radiance, where it shows 
                 WEDGE_BLOCK_PIXELS, shared::SampleParams { WEDGE_SHADING_RATIO, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} },
                 made, frame, bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values),
                 bench.buffer(in.normal.values), bench.buffer(in.objectId.values), bench.buffer(sharp),
-                bench.buffer(in.specular.values), bench.buffer(whole), bench.buffer(whole), direct, noisy);
+                bench.buffer(in.specular.values), bench.buffer(whole), bench.buffer(whole),
+                bench.buffer(in.taken.values), direct, noisy, bench.filled(in.layout().size, 0.0f));
             const Planes<float> found = planesOf(in.layout(), bench.read(direct));
             std::size_t next = 0;
             int lit = 0;
@@ -266,34 +301,46 @@ TEST_CASE("addIndirect: terms times reflectance add up, with their samples; ambi
         for (const auto& [width, height] : { std::pair(1, 1), { 37, 5 } }) {
             Receivers in(width, height, 8);
             const Receivers other(width, height, 9);
-            Planes<float> value(in.layout(), 3, 0.0f), noisy(in.layout(), 3, 0.0f);
+            Planes<float> value(in.layout(), 3, 0.0f), noisy(in.layout(), 6, 0.0f);
             in.everyPixel([&](int x, int y) {
                 for (std::size_t c = 0; c < 3; ++c) {
                     // What was never sampled holds anything.
                     const bool sampled = in.taken.at(x, y) > 0;
                     value.at(x, y, c) = sampled ? other.diffuse.at(x, y, c) : std::nanf("");
                     noisy.at(x, y, c) = sampled ? other.specular.at(x, y, c) : std::nanf("");
+                    noisy.at(x, y, c + 3) = sampled ? other.diffuse.at(x, y, 2 - c) : std::nanf("");
                 }
             });
             const auto indirect = bench.filled(3 * in.layout().size, 0.5f),
                        indirectNoisy = bench.filled(3 * in.layout().size, 0.25f);
             const auto samples = bench.filled(in.layout().size, 7u),
                        indirectSamples = bench.filled(in.layout().size, 0u);
+            const auto deviation = bench.filled(in.layout().size, 0.125f);
             const auto add = [&](std::uint32_t component, const Planes<float>& reflectance) {
                 bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addIndirect", in.params,
-                    WEDGE_BLOCK_PIXELS, component, bench.buffer(reflectance.values), bench.buffer(value.values),
-                    bench.buffer(noisy.values), bench.buffer(in.taken.values), indirect, indirectNoisy, samples,
-                    indirectSamples);
+                    WEDGE_BLOCK_PIXELS, component, 9u, bench.buffer(reflectance.values), bench.buffer(value.values),
+                    bench.buffer(noisy.values), bench.buffer(in.taken.values), indirect, indirectNoisy, deviation,
+                    samples, indirectSamples);
             };
             // After each term, what the terms so far multiply value by, and add.
             const auto check = [&](const auto& expected, unsigned terms) {
                 const Planes<float> found = planesOf(in.layout(), bench.read(indirect));
                 const Planes<float> foundNoisy = planesOf(in.layout(), bench.read(indirectNoisy));
+                const Planes<float> foundDeviation = planesOf(in.layout(), bench.read(deviation));
                 const auto all = planesOf(in.layout(), bench.read(samples));
                 const auto ofPaths = planesOf(in.layout(), bench.read(indirectSamples));
                 in.everyPixel([&](int x, int y) {
                     REQUIRE(ofPaths.at(x, y) == terms * in.taken.at(x, y));
                     REQUIRE(all.at(x, y) == 7 + terms * in.taken.at(x, y));
+                    // What is open falls by as much as what is occluded rises: the deviation of a term in k has no sign.
+                    double off = 0;
+                    for (std::size_t c = 0; c < 3 && in.taken.at(x, y) > 0; ++c) {
+                        const double k = in.diffuse.at(x, y, c) + (terms > 1 ? in.specular.at(x, y, c) : 0)
+                            + (terms > 2 ? 1 : 0);
+                        off += deviationOf(noisy.at(x, y, c), noisy.at(x, y, c + 3), in.taken.at(x, y),
+                            k * std::array { 0.2126, 0.7152, 0.0722 }[c]);
+                    }
+                    REQUIRE(std::fabs(foundDeviation.at(x, y) - 0.125 - off) < 2e-6);
                     for (std::size_t c = 0; c < 3; ++c) {
                         const bool has = in.taken.at(x, y) > 0;
                         const double sum = has ? expected(x, y, c, value.at(x, y, c)) : 0.0;

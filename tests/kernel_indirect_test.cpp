@@ -37,7 +37,7 @@ public:
     PathRun(const scene::Scene& scene, const device::Device& device, int width, int height, const Defines& defines = {})
         : traced(scene, device, width, height, defines)
         , sums_(device, 4 * traced.layout.size, "sums")
-        , value_(device, 3 * traced.layout.size, "value")
+        , value_(device, 6 * traced.layout.size, "value")
         , reflectors_(device, 3 * traced.layout.size, "reflectors")
     {
         traced.primary();
@@ -206,7 +206,7 @@ TEST_CASE("samples in two calls, the second with counts of its own, are the samp
         run.params.firstPass = 16;
         std::vector<std::uint32_t> counts(run.traced.layout.size);
         for (std::size_t i = 0; i < counts.size(); ++i)
-            counts[i] = 16 + static_cast<std::uint32_t>(i) % 13;
+            counts[i] = 16 + static_cast<std::uint32_t>(i) % 43;
         for (const std::uint32_t component :
             { WEDGE_COMPONENT_DIFFUSE, WEDGE_COMPONENT_GLOSSY, WEDGE_COMPONENT_AMBIENT })
             for (const std::uint32_t sampler : { WEDGE_SAMPLER_SOBOL, WEDGE_SAMPLER_STRATIFIED }) {
@@ -224,9 +224,39 @@ TEST_CASE("samples in two calls, the second with counts of its own, are the samp
                 run.sample(3, 1000); // fewer than there are: none
                 const PathResult parts = run.result();
                 CHECK(parts == whole);
-                CHECK(*std::ranges::max_element(parts.taken.values) == 28);
+                CHECK(*std::ranges::max_element(parts.taken.values) == 58);
                 CHECK(*std::ranges::max_element(parts.value.values) > 0.01f);
             }
+    });
+}
+
+TEST_CASE("with a first pass, what the first part of the samples alone would be is kept beside the mean")
+{
+    onEveryDevice([](const device::Device& device) {
+        PathRun run(smallScene(), device, 21, 14);
+        run.params.firstPass = 16;
+        const auto means = [&](std::uint32_t wanted) {
+            run.clear();
+            run.sample(std::min(wanted, 16u), 16);
+            run.sample(wanted, 30);
+            run.sample(wanted, 1000);
+            return run.result().value;
+        };
+        for (const auto& [wanted, part] : { std::pair(40u, 20u), { 90u, 45u }, { 33u, 16u }, { 25u, 8u }, { 16u, 8u } }) {
+            CAPTURE(wanted);
+            const Planes<float> found = means(wanted);
+            run.params.firstPass = 0;
+            const Planes<float> expected = means(part);
+            run.params.firstPass = 16;
+            int differs = 0;
+            run.traced.everyPixel([&](int x, int y) {
+                for (std::size_t c = 0; c < 3; ++c) {
+                    REQUIRE(found.at(x, y, c + 3) == expected.at(x, y, c));
+                    differs += found.at(x, y, c) != found.at(x, y, c + 3) ? 1 : 0;
+                }
+            });
+            CHECK(differs > 200);
+        }
     });
 }
 

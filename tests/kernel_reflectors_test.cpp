@@ -42,39 +42,48 @@ struct Widths {
 
 constexpr std::uint32_t noCount = 777; ///< before the kernel
 
-/// p.meanOnly: as lean frames have pixels, with sums of inverse distances alone and gloss beside sizes.
-Widths widthsOf(KernelBench& bench, shared::ReflectorParams p, float extent, const std::vector<Found>& pixels)
+/// Pixels of rows of `width`, each of an object of its own or of that of the numbers given. p.meanOnly: as lean frames
+/// have pixels, with sums of inverse distances alone and gloss beside sizes.
+Widths widthsOf(KernelBench& bench, shared::ReflectorParams p, float extent, const std::vector<Found>& pixels,
+    const std::vector<std::uint32_t>& objects, int width)
 {
-    const render::PlaneLayout layout(static_cast<int>(pixels.size()), 1);
+    const render::PlaneLayout layout(width, static_cast<int>(pixels.size()) / width);
     const shared::ReflectorParams sized = paramsFor(layout);
     std::tie(p.x1, p.width, p.y1, p.height, p.stride, p.planeSize) =
         std::tie(sized.x1, sized.width, sized.y1, sized.height, sized.stride, sized.planeSize);
     Planes<float> reflectors(layout, 3, 0.0f), pixelSize(layout, 1, 0.0f), gloss(layout, 1, 0.0f);
-    Planes<std::uint32_t> taken(layout, 1, 0u);
+    Planes<std::uint32_t> taken(layout, 1, 0u), objectId(layout, 1, 0u);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-        const int x = static_cast<int>(i);
+        const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
         if (p.meanOnly != 0)
-            reflectors.at(x, 0) = pixels[i].inverse;
+            reflectors.at(x, y) = pixels[i].inverse;
         else
-            reflectors.setVector(x, 0, { pixels[i].nearest, pixels[i].farthest, pixels[i].inverse });
-        pixelSize.at(x, 0) = pixels[i].pixelSize;
-        gloss.at(x, 0) = pixels[i].gloss;
-        taken.at(x, 0) = pixels[i].taken;
+            reflectors.setVector(x, y, { pixels[i].nearest, pixels[i].farthest, pixels[i].inverse });
+        pixelSize.at(x, y) = pixels[i].pixelSize;
+        gloss.at(x, y) = pixels[i].gloss;
+        taken.at(x, y) = pixels[i].taken;
+        objectId.at(x, y) = objects.empty() ? static_cast<std::uint32_t>(i + 1) : objects[i];
     }
     pixelSize = p.meanOnly != 0 ? packedNumbers(pixelSize, gloss) : pixelSize;
     const auto beta = bench.filled(layout.size, -7.0f);
     const auto wanted = bench.filled(layout.size, noCount);
-    launchRows(bench, "reflectorWidths", p, 1, bench.buffer(reflectors.values), bench.filled(1, extent),
-        bench.buffer(pixelSize.values), bench.buffer((p.meanOnly != 0 ? pixelSize : gloss).values),
-        bench.buffer(taken.values), beta, wanted);
+    launchRows(bench, "reflectorWidths", p, 1, bench.buffer(reflectors.values), bench.buffer(objectId.values),
+        bench.filled(1, extent), bench.buffer(pixelSize.values),
+        bench.buffer((p.meanOnly != 0 ? pixelSize : gloss).values), bench.buffer(taken.values), beta, wanted);
     const Planes<float> betas = planesOf(layout, bench.read(beta));
     const Planes<std::uint32_t> counts = planesOf(layout, bench.read(wanted));
     Widths out;
-    for (int x = 0; x < static_cast<int>(pixels.size()); ++x) {
-        out.beta.push_back(betas.at(x, 0));
-        out.wanted.push_back(counts.at(x, 0));
+    for (int i = 0; i < static_cast<int>(pixels.size()); ++i) {
+        out.beta.push_back(betas.at(i % width, i / width));
+        out.wanted.push_back(counts.at(i % width, i / width));
     }
     return out;
+}
+
+/// Of pixels in a row, each of an object of its own.
+Widths widthsOf(KernelBench& bench, const shared::ReflectorParams& p, float extent, const std::vector<Found>& pixels)
+{
+    return widthsOf(bench, p, extent, pixels, {}, static_cast<int>(pixels.size()));
 }
 
 struct Expected {
@@ -151,6 +160,28 @@ std::vector<shared::ReflectorParams> settings()
                         p.fixedWidth = fixedWidth;
                         out.push_back(p);
                     }
+    return out;
+}
+
+/// Pixels of `width` whose rays say together, with those of the object's pixels around, how near things are on average.
+std::vector<Found> pooled(const std::vector<Found>& pixels, const std::vector<std::uint32_t>& objects, int width)
+{
+    const int height = static_cast<int>(pixels.size()) / width;
+    std::vector<Found> out = pixels;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const std::size_t i = static_cast<std::size_t>(y * width + x);
+            double inverse = 0, rays = 0;
+            for (int py = std::max(0, y - 2); py <= std::min(height - 1, y + 2); ++py)
+                for (int px = std::max(0, x - 2); px <= std::min(width - 1, x + 2); ++px) {
+                    const std::size_t k = static_cast<std::size_t>(py * width + px);
+                    inverse += objects[k] == objects[i] ? pixels[k].inverse : 0.0f;
+                    rays += objects[k] == objects[i] ? pixels[k].taken : 0u;
+                }
+            out[i].inverse = static_cast<float>(rays > 0 ? pixels[i].taken * inverse / rays : 0);
+            // None of its own, but of others.
+            out[i].nearest = pixels[i].nearest > 0 || inverse == 0 ? pixels[i].nearest : 1e30f;
+        }
     return out;
 }
 
@@ -294,5 +325,40 @@ TEST_CASE("exponents outside of the fit's range give widths and counts within bo
             REQUIRE(found.wanted[i] >= 16);
             REQUIRE(found.wanted[i] <= 256);
         }
+    });
+}
+
+TEST_CASE("widths go by the mean of the rays of the object's pixels around, as published by each pixel's own")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        constexpr int width = 23, height = 11;
+        const std::vector<Found> pixels = randomPixels(width * height, 2, 31);
+        std::mt19937 random(32);
+        std::vector<std::uint32_t> objects;
+        for (int i = 0; i < width * height; ++i)
+            objects.push_back(1 + static_cast<std::uint32_t>(i % width / 8 + random() % 2));
+        const std::vector<Found> together = pooled(pixels, objects, width);
+        for (const std::uint32_t meanOnly : { 0u, 1u })
+            for (const float meanFraction : { 0.0f, 0.3f }) {
+                if (meanOnly != 0 && meanFraction == 0)
+                    continue;
+                shared::ReflectorParams p = paramsFor(render::PlaneLayout(1, 1));
+                p.meanFraction = meanFraction;
+                p.meanOnly = meanOnly;
+                const Widths found = widthsOf(bench, p, 20, pixels, objects, width);
+                int changed = 0;
+                for (std::size_t i = 0; i < pixels.size(); ++i) {
+                    const Expected own = expectedOf(p, 20, pixels[i]), around = expectedOf(p, 20, together[i]);
+                    CAPTURE(found.beta[i]);
+                    CAPTURE(own.beta);
+                    CAPTURE(around.beta);
+                    CAPTURE(meanOnly);
+                    CAPTURE(meanFraction);
+                    REQUIRE(close(found.beta[i], (meanFraction > 0 ? around : own).beta, meanOnly != 0 ? 5e-3 : 1e-4));
+                    changed += close(own.beta, around.beta, 0.01) ? 0 : 1;
+                }
+                CHECK(changed > 20);
+            }
     });
 }

@@ -27,7 +27,7 @@ public:
         , params(render::frameParams(scene, layout, { 0, 0, width, height }, 5))
         , specular(isDefined(defines, "WEDGE_SPECULAR"))
         , sums(device, layout.size * (specular ? 4 : 2), "sums")
-        , value(device, layout.size * (specular ? 2 : 1), "value")
+        , value(device, layout.size * (specular ? 4 : 2), "value")
         , slopes(device, layout.size * 2, "slopes")
         , taken(device, layout.size, "taken")
         , wanted(device, layout.size, "wanted")

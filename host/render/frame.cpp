@@ -73,7 +73,8 @@ void Frame::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const Fram
             { "pixel size", analysis }, { "diffuse", 3 * kept }, { "specular", 3 * kept }, { "emission", 3 },
             { "gloss", shape.packed() ? 0 : analysis }, { "geometric normal", kept }, { "object id", 1 },
             { "beauty", 3 * kept }, { "direct", 3 * kept }, { "direct noisy", 3 * kept }, { "indirect", 3 * kept },
-            { "indirect noisy", 3 * kept }, { "samples", kept }, { "indirect samples", kept } });
+            { "indirect noisy", 3 * kept }, { "samples", kept }, { "indirect samples", kept },
+            { "direct deviation", shape.ofParts() }, { "indirect deviation", shape.ofParts() } });
     plan.addItems("rays", rayCounters(layout, shape), 2 * 4);
     if (shape.distributed) {
         planPlanes(plan, layout,
@@ -107,6 +108,8 @@ Frame::Frame(
     , directNoisy(device, shape.kept() * 3 * planes.size, "direct noisy")
     , indirect(shape.lean ? emission : device::Buffer<float>(device, 3 * planes.size, "indirect"))
     , indirectNoisy(device, shape.kept() * 3 * planes.size, "indirect noisy")
+    , directDeviation(device, shape.ofParts() * planes.size, "direct deviation")
+    , indirectDeviation(device, shape.ofParts() * planes.size, "indirect deviation")
     , samples(device, shape.kept() * planes.size, "samples")
     , indirectSamples(device, shape.kept() * planes.size, "indirect samples")
     , receiverPixels(device, 0, "pixels of receivers")
@@ -147,7 +150,8 @@ Frame::Frame(
 
 void Frame::clear(device::TimedQueue& queue)
 {
-    for (device::Buffer<float>* b : { &direct, &directNoisy, &indirect, &indirectNoisy }) {
+    for (device::Buffer<float>* b :
+        { &direct, &directNoisy, &indirect, &indirectNoisy, &directDeviation, &indirectDeviation }) {
         b->fill(queue, 0.0f);
     }
     for (device::Buffer<std::uint32_t>* b : { &samples, &indirectSamples, &rays, &pathRays }) {
@@ -169,14 +173,14 @@ bool TermShape::holds(const TermShape& other) const
 {
     return sums >= other.sums && values >= other.values && extremes >= other.extremes && analysed >= other.analysed
         && distributed >= other.distributed && published >= other.published && lean == other.lean
-        && light == other.light;
+        && light == other.light && parts >= other.parts;
 }
 
 TermShape TermShape::with(const TermShape& other) const
 {
     return { std::max(sums, other.sums), std::max(values, other.values), std::max(extremes, other.extremes),
         analysed || other.analysed, distributed || other.distributed, published || other.published, lean || other.lean,
-        light || other.light };
+        light || other.light, parts || other.parts };
 }
 
 std::uint64_t TermShape::textureBytes() const
@@ -186,7 +190,8 @@ std::uint64_t TermShape::textureBytes() const
 
 std::uint64_t TermShape::valueBytes() const
 {
-    return packed() ? (shared::valueBits(1, light) + 7) / 8 : std::uint64_t { values } * sizeof(float);
+    const std::uint64_t planes = std::uint64_t { values } * (parts ? 2 : 1);
+    return packed() ? (shared::valueBits(1, light) + 7) / 8 : planes * sizeof(float);
 }
 
 void Term::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const TermShape& shape)

@@ -45,6 +45,7 @@ struct FrameShape {
     std::uint64_t kept() const { return lean ? 0 : 1; } ///< of no use to lean frames
     std::uint64_t ofAnalysis() const { return !lean || analysed ? 1 : 0; }
     std::uint64_t ofMotion() const { return distributed && (!lean || (shutter && analysed)) ? 1 : 0; }
+    std::uint64_t ofParts() const { return distributed ? 0 : 1; }
     std::uint64_t ofDeltaLights() const { return distributed && (!lean || deltaLights) ? 1 : 0; }
 };
 
@@ -72,6 +73,9 @@ public:
     device::Buffer<float> beauty; ///< emission and all that is reflected
     device::Buffer<float> direct, directNoisy; ///< radiance, filtered and not
     device::Buffer<float> indirect, indirectNoisy; ///< radiance, or how open the hemisphere is
+    /// Numbers whose squares are, in the mean, the variances of directNoisy's and indirectNoisy's luminance, see
+    /// composite.cl.
+    device::Buffer<float> directDeviation, indirectDeviation;
     device::Buffer<std::uint32_t> samples; ///< of all terms
     device::Buffer<std::uint32_t> indirectSamples; ///< of the indirect terms
     device::Buffer<std::uint32_t> receiverPixels, receiverViews; ///< WEDGE_RECEIVER_PARAMETERS: of no use here
@@ -116,6 +120,7 @@ struct TermShape {
     bool published = false; ///< of those, with the radiance of the term alone
     bool lean = false; ///< of those, of a lean frame
     bool light = false; ///< of those, of a light: what packed planes have fewer bits of
+    bool parts = false; ///< values are followed by those of the first part of the samples
 
     /// Whether buffers of this shape serve terms of the other.
     bool holds(const TermShape& other) const;

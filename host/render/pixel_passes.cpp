@@ -1,5 +1,8 @@
-// The passes of frames whose pixels are the receivers: what each sees, and point and directional lights.
+// The passes of frames whose pixels are the receivers: what each sees, point and directional lights, and what becomes
+// of filters that are off.
 #include "host/render/renderer.h"
+
+#include "kernels/shared/filter_params.h"
 
 namespace wedge::render {
 
@@ -36,6 +39,33 @@ bool Renderer::deltaLightPass(const shared::FrameParams& params)
         return false;
     }
     return true;
+}
+
+void Renderer::fallBack(const TermContext& context)
+{
+    Frame& f = *frame_;
+    // Filters do not need it any more.
+    const device::Buffer<float>& squares = scratch_->logs;
+    const auto part = [&](device::Buffer<float>& filtered, const device::Buffer<float>& noisy,
+                          const device::Buffer<float>& deviation) {
+        shared::AnalysisParams p {};
+        p.width = context.fullFrame.width;
+        p.height = context.fullFrame.height;
+        p.stride = context.fullFrame.stride;
+        p.planeSize = context.fullFrame.planeSize;
+        setRectangle(p, blockWindow(context.window, 0, context.full().x1, context.full().y1));
+        passes_->rows("fallback", PassKind::Filter, "fallback.cl", "fallbackSquares", p, WEDGE_BLOCK_PIXELS, filtered,
+            noisy, deviation, squares);
+        setRectangle(p, blockWindow(outputWindow(context.settings), 0, context.full().x1, context.full().y1));
+        passes_->rows("fallback", PassKind::Filter, "fallback.cl", "fallBack", p, WEDGE_BLOCK_PIXELS, squares,
+            f.objectId, noisy, filtered);
+    };
+    if (!deviceScene_->areaLightList.empty() && context.settings.integrator == Integrator::Path) {
+        part(f.direct, f.directNoisy, f.directDeviation);
+    }
+    if (tracesPaths(context.settings)) {
+        part(f.indirect, f.indirectNoisy, f.indirectDeviation);
+    }
 }
 
 } // namespace wedge::render

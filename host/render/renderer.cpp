@@ -76,7 +76,9 @@ std::vector<TermShape> termShapes(
     const Settings& settings, const scene::Scene& scene, bool specular, const FrameShape& frame)
 {
     if (!frame.distributed) {
-        return { termShape(settings, specular) };
+        TermShape shape = termShape(settings, specular);
+        shape.parts = settings.method == Method::AxisAligned;
+        return { shape };
     }
     TermShape shape { 0, 3, 3, needsAnalysis(settings), true, false, frame.lean, false };
     shape.published = shape.analysed && settings.distributed.published;
@@ -328,12 +330,16 @@ TermContext Renderer::contextOf(const Settings& settings)
 {
     const image::Window output = outputWindow(settings);
     const image::Window whole { 0, 0, settings.width, settings.height };
+    // Whether the output's pixels fall back depends on filtered ones around.
+    const bool fallsBack = !frame_->distributed && usesFallback(settings);
+    const int around = fallsBack ? WEDGE_FALLBACK_REACH : 0;
+    const image::Window filtered = fallsBack ? blockWindow(output, around, settings.width, settings.height) : output;
     const image::Window sampled = needsAnalysis(settings)
-        ? blockWindow(output, filterReach(settings, scene_), settings.width, settings.height)
+        ? blockWindow(output, around + filterReach(settings, scene_), settings.width, settings.height)
         : output;
     return { *passes_, *deviceScene_, *frame_, *scratch_, settings,
         frameParams(scene_, frame_->layout, whole, settings.seed),
-        frameParams(scene_, frame_->layout, sampled, settings.seed), output,
+        frameParams(scene_, frame_->layout, sampled, settings.seed), filtered,
         scene::geometryMoves(scene_) || scene::cameraMoves(scene_) };
 }
 
@@ -343,7 +349,7 @@ bool Renderer::renderPasses(const Settings& settings, bool keepLayers)
     termPlanes_.clear();
     const bool lit = settings.integrator == Integrator::Path;
     const TermContext context = contextOf(settings);
-    const image::Window& output = context.window;
+    const image::Window output = outputWindow(settings);
     if (frame_->distributed) {
         return distributedPasses(context, keepLayers);
     }
@@ -367,6 +373,9 @@ bool Renderer::renderPasses(const Settings& settings, bool keepLayers)
                 keepPlanes(settings, *terms_.front(), indirect.analysed());
             }
         }
+    }
+    if (complete && usesFallback(settings)) {
+        fallBack(context);
     }
     shared::AnalysisParams all {};
     const image::Window blocks = blockWindow(output, 0, settings.width, settings.height);

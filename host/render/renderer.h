@@ -122,6 +122,8 @@ private:
     bool renderPasses(const Settings& settings, bool keepLayers);
     /// lit: with area lights in view, and with what surfaces and background emit.
     bool primaryPass(const shared::FrameParams& params, bool lit);
+    /// Puts samples of their own in the place of filtered light where that is off, see kernels/fallback.cl.
+    void fallBack(const TermContext& context);
     bool deltaLightPass(const shared::FrameParams& params);
     TermContext contextOf(const Settings& settings);
     void beginHalves(const Settings& settings, bool keepLayers);

@@ -33,6 +33,17 @@ float widthRatio(float from, float to)
     return std::pow(std::max(1.0f, to - evenSamples) / std::max(1.0f, from - evenSamples), widthExponent);
 }
 
+/// The same of indirect light. Its noise falls no faster than plain Monte Carlo's: beyond the reference's samples
+/// widths that keep bias and noise in step go as half the power.
+float indirectWidthRatio(float from, float to)
+{
+    const auto fromReference = [](float spp) {
+        const float ratio = widthRatio(referenceSpp, spp);
+        return ratio > 1.0f ? std::sqrt(ratio) : ratio;
+    };
+    return fromReference(to) / fromReference(from);
+}
+
 /// What the error that taking apart may make (5.30) is multiplied by at a count: it goes with the noise, or no number
 /// of samples would bring it down.
 float factoringRatio(int spp) { return std::min(1.0f, std::sqrt(referenceSpp / static_cast<float>(std::max(spp, 1)))); }
@@ -139,9 +150,9 @@ Settings axisAligned(std::optional<int> spp, std::optional<float> mu)
     Settings s;
     if (spp) {
         s.spp = *spp;
-        const float narrower = widthRatio(referenceSpp, static_cast<float>(*spp));
-        s.mu = mu.value_or(referenceMu * narrower);
-        s.indirect.mu = mu.value_or(referenceIndirectMu * narrower);
+        const auto count = static_cast<float>(*spp);
+        s.mu = mu.value_or(referenceMu * widthRatio(referenceSpp, count));
+        s.indirect.mu = mu.value_or(referenceIndirectMu * indirectWidthRatio(referenceSpp, count));
     } else if (mu) {
         s.mu = *mu;
         s.indirect.mu = *mu;
@@ -169,6 +180,7 @@ Settings asPublished(std::optional<float> wanted)
     s.oblique = false;
     s.narrower = false;
     s.surface = false;
+    s.fallback = false;
     s.mu = mu;
     s.fillRadius = 5;
     s.fillSigma = 0.0f;
@@ -254,10 +266,10 @@ void validate(const Settings& s, bool distributed)
 Settings halfAt(const Settings& settings, int spp)
 {
     Settings s = settings;
-    const float ratio = widthRatio(static_cast<float>(settings.spp), static_cast<float>(spp));
+    const auto from = static_cast<float>(settings.spp), to = static_cast<float>(spp);
     s.spp = std::max(1, spp / 2);
-    s.mu *= ratio;
-    s.indirect.mu *= ratio;
+    s.mu *= widthRatio(from, to);
+    s.indirect.mu *= indirectWidthRatio(from, to);
     s.distributed.frames = 2;
     s.distributed.factoringError *= factoringRatio(spp) / factoringRatio(settings.spp);
     s.distributed.leastShare = 0.25f;
@@ -273,6 +285,11 @@ image::Window outputWindow(const Settings& s)
 }
 
 bool tracesPaths(const Settings& s) { return s.bounces > 0 || s.integrator == Integrator::AmbientOcclusion; }
+
+bool usesFallback(const Settings& s)
+{
+    return s.fallback && s.method == Method::AxisAligned && s.filtering == Filtering::Adaptive;
+}
 
 std::string methodName(Method method) { return method == Method::MonteCarlo ? "mc" : "aaf"; }
 
@@ -305,8 +322,8 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
                 { "slopes", s.slopes == Slopes::Published ? "published" : "smoothed" }, { "mu", number(s.mu) },
                 { "k", number(s.k) }, { "alpha", number(s.alpha) }, { "oblique", number(s.oblique) },
                 { "narrower", number(s.narrower) }, { "surface", number(s.surface) },
-                { "normalDegrees", number(s.normalDegrees) }, { "cut", number(s.cut) },
-                { "maxRadius", number(s.maxRadius) }, { "fillSigma", number(s.fillSigma) },
+                { "fallback", number(s.fallback) }, { "normalDegrees", number(s.normalDegrees) },
+                { "cut", number(s.cut) }, { "maxRadius", number(s.maxRadius) }, { "fillSigma", number(s.fillSigma) },
                 { "fillRadius", number(s.fillRadius) }, { "countExponent", number(s.countExponent) },
                 { "varianceFloor", number(s.varianceFloor) }, { "varianceSpread", number(s.varianceSpread) } });
     }

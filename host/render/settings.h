@@ -163,6 +163,7 @@ struct Settings {
     bool narrower = true; ///< a pair of pixels is weighted by the narrower of both kernels
     bool surface =
         true; ///< pixels weigh by the surface that they see, and those off a pixel's own surface are left out
+    bool fallback = true; ///< where filters are off by more than noise explains, samples show (kernels/fallback.cl)
     float normalDegrees = 10.0f; ///< neighbours whose normals differ by more are not gathered
     float cut = 3.0f; ///< kernel radius in standard deviations
     int maxRadius = 40; ///< kernel radius in pixels at most
@@ -196,6 +197,9 @@ image::Window outputWindow(const Settings& settings);
 
 /// Whether frames of these settings look along rays over the hemisphere: for indirect light or ambient occlusion.
 bool tracesPaths(const Settings& settings);
+
+/// Whether frames of these settings look where filters are off.
+bool usesFallback(const Settings& settings);
 
 /// Most samples of a pixel of a distributed frame by method aaf: those of 8x8 pixels have to fit in a wave (waves.h).
 constexpr int mostDistributedSpp = 2048;

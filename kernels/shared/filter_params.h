@@ -8,6 +8,9 @@
 #define WEDGE_DEMAND_BINS 512u
 #define WEDGE_DEMAND_STRIPES 32u
 
+/// Pixels around one whose differences and noise say whether its filter is to be trusted, either way.
+#define WEDGE_FALLBACK_REACH 3
+
 WEDGE_SHARED_BEGIN
 
 /// The gather of the separable Gaussian (thesis 3.10 to 3.12) around one light.
@@ -44,7 +47,7 @@ typedef struct {
     float varianceSpread; ///< fraction of the 5x5 neighbourhood's largest variance that a pixel takes at least
     Vec3 lightCentre; ///< metres
     uint packed; ///< 1: sizes of pixels are packed, packed_planes.h
-    uint leastCount; ///< samples of the first pass, which every pixel takes
+    uint leastCount; ///< samples that every pixel takes, at least those of the first pass
 } AnalysisParams;
 
 WEDGE_SHARED_END

@@ -13,6 +13,11 @@
 
 WEDGE_SHARED_BEGIN
 
+/// Samples in the first of two parts of n samples, from whose difference their noise is known (fallback.cl): a half, or
+/// where that would end within the first pass, of so many rays, half of that pass. Parts are runs of indices: the even
+/// and the odd points of a Sobol sequence lie in different halves of the light.
+WEDGE_FN uint firstPart(uint n, uint firstPass) { return n >= 2u * firstPass ? n / 2u : firstPass / 2u; }
+
 /// Slope s = d1/d2 - 1 of an occluder at parameter t of a shadow ray that runs from the receiver (0) to the light
 /// (1): d1 = 1 and d2 = 1 - t up to the ray's length (section 3.3). Clamped to [WEDGE_SLOPE_MIN, WEDGE_SLOPE_MAX].
 WEDGE_FN float slopeOfHit(float t) { return clamp(t / fmax(1.0f - t, 1e-6f), WEDGE_SLOPE_MIN, WEDGE_SLOPE_MAX); }

@@ -157,7 +157,8 @@ shared::AnalysisParams Indirect::countParams(const image::Window& window) const
     p.stride = c_.fullFrame.stride;
     p.planeSize = c_.fullFrame.planeSize;
     p.countCap = static_cast<std::uint32_t>(c_.settings.indirect.maxSpp);
-    p.leastCount = WEDGE_INDIRECT_FIRST_RAYS;
+    // Where the first paths met nothing bright there is still noise of what they may meet: rare, and large.
+    p.leastCount = std::max(WEDGE_INDIRECT_FIRST_RAYS, static_cast<std::uint32_t>(c_.settings.spp) / 2);
     return p;
 }
 
@@ -182,7 +183,7 @@ void Indirect::widths()
             term_.plain, reflectors);
     }
     c_.passes.rows("widths", PassKind::Analysis, "reflectors.cl", "reflectorWidths", reflectorParams(c_.full()), 1,
-        reflectors, c_.scratch.extent, c_.frame.pixelSize, c_.frame.gloss, term_.taken,
+        reflectors, c_.frame.objectId, c_.scratch.extent, c_.frame.pixelSize, c_.frame.gloss, term_.taken,
         packed ? c_.scratch.width : term_.beta, term_.wanted);
     analysed_ = true;
 }
@@ -231,8 +232,9 @@ void Indirect::composite(const device::Buffer<float>& value)
 {
     const shared::AnalysisParams p = countParams(blockWindow(c_.window, 0, c_.full().x1, c_.full().y1));
     c_.passes.rows("composite", PassKind::Composite, "composite.cl", "addIndirect", p, WEDGE_BLOCK_PIXELS,
-        static_cast<std::uint32_t>(component_), reflectance(), value, term_.value, term_.taken, c_.frame.indirect,
-        c_.frame.indirectNoisy, c_.frame.samples, c_.frame.indirectSamples);
+        static_cast<std::uint32_t>(component_), pathParams().firstPass, reflectance(), value, term_.value, term_.taken,
+        c_.frame.indirect, c_.frame.indirectNoisy, c_.frame.indirectDeviation, c_.frame.samples,
+        c_.frame.indirectSamples);
 }
 
 void Indirect::sampleWave(Waves& waves, const shared::WaveParams& wave, double workUnits)

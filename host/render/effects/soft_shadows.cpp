@@ -159,7 +159,8 @@ shared::AnalysisParams SoftShadows::analysisParams(const image::Window& window) 
     p.varianceSpread = c_.settings.varianceSpread;
     p.lightCentre = light().centre;
     p.packed = c_.frame.shape.packed() ? 1 : 0;
-    p.leastCount = WEDGE_FIRST_PASS_RAYS;
+    // What nine rays have missed is found in the end, however many are asked for.
+    p.leastCount = std::max(WEDGE_FIRST_PASS_RAYS, static_cast<std::uint32_t>(c_.settings.spp) / 16);
     return p;
 }
 
@@ -253,12 +254,13 @@ void SoftShadows::shade(const device::Buffer<float>& value)
     const shared::AnalysisParams p = analysisParams(window);
     c_.passes.rows("composite", PassKind::Composite, "composite.cl", "addDiffuse", p, WEDGE_BLOCK_PIXELS,
         sampleParams(), light(), c_.scene.quadratures[index_], c_.frame.position, c_.frame.normal, c_.frame.objectId,
-        c_.frame.diffuse, value, term_.value, term_.taken, c_.frame.direct, c_.frame.directNoisy, c_.frame.samples);
+        c_.frame.diffuse, value, term_.value, term_.taken, c_.frame.direct, c_.frame.directNoisy,
+        c_.frame.directDeviation, c_.frame.samples);
     if (c_.scene.specular) {
         c_.passes.rows("composite", PassKind::Composite, "composite.cl", "addSpecular", p, WEDGE_BLOCK_PIXELS,
             sampleParams(), light(), c_.fullFrame, c_.scene.quadratures[index_], c_.frame.position, c_.frame.normal,
-            c_.frame.objectId, c_.frame.gloss, c_.frame.specular, value, term_.value, c_.frame.direct,
-            c_.frame.directNoisy);
+            c_.frame.objectId, c_.frame.gloss, c_.frame.specular, value, term_.value, term_.taken, c_.frame.direct,
+            c_.frame.directNoisy, c_.frame.directDeviation);
     }
 }
 

@@ -1,0 +1,71 @@
+// Where filtering is not to be trusted, pixels fall back to their own samples.
+//
+// u is a pixel's plain mean, f what filters made of it, V the variance of u and D the mean of (u - f)^2, both over the
+// pixels of the object around. What is shown is
+//
+//     f + max(0, 1 - c V / D) (u - f)
+//
+// the positive-part estimator of W. James and C. Stein (1961), which shrinks u towards f: where u and f differ by no
+// more than noise does it is f, where the filter is off by more it is u, and whatever f is, its error is no larger than
+// u's (c below 2, many pixels). As samples become more V goes to 0 and with it what f is off by.
+#include "shared/filter_params.h"
+#include "vector16.h"
+
+/// c: the error of f counts, up to so many times the noise's variance, as none. 1 would be best were V and D known; but
+/// they are estimates, and what is taken for bias by mistake brings noise back.
+#define WEDGE_FALLBACK_NOISE 2.0f
+
+WEDGE_FN float16 luminance16(Vec3x16 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+
+/// What is averaged. in: filtered, noisy (3 planes each), deviation (composite.cl); out squares (planes: (u - f)^2 and
+/// the deviation's, of luminances)
+__kernel void fallbackSquares(AnalysisParams p, __global const float* restrict filtered,
+    __global const float* restrict noisy, __global const float* restrict deviation, __global float* restrict squares)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const float16 d = luminance16(sub16(loadVecBlock(noisy, p.planeSize, i), loadVecBlock(filtered, p.planeSize, i)));
+    const float16 v = loadBlock(deviation, i);
+    vstore16(d * d, 0, squares + i);
+    vstore16(v * v, 0, squares + p.planeSize + i);
+}
+
+/// in out  filtered
+__kernel void fallBack(AnalysisParams p, __global const float* restrict squares, __global const uint* restrict objectId,
+    __global const float* restrict noisy, __global float* restrict filtered)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const uint16 object = loadIdBlock(objectId, i);
+    const int16 differs = (object != 0u) & (loadBlock(squares, i) > 0.0f);
+    if (!any(differs)) {
+        return;
+    }
+    float16 difference = (float16)(0.0f), variance = (float16)(0.0f);
+    const int reach = (int)WEDGE_FALLBACK_REACH;
+    for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
+        for (int dx = -reach; dx <= reach; ++dx) {
+            const int j = i + dy * (int)p.stride + dx;
+            const int16 same = loadIdBlock(objectId, j) == object;
+            difference += same ? loadBlock(squares, j) : (float16)(0.0f);
+            variance += same ? loadBlock(squares + p.planeSize, j) : (float16)(0.0f);
+        }
+    }
+    const float16 own =
+        max16(1.0f - WEDGE_FALLBACK_NOISE * variance / max16(difference, (float16)(1e-37f)), (float16)(0.0f));
+    const Vec3x16 f = loadVecBlock(filtered, p.planeSize, i), u = loadVecBlock(noisy, p.planeSize, i);
+    const float16 share = differs ? own : (float16)(0.0f);
+    // Where nothing is shared what the other holds is not looked at.
+    const int16 shares = share > 0.0f;
+    vstore16(shares ? f.x + share * (u.x - f.x) : f.x, 0, filtered + i);
+    vstore16(shares ? f.y + share * (u.y - f.y) : f.y, 0, filtered + p.planeSize + i);
+    vstore16(shares ? f.z + share * (u.z - f.z) : f.z, 0, filtered + 2u * p.planeSize + i);
+}

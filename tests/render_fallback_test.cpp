@@ -1,0 +1,84 @@
+// Whole frames whose filters are far too wide: samples have to take their place.
+#include "tests/render_support.h"
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+constexpr int width = 96, height = 72;
+
+render::Settings wide(bool fallback, int bounces)
+{
+    render::Settings s = sized(render::axisAligned(64, 0.15f), width, height);
+    s.bounces = bounces;
+    s.fallback = fallback;
+    return s;
+}
+
+/// All that is reflected: as filtered, or of the samples alone.
+std::vector<float> reflected(render::Renderer& renderer, const render::Settings& settings, bool filtered)
+{
+    renderer.render(settings);
+    const render::Frame& f = renderer.frame();
+    const image::Window all { 0, 0, width, height };
+    std::vector<float> sum = pixels(renderer, filtered ? f.direct : f.directNoisy, all);
+    const std::vector<float> more = pixels(renderer, filtered ? f.indirect : f.indirectNoisy, all);
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        sum[i] += more[i];
+    return sum;
+}
+
+} // namespace
+
+TEST_CASE("filters that blur far too wide lose to the pixels' own samples")
+{
+    onEveryDevice([](const device::Device& device) {
+        scene::Scene scene = smallScene();
+        scene.materials[0].specular = glm::vec3(0.2f);
+        scene.materials[0].exponent = 8;
+        render::Renderer renderer(scene, device, renderOptions());
+        for (const int bounces : { 0, 1 }) {
+            CAPTURE(bounces);
+            render::Settings truth = sized(render::monteCarlo(2048), width, height);
+            truth.bounces = bounces;
+            const std::vector<float> reference = reflected(renderer, truth, true);
+            const double off = rmse(reflected(renderer, wide(false, bounces), true), reference);
+            const double kept = rmse(reflected(renderer, wide(true, bounces), true), reference);
+            const double own = rmse(reflected(renderer, wide(true, bounces), false), reference);
+            CAPTURE(off);
+            CAPTURE(kept);
+            CAPTURE(own);
+            MESSAGE(off, " ", kept, " ", own);
+            CHECK(off > 2.5 * own);
+            CHECK(kept < 1.1 * own);
+        }
+    });
+}
+
+TEST_CASE("where filters are right, falling back changes next to nothing")
+{
+    onEveryDevice([](const device::Device& device) {
+        const scene::Scene scene = smallScene();
+        render::Renderer renderer(scene, device, renderOptions());
+        const std::vector<float> reference = renderPixels(renderer, sized(render::monteCarlo(2048), width, height));
+        render::Settings with = sized(render::axisAligned(28), width, height), without = with;
+        without.fallback = false;
+        CHECK(rmse(renderPixels(renderer, with), reference) < 1.03 * rmse(renderPixels(renderer, without), reference));
+    });
+}
+
+TEST_CASE("a crop that falls back has the whole image's pixels")
+{
+    onEveryDevice([](const device::Device& device) {
+        const scene::Scene scene = smallScene();
+        render::Renderer renderer(scene, device, renderOptions());
+        render::Settings settings = wide(true, 1);
+        renderer.render(settings);
+        const image::Window crop { 37, 21, 62, 44 };
+        const std::vector<float> whole = pixels(renderer, renderer.frame().beauty, crop);
+        settings.crop = crop;
+        renderer.render(settings);
+        CHECK(pixels(renderer, renderer.frame().beauty, crop) == whole);
+    });
+}
