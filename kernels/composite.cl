@@ -43,12 +43,10 @@ WEDGE_FN void addDeviation(__global float* plane, int i, float16 deviation, Vec3
 
 /// One light's diffuse reflection.
 /// in      value: filtered; noisy: not filtered, and of frames with a first pass (params.firstPass) the same of the
-/// first
-///         of two parts of the samples; nodes: of the quadratures, (coordinate, weight) pairs
-///         taken: the samples of value
+///         first of two parts of the samples; nodes: of the quadratures, (coordinate, weight) pairs; taken: the samples
+///         of value
 /// in out  direct, directNoisy (3 planes each), deviation (of directNoisy's luminance, as deviation16() has it),
-/// samples
-///         (of all lights)
+///         samples (of all lights)
 __kernel void addDiffuse(AnalysisParams p, SampleParams params, AreaLight light, __global const float* restrict nodes,
     __global const float* restrict position, __global const float* restrict normal,
     __global const uint* restrict objectId, __global const float* restrict diffuse,
@@ -148,8 +146,7 @@ __kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light
 
 /// One term of indirect light.
 /// in      reflectance: 3 planes; value, noisy: 3 planes each, filtered and not, and after the latter 3 of the first of
-/// two
-///         parts of the samples, in frames with a first pass of so many; taken: the samples of value
+///         two parts of the samples, in frames with a first pass of so many; taken: the samples of value
 ///         component: WEDGE_COMPONENT_*; of ambient occlusion the open part of the hemisphere is shown, on white
 /// in out  indirect, indirectNoisy (3 planes each), deviation (as of lights), samples (of all terms), indirectSamples
 __kernel void addIndirect(AnalysisParams p, uint component, uint firstPass, __global const float* restrict reflectance,

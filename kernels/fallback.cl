@@ -7,11 +7,11 @@
 //
 // the positive-part estimator of W. James and C. Stein (1961), which shrinks u towards f: where u and f differ by no
 // more than noise does it is f, where the filter is off by more it is u, and whatever f is, its error is no larger than
-// u's (c below 2, many pixels). As samples become more V goes to 0 and with it what f is off by.
+// u's (c up to 2, many pixels). As samples become more V goes to 0 and with it what f is off by.
 #include "shared/filter_params.h"
 #include "vector16.h"
 
-/// c: the error of f counts, up to so many times the noise's variance, as none. 1 would be best were V and D known; but
+/// c: an error of f of up to c - 1 times the noise's variance counts as none. 1 would be best were V and D known; but
 /// they are estimates, and what is taken for bias by mistake brings noise back.
 #define WEDGE_FALLBACK_NOISE 2.0f
 

@@ -1,3 +1,3 @@
-// The indirect filter of one plane, the samples' variance, for what the filter gathers and how uncertain that is.
+// Filters of one plane in distributed frames: visibilities of lights; and of variances, for what the filter gathers.
 #define WEDGE_GATHER_CHANNELS 1
 #include "gather.h"

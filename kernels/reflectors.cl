@@ -71,7 +71,7 @@ WEDGE_FN float bandlimitOf(uint component, float gloss)
 
 /// Harmonic mean of the distances that the rays of the object's pixels around found, infinite where none hit anything;
 /// as published of the pixel's own. A few rays miss what is near and small, and the filter would then blur what it
-/// lights.
+/// lights. Of glossy light pixels count that met something: `taken` of several receivers has matt ones' samples, too.
 WEDGE_FN float nearness(ReflectorParams p, uint x, uint y, uint i, __global const float* inverse,
     __global const uint* objectId, __global const uint* taken)
 {
@@ -80,9 +80,10 @@ WEDGE_FN float nearness(ReflectorParams p, uint x, uint y, uint i, __global cons
     for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
         for (int dx = -min((int)x, reach); dx <= min((int)(p.width - 1u - x), reach); ++dx) {
             const int j = (int)i + dy * (int)p.stride + dx;
-            const bool same = objectId[j] == objectId[i];
-            sum += same ? inverse[j] : 0.0f;
-            rays += same ? (float)taken[j] : 0.0f;
+            const bool counts =
+                objectId[j] == objectId[i] && (p.component != WEDGE_COMPONENT_GLOSSY || inverse[j] > 0.0f);
+            sum += counts ? inverse[j] : 0.0f;
+            rays += counts ? (float)taken[j] : 0.0f;
         }
     }
     return sum > 0.0f ? rays / sum : INFINITY;
@@ -109,7 +110,10 @@ __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict 
     const float mean = nearness(p, x, y, i, reflectors + (p.meanOnly != 0u ? 0u : 2u * p.planeSize), objectId, taken);
     const bool has = reflectors[i] > 0.0f || mean < INFINITY;
     // What is nearer than the fraction of the mean counts itself: of open scenes most rays hit nothing.
-    const float least = p.meanOnly == 0u && reflectors[i] > 0.0f ? reflectors[i] : INFINITY;
+    // Where there is but one number for both, the pixel's own fraction of the mean is as near as its least distance or
+    // nearer.
+    const float own = p.meanOnly != 0u ? p.meanFraction * (float)taken[i] / fmax(reflectors[i], 1e-20f) : reflectors[i];
+    const float least = reflectors[i] > 0.0f ? own : INFINITY;
     const float fraction = fmin(p.meanFraction * mean, least);
     const float near = p.meanFraction > 0.0f ? fraction : least;
     // Where no ray hit anything, nothing is nearer than what there is is large.

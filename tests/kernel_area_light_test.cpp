@@ -245,8 +245,7 @@ TEST_CASE("what the first part of the samples alone would be is kept beside the 
             scene::Scene scene = smallScene();
             scene.materials[0].specular = glm::vec3(glossy ? 0.3f : 0.0f);
             scene.materials[0].exponent = 20;
-            TracedScene traced(scene, device, 33, 21,
-                glossy ? Defines { { "WEDGE_SPECULAR", "1" } } : Defines {});
+            TracedScene traced(scene, device, 33, 21, glossy ? Defines { { "WEDGE_SPECULAR", "1" } } : Defines {});
             traced.primary();
             const auto id = traced.read(traced.frame.objectId);
             shared::SampleParams p = sampling(WEDGE_SHADING_RATIO, WEDGE_SAMPLER_SOBOL);
@@ -260,7 +259,8 @@ TEST_CASE("what the first part of the samples alone would be is kept beside the 
                 return traced.read(traced.value);
             };
             const std::size_t channels = glossy ? 2 : 1;
-            for (const auto& [wanted, part] : { std::pair(40u, 20u), { 70u, 35u }, { 18u, 9u }, { 12u, 4u }, { 9u, 4u } }) {
+            for (const auto& [wanted, part] :
+                { std::pair(40u, 20u), { 70u, 35u }, { 18u, 9u }, { 12u, 4u }, { 9u, 4u } }) {
                 CAPTURE(wanted);
                 const Planes<float> found = values(wanted), expected = values(part);
                 int differs = 0;

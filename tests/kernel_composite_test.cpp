@@ -67,8 +67,8 @@ struct Receivers {
     }
 };
 
-/// What a term of reflected luminance `shown` adds to the deviation: its part's difference, times sqrt(h / (n - h)), h the samples
-/// of the part, half of n, or of a first pass of nine four where that has more than a quarter of them.
+/// What a term of reflected luminance `shown` adds to the deviation: its part's difference, times sqrt(h / (n - h)), h
+/// the samples of the part, half of n, or, where they are fewer than 18, 4 of the first pass.
 double deviationOf(double mean, double ofPart, std::uint32_t n, double shown)
 {
     const std::uint32_t h = n >= 18 ? n / 2 : 4;
@@ -230,8 +230,7 @@ TEST_CASE("addSpecular: the second term times the lobe's unshadowed shading time
                 const double shown = in.objectId.at(x, y) != 0
                     ? shade / made.power.z * shownLuminance(in.specular, x, y, made.power)
                     : 0.0;
-                const double off =
-                    deviationOf(in.noisy.at(x, y, 1), in.noisy.at(x, y, 3), in.taken.at(x, y), shown);
+                const double off = deviationOf(in.noisy.at(x, y, 1), in.noisy.at(x, y, 3), in.taken.at(x, y), shown);
                 REQUIRE(std::fabs(foundDeviation.at(x, y) - 0.125 - off) <= slack * (shown + 0.3));
             });
             CHECK(bright > 30);
@@ -332,11 +331,12 @@ TEST_CASE("addIndirect: terms times reflectance add up, with their samples; ambi
                 in.everyPixel([&](int x, int y) {
                     REQUIRE(ofPaths.at(x, y) == terms * in.taken.at(x, y));
                     REQUIRE(all.at(x, y) == 7 + terms * in.taken.at(x, y));
-                    // What is open falls by as much as what is occluded rises: the deviation of a term in k has no sign.
+                    // What is open falls by as much as what is occluded rises: the deviation of a term in k has no
+                    // sign.
                     double off = 0;
                     for (std::size_t c = 0; c < 3 && in.taken.at(x, y) > 0; ++c) {
-                        const double k = in.diffuse.at(x, y, c) + (terms > 1 ? in.specular.at(x, y, c) : 0)
-                            + (terms > 2 ? 1 : 0);
+                        const double k =
+                            in.diffuse.at(x, y, c) + (terms > 1 ? in.specular.at(x, y, c) : 0) + (terms > 2 ? 1 : 0);
                         off += deviationOf(noisy.at(x, y, c), noisy.at(x, y, c + 3), in.taken.at(x, y),
                             k * std::array { 0.2126, 0.7152, 0.0722 }[c]);
                     }

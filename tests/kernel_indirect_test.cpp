@@ -242,7 +242,8 @@ TEST_CASE("with a first pass, what the first part of the samples alone would be 
             run.sample(wanted, 1000);
             return run.result().value;
         };
-        for (const auto& [wanted, part] : { std::pair(40u, 20u), { 90u, 45u }, { 33u, 16u }, { 25u, 8u }, { 16u, 8u } }) {
+        for (const auto& [wanted, part] :
+            { std::pair(40u, 20u), { 90u, 45u }, { 33u, 16u }, { 25u, 8u }, { 16u, 8u } }) {
             CAPTURE(wanted);
             const Planes<float> found = means(wanted);
             run.params.firstPass = 0;

@@ -77,6 +77,10 @@ TEST_CASE("a crop that falls back has the whole image's pixels")
         renderer.render(settings);
         const image::Window crop { 37, 21, 62, 44 };
         const std::vector<float> whole = pixels(renderer, renderer.frame().beauty, crop);
+        // What another image leaves in the buffers is not to be mistaken for what is around the crop.
+        settings.seed = 77;
+        renderer.render(settings);
+        settings.seed = render::Settings {}.seed;
         settings.crop = crop;
         renderer.render(settings);
         CHECK(pixels(renderer, renderer.frame().beauty, crop) == whole);

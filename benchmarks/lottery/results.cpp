@@ -2,9 +2,9 @@
 
 #include "benchmarks/common/fingerprint.h"
 #include "benchmarks/lottery/verdict.h"
-#include "host/device/source.h"
 #include "host/error.h"
 #include "host/render/metadata.h"
+#include "kernels/embedded_kernels.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -16,10 +16,8 @@ namespace {
 std::string methodFingerprint()
 {
     Fingerprint f;
-    for (const char* file : { "accumulate.cl", "analysis.cl", "area_light.cl", "blur.cl", "composite.cl", "counts.cl",
-             "delta_lights.cl", "distributed.cl", "filter.cl", "filter_indirect.cl", "filter_variance.cl",
-             "indirect.cl", "primary.cl", "reflectors.cl", "wave_light.cl", "wave_primary.cl", "waves.cl" }) {
-        f.add(device::flattenKernel("", file).text);
+    for (const EmbeddedKernel& kernel : embeddedKernels()) {
+        f.add(kernel.text);
     }
     for (const auto& [key, value] : render::describe(render::axisAligned())) {
         f.add(key);

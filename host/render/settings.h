@@ -73,7 +73,7 @@ enum class ReflectorExtent {
 enum class IndirectCounts {
     Uniform,
     Spectrum, ///< equation (4.21)
-    Variance, ///< variance of the filtered first pass
+    Variance, ///< variance of the neighbours' first paths
 };
 
 /// Indirect light and ambient occlusion; docs/indirect.md has the equations.

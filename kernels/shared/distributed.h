@@ -26,7 +26,7 @@ typedef struct {
     float irradianceWidth; ///< of the irradiance's filter: its least standard deviation in radii of the circle of
                            ///< confusion
     float countExponent; ///< counts ~ (variance / gathered pixels / rays of a sample)^this
-    float varianceSpread; ///< fraction of the 5x5 neighbourhood's largest variance that a pixel takes at least
+    float varianceSpread; ///< fraction of the 5x5 neighbours' largest v / K that a pixel takes at least
     float rays; ///< of one sample of the term
     uint values; ///< planes of what is filtered of the term: 1, a light's visibility; 3, radiance
     float oneVelocity; ///< largest difference of motions in a pixel that counts as one, as a fraction of the motion

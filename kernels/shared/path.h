@@ -40,7 +40,7 @@ typedef struct {
     uint countCap; ///< most samples a pixel may take
     float fixedWidth; ///< pixels; more than 0: this width everywhere in place of the analysis
     float countExponent; ///< of the counts from variance: n ~ (v / K)^exponent
-    float varianceSpread; ///< fraction of the 5x5 neighbourhood's largest variance that a pixel takes at least
+    float varianceSpread; ///< fraction of the 5x5 neighbours' largest v / K that a pixel takes at least
     uint meanOnly; ///< 1: of reflectors there is but the sum of inverse distances; pixels' sizes and gloss are packed
 } ReflectorParams;
 

@@ -123,4 +123,3 @@ FIELD(DistributedParams, oneVelocity) FIELD(DistributedParams, never) FIELD(Dist
 FIELD(DistributedParams, published) FIELD(DistributedParams, frames) FIELD(DistributedParams, still)
 FIELD(DistributedParams, packed) FIELD(DistributedParams, plainTexture) FIELD(DistributedParams, alongMotion)
 END(DistributedParams)
-// clang-format on
