@@ -42,7 +42,8 @@ TEST_CASE("results of a scene file have all that docs/benchmarks.md says")
         CHECK(setting["paper"].is_null());
         checkSetting(setting);
     }
-    CHECK(scene["fixed_blur"]["width_pixels"].get<double>() > 0);
+    CHECK(scene["settings"][0]["fixed_blur"]["width_pixels"].get<double>() > 0);
+    CHECK_FALSE(scene["settings"][1].contains("fixed_blur"));
     CHECK(scene["curves"].empty());
     CHECK(scene["bias"].empty());
 
@@ -53,16 +54,24 @@ TEST_CASE("results of a scene file have all that docs/benchmarks.md says")
     CHECK(cached["settings"][0]["method"] == scene["settings"][0]["method"]);
 }
 
-TEST_CASE("a glossy box has times of two bounces, and what the filter blurs by mu")
+TEST_CASE("a glossy box has times of two bounces, ambient occlusion, and what the filter blurs by mu")
 {
     const Workplace place;
     const Json all = results(place, "cornell_glossy");
     const Json& scene = all["scenes"][0];
-    REQUIRE(scene["settings"].size() == 4);
+    REQUIRE(scene["settings"].size() == 6);
     for (const Json& setting : scene["settings"]) {
         checkTiming(setting);
-        CHECK(setting["paper"]["spp"] == 59);
-        CHECK(setting.contains("method") == (setting["bounces"] == 1));
+        const bool ambient = setting["bounces"] == 0;
+        CHECK(setting["paper"].is_null() == ambient);
+        CHECK((ambient || setting["paper"]["spp"] == 59));
+        CHECK(setting.contains("method") == (setting["bounces"] != 2));
+    }
+    // Occlusion is not light: its reference is another, and its error with one width another one's.
+    REQUIRE(scene["references"].size() == 2);
+    CHECK(scene["references"][1]["integrand"] == "ambient occlusion");
+    for (const char* quantity : { "samples_saved_ambient", "rmse_ambient", "rmse_ratio_fixed_blur_ambient" }) {
+        CHECK(claim(all["claims"], std::string("indirect.cornell_glossy.") + quantity)["value"].get<double>() > 0);
     }
     REQUIRE(scene["bias"].size() == 4);
     for (const Json& bias : scene["bias"]) {
@@ -95,8 +104,8 @@ TEST_CASE("the scenes of the chapter are listed, and wrong calls end in one line
     ::setenv("WEDGE_DATA", place.path().c_str(), 1); // no meshes there
     const Outcome list = place.run({ "--list" });
     CHECK(list.status == 0);
-    for (const char* name :
-        { "cornell_glossy ", "cornell_figure ", "aaf2013_cornell_bunny ", "crytek_sponza ", "conference " }) {
+    for (const char* name : { "cornell_glossy ", "cornell_figure ", "aaf2013_cornell_bunny ", "crytek_sponza ",
+             "conference ", "bench ", "spheres " }) {
         CHECK(contains(list.out, name));
     }
     const std::string quad = "[[mesh]]\nfile = \"" + scenes + "/meshes/quad.obj\"\n";

@@ -67,15 +67,27 @@ TEST_CASE("times alone need no references")
     CHECK(all["scenes"][0]["settings"]["published"]["timing"]["tracing"]["median"].get<double>() > 0);
 }
 
-TEST_CASE("the four scenes of the chapter and the authors' own are listed")
+TEST_CASE("the four scenes of the chapter, glossy and open ones and the authors' own are listed")
 {
     const Workplace place;
     const Outcome outcome = place.run({ "--list" });
     CHECK(outcome.status == 0);
-    for (const char* name :
-        { "grids ", "bench ", "tentacles ", "spheres ", "aaf2012_grids_cut2", "aaf2012_spheres " }) {
+    for (const char* name : { "grids ", "bench ", "tentacles ", "spheres ", "cornell_glossy ", "lottery_97 ",
+             "lottery_122 ", "aaf2012_grids_cut2", "aaf2012_spheres " }) {
         CHECK(contains(outcome.out, name));
     }
+}
+
+TEST_CASE("open ground under sharp highlights is measured like any scene")
+{
+    const Workplace place;
+    const Json all = tinyResults(place, "lottery_97", {});
+    const Json& scene = all["scenes"][0];
+    CHECK(scene["curves"].empty());
+    checkSetting(scene["settings"]["default"], 3);
+    checkSetting(scene["settings"]["published"], 1);
+    CHECK(claim(all["claims"], "soft_shadows.lottery_97.samples_saved")["goal"].is_null());
+    CHECK(claim(all["claims"], "soft_shadows.lottery_97.rmse")["value"].get<double>() > 0);
 }
 
 TEST_CASE("wrong calls and files end in one line")

@@ -47,9 +47,8 @@ std::vector<Series> filterCurves(Lab& lab, const Plan& plan, bool published, con
     return { std::move(unfiltered), std::move(filterOnly), std::move(adaptive) };
 }
 
-FixedBlur bestUniformBlur(Lab& lab)
+FixedBlur bestUniformBlur(Lab& lab, const render::Settings& usual)
 {
-    const render::Settings usual = methodSettings(false, 1);
     const render::Settings settings = uniform(usual, lab.measure(usual).spp, firstPassRays);
     const float width = bestFixedWidth(lab, settings, firstWidth);
     return { width, lab.measure(fixed(settings, width)) };

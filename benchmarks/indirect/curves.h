@@ -12,6 +12,6 @@ namespace wedge::benchmark {
 std::vector<Series> filterCurves(Lab& lab, const Plan& plan, bool published, const std::vector<Measured>& plain);
 
 /// The default setting's mean count, the same for each pixel, with the best single width in place of the adaptive ones.
-FixedBlur bestUniformBlur(Lab& lab);
+FixedBlur bestUniformBlur(Lab& lab, const render::Settings& usual);
 
 } // namespace wedge::benchmark

@@ -4,26 +4,43 @@
 
 namespace wedge::benchmark {
 
-std::string integrandName(int bounces) { return fmt::format("{} bounce{}", bounces, bounces == 1 ? "" : "s"); }
+namespace {
 
-render::Settings methodSettings(bool published, int bounces)
+render::Settings of(const BounceCase& paths, render::Settings settings)
 {
-    render::Settings out = published ? render::asPublished() : render::axisAligned();
-    out.bounces = bounces;
-    return out;
+    settings.bounces = paths.bounces;
+    if (paths.bounces == 0) {
+        settings.integrator = render::Integrator::AmbientOcclusion;
+        settings.indirect.ambientDistance = paths.ambientDistance;
+    }
+    return settings;
 }
 
-render::Settings unfiltered(render::Sampler sampler, int spp, int bounces)
+} // namespace
+
+std::string integrandName(int bounces)
+{
+    return bounces == 0 ? "ambient occlusion" : fmt::format("{} bounce{}", bounces, bounces == 1 ? "" : "s");
+}
+
+render::Settings methodSettings(bool published, const BounceCase& paths)
+{
+    return of(paths, published ? render::asPublished() : render::axisAligned());
+}
+
+render::Settings unfiltered(render::Sampler sampler, int spp, const BounceCase& paths)
 {
     render::Settings out = render::monteCarlo(spp);
     out.sampler = sampler;
-    out.bounces = bounces;
-    return out;
+    return of(paths, out);
 }
 
 Integrand IndirectLight::integrandOf(const render::Settings& settings) const
 {
-    return { integrandName(settings.bounces), unfiltered(render::Sampler::Sobol, referenceSpp_, settings.bounces) };
+    BounceCase paths;
+    paths.bounces = settings.bounces;
+    paths.ambientDistance = settings.indirect.ambientDistance;
+    return { integrandName(settings.bounces), unfiltered(render::Sampler::Sobol, referenceSpp_, paths) };
 }
 
 double IndirectLight::raysOf(const render::FrameStatistics& frame) const

@@ -2,13 +2,14 @@
 
 #include "benchmarks/common/lab.h"
 #include "benchmarks/common/timing.h"
+#include "benchmarks/indirect/scenes.h"
 
 #include <string>
 #include <vector>
 
 namespace wedge::benchmark {
 
-/// Indirect light alone, of so many bounces.
+/// Indirect light alone, of so many bounces, or ambient occlusion.
 class IndirectLight : public Subject {
 public:
     explicit IndirectLight(int referenceSpp)
@@ -28,14 +29,14 @@ private:
     int referenceSpp_;
 };
 
-/// Its name in integrandOf(): "1 bounce", "2 bounces".
+/// Its name in integrandOf(): "1 bounce", "2 bounces"; of none "ambient occlusion".
 std::string integrandName(int bounces);
 
 /// The method as it comes, or as published.
-render::Settings methodSettings(bool published, int bounces);
+render::Settings methodSettings(bool published, const BounceCase& paths);
 
-/// Path tracing without a filter.
-render::Settings unfiltered(render::Sampler sampler, int spp, int bounces);
+/// Path tracing, or ambient occlusion, without a filter.
+render::Settings unfiltered(render::Sampler sampler, int spp, const BounceCase& paths);
 
 /// The columns of Table 4.1; docs/benchmarks.md.
 const std::vector<TimingColumn>& indirectColumns();

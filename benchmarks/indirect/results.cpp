@@ -27,7 +27,11 @@ Json dataOf(const SceneResult& result, const IndirectSetting& setting)
 {
     Json out = { { "setting", setting.name }, { "bounces", setting.bounces } };
     out["paper"] = dataOf(caseOf(result, setting.bounces).paper);
-    out.update(dataOf(setting, PointForm { result.noiseOf(setting.bounces) }));
+    const PointForm form { result.noiseOf(setting.bounces) };
+    out.update(dataOf(setting, form));
+    if (setting.fixedBlur) {
+        out["fixed_blur"] = dataOf(*setting.fixedBlur, form);
+    }
     return out;
 }
 
@@ -38,7 +42,9 @@ std::vector<Claim> claimsOf(const SceneResult& result)
     ClaimList list("indirect", result.source.name);
     for (const IndirectSetting& setting : result.settings) {
         const bool one = setting.bounces == 1;
-        const std::string bounces = one ? "" : fmt::format("_{}_bounces", setting.bounces);
+        const std::string bounces = one ? ""
+            : setting.bounces == 0      ? "_ambient"
+                                        : fmt::format("_{}_bounces", setting.bounces);
         const std::string suffix = suffixOf(setting.name) + bounces;
         const bool judged = setting.name == "default";
         const BounceCase& paths = caseOf(result, setting.bounces);
@@ -47,10 +53,10 @@ std::vector<Claim> claimsOf(const SceneResult& result)
             addErrorClaims(list, setting, suffix, one ? result.source.paperSamplesSaved : std::nullopt,
                 one && judged ? result.source.samplesSavedGoal : std::nullopt);
         }
-    }
-    if (result.fixedBlur) {
-        const double adaptive = result.setting("default", 1).method.runs.front().error;
-        list.add("rmse_ratio_fixed_blur", result.fixedBlur->measured.error / adaptive, "1");
+        if (setting.fixedBlur) {
+            const double adaptive = setting.method.runs.front().error;
+            list.add("rmse_ratio_fixed_blur" + suffix, setting.fixedBlur->measured.error / adaptive, "1");
+        }
     }
     for (const Bias& bias : result.biases) {
         list.add(fmt::format("bias_mu{:g}{}", bias.mu, suffixOf(bias.setting)), bias.rms, "radiance");
@@ -71,9 +77,6 @@ Json dataOf(const SceneResult& result)
         out["settings"].push_back(dataOf(result, setting));
     }
     const PointForm form { result.noiseOf(1) };
-    if (result.fixedBlur) {
-        out["fixed_blur"] = dataOf(*result.fixedBlur, form);
-    }
     out["curves"] = Json::array();
     for (const Series& series : result.series) {
         out["curves"].push_back(dataOf(series, form));

@@ -17,7 +17,7 @@ using render::Sampler;
 
 IndirectSetting measureSetting(Lab& lab, const BounceCase& paths, bool published)
 {
-    const render::Settings settings = methodSettings(published, paths.bounces);
+    const render::Settings settings = methodSettings(published, paths);
     IndirectSetting out;
     out.name = published ? "published" : "default";
     out.bounces = paths.bounces;
@@ -28,18 +28,20 @@ IndirectSetting measureSetting(Lab& lab, const BounceCase& paths, bool published
     }
     out.method = measureMethod(lab, out.name, settings);
     const auto compare = [&](const char* name, const char* meaning, Sampler sampler) {
-        const auto settingsOf = [&paths, sampler](int spp) { return unfiltered(sampler, spp, paths.bounces); };
+        const auto settingsOf = [&paths, sampler](int spp) { return unfiltered(sampler, spp, paths); };
         out.baselines.push_back(compareWith(lab, out.method, name, meaning, settingsOf));
     };
     compare("stratified", "path tracing, stratified", Sampler::Stratified);
     compare("sobol", "path tracing, Owen-scrambled Sobol", Sampler::Sobol);
+    if (!published && paths.bounces <= 1) {
+        out.fixedBlur = bestUniformBlur(lab, settings);
+    }
     return out;
 }
 
-/// What has one bounce only.
+/// Curves and biases, of one bounce.
 void measureVariants(Lab& lab, const Plan& plan, SceneResult& out)
 {
-    out.fixedBlur = bestUniformBlur(lab);
     for (const bool published : { false, true }) {
         if (out.source.curves) {
             const IndirectSetting& usual = out.setting(published ? "published" : "default", 1);

@@ -13,7 +13,8 @@ namespace wedge::benchmark {
 
 /// Everything measured in one setting with so many bounces.
 struct IndirectSetting : SettingResult {
-    int bounces = 1;
+    int bounces = 1; ///< 0: ambient occlusion
+    std::optional<FixedBlur> fixedBlur; ///< of the default setting, with one bounce and of ambient occlusion
 };
 
 /// Everything measured of one scene.
@@ -21,7 +22,6 @@ struct SceneResult {
     IndirectScene source;
     std::size_t triangles = 0;
     std::vector<IndirectSetting> settings; ///< by bounces, the default before the published one
-    std::optional<FixedBlur> fixedBlur;
     std::vector<Series> series;
     std::vector<Bias> biases;
     std::map<std::string, Reference> references; ///< by integrandName(), without their pixels

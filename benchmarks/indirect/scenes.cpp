@@ -18,8 +18,11 @@ constexpr double paperSponza = 324.0 / 63, paperConference = 440.0 / 60, paperFi
 // Half of what the thesis' overheads are of its frames, about.
 constexpr double cornellOverhead = 0.08;
 
-IndirectScene scene(
-    SceneSource source, std::vector<BounceCase> cases, double goal, std::optional<double> paper, bool curves, bool bias)
+// A quarter of the box.
+constexpr float cornellAmbientDistance = 0.5f;
+
+IndirectScene scene(SceneSource source, std::vector<BounceCase> cases, std::optional<double> goal,
+    std::optional<double> paper, bool curves, bool bias)
 {
     return { std::move(source), std::move(cases), goal, paper, curves, bias };
 }
@@ -30,7 +33,9 @@ const std::vector<IndirectScene>& indirectScenes()
 {
     static const std::vector<IndirectScene> scenes = {
         scene(generatedScene("cornell_glossy", generator::makeCornellGlossy),
-            { { 1, &glossy1, cornellOverhead }, { 2, &glossy2, {}, false } }, 5, paperGlossy, false, true),
+            { { 1, &glossy1, cornellOverhead }, { 2, &glossy2, {}, false },
+                { 0, nullptr, {}, true, cornellAmbientDistance } },
+            5, paperGlossy, false, true),
         scene(generatedScene("cornell_figure", generator::makeCornellFigure),
             { { 1, &figure1, cornellOverhead }, { 2, &figure2, {}, false }, { 3, &figure3, 0.025, false } }, 5,
             paperFigure, true, false),
@@ -41,6 +46,9 @@ const std::vector<IndirectScene>& indirectScenes()
             { { 1, &sponza, 0.04 } }, 5, paperSponza, false, false),
         scene(externalScene("conference", "the conference room, from WEDGE_DATA", "conference/conference.obj"),
             { { 1, &conference, 0.065 } }, 7, paperConference, true, false),
+        // Fig. 4.12 shows ambient occlusion and has no figures. Under the open sky, then.
+        scene(generatedScene("bench", generator::makeBench), { { 0, nullptr, {} } }, {}, {}, false, false),
+        scene(generatedScene("spheres", generator::makeSpheres), { { 0, nullptr, {} } }, {}, {}, false, false),
     };
     return scenes;
 }

@@ -11,10 +11,12 @@
 namespace wedge::benchmark {
 namespace {
 
-/// The scene's name, and its bounces where they are several.
+/// The scene's name, and its bounces where they are not one.
 std::string rowName(const SceneResult& result, int bounces)
 {
-    return bounces == 1 ? result.source.name : fmt::format("{}, {} b.", result.source.name, bounces);
+    return bounces == 0 ? result.source.name + ", ao"
+        : bounces == 1  ? result.source.name
+                        : fmt::format("{}, {} b.", result.source.name, bounces);
 }
 
 void addTimes(const SceneResult& result, std::vector<TimingRow>& rows)
@@ -39,8 +41,11 @@ std::string errorLines(const SceneResult& result)
         if (!setting.method.runs.empty()) {
             out += errorLine(rowName(result, setting.bounces), setting, result.noiseOf(setting.bounces));
         }
+        if (setting.fixedBlur) {
+            out += errorLine(rowName(result, setting.bounces), *setting.fixedBlur);
+        }
     }
-    return result.fixedBlur ? out + errorLine(result.source.name, *result.fixedBlur) : out;
+    return out;
 }
 
 std::string biasLines(const SceneResult& result)

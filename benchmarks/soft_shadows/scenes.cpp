@@ -1,5 +1,7 @@
 #include "benchmarks/soft_shadows/scenes.h"
 
+#include "data/generator/lottery/lottery.h"
+
 namespace wedge::benchmark {
 namespace {
 
@@ -29,6 +31,11 @@ const std::vector<ShadowScene>& shadowScenes()
         { generatedScene("bench", generator::makeBench), &bench, { 4, {}, 0.03, {} } },
         { generatedScene("tentacles", generator::makeTentacles), &tentacles, { 4, {}, 0.03, paperTentaclesSaved } },
         { generatedScene("spheres", generator::makeSpheres), &spheres, { 5, {}, 0.03, {} } },
+        // What the chapter has not: lobes; open ground whose lights dip below horizons, under sharp highlights; clutter
+        // under four lights. No goals: the lottery has those.
+        { generatedScene("cornell_glossy", generator::makeCornellGlossy), nullptr, {}, false },
+        { generatedScene("lottery_97", [] { return generator::makeLottery(97); }), nullptr, {}, false },
+        { generatedScene("lottery_122", [] { return generator::makeLottery(122); }), nullptr, {}, false },
         { authors("aaf2012_grids_cut2", gridsMesh), &grids, { 15, 6, 0.20, paperGridsSaved } },
         { authors("aaf2012_spheres_cut2", spheresMesh), &spheres, { 5, {}, 0.03, {} }, false },
         // As their authors light them. No goal for the samples: light cut at 1 sigma is nearly uniform.
