@@ -28,13 +28,15 @@ double linear(std::uint32_t byte)
     return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
+double plain(std::uint32_t byte) { return byte / 255.0; }
+
 /// Bilinear look-up with repetition, channel 0 to 2.
-double texel(const scene::Texture& t, double u, double v, int channel)
+double texel(const scene::Texture& t, double u, double v, int channel, double (*decode)(std::uint32_t) = linear)
 {
     const double x = (u - std::floor(u)) * t.width - 0.5, y = (v - std::floor(v)) * t.height - 0.5;
     const auto at = [&](double i, double k) {
         const int px = (static_cast<int>(i) + t.width) % t.width, py = (static_cast<int>(k) + t.height) % t.height;
-        return linear((t.rgba[static_cast<std::size_t>(py * t.width + px)] >> (8 * channel)) & 255u);
+        return decode((t.rgba[static_cast<std::size_t>(py * t.width + px)] >> (8 * channel)) & 255u);
     };
     const double fx = x - std::floor(x), fy = y - std::floor(y);
     const double low = at(std::floor(x), std::floor(y)) * (1 - fx) + at(std::floor(x) + 1, std::floor(y)) * fx;
@@ -188,7 +190,7 @@ TEST_CASE("pixelSize: on a slanted plane, the root of the area that the pixel's 
     });
 }
 
-TEST_CASE("textures are bilinear, repeated, and linear after the sRGB curve")
+TEST_CASE("textures are bilinear, repeated, and linear: colours after the sRGB curve, exponents as they are")
 {
     onEveryDevice([](const device::Device& device) {
         SceneBuilder b;
@@ -206,14 +208,17 @@ TEST_CASE("textures are bilinear, repeated, and linear after the sRGB curve")
         b.scene.materials[0].diffuseTexture = 1;
         b.scene.materials[0].emission = { 2, 2, 2 };
         b.scene.materials[0].emissionTexture = 0;
+        b.scene.materials[0].specular = glm::vec3(0.3f);
+        b.scene.materials[0].exponent = 200;
+        b.scene.materials[0].exponentTexture = 1;
         for (const float offset : { 0.0f, -1.3f, 1000.5f }) {
             scene::Scene scene = b.scene;
             for (std::size_t i = 0; i < scene.geometry.texcoords.size(); ++i)
                 scene.geometry.texcoords[i] = scene.geometry.texcoords[i] * 3 + offset;
-            TracedScene traced(scene, device, 33, 25);
+            TracedScene traced(scene, device, 33, 25, { { "WEDGE_SPECULAR", "1" } });
             traced.primary();
             const auto diffuse = traced.read(traced.frame.diffuse), emission = traced.read(traced.frame.emission);
-            const auto position = traced.read(traced.frame.position);
+            const auto exponent = traced.read(traced.frame.gloss), position = traced.read(traced.frame.position);
             const auto id = traced.read(traced.frame.objectId);
             double worst = 0;
             traced.everyPixel([&](int x, int y) {
@@ -223,6 +228,8 @@ TEST_CASE("textures are bilinear, repeated, and linear after the sRGB curve")
                              v = (0.5 + position.at(x, y, 1) / 4) * 3 + offset;
                 worst = std::max(worst, std::fabs(diffuse.at(x, y, 1) - 0.5 * texel(scene.textures[1], u, v, 1)));
                 worst = std::max(worst, std::fabs(emission.at(x, y, 2) - 2 * texel(scene.textures[0], u, v, 2)));
+                // A number and no colour.
+                worst = std::max(worst, std::fabs(exponent.at(x, y) / 200 - texel(scene.textures[1], u, v, 0, plain)));
             });
             CAPTURE(offset);
             CHECK(worst < (offset > 100 ? 5e-3 : 2e-4));

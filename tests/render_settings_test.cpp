@@ -1,5 +1,6 @@
 // Settings of distributed frames: which are refused, and that all that shape an image are told apart.
 #include "host/error.h"
+#include "host/render/filters/gaussian.h"
 #include "host/render/settings.h"
 
 #include <doctest/doctest.h>
@@ -7,6 +8,8 @@
 #include <functional>
 #include <limits>
 #include <vector>
+
+#include <glm/glm.hpp>
 
 namespace wedge::render {
 namespace {
@@ -102,6 +105,22 @@ TEST_CASE("the fewest samples are those of the first pass, the most of a distrib
     }
     CHECK(allowed(monteCarlo(1), mostDistributedSpp + 1, true));
     CHECK(allowed(monteCarlo(1), 1, true));
+}
+
+TEST_CASE("the published filter of irradiance measures plain distances and takes the narrower of both kernels")
+{
+    // (5.31). Under a light, too: distances in its plane are those of the default, and of chapter 3.
+    const shared::FrameParams frame {};
+    const image::Window window { 0, 0, 16, 16 };
+    const Settings published = asPublished();
+    const shared::FilterParams filter = publishedParams(published, frame, window);
+    CHECK(filter.oblique == 0);
+    CHECK(glm::vec3(filter.lightNormal.x, filter.lightNormal.y, filter.lightNormal.z) == glm::vec3(0.0f));
+    CHECK(filter.narrower == 1);
+    shared::AreaLight light {};
+    light.normal = { 0, 0, -1 };
+    CHECK(filterParams(published, frame, light, window).lightNormal.z == -1);
+    CHECK(filterParams(axisAligned(), frame, light, window).oblique == 1);
 }
 
 TEST_CASE("settings that differ are described differently")
