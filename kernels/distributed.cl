@@ -283,7 +283,17 @@ WEDGE_FN Vec3 ownRadiance(DistributedParams p, uint i, __global const float* tex
                              : vecMul(loadTexture(p, texture, i), loadValue(p, value, i));
 }
 
-/// radiance += a term: where it is taken apart filteredTexture filtered (p.values planes), elsewhere its own.
+/// What a light's own radiance k V has of colour that its luminance times k has not: textures of several colours that
+/// see the light differently. It has no luminance, and is 0 where all that a pixel shows has one colour.
+WEDGE_FN Vec3 ownColour(Vec3 texture, Vec3 value)
+{
+    const Vec3 own = vecMul(texture, value);
+    const float t = luminance(texture);
+    return t > 0.0f ? vecSub(own, vecScale(texture, luminance(own) / t)) : vec3(0.0f, 0.0f, 0.0f);
+}
+
+/// radiance += a term: where it is taken apart filteredTexture filtered (p.values planes), elsewhere its own. Of lights
+/// visibilities are filtered, in which colours have no part: each pixel keeps its own.
 __kernel void addFilteredTerm(DistributedParams p, __global const float* restrict texture,
     __global const float* restrict filteredTexture, __global const float* restrict value,
     __global const float* restrict filtered, __global const float* restrict beta,
@@ -298,6 +308,11 @@ __kernel void addFilteredTerm(DistributedParams p, __global const float* restric
     Vec3 term;
     if (beta[i] >= 0.0f) {
         term = vecMul(p.plainTexture != 0u ? loadVec(filteredTexture, n, i) : loadTexture(p, filteredTexture, i), e);
+        if (p.values == 1u && p.published == 0u) {
+            const Vec3 colour = ownColour(loadTexture(p, texture, i), loadValue(p, value, i));
+            term = vecAdd(term, colour);
+            term = vec3(fmax(term.x, 0.0f), fmax(term.y, 0.0f), fmax(term.z, 0.0f));
+        }
     } else {
         term = ownRadiance(p, i, texture, value, termRadiance);
     }

@@ -100,7 +100,9 @@ void checkAdds(const Launch& launch, const Expected& expected)
 
 } // namespace
 
-TEST_CASE("a filtered term adds the filtered texture times the filtered value where they are apart, elsewhere its own")
+TEST_CASE(
+    "a filtered term adds the filtered texture times the filtered value, and of lights its own colour, where they are "
+    "apart, elsewhere its own")
 {
     checkAdds(
         [](KernelBench& bench, const shared::DistributedParams& p, const TermPlanes& term,
@@ -115,8 +117,16 @@ TEST_CASE("a filtered term adds the filtered texture times the filtered value wh
         [](const shared::DistributedParams& p, const TermPlanes& term, int x, int y) {
             if (term.beta.at(x, y) < 0)
                 return term.ownRadiance(p.published != 0, x, y);
-            return term.filteredTexture.vector(x, y)
-                * (p.values == 3 ? term.filtered.vector(x, y) : glm::dvec3(term.filtered.at(x, y)));
+            const glm::dvec3 k = term.filteredTexture.vector(x, y);
+            if (p.values == 3)
+                return k * term.filtered.vector(x, y);
+            const glm::dvec3 one = k * static_cast<double>(term.filtered.at(x, y));
+            if (p.published != 0)
+                return one;
+            // Of the colour that textures have which see the light differently each pixel keeps its own.
+            const glm::dvec3 texture = term.texture.vector(x, y), own = term.ownRadiance(false, x, y);
+            const double t = luminanceOf(texture);
+            return glm::max(one + (t > 0 ? own - texture * (luminanceOf(own) / t) : glm::dvec3(0)), 0.0);
         });
 }
 

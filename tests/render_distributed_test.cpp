@@ -77,7 +77,54 @@ void requireCropOfWhole(
     CHECK(sameBits(part(3, window), whole));
 }
 
+/// A wall, red on the left and green on the right, as bright as each other, under a light on the left that a fin on the
+/// border between them hides from the green: the camera sees the fin edge on.
+scene::Scene twoColours()
+{
+    SceneBuilder b;
+    constexpr std::uint32_t red = 0x3f3ff3u, green = 0x7c913fu; // bytes of blue, green and red
+    std::vector<std::uint32_t> halves(512, red);
+    halves.resize(1024, green);
+    b.scene.textures.push_back({ "", 1024, 1, halves });
+    b.scene.materials[0].diffuseTexture = 0;
+    b.quad({ 0, 0, 0 }, { 3, 0, 0 }, { 0, 3, 0 });
+    b.quad({ 0, 0, 0.5f }, { 0, 0, 0.5f }, { 0, 3, 0 });
+    b.light({ -2, 0, 2 }, { 0, 0.3f, 0 }, { 0.2f, 0, 0.2f }, scene::LightProfile::Gaussian, 60);
+    b.camera({ 0, 0, 3 }, { 0, 0, 0 });
+    return b.scene;
+}
+
 } // namespace
+
+TEST_CASE("a pixel of two colours of which one is in the shadow has the other")
+{
+    onEveryDevice([](const device::Device& device) {
+        const scene::Scene scene = twoColours();
+        render::Renderer renderer(scene, device, renderOptions());
+        constexpr int width = 21, height = 15, seeds = 8;
+        const auto border = [&](render::Settings settings) {
+            glm::dvec3 sum(0);
+            settings.antialias = true;
+            for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
+                settings.seed = seed;
+                const std::vector<float> image = renderPixels(renderer, sized(settings, width, height));
+                for (int y = 4; y < height - 4; ++y)
+                    for (int c = 0; c < 3; ++c)
+                        sum[c] +=
+                            image[3 * static_cast<std::size_t>(y * width + width / 2) + static_cast<std::size_t>(c)];
+            }
+            return sum / (1.0 * seeds * (height - 8));
+        };
+        const glm::dvec3 filtered = border(render::axisAligned(28)), plain = border(render::monteCarlo(256));
+        CAPTURE(filtered.x);
+        CAPTURE(filtered.y);
+        CAPTURE(plain.x);
+        CAPTURE(plain.y);
+        CHECK(plain.x > 5 * plain.y);
+        for (int c = 0; c < 3; ++c)
+            CHECK(std::fabs(filtered[c] - plain[c]) < 0.04 * plain.x);
+    });
+}
 
 TEST_CASE("more samples asked for are taken: where the first ones saw little, and under point lights alone")
 {
