@@ -89,25 +89,22 @@ __kernel void addDiffuse(AnalysisParams p, SampleParams params, AreaLight light,
     }
 }
 
-/// Directions of each lobe that is too sharp for a rule.
-#define WEDGE_LOBE_DIRECTIONS 256u
-
 /// Unshadowed specular shading in the way of the term, of lanes `wanted`.
-WEDGE_FN float16 specularShading(
-    SampleParams params, AreaLight light, Receivers16 r, __global const float* nodes, int16 wanted)
+WEDGE_FN float16 specularShading(SampleParams params, AreaLight light, Receivers16 r, __global const float* nodes,
+    int16 wanted, LobeDirections directions)
 {
     if (params.shading == WEDGE_SHADING_INSIDE) {
         return (float16)(1.0f);
     }
     if (params.shading == WEDGE_SHADING_RATIO) {
-        return unshadowedSpecular(light, r, nodes, wanted, WEDGE_LOBE_DIRECTIONS);
+        return unshadowedSpecular(light, r, nodes, wanted, directions);
     }
     return arrivesFrom(light, r, splat3(light.centre), true) * normalization16(r);
 }
 
 /// One light's specular reflection; value and noisy hold the specular term in their second plane, that of the first
-/// part of the samples is in the fourth.
-__kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light, FrameParams frame,
+/// part of the samples is in the fourth. directions: of each lobe that is too sharp for a rule
+__kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light, FrameParams frame, uint directions,
     __global const float* restrict nodes, __global const float* restrict position,
     __global const float* restrict normal, __global const uint* restrict objectId, __global const float* restrict gloss,
     __global const float* restrict specular, __global const float* restrict value, __global const float* restrict noisy,
@@ -129,7 +126,12 @@ __kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light
     const Vec3x16 at = loadVecBlock(position, size, i);
     const Receivers16 r =
         glossyReceivers(at, loadVecBlock(normal, size, i), unit16(sub16(splat3(frame.eye), at)), loadBlock(gloss, i));
-    const float16 shading = mirrors ? specularShading(params, light, r, nodes, mirrors) : (float16)(0.0f);
+    LobeDirections lobes;
+    lobes.pixel = (x + (uint16)(0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 9u, 10u, 11u, 12u, 13u, 14u, 15u)) | (y << 16);
+    lobes.first = (uint16)(0u);
+    lobes.count = directions;
+    lobes.seed = frame.seed;
+    const float16 shading = mirrors ? specularShading(params, light, r, nodes, mirrors, lobes) : (float16)(0.0f);
     Vec3x16 reflected;
     reflected.x = shading * ks.x * light.power.x;
     reflected.y = shading * ks.y * light.power.y;

@@ -357,34 +357,48 @@ WEDGE_INLINE float broughtByLobe(AreaLight light, const ReceiverLanes* r, uint l
     return m.t < INFINITY && cosine > 0.0f ? value : 0.0f;
 }
 
-/// The mean of lobe times geometry term by `count` directions of the lobe: nothing is in the way, so that they need no
-/// rays. An additive sequence (Roberts' R2), shifted in each receiver by what its position gives.
-WEDGE_FN float16 unshadowedByLobe(AreaLight light, Receivers16 receivers, uint count)
+/// Which directions of their lobes receivers take: of a pixel's sequence `count` from `first` on.
+typedef struct {
+    uint16 pixel; ///< x in the lower 16 bits, y in the upper
+    uint16 first;
+    uint count;
+    uint seed; ///< of the frame
+} LobeDirections;
+
+/// Roberts' additive sequence R2, in units of 2^-32.
+#define WEDGE_R2_FIRST 3242174889u
+#define WEDGE_R2_SECOND 2447445414u
+
+/// The mean of lobe times geometry term by directions of the lobe: nothing is in the way, so that they need no rays.
+/// Each pixel has a sequence of its own, which its receivers share out: however many see the same point, their mean
+/// becomes the integral.
+WEDGE_FN float16 unshadowedByLobe(AreaLight light, Receivers16 receivers, LobeDirections directions)
 {
     const ReceiverLanes r = lanesOf(receivers);
-    float sum[WEDGE_BLOCK_PIXELS], u[WEDGE_BLOCK_PIXELS], v[WEDGE_BLOCK_PIXELS];
+    float sum[WEDGE_BLOCK_PIXELS];
+    uint u[WEDGE_BLOCK_PIXELS], v[WEDGE_BLOCK_PIXELS], first[WEDGE_BLOCK_PIXELS];
+    vstore16(directions.pixel, 0, u);
+    vstore16(directions.first, 0, first);
     for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
-        const uint seed = hashCombine(
-            hashCombine(as_uint(r.positionX[lane]), as_uint(r.positionY[lane])), as_uint(r.positionZ[lane]));
-        u[lane] = toUnitFloat(seed);
-        v[lane] = toUnitFloat(hashUint(seed));
+        const uint shift = hashCombine(directions.seed, u[lane]);
+        u[lane] = shift + first[lane] * WEDGE_R2_FIRST;
+        v[lane] = hashUint(shift) + first[lane] * WEDGE_R2_SECOND;
         sum[lane] = 0.0f;
     }
-    for (uint k = 0u; k < count; ++k) {
+    for (uint k = 0u; k < directions.count; ++k) {
         for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
-            sum[lane] += broughtByLobe(light, &r, lane, vec2(u[lane], v[lane]));
-            const float nextU = u[lane] + 0.754877666f, nextV = v[lane] + 0.569840291f;
-            u[lane] = nextU >= 1.0f ? nextU - 1.0f : nextU;
-            v[lane] = nextV >= 1.0f ? nextV - 1.0f : nextV;
+            sum[lane] += broughtByLobe(light, &r, lane, vec2(toUnitFloat(u[lane]), toUnitFloat(v[lane])));
+            u[lane] += WEDGE_R2_FIRST;
+            v[lane] += WEDGE_R2_SECOND;
         }
     }
-    return vload16(0, sum) / ((float)count * light.profileArea);
+    return vload16(0, sum) / ((float)directions.count * light.profileArea);
 }
 
 /// Mean of lobe times geometry term over the light, 1/(sr m^2), of lanes `wanted`, 0 elsewhere. directions: of each
 /// lobe that is too sharp for a rule.
 WEDGE_FN float16 unshadowedSpecular(
-    AreaLight light, Receivers16 r, __global const float* nodes, int16 wanted, uint directions)
+    AreaLight light, Receivers16 r, __global const float* nodes, int16 wanted, LobeDirections directions)
 {
     int16 sharp;
     float16 mean = unshadowedMean(light, r, nodes, wanted, true, &sharp) * normalization16(r);

@@ -15,19 +15,20 @@ WEDGE_FN Vec3x16 unpackDirection16(uint16 packed)
     return unit16(v);
 }
 
-/// Directions of a lobe for each receiver: its pixel has many.
+/// Directions of a lobe for each receiver: its pixel has many, which take them in turn.
 #define WEDGE_LOBE_DIRECTIONS 24u
 #endif
 
-/// in   nodes: as of unshadowed.h; wave's planes: position, normal, specular (3 each), objectId, gloss, view
+/// in   nodes: as of unshadowed.h; wave's planes: pixelOf, sampleOf (waves.cl), position, normal, specular (3 each),
+///      objectId, gloss, view
 /// out  unshadowed: mean geometry term over the light, 1/m^2, as the light's samples estimate it; 0 without a surface;
 /// in a
 ///      second plane, where something is specular, mean lobe times geometry term, 1/(sr m^2)
 __kernel void unshadowedReceivers(FrameParams frame, WaveParams wave, AreaLight light,
-    __global const float* restrict nodes, __global const float* restrict position,
-    __global const float* restrict normal, __global const uint* restrict objectId,
-    __global const float* restrict specular, __global const float* restrict gloss, __global const uint* restrict view,
-    __global float* restrict unshadowed)
+    __global const float* restrict nodes, __global const uint* restrict pixelOf, __global const uint* restrict sampleOf,
+    __global const float* restrict position, __global const float* restrict normal,
+    __global const uint* restrict objectId, __global const float* restrict specular,
+    __global const float* restrict gloss, __global const uint* restrict view, __global float* restrict unshadowed)
 {
     const uint first = get_global_id(0) * WEDGE_BLOCK_PIXELS;
     if (frame.tileCount == 0u || first >= wave.receivers) {
@@ -45,10 +46,17 @@ __kernel void unshadowedReceivers(FrameParams frame, WaveParams wave, AreaLight 
     if (any(mirrors)) {
         const Receivers16 r =
             glossyReceivers(at, facing, unpackDirection16(loadIdBlock(view, (int)first)), loadBlock(gloss, (int)first));
-        lobes = unshadowedSpecular(light, r, nodes, mirrors, WEDGE_LOBE_DIRECTIONS);
+        LobeDirections directions;
+        directions.pixel = loadIdBlock(pixelOf, (int)first);
+        directions.first = loadIdBlock(sampleOf, (int)first) * WEDGE_LOBE_DIRECTIONS;
+        directions.count = WEDGE_LOBE_DIRECTIONS;
+        directions.seed = frame.seed;
+        lobes = unshadowedSpecular(light, r, nodes, mirrors, directions);
     }
     vstore16(lobes, 0, unshadowed + wave.planeSize + first);
 #else
+    (void)pixelOf;
+    (void)sampleOf;
     (void)specular;
     (void)gloss;
     (void)view;

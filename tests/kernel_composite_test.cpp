@@ -193,7 +193,7 @@ TEST_CASE("addSpecular: the second term times the lobe's unshadowed shading time
                        deviation = bench.filled(in.layout().size, 0.125f);
             bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addSpecular", in.params,
                 WEDGE_BLOCK_PIXELS, shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made, frame,
-                bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values),
+                std::uint32_t { 256 }, bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values),
                 bench.buffer(in.normal.values), bench.buffer(in.objectId.values), bench.buffer(in.gloss.values),
                 bench.buffer(in.specular.values), bench.buffer(in.value.values), bench.buffer(in.noisy.values),
                 bench.buffer(in.taken.values), direct, noisy, deviation);
@@ -270,9 +270,9 @@ TEST_CASE("addSpecular: a mirror shows the light's own radiance, where it shows 
                        noisy = bench.filled(3 * in.layout().size, 0.0f);
             bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addSpecular", in.params,
                 WEDGE_BLOCK_PIXELS, shared::SampleParams { WEDGE_SHADING_RATIO, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} },
-                made, frame, bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values),
-                bench.buffer(in.normal.values), bench.buffer(in.objectId.values), bench.buffer(sharp),
-                bench.buffer(in.specular.values), bench.buffer(whole), bench.buffer(whole),
+                made, frame, std::uint32_t { 256 }, bench.buffer(render::lightNodes(light)),
+                bench.buffer(in.position.values), bench.buffer(in.normal.values), bench.buffer(in.objectId.values),
+                bench.buffer(sharp), bench.buffer(in.specular.values), bench.buffer(whole), bench.buffer(whole),
                 bench.buffer(in.taken.values), direct, noisy, bench.filled(in.layout().size, 0.0f));
             const Planes<float> found = planesOf(in.layout(), bench.read(direct));
             std::size_t next = 0;

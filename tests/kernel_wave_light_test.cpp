@@ -134,7 +134,9 @@ std::vector<float> unshadowed(
                 out[c * planeSize + r] = static_cast<float>(value(points[r], static_cast<int>(c)));
         return bench.buffer(out);
     };
-    std::vector<std::uint32_t> objects(planeSize, 0), views(planeSize, 0);
+    // One pixel's receivers, the first to the last.
+    std::vector<std::uint32_t> objects(planeSize, 0), views(planeSize, 0), pixels(planeSize, 7), samples(planeSize, 0);
+    std::iota(samples.begin(), samples.end(), 0u);
     for (std::size_t r = 0; r < points.size(); ++r) {
         objects[r] = points[r].surface ? 5 : 0;
         const glm::vec3 v(points[r].view);
@@ -148,7 +150,8 @@ std::vector<float> unshadowed(
     const auto out = bench.filled(2 * planeSize, untouched);
     bench.passes.list("unshadowed shading", device::PassKind::Trace, "wave_light.cl", "unshadowedReceivers",
         (count + WEDGE_BLOCK_PIXELS - 1) / WEDGE_BLOCK_PIXELS, frame, wave, render::deviceLight(light),
-        bench.buffer(render::lightNodes(light)), planes(3, [](const ReceiverPoint& p, int c) { return p.position[c]; }),
+        bench.buffer(render::lightNodes(light)), bench.buffer(pixels), bench.buffer(samples),
+        planes(3, [](const ReceiverPoint& p, int c) { return p.position[c]; }),
         planes(3, [](const ReceiverPoint& p, int c) { return p.normal[c]; }), bench.buffer(objects),
         planes(3, [](const ReceiverPoint& p, int) { return p.specular; }),
         planes(1, [](const ReceiverPoint& p, int) { return p.phong ? -p.exponent : p.exponent; }), bench.buffer(views),
@@ -228,6 +231,32 @@ TEST_CASE("diffuse: the mean geometry term over the light, near, far and partly 
             CHECK(horizons > 30);
             CHECK(close > 40);
         });
+    });
+}
+
+TEST_CASE("receivers of a pixel that see one point share out the lobe's directions: their mean is the integral")
+{
+    // What stands still, and in focus, while something else moves.
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device, shiny);
+        const scene::AreaLight light = lamp(scene::LightProfile::Gaussian, false);
+        std::mt19937 random(5);
+        for (int k = 0; k < 12; ++k) {
+            ReceiverPoint p = randomReceiver(light, 1000, random);
+            while (!p.surface || p.specular == 0 || lobesAcross(light, p) < 41 || overLight(light, p).horizon)
+                p = randomReceiver(light, 1000, random);
+            const std::vector<ReceiverPoint> same(receiverCount, p);
+            const std::vector<float> found = unshadowed(bench, light, same, receiverCount);
+            double mean = 0;
+            for (std::size_t r = 0; r < receiverCount; ++r)
+                mean += found[planeSize + r] / receiverCount;
+            const Shading expected = overLight(light, p);
+            const double peak = (p.exponent + 2) * (p.phong ? 1 : 0.25) / (2 * 3.14159265358979);
+            CAPTURE(p.exponent);
+            CAPTURE(mean);
+            CAPTURE(expected.specular);
+            CHECK(std::fabs(mean - expected.specular) <= 0.003 * (expected.specular + 0.1 * peak * expected.diffuse));
+        }
     });
 }
 

@@ -73,3 +73,31 @@ TEST_CASE("the mean count of the default setting is the one asked for, within 1 
         CHECK(both.render(sized(render::monteCarlo(7), width, height)).sppMean == doctest::Approx(7));
     });
 }
+
+TEST_CASE(
+    "highlights sharper than any rule: their directions grow in number with the samples, and change with the seed")
+{
+    onEveryDevice([](const device::Device& device) {
+        SceneBuilder b;
+        b.quad({ 0, 0, 0 }, { 4, 0, 0 }, { 0, 0, -4 });
+        b.scene.materials[0].specular = glm::vec3(0.5f);
+        b.scene.materials[0].exponent = 10000;
+        b.light({ 0, 2, -2 }, { 0.6f, 0, 0 }, { 0, 0.4f, 0 }, scene::LightProfile::Gaussian, 20);
+        b.camera({ 0, 1, 3 }, { 0, 0.2f, 0 });
+        // Nothing is in the way: what seeds differ by is the highlight's.
+        render::Renderer renderer(b.scene, device, renderOptions());
+        const auto noise = [&](int spp) {
+            std::vector<std::vector<float>> images;
+            for (const std::uint32_t seed : { 1u, 2u }) {
+                render::Settings settings = sized(render::axisAligned(spp), width, height);
+                settings.seed = seed;
+                images.push_back(renderPixels(renderer, settings));
+            }
+            return rmse(images[0], images[1]);
+        };
+        const double few = noise(28), many = noise(448);
+        MESSAGE("noise of 28 samples " << few << ", of 448 " << many);
+        CHECK(few > 0);
+        CHECK(many < 0.2 * few);
+    });
+}

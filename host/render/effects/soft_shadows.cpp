@@ -26,6 +26,14 @@ float gaussianScale(float sigma)
     return sigma > 0 ? -0.5f * log2e / (sigma * sigma) : 0.0f;
 }
 
+/// Directions of a pixel's lobe that no quadrature rule resolves, in proportion to its samples: whatever stood still
+/// would be what the error ends at.
+std::uint32_t lobeDirections(int spp)
+{
+    constexpr int usual = 256, usualSpp = 28, most = 1 << 14;
+    return static_cast<std::uint32_t>(std::min(most, usual * std::max(usualSpp, std::min(spp, most)) / usualSpp));
+}
+
 } // namespace
 
 TermShape SoftShadows::termShape(bool specular, bool analysed)
@@ -258,9 +266,9 @@ void SoftShadows::shade(const device::Buffer<float>& value)
         c_.frame.directDeviation, c_.frame.samples);
     if (c_.scene.specular) {
         c_.passes.rows("composite", PassKind::Composite, "composite.cl", "addSpecular", p, WEDGE_BLOCK_PIXELS,
-            sampleParams(), light(), c_.fullFrame, c_.scene.quadratures[index_], c_.frame.position, c_.frame.normal,
-            c_.frame.objectId, c_.frame.gloss, c_.frame.specular, value, term_.value, term_.taken, c_.frame.direct,
-            c_.frame.directNoisy, c_.frame.directDeviation);
+            sampleParams(), light(), c_.fullFrame, lobeDirections(c_.settings.spp), c_.scene.quadratures[index_],
+            c_.frame.position, c_.frame.normal, c_.frame.objectId, c_.frame.gloss, c_.frame.specular, value,
+            term_.value, term_.taken, c_.frame.direct, c_.frame.directNoisy, c_.frame.directDeviation);
     }
 }
 
@@ -281,8 +289,8 @@ void SoftShadows::sampleWave(Waves& waves, const shared::WaveParams& wave, bool 
     if (exact) {
         c_.passes.list("unshadowed shading", PassKind::Trace, "wave_light.cl", "unshadowedReceivers",
             (wave.receivers + WEDGE_BLOCK_PIXELS - 1) / WEDGE_BLOCK_PIXELS, receivers, wave, light(),
-            c_.scene.quadratures[index_], waves.position, waves.normal, waves.objectId, waves.specular, waves.gloss,
-            waves.view, waves.unshadowed);
+            c_.scene.quadratures[index_], waves.pixelOf, waves.sampleOf, waves.position, waves.normal, waves.objectId,
+            waves.specular, waves.gloss, waves.view, waves.unshadowed);
     }
     shared::WaveParams adding = wave;
     adding.omits |= term_.shape.extremes < 2 ? WEDGE_OMITS_EXTREMES : 0;
