@@ -1,6 +1,6 @@
 // What the lottery computes with: its scenes, which are frozen, errors without the reference's noise, and verdicts. No
 // device.
-#include "benchmarks/lottery/errors.h"
+#include "benchmarks/common/squared_error.h"
 #include "benchmarks/lottery/verdict.h"
 #include "data/generator/lottery/lottery.h"
 

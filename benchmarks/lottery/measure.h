@@ -1,7 +1,7 @@
 #pragma once
 
 #include "benchmarks/common/measure_plan.h"
-#include "benchmarks/lottery/errors.h"
+#include "benchmarks/common/squared_error.h"
 #include "data/generator/lottery/traits.h"
 #include "host/device/device.h"
 #include "host/scene/scene.h"

@@ -1,4 +1,4 @@
-#include "benchmarks/lottery/errors.h"
+#include "benchmarks/common/squared_error.h"
 
 #include <algorithm>
 #include <cmath>

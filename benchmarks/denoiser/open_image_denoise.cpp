@@ -1,0 +1,106 @@
+#include "benchmarks/denoiser/open_image_denoise.h"
+
+#include "host/error.h"
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace wedge::benchmark {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own that goes with it.
+class Folder {
+public:
+    Folder()
+    {
+        std::string made = (fs::temp_directory_path() / "wedge-denoise-XXXXXX").string();
+        if (::mkdtemp(made.data()) == nullptr) {
+            throw Error("folder " + made, "cannot be made", "set TMPDIR to one that can be written");
+        }
+        path_ = made;
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    ~Folder()
+    {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    std::string file(const char* name) const { return (path_ / name).string(); }
+
+private:
+    fs::path path_;
+};
+
+/// For a shell.
+std::string quoted(const std::string& text)
+{
+    std::string out = "'";
+    for (const char c : text) {
+        out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    }
+    return out + "'";
+}
+
+/// What the command writes; none where it fails.
+std::optional<std::string> outputOf(const std::string& command)
+{
+    std::FILE* pipe = ::popen(command.c_str(), "r");
+    if (pipe == nullptr) {
+        return {};
+    }
+    std::string out;
+    std::array<char, 256> part {};
+    while (std::fgets(part.data(), static_cast<int>(part.size()), pipe) != nullptr) {
+        out += part.data();
+    }
+    return ::pclose(pipe) == 0 ? std::optional(out) : std::nullopt;
+}
+
+void write(const std::string& path, const image::RgbImage& image)
+{
+    std::ofstream file(path, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(image.rgb.data()),
+        static_cast<std::streamsize>(image.rgb.size() * sizeof(float)));
+    if (!file.flush()) {
+        throw Error("image " + path, "cannot be written", "set TMPDIR to a folder with room");
+    }
+}
+
+} // namespace
+
+bool OpenImageDenoise::available() const
+{
+    return outputOf(fmt::format("{} {} 2>/dev/null", quoted(python_), quoted(WEDGE_DENOISE_SCRIPT))).has_value();
+}
+
+Denoised OpenImageDenoise::denoise(const GuidedImage& image) const
+{
+    const Folder folder;
+    write(folder.file("color"), image.color);
+    write(folder.file("albedo"), image.albedo);
+    write(folder.file("normal"), image.normal);
+    const std::optional<std::string> milliseconds = outputOf(fmt::format("{} {} {} {} {} {} {} {}", quoted(python_),
+        quoted(WEDGE_DENOISE_SCRIPT), image.color.width, image.color.height, quoted(folder.file("color")),
+        quoted(folder.file("albedo")), quoted(folder.file("normal")), quoted(folder.file("output"))));
+    Denoised out { image.color, 0 };
+    std::ifstream file(folder.file("output"), std::ios::binary);
+    file.read(reinterpret_cast<char*>(out.image.rgb.data()),
+        static_cast<std::streamsize>(out.image.rgb.size() * sizeof(float)));
+    if (!milliseconds || !file) {
+        throw Error("Open Image Denoise", "has failed", "see what it says above");
+    }
+    out.milliseconds = std::strtod(milliseconds->c_str(), nullptr);
+    return out;
+}
+
+} // namespace wedge::benchmark
