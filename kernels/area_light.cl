@@ -106,6 +106,30 @@ WEDGE_FN void addDirections(SampleParams params, AreaLight light, __global const
     }
 }
 
+#ifdef WEDGE_SPECULAR
+/// One direction of the lobe of each lane that has a narrow one, into both sums of the specular term: with the points
+/// on the light, weighted by both densities, its estimate of all that arrives and of what is seen of it.
+WEDGE_FN void addLobes(SampleParams params, AreaLight light, __global const TraversalNode* restrict nodes,
+    __global const TriangleBlock* restrict blocks, const ReceiverPacket* receivers, const uint* narrow,
+    const uint* index, const uint* last, const uint* count, TermSums* sums)
+{
+    RayPacket packet;
+    float weight[WEDGE_PACKET_SIZE];
+    uint occluded[WEDGE_PACKET_SIZE];
+    meetDirections(params, light, receivers, true, index, last, count, &packet, weight);
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        packet.tMax[lane] = narrow[lane] != 0u ? packet.tMax[lane] : 0.0f;
+    }
+    anyHits(nodes, blocks, &packet, occluded);
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const float arrives = narrow[lane] != 0u ? weight[lane] : 0.0f;
+        sums->specular[lane] += arrives;
+        sums->specularVisible[lane] += occluded[lane] == 0u ? arrives : 0.0f;
+        sums->rays[lane] += packet.tMax[lane] > 0.0f ? 1u : 0u;
+    }
+}
+#endif
+
 WEDGE_FN void storeTerm(SampleParams params, uint size, uint i, const TermSums* sums, uint lane, uint taken,
     __global float* sumPlanes, __global uint* takenPlane, __global float* value)
 {
@@ -192,6 +216,10 @@ __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light,
     TermSums sum;
     PartSums part;
     const bool parts = params.firstPass > 0u;
+#ifdef WEDGE_SPECULAR
+    uint narrow[WEDGE_PACKET_SIZE];
+    const bool lobes = narrowLobes(params, light, &receivers, narrow);
+#endif
     const SurfaceData surfaces = WEDGE_SURFACE_ARGUMENTS;
     (void)surfaces;
     (void)camera;
@@ -217,6 +245,12 @@ __kernel void firstPass(FrameParams frame, SampleParams params, AreaLight light,
     for (uint step = 0u; step < steps; ++step) {
         LightSamples s;
         sampleLights(frame, params, light, &receivers, index, count, &s);
+#ifdef WEDGE_SPECULAR
+        if (lobes) {
+            weighLobePoints(light, &receivers, narrow, &s);
+            addLobes(params, light, nodes, blocks, &receivers, narrow, index, last, count, &sum);
+        }
+#endif
         takeSamples(last, index, &s);
         RayPacket packet;
         shadowRays(&receivers, &s, &packet);
@@ -272,6 +306,10 @@ __kernel void secondPass(FrameParams frame, SampleParams params, AreaLight light
     TermSums sum;
     PartSums part;
     const bool parts = params.firstPass > 0u;
+#ifdef WEDGE_SPECULAR
+    uint narrow[WEDGE_PACKET_SIZE];
+    const bool lobes = narrowLobes(params, light, &receivers, narrow);
+#endif
     uint index[WEDGE_PACKET_SIZE], count[WEDGE_PACKET_SIZE], last[WEDGE_PACKET_SIZE], occluded[WEDGE_PACKET_SIZE];
     const bool directions = params.lightSampling != WEDGE_LIGHTS_SAMPLED && params.shading == WEDGE_SHADING_INSIDE;
     uint steps = 0u;
@@ -305,6 +343,12 @@ __kernel void secondPass(FrameParams frame, SampleParams params, AreaLight light
             weighPoints(params, light, &receivers, &s);
             addDirections(params, light, nodes, blocks, &receivers, index, last, count, &sum);
         }
+#ifdef WEDGE_SPECULAR
+        if (lobes) {
+            weighLobePoints(light, &receivers, narrow, &s);
+            addLobes(params, light, nodes, blocks, &receivers, narrow, index, last, count, &sum);
+        }
+#endif
         takeSamples(last, index, &s);
         RayPacket packet;
         shadowRays(&receivers, &s, &packet);

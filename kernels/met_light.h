@@ -39,6 +39,47 @@ WEDGE_FN void weighPoints(SampleParams params, AreaLight light, const ReceiverPa
     }
 }
 
+#ifdef WEDGE_SPECULAR
+/// Squared angular half extent of the light over the squared width of a lobe, from which on points on the light find
+/// too little of it (lobesAcross16() in unshadowed.h).
+#define WEDGE_LOBE_SAMPLED 4.0f
+
+/// 1 for lanes whose lobe is so much narrower than the light that their specular term is sampled by directions, too.
+/// Returns whether there are any.
+WEDGE_FN bool narrowLobes(SampleParams params, AreaLight light, const ReceiverPacket* r, uint* narrow)
+{
+    const float extent = fmax(vecDot(light.halfU, light.halfU), vecDot(light.halfV, light.halfV));
+    uint any = 0u;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const Vec3 d = vecSub(light.centre, vec3(r->positionX[lane], r->positionY[lane], r->positionZ[lane]));
+        const float squared = fmax(vecDot(d, d), 1e-30f);
+        const float widening = fmax(2.0f + 2.0f * vecDot(laneView(r, lane), d) * rsqrt(squared), 1e-6f);
+        const float across = extent * r->exponent[lane] / squared;
+        const bool phong = r->model[lane] == WEDGE_SPECULAR_PHONG;
+        const bool found = (phong ? across : across / widening) > WEDGE_LOBE_SAMPLED;
+        narrow[lane] = found && params.shading == WEDGE_SHADING_RATIO && r->pixel[lane] != WEDGE_NO_PIXEL ? 1u : 0u;
+        any |= narrow[lane];
+    }
+    return any != 0u;
+}
+
+/// Weights of the points of lanes with narrow lobes in the specular term alone, multiplied into s.
+WEDGE_FN void weighLobePoints(AreaLight light, const ReceiverPacket* r, const uint* narrow, LightSamples* s)
+{
+    light.pick = 1.0f;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const Vec3 ray = vec3(s->rayX[lane], s->rayY[lane], s->rayZ[lane]);
+        const Vec3 l = vecNormalize(ray);
+        const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
+        const LightMeeting m = meetLight(light, vec3(r->originX[lane], r->originY[lane], r->originZ[lane]), l);
+        const float a = clamp(m.a, -1.0f, 1.0f), b = clamp(m.b, -1.0f, 1.0f);
+        const float p = lightPdf(light, a, b, vecLength(ray), vecDot(l, light.normal)) / laneMass(light, r, lane, a, b);
+        const float weight = powerHeuristic(p, lobePdf(laneLobe(r, lane), n, laneView(r, lane), l));
+        s->specular[lane] *= narrow[lane] != 0u && s->specular[lane] > 0.0f ? weight : 1.0f;
+    }
+}
+#endif
+
 /// A reflected direction of the diffuse or the specular part for the numbers u; in *pdf its density, 1/sr, and in
 /// *reflected what the part reflects over that density, without the diffuse part's 1 / pi, which the light's points
 /// leave out too.

@@ -1,5 +1,6 @@
 // analysis.cl alone: slopes to widths, against the same in double.
 #include "kernels/shared/filter_params.h"
+#include "kernels/shared/packed.h"
 #include "kernels/shared/wedge.h"
 #include "tests/render_support.h"
 
@@ -215,6 +216,74 @@ TEST_CASE("widths are (3.13) of the pixel's own slope, else of what spread to it
                     REQUIRE(beta.at(x, y) == doctest::Approx(expected).epsilon(1e-4));
                 });
             }
+    });
+}
+
+/// A width that a highlight of that share narrows, as analysis.cl says.
+double narrowedWidth(glm::dvec3 toLight, glm::dvec3 toEye, double gloss, double share, double wide)
+{
+    const double light = glm::length(toLight), eye = glm::length(toEye);
+    const double spread = gloss < 0 ? 1.0 : glm::length(toLight / light + toEye / eye);
+    const double s = wide * 3 * 2 / 0.25; // k, mu and sigma of Slopes
+    const double occluder = light * s / (1 + s);
+    const double lobe = spread / std::sqrt(std::max(std::fabs(gloss), 1.0)) / (1 / occluder + 1 / eye) / 6;
+    return 1 / std::sqrt(1 / (wide * wide) + share / (lobe * lobe));
+}
+
+TEST_CASE("highlights narrow widths by their share, those of no width and of no highlight stay")
+{
+    onEveryDevice([](const device::Device& device) {
+        Analysis analysis(device);
+        shared::FrameParams frame {};
+        frame.eye = shared::vec3(2, 3, 6);
+        const glm::dvec3 eye(2, 3, 6), centre(1, 4, 1.5);
+        shared::AreaLight light {};
+        light.normal = shared::vec3(0, -0.6f, 0.8f);
+        light.power = shared::vec3(20, 30, 10);
+        const double power = 0.2126 * 20 + 0.7152 * 30 + 0.0722 * 10;
+        for (const Slopes& in : cases()) {
+            std::mt19937 random(9);
+            Planes<float> sums(in.layout(), 4, 0.0f), diffuse(in.layout(), 3, 0.0f), specular(in.layout(), 3, 0.0f),
+                texture(in.layout(), 3, 0.0f), gloss(in.layout(), 1, 1.0f), before(in.layout(), 1, 0.0f);
+            everyPixel(in, [&](int x, int y) {
+                sums.at(x, y) = static_cast<float>(uniform(random));
+                sums.at(x, y, 2) = random() % 4 == 0 ? 0.0f : static_cast<float>(uniform(random, 0, 5));
+                diffuse.setVector(x, y, glm::dvec3(uniform(random)));
+                specular.setVector(x, y, glm::dvec3(random() % 4 == 0 ? 0.0 : uniform(random)));
+                texture.setVector(x, y, glm::dvec3(uniform(random, 0, 2)));
+                gloss.at(x, y) =
+                    static_cast<float>((random() % 2 == 0 ? 1 : -1) * std::pow(10.0, uniform(random, -1, 4)));
+                before.at(x, y) = random() % 5 == 0 ? static_cast<float>(random() % 2) - 1.0f
+                                                    : static_cast<float>(uniform(random, 0.001, 0.5));
+            });
+            const auto run = [&](const char* kernel, const auto&... arguments) {
+                const auto beta = analysis.bench.buffer(before.values);
+                analysis.launch(kernel, in.params, 1, frame, arguments..., beta);
+                return planesOf(in.layout(), analysis.bench.read(beta));
+            };
+            const auto position = analysis.bench.buffer(in.position.values),
+                       glosses = analysis.bench.buffer(gloss.values);
+            const Planes<float> one = run("narrowForLobes", analysis.bench.buffer(sums.values), position, glosses,
+                                    analysis.bench.buffer(diffuse.values), analysis.bench.buffer(specular.values)),
+                                many = run("narrowForHighlights", light, WEDGE_PLAIN_BITS,
+                                    analysis.bench.buffer(texture.values), position, glosses,
+                                    analysis.bench.buffer(in.objectId.values));
+            everyPixel(in, [&](int x, int y) {
+                const glm::dvec3 at = in.position.vector(x, y), toLight = centre - at, toEye = eye - at;
+                const double wide = before.at(x, y), pi = 3.14159265358979;
+                const double lobes = specular.at(x, y) * sums.at(x, y, 2), matt = diffuse.at(x, y) * sums.at(x, y) / pi;
+                const double expected = wide > 0 && lobes > 0
+                    ? narrowedWidth(toLight, toEye, gloss.at(x, y), lobes / (lobes + matt), wide)
+                    : wide;
+                REQUIRE(one.at(x, y) == doctest::Approx(expected).epsilon(1e-4));
+                const double facing = std::fabs(glm::dot(toLight, glm::dvec3(0, -0.6, 0.8))) / glm::length(toLight);
+                const double white = power / pi * facing / glm::dot(toLight, toLight), shown = texture.at(x, y);
+                const double narrowest = wide > 0 && in.objectId.at(x, y) != 0 && shown > white
+                    ? narrowedWidth(toLight, toEye, gloss.at(x, y), 1 - white / shown, wide)
+                    : wide;
+                REQUIRE(many.at(x, y) == doctest::Approx(narrowest).epsilon(1e-4));
+            });
+        }
     });
 }
 

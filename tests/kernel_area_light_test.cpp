@@ -305,3 +305,50 @@ TEST_CASE("with gloss the specular sums hold the lobe's weights of the same samp
         }
     });
 }
+
+TEST_CASE("lobes narrower than the light are sampled, too: the same mean of what arrives, with far less noise")
+{
+    onEveryDevice([](const device::Device& device) {
+        scene::Scene scene = smallScene();
+        scene.materials[0].specular = glm::vec3(0.3f);
+        scene.materials[0].exponent = 2000;
+        TracedScene traced(scene, device, 30, 22, { { "WEDGE_SPECULAR", "1" } });
+        traced.primary();
+        const auto id = traced.read(traced.frame.objectId);
+        // Points on the light alone, whose mean is the integral, too.
+        const auto means = [&](std::uint32_t shading, std::uint32_t count) {
+            want(traced, count);
+            traced.firstPass(sampling(shading, WEDGE_SAMPLER_SOBOL));
+            traced.secondPass(sampling(shading, WEDGE_SAMPLER_SOBOL), count);
+            Planes<float> sums = traced.read(traced.sums);
+            for (float& v : sums.values)
+                v /= static_cast<float>(count);
+            return sums;
+        };
+        const Planes<float> truth = means(WEDGE_SHADING_RATIO, 16384);
+        const auto errors = [&](const Planes<float>& found, std::size_t plane) {
+            double squared = 0, sum = 0, of = 0;
+            traced.everyPixel([&](int x, int y) {
+                if (id.at(x, y) == 0)
+                    return;
+                squared += std::pow(found.at(x, y, plane) - truth.at(x, y, plane), 2);
+                sum += found.at(x, y, plane);
+                of += truth.at(x, y, plane);
+            });
+            return std::pair(std::sqrt(squared), sum / of);
+        };
+        const Planes<float> both = means(WEDGE_SHADING_RATIO, 64), points = means(WEDGE_SHADING_INSIDE, 64),
+                            many = means(WEDGE_SHADING_INSIDE, 16384);
+        for (const std::size_t plane : { 2u, 3u }) {
+            CAPTURE(plane);
+            MESSAGE("error of 64 samples " << errors(both, plane).first << ", of points alone "
+                                           << errors(points, plane).first << "; means " << errors(both, plane).second
+                                           << ", of many points " << errors(many, plane).second);
+            CHECK(errors(both, plane).first < 0.3 * errors(points, plane).first);
+            CHECK(std::fabs(errors(both, plane).second - 1) < 0.05);
+            CHECK(std::fabs(errors(many, plane).second - 1) < 0.05);
+        }
+        // The diffuse sums know nothing of it.
+        CHECK(errors(both, 0).second == doctest::Approx(errors(points, 0).second).epsilon(1e-6));
+    });
+}

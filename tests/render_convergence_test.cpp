@@ -101,3 +101,37 @@ TEST_CASE(
         CHECK(many < 0.2 * few);
     });
 }
+
+TEST_CASE("what a glossy floor reflects of bars before a light is sharper than their shadows, and converges")
+{
+    onEveryDevice([](const device::Device& device) {
+        SceneBuilder b;
+        b.quad({ 0, 0, 0 }, { 5, 0, 0 }, { 0, 0, -5 });
+        b.scene.materials[0].diffuse = glm::vec3(0.1f);
+        b.scene.materials[0].specular = glm::vec3(0.5f);
+        b.scene.materials[0].exponent = 1000;
+        b.newObject();
+        for (int k = -5; k <= 5; ++k)
+            b.quad({ 0.16f * static_cast<float>(k), 1.6f, -1.5f }, { 0.05f, 0, 0 }, { 0, 0.8f, 0 });
+        b.light({ 0, 1.6f, -2 }, { 0.8f, 0, 0 }, { 0, 0.6f, 0 }, scene::LightProfile::Uniform, 10);
+        b.scene.areaLights[0].visible = false;
+        b.camera({ 0, 1.5f, 4 }, { 0, 0, 0 });
+        for (const bool antialias : { false, true }) {
+            CAPTURE(antialias);
+            render::Renderer renderer(b.scene, device, renderOptions());
+            const auto with = [&](render::Settings settings) {
+                settings.antialias = antialias;
+                return settings;
+            };
+            const std::vector<float> reference =
+                renderPixels(renderer, sized(with(render::monteCarlo(4096)), width, height));
+            const auto error = [&](render::Settings settings) { return errorOf(renderer, with(settings), reference); };
+            const double few = error(render::axisAligned(28)), many = error(render::axisAligned(256));
+            const double plain = error(render::monteCarlo(28)), plainMany = error(render::monteCarlo(256));
+            MESSAGE("28 samples " << few << ", plain " << plain << "; 256 " << many << ", plain " << plainMany);
+            CHECK(few < 0.7 * plain);
+            CHECK(many < 0.5 * few);
+            CHECK(many < 0.9 * plainMany);
+        }
+    });
+}

@@ -97,7 +97,8 @@ shared::SampleParams SoftShadows::sampleParams() const
 
 std::uint32_t SoftShadows::lightSampling() const
 {
-    // A filtered term is visibility of points on the light, and so is a ratio: directions have no part in them.
+    // A filtered term is visibility of points on the light, and so is a ratio: of directions only those of lobes that
+    // are narrower than the light have a part in them (met_light.h).
     const bool plain = c_.settings.method == Method::MonteCarlo && c_.settings.shading == Shading::Inside;
     return plain ? static_cast<std::uint32_t>(c_.settings.lightSampling) : WEDGE_LIGHTS_SAMPLED;
 }
@@ -237,6 +238,21 @@ void SoftShadows::smoothedWidths()
     c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "widths", p, 1, c_.scratch.logs, c_.scratch.spread,
         c_.frame.objectId, c_.frame.pixelSize, packed ? c_.scratch.demand : term_.sums,
         packed ? c_.scratch.width : term_.beta);
+    if (c_.scene.specular && c_.settings.filtering == Filtering::Adaptive) {
+        narrowForHighlights(packed ? c_.scratch.width : term_.beta);
+    }
+}
+
+void SoftShadows::narrowForHighlights(const device::Buffer<float>& beta)
+{
+    const shared::AnalysisParams p = analysisParams(c_.full());
+    if (!c_.frame.distributed) {
+        c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "narrowForLobes", p, 1, c_.fullFrame, term_.sums,
+            c_.frame.position, c_.frame.gloss, c_.frame.diffuse, c_.frame.specular, beta);
+        return;
+    }
+    c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "narrowForHighlights", p, 1, c_.fullFrame, light(),
+        shared::textureBits(p.packed, true), term_.texture, c_.frame.position, c_.frame.gloss, c_.frame.objectId, beta);
 }
 
 void SoftShadows::countsFromVariance()

@@ -40,6 +40,7 @@ private:
     void widthsAndCounts();
     void publishedWidths();
     void smoothedWidths();
+    void narrowForHighlights(const device::Buffer<float>& beta);
     void countsFromVariance();
     void blurShadows(const shared::DistributedParams& params);
     void shade(const device::Buffer<float>& value);
