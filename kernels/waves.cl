@@ -34,6 +34,32 @@ __kernel void countReceivers(FrameParams frame, WaveParams wave, __global const 
     tileReceivers[slot] = sum;
 }
 
+/// No more new primary samples in a tile than a wave has room for: where its pixels want more, none of them takes more
+/// than all could. frame: of the whole image, whose tiles a crop's are among
+__kernel void limitTiles(
+    FrameParams frame, uint capacity, __global const uint* restrict taken, __global uint* restrict wanted)
+{
+    const uint slot = get_global_id(0);
+    if (slot >= frame.tileCount) {
+        return;
+    }
+    uint sum = 0u;
+    for (uint k = 0u; k < WEDGE_TILE_PIXELS; ++k) {
+        uint x, y;
+        if (slotPixel(frame, slot, k, &x, &y)) {
+            const uint i = pixelIndex(x, y, frame.stride);
+            sum += max(wanted[i], taken[i]) - taken[i];
+        }
+    }
+    for (uint k = 0u; sum > capacity && k < WEDGE_TILE_PIXELS; ++k) {
+        uint x, y;
+        if (slotPixel(frame, slot, k, &x, &y)) {
+            const uint i = pixelIndex(x, y, frame.stride);
+            wanted[i] = min(wanted[i], taken[i] + capacity / WEDGE_TILE_PIXELS);
+        }
+    }
+}
+
 /// The receivers of a wave.
 /// in   taken, wanted as above; tileFirst: of each tile, where its receivers start in the wave
 /// out  pixelOf: as in receivers.h; sampleOf: index of the primary sample; shareOf: which of its pixel's receivers of

@@ -254,6 +254,43 @@ TEST_CASE("a crop of a filtered frame has the bits of the whole one, with layers
     });
 }
 
+TEST_CASE(
+    "where the pixels of a tile want more than a wave has room for, the image is as good, and a crop of the same bits")
+{
+    onEveryDevice([](const device::Device& device) {
+        // A small light out of focus before nothing: a few tiles have all that there is of noise.
+        SceneBuilder b;
+        b.scene.materials[0].diffuse = glm::vec3(0.01f);
+        b.quad({ 0, 5, 0 }, { 1, 0, 0 }, { 0, 0, 1 });
+        b.light({ 0, 0, 0 }, { 0.1f, 0, 0 }, { 0, 0.1f, 0 }, scene::LightProfile::Uniform, 100);
+        b.camera({ 0, 0, 3 }, { 0, 0, 0 });
+        b.scene.areaLights[0].visible = true;
+        b.scene.camera.apertureRadius = 0.2f;
+        b.scene.camera.focusDistance = 1.5f;
+        render::Renderer renderer(b.scene, device, renderOptions());
+        const render::Settings settings = sized(render::axisAligned(600), 64, 48);
+        REQUIRE(renderer.render(settings, {}, true).complete);
+        const Planes<std::uint32_t> taken =
+            planesOf(renderer.frame().layout, renderer.frame().primaryTaken.downloadAll(renderer.queue()));
+        std::uint32_t most = 0, largest = 0;
+        for (int ty = 0; ty < 48; ty += 8)
+            for (int tx = 0; tx < 64; tx += 8) {
+                std::uint32_t sum = 0;
+                for (int y = ty; y < ty + 8; ++y)
+                    for (int x = tx; x < tx + 8; ++x) {
+                        sum += taken.at(x, y);
+                        most = std::max(most, taken.at(x, y));
+                    }
+                largest = std::max(largest, sum);
+            }
+        MESSAGE("most samples of a pixel " << most << ", of a tile " << largest);
+        CHECK(most > 2048);
+        CHECK(largest > 100000);
+        CHECK(largest <= WEDGE_WAVE_RECEIVERS + 64 * 8); // and those of the first pass
+        requireCropOfWhole(renderer, settings, { 27, 20, 38, 29 }, false);
+    });
+}
+
 TEST_CASE("a crop of a frame filtered along long motions has the bits of the whole one, with layers and without")
 {
     onEveryDevice([](const device::Device& device) {

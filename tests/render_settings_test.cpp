@@ -29,8 +29,9 @@ TEST_CASE("what bounds the error of distributed frames goes on with the samples"
     // More samples of a pixel at most, and less error by taking texture and irradiance apart.
     CHECK(axisAligned().distributed.maxSpp == 512);
     CHECK(axisAligned(28).distributed.maxSpp == 512);
-    CHECK(axisAligned(100).distributed.maxSpp == 1000);
-    CHECK(axisAligned(512).distributed.maxSpp == mostDistributedSpp);
+    CHECK(axisAligned(100).distributed.maxSpp == 1828);
+    CHECK(axisAligned(512).distributed.maxSpp == 9362);
+    CHECK(axisAligned(2048).distributed.maxSpp == mostPixelSpp);
     CHECK(axisAligned(9).distributed.factoringError == axisAligned().distributed.factoringError);
     CHECK(axisAligned(112).distributed.factoringError
         == doctest::Approx(0.5f * axisAligned(28).distributed.factoringError));
@@ -44,7 +45,7 @@ TEST_CASE("settings of distributed frames out of range are refused")
     std::vector<Change> wrong = {
         [](auto& d) { d.firstPaths = 1; }, // no variance of one
         [](auto& d) { d.maxSpp = d.firstPaths - 1; },
-        [](auto& d) { d.maxSpp = mostDistributedSpp + 1; },
+        [](auto& d) { d.maxSpp = mostPixelSpp + 1; },
         [](auto& d) { d.mixedPaths = 0; },
         [](auto& d) { d.mu = 0; },
         [](auto& d) { d.factoringRadius = -1; },

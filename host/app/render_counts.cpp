@@ -61,13 +61,12 @@ void requireDistributedMean(const RenderOptions& o, const scene::Scene& scene, i
 void applyDistributedMost(const RenderOptions& o, const scene::Scene& scene, const std::optional<int>& given,
     bool distributed, render::Settings& s)
 {
-    if (distributed && given && *given > render::mostDistributedSpp) {
+    if (distributed && given && *given > render::mostPixelSpp) {
         refuseTooMany(o.maxSpp.has_value(), "--max-spp", "max_spp", fmt::format("{}", *given), scene,
-            fmt::format(
-                "{} {} or less", o.maxSpp ? "give" : "give there, or as --max-spp,", render::mostDistributedSpp));
+            fmt::format("{} {} or less", o.maxSpp ? "give" : "give there, or as --max-spp,", render::mostPixelSpp));
     }
     render::DistributedSettings& d = s.distributed;
-    d.maxSpp = std::clamp(given.value_or(std::max(d.maxSpp, 2 * s.spp)), d.firstPaths, render::mostDistributedSpp);
+    d.maxSpp = std::clamp(given.value_or(std::max(d.maxSpp, 2 * s.spp)), d.firstPaths, render::mostPixelSpp);
 }
 
 void requireMeanBelowMost(const RenderOptions& o, const std::optional<int>& mean, const std::optional<int>& most)

@@ -119,6 +119,7 @@ bool DistributedFrame::adaptive()
             limitStep();
         }
     }
+    Waves::limitTiles(c_.passes, c_.fullFrame, c_.frame);
     analysed_ = c_.settings.filtering != Filtering::None;
     const auto spp = static_cast<std::uint32_t>(c_.settings.spp);
     const double units = spp - static_cast<double>(taken_);

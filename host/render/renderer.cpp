@@ -334,9 +334,14 @@ TermContext Renderer::contextOf(const Settings& settings)
     const bool fallsBack = !frame_->distributed && usesFallback(settings);
     const int around = fallsBack ? WEDGE_FALLBACK_REACH : 0;
     const image::Window filtered = fallsBack ? blockWindow(output, around, settings.width, settings.height) : output;
-    const image::Window sampled = needsAnalysis(settings)
+    image::Window sampled = needsAnalysis(settings)
         ? blockWindow(output, around + filterReach(settings, scene_), settings.width, settings.height)
         : output;
+    if (frame_->distributed) {
+        // Tiles are to be those of the whole image.
+        constexpr int tile = static_cast<int>(WEDGE_TILE);
+        sampled = { sampled.x0 / tile * tile, sampled.y0 / tile * tile, sampled.x1, sampled.y1 };
+    }
     return { *passes_, *deviceScene_, *frame_, *scratch_, settings,
         frameParams(scene_, frame_->layout, whole, settings.seed),
         frameParams(scene_, frame_->layout, sampled, settings.seed), filtered,

@@ -61,8 +61,8 @@ void validateDistributed(const DistributedSettings& d)
     const auto counts = [](int value, int least) { return value >= least && value <= mostDistributedSpp; };
     requireRange(counts(d.firstPaths, 2), "samples of the first pass", fmt::format("{}", d.firstPaths),
         fmt::format("a whole number from 2 to {}", mostDistributedSpp));
-    requireRange(counts(d.maxSpp, d.firstPaths), "most samples of a pixel", fmt::format("{}", d.maxSpp),
-        fmt::format("{} (those of the first pass) to {}", d.firstPaths, mostDistributedSpp));
+    requireRange(d.maxSpp >= d.firstPaths && d.maxSpp <= mostPixelSpp, "most samples of a pixel",
+        fmt::format("{}", d.maxSpp), fmt::format("{} (those of the first pass) to {}", d.firstPaths, mostPixelSpp));
     requireRange(counts(d.mixedPaths, 1), "samples where motions differ", fmt::format("{}", d.mixedPaths),
         fmt::format("a whole number from 1 to {}", mostDistributedSpp));
     requireRange(std::isfinite(d.mu) && d.mu >= 0.01f && d.mu <= 1000.0f, "mu", fmt::format("{}", d.mu),
@@ -164,7 +164,9 @@ Settings axisAligned(std::optional<int> spp, std::optional<float> mu)
     s.indirect.maxSpp = s.maxSpp;
     s.distributed.factoringError *= factoringRatio(s.spp);
     // A bound that stood still would end what edges of lights gain from more samples.
-    s.distributed.maxSpp = std::clamp(10 * std::min(s.spp, largestSpp), s.distributed.maxSpp, mostDistributedSpp);
+    s.distributed.maxSpp =
+        std::clamp(s.distributed.maxSpp * std::min(s.spp, mostDistributedSpp) / static_cast<int>(referenceSpp),
+            s.distributed.maxSpp, mostPixelSpp);
     return s;
 }
 

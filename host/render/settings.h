@@ -201,8 +201,10 @@ bool tracesPaths(const Settings& settings);
 /// Whether frames of these settings look where filters are off.
 bool usesFallback(const Settings& settings);
 
-/// Most samples of a pixel of a distributed frame by method aaf: those of 8x8 pixels have to fit in a wave (waves.h).
+/// Most samples a pixel of a distributed frame by method aaf: those of 8x8 pixels have to fit in a wave (waves.h).
 constexpr int mostDistributedSpp = 2048;
+/// Most samples of one pixel of them: where many of a tile want so many, they take less.
+constexpr int mostPixelSpp = 16384;
 
 /// Most bounces that a path may have.
 constexpr int mostBounces = 1024;

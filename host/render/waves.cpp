@@ -91,6 +91,12 @@ Waves::Waves(
     assert(pieces.planes * planeSize * sizeof(float) == bytes(term, deltaLights));
 }
 
+void Waves::limitTiles(Passes& passes, const shared::FrameParams& params, const Frame& frame)
+{
+    passes.list("counts", PassKind::Analysis, "waves.cl", "limitTiles", params.tileCount, params, capacity,
+        frame.primaryTaken, frame.primaryWanted);
+}
+
 std::vector<shared::WaveParams> Waves::schedule(Passes& passes, const shared::FrameParams& params,
     const shared::CameraParams& camera, const Frame& frame, shared::WaveParams settings, std::uint32_t last)
 {

@@ -33,6 +33,9 @@ public:
     /// The waves in which the pixels of frame get their primary samples up to frame.primaryWanted, or up to `last`
     /// samples. settings: sampler, firstPass and shading; the rest is filled in. They are for those pixels until the
     /// next schedule.
+    /// Takes back what the pixels of a tile want beyond what fits in a wave. params: of the whole image.
+    static void limitTiles(Passes& passes, const shared::FrameParams& params, const Frame& frame);
+
     std::vector<shared::WaveParams> schedule(Passes& passes, const shared::FrameParams& params,
         const shared::CameraParams& camera, const Frame& frame, shared::WaveParams settings, std::uint32_t last);
 
