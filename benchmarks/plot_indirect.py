@@ -16,6 +16,8 @@ ERROR = "rmse_corrected"
 
 
 def with_bounces(name, bounces):
+    if bounces == 0:
+        return f"{name}, ambient occlusion"
     return name if bounces == 1 else f"{name}, {bounces} bounces"
 
 

@@ -220,7 +220,7 @@ __kernel void narrowForLobes(AnalysisParams p, FrameParams frame, __global const
 }
 
 /// narrowed() of pixels of many receivers, which keep what they reflect of the light as one. At least what a white matt
-/// surface that faces the light's centre would not reflect is a highlight's.
+/// surface that faced all of the light, as near as its nearest corner may be, would not reflect is a highlight's.
 /// in      texture: of the light's term, bits: WEDGE_*_BITS of it; gloss: packed, with the sizes of pixels
 /// in out  beta
 __kernel void narrowForHighlights(AnalysisParams p, FrameParams frame, AreaLight light, uint bits,
@@ -239,9 +239,9 @@ __kernel void narrowForHighlights(AnalysisParams p, FrameParams frame, AreaLight
     }
     const Vec3 at = loadVec(position, p.planeSize, i);
     const Vec3 toLight = vecSub(p.lightCentre, at);
-    const float squared = vecDot(toLight, toLight);
-    const float facing = fabs(vecDot(toLight, light.normal)) * rsqrt(squared);
-    const float white = WEDGE_INV_PI * luminance(light.power) * facing / squared;
+    const float reach = vecLength(light.halfU) + vecLength(light.halfV);
+    const float nearest = fmax(vecLength(toLight) - reach, 0.0f);
+    const float white = WEDGE_INV_PI * luminance(light.power) / fmax(nearest * nearest, 1e-20f);
     const float reflected = luminance(loadColour(texture, p.planeSize, i, bits));
     if (reflected > white) {
         beta[i] = narrowed(p, toLight, vecSub(frame.eye, at), loadNumber(gloss, p.planeSize, i, p.packed, 1u),

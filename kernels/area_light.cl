@@ -1,6 +1,7 @@
 // Shadow rays to one area light: the first pass finds the nearest occluder along each ray and measures slopes, the
 // second only asks whether there is one. Plain Monte Carlo, which has the second alone, also follows reflected
-// directions that meet the light (met_light.h).
+// directions that meet the light (met_light.h); so do ratios of lobes that are narrower than the light, in both passes,
+// whose specular sums then have points on the light and directions, weighted by both densities.
 //
 // in      frame, BVH, the light, receivers; wanted: samples of each when the pass ends
 // in out  sums (planes: diffuse weights, diffuse weights of visible samples, and the same for specular),

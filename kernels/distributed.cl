@@ -292,6 +292,12 @@ WEDGE_FN Vec3 ownColour(Vec3 texture, Vec3 value)
     return t > 0.0f ? vecSub(own, vecScale(texture, luminance(own) / t)) : vec3(0.0f, 0.0f, 0.0f);
 }
 
+/// How much of a difference can be added to a number >= 0 that is to stay so: 1, or the part that makes it 0.
+WEDGE_FN float keptOf(float number, float difference)
+{
+    return number + difference < 0.0f ? -number / difference : 1.0f;
+}
+
 /// radiance += a term: where it is taken apart filteredTexture filtered (p.values planes), elsewhere its own. Of lights
 /// visibilities are filtered, in which colours have no part: each pixel keeps its own.
 __kernel void addFilteredTerm(DistributedParams p, __global const float* restrict texture,
@@ -310,8 +316,8 @@ __kernel void addFilteredTerm(DistributedParams p, __global const float* restric
         term = vecMul(p.plainTexture != 0u ? loadVec(filteredTexture, n, i) : loadTexture(p, filteredTexture, i), e);
         if (p.values == 1u && p.published == 0u) {
             const Vec3 colour = ownColour(loadTexture(p, texture, i), loadValue(p, value, i));
-            term = vecAdd(term, colour);
-            term = vec3(fmax(term.x, 0.0f), fmax(term.y, 0.0f), fmax(term.z, 0.0f));
+            const float kept = fmin(keptOf(term.x, colour.x), fmin(keptOf(term.y, colour.y), keptOf(term.z, colour.z)));
+            term = vecMad(term, colour, kept);
         }
     } else {
         term = ownRadiance(p, i, texture, value, termRadiance);

@@ -12,25 +12,11 @@ std::vector<std::string> tiny(const std::string& python)
         "--json", "results.json", "--python", python };
 }
 
-/// An interpreter whose denoiser is the mean of 3x3 pixels.
-constexpr const char* blur = R"(#!/bin/sh
+/// An interpreter whose denoiser leaves the image as it is. It looks for the guides.
+constexpr const char* stillImage = R"sh(#!/bin/sh
 [ $# -eq 1 ] && exit 0
-exec python3 - "$@" <<'END'
-import array, sys
-width, height = int(sys.argv[2]), int(sys.argv[3])
-pixels = array.array("f", open(sys.argv[4], "rb").read())
-for guide in sys.argv[5:7]:
-    assert len(open(guide, "rb").read()) == 4 * len(pixels)
-out = array.array("f", pixels)
-for y in range(height):
-    for x in range(width):
-        near = [(v, u) for v in (y - 1, y, y + 1) for u in (x - 1, x, x + 1) if 0 <= v < height and 0 <= u < width]
-        for c in range(3):
-            out[3 * (y * width + x) + c] = sum(pixels[3 * (v * width + u) + c] for v, u in near) / len(near)
-open(sys.argv[7], "wb").write(out.tobytes())
-print(1.5)
-END
-)";
+[ "$(wc -c < "$4")" = "$(wc -c < "$5")" ] && [ "$(wc -c < "$4")" = "$(wc -c < "$6")" ] && cp "$4" "$7" && echo 1.5
+)sh";
 
 TEST_CASE("without a denoiser it says so, and how to get one")
 {
@@ -47,9 +33,9 @@ TEST_CASE("without a denoiser it says so, and how to get one")
 TEST_CASE("results have all that docs/benchmarks.md says")
 {
     const Workplace place;
-    place.write("blur.sh", blur);
-    std::filesystem::permissions(place.path() / "blur.sh", std::filesystem::perms::owner_all);
-    const Outcome outcome = place.run(tiny((place.path() / "blur.sh").string()));
+    place.write("still.sh", stillImage);
+    std::filesystem::permissions(place.path() / "still.sh", std::filesystem::perms::owner_all);
+    const Outcome outcome = place.run(tiny((place.path() / "still.sh").string()));
     REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
     CHECK(contains(outcome.out, "time to equal error"));
     const Json all = Json::parse(place.text("results.json"));

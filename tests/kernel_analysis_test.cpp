@@ -238,7 +238,8 @@ TEST_CASE("highlights narrow widths by their share, those of no width and of no 
         frame.eye = shared::vec3(2, 3, 6);
         const glm::dvec3 eye(2, 3, 6), centre(1, 4, 1.5);
         shared::AreaLight light {};
-        light.normal = shared::vec3(0, -0.6f, 0.8f);
+        light.halfU = shared::vec3(0.5f, 0, 0);
+        light.halfV = shared::vec3(0, 0, 0.3f);
         light.power = shared::vec3(20, 30, 10);
         const double power = 0.2126 * 20 + 0.7152 * 30 + 0.0722 * 10;
         for (const Slopes& in : cases()) {
@@ -276,8 +277,8 @@ TEST_CASE("highlights narrow widths by their share, those of no width and of no 
                     ? narrowedWidth(toLight, toEye, gloss.at(x, y), lobes / (lobes + matt), wide)
                     : wide;
                 REQUIRE(one.at(x, y) == doctest::Approx(expected).epsilon(1e-4));
-                const double facing = std::fabs(glm::dot(toLight, glm::dvec3(0, -0.6, 0.8))) / glm::length(toLight);
-                const double white = power / pi * facing / glm::dot(toLight, toLight), shown = texture.at(x, y);
+                const double nearest = std::max(glm::length(toLight) - 0.8, 0.0);
+                const double white = power / pi / (nearest * nearest), shown = texture.at(x, y);
                 const double narrowest = wide > 0 && in.objectId.at(x, y) != 0 && shown > white
                     ? narrowedWidth(toLight, toEye, gloss.at(x, y), 1 - white / shown, wide)
                     : wide;

@@ -348,6 +348,9 @@ TEST_CASE("lobes narrower than the light are sampled, too: the same mean of what
             CHECK(std::fabs(errors(both, plane).second - 1) < 0.05);
             CHECK(std::fabs(errors(many, plane).second - 1) < 0.05);
         }
+        // As published each point that sees the light counts one, and directions have no part in it.
+        const Planes<float> separate = means(WEDGE_SHADING_SEPARATE, 64);
+        traced.everyPixel([&](int x, int y) { REQUIRE(separate.at(x, y, 2) == separate.at(x, y)); });
         // The diffuse sums know nothing of it.
         CHECK(errors(both, 0).second == doctest::Approx(errors(points, 0).second).epsilon(1e-6));
     });

@@ -126,7 +126,13 @@ TEST_CASE(
             // Of the colour that textures have which see the light differently each pixel keeps its own.
             const glm::dvec3 texture = term.texture.vector(x, y), own = term.ownRadiance(false, x, y);
             const double t = luminanceOf(texture);
-            return glm::max(one + (t > 0 ? own - texture * (luminanceOf(own) / t) : glm::dvec3(0)), 0.0);
+            const glm::dvec3 colour = t > 0 ? own - texture * (luminanceOf(own) / t) : glm::dvec3(0);
+            // As much of it as leaves no channel below 0: it has no luminance, and adds none.
+            double kept = 1;
+            for (int c = 0; c < 3; ++c)
+                kept = one[c] + colour[c] < 0 ? std::min(kept, -one[c] / colour[c]) : kept;
+            REQUIRE(std::fabs(luminanceOf(colour)) < 1e-9 * (1 + luminanceOf(own)));
+            return one + kept * colour;
         });
 }
 

@@ -76,7 +76,7 @@ public:
         return out;
     }
 
-    /// Squared errors of the images' mean square over a region, without the reference's noise.
+    /// RMS error over a region without the reference's noise, radiance. x0, y0: its first pixel
     double regionError(const std::vector<image::RgbImage>& images, int x0, int y0) const
     {
         const int x1 = std::min(plan_.width, x0 + plan_.region), y1 = std::min(plan_.height, y0 + plan_.region);
@@ -98,13 +98,15 @@ public:
         return squaredError(parts, reference).rmse();
     }
 
+    /// Where neither has a hundredth of the image's error nobody sees one: both count as if they had as much.
     WorstRegion worstRegion(const std::vector<image::RgbImage>& ours, const std::vector<image::RgbImage>& others) const
     {
         WorstRegion worst;
+        const double least = 0.01 * squaredError(ours, reference_).rmse();
         for (int y = 0; y < plan_.height; y += plan_.region) {
             for (int x = 0; x < plan_.width; x += plan_.region) {
                 const double other = regionError(others, x, y), own = regionError(ours, x, y);
-                const double ratio = other > 0 ? own / other : own > 0 ? 1e9 : 1.0;
+                const double ratio = std::max(own, least) / std::max({ other, least, 1e-30 });
                 if (ratio > worst.ratio) {
                     worst = { x, y, ratio };
                 }
@@ -163,7 +165,9 @@ int equalTimeSpp(const std::vector<TimedError>& points, double milliseconds)
         if (b.milliseconds() >= milliseconds || i + 1 == points.size()) {
             const double perSample =
                 std::max(1e-9, (b.milliseconds() - a.milliseconds()) / static_cast<double>(b.spp - a.spp));
-            return std::max(1, static_cast<int>(std::lround(a.spp + (milliseconds - a.milliseconds()) / perSample)));
+            // Times have noise: no farther beyond the last point than four times its samples.
+            const double spp = a.spp + (milliseconds - a.milliseconds()) / perSample;
+            return static_cast<int>(std::lround(std::clamp(spp, 1.0, 4.0 * b.spp)));
         }
     }
     return 1;

@@ -7,6 +7,8 @@
 #include "benchmarks/denoiser/open_image_denoise.h"
 #include "host/device/device.h"
 
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace wedge::benchmark {

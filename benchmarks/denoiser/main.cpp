@@ -89,7 +89,9 @@ int main(int argc, char** argv)
     CLI::App parser("Measures the time to equal error against plain sampling with Open Image Denoise.", "denoiser");
     Call call;
     parser.add_flag("--quick", call.quick, "320x240, one seed, small references: a look");
-    parser.add_option("--scene", call.scenes, "bench, chess or a scene file; again for more (both)");
+    parser.add_option("--scene", call.scenes, "bench, chess or a scene file; again for more (both)")
+        ->expected(1)
+        ->take_all();
     parser.add_option("--python", call.python, "an interpreter that has pyoidn (python3)");
     parser.add_option("--size", call.size, "WxH (640x480)");
     parser.add_option("--reference-spp", call.referenceSpp, "samples of the references (4096, quick 512)")

@@ -2,12 +2,15 @@
 
 #include "host/error.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <string>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -96,10 +99,13 @@ Denoised OpenImageDenoise::denoise(const GuidedImage& image) const
     std::ifstream file(folder.file("output"), std::ios::binary);
     file.read(reinterpret_cast<char*>(out.image.rgb.data()),
         static_cast<std::streamsize>(out.image.rgb.size() * sizeof(float)));
-    if (!milliseconds || !file) {
+    char* end = nullptr;
+    out.milliseconds = milliseconds ? std::strtod(milliseconds->c_str(), &end) : 0.0;
+    const bool whole = end != nullptr && std::string(end).find_first_not_of(" \r\n") == std::string::npos;
+    if (!file || !whole || !(out.milliseconds > 0)
+        || !std::ranges::all_of(out.image.rgb, [](float v) { return std::isfinite(v); })) {
         throw Error("Open Image Denoise", "has failed", "see what it says above");
     }
-    out.milliseconds = std::strtod(milliseconds->c_str(), nullptr);
     return out;
 }
 

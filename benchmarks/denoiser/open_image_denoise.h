@@ -3,6 +3,7 @@
 #include "host/image/image.h"
 
 #include <string>
+#include <utility>
 
 namespace wedge::benchmark {
 

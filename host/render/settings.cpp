@@ -34,7 +34,7 @@ float widthRatio(float from, float to)
 }
 
 /// The same of indirect light. Its noise falls no faster than plain Monte Carlo's, and is most of the error: beyond the
-/// reference's samples widths go as 1/16 of the count's power, so that what is gathered hardly shrinks.
+/// reference's samples mu goes as (n - 5)^(1/16), so that what is gathered hardly shrinks.
 float indirectWidthRatio(float from, float to)
 {
     const auto fromReference = [](float spp) {

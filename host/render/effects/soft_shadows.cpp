@@ -30,7 +30,7 @@ float gaussianScale(float sigma)
 /// would be what the error ends at.
 std::uint32_t lobeDirections(int spp)
 {
-    constexpr int usual = 256, usualSpp = 28, most = 1 << 14;
+    constexpr int usual = 256, usualSpp = 28, most = 1 << 12; // more would make launches long
     return static_cast<std::uint32_t>(std::min(most, usual * std::max(usualSpp, std::min(spp, most)) / usualSpp));
 }
 
@@ -238,7 +238,8 @@ void SoftShadows::smoothedWidths()
     c_.passes.rows("widths", PassKind::Analysis, "analysis.cl", "widths", p, 1, c_.scratch.logs, c_.scratch.spread,
         c_.frame.objectId, c_.frame.pixelSize, packed ? c_.scratch.demand : term_.sums,
         packed ? c_.scratch.width : term_.beta);
-    if (c_.scene.specular && c_.settings.filtering == Filtering::Adaptive) {
+    // With shading apart from visibility samples know nothing of the lobe.
+    if (c_.scene.specular && c_.settings.filtering == Filtering::Adaptive && c_.settings.shading != Shading::Separate) {
         narrowForHighlights(packed ? c_.scratch.width : term_.beta);
     }
 }
