@@ -28,10 +28,9 @@ WEDGE_FN void storeShadows(WaveParams wave, WavePixel p, uint pixels, __global f
 ///         hits: the pixels' primary samples with a surface, before the wave
 ///         termTaken, termWanted: the pixels' samples of the light before and after the wave
 /// in out  of pixels: texture (3), value (visibility, 3), plain (its luminance, unweighted), squares and textureSquares
-/// (mean
-///         squared luminance of a primary sample's radiance, and of its texture), termRadiance (3, as published),
-///         extremes (slopes, and shadows' motions), weightOf (mean luminance of the texture), samples (of all terms),
-///         termTaken
+///         (mean squared luminance of a primary sample's radiance, and of its texture), termRadiance (3, as published),
+///         extremes (slopes, and shadows' motions), deviation, weightOf (mean luminance of the
+///         texture), samples (of all terms), termTaken
 __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight light, uint exact,
     __global const uint* restrict pixelFirst, __global const uint* restrict pixelCount,
     __global const uint* restrict taken, __global const uint* restrict hits, WEDGE_RECEIVER_PARAMETERS,
@@ -105,11 +104,12 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
             shadows[plane] += slopes[(2u + plane) * size + r];
         }
 #endif
+        const bool early = 2u * sharedSamples(k, p.count, total) < total;
         if (wave.published != 0u) {
-            addSamples(&sum, l, seen, vec3(seen, seen, seen), vec3(1.0f, 1.0f, 1.0f));
+            addSamples(&sum, l, seen, vec3(seen, seen, seen), vec3(1.0f, 1.0f, 1.0f), early);
         } else {
-            addSamples(
-                &sum, exact != 0u ? vecScale(t, seen) : l, seen, vecScale(l, (float)n), vecScale(sampled, (float)n));
+            addSamples(&sum, exact != 0u ? vecScale(t, seen) : l, seen, vecScale(l, (float)n),
+                vecScale(sampled, (float)n), early);
         }
     }
     if (!known) {
@@ -201,7 +201,8 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient,
         const Vec3 mean = vecScale(loadVec(sums, size, r), 1.0f / (float)n);
         const Vec3 e = ambient != 0u ? vecSub(white, mean) : mean;
         const Vec3 weights = vecScale(vecMad(floors, t, own), wave.published != 0u ? 1.0f : (float)n);
-        addSamples(&sum, vecMul(t, e), luminance(e), vecMul(weights, e), weights);
+        const bool early = 2u * sharedSamples(k, p.count, total) < total;
+        addSamples(&sum, vecMul(t, e), luminance(e), vecMul(weights, e), weights, early);
         nearest = reflectors[r] > 0.0f ? fmin(nearest, reflectors[r]) : nearest;
         farthest = fmax(farthest, reflectors[size + r]);
         inverse += reflectors[2u * size + r];

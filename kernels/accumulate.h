@@ -10,10 +10,10 @@
 // Packed planes (wave.packed) hold of k and E the one that is a fraction in 32 bits and the other in 47
 // (packed_planes.h), normals in one plane, and what one wave alone measures in 16 bits: in `plain` the factoring error
 // (distributed.cl) and, after it, the one of the extremes that there is; in `squares` the standard deviations of a
-// primary sample's radiance and of its texture. Likewise pixelSize holds the gloss, too, and hits, after these, the
-// signed radius nearest to 0 of the circles of confusion. Motions are the mean's two numbers, the first of which is
-// infinite where the pixel's motions differ (storeOneMotion): of surfaces in `motion`, of a light's shadows in
-// `extremes`.
+// primary sample's radiance and of its texture; in 16 bits of its own the deviation of the value. Likewise pixelSize
+// holds the gloss, too, and hits, after these, the signed radius nearest to 0 of the circles of confusion. Motions are
+// the mean's two numbers, the first of which is infinite where the pixel's motions differ (storeOneMotion): of surfaces
+// in `motion`, of a light's shadows in `extremes`.
 #ifndef WEDGE_ACCUMULATE_H
 #define WEDGE_ACCUMULATE_H
 
@@ -84,13 +84,14 @@ typedef struct {
     Vec3 weighted, weights; ///< irradiance times its weight, and the weights
     float plain, counted; ///< luminances of irradiances, and how many
     float squared;
+    float early, earlyWeights; ///< luminances of weighted and weights, of the first half of the samples
 } TermSums;
 
 WEDGE_FN TermSums noTermSums(float textures)
 {
     TermSums s;
     s.radiance = s.texture = s.weighted = s.weights = vec3(0.0f, 0.0f, 0.0f);
-    s.plain = s.counted = s.squared = s.textureSquared = 0.0f;
+    s.plain = s.counted = s.squared = s.textureSquared = s.early = s.earlyWeights = 0.0f;
     s.textures = textures;
     return s;
 }
@@ -101,9 +102,12 @@ WEDGE_FN void addTexture(TermSums* s, Vec3 t)
     s->textureSquared += luminance(t) * luminance(t);
 }
 
-/// Adds what the samples of a receiver found: radiance l, that is irradiance times texture, weighted as given.
-WEDGE_FN void addSamples(TermSums* s, Vec3 l, float irradiance, Vec3 weighted, Vec3 weights)
+/// Adds what the samples of a receiver found: radiance l, that is irradiance times texture, weighted as given. early:
+/// they are of the first half of the wave's
+WEDGE_FN void addSamples(TermSums* s, Vec3 l, float irradiance, Vec3 weighted, Vec3 weights, bool early)
 {
+    s->early += early ? luminance(weighted) : 0.0f;
+    s->earlyWeights += early ? luminance(weights) : 0.0f;
     s->radiance = vecAdd(s->radiance, l);
     s->weighted = vecAdd(s->weighted, weighted);
     s->weights = vecAdd(s->weights, weights);
@@ -116,6 +120,7 @@ WEDGE_FN void addSamples(TermSums* s, Vec3 l, float irradiance, Vec3 weighted, V
 typedef struct {
     __global float *texture, *value, *plain, *squares, *textureSquares;
     __global float* radiance; ///< of the term alone, as published
+    __global float* deviation;
     uint textureBits, valueBits;
 } TermPlanes;
 
@@ -136,6 +141,23 @@ WEDGE_FN void storeMeasured(WavePixel p, uint pixels, TermPlanes planes, Vec3 t,
     storeShort(planes.squares, pixels, p.i, 1u, sqrt(fmax(textureSquared - texture * texture, 0.0f)));
 }
 
+/// A number whose square is, in the mean, the variance of a pixel's mean value, in luminance, as deviation16() of
+/// deviation.h has it for pixels of one receiver: the sum of all waves' differences between the first half of their
+/// samples and the second, over the weights of all. Each wave's mean is taken out, so that halves of different weights
+/// do not count for noise. known: weights before the wave
+WEDGE_FN void storeDeviation(
+    WaveParams wave, uint pixels, uint i, __global float* deviation, float known, const TermSums* s)
+{
+    const float weights = luminance(s->weights);
+    const float mean = weights > 0.0f ? luminance(s->weighted) / weights : 0.0f;
+    const float apart = 2.0f * (s->early - mean * s->earlyWeights);
+    if (wave.packed != 0u) {
+        storeShort(deviation, pixels, i, 0u, weightedMean(loadShort(deviation, pixels, i, 0u), known, apart, weights));
+    } else {
+        deviation[i] = weightedMean(deviation[i], known, apart, weights);
+    }
+}
+
 /// taken: samples of the term before the wave, total: in it; hits: receivers with a surface before; known: what the
 /// mean value weighs so far.
 WEDGE_FN void storeTermSums(WaveParams wave, WavePixel p, uint pixels, TermPlanes planes, uint taken, uint total,
@@ -144,6 +166,9 @@ WEDGE_FN void storeTermSums(WaveParams wave, WavePixel p, uint pixels, TermPlane
     const float before = (float)p.before;
     // Receivers that took samples, misses included: samples are shared evenly.
     const float had = (float)min(taken, p.before), have = (float)min(total, p.count);
+    if ((wave.omits & WEDGE_OMITS_DEVIATION) == 0u) {
+        storeDeviation(wave, pixels, p.i, planes.deviation, luminance(known), s);
+    }
     Vec3 e = loadColour(planes.value, pixels, p.i, planes.valueBits);
     Vec3 t = loadColour(planes.texture, pixels, p.i, planes.textureBits);
     e = vec3(weightedMean(e.x, known.x, s->weighted.x, s->weights.x),
@@ -182,13 +207,14 @@ WEDGE_FN uint newTermSamples(WaveParams wave, uint i, __global const uint* taken
     __global const uint *restrict termWanted, __global uint *restrict termTaken, __global float *restrict texture,     \
         __global float *restrict value, __global float *restrict plain, __global float *restrict squares,              \
         __global float *restrict textureSquares, __global float *restrict termRadiance,                                \
-        __global float *restrict extremes
+        __global float *restrict deviation, __global float *restrict extremes
 /// light: of a light; false: of indirect light.
 #define WEDGE_TERM_ARGUMENTS(light)                                                                                    \
-    termPlanes(wave.packed, light, texture, value, plain, squares, textureSquares, termRadiance)
+    termPlanes(wave.packed, light, texture, value, plain, squares, textureSquares, termRadiance, deviation)
 
 WEDGE_FN TermPlanes termPlanes(uint packed, bool light, __global float* texture, __global float* value,
-    __global float* plain, __global float* squares, __global float* textureSquares, __global float* radiance)
+    __global float* plain, __global float* squares, __global float* textureSquares, __global float* radiance,
+    __global float* deviation)
 {
     TermPlanes planes;
     planes.textureBits = textureBits(packed, light);
@@ -199,6 +225,7 @@ WEDGE_FN TermPlanes termPlanes(uint packed, bool light, __global float* texture,
     planes.squares = squares;
     planes.textureSquares = textureSquares;
     planes.radiance = radiance;
+    planes.deviation = deviation;
     return planes;
 }
 

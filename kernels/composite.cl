@@ -1,9 +1,9 @@
 // From filtered terms to radiance: each light's value times its unshadowed shading and the surface's reflectance,
 // added up over lights, then with what surfaces and background emit.
+#include "deviation.h"
 #include "light_sample.h"
 #include "shared/filter_params.h"
 #include "shared/path.h"
-#include "shared/wedge.h"
 #include "unshadowed.h"
 
 /// Adds light's value times `shading` (already times the reflectance) to planes of radiance.
@@ -20,19 +20,6 @@ WEDGE_FN void addBlock(__global float* planes, uint size, int i, float16 value, 
 #else
 #define WEDGE_LIGHT_VALUES 1u
 #endif
-
-/// A number whose square is, in the mean, the variance of a mean of so many samples: the difference between it and the
-/// mean of the first of two parts (firstPart()), times sqrt(h / (n - h)) of the h of n samples that are in that part. 0
-/// without a first pass.
-WEDGE_FN float16 deviation16(float16 mean, float16 ofPart, uint16 taken, uint firstPass)
-{
-    if (firstPass == 0u) {
-        return (float16)(0.0f);
-    }
-    const float16 n = convert_float16(taken);
-    const float16 h = n >= (float)(2u * firstPass) ? floor(0.5f * n) : (float16)((float)(firstPass / 2u));
-    return n > h ? (ofPart - mean) * sqrt(h / max16(n - h, (float16)(1.0f))) : (float16)(0.0f);
-}
 
 /// Adds deviations of one term, times what it is shaded with, to those of the luminance.
 WEDGE_FN void addDeviation(__global float* plane, int i, float16 deviation, Vec3x16 shading)

@@ -262,7 +262,8 @@ __kernel void shadowBlurs(DistributedParams p, __global const float* restrict sh
         storeBlur(p, i, alike && length >= p.leastRadius && beta[i] >= 0.0f, mx, my, length, samples, directions);
 }
 
-/// A light's visibility in one plane: what its filter averages. As published it is in the first one already.
+/// A term's value in one plane: of a light, whose filter averages it, what is seen. As published it is in the first one
+/// already.
 __kernel void visibilityOf(DistributedParams p, __global const float* restrict texture,
     __global const float* restrict value, __global float* restrict visibility)
 {
@@ -273,6 +274,16 @@ __kernel void visibilityOf(DistributedParams p, __global const float* restrict t
     const Vec3 k = loadTexture(p, texture, i);
     const float t = luminance(k);
     visibility[i] = p.published != 0u ? value[i] : t > 0.0f ? luminance(vecMul(k, loadValue(p, value, i))) / t : 0.0f;
+}
+
+/// The luminance of a term's texture.
+__kernel void luminanceOfTexture(
+    DistributedParams p, __global const float* restrict texture, __global float* restrict out)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        out[i] = luminance(loadTexture(p, texture, i));
+    }
 }
 
 /// A term's own radiance, k E; as published L, termRadiance.

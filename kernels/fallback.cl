@@ -5,17 +5,14 @@
 //
 //     f + max(0, 1 - c V / D) (u - f)
 //
-// the positive-part estimator of W. James and C. Stein (1961), which shrinks u towards f: where u and f differ by no
-// more than noise does it is f, where the filter is off by more it is u, and whatever f is, its error is no larger than
-// u's (c up to 2, many pixels). As samples become more V goes to 0 and with it what f is off by.
-#include "shared/filter_params.h"
-#include "vector16.h"
+// (shrink.h): where u and f differ by no more than noise does it is f, where the filter is off by more it is u, and
+// whatever f is, its error is no larger than u's (c up to 2, many pixels). As samples become more V goes to 0 and with
+// it what f is off by.
+#include "shrink.h"
 
 /// c: an error of f of up to c - 1 times the noise's variance counts as none. 1 would be best were V and D known; but
 /// they are estimates, and what is taken for bias by mistake brings noise back.
 #define WEDGE_FALLBACK_NOISE 2.0f
-
-WEDGE_FN float16 luminance16(Vec3x16 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
 /// What is averaged. in: filtered, noisy (3 planes each), deviation (composite.cl); out squares (planes: (u - f)^2 and
 /// the deviation's, of luminances)
@@ -44,23 +41,13 @@ __kernel void fallBack(AnalysisParams p, __global const float* restrict squares,
         return;
     }
     const int i = (int)pixelIndex(x, y, p.stride);
-    const uint16 object = loadIdBlock(objectId, i);
-    const int16 differs = (object != 0u) & (loadBlock(squares, i) > 0.0f);
+    const int16 differs = (loadIdBlock(objectId, i) != 0u) & (loadBlock(squares, i) > 0.0f);
     if (!any(differs)) {
         return;
     }
-    float16 difference = (float16)(0.0f), variance = (float16)(0.0f);
-    const int reach = (int)WEDGE_FALLBACK_REACH;
-    for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
-        for (int dx = -reach; dx <= reach; ++dx) {
-            const int j = i + dy * (int)p.stride + dx;
-            const int16 same = loadIdBlock(objectId, j) == object;
-            difference += same ? loadBlock(squares, j) : (float16)(0.0f);
-            variance += same ? loadBlock(squares + p.planeSize, j) : (float16)(0.0f);
-        }
-    }
-    const float16 own =
-        max16(1.0f - WEDGE_FALLBACK_NOISE * variance / max16(difference, (float16)(1e-37f)), (float16)(0.0f));
+    const SquaresAround around = squaresAround(p, y, i, objectId, squares, squares + p.planeSize);
+    const float16 least = max16(around.difference, (float16)(1e-37f));
+    const float16 own = max16(1.0f - WEDGE_FALLBACK_NOISE * around.variance / least, (float16)(0.0f));
     const Vec3x16 f = loadVecBlock(filtered, p.planeSize, i), u = loadVecBlock(noisy, p.planeSize, i);
     const float16 share = differs ? own : (float16)(0.0f);
     // Where nothing is shared what the other holds is not looked at.

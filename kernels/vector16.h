@@ -40,6 +40,15 @@ WEDGE_FN Vec3x16 sub16(Vec3x16 a, Vec3x16 b)
     return v;
 }
 
+WEDGE_FN Vec3x16 mul16(Vec3x16 a, Vec3x16 b)
+{
+    Vec3x16 v;
+    v.x = a.x * b.x;
+    v.y = a.y * b.y;
+    v.z = a.z * b.z;
+    return v;
+}
+
 /// a + s b
 WEDGE_FN Vec3x16 mad16(Vec3x16 a, Vec3x16 b, float16 s)
 {
@@ -51,6 +60,8 @@ WEDGE_FN Vec3x16 mad16(Vec3x16 a, Vec3x16 b, float16 s)
 }
 
 WEDGE_FN float16 dot16(Vec3x16 a, Vec3x16 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+WEDGE_FN float16 luminance16(Vec3x16 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
 WEDGE_FN float16 min16(float16 a, float16 b) { return a < b ? a : b; }
 WEDGE_FN float16 max16(float16 a, float16 b) { return a > b ? a : b; }

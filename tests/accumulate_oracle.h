@@ -23,6 +23,7 @@ struct TermSample {
 struct TermMeans {
     glm::dvec3 texture {}, value {}, radiance {};
     double plain = 0, squares = 0, textureSquares = 0, floor = 0; ///< floor: what weights are besides textures
+    double deviation = 0; ///< of the value's luminance, by halves of waves
     double primary = 0, hits = 0, taken = 0,
            sampled = 0; ///< samples, those that hit, the term's, and primary ones with some
     double least = std::numeric_limits<double>::infinity(), largest = 0, sums[4] {};
@@ -45,6 +46,7 @@ struct TermMeans {
         const double share = primary > 0 ? hits / primary : 0;
         const glm::dvec3 held = published ? glm::dvec3(hits) : taken * (texture + floor * share);
         const glm::dvec3 weights = held + sum([](const TermSample& s) { return s.weights; });
+        addDeviation(wave, luminanceOf(held));
         const glm::dvec3 weighted = value * held + sum([](const TermSample& s) { return s.weights * s.irradiance; });
         for (int c = 0; c < 3; ++c)
             value[c] = weights[c] > 0 ? weighted[c] / weights[c] : 0;
@@ -71,6 +73,24 @@ struct TermMeans {
         }
         primary += all;
         sampled += ran;
+    }
+    /// held: luminance of earlier waves' weights
+    void addDeviation(const std::vector<TermSample>& wave, double held)
+    {
+        double total = 0, before = 0, halves[2] = {}, weights[2] = {}; // of the first half of the samples, of the rest
+        for (const TermSample& s : wave)
+            total += s.samples;
+        for (const TermSample& s : wave) {
+            const int half = before < total / 2 ? 0 : 1;
+            before += s.samples;
+            if (s.samples > 0 && s.point.object != 0) {
+                halves[half] += luminanceOf(s.weights * s.irradiance);
+                weights[half] += luminanceOf(s.weights);
+            }
+        }
+        const double all = weights[0] + weights[1], mean = all > 0 ? (halves[0] + halves[1]) / all : 0;
+        const double apart = halves[0] - mean * weights[0] - (halves[1] - mean * weights[1]);
+        deviation = held + all > 0 ? (deviation * held + apart) / (held + all) : 0;
     }
     /// Adds the slopes or distances of receivers that took samples, and of lights the motions of shadows.
     void addExtremes(
@@ -115,7 +135,7 @@ inline std::string nameOf(TermCount count)
 /// A term's planes of pixels, and what they are to hold.
 struct TermPixels {
     Planes<std::uint32_t> before, after; ///< samples taken before and after a round
-    device::Buffer<float> texture, value, plain, squares, textureSquares, radiance, extremes, weightOf;
+    device::Buffer<float> texture, value, plain, squares, textureSquares, radiance, deviation, extremes, weightOf;
     device::Buffer<std::uint32_t> wanted, taken, samples, ofPaths;
     std::vector<TermMeans> means, measured; ///< measured: after the first wave, which alone measures packed terms
     std::size_t round = 0;
@@ -131,6 +151,7 @@ struct TermPixels {
         , squares(a.pixelBuffer(1))
         , textureSquares(a.pixelBuffer(1))
         , radiance(a.pixelBuffer(3))
+        , deviation(a.pixelBuffer(1))
         , extremes(a.pixelBuffer(6))
         , weightOf(a.pixelBuffer(1))
         , wanted(a.waves.bench.filled(a.waves.layout.size, 0u))
@@ -161,7 +182,7 @@ struct TermPixels {
     /// For WEDGE_TERM_PARAMETERS.
     auto planes() const
     {
-        return std::tie(wanted, taken, texture, value, plain, squares, textureSquares, radiance, extremes);
+        return std::tie(wanted, taken, texture, value, plain, squares, textureSquares, radiance, deviation, extremes);
     }
 
     /// Adds the receivers' slopes or distances to the expected ones; before expect().
@@ -187,6 +208,9 @@ struct TermPixels {
         for (TermMeans& m : means) {
             m.texture = rounded(m.texture, bitsOfTexture(a));
             m.value = rounded(m.value, bitsOfValue(a));
+            if (a.packed != 0)
+                m.deviation =
+                    static_cast<double>(shared::unpackShort(shared::packShort(static_cast<float>(m.deviation))));
         }
     }
 
@@ -194,10 +218,10 @@ struct TermPixels {
     void check(Accumulation& a) const
     {
         const auto k = coloursOf(a.read(texture), bitsOfTexture(a)), e = coloursOf(a.read(value), bitsOfValue(a));
-        const auto own = a.read(radiance);
-        for (const Planes<float>* plane : { &k, &e, &own })
+        const auto own = a.read(radiance), noise = a.packed != 0 ? numbersOf(a.read(deviation), 0) : a.read(deviation);
+        for (const Planes<float>* plane : { &k, &e, &own, &noise })
             checkElsewhere(a, *plane);
-        int apart = 0, pixels = 0;
+        int apart = 0, noisy = 0, pixels = 0;
         a.waves.everyPixel([&](int x, int y) {
             CAPTURE(x);
             CAPTURE(y);
@@ -211,11 +235,15 @@ struct TermPixels {
             for (std::size_t c = 0; c < 3; ++c)
                 REQUIRE(std::fabs(e.at(x, y, c) - m.value[static_cast<int>(c)])
                     <= 1e-4 * m.value[static_cast<int>(c)] + 1e-6 + unitOfValue);
+            REQUIRE(std::fabs(noise.at(x, y) - m.deviation)
+                <= 2e-4 * luminanceOf(m.value) + 1e-5 + (a.packed != 0 ? std::fabs(m.deviation) / 64 : 0));
+            noisy += std::fabs(m.deviation) > 0.1 * luminanceOf(m.value) ? 1 : 0;
             apart += nearTexture && nearValue ? 0 : 1;
             ++pixels;
             REQUIRE(nearTo(own.vector(x, y), a.published != 0 ? m.radiance : glm::dvec3(0), 1e-4));
         });
         CHECK((a.packed == 0 || apart < 0.1 * pixels));
+        CHECK(noisy > 0);
         if (a.packed != 0)
             checkMeasuredPacked(a);
         else
@@ -248,8 +276,8 @@ struct TermPixels {
     void checkMeasuredPacked(Accumulation& a) const
     {
         const auto error = numbersOf(a.read(plain), 0), extreme = numbersOf(a.read(plain), 1);
-        const auto deviation = numbersOf(a.read(squares), 0), ofTexture = numbersOf(a.read(squares), 1);
-        for (const Planes<float>* plane : { &error, &extreme, &deviation, &ofTexture })
+        const auto ofSample = numbersOf(a.read(squares), 0), ofTexture = numbersOf(a.read(squares), 1);
+        for (const Planes<float>* plane : { &error, &extreme, &ofSample, &ofTexture })
             checkElsewhere(a, *plane);
         int errors[2] = {}, deviations = 0;
         a.waves.everyPixel([&](int x, int y) {
@@ -260,7 +288,7 @@ struct TermPixels {
             REQUIRE(std::fabs(error.at(x, y) - difference) <= unitOf(difference) + 1e-5 * (l + t * m.plain));
             const double variances[] = { std::max(0.0, m.squares - l * l), std::max(0.0, m.textureSquares - t * t) };
             REQUIRE(
-                nearTo(std::pow(deviation.at(x, y), 2), variances[0], 0.01 + 1e-5 * m.squares / (variances[0] + 1e-9)));
+                nearTo(std::pow(ofSample.at(x, y), 2), variances[0], 0.01 + 1e-5 * m.squares / (variances[0] + 1e-9)));
             REQUIRE(nearTo(
                 std::pow(ofTexture.at(x, y), 2), variances[1], 0.01 + 1e-5 * m.textureSquares / (variances[1] + 1e-9)));
             REQUIRE(nearTo(extreme.at(x, y), light ? m.leastOrNone() : m.nearness(), 1.0 / 256));

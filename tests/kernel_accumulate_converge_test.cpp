@@ -23,6 +23,27 @@ std::uint32_t oneOrTwo(int x, int y, std::uint32_t primary, std::size_t round)
 /// As many as there are receivers, and none in every other wave.
 std::uint32_t allOrNone(int, int, std::uint32_t primary, std::size_t round) { return round % 2 == 0 ? primary : 0; }
 
+/// Holds the deviations that pixels keep against how far their values, of independent samples of one kind, are apart; a
+/// wave of one sample tells nothing, and there are none.
+void checkDeviations(Accumulation& a, const TermPixels& term)
+{
+    const auto texture = a.read(term.texture), value = a.read(term.value), deviation = a.read(term.deviation);
+    double sum = 0, squares = 0, expected = 0, pixels = 0;
+    a.waves.everyPixel([&](int x, int y) {
+        const double t = luminanceOf(texture.vector(x, y)), l = luminanceOf(texture.vector(x, y) * value.vector(x, y));
+        sum += l / t;
+        squares += l / t * (l / t);
+        expected += deviation.at(x, y) * deviation.at(x, y);
+        ++pixels;
+    });
+    const double variance = squares / pixels - sum / pixels * (sum / pixels);
+    CAPTURE(pixels);
+    CAPTURE(variance);
+    CAPTURE(expected / pixels);
+    CHECK(expected / pixels > 0.7 * variance);
+    CHECK(expected / pixels < 1.4 * variance);
+}
+
 /// Runs the waves, and holds the mean over pixels of texture times value minus that of `expected` against its standard
 /// error in each channel.
 template <class Launch, class Expected>
@@ -35,6 +56,8 @@ void checkConverges(Accumulation& a, TermPixels& term, const Launch& launch, con
         launch();
         accumulateSurfaces(a, surfaces);
     }
+    if (term.count == allOrNone)
+        checkDeviations(a, term);
     const auto texture = a.read(term.texture), value = a.read(term.value);
     glm::dvec3 sum {}, squares {}, mean {};
     double pixels = 0;

@@ -55,6 +55,12 @@ std::uint64_t rayCounters(const PlaneLayout& layout, const FrameShape& shape)
     return shape.lean ? WEDGE_WAVE_RECEIVERS : layout.size;
 }
 
+/// Of a pixel of a term.
+std::uint64_t deviationBytes(const TermShape& shape)
+{
+    return shape.deviations() * (shape.packed() ? sizeof(std::uint16_t) : sizeof(float));
+}
+
 } // namespace
 
 PlaneLayout::PlaneLayout(int imageWidth, int imageHeight)
@@ -169,6 +175,11 @@ void Frame::clear(device::TimedQueue& queue)
     }
 }
 
+std::uint32_t TermShape::omits() const
+{
+    return (extremes < 2 ? WEDGE_OMITS_EXTREMES : 0u) | (deviations() == 0 ? WEDGE_OMITS_DEVIATION : 0u);
+}
+
 bool TermShape::holds(const TermShape& other) const
 {
     return sums >= other.sums && values >= other.values && extremes >= other.extremes && analysed >= other.analysed
@@ -200,10 +211,19 @@ void Term::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const TermS
     plan.addItems("value", layout.size, shape.valueBytes());
     plan.addItems("texture", layout.size, shape.textureBytes());
     planPlanes(plan, layout,
-        { { "sums", shape.sums }, { "samples taken", kept }, { "slopes and distances", shape.extremes },
-            { "plain mean", shape.measured() }, { "squares", shape.measured() },
-            { "texture squares", shape.measured() * plain }, { "filter width", shape.analysed ? kept : 0 },
-            { "demand", several * kept }, { "samples wanted", plain }, { "radiance", shape.published ? 3u : 0u } });
+        {
+            { "sums", shape.sums },
+            { "samples taken", kept },
+            { "slopes and distances", shape.extremes },
+            { "plain mean", shape.measured() },
+            { "squares", shape.measured() },
+            { "texture squares", shape.measured() * plain },
+            { "filter width", shape.analysed ? kept : 0 },
+            { "demand", several * kept },
+            { "samples wanted", plain },
+            { "radiance", shape.published ? 3u : 0u },
+        });
+    plan.addItems("deviation", layout.size, deviationBytes(shape));
 }
 
 Term::Term(const device::Device& device, device::TimedQueue& queue, const Frame& frame, const TermShape& planes)
@@ -223,6 +243,7 @@ Term::Term(const device::Device& device, device::TimedQueue& queue, const Frame&
     , wanted(planes.packed() ? demand.part<std::uint32_t>(0, frame.layout.size, "samples wanted")
                              : device::Buffer<std::uint32_t>(device, frame.layout.size, "samples wanted"))
     , radiance(device, planes.published ? 3 * frame.layout.size : 0, "radiance of the term")
+    , deviation(device, frame.layout.size * deviationBytes(planes) / sizeof(float), "deviation")
 {
     beta.fill(queue, 0.0f);
     wanted.fill(queue, 0u);
@@ -251,6 +272,12 @@ Scratch::Scratch(
     , slopes(rowsSpread)
     , width(rowsSpread)
     , error(effective)
+    , visibility(logs.part<float>(0, layout.size, "visibility"))
+    , wide(demand)
+    , compared(spread)
+    , narrowWidth(rowsSpread)
+    , deviation(logs.part<float>(layout.size, layout.size, "deviation"))
+    , weights(logs.part<float>(2 * layout.size, layout.size, "weights"))
     , motionWidth(device, 0, "motion filter width")
     , motionDirection(device, 0, "motion direction")
     , ofTexture(rowsSpread)
@@ -288,6 +315,12 @@ Scratch::Scratch(const device::Device& device, const PlaneLayout& layout, const 
     , slopes(memory.part<float>(0, layout.size, "slopes and distances"))
     , width(rowsEffective)
     , error(rowsEffective)
+    , visibility(memory.part<float>(4 * layout.size, layout.size, "visibility"))
+    , wide(demand)
+    , compared(memory.part<float>(layout.size, layout.size, "width to compare with"))
+    , narrowWidth(memory.part<float>(5 * layout.size, layout.size, "narrower widths"))
+    , deviation(device, 0, "deviation")
+    , weights(narrowWidth)
     , motionWidth(memory.part<float>(layout.size, layout.size, "motion filter width"))
     , motionDirection(demand)
     , ofTexture(slopes)
@@ -317,6 +350,7 @@ void Term::clear(device::TimedQueue& queue)
         squares.fill(queue, 0.0f);
         textureSquares.fill(queue, 0.0f);
         radiance.fill(queue, 0.0f);
+        deviation.fill(queue, 0.0f);
     }
 }
 

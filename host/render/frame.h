@@ -125,6 +125,10 @@ struct TermShape {
     /// Whether buffers of this shape serve terms of the other.
     bool holds(const TermShape& other) const;
     /// 1 or 0: planes of each of what is measured for the analysis of terms of several receivers a pixel.
+    /// Planes of the deviations of its value.
+    std::uint64_t deviations() const { return distributed && analysed && !published ? 1 : 0; }
+    /// WEDGE_OMITS_* of a wave that is added to such a term.
+    std::uint32_t omits() const;
     std::uint64_t measured() const { return distributed && (!lean || analysed) ? 1 : 0; }
     bool packed() const { return lean && analysed; } ///< as FrameShape has it
     /// Bytes of a pixel's texture and value.
@@ -157,6 +161,7 @@ public:
     device::Buffer<float> demand; ///< of distributed frames: of samples; in lean ones in the place of squares
     device::Buffer<std::uint32_t> wanted; ///< samples; packed, in the place of demand
     device::Buffer<float> radiance; ///< likewise, as published: of the term alone
+    device::Buffer<float> deviation; ///< of distributed frames: of the value's samples, see accumulate.h
 
     /// Samples taken, once all are.
     const device::Buffer<std::uint32_t>& counts() const { return shape.lean ? wanted : taken; }
@@ -164,7 +169,7 @@ public:
     /// What kernels take for WEDGE_TERM_PARAMETERS.
     auto accumulated() const
     {
-        return std::tie(wanted, taken, texture, value, plain, squares, textureSquares, radiance, extremes);
+        return std::tie(wanted, taken, texture, value, plain, squares, textureSquares, radiance, deviation, extremes);
     }
 };
 
@@ -191,6 +196,10 @@ public:
     device::Buffer<float> demand; ///< and before that, eroded slopes
     device::Buffer<float> slopes, width; ///< of packed terms: slopes or distances; widths while they are made
     device::Buffer<float> error; ///< of taking texture and irradiance apart
+    device::Buffer<float> visibility; ///< of a light, to be filtered
+    /// Of widening.h: filtered with the wider widths; these, then counts, then variances; the narrower widths; of
+    /// samples, where pixels are the receivers; what values are worth, in lean frames in the place of narrowWidth.
+    device::Buffer<float> wide, compared, narrowWidth, deviation, weights;
     device::Buffer<float> motionWidth, motionDirection; ///< of packed frames, for the demands; before any gather
     device::Buffer<float> ofTexture, ofAllTextures; ///< variance of one term's, and of all that is not irradiance
     device::Buffer<float> bounds, extent; ///< of what the camera sees, see reflectors.cl

@@ -4,6 +4,7 @@
 #include "host/render/distributed_frame.h"
 #include "host/render/effects/indirect.h"
 #include "host/render/effects/soft_shadows.h"
+#include "host/render/filters/widening.h"
 #include "host/render/halves.h"
 #include "kernels/shared/distributed.h"
 
@@ -62,7 +63,7 @@ FrameShape frameShape(const Settings& settings, const scene::Scene& scene, bool 
 int filterReach(const Settings& settings, const scene::Scene& scene)
 {
     const bool moves = scene::geometryMoves(scene) || scene::cameraMoves(scene), lens = scene.camera.apertureRadius > 0;
-    return settings.maxRadius + (moves ? WEDGE_MOTION_REACH : 0) + (lens ? WEDGE_MAX_RADIUS : 0);
+    return settings.maxRadius + widenReach(settings) + (moves ? WEDGE_MOTION_REACH : 0) + (lens ? WEDGE_MAX_RADIUS : 0);
 }
 
 /// What receivers of waves need for the terms in turn.
@@ -332,7 +333,7 @@ TermContext Renderer::contextOf(const Settings& settings)
     const image::Window whole { 0, 0, settings.width, settings.height };
     // Whether the output's pixels fall back depends on filtered ones around.
     const bool fallsBack = !frame_->distributed && usesFallback(settings);
-    const int around = fallsBack ? WEDGE_FALLBACK_REACH : 0;
+    const int around = fallsBack ? WEDGE_SHRINK_REACH : 0;
     const image::Window filtered = fallsBack ? blockWindow(output, around, settings.width, settings.height) : output;
     image::Window sampled = needsAnalysis(settings)
         ? blockWindow(output, around + filterReach(settings, scene_), settings.width, settings.height)

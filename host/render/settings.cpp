@@ -183,6 +183,7 @@ Settings asPublished(std::optional<float> wanted)
     s.narrower = false;
     s.surface = false;
     s.fallback = false;
+    s.widening = 0.0f;
     s.mu = mu;
     s.fillRadius = 5;
     s.fillSigma = 0.0f;
@@ -324,8 +325,9 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
                 { "slopes", s.slopes == Slopes::Published ? "published" : "smoothed" }, { "mu", number(s.mu) },
                 { "k", number(s.k) }, { "alpha", number(s.alpha) }, { "oblique", number(s.oblique) },
                 { "narrower", number(s.narrower) }, { "surface", number(s.surface) },
-                { "fallback", number(s.fallback) }, { "normalDegrees", number(s.normalDegrees) },
-                { "cut", number(s.cut) }, { "maxRadius", number(s.maxRadius) }, { "fillSigma", number(s.fillSigma) },
+                { "fallback", number(s.fallback) }, { "widening", number(s.widening) },
+                { "normalDegrees", number(s.normalDegrees) }, { "cut", number(s.cut) },
+                { "maxRadius", number(s.maxRadius) }, { "fillSigma", number(s.fillSigma) },
                 { "fillRadius", number(s.fillRadius) }, { "countExponent", number(s.countExponent) },
                 { "varianceFloor", number(s.varianceFloor) }, { "varianceSpread", number(s.varianceSpread) } });
     }

@@ -89,6 +89,7 @@ struct IndirectSettings {
     IndirectCounts counts = IndirectCounts::Variance;
     float countExponent = 0.4f; ///< counts ~ (variance / gathered pixels)^this
     int maxSpp = 256; ///< most samples of a pixel
+    float widening = 4.0f; ///< pixels: as of lights
     float ambientDistance = 0.0f; ///< metres: farther surfaces do not occlude; 0: any distance does
 };
 
@@ -164,6 +165,9 @@ struct Settings {
     bool surface =
         true; ///< pixels weigh by the surface that they see, and those off a pixel's own surface are left out
     bool fallback = true; ///< where filters are off by more than noise explains, samples show (kernels/fallback.cl)
+    /// Pixels: lights' filters that are narrower are compared with one of this width, and widened where nothing speaks
+    /// for them (kernels/widen.cl); 0: never.
+    float widening = 2.0f;
     float normalDegrees = 10.0f; ///< neighbours whose normals differ by more are not gathered
     float cut = 3.0f; ///< kernel radius in standard deviations
     int maxRadius = 40; ///< kernel radius in pixels at most

@@ -8,8 +8,8 @@
 #define WEDGE_DEMAND_BINS 512u
 #define WEDGE_DEMAND_STRIPES 32u
 
-/// Pixels around one whose differences and noise say whether its filter is to be trusted, either way.
-#define WEDGE_FALLBACK_REACH 3
+/// Pixels around one whose differences and noise say which of two estimates is to be trusted, either way.
+#define WEDGE_SHRINK_REACH 3
 
 WEDGE_SHARED_BEGIN
 

@@ -1,6 +1,6 @@
 #include "host/render/effects/indirect.h"
 
-#include "host/render/filters/gaussian.h"
+#include "host/render/filters/widening.h"
 #include "host/render/sample_counts.h"
 #include "kernels/shared/indirect.h"
 
@@ -45,14 +45,29 @@ bool Indirect::render()
     term_.clear(c_.passes.queue());
     const bool complete = sample();
     if (analysed_ && c_.settings.filtering != Filtering::None) {
-        gaussianFilter(c_.passes, { "filter of indirect", PassKind::Filter, "filter_indirect.cl" },
-            filterParams(c_.settings, c_.fullFrame, c_.window), c_.window, c_.frame, term_.value, term_.beta,
-            c_.scratch, c_.scratch.filtered);
+        const shared::FilterParams params = filterParams(c_.settings, c_.fullFrame, c_.window);
+        // What was stopped early has not the counts that the parts of samples were made for.
+        if (complete && widens(c_.settings)) {
+            widen(params);
+        }
+        gaussianFilter(c_.passes, { "filter of indirect", PassKind::Filter, "filter_indirect.cl" }, params, c_.window,
+            c_.frame, term_.value, term_.beta, c_.scratch, c_.scratch.filtered);
         composite(c_.scratch.filtered);
     } else {
         composite(term_.value);
     }
     return complete;
+}
+
+void Indirect::widen(const shared::FilterParams& params)
+{
+    Scratch& scratch = c_.scratch;
+    c_.passes.rows("filter of indirect", PassKind::Filter, "widen.cl", "oneOfPaths", countParams(c_.full()),
+        WEDGE_BLOCK_PIXELS, static_cast<std::uint32_t>(component_), WEDGE_INDIRECT_FIRST_RAYS, reflectance(),
+        term_.value, term_.taken, scratch.visibility, scratch.deviation, scratch.weights);
+    const Widening widening(c_, "filter of indirect", params, c_.settings.indirect.widening);
+    widening.compare(scratch.visibility, scratch.deviation, term_.beta);
+    widening.apply(scratch.visibility, scratch.deviation, scratch.weights, term_.beta);
 }
 
 bool Indirect::sample()
@@ -247,7 +262,7 @@ void Indirect::sampleWave(Waves& waves, const shared::WaveParams& wave, double w
         waves.specular, waves.wanted, std::numeric_limits<std::uint32_t>::max(), waves.sums, waves.taken, waves.value,
         waves.extremes, waves.rays, waves.pathRays);
     shared::WaveParams adding = wave;
-    adding.omits |= term_.shape.extremes < 2 ? WEDGE_OMITS_EXTREMES : 0;
+    adding.omits |= term_.shape.omits();
     waves.pixels(c_.passes, "accumulatePaths", adding, component_ == Component::Ambient ? 1u : 0u, waves.pixelFirst,
         waves.pixelCount, c_.frame.primaryTaken, c_.frame.hits, waves.objectId, reflectance, waves.sums, waves.extremes,
         term_.accumulated(), c_.frame.samples, c_.frame.indirectSamples);
@@ -263,15 +278,18 @@ void Indirect::publishedWidths(const shared::DistributedParams& params, const de
 
 void Indirect::filterDistributed(const shared::DistributedParams& params)
 {
+    const shared::FilterParams filter = c_.settings.distributed.published
+        ? publishedParams(c_.settings, c_.fullFrame, c_.full())
+        : filterParams(c_.settings, c_.fullFrame, c_.full());
+    if (widens(c_.settings)) {
+        widenDistributed(c_, term_, params, Widening(c_, "filter of indirect", filter, c_.settings.indirect.widening));
+    }
     // The gather's rows go elsewhere, and its columns know nothing of the value.
     const device::Buffer<float>& value = c_.frame.shape.packed() ? c_.scratch.filtered : term_.value;
     if (c_.frame.shape.packed()) {
         c_.passes.rows(
             "filter of indirect", PassKind::Filter, "distributed.cl", "unpackImage", params, 1, term_.value, value);
     }
-    const shared::FilterParams filter = c_.settings.distributed.published
-        ? publishedParams(c_.settings, c_.fullFrame, c_.full())
-        : filterParams(c_.settings, c_.fullFrame, c_.full());
     gaussianFilter(c_.passes, { "filter of indirect", PassKind::Filter, "filter_indirect.cl" }, filter, c_.full(),
         c_.frame, value, term_.beta, c_.scratch, c_.scratch.filtered);
     addFilteredTerm(c_, term_, params, c_.frame.indirect);

@@ -55,6 +55,7 @@ private:
         const char* pass, const shared::FrameParams& frame, std::uint32_t from, std::uint32_t most, double mean);
     void widthsAndCounts();
     void visibleExtent();
+    void widen(const shared::FilterParams& params);
     void countsFromVariance();
     void composite(const device::Buffer<float>& value);
     shared::PathParams pathParams() const;

@@ -1,6 +1,6 @@
 #include "host/render/effects/soft_shadows.h"
 
-#include "host/render/filters/gaussian.h"
+#include "host/render/filters/widening.h"
 #include "host/render/sample_counts.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/packed.h"
@@ -54,14 +54,29 @@ bool SoftShadows::render()
     term_.clear(c_.passes.queue());
     const bool complete = sample();
     if (analysed_ && c_.settings.filtering != Filtering::None) {
-        gaussianFilter(c_.passes, { "filter", PassKind::Filter, "filter.cl" },
-            filterParams(c_.settings, c_.fullFrame, light(), c_.window), c_.window, c_.frame, term_.value, term_.beta,
-            c_.scratch, c_.scratch.filtered);
+        const shared::FilterParams params = filterParams(c_.settings, c_.fullFrame, light(), c_.window);
+        // What was stopped early has not the counts that the parts of samples were made for.
+        if (complete && widens(c_.settings)) {
+            widen(params);
+        }
+        gaussianFilter(c_.passes, { "filter", PassKind::Filter, "filter.cl" }, params, c_.window, c_.frame, term_.value,
+            term_.beta, c_.scratch, c_.scratch.filtered);
         shade(c_.scratch.filtered);
     } else {
         shade(term_.value);
     }
     return complete;
+}
+
+void SoftShadows::widen(const shared::FilterParams& params)
+{
+    Scratch& scratch = c_.scratch;
+    c_.passes.rows("filter", PassKind::Filter, "widen.cl", "oneOfLight", analysisParams(c_.full()), WEDGE_BLOCK_PIXELS,
+        WEDGE_FIRST_PASS_RAYS, term_.value, term_.taken, term_.sums, c_.frame.diffuse, c_.frame.specular,
+        scratch.visibility, scratch.deviation, scratch.weights);
+    const Widening widening(c_, "filter", params, c_.settings.widening);
+    widening.compare(scratch.visibility, scratch.deviation, term_.beta);
+    widening.apply(scratch.visibility, scratch.deviation, scratch.weights, term_.beta);
 }
 
 bool SoftShadows::sample()
@@ -310,7 +325,7 @@ void SoftShadows::sampleWave(Waves& waves, const shared::WaveParams& wave, bool 
             waves.specular, waves.gloss, waves.view, waves.unshadowed);
     }
     shared::WaveParams adding = wave;
-    adding.omits |= term_.shape.extremes < 2 ? WEDGE_OMITS_EXTREMES : 0;
+    adding.omits |= term_.shape.omits();
     waves.pixels(c_.passes, "accumulateLight", adding, light(), exact ? 1u : 0u, waves.pixelFirst, waves.pixelCount,
         c_.frame.primaryTaken, c_.frame.hits, waves.receivers(), waves.diffuse, waves.specular, waves.sums,
         waves.unshadowed, waves.extremes, term_.accumulated(), term_.sums, c_.frame.samples);
@@ -338,13 +353,15 @@ void SoftShadows::blurShadows(const shared::DistributedParams& params)
 
 void SoftShadows::filterDistributed(const shared::DistributedParams& params)
 {
-    // Nothing else keeps anything there while the image is made.
-    device::Buffer<float>& visibility = c_.scratch.logs;
-    c_.passes.rows("filter", PassKind::Filter, "distributed.cl", "visibilityOf", params, 1, term_.texture, term_.value,
-        visibility);
+    const device::Buffer<float>& visibility = c_.scratch.visibility;
     const shared::FilterParams filter = c_.settings.distributed.published
         ? publishedParams(c_.settings, c_.fullFrame, c_.full())
         : filterParams(c_.settings, c_.fullFrame, light(), c_.full());
+    if (widens(c_.settings)) {
+        widenDistributed(c_, term_, params, Widening(c_, "filter", filter, c_.settings.widening));
+    }
+    c_.passes.rows("filter", PassKind::Filter, "distributed.cl", "visibilityOf", params, 1, term_.texture, term_.value,
+        visibility);
     gaussianFilter(c_.passes, { "filter", PassKind::Filter, "filter_variance.cl" }, filter, c_.full(), c_.frame,
         visibility, term_.beta, c_.scratch, c_.scratch.filtered);
     if (c_.scene.moves && c_.settings.distributed.blur) {

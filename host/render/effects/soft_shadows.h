@@ -42,6 +42,7 @@ private:
     void smoothedWidths();
     void narrowForHighlights(const device::Buffer<float>& beta);
     void countsFromVariance();
+    void widen(const shared::FilterParams& params);
     void blurShadows(const shared::DistributedParams& params);
     void shade(const device::Buffer<float>& value);
     shared::AnalysisParams analysisParams(const image::Window& window) const;

@@ -1,0 +1,100 @@
+#include "host/render/filters/widening.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wedge::render {
+
+using device::PassKind;
+
+namespace {
+
+// How much of the samples' variance counts. It is known from two parts of a sequence, whose points complement each
+// other as long as nothing else is drawn with them: then it comes out too large.
+constexpr float pinholeNoise = 0.5f, distributedNoise = 0.6f;
+
+// Pixels over which filters that are compared reach; a width covers more of them where surfaces are seen at a slant.
+int comparedReach(const Settings& settings, float pixels)
+{
+    return std::min(settings.maxRadius, static_cast<int>(std::ceil(settings.cut * pixels)));
+}
+
+} // namespace
+
+bool widens(const Settings& s)
+{
+    return s.widening > 0 && s.method == Method::AxisAligned && s.filtering == Filtering::Adaptive && !s.published
+        && s.shading == Shading::Ratio;
+}
+
+int widenReach(const Settings& s)
+{
+    const float widest = tracesPaths(s) ? std::max(s.widening, s.indirect.widening) : s.widening;
+    return widens(s) ? 2 * WEDGE_SHRINK_REACH + comparedReach(s, widest) : 0;
+}
+
+Widening::Widening(const TermContext& context, std::string_view pass, const shared::FilterParams& params, float pixels)
+    : c_(context)
+    , pass_(pass)
+    , params_(params)
+    , pixels_(pixels)
+    , widened_(blockWindow(context.window, context.settings.maxRadius, context.full().x1, context.full().y1))
+    , shared_(blockWindow(widened_, WEDGE_SHRINK_REACH, context.full().x1, context.full().y1))
+    , compared_(blockWindow(shared_, WEDGE_SHRINK_REACH, context.full().x1, context.full().y1))
+{
+    params_.maxRadius = static_cast<std::uint32_t>(comparedReach(context.settings, pixels));
+}
+
+shared::AnalysisParams Widening::analysisParams(const image::Window& window) const
+{
+    shared::AnalysisParams p {};
+    p.width = c_.fullFrame.width;
+    p.height = c_.fullFrame.height;
+    p.stride = c_.fullFrame.stride;
+    p.planeSize = c_.fullFrame.planeSize;
+    p.packed = c_.frame.shape.packed() ? 1 : 0;
+    setRectangle(p, window);
+    return p;
+}
+
+void Widening::compare(
+    device::Buffer<float>& value, const device::Buffer<float>& deviation, const device::Buffer<float>& beta) const
+{
+    Scratch& scratch = c_.scratch;
+    const FilterRun run { pass_, PassKind::Filter, "filter_variance.cl" };
+    // A gather takes the widths of all pixels that it reaches.
+    c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "comparedWidths", analysisParams(c_.full()), WEDGE_BLOCK_PIXELS,
+        c_.fullFrame, pixels_, deviation, c_.frame.position, c_.frame.normal, c_.frame.objectId, beta, scratch.compared,
+        scratch.narrowWidth);
+    gaussianFilter(c_.passes, run, params_, compared_, c_.frame, value, scratch.compared, scratch, scratch.wide);
+    c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "copyCounts", analysisParams(compared_), WEDGE_BLOCK_PIXELS,
+        scratch.effective, scratch.compared);
+    gaussianFilter(c_.passes, run, params_, compared_, c_.frame, value, scratch.narrowWidth, scratch, value);
+}
+
+void Widening::apply(const device::Buffer<float>& narrow, const device::Buffer<float>& deviation,
+    const device::Buffer<float>& weights, device::Buffer<float>& beta) const
+{
+    Scratch& scratch = c_.scratch;
+    c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "widenSquares", analysisParams(compared_), WEDGE_BLOCK_PIXELS,
+        narrow, scratch.effective, deviation, weights, scratch.wide, scratch.compared);
+    c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "wideShares", analysisParams(shared_), WEDGE_BLOCK_PIXELS,
+        c_.fullFrame, pixels_, c_.frame.distributed ? distributedNoise : pinholeNoise, scratch.wide, scratch.compared,
+        c_.frame.position, c_.frame.normal, c_.frame.objectId, beta, scratch.effective);
+    c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "widen", analysisParams(widened_), WEDGE_BLOCK_PIXELS,
+        c_.fullFrame, pixels_, scratch.effective, c_.frame.position, c_.frame.normal, c_.frame.objectId, beta);
+}
+
+void widenDistributed(
+    const TermContext& context, Term& term, const shared::DistributedParams& params, const Widening& widening)
+{
+    Scratch& scratch = context.scratch;
+    context.passes.rows("filter", PassKind::Filter, "distributed.cl", "visibilityOf", params, 1, term.texture,
+        term.value, scratch.visibility);
+    widening.compare(scratch.visibility, term.deviation, term.beta);
+    context.passes.rows(
+        "filter", PassKind::Filter, "distributed.cl", "luminanceOfTexture", params, 1, term.texture, scratch.weights);
+    widening.apply(scratch.visibility, term.deviation, scratch.weights, term.beta);
+}
+
+} // namespace wedge::render

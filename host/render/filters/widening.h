@@ -1,0 +1,47 @@
+#pragma once
+
+#include "host/render/effects/term_context.h"
+#include "host/render/filters/gaussian.h"
+
+namespace wedge::render {
+
+/// Whether narrow filters of lights and of indirect light are compared with wider ones, and widened where nothing
+/// speaks for them. Not where samples know nothing of what their light is worth in the image.
+bool widens(const Settings& settings);
+
+/// Pixels beyond a filter's that widths depend on.
+int widenReach(const Settings& settings);
+
+/// How one term's filter is widened (kernels/widen.cl), in two steps.
+class Widening {
+public:
+    /// params: of the term's filter; pixels: the width that others are compared with
+    Widening(const TermContext& context, std::string_view pass, const shared::FilterParams& params, float pixels);
+
+    /// Where the widths beta are less than that to compare with, filters `value`, one plane of all pixels, in place
+    /// with beta, and into scratch.wide with that. deviation: of value's samples (deviation16() of
+    /// kernels/deviation.h). scratch.compared, wide and effective are not to change until apply().
+    void compare(
+        device::Buffer<float>& value, const device::Buffer<float>& deviation, const device::Buffer<float>& beta) const;
+
+    /// Widens beta. narrow: what compare() left in the place of the value; weights: what values are multiplied by in
+    /// the image
+    void apply(const device::Buffer<float>& narrow, const device::Buffer<float>& deviation,
+        const device::Buffer<float>& weights, device::Buffer<float>& beta) const;
+
+private:
+    shared::AnalysisParams analysisParams(const image::Window& window) const;
+
+    const TermContext& c_;
+    std::string_view pass_;
+    shared::FilterParams params_;
+    float pixels_;
+    image::Window widened_; ///< the pixels that the filter reaches
+    image::Window shared_, compared_; ///< those whose shares, and whose squares, their widths depend on
+};
+
+/// Widens the filter of a distributed frame's term, once its samples are complete.
+void widenDistributed(
+    const TermContext& context, Term& term, const shared::DistributedParams& params, const Widening& widening);
+
+} // namespace wedge::render

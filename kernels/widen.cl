@@ -1,0 +1,262 @@
+// Where a term's filter is narrow and its samples do not say that it has to be, it is widened.
+//
+// A width follows from the nearest occluder or reflector that a pixel's first rays found. Where a surface shadows
+// itself, or something small is near and all else is far, that is next to no width, and pixels keep the noise of their
+// own samples. So pixels whose width is less than a few pixels are filtered twice, with it (n) and with those few
+// pixels (w). Of the blend n + t (w - n) that t has the least error, as James and Stein's has (shrink.h), for which
+//
+//     t = max(0, (c V - r (D - q c V)) / D)
+//
+// with D the mean of (n - w)^2 over the pixels of the object around and V what noise makes of n's error that w does not
+// have in common with it. With v the variance of a pixel's own mean, and Gaussians that amount to K_n and K_w equal
+// pixels, one inside the other, n has the variance v / K_n, in common with w 2 v / (K_n + K_w), and their difference
+// has q V, q = 1 - K_n / K_w. What else is in D is bias, of which n has a part already: bias goes with the square of
+// widths, so that it is r = K_n / (K_w - K_n) times what w has more. The pixel's filter gets a width that is as far
+// between both widths. That blurs edges more than the blend and keeps less noise.
+#include "deviation.h"
+#include "packed_planes.h"
+#include "shared/bsdf.h"
+#include "shared/path.h"
+#include "shrink.h"
+
+/// The width to compare with, `pixels` on the surface that pixel i sees, in metres. normal: packed where p says so
+WEDGE_FN float comparedWidth(AnalysisParams p, FrameParams frame, float pixels, __global const float* position,
+    __global const float* normal, uint i)
+{
+    const Vec3 ray = vecSub(loadVec(position, p.planeSize, i), frame.eye);
+    const float depth = fmax(vecDot(ray, frame.forward), 1e-20f);
+    const Vec3 facing = loadNormal(normal, p.planeSize, i, p.packed);
+    return pixels * projectedPixel(frame, facing, vecScale(ray, 1.0f / depth), depth);
+}
+
+/// Deviations of a block of pixels; packed, they have 16 bits.
+WEDGE_FN float16 loadDeviations(AnalysisParams p, __global const float* deviation, int i)
+{
+    if (p.packed == 0u) {
+        return loadBlock(deviation, i);
+    }
+    float d[WEDGE_BLOCK_PIXELS];
+    for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
+        d[lane] = loadShort(deviation, p.planeSize, (uint)i + lane, 0u);
+    }
+    return vload16(0, d);
+}
+
+/// Whether there is noise in a block of pixels or in those whose squares count where its own do: where there is none,
+/// V is 0, and no width changes.
+WEDGE_FN bool noiseAround(AnalysisParams p, uint x, uint y, __global const float* deviation)
+{
+    const int reach = 3 * WEDGE_SHRINK_REACH, block = (int)WEDGE_BLOCK_PIXELS;
+    const int first = x >= WEDGE_BLOCK_PIXELS ? -block : 0, last = x + WEDGE_BLOCK_PIXELS < p.width ? block : 0;
+    for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
+        for (int dx = first; dx <= last; dx += block) {
+            const int j = (int)pixelIndex(x, y, p.stride) + dy * (int)p.stride + dx;
+            if (any(loadDeviations(p, deviation, j) != 0.0f)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/// The widths to compare with and a pixel's own, where that is narrower; both 0 where it is not or nothing is noisy, -1
+/// where it has none.
+/// in   deviation: of the value that is filtered; beta, metres
+/// out  wide, narrow: metres
+__kernel void comparedWidths(AnalysisParams p, FrameParams frame, float pixels,
+    __global const float* restrict deviation, __global const float* restrict position,
+    __global const float* restrict normal, __global const uint* restrict objectId, __global const float* restrict beta,
+    __global float* restrict wide, __global float* restrict narrow)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const bool noisy = noiseAround(p, x, y, deviation);
+    for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
+        const uint i = pixelIndex(x + lane, y, p.stride);
+        const bool has = objectId[i] != 0u && beta[i] >= 0.0f;
+        const float compared = has && noisy ? comparedWidth(p, frame, pixels, position, normal, i) : 0.0f;
+        const bool apart = beta[i] < compared;
+        wide[i] = !has ? -1.0f : apart ? compared : 0.0f;
+        narrow[i] = !has ? -1.0f : apart ? beta[i] : 0.0f;
+    }
+}
+
+/// Of pixels that are the receivers, a light in one number: what is seen of it, diffuse and specular together.
+/// in   value: diffuse and, where something is specular, specular visibility, and both of the first of two parts of the
+///      samples; taken: these samples; sums: of them, as area_light.cl has them
+/// out  visibility; deviation, as deviation16() has it; weights: the luminance that is reflected where all is visible,
+///      1/m^2
+__kernel void oneOfLight(AnalysisParams p, uint firstPass, __global const float* restrict value,
+    __global const uint* restrict taken, __global const float* restrict sums, __global const float* restrict diffuse,
+    __global const float* restrict specular, __global float* restrict visibility, __global float* restrict deviation,
+    __global float* restrict weights)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const uint size = p.planeSize;
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const uint16 count = loadIdBlock(taken, i);
+    const float16 scale = 1.0f / max16(convert_float16(count), (float16)(1.0f));
+    float16 weight = WEDGE_INV_PI * luminance16(loadVecBlock(diffuse, size, i)) * loadBlock(sums, i) * scale;
+#ifdef WEDGE_SPECULAR
+    const float16 mirrored = luminance16(loadVecBlock(specular, size, i)) * loadBlock(sums + 2u * size, i) * scale;
+    const float16 seen = weight * loadBlock(value, i) + mirrored * loadBlock(value + size, i);
+    const float16 first = weight * loadBlock(value + 2u * size, i) + mirrored * loadBlock(value + 3u * size, i);
+    weight += mirrored;
+#else
+    (void)specular;
+    const float16 seen = weight * loadBlock(value, i), first = weight * loadBlock(value + size, i);
+#endif
+    const int16 lit = weight > 0.0f;
+    const float16 over = lit ? 1.0f / weight : (float16)(0.0f);
+    const float16 mean = lit ? seen * over : (float16)(0.0f), ofPart = lit ? first * over : (float16)(0.0f);
+    vstore16(mean, 0, visibility + i);
+    vstore16(deviation16(mean, ofPart, count, firstPass), 0, deviation + i);
+    vstore16(lit ? weight : (float16)(0.0f), 0, weights + i);
+}
+
+/// The same of indirect light: the irradiance that is reflected.
+/// in   reflectance: 3 planes; value: 3 planes, and 3 of the first part; component: WEDGE_COMPONENT_*; of ambient
+///      occlusion all is reflected
+__kernel void oneOfPaths(AnalysisParams p, uint component, uint firstPass, __global const float* restrict reflectance,
+    __global const float* restrict value, __global const uint* restrict taken, __global float* restrict irradiance,
+    __global float* restrict deviation, __global float* restrict weights)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const uint size = p.planeSize;
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const Vec3x16 k =
+        component == WEDGE_COMPONENT_AMBIENT ? splat3(vec3(1.0f, 1.0f, 1.0f)) : loadVecBlock(reflectance, size, i);
+    const Vec3x16 all = loadVecBlock(value, size, i), part = loadVecBlock(value + 3u * size, size, i);
+    const float16 weight = luminance16(k);
+    const int16 reflects = weight > 0.0f;
+    const float16 over = reflects ? 1.0f / weight : (float16)(0.0f);
+    const float16 mean = reflects ? luminance16(mul16(k, all)) * over : (float16)(0.0f);
+    const float16 ofPart = reflects ? luminance16(mul16(k, part)) * over : (float16)(0.0f);
+    vstore16(mean, 0, irradiance + i);
+    vstore16(deviation16(mean, ofPart, loadIdBlock(taken, i), firstPass), 0, deviation + i);
+    vstore16(reflects ? weight : (float16)(0.0f), 0, weights + i);
+}
+
+/// K_w, out of the way of the next gather.
+__kernel void copyCounts(AnalysisParams p, __global const float* restrict gathered, __global float* restrict copy)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x < p.x1 && y < p.y1) {
+        const int i = (int)pixelIndex(x, y, p.stride);
+        vstore16(loadBlock(gathered, i), 0, copy + i);
+    }
+}
+
+/// What is averaged, both of what is shown and not of irradiances, which may be noisy where there is little of them to
+/// see.
+/// in      narrow: n; gathered: K_n; deviation: its square is v; weights: of what n and w are multiplied by
+/// in out  wide: w, then (n - w)^2; variance: K_w, then V. Both are 0 where the wide filter does not gather more.
+__kernel void widenSquares(AnalysisParams p, __global const float* restrict narrow,
+    __global const float* restrict gathered, __global const float* restrict deviation,
+    __global const float* restrict weights, __global float* restrict wide, __global float* restrict variance)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const float16 k = loadBlock(gathered, i), kWide = loadBlock(variance, i), t = loadBlock(weights, i);
+    const int16 wider = kWide > k;
+    const float16 apart = 1.0f / k - 2.0f / (k + kWide);
+    const float16 own = t * loadDeviations(p, deviation, i), d = t * (loadBlock(narrow, i) - loadBlock(wide, i));
+    vstore16(wider ? own * own * apart : (float16)(0.0f), 0, variance + i);
+    vstore16(wider ? d * d : (float16)(0.0f), 0, wide + i);
+}
+
+/// t of the head of this file. ratio: of the squared widths
+WEDGE_FN float wideShare(float difference, float variance, float ratio)
+{
+    const float rest = fmax(1.0f - ratio, 1e-3f);
+    const float bias = fmax(difference - rest * variance, 0.0f);
+    return clamp((variance - ratio / rest * bias) / difference, 0.0f, 1.0f);
+}
+
+/// in   noise: c; difference, variance: of widenSquares(); beta, metres
+/// out  shares: t; -1 of pixels that have no wider filter to compare with
+__kernel void wideShares(AnalysisParams p, FrameParams frame, float pixels, float noise,
+    __global const float* restrict difference, __global const float* restrict variance,
+    __global const float* restrict position, __global const float* restrict normal,
+    __global const uint* restrict objectId, __global const float* restrict beta, __global float* restrict shares)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    vstore16((float16)(-1.0f), 0, shares + i);
+    const int16 differs = (loadIdBlock(objectId, i) != 0u) & (loadBlock(difference, i) > 0.0f);
+    if (!any(differs)) {
+        return;
+    }
+    const SquaresAround around = squaresAround(p, y, i, objectId, difference, variance);
+    float d[WEDGE_BLOCK_PIXELS], v[WEDGE_BLOCK_PIXELS];
+    vstore16(differs ? around.difference : (float16)(0.0f), 0, d);
+    vstore16(noise * around.variance, 0, v);
+    for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
+        const uint j = (uint)i + lane;
+        if (d[lane] > 0.0f) {
+            const float wide = comparedWidth(p, frame, pixels, position, normal, j), own = beta[j];
+            shares[j] = wideShare(d[lane], v[lane], own * own / fmax(wide * wide, 1e-30f));
+        }
+    }
+}
+
+/// Widths by the mean of the shares around: where it changes from pixel to pixel a filter takes more from one side than
+/// from the other, as pairs are weighted by the narrower of both, and shifts what has a gradient.
+/// in out  beta, metres
+__kernel void widen(AnalysisParams p, FrameParams frame, float pixels, __global const float* restrict shares,
+    __global const float* restrict position, __global const float* restrict normal,
+    __global const uint* restrict objectId, __global float* restrict beta)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const float16 own = loadBlock(shares, i);
+    if (!any((own >= 0.0f) & (loadIdBlock(objectId, i) != 0u))) {
+        return;
+    }
+    const uint16 object = loadIdBlock(objectId, i);
+    float16 sum = (float16)(0.0f), count = (float16)(0.0f);
+    const int reach = (int)WEDGE_SHRINK_REACH;
+    for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
+        for (int dx = -reach; dx <= reach; ++dx) {
+            const int j = i + dy * (int)p.stride + dx;
+            const float16 share = loadBlock(shares, j);
+            const int16 taken = (loadIdBlock(objectId, j) == object) & (share >= 0.0f);
+            sum += taken ? share : (float16)(0.0f);
+            count += taken ? (float16)(1.0f) : (float16)(0.0f);
+        }
+    }
+    float mean[WEDGE_BLOCK_PIXELS];
+    const int16 compared = (object != 0u) & (own >= 0.0f);
+    vstore16(compared ? sum / max16(count, (float16)(1.0f)) : (float16)(0.0f), 0, mean);
+    for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
+        const uint j = (uint)i + lane;
+        if (mean[lane] > 0.0f) {
+            const float wide = comparedWidth(p, frame, pixels, position, normal, j);
+            beta[j] += mean[lane] * fmax(wide - beta[j], 0.0f);
+        }
+    }
+}

@@ -1,0 +1,289 @@
+// widen.cl alone: against the same in double.
+#include "kernels/shared/filter_params.h"
+#include "kernels/shared/indirect.h"
+#include "kernels/shared/path.h"
+#include "kernels/shared/wedge.h"
+#include "tests/render_support.h"
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+constexpr float wideInPixels = 2;
+
+shared::AnalysisParams paramsOf(const render::PlaneLayout& layout)
+{
+    shared::AnalysisParams p {};
+    p.x1 = p.width = layout.width;
+    p.y1 = p.height = layout.height;
+    p.stride = layout.stride;
+    p.planeSize = static_cast<std::uint32_t>(layout.size);
+    return p;
+}
+
+/// A camera that looks down -z from 5 m, at a pixel of 1 cm there.
+shared::FrameParams cameraOf(const render::PlaneLayout& layout)
+{
+    shared::FrameParams f {};
+    f.width = layout.width;
+    f.height = layout.height;
+    f.stride = layout.stride;
+    f.planeSize = static_cast<std::uint32_t>(layout.size);
+    f.eye = shared::vec3(0, 0, 5);
+    f.forward = shared::vec3(0, 0, -1);
+    f.right = shared::vec3(0.002f, 0, 0);
+    f.down = shared::vec3(0, -0.002f, 0);
+    return f;
+}
+
+template <class Do>
+void everyPixel(const render::PlaneLayout& layout, const Do& run)
+{
+    for (int y = 0; y < static_cast<int>(layout.height); ++y)
+        for (int x = 0; x < static_cast<int>(layout.width); ++x)
+            run(x, y);
+}
+
+/// Pixels of two objects and none on the plane z = 0, and what their filters are made of.
+struct Pixels {
+    Planes<float> position, normal, beta, deviation, weights, narrow, wide, counts, countsWide;
+    Planes<std::uint32_t> objectId;
+
+    /// quiet: pixels from this column on have no noise
+    Pixels(const render::PlaneLayout& layout, std::mt19937& random, double bias, double noise, int quiet = 1 << 20)
+        : position(layout, 3, 0.0f)
+        , normal(layout, 3, 0.0f)
+        , beta(layout, 1, -1.0f)
+        , deviation(layout, 1, 0.0f)
+        , weights(layout, 1, 0.0f)
+        , narrow(layout, 1, 0.0f)
+        , wide(layout, 1, 0.0f)
+        , counts(layout, 1, 1.0f)
+        , countsWide(layout, 1, 1.0f)
+        , objectId(layout, 1, 0u)
+    {
+        std::normal_distribution<double> gauss;
+        everyPixel(layout, [&](int x, int y) {
+            objectId.at(x, y) = random() % 7 == 0 ? 0 : 1 + static_cast<std::uint32_t>(x / 9 + y / 5) % 2;
+            position.setVector(x, y, { 0.01 * (x - 20), 0.01 * (10 - y), 0 });
+            normal.setVector(x, y, { 0, 0, 1 });
+            // Of the pixels a third is wider than what it is compared with, and some have no filter.
+            const double own = random() % 9 == 0 ? -1 : 0.01 * uniform(random, 0, 3);
+            beta.at(x, y) = static_cast<float>(own);
+            counts.at(x, y) = static_cast<float>(uniform(random, 1, 8));
+            countsWide.at(x, y) = own >= 0 && own < 0.02 ? 20.0f : 1.0f;
+            const double v = x < quiet ? noise : 0, k = counts.at(x, y), apart = 1 / k - 2 / (k + 20);
+            deviation.at(x, y) = static_cast<float>(v * gauss(random));
+            weights.at(x, y) = static_cast<float>(uniform(random, 0.5, 2));
+            wide.at(x, y) = 1;
+            narrow.at(x, y) = static_cast<float>(1 + bias + v * std::sqrt(apart) * gauss(random));
+        });
+    }
+};
+
+double squared(double x) { return x * x; }
+
+} // namespace
+
+TEST_CASE("widen: narrow pixels are compared with a width of that many pixels, where there is noise around")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        const render::PlaneLayout layout(83, 31);
+        std::mt19937 random(3);
+        const Pixels in(layout, random, 0, 0.1, 20);
+        const auto wide = bench.filled(layout.size, -7.0f), narrow = bench.filled(layout.size, -7.0f);
+        bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "comparedWidths", paramsOf(layout),
+            WEDGE_BLOCK_PIXELS, cameraOf(layout), wideInPixels, bench.buffer(in.deviation.values),
+            bench.buffer(in.position.values), bench.buffer(in.normal.values), bench.buffer(in.objectId.values),
+            bench.buffer(in.beta.values), wide, narrow);
+        const Planes<float> w = planesOf(layout, bench.read(wide)), n = planesOf(layout, bench.read(narrow));
+        int compared = 0, left = 0;
+        everyPixel(layout, [&](int x, int y) {
+            const double own = in.beta.at(x, y);
+            if (in.objectId.at(x, y) == 0 || own < 0) {
+                REQUIRE(w.at(x, y) == -1);
+                REQUIRE(n.at(x, y) == -1);
+                return;
+            }
+            // A pixel's edge on the plane: its solid angle and distance off the axis cancel but for the cosines.
+            const double size = 0.02;
+            const bool narrower = own < size;
+            // Noise ends at column 20, and squares count to twice the reach.
+            if (x < 20 + 2 * WEDGE_SHRINK_REACH)
+                REQUIRE(std::fabs(w.at(x, y) - (narrower ? size : 0)) < 2e-4);
+            if (x >= 48)
+                REQUIRE(w.at(x, y) == 0);
+            REQUIRE(n.at(x, y) == (w.at(x, y) > 0 ? in.beta.at(x, y) : 0));
+            compared += w.at(x, y) > 0 ? 1 : 0;
+            left += narrower && w.at(x, y) == 0 ? 1 : 0;
+        });
+        CHECK(compared > 100);
+        CHECK(left > 100);
+    });
+}
+
+namespace {
+
+/// t of pixel (x, y), or -1 where there is no wider filter to compare with.
+double shareOf(const Pixels& in, int x, int y, double c)
+{
+    const auto compared = [&](int px, int py) {
+        return in.objectId.at(px, py) != 0 && in.countsWide.at(px, py) > in.counts.at(px, py);
+    };
+    double v = 0, d = 0;
+    for (int py = std::max(0, y - 3); py <= std::min(22, y + 3); ++py)
+        for (int px = std::max(0, x - 3); px <= std::min(40, x + 3); ++px) {
+            const double k = in.counts.at(px, py), kWide = in.countsWide.at(px, py), t = in.weights.at(px, py);
+            if (in.objectId.at(px, py) != in.objectId.at(x, y) || !compared(px, py))
+                continue;
+            v += c * squared(t * in.deviation.at(px, py)) * (1 / k - 2 / (k + kWide));
+            d += squared(t * (in.narrow.at(px, py) - in.wide.at(px, py)));
+        }
+    if (!compared(x, y) || d == 0 || in.narrow.at(x, y) == in.wide.at(x, y))
+        return -1;
+    const double ratio = squared(in.beta.at(x, y) / 0.02), rest = std::max(1 - ratio, 1e-3);
+    return std::clamp((v - ratio / rest * std::max(d - rest * v, 0.0)) / d, 0.0, 1.0);
+}
+
+} // namespace
+
+TEST_CASE("widen: the width is as far between both as noise and difference of the object around say")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        for (const float c : { 0.5f, 1.0f })
+            for (const auto& [bias, noise] :
+                { std::pair(0.0, 0.1), { 0.1, 0.1 }, { 0.3, 0.1 }, { 0.2, 0.0 }, { 0.0, 0.0 } }) {
+                CAPTURE(bias);
+                CAPTURE(noise);
+                const render::PlaneLayout layout(41, 23);
+                std::mt19937 random(7);
+                const Pixels in(layout, random, bias, noise);
+                const shared::AnalysisParams p = paramsOf(layout);
+                const shared::FrameParams camera = cameraOf(layout);
+                const auto wide = bench.buffer(in.wide.values), variance = bench.buffer(in.countsWide.values),
+                           shares = bench.filled(layout.size, -7.0f), beta = bench.buffer(in.beta.values),
+                           position = bench.buffer(in.position.values), normal = bench.buffer(in.normal.values);
+                const auto objectId = bench.buffer(in.objectId.values);
+                bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "widenSquares", p, WEDGE_BLOCK_PIXELS,
+                    bench.buffer(in.narrow.values), bench.buffer(in.counts.values), bench.buffer(in.deviation.values),
+                    bench.buffer(in.weights.values), wide, variance);
+                bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "wideShares", p, WEDGE_BLOCK_PIXELS,
+                    camera, wideInPixels, c, wide, variance, position, normal, objectId, beta, shares);
+                bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "widen", p, WEDGE_BLOCK_PIXELS, camera,
+                    wideInPixels, shares, position, normal, objectId, beta);
+                const Planes<float> t = planesOf(layout, bench.read(shares)),
+                                    found = planesOf(layout, bench.read(beta));
+                int kept = 0, widened = 0, between = 0;
+                everyPixel(layout, [&](int x, int y) {
+                    const double share = shareOf(in, x, y, static_cast<double>(c));
+                    REQUIRE(std::fabs(t.at(x, y) - share) < 1e-3);
+                    if (share < 0) {
+                        REQUIRE(found.at(x, y) == in.beta.at(x, y));
+                        return;
+                    }
+                    double sum = 0, count = 0;
+                    for (int py = std::max(0, y - 3); py <= std::min(22, y + 3); ++py)
+                        for (int px = std::max(0, x - 3); px <= std::min(40, x + 3); ++px)
+                            if (in.objectId.at(px, py) == in.objectId.at(x, y) && t.at(px, py) >= 0) {
+                                sum += t.at(px, py);
+                                ++count;
+                            }
+                    const double own = in.beta.at(x, y);
+                    REQUIRE(std::fabs(found.at(x, y) - (own + sum / count * (0.02 - own))) < 1e-5);
+                    (share == 1 ? widened : share == 0 ? kept : between) += 1;
+                });
+                if (noise == 0)
+                    CHECK(widened + between == 0);
+                if (noise > 0 && bias == 0 && c == 1)
+                    CHECK(widened > 20);
+                if (bias == 0.3)
+                    CHECK(kept > widened);
+            }
+    });
+}
+
+TEST_CASE("widen: of a light and of paths one number, its noise and what it is worth")
+{
+    onEveryDevice([](const device::Device& device) {
+        for (const bool specular : { false, true }) {
+            KernelBench bench(device, specular ? Defines { { "WEDGE_SPECULAR", "1" } } : Defines());
+            const render::PlaneLayout layout(37, 11);
+            const std::size_t channels = specular ? 2 : 1;
+            std::mt19937 random(5);
+            Planes<float> value(layout, 6, 0.0f), sums(layout, 4, 0.0f), kd(layout, 3, 0.0f), ks(layout, 3, 0.0f);
+            Planes<std::uint32_t> taken(layout, 1, 0u);
+            everyPixel(layout, [&](int x, int y) {
+                taken.at(x, y) =
+                    random() % 8 == 0 ? 0 : WEDGE_INDIRECT_FIRST_RAYS + static_cast<std::uint32_t>(random() % 60);
+                for (std::size_t plane = 0; plane < 6; ++plane)
+                    value.at(x, y, plane) = static_cast<float>(uniform(random));
+                for (std::size_t plane = 0; plane < 4; ++plane)
+                    sums.at(x, y, plane) = static_cast<float>(taken.at(x, y) * uniform(random, 0.1, 2));
+                if (random() % 5 != 0)
+                    kd.setVector(x, y, { uniform(random), uniform(random), uniform(random) });
+                if (random() % 3 != 0)
+                    ks.setVector(x, y, { uniform(random), uniform(random), uniform(random) });
+            });
+            const auto seen = bench.filled(layout.size, -7.0f), deviation = bench.filled(layout.size, -7.0f),
+                       weights = bench.filled(layout.size, -7.0f);
+            const auto check = [&](std::uint32_t firstPass, const auto& weightOf, const auto& meanOf) {
+                const Planes<float> v = planesOf(layout, bench.read(seen)), d = planesOf(layout, bench.read(deviation)),
+                                    w = planesOf(layout, bench.read(weights));
+                int black = 0, noisy = 0;
+                everyPixel(layout, [&](int x, int y) {
+                    const double weight = weightOf(x, y), n = taken.at(x, y),
+                                 h = n >= 2 * firstPass ? std::floor(n / 2) : firstPass / 2;
+                    const double all = weight > 0 ? meanOf(x, y, 0) / weight : 0,
+                                 part = weight > 0 ? meanOf(x, y, 1) / weight : 0;
+                    REQUIRE(std::fabs(w.at(x, y) - weight) < 1e-5);
+                    REQUIRE(std::fabs(v.at(x, y) - all) < 1e-5);
+                    const double off = n > h ? (part - all) * std::sqrt(h / (n - h)) : 0;
+                    REQUIRE(std::fabs(d.at(x, y) - off) < 1e-5);
+                    black += weight == 0 ? 1 : 0;
+                    noisy += std::fabs(off) > 0.1 ? 1 : 0;
+                });
+                CHECK(black > 10);
+                CHECK(noisy > 100);
+            };
+            bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "oneOfLight", paramsOf(layout),
+                WEDGE_BLOCK_PIXELS, WEDGE_FIRST_PASS_RAYS, bench.buffer(value.values), bench.buffer(taken.values),
+                bench.buffer(sums.values), bench.buffer(kd.values), bench.buffer(ks.values), seen, deviation, weights);
+            const auto reflected = [&](int x, int y, std::size_t c) {
+                const double n = std::max(1u, taken.at(x, y));
+                const auto luminance = [](glm::dvec3 k) { return 0.2126 * k.x + 0.7152 * k.y + 0.0722 * k.z; };
+                return c == 0 ? luminance(kd.vector(x, y)) / std::numbers::pi * sums.at(x, y) / n
+                              : luminance(ks.vector(x, y)) * sums.at(x, y, 2) / n;
+            };
+            check(
+                WEDGE_FIRST_PASS_RAYS,
+                [&](int x, int y) { return reflected(x, y, 0) + (specular ? reflected(x, y, 1) : 0); },
+                [&](int x, int y, std::size_t part) {
+                    double sum = 0;
+                    for (std::size_t c = 0; c < channels; ++c)
+                        sum += reflected(x, y, c) * value.at(x, y, part * channels + c);
+                    return sum;
+                });
+            bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "oneOfPaths", paramsOf(layout),
+                WEDGE_BLOCK_PIXELS, WEDGE_COMPONENT_DIFFUSE, WEDGE_INDIRECT_FIRST_RAYS, bench.buffer(kd.values),
+                bench.buffer(value.values), bench.buffer(taken.values), seen, deviation, weights);
+            constexpr double luminances[] = { 0.2126, 0.7152, 0.0722 };
+            check(
+                WEDGE_INDIRECT_FIRST_RAYS,
+                [&](int x, int y) {
+                    double sum = 0;
+                    for (std::size_t c = 0; c < 3; ++c)
+                        sum += luminances[c] * kd.at(x, y, c);
+                    return sum;
+                },
+                [&](int x, int y, std::size_t part) {
+                    double sum = 0;
+                    for (std::size_t c = 0; c < 3; ++c)
+                        sum += luminances[c] * kd.at(x, y, c) * value.at(x, y, 3 * part + c);
+                    return sum;
+                });
+        }
+    });
+}
