@@ -134,7 +134,8 @@ __kernel void spreadColumns(
     }
 }
 
-/// The luminance of a texture: what widths() takes for the sums of a light's unshadowed samples. bits: WEDGE_*_BITS.
+/// The luminance of a texture: what widths() takes for the sums of a light's unshadowed samples, and what a pixel's
+/// irradiance is worth in the image. bits: WEDGE_*_BITS.
 __kernel void luminanceOf(
     AnalysisParams p, uint bits, __global const float* restrict image, __global float* restrict out)
 {

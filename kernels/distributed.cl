@@ -276,16 +276,6 @@ __kernel void visibilityOf(DistributedParams p, __global const float* restrict t
     visibility[i] = p.published != 0u ? value[i] : t > 0.0f ? luminance(vecMul(k, loadValue(p, value, i))) / t : 0.0f;
 }
 
-/// The luminance of a term's texture.
-__kernel void luminanceOfTexture(
-    DistributedParams p, __global const float* restrict texture, __global float* restrict out)
-{
-    uint x, y, i;
-    if (pixelOf(p, &x, &y, &i)) {
-        out[i] = luminance(loadTexture(p, texture, i));
-    }
-}
-
 /// A term's own radiance, k E; as published L, termRadiance.
 WEDGE_FN Vec3 ownRadiance(DistributedParams p, uint i, __global const float* texture, __global const float* value,
     __global const float* termRadiance)

@@ -84,6 +84,19 @@ __kernel void comparedWidths(AnalysisParams p, FrameParams frame, float pixels,
     }
 }
 
+/// A term of pixels that are the receivers in one number. weights: what it is multiplied by in the image; seen, ofPart:
+/// the products, of all samples and of the first of two parts of them
+WEDGE_FN void storeOne(float16 weights, float16 seen, float16 ofPart, uint16 taken, uint firstPass, int i,
+    __global float* value, __global float* deviation, __global float* weight)
+{
+    const int16 counts = weights > 0.0f;
+    const float16 over = counts ? 1.0f / weights : (float16)(0.0f);
+    const float16 mean = counts ? seen * over : (float16)(0.0f), part = counts ? ofPart * over : (float16)(0.0f);
+    vstore16(mean, 0, value + i);
+    vstore16(deviation16(mean, part, taken, firstPass), 0, deviation + i);
+    vstore16(counts ? weights : (float16)(0.0f), 0, weight + i);
+}
+
 /// Of pixels that are the receivers, a light in one number: what is seen of it, diffuse and specular together.
 /// in   value: diffuse and, where something is specular, specular visibility, and both of the first of two parts of the
 ///      samples; taken: these samples; sums: of them, as area_light.cl has them
@@ -113,12 +126,7 @@ __kernel void oneOfLight(AnalysisParams p, uint firstPass, __global const float*
     (void)specular;
     const float16 seen = weight * loadBlock(value, i), first = weight * loadBlock(value + size, i);
 #endif
-    const int16 lit = weight > 0.0f;
-    const float16 over = lit ? 1.0f / weight : (float16)(0.0f);
-    const float16 mean = lit ? seen * over : (float16)(0.0f), ofPart = lit ? first * over : (float16)(0.0f);
-    vstore16(mean, 0, visibility + i);
-    vstore16(deviation16(mean, ofPart, count, firstPass), 0, deviation + i);
-    vstore16(lit ? weight : (float16)(0.0f), 0, weights + i);
+    storeOne(weight, seen, first, count, firstPass, i, visibility, deviation, weights);
 }
 
 /// The same of indirect light: the irradiance that is reflected.
@@ -138,14 +146,8 @@ __kernel void oneOfPaths(AnalysisParams p, uint component, uint firstPass, __glo
     const Vec3x16 k =
         component == WEDGE_COMPONENT_AMBIENT ? splat3(vec3(1.0f, 1.0f, 1.0f)) : loadVecBlock(reflectance, size, i);
     const Vec3x16 all = loadVecBlock(value, size, i), part = loadVecBlock(value + 3u * size, size, i);
-    const float16 weight = luminance16(k);
-    const int16 reflects = weight > 0.0f;
-    const float16 over = reflects ? 1.0f / weight : (float16)(0.0f);
-    const float16 mean = reflects ? luminance16(mul16(k, all)) * over : (float16)(0.0f);
-    const float16 ofPart = reflects ? luminance16(mul16(k, part)) * over : (float16)(0.0f);
-    vstore16(mean, 0, irradiance + i);
-    vstore16(deviation16(mean, ofPart, loadIdBlock(taken, i), firstPass), 0, deviation + i);
-    vstore16(reflects ? weight : (float16)(0.0f), 0, weights + i);
+    storeOne(luminance16(k), luminance16(mul16(k, all)), luminance16(mul16(k, part)), loadIdBlock(taken, i), firstPass,
+        i, irradiance, deviation, weights);
 }
 
 /// K_w, out of the way of the next gather.

@@ -2,6 +2,8 @@
 #include "kernels/shared/filter_params.h"
 #include "kernels/shared/packed.h"
 #include "kernels/shared/wedge.h"
+#include "tests/distributed_support.h"
+#include "tests/packed_support.h"
 #include "tests/render_support.h"
 
 #include <algorithm>
@@ -119,6 +121,31 @@ std::vector<Slopes> cases()
 }
 
 } // namespace
+
+TEST_CASE("luminanceOf reads colours of all kinds of planes")
+{
+    onEveryDevice([](const device::Device& device) {
+        Analysis analysis(device);
+        for (const Slopes& in : cases())
+            for (const std::uint32_t bits : { WEDGE_PLAIN_BITS, WEDGE_COLOUR_BITS, WEDGE_FRACTION_BITS }) {
+                Planes<float> colours(in.layout(), 3, 0.0f);
+                std::mt19937 random(bits);
+                everyPixel(in, [&](int x, int y) {
+                    const double most = random() % 5 == 0 ? 0 : uniform(random);
+                    colours.setVector(x, y, most * glm::dvec3(uniform(random), uniform(random), uniform(random)));
+                });
+                const Planes<float> kept = packedColours(colours, bits);
+                const auto out = analysis.bench.filled(in.layout().size, -1.0f);
+                analysis.launch("luminanceOf", in.params, 1, bits, analysis.bench.buffer(kept.values), out);
+                const Planes<float> found = planesOf(in.layout(), analysis.bench.read(out));
+                const Planes<float> expected = coloursOf(kept, bits);
+                everyPixel(in, [&](int x, int y) {
+                    const glm::dvec3 c = expected.vector(x, y);
+                    REQUIRE(found.at(x, y) == doctest::Approx(luminanceOf(c)).epsilon(1e-5));
+                });
+            }
+    });
+}
 
 TEST_CASE("erodeSlopes takes the least slope of the same object within 3x3")
 {

@@ -2,6 +2,7 @@
 #include "bvh/host_traverse.h"
 #include "kernels/shared/bsdf.h"
 #include "tests/render_oracles.h"
+#include "tests/render_path_support.h"
 #include "tests/render_support.h"
 
 #include <algorithm>
@@ -277,6 +278,60 @@ TEST_CASE("point and directional lights are exact")
         }
         CHECK(shaded > 1000);
         CHECK(wrong <= shaded / 300); // rays that graze an edge
+    });
+}
+
+TEST_CASE("shading normals that face away from the viewer are lit as the round surface's rim is")
+{
+    onEveryDevice([](const device::Device& device) {
+        constexpr float lit = 2; // W/m^2
+        const image::Window all { 0, 0, 160, 160 };
+        for (const float specular : { 0.0f, 0.4f }) {
+            double sum = 0, expectedSum = 0, squared = 0, squaredBlack = 0;
+            unsigned away = 0;
+            for (int k = 0; k < 8; ++k) {
+                SceneBuilder b;
+                b.sphere({ 0, 0, 0 }, 1, 12);
+                b.camera({ 0, 1, 4 }, { 0, 0, 0 }, { 0, 1, 0 }, 32);
+                b.scene.materials[0].diffuse = glm::vec3(0.3f);
+                b.scene.materials[0].specular = glm::vec3(specular);
+                b.scene.materials[0].exponent = 20;
+                const double turn = 2 * std::numbers::pi * k / 8;
+                const glm::dvec3 toLight = glm::normalize(glm::dvec3(std::cos(turn), std::sin(turn), -0.3));
+                b.scene.directionalLights.push_back({ glm::vec3(-toLight), glm::vec3(lit) });
+                render::Renderer renderer(b.scene, device, renderOptions());
+                const std::vector<float> beauty = renderPixels(renderer, sized(render::monteCarlo(1), all.x1, all.y1));
+                const std::vector<float> position = pixels(renderer, renderer.frame().position, all);
+                const std::vector<float> normal = pixels(renderer, renderer.frame().normal, all);
+                const std::vector<float> depth = pixels(renderer, renderer.frame().depth, all);
+                const glm::dvec3 eye(b.scene.camera.eye);
+                for (std::size_t i = 0; i < depth.size(); ++i) {
+                    const glm::dvec3 at(position[3 * i], position[3 * i + 1], position[3 * i + 2]);
+                    const glm::dvec3 v = glm::normalize(eye - at);
+                    if (!std::isfinite(depth[i])
+                        || glm::dot(glm::dvec3(normal[3 * i], normal[3 * i + 1], normal[3 * i + 2]), v) >= 0)
+                        continue;
+                    // Where the ray meets the sphere of which the mesh has some points.
+                    const double along = glm::dot(eye, v), within = along * along - glm::dot(eye, eye) + 1;
+                    const glm::dvec3 n = glm::normalize(eye - (along - std::sqrt(std::max(within, 0.0))) * v);
+                    const double facing = std::max(glm::dot(n, toLight), 0.0);
+                    const double reflected = reflectance(b.scene.materials[0], n, v, toLight).x;
+                    const double expected = facing > 0 ? lit * reflected * facing : 0, got = beauty[3 * i];
+                    sum += got;
+                    expectedSum += expected;
+                    squared += (got - expected) * (got - expected);
+                    squaredBlack += expected * expected;
+                    ++away;
+                }
+            }
+            MESSAGE("specular " << specular << ": " << away << " pixels, mean " << sum / expectedSum
+                                << " of the sphere's, RMS over that of black pixels "
+                                << std::sqrt(squared / squaredBlack));
+            REQUIRE(away > 200);
+            CHECK(sum / expectedSum > 0.75);
+            CHECK(sum / expectedSum < 1.25);
+            CHECK(std::sqrt(squared / squaredBlack) < 0.25);
+        }
     });
 }
 

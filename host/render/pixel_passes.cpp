@@ -48,12 +48,8 @@ void Renderer::fallBack(const TermContext& context)
     const device::Buffer<float>& squares = scratch_->logs;
     const auto part = [&](device::Buffer<float>& filtered, const device::Buffer<float>& noisy,
                           const device::Buffer<float>& deviation) {
-        shared::AnalysisParams p {};
-        p.width = context.fullFrame.width;
-        p.height = context.fullFrame.height;
-        p.stride = context.fullFrame.stride;
-        p.planeSize = context.fullFrame.planeSize;
-        setRectangle(p, blockWindow(context.window, 0, context.full().x1, context.full().y1));
+        shared::AnalysisParams p =
+            analysisParams(context, blockWindow(context.window, 0, context.full().x1, context.full().y1));
         passes_->rows("fallback", PassKind::Filter, "fallback.cl", "fallbackSquares", p, WEDGE_BLOCK_PIXELS, filtered,
             noisy, deviation, squares);
         setRectangle(p, blockWindow(outputWindow(context.settings), 0, context.full().x1, context.full().y1));

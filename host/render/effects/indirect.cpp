@@ -165,12 +165,7 @@ shared::ReflectorParams Indirect::reflectorParams(const image::Window& window) c
 
 shared::AnalysisParams Indirect::countParams(const image::Window& window) const
 {
-    shared::AnalysisParams p {};
-    setRectangle(p, window);
-    p.width = c_.fullFrame.width;
-    p.height = c_.fullFrame.height;
-    p.stride = c_.fullFrame.stride;
-    p.planeSize = c_.fullFrame.planeSize;
+    shared::AnalysisParams p = analysisParams(c_, window);
     p.countCap = static_cast<std::uint32_t>(c_.settings.indirect.maxSpp);
     // Where the first paths met nothing bright there is still noise of what they may meet: rare, and large.
     p.leastCount = std::max(WEDGE_INDIRECT_FIRST_RAYS, static_cast<std::uint32_t>(c_.settings.spp) / 2);

@@ -162,12 +162,7 @@ bool SoftShadows::secondPass(std::uint32_t from)
 
 shared::AnalysisParams SoftShadows::analysisParams(const image::Window& window) const
 {
-    shared::AnalysisParams p {};
-    setRectangle(p, window);
-    p.width = c_.fullFrame.width;
-    p.height = c_.fullFrame.height;
-    p.stride = c_.fullFrame.stride;
-    p.planeSize = c_.fullFrame.planeSize;
+    shared::AnalysisParams p = render::analysisParams(c_, window);
     p.sigma = light().sigma;
     // A_l = (2 sigma)^2, as section 3.5.1 takes the light's effective width.
     p.lightSize = 2.0f * light().sigma;
@@ -182,7 +177,6 @@ shared::AnalysisParams SoftShadows::analysisParams(const image::Window& window) 
     p.varianceFloor = c_.settings.varianceFloor;
     p.varianceSpread = c_.settings.varianceSpread;
     p.lightCentre = light().centre;
-    p.packed = c_.frame.shape.packed() ? 1 : 0;
     // What nine rays have missed is found in the end, however many are asked for.
     p.leastCount = std::max(WEDGE_FIRST_PASS_RAYS, static_cast<std::uint32_t>(c_.settings.spp) / 16);
     return p;

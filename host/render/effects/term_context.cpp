@@ -2,6 +2,18 @@
 
 namespace wedge::render {
 
+shared::AnalysisParams analysisParams(const TermContext& context, const image::Window& window)
+{
+    shared::AnalysisParams p {};
+    setRectangle(p, window);
+    p.width = context.fullFrame.width;
+    p.height = context.fullFrame.height;
+    p.stride = context.fullFrame.stride;
+    p.planeSize = context.fullFrame.planeSize;
+    p.packed = context.frame.shape.packed() ? 1 : 0;
+    return p;
+}
+
 std::uint32_t samplerOf(const TermContext& context)
 {
     const bool counts = context.frame.distributed && context.settings.method == Method::AxisAligned;

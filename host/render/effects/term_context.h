@@ -5,6 +5,7 @@
 #include "host/render/passes.h"
 #include "host/render/settings.h"
 #include "kernels/shared/distributed.h"
+#include "kernels/shared/filter_params.h"
 
 namespace wedge::render {
 
@@ -25,6 +26,9 @@ struct TermContext {
         return { 0, 0, static_cast<int>(frame.layout.width), static_cast<int>(frame.layout.height) };
     }
 };
+
+/// Where kernels of analysis find the pixels of `window`; all else is 0.
+shared::AnalysisParams analysisParams(const TermContext& context, const image::Window& window);
 
 /// WEDGE_SAMPLER_* of the frame. Strata are for counts that are known before the first sample is taken, and distributed
 /// frames with counts of their own a pixel, and progressive ones, take a sequence in their place.

@@ -1,5 +1,7 @@
 #include "host/render/filters/widening.h"
 
+#include "kernels/shared/packed.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -45,29 +47,17 @@ Widening::Widening(const TermContext& context, std::string_view pass, const shar
     params_.maxRadius = static_cast<std::uint32_t>(comparedReach(context.settings, pixels));
 }
 
-shared::AnalysisParams Widening::analysisParams(const image::Window& window) const
-{
-    shared::AnalysisParams p {};
-    p.width = c_.fullFrame.width;
-    p.height = c_.fullFrame.height;
-    p.stride = c_.fullFrame.stride;
-    p.planeSize = c_.fullFrame.planeSize;
-    p.packed = c_.frame.shape.packed() ? 1 : 0;
-    setRectangle(p, window);
-    return p;
-}
-
 void Widening::compare(
     device::Buffer<float>& value, const device::Buffer<float>& deviation, const device::Buffer<float>& beta) const
 {
     Scratch& scratch = c_.scratch;
     const FilterRun run { pass_, PassKind::Filter, "filter_variance.cl" };
     // A gather takes the widths of all pixels that it reaches.
-    c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "comparedWidths", analysisParams(c_.full()), WEDGE_BLOCK_PIXELS,
-        c_.fullFrame, pixels_, deviation, c_.frame.position, c_.frame.normal, c_.frame.objectId, beta, scratch.compared,
-        scratch.narrowWidth);
+    c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "comparedWidths", analysisParams(c_, c_.full()),
+        WEDGE_BLOCK_PIXELS, c_.fullFrame, pixels_, deviation, c_.frame.position, c_.frame.normal, c_.frame.objectId,
+        beta, scratch.compared, scratch.narrowWidth);
     gaussianFilter(c_.passes, run, params_, compared_, c_.frame, value, scratch.compared, scratch, scratch.wide);
-    c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "copyCounts", analysisParams(compared_), WEDGE_BLOCK_PIXELS,
+    c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "copyCounts", analysisParams(c_, compared_), WEDGE_BLOCK_PIXELS,
         scratch.effective, scratch.compared);
     gaussianFilter(c_.passes, run, params_, compared_, c_.frame, value, scratch.narrowWidth, scratch, value);
 }
@@ -76,12 +66,12 @@ void Widening::apply(const device::Buffer<float>& narrow, const device::Buffer<f
     const device::Buffer<float>& weights, device::Buffer<float>& beta) const
 {
     Scratch& scratch = c_.scratch;
-    c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "widenSquares", analysisParams(compared_), WEDGE_BLOCK_PIXELS,
-        narrow, scratch.effective, deviation, weights, scratch.wide, scratch.compared);
-    c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "wideShares", analysisParams(shared_), WEDGE_BLOCK_PIXELS,
+    c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "widenSquares", analysisParams(c_, compared_),
+        WEDGE_BLOCK_PIXELS, narrow, scratch.effective, deviation, weights, scratch.wide, scratch.compared);
+    c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "wideShares", analysisParams(c_, shared_), WEDGE_BLOCK_PIXELS,
         c_.fullFrame, pixels_, c_.frame.distributed ? distributedNoise : pinholeNoise, scratch.wide, scratch.compared,
         c_.frame.position, c_.frame.normal, c_.frame.objectId, beta, scratch.effective);
-    c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "widen", analysisParams(widened_), WEDGE_BLOCK_PIXELS,
+    c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "widen", analysisParams(c_, widened_), WEDGE_BLOCK_PIXELS,
         c_.fullFrame, pixels_, scratch.effective, c_.frame.position, c_.frame.normal, c_.frame.objectId, beta);
 }
 
@@ -92,8 +82,9 @@ void widenDistributed(
     context.passes.rows("filter", PassKind::Filter, "distributed.cl", "visibilityOf", params, 1, term.texture,
         term.value, scratch.visibility);
     widening.compare(scratch.visibility, term.deviation, term.beta);
-    context.passes.rows(
-        "filter", PassKind::Filter, "distributed.cl", "luminanceOfTexture", params, 1, term.texture, scratch.weights);
+    context.passes.rows("filter", PassKind::Filter, "analysis.cl", "luminanceOf",
+        analysisParams(context, context.full()), 1, shared::textureBits(params.packed, term.shape.light), term.texture,
+        scratch.weights);
     widening.apply(scratch.visibility, term.deviation, scratch.weights, term.beta);
 }
 

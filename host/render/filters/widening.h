@@ -30,8 +30,6 @@ public:
         const device::Buffer<float>& weights, device::Buffer<float>& beta) const;
 
 private:
-    shared::AnalysisParams analysisParams(const image::Window& window) const;
-
     const TermContext& c_;
     std::string_view pass_;
     shared::FilterParams params_;
