@@ -34,25 +34,23 @@
 typedef struct {
     Vec3x16 position, normal, slant; ///< slant: what a motion of 1 along the light's normal adds, see distance16
     uint16 object;
-    float16 scale; ///< -log2(e) / (2 beta^2)
-    float16 beta;
-    float16 limit; ///< (cut beta)^2
-    float16 radius;
     float16 area; ///< of the surface that the pixel sees, as surfaceArea() has it
 } GatherBlock;
+
+/// A kernel for each pixel of a block.
+typedef struct {
+    float16 beta; ///< metres; 1 where there is none
+    float16 scale; ///< -log2(e) / (2 beta^2)
+    float16 limit; ///< (cut beta)^2
+    float16 radius; ///< pixels along the line, 0 where there is none
+} GatherWidth;
 
 /// Normals of three planes, or of one that is packed.
 WEDGE_FN Vec3x16 loadNormalBlock(FilterParams p, __global const float* normal, int i)
 {
 #ifdef WEDGE_GATHER_PACKED
     (void)p;
-    const int16 packed = as_int16(vload16(0, (__global const uint*)normal + i));
-    const float scale = 1.0f / WEDGE_NORMAL_UNITS;
-    Vec3x16 v;
-    v.x = convert_float16((packed << 22) >> 22) * scale;
-    v.y = convert_float16((packed << 12) >> 22) * scale;
-    v.z = convert_float16((packed << 2) >> 22) * scale;
-    return v;
+    return unpackNormals16(normal, i);
 #else
     return loadVecBlock(normal, p.planeSize, i);
 #endif
@@ -68,14 +66,15 @@ WEDGE_FN float16 distance16(FilterParams p, Vec3x16 slant, Vec3x16 d)
     return dot16(e, e);
 }
 
-/// Surface that a pixel sees, but for a factor that all pixels share: z^3 / |n.d| at depth z and vector d from the eye.
-/// The convolutions (3.10) and (4.16) are integrals over the surface, and pixels are not alike in what they see of it.
-WEDGE_FN float16 surfaceArea(FilterParams p, Vec3x16 position, Vec3x16 normal)
+/// Surface that a pixel sees, but for a factor that all pixels share: z^3 / |n.d| at depth z and vector d from the eye,
+/// over `unit`. The convolutions (3.10) and (4.16) are integrals over the surface, and pixels are not alike in what
+/// they see of it.
+WEDGE_FN float16 surfaceArea(FilterParams p, Vec3x16 position, Vec3x16 normal, float16 unit)
 {
     const Vec3x16 d = sub16(position, splat3(p.eye));
     const float16 z = d.x * p.forward.x + d.y * p.forward.y + d.z * p.forward.z;
     const float16 facing = max16(fabs(dot16(normal, d)), WEDGE_MIN_STEP_COSINE * fabs(z));
-    return z * z * z / max16(facing, (float16)(1e-20f));
+    return z * z * z / max16(facing * unit, (float16)(1e-20f));
 }
 
 WEDGE_FN Vec3x16 slantOf(FilterParams p, Vec3x16 position)
@@ -123,42 +122,97 @@ WEDGE_FN void storeEffective(float16 count, __global float* effective)
 #endif
 }
 
+WEDGE_FN GatherBlock gatherBlock(
+    FilterParams p, int i, uint16 object, __global const float* position, __global const float* normal)
+{
+    GatherBlock b;
+    b.object = object;
+    b.position = loadVecBlock(position, p.planeSize, i);
+    b.normal = loadNormalBlock(p, normal, i);
+    b.slant = slantOf(p, b.position);
+    b.area = surfaceArea(p, b.position, b.normal, (float16)(1.0f));
+    return b;
+}
+
+/// The kernels of pixels `gathers`, of standard deviation beta, along image step `step`.
+WEDGE_FN GatherWidth gatherWidth(FilterParams p, GatherBlock b, Vec3 step, int16 gathers, float16 beta)
+{
+    GatherWidth w;
+    w.beta = gathers ? beta : (float16)(1.0f);
+    w.scale = -WEDGE_HALF_LOG2E / (w.beta * w.beta);
+    w.limit = p.cut * p.cut * w.beta * w.beta;
+    w.radius = gathers ? radiusInPixels(p, b, step, p.cut * w.beta) : (float16)(0.0f);
+    return w;
+}
+
+/// Neighbours of a block of pixels, however wide the kernels are.
+typedef struct {
+    int16 known; ///< of the same surface
+    float16 squared; ///< distance
+    float16 area; ///< over the pixel's own
+} Neighbours;
+
+/// betaThere: negative where there is no value to take
+WEDGE_FN Neighbours neighboursAt(FilterParams p, GatherBlock b, int j, float16 betaThere,
+    __global const float* position, __global const float* normal, __global const uint* objectId)
+{
+    const uint16 object = loadIdBlock(objectId, j);
+    const Vec3x16 normalThere = loadNormalBlock(p, normal, j);
+    const Vec3x16 there = loadVecBlock(position, p.planeSize, j);
+    const Vec3x16 d = sub16(there, b.position);
+    Neighbours n;
+    n.squared = distance16(p, b.slant, d);
+    n.known = (object == b.object) & (betaThere >= 0.0f) & (dot16(b.normal, normalThere) >= p.normalCosine);
+    n.area = (float16)(1.0f);
+    if (p.surface != 0u) {
+        const float16 rise = dot16(b.normal, d);
+        n.known &= rise * rise <= WEDGE_MOST_RISE * WEDGE_MOST_RISE * dot16(d, d);
+        n.area = min16(surfaceArea(p, there, normalThere, b.area), (float16)(WEDGE_MOST_AREA));
+    }
+    return n;
+}
+
+/// What neighbours `steps` pixels away weigh, whose own kernels are betaThere wide: 0 where they are not in reach.
+WEDGE_FN float16 neighbourWeights(FilterParams p, GatherWidth width, Neighbours n, float16 betaThere, float steps)
+{
+    const int16 taken = n.known & (n.squared <= width.limit) & (steps <= width.radius);
+    float16 scale = width.scale;
+    if (p.narrower != 0u) {
+        // A pixel with no kernel of its own (beta 0) does not narrow its neighbours'.
+        const float16 own = betaThere > 0.0f ? min16(width.beta, betaThere) : width.beta;
+        scale = -WEDGE_HALF_LOG2E / (own * own);
+    }
+    return taken ? n.area * exp2Block(n.squared * scale) : (float16)(0.0f);
+}
+
 typedef struct {
     float16 weight, squared;
     float16 channel[WEDGE_GATHER_CHANNELS];
 } GatherSum;
 
-/// Adds the neighbours at element offset `offset`, `steps` pixels away.
-WEDGE_FN void gatherTap(FilterParams p, GatherBlock b, int j, float steps, __global const float* value,
-    __global const float* beta, __global const float* position, __global const float* normal,
-    __global const uint* objectId, GatherSum* sum)
+WEDGE_FN void addWeight(GatherSum* sum, float16 w)
 {
-    const uint16 object = loadIdBlock(objectId, j);
-    const float16 betaThere = loadBlock(beta, j);
-    const Vec3x16 normalThere = loadNormalBlock(p, normal, j);
-    const Vec3x16 there = loadVecBlock(position, p.planeSize, j);
-    const Vec3x16 d = sub16(there, b.position);
-    const float16 squared = distance16(p, b.slant, d);
-    int16 taken = (object == b.object) & (betaThere >= 0.0f) & (dot16(b.normal, normalThere) >= p.normalCosine)
-        & (squared <= b.limit) & (steps <= b.radius);
-    float16 area = (float16)(1.0f);
-    if (p.surface != 0u) {
-        const float16 rise = dot16(b.normal, d);
-        taken &= rise * rise <= WEDGE_MOST_RISE * WEDGE_MOST_RISE * dot16(d, d);
-        area = min16(surfaceArea(p, there, normalThere) / b.area, (float16)(WEDGE_MOST_AREA));
-    }
-    float16 scale = b.scale;
-    if (p.narrower != 0u) {
-        // A pixel with no kernel of its own (beta 0) does not narrow its neighbours'.
-        const float16 own = betaThere > 0.0f ? min16(b.beta, betaThere) : b.beta;
-        scale = -WEDGE_HALF_LOG2E / (own * own);
-    }
-    const float16 w = taken ? area * exp2Block(squared * scale) : (float16)(0.0f);
     sum->weight += w;
     sum->squared += w * w;
-    // Not the weight alone: 0 times a NaN would let it in.
+}
+
+/// Not the weight alone: 0 times a NaN would let it in.
+WEDGE_FN void addValue(GatherSum* sum, uint channel, float16 w, float16 value)
+{
+    sum->channel[channel] += w > 0.0f ? w * value : (float16)(0.0f);
+}
+
+/// Adds the neighbours at element offset `offset`, `steps` pixels away.
+WEDGE_FN void gatherTap(FilterParams p, GatherBlock b, GatherWidth width, int j, float steps,
+    __global const float* value, __global const float* beta, __global const float* position,
+    __global const float* normal, __global const uint* objectId, GatherSum* sum)
+{
+    const float16 betaThere = loadBlock(beta, j);
+    const Neighbours n = neighboursAt(p, b, j, betaThere, position, normal, objectId);
+    const float16 w = neighbourWeights(p, width, n, betaThere, steps);
+    addWeight(sum, w);
     for (uint c = 0u; c < WEDGE_GATHER_CHANNELS; ++c) {
-        sum->channel[c] += taken ? w * loadBlock(value + c * p.planeSize, j) : (float16)(0.0f);
+        addValue(sum, c, w, loadBlock(value + c * p.planeSize, j));
     }
 }
 
@@ -168,10 +222,9 @@ WEDGE_FN void gatherLine(FilterParams p, uint x, uint y, int element, Vec3 step,
     __global float* effective)
 {
     const int i = (int)pixelIndex(x, y, p.stride);
-    GatherBlock b;
-    b.beta = loadBlock(beta, i);
-    b.object = loadIdBlock(objectId, i);
-    const int16 gathers = (b.beta > 0.0f) & (b.object != 0u);
+    const float16 betaHere = loadBlock(beta, i);
+    const uint16 object = loadIdBlock(objectId, i);
+    const int16 gathers = (betaHere > 0.0f) & (object != 0u);
     float16 own[WEDGE_GATHER_CHANNELS];
     for (uint c = 0u; c < WEDGE_GATHER_CHANNELS; ++c) {
         own[c] = loadBlock(value + c * p.planeSize, i);
@@ -183,27 +236,21 @@ WEDGE_FN void gatherLine(FilterParams p, uint x, uint y, int element, Vec3 step,
         storeEffective(effectiveBefore, effective + i);
         return;
     }
-    b.beta = gathers ? b.beta : (float16)(1.0f);
-    b.position = loadVecBlock(position, p.planeSize, i);
-    b.normal = loadNormalBlock(p, normal, i);
-    b.slant = slantOf(p, b.position);
-    b.area = surfaceArea(p, b.position, b.normal);
-    b.scale = -WEDGE_HALF_LOG2E / (b.beta * b.beta);
-    b.limit = p.cut * p.cut * b.beta * b.beta;
-    b.radius = gathers ? radiusInPixels(p, b, step, p.cut * b.beta) : (float16)(0.0f);
+    const GatherBlock b = gatherBlock(p, i, object, position, normal);
+    const GatherWidth width = gatherWidth(p, b, step, gathers, betaHere);
     GatherSum sum;
     sum.weight = (float16)(1.0f);
     sum.squared = (float16)(1.0f);
     for (uint c = 0u; c < WEDGE_GATHER_CHANNELS; ++c) {
         sum.channel[c] = own[c];
     }
-    const int radius = (int)largestOf(b.radius);
+    const int radius = (int)largestOf(width.radius);
     for (int k = 1; k <= radius; ++k) {
         if (k <= before) {
-            gatherTap(p, b, i - k * element, (float)k, value, beta, position, normal, objectId, &sum);
+            gatherTap(p, b, width, i - k * element, (float)k, value, beta, position, normal, objectId, &sum);
         }
         if (k <= after) {
-            gatherTap(p, b, i + k * element, (float)k, value, beta, position, normal, objectId, &sum);
+            gatherTap(p, b, width, i + k * element, (float)k, value, beta, position, normal, objectId, &sum);
         }
     }
     for (uint c = 0u; c < WEDGE_GATHER_CHANNELS; ++c) {

@@ -4,6 +4,7 @@
 
 #include "pixel.h"
 #include "shared/packed.h"
+#include "vector16.h"
 
 /// A colour of three planes, of one and a half, or of one.
 WEDGE_FN Vec3 loadColour(__global const float* planes, uint planeSize, uint i, uint bits)
@@ -39,6 +40,23 @@ WEDGE_FN void storeColour(__global float* planes, uint planeSize, uint i, uint b
 WEDGE_FN Vec3 loadNormal(__global const float* planes, uint planeSize, uint i, uint packed)
 {
     return packed != 0u ? unpackNormal(((__global const uint*)planes)[i]) : loadVec(planes, planeSize, i);
+}
+
+/// Sixteen vectors of one plane.
+WEDGE_FN Vec3x16 unpackNormals16(__global const float* plane, int i)
+{
+    const int16 packed = as_int16(vload16(0, (__global const uint*)plane + i));
+    const float scale = 1.0f / WEDGE_NORMAL_UNITS;
+    Vec3x16 v;
+    v.x = convert_float16((packed << 22) >> 22) * scale;
+    v.y = convert_float16((packed << 12) >> 22) * scale;
+    v.z = convert_float16((packed << 2) >> 22) * scale;
+    return v;
+}
+
+WEDGE_FN Vec3x16 loadNormals16(__global const float* planes, uint planeSize, int i, uint packed)
+{
+    return packed != 0u ? unpackNormals16(planes, i) : loadVecBlock(planes, planeSize, i);
 }
 
 WEDGE_FN void storeNormal(__global float* planes, uint planeSize, uint i, uint packed, Vec3 normal)

@@ -5,7 +5,8 @@
 //   few     3 x 3 nodes of the profile's own Gauss rule: far from the light
 //   coarse  5 x 5 nodes
 //   fine    12 x 12: near the light, or for lobes narrower than it
-//   fitted  16 x 16 in coordinates fitted to the receiver: at the light, or where its horizon crosses it
+//   clipped 8 x 8 over the part of the light above the receiver's horizon: where that crosses the light
+//   fitted  16 x 16 in coordinates fitted to the receiver: at the light, or near it across the horizon
 //   sampled directions of the lobe: where it is far narrower than the light, or narrower at all where the fitted rule
 //   would do
 #ifndef WEDGE_UNSHADOWED_H
@@ -21,6 +22,11 @@
 #define WEDGE_FAR_LIGHT 4.0f
 /// The fitted rule serves receivers nearer to a point of the light than this many of them.
 #define WEDGE_AT_LIGHT 1.0f
+
+/// The clipped rule serves receivers farther from the light's centre than this many of its largest half extents, and
+/// profiles cut at this many standard deviations at most.
+#define WEDGE_CLIPPED_LIGHT 2.0f
+#define WEDGE_CLIPPED_CUT 3.0f
 
 /// The coarse one serves lobes whose squared width is at least the light's squared angular half extent over this.
 #define WEDGE_COARSE_LOBE 2.0f
@@ -202,44 +208,97 @@ WEDGE_FN float16 lowestAbove(float16 height, float16 slope)
 
 WEDGE_FN float16 highestAbove(float16 height, float16 slope) { return -lowestAbove(height, -slope); }
 
+/// The axes of a light for rules over the part of it above a horizon: the horizon is to cross the inner one rather than
+/// to run along the outer one. The point x inner + y outer is height + innerSlope x + outerSlope y above it.
+typedef struct {
+    Vec3x16 inner, outer;
+    float16 height, innerSlope, outerSlope;
+    float16 highest; ///< along a line of the inner axis, without outerSlope y
+} HorizonAxes;
+
+WEDGE_FN HorizonAxes horizonAxes(AreaLight light, Vec3x16 toLight, Vec3x16 normal)
+{
+    const float16 u = dot16(normal, splat3(light.halfU)), v = dot16(normal, splat3(light.halfV));
+    const int16 turned = fabs(v) > fabs(u);
+    HorizonAxes axes;
+    axes.inner = choose16(turned, light.halfV, light.halfU);
+    axes.outer = choose16(turned, light.halfU, light.halfV);
+    axes.innerSlope = turned ? v : u;
+    axes.outerSlope = turned ? u : v;
+    axes.height = dot16(normal, toLight);
+    axes.highest = axes.height + fabs(axes.innerSlope);
+    return axes;
+}
+
+/// Means of `sum`, over lines of both axes, of points of the light: 0 where none is above the horizon.
+WEDGE_FN float16 meanOverLight(AreaLight light, HorizonAxes axes, float16 sum)
+{
+    const int16 some = axes.highest + fabs(axes.outerSlope) > 0.0f;
+    return some ? sum * (vecLength(vecCross(light.halfU, light.halfV)) / light.profileArea) : (float16)(0.0f);
+}
+
+/// Exponent to the base 2 of the profile at a coordinate, over its square.
+WEDGE_FN float falloffOf(AreaLight light)
+{
+    return light.profile == WEDGE_PROFILE_GAUSSIAN ? -0.721347520f * light.cut * light.cut : 0.0f;
+}
+
+/// By nodes on the part of the light above each receiver's horizon. nodes: the Gauss-Legendre rule.
+WEDGE_FN float16 meanClipped(AreaLight light, Receivers16 r, __global const float* nodes, bool lobes)
+{
+    const HorizonAxes axes = horizonAxes(light, sub16(splat3(light.centre), r.position), r.normal);
+    const float16 from = lowestAbove(axes.highest, axes.outerSlope), to = highestAbove(axes.highest, axes.outerSlope);
+    const float16 extent = 0.5f * max16(to - from, (float16)(0.0f)), middle = 0.5f * (from + to);
+    const float falloff = falloffOf(light);
+    float16 sum = (float16)(0.0f);
+    for (uint i = 0u; i < WEDGE_CLIPPED_NODES; ++i) {
+        const float16 y = middle + extent * nodes[2u * i];
+        const float16 there = axes.height + axes.outerSlope * y;
+        const float16 first = lowestAbove(there, axes.innerSlope), last = highestAbove(there, axes.innerSlope);
+        const float16 reach = 0.5f * max16(last - first, (float16)(0.0f)), halfway = 0.5f * (first + last);
+        const Vec3x16 line = mad16(splat3(light.centre), axes.outer, y);
+        float16 along = (float16)(0.0f);
+        for (uint k = 0u; k < WEDGE_CLIPPED_NODES; ++k) {
+            const float16 x = halfway + reach * nodes[2u * k];
+            along += nodes[2u * k + 1u] * exp2Block(falloff * x * x)
+                * arrivesFrom(light, r, mad16(line, axes.inner, x), lobes);
+        }
+        sum += nodes[2u * i + 1u] * reach * exp2Block(falloff * y * y) * along;
+    }
+    return meanOverLight(light, axes, sum * extent);
+}
+
 /// By nodes fitted to each receiver: over the part of the light above its horizon alone, and dense where the light is
 /// near. nodes: the Gauss-Legendre rule.
 WEDGE_FN float16 meanFitted(AreaLight light, Receivers16 r, __global const float* nodes, bool lobes)
 {
     const Vec3x16 toLight = sub16(splat3(light.centre), r.position);
-    const float16 height = dot16(r.normal, toLight);
-    const float16 u = dot16(r.normal, splat3(light.halfU)), v = dot16(r.normal, splat3(light.halfV));
-    // The horizon is to cross the inner axis rather than to run along it.
-    const int16 turned = fabs(v) > fabs(u);
-    const Vec3x16 inner = choose16(turned, light.halfV, light.halfU),
-                  outer = choose16(turned, light.halfU, light.halfV);
-    const float16 innerSlope = turned ? v : u, outerSlope = turned ? u : v;
-    const float16 innerSquared = dot16(inner, inner), outerSquared = dot16(outer, outer);
+    const HorizonAxes axes = horizonAxes(light, toLight, r.normal);
+    const float16 innerSquared = dot16(axes.inner, axes.inner), outerSquared = dot16(axes.outer, axes.outer);
     const float16 above = toLight.x * light.normal.x + toLight.y * light.normal.y + toLight.z * light.normal.z;
-    const float16 innerFoot = -dot16(toLight, inner) / innerSquared;
-    const float16 highest = height + fabs(innerSlope);
-    const FittedAxis b = fittedAxis(lowestAbove(highest, outerSlope), highestAbove(highest, outerSlope),
-        -dot16(toLight, outer) / outerSquared, fabs(above) * rsqrt(outerSquared));
-    const float falloff = light.profile == WEDGE_PROFILE_GAUSSIAN ? -0.721347520f * light.cut * light.cut : 0.0f;
+    const float16 innerFoot = -dot16(toLight, axes.inner) / innerSquared;
+    const FittedAxis b =
+        fittedAxis(lowestAbove(axes.highest, axes.outerSlope), highestAbove(axes.highest, axes.outerSlope),
+            -dot16(toLight, axes.outer) / outerSquared, fabs(above) * rsqrt(outerSquared));
+    const float falloff = falloffOf(light);
     float16 sum = (float16)(0.0f);
     for (uint i = 0u; i < WEDGE_FITTED_NODES; ++i) {
         float16 outerWeight;
         const float16 y = fittedPoint(b, nodes[2u * i], &outerWeight);
-        const float16 there = height + outerSlope * y, away = y - b.at;
+        const float16 there = axes.height + axes.outerSlope * y, away = y - b.at;
         const float16 distance = sqrt(above * above + away * away * outerSquared);
-        const FittedAxis a = fittedAxis(
-            lowestAbove(there, innerSlope), highestAbove(there, innerSlope), innerFoot, distance * rsqrt(innerSquared));
+        const FittedAxis a = fittedAxis(lowestAbove(there, axes.innerSlope), highestAbove(there, axes.innerSlope),
+            innerFoot, distance * rsqrt(innerSquared));
         float16 line = (float16)(0.0f);
         for (uint k = 0u; k < WEDGE_FITTED_NODES; ++k) {
             float16 weight;
             const float16 x = fittedPoint(a, nodes[2u * k], &weight);
-            const Vec3x16 point = mad16(mad16(splat3(light.centre), inner, x), outer, y);
+            const Vec3x16 point = mad16(mad16(splat3(light.centre), axes.inner, x), axes.outer, y);
             line += nodes[2u * k + 1u] * weight * exp2Block(falloff * x * x) * arrivesFrom(light, r, point, lobes);
         }
         sum += nodes[2u * i + 1u] * outerWeight * exp2Block(falloff * y * y) * line;
     }
-    const int16 some = highest + fabs(outerSlope) > 0.0f;
-    return some ? sum * (vecLength(vecCross(light.halfU, light.halfV)) / light.profileArea) : (float16)(0.0f);
+    return meanOverLight(light, axes, sum);
 }
 
 /// Squared angular half extent of the light over the squared width of the lobe, which at exponent m is about 1/sqrt(m):
@@ -281,23 +340,32 @@ WEDGE_FN float16 unshadowedMean(
     const float extent = squaredExtent(light);
     const float16 across = lobes ? lobesAcross16(light, toLight, r) : (float16)(0.0f);
     const int16 horizon = horizonAcross(light, toLight, r.normal);
-    const int16 fitted = horizon | (squaredDistanceTo(light, toLight) < extent * WEDGE_AT_LIGHT * WEDGE_AT_LIGHT);
-    const int16 few = !fitted & (across < WEDGE_FEW_LOBE) & (squared >= extent * WEDGE_FAR_LIGHT * WEDGE_FAR_LIGHT);
+    const int16 at = squaredDistanceTo(light, toLight) < extent * WEDGE_AT_LIGHT * WEDGE_AT_LIGHT;
+    const bool flat = light.profile != WEDGE_PROFILE_GAUSSIAN || light.cut <= WEDGE_CLIPPED_CUT;
+    const int16 clipped = horizon & !at & (across < WEDGE_COARSE_LOBE)
+        & (squared >= (flat ? extent * WEDGE_CLIPPED_LIGHT * WEDGE_CLIPPED_LIGHT : INFINITY));
+    const int16 fitted = (horizon & !clipped) | at;
+    const int16 few =
+        !(horizon | at) & (across < WEDGE_FEW_LOBE) & (squared >= extent * WEDGE_FAR_LIGHT * WEDGE_FAR_LIGHT);
     const int16 fine =
-        !fitted & ((across >= WEDGE_COARSE_LOBE) | (squared < extent * WEDGE_NEAR_LIGHT * WEDGE_NEAR_LIGHT));
+        !(horizon | at) & ((across >= WEDGE_COARSE_LOBE) | (squared < extent * WEDGE_NEAR_LIGHT * WEDGE_NEAR_LIGHT));
     *sampled = (across > WEDGE_SHARP_LOBE) | (fitted & (across > WEDGE_SHARP_FITTED_LOBE));
     const int16 ruled = wanted & !*sampled;
     float16 mean = (float16)(0.0f);
     if (any(ruled & few)) {
         mean = meanOverNodes(light, r, nodes + WEDGE_FEW_OFFSET, WEDGE_FEW_NODES, lobes);
     }
-    if (any(ruled & !few & !fine & !fitted)) {
+    if (any(ruled & !few & !fine & !clipped & !fitted)) {
         const float16 coarse = meanOverNodes(light, r, nodes, WEDGE_COARSE_NODES, lobes);
         mean = few ? mean : coarse;
     }
     if (any(ruled & fine)) {
         const float16 other = meanOverNodes(light, r, nodes + WEDGE_FINE_OFFSET, WEDGE_FINE_NODES, lobes);
         mean = fine ? other : mean;
+    }
+    if (any(ruled & clipped)) {
+        const float16 other = meanClipped(light, r, nodes + WEDGE_CLIPPED_OFFSET, lobes);
+        mean = clipped ? other : mean;
     }
     if (any(ruled & fitted)) {
         const float16 other = meanFitted(light, r, nodes + WEDGE_FITTED_OFFSET, lobes);

@@ -19,14 +19,19 @@
 #include "shared/path.h"
 #include "shrink.h"
 
-/// The width to compare with, `pixels` on the surface that pixel i sees, in metres. normal: packed where p says so
-WEDGE_FN float comparedWidth(AnalysisParams p, FrameParams frame, float pixels, __global const float* position,
-    __global const float* normal, uint i)
+/// The widths to compare with, `pixels` on the surfaces that a block of pixels sees, in metres: projectedPixel() of
+/// sixteen. normal: packed where p says so
+WEDGE_FN float16 comparedWidth16(AnalysisParams p, FrameParams frame, float pixels, __global const float* position,
+    __global const float* normal, int i)
 {
-    const Vec3 ray = vecSub(loadVec(position, p.planeSize, i), frame.eye);
-    const float depth = fmax(vecDot(ray, frame.forward), 1e-20f);
-    const Vec3 facing = loadNormal(normal, p.planeSize, i, p.packed);
-    return pixels * projectedPixel(frame, facing, vecScale(ray, 1.0f / depth), depth);
+    const Vec3x16 ray = sub16(loadVecBlock(position, p.planeSize, i), splat3(frame.eye));
+    const float16 squared = max16(dot16(ray, ray), (float16)(1e-30f)), inverse = rsqrt(squared);
+    // Solid angle of a pixel off the axis: area / distance^2 times the cosine to the image plane.
+    const float16 axis = max16(
+        (ray.x * frame.forward.x + ray.y * frame.forward.y + ray.z * frame.forward.z) * inverse, (float16)(1e-10f));
+    const float16 facing = fabs(dot16(loadNormals16(normal, p.planeSize, i, p.packed), ray)) * inverse;
+    const float pixel = vecLength(vecCross(frame.right, frame.down));
+    return pixels * sqrt(pixel * squared * axis * axis * axis / max16(facing, (float16)(WEDGE_MIN_VIEW_COSINE)));
 }
 
 /// Deviations of a block of pixels; packed, they have 16 bits.
@@ -59,29 +64,28 @@ WEDGE_FN bool noiseAround(AnalysisParams p, uint x, uint y, __global const float
     return false;
 }
 
-/// The widths to compare with and a pixel's own, where that is narrower; both 0 where it is not or nothing is noisy, -1
-/// where it has none.
+/// The widths to compare with, where a pixel's own is narrower; 0 where it is not or nothing is noisy, -1 where it has
+/// none.
 /// in   deviation: of the value that is filtered; beta, metres
-/// out  wide, narrow: metres
+/// out  compared: metres
 __kernel void comparedWidths(AnalysisParams p, FrameParams frame, float pixels,
     __global const float* restrict deviation, __global const float* restrict position,
     __global const float* restrict normal, __global const uint* restrict objectId, __global const float* restrict beta,
-    __global float* restrict wide, __global float* restrict narrow)
+    __global float* restrict compared)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
     if (x >= p.x1 || y >= p.y1) {
         return;
     }
-    const bool noisy = noiseAround(p, x, y, deviation);
-    for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
-        const uint i = pixelIndex(x + lane, y, p.stride);
-        const bool has = objectId[i] != 0u && beta[i] >= 0.0f;
-        const float compared = has && noisy ? comparedWidth(p, frame, pixels, position, normal, i) : 0.0f;
-        const bool apart = beta[i] < compared;
-        wide[i] = !has ? -1.0f : apart ? compared : 0.0f;
-        narrow[i] = !has ? -1.0f : apart ? beta[i] : 0.0f;
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const float16 own = loadBlock(beta, i);
+    const int16 has = (loadIdBlock(objectId, i) != 0u) & (own >= 0.0f);
+    float16 wide = (float16)(0.0f);
+    if (noiseAround(p, x, y, deviation)) {
+        wide = comparedWidth16(p, frame, pixels, position, normal, i);
     }
+    vstore16(!has ? (float16)(-1.0f) : own < wide ? wide : (float16)(0.0f), 0, compared + i);
 }
 
 /// A term of pixels that are the receivers in one number. weights: what it is multiplied by in the image; seen, ofPart:
@@ -150,24 +154,13 @@ __kernel void oneOfPaths(AnalysisParams p, uint component, uint firstPass, __glo
         i, irradiance, deviation, weights);
 }
 
-/// K_w, out of the way of the next gather.
-__kernel void copyCounts(AnalysisParams p, __global const float* restrict gathered, __global float* restrict copy)
-{
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x < p.x1 && y < p.y1) {
-        const int i = (int)pixelIndex(x, y, p.stride);
-        vstore16(loadBlock(gathered, i), 0, copy + i);
-    }
-}
-
 /// What is averaged, both of what is shown and not of irradiances, which may be noisy where there is little of them to
 /// see.
-/// in      narrow: n; gathered: K_n; deviation: its square is v; weights: of what n and w are multiplied by
-/// in out  wide: w, then (n - w)^2; variance: K_w, then V. Both are 0 where the wide filter does not gather more.
-__kernel void widenSquares(AnalysisParams p, __global const float* restrict narrow,
-    __global const float* restrict gathered, __global const float* restrict deviation,
-    __global const float* restrict weights, __global float* restrict wide, __global float* restrict variance)
+/// in   difference, apart: of compareColumns(); deviation: its square is v; weights: of what n and w are multiplied by
+/// out  squares: (n - w)^2; variance: V. Both are 0 where the wide filter does not gather more.
+__kernel void widenSquares(AnalysisParams p, __global const float* restrict difference,
+    __global const float* restrict apart, __global const float* restrict deviation,
+    __global const float* restrict weights, __global float* restrict squares, __global float* restrict variance)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -175,20 +168,20 @@ __kernel void widenSquares(AnalysisParams p, __global const float* restrict narr
         return;
     }
     const int i = (int)pixelIndex(x, y, p.stride);
-    const float16 k = loadBlock(gathered, i), kWide = loadBlock(variance, i), t = loadBlock(weights, i);
-    const int16 wider = kWide > k;
-    const float16 apart = 1.0f / k - 2.0f / (k + kWide);
-    const float16 own = t * loadDeviations(p, deviation, i), d = t * (loadBlock(narrow, i) - loadBlock(wide, i));
-    vstore16(wider ? own * own * apart : (float16)(0.0f), 0, variance + i);
-    vstore16(wider ? d * d : (float16)(0.0f), 0, wide + i);
+    const float16 ofVariance = loadBlock(apart, i), t = loadBlock(weights, i);
+    const int16 wider = ofVariance > 0.0f;
+    const float16 own = t * loadDeviations(p, deviation, i), d = t * loadBlock(difference, i);
+    vstore16(wider ? own * own * ofVariance : (float16)(0.0f), 0, variance + i);
+    vstore16(wider ? d * d : (float16)(0.0f), 0, squares + i);
 }
 
 /// t of the head of this file. ratio: of the squared widths
-WEDGE_FN float wideShare(float difference, float variance, float ratio)
+WEDGE_FN float16 wideShare(float16 difference, float16 variance, float16 ratio)
 {
-    const float rest = fmax(1.0f - ratio, 1e-3f);
-    const float bias = fmax(difference - rest * variance, 0.0f);
-    return clamp((variance - ratio / rest * bias) / difference, 0.0f, 1.0f);
+    const float16 rest = max16(1.0f - ratio, (float16)(1e-3f));
+    const float16 bias = max16(difference - rest * variance, (float16)(0.0f));
+    const float16 share = (variance - ratio / rest * bias) / max16(difference, (float16)(1e-36f));
+    return min16(max16(share, (float16)(0.0f)), (float16)(1.0f));
 }
 
 /// in   noise: c; difference, variance: of widenSquares(); beta, metres
@@ -210,16 +203,10 @@ __kernel void wideShares(AnalysisParams p, FrameParams frame, float pixels, floa
         return;
     }
     const SquaresAround around = squaresAround(p, y, i, objectId, difference, variance);
-    float d[WEDGE_BLOCK_PIXELS], v[WEDGE_BLOCK_PIXELS];
-    vstore16(differs ? around.difference : (float16)(0.0f), 0, d);
-    vstore16(noise * around.variance, 0, v);
-    for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
-        const uint j = (uint)i + lane;
-        if (d[lane] > 0.0f) {
-            const float wide = comparedWidth(p, frame, pixels, position, normal, j), own = beta[j];
-            shares[j] = wideShare(d[lane], v[lane], own * own / fmax(wide * wide, 1e-30f));
-        }
-    }
+    const float16 wide = comparedWidth16(p, frame, pixels, position, normal, i), own = loadBlock(beta, i);
+    const float16 ratio = own * own / max16(wide * wide, (float16)(1e-30f));
+    const float16 share = wideShare(around.difference, noise * around.variance, ratio);
+    vstore16(differs ? share : (float16)(-1.0f), 0, shares + i);
 }
 
 /// Widths by the mean of the shares around: where it changes from pixel to pixel a filter takes more from one side than
@@ -251,14 +238,8 @@ __kernel void widen(AnalysisParams p, FrameParams frame, float pixels, __global 
             count += taken ? (float16)(1.0f) : (float16)(0.0f);
         }
     }
-    float mean[WEDGE_BLOCK_PIXELS];
     const int16 compared = (object != 0u) & (own >= 0.0f);
-    vstore16(compared ? sum / max16(count, (float16)(1.0f)) : (float16)(0.0f), 0, mean);
-    for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
-        const uint j = (uint)i + lane;
-        if (mean[lane] > 0.0f) {
-            const float wide = comparedWidth(p, frame, pixels, position, normal, j);
-            beta[j] += mean[lane] * fmax(wide - beta[j], 0.0f);
-        }
-    }
+    const float16 narrow = loadBlock(beta, i), wide = comparedWidth16(p, frame, pixels, position, normal, i);
+    const float16 mean = sum / max16(count, (float16)(1.0f));
+    vstore16(compared ? narrow + mean * max16(wide - narrow, (float16)(0.0f)) : narrow, 0, beta + i);
 }

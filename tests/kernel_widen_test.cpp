@@ -93,18 +93,17 @@ TEST_CASE("widen: narrow pixels are compared with a width of that many pixels, w
         const render::PlaneLayout layout(83, 31);
         std::mt19937 random(3);
         const Pixels in(layout, random, 0, 0.1, 20);
-        const auto wide = bench.filled(layout.size, -7.0f), narrow = bench.filled(layout.size, -7.0f);
+        const auto wide = bench.filled(layout.size, -7.0f);
         bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "comparedWidths", paramsOf(layout),
             WEDGE_BLOCK_PIXELS, cameraOf(layout), wideInPixels, bench.buffer(in.deviation.values),
             bench.buffer(in.position.values), bench.buffer(in.normal.values), bench.buffer(in.objectId.values),
-            bench.buffer(in.beta.values), wide, narrow);
-        const Planes<float> w = planesOf(layout, bench.read(wide)), n = planesOf(layout, bench.read(narrow));
+            bench.buffer(in.beta.values), wide);
+        const Planes<float> w = planesOf(layout, bench.read(wide));
         int compared = 0, left = 0;
         everyPixel(layout, [&](int x, int y) {
             const double own = in.beta.at(x, y);
             if (in.objectId.at(x, y) == 0 || own < 0) {
                 REQUIRE(w.at(x, y) == -1);
-                REQUIRE(n.at(x, y) == -1);
                 return;
             }
             // A pixel's edge on the plane: its solid angle and distance off the axis cancel but for the cosines.
@@ -115,7 +114,6 @@ TEST_CASE("widen: narrow pixels are compared with a width of that many pixels, w
                 REQUIRE(std::fabs(w.at(x, y) - (narrower ? size : 0)) < 2e-4);
             if (x >= 48)
                 REQUIRE(w.at(x, y) == 0);
-            REQUIRE(n.at(x, y) == (w.at(x, y) > 0 ? in.beta.at(x, y) : 0));
             compared += w.at(x, y) > 0 ? 1 : 0;
             left += narrower && w.at(x, y) == 0 ? 1 : 0;
         });
@@ -163,15 +161,21 @@ TEST_CASE("widen: the width is as far between both as noise and difference of th
                 const Pixels in(layout, random, bias, noise);
                 const shared::AnalysisParams p = paramsOf(layout);
                 const shared::FrameParams camera = cameraOf(layout);
-                const auto wide = bench.buffer(in.wide.values), variance = bench.buffer(in.countsWide.values),
+                Planes<float> difference(layout, 1, 0.0f), apart(layout, 1, 0.0f);
+                everyPixel(layout, [&](int x, int y) {
+                    const float k = in.counts.at(x, y), kWide = in.countsWide.at(x, y);
+                    difference.at(x, y) = in.narrow.at(x, y) - in.wide.at(x, y);
+                    apart.at(x, y) = kWide > k ? 1 / k - 2 / (k + kWide) : 0.0f;
+                });
+                const auto squares = bench.filled(layout.size, -7.0f), variance = bench.filled(layout.size, -7.0f),
                            shares = bench.filled(layout.size, -7.0f), beta = bench.buffer(in.beta.values),
                            position = bench.buffer(in.position.values), normal = bench.buffer(in.normal.values);
                 const auto objectId = bench.buffer(in.objectId.values);
                 bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "widenSquares", p, WEDGE_BLOCK_PIXELS,
-                    bench.buffer(in.narrow.values), bench.buffer(in.counts.values), bench.buffer(in.deviation.values),
-                    bench.buffer(in.weights.values), wide, variance);
+                    bench.buffer(difference.values), bench.buffer(apart.values), bench.buffer(in.deviation.values),
+                    bench.buffer(in.weights.values), squares, variance);
                 bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "wideShares", p, WEDGE_BLOCK_PIXELS,
-                    camera, wideInPixels, c, wide, variance, position, normal, objectId, beta, shares);
+                    camera, wideInPixels, c, squares, variance, position, normal, objectId, beta, shares);
                 bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "widen", p, WEDGE_BLOCK_PIXELS, camera,
                     wideInPixels, shares, position, normal, objectId, beta);
                 const Planes<float> t = planesOf(layout, bench.read(shares)),

@@ -306,7 +306,8 @@ TEST_CASE("a crop of a frame filtered along long motions has the bits of the who
     });
 }
 
-TEST_CASE("a frame of the image alone takes less than 150 MiB at 1024x1024 with an area light and a bounce")
+TEST_CASE(
+    "a frame of the image alone takes less than 150 MB at 1024x1024 with an area light and a bounce, 150 MiB in motion")
 {
     onEveryDevice([](const device::Device& device) {
         for (const Moves moves : { Moves::Nothing, Moves::Camera, Moves::Geometry }) {
@@ -316,7 +317,8 @@ TEST_CASE("a frame of the image alone takes less than 150 MiB at 1024x1024 with 
             render::Settings settings = sized(render::axisAligned(16), 1024, 1024);
             settings.bounces = 1;
             const render::Renderer renderer(scene, device, renderOptions());
-            CHECK(renderer.plan(settings).total() < (150u << 20));
+            // Motions and deviations together are above the goal of 150 MB (docs/multiple-effects.md).
+            CHECK(renderer.plan(settings).total() < (moves == Moves::Nothing ? 150'000'000u : 150u << 20));
             CHECK(renderer.plan(settings, true).total() > 300'000'000);
         }
     });

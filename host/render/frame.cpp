@@ -273,9 +273,10 @@ Scratch::Scratch(
     , width(rowsSpread)
     , error(effective)
     , visibility(logs.part<float>(0, layout.size, "visibility"))
-    , wide(demand)
+    , narrowRows(demand)
+    , wideRows(rowsFiltered)
     , compared(spread)
-    , narrowWidth(rowsSpread)
+    , narrowCounts(rowsSpread)
     , deviation(logs.part<float>(layout.size, layout.size, "deviation"))
     , weights(logs.part<float>(2 * layout.size, layout.size, "weights"))
     , motionWidth(device, 0, "motion filter width")
@@ -301,7 +302,8 @@ Scratch::Scratch(
 // logs 4, rowsSpread 2, spread 0, width 2; of indirect light: slopes 0, width 2. Counts: motionWidth 1, ofAllTextures
 // 5, demand 3, and, for one term after the other, ofTexture 0, logs 4 (variance), and one plane of the gather's each:
 // 0, 3 and 2. Filters of the image: the gather's, and of lights logs 4 (visibility, then the direction of shadows'
-// motion) and error 2.
+// motion) and error 2. Before them, to widen: wideRows 0, compared 1 (then variances), rowsEffective 2 (then factors,
+// then shares), narrowRows 3 (then squares), visibility 4 (then differences), narrowCounts 5 (then weights).
 Scratch::Scratch(const device::Device& device, const PlaneLayout& layout, const device::Buffer<float>& memory)
     : values(3)
     , rowsFiltered(memory.part<float>(0, 3 * layout.size, "rows filtered"))
@@ -316,11 +318,12 @@ Scratch::Scratch(const device::Device& device, const PlaneLayout& layout, const 
     , width(rowsEffective)
     , error(rowsEffective)
     , visibility(memory.part<float>(4 * layout.size, layout.size, "visibility"))
-    , wide(demand)
+    , narrowRows(demand)
+    , wideRows(slopes)
     , compared(memory.part<float>(layout.size, layout.size, "width to compare with"))
-    , narrowWidth(memory.part<float>(5 * layout.size, layout.size, "narrower widths"))
+    , narrowCounts(memory.part<float>(5 * layout.size, layout.size, "equal samples of narrow filters"))
     , deviation(device, 0, "deviation")
-    , weights(narrowWidth)
+    , weights(narrowCounts)
     , motionWidth(memory.part<float>(layout.size, layout.size, "motion filter width"))
     , motionDirection(demand)
     , ofTexture(slopes)

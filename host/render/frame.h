@@ -197,9 +197,10 @@ public:
     device::Buffer<float> slopes, width; ///< of packed terms: slopes or distances; widths while they are made
     device::Buffer<float> error; ///< of taking texture and irradiance apart
     device::Buffer<float> visibility; ///< of a light, to be filtered
-    /// Of widening.h: filtered with the wider widths; these, then counts, then variances; the narrower widths; of
-    /// samples, where pixels are the receivers; what values are worth, in lean frames in the place of narrowWidth.
-    device::Buffer<float> wide, compared, narrowWidth, deviation, weights;
+    /// Of widening.h: rows filtered with pixels' own widths, then squares; with the wider ones; these, then variances;
+    /// equal samples of narrowRows; of samples, where pixels are the receivers; what values are worth, in lean frames
+    /// in the place of narrowCounts.
+    device::Buffer<float> narrowRows, wideRows, compared, narrowCounts, deviation, weights;
     device::Buffer<float> motionWidth, motionDirection; ///< of packed frames, for the demands; before any gather
     device::Buffer<float> ofTexture, ofAllTextures; ///< variance of one term's, and of all that is not irradiance
     device::Buffer<float> bounds, extent; ///< of what the camera sees, see reflectors.cl

@@ -35,6 +35,8 @@
 #define WEDGE_FITTED_NODES                                                                                             \
     16u ///< of the Gauss-Legendre rule on [-1, 1], weights summing to 2, for rules fitted to a receiver
 #define WEDGE_FITTED_OFFSET (WEDGE_FEW_OFFSET + 2u * WEDGE_FEW_NODES)
+#define WEDGE_CLIPPED_NODES 8u ///< likewise, on the part of a light above a receiver's horizon
+#define WEDGE_CLIPPED_OFFSET (WEDGE_FITTED_OFFSET + 2u * WEDGE_FITTED_NODES)
 
 WEDGE_SHARED_BEGIN
 

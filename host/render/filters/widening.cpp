@@ -50,29 +50,37 @@ Widening::Widening(const TermContext& context, std::string_view pass, const shar
 void Widening::compare(
     device::Buffer<float>& value, const device::Buffer<float>& deviation, const device::Buffer<float>& beta) const
 {
-    Scratch& scratch = c_.scratch;
-    const FilterRun run { pass_, PassKind::Filter, "filter_variance.cl" };
+    Scratch& s = c_.scratch;
+    const Frame& f = c_.frame;
+    const std::string program = (f.shape.packed() ? "packed_" : "") + std::string("compare_widths.cl");
+    const int height = c_.full().y1;
     // A gather takes the widths of all pixels that it reaches.
     c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "comparedWidths", analysisParams(c_, c_.full()),
-        WEDGE_BLOCK_PIXELS, c_.fullFrame, pixels_, deviation, c_.frame.position, c_.frame.normal, c_.frame.objectId,
-        beta, scratch.compared, scratch.narrowWidth);
-    gaussianFilter(c_.passes, run, params_, compared_, c_.frame, value, scratch.compared, scratch, scratch.wide);
-    c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "copyCounts", analysisParams(c_, compared_), WEDGE_BLOCK_PIXELS,
-        scratch.effective, scratch.compared);
-    gaussianFilter(c_.passes, run, params_, compared_, c_.frame, value, scratch.narrowWidth, scratch, value);
+        WEDGE_BLOCK_PIXELS, c_.fullFrame, pixels_, deviation, f.position, f.normal, f.objectId, beta, s.compared);
+    shared::FilterParams p = params_;
+    const int reach = static_cast<int>(p.maxRadius);
+    setRectangle(
+        p, { compared_.x0, std::max(0, compared_.y0 - reach), compared_.x1, std::min(height, compared_.y1 + reach) });
+    c_.passes.rows(pass_, PassKind::Filter, program, "compareRows", p, WEDGE_BLOCK_PIXELS, value, beta, s.compared,
+        f.position, f.normal, f.objectId, s.narrowRows, s.wideRows, s.narrowCounts, s.rowsEffective);
+    setRectangle(p, compared_);
+    c_.passes.rows(pass_, PassKind::Filter, program, "compareColumns", p, WEDGE_BLOCK_PIXELS, s.narrowRows, s.wideRows,
+        s.narrowCounts, s.rowsEffective, beta, s.compared, f.position, f.normal, f.objectId, value, s.effective);
 }
 
-void Widening::apply(const device::Buffer<float>& narrow, const device::Buffer<float>& deviation,
+void Widening::apply(const device::Buffer<float>& difference, const device::Buffer<float>& deviation,
     const device::Buffer<float>& weights, device::Buffer<float>& beta) const
 {
-    Scratch& scratch = c_.scratch;
+    Scratch& s = c_.scratch;
+    const Frame& f = c_.frame;
+    const device::Buffer<float>&squares = s.narrowRows, &variance = s.compared, &shares = s.effective;
     c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "widenSquares", analysisParams(c_, compared_),
-        WEDGE_BLOCK_PIXELS, narrow, scratch.effective, deviation, weights, scratch.wide, scratch.compared);
+        WEDGE_BLOCK_PIXELS, difference, s.effective, deviation, weights, squares, variance);
     c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "wideShares", analysisParams(c_, shared_), WEDGE_BLOCK_PIXELS,
-        c_.fullFrame, pixels_, c_.frame.distributed ? distributedNoise : pinholeNoise, scratch.wide, scratch.compared,
-        c_.frame.position, c_.frame.normal, c_.frame.objectId, beta, scratch.effective);
+        c_.fullFrame, pixels_, f.distributed ? distributedNoise : pinholeNoise, squares, variance, f.position, f.normal,
+        f.objectId, beta, shares);
     c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "widen", analysisParams(c_, widened_), WEDGE_BLOCK_PIXELS,
-        c_.fullFrame, pixels_, scratch.effective, c_.frame.position, c_.frame.normal, c_.frame.objectId, beta);
+        c_.fullFrame, pixels_, shares, f.position, f.normal, f.objectId, beta);
 }
 
 void widenDistributed(

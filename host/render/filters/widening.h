@@ -18,15 +18,15 @@ public:
     /// params: of the term's filter; pixels: the width that others are compared with
     Widening(const TermContext& context, std::string_view pass, const shared::FilterParams& params, float pixels);
 
-    /// Where the widths beta are less than that to compare with, filters `value`, one plane of all pixels, in place
-    /// with beta, and into scratch.wide with that. deviation: of value's samples (deviation16() of
-    /// kernels/deviation.h). scratch.compared, wide and effective are not to change until apply().
+    /// Where the widths beta are less than that to compare with, filters `value`, one plane of all pixels, with both
+    /// and puts their difference in its place (kernels/compare_widths.cl). deviation: of value's samples (deviation16()
+    /// of kernels/deviation.h). scratch.effective is not to change until apply().
     void compare(
         device::Buffer<float>& value, const device::Buffer<float>& deviation, const device::Buffer<float>& beta) const;
 
-    /// Widens beta. narrow: what compare() left in the place of the value; weights: what values are multiplied by in
-    /// the image
-    void apply(const device::Buffer<float>& narrow, const device::Buffer<float>& deviation,
+    /// Widens beta. difference: what compare() left in the place of the value; weights: what values are multiplied by
+    /// in the image
+    void apply(const device::Buffer<float>& difference, const device::Buffer<float>& deviation,
         const device::Buffer<float>& weights, device::Buffer<float>& beta) const;
 
 private:

@@ -1,0 +1,126 @@
+// compare_widths.cl alone: a plane filtered with two widths at once, against the gather in double with one after the
+// other.
+#include "kernels/shared/packed.h"
+#include "tests/filter_oracle.h"
+
+#include <bit>
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+/// An image whose beta holds the pixels' own widths, and those to compare with: greater, or 0, or -1 where there is no
+/// value.
+struct Compared {
+    FilterImage image;
+    Planes<float> wide;
+
+    Compared(Shape shape, unsigned seed)
+        : image(randomImage(61, 29, shape, seed))
+        , wide(image.value.layout, 1, -1.0f)
+    {
+        std::mt19937 random(seed);
+        for (int y = 0; y < image.height(); ++y)
+            for (int x = 0; x < image.width(); ++x) {
+                const float own = image.beta.at(x, y) > 1 ? 0.3f : image.beta.at(x, y);
+                image.beta.at(x, y) = own;
+                if (own >= 0)
+                    // A third of the image is compared nowhere, so that whole blocks are not.
+                    wide.at(x, y) =
+                        random() % 4 == 0 || x < 20 ? 0.0f : own + static_cast<float>(uniform(random, 0.05, 0.2));
+            }
+    }
+
+    /// The same with one of both widths, as a gather alone has it.
+    FilterImage with(bool narrow) const
+    {
+        FilterImage out = image;
+        for (std::size_t i = 0; i < wide.values.size(); ++i)
+            out.beta.values[i] = narrow && wide.values[i] > 0 ? image.beta.values[i] : wide.values[i];
+        return out;
+    }
+};
+
+struct Difference {
+    Planes<float> difference, apart;
+};
+
+Difference differenceOf(KernelBench& bench, const Compared& in, const Planes<float>& normals, const char* program)
+{
+    const FilterImage& image = in.image;
+    const std::size_t size = image.value.layout.size;
+    const auto run = [&](const char* kernel, const auto&... args) {
+        bench.passes.rows(
+            "compare", device::PassKind::Filter, program, kernel, image.params, WEDGE_BLOCK_PIXELS, args...);
+    };
+    const auto value = bench.buffer(image.value.values), beta = bench.buffer(image.beta.values),
+               wide = bench.buffer(in.wide.values), position = bench.buffer(image.position.values),
+               normal = bench.buffer(normals.values);
+    const auto objectId = bench.buffer(image.objectId.values);
+    const auto narrowRows = bench.filled(size, -7.0f), wideRows = bench.filled(size, -7.0f),
+               narrowCounts = bench.filled(size, -7.0f), wideCounts = bench.filled(size, -7.0f),
+               difference = bench.filled(size, -7.0f);
+    run("compareRows", value, beta, wide, position, normal, objectId, narrowRows, wideRows, narrowCounts, wideCounts);
+    // As in lean frames, in the place of the counts.
+    run("compareColumns", narrowRows, wideRows, narrowCounts, wideCounts, beta, wide, position, normal, objectId,
+        difference, wideCounts);
+    return { planesOf(image.value.layout, bench.read(difference)),
+        planesOf(image.value.layout, bench.read(wideCounts)) };
+}
+
+/// Compares with the oracle where no test of it hangs on a rounding.
+void check(const Compared& in, const Difference& found)
+{
+    const FilterImage narrow = in.with(true), wide = in.with(false);
+    const OracleResult n = oracleColumns(narrow, oracleRows(narrow)), w = oracleColumns(wide, oracleRows(wide));
+    int certain = 0, apart = 0, wrong = 0;
+    for (int y = 0; y < in.image.height(); ++y)
+        for (int x = 0; x < in.image.width(); ++x) {
+            if (n.uncertain(x, y) || w.uncertain(x, y))
+                continue;
+            const double k = n.effective(x, y), kWide = w.effective(x, y);
+            const double expected = kWide > k ? 1 / k - 2 / (k + kWide) : 0;
+            const double difference = n.value(x, y, 0) - w.value(x, y, 0);
+            wrong += std::fabs(found.difference.at(x, y) - difference) > 4e-4 ? 1 : 0;
+            wrong += std::fabs(found.apart.at(x, y) - expected) > 2e-3 ? 1 : 0;
+            ++certain;
+            apart += expected > 0.01 ? 1 : 0;
+        }
+    CHECK(wrong == 0);
+    CHECK(certain > 600);
+    CHECK(apart > 100);
+}
+
+} // namespace
+
+TEST_CASE("two widths at once are what a gather with each makes, and what noise both have apart")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough }) {
+            CAPTURE(static_cast<int>(shape));
+            Compared in(shape, 40);
+            check(in, differenceOf(bench, in, in.image.normal, "compare_widths.cl"));
+            in.image = withoutLight(in.image);
+            check(in, differenceOf(bench, in, in.image.normal, "compare_widths.cl"));
+        }
+    });
+}
+
+TEST_CASE("two widths at once with packed normals")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        Compared in(Shape::Tilted, 41);
+        Planes<float> packed(in.image.value.layout, 1, 0.0f);
+        for (int y = 0; y < in.image.height(); ++y)
+            for (int x = 0; x < in.image.width(); ++x) {
+                const std::uint32_t bits = shared::packNormal(toShared(in.image.normal.vector(x, y)));
+                const shared::Vec3 rounded = shared::unpackNormal(bits);
+                packed.at(x, y) = std::bit_cast<float>(bits);
+                in.image.normal.setVector(x, y, { rounded.x, rounded.y, rounded.z });
+            }
+        check(in, differenceOf(bench, in, packed, "packed_compare_widths.cl"));
+    });
+}
