@@ -29,8 +29,9 @@ WEDGE_FN LineMean meanOf(GatherSum sum, int16 gathers, LineMean before)
     return mean;
 }
 
-/// Of a block of pixels; before: their own. narrow, wide: planes of values along the line, which may be the same one.
-/// Where compared is 0 nothing is gathered and no neighbour narrowed, where it is less there is no value to take.
+/// Of a block of pixels; own: what they have so far; before, after: pixels that the line goes on to. narrow, wide:
+/// planes of values along the line, which may be the same one. Where compared is 0 nothing is gathered and no neighbour
+/// narrowed, where it is less there is no value to take.
 WEDGE_FN LineMeans compareLine(FilterParams p, int i, int element, Vec3 step, int before, int after,
     __global const float* narrow, __global const float* wide, __global const float* beta,
     __global const float* compared, __global const float* position, __global const float* normal,

@@ -74,7 +74,7 @@ WEDGE_FN float16 surfaceArea(FilterParams p, Vec3x16 position, Vec3x16 normal, f
     const Vec3x16 d = sub16(position, splat3(p.eye));
     const float16 z = d.x * p.forward.x + d.y * p.forward.y + d.z * p.forward.z;
     const float16 facing = max16(fabs(dot16(normal, d)), WEDGE_MIN_STEP_COSINE * fabs(z));
-    return z * z * z / max16(facing * unit, (float16)(1e-20f));
+    return z * z * z / max16(facing * unit, (float16)(1e-37f));
 }
 
 WEDGE_FN Vec3x16 slantOf(FilterParams p, Vec3x16 position)
@@ -202,7 +202,7 @@ WEDGE_FN void addValue(GatherSum* sum, uint channel, float16 w, float16 value)
     sum->channel[channel] += w > 0.0f ? w * value : (float16)(0.0f);
 }
 
-/// Adds the neighbours at element offset `offset`, `steps` pixels away.
+/// Adds the neighbours at element j, `steps` pixels away.
 WEDGE_FN void gatherTap(FilterParams p, GatherBlock b, GatherWidth width, int j, float steps,
     __global const float* value, __global const float* beta, __global const float* position,
     __global const float* normal, __global const uint* objectId, GatherSum* sum)

@@ -6,9 +6,9 @@
 //   coarse  5 x 5 nodes
 //   fine    12 x 12: near the light, or for lobes narrower than it
 //   clipped 8 x 8 over the part of the light above the receiver's horizon: where that crosses the light
-//   fitted  16 x 16 in coordinates fitted to the receiver: at the light, or near it across the horizon
-//   sampled directions of the lobe: where it is far narrower than the light, or narrower at all where the fitted rule
-//   would do
+//   fitted  16 x 16 in coordinates fitted to the receiver: at the light, and across horizons that the clipped rule does
+//   not serve sampled directions of the lobe: where it is far narrower than the light, or narrower at all where the
+//   fitted rule would do
 #ifndef WEDGE_UNSHADOWED_H
 #define WEDGE_UNSHADOWED_H
 

@@ -206,7 +206,9 @@ __kernel void wideShares(AnalysisParams p, FrameParams frame, float pixels, floa
     const float16 wide = comparedWidth16(p, frame, pixels, position, normal, i), own = loadBlock(beta, i);
     const float16 ratio = own * own / max16(wide * wide, (float16)(1e-30f));
     const float16 share = wideShare(around.difference, noise * around.variance, ratio);
-    vstore16(differs ? share : (float16)(-1.0f), 0, shares + i);
+    // Of a sum that is no number nothing follows.
+    const int16 known = differs & (around.difference > 0.0f);
+    vstore16(known ? share : (float16)(-1.0f), 0, shares + i);
 }
 
 /// Widths by the mean of the shares around: where it changes from pixel to pixel a filter takes more from one side than

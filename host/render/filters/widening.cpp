@@ -40,7 +40,10 @@ Widening::Widening(const TermContext& context, std::string_view pass, const shar
     , pass_(pass)
     , params_(params)
     , pixels_(pixels)
-    , widened_(blockWindow(context.window, context.settings.maxRadius, context.full().x1, context.full().y1))
+    // What lens and shutter blur is filtered everywhere, in crops, too.
+    , widened_(context.frame.distributed
+              ? context.full()
+              : blockWindow(context.window, context.settings.maxRadius, context.full().x1, context.full().y1))
     , shared_(blockWindow(widened_, WEDGE_SHRINK_REACH, context.full().x1, context.full().y1))
     , compared_(blockWindow(shared_, WEDGE_SHRINK_REACH, context.full().x1, context.full().y1))
 {

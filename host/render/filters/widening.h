@@ -20,7 +20,9 @@ public:
 
     /// Where the widths beta are less than that to compare with, filters `value`, one plane of all pixels, with both
     /// and puts their difference in its place (kernels/compare_widths.cl). deviation: of value's samples (deviation16()
-    /// of kernels/deviation.h). scratch.effective is not to change until apply().
+    /// of kernels/deviation.h). Neither that plane nor
+    /// scratch.effective is to change until apply(); weights are made after this, in lean frames their plane is used
+    /// here.
     void compare(
         device::Buffer<float>& value, const device::Buffer<float>& deviation, const device::Buffer<float>& beta) const;
 
