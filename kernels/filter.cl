@@ -4,4 +4,4 @@
 #else
 #define WEDGE_GATHER_CHANNELS 1
 #endif
-#include "gather.h"
+#include "gather_lines.h"

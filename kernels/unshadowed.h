@@ -341,9 +341,9 @@ WEDGE_FN float16 unshadowedMean(
     const float16 across = lobes ? lobesAcross16(light, toLight, r) : (float16)(0.0f);
     const int16 horizon = horizonAcross(light, toLight, r.normal);
     const int16 at = squaredDistanceTo(light, toLight) < extent * WEDGE_AT_LIGHT * WEDGE_AT_LIGHT;
-    const bool flat = light.profile != WEDGE_PROFILE_GAUSSIAN || light.cut <= WEDGE_CLIPPED_CUT;
+    const bool smooth = light.profile != WEDGE_PROFILE_GAUSSIAN || light.cut <= WEDGE_CLIPPED_CUT;
     const int16 clipped = horizon & !at & (across < WEDGE_COARSE_LOBE)
-        & (squared >= (flat ? extent * WEDGE_CLIPPED_LIGHT * WEDGE_CLIPPED_LIGHT : INFINITY));
+        & (squared >= (smooth ? extent * WEDGE_CLIPPED_LIGHT * WEDGE_CLIPPED_LIGHT : INFINITY));
     const int16 fitted = (horizon & !clipped) | at;
     const int16 few =
         !(horizon | at) & (across < WEDGE_FEW_LOBE) & (squared >= extent * WEDGE_FAR_LIGHT * WEDGE_FAR_LIGHT);

@@ -7,7 +7,7 @@
 
 namespace wedge::test {
 
-/// filterRows and filterColumns of one of the programs of gather.h, on one device.
+/// filterRows and filterColumns of one of the programs of gather_lines.h, on one device.
 class FilterRun {
 public:
     explicit FilterRun(

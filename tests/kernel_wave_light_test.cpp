@@ -205,13 +205,13 @@ TEST_CASE("diffuse: the mean geometry term over the light, near, far and partly 
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);
         unsigned seed = 10;
-        everyLight([&](const scene::AreaLight& light) {
+        const auto check = [&](const scene::AreaLight& light) {
             std::mt19937 random(++seed);
             std::vector<ReceiverPoint> points;
             while (points.size() < receiverCount)
                 points.push_back(randomReceiver(light, 10, random));
             const std::vector<float> found = unshadowed(bench, light, points, receiverCount);
-            int lit = 0, horizons = 0, close = 0;
+            int lit = 0, horizons = 0, close = 0, far = 0;
             for (std::size_t r = 0; r < receiverCount; ++r) {
                 const Shading expected = overLight(light, points[r]);
                 if (!points[r].surface) {
@@ -226,11 +226,22 @@ TEST_CASE("diffuse: the mean geometry term over the light, near, far and partly 
                 lit += expected.diffuse > 0 ? 1 : 0;
                 horizons += expected.horizon ? 1 : 0;
                 close += near > 0.5 ? 1 : 0;
+                // Of few plain nodes over what is above the horizon, where these serve the light's profile.
+                far += expected.horizon && near < 0.5 ? 1 : 0;
             }
             CHECK(lit > 150);
             CHECK(horizons > 30);
             CHECK(close > 40);
-        });
+            CHECK(far > 20);
+        };
+        everyLight(check);
+        // Profiles that fall off within a part of the light.
+        for (const float cut : { 1.0f, 3.0f, 4.0f, 6.0f }) {
+            CAPTURE(cut);
+            scene::AreaLight light = lamp(scene::LightProfile::Gaussian, false);
+            light.cut = cut;
+            check(light);
+        }
     });
 }
 

@@ -1,9 +1,13 @@
 // widen.cl alone: against the same in double.
 #include "kernels/shared/filter_params.h"
 #include "kernels/shared/indirect.h"
+#include "kernels/shared/packed.h"
 #include "kernels/shared/path.h"
 #include "kernels/shared/wedge.h"
 #include "tests/render_support.h"
+
+#include <bit>
+#include <cstring>
 
 using namespace wedge;
 using namespace wedge::test;
@@ -124,6 +128,108 @@ TEST_CASE("widen: narrow pixels are compared with a width of that many pixels, w
 
 namespace {
 
+/// Seen at all angles, from nearby and far off, off the view's axis: positions, normals and widths.
+struct Surfaces {
+    shared::FrameParams camera;
+    Planes<float> position, normal;
+
+    Surfaces(const render::PlaneLayout& layout, std::mt19937& random)
+        : camera(cameraOf(layout))
+        , position(layout, 3, 0.0f)
+        , normal(layout, 3, 0.0f)
+    {
+        const glm::dvec3 forward = glm::normalize(glm::dvec3(0.3, -0.7, 0.4)),
+                         right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0)));
+        const auto narrowed = [](glm::dvec3 v) {
+            return shared::vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
+        };
+        camera.forward = narrowed(forward);
+        camera.right = narrowed(0.02 * right);
+        camera.down = narrowed(-0.02 * glm::cross(right, forward));
+        everyPixel(layout, [&](int x, int y) {
+            position.setVector(x, y, eye() + uniform(random, 1, 9) * ray(x, y));
+            normal.setVector(x, y, unitVector(random));
+        });
+    }
+
+    static glm::dvec3 wide(shared::Vec3 v) { return { v.x, v.y, v.z }; }
+    glm::dvec3 eye() const { return wide(camera.eye); }
+    /// Through (x, y) of the pixels' middles.
+    glm::dvec3 ray(double x, double y) const
+    {
+        return wide(camera.forward) + (x - 0.5 * (camera.width - 1)) * wide(camera.right)
+            + (y - 0.5 * (camera.height - 1)) * wide(camera.down);
+    }
+    /// Side of a square as large as what pixel (x, y) sees of the tangent plane; 0 where it is seen too flat to say.
+    double side(int x, int y) const
+    {
+        const glm::dvec3 n = normal.vector(x, y), at = position.vector(x, y);
+        if (std::fabs(glm::dot(n, glm::normalize(at - eye()))) < 0.15)
+            return 0;
+        const auto corner = [&](double dx, double dy) {
+            const glm::dvec3 d = ray(x + dx, y + dy);
+            return d * glm::dot(n, at - eye()) / glm::dot(n, d);
+        };
+        const glm::dvec3 diagonal = corner(0.5, 0.5) - corner(-0.5, -0.5),
+                         other = corner(0.5, -0.5) - corner(-0.5, 0.5);
+        return std::sqrt(0.5 * glm::length(glm::cross(diagonal, other)));
+    }
+};
+
+} // namespace
+
+TEST_CASE("widen: widths in pixels are those of the tangent planes that pixels see, packed or not")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        const render::PlaneLayout layout(53, 37);
+        std::mt19937 random(11);
+        Surfaces in(layout, random);
+        Planes<float> packedNormals(layout, 1, 0.0f), deviation(layout, 1, 0.0f);
+        std::vector<std::uint16_t> shorts(2 * layout.size, 0);
+        everyPixel(layout, [&](int x, int y) {
+            const glm::vec3 n(in.normal.vector(x, y));
+            const std::uint32_t bits = shared::packNormal(shared::vec3(n.x, n.y, n.z));
+            packedNormals.at(x, y) = std::bit_cast<float>(bits);
+            const shared::Vec3 rounded = shared::unpackNormal(bits);
+            in.normal.setVector(x, y, { rounded.x, rounded.y, rounded.z });
+            // Noise in the left half alone: read wrong, widths would be missed there or made on the right.
+            deviation.at(x, y) = x < 10 ? 0.25f : 0.0f;
+            shorts[shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), layout.stride)] =
+                static_cast<std::uint16_t>(shared::packShort(deviation.at(x, y)));
+        });
+        Planes<float> packedDeviation(layout, 1, 0.0f);
+        std::memcpy(packedDeviation.values.data(), shorts.data(), shorts.size() * sizeof(std::uint16_t));
+        const Planes<std::uint32_t> objectId(layout, 1, 3u);
+        for (const bool packed : { false, true }) {
+            CAPTURE(packed);
+            shared::AnalysisParams p = paramsOf(layout);
+            p.packed = packed ? 1 : 0;
+            const auto wide = bench.filled(layout.size, -7.0f);
+            bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "comparedWidths", p, WEDGE_BLOCK_PIXELS,
+                in.camera, wideInPixels, bench.buffer((packed ? packedDeviation : deviation).values),
+                bench.buffer(in.position.values), bench.buffer((packed ? packedNormals : in.normal).values),
+                bench.buffer(objectId.values), bench.filled(layout.size, 0.0f), wide);
+            const Planes<float> w = planesOf(layout, bench.read(wide));
+            int seen = 0;
+            everyPixel(layout, [&](int x, int y) {
+                const double side = in.side(x, y);
+                REQUIRE(w.at(x, y) >= 0);
+                if (x >= 32)
+                    REQUIRE(w.at(x, y) == 0);
+                if (x >= 10 || side == 0)
+                    return;
+                // Packed normals are of unit length to a thousandth; a pixel's square is not small at a slant.
+                REQUIRE(w.at(x, y) == doctest::Approx(static_cast<double>(wideInPixels) * side).epsilon(0.02));
+                ++seen;
+            });
+            CHECK(seen > 200);
+        }
+    });
+}
+
+namespace {
+
 /// t of pixel (x, y), or -1 where there is no wider filter to compare with.
 double shareOf(const Pixels& in, int x, int y, double c)
 {
@@ -206,6 +312,43 @@ TEST_CASE("widen: the width is as far between both as noise and difference of th
                 if (bias == 0.3)
                     CHECK(kept > widened);
             }
+    });
+}
+
+TEST_CASE("widen: squares that are no number widen nothing around them, and nothing else changes")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        const render::PlaneLayout layout(41, 23);
+        std::mt19937 random(8);
+        const Pixels in(layout, random, 0, 0.1);
+        Planes<float> squares(layout, 1, 0.0f), variance(layout, 1, 0.0f);
+        everyPixel(layout, [&](int x, int y) {
+            squares.at(x, y) = static_cast<float>(uniform(random, 0.1, 1));
+            variance.at(x, y) = static_cast<float>(uniform(random, 0.1, 1));
+        });
+        const auto sharesOf = [&] {
+            const auto shares = bench.filled(layout.size, -7.0f);
+            bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "wideShares", paramsOf(layout),
+                WEDGE_BLOCK_PIXELS, cameraOf(layout), wideInPixels, 1.0f, bench.buffer(squares.values),
+                bench.buffer(variance.values), bench.buffer(in.position.values), bench.buffer(in.normal.values),
+                bench.buffer(in.objectId.values), bench.buffer(in.beta.values), shares);
+            return planesOf(layout, bench.read(shares));
+        };
+        const Planes<float> sound = sharesOf();
+        constexpr int brokenX = 22, brokenY = 8;
+        squares.at(brokenX, brokenY) = std::nanf("");
+        const Planes<float> found = sharesOf();
+        int lost = 0, kept = 0;
+        everyPixel(layout, [&](int x, int y) {
+            const bool near = std::abs(x - brokenX) <= WEDGE_SHRINK_REACH && std::abs(y - brokenY) <= WEDGE_SHRINK_REACH
+                && in.objectId.at(x, y) == in.objectId.at(brokenX, brokenY);
+            REQUIRE(found.at(x, y) == (near ? -1 : sound.at(x, y)));
+            lost += near && sound.at(x, y) >= 0 ? 1 : 0;
+            kept += sound.at(x, y) >= 0 ? 1 : 0;
+        });
+        CHECK(lost > 4);
+        CHECK(kept > 300);
     });
 }
 

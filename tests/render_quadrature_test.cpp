@@ -80,30 +80,35 @@ TEST_CASE("profile rules average over the light's profile")
     CHECK(square == doctest::Approx(1.0 / 3).epsilon(1e-12));
 }
 
-TEST_CASE("the rule of three nodes averages polynomials of degree 5 over the profile")
+TEST_CASE("the rule of n nodes averages polynomials of degree 2n - 1 over the profile")
 {
     for (const scene::LightProfile profile : { scene::LightProfile::Uniform, scene::LightProfile::Gaussian })
-        for (const double cut : { 0.5, 2.0, 4.0 }) {
-            CAPTURE(cut);
-            const std::vector<render::Node> few = render::threeNodeRule(profile, cut);
-            REQUIRE(few.size() == WEDGE_FEW_NODES);
-            for (int degree = 0; degree <= 5; ++degree) {
-                double sum = 0, exact = 0, all = 0;
-                for (const render::Node& node : few)
-                    sum += node.weight * std::pow(node.position, degree);
-                constexpr int steps = 20000;
-                for (int i = 0; i < steps; ++i) {
-                    const double x = 2 * (i + 0.5) / steps - 1;
-                    const double weight =
-                        profile == scene::LightProfile::Gaussian ? std::exp(-0.5 * cut * cut * x * x) : 1;
-                    all += weight;
-                    exact += weight * std::pow(x, degree);
+        for (const double cut : { 0.01, 0.5, 2.0, 4.0, 8.0 })
+            for (const std::uint32_t count : { 1u, WEDGE_FEW_NODES, WEDGE_COARSE_NODES, WEDGE_FINE_NODES, 16u }) {
+                CAPTURE(cut);
+                CAPTURE(count);
+                const std::vector<render::Node> rule = render::profileRule(profile, cut, static_cast<int>(count));
+                REQUIRE(rule.size() == count);
+                for (std::uint32_t degree = 0; degree < 2 * count; ++degree) {
+                    double sum = 0, exact = 0, all = 0;
+                    for (const render::Node& node : rule) {
+                        CHECK(std::fabs(node.position) < 1);
+                        CHECK(node.weight > 0);
+                        sum += node.weight * std::pow(node.position, degree);
+                    }
+                    constexpr int steps = 20000;
+                    for (int i = 0; i < steps; ++i) {
+                        const double x = 2 * (i + 0.5) / steps - 1;
+                        const double weight =
+                            profile == scene::LightProfile::Gaussian ? std::exp(-0.5 * cut * cut * x * x) : 1;
+                        all += weight;
+                        exact += weight * std::pow(x, degree);
+                    }
+                    CAPTURE(degree);
+                    CHECK(std::fabs(sum - exact / all) < 1e-6);
                 }
-                CAPTURE(degree);
-                CHECK(std::fabs(sum - exact / all) < 1e-6);
             }
-        }
-    const std::vector<render::Node> uniform = render::threeNodeRule(scene::LightProfile::Uniform, 1);
+    const std::vector<render::Node> uniform = render::profileRule(scene::LightProfile::Uniform, 1, 3);
     CHECK(uniform.back().position == doctest::Approx(std::sqrt(0.6)));
 }
 

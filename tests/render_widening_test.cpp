@@ -1,4 +1,5 @@
 // Whole frames whose filters are narrower than their samples ask for: they have to widen, and only there.
+#include "tests/lens_support.h"
 #include "tests/render_support.h"
 
 using namespace wedge;
@@ -68,16 +69,35 @@ TEST_CASE("filters that are narrower than need be widen, and edges of shadows st
     });
 }
 
+namespace {
+
+enum class Camera { Pinhole, Antialiased, Lens, Shutter };
+
+/// What is blurred is so over more pixels than terms' filters reach.
+scene::Scene sceneOf(Camera camera)
+{
+    scene::Scene scene = smallScene();
+    if (camera == Camera::Lens) {
+        scene.camera.apertureRadius = 0.6f;
+        scene.camera.focusDistance = 1.2f;
+    }
+    if (camera == Camera::Shutter)
+        displace(scene, { 0.2f, 0, 1.2f });
+    return scene;
+}
+
+} // namespace
+
 TEST_CASE("a crop whose filters widen has the whole image's pixels")
 {
     onEveryDevice([](const device::Device& device) {
-        const scene::Scene scene = smallScene();
-        render::Renderer renderer(scene, device, renderOptions());
-        for (const bool antialias : { false, true })
+        for (const Camera camera : { Camera::Pinhole, Camera::Antialiased, Camera::Lens, Camera::Shutter }) {
+            const scene::Scene scene = sceneOf(camera);
+            render::Renderer renderer(scene, device, renderOptions());
             for (const int bounces : { 0, 1 }) {
-                CAPTURE(antialias);
+                CAPTURE(static_cast<int>(camera));
                 CAPTURE(bounces);
-                render::Settings settings = settingsOf(true, true, bounces, antialias);
+                render::Settings settings = settingsOf(true, true, bounces, camera == Camera::Antialiased);
                 // Reaches are to end within the image.
                 settings.maxRadius = 8;
                 renderer.render(settings);
@@ -91,5 +111,6 @@ TEST_CASE("a crop whose filters widen has the whole image's pixels")
                 renderer.render(settings);
                 CHECK(pixels(renderer, renderer.frame().beauty, crop) == whole);
             }
+        }
     });
 }

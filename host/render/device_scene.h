@@ -46,7 +46,7 @@ public:
     device::Buffer<shared::DeltaLight> deltaLights;
 
     std::vector<shared::AreaLight> areaLightList; ///< the same as areaLights, for kernels that take one by value
-    std::vector<device::Buffer<float>> quadratures; ///< one a light: coarse nodes, fine and few, (position, weight)
+    std::vector<device::Buffer<float>> quadratures; ///< one a light: the nodes of all rules, lightNodes()
     std::uint32_t deltaLightCount = 0;
     float diameter = 0; ///< metres, diagonal of the bounds
     float largestDimension = 0; ///< metres, of the bounds

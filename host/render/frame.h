@@ -124,11 +124,11 @@ struct TermShape {
 
     /// Whether buffers of this shape serve terms of the other.
     bool holds(const TermShape& other) const;
-    /// 1 or 0: planes of each of what is measured for the analysis of terms of several receivers a pixel.
     /// Planes of the deviations of its value.
     std::uint64_t deviations() const { return distributed && analysed && !published ? 1 : 0; }
     /// WEDGE_OMITS_* of a wave that is added to such a term.
     std::uint32_t omits() const;
+    /// 1 or 0: planes of each of what is measured for the analysis of terms of several receivers a pixel.
     std::uint64_t measured() const { return distributed && (!lean || analysed) ? 1 : 0; }
     bool packed() const { return lean && analysed; } ///< as FrameShape has it
     /// Bytes of a pixel's texture and value.
@@ -196,7 +196,7 @@ public:
     device::Buffer<float> demand; ///< and before that, eroded slopes
     device::Buffer<float> slopes, width; ///< of packed terms: slopes or distances; widths while they are made
     device::Buffer<float> error; ///< of taking texture and irradiance apart
-    device::Buffer<float> visibility; ///< of a light, to be filtered
+    device::Buffer<float> visibility; ///< of a light, or of indirect light one number for irradiance, to be filtered
     /// Of widening.h: rows filtered with pixels' own widths, then squares; with the wider ones; these, then variances;
     /// equal samples of narrowRows; of samples, where pixels are the receivers; what values are worth, in lean frames
     /// in the place of narrowCounts.

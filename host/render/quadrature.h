@@ -16,13 +16,9 @@ struct Node {
 /// 2 count - 1.
 std::vector<Node> gaussLegendre(int count);
 
-/// The rule that averages over one axis of a light's profile: Gauss-Legendre nodes, weights times the profile and
-/// normalised to sum 1.
+/// The Gauss rule of 1 to 16 nodes whose weight function is a light's profile along one axis, weights summing to 1:
+/// averages polynomials of degree 2 count - 1 over it exactly. cut: half extent in standard deviations, of a Gaussian
 std::vector<Node> profileRule(scene::LightProfile profile, double cut, int count);
-
-/// The Gauss rule of three nodes whose weight function is the profile itself, weights summing to 1: averages
-/// polynomials of degree 5 over one axis of the profile exactly.
-std::vector<Node> threeNodeRule(scene::LightProfile profile, double cut);
 
 /// (position, weight) of all rules that the kernels have for a light (WEDGE_COARSE_NODES and what follows in
 /// kernels/shared/light.h).

@@ -90,10 +90,10 @@ void widenDistributed(
     const TermContext& context, Term& term, const shared::DistributedParams& params, const Widening& widening)
 {
     Scratch& scratch = context.scratch;
-    context.passes.rows("filter", PassKind::Filter, "distributed.cl", "visibilityOf", params, 1, term.texture,
+    context.passes.rows(widening.pass(), PassKind::Filter, "distributed.cl", "visibilityOf", params, 1, term.texture,
         term.value, scratch.visibility);
     widening.compare(scratch.visibility, term.deviation, term.beta);
-    context.passes.rows("filter", PassKind::Filter, "analysis.cl", "luminanceOf",
+    context.passes.rows(widening.pass(), PassKind::Filter, "analysis.cl", "luminanceOf",
         analysisParams(context, context.full()), 1, shared::textureBits(params.packed, term.shape.light), term.texture,
         scratch.weights);
     widening.apply(scratch.visibility, term.deviation, scratch.weights, term.beta);

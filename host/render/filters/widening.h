@@ -20,9 +20,8 @@ public:
 
     /// Where the widths beta are less than that to compare with, filters `value`, one plane of all pixels, with both
     /// and puts their difference in its place (kernels/compare_widths.cl). deviation: of value's samples (deviation16()
-    /// of kernels/deviation.h). Neither that plane nor
-    /// scratch.effective is to change until apply(); weights are made after this, in lean frames their plane is used
-    /// here.
+    /// of kernels/deviation.h). Neither that plane nor scratch.effective is to change until apply(); weights are made
+    /// after this, in lean frames their plane is used here.
     void compare(
         device::Buffer<float>& value, const device::Buffer<float>& deviation, const device::Buffer<float>& beta) const;
 
@@ -30,6 +29,8 @@ public:
     /// in the image
     void apply(const device::Buffer<float>& difference, const device::Buffer<float>& deviation,
         const device::Buffer<float>& weights, device::Buffer<float>& beta) const;
+
+    std::string_view pass() const { return pass_; }
 
 private:
     const TermContext& c_;
