@@ -34,28 +34,45 @@ __kernel void countReceivers(FrameParams frame, WaveParams wave, __global const 
     tileReceivers[slot] = sum;
 }
 
-/// No more new primary samples in a tile than a wave has room for: where its pixels want more, none of them takes more
-/// than all could. frame: of the whole image, whose tiles a crop's are among
-__kernel void limitTiles(
-    FrameParams frame, uint capacity, __global const uint* restrict taken, __global uint* restrict wanted)
+/// New samples of a tile's pixels where none takes more than `most`; no more than 2^32 / WEDGE_TILE_PIXELS.
+WEDGE_FN uint newSamplesOfTile(
+    FrameParams frame, uint slot, uint most, __global const uint* restrict taken, __global const uint* restrict wanted)
 {
-    const uint slot = get_global_id(0);
-    if (slot >= frame.tileCount) {
-        return;
-    }
     uint sum = 0u;
     for (uint k = 0u; k < WEDGE_TILE_PIXELS; ++k) {
         uint x, y;
         if (slotPixel(frame, slot, k, &x, &y)) {
             const uint i = pixelIndex(x, y, frame.stride);
-            sum += max(wanted[i], taken[i]) - taken[i];
+            sum += min(max(wanted[i], taken[i]) - taken[i], most);
         }
     }
-    for (uint k = 0u; sum > capacity && k < WEDGE_TILE_PIXELS; ++k) {
+    return sum;
+}
+
+/// No more new primary samples in a tile than a wave has room for: where its pixels want more, none of them takes more
+/// than as many as fit in then. frame: of the whole image, whose tiles a crop's are among
+__kernel void limitTiles(
+    FrameParams frame, uint capacity, __global const uint* restrict taken, __global uint* restrict wanted)
+{
+    const uint slot = get_global_id(0);
+    if (slot >= frame.tileCount || newSamplesOfTile(frame, slot, capacity, taken, wanted) <= capacity) {
+        return;
+    }
+    // The greatest number that fits: `fits` does, `exceeds` does not.
+    uint fits = capacity / WEDGE_TILE_PIXELS, exceeds = capacity;
+    while (exceeds - fits > 1u) {
+        const uint middle = (fits + exceeds) / 2u;
+        if (newSamplesOfTile(frame, slot, middle, taken, wanted) <= capacity) {
+            fits = middle;
+        } else {
+            exceeds = middle;
+        }
+    }
+    for (uint k = 0u; k < WEDGE_TILE_PIXELS; ++k) {
         uint x, y;
         if (slotPixel(frame, slot, k, &x, &y)) {
             const uint i = pixelIndex(x, y, frame.stride);
-            wanted[i] = min(wanted[i], taken[i] + capacity / WEDGE_TILE_PIXELS);
+            wanted[i] = min(wanted[i], taken[i] + fits);
         }
     }
 }

@@ -119,6 +119,47 @@ TEST_CASE("countReceivers: the new samples of each tile's pixels inside the wind
     });
 }
 
+TEST_CASE("limitTiles: a tile's new samples fit into a wave, and no pixel is cut more than another")
+{
+    onEveryDevice([](const device::Device& device) {
+        WaveBench bench(device, 64, 40, { 0, 0, 64, 40 });
+        for (const std::uint32_t capacity : { 64u, 100u, 300u, 1u << 17 }) {
+            CAPTURE(capacity);
+            Counts counts(bench.layout, 6);
+            // In one tile all want the most that there is, in another one pixel does, in a third many do in vain.
+            for (int y = 0; y < 8; ++y)
+                for (int x = 0; x < 24; ++x)
+                    counts.wanted.at(x, y) = x < 8 || (x == 9 && y == 3) ? 16384u : counts.wanted.at(x, y) % 3;
+            const auto wanted = bench.bench.buffer(counts.wanted.values);
+            bench.bench.passes.list("counts", device::PassKind::Analysis, "waves.cl", "limitTiles",
+                bench.params.tileCount, bench.params, capacity, bench.bench.buffer(counts.taken.values), wanted);
+            const Planes<std::uint32_t> found = planesOf(bench.layout, bench.bench.read(wanted));
+            int cut = 0, whole = 0;
+            for (int y0 = 0; y0 < 40; y0 += 8)
+                for (int x0 = 0; x0 < 64; x0 += 8) {
+                    const auto sumOf = [&](std::uint32_t most) {
+                        std::uint64_t sum = 0;
+                        for (int k = 0; k < 64; ++k)
+                            sum += std::min(counts.added(x0 + k % 8, y0 + k / 8, 1u << 30), most);
+                        return sum;
+                    };
+                    std::uint32_t most = 1u << 30;
+                    if (sumOf(most) > capacity)
+                        for (most = 0; sumOf(most + 1) <= capacity;)
+                            ++most;
+                    (sumOf(1u << 30) > capacity ? cut : whole) += 1;
+                    for (int k = 0; k < 64; ++k) {
+                        const int x = x0 + k % 8, y = y0 + k / 8;
+                        const std::uint32_t want = counts.wanted.at(x, y), has = counts.taken.at(x, y);
+                        REQUIRE(found.at(x, y) == std::min(want, has + most));
+                    }
+                }
+            CHECK(cut > 0);
+            CHECK((whole > 0 || capacity < 1u << 17));
+        }
+    });
+}
+
 TEST_CASE("listReceivers: over all waves every new sample once, a pixel's together in one wave, and nothing else")
 {
     onEveryDevice([](const device::Device& device) {

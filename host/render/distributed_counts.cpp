@@ -4,10 +4,49 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace wedge::render {
 
 using device::PassKind;
+
+namespace {
+
+/// Of one kind of samples, as the device has them.
+struct Demand {
+    std::vector<float> values;
+    std::vector<std::uint32_t> taken; ///< which no count goes below
+    float rays; ///< of a sample
+    float least; ///< samples of a pixel
+    float room; ///< new samples of a tile's pixels together, at most
+};
+
+/// Samples of all pixels, where those have `scale` times what they ask for, `most` at most.
+double samplesAt(float scale, const Demand& demand, float most, const shared::FrameParams& frame)
+{
+    double sum = 0;
+    std::vector<float> added((frame.width + WEDGE_TILE - 1) / WEDGE_TILE);
+    for (std::uint32_t top = 0; top < frame.height; top += WEDGE_TILE) {
+        std::ranges::fill(added, 0.0f);
+        for (std::uint32_t y = top; y < std::min(top + WEDGE_TILE, frame.height); ++y) {
+            const std::size_t row = shared::pixelIndex(0, y, frame.stride);
+            float before = 0;
+            for (std::size_t x = 0; x < frame.width; ++x) {
+                const float wanted = std::clamp(scale * demand.values[row + x], demand.least, most);
+                const auto taken = static_cast<float>(demand.taken[row + x]);
+                before += taken;
+                added[x / WEDGE_TILE] += std::max(wanted - taken, 0.0f);
+            }
+            sum += before;
+        }
+        for (const float tile : added) {
+            sum += std::min(tile, demand.room);
+        }
+    }
+    return sum;
+}
+
+} // namespace
 
 void DistributedFrame::publishedCounts()
 {
@@ -95,12 +134,6 @@ void DistributedFrame::counts()
 {
     // The scale of all demands that makes the mean number of rays what uniform counts would have.
     const DistributedSettings& d = c_.settings.distributed;
-    struct Demand {
-        std::vector<float> values;
-        std::vector<std::uint32_t> taken; ///< which no count goes below
-        float rays;
-        float least;
-    };
     std::vector<Demand> demands;
     device::TimedQueue& queue = c_.passes.queue();
     const DistributedFrame& guide = guide_ != nullptr && guide_->taken_ > 0 ? *guide_ : *this;
@@ -112,13 +145,13 @@ void DistributedFrame::counts()
     const float leastOfTerms = leastOf(std::max(d.leastShare, d.leastTermShare));
     // Samples of terms go to new receivers: one at least.
     const float least = std::min(std::max(leastOf(d.leastShare), first + 1.0f), static_cast<float>(c_.settings.spp));
-    demands.push_back(
-        { guide.c_.frame.primaryDemand.downloadAll(queue), c_.frame.primaryTaken.downloadAll(queue), 1.0f, least });
+    demands.push_back({ guide.c_.frame.primaryDemand.downloadAll(queue), c_.frame.primaryTaken.downloadAll(queue), 1.0f,
+        least, static_cast<float>(Waves::capacity) }); // limitTiles()
     double perPath = 1.0;
     std::size_t next = 0;
     eachTerm([&](Term& term, float rays) {
-        demands.push_back(
-            { guide.terms_[next++]->demand.downloadAll(queue), term.taken.downloadAll(queue), rays, leastOfTerms });
+        demands.push_back({ guide.terms_[next++]->demand.downloadAll(queue), term.taken.downloadAll(queue), rays,
+            leastOfTerms, std::numeric_limits<float>::infinity() });
         perPath += rays;
     });
     const std::size_t pixels = std::size_t { c_.fullFrame.width } * c_.fullFrame.height;
@@ -128,17 +161,7 @@ void DistributedFrame::counts()
         const double scale = std::sqrt(low * high);
         double rays = 0;
         for (const Demand& demand : demands) {
-            double sum = 0;
-            for (std::uint32_t y = 0; y < c_.fullFrame.height; ++y) {
-                const std::size_t row = shared::pixelIndex(0, y, c_.fullFrame.stride);
-                float part = 0;
-                for (std::size_t i = row; i < row + c_.fullFrame.width; ++i) {
-                    const float wanted = std::clamp(static_cast<float>(scale) * demand.values[i], demand.least, most);
-                    part += std::max(wanted, static_cast<float>(demand.taken[i]));
-                }
-                sum += part;
-            }
-            rays += demand.rays * sum;
+            rays += demand.rays * samplesAt(static_cast<float>(scale), demand, most, c_.fullFrame);
         }
         (rays > budget ? high : low) = scale;
     }
