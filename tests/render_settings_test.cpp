@@ -108,6 +108,19 @@ TEST_CASE("the fewest samples are those of the first pass, the most of a distrib
     CHECK(allowed(monteCarlo(1), 1, true));
 }
 
+TEST_CASE("the first pass of distributed frames grows with the samples, but not of progressive ones")
+{
+    const auto first = [](const Settings& settings) { return settings.distributed.firstPaths; };
+    CHECK(first(axisAligned(8)) == 8);
+    CHECK(first(axisAligned(64)) == 8);
+    CHECK(first(axisAligned(512)) == 64);
+    CHECK(first(axisAligned(mostDistributedSpp)) == mostDistributedSpp / 8);
+    CHECK(first(axisAligned(1 << 20)) == mostDistributedSpp); // of a pinhole frame, which has no use for it
+    CHECK_NOTHROW(validate(axisAligned(1 << 20), false));
+    CHECK(first(halfAt(axisAligned(512), 512)) == 8);
+    CHECK(first(asPublished()) == 16);
+}
+
 TEST_CASE("the published filter of irradiance measures plain distances and takes the narrower of both kernels")
 {
     // (5.31). Under a light, too: distances in its plane are those of the default, and of chapter 3.

@@ -48,6 +48,11 @@ float indirectWidthRatio(float from, float to)
 /// of samples would bring it down.
 float factoringRatio(int spp) { return std::min(1.0f, std::sqrt(referenceSpp / static_cast<float>(std::max(spp, 1)))); }
 
+/// Samples of the first pass of distributed frames: beyond 64 an eighth, less than what every pixel takes anyway. What
+/// is found of them says where texture and irradiance can be taken apart, and the more samples the less error that may
+/// make.
+int firstPathsAt(int spp) { return std::clamp(spp / 8, DistributedSettings().firstPaths, mostDistributedSpp); }
+
 void requireRange(bool inRange, const std::string& what, const std::string& value, const std::string& range)
 {
     if (!inRange) {
@@ -163,6 +168,7 @@ Settings axisAligned(std::optional<int> spp, std::optional<float> mu)
     s.maxSpp = std::max(s.maxSpp, std::min(10 * std::min(s.spp, largestSpp), largestSpp));
     s.indirect.maxSpp = s.maxSpp;
     s.distributed.factoringError *= factoringRatio(s.spp);
+    s.distributed.firstPaths = firstPathsAt(s.spp);
     // A bound that stood still would end what edges of lights gain from more samples.
     s.distributed.maxSpp =
         std::clamp(s.distributed.maxSpp * std::min(s.spp, mostDistributedSpp) / static_cast<int>(referenceSpp),
@@ -275,6 +281,7 @@ Settings halfAt(const Settings& settings, int spp)
     s.indirect.mu *= indirectWidthRatio(from, to);
     s.distributed.frames = 2;
     s.distributed.factoringError *= factoringRatio(spp) / factoringRatio(settings.spp);
+    s.distributed.firstPaths = firstPathsAt(0); // each step looks at all samples anew
     s.distributed.leastShare = 0.25f;
     s.distributed.leastPrimaries = 0.5f;
     s.distributed.maxSpp = std::max(s.distributed.maxSpp, std::min(10 * std::min(s.spp, largestSpp), largestSpp));
