@@ -65,6 +65,14 @@ public:
         return shared;
     }
 
+    /// `count` elements at the start of memory that somebody else has allocated, and which the buffer keeps alive.
+    static Buffer over(const cl::Buffer& memory, std::size_t count, std::string name)
+    {
+        Buffer out(std::move(name), count);
+        out.buffer_ = memory;
+        return out;
+    }
+
     /// A buffer in this one's memory, of `count` elements of U from this one's element `first` on, which lies at a
     /// multiple of partAlignment bytes. Both keep the memory alive. A part that is all of it is the same memory object,
     /// of which a kernel may have both, for different elements; of others that overlap it may have but one.

@@ -6,6 +6,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -65,6 +66,8 @@ public:
         setArg(index, buffer.cl());
     }
     void setArg(unsigned index, const cl::Buffer& buffer);
+    /// A value by its bytes, as many as the kernel's parameter has.
+    void setArgBytes(unsigned index, std::span<const std::byte> value) { setRaw(index, value.size(), value.data()); }
     void setArg(unsigned index, const cl::LocalSpaceArg& local) { setRaw(index, local.size_, nullptr); }
 
     /// Most items of a work-group that this kernel runs with on its device.
@@ -72,6 +75,8 @@ public:
     /// Throws Error unless it runs in work-groups of that many items.
     void requireWorkGroup(std::size_t items) const;
     unsigned argCount() const { return argCount_; }
+    /// Throws Error unless it takes so many arguments.
+    void requireCount(std::size_t given) const;
     const std::string& name() const { return name_; }
     const std::string& file() const { return file_; }
     /// "kernel NAME (FILE)", what errors call it.
@@ -89,7 +94,6 @@ private:
     {
         return arguments;
     }
-    void requireCount(std::size_t given) const;
     void setRaw(unsigned index, std::size_t bytes, const void* value);
 
     cl::Kernel kernel_;

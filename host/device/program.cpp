@@ -128,7 +128,7 @@ std::string ProgramLibrary::optionsString() const
 
 cl::Program ProgramLibrary::obtain(const std::string& file)
 {
-    const std::string source = flattenKernel(options_.kernelDir, file).text;
+    const std::string source = flattenKernel(options_.kernelDir, file, options_.generated).text;
     const DriverCache::Mark mark;
     const std::string key = cacheKey(source);
     if (const auto binary = disk_.load(key)) {

@@ -3,6 +3,7 @@
 #include "host/device/device.h"
 #include "host/device/kernel.h"
 #include "host/device/program_cache.h"
+#include "host/device/source.h"
 
 #include <map>
 #include <string>
@@ -16,6 +17,7 @@ struct BuildOptions {
     std::vector<std::pair<std::string, std::string>> defines; ///< name and value; no blanks or quotes in either
     bool fastMath = false; ///< -cl-fast-relaxed-math: other results, to be recorded with the image
     std::string kernelDir; ///< looked in before the embedded sources, for editing kernels; "" for none
+    GeneratedSources generated; ///< what includes name and no file holds
 };
 
 /// The programs of one device, each built of one .cl file when first asked for: from memory, else from the binary

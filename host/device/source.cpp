@@ -70,8 +70,9 @@ bool commentOpenAfter(std::string_view line, bool open)
 
 class Flattener {
 public:
-    explicit Flattener(const std::string& kernelDir)
+    Flattener(const std::string& kernelDir, const GeneratedSources& generated)
         : kernelDir_(kernelDir)
+        , generated_(generated)
     {
         if (!kernelDir.empty() && !fs::is_directory(kernelDir)) {
             throw Error("kernel folder", kernelDir, "name an existing folder with --kernel-dir");
@@ -93,6 +94,9 @@ private:
     std::optional<SourceFile> find(const fs::path& wanted) const
     {
         const std::string path = wanted.lexically_normal().generic_string();
+        if (const auto made = generated_.find(path); made != generated_.end()) {
+            return SourceFile { path, "generated/" + path, made->second };
+        }
         if (!kernelDir_.empty()) {
             const fs::path onDisk = (kernelDir_ / path).lexically_normal();
             std::error_code absent;
@@ -169,6 +173,7 @@ private:
     }
 
     fs::path kernelDir_;
+    const GeneratedSources& generated_;
     FlatSource flat_;
     std::set<std::string> seen_;
     std::vector<std::string> open_; ///< the chain of includes down to the present file
@@ -176,9 +181,9 @@ private:
 
 } // namespace
 
-FlatSource flattenKernel(const std::string& kernelDir, const std::string& file)
+FlatSource flattenKernel(const std::string& kernelDir, const std::string& file, const GeneratedSources& generated)
 {
-    return Flattener(kernelDir).run(file);
+    return Flattener(kernelDir, generated).run(file);
 }
 
 } // namespace wedge::device

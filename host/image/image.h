@@ -1,5 +1,7 @@
 #pragma once
 
+#include "host/window.h"
+
 #include <array>
 #include <map>
 #include <string>
@@ -19,16 +21,7 @@ struct Channel {
     bool integer = false;
 };
 
-/// A rectangle of pixels, half open: x0 <= x < x1, y0 <= y < y1.
-struct Window {
-    int x0 = 0;
-    int y0 = 0;
-    int x1 = 0;
-    int y1 = 0;
-    int width() const { return x1 - x0; }
-    int height() const { return y1 - y0; }
-    bool operator==(const Window&) const = default;
-};
+using wedge::Window;
 
 /// The 16 floats are a matrix in the order in which OpenEXR stores it: rows first, for row vectors (v * M), so that the
 /// translation is in elements 12, 13 and 14. A matrix for column vectors is transposed before it comes here.

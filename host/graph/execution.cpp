@@ -1,0 +1,254 @@
+#include "host/graph/execution.h"
+
+#include "kernels/shared/frame.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <stdexcept>
+
+namespace wedge::graph {
+namespace {
+
+constexpr int bandPixels = 1 << 21; ///< of a launch over rows, so that none is long
+
+/// The largest power of two that the kernel allows, at most `most`.
+std::size_t localSize(const device::Kernel& kernel, std::size_t most)
+{
+    std::size_t size = most;
+    while (size > kernel.workGroupLimit() && size > 1) {
+        size /= 2;
+    }
+    return size;
+}
+
+/// In the place of a pass's window where nothing is to be computed.
+Window nothing(const Window& window) { return { window.x0, window.y0, window.x0, window.y1 }; }
+
+/// Whether two resources that live at the same time share bytes.
+bool overlap(const Plan& plan, std::size_t a, std::size_t b)
+{
+    const std::vector<Resource>& all = plan.graph.resources();
+    if (all[a].imported || all[b].imported || plan.places[a].slab != plan.places[b].slab) {
+        return false;
+    }
+    const std::uint64_t from = plan.places[a].offset, other = plan.places[b].offset;
+    return from < other + all[b].bytes() && other < from + all[a].bytes();
+}
+
+void requireApart(const Plan& plan)
+{
+    for (std::size_t a = 0; a < plan.lifetimes.size(); ++a) {
+        for (std::size_t b = 0; b < a; ++b) {
+            if (plan.lifetimes[a] && plan.lifetimes[b] && plan.lifetimes[a]->meets(*plan.lifetimes[b])
+                && overlap(plan, a, b)) {
+                throw std::logic_error(fmt::format("\"{}\" and \"{}\" are needed at once, and lie in the same memory",
+                    plan.graph.resources()[a].name, plan.graph.resources()[b].name));
+            }
+        }
+    }
+}
+
+} // namespace
+
+device::Kernel& Kernels::find(const std::string& file, const std::string& kernel)
+{
+    const std::string key = file + ":" + kernel;
+    const auto found = kernels_.find(key);
+    return found != kernels_.end() ? found->second : kernels_.emplace(key, library_.kernel(file, kernel)).first->second;
+}
+
+void Memory::hold(const std::vector<std::uint64_t>& slabs)
+{
+    const auto same = [](const device::Buffer<std::uint8_t>& there, std::uint64_t bytes) {
+        return there.bytes() == bytes;
+    };
+    if (std::equal(slabs_.begin(), slabs_.end(), slabs.begin(), slabs.end(), same)) {
+        return;
+    }
+    slabs_.clear(); // before there is more
+    for (const std::uint64_t bytes : slabs) {
+        slabs_.emplace_back(device_, bytes, "planes");
+    }
+}
+
+std::uint64_t Memory::bytes() const
+{
+    std::uint64_t sum = 0;
+    for (const device::Buffer<std::uint8_t>& slab : slabs_) {
+        sum += slab.bytes();
+    }
+    return sum;
+}
+
+const Resource& Run::used(const Version& version) const
+{
+    for (const Argument& use : pass_->pass->arguments) {
+        if (use.isUse() && use.version.resource == version.resource && version.graph == use.version.graph) {
+            return execution_->plan_.graph.resources()[version.resource];
+        }
+    }
+    throw std::logic_error(fmt::format("the step of pass \"{}\" asks for what it does not use", pass_->pass->name));
+}
+
+const cl::Buffer& Run::memory(const Version& version) const { return execution_->memory_[version.resource]; }
+
+Execution::Execution(const Plan& plan, Memory& memory, Kernels& kernels, device::TimedQueue& queue)
+    : plan_(plan)
+    , kernels_(kernels)
+    , queue_(queue)
+    , memory_(plan.lifetimes.size())
+{
+    requireApart(plan);
+    memory.hold(plan.slabs);
+    for (std::size_t i = 0; i < memory_.size(); ++i) {
+        const Resource& resource = plan.graph.resources()[i];
+        if (resource.imported) {
+            memory_[i] = *resource.imported;
+        } else if (plan.lifetimes[i]) {
+            const Place& place = plan.places[i];
+            memory_[i] =
+                memory.slab(place.slab)
+                    .part<std::uint8_t>(place.offset, static_cast<std::size_t>(resource.bytes()), resource.name)
+                    .cl();
+        }
+    }
+}
+
+bool Execution::run(const std::atomic<bool>* stop, bool poison)
+{
+    Run run(queue_, false, stop);
+    run.execution_ = this;
+    poison_ = poison;
+    runRange(run, 0, plan_.passes.size(), -1);
+    return !run.stopped();
+}
+
+void Execution::rehearse()
+{
+    Run run(queue_, true, nullptr);
+    run.execution_ = this;
+    poison_ = false;
+    runRange(run, 0, plan_.passes.size(), -1);
+}
+
+void Execution::runRange(Run& run, std::size_t begin, std::size_t end, int loop)
+{
+    for (std::size_t i = begin; i < end;) {
+        int inner = plan_.passes[i].pass->loop;
+        if (inner == loop) {
+            runPass(run, plan_.passes[i++]);
+            continue;
+        }
+        while (plan_.graph.loops()[static_cast<std::size_t>(inner)].parent != loop) {
+            inner = plan_.graph.loops()[static_cast<std::size_t>(inner)].parent;
+        }
+        std::size_t last = i;
+        while (last < end && plan_.graph.holds(inner, plan_.passes[last].pass->loop)) {
+            ++last;
+        }
+        const std::size_t count = run.rehearsal() ? 1 : plan_.graph.loops()[static_cast<std::size_t>(inner)].count(run);
+        for (std::size_t k = 0; k < count && !run.stopped(); ++k) {
+            run.iterations_.push_back(k);
+            runRange(run, i, last, inner);
+            run.iterations_.pop_back();
+        }
+        i = last;
+    }
+}
+
+void Execution::runPass(Run& run, const PlannedPass& planned)
+{
+    const Pass& pass = *planned.pass;
+    run.pass_ = &planned;
+    if (poison_) {
+        fillNew(planned);
+    }
+    if (!run.rehearsal() && pass.condition && !pass.condition(run)) {
+        return;
+    }
+    if (pass.domain == Domain::Host) {
+        pass.step(run);
+        return;
+    }
+    queue_.setCancelFlag(pass.stoppable ? run.stop_ : nullptr);
+    try {
+        launch(run, planned);
+    } catch (const device::Cancelled&) {
+        assert(run.stopped());
+    }
+    queue_.setCancelFlag(nullptr);
+}
+
+void Execution::fillNew(const PlannedPass& planned)
+{
+    constexpr std::uint8_t ones = 0xff;
+    for (const Argument& use : planned.pass->arguments) {
+        const std::uint32_t i = use.version.resource;
+        const auto position = static_cast<std::uint32_t>(&planned - plan_.passes.data());
+        if (use.isUse() && !plan_.graph.resources()[i].imported && plan_.lifetimes[i]->first == position) {
+            queue_.fill("poison", memory_[i], plan_.graph.resources()[i].bytes(), &ones, 1);
+        }
+    }
+}
+
+void Execution::setArguments(Run& run, device::Kernel& kernel, const PlannedPass& planned, const Window& window) const
+{
+    unsigned index = 0;
+    for (const Argument& argument : planned.pass->arguments) {
+        if (argument.isUse()) {
+            kernel.setArg(index++, memory_[argument.version.resource]);
+        } else {
+            kernel.setArgBytes(index++, argument.value({ run, window }));
+        }
+    }
+}
+
+void Execution::launch(Run& run, const PlannedPass& planned)
+{
+    const Pass& pass = *planned.pass;
+    device::Kernel& kernel = kernels_.find(pass.kernel.file, pass.kernel.name);
+    const bool tiles = pass.domain == Domain::Tiles;
+    kernel.requireCount(pass.arguments.size() + (tiles ? 1 : 0));
+    if (pass.domain == Domain::Pixels || pass.domain == Domain::Blocks) {
+        launchRows(run, kernel, planned);
+        return;
+    }
+    const Window window = run.rehearsal() ? nothing(planned.window) : planned.window;
+    setArguments(run, kernel, planned, window);
+    if (tiles) {
+        const std::size_t items = pass.itemsOfTile, local = localSize(kernel, items);
+        const std::size_t count = std::max<std::size_t>(pass.count({ run, planned.window }), run.rehearsal() ? 1 : 0);
+        queue_.launchTiled(pass.name, pass.kind, kernel, count * (items / local), local, kernel.argCount() - 1,
+            run.rehearsal() ? 0.0 : pass.workUnits);
+    } else {
+        constexpr std::size_t listGroup = 16;
+        const std::size_t items = run.rehearsal() ? pass.mostItems : pass.count({ run, window });
+        assert(items <= pass.mostItems);
+        queue_.launch(pass.name, pass.kind, kernel, items, localSize(kernel, listGroup));
+    }
+}
+
+void Execution::launchRows(Run& run, device::Kernel& kernel, const PlannedPass& planned)
+{
+    const Pass& pass = *planned.pass;
+    const int across = pass.domain == Domain::Pixels ? 1 : static_cast<int>(WEDGE_BLOCK_PIXELS);
+    const Window& all = planned.window;
+    const std::size_t columns = static_cast<std::size_t>((all.width() + across - 1) / across);
+    const std::size_t local = localSize(kernel, 64), localX = std::min<std::size_t>(local, across == 1 ? 16 : 4);
+    const int band = std::max(16, bandPixels / std::max(1, all.width()));
+    for (int y = all.y0; y < all.y1; y += std::min(band, all.y1 - y)) {
+        const Window rows { all.x0, y, all.x1, y + std::min(band, all.y1 - y) };
+        setArguments(run, kernel, planned, run.rehearsal() ? nothing(rows) : rows);
+        queue_.launch2D(
+            pass.name, pass.kind, kernel, columns, static_cast<std::size_t>(rows.height()), localX, local / localX);
+    }
+    std::uint64_t bytes = 0;
+    for (const Argument& use : pass.arguments) {
+        bytes += use.isUse() ? plan_.graph.resources()[use.version.resource].bytes() : 0;
+    }
+    queue_.addBytes(pass.name, pass.kind, bytes);
+}
+
+} // namespace wedge::graph

@@ -1,0 +1,113 @@
+#include "host/graph/graph.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cassert>
+#include <stdexcept>
+
+namespace wedge::graph {
+namespace {
+
+constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+
+constexpr const char* verbs[] = { "reads", "writes", "updates" };
+
+} // namespace
+
+std::uint64_t Resource::bytes() const { return elements > most / format.bytes ? most : elements * format.bytes; }
+
+Graph::Graph(int width, int height, std::uint64_t planeElements)
+    : image_ { 0, 0, width, height }
+    , planeElements_(planeElements)
+{
+    static std::atomic<std::uint32_t> graphs { 0 };
+    id_ = ++graphs;
+}
+
+Version Graph::declare(Resource resource)
+{
+    const std::uint32_t newest = resource.newest;
+    resources_.push_back(std::move(resource));
+    return { id_, static_cast<std::uint32_t>(resources_.size() - 1), newest };
+}
+
+void Graph::add(Pass pass)
+{
+    assert((pass.domain == Domain::Host) == static_cast<bool>(pass.step));
+    assert((pass.domain == Domain::Tiles || pass.domain == Domain::Items) == static_cast<bool>(pass.count));
+    pass.loop = loop_;
+    for (Argument& use : pass.arguments) {
+        if (use.isUse()) {
+            checkedUse(pass, use);
+        }
+    }
+    for (Argument& use : pass.arguments) {
+        if (use.isUse() && use.access != Access::Read) {
+            use.handle->number = use.version.number = ++resources_[use.version.resource].newest;
+        }
+        use.handle = nullptr; // which need not live on
+    }
+    passes_.push_back(std::move(pass));
+}
+
+void Graph::enter(Loop loop)
+{
+    loops_.push_back(std::move(loop));
+    loop_ = static_cast<int>(loops_.size()) - 1;
+}
+
+void Graph::leave()
+{
+    Loop& loop = loops_[static_cast<std::size_t>(loop_)];
+    loop.end = passes_.size();
+    loop_ = loop.parent;
+}
+
+bool Graph::holds(int loop, int inner) const
+{
+    while (inner > loop) { // a loop comes before those inside it
+        inner = loops_[static_cast<std::size_t>(inner)].parent;
+    }
+    return inner == loop;
+}
+
+void Graph::want(const Version& version, const Window& window)
+{
+    Resource& resource = checkedUse({ .name = "the end" }, reads("", version));
+    resource.wanted = window.with(resource.wanted.value_or(window));
+}
+
+Resource& Graph::checkedUse(const Pass& pass, const Argument& use)
+{
+    const auto refuse = [&](const std::string& what, const char* why) {
+        throw std::logic_error(
+            fmt::format("pass \"{}\" {} {}, {}", pass.name, verbs[static_cast<int>(use.access)], what, why));
+    };
+    const Version& version = use.version;
+    if (version.graph != id_) {
+        refuse("a resource", "which is of another graph");
+    }
+    Resource& resource = resources_.at(version.resource);
+    const std::string name = fmt::format("\"{}\"", resource.name);
+    if (!holds(resource.loop, pass.loop)) {
+        refuse(name, "which is a loop's own, outside of it");
+    }
+    if (version.number != resource.newest) {
+        refuse(name, "of which it has an old version");
+    }
+    if (use.access != Access::Write && version.number == 0) {
+        refuse(name, "which nothing has written before");
+    }
+    if (use.access == Access::Write && pass.condition && version.number == 0) {
+        refuse(name, "which nothing has written before, on a condition alone");
+    }
+    for (const Argument& other : pass.arguments) {
+        if (&other != &use && other.isUse() && other.version.resource == version.resource) {
+            refuse(name, "which it also uses otherwise: update it in place");
+        }
+    }
+    return resource;
+}
+
+} // namespace wedge::graph

@@ -1,0 +1,239 @@
+// A frame as a graph: resources, and passes that declare what they do with them. Written once, in the order in which
+// the passes run; what is left out, which pixels each pass covers, who shares memory with whom, and what kernels are
+// handed are derived from it (plan.h, interface.h, execution.h).
+#pragma once
+
+#include "host/device/kernel.h"
+#include "host/device/queue.h"
+#include "host/graph/format.h"
+#include "host/window.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wedge::graph {
+
+class Graph;
+class Run;
+
+/// One state of a resource's contents: each pass that changes them makes the next.
+struct Version {
+    std::uint32_t graph = 0; ///< which Graph's, 0 for none's
+    std::uint32_t resource = 0;
+    std::uint32_t number = 0; ///< 0: nothing has been written yet
+};
+
+/// A version of a resource that holds a Quantity: a type without members, for the compiler to tell handles apart.
+template <class Quantity>
+struct Handle : Version {
+};
+
+/// OpenCL's name for a type that kernels take by value, empty where nobody has said: specialise it for structs.
+template <class T>
+inline constexpr std::string_view kernelType = "";
+template <>
+inline constexpr std::string_view kernelType<float> = "float";
+template <>
+inline constexpr std::string_view kernelType<std::int32_t> = "int";
+template <>
+inline constexpr std::string_view kernelType<std::uint32_t> = "uint";
+
+enum class Access {
+    Read,
+    Write, ///< what was there before is of no interest
+    Update, ///< reads and writes: one memory object
+};
+
+/// How far from a pixel its neighbours are read, in pixels.
+using Reach = int;
+constexpr Reach wholeImage = std::numeric_limits<int>::max();
+
+/// What the launch of a kernel covers: of its pass's window one band of rows, or nothing in rehearsals.
+struct Launch {
+    const Run& run;
+    Window window;
+};
+
+/// One argument of a pass's kernel: value(), made(), reads(), writes() and updates() make them.
+struct Argument {
+    std::string name;
+    std::string type = {}; ///< of values, OpenCL's
+    std::function<std::vector<std::byte>(const Launch&)> value = {}; ///< null: a use
+    Access access = Access::Read;
+    Version version = {}; ///< read, or made
+    Reach reach = 0;
+    Version* handle = nullptr; ///< of who declares what changes a resource: becomes the new version
+
+    bool isUse() const { return !value; }
+};
+
+/// A value that make(launch) returns.
+template <class Make>
+Argument made(std::string name, const Make& make)
+{
+    using T = std::decay_t<decltype(make(std::declval<const Launch&>()))>;
+    static_assert(device::KernelValue<T>);
+    return { std::move(name), std::string(kernelType<T>), [make](const Launch& launch) {
+                const T value = make(launch);
+                const auto* bytes = reinterpret_cast<const std::byte*>(&value);
+                return std::vector<std::byte>(bytes, bytes + sizeof(T));
+            } };
+}
+
+/// A value that is the same for all launches.
+template <device::KernelValue T>
+Argument value(std::string name, const T& constant)
+{
+    return made(std::move(name), [constant](const Launch&) { return constant; });
+}
+
+/// What the pixel and its neighbours within `reach` pixels hold, or a list.
+inline Argument reads(std::string name, const Version& version, Reach reach = 0)
+{
+    return { std::move(name), {}, {}, Access::Read, version, reach };
+}
+
+/// All of the window's pixels, or of the list, anew.
+inline Argument writes(std::string name, Version& version)
+{
+    return { std::move(name), {}, {}, Access::Write, version, 0, &version };
+}
+
+/// Some of them, or after reading them: in place.
+inline Argument updates(std::string name, Version& version)
+{
+    return { std::move(name), {}, {}, Access::Update, version, 0, &version };
+}
+
+/// What a pass is launched over.
+enum class Domain {
+    Blocks, ///< one item for 16 pixels of a row of the window
+    Pixels, ///< one item a pixel
+    Tiles, ///< `count` tiles of itemsOfTile items, in batches of bounded time; the kernel's last argument, added to
+           ///< those of the pass, is the first group of a batch
+    Items, ///< `count` items of a list
+    Host, ///< no kernel: the host does a step
+};
+
+struct KernelName {
+    std::string file, name;
+};
+
+/// One step of a frame.
+struct Pass {
+    std::string name;
+    device::PassKind kind = device::PassKind::Trace;
+    KernelName kernel = {};
+    std::vector<Argument> arguments = {}; ///< in the order of the kernel's parameters
+    Domain domain = Domain::Blocks;
+    std::function<std::size_t(const Launch&)> count = {}; ///< of tiles or items
+    std::size_t itemsOfTile = 0;
+    std::size_t mostItems = 0; ///< of a list: what rehearsals launch
+    double workUnits = 0.0; ///< of the frame's progress, tiles
+    std::function<void(Run&)> step = {}; ///< of the host
+    bool everywhere = false; ///< covers the whole image whatever part of its results is wanted
+    bool always = false; ///< is run although nobody wants what it makes
+    bool stoppable = false; ///< may end in the middle where the run is stopped; others, once begun, are finished
+    /// Is left out where this is false when its turn comes; what it makes then is what was there before. Null: never.
+    std::function<bool(const Run&)> condition = {};
+    int loop = -1; ///< whose body it is in: the graph's to say
+};
+
+/// A body of passes that is run several times.
+struct Loop {
+    std::string name;
+    std::function<std::size_t(Run&)> count; ///< asked when its turn comes
+    int parent = -1; ///< the loop around it
+    std::size_t first = 0, end = 0; ///< its passes
+};
+
+/// Memory that passes work on.
+struct Resource {
+    std::string name;
+    Format format;
+    std::uint64_t elements = 0;
+    bool plane = false; ///< of pixels
+    int loop = -1; ///< the loop whose own it is
+    std::optional<cl::Buffer> imported; ///< lives elsewhere
+    std::uint32_t newest = 0; ///< version
+    std::optional<Window> wanted; ///< at the end
+
+    std::uint64_t bytes() const;
+};
+
+class Graph {
+public:
+    /// Of an image. planeElements: of each plane, padding included.
+    Graph(int width, int height, std::uint64_t planeElements);
+    Graph(const Graph&) = delete; // passes and handles know it
+    Graph& operator=(const Graph&) = delete;
+
+    /// Elements of pixels. Declared inside a loop's body: the body's own, whose contents no iteration hands on.
+    template <class Quantity>
+    Handle<Quantity> plane(std::string name, const Format& format)
+    {
+        return { declare({ std::move(name), format, planeElements_, true, loop_, {}, 0, {} }) };
+    }
+    /// As many elements of anything.
+    template <class Quantity>
+    Handle<Quantity> list(std::string name, const Format& format, std::uint64_t elements)
+    {
+        return { declare({ std::move(name), format, elements, false, loop_, {}, 0, {} }) };
+    }
+    /// What outlives the frame, with contents. elements: 0 for a plane of pixels.
+    template <class Quantity>
+    Handle<Quantity> imported(
+        std::string name, const Format& format, const cl::Buffer& memory, std::uint64_t elements = 0)
+    {
+        return { declare(
+            { std::move(name), format, elements == 0 ? planeElements_ : elements, elements == 0, -1, memory, 1, {} }) };
+    }
+
+    /// Appends a pass, and makes new versions of what it changes. Throws std::logic_error with the names of the pass
+    /// and the resource where it uses one wrongly.
+    void add(Pass pass);
+
+    /// Runs body() once, now, to declare what is run count(run) times. What it changes of resources from outside is
+    /// carried from one iteration to the next.
+    template <class Body>
+    void loop(std::string name, std::function<std::size_t(Run&)> count, const Body& body)
+    {
+        enter({ std::move(name), std::move(count), loop_, passes_.size(), 0 });
+        body();
+        leave();
+    }
+
+    /// The newest version is wanted at the end, over those pixels.
+    void want(const Version& version, const Window& window);
+
+    const std::deque<Pass>& passes() const { return passes_; }
+    const std::vector<Loop>& loops() const { return loops_; }
+    const std::vector<Resource>& resources() const { return resources_; }
+    Window image() const { return image_; }
+    /// Whether a loop is that loop or inside it; -1 is outside of all, and so holds all.
+    bool holds(int loop, int inner) const;
+
+private:
+    Version declare(Resource resource);
+    void enter(Loop loop);
+    void leave();
+    /// Throws unless the pass may use it, and use it so.
+    Resource& checkedUse(const Pass& pass, const Argument& use);
+
+    std::uint32_t id_;
+    Window image_;
+    std::uint64_t planeElements_;
+    std::vector<Resource> resources_;
+    std::deque<Pass> passes_;
+    std::vector<Loop> loops_;
+    int loop_ = -1; ///< whose body is being declared
+};
+
+} // namespace wedge::graph

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "host/device/memory_plan.h"
+#include "host/graph/arena.h"
+#include "host/graph/graph.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace wedge::graph {
+
+/// A pass that is run.
+struct PlannedPass {
+    const Pass* pass = nullptr;
+    Window window; ///< the pixels that anybody wants of it
+};
+
+/// What a graph becomes: which of its passes are run, over which pixels, and where their resources lie. Refers to the
+/// graph.
+struct Plan {
+    /// What the wanted versions need and nothing else, in the order of the graph. alignment and mostSlabBytes: as for
+    /// place(), bytes.
+    Plan(const Graph& graph, std::uint64_t alignment, std::uint64_t mostSlabBytes);
+
+    /// Adds the memory, a line a resource's share at its highest; the sum is what is allocated.
+    void addTo(device::MemoryPlan& memory) const;
+
+    const Graph& graph;
+    std::vector<PlannedPass> passes;
+    /// Of each resource of the graph: when it holds something, as indices into passes, one behind the last for what is
+    /// wanted at the end; nothing where no pass uses it.
+    std::vector<std::optional<Tenant>> lifetimes;
+    std::vector<Place> places; ///< of each resource that has a lifetime and is not imported
+    std::vector<std::uint64_t> slabs; ///< bytes of each piece of memory to allocate
+};
+
+/// window grown by `reach` pixels on each side, x then rounded outwards to whole blocks of 16 pixels, inside the image
+/// (x1 may end inside a block).
+Window reached(const Window& window, Reach reach, const Window& image);
+
+} // namespace wedge::graph

@@ -1,0 +1,505 @@
+// What a graph becomes, without a device: random graphs are carried out on marks in place of memory and pixels.
+#include "host/graph/explain.h"
+#include "host/graph/interface.h"
+#include "host/graph/plan.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+using namespace wedge;
+using namespace wedge::graph;
+using device::PassKind;
+
+namespace {
+
+struct Metres { };
+struct Radiance { };
+
+constexpr std::uint64_t alignment = 64, noLimit = ~std::uint64_t { 0 };
+constexpr int width = 80, height = 24;
+
+std::string faultOf(const std::function<void()>& f)
+{
+    try {
+        f();
+    } catch (const std::logic_error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+std::vector<std::string> namesOf(const Plan& plan)
+{
+    std::vector<std::string> names;
+    for (const PlannedPass& planned : plan.passes) {
+        names.push_back(planned.pass->name);
+    }
+    return names;
+}
+
+using Names = std::vector<std::string>;
+
+/// A pass of a kernel that nobody runs.
+Pass passOf(const std::string& name, std::vector<Argument> arguments)
+{
+    return { .name = name, .kind = PassKind::Filter, .kernel = { "none.cl", name }, .arguments = std::move(arguments) };
+}
+
+void add(Graph& graph, const std::string& name, std::vector<Argument> arguments)
+{
+    graph.add(passOf(name, std::move(arguments)));
+}
+
+const auto once = [](Run&) { return std::size_t { 1 }; };
+
+/// Carries out a plan on marks: who wrote each unit of memory last, and which pixels of each resource hold what they
+/// should.
+class Simulation {
+public:
+    explicit Simulation(const Plan& plan)
+        : plan_(plan)
+        , valid_(plan.lifetimes.size(), std::vector<bool>(static_cast<std::size_t>(width) * height))
+    {
+        for (const std::uint64_t bytes : plan.slabs) {
+            CHECK(bytes % alignment == 0);
+            owners_.emplace_back(bytes / alignment, -1);
+        }
+    }
+
+    void run(std::size_t begin, std::size_t end, int loop, std::mt19937& random)
+    {
+        for (std::size_t i = begin; i < end;) {
+            int inner = plan_.passes[i].pass->loop;
+            if (inner == loop) {
+                step(plan_.passes[i++]);
+                continue;
+            }
+            while (parent(inner) != loop) {
+                inner = parent(inner);
+            }
+            std::size_t last = i;
+            while (last < end && plan_.graph.holds(inner, plan_.passes[last].pass->loop)) {
+                ++last;
+            }
+            for (auto k = 1 + random() % 3; k > 0; --k) {
+                run(i, last, inner, random);
+            }
+            i = last;
+        }
+    }
+
+    void requireContents(std::size_t resource, const Window& window)
+    {
+        const Resource& r = plan_.graph.resources()[resource];
+        eachUnit(resource, [&](int& owner) { faults += owner != static_cast<int>(resource); });
+        for (int y = window.y0; r.plane && y < window.y1; ++y) {
+            for (int x = window.x0; x < window.x1; ++x) {
+                faults += !valid_[resource][static_cast<std::size_t>(y * width + x)];
+            }
+        }
+    }
+
+    int faults = 0;
+
+private:
+    int parent(int loop) const { return plan_.graph.loops()[static_cast<std::size_t>(loop)].parent; }
+
+    template <class F>
+    void eachUnit(std::size_t resource, const F& f)
+    {
+        const Place& place = plan_.places[resource];
+        const std::uint64_t units = plan_.graph.resources()[resource].bytes() / alignment;
+        for (std::uint64_t u = 0; u < units; ++u) {
+            f(owners_.at(place.slab).at(place.offset / alignment + u));
+        }
+    }
+
+    void step(const PlannedPass& planned)
+    {
+        const Window& w = planned.window;
+        for (const Argument& use : planned.pass->arguments) {
+            if (use.access != Access::Write) {
+                const int reach = use.reach == wholeImage ? width : use.reach;
+                requireContents(use.version.resource,
+                    w.empty() ? w
+                              : Window { std::max(0, w.x0 - reach), std::max(0, w.y0 - reach),
+                                  std::min(width, w.x1 + reach), std::min(height, w.y1 + reach) });
+            }
+        }
+        for (const Argument& use : planned.pass->arguments) {
+            if (use.access == Access::Read) {
+                continue;
+            }
+            const std::uint32_t resource = use.version.resource;
+            eachUnit(resource, [&](int& owner) { owner = static_cast<int>(resource); });
+            for (int y = 0; y < height; ++y) {
+                for (int x = 0; x < width; ++x) {
+                    valid_[resource][static_cast<std::size_t>(y * width + x)] =
+                        x >= w.x0 && x < w.x1 && y >= w.y0 && y < w.y1;
+                }
+            }
+        }
+    }
+
+    const Plan& plan_;
+    std::vector<std::vector<int>> owners_; ///< of each unit of each slab
+    std::vector<std::vector<bool>> valid_;
+};
+
+/// A graph of random passes and loops that nothing is wrong with.
+class RandomGraph {
+public:
+    explicit RandomGraph(unsigned seed)
+        : graph(width, height, 7 * alignment / 4)
+        , random_(seed)
+    {
+        body(0, 6);
+        for (const Handle<Metres>& handle : handles_) {
+            if (handle.number > 0 && random_() % 3 == 0 && graph.resources()[handle.resource].loop == -1) {
+                graph.want(handle, randomWindow());
+            }
+        }
+    }
+
+    Graph graph;
+
+private:
+    void body(int depth, unsigned passes)
+    {
+        const std::size_t outer = handles_.size();
+        for (unsigned i = 0; i < passes; ++i) {
+            if (depth < 2 && random_() % 4 == 0) {
+                graph.loop("loop", once, [&] { body(depth + 1, 1 + random_() % 4); });
+            }
+            onePass();
+        }
+        if (depth > 0) {
+            handles_.resize(outer); // the body's own
+        }
+    }
+
+    void onePass()
+    {
+        while (handles_.size() < 3 || random_() % 3 == 0) {
+            const std::string name = "resource " + std::to_string(handles_.size());
+            handles_.push_back(random_() % 3 == 0
+                    ? graph.list<Metres>(name, floats, alignment / 4 * (1 + random_() % 6))
+                    : graph.plane<Metres>(name, random_() % 2 == 0 ? vectors : floats));
+        }
+        std::vector<Argument> uses;
+        std::vector<std::size_t> order(handles_.size());
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            order[i] = i;
+        }
+        std::shuffle(order.begin(), order.end(), random_);
+        uses.push_back(writes("out", handles_[order[0]]));
+        for (std::size_t i = 1; i < std::min<std::size_t>(order.size(), 4); ++i) {
+            Handle<Metres>& handle = handles_[order[i]];
+            if (handle.number == 0) {
+                continue;
+            }
+            if (random_() % 3 == 0) {
+                uses.push_back(updates("inOut", handle));
+            } else {
+                constexpr Reach reaches[] = { 0, 1, 5, 17, wholeImage };
+                uses.push_back(reads("in", handle, reaches[random_() % 5]));
+            }
+        }
+        Pass pass = passOf("pass " + std::to_string(graph.passes().size()), std::move(uses));
+        pass.everywhere = random_() % 8 == 0;
+        graph.add(std::move(pass));
+    }
+
+    Window randomWindow()
+    {
+        const int x = static_cast<int>(random_() % width), y = static_cast<int>(random_() % height);
+        return { x, y, x + 1 + static_cast<int>(random_() % static_cast<unsigned>(width - x)),
+            y + 1 + static_cast<int>(random_() % static_cast<unsigned>(height - y)) };
+    }
+
+    std::mt19937 random_;
+    std::vector<Handle<Metres>> handles_;
+};
+
+std::uint64_t mostAtOnce(const Plan& plan)
+{
+    std::uint64_t most = 0;
+    for (std::uint32_t at = 0; at <= plan.passes.size(); ++at) {
+        std::uint64_t sum = 0;
+        for (const std::optional<Tenant>& life : plan.lifetimes) {
+            sum += life && life->first <= at && at <= life->last ? life->bytes : 0;
+        }
+        most = std::max(most, sum);
+    }
+    return most;
+}
+
+} // namespace
+
+TEST_CASE("random graphs: whoever reads finds what was written, on every pixel that is wanted")
+{
+    double used = 0, needed = 0;
+    int passes = 0, left = 0;
+    for (unsigned seed = 0; seed < 3000; ++seed) {
+        CAPTURE(seed);
+        const RandomGraph made(seed);
+        const std::uint64_t limit = seed % 4 == 0 ? 24 * alignment : noLimit;
+        const Plan plan(made.graph, alignment, limit);
+        Simulation simulation(plan);
+        std::mt19937 random(seed);
+        simulation.run(0, plan.passes.size(), -1, random);
+        for (std::size_t i = 0; i < made.graph.resources().size(); ++i) {
+            if (made.graph.resources()[i].wanted) {
+                simulation.requireContents(i, *made.graph.resources()[i].wanted);
+            }
+        }
+        REQUIRE(simulation.faults == 0);
+        for (const std::uint64_t slab : plan.slabs) {
+            CHECK((plan.slabs.size() == 1 || slab <= limit));
+        }
+        for (const std::uint64_t slab : limit == noLimit ? plan.slabs : std::vector<std::uint64_t>()) {
+            used += static_cast<double>(slab);
+            needed += static_cast<double>(mostAtOnce(plan));
+        }
+        passes += static_cast<int>(plan.passes.size());
+        left += static_cast<int>(made.graph.passes().size() - plan.passes.size());
+    }
+    CHECK(passes > 3000);
+    CHECK(left > 3000);
+    // No plan can do with less than what lives at once.
+    MESSAGE("memory over what lives at once: ", used / needed);
+    CHECK(used >= needed);
+    CHECK(used < 1.02 * needed);
+}
+
+TEST_CASE("what nobody wants is left out, and so is what only that needed")
+{
+    Graph graph(width, height, 1024);
+    auto position = graph.plane<Metres>("position", vectors);
+    auto radiance = graph.plane<Radiance>("radiance", vectors);
+    auto layer = graph.plane<Radiance>("layer", vectors);
+    auto onlyForLayer = graph.plane<Radiance>("only for the layer", vectors);
+    add(graph, "trace", { writes("position", position) });
+    add(graph, "prepare", { reads("position", position), writes("out", onlyForLayer) });
+    add(graph, "shade", { reads("position", position), writes("out", radiance) });
+    add(graph, "show", { reads("in", onlyForLayer), writes("out", layer) });
+    Pass report = passOf("report", { reads("in", position) });
+    report.always = true;
+    graph.add(std::move(report));
+    SUBCASE("one")
+    {
+        graph.want(radiance, { 0, 0, width, height });
+        CHECK(namesOf(Plan(graph, alignment, noLimit)) == Names { "trace", "shade", "report" });
+    }
+    SUBCASE("all")
+    {
+        graph.want(layer, { 0, 0, 1, 1 });
+        graph.want(radiance, { 0, 0, width, height });
+        CHECK(namesOf(Plan(graph, alignment, noLimit)) == Names { "trace", "prepare", "shade", "show", "report" });
+    }
+    SUBCASE("none") { CHECK(namesOf(Plan(graph, alignment, noLimit)) == Names { "trace", "report" }); }
+}
+
+TEST_CASE("an older version's maker is not needed where the next writes all anew, and is where it updates")
+{
+    for (const bool inPlace : { false, true }) {
+        Graph graph(width, height, 1024);
+        auto plane = graph.plane<Metres>("plane", floats);
+        add(graph, "first", { writes("out", plane) });
+        if (inPlace) {
+            add(graph, "second", { updates("out", plane) });
+        } else {
+            add(graph, "second", { writes("out", plane) });
+        }
+        graph.want(plane, { 0, 0, width, height });
+        CHECK(namesOf(Plan(graph, alignment, noLimit)) == (inPlace ? Names { "first", "second" } : Names { "second" }));
+    }
+}
+
+TEST_CASE("what is made on a condition alone may be what was there before")
+{
+    Graph graph(width, height, 1024);
+    auto plane = graph.plane<Metres>("plane", floats);
+    add(graph, "first", { writes("out", plane) });
+    Pass second = passOf("second", { writes("out", plane) });
+    second.condition = [](const Run&) { return false; };
+    graph.add(std::move(second));
+    graph.want(plane, { 0, 0, width, height });
+    CHECK(namesOf(Plan(graph, alignment, noLimit)) == Names { "first", "second" });
+}
+
+TEST_CASE("a loop keeps what it carries, and not what is its own")
+{
+    Graph graph(width, height, 1024);
+    auto sums = graph.plane<Radiance>("sums", vectors);
+    auto seldom = graph.plane<Radiance>("read at its start", vectors);
+    auto image = graph.plane<Radiance>("image", vectors);
+    add(graph, "clear", { writes("sums", sums) });
+    add(graph, "begin", { writes("out", seldom) });
+    graph.loop("waves", once, [&] {
+        auto own = graph.plane<Radiance>("own", vectors);
+        auto second = graph.plane<Radiance>("own, too", vectors);
+        add(graph, "trace", { reads("seldom", seldom), writes("own", own) });
+        add(graph, "shade", { reads("own", own), writes("second", second) });
+        add(graph, "add", { reads("second", second), updates("sums", sums) });
+        add(graph, "next", { writes("seldom", seldom) });
+    });
+    add(graph, "show", { reads("sums", sums), writes("image", image) });
+    graph.want(image, { 0, 0, width, height });
+    const Plan plan(graph, alignment, noLimit);
+    // "next" is behind all its readers, and is there for the next iteration's.
+    CHECK(namesOf(plan) == Names { "clear", "begin", "trace", "shade", "add", "next", "show" });
+    const auto life = [&](const char* name) {
+        for (std::size_t i = 0; i < plan.lifetimes.size(); ++i) {
+            if (graph.resources()[i].name == name) {
+                return std::pair(plan.lifetimes[i]->first, plan.lifetimes[i]->last);
+            }
+        }
+        return std::pair(99u, 99u);
+    };
+    CHECK(life("sums") == std::pair(0u, 6u));
+    CHECK(life("read at its start") == std::pair(1u, 5u));
+    CHECK(life("own") == std::pair(2u, 3u));
+    CHECK(life("own, too") == std::pair(3u, 4u));
+    CHECK(life("image") == std::pair(6u, 7u));
+    // sums all through, and beside them three at most.
+    CHECK(plan.slabs == std::vector<std::uint64_t> { 4 * 12 * 1024 });
+}
+
+TEST_CASE("a crop's windows grow backwards by what filters reach, and analyses cover everything")
+{
+    Graph graph(1000, 600, 1024);
+    const Window crop { 100, 50, 130, 60 };
+    auto first = graph.plane<Metres>("first", floats);
+    auto samples = graph.plane<Metres>("samples", floats);
+    auto rows = graph.plane<Metres>("rows", floats);
+    auto image = graph.plane<Metres>("image", floats);
+    auto scale = graph.list<Metres>("scale", floats, 1);
+    add(graph, "first", { writes("first", first) });
+    add(graph, "scale", { reads("first", first), writes("scale", scale) });
+    add(graph, "sample", { reads("scale", scale), reads("first", first), writes("samples", samples) });
+    add(graph, "rows", { reads("samples", samples, 20), writes("rows", rows) });
+    add(graph, "columns", { reads("rows", rows, 4), writes("image", image) });
+    graph.want(image, crop);
+    const Plan plan(graph, alignment, noLimit);
+    std::vector<Window> windows;
+    for (const PlannedPass& planned : plan.passes) {
+        windows.push_back(planned.window);
+    }
+    const Window all { 0, 0, 1000, 600 };
+    // Columns rounded outwards to blocks of 16.
+    CHECK(windows == std::vector<Window> { all, all, { 64, 26, 176, 84 }, { 96, 46, 144, 64 }, crop });
+    CHECK(reached({ 0, 0, 7, 5 }, 3, { 0, 0, 20, 6 }) == Window { 0, 0, 16, 6 });
+    CHECK(reached({ 0, 0, 7, 5 }, 30, { 0, 0, 20, 6 }) == Window { 0, 0, 20, 6 });
+    CHECK(reached({}, 30, { 0, 0, 20, 6 }).empty());
+}
+
+TEST_CASE("what is used wrongly is named")
+{
+    Graph graph(width, height, 1024), other(width, height, 1024);
+    auto width0 = graph.plane<Metres>("width", floats);
+    CHECK(faultOf([&] { add(graph, "filter", { reads("in", width0) }); })
+        == "pass \"filter\" reads \"width\", which nothing has written before");
+    const auto stale = width0;
+    add(graph, "analyse", { writes("out", width0) });
+    CHECK(faultOf([&] { add(graph, "filter", { reads("in", stale) }); })
+        == "pass \"filter\" reads \"width\", of which it has an old version");
+    auto staleToo = stale;
+    CHECK(faultOf([&] { add(graph, "filter", { writes("out", staleToo) }); })
+        == "pass \"filter\" writes \"width\", of which it has an old version");
+    CHECK(faultOf([&] {
+        graph.want(stale, { 0, 0, 1, 1 });
+    }) == "pass \"the end\" reads \"width\", of which it has an old version");
+    CHECK(faultOf([&] {
+        add(graph, "filter", { reads("in", width0), updates("out", width0) });
+    }) == "pass \"filter\" reads \"width\", which it also uses otherwise: update it in place");
+    CHECK(faultOf([&] { add(other, "filter", { reads("in", width0) }); })
+        == "pass \"filter\" reads a resource, which is of another graph");
+    Handle<Metres> own;
+    graph.loop("waves", once, [&] {
+        own = graph.plane<Metres>("own", floats);
+        add(graph, "trace", { writes("out", own) });
+    });
+    CHECK(faultOf([&] { add(graph, "filter", { reads("in", own) }); })
+        == "pass \"filter\" reads \"own\", which is a loop's own, outside of it");
+    auto fresh = graph.plane<Metres>("fresh", floats);
+    CHECK(faultOf([&] {
+        Pass unsure = passOf("second chance", { writes("out", fresh) });
+        unsure.condition = [](const Run&) { return true; };
+        graph.add(std::move(unsure));
+    }) == "pass \"second chance\" writes \"fresh\", which nothing has written before, on a condition alone");
+}
+
+TEST_CASE("kernels are handed what their passes declare, and no other")
+{
+    Graph graph(width, height, 1024);
+    auto position = graph.plane<Metres>("position", vectors);
+    auto openness = graph.plane<Metres>("openness", halves);
+    add(graph, "trace", { writes("position", position) });
+    add(graph, "shade", { value("scale", 2.0f), reads("where", position), writes("out", openness) });
+    const std::string text = interfaceText(graph, graph.passes().back());
+    CHECK(text.find("#define PARAMETERS const float scale, __global const float *restrict where, "
+                    "__global half *restrict out\n")
+        != std::string::npos);
+    CHECK(text.find("#define LOAD_where(size, at) load_float3(where, size, at)") != std::string::npos);
+    CHECK(text.find("#define STORE_out(size, at, value) store_half1(out, size, at, value)") != std::string::npos);
+    CHECK(text.find("STORE_where") == std::string::npos);
+    CHECK(text.find("LOAD_out") == std::string::npos);
+    CHECK(interfaces(graph).size() == 2);
+    auto mean = graph.plane<Metres>("mean", floats);
+    add(graph, "shade", { value("scale", 2.0f), reads("where", position), writes("out", mean) });
+    CHECK(
+        faultOf([&] { interfaces(graph); }) == "pass \"shade\" hands kernel shade other things than a pass before it");
+    struct Unknown {
+        int x;
+    };
+    add(graph, "odd", { value("p", Unknown { 1 }) });
+    CHECK(faultOf([&] { interfaceText(graph, graph.passes().back()); })
+        == "pass \"odd\" has a value \"p\" of a type without a name");
+}
+
+TEST_CASE("a plan explains itself, in words and as a drawing")
+{
+    Graph graph(width, height, 1024);
+    auto position = graph.plane<Metres>("position & more", vectors);
+    auto image = graph.plane<Radiance>("image", vectors);
+    auto unused = graph.plane<Radiance>("unused", vectors);
+    graph.loop("waves", once, [&] { add(graph, "trace", { writes("out", position) }); });
+    add(graph, "idle", { writes("out", unused) });
+    add(graph, "shade", { reads("in", position, 3), writes("out", image) });
+    graph.want(image, { 16, 0, 32, 5 });
+    const Plan plan(graph, alignment, noLimit);
+    CHECK(explain(plan)
+        == "passes\n"
+           "   1  waves: trace [filter] trace, 0..48 x 0..8: writes position & more\n"
+           "   2  shade [filter] shade, 16..32 x 0..5: reads position & more; writes image\n"
+           "   -  idle: nobody wants what it makes\n"
+           "\nresources\n"
+           "  position & more                  float3        0.0 MiB  1-2       part 1 at 0\n"
+           "  image                            float3        0.0 MiB  2-end     part 1 at 12288\n"
+           "\nmemory of the planes: 0.0 MiB\n");
+    const std::string svg = drawing(plan);
+    CHECK(svg.starts_with("<svg "));
+    CHECK(svg.ends_with("</svg>\n"));
+    CHECK(svg.find(">position &amp; more</text>") != std::string::npos);
+    CHECK(svg.find("unused") == std::string::npos);
+}
+
+TEST_CASE("sizes beyond all numbers stay beyond, and are refused and not wrapped")
+{
+    Graph graph(width, height, ~std::uint64_t { 0 } / 5);
+    auto plane = graph.plane<Metres>("plane", vectors);
+    add(graph, "first", { writes("out", plane) });
+    graph.want(plane, { 0, 0, 1, 1 });
+    const Plan plan(graph, alignment, noLimit);
+    REQUIRE(plan.slabs.size() == 1);
+    CHECK(plan.slabs[0] == ~std::uint64_t { 0 });
+    device::MemoryPlan memory;
+    plan.addTo(memory);
+    CHECK(memory.total() == ~std::uint64_t { 0 });
+}

@@ -1,0 +1,49 @@
+// Passes of the tests of host/graph, whose parameters come from their declarations.
+typedef struct {
+    uint x0, y0, x1, y1;
+    uint width;
+} Rectangle;
+
+#include "pass/numbered.h"
+__kernel void numbered(PARAMETERS)
+{
+    const uint x = p.x0 + (uint)get_global_id(0), y = p.y0 + (uint)get_global_id(1);
+    if (x < p.x1 && y < p.y1) {
+        STORE_out(size, y * p.width + x, (float3)((float)x, (float)y, scale));
+    }
+}
+
+// Mean of a pixel and its neighbours to both sides.
+#include "pass/smoothed.h"
+__kernel void smoothed(PARAMETERS)
+{
+    const uint x = p.x0 + (uint)get_global_id(0), y = p.y0 + (uint)get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    float3 sum = (float3)(0.0f);
+    const uint from = x < reach ? 0u : x - reach, to = min(x + reach, p.width - 1u);
+    for (uint i = from; i <= to; ++i) {
+        sum += LOAD_in(size, y * p.width + i);
+    }
+    STORE_out(size, y * p.width + x, sum / (float)(to - from + 1u));
+}
+
+#include "pass/added.h"
+__kernel void added(PARAMETERS)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i < count) {
+        STORE_sum(size, i, LOAD_sum(size, i) + (float)(1u + iteration) * LOAD_in(size, i).x);
+    }
+}
+
+// As often as each item of each tile is visited, in 16 bits.
+#include "pass/visited.h"
+__kernel void visited(PARAMETERS)
+{
+    const uint i = (firstGroup + (uint)get_group_id(0)) * (uint)get_local_size(0) + (uint)get_local_id(0);
+    if (i < count) {
+        STORE_visits(size, i, LOAD_visits(size, i) + 1.0f);
+    }
+}
