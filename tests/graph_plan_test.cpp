@@ -86,7 +86,8 @@ public:
             while (last < end && plan_.graph.holds(inner, plan_.passes[last].pass->loop)) {
                 ++last;
             }
-            for (auto k = 1 + random() % 3; k > 0; --k) {
+            const bool repeats = plan_.graph.loops()[static_cast<std::size_t>(inner)].repeats;
+            for (auto k = repeats ? 1 + random() % 3 : 1; k > 0; --k) {
                 run(i, last, inner, random);
             }
             i = last;
@@ -124,11 +125,11 @@ private:
         const Window& w = planned.window;
         for (const Argument& use : planned.pass->arguments) {
             if (use.access != Access::Write) {
-                const int reach = use.reach == wholeImage ? width : use.reach;
+                const int dx = std::min(use.reach.x, width), dy = std::min(use.reach.y, height);
                 requireContents(use.version.resource,
                     w.empty() ? w
-                              : Window { std::max(0, w.x0 - reach), std::max(0, w.y0 - reach),
-                                  std::min(width, w.x1 + reach), std::min(height, w.y1 + reach) });
+                              : Window { std::max(0, w.x0 - dx), std::max(0, w.y0 - dy), std::min(width, w.x1 + dx),
+                                  std::min(height, w.y1 + dy) });
             }
         }
         for (const Argument& use : planned.pass->arguments) {
@@ -174,7 +175,13 @@ private:
         const std::size_t outer = handles_.size();
         for (unsigned i = 0; i < passes; ++i) {
             if (depth < 2 && random_() % 4 == 0) {
-                graph.loop("loop", once, [&] { body(depth + 1, 1 + random_() % 4); });
+                const auto inner = [&] { body(depth + 1, 1 + random_() % 4); };
+                if (random_() % 2 == 0) {
+                    graph.loop("loop", once, inner);
+                } else {
+                    graph.only(
+                        "condition", [](Run&) { return true; }, inner);
+                }
             }
             onePass();
         }
@@ -206,7 +213,7 @@ private:
             if (random_() % 3 == 0) {
                 uses.push_back(updates("inOut", handle));
             } else {
-                constexpr Reach reaches[] = { 0, 1, 5, 17, wholeImage };
+                constexpr Reach reaches[] = { around(0), { 1, 0 }, { 0, 5 }, around(17), wholeImage };
                 uses.push_back(reads("in", handle, reaches[random_() % 5]));
             }
         }
@@ -383,8 +390,8 @@ TEST_CASE("a crop's windows grow backwards by what filters reach, and analyses c
     add(graph, "first", { writes("first", first) });
     add(graph, "scale", { reads("first", first), writes("scale", scale) });
     add(graph, "sample", { reads("scale", scale), reads("first", first), writes("samples", samples) });
-    add(graph, "rows", { reads("samples", samples, 20), writes("rows", rows) });
-    add(graph, "columns", { reads("rows", rows, 4), writes("image", image) });
+    add(graph, "rows", { reads("samples", samples, { .x = 20 }), writes("rows", rows) });
+    add(graph, "columns", { reads("rows", rows, { .y = 4 }), writes("image", image) });
     graph.want(image, crop);
     const Plan plan(graph, alignment, noLimit);
     std::vector<Window> windows;
@@ -392,11 +399,30 @@ TEST_CASE("a crop's windows grow backwards by what filters reach, and analyses c
         windows.push_back(planned.window);
     }
     const Window all { 0, 0, 1000, 600 };
-    // Columns rounded outwards to blocks of 16.
-    CHECK(windows == std::vector<Window> { all, all, { 64, 26, 176, 84 }, { 96, 46, 144, 64 }, crop });
-    CHECK(reached({ 0, 0, 7, 5 }, 3, { 0, 0, 20, 6 }) == Window { 0, 0, 16, 6 });
-    CHECK(reached({ 0, 0, 7, 5 }, 30, { 0, 0, 20, 6 }) == Window { 0, 0, 20, 6 });
-    CHECK(reached({}, 30, { 0, 0, 20, 6 }).empty());
+    CHECK(windows == std::vector<Window> { all, all, { 80, 46, 150, 64 }, { 100, 46, 130, 64 }, crop });
+    CHECK(reached({ 2, 0, 7, 5 }, around(1), { 0, 0, 20, 6 }) == Window { 1, 0, 8, 6 });
+    CHECK(reached({ 0, 0, 7, 5 }, wholeImage, { 0, 0, 20, 6 }) == Window { 0, 0, 20, 6 });
+    CHECK(reached({}, around(30), { 0, 0, 20, 6 }).empty());
+}
+
+TEST_CASE("nothing is run for a tally's sake, and none is lost")
+{
+    Graph graph(width, height, 1024);
+    const Window crop { 10, 10, 20, 20 };
+    auto rays = graph.plane<Metres>("rays", counts), image = graph.plane<Metres>("image", floats);
+    auto unused = graph.plane<Metres>("unused", floats), scale = graph.list<Metres>("scale", floats, 1);
+    add(graph, "clear", { writes("rays", rays) });
+    add(graph, "idle", { writes("out", unused), tallies("rays", rays) });
+    add(graph, "traced", { writes("out", image), tallies("rays", rays) });
+    add(graph, "analysed", { writes("scale", scale), tallies("rays", rays) });
+    add(graph, "scaled", { reads("scale", scale), updates("image", image) });
+    graph.want(image, crop);
+    graph.want(rays, { 0, 0, width, height });
+    const Plan plan(graph, alignment, noLimit);
+    CHECK(namesOf(plan) == Names { "clear", "traced", "analysed", "scaled" });
+    CHECK(plan.passes[0].window == Window { 0, 0, width, height });
+    CHECK(plan.passes[1].window == crop);
+    CHECK(plan.passes[2].window == Window { 0, 0, width, height });
 }
 
 TEST_CASE("what is used wrongly is named")
@@ -471,12 +497,12 @@ TEST_CASE("a plan explains itself, in words and as a drawing")
     auto unused = graph.plane<Radiance>("unused", vectors);
     graph.loop("waves", once, [&] { add(graph, "trace", { writes("out", position) }); });
     add(graph, "idle", { writes("out", unused) });
-    add(graph, "shade", { reads("in", position, 3), writes("out", image) });
+    add(graph, "shade", { reads("in", position, around(3)), writes("out", image) });
     graph.want(image, { 16, 0, 32, 5 });
     const Plan plan(graph, alignment, noLimit);
     CHECK(explain(plan)
         == "passes\n"
-           "   1  waves: trace [filter] trace, 0..48 x 0..8: writes position & more\n"
+           "   1  waves: trace [filter] trace, 13..35 x 0..8: writes position & more\n"
            "   2  shade [filter] shade, 16..32 x 0..5: reads position & more; writes image\n"
            "   -  idle: nobody wants what it makes\n"
            "\nresources\n"

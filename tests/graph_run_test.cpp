@@ -53,7 +53,7 @@ void smoothed(Graph& graph, const Handle<Colour>& in, Handle<Colour>& out)
         .kind = PassKind::Filter,
         .kernel = { "graph.cl", "smoothed" },
         .arguments = { made("p", rectangleOf), value("size", elements), value("reach", std::uint32_t { smoothReach }),
-            reads("in", in, smoothReach), writes("out", out) },
+            reads("in", in, { .x = smoothReach }), writes("out", out) },
         .domain = Domain::Pixels });
 }
 

@@ -286,7 +286,8 @@ TEST_CASE(
         MESSAGE("most samples of a pixel " << most << ", of a tile " << largest);
         CHECK(most > 2048);
         CHECK(largest > 100000);
-        CHECK(largest <= WEDGE_WAVE_RECEIVERS + 64 * 8); // and those of the first pass
+        // And those of the first pass.
+        CHECK(largest <= WEDGE_WAVE_RECEIVERS + 64 * static_cast<std::uint32_t>(settings.distributed.firstPaths));
         requireCropOfWhole(renderer, settings, { 27, 20, 38, 29 }, false);
     });
 }

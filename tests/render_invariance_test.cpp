@@ -80,6 +80,83 @@ TEST_CASE("the size of batches and a rehearsal change nothing")
     });
 }
 
+TEST_CASE("nothing shows of what lay in the memory before")
+{
+    // Planes that are not needed at the same time share memory: what a pass reads and nobody has written would be a
+    // not-a-number here, and whatever was there before elsewhere.
+    onEveryDevice([](const device::Device& device) {
+        const scene::Scene scene = richScene();
+        render::Options poisoned = renderOptions();
+        poisoned.poison = true;
+        render::Renderer renderer(scene, device, renderOptions()), other(scene, device, poisoned);
+        std::vector<Named> frames = methods();
+        for (const Named& m : methods()) {
+            frames.push_back({ m.name + ", indirect", m.settings });
+            frames.back().settings.bounces = 2;
+            frames.push_back({ m.name + ", ambient occlusion", m.settings });
+            frames.back().settings.integrator = render::Integrator::AmbientOcclusion;
+        }
+        frames.push_back({ "unfiltered", methods()[1].settings });
+        frames.back().settings.filtering = render::Filtering::None;
+        frames.back().settings.bounces = 1;
+        frames.push_back({ "uniform counts", methods()[1].settings });
+        frames.back().settings.sampling = render::Sampling::Uniform;
+        frames.push_back({ "crop", frames[4].settings });
+        frames.back().settings.crop = { 21, 9, 50, 31 };
+        for (const Named& frame : frames) {
+            CAPTURE(frame.name);
+            const image::Window window = render::outputWindow(frame.settings);
+            const auto planes = [&](render::Renderer& by) {
+                by.render(frame.settings);
+                std::vector<float> out;
+                const render::Frame& f = by.frame();
+                for (const device::Buffer<float>* plane :
+                    { &f.beauty, &f.direct, &f.directNoisy, &f.indirect, &f.indirectNoisy }) {
+                    const std::vector<float> shown = pixels(by, *plane, window);
+                    out.insert(out.end(), shown.begin(), shown.end());
+                }
+                return out;
+            };
+            CHECK(sameBits(planes(other), planes(renderer)));
+        }
+    });
+}
+
+TEST_CASE("a frame that is stopped anywhere has no pixel that is no number")
+{
+    onEveryDevice([](const device::Device& device) {
+        const scene::Scene scene = richScene();
+        render::Options poisoned = renderOptions();
+        poisoned.poison = true;
+        render::Renderer renderer(scene, device, poisoned);
+        for (const Named& m : methods()) {
+            render::Settings settings = m.settings;
+            settings.bounces = 1;
+            int looks = 0;
+            std::atomic<bool> cancel { false };
+            const auto rendered = [&](int last) {
+                cancel = last == 0;
+                looks = 0;
+                render::Control control;
+                control.cancel = &cancel;
+                control.progress = [&](double) { cancel = cancel || ++looks >= last; };
+                return renderer.render(settings, control).complete;
+            };
+            CHECK(rendered(1 << 30));
+            const int all = looks;
+            CHECK(all > 4);
+            for (int last = 0; last < all; ++last) {
+                CAPTURE(m.name);
+                CAPTURE(last);
+                rendered(last);
+                const std::vector<float> image =
+                    pixels(renderer, renderer.frame().beauty, render::outputWindow(settings));
+                CHECK(std::ranges::all_of(image, [](float x) { return std::isfinite(x); }));
+            }
+        }
+    });
+}
+
 TEST_CASE("any crop has the bits of the whole image")
 {
     onEveryDevice([](const device::Device& device) {

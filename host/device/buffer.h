@@ -31,6 +31,8 @@ class Buffer {
     static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> && !std::is_same_v<T, bool>);
 
 public:
+    using Element = T;
+
     /// name: what errors and records call it. A count of 0 allocates one element, for kernels to have an argument.
     /// Throws Error if the device does not allocate so much at once.
     Buffer(const Device& device, std::size_t count, std::string name)

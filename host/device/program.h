@@ -17,7 +17,7 @@ struct BuildOptions {
     std::vector<std::pair<std::string, std::string>> defines; ///< name and value; no blanks or quotes in either
     bool fastMath = false; ///< -cl-fast-relaxed-math: other results, to be recorded with the image
     std::string kernelDir; ///< looked in before the embedded sources, for editing kernels; "" for none
-    GeneratedSources generated; ///< what includes name and no file holds
+    GeneratedSources generated {}; ///< what includes name and no file holds
 };
 
 /// The programs of one device, each built of one .cl file when first asked for: from memory, else from the binary

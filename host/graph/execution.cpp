@@ -221,7 +221,7 @@ void Execution::launch(Run& run, const PlannedPass& planned)
         const std::size_t items = pass.itemsOfTile, local = localSize(kernel, items);
         const std::size_t count = std::max<std::size_t>(pass.count({ run, planned.window }), run.rehearsal() ? 1 : 0);
         queue_.launchTiled(pass.name, pass.kind, kernel, count * (items / local), local, kernel.argCount() - 1,
-            run.rehearsal() ? 0.0 : pass.workUnits);
+            run.rehearsal() || !pass.workUnits ? 0.0 : pass.workUnits({ run, window }));
     } else {
         constexpr std::size_t listGroup = 16;
         const std::size_t items = run.rehearsal() ? pass.mostItems : pass.count({ run, window });
@@ -234,7 +234,9 @@ void Execution::launchRows(Run& run, device::Kernel& kernel, const PlannedPass& 
 {
     const Pass& pass = *planned.pass;
     const int across = pass.domain == Domain::Pixels ? 1 : static_cast<int>(WEDGE_BLOCK_PIXELS);
-    const Window& all = planned.window;
+    // Results beside the window are nobody's, and may be of nothing.
+    const Window all { planned.window.x0 / across * across, planned.window.y0,
+        std::min(plan_.graph.image().x1, (planned.window.x1 + across - 1) / across * across), planned.window.y1 };
     const std::size_t columns = static_cast<std::size_t>((all.width() + across - 1) / across);
     const std::size_t local = localSize(kernel, 64), localX = std::min<std::size_t>(local, across == 1 ? 16 : 4);
     const int band = std::max(16, bandPixels / std::max(1, all.width()));

@@ -103,7 +103,8 @@ Resource& Graph::checkedUse(const Pass& pass, const Argument& use)
         refuse(name, "which nothing has written before, on a condition alone");
     }
     for (const Argument& other : pass.arguments) {
-        if (&other != &use && other.isUse() && other.version.resource == version.resource) {
+        const bool changed = use.access != Access::Read || other.access != Access::Read;
+        if (&other != &use && other.isUse() && other.version.resource == version.resource && changed) {
             refuse(name, "which it also uses otherwise: update it in place");
         }
     }

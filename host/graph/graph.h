@@ -51,9 +51,12 @@ enum class Access {
     Update, ///< reads and writes: one memory object
 };
 
-/// How far from a pixel its neighbours are read, in pixels.
-using Reach = int;
-constexpr Reach wholeImage = std::numeric_limits<int>::max();
+/// How far from a pixel its neighbours are read, in pixels to both sides.
+struct Reach {
+    int x = 0, y = 0;
+};
+constexpr Reach wholeImage { std::numeric_limits<int>::max(), std::numeric_limits<int>::max() };
+constexpr Reach around(int pixels) { return { pixels, pixels }; }
 
 /// What the launch of a kernel covers: of its pass's window one band of rows, or nothing in rehearsals.
 struct Launch {
@@ -61,14 +64,15 @@ struct Launch {
     Window window;
 };
 
-/// One argument of a pass's kernel: value(), made(), reads(), writes() and updates() make them.
+/// One argument of a pass's kernel, made by value() and the functions after it.
 struct Argument {
     std::string name;
     std::string type = {}; ///< of values, OpenCL's
     std::function<std::vector<std::byte>(const Launch&)> value = {}; ///< null: a use
     Access access = Access::Read;
     Version version = {}; ///< read, or made
-    Reach reach = 0;
+    Reach reach = {};
+    bool tally = false; ///< an update for whose sake no pass covers a pixel
     Version* handle = nullptr; ///< of who declares what changes a resource: becomes the new version
 
     bool isUse() const { return !value; }
@@ -94,8 +98,19 @@ Argument value(std::string name, const T& constant)
     return made(std::move(name), [constant](const Launch&) { return constant; });
 }
 
+/// Memory that no pass of any graph changes. type: what its pointer points to, OpenCL's.
+inline Argument outside(std::string name, std::string_view type, const cl::Buffer& memory)
+{
+    // Holds it: drivers need not.
+    return { std::move(name), "__global const " + std::string(type) + " *", [memory](const Launch&) {
+                const cl_mem handle = memory();
+                const auto* bytes = reinterpret_cast<const std::byte*>(&handle);
+                return std::vector<std::byte>(bytes, bytes + sizeof(handle));
+            } };
+}
+
 /// What the pixel and its neighbours within `reach` pixels hold, or a list.
-inline Argument reads(std::string name, const Version& version, Reach reach = 0)
+inline Argument reads(std::string name, const Version& version, Reach reach = {})
 {
     return { std::move(name), {}, {}, Access::Read, version, reach };
 }
@@ -103,18 +118,24 @@ inline Argument reads(std::string name, const Version& version, Reach reach = 0)
 /// All of the window's pixels, or of the list, anew.
 inline Argument writes(std::string name, Version& version)
 {
-    return { std::move(name), {}, {}, Access::Write, version, 0, &version };
+    return { std::move(name), {}, {}, Access::Write, version, {}, false, &version };
 }
 
 /// Some of them, or after reading them: in place.
 inline Argument updates(std::string name, Version& version)
 {
-    return { std::move(name), {}, {}, Access::Update, version, 0, &version };
+    return { std::move(name), {}, {}, Access::Update, version, {}, false, &version };
+}
+
+/// In place, where the pass is run for the sake of something else: numbers that say what it cost.
+inline Argument tallies(std::string name, Version& version)
+{
+    return { std::move(name), {}, {}, Access::Update, version, {}, true, &version };
 }
 
 /// What a pass is launched over.
 enum class Domain {
-    Blocks, ///< one item for 16 pixels of a row of the window
+    Blocks, ///< one item for 16 pixels of a row of the window, which for that begins and ends at such blocks
     Pixels, ///< one item a pixel
     Tiles, ///< `count` tiles of itemsOfTile items, in batches of bounded time; the kernel's last argument, added to
            ///< those of the pass, is the first group of a batch
@@ -136,7 +157,7 @@ struct Pass {
     std::function<std::size_t(const Launch&)> count = {}; ///< of tiles or items
     std::size_t itemsOfTile = 0;
     std::size_t mostItems = 0; ///< of a list: what rehearsals launch
-    double workUnits = 0.0; ///< of the frame's progress, tiles
+    std::function<double(const Launch&)> workUnits = {}; ///< of the frame's progress: tiles
     std::function<void(Run&)> step = {}; ///< of the host
     bool everywhere = false; ///< covers the whole image whatever part of its results is wanted
     bool always = false; ///< is run although nobody wants what it makes
@@ -150,6 +171,7 @@ struct Pass {
 struct Loop {
     std::string name;
     std::function<std::size_t(Run&)> count; ///< asked when its turn comes
+    bool repeats = true; ///< false: count is 0 or 1, so that nothing is carried around
     int parent = -1; ///< the loop around it
     std::size_t first = 0, end = 0; ///< its passes
 };
@@ -205,7 +227,17 @@ public:
     template <class Body>
     void loop(std::string name, std::function<std::size_t(Run&)> count, const Body& body)
     {
-        enter({ std::move(name), std::move(count), loop_, passes_.size(), 0 });
+        enter({ std::move(name), std::move(count), true, loop_, passes_.size(), 0 });
+        body();
+        leave();
+    }
+    /// Runs body() once, now, to declare what is run once where condition(run) is true when its turn comes, and else is
+    /// left out: what it changes then is what was there before, or nothing known.
+    template <class Body>
+    void only(std::string name, std::function<bool(Run&)> condition, const Body& body)
+    {
+        const auto count = [condition = std::move(condition)](Run& run) { return condition(run) ? 1u : 0u; };
+        enter({ std::move(name), count, false, loop_, passes_.size(), 0 });
         body();
         leave();
     }

@@ -33,7 +33,7 @@ std::string parameterOf(const Graph& graph, const Pass& pass, const Argument& ar
         throw std::logic_error(
             fmt::format("pass \"{}\" has a value \"{}\" of a type without a name", pass.name, argument.name));
     }
-    return fmt::format("const {} {}", argument.type, argument.name);
+    return fmt::format("{}{}{}", argument.type.ends_with('*') ? "" : "const ", argument.type + " ", argument.name);
 }
 
 } // namespace
@@ -47,6 +47,9 @@ std::string interfaceText(const Graph& graph, const Pass& pass)
             continue;
         }
         const Format& format = graph.resources()[argument.version.resource].format;
+        if (format.value.empty()) {
+            continue;
+        }
         formats += formatText(format);
         if (argument.access != Access::Write) {
             macros += macro("LOAD_" + argument.name, "(size, at)",

@@ -1,24 +1,20 @@
 #include "host/graph/plan.h"
 
-#include "kernels/shared/frame.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
+#include <map>
 
 namespace wedge::graph {
 
 Window reached(const Window& window, Reach reach, const Window& image)
 {
-    if (reach == wholeImage || window.empty()) {
-        return window.empty() ? window : image;
+    if (window.empty()) {
+        return window;
     }
-    constexpr int block = static_cast<int>(WEDGE_BLOCK_PIXELS);
-    const auto grown = [&](int end) { return end > std::numeric_limits<int>::max() - reach ? end : end + reach; };
-    const int left = std::max(0, window.x0 - reach), right = std::min(grown(window.x1), image.x1);
-    return { left / block * block, std::max(0, window.y0 - reach),
-        std::min(image.x1, (right + block - 1) / block * block), std::min(image.y1, grown(window.y1)) };
+    // Of what lies inside the image nothing overflows.
+    return { window.x0 - std::min(reach.x, window.x0), window.y0 - std::min(reach.y, window.y0),
+        window.x1 + std::min(reach.x, image.x1 - window.x1), window.y1 + std::min(reach.y, image.y1 - window.y1) };
 }
 
 /// Finds the windows over which each version is wanted, from the end backwards and around loops until nothing grows.
@@ -29,6 +25,7 @@ public:
         , wanted_(graph.resources().size())
         , windows_(graph.passes().size())
     {
+        findCarried();
         for (std::size_t i = 0; i < graph.resources().size(); ++i) {
             const Resource& resource = graph.resources()[i];
             wanted_[i].resize(resource.newest + 1);
@@ -71,7 +68,7 @@ private:
         std::optional<Window> made;
         bool planes = false;
         for (const Argument& use : pass.arguments) {
-            if (use.isUse() && use.access != Access::Read) {
+            if (use.isUse() && use.access != Access::Read && !use.tally) {
                 const std::optional<Window>& window = wanted_[use.version.resource][use.version.number];
                 planes = planes || graph_.resources()[use.version.resource].plane;
                 made = window ? window->with(made.value_or(*window)) : made;
@@ -88,6 +85,12 @@ private:
         const Pass& pass = graph_.passes()[index];
         windows_[index] = madeBy(pass);
         if (!windows_[index]) {
+            for (const Argument& use : pass.arguments) { // what it would have added to stays as it is
+                if (use.tally && wanted_[use.version.resource][use.version.number]) {
+                    read(pass, use.version.resource, use.version.number - 1,
+                        *wanted_[use.version.resource][use.version.number]);
+                }
+            }
             return;
         }
         for (const Argument& use : pass.arguments) {
@@ -113,31 +116,39 @@ private:
             if (graph_.holds(loop, graph_.resources()[resource].loop)) {
                 break; // the body's own
             }
-            const auto [atStart, atEnd] = versionsAround(graph_.loops()[static_cast<std::size_t>(loop)], resource);
-            if (number == atStart && atEnd != atStart) {
-                want(resource, atEnd, window);
+            const auto& carried = carried_[static_cast<std::size_t>(loop)];
+            const auto found = carried.find(resource);
+            if (found != carried.end() && found->second.atStart == number) {
+                want(resource, found->second.atEnd, window);
             }
         }
     }
 
-    /// The resource's version when the loop's body starts first, and when it ends.
-    std::pair<std::uint32_t, std::uint32_t> versionsAround(const Loop& loop, std::uint32_t resource) const
+    /// A resource's version when a loop's body starts first, and when it ends.
+    struct Carried {
+        std::uint32_t atStart, atEnd;
+    };
+
+    void findCarried()
     {
-        std::uint32_t first = graph_.resources()[resource].imported ? 1 : 0, last = first;
-        for (std::size_t i = 0; i < loop.end; ++i) {
-            for (const Argument& use : graph_.passes()[i].arguments) {
-                if (use.isUse() && use.version.resource == resource && use.access != Access::Read) {
-                    last = use.version.number;
-                    first = i < loop.first ? last : first;
+        for (const Loop& loop : graph_.loops()) {
+            std::map<std::uint32_t, Carried>& carried = carried_.emplace_back();
+            for (std::size_t i = loop.first; loop.repeats && i < loop.end; ++i) {
+                for (const Argument& use : graph_.passes()[i].arguments) {
+                    if (use.isUse() && use.access != Access::Read) {
+                        const std::uint32_t number = use.version.number;
+                        carried.try_emplace(use.version.resource, Carried { number - 1, number }).first->second.atEnd =
+                            number;
+                    }
                 }
             }
         }
-        return { first, last };
     }
 
     const Graph& graph_;
     std::vector<std::vector<std::optional<Window>>> wanted_; ///< of each resource's versions
     std::vector<std::optional<Window>> windows_; ///< of each pass
+    std::vector<std::map<std::uint32_t, Carried>> carried_; ///< of each loop, by resource
     bool grew_ = false;
 };
 
@@ -159,13 +170,14 @@ Plan::Plan(const Graph& ofGraph, std::uint64_t alignment, std::uint64_t mostSlab
             if (!use.isUse()) {
                 continue;
             }
-            // All through the outermost of the loops that it comes into from outside.
+            // All through the outermost of the loops that it is carried around.
             std::size_t first = i, last = i;
             for (int loop = passes[i].pass->loop;
                  loop >= 0 && !graph.holds(loop, graph.resources()[use.version.resource].loop);
                  loop = graph.loops()[static_cast<std::size_t>(loop)].parent) {
-                for (; first > 0 && inside(first - 1, loop); --first) { }
-                for (; last + 1 < passes.size() && inside(last + 1, loop); ++last) { }
+                const bool repeats = graph.loops()[static_cast<std::size_t>(loop)].repeats;
+                for (; repeats && first > 0 && inside(first - 1, loop); --first) { }
+                for (; repeats && last + 1 < passes.size() && inside(last + 1, loop); ++last) { }
             }
             live(use.version.resource, first, last);
         }

@@ -35,8 +35,7 @@ struct Plan {
     std::vector<std::uint64_t> slabs; ///< bytes of each piece of memory to allocate
 };
 
-/// window grown by `reach` pixels on each side, x then rounded outwards to whole blocks of 16 pixels, inside the image
-/// (x1 may end inside a block).
+/// A window inside the image, grown by `reach` pixels to each side and still inside.
 Window reached(const Window& window, Reach reach, const Window& image);
 
 } // namespace wedge::graph

@@ -1,7 +1,6 @@
 #include "host/render/distributed_frame.h"
 
 #include "host/render/filters/gaussian.h"
-#include "host/render/sample_counts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -55,6 +55,13 @@ std::uint64_t rayCounters(const PlaneLayout& layout, const FrameShape& shape)
     return shape.lean ? WEDGE_WAVE_RECEIVERS : layout.size;
 }
 
+/// In the place of planes that a frame does not have.
+template <class T>
+device::Buffer<T> none()
+{
+    return device::Buffer<T>::over(cl::Buffer(), 0, "nothing");
+}
+
 /// Of a pixel of a term.
 std::uint64_t deviationBytes(const TermShape& shape)
 {
@@ -79,8 +86,7 @@ void Frame::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const Fram
             { "pixel size", analysis }, { "diffuse", 3 * kept }, { "specular", 3 * kept }, { "emission", 3 },
             { "gloss", shape.packed() ? 0 : analysis }, { "geometric normal", kept }, { "object id", 1 },
             { "beauty", 3 * kept }, { "direct", 3 * kept }, { "direct noisy", 3 * kept }, { "indirect", 3 * kept },
-            { "indirect noisy", 3 * kept }, { "samples", kept }, { "indirect samples", kept },
-            { "direct deviation", shape.ofParts() }, { "indirect deviation", shape.ofParts() } });
+            { "indirect noisy", 3 * kept }, { "samples", kept }, { "indirect samples", kept } });
     plan.addItems("rays", rayCounters(layout, shape), 2 * 4);
     if (shape.distributed) {
         planPlanes(plan, layout,
@@ -114,33 +120,27 @@ Frame::Frame(
     , directNoisy(device, shape.kept() * 3 * planes.size, "direct noisy")
     , indirect(shape.lean ? emission : device::Buffer<float>(device, 3 * planes.size, "indirect"))
     , indirectNoisy(device, shape.kept() * 3 * planes.size, "indirect noisy")
-    , directDeviation(device, shape.ofParts() * planes.size, "direct deviation")
-    , indirectDeviation(device, shape.ofParts() * planes.size, "indirect deviation")
+    , directDeviation(none<float>())
+    , indirectDeviation(none<float>())
     , samples(device, shape.kept() * planes.size, "samples")
     , indirectSamples(device, shape.kept() * planes.size, "indirect samples")
     , receiverPixels(device, 0, "pixels of receivers")
     , receiverViews(device, 0, "views of receivers")
     , receiverTimes(device, 0, "times of receivers")
-    , primaryTaken(device, distributed ? planes.size : 0, "primary samples taken")
-    , hits(device, distributed ? planes.size : 0, "hits")
-    , confusion(shape.packed()
-              ? hits.part<float>(0, planes.size, "circles of confusion")
-              : device::Buffer<float>(device, distributed ? 2 * planes.size : 0, "circles of confusion"))
+    , primaryTaken(device, planes.size, "primary samples taken")
+    , hits(device, planes.size, "hits")
+    , confusion(shape.packed() ? hits.part<float>(0, planes.size, "circles of confusion")
+                               : device::Buffer<float>(device, 2 * planes.size, "circles of confusion"))
     , motion(device, shape.motionPlanes() * planes.size, "motion")
-    , lensWidth(
-          shape.lean ? pixelSize : device::Buffer<float>(device, distributed ? planes.size : 0, "lens filter width"))
-    , motionWidth(shape.packed()
-              ? motion
-              : device::Buffer<float>(device, distributed ? shape.kept() * planes.size : 0, "motion filter width"))
-    , motionDirection(shape.packed()
-              ? motion
-              : device::Buffer<float>(device, distributed ? shape.kept() * 2 * planes.size : 0, "motion direction"))
-    , emissionSquares(device, distributed ? shape.ofAnalysis() * planes.size : 0, "emission squares")
-    , primaryDemand(
-          shape.lean ? emissionSquares : device::Buffer<float>(device, distributed ? planes.size : 0, "primary demand"))
-    , primaryWanted(shape.packed()
-              ? primaryDemand.part<std::uint32_t>(0, planes.size, "primary samples wanted")
-              : device::Buffer<std::uint32_t>(device, distributed ? planes.size : 0, "primary samples wanted"))
+    , lensWidth(shape.lean ? pixelSize : device::Buffer<float>(device, planes.size, "lens filter width"))
+    , motionWidth(
+          shape.packed() ? motion : device::Buffer<float>(device, shape.kept() * planes.size, "motion filter width"))
+    , motionDirection(
+          shape.packed() ? motion : device::Buffer<float>(device, shape.kept() * 2 * planes.size, "motion direction"))
+    , emissionSquares(device, shape.ofAnalysis() * planes.size, "emission squares")
+    , primaryDemand(shape.lean ? emissionSquares : device::Buffer<float>(device, planes.size, "primary demand"))
+    , primaryWanted(shape.packed() ? primaryDemand.part<std::uint32_t>(0, planes.size, "primary samples wanted")
+                                   : device::Buffer<std::uint32_t>(device, planes.size, "primary samples wanted"))
     , delta(device, shape.ofDeltaLights() * 3 * planes.size, "point lights")
     , deltaSquares(device, shape.ofDeltaLights() * planes.size, "squares of point lights")
 {
@@ -154,17 +154,56 @@ Frame::Frame(
     clear(queue);
 }
 
+Frame::Frame(const PlaneLayout& planes)
+    : layout(planes)
+    , distributed(false)
+    , position(none<float>())
+    , normal(none<float>())
+    , origin(none<float>())
+    , depth(none<float>())
+    , pixelSize(none<float>())
+    , diffuse(none<float>())
+    , specular(none<float>())
+    , emission(none<float>())
+    , gloss(none<float>())
+    , geometric(none<std::uint32_t>())
+    , objectId(none<std::uint32_t>())
+    , rays(none<std::uint32_t>())
+    , pathRays(none<std::uint32_t>())
+    , beauty(none<float>())
+    , direct(none<float>())
+    , directNoisy(none<float>())
+    , indirect(none<float>())
+    , indirectNoisy(none<float>())
+    , directDeviation(none<float>())
+    , indirectDeviation(none<float>())
+    , samples(none<std::uint32_t>())
+    , indirectSamples(none<std::uint32_t>())
+    , receiverPixels(none<std::uint32_t>())
+    , receiverViews(none<std::uint32_t>())
+    , receiverTimes(none<float>())
+    , primaryTaken(none<std::uint32_t>())
+    , hits(none<std::uint32_t>())
+    , confusion(none<float>())
+    , motion(none<float>())
+    , lensWidth(none<float>())
+    , motionWidth(none<float>())
+    , motionDirection(none<float>())
+    , emissionSquares(none<float>())
+    , primaryDemand(none<float>())
+    , primaryWanted(none<std::uint32_t>())
+    , delta(none<float>())
+    , deltaSquares(none<float>())
+{
+}
+
 void Frame::clear(device::TimedQueue& queue)
 {
-    for (device::Buffer<float>* b :
-        { &direct, &directNoisy, &indirect, &indirectNoisy, &directDeviation, &indirectDeviation }) {
+    for (device::Buffer<float>* b : { &direct, &directNoisy, &indirect, &indirectNoisy }) {
         b->fill(queue, 0.0f);
     }
     for (device::Buffer<std::uint32_t>* b : { &samples, &indirectSamples, &rays, &pathRays }) {
         b->fill(queue, 0u);
-    }
-    if (!distributed) {
-        return;
     }
     for (device::Buffer<float>* b : { &position, &normal, &pixelSize, &depth, &diffuse, &specular, &emission, &gloss,
              &confusion, &motion, &lensWidth, &motionWidth, &delta, &deltaSquares, &emissionSquares }) {
@@ -184,14 +223,14 @@ bool TermShape::holds(const TermShape& other) const
 {
     return sums >= other.sums && values >= other.values && extremes >= other.extremes && analysed >= other.analysed
         && distributed >= other.distributed && published >= other.published && lean == other.lean
-        && light == other.light && parts >= other.parts;
+        && light == other.light;
 }
 
 TermShape TermShape::with(const TermShape& other) const
 {
     return { std::max(sums, other.sums), std::max(values, other.values), std::max(extremes, other.extremes),
         analysed || other.analysed, distributed || other.distributed, published || other.published, lean || other.lean,
-        light || other.light, parts || other.parts };
+        light || other.light };
 }
 
 std::uint64_t TermShape::textureBytes() const
@@ -201,8 +240,7 @@ std::uint64_t TermShape::textureBytes() const
 
 std::uint64_t TermShape::valueBytes() const
 {
-    const std::uint64_t planes = std::uint64_t { values } * (parts ? 2 : 1);
-    return packed() ? (shared::valueBits(1, light) + 7) / 8 : planes * sizeof(float);
+    return packed() ? (shared::valueBits(1, light) + 7) / 8 : values * sizeof(float);
 }
 
 void Term::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const TermShape& shape)
@@ -238,8 +276,7 @@ Term::Term(const device::Device& device, device::TimedQueue& queue, const Frame&
     , squares(device, planes.measured() * frame.layout.size, "squares")
     , textureSquares(device, planes.packed() ? 0 : planes.measured() * frame.layout.size, "texture squares")
     , beta(planes.lean ? plain : device::Buffer<float>(device, planes.analysed ? frame.layout.size : 0, "filter width"))
-    , demand(
-          planes.lean ? squares : device::Buffer<float>(device, planes.distributed ? frame.layout.size : 0, "demand"))
+    , demand(planes.lean ? squares : device::Buffer<float>(device, frame.layout.size, "demand"))
     , wanted(planes.packed() ? demand.part<std::uint32_t>(0, frame.layout.size, "samples wanted")
                              : device::Buffer<std::uint32_t>(device, frame.layout.size, "samples wanted"))
     , radiance(device, planes.published ? 3 * frame.layout.size : 0, "radiance of the term")
@@ -277,7 +314,6 @@ Scratch::Scratch(
     , wideRows(rowsFiltered)
     , compared(spread)
     , narrowCounts(rowsSpread)
-    , deviation(logs.part<float>(layout.size, layout.size, "deviation"))
     , weights(logs.part<float>(2 * layout.size, layout.size, "weights"))
     , motionWidth(device, 0, "motion filter width")
     , motionDirection(device, 0, "motion direction")
@@ -285,12 +321,6 @@ Scratch::Scratch(
     , ofAllTextures(spread)
     , bounds(device, 6 * WEDGE_EXTENT_STRIPES, "visible bounds")
     , extent(device, 1, "visible extent")
-    , histogramCounts(device, WEDGE_DEMAND_STRIPES * WEDGE_DEMAND_BINS, "demand histogram")
-    , histogramPixels(device, WEDGE_DEMAND_STRIPES, "shaded pixels")
-    , binCounts(device, WEDGE_DEMAND_BINS, "demand bins")
-    , histogramSums(device, WEDGE_DEMAND_STRIPES * WEDGE_DEMAND_BINS, "demand sums")
-    , binSums(device, WEDGE_DEMAND_BINS, "demand bin sums")
-    , countScale(device, 1, "count scale")
 {
     for (device::Buffer<float>* b :
         { &rowsFiltered, &filtered, &rowsEffective, &effective, &logs, &rowsSpread, &spread, &demand }) {
@@ -322,7 +352,6 @@ Scratch::Scratch(const device::Device& device, const PlaneLayout& layout, const 
     , wideRows(slopes)
     , compared(memory.part<float>(layout.size, layout.size, "width to compare with"))
     , narrowCounts(memory.part<float>(5 * layout.size, layout.size, "equal samples of narrow filters"))
-    , deviation(device, 0, "deviation")
     , weights(narrowCounts)
     , motionWidth(memory.part<float>(layout.size, layout.size, "motion filter width"))
     , motionDirection(demand)
@@ -330,12 +359,6 @@ Scratch::Scratch(const device::Device& device, const PlaneLayout& layout, const 
     , ofAllTextures(memory.part<float>(5 * layout.size, layout.size, "variance of textures"))
     , bounds(device, 6 * WEDGE_EXTENT_STRIPES, "visible bounds")
     , extent(device, 1, "visible extent")
-    , histogramCounts(device, 0, "demand histogram")
-    , histogramPixels(device, 0, "shaded pixels")
-    , binCounts(device, 0, "demand bins")
-    , histogramSums(device, 0, "demand sums")
-    , binSums(device, 0, "demand bin sums")
-    , countScale(device, 0, "count scale")
 {
 }
 

@@ -45,7 +45,6 @@ struct FrameShape {
     std::uint64_t kept() const { return lean ? 0 : 1; } ///< of no use to lean frames
     std::uint64_t ofAnalysis() const { return !lean || analysed ? 1 : 0; }
     std::uint64_t ofMotion() const { return distributed && (!lean || (shutter && analysed)) ? 1 : 0; }
-    std::uint64_t ofParts() const { return distributed ? 0 : 1; }
     std::uint64_t ofDeltaLights() const { return distributed && (!lean || deltaLights) ? 1 : 0; }
 };
 
@@ -57,6 +56,9 @@ public:
     static void plan(device::MemoryPlan& plan, const PlaneLayout& layout, const FrameShape& shape);
 
     Frame(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout, const FrameShape& shape);
+
+    /// Of pixels that are the receivers, whose planes are still to be filled in.
+    explicit Frame(const PlaneLayout& layout);
 
     PlaneLayout layout;
     FrameShape shape;
@@ -120,7 +122,6 @@ struct TermShape {
     bool published = false; ///< of those, with the radiance of the term alone
     bool lean = false; ///< of those, of a lean frame
     bool light = false; ///< of those, of a light: what packed planes have fewer bits of
-    bool parts = false; ///< values are followed by those of the first part of the samples
 
     /// Whether buffers of this shape serve terms of the other.
     bool holds(const TermShape& other) const;
@@ -198,14 +199,12 @@ public:
     device::Buffer<float> error; ///< of taking texture and irradiance apart
     device::Buffer<float> visibility; ///< of a light, or of indirect light one number for irradiance, to be filtered
     /// Of widening.h: rows filtered with pixels' own widths, then squares; with the wider ones; these, then variances;
-    /// equal samples of narrowRows; of samples, where pixels are the receivers; what values are worth, in lean frames
+    /// equal samples of narrowRows; what values are worth, in lean frames
     /// in the place of narrowCounts.
-    device::Buffer<float> narrowRows, wideRows, compared, narrowCounts, deviation, weights;
+    device::Buffer<float> narrowRows, wideRows, compared, narrowCounts, weights;
     device::Buffer<float> motionWidth, motionDirection; ///< of packed frames, for the demands; before any gather
     device::Buffer<float> ofTexture, ofAllTextures; ///< variance of one term's, and of all that is not irradiance
     device::Buffer<float> bounds, extent; ///< of what the camera sees, see reflectors.cl
-    device::Buffer<std::uint32_t> histogramCounts, histogramPixels, binCounts; ///< see counts.cl
-    device::Buffer<float> histogramSums, binSums, countScale;
 };
 
 /// Sets the rectangle x0, y0, x1, y1 that a kernel's parameters have to window, which lies inside the image.

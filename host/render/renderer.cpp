@@ -1,5 +1,7 @@
 #include "host/render/renderer.h"
 
+#include "host/render/pixel_frame.h"
+
 #include "host/device/driver_cache.h"
 #include "host/render/distributed_frame.h"
 #include "host/render/effects/indirect.h"
@@ -32,10 +34,7 @@ TermShape termShape(const Settings& settings, bool specular)
 }
 
 /// Planes of what is filtered at once: a term's value, or an image.
-std::uint32_t filteredPlanes(const Settings& settings, bool specular, bool distributed)
-{
-    return std::max(termShape(settings, specular).values, distributed ? 3u : 0u);
-}
+constexpr std::uint32_t filteredPlanes = 3;
 
 /// Slopes of lights, and where things move what their shadows' motions add up to.
 std::uint32_t lightExtremes(const scene::Scene& scene) { return scene::geometryMoves(scene) ? 6 : 2; }
@@ -76,11 +75,6 @@ TermShape receiverShape(const Settings& settings, const scene::Scene& scene, boo
 std::vector<TermShape> termShapes(
     const Settings& settings, const scene::Scene& scene, bool specular, const FrameShape& frame)
 {
-    if (!frame.distributed) {
-        TermShape shape = termShape(settings, specular);
-        shape.parts = settings.method == Method::AxisAligned;
-        return { shape };
-    }
     TermShape shape { 0, 3, 3, needsAnalysis(settings), true, false, frame.lean, false };
     shape.published = shape.analysed && settings.distributed.published;
     TermShape light = shape;
@@ -103,6 +97,19 @@ std::uint64_t leanBytes(const PlaneLayout& layout, const FrameShape& frame, cons
 {
     const std::uint64_t scratch = frame.analysed ? Scratch::leanPlanes * layout.size * sizeof(float) : 0;
     return std::max(scratch, Waves::bytes(receivers, frame.deltaLights));
+}
+
+/// A plane of which the window's pixels alone are known; the others are 0.
+std::vector<float> onlyInside(const image::Window& window, const PlaneLayout& layout, const std::vector<float>& plane)
+{
+    std::vector<float> out(plane.size(), 0.0f);
+    for (int y = window.y0; y < window.y1; ++y) {
+        const std::size_t row =
+            shared::pixelIndex(static_cast<std::uint32_t>(window.x0), static_cast<std::uint32_t>(y), layout.stride);
+        std::copy_n(plane.begin() + static_cast<std::ptrdiff_t>(row), window.width(),
+            out.begin() + static_cast<std::ptrdiff_t>(row));
+    }
+    return out;
 }
 
 device::BuildOptions programOptions(const scene::Scene& scene, const Options& options, Traversal traversal)
@@ -145,17 +152,25 @@ Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Opti
     , queue_(device, options_.blameLaunches)
     , programs_(std::make_unique<device::ProgramLibrary>(device, programOptions(scene, options_, hierarchy_.traversal)))
     , passes_(std::make_unique<Passes>(*programs_, queue_, packetSize(hierarchy_.traversal)))
+    , kernels_(*programs_)
+    , memory_(device_)
+    , unused_(device::Buffer<std::uint32_t>(device_, 0, "nothing").cl())
 {
 }
 
 Renderer::~Renderer() = default;
 
-device::MemoryPlan Renderer::plan(
-    const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings, bool keepLayers)
+device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings,
+    bool keepLayers, std::uint64_t mostBytes)
 {
     const PlaneLayout layout(settings.width, settings.height);
     device::MemoryPlan plan;
     DeviceScene::plan(plan, scene, hierarchy);
+    if (!isDistributed(settings, scene)) {
+        const PixelFrame frame(scene, nullptr, settings, packetSize(hierarchy.traversal), cl::Buffer(), keepLayers);
+        graph::Plan(frame.graph(), device::partAlignment, mostBytes).addTo(plan);
+        return plan;
+    }
     const bool specular = hasSpecular(scene);
     const FrameShape frame = frameShape(settings, scene, keepLayers);
     Frame::plan(plan, layout, frame);
@@ -168,16 +183,14 @@ device::MemoryPlan Renderer::plan(
         }
     }
     const TermShape receivers = receiverShape(settings, scene, specular);
-    if (frame.distributed) {
-        Waves::planTiles(plan, layout);
-    }
+    Waves::planTiles(plan, layout);
     if (frame.lean) {
         plan.add("receivers, or analysis and filters", leanBytes(layout, frame, receivers));
-    } else if (frame.distributed) {
+    } else {
         plan.add("receivers", Waves::bytes(receivers, true));
     }
     if (needsAnalysis(settings) && !frame.lean) {
-        Scratch::plan(plan, layout, filteredPlanes(settings, specular, frame.distributed));
+        Scratch::plan(plan, layout, filteredPlanes);
     }
     return plan;
 }
@@ -189,6 +202,15 @@ void Renderer::allocate(const Settings& settings, bool keepLayers)
     if (!deviceScene_) {
         deviceScene_ = std::make_unique<DeviceScene>(scene_, hierarchy_, device_, queue_);
     }
+    if (!isDistributed(settings, scene_)) {
+        terms_.clear();
+        halves_.reset();
+        waves_.reset();
+        scratch_.reset();
+        return; // what is needed is allocated with the graph
+    }
+    memory_.hold({});
+    pixelFrame_.reset();
     const PlaneLayout layout(settings.width, settings.height);
     const FrameShape frame = frameShape(settings, scene_, keepLayers);
     if (!frame_ || !(frame_->layout == layout) || !(frame_->shape == frame)) {
@@ -226,14 +248,13 @@ void Renderer::allocate(const Settings& settings, bool keepLayers)
 void Renderer::allocateWaves(const Settings& settings, const PlaneLayout& layout)
 {
     const TermShape receivers = receiverShape(settings, scene_, deviceScene_->specular);
-    if (isDistributed(settings, scene_) && (!waves_ || !waves_->shape.holds(receivers))) {
+    if (!waves_ || !waves_->shape.holds(receivers)) {
         waves_.reset();
         waves_ = std::make_unique<Waves>(device_, layout, receivers);
     }
-    const std::uint32_t planes = filteredPlanes(settings, deviceScene_->specular, isDistributed(settings, scene_));
-    if (needsAnalysis(settings) && (!scratch_ || scratch_->values < planes)) {
+    if (needsAnalysis(settings) && (!scratch_ || scratch_->values < filteredPlanes)) {
         scratch_.reset();
-        scratch_ = std::make_unique<Scratch>(device_, queue_, layout, planes);
+        scratch_ = std::make_unique<Scratch>(device_, queue_, layout, filteredPlanes);
     }
     if (!scratch_) {
         scratch_ = std::make_unique<Scratch>(device_, queue_, PlaneLayout(1, 1), 0);
@@ -296,7 +317,7 @@ FrameStatistics Renderer::render(const Settings& settings, const Control& contro
     const Clock::time_point start = Clock::now();
     // Of distributed frames waves are finished first: pixels without some of the terms would be wrong, not missing.
     stop_ = &stop;
-    queue_.setCancelFlag(frame_->distributed ? nullptr : &stop);
+    queue_.setCancelFlag(nullptr);
     queue_.setProgress([&](double done) {
         if ((control.cancel != nullptr && control.cancel->load())
             || (control.timeLimitSeconds > 0 && secondsSince(start) > control.timeLimitSeconds)) {
@@ -322,7 +343,8 @@ FrameStatistics Renderer::completed(const Settings& settings, FrameStatistics st
     for (const device::PassRecord& record : statistics.passes) {
         statistics.deviceMilliseconds += record.milliseconds;
     }
-    statistics.memoryBytes = plan(settings, frame_->distributed && !frame_->shape.lean).total();
+    const bool layers = frame_->distributed ? !frame_->shape.lean : pixelFrame_->keepsLayers();
+    statistics.memoryBytes = plan(settings, layers).total();
     countWork(settings, statistics);
     return statistics;
 }
@@ -331,65 +353,53 @@ TermContext Renderer::contextOf(const Settings& settings)
 {
     const image::Window output = outputWindow(settings);
     const image::Window whole { 0, 0, settings.width, settings.height };
-    // Whether the output's pixels fall back depends on filtered ones around.
-    const bool fallsBack = !frame_->distributed && usesFallback(settings);
-    const int around = fallsBack ? WEDGE_SHRINK_REACH : 0;
-    const image::Window filtered = fallsBack ? blockWindow(output, around, settings.width, settings.height) : output;
     image::Window sampled = needsAnalysis(settings)
-        ? blockWindow(output, around + filterReach(settings, scene_), settings.width, settings.height)
+        ? blockWindow(output, filterReach(settings, scene_), settings.width, settings.height)
         : output;
-    if (frame_->distributed) {
-        // Tiles are to be those of the whole image.
-        constexpr int tile = static_cast<int>(WEDGE_TILE);
-        sampled = { sampled.x0 / tile * tile, sampled.y0 / tile * tile, sampled.x1, sampled.y1 };
-    }
+    // Tiles are to be those of the whole image.
+    constexpr int tile = static_cast<int>(WEDGE_TILE);
+    sampled = { sampled.x0 / tile * tile, sampled.y0 / tile * tile, sampled.x1, sampled.y1 };
     return { *passes_, *deviceScene_, *frame_, *scratch_, settings,
         frameParams(scene_, frame_->layout, whole, settings.seed),
-        frameParams(scene_, frame_->layout, sampled, settings.seed), filtered,
+        frameParams(scene_, frame_->layout, sampled, settings.seed), output,
         scene::geometryMoves(scene_) || scene::cameraMoves(scene_) };
 }
 
 bool Renderer::renderPasses(const Settings& settings, bool keepLayers)
 {
+    if (!isDistributed(settings, scene_)) {
+        return renderPixels(settings, keepLayers);
+    }
     frame_->clear(queue_);
     termPlanes_.clear();
-    const bool lit = settings.integrator == Integrator::Path;
-    const TermContext context = contextOf(settings);
-    const image::Window output = outputWindow(settings);
-    if (frame_->distributed) {
-        return distributedPasses(context, keepLayers);
+    return distributedPasses(contextOf(settings), keepLayers);
+}
+
+bool Renderer::renderPixels(const Settings& settings, bool keepLayers)
+{
+    frame_.reset(); // it has parts of the memory
+    pixelFrame_ = std::make_unique<PixelFrame>(
+        scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal), unused_, keepLayers);
+    const graph::Plan plan(pixelFrame_->graph(), device::partAlignment, device_.info().maxAllocation);
+    graph::Execution execution(plan, memory_, kernels_, queue_);
+    termPlanes_.clear();
+    if (passes_->rehearsal()) {
+        execution.rehearse();
+        frame_ = pixelFrame_->outputs(execution);
+        return true;
     }
-    bool complete = primaryPass(needsAnalysis(settings) ? context.fullFrame : context.sampledFrame, lit);
-    const std::size_t lights = lit ? deviceScene_->areaLightList.size() : 0;
-    for (std::uint32_t light = 0; complete && light < lights; ++light) {
-        SoftShadows shadows(context, *terms_.front(), light);
-        complete = shadows.render();
-        if (keepLayers) {
-            keepPlanes(settings, *terms_.front(), shadows.analysed());
+    const bool complete = execution.run(stop_, options_.poison);
+    frame_ = pixelFrame_->outputs(execution);
+    const std::vector<std::string> names = termNames(settings, scene_);
+    for (std::size_t i = 0; keepLayers && i < names.size(); ++i) {
+        const PixelFrame::TermWidths& term = pixelFrame_->terms()[i];
+        std::vector<float> shown;
+        if (term.state->analysed) {
+            shown = onlyInside(
+                outputWindow(settings), frame_->layout, execution.output<float>(term.beta).downloadAll(queue_));
         }
+        termPlanes_.push_back({ names[i], std::move(shown) });
     }
-    if (complete && lit && deviceScene_->deltaLightCount > 0) {
-        complete = deltaLightPass(context.sampledFrame);
-    }
-    for (const IndirectTerm& term : indirectTerms(settings, deviceScene_->specular)) {
-        if (complete) {
-            Indirect indirect(context, *terms_.front(), term.component);
-            complete = indirect.render();
-            if (keepLayers) {
-                keepPlanes(settings, *terms_.front(), indirect.analysed());
-            }
-        }
-    }
-    if (complete && usesFallback(settings)) {
-        fallBack(context);
-    }
-    shared::AnalysisParams all {};
-    const image::Window blocks = blockWindow(output, 0, settings.width, settings.height);
-    setRectangle(all, blocks);
-    all.stride = context.fullFrame.stride;
-    all.planeSize = context.fullFrame.planeSize;
-    passes_->rows("composite", PassKind::Composite, "composite.cl", "addEmission", all, WEDGE_BLOCK_PIXELS,
-        frame_->emission, frame_->direct, frame_->indirect, frame_->objectId, frame_->beauty);
     return complete;
 }
 

@@ -2,6 +2,7 @@
 
 #include "host/device/memory_plan.h"
 #include "host/device/program.h"
+#include "host/graph/execution.h"
 #include "host/render/device_scene.h"
 #include "host/render/effects/term_context.h"
 #include "host/render/frame.h"
@@ -12,6 +13,7 @@
 
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +26,7 @@ struct Options {
     std::string kernelDir; ///< kernels to use in place of the embedded ones, "" for none
     bool fastMath = false;
     bool blameLaunches = false; ///< waits for each launch, so that a device error names the right kernel
+    bool poison = false; ///< fills memory with not-a-numbers before it is used, which must not show: for tests
     std::uint64_t memoryLimit = 0; ///< bytes on the device, 0: the device's own limit
     bvh::Mode bvh = bvh::Mode::Default; ///< how the hierarchy is built: the image is the same
     Traversal traversal = Traversal::Automatic;
@@ -68,6 +71,7 @@ struct FrameStatistics {
 };
 
 class Halves;
+class PixelFrame;
 struct ProgressiveStep;
 
 /// Renders frames of one scene on one device. Construction builds the hierarchy, the programs and the scene's buffers;
@@ -81,11 +85,12 @@ public:
 
     /// Device memory that a frame of these settings takes, before anything of it is allocated.
     /// keepLayers: as render() has it.
-    static device::MemoryPlan plan(
-        const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings, bool keepLayers = false);
+    /// mostBytes: of one buffer on the device.
+    static device::MemoryPlan plan(const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings,
+        bool keepLayers = false, std::uint64_t mostBytes = std::numeric_limits<std::uint64_t>::max());
     device::MemoryPlan plan(const Settings& settings, bool keepLayers = false) const
     {
-        return plan(scene_, hierarchy_, settings, keepLayers);
+        return plan(scene_, hierarchy_, settings, keepLayers, device_.info().maxAllocation);
     }
 
     /// Renders; the result stays on the device until the next call. Throws Error if memory does not suffice or the
@@ -120,11 +125,7 @@ public:
 private:
     void allocate(const Settings& settings, bool keepLayers);
     bool renderPasses(const Settings& settings, bool keepLayers);
-    /// lit: with area lights in view, and with what surfaces and background emit.
-    bool primaryPass(const shared::FrameParams& params, bool lit);
-    /// Puts samples of their own in the place of filtered light where that is off, see kernels/fallback.cl.
-    void fallBack(const TermContext& context);
-    bool deltaLightPass(const shared::FrameParams& params);
+    bool renderPixels(const Settings& settings, bool keepLayers);
     TermContext contextOf(const Settings& settings);
     void beginHalves(const Settings& settings, bool keepLayers);
     void rehearseHalves(const Settings& settings);
@@ -148,6 +149,10 @@ private:
     std::unique_ptr<device::ProgramLibrary> programs_;
     std::unique_ptr<Passes> passes_;
     std::unique_ptr<DeviceScene> deviceScene_;
+    graph::Kernels kernels_;
+    graph::Memory memory_; ///< of frames whose pixels are the receivers
+    cl::Buffer unused_; ///< for parameters that nothing is read from
+    std::unique_ptr<PixelFrame> pixelFrame_;
     std::unique_ptr<Frame> frame_;
     std::vector<std::unique_ptr<Term>> terms_; ///< one; of a distributed frame one a term; of a progressive one none
     std::unique_ptr<Scratch> scratch_;

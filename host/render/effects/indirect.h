@@ -26,6 +26,15 @@ struct IndirectTerm {
 /// The indirect terms of a frame. specular: the scene reflects so.
 std::vector<IndirectTerm> indirectTerms(const Settings& settings, bool specular);
 
+/// What the analysis of a component needs besides where pixels lie, and the extent of the scene.
+shared::ReflectorParams reflectorParams(const Settings& settings, Component component);
+
+/// How paths are traced where the pixels are the receivers; lights and the scene's size are to come.
+shared::PathParams pathParams(const Settings& settings, Component component);
+
+/// What counts of paths need besides where pixels lie.
+shared::AnalysisParams pathCountParams(shared::AnalysisParams params, const Settings& settings);
+
 /// Indirect light by paths, thesis chapters 4 and 5, and ambient occlusion by the same means: distances of reflectors,
 /// widths and counts (kernels/shared/indirect.h), paths, filter, modulation by the surface's reflectance. One
 /// component; each is a term of its own.
@@ -35,10 +44,6 @@ public:
     static TermShape termShape(bool analysed) { return { 4, 3, 3, analysed, false, false, false, false }; }
 
     Indirect(const TermContext& context, Term& term, Component component);
-
-    /// The pixels being the receivers: samples, filters and adds the component to frame.indirect and indirectNoisy.
-    /// Returns false if cancelled while sampling; what was sampled until then is filtered and added all the same.
-    bool render();
 
     /// As SoftShadows has them.
     void sampleWave(Waves& waves, const shared::WaveParams& wave, double workUnits);
@@ -50,18 +55,10 @@ public:
     bool analysed() const { return analysed_; }
 
 private:
-    bool sample();
-    bool samplePaths(
-        const char* pass, const shared::FrameParams& frame, std::uint32_t from, std::uint32_t most, double mean);
-    void widthsAndCounts();
     void visibleExtent();
-    void widen(const shared::FilterParams& params);
-    void countsFromVariance();
-    void composite(const device::Buffer<float>& value);
     shared::PathParams pathParams() const;
     shared::ReflectorParams reflectorParams(const image::Window& window) const;
     shared::AnalysisParams countParams(const image::Window& window) const;
-    const device::Buffer<float>& reflectance() const;
 
     TermContext c_;
     Term& term_;

@@ -7,6 +7,17 @@
 
 namespace wedge::render {
 
+/// What the analysis of a light needs besides where pixels lie.
+shared::AnalysisParams lightParams(
+    shared::AnalysisParams params, const Settings& settings, const shared::AreaLight& light);
+
+/// How a light is sampled where the pixels are the receivers. index: of the light
+shared::SampleParams lightSampleParams(const Settings& settings, std::uint32_t index);
+
+/// Directions of a pixel's lobe that no quadrature rule resolves, in proportion to its samples: whatever stood still
+/// would be what the error ends at.
+std::uint32_t lobeDirections(int spp);
+
 /// Direct light of area lights, thesis chapters 3 and 5: slopes, widths and counts (kernels/shared/wedge.h), samples,
 /// filter, shading. One light; each is a term of its own.
 class SoftShadows {
@@ -16,10 +27,6 @@ public:
 
     /// index: of the light.
     SoftShadows(const TermContext& context, Term& term, std::uint32_t index);
-
-    /// The pixels being the receivers: samples, filters and adds the light to frame.direct and directNoisy. Returns
-    /// false if cancelled while sampling; what was sampled until then is filtered and added all the same.
-    bool render();
 
     /// In a distributed frame: the samples of a wave's receivers, added to their pixels. slopes: also measures those.
     void sampleWave(Waves& waves, const shared::WaveParams& wave, bool slopes, double workUnits);
@@ -34,21 +41,13 @@ public:
     bool analysed() const { return analysed_; }
 
 private:
-    bool sample();
-    bool firstPass();
-    bool secondPass(std::uint32_t from);
-    void widthsAndCounts();
     void publishedWidths();
     void smoothedWidths();
     void narrowForHighlights(const device::Buffer<float>& beta);
-    void countsFromVariance();
-    void widen(const shared::FilterParams& params);
     void blurShadows(const shared::DistributedParams& params);
-    void shade(const device::Buffer<float>& value);
     shared::AnalysisParams analysisParams(const image::Window& window) const;
     const shared::AreaLight& light() const { return c_.scene.areaLightList[index_]; }
     shared::SampleParams sampleParams() const;
-    std::uint32_t lightSampling() const;
 
     TermContext c_;
     Term& term_;

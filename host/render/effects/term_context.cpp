@@ -16,7 +16,7 @@ shared::AnalysisParams analysisParams(const TermContext& context, const image::W
 
 std::uint32_t samplerOf(const TermContext& context)
 {
-    const bool counts = context.frame.distributed && context.settings.method == Method::AxisAligned;
+    const bool counts = context.settings.method == Method::AxisAligned;
     return static_cast<std::uint32_t>(
         counts || context.settings.progressive ? Sampler::Sobol : context.settings.sampler);
 }

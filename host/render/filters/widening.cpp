@@ -9,19 +9,10 @@ namespace wedge::render {
 
 using device::PassKind;
 
-namespace {
-
-// How much of the samples' variance counts. It is known from two parts of a sequence, whose points complement each
-// other as long as nothing else is drawn with them: then it comes out too large.
-constexpr float pinholeNoise = 0.5f, distributedNoise = 0.6f;
-
-// Pixels over which filters that are compared reach; a width covers more of them where surfaces are seen at a slant.
 int comparedReach(const Settings& settings, float pixels)
 {
     return std::min(settings.maxRadius, static_cast<int>(std::ceil(settings.cut * pixels)));
 }
-
-} // namespace
 
 bool widens(const Settings& s)
 {
@@ -41,9 +32,7 @@ Widening::Widening(const TermContext& context, std::string_view pass, const shar
     , params_(params)
     , pixels_(pixels)
     // What lens and shutter blur is filtered everywhere, in crops, too.
-    , widened_(context.frame.distributed
-              ? context.full()
-              : blockWindow(context.window, context.settings.maxRadius, context.full().x1, context.full().y1))
+    , widened_(context.full())
     , shared_(blockWindow(widened_, WEDGE_SHRINK_REACH, context.full().x1, context.full().y1))
     , compared_(blockWindow(shared_, WEDGE_SHRINK_REACH, context.full().x1, context.full().y1))
 {
@@ -80,8 +69,7 @@ void Widening::apply(const device::Buffer<float>& difference, const device::Buff
     c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "widenSquares", analysisParams(c_, compared_),
         WEDGE_BLOCK_PIXELS, difference, s.effective, deviation, weights, squares, variance);
     c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "wideShares", analysisParams(c_, shared_), WEDGE_BLOCK_PIXELS,
-        c_.fullFrame, pixels_, f.distributed ? distributedNoise : pinholeNoise, squares, variance, f.position, f.normal,
-        f.objectId, beta, shares);
+        c_.fullFrame, pixels_, distributedNoise, squares, variance, f.position, f.normal, f.objectId, beta, shares);
     c_.passes.rows(pass_, PassKind::Filter, "widen.cl", "widen", analysisParams(c_, widened_), WEDGE_BLOCK_PIXELS,
         c_.fullFrame, pixels_, shares, f.position, f.normal, f.objectId, beta);
 }

@@ -12,6 +12,13 @@ bool widens(const Settings& settings);
 /// Pixels beyond a filter's that widths depend on.
 int widenReach(const Settings& settings);
 
+/// Pixels over which filters that are compared reach; a width covers more of them where surfaces are seen at a slant.
+int comparedReach(const Settings& settings, float pixels);
+
+// How much of the samples' variance counts. It is known from two parts of a sequence, whose points complement each
+// other as long as nothing else is drawn with them: then it comes out too large.
+constexpr float pinholeNoise = 0.5f, distributedNoise = 0.6f;
+
 /// How one term's filter is widened (kernels/widen.cl), in two steps.
 class Widening {
 public:

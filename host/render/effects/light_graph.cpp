@@ -1,0 +1,281 @@
+#include "host/render/effects/light_graph.h"
+
+#include "host/graph/execution.h"
+#include "host/render/effects/sample_slices.h"
+#include "host/render/effects/soft_shadows.h"
+#include "host/render/filters/filter_graph.h"
+#include "host/render/filters/widening.h"
+#include "kernels/shared/light.h"
+#include "kernels/shared/wedge.h"
+
+#include <algorithm>
+
+namespace wedge::render {
+
+using device::PassKind;
+using graph::around;
+using graph::reads;
+using graph::Run;
+using graph::tallies;
+using graph::updates;
+using graph::value;
+using graph::writes;
+
+namespace {
+
+// Samples of a pixel between two looks at the cancel flag; also what one launch over one tile may cost.
+constexpr std::uint32_t monteCarloSlice = 64;
+constexpr std::uint32_t secondPassSlice = 256;
+
+/// One light of a frame that is being declared.
+class LightGraph {
+public:
+    LightGraph(
+        FrameBuilder& frame, std::uint32_t index, const std::shared_ptr<TermState>& state, graph::Handle<Metres>& beta)
+        : f_(frame)
+        , g_(frame.graph)
+        , s_(frame.settings)
+        , index_(index)
+        , light_(deviceLight(frame.description.areaLights[index]))
+        , channels_(frame.specular ? 2 : 1)
+        , state_(state)
+        , beta_(beta)
+        , sums_(g_.plane<Sums>("sums", graph::floatPlanes(2 * channels_)))
+        , value_(g_.plane<Value>("value", graph::floatPlanes(channels_ * (frame.analysed() ? 2 : 1))))
+        , extremes_(g_.plane<Extremes>("slopes", graph::floatPlanes(2)))
+        , taken_(g_.plane<Count>("samples taken", graph::counts))
+        , wanted_(g_.plane<Count>("samples wanted", graph::counts))
+    {
+    }
+
+    void declare()
+    {
+        f_.zero(sums_, value_, taken_);
+        const auto spp = static_cast<std::uint32_t>(s_.spp);
+        if (!f_.analysed()) {
+            uniformCounts(f_, spp, f_.surfaces.objectId, wanted_);
+            samples("shadow rays", 0, monteCarloSlice);
+            shade(value_, {});
+            return;
+        }
+        f_.zero(extremes_);
+        uniformCounts(f_, WEDGE_FIRST_PASS_RAYS, f_.surfaces.objectId, wanted_);
+        firstPass();
+        const auto analysed = [state = state_](const Run&) { return state->analysed; };
+        g_.only("analysis of light", analysed, [&] { widthsAndCounts(); });
+        samples("second pass", WEDGE_FIRST_PASS_RAYS, secondPassSlice);
+        if (s_.filtering == Filtering::None) {
+            shade(value_, {});
+            return;
+        }
+        g_.only("filter of light", analysed, [&] {
+            // What was stopped early has not the counts that the parts of samples were made for.
+            if (widens(s_)) {
+                g_.only(
+                    "widening", [](const Run& run) { return !run.stopped(); }, [&] { widened(); });
+            }
+            shade(gaussianFilter(
+                      f_, { "filter", PassKind::Filter, "filter.cl" }, channels_, filterParams(), value_, beta_)
+                      .value,
+                {});
+        });
+        shade(value_, [analysed](const Run& run) { return !analysed(run); });
+    }
+
+private:
+    shared::FilterParams filterParams() const { return render::filterParams(s_, f_.wholeFrame(), light_, g_.image()); }
+
+    void firstPass();
+    void samples(const char* pass, std::uint32_t from, std::uint32_t slice);
+    void widthsAndCounts();
+    void publishedWidths();
+    void spreadOver(const graph::Argument& p, const graph::Argument& planes, const graph::Handle<Logarithms>& from,
+        graph::Handle<Logarithms>& rows, graph::Handle<Logarithms>& spread);
+    void smoothedWidths();
+    void countsFromVariance();
+    void widened();
+    void shade(const graph::Handle<Value>& value, const std::function<bool(const Run&)>& condition);
+
+    shared::AnalysisParams analysisParams() const { return lightParams(f_.analysisParams(), s_, light_); }
+    graph::Argument sampleParams() const { return value("params", lightSampleParams(s_, index_)); }
+    graph::Argument light() const { return value("light", light_); }
+    graph::Argument quadrature() const
+    {
+        return f_.outside("nodes", "float", f_.scene != nullptr ? &f_.scene->quadratures[index_].cl() : nullptr);
+    }
+
+    FrameBuilder& f_;
+    graph::Graph& g_;
+    const Settings& s_;
+    std::uint32_t index_;
+    shared::AreaLight light_;
+    std::uint32_t channels_;
+    std::shared_ptr<TermState> state_;
+    graph::Handle<Metres>& beta_;
+    graph::Handle<Sums> sums_;
+    graph::Handle<Value> value_;
+    graph::Handle<Extremes> extremes_;
+    graph::Handle<Count> taken_, wanted_;
+};
+
+void LightGraph::firstPass()
+{
+    f_.trace("first pass", { "area_light.cl", "firstPass" },
+        joined({ f_.frame(), sampleParams(), light(), value("camera", shared::CameraParams {}) }, f_.hierarchy(),
+            f_.geometry(), f_.receivers(),
+            Arguments { reads("wanted", wanted_), updates("sums", sums_), updates("taken", taken_),
+                updates("value", value_), updates("slopes", extremes_), tallies("rays", f_.totals.rays) }),
+        true, [](const graph::Launch&) { return WEDGE_FIRST_PASS_RAYS; });
+    f_.host("analysable", [state = state_](Run& run) { state->analysed = !run.stopped(); });
+}
+
+void LightGraph::samples(const char* pass, std::uint32_t from, std::uint32_t slice)
+{
+    const int most = s_.sampling == Sampling::Uniform ? s_.spp : std::max(s_.maxSpp, s_.spp);
+    const SampleSlices slices(from, static_cast<std::uint32_t>(most), slice, s_.spp);
+    g_.loop("slices", slices.counter(), [&] {
+        f_.trace(pass, { "area_light.cl", "secondPass" },
+            joined({ f_.frame(), sampleParams(), light() }, f_.hierarchy(), f_.receivers(),
+                Arguments { reads("wanted", wanted_), slices.last(), updates("sums", sums_), updates("taken", taken_),
+                    updates("value", value_), tallies("rays", f_.totals.rays) }),
+            false, slices.workUnits(std::max(1.0, static_cast<double>(s_.spp) - from)));
+    });
+}
+
+void LightGraph::widthsAndCounts()
+{
+    const bool spectrum = s_.sampling == Sampling::Adaptive && s_.counts == Counts::Spectrum;
+    if (spectrum || s_.slopes == Slopes::Published) {
+        publishedWidths();
+    }
+    if (s_.slopes == Slopes::Smoothed) {
+        smoothedWidths();
+    }
+    if (s_.sampling == Sampling::Uniform) {
+        uniformCounts(f_, static_cast<std::uint32_t>(s_.spp), f_.surfaces.objectId, wanted_);
+    } else if (s_.counts == Counts::Variance) {
+        countsFromVariance();
+    }
+}
+
+void LightGraph::publishedWidths()
+{
+    const graph::Argument p = f_.rectangle(analysisParams());
+    const auto planes = value("planes", std::uint32_t { 4 });
+    auto distances = g_.plane<Logarithms>("distances", graph::floatPlanes(4));
+    auto rows = g_.plane<Logarithms>("distances spread along rows", graph::floatPlanes(4));
+    auto spread = g_.plane<Logarithms>("distances spread", graph::floatPlanes(4));
+    f_.zero(distances); // what spreads comes from the padding, too
+    f_.blocks("widths", PassKind::Analysis, { "analysis.cl", "publishedDistances" },
+        { p, reads("slopes", extremes_), reads("position", f_.surfaces.position),
+            reads("objectId", f_.surfaces.objectId), updates("distances", distances) });
+    spreadOver(p, planes, distances, rows, spread);
+    f_.pixels("widths", PassKind::Analysis, { "analysis.cl", "publishedWidths" },
+        { p, reads("slopes", extremes_), reads("distances", spread), reads("objectId", f_.surfaces.objectId),
+            reads("pixelSize", f_.surfaces.pixelSize), reads("sums", sums_), writes("beta", beta_),
+            writes("wanted", wanted_) });
+}
+
+void LightGraph::spreadOver(const graph::Argument& p, const graph::Argument& planes,
+    const graph::Handle<Logarithms>& from, graph::Handle<Logarithms>& rows, graph::Handle<Logarithms>& spread)
+{
+    const graph::Reach along { .x = s_.fillRadius }, across { .y = s_.fillRadius };
+    f_.blocks("widths", PassKind::Analysis, { "analysis.cl", "spreadRows" },
+        { p, planes, reads("in", from, along), writes("out", rows) });
+    f_.blocks("widths", PassKind::Analysis, { "analysis.cl", "spreadColumns" },
+        { p, planes, reads("in", rows, across), writes("out", spread) });
+}
+
+void LightGraph::smoothedWidths()
+{
+    const graph::Argument p = f_.rectangle(analysisParams());
+    const Surfaces& s = f_.surfaces;
+    auto eroded = g_.plane<Extremes>("eroded slopes", graph::floats);
+    auto logs = g_.plane<Logarithms>("logarithms", graph::floatPlanes(2));
+    auto rows = g_.plane<Logarithms>("logarithms spread along rows", graph::floatPlanes(2));
+    auto spread = g_.plane<Logarithms>("logarithms spread", graph::floatPlanes(2));
+    f_.blocks("widths", PassKind::Analysis, { "analysis.cl", "erodeSlopes" },
+        { p, reads("slopes", extremes_, around(1)), reads("objectId", s.objectId, around(1)),
+            writes("eroded", eroded) });
+    f_.zero(logs); // what spreads comes from the padding, too
+    f_.blocks("widths", PassKind::Analysis, { "analysis.cl", "smoothSlopes" },
+        { p, reads("eroded", eroded, around(1)), reads("objectId", s.objectId, around(1)),
+            updates("logSlopes", logs) });
+    spreadOver(p, value("planes", std::uint32_t { 2 }), logs, rows, spread);
+    f_.pixels("widths", PassKind::Analysis, { "analysis.cl", "widths" },
+        { p, reads("logSlopes", logs), reads("spread", spread), reads("objectId", s.objectId),
+            reads("pixelSize", s.pixelSize), reads("sums", sums_), writes("beta", beta_) });
+    // With shading apart from visibility samples know nothing of the lobe.
+    if (f_.specular && s_.filtering == Filtering::Adaptive && s_.shading != Shading::Separate) {
+        f_.pixels("widths", PassKind::Analysis, { "analysis.cl", "narrowForLobes" },
+            { p, value("frame", f_.wholeFrame()), reads("sums", sums_), reads("position", s.position),
+                reads("gloss", s.gloss), reads("diffuse", s.diffuse), reads("specular", s.specular),
+                updates("beta", beta_) });
+    }
+}
+
+void LightGraph::countsFromVariance()
+{
+    const shared::AnalysisParams p = analysisParams();
+    graph::Handle<Value> visibility = value_;
+    auto effective = g_.plane<Count>("effective count of first pass", graph::floats);
+    if (s_.filtering == Filtering::None) {
+        setOnes(f_, effective);
+    } else {
+        const Gathered gathered = gaussianFilter(
+            f_, { "filter of first pass", PassKind::Analysis, "filter.cl" }, channels_, filterParams(), value_, beta_);
+        visibility = gathered.value;
+        effective = gathered.effective;
+    }
+    auto demand = g_.plane<Demand>("demand", graph::floats);
+    f_.blocks("counts", PassKind::Analysis, { "counts.cl", "countDemand" },
+        { f_.rectangle(p), reads("filtered", visibility, around(2)), reads("effective", effective),
+            reads("beta", beta_, around(2)), reads("objectId", f_.surfaces.objectId, around(2)),
+            writes("demand", demand) });
+    countsFromDemand(f_, p, static_cast<float>(s_.spp), demand, f_.surfaces.objectId, wanted_);
+}
+
+void LightGraph::widened()
+{
+    auto visibility = g_.plane<Value>("visibility", graph::floats);
+    auto deviation = g_.plane<Deviation>("deviation", graph::floats);
+    auto weights = g_.plane<Share>("weights", graph::floats);
+    f_.blocks("filter", PassKind::Filter, { "widen.cl", "oneOfLight" },
+        { f_.rectangle(analysisParams()), value("firstPass", WEDGE_FIRST_PASS_RAYS), reads("value", value_),
+            reads("taken", taken_), reads("sums", sums_), reads("diffuse", f_.surfaces.diffuse),
+            reads("specular", f_.surfaces.specular), writes("visibility", visibility), writes("deviation", deviation),
+            writes("weights", weights) });
+    widen(f_, "filter", filterParams(), s_.widening, { visibility, deviation, weights }, beta_);
+}
+
+void LightGraph::shade(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition)
+{
+    const graph::Argument p = f_.rectangle(analysisParams());
+    const Surfaces& s = f_.surfaces;
+    Sum& direct = f_.totals.direct;
+    f_.blocks("composite", PassKind::Composite, { "composite.cl", "addDiffuse" },
+        { p, sampleParams(), light(), quadrature(), reads("position", s.position), reads("normal", s.normal),
+            reads("objectId", s.objectId), reads("diffuse", s.diffuse), reads("value", shown), reads("noisy", value_),
+            reads("taken", taken_), updates("direct", direct.filtered), updates("directNoisy", direct.noisy),
+            updates("deviation", direct.deviation), updates("samples", f_.totals.samples) },
+        condition);
+    if (f_.specular) {
+        f_.blocks("composite", PassKind::Composite, { "composite.cl", "addSpecular" },
+            { p, sampleParams(), light(), value("frame", f_.wholeFrame()), value("directions", lobeDirections(s_.spp)),
+                quadrature(), reads("position", s.position), reads("normal", s.normal), reads("objectId", s.objectId),
+                reads("gloss", s.gloss), reads("specular", s.specular), reads("value", shown), reads("noisy", value_),
+                reads("taken", taken_), updates("direct", direct.filtered), updates("directNoisy", direct.noisy),
+                updates("deviation", direct.deviation) },
+            condition);
+    }
+}
+
+} // namespace
+
+void addAreaLight(
+    FrameBuilder& frame, std::uint32_t index, const std::shared_ptr<TermState>& state, graph::Handle<Metres>& beta)
+{
+    LightGraph(frame, index, state, beta).declare();
+}
+
+} // namespace wedge::render

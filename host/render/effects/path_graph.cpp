@@ -1,0 +1,227 @@
+#include "host/render/effects/path_graph.h"
+
+#include "host/render/effects/sample_slices.h"
+#include "host/render/filters/filter_graph.h"
+#include "host/render/filters/widening.h"
+#include "kernels/shared/indirect.h"
+
+#include <algorithm>
+
+namespace wedge::render {
+
+using device::PassKind;
+using graph::around;
+using graph::reads;
+using graph::Run;
+using graph::tallies;
+using graph::updates;
+using graph::value;
+using graph::writes;
+
+namespace {
+
+// Vertices of a pixel's paths between two looks at the cancel flag; also what one launch over one tile may cost.
+constexpr int sliceVertices = 96;
+
+constexpr std::uint32_t channels = 3;
+
+/// One component of a frame that is being declared.
+class PathGraph {
+public:
+    PathGraph(
+        FrameBuilder& frame, Component component, const std::shared_ptr<TermState>& state, graph::Handle<Metres>& beta)
+        : f_(frame)
+        , g_(frame.graph)
+        , s_(frame.settings)
+        , component_(component)
+        , reflectance_(component == Component::Glossy ? frame.surfaces.specular : frame.surfaces.diffuse)
+        , state_(state)
+        , beta_(beta)
+        , sums_(g_.plane<Sums>("sums", graph::floatPlanes(4)))
+        , value_(g_.plane<Value>("value", graph::floatPlanes(channels * (frame.analysed() ? 2 : 1))))
+        , extremes_(g_.plane<Extremes>("distances", graph::floatPlanes(3)))
+        , taken_(g_.plane<Count>("samples taken", graph::counts))
+        , wanted_(g_.plane<Count>("samples wanted", graph::counts))
+    {
+    }
+
+    void declare()
+    {
+        f_.zero(sums_, value_, extremes_, taken_);
+        const auto spp = static_cast<std::uint32_t>(s_.spp);
+        if (!f_.analysed()) {
+            uniformCounts(f_, spp, f_.surfaces.objectId, wanted_);
+            paths("paths", 0, spp, s_.spp, false);
+            composite(value_, {});
+            return;
+        }
+        constexpr std::uint32_t first = WEDGE_INDIRECT_FIRST_RAYS;
+        uniformCounts(f_, first, f_.surfaces.objectId, wanted_);
+        paths("first paths", 0, first, first, true);
+        f_.host("analysable", [state = state_](Run& run) { state->analysed = !run.stopped(); });
+        const auto analysed = [state = state_](const Run&) { return state->analysed; };
+        g_.only("analysis of paths", analysed, [&] { widthsAndCounts(); });
+        const int most = isUniform() ? s_.spp : std::max(s_.indirect.maxSpp, s_.spp);
+        paths("second paths", first, static_cast<std::uint32_t>(most), s_.spp, false);
+        if (s_.filtering == Filtering::None) {
+            composite(value_, {});
+            return;
+        }
+        g_.only("filter of paths", analysed, [&] {
+            // What was stopped early has not the counts that the parts of samples were made for.
+            if (widens(s_)) {
+                g_.only(
+                    "widening", [](const Run& run) { return !run.stopped(); }, [&] { widened(); });
+            }
+            composite(gaussianFilter(f_, { "filter of indirect", PassKind::Filter, "filter_indirect.cl" }, channels,
+                          filterParams(), value_, beta_)
+                          .value,
+                {});
+        });
+        composite(value_, [analysed](const Run& run) { return !analysed(run); });
+    }
+
+private:
+    bool isUniform() const { return s_.sampling == Sampling::Uniform || s_.indirect.counts == IndirectCounts::Uniform; }
+    shared::FilterParams filterParams() const { return render::filterParams(s_, f_.wholeFrame(), g_.image()); }
+    shared::AnalysisParams countParams() const { return pathCountParams(f_.analysisParams(), s_); }
+    shared::ReflectorParams reflectorParams() const;
+    shared::PathParams pathParams() const;
+
+    void paths(const char* pass, std::uint32_t from, std::uint32_t most, double mean, bool everywhere);
+    void widthsAndCounts();
+    void countsFromVariance();
+    void widened();
+    void composite(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition);
+
+    FrameBuilder& f_;
+    graph::Graph& g_;
+    const Settings& s_;
+    Component component_;
+    graph::Handle<Reflectance> reflectance_;
+    std::shared_ptr<TermState> state_;
+    graph::Handle<Metres>& beta_;
+    graph::Handle<Sums> sums_;
+    graph::Handle<Value> value_;
+    graph::Handle<Extremes> extremes_;
+    graph::Handle<Count> taken_, wanted_;
+};
+
+shared::ReflectorParams PathGraph::reflectorParams() const
+{
+    shared::ReflectorParams p = render::reflectorParams(s_, component_);
+    p.width = f_.layout.width;
+    p.height = f_.layout.height;
+    p.stride = f_.layout.stride;
+    p.planeSize = static_cast<std::uint32_t>(f_.layout.size);
+    p.extent = s_.indirect.extent == ReflectorExtent::Scene && f_.scene != nullptr ? f_.scene->largestDimension : 0.0f;
+    return p;
+}
+
+shared::PathParams PathGraph::pathParams() const
+{
+    shared::PathParams p = render::pathParams(s_, component_);
+    p.areaLights = static_cast<std::uint32_t>(f_.description.areaLights.size());
+    p.deltaLights = f_.scene != nullptr ? f_.scene->deltaLightCount : 0;
+    p.sceneDiameter = f_.scene != nullptr ? f_.scene->diameter : 0.0f;
+    return p;
+}
+
+void PathGraph::paths(const char* pass, std::uint32_t from, std::uint32_t most, double mean, bool everywhere)
+{
+    const int vertices = std::max(1, s_.bounces);
+    const auto slice = static_cast<std::uint32_t>(std::max(1, sliceVertices / vertices));
+    const SampleSlices slices(from, most, slice, mean);
+    g_.loop("slices", slices.counter(), [&] {
+        f_.trace(pass, { "indirect.cl", "samplePaths" },
+            joined({ f_.frame(), value("params", pathParams()) }, f_.hierarchy(), f_.geometry(),
+                Arguments { f_.ofScene("areaLights", "AreaLight", &DeviceScene::areaLights),
+                    f_.ofScene("deltaLights", "DeltaLight", &DeviceScene::deltaLights) },
+                f_.receivers(),
+                Arguments { reads("specular", f_.surfaces.specular), reads("wanted", wanted_), slices.last(),
+                    updates("sums", sums_), updates("taken", taken_), updates("value", value_),
+                    updates("reflectors", extremes_), tallies("rays", f_.totals.rays),
+                    tallies("pathRays", f_.totals.pathRays) }),
+            everywhere, slices.workUnits(std::max(1.0, mean - from) * vertices));
+    });
+}
+
+void PathGraph::widthsAndCounts()
+{
+    const Surfaces& s = f_.surfaces;
+    const graph::Argument p = f_.rectangle(reflectorParams());
+    auto bounds = g_.list<Metres>("visible bounds", graph::floats, 6 * WEDGE_EXTENT_STRIPES);
+    auto extent = g_.list<Metres>("visible extent", graph::floats, 1);
+    f_.items("widths", PassKind::Analysis, { "reflectors.cl", "visibleBounds" }, WEDGE_EXTENT_STRIPES,
+        { p, reads("position", s.position), reads("objectId", s.objectId), writes("bounds", bounds) });
+    f_.items("widths", PassKind::Analysis, { "reflectors.cl", "visibleExtent" }, 1,
+        { reads("bounds", bounds), writes("extent", extent) });
+    f_.pixels("widths", PassKind::Analysis, { "reflectors.cl", "reflectorWidths" },
+        { p, reads("reflectors", extremes_), reads("objectId", s.objectId), reads("extent", extent),
+            reads("pixelSize", s.pixelSize), reads("gloss", s.gloss), reads("taken", taken_), writes("beta", beta_),
+            updates("wanted", wanted_) });
+    if (isUniform()) {
+        uniformCounts(f_, static_cast<std::uint32_t>(s_.spp), taken_, wanted_);
+    } else if (s_.indirect.counts == IndirectCounts::Variance) {
+        countsFromVariance();
+    }
+}
+
+void PathGraph::countsFromVariance()
+{
+    const graph::Argument p = f_.rectangle(reflectorParams());
+    auto variance = g_.plane<Value>("variance", graph::floats);
+    f_.blocks("counts", PassKind::Analysis, { "reflectors.cl", "sampleVariance" },
+        { p, reads("sums", sums_), reads("taken", taken_), reads("reflectance", reflectance_),
+            writes("variance", variance) });
+    auto effective = g_.plane<Count>("effective count of variance", graph::floats);
+    if (s_.filtering != Filtering::None) {
+        // For the effective counts alone.
+        effective = gaussianFilter(
+            f_, { "pixels gathered", PassKind::Analysis, "filter_variance.cl" }, 1, filterParams(), variance, beta_)
+                        .effective;
+    } else {
+        setOnes(f_, effective);
+    }
+    auto demand = g_.plane<Demand>("demand", graph::floats);
+    f_.blocks("counts", PassKind::Analysis, { "reflectors.cl", "pathDemand" },
+        { p, reads("variance", variance, around(2)), reads("effective", effective, around(2)),
+            reads("beta", beta_, around(2)), reads("objectId", f_.surfaces.objectId, around(2)),
+            writes("demand", demand) });
+    countsFromDemand(f_, countParams(), static_cast<float>(s_.spp), demand, taken_, wanted_);
+}
+
+void PathGraph::widened()
+{
+    auto irradiance = g_.plane<Value>("irradiance", graph::floats);
+    auto deviation = g_.plane<Deviation>("deviation", graph::floats);
+    auto weights = g_.plane<Share>("weights", graph::floats);
+    f_.blocks("filter of indirect", PassKind::Filter, { "widen.cl", "oneOfPaths" },
+        { f_.rectangle(countParams()), value("component", static_cast<std::uint32_t>(component_)),
+            value("firstPass", WEDGE_INDIRECT_FIRST_RAYS), reads("reflectance", reflectance_), reads("value", value_),
+            reads("taken", taken_), writes("irradiance", irradiance), writes("deviation", deviation),
+            writes("weights", weights) });
+    widen(f_, "filter of indirect", filterParams(), s_.indirect.widening, { irradiance, deviation, weights }, beta_);
+}
+
+void PathGraph::composite(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition)
+{
+    Sum& indirect = f_.totals.indirect;
+    f_.blocks("composite", PassKind::Composite, { "composite.cl", "addIndirect" },
+        { f_.rectangle(countParams()), value("component", static_cast<std::uint32_t>(component_)),
+            value("firstPass", pathParams().firstPass), reads("reflectance", reflectance_), reads("value", shown),
+            reads("noisy", value_), reads("taken", taken_), updates("indirect", indirect.filtered),
+            updates("indirectNoisy", indirect.noisy), updates("deviation", indirect.deviation),
+            updates("samples", f_.totals.samples), updates("indirectSamples", f_.totals.indirectSamples) },
+        condition);
+}
+
+} // namespace
+
+void addPaths(
+    FrameBuilder& frame, Component component, const std::shared_ptr<TermState>& state, graph::Handle<Metres>& beta)
+{
+    PathGraph(frame, component, state, beta).declare();
+}
+
+} // namespace wedge::render

@@ -1,0 +1,137 @@
+#include "host/render/filters/filter_graph.h"
+
+#include "host/graph/execution.h"
+#include "host/render/filters/widening.h"
+
+#include <utility>
+
+namespace wedge::render {
+
+using device::PassKind;
+using graph::around;
+using graph::reads;
+using graph::updates;
+using graph::value;
+using graph::writes;
+
+namespace {
+
+/// What every gather asks of the neighbours that it may reach.
+std::vector<graph::Argument> neighbours(const Surfaces& s, graph::Reach reach)
+{
+    return { reads("position", s.position, reach), reads("normal", s.normal, reach),
+        reads("objectId", s.objectId, reach) };
+}
+
+} // namespace
+
+Gathered gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels,
+    const shared::FilterParams& params, const graph::Handle<Value>& filtered, const graph::Handle<Metres>& beta)
+{
+    const int pixels = static_cast<int>(params.maxRadius);
+    const graph::Reach along { .x = pixels }, across { .y = pixels };
+    auto rows = frame.graph.plane<Value>("rows filtered", graph::floatPlanes(channels));
+    auto rowCounts = frame.graph.plane<Count>("effective count of rows", graph::floats);
+    Gathered out { frame.graph.plane<Value>("filtered", graph::floatPlanes(channels)),
+        frame.graph.plane<Count>("effective count", graph::floats) };
+    frame.blocks(run.pass, run.kind, { run.program, "filterRows" },
+        joined({ frame.rectangle(params), reads("value", filtered, along), reads("beta", beta, along) },
+            neighbours(frame.surfaces, along), Arguments { writes("filtered", rows), writes("effective", rowCounts) }));
+    frame.blocks(run.pass, run.kind, { run.program, "filterColumns" },
+        joined({ frame.rectangle(params), reads("value", rows, across), reads("beta", beta, across) },
+            neighbours(frame.surfaces, across),
+            Arguments { reads("effectiveRows", rowCounts), writes("filtered", out.value),
+                writes("effective", out.effective) }));
+    return out;
+}
+
+void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams params, float pixels, Compared compared,
+    graph::Handle<Metres>& beta)
+{
+    params.maxRadius = static_cast<std::uint32_t>(comparedReach(frame.settings, pixels));
+    const int far = static_cast<int>(params.maxRadius);
+    const graph::Reach along { .x = far }, across { .y = far }, near = around(WEDGE_SHRINK_REACH);
+    const std::string program = "compare_widths.cl";
+    const shared::AnalysisParams p = frame.analysisParams();
+    const auto all = value("frame", frame.wholeFrame());
+    graph::Graph& g = frame.graph;
+    auto wider = g.plane<Metres>("width to compare with", graph::floats);
+    auto narrowRows = g.plane<Value>("rows, narrow", graph::floats);
+    auto wideRows = g.plane<Value>("rows, wide", graph::floats);
+    auto narrowCounts = g.plane<Count>("equal samples of narrow filters", graph::floats);
+    auto wideCounts = g.plane<Count>("equal samples of wide filters", graph::floats);
+    auto difference = g.plane<Value>("difference", graph::floats);
+    auto apart = g.plane<Share>("variance that is not shared", graph::floats);
+    auto squares = g.plane<Value>("squares", graph::floats);
+    auto variance = g.plane<Value>("variance", graph::floats);
+    auto shares = g.plane<Share>("shares", graph::floats);
+    frame.blocks(pass, PassKind::Filter, { "widen.cl", "comparedWidths" },
+        joined({ frame.rectangle(p), all, value("pixels", pixels), reads("deviation", compared.deviation) },
+            neighbours(frame.surfaces, {}), Arguments { reads("beta", beta), writes("compared", wider) }));
+    frame.blocks(pass, PassKind::Filter, { program, "compareRows" },
+        joined({ frame.rectangle(params), reads("value", compared.value, along), reads("beta", beta, along),
+                   reads("compared", wider, along) },
+            neighbours(frame.surfaces, along),
+            Arguments { writes("narrowRows", narrowRows), writes("wideRows", wideRows),
+                writes("narrowCounts", narrowCounts), writes("wideCounts", wideCounts) }));
+    frame.blocks(pass, PassKind::Filter, { program, "compareColumns" },
+        joined({ frame.rectangle(params), reads("narrowRows", narrowRows, across), reads("wideRows", wideRows, across),
+                   reads("narrowCounts", narrowCounts), reads("wideCounts", wideCounts), reads("beta", beta, across),
+                   reads("compared", wider, across) },
+            neighbours(frame.surfaces, across),
+            Arguments { writes("difference", difference), writes("apart", apart) }));
+    frame.blocks(pass, PassKind::Filter, { "widen.cl", "widenSquares" },
+        { frame.rectangle(p), reads("difference", difference), reads("apart", apart),
+            reads("deviation", compared.deviation), reads("weights", compared.weights), writes("squares", squares),
+            writes("variance", variance) });
+    frame.blocks(pass, PassKind::Filter, { "widen.cl", "wideShares" },
+        joined({ frame.rectangle(p), all, value("pixels", pixels), value("noise", pinholeNoise),
+                   reads("difference", squares, near), reads("variance", variance, near) },
+            neighbours(frame.surfaces, near), Arguments { reads("beta", beta, near), writes("shares", shares) }));
+    frame.blocks(pass, PassKind::Filter, { "widen.cl", "widen" },
+        joined({ frame.rectangle(p), all, value("pixels", pixels), reads("shares", shares, near) },
+            neighbours(frame.surfaces, near), Arguments { updates("beta", beta) }));
+}
+
+void countsFromDemand(FrameBuilder& frame, const shared::AnalysisParams& params, float mean,
+    const graph::Handle<Demand>& demand, const graph::Version& mask, graph::Handle<Count>& wanted)
+{
+    constexpr std::uint64_t bins = WEDGE_DEMAND_BINS, stripes = WEDGE_DEMAND_STRIPES;
+    graph::Graph& g = frame.graph;
+    auto counts = g.list<Count>("demand histogram", graph::counts, stripes * bins);
+    auto sums = g.list<Demand>("demand sums", graph::floats, stripes * bins);
+    auto shaded = g.list<Count>("shaded pixels", graph::counts, stripes);
+    auto binCounts = g.list<Count>("demand bins", graph::counts, bins);
+    auto binSums = g.list<Demand>("demand bin sums", graph::floats, bins);
+    auto scale = g.list<Share>("count scale", graph::floats, 1);
+    frame.items("counts", PassKind::Analysis, { "counts.cl", "demandHistogram" }, stripes,
+        { frame.rectangle(params), reads("demand", demand), reads("mask", mask), writes("counts", counts),
+            writes("sums", sums), writes("shaded", shaded) });
+    frame.items("counts", PassKind::Analysis, { "counts.cl", "solveCountScale" }, 1,
+        { value("mean", mean), value("least", static_cast<float>(params.leastCount)),
+            value("cap", static_cast<float>(params.countCap)), reads("counts", counts), reads("sums", sums),
+            reads("shaded", shaded), writes("binCounts", binCounts), writes("binSums", binSums),
+            writes("scale", scale) });
+    frame.pixels("counts", PassKind::Analysis, { "counts.cl", "countsFromDemand" },
+        { frame.rectangle(params), reads("demand", demand), reads("scale", scale), reads("mask", mask),
+            writes("wanted", wanted) });
+}
+
+void uniformCounts(FrameBuilder& frame, std::uint32_t count, const graph::Version& mask, graph::Handle<Count>& wanted)
+{
+    frame.pixels("counts", PassKind::Analysis, { "counts.cl", "uniformCounts" },
+        { frame.rectangle(frame.analysisParams()), value("count", count), reads("mask", mask),
+            writes("wanted", wanted) });
+}
+
+void setOnes(FrameBuilder& frame, graph::Handle<Count>& effective)
+{
+    const graph::Version resource = effective;
+    frame.graph.add({ .name = "counts",
+        .kind = PassKind::Analysis,
+        .arguments = { writes("effective", effective) },
+        .domain = graph::Domain::Host,
+        .step = [resource](graph::Run& run) { run.buffer<float>(resource).fill(run.queue(), 1.0f); } });
+}
+
+} // namespace wedge::render

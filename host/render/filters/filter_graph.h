@@ -1,0 +1,45 @@
+#pragma once
+
+#include "host/render/filters/gaussian.h"
+#include "host/render/frame_builder.h"
+
+#include <string>
+#include <string_view>
+
+namespace wedge::render {
+
+/// A value filtered, and the equal samples that the gather amounts to.
+struct Gathered {
+    graph::Handle<Value> value;
+    graph::Handle<Count> effective;
+};
+
+/// Declares the separable world-space Gaussian of kernels/gather.h, of as many planes of `value` as the program has
+/// channels; widths are beta. params: of filterParams(); its rectangle does not matter.
+Gathered gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels,
+    const shared::FilterParams& params, const graph::Handle<Value>& value, const graph::Handle<Metres>& beta);
+
+/// What widening takes of a term: one value of all pixels, numbers whose squares are its variances in the mean, and
+/// what values are multiplied by in the image.
+struct Compared {
+    graph::Handle<Value> value;
+    graph::Handle<Deviation> deviation;
+    graph::Handle<Share> weights;
+};
+
+/// Declares the passes that widen beta where the samples do not speak against it (kernels/widen.cl), towards `pixels`.
+void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams params, float pixels, Compared compared,
+    graph::Handle<Metres>& beta);
+
+/// Declares how counts follow from demands: clamp(C demand, params.leastCount, params.countCap) where mask is not 0,
+/// with C such that their mean is `mean` (kernels/counts.cl).
+void countsFromDemand(FrameBuilder& frame, const shared::AnalysisParams& params, float mean,
+    const graph::Handle<Demand>& demand, const graph::Version& mask, graph::Handle<Count>& wanted);
+
+/// The same of equal counts.
+void uniformCounts(FrameBuilder& frame, std::uint32_t count, const graph::Version& mask, graph::Handle<Count>& wanted);
+
+/// Effective counts where nothing is filtered.
+void setOnes(FrameBuilder& frame, graph::Handle<Count>& effective);
+
+} // namespace wedge::render

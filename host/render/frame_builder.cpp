@@ -1,0 +1,129 @@
+#include "host/render/frame_builder.h"
+
+#include "host/graph/execution.h"
+
+namespace wedge::render {
+
+using device::PassKind;
+using graph::Launch;
+using graph::reads;
+using graph::Run;
+
+shared::FrameParams FrameBuilder::wholeFrame() const
+{
+    return frameParams(description, layout, graph.image(), settings.seed);
+}
+
+shared::AnalysisParams FrameBuilder::analysisParams() const
+{
+    shared::AnalysisParams p {};
+    p.width = layout.width;
+    p.height = layout.height;
+    p.stride = layout.stride;
+    p.planeSize = static_cast<std::uint32_t>(layout.size);
+    return p;
+}
+
+graph::Argument FrameBuilder::frame() const
+{
+    return graph::made("frame", [&scene = description, layout = layout, seed = settings.seed](const Launch& launch) {
+        return frameParams(scene, layout, launch.window, seed);
+    });
+}
+
+graph::Argument FrameBuilder::outside(std::string name, std::string_view type, const cl::Buffer* memory) const
+{
+    return graph::outside(std::move(name), type, memory != nullptr ? *memory : unused);
+}
+
+std::vector<graph::Argument> FrameBuilder::hierarchy() const
+{
+    return { ofScene("nodes", "TraversalNode", &DeviceScene::nodes),
+        ofScene("blocks", "TriangleBlock", &DeviceScene::blocks) };
+}
+
+std::vector<graph::Argument> FrameBuilder::geometry() const
+{
+    using S = DeviceScene;
+    return { ofScene("positions", "float", &S::positions), ofScene("normals", "float", &S::normals),
+        ofScene("texcoords", "float", &S::texcoords), ofScene("indices", "uint", &S::indices),
+        ofScene("materialIds", "uint", &S::materialIds), ofScene("materials", "MaterialData", &S::materials),
+        ofScene("textures", "TextureData", &S::textures), ofScene("texels", "uint", &S::texels),
+        ofScene("srgbToLinear", "float", &S::srgbToLinear), ofScene("positionsAtClose", "float", &S::positionsAtClose),
+        ofScene("normalsAtClose", "float", &S::normalsAtClose) };
+}
+
+std::vector<graph::Argument> FrameBuilder::receivers() const
+{
+    const Surfaces& s = surfaces;
+    return { reads("position", s.position), reads("normal", s.normal), reads("origin", s.origin),
+        reads("geometric", s.geometric), reads("objectId", s.objectId), reads("gloss", s.gloss),
+        outside("pixelOf", "uint", nullptr), outside("view", "uint", nullptr), outside("time", "float", nullptr) };
+}
+
+void FrameBuilder::trace(std::string name, graph::KernelName kernel, std::vector<graph::Argument> arguments,
+    bool everywhere, const std::function<double(const Launch&)>& workUnits)
+{
+    const auto tiles = [&scene = description, layout = layout](const Launch& launch) -> std::size_t {
+        return frameParams(scene, layout, launch.window, 0).tileCount;
+    };
+    graph.add({ .name = std::move(name),
+        .kind = PassKind::Trace,
+        .kernel = std::move(kernel),
+        .arguments = std::move(arguments),
+        .domain = graph::Domain::Tiles,
+        .count = tiles,
+        .itemsOfTile = WEDGE_TILE_PIXELS / packetSize,
+        .workUnits = workUnits,
+        .everywhere = everywhere,
+        .stoppable = true });
+}
+
+void FrameBuilder::blocks(std::string_view name, PassKind kind, graph::KernelName kernel,
+    std::vector<graph::Argument> arguments, const std::function<bool(const Run&)>& condition)
+{
+    graph.add({ .name = std::string(name),
+        .kind = kind,
+        .kernel = std::move(kernel),
+        .arguments = std::move(arguments),
+        .condition = condition });
+}
+
+void FrameBuilder::pixels(
+    std::string_view name, PassKind kind, graph::KernelName kernel, std::vector<graph::Argument> arguments)
+{
+    graph.add({ .name = std::string(name),
+        .kind = kind,
+        .kernel = std::move(kernel),
+        .arguments = std::move(arguments),
+        .domain = graph::Domain::Pixels });
+}
+
+void FrameBuilder::items(std::string_view name, PassKind kind, graph::KernelName kernel, std::size_t count,
+    std::vector<graph::Argument> arguments)
+{
+    graph.add({ .name = std::string(name),
+        .kind = kind,
+        .kernel = std::move(kernel),
+        .arguments = std::move(arguments),
+        .domain = graph::Domain::Items,
+        .count = [count](const Launch&) { return count; },
+        .mostItems = count });
+}
+
+void FrameBuilder::host(std::string name, const std::function<void(Run&)>& step)
+{
+    graph.add({ .name = std::move(name), .domain = graph::Domain::Host, .step = step, .always = true });
+}
+
+void FrameBuilder::zeroOne(graph::Version& version)
+{
+    const graph::Version resource = version;
+    graph.add({ .name = "zeros",
+        .kind = PassKind::Transfer,
+        .arguments = { graph::writes("plane", version) },
+        .domain = graph::Domain::Host,
+        .step = [resource](Run& run) { run.buffer<std::uint32_t>(resource).fill(run.queue(), 0u); } });
+}
+
+} // namespace wedge::render

@@ -1,0 +1,143 @@
+#pragma once
+
+#include "host/graph/graph.h"
+#include "host/render/device_scene.h"
+#include "host/render/frame.h"
+#include "host/render/settings.h"
+#include "kernels/shared/filter_params.h"
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wedge::render {
+
+// What planes hold. Vectors are three planes of floats, one after the other.
+struct Position { }; ///< metres, in the world
+struct Normal { };
+struct Packed { }; ///< a normal in one number
+struct Metres { };
+struct ObjectId { }; ///< from 1; 0: nothing was hit
+struct Reflectance { };
+struct Gloss { }; ///< exponent of the lobe
+struct Radiance { };
+struct Deviation { }; ///< numbers whose squares are variances in the mean
+struct Count { };
+struct Sums { }; ///< of a term's samples, see area_light.cl and indirect.cl
+struct Value { }; ///< of a term, what is filtered: visibility or irradiance
+struct Extremes { }; ///< least and largest slopes of occluders, or distances of reflectors
+struct Logarithms { };
+struct Demand { };
+struct Share { }; ///< numbers from 0 to 1, or that others are multiplied by
+
+/// What the camera sees through each pixel, see kernels/primary.cl.
+struct Surfaces {
+    graph::Handle<Position> position, origin;
+    graph::Handle<Normal> normal;
+    graph::Handle<Packed> geometric;
+    graph::Handle<ObjectId> objectId;
+    graph::Handle<Metres> depth, pixelSize;
+    graph::Handle<Reflectance> diffuse, specular;
+    graph::Handle<Radiance> emission;
+    graph::Handle<Gloss> gloss;
+};
+
+/// What a frame adds up, and what it counts.
+struct Sum {
+    graph::Handle<Radiance> filtered, noisy;
+    graph::Handle<Deviation> deviation;
+};
+struct Totals {
+    Sum direct, indirect;
+    graph::Handle<Count> samples, indirectSamples, rays, pathRays;
+    graph::Handle<Radiance> beauty;
+};
+
+/// What a term's passes tell those after them, on the host, while they run.
+struct TermState {
+    bool analysed = false; ///< its first pass was completed
+};
+
+/// What effects and filters declare their passes with. Its device memory may be absent for a graph that is planned and
+/// not run.
+struct FrameBuilder {
+    graph::Graph& graph;
+    const scene::Scene& description;
+    const DeviceScene* scene; ///< null: the graph is not run
+    const Settings& settings;
+    PlaneLayout layout;
+    std::size_t packetSize; ///< pixels of a work-item over tiles
+    bool specular; ///< hasSpecular()
+    cl::Buffer unused; ///< for parameters that nothing is read from
+    Surfaces surfaces = {};
+    Totals totals = {};
+
+    bool analysed() const { return settings.method == Method::AxisAligned; }
+    /// Of the whole image.
+    shared::FrameParams wholeFrame() const;
+    /// Where kernels of analysis find pixels; the rectangle is to come.
+    shared::AnalysisParams analysisParams() const;
+
+    /// FrameParams of the launch's pixels.
+    graph::Argument frame() const;
+    /// Those parameters with the launch's rectangle.
+    template <class Params>
+    graph::Argument rectangle(const Params& params) const
+    {
+        return graph::made("p", [params](const graph::Launch& launch) {
+            Params p = params;
+            setRectangle(p, launch.window);
+            return p;
+        });
+    }
+    /// The hierarchy.
+    std::vector<graph::Argument> hierarchy() const;
+    /// WEDGE_SURFACE_PARAMETERS.
+    std::vector<graph::Argument> geometry() const;
+    /// WEDGE_RECEIVER_PARAMETERS, the pixels being the receivers.
+    std::vector<graph::Argument> receivers() const;
+    /// A buffer that outlives the frame; null: none, and nothing reads it.
+    graph::Argument outside(std::string name, std::string_view type, const cl::Buffer* memory) const;
+    /// One of the scene's.
+    template <class T>
+    graph::Argument ofScene(std::string name, std::string_view type, device::Buffer<T> DeviceScene::*member) const
+    {
+        return outside(std::move(name), type, scene != nullptr ? &(scene->*member).cl() : nullptr);
+    }
+
+    /// A pass over tiles of pixels that traces rays, which the user may stop in its middle.
+    void trace(std::string name, graph::KernelName kernel, std::vector<graph::Argument> arguments, bool everywhere,
+        const std::function<double(const graph::Launch&)>& workUnits);
+    /// A pass over the 16-pixel blocks of rows, or over pixels.
+    void blocks(std::string_view name, device::PassKind kind, graph::KernelName kernel,
+        std::vector<graph::Argument> arguments, const std::function<bool(const graph::Run&)>& condition = {});
+    void pixels(
+        std::string_view name, device::PassKind kind, graph::KernelName kernel, std::vector<graph::Argument> arguments);
+    /// A pass of that many items.
+    void items(std::string_view name, device::PassKind kind, graph::KernelName kernel, std::size_t count,
+        std::vector<graph::Argument> arguments);
+    /// A step on the host.
+    void host(std::string name, const std::function<void(graph::Run&)>& step);
+    /// Fills planes with zeros.
+    template <class... Quantities>
+    void zero(graph::Handle<Quantities>&... handles)
+    {
+        (zeroOne(handles), ...);
+    }
+
+private:
+    void zeroOne(graph::Version& version);
+};
+
+/// Lists of arguments, one after the other.
+template <class... Lists>
+std::vector<graph::Argument> joined(std::vector<graph::Argument> first, const Lists&... others)
+{
+    (first.insert(first.end(), others.begin(), others.end()), ...);
+    return first;
+}
+
+using Arguments = std::vector<graph::Argument>;
+
+} // namespace wedge::render

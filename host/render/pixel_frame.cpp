@@ -1,0 +1,205 @@
+#include "host/render/pixel_frame.h"
+
+#include "host/render/effects/light_graph.h"
+#include "host/render/effects/path_graph.h"
+
+namespace wedge::render {
+
+using device::PassKind;
+using graph::around;
+using graph::reads;
+using graph::Run;
+using graph::tallies;
+using graph::updates;
+using graph::value;
+using graph::writes;
+
+PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene, const Settings& settings,
+    std::size_t packetSize, const cl::Buffer& unused, bool keepLayers)
+    : keepsLayers_(keepLayers)
+    , settings_(settings)
+    , graph_(settings.width, settings.height, PlaneLayout(settings.width, settings.height).size)
+    , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize,
+        hasSpecular(scene), unused }
+{
+    const bool lit = settings.integrator == Integrator::Path;
+    primary(lit);
+    for (std::uint32_t light = 0; lit && light < scene.areaLights.size(); ++light) {
+        term("light", keepLayers, [&](TermWidths& widths) { addAreaLight(f_, light, widths.state, widths.beta); });
+    }
+    if (lit && !(scene.pointLights.empty() && scene.directionalLights.empty())) {
+        deltaLights();
+    }
+    for (const IndirectTerm& component : indirectTerms(settings, f_.specular)) {
+        term("paths", keepLayers,
+            [&](TermWidths& widths) { addPaths(f_, component.component, widths.state, widths.beta); });
+    }
+    if (usesFallback(settings)) {
+        graph_.only(
+            "fallback", [](const Run& run) { return !run.stopped(); },
+            [&] {
+                if (lit && !scene.areaLights.empty()) {
+                    fallBack(f_.totals.direct);
+                }
+                if (tracesPaths(settings)) {
+                    fallBack(f_.totals.indirect);
+                }
+            });
+    }
+    f_.blocks("composite", PassKind::Composite, { "composite.cl", "addEmission" },
+        { f_.rectangle(f_.analysisParams()), reads("emission", f_.surfaces.emission),
+            reads("direct", f_.totals.direct.filtered), reads("indirect", f_.totals.indirect.filtered),
+            reads("objectId", f_.surfaces.objectId), writes("beauty", f_.totals.beauty) });
+    wantOutputs(keepLayers);
+}
+
+void PixelFrame::primary(bool lit)
+{
+    Surfaces& s = f_.surfaces;
+    s.position = graph_.plane<Position>("position", graph::vectors);
+    s.normal = graph_.plane<Normal>("normal", graph::vectors);
+    s.origin = graph_.plane<Position>("origin", graph::vectors);
+    s.geometric = graph_.plane<Packed>("geometric normal", graph::counts);
+    s.objectId = graph_.plane<ObjectId>("object id", graph::counts);
+    s.depth = graph_.plane<Metres>("depth", graph::floats);
+    s.pixelSize = graph_.plane<Metres>("pixel size", graph::floats);
+    s.diffuse = graph_.plane<Reflectance>("diffuse", graph::vectors);
+    s.specular = graph_.plane<Reflectance>("specular", graph::vectors);
+    s.emission = graph_.plane<Radiance>("emission", graph::vectors);
+    s.gloss = graph_.plane<Gloss>("gloss", graph::floats);
+    Totals& t = f_.totals;
+    for (Sum* sum : { &t.direct, &t.indirect }) {
+        const std::string name = sum == &t.direct ? "direct" : "indirect";
+        sum->filtered = graph_.plane<Radiance>(name, graph::vectors);
+        sum->noisy = graph_.plane<Radiance>(name + " noisy", graph::vectors);
+        sum->deviation = graph_.plane<Deviation>(name + " deviation", graph::floats);
+        f_.zero(sum->filtered, sum->noisy, sum->deviation);
+    }
+    t.samples = graph_.plane<Count>("samples", graph::counts);
+    t.indirectSamples = graph_.plane<Count>("indirect samples", graph::counts);
+    t.rays = graph_.plane<Count>("rays", graph::counts);
+    t.pathRays = graph_.plane<Count>("path rays", graph::counts);
+    t.beauty = graph_.plane<Radiance>("beauty", graph::vectors);
+    f_.zero(t.samples, t.indirectSamples, t.rays, t.pathRays);
+    // Gathers read the padding, which is of no object; and what is not hit, or not seen before a frame is stopped, is
+    // 0.
+    f_.zero(s.position, s.normal, s.origin, s.geometric, s.objectId, s.depth, s.pixelSize, s.diffuse, s.specular,
+        s.emission, s.gloss);
+    f_.trace("primary rays", { "primary.cl", "primary" },
+        joined({ f_.frame() }, f_.hierarchy(), f_.geometry(),
+            Arguments { f_.ofScene("objectIds", "uint", &DeviceScene::objectIds),
+                f_.ofScene("lights", "AreaLight", &DeviceScene::areaLights),
+                value("lightCount", static_cast<std::uint32_t>(lit ? f_.description.areaLights.size() : 0)),
+                updates("position", s.position), updates("normal", s.normal), updates("origin", s.origin),
+                updates("geometric", s.geometric), updates("objectId", s.objectId), updates("depth", s.depth),
+                updates("pixelSize", s.pixelSize), updates("diffuse", s.diffuse), updates("specular", s.specular),
+                updates("emission", s.emission), updates("gloss", s.gloss) }),
+        f_.analysed(), [](const graph::Launch&) { return 1.0; });
+    if (!lit) {
+        f_.zero(s.emission);
+    }
+}
+
+template <class Declare>
+void PixelFrame::term(const std::string& name, bool keepWidths, const Declare& declare)
+{
+    TermWidths widths { std::make_shared<TermState>(), {} };
+    const auto beta = [&] { widths.beta = graph_.plane<Metres>("filter width", graph::floats); };
+    if (keepWidths) {
+        beta();
+    }
+    f_.host("term", [state = widths.state](Run&) { *state = {}; });
+    graph_.only(
+        name, [](const Run& run) { return !run.stopped(); },
+        [&] {
+            if (!keepWidths) {
+                beta();
+            }
+            declare(widths);
+        });
+    terms_.push_back(widths);
+}
+
+void PixelFrame::deltaLights()
+{
+    Totals& t = f_.totals;
+    graph_.only(
+        "point lights", [](const Run& run) { return !run.stopped(); },
+        [&] {
+            f_.trace("point lights", { "delta_lights.cl", "deltaLights" },
+                joined({ f_.frame(), f_.ofScene("lights", "DeltaLight", &DeviceScene::deltaLights),
+                           value("lightCount", f_.scene != nullptr ? f_.scene->deltaLightCount : 0u),
+                           value("sceneDiameter", f_.scene != nullptr ? f_.scene->diameter : 0.0f) },
+                    f_.hierarchy(), f_.receivers(),
+                    Arguments { reads("diffuse", f_.surfaces.diffuse), reads("specular", f_.surfaces.specular),
+                        updates("direct", t.direct.filtered), updates("directNoisy", t.direct.noisy),
+                        tallies("rays", t.rays) }),
+                false, [](const graph::Launch&) { return 1.0; });
+        });
+}
+
+void PixelFrame::fallBack(Sum& sum)
+{
+    const graph::Argument p = f_.rectangle(f_.analysisParams());
+    const graph::Reach near = around(WEDGE_SHRINK_REACH);
+    auto squares = graph_.plane<Share>("squares of what filters are off", graph::floats);
+    f_.blocks("fallback", PassKind::Filter, { "fallback.cl", "fallbackSquares" },
+        { p, reads("filtered", sum.filtered), reads("noisy", sum.noisy), reads("deviation", sum.deviation),
+            writes("squares", squares) });
+    f_.blocks("fallback", PassKind::Filter, { "fallback.cl", "fallBack" },
+        { p, reads("squares", squares, near), reads("objectId", f_.surfaces.objectId, near), reads("noisy", sum.noisy),
+            updates("filtered", sum.filtered) });
+}
+
+void PixelFrame::wantOutputs(bool keepLayers)
+{
+    const Window output = outputWindow(settings_);
+    const Surfaces& s = f_.surfaces;
+    const Totals& t = f_.totals;
+    for (const graph::Version& shown : std::initializer_list<graph::Version> { s.position, s.normal, s.origin,
+             s.geometric, s.objectId, s.depth, s.pixelSize, s.diffuse, s.specular, s.emission, s.gloss, t.beauty,
+             t.direct.filtered, t.direct.noisy, t.indirect.filtered, t.indirect.noisy, t.direct.deviation,
+             t.indirect.deviation, t.samples, t.indirectSamples, t.rays, t.pathRays }) {
+        graph_.want(shown, output);
+    }
+    for (const TermWidths& term : terms_) {
+        if (keepLayers && f_.analysed()) {
+            graph_.want(term.beta, output);
+        }
+    }
+}
+
+std::unique_ptr<Frame> PixelFrame::outputs(const graph::Execution& execution) const
+{
+    const Surfaces& s = f_.surfaces;
+    const Totals& t = f_.totals;
+    auto frame = std::make_unique<Frame>(f_.layout);
+    const auto show = [&](auto& buffer, const graph::Version& version) {
+        buffer = execution.output<typename std::decay_t<decltype(buffer)>::Element>(version);
+    };
+    show(frame->position, s.position);
+    show(frame->normal, s.normal);
+    show(frame->origin, s.origin);
+    show(frame->geometric, s.geometric);
+    show(frame->objectId, s.objectId);
+    show(frame->depth, s.depth);
+    show(frame->pixelSize, s.pixelSize);
+    show(frame->diffuse, s.diffuse);
+    show(frame->specular, s.specular);
+    show(frame->emission, s.emission);
+    show(frame->gloss, s.gloss);
+    show(frame->beauty, t.beauty);
+    show(frame->direct, t.direct.filtered);
+    show(frame->directNoisy, t.direct.noisy);
+    show(frame->directDeviation, t.direct.deviation);
+    show(frame->indirect, t.indirect.filtered);
+    show(frame->indirectNoisy, t.indirect.noisy);
+    show(frame->indirectDeviation, t.indirect.deviation);
+    show(frame->samples, t.samples);
+    show(frame->indirectSamples, t.indirectSamples);
+    show(frame->rays, t.rays);
+    show(frame->pathRays, t.pathRays);
+    return frame;
+}
+
+} // namespace wedge::render
