@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <map>
 #include <random>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -282,6 +283,24 @@ TEST_CASE("random graphs: whoever reads finds what was written, on every pixel t
     MESSAGE("memory over what lives at once: ", used / needed);
     CHECK(used >= needed);
     CHECK(used < 1.02 * needed);
+}
+
+TEST_CASE("where nothing may be shared, whatever needs memory has a piece of exactly its own")
+{
+    for (unsigned seed = 0; seed < 100; ++seed) {
+        CAPTURE(seed);
+        const RandomGraph made(seed);
+        const Plan plan(made.graph, alignment, 0);
+        std::set<std::uint32_t> taken;
+        for (std::size_t i = 0; i < plan.lifetimes.size(); ++i) {
+            if (plan.lifetimes[i] && !made.graph.resources()[i].imported) {
+                const std::uint64_t bytes = made.graph.resources()[i].bytes();
+                CHECK(taken.insert(plan.places[i].slab).second);
+                CHECK(plan.slabs[plan.places[i].slab] == (bytes + alignment - 1) / alignment * alignment);
+            }
+        }
+        CHECK(taken.size() == plan.slabs.size());
+    }
 }
 
 TEST_CASE("what nobody wants is left out, and so is what only that needed")

@@ -157,7 +157,7 @@ void RenderJob::prepare()
     options.fastMath = options_.fastMath;
     options.bvh = options_.bvh.value_or(bvh::Mode::Default);
     options.traversal = options_.traversal.value_or(render::Traversal::Automatic);
-    options.blameLaunches = options_.checkLaunches;
+    options.checkLaunches = options_.checkLaunches;
     options.memoryLimit = options_.memoryLimitBytes;
     progress_.show("building the hierarchy");
     renderer_ = std::make_unique<render::Renderer>(scene_, device, options);

@@ -148,7 +148,8 @@ void addDeviceOptions(CLI::App& parser, RenderOptions& o)
     addValue(parser, howGroup, "--kernel-dir", "DIR", "Kernels to use in place of the built-in ones",
         [&o](const std::string& text) { o.kernelDir = text; });
     parser
-        .add_flag("--check-launches", o.checkLaunches, "Wait for each launch, so that a device error names its kernel")
+        .add_flag("--check-launches", o.checkLaunches,
+            "Wait for each launch, and give each plane its own memory, so that errors name their kernel")
         ->group(howGroup);
     parser.add_flag("--fast-math", o.fastMath, "Let the device's compiler relax floating-point rules")->group(howGroup);
 }

@@ -60,7 +60,9 @@ Placement place(const std::vector<Tenant>& tenants, std::uint64_t alignment, std
             }
             std::sort(taken.begin(), taken.end(), [](const Taken& a, const Taken& b) { return a.begin < b.begin; });
             const std::uint64_t offset = bestGap(taken, bytes);
-            if (offset == 0 || end(offset, bytes) <= mostSlabBytes) {
+            const bool fits =
+                mostSlabBytes == 0 ? out.slabs[slab] == 0 : offset == 0 || end(offset, bytes) <= mostSlabBytes;
+            if (fits) {
                 out.places[i] = { slab, offset };
                 out.slabs[slab] = std::max(out.slabs[slab], end(offset, bytes));
                 break;

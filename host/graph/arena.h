@@ -26,7 +26,8 @@ struct Placement {
 
 /// Places tenants so that no two that meet overlap, the largest first, each in the smallest gap that holds it. Every
 /// offset and every slab's size is a multiple of `alignment`. One slab, or as many as it takes where one would be
-/// larger than mostSlabBytes; what is larger by itself gets one of its own.
+/// larger than mostSlabBytes; what is larger by itself gets one of its own. 0: each tenant gets one, so that a
+/// simulator of a device sees who works past an end.
 Placement place(const std::vector<Tenant>& tenants, std::uint64_t alignment, std::uint64_t mostSlabBytes);
 
 } // namespace wedge::graph

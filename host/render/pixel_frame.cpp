@@ -142,7 +142,7 @@ void PixelFrame::fallBack(Sum& sum)
 {
     const graph::Argument p = f_.rectangle(f_.analysisParams());
     const graph::Reach near = around(WEDGE_SHRINK_REACH);
-    auto squares = graph_.plane<Share>("squares of what filters are off", graph::floats);
+    auto squares = graph_.plane<Share>("squares of what filters are off", graph::floatPlanes(2));
     f_.blocks("fallback", PassKind::Filter, { "fallback.cl", "fallbackSquares" },
         { p, reads("filtered", sum.filtered), reads("noisy", sum.noisy), reads("deviation", sum.deviation),
             writes("squares", squares) });

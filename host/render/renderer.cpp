@@ -149,7 +149,7 @@ Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Opti
     , device_(device)
     , options_(std::move(options))
     , hierarchy_(buildHierarchy(scene, options_.bvh, resolveTraversal(options_.traversal, device.info())))
-    , queue_(device, options_.blameLaunches)
+    , queue_(device, options_.checkLaunches)
     , programs_(std::make_unique<device::ProgramLibrary>(device, programOptions(scene, options_, hierarchy_.traversal)))
     , passes_(std::make_unique<Passes>(*programs_, queue_, packetSize(hierarchy_.traversal)))
     , kernels_(*programs_)
@@ -161,14 +161,14 @@ Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Opti
 Renderer::~Renderer() = default;
 
 device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings,
-    bool keepLayers, std::uint64_t mostBytes)
+    bool keepLayers, std::uint64_t mostSlabBytes)
 {
     const PlaneLayout layout(settings.width, settings.height);
     device::MemoryPlan plan;
     DeviceScene::plan(plan, scene, hierarchy);
     if (!isDistributed(settings, scene)) {
         const PixelFrame frame(scene, nullptr, settings, packetSize(hierarchy.traversal), cl::Buffer(), keepLayers);
-        graph::Plan(frame.graph(), device::partAlignment, mostBytes).addTo(plan);
+        graph::Plan(frame.graph(), device::partAlignment, mostSlabBytes).addTo(plan);
         return plan;
     }
     const bool specular = hasSpecular(scene);
@@ -380,7 +380,7 @@ bool Renderer::renderPixels(const Settings& settings, bool keepLayers)
     frame_.reset(); // it has parts of the memory
     pixelFrame_ = std::make_unique<PixelFrame>(
         scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal), unused_, keepLayers);
-    const graph::Plan plan(pixelFrame_->graph(), device::partAlignment, device_.info().maxAllocation);
+    const graph::Plan plan(pixelFrame_->graph(), device::partAlignment, mostSlabBytes());
     graph::Execution execution(plan, memory_, kernels_, queue_);
     termPlanes_.clear();
     if (passes_->rehearsal()) {

@@ -25,7 +25,8 @@ namespace wedge::render {
 struct Options {
     std::string kernelDir; ///< kernels to use in place of the embedded ones, "" for none
     bool fastMath = false;
-    bool blameLaunches = false; ///< waits for each launch, so that a device error names the right kernel
+    /// Waits for each launch, so that a device error names the right kernel, and gives each plane memory of its own.
+    bool checkLaunches = false;
     bool poison = false; ///< fills memory with not-a-numbers before it is used, which must not show: for tests
     std::uint64_t memoryLimit = 0; ///< bytes on the device, 0: the device's own limit
     bvh::Mode bvh = bvh::Mode::Default; ///< how the hierarchy is built: the image is the same
@@ -85,12 +86,12 @@ public:
 
     /// Device memory that a frame of these settings takes, before anything of it is allocated.
     /// keepLayers: as render() has it.
-    /// mostBytes: of one buffer on the device.
+    /// mostSlabBytes: as graph::place() has it.
     static device::MemoryPlan plan(const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings,
-        bool keepLayers = false, std::uint64_t mostBytes = std::numeric_limits<std::uint64_t>::max());
+        bool keepLayers = false, std::uint64_t mostSlabBytes = std::numeric_limits<std::uint64_t>::max());
     device::MemoryPlan plan(const Settings& settings, bool keepLayers = false) const
     {
-        return plan(scene_, hierarchy_, settings, keepLayers, device_.info().maxAllocation);
+        return plan(scene_, hierarchy_, settings, keepLayers, mostSlabBytes());
     }
 
     /// Renders; the result stays on the device until the next call. Throws Error if memory does not suffice or the
@@ -126,6 +127,7 @@ private:
     void allocate(const Settings& settings, bool keepLayers);
     bool renderPasses(const Settings& settings, bool keepLayers);
     bool renderPixels(const Settings& settings, bool keepLayers);
+    std::uint64_t mostSlabBytes() const { return options_.checkLaunches ? 0 : device_.info().maxAllocation; }
     TermContext contextOf(const Settings& settings);
     void beginHalves(const Settings& settings, bool keepLayers);
     void rehearseHalves(const Settings& settings);

@@ -30,7 +30,7 @@ simulate() {
     shift
     case $name in *_image) layers=() ;; esac
     oclgrind --build-options -cl-opt-disable --data-races --check-api --max-errors 20 \
-        --log "$work/$name.log" "$wedge" render "$@" "${layers[@]}" -o "$work/$name.exr" \
+        --log "$work/$name.log" "$wedge" render "$@" --check-launches "${layers[@]}" -o "$work/$name.exr" \
         --report "$work/$name.json" >"$work/$name.out" 2>&1
 }
 
