@@ -2,6 +2,7 @@
 #include "tests/render_support.h"
 
 #include <cstring>
+#include <numeric>
 
 using namespace wedge;
 using namespace wedge::test;
@@ -152,6 +153,12 @@ TEST_CASE("a frame that is stopped anywhere has no pixel that is no number")
                 const std::vector<float> image =
                     pixels(renderer, renderer.frame().beauty, render::outputWindow(settings));
                 CHECK(std::ranges::all_of(image, [](float x) { return std::isfinite(x); }));
+                // What was sampled is shown.
+                const auto sum = [&](const device::Buffer<std::uint32_t>& counts) {
+                    const std::vector<std::uint32_t> each = counts.downloadAll(renderer.queue());
+                    return std::accumulate(each.begin(), each.end(), std::uint64_t { 0 });
+                };
+                CHECK((sum(renderer.frame().rays) > 0) == (sum(renderer.frame().samples) > 0));
             }
         }
     });

@@ -148,8 +148,10 @@ void Execution::runRange(Run& run, std::size_t begin, std::size_t end, int loop)
         while (last < end && plan_.graph.holds(inner, plan_.passes[last].pass->loop)) {
             ++last;
         }
-        const std::size_t count = run.rehearsal() ? 1 : plan_.graph.loops()[static_cast<std::size_t>(inner)].count(run);
-        for (std::size_t k = 0; k < count && !run.stopped(); ++k) {
+        const Loop& body = plan_.graph.loops()[static_cast<std::size_t>(inner)];
+        const std::size_t count = run.rehearsal() ? 1 : body.count(run);
+        // Whoever stops ends what is repeated; conditions say themselves what is left out then.
+        for (std::size_t k = 0; k < count && !(body.repeats && run.stopped()); ++k) {
             run.iterations_.push_back(k);
             runRange(run, i, last, inner);
             run.iterations_.pop_back();

@@ -51,6 +51,7 @@ void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams para
     params.maxRadius = static_cast<std::uint32_t>(comparedReach(frame.settings, pixels));
     const int far = static_cast<int>(params.maxRadius);
     const graph::Reach along { .x = far }, across { .y = far }, near = around(WEDGE_SHRINK_REACH);
+    const graph::Reach noisy { .x = 2 * WEDGE_BLOCK_PIXELS - 1, .y = 3 * WEDGE_SHRINK_REACH };
     const std::string program = "compare_widths.cl";
     const shared::AnalysisParams p = frame.analysisParams();
     const auto all = value("frame", frame.wholeFrame());
@@ -66,7 +67,7 @@ void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams para
     auto variance = g.plane<Value>("variance", graph::floats);
     auto shares = g.plane<Share>("shares", graph::floats);
     frame.blocks(pass, PassKind::Filter, { "widen.cl", "comparedWidths" },
-        joined({ frame.rectangle(p), all, value("pixels", pixels), reads("deviation", compared.deviation) },
+        joined({ frame.rectangle(p), all, value("pixels", pixels), reads("deviation", compared.deviation, noisy) },
             neighbours(frame.surfaces, {}), Arguments { reads("beta", beta), writes("compared", wider) }));
     frame.blocks(pass, PassKind::Filter, { program, "compareRows" },
         joined({ frame.rectangle(params), reads("value", compared.value, along), reads("beta", beta, along),
