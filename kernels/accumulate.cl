@@ -29,15 +29,13 @@ WEDGE_FN void storeShadows(WaveParams wave, WavePixel p, uint pixels, __global f
 ///         termTaken, termWanted: the pixels' samples of the light before and after the wave
 /// in out  of pixels: texture (3), value (visibility, 3), plain (its luminance, unweighted), squares and textureSquares
 ///         (mean squared luminance of a primary sample's radiance, and of its texture), termRadiance (3, as published),
-///         extremes (slopes, and shadows' motions), deviation, weightOf (mean luminance of the
-///         texture), samples (of all terms), termTaken
+///         extremes (slopes, and shadows' motions), deviation, samples (of all terms), termTaken
 __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight light, uint exact,
     __global const uint* restrict pixelFirst, __global const uint* restrict pixelCount,
     __global const uint* restrict taken, __global const uint* restrict hits, WEDGE_RECEIVER_PARAMETERS,
     __global const float* restrict diffuse, __global const float* restrict specular,
     __global const float* restrict sums, __global const float* restrict unshadowed,
-    __global const float* restrict slopes, WEDGE_TERM_PARAMETERS, __global float* restrict weightOf,
-    __global uint* restrict samples)
+    __global const float* restrict slopes, WEDGE_TERM_PARAMETERS, __global uint* restrict samples)
 {
     WavePixel p;
     if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
@@ -132,7 +130,6 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
     }
 #endif
     if ((wave.omits & WEDGE_OMITS_LAYERS) == 0u) {
-        weightOf[p.i] = luminance(loadColour(texture, pixels, p.i, planes.textureBits));
         samples[p.i] += total;
         termTaken[p.i] += total;
     }
@@ -301,9 +298,9 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
     if (wave.packed != 0u) {
         // The signed radius nearest to 0, or 0 where it changes its sign.
         const float least = low > 0.0f ? low : high < 0.0f ? high : 0.0f;
-        const float had = p.before > 0u ? loadShort(confusionOf, pixels, p.i, 1u) : least;
+        const float had = p.before > 0u ? loadShort(confusionOf, pixels, p.i, 0u) : least;
         const float nearest = fabs(had) < fabs(least) ? had : least;
-        storeShort(confusionOf, pixels, p.i, 1u,
+        storeShort(confusionOf, pixels, p.i, 0u,
             (had > 0.0f) == (least > 0.0f) && (had < 0.0f) == (least < 0.0f) ? nearest : 0.0f);
     } else {
         confusionOf[p.i] = low;
@@ -325,7 +322,7 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
     storeNormal(normalOf, pixels, p.i, wave.packed, vecNormalize(vecMad(facing, faced, hits)));
     if (measures && wave.packed != 0u) {
         storeShort(pixelSizeOf, pixels, p.i, 0u, edge / hit);
-        storeShort(pixelSizeOf, pixels, p.i, 1u, exponent / hit);
+        storeShort(glossOf, pixels, p.i, 0u, exponent / hit);
     } else if (measures) {
         glossOf[p.i] = meanWith(glossOf[p.i], hits, exponent, hit);
         pixelSizeOf[p.i] = meanWith(pixelSizeOf[p.i], hits, edge, hit);

@@ -10,10 +10,10 @@
 // Packed planes (wave.packed) hold of k and E the one that is a fraction in 32 bits and the other in 47
 // (packed_planes.h), normals in one plane, and what one wave alone measures in 16 bits: in `plain` the factoring error
 // (distributed.cl) and, after it, the one of the extremes that there is; in `squares` the standard deviations of a
-// primary sample's radiance and of its texture; in 16 bits of its own the deviation of the value. Likewise pixelSize
-// holds the gloss, too, and hits, after these, the signed radius nearest to 0 of the circles of confusion. Motions are
-// the mean's two numbers, the first of which is infinite where the pixel's motions differ (storeOneMotion): of surfaces
-// in `motion`, of a light's shadows in `extremes`.
+// primary sample's radiance and of its texture; in 16 bits of its own the deviation of the value. Sizes of pixels,
+// gloss, hits and the signed radius nearest to 0 of the circles of confusion have 16 bits each. Motions are the mean's
+// two numbers, the first of which is infinite where the pixel's motions differ (storeOneMotion): of surfaces in
+// `motion`, of a light's shadows in `extremes`.
 #ifndef WEDGE_ACCUMULATE_H
 #define WEDGE_ACCUMULATE_H
 

@@ -222,7 +222,7 @@ __kernel void narrowForLobes(AnalysisParams p, FrameParams frame, __global const
 
 /// narrowed() of pixels of many receivers, which keep what they reflect of the light as one. At least what a white matt
 /// surface that faced all of the light, as near as its nearest corner may be, would not reflect is a highlight's.
-/// in      texture: of the light's term, bits: WEDGE_*_BITS of it; gloss: packed, with the sizes of pixels
+/// in      texture: of the light's term, bits: WEDGE_*_BITS of it; gloss: may be packed
 /// in out  beta
 __kernel void narrowForHighlights(AnalysisParams p, FrameParams frame, AreaLight light, uint bits,
     __global const float* restrict texture, __global const float* restrict position,
@@ -245,7 +245,7 @@ __kernel void narrowForHighlights(AnalysisParams p, FrameParams frame, AreaLight
     const float white = WEDGE_INV_PI * luminance(light.power) / fmax(nearest * nearest, 1e-20f);
     const float reflected = luminance(loadColour(texture, p.planeSize, i, bits));
     if (reflected > white) {
-        beta[i] = narrowed(p, toLight, vecSub(frame.eye, at), loadNumber(gloss, p.planeSize, i, p.packed, 1u),
+        beta[i] = narrowed(p, toLight, vecSub(frame.eye, at), loadNumber(gloss, p.planeSize, i, p.packed, 0u),
             1.0f - white / reflected, wide);
     }
 }

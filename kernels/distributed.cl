@@ -109,8 +109,8 @@ __kernel void sampleDemand(DistributedParams p, __global const float* restrict v
         return;
     }
     float largest = 0.0f, sum = 0.0f, count = 0.0f, ofOwn = 0.0f;
-    for (int dy = -min((int)y, 2); dy <= min((int)(p.height - 1u - y), 2); ++dy) {
-        for (int dx = -min((int)x, 2); dx <= min((int)(p.width - 1u - x), 2); ++dx) {
+    for (int dy = -min((int)y, WEDGE_DEMAND_REACH); dy <= min((int)(p.height - 1u - y), WEDGE_DEMAND_REACH); ++dy) {
+        for (int dx = -min((int)x, WEDGE_DEMAND_REACH); dx <= min((int)(p.width - 1u - x), WEDGE_DEMAND_REACH); ++dx) {
             const int j = (int)i + dy * (int)p.stride + dx;
             const float irradiance = beta[j] > 0.0f ? fmax(effective[j], 1.0f) : 1.0f;
             const float there = variance[j] / gatheredBy(irradiance, lens[j], p.alongMotion != 0u ? along[j] : 0.0f);

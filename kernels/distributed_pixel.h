@@ -27,11 +27,11 @@ WEDGE_FN Vec3 loadValue(DistributedParams p, __global const float* value, uint i
 }
 
 /// Smallest radius of the pixel's circles of confusion in pixels; 0 where it is in focus somewhere.
-/// confusion: least and largest signed radius (2 planes; packed, with the hits).
+/// confusion: least and largest signed radius (2 planes; packed, the one nearest to 0).
 WEDGE_FN float leastConfusion(DistributedParams p, __global const float* confusion, uint i)
 {
     if (p.packed != 0u) {
-        return fabs(loadShort(confusion, p.planeSize, i, 1u));
+        return fabs(loadShort(confusion, p.planeSize, i, 0u));
     }
     const float low = confusion[i], high = confusion[p.planeSize + i];
     return low > 0.0f ? low : high < 0.0f ? -high : 0.0f;

@@ -10,8 +10,6 @@
 
 /// (5.31) and (5.33).
 #define WEDGE_PUBLISHED_KERNEL_FACTOR 16.0f
-/// Radius of the median of flags, pixels.
-#define WEDGE_MEDIAN_RADIUS 2
 
 WEDGE_FN float largestConfusion(DistributedParams p, __global const float* confusion, uint i)
 {

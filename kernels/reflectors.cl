@@ -58,9 +58,6 @@ WEDGE_FN float leastDistance(ReflectorParams p, __global const float* extent)
     return fmax(p.leastReflector * (p.extent > 0.0f ? p.extent : extent[0]), 1e-12f);
 }
 
-/// Pixels around one, either way, whose rays tell how near what surrounds it is.
-#define WEDGE_NEARNESS_REACH 2
-
 /// Bandlimit of a pixel's transfer function; gloss: exponents, negative for Phong.
 WEDGE_FN float bandlimitOf(uint component, float gloss)
 {
@@ -106,7 +103,7 @@ __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict 
     }
     const uint i = pixelIndex(x, y, p.stride);
     const float size = loadNumber(pixelSize, p.planeSize, i, p.meanOnly, 0u);
-    const float exponent = loadNumber(gloss, p.planeSize, i, p.meanOnly, 1u);
+    const float exponent = loadNumber(gloss, p.planeSize, i, p.meanOnly, 0u);
     const float mean = nearness(p, x, y, i, reflectors + (p.meanOnly != 0u ? 0u : 2u * p.planeSize), objectId, taken);
     const bool has = reflectors[i] > 0.0f || mean < INFINITY;
     // What is nearer than the fraction of the mean counts itself: of open scenes most rays hit nothing.

@@ -135,7 +135,7 @@ inline std::string nameOf(TermCount count)
 /// A term's planes of pixels, and what they are to hold.
 struct TermPixels {
     Planes<std::uint32_t> before, after; ///< samples taken before and after a round
-    device::Buffer<float> texture, value, plain, squares, textureSquares, radiance, deviation, extremes, weightOf;
+    device::Buffer<float> texture, value, plain, squares, textureSquares, radiance, deviation, extremes;
     device::Buffer<std::uint32_t> wanted, taken, samples, ofPaths;
     std::vector<TermMeans> means, measured; ///< measured: after the first wave, which alone measures packed terms
     std::size_t round = 0;
@@ -153,7 +153,6 @@ struct TermPixels {
         , radiance(a.pixelBuffer(3))
         , deviation(a.pixelBuffer(1))
         , extremes(a.pixelBuffer(6))
-        , weightOf(a.pixelBuffer(1))
         , wanted(a.waves.bench.filled(a.waves.layout.size, 0u))
         , taken(a.waves.bench.filled(a.waves.layout.size, 0u))
         , samples(a.waves.bench.filled(a.waves.layout.size, 0u))
@@ -358,7 +357,7 @@ inline void accumulateLight(
         a.sums(specular ? 4 : 2, term.before, term.after, mean),
         a.receiverBuffer<float>(2, [](const SeenPoint& p, std::size_t k) { return p.unshadowed[k]; }),
         a.receiverBuffer<float>(6, [](const SeenPoint& p, std::size_t k) { return p.slopes[k]; }), term.planes(),
-        term.weightOf, term.samples);
+        term.samples);
 }
 
 /// Launches accumulatePaths for the wave; mean: of the samples of a receiver, in each channel.

@@ -164,11 +164,10 @@ std::vector<glm::dvec2> randomMotions(std::mt19937& random)
 struct BlursFound {
     Planes<float> lens, along, directions;
 };
-/// Packed, circles of confusion are with the hits, and directions take the place of motions.
+/// Packed, directions take the place of motions.
 BlursFound blurs(KernelBench& bench, const Region& region, const shared::DistributedParams& p,
     const Planes<float>& confusion, const Planes<float>& motion, const Planes<std::uint32_t>& taken)
 {
-    const Planes<float> hits = filledPlanes(region, 1, 1e30f, [](int x, int, std::size_t) { return x; });
     Output<float> lens(bench, region, 1), along(bench, region, 1), directions(bench, region, 2);
     const auto takens = bench.buffer(taken.values);
     if (p.packed == 0) {
@@ -181,7 +180,8 @@ BlursFound blurs(KernelBench& bench, const Region& region, const shared::Distrib
     std::copy_n(motion.values.begin() + static_cast<std::ptrdiff_t>(region.layout.size), region.layout.size,
         ofY.values.begin());
     const Planes<float> both = packedNumbers(motion, ofY);
-    const auto confusions = bench.buffer(packedNumbers(hits, confusion).values), motions = bench.buffer(both.values);
+    const auto confusions = bench.buffer(packedNumbers(confusion, confusion).values),
+               motions = bench.buffer(both.values);
     launchPixels(
         bench, "distributed.cl", "blurs", p, confusions, motions, takens, lens.buffer(), along.buffer(), motions);
     return { lens.read(), along.read(), directionsOf(bench, region, motions, both) };

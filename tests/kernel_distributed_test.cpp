@@ -79,11 +79,11 @@ Planes<float> factoredWidths(
     KernelBench& bench, const Region& region, const shared::DistributedParams& p, const Widths& in)
 {
     Output<float> beta(bench, region, in.beta);
-    // With what else there is in these planes: slopes, hits and gloss.
+    // With what else there is in these planes: slopes, or nothing.
     const Planes<float> other = filledPlanes(region, 1, 1e30f, [](int x, int, std::size_t) { return x; });
     const bool packed = p.packed != 0;
     const auto error = bench.buffer((packed ? packedNumbers(in.error, other) : in.error).values),
-               confusion = bench.buffer((packed ? packedNumbers(other, in.confusion) : in.confusion).values),
+               confusion = bench.buffer((packed ? packedNumbers(in.confusion, other) : in.confusion).values),
                size = bench.buffer((packed ? packedNumbers(in.pixelSize, other) : in.pixelSize).values);
     const auto objects = bench.buffer(in.objectId.values);
     launchPixels(bench, "distributed.cl", "factoredWidths", p, error, confusion, size, objects, beta.buffer());

@@ -69,11 +69,10 @@ public:
     void sample(const std::vector<std::uint32_t>& wanted, std::uint32_t last)
     {
         const render::DeviceScene& s = traced.onDevice;
-        const render::Frame& f = traced.frame;
+        const SurfaceBuffers& f = traced.frame;
         traced.bench.passes.tiles("paths", device::PassKind::Trace, "indirect.cl", "samplePaths", traced.params, 1.0,
-            params, s.nodes, s.blocks, render::surfaceArguments(s), s.areaLights, s.deltaLights, f.receivers(),
-            f.specular, traced.bench.buffer(wanted), last, sums_, traced.taken, value_, reflectors_, f.rays,
-            f.pathRays);
+            params, s.nodes, s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, f.receivers(), f.specular,
+            traced.bench.buffer(wanted), last, sums_, traced.taken, value_, reflectors_, f.rays, f.pathRays);
     }
     PathResult result()
     {

@@ -64,12 +64,15 @@ Widths widthsOf(KernelBench& bench, shared::ReflectorParams p, float extent, con
         taken.at(x, y) = pixels[i].taken;
         objectId.at(x, y) = objects.empty() ? static_cast<std::uint32_t>(i + 1) : objects[i];
     }
-    pixelSize = p.meanOnly != 0 ? packedNumbers(pixelSize, gloss) : pixelSize;
+    if (p.meanOnly != 0) {
+        pixelSize = packedNumbers(pixelSize, pixelSize);
+        gloss = packedNumbers(gloss, gloss);
+    }
     const auto beta = bench.filled(layout.size, -7.0f);
     const auto wanted = bench.filled(layout.size, noCount);
     launchRows(bench, "reflectorWidths", p, 1, bench.buffer(reflectors.values), bench.buffer(objectId.values),
-        bench.filled(1, extent), bench.buffer(pixelSize.values),
-        bench.buffer((p.meanOnly != 0 ? pixelSize : gloss).values), bench.buffer(taken.values), beta, wanted);
+        bench.filled(1, extent), bench.buffer(pixelSize.values), bench.buffer(gloss.values), bench.buffer(taken.values),
+        beta, wanted);
     const Planes<float> betas = planesOf(layout, bench.read(beta));
     const Planes<std::uint32_t> counts = planesOf(layout, bench.read(wanted));
     Widths out;

@@ -275,41 +275,37 @@ TEST_CASE("the host's schedule: waves of whole tiles in order, none too large, a
 {
     onEveryDevice([](const device::Device& device) {
         constexpr int width = 301, height = 203;
-        KernelBench bench(device);
         const render::PlaneLayout layout(width, height);
-        render::Frame frame(device, bench.queue, layout, { .distributed = true });
-        render::Waves waves(device, layout, { 2, 1, 2, false, true });
         const Counts counts(layout, 8);
-        frame.primaryTaken.upload(bench.queue, std::span<const std::uint32_t>(counts.taken.values));
-        frame.primaryWanted.upload(bench.queue, std::span<const std::uint32_t>(counts.wanted.values));
         for (const image::Window& window : { image::Window { 0, 0, width, height }, { 40, 3, 60, 50 } })
             for (const std::uint32_t last : { 0u, 4u, 0xffffffffu }) {
-                const shared::FrameParams params = render::frameParams(scene::Scene(), layout, window, 1);
+                WaveBench bench(device, width, height, window);
                 shared::WaveParams settings {};
+                settings.lastSample = last;
                 settings.sampler = WEDGE_SAMPLER_STRATIFIED;
                 settings.published = 1;
                 const std::vector<shared::WaveParams> found =
-                    waves.schedule(bench.passes, params, {}, frame, settings, last);
+                    render::WaveSchedule(bench.tileCounts(counts.taken, counts.wanted, settings), settings).waves;
                 std::uint64_t receivers = 0, expected = 0;
                 std::uint32_t tile = 0;
                 for (const shared::WaveParams& wave : found) {
                     REQUIRE(wave.firstTile >= tile); // tiles without samples may be left out
                     tile = wave.firstTile + wave.tiles;
                     REQUIRE(wave.receivers > 0);
-                    REQUIRE(wave.receivers <= render::Waves::capacity);
-                    REQUIRE(wave.tiles * WEDGE_TILE_PIXELS <= render::Waves::capacity);
+                    REQUIRE(wave.receivers <= render::WaveSchedule::capacity);
+                    REQUIRE(wave.tiles * WEDGE_TILE_PIXELS <= render::WaveSchedule::capacity);
                     REQUIRE(wave.lastSample == last);
                     REQUIRE(wave.sampler == settings.sampler);
                     REQUIRE(wave.published == settings.published);
                     receivers += wave.receivers;
                 }
-                REQUIRE(tile <= params.tileCount);
+                REQUIRE(tile <= bench.params.tileCount);
                 for (int y = window.y0; y < window.y1; ++y)
                     for (int x = window.x0; x < window.x1; ++x)
                         expected += counts.added(x, y, last);
                 CHECK(receivers == expected);
                 // As few as there can be, but for tiles that do not fit in what is left.
-                CHECK(found.size() <= expected / (render::Waves::capacity - 64 * 70) + 1);
+                CHECK(found.size() <= expected / (render::WaveSchedule::capacity - 64 * 70) + 1);
                 CHECK((last == 0) == found.empty());
             }
     });

@@ -192,7 +192,7 @@ TEST_CASE("a stop within the first pass leaves the pixels that it has come to, u
         scene.camera.apertureRadius = 0.1f;
         scene.camera.focusDistance = 2.5f;
         constexpr int across = 200, down = 150, first = 8;
-        REQUIRE(across * down * first > static_cast<int>(render::Waves::capacity));
+        REQUIRE(across * down * first > static_cast<int>(render::WaveSchedule::capacity));
         render::Renderer renderer(scene, device, renderOptions());
         const std::vector<float> reference = renderPixels(renderer, sized(render::monteCarlo(16), across, down));
         const std::atomic<bool> stop { true };

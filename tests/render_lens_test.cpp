@@ -293,7 +293,7 @@ TEST_CASE("a crop is the same pixels as the whole image, which takes several wav
         scene.camera.apertureRadius = 0.05f;
         displace(scene, { 0.1f, 0.05f, 0 });
         constexpr int across = 131, down = 85, spp = 19;
-        REQUIRE(across * down * 16 > static_cast<int>(render::Waves::capacity));
+        REQUIRE(across * down * 16 > static_cast<int>(render::WaveSchedule::capacity));
         for (const render::Sampler sampler : { render::Sampler::Sobol, render::Sampler::Stratified }) {
             render::Settings settings = sized(render::monteCarlo(spp), across, down);
             settings.sampler = sampler;

@@ -6,10 +6,10 @@
 #include "host/device/queue.h"
 #include "host/render/frame.h"
 #include "host/render/hierarchy.h"
-#include "host/render/passes.h"
 #include "host/render/renderer.h"
 #include "host/scene/scene.h"
 #include "tests/device_testing.h"
+#include "tests/passes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -92,7 +92,7 @@ public:
     device::Device device;
     device::TimedQueue queue;
     device::ProgramLibrary library;
-    render::Passes passes;
+    Passes passes;
 };
 
 /// Planes of one value a pixel in the layout of kernels/shared/frame.h, padding included.

@@ -28,14 +28,14 @@ struct SurfacesFound {
         , hits(a.read(a.hits))
         , position(a.read(p.position))
         , normal(a.packed != 0 ? normalsOf(a.read(p.normal)) : a.read(p.normal))
-        , gloss(a.packed != 0 ? numbersOf(a.read(p.pixelSize), 1) : a.read(p.gloss))
+        , gloss(a.packed != 0 ? numbersOf(a.read(p.gloss), 0) : a.read(p.gloss))
         , diffuse(a.read(p.diffuse))
         , specular(a.read(p.specular))
         , emission(a.read(p.emission))
         , emissionSquares(a.read(p.emissionSquares))
         , pixelSize(a.packed != 0 ? numbersOf(a.read(p.pixelSize), 0) : a.read(p.pixelSize))
         , distance(a.read(p.distance))
-        , confusion(a.packed != 0 ? numbersOf(a.read(p.confusion), 1) : a.read(p.confusion))
+        , confusion(a.packed != 0 ? numbersOf(a.read(p.confusion), 0) : a.read(p.confusion))
         , motion(a.read(p.motion))
     {
         for (const Planes<float>* planes :

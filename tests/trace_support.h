@@ -8,9 +8,57 @@
 #include "tests/render_support.h"
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace wedge::test {
+
+/// What kernels take for WEDGE_SURFACE_PARAMETERS.
+inline auto surfaceArguments(const render::DeviceScene& s)
+{
+    return std::tie(s.positions, s.normals, s.texcoords, s.indices, s.materialIds, s.materials, s.textures, s.texels,
+        s.srgbToLinear, s.positionsAtClose, s.normalsAtClose);
+}
+
+/// What primary.cl fills in, and the counters of rays, all 0.
+struct SurfaceBuffers {
+    SurfaceBuffers(KernelBench& bench, const render::PlaneLayout& layout)
+        : position(floats(bench, layout, 3))
+        , normal(floats(bench, layout, 3))
+        , origin(floats(bench, layout, 3))
+        , depth(floats(bench, layout, 1))
+        , pixelSize(floats(bench, layout, 1))
+        , diffuse(floats(bench, layout, 3))
+        , specular(floats(bench, layout, 3))
+        , emission(floats(bench, layout, 3))
+        , gloss(floats(bench, layout, 1))
+        , geometric(counts(bench, layout))
+        , objectId(counts(bench, layout))
+        , rays(counts(bench, layout))
+        , pathRays(counts(bench, layout))
+        , ofWaves(bench.filled(1, 0u))
+    {
+    }
+    /// What kernels take for WEDGE_RECEIVER_PARAMETERS, the pixels being the receivers.
+    auto receivers() const
+    {
+        return std::tie(position, normal, origin, geometric, objectId, gloss, ofWaves, ofWaves, ofWaves);
+    }
+
+    device::Buffer<float> position, normal, origin, depth, pixelSize, diffuse, specular, emission, gloss;
+    device::Buffer<std::uint32_t> geometric, objectId, rays, pathRays;
+    device::Buffer<std::uint32_t> ofWaves; ///< which nobody reads
+
+private:
+    static device::Buffer<float> floats(KernelBench& bench, const render::PlaneLayout& layout, std::size_t planes)
+    {
+        return bench.filled(planes * layout.size, 0.0f);
+    }
+    static device::Buffer<std::uint32_t> counts(KernelBench& bench, const render::PlaneLayout& layout)
+    {
+        return bench.filled(layout.size, 0u);
+    }
+};
 
 /// One scene's buffers, and the tracing kernels over them as the renderer launches them.
 class TracedScene {
@@ -23,7 +71,7 @@ public:
         , hierarchy(tree.bvh)
         , onDevice(scene, tree, device, bench.queue)
         , layout(width, height)
-        , frame(device, bench.queue, layout, render::FrameShape {})
+        , frame(bench, layout)
         , params(render::frameParams(scene, layout, { 0, 0, width, height }, 5))
         , specular(isDefined(defines, "WEDGE_SPECULAR"))
         , sums(device, layout.size * (specular ? 4 : 2), "sums")
@@ -42,7 +90,7 @@ public:
     void primary()
     {
         bench.passes.tiles("primary", device::PassKind::Trace, "primary.cl", "primary", params, 1.0, onDevice.nodes,
-            onDevice.blocks, render::surfaceArguments(onDevice), onDevice.objectIds, onDevice.areaLights,
+            onDevice.blocks, surfaceArguments(onDevice), onDevice.objectIds, onDevice.areaLights,
             static_cast<std::uint32_t>(onDevice.areaLightList.size()), frame.position, frame.normal, frame.origin,
             frame.geometric, frame.objectId, frame.depth, frame.pixelSize, frame.diffuse, frame.specular,
             frame.emission, frame.gloss);
@@ -54,7 +102,7 @@ public:
         firstWanted.fill(bench.queue, p.firstPass);
         bench.passes.tiles("first", device::PassKind::Trace, "area_light.cl", "firstPass", params, 1.0, p,
             onDevice.areaLightList[p.light], shared::CameraParams {}, onDevice.nodes, onDevice.blocks,
-            render::surfaceArguments(onDevice), frame.receivers(), firstWanted, sums, taken, value, slopes, frame.rays);
+            surfaceArguments(onDevice), frame.receivers(), firstWanted, sums, taken, value, slopes, frame.rays);
     }
     void secondPass(const shared::SampleParams& p, std::uint32_t last)
     {
@@ -91,7 +139,7 @@ public:
     const bvh::Bvh& hierarchy;
     render::DeviceScene onDevice;
     render::PlaneLayout layout;
-    render::Frame frame;
+    SurfaceBuffers frame;
     shared::FrameParams params;
     bool specular;
     device::Buffer<float> sums, value, slopes;

@@ -225,10 +225,9 @@ void Execution::launch(Run& run, const PlannedPass& planned)
         queue_.launchTiled(pass.name, pass.kind, kernel, count * (items / local), local, kernel.argCount() - 1,
             run.rehearsal() || !pass.workUnits ? 0.0 : pass.workUnits({ run, window }));
     } else {
-        constexpr std::size_t listGroup = 16;
         const std::size_t items = run.rehearsal() ? pass.mostItems : pass.count({ run, window });
         assert(items <= pass.mostItems);
-        queue_.launch(pass.name, pass.kind, kernel, items, localSize(kernel, listGroup));
+        queue_.launch(pass.name, pass.kind, kernel, items, localSize(kernel, pass.mostOfGroup));
     }
 }
 

@@ -55,6 +55,8 @@ public:
     bool rehearsal() const { return rehearsal_; }
     /// Somebody asked to stop. Loops then end, and what is not for sampling goes on.
     bool stopped() const { return stop_ != nullptr && stop_->load(); }
+    /// The pixels that the pass in hand covers.
+    const Window& window() const { return pass_->window; }
     /// Iteration of the innermost loop around the pass in hand, or of the one `outward` around that.
     std::size_t iteration(std::size_t outward = 0) const { return iterations_.at(iterations_.size() - 1 - outward); }
     /// Memory of what the step in hand uses. Throws std::logic_error for anything else.

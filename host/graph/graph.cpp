@@ -53,6 +53,8 @@ void Graph::add(Pass pass)
 
 void Graph::enter(Loop loop)
 {
+    loop.parent = loop_;
+    loop.first = passes_.size();
     loops_.push_back(std::move(loop));
     loop_ = static_cast<int>(loops_.size()) - 1;
 }

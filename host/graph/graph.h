@@ -72,7 +72,7 @@ struct Argument {
     Access access = Access::Read;
     Version version = {}; ///< read, or made
     Reach reach = {};
-    bool tally = false; ///< an update for whose sake no pass covers a pixel
+    bool tally = false; ///< for whose sake no pass covers a pixel
     Version* handle = nullptr; ///< of who declares what changes a resource: becomes the new version
 
     bool isUse() const { return !value; }
@@ -113,6 +113,12 @@ inline Argument outside(std::string name, std::string_view type, const cl::Buffe
 inline Argument reads(std::string name, const Version& version, Reach reach = {})
 {
     return { std::move(name), {}, {}, Access::Read, version, reach };
+}
+
+/// What there is of it where the pass is run: nothing is made for its sake.
+inline Argument readsAsIs(std::string name, const Version& version)
+{
+    return { std::move(name), {}, {}, Access::Read, version, {}, true };
 }
 
 /// All of the window's pixels, or of the list, anew.
@@ -157,6 +163,7 @@ struct Pass {
     std::function<std::size_t(const Launch&)> count = {}; ///< of tiles or items
     std::size_t itemsOfTile = 0;
     std::size_t mostItems = 0; ///< of a list: what rehearsals launch
+    std::size_t mostOfGroup = 16; ///< of a list: items of a work-group
     std::function<double(const Launch&)> workUnits = {}; ///< of the frame's progress: tiles
     std::function<void(Run&)> step = {}; ///< of the host
     bool everywhere = false; ///< covers the whole image whatever part of its results is wanted
@@ -172,6 +179,9 @@ struct Loop {
     std::string name;
     std::function<std::size_t(Run&)> count; ///< asked when its turn comes
     bool repeats = true; ///< false: count is 0 or 1, so that nothing is carried around
+    /// Pixels: all passes of the body, and of loops in it, cover one window, which begins at multiples of this. 0: each
+    /// covers what is wanted of it.
+    int tile = 0;
     int parent = -1; ///< the loop around it
     std::size_t first = 0, end = 0; ///< its passes
 };
@@ -227,7 +237,15 @@ public:
     template <class Body>
     void loop(std::string name, std::function<std::size_t(Run&)> count, const Body& body)
     {
-        enter({ std::move(name), std::move(count), true, loop_, passes_.size(), 0 });
+        enter({ .name = std::move(name), .count = std::move(count) });
+        body();
+        leave();
+    }
+    /// The same of passes that are to cover one window (Loop::tile): the least that holds what is wanted of each.
+    template <class Body>
+    void tiledLoop(std::string name, int tile, std::function<std::size_t(Run&)> count, const Body& body)
+    {
+        enter({ .name = std::move(name), .count = std::move(count), .tile = tile });
         body();
         leave();
     }
@@ -237,7 +255,7 @@ public:
     void only(std::string name, std::function<bool(Run&)> condition, const Body& body)
     {
         const auto count = [condition = std::move(condition)](Run& run) { return condition(run) ? 1u : 0u; };
-        enter({ std::move(name), count, false, loop_, passes_.size(), 0 });
+        enter({ .name = std::move(name), .count = count, .repeats = false });
         body();
         leave();
     }

@@ -24,6 +24,7 @@ public:
         : graph_(graph)
         , wanted_(graph.resources().size())
         , windows_(graph.passes().size())
+        , shared_(graph.loops().size())
     {
         findCarried();
         for (std::size_t i = 0; i < graph.resources().size(); ++i) {
@@ -62,31 +63,55 @@ private:
         known = grown;
     }
 
-    /// What pass i makes, as far as it is wanted.
-    std::optional<Window> madeBy(const Pass& pass) const
+    /// The pixels that a pass covers: what it makes, as far as it is wanted.
+    std::optional<Window> coveredBy(const Pass& pass)
     {
-        std::optional<Window> made;
-        bool planes = false;
+        std::optional<Window> ofPlanes;
+        bool planes = false, lists = false;
         for (const Argument& use : pass.arguments) {
             if (use.isUse() && use.access != Access::Read && !use.tally) {
                 const std::optional<Window>& window = wanted_[use.version.resource][use.version.number];
-                planes = planes || graph_.resources()[use.version.resource].plane;
-                made = window ? window->with(made.value_or(*window)) : made;
+                const bool plane = graph_.resources()[use.version.resource].plane;
+                planes = planes || plane;
+                lists = lists || (window && !plane);
+                ofPlanes = window && plane ? window->with(ofPlanes.value_or(*window)) : ofPlanes;
             }
         }
-        if (pass.always || (made && (pass.everywhere || !planes))) {
-            return graph_.image();
+        const bool wanted = pass.always || lists || ofPlanes;
+        const int tiled = tiledLoop(pass.loop);
+        const bool all = pass.always || pass.everywhere || lists || !planes;
+        if (!wanted || tiled < 0) {
+            return !wanted ? std::nullopt : all ? graph_.image() : ofPlanes;
         }
-        return made;
+        std::optional<Window>& shared = shared_[static_cast<std::size_t>(tiled)];
+        const std::optional<Window> own = pass.everywhere ? graph_.image() : ofPlanes;
+        if (own) {
+            const int tile = graph_.loops()[static_cast<std::size_t>(tiled)].tile;
+            Window grown = own->with(shared.value_or(*own));
+            grown = { grown.x0 / tile * tile, grown.y0 / tile * tile, grown.x1, grown.y1 };
+            grew_ = grew_ || shared != grown;
+            shared = grown;
+        }
+        return shared;
+    }
+
+    /// The outermost loop around a pass whose passes cover one window, or -1.
+    int tiledLoop(int loop) const
+    {
+        int found = -1;
+        for (; loop >= 0; loop = graph_.loops()[static_cast<std::size_t>(loop)].parent) {
+            found = graph_.loops()[static_cast<std::size_t>(loop)].tile > 0 ? loop : found;
+        }
+        return found;
     }
 
     void visit(std::size_t index)
     {
         const Pass& pass = graph_.passes()[index];
-        windows_[index] = madeBy(pass);
+        windows_[index] = coveredBy(pass);
         if (!windows_[index]) {
             for (const Argument& use : pass.arguments) { // what it would have added to stays as it is
-                if (use.tally && wanted_[use.version.resource][use.version.number]) {
+                if (use.tally && use.access != Access::Read && wanted_[use.version.resource][use.version.number]) {
                     read(pass, use.version.resource, use.version.number - 1,
                         *wanted_[use.version.resource][use.version.number]);
                 }
@@ -94,7 +119,7 @@ private:
             return;
         }
         for (const Argument& use : pass.arguments) {
-            if (!use.isUse()) {
+            if (!use.isUse() || (use.tally && use.access == Access::Read)) {
                 continue;
             }
             const std::uint32_t number = use.version.number;
@@ -148,6 +173,7 @@ private:
     const Graph& graph_;
     std::vector<std::vector<std::optional<Window>>> wanted_; ///< of each resource's versions
     std::vector<std::optional<Window>> windows_; ///< of each pass
+    std::vector<std::optional<Window>> shared_; ///< of loops whose passes cover one window
     std::vector<std::map<std::uint32_t, Carried>> carried_; ///< of each loop, by resource
     bool grew_ = false;
 };

@@ -8,7 +8,6 @@
 #include "kernels/shared/light.h"
 #include "kernels/shared/material.h"
 
-#include <tuple>
 #include <vector>
 
 namespace wedge::render {
@@ -53,12 +52,5 @@ public:
     bool specular = false; ///< hasSpecular()
     bool moves = false; ///< scene::geometryMoves()
 };
-
-/// What kernels take for WEDGE_SURFACE_PARAMETERS.
-inline auto surfaceArguments(const DeviceScene& s)
-{
-    return std::tie(s.positions, s.normals, s.texcoords, s.indices, s.materialIds, s.materials, s.textures, s.texels,
-        s.srgbToLinear, s.positionsAtClose, s.normalsAtClose);
-}
 
 } // namespace wedge::render

@@ -1,6 +1,8 @@
-// Which samples of a distributed frame are worth most: the counts of primary and secondary samples.
-#include "host/render/distributed_frame.h"
-#include "host/render/filters/gaussian.h"
+// Where texture and irradiance are taken apart and how wide the irradiance's filter is then, and which samples of a
+// frame of several receivers a pixel are worth most.
+#include "host/render/distributed_samples.h"
+
+#include "host/render/filters/filter_graph.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +11,18 @@
 namespace wedge::render {
 
 using device::PassKind;
+using graph::around;
+using graph::made;
+using graph::reads;
+using graph::Run;
+using graph::updates;
+using graph::value;
+using graph::writes;
 
 namespace {
 
 /// Of one kind of samples, as the device has them.
-struct Demand {
+struct Asked {
     std::vector<float> values;
     std::vector<std::uint32_t> taken; ///< which no count goes below
     float rays; ///< of a sample
@@ -22,7 +31,7 @@ struct Demand {
 };
 
 /// Samples of all pixels, where those have `scale` times what they ask for, `most` at most.
-double samplesAt(float scale, const Demand& demand, float most, const shared::FrameParams& frame)
+double samplesAt(float scale, const Asked& asked, float most, const PlaneLayout& frame)
 {
     double sum = 0;
     std::vector<float> added((frame.width + WEDGE_TILE - 1) / WEDGE_TILE);
@@ -32,156 +41,218 @@ double samplesAt(float scale, const Demand& demand, float most, const shared::Fr
             const std::size_t row = shared::pixelIndex(0, y, frame.stride);
             float before = 0;
             for (std::size_t x = 0; x < frame.width; ++x) {
-                const float wanted = std::clamp(scale * demand.values[row + x], demand.least, most);
-                const auto taken = static_cast<float>(demand.taken[row + x]);
+                const float wanted = std::clamp(scale * asked.values[row + x], asked.least, most);
+                const auto taken = static_cast<float>(asked.taken[row + x]);
                 before += taken;
                 added[x / WEDGE_TILE] += std::max(wanted - taken, 0.0f);
             }
             sum += before;
         }
         for (const float tile : added) {
-            sum += std::min(tile, demand.room);
+            sum += std::min(tile, asked.room);
         }
     }
     return sum;
 }
 
-} // namespace
-
-void DistributedFrame::publishedCounts()
+/// The scale of all demands that makes the number of rays `budget`.
+float scaleOf(const std::vector<Asked>& asked, double budget, float most, const PlaneLayout& frame)
 {
-    const DistributedSettings& d = c_.settings.distributed;
-    shared::DistributedParams p = params(c_.full());
-    const auto flags = [&](const Term& term) {
-        c_.passes.rows("widths", PassKind::Analysis, "published.cl", "publishedFlags", p, 1, term.texture, term.value,
-            term.radiance, c_.scratch.demand);
-    };
-    for (std::size_t i = 0; i < lights_.size(); ++i) {
-        flags(*terms_[i]);
-        lights_[i].publishedWidths(p, c_.scratch.demand);
-    }
-    for (std::size_t i = 0; i < paths_.size(); ++i) {
-        flags(*terms_[lights_.size() + i]);
-        paths_[i].publishedWidths(p, c_.scratch.demand);
-    }
-    const auto most = static_cast<std::uint32_t>(d.maxSpp);
-    c_.passes.rows("counts", PassKind::Analysis, "published.cl", "publishedPrimary", p, 1, d.mu,
-        static_cast<float>(d.mixedPaths), c_.frame.confusion, c_.frame.motion, c_.frame.primaryDemand);
-    c_.passes.rows("counts", PassKind::Analysis, "published.cl", "publishedCounts", p, 1, most, c_.frame.primaryDemand,
-        c_.frame.primaryTaken, c_.frame.primaryTaken, c_.frame.primaryWanted);
-    eachTerm([&](Term& term, float) {
-        c_.passes.rows("counts", PassKind::Analysis, "published.cl", "publishedCounts", p, 1, most, term.demand,
-            c_.frame.primaryWanted, term.taken, term.wanted);
-    });
-}
-
-const device::Buffer<float>& DistributedFrame::motionWidth() const
-{
-    return c_.frame.shape.packed() ? c_.scratch.motionWidth : c_.frame.motionWidth;
-}
-
-void DistributedFrame::demandOf(Term& term, float rays, bool light)
-{
-    shared::DistributedParams p = params(c_.full());
-    p.values = light ? 1 : 3;
-    p.rays = rays;
-    const Scratch& scratch = c_.scratch;
-    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "splitVariance", p, 1, term.texture,
-        term.textureSquares, term.value, term.squares, c_.frame.primaryTaken, scratch.ofTexture, scratch.logs);
-    c_.passes.rows(
-        "counts", PassKind::Analysis, "distributed.cl", "addPlane", p, 1, scratch.ofTexture, scratch.ofAllTextures);
-    // For the effective counts alone.
-    gaussianFilter(c_.passes, { "pixels gathered", PassKind::Analysis, "filter_variance.cl" },
-        filterParams(c_.settings, c_.fullFrame, c_.full()), c_.full(), c_.frame, c_.scratch.logs, term.beta, c_.scratch,
-        c_.scratch.filtered);
-    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "sampleDemand", p, 1, c_.scratch.logs,
-        c_.scratch.effective, term.beta, c_.frame.lensWidth, motionWidth(), term.demand);
-}
-
-void DistributedFrame::demands()
-{
-    shared::DistributedParams p = params(c_.full());
-    p.rays = 1.0f;
-    p.alongMotion = 1 - p.still;
-    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "emissionVariance", p, 1, c_.frame.emission,
-        c_.frame.emissionSquares, c_.frame.primaryTaken, c_.scratch.ofAllTextures);
-    if (c_.scene.deltaLightCount > 0) {
-        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "emissionVariance", p, 1, c_.frame.delta,
-            c_.frame.deltaSquares, c_.frame.primaryTaken, c_.scratch.demand);
-        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "addPlane", p, 1, c_.scratch.demand,
-            c_.scratch.ofAllTextures);
-    }
-    std::size_t next = 0;
-    eachTerm([&](Term& term, float rays) { demandOf(term, rays, next++ < lights_.size()); });
-    // Nothing but lens and shutter averages textures and what emits.
-    c_.scratch.demand.fill(c_.passes.queue(), -1.0f);
-    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "sampleDemand", p, 1, c_.scratch.ofAllTextures,
-        c_.scratch.effective, c_.scratch.demand, c_.frame.lensWidth, motionWidth(), c_.frame.primaryDemand);
-    const DistributedSettings& d = c_.settings.distributed;
-    const auto atLeast = [&](float apart, float together, const Term& term, const device::Buffer<float>& least,
-                             const device::Buffer<float>& demand) {
-        c_.passes.rows(
-            "counts", PassKind::Analysis, "distributed.cl", "atLeast", p, 1, apart, together, term.beta, least, demand);
-    };
-    eachTerm([&](Term& term, float) {
-        atLeast(d.leastPrimaries, d.leastPrimaries, term, term.demand, c_.frame.primaryDemand);
-    });
-    // Where a term is not taken apart its texture is known at receivers that sample it alone.
-    eachTerm([&](Term& term, float) { atLeast(d.leastSecondaries, 1.0f, term, c_.frame.primaryDemand, term.demand); });
-}
-
-void DistributedFrame::counts()
-{
-    // The scale of all demands that makes the mean number of rays what uniform counts would have.
-    const DistributedSettings& d = c_.settings.distributed;
-    std::vector<Demand> demands;
-    device::TimedQueue& queue = c_.passes.queue();
-    const DistributedFrame& guide = guide_ != nullptr && guide_->taken_ > 0 ? *guide_ : *this;
-    const float first = static_cast<float>(std::min(d.firstPaths, c_.settings.spp)),
-                most = static_cast<float>(d.maxSpp);
-    const auto leastOf = [&](float share) {
-        return std::max(first, std::floor(share * static_cast<float>(c_.settings.spp)));
-    };
-    const float leastOfTerms = leastOf(std::max(d.leastShare, d.leastTermShare));
-    // Samples of terms go to new receivers: one at least.
-    const float least = std::min(std::max(leastOf(d.leastShare), first + 1.0f), static_cast<float>(c_.settings.spp));
-    demands.push_back({ guide.c_.frame.primaryDemand.downloadAll(queue), c_.frame.primaryTaken.downloadAll(queue), 1.0f,
-        least, static_cast<float>(Waves::capacity) }); // limitTiles()
-    double perPath = 1.0;
-    std::size_t next = 0;
-    eachTerm([&](Term& term, float rays) {
-        demands.push_back({ guide.terms_[next++]->demand.downloadAll(queue), term.taken.downloadAll(queue), rays,
-            leastOfTerms, std::numeric_limits<float>::infinity() });
-        perPath += rays;
-    });
-    const std::size_t pixels = std::size_t { c_.fullFrame.width } * c_.fullFrame.height;
-    const double budget = perPath * c_.settings.spp * static_cast<double>(pixels);
     double low = 1e-12, high = 1e12;
     for (int step = 0; step < 40; ++step) {
         const double scale = std::sqrt(low * high);
         double rays = 0;
-        for (const Demand& demand : demands) {
-            rays += demand.rays * samplesAt(static_cast<float>(scale), demand, most, c_.fullFrame);
+        for (const Asked& one : asked) {
+            rays += one.rays * samplesAt(static_cast<float>(scale), one, most, frame);
         }
         (rays > budget ? high : low) = scale;
     }
-    const shared::DistributedParams p = params(c_.full());
-    const auto scale = static_cast<float>(low);
-    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "scaleCounts", p, 1, scale,
-        static_cast<std::uint32_t>(least), static_cast<std::uint32_t>(most), guide.c_.frame.primaryDemand,
-        c_.frame.primaryTaken, c_.frame.primaryWanted);
-    next = 0;
-    eachTerm([&](Term& term, float) {
-        c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "scaleCounts", p, 1, scale,
-            static_cast<std::uint32_t>(leastOfTerms), static_cast<std::uint32_t>(most), guide.terms_[next++]->demand,
-            term.taken, term.wanted);
-    });
+    return static_cast<float>(low);
 }
 
-void DistributedFrame::limitStep()
+} // namespace
+
+void DistributedSamples::publishedCounts()
 {
-    c_.passes.rows("counts", PassKind::Analysis, "distributed.cl", "limitStep", params(c_.full()), 1,
-        c_.frame.primaryTaken, c_.frame.primaryWanted);
+    const DistributedSettings& d = f_.settings.distributed;
+    for (const std::unique_ptr<WaveTerm>& term : terms_) {
+        TermMeans& m = term->means;
+        auto flags = f_.graph.plane<Share>("flags", graph::floats);
+        f_.pixels("widths", PassKind::Analysis, { "published.cl", "publishedFlags" },
+            { pixels(), reads("texture", m.texture), reads("value", m.value), reads("termRadiance", m.radiance),
+                writes("flags", flags) });
+        term->publishedWidths(params(), flags, confusion_);
+    }
+    const auto most = static_cast<std::uint32_t>(d.maxSpp);
+    f_.pixels("counts", PassKind::Analysis, { "published.cl", "publishedPrimary" },
+        { pixels(), value("mu", d.mu), value("mixed", static_cast<float>(d.mixedPaths)), reads("confusion", confusion_),
+            reads("motion", motion_), writes("demand", demand_) });
+    const auto count = [&](const graph::Handle<Demand>& demand, const graph::Handle<Count>& least,
+                           const graph::Handle<Count>& taken, graph::Handle<Count>& wanted) {
+        f_.pixels("counts", PassKind::Analysis, { "published.cl", "publishedCounts" },
+            { pixels(), value("most", most), reads("demand", demand, around(1)), reads("least", least),
+                reads("taken", taken), writes("wanted", wanted) });
+    };
+    count(demand_, counts_.taken, counts_.taken, counts_.wanted);
+    for (const std::unique_ptr<WaveTerm>& term : terms_) {
+        count(term->means.demand, counts_.wanted, term->means.taken, term->means.wanted);
+    }
+}
+
+void DistributedSamples::widths()
+{
+    const int reach = f_.settings.distributed.factoringRadius;
+    for (const std::unique_ptr<WaveTerm>& term : terms_) {
+        TermMeans& m = term->means;
+        graph::Version error = m.plain; // packed, which has it
+        if (!f_.packed) {
+            auto made = f_.graph.plane<Value>("error of taking apart", graph::floats);
+            f_.pixels("widths", PassKind::Analysis, { "distributed.cl", "factoringError" },
+                { pixels(), reads("texture", m.texture), reads("value", m.value), reads("plain", m.plain),
+                    writes("error", made) });
+            error = made;
+        }
+        term->widths();
+        f_.pixels("widths", PassKind::Analysis, { "distributed.cl", "factoredWidths" },
+            { pixels(), reads("error", error, around(reach)), reads("confusion", confusion_),
+                reads("pixelSize", f_.surfaces.pixelSize), reads("objectId", f_.surfaces.objectId, around(reach)),
+                updates("beta", m.beta) });
+    }
+}
+
+void DistributedSamples::demandOf(WaveTerm& term, const Blurs& blurs, graph::Handle<Squares>& ofTextures)
+{
+    TermMeans& m = term.means;
+    const graph::Argument p = f_.rectangle(term.of(params()));
+    const graph::Reach near = around(WEDGE_DEMAND_REACH);
+    auto ofTexture = f_.graph.plane<Squares>("variance of texture", graph::floats);
+    auto ofIrradiance = f_.graph.plane<Value>("variance of irradiance", graph::floats);
+    f_.pixels("counts", PassKind::Analysis, { "distributed.cl", "splitVariance" },
+        { p, reads("texture", m.texture),
+            f_.packed ? f_.nothing("textureSquares") : reads("textureSquares", m.textureSquares),
+            reads("value", m.value), reads("squares", m.squares), reads("taken", counts_.taken),
+            writes("ofTexture", ofTexture), writes("ofIrradiance", ofIrradiance) });
+    f_.pixels("counts", PassKind::Analysis, { "distributed.cl", "addPlane" },
+        { p, reads("part", ofTexture), updates("sum", ofTextures) });
+    // For the effective counts alone.
+    const Gathered gathered = gaussianFilter(f_, { "pixels gathered", PassKind::Analysis, "filter_variance.cl" }, 1,
+        filterParams(f_.settings, f_.wholeFrame(), f_.graph.image()), ofIrradiance, m.beta);
+    f_.pixels("counts", PassKind::Analysis, { "distributed.cl", "sampleDemand" },
+        { p, reads("variance", ofIrradiance, near), reads("effective", gathered.effective, near),
+            reads("beta", m.beta, near), reads("lens", blurs.lens, near),
+            keepsMotion() ? reads("along", blurs.along, near) : f_.nothing("along"), writes("demand", m.demand) });
+}
+
+void DistributedSamples::demands()
+{
+    shared::DistributedParams p = params();
+    p.rays = 1.0f;
+    p.alongMotion = 1 - p.still;
+    const graph::Argument pixels = f_.rectangle(p);
+    const auto plane = [&](const char* name) { return f_.graph.plane<Squares>(name, graph::floats); };
+    // Of what pixels will have: there are more samples to come.
+    Blurs own { f_.graph.plane<Pixels>("lens filter width to come", graph::floats),
+        f_.graph.plane<Pixels>("motion filter width to come", graph::floats),
+        f_.graph.plane<Pixels>("direction of motion", f_.packed ? shortPairs : graph::floatPlanes(2)) };
+    blurs(static_cast<float>(f_.settings.spp), own);
+    auto ofTextures = plane("variance of textures");
+    const auto variance = [&](const graph::Handle<Radiance>& image, const graph::Handle<Squares>& squares,
+                              graph::Handle<Squares>& out) {
+        f_.pixels("counts", PassKind::Analysis, { "distributed.cl", "emissionVariance" },
+            { pixels, reads("emission", image), reads("squares", squares), reads("taken", counts_.taken),
+                writes("variance", out) });
+    };
+    variance(f_.surfaces.emission, emissionSquares_, ofTextures);
+    if (delta_.graph != 0) {
+        auto ofDelta = plane("variance of point lights");
+        variance(delta_, deltaSquares_, ofDelta);
+        f_.pixels("counts", PassKind::Analysis, { "distributed.cl", "addPlane" },
+            { pixels, reads("part", ofDelta), updates("sum", ofTextures) });
+    }
+    for (const std::unique_ptr<WaveTerm>& term : terms_) {
+        demandOf(*term, own, ofTextures);
+    }
+    // Nothing but lens and shutter averages textures and what emits.
+    const graph::Reach near = around(WEDGE_DEMAND_REACH);
+    auto none = f_.graph.plane<Metres>("no widths", graph::floats);
+    f_.fill("counts", none, -1.0f);
+    f_.pixels("counts", PassKind::Analysis, { "distributed.cl", "sampleDemand" },
+        { pixels, reads("variance", ofTextures, near), reads("effective", ofTextures, near), reads("beta", none, near),
+            reads("lens", own.lens, near), keepsMotion() ? reads("along", own.along, near) : f_.nothing("along"),
+            writes("demand", demand_) });
+    const DistributedSettings& d = f_.settings.distributed;
+    const auto atLeast = [&](float apart, float together, const TermMeans& term, const graph::Handle<Demand>& least,
+                             graph::Handle<Demand>& demand) {
+        f_.pixels("counts", PassKind::Analysis, { "distributed.cl", "atLeast" },
+            { pixels, value("apart", apart), value("together", together), reads("beta", term.beta),
+                reads("least", least), updates("demand", demand) });
+    };
+    for (const std::unique_ptr<WaveTerm>& term : terms_) {
+        atLeast(d.leastPrimaries, d.leastPrimaries, term->means, term->means.demand, demand_);
+    }
+    // Where a term is not taken apart its texture is known at receivers that sample it alone.
+    for (const std::unique_ptr<WaveTerm>& term : terms_) {
+        atLeast(d.leastSecondaries, 1.0f, term->means, demand_, term->means.demand);
+    }
+}
+
+void DistributedSamples::counts(const DistributedSamples& guide)
+{
+    demands();
+    // The scale of all demands that makes the mean number of rays what uniform counts would have.
+    const DistributedSettings& d = f_.settings.distributed;
+    const auto spp = static_cast<float>(f_.settings.spp);
+    const auto first = static_cast<float>(std::min(d.firstPaths, f_.settings.spp)), most = static_cast<float>(d.maxSpp);
+    const auto leastOf = [&](float share) { return std::max(first, std::floor(share * spp)); };
+    const float leastOfTerms = leastOf(std::max(d.leastShare, d.leastTermShare));
+    // Samples of terms go to new receivers: one at least.
+    const float least = std::min(std::max(leastOf(d.leastShare), first + 1.0f), spp);
+    struct Kind {
+        graph::Handle<Demand> demand;
+        graph::Handle<Count> taken;
+        float rays, least, room;
+    };
+    std::vector<Kind> kinds { { guide.demand_, counts_.taken, 1.0f, least,
+        static_cast<float>(WaveSchedule::capacity) } }; // limitTiles()
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+        kinds.push_back({ guide.terms_[i]->means.demand, terms_[i]->means.taken, terms_[i]->rays, leastOfTerms,
+            std::numeric_limits<float>::infinity() });
+    }
+    std::vector<graph::Argument> uses;
+    for (const Kind& kind : kinds) {
+        uses.push_back(reads("demand", kind.demand));
+        // Of frames that keep no counts of terms it is one plane for all.
+        if (shape_.all || &kind == kinds.data()) {
+            uses.push_back(reads("taken", kind.taken));
+        }
+    }
+    const double budget = raysOfPath() * f_.settings.spp * static_cast<double>(f_.layout.width) * f_.layout.height;
+    f_.host(
+        "count scale",
+        [kinds, budget, most, layout = f_.layout, state = state_](Run& run) {
+            std::vector<Asked> asked;
+            for (const Kind& kind : run.rehearsal() ? std::vector<Kind>() : kinds) {
+                asked.push_back({ run.buffer<float>(kind.demand).downloadAll(run.queue()),
+                    run.buffer<std::uint32_t>(kind.taken).downloadAll(run.queue()), kind.rays, kind.least, kind.room });
+            }
+            state->scale = run.rehearsal() ? 1.0f : scaleOf(asked, budget, most, layout);
+        },
+        uses);
+    const auto scale = made("scale", [state = state_](const graph::Launch&) { return state->scale; });
+    const auto wants = [&](const Kind& kind, graph::Handle<Count>& wanted) {
+        f_.pixels("counts", PassKind::Analysis, { "distributed.cl", "scaleCounts" },
+            { pixels(), scale, value("least", static_cast<std::uint32_t>(kind.least)),
+                value("most", static_cast<std::uint32_t>(most)), reads("demand", kind.demand),
+                reads("taken", kind.taken), writes("wanted", wanted) });
+    };
+    wants(kinds[0], counts_.wanted);
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+        wants(kinds[i + 1], terms_[i]->means.wanted);
+    }
+    if (f_.settings.progressive) {
+        f_.pixels("counts", PassKind::Analysis, { "distributed.cl", "limitStep" },
+            { pixels(), reads("taken", counts_.taken), updates("wanted", counts_.wanted) });
+    }
 }
 
 } // namespace wedge::render

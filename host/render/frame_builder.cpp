@@ -21,6 +21,7 @@ shared::AnalysisParams FrameBuilder::analysisParams() const
     p.height = layout.height;
     p.stride = layout.stride;
     p.planeSize = static_cast<std::uint32_t>(layout.size);
+    p.packed = packed ? 1 : 0;
     return p;
 }
 
@@ -89,14 +90,15 @@ void FrameBuilder::blocks(std::string_view name, PassKind kind, graph::KernelNam
         .condition = condition });
 }
 
-void FrameBuilder::pixels(
-    std::string_view name, PassKind kind, graph::KernelName kernel, std::vector<graph::Argument> arguments)
+void FrameBuilder::pixels(std::string_view name, PassKind kind, graph::KernelName kernel,
+    std::vector<graph::Argument> arguments, const std::function<bool(const Run&)>& condition)
 {
     graph.add({ .name = std::string(name),
         .kind = kind,
         .kernel = std::move(kernel),
         .arguments = std::move(arguments),
-        .domain = graph::Domain::Pixels });
+        .domain = graph::Domain::Pixels,
+        .condition = condition });
 }
 
 void FrameBuilder::items(std::string_view name, PassKind kind, graph::KernelName kernel, std::size_t count,
@@ -108,22 +110,26 @@ void FrameBuilder::items(std::string_view name, PassKind kind, graph::KernelName
         .arguments = std::move(arguments),
         .domain = graph::Domain::Items,
         .count = [count](const Launch&) { return count; },
-        .mostItems = count });
+        .mostItems = count,
+        .mostOfGroup = 1 }); // each item has much to do
 }
 
-void FrameBuilder::host(std::string name, const std::function<void(Run&)>& step)
+void FrameBuilder::host(std::string name, const std::function<void(Run&)>& step, std::vector<graph::Argument> uses)
 {
-    graph.add({ .name = std::move(name), .domain = graph::Domain::Host, .step = step, .always = true });
-}
-
-void FrameBuilder::zeroOne(graph::Version& version)
-{
-    const graph::Version resource = version;
-    graph.add({ .name = "zeros",
-        .kind = PassKind::Transfer,
-        .arguments = { graph::writes("plane", version) },
+    graph.add({ .name = std::move(name),
+        .arguments = std::move(uses),
         .domain = graph::Domain::Host,
-        .step = [resource](Run& run) { run.buffer<std::uint32_t>(resource).fill(run.queue(), 0u); } });
+        .step = step,
+        .always = true });
+}
+
+void FrameBuilder::host(const char* name, graph::Argument use, const std::function<void(Run&)>& step)
+{
+    graph.add({ .name = name,
+        .kind = PassKind::Transfer,
+        .arguments = { std::move(use) },
+        .domain = graph::Domain::Host,
+        .step = step });
 }
 
 } // namespace wedge::render

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/graph/execution.h"
 #include "host/graph/graph.h"
 #include "host/render/device_scene.h"
 #include "host/render/frame.h"
@@ -31,7 +32,21 @@ struct Logarithms { };
 struct Demand { };
 struct Share { }; ///< numbers from 0 to 1, or that others are multiplied by
 
-/// What the camera sees through each pixel, see kernels/primary.cl.
+struct Texture { }; ///< of a term, see accumulate.h
+struct Squares { }; ///< mean squares of luminances, or what is made of them
+struct Pixels { }; ///< lengths in the image
+struct Listed { }; ///< of waves' lists, see waves.cl
+
+// Formats of packed planes, see kernels/packed_planes.h.
+inline constexpr graph::Format shortFloats { "short1", 2, "float", "", "", "" };
+inline constexpr graph::Format shortPairs { "short2", 4, "float", "", "", "" };
+inline constexpr graph::Format shortCounts { "ushort1", 2, "uint", "", "", "" };
+inline constexpr graph::Format packedNormals { "normal32", 4, "float", "", "", "" };
+inline constexpr graph::Format packedColours { "colour48", 6, "float", "", "", "" };
+inline constexpr graph::Format packedFractions { "fraction32", 4, "float", "", "", "" };
+
+/// What the camera sees through each pixel, see kernels/primary.cl; or means over the receivers of pixels that have
+/// several.
 struct Surfaces {
     graph::Handle<Position> position, origin;
     graph::Handle<Normal> normal;
@@ -56,7 +71,7 @@ struct Totals {
 
 /// What a term's passes tell those after them, on the host, while they run.
 struct TermState {
-    bool analysed = false; ///< its first pass was completed
+    bool analysed = false; ///< its first pass was completed: it has widths
 };
 
 /// What effects and filters declare their passes with. Its device memory may be absent for a graph that is planned and
@@ -69,11 +84,14 @@ struct FrameBuilder {
     PlaneLayout layout;
     std::size_t packetSize; ///< pixels of a work-item over tiles
     bool specular; ///< hasSpecular()
-    cl::Buffer unused; ///< for parameters that nothing is read from
+    cl::Buffer unused; ///< for parameters that nothing is read from, or written to
+    bool packed = false; ///< planes of pixels that have several receivers are packed, see kernels/accumulate.h
     Surfaces surfaces = {};
     Totals totals = {};
 
     bool analysed() const { return settings.method == Method::AxisAligned; }
+    /// The program of that name, or the one of packed planes.
+    std::string program(const std::string& name) const { return packed ? "packed_" + name : name; }
     /// Of the whole image.
     shared::FrameParams wholeFrame() const;
     /// Where kernels of analysis find pixels; the rectangle is to come.
@@ -99,6 +117,8 @@ struct FrameBuilder {
     std::vector<graph::Argument> receivers() const;
     /// A buffer that outlives the frame; null: none, and nothing reads it.
     graph::Argument outside(std::string name, std::string_view type, const cl::Buffer* memory) const;
+    /// In the place of a plane that there is no need of.
+    graph::Argument nothing(std::string name) const { return outside(std::move(name), "float", nullptr); }
     /// One of the scene's.
     template <class T>
     graph::Argument ofScene(std::string name, std::string_view type, device::Buffer<T> DeviceScene::*member) const
@@ -112,22 +132,31 @@ struct FrameBuilder {
     /// A pass over the 16-pixel blocks of rows, or over pixels.
     void blocks(std::string_view name, device::PassKind kind, graph::KernelName kernel,
         std::vector<graph::Argument> arguments, const std::function<bool(const graph::Run&)>& condition = {});
-    void pixels(
-        std::string_view name, device::PassKind kind, graph::KernelName kernel, std::vector<graph::Argument> arguments);
+    void pixels(std::string_view name, device::PassKind kind, graph::KernelName kernel,
+        std::vector<graph::Argument> arguments, const std::function<bool(const graph::Run&)>& condition = {});
     /// A pass of that many items.
     void items(std::string_view name, device::PassKind kind, graph::KernelName kernel, std::size_t count,
         std::vector<graph::Argument> arguments);
-    /// A step on the host.
-    void host(std::string name, const std::function<void(graph::Run&)>& step);
+    /// A step on the host, whatever is wanted.
+    void host(std::string name, const std::function<void(graph::Run&)>& step, std::vector<graph::Argument> uses = {});
     /// Fills planes with zeros.
     template <class... Quantities>
     void zero(graph::Handle<Quantities>&... handles)
     {
-        (zeroOne(handles), ...);
+        (fill("zeros", handles, std::uint32_t { 0 }), ...);
+    }
+    /// Fills a plane, or several, with a number.
+    template <class T>
+    void fill(const char* name, graph::Version& version, T number)
+    {
+        static_assert(sizeof(T) == sizeof(std::uint32_t));
+        const graph::Version resource = version;
+        host(name, graph::writes("plane", version),
+            [resource, number](graph::Run& run) { run.buffer<T>(resource).fill(run.queue(), number); });
     }
 
 private:
-    void zeroOne(graph::Version& version);
+    void host(const char* name, graph::Argument use, const std::function<void(graph::Run&)>& step);
 };
 
 /// Lists of arguments, one after the other.

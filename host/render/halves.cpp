@@ -1,19 +1,20 @@
 #include "host/render/halves.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace wedge::render {
 
 using device::PassKind;
+using graph::made;
+using graph::reads;
+using graph::value;
+using graph::writes;
 
 namespace {
 
-const char* const pass = "mean of halves";
-const char* const file = "progressive.cl";
-
-constexpr FrameShape frameOfHalf { true, false, true, true, true };
+constexpr const char* pass = "mean of halves";
+constexpr const char* file = "progressive.cl";
 
 // Both halves' numbers are hashes of their seeds: any two seeds will do.
 constexpr std::uint32_t secondSeed = 0x9e3779b9u;
@@ -22,130 +23,140 @@ constexpr std::uint32_t secondSeed = 0x9e3779b9u;
 
 double ErrorEstimate::rmse() const { return std::sqrt(noise + (std::isnan(bias) ? bias : std::max(bias, 0.0))); }
 
-void Halves::plan(device::MemoryPlan& plan, const PlaneLayout& layout, const std::vector<TermShape>& terms)
+HalvesFrame::HalvesFrame(const scene::Scene& scene, const DeviceScene* deviceScene, const Settings& settings,
+    std::size_t packetSize, const cl::Buffer& unused, bool keepLayers, HalfMemories& memories, int before, int spp)
+    : FrameGraph(settings, keepLayers)
+    , layout_(settings.width, settings.height)
 {
-    for (int half = 0; half < 2; ++half) {
-        Frame::plan(plan, layout, frameOfHalf);
-        for (const TermShape& shape : terms) {
-            Term::plan(plan, layout, shape);
-        }
-        plan.addItems("emission layer of a half", layout.size, 12);
-    }
-}
-
-Halves::Halves(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout,
-    const std::vector<TermShape>& terms)
-{
-    for (Half& half : halves_) {
-        half.frame = std::make_unique<Frame>(device, queue, layout, frameOfHalf);
-        for (const TermShape& shape : terms) {
-            half.terms.push_back(std::make_unique<Term>(device, queue, *half.frame, shape));
-        }
-        half.emission = std::make_unique<device::Buffer<float>>(device, 3 * layout.size, "emission layer of a half");
-    }
-}
-
-bool Halves::hold(const PlaneLayout& layout, const std::vector<TermShape>& terms) const
-{
-    const Half& half = halves_[0];
-    return half.frame->layout == layout
-        && std::ranges::equal(
-            half.terms, terms, [](const auto& term, const TermShape& shape) { return term->shape.holds(shape); });
-}
-
-void Halves::begin(
-    const TermContext& context, Waves& waves, std::size_t lights, const shared::CameraParams& camera, bool keepLayers)
-{
-    all_ = step_ = context.settings;
-    sampled_ = 0;
+    const SampleShape shape = sampleShape(settings, scene, keepLayers);
+    const auto taken = static_cast<std::uint32_t>(before == 0 ? 0 : halfAt(settings, before).spp);
     for (std::size_t i = 0; i < halves_.size(); ++i) {
         Half& half = halves_[i];
-        half.frame->clear(context.passes.queue());
-        TermContext own { context.passes, context.scene, *half.frame, context.scratch, step_, context.fullFrame,
-            context.sampledFrame, context.window, context.shutter };
-        own.fullFrame.seed = own.sampledFrame.seed =
-            context.fullFrame.seed + static_cast<std::uint32_t>(i) * secondSeed;
-        half.image = std::make_unique<DistributedFrame>(own, waves, half.terms, lights, camera, keepLayers);
-        half.image->begin();
-        if (i == 0) {
-            context_ = std::make_unique<TermContext>(own);
-        }
+        half.settings = halfAt(settings, spp);
+        half.settings.seed += static_cast<std::uint32_t>(i) * secondSeed;
+        half.frame = std::make_unique<FrameBuilder>(FrameBuilder {
+            graph_, scene, deviceScene, half.settings, layout_, packetSize, hasSpecular(scene), unused });
+        half.samples = std::make_unique<DistributedSamples>(
+            *half.frame, shape, DistributedSamples::Before { &memories[i], taken, i == 1 });
     }
-    halves_[0].image->followDemandsOf(*halves_[1].image);
-    halves_[1].image->followDemandsOf(*halves_[0].image);
+    // Each half follows the other's demands once that has any.
+    halves_[0].samples->take(taken > 0 ? halves_[1].samples.get() : nullptr);
+    halves_[1].samples->take(halves_[0].samples.get());
+    for (const Half& half : halves_) {
+        half.samples->compose(keepLayers);
+    }
+    const bool analysed = shape.analysed && settings.filtering != Filtering::None;
+    for (const std::unique_ptr<WaveTerm>& term : halves_[0].samples->terms()) {
+        terms_.push_back({ halves_[0].samples->state(), term->means.beta });
+    }
+    estimateError(analysed);
+    join(analysed);
 }
 
-bool Halves::refine(int spp, const std::atomic<bool>& stop)
+void HalvesFrame::join(bool analysed)
 {
-    step_ = halfAt(all_, spp);
-    for (std::size_t i = 0; i < halves_.size(); ++i) {
-        if (!halves_[i].image->refine(&stop)) {
-            return false;
-        }
-        sampled_ = std::max(sampled_, static_cast<int>(i) + 1);
-    }
-    return true;
-}
-
-shared::DistributedParams Halves::params() const
-{
-    shared::DistributedParams p {};
-    setRectangle(p, context_->full());
-    p.width = context_->fullFrame.width;
-    p.height = context_->fullFrame.height;
-    p.stride = context_->fullFrame.stride;
-    p.planeSize = context_->fullFrame.planeSize;
-    return p;
-}
-
-void Halves::show(Frame& shown)
-{
-    for (Half& half : halves_) {
-        half.image->compose(half.emission.get());
-    }
-    Passes& passes = context_->passes;
-    const shared::DistributedParams p = params();
-    const Frame& a = *halves_[0].frame;
-    const Frame& b = *halves_[1].frame;
-    const auto mean = [&](const device::Buffer<float>& first, const device::Buffer<float>& second,
-                          device::Buffer<float>& out) {
-        passes.rows(pass, PassKind::Composite, file, "meanOfHalves", p, 1, 3u, a.primaryTaken, b.primaryTaken, first,
-            second, out);
+    const FrameBuilder& a = *halves_[0].frame;
+    const FrameBuilder& b = *halves_[1].frame;
+    const DistributedSamples &first = *halves_[0].samples, &second = *halves_[1].samples;
+    FrameBuilder& f = *halves_[0].frame;
+    const graph::Argument p = f.rectangle(first.params());
+    const auto mean = [&]<class Quantity>(const graph::Handle<Quantity>& one, const graph::Handle<Quantity>& other) {
+        auto out = graph_.plane<Quantity>("mean of halves", graph::vectors);
+        f.pixels(pass, PassKind::Composite, { file, "meanOfHalves" },
+            { p, value("planes", 3u), reads("takenA", first.taken()), reads("takenB", second.taken()), reads("a", one),
+                reads("b", other), writes("mean", out) });
+        return out;
     };
-    for (device::Buffer<float> Frame::*planes : { &Frame::beauty, &Frame::direct, &Frame::directNoisy, &Frame::indirect,
-             &Frame::indirectNoisy, &Frame::diffuse, &Frame::specular }) {
-        mean(a.*planes, b.*planes, shown.*planes);
+    const auto sum = [&](const graph::Handle<Count>& one, const graph::Handle<Count>& other) {
+        // Of crops more pixels are sampled than shown, and all that was traced counts.
+        auto out = graph_.plane<Count>("sum of halves", graph::counts);
+        f.zero(out);
+        graph_.add({ .name = pass,
+            .kind = PassKind::Composite,
+            .kernel = { file, "sumOfHalves" },
+            .arguments = { p, graph::readsAsIs("a", one), graph::readsAsIs("b", other), graph::updates("sum", out) },
+            .domain = graph::Domain::Pixels,
+            .everywhere = true });
+        return out;
+    };
+    Shown shown;
+    Surfaces& s = shown.surfaces;
+    s.position = graph_.plane<Position>("position", graph::vectors);
+    s.normal = graph_.plane<Normal>("normal", graph::vectors);
+    s.pixelSize = graph_.plane<Metres>("pixel size", graph::floats);
+    s.depth = graph_.plane<Metres>("depth", graph::floats);
+    s.objectId = graph_.plane<ObjectId>("object id", graph::counts);
+    f.pixels(pass, PassKind::Composite, { file, "joinSurfaces" },
+        { p, reads("hitsA", first.hits()), reads("hitsB", second.hits()), reads("positionA", a.surfaces.position),
+            reads("positionB", b.surfaces.position), reads("normalA", a.surfaces.normal),
+            reads("normalB", b.surfaces.normal), reads("pixelSizeA", a.surfaces.pixelSize),
+            reads("pixelSizeB", b.surfaces.pixelSize), reads("depthA", a.surfaces.depth),
+            reads("depthB", b.surfaces.depth), reads("objectA", a.surfaces.objectId),
+            reads("objectB", b.surfaces.objectId), writes("position", s.position), writes("normal", s.normal),
+            writes("pixelSize", s.pixelSize), writes("depth", s.depth), writes("object", s.objectId) });
+    Totals& t = shown.totals;
+    t.beauty = mean(a.totals.beauty, b.totals.beauty);
+    if (keepsLayers_) {
+        s.diffuse = mean(a.surfaces.diffuse, b.surfaces.diffuse);
+        s.specular = mean(a.surfaces.specular, b.surfaces.specular);
+        s.emission = mean(first.emission(), second.emission());
+        t.direct.filtered = mean(a.totals.direct.filtered, b.totals.direct.filtered);
+        t.direct.noisy = mean(a.totals.direct.noisy, b.totals.direct.noisy);
+        t.indirect.filtered = mean(a.totals.indirect.filtered, b.totals.indirect.filtered);
+        t.indirect.noisy = mean(a.totals.indirect.noisy, b.totals.indirect.noisy);
+        shown.lensWidth = first.lensWidth();
+        shown.motionWidth = first.motionWidth();
+        shown.motion = first.motion();
+    } else {
+        s.position = {};
+        s.normal = {};
+        s.pixelSize = {};
+        s.depth = {};
     }
-    mean(*halves_[0].emission, *halves_[1].emission, shown.emission);
-    passes.rows(pass, PassKind::Composite, file, "joinSurfaces", p, 1, a.hits, b.hits, a.position, b.position, a.normal,
-        b.normal, a.pixelSize, b.pixelSize, a.depth, b.depth, a.objectId, b.objectId, shown.position, shown.normal,
-        shown.pixelSize, shown.depth, shown.objectId);
-    for (device::Buffer<std::uint32_t> Frame::*counts :
-        { &Frame::samples, &Frame::indirectSamples, &Frame::rays, &Frame::pathRays, &Frame::primaryTaken }) {
-        passes.rows(pass, PassKind::Composite, file, "sumOfHalves", p, 1, a.*counts, b.*counts, shown.*counts);
-    }
+    t.samples = sum(a.totals.samples, b.totals.samples);
+    t.indirectSamples = sum(a.totals.indirectSamples, b.totals.indirectSamples);
+    t.rays = sum(a.totals.rays, b.totals.rays);
+    t.pathRays = sum(a.totals.pathRays, b.totals.pathRays);
+    shown.primaryTaken = sum(first.taken(), second.taken());
+    show(shown, true, analysed);
 }
 
-ErrorEstimate Halves::error(Frame& shown) const
+void HalvesFrame::estimateError(bool analysed)
 {
-    if (sampled_ < 2) {
+    FrameBuilder& f = *halves_[0].frame;
+    noise_ = graph_.plane<Squares>("noise", graph::floats);
+    bias_ = graph_.plane<Squares>("bias", graph::floats);
+    const auto filtered = [analysed, state = halves_[0].samples->state()](
+                              const graph::Launch&) -> std::uint32_t { return analysed && state->analysed ? 1 : 0; };
+    std::vector<graph::Argument> arguments { f.rectangle(halves_[0].samples->params()), made("filtered", filtered) };
+    for (const Half& half : halves_) {
+        const Totals& t = half.frame->totals;
+        for (const graph::Version& image : std::initializer_list<graph::Version> {
+                 t.beauty, half.frame->surfaces.emission, t.direct.noisy, t.indirect.noisy }) {
+            arguments.push_back(reads("image", image));
+        }
+    }
+    arguments.push_back(writes("noise", noise_));
+    arguments.push_back(writes("bias", bias_));
+    f.pixels(pass, PassKind::Composite, { file, "errorOfHalves" }, arguments);
+    graph_.want(noise_, outputWindow(settings_));
+    graph_.want(bias_, outputWindow(settings_));
+}
+
+ErrorEstimate HalvesFrame::error(const graph::Execution& execution, device::TimedQueue& queue) const
+{
+    if (!halves_[0].samples->state()->complete || !halves_[1].samples->state()->complete) {
         constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
         return { unknown, unknown };
     }
-    Passes& passes = context_->passes;
-    const Frame& a = *halves_[0].frame;
-    const Frame& b = *halves_[1].frame;
-    passes.rows(pass, PassKind::Composite, file, "errorOfHalves", params(), 1, analysed() ? 1u : 0u, a.beauty,
-        a.emission, a.directNoisy, a.indirectNoisy, b.beauty, b.emission, b.directNoisy, b.indirectNoisy,
-        shown.lensWidth, shown.motionWidth);
-    const std::vector<float> noise = shown.lensWidth.downloadAll(passes.queue());
-    const std::vector<float> bias = shown.motionWidth.downloadAll(passes.queue());
-    const image::Window window = context_->window;
+    const std::vector<float> noise = execution.output<float>(noise_).downloadAll(queue);
+    const std::vector<float> bias = execution.output<float>(bias_).downloadAll(queue);
+    const Window window = outputWindow(settings_);
     ErrorEstimate sum { 0, 0 };
     for (int y = window.y0; y < window.y1; ++y) {
         for (int x = window.x0; x < window.x1; ++x) {
             const std::size_t i =
-                shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), shown.layout.stride);
+                shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), layout_.stride);
             sum.noise += noise[i];
             sum.bias += bias[i];
         }

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "host/render/distributed_frame.h"
+#include "host/render/distributed_samples.h"
+#include "host/render/frame_graph.h"
 
 #include <array>
-#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -18,54 +18,40 @@ struct ErrorEstimate {
     double rmse() const;
 };
 
-/// The two halves of a progressive frame: distributed frames of samples that are independent of each other, both of
-/// which keep what they have sampled from step to step. The image is their mean, and they tell its error: see
-/// errorOfHalves in kernels/progressive.cl.
-class Halves {
+/// What the halves of a progressive frame keep from step to step.
+using HalfMemories = std::array<SampleMemory, 2>;
+
+/// One step of a progressive frame. Its two halves are samples that are independent of each other, both of which keep
+/// what they have sampled from step to step. The image is their mean, and they tell its error: see errorOfHalves in
+/// kernels/progressive.cl.
+class HalvesFrame : public FrameGraph {
 public:
-    /// terms: the shapes of a half's.
-    static void plan(device::MemoryPlan& plan, const PlaneLayout& layout, const std::vector<TermShape>& terms);
+    /// As DistributedFrame. settings: of the last step. memories: of both halves, rewound. before, spp: samples a pixel
+    /// of both together that there are, 0 at the first step, and that there are to be; each half has half of them,
+    /// rounded down, but one at least.
+    HalvesFrame(const scene::Scene& scene, const DeviceScene* deviceScene, const Settings& settings,
+        std::size_t packetSize, const cl::Buffer& unused, bool keepLayers, HalfMemories& memories, int before, int spp);
 
-    Halves(const device::Device& device, device::TimedQueue& queue, const PlaneLayout& layout,
-        const std::vector<TermShape>& terms);
-
-    /// Whether the buffers serve frames of this layout and these terms.
-    bool hold(const PlaneLayout& layout, const std::vector<TermShape>& terms) const;
-
-    /// Starts anew. context: of all but the frame; its settings are those of the last step, and outlive the steps.
-    /// lights: area lights among the terms.
-    void begin(const TermContext& context, Waves& waves, std::size_t lights, const shared::CameraParams& camera,
-        bool keepLayers);
-
-    /// Takes samples up to spp a pixel of both halves together; each has half of them, rounded down, but one at least.
-    /// Returns false if stopped.
-    bool refine(int spp, const std::atomic<bool>& stop);
-
-    /// Makes the image and everything that layers and statistics read, in `shown`, a distributed frame.
-    void show(Frame& shown);
-
-    /// Of the image shown, over the window of the context; parts of it go to planes of `shown` that have no other use.
-    ErrorEstimate error(Frame& shown) const;
-
-    /// Of the first half.
-    const std::vector<std::unique_ptr<Term>>& terms() const { return halves_[0].terms; }
-    bool analysed() const { return halves_[0].image->analysed(); }
+    bool complete(bool) const override
+    {
+        return halves_[0].samples->state()->whole && halves_[1].samples->state()->whole;
+    }
+    /// Of the image shown, over its window.
+    ErrorEstimate error(const graph::Execution& execution, device::TimedQueue& queue) const;
 
 private:
     struct Half {
-        std::unique_ptr<Frame> frame;
-        std::vector<std::unique_ptr<Term>> terms;
-        std::unique_ptr<device::Buffer<float>> emission; ///< layer, filtered
-        std::unique_ptr<DistributedFrame> image;
+        Settings settings;
+        std::unique_ptr<FrameBuilder> frame;
+        std::unique_ptr<DistributedSamples> samples;
     };
 
-    shared::DistributedParams params() const;
+    void join(bool analysed);
+    void estimateError(bool analysed);
 
+    PlaneLayout layout_;
     std::array<Half, 2> halves_;
-    std::unique_ptr<TermContext> context_; ///< of the first half
-    Settings all_; ///< of the last step
-    Settings step_; ///< of a half at the current one; the contexts refer to it
-    int sampled_ = 0; ///< halves that have their first samples
+    graph::Handle<Squares> noise_, bias_;
 };
 
 } // namespace wedge::render

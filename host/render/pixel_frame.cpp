@@ -16,9 +16,7 @@ using graph::writes;
 
 PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene, const Settings& settings,
     std::size_t packetSize, const cl::Buffer& unused, bool keepLayers)
-    : keepsLayers_(keepLayers)
-    , settings_(settings)
-    , graph_(settings.width, settings.height, PlaneLayout(settings.width, settings.height).size)
+    : FrameGraph(settings, keepLayers)
     , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize,
         hasSpecular(scene), unused }
 {
@@ -50,7 +48,7 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
         { f_.rectangle(f_.analysisParams()), reads("emission", f_.surfaces.emission),
             reads("direct", f_.totals.direct.filtered), reads("indirect", f_.totals.indirect.filtered),
             reads("objectId", f_.surfaces.objectId), writes("beauty", f_.totals.beauty) });
-    wantOutputs(keepLayers);
+    show({ f_.surfaces, f_.totals, {}, {}, {}, {} }, false, f_.analysed());
 }
 
 void PixelFrame::primary(bool lit)
@@ -149,57 +147,6 @@ void PixelFrame::fallBack(Sum& sum)
     f_.blocks("fallback", PassKind::Filter, { "fallback.cl", "fallBack" },
         { p, reads("squares", squares, near), reads("objectId", f_.surfaces.objectId, near), reads("noisy", sum.noisy),
             updates("filtered", sum.filtered) });
-}
-
-void PixelFrame::wantOutputs(bool keepLayers)
-{
-    const Window output = outputWindow(settings_);
-    const Surfaces& s = f_.surfaces;
-    const Totals& t = f_.totals;
-    for (const graph::Version& shown : std::initializer_list<graph::Version> { s.position, s.normal, s.origin,
-             s.geometric, s.objectId, s.depth, s.pixelSize, s.diffuse, s.specular, s.emission, s.gloss, t.beauty,
-             t.direct.filtered, t.direct.noisy, t.indirect.filtered, t.indirect.noisy, t.direct.deviation,
-             t.indirect.deviation, t.samples, t.indirectSamples, t.rays, t.pathRays }) {
-        graph_.want(shown, output);
-    }
-    for (const TermWidths& term : terms_) {
-        if (keepLayers && f_.analysed()) {
-            graph_.want(term.beta, output);
-        }
-    }
-}
-
-std::unique_ptr<Frame> PixelFrame::outputs(const graph::Execution& execution) const
-{
-    const Surfaces& s = f_.surfaces;
-    const Totals& t = f_.totals;
-    auto frame = std::make_unique<Frame>(f_.layout);
-    const auto show = [&](auto& buffer, const graph::Version& version) {
-        buffer = execution.output<typename std::decay_t<decltype(buffer)>::Element>(version);
-    };
-    show(frame->position, s.position);
-    show(frame->normal, s.normal);
-    show(frame->origin, s.origin);
-    show(frame->geometric, s.geometric);
-    show(frame->objectId, s.objectId);
-    show(frame->depth, s.depth);
-    show(frame->pixelSize, s.pixelSize);
-    show(frame->diffuse, s.diffuse);
-    show(frame->specular, s.specular);
-    show(frame->emission, s.emission);
-    show(frame->gloss, s.gloss);
-    show(frame->beauty, t.beauty);
-    show(frame->direct, t.direct.filtered);
-    show(frame->directNoisy, t.direct.noisy);
-    show(frame->directDeviation, t.direct.deviation);
-    show(frame->indirect, t.indirect.filtered);
-    show(frame->indirectNoisy, t.indirect.noisy);
-    show(frame->indirectDeviation, t.indirect.deviation);
-    show(frame->samples, t.samples);
-    show(frame->indirectSamples, t.indirectSamples);
-    show(frame->rays, t.rays);
-    show(frame->pathRays, t.pathRays);
-    return frame;
 }
 
 } // namespace wedge::render

@@ -1,5 +1,7 @@
 #include "host/render/progressive.h"
 
+#include "host/render/halves.h"
+
 #include <algorithm>
 #include <chrono>
 
@@ -39,21 +41,21 @@ void addRecords(std::vector<device::PassRecord>& sum, const std::vector<device::
     }
 }
 
-void Renderer::beginHalves(const Settings& settings, bool keepLayers)
+ErrorEstimate Renderer::runStep(
+    const Settings& settings, bool keepLayers, int before, int spp, const std::atomic<bool>* stop, bool rehearsal)
 {
-    frame_->clear(queue_);
-    const bool lit = settings.integrator == Integrator::Path;
-    halves_->begin(contextOf(settings), *waves_, lit ? deviceScene_->areaLightList.size() : 0,
-        cameraParams(scene_, frame_->layout.height, settings.antialias), keepLayers);
-}
-
-void Renderer::rehearseHalves(const Settings& settings)
-{
-    const std::atomic<bool> stop { false };
-    beginHalves(settings, true);
-    halves_->refine(stepCounts(settings.spp).front(), stop);
-    halves_->show(*frame_);
-    halves_->error(*frame_);
+    for (SampleMemory& memory : *halfMemories_) {
+        memory.rewind();
+    }
+    auto frame = std::make_unique<HalvesFrame>(scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal),
+        unused_, keepLayers, *halfMemories_, before, spp);
+    const HalvesFrame& halves = *frame;
+    frameGraph_ = std::move(frame);
+    const graph::Plan plan(halves.graph(), device::partAlignment, mostSlabBytes());
+    frame_.reset(); // it has parts of the memory
+    graph::Execution execution(plan, memory_, kernels_, queue_);
+    run(execution, stop, rehearsal);
+    return rehearsal ? ErrorEstimate { 0, 0 } : halves.error(execution, queue_);
 }
 
 FrameStatistics Renderer::renderProgressively(const Settings& wanted, const Control& control,
@@ -61,7 +63,7 @@ FrameStatistics Renderer::renderProgressively(const Settings& wanted, const Cont
 {
     Settings settings = wanted;
     settings.progressive = true;
-    allocate(settings, keepLayers);
+    prepare(settings, keepLayers);
     queue_.takeRecords();
     std::atomic<bool> stop { false };
     const Clock::time_point start = Clock::now();
@@ -78,17 +80,13 @@ FrameStatistics Renderer::renderProgressively(const Settings& wanted, const Cont
             control.progress(std::clamp(2 * done / counts.back(), 0.0, 1.0));
         }
     });
-    // Frames between steps are to be whole: the halves look at the flag themselves, and the queue never does.
     queue_.setCancelFlag(nullptr);
-    beginHalves(settings, keepLayers);
     ProgressiveStep step;
     for (std::size_t i = 0; i < counts.size() && !(i > 0 && stop); ++i) {
         step.spp = counts[i];
-        const bool whole = halves_->refine(step.spp, stop);
-        halves_->show(*frame_);
-        step.error = halves_->error(*frame_);
+        step.error = runStep(settings, keepLayers, i == 0 ? 0 : counts[i - 1], step.spp, &stop, false);
+        const bool whole = frameGraph_->complete(stop);
         const bool good = step.error.rmse() <= control.targetError;
-        keepHalfPlanes(settings, keepLayers);
         queue_.finish();
         FrameStatistics statistics;
         statistics.passes = std::move(step.statistics.passes);
@@ -106,14 +104,6 @@ FrameStatistics Renderer::renderProgressively(const Settings& wanted, const Cont
     }
     queue_.setProgress({});
     return step.statistics;
-}
-
-void Renderer::keepHalfPlanes(const Settings& settings, bool keepLayers)
-{
-    termPlanes_.clear();
-    for (std::size_t i = 0; keepLayers && i < halves_->terms().size(); ++i) {
-        keepPlanes(settings, *halves_->terms()[i], halves_->analysed());
-    }
 }
 
 } // namespace wedge::render

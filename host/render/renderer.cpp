@@ -1,14 +1,11 @@
 #include "host/render/renderer.h"
 
-#include "host/render/pixel_frame.h"
-
 #include "host/device/driver_cache.h"
 #include "host/render/distributed_frame.h"
 #include "host/render/effects/indirect.h"
-#include "host/render/effects/soft_shadows.h"
-#include "host/render/filters/widening.h"
 #include "host/render/halves.h"
-#include "kernels/shared/distributed.h"
+#include "host/render/pixel_frame.h"
+#include "host/render/progressive.h"
 
 #include <algorithm>
 #include <cassert>
@@ -17,87 +14,11 @@
 
 namespace wedge::render {
 
-using device::PassKind;
-
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-bool needsAnalysis(const Settings& settings) { return settings.method == Method::AxisAligned; }
-
-TermShape termShape(const Settings& settings, bool specular)
-{
-    const TermShape direct = SoftShadows::termShape(specular, needsAnalysis(settings));
-    return tracesPaths(settings) ? direct.with(Indirect::termShape(needsAnalysis(settings))) : direct;
-}
-
-/// Planes of what is filtered at once: a term's value, or an image.
-constexpr std::uint32_t filteredPlanes = 3;
-
-/// Slopes of lights, and where things move what their shadows' motions add up to.
-std::uint32_t lightExtremes(const scene::Scene& scene) { return scene::geometryMoves(scene) ? 6 : 2; }
-
-/// What a frame's buffers are for. Lean are distributed frames of which nothing but the image is wanted, and that are
-/// made as by default: without counts from the spectrum, published slopes and widths from the nearest reflectors.
-FrameShape frameShape(const Settings& settings, const scene::Scene& scene, bool keepLayers)
-{
-    const bool usual = !settings.distributed.published && settings.slopes == Slopes::Smoothed
-        && !(settings.sampling == Sampling::Adaptive && settings.counts == Counts::Spectrum)
-        && settings.indirect.meanFraction > 0;
-    FrameShape shape;
-    shape.distributed = isDistributed(settings, scene);
-    shape.lean = shape.distributed && !keepLayers && !settings.progressive && (usual || !needsAnalysis(settings));
-    if (shape.lean) {
-        shape.analysed = needsAnalysis(settings);
-        shape.shutter = scene::geometryMoves(scene) || scene::cameraMoves(scene);
-        shape.deltaLights = !scene.pointLights.empty() || !scene.directionalLights.empty();
-    }
-    return shape;
-}
-
-/// Pixels over which filters reach, one after the other: those of terms, of shadows along their motion, and of the
-/// lens.
-int filterReach(const Settings& settings, const scene::Scene& scene)
-{
-    const bool moves = scene::geometryMoves(scene) || scene::cameraMoves(scene), lens = scene.camera.apertureRadius > 0;
-    return settings.maxRadius + widenReach(settings) + (moves ? WEDGE_MOTION_REACH : 0) + (lens ? WEDGE_MAX_RADIUS : 0);
-}
-
-/// What receivers of waves need for the terms in turn.
-TermShape receiverShape(const Settings& settings, const scene::Scene& scene, bool specular)
-{
-    return termShape(settings, specular).with({ 0, 0, lightExtremes(scene), false, false, false, false, false });
-}
-
-/// One a term where pixels have several receivers, which serve all terms at once; else the one that all take turns in.
-std::vector<TermShape> termShapes(
-    const Settings& settings, const scene::Scene& scene, bool specular, const FrameShape& frame)
-{
-    TermShape shape { 0, 3, 3, needsAnalysis(settings), true, false, frame.lean, false };
-    shape.published = shape.analysed && settings.distributed.published;
-    TermShape light = shape;
-    light.light = true;
-    light.sums = frame.lean ? 0 : 1;
-    light.extremes = lightExtremes(scene);
-    if (frame.lean) {
-        // Widths come from the least slope, and from the mean of reflectors' distances, which lie with the plain mean.
-        shape.extremes = 0;
-        light.extremes = shape.analysed && scene::geometryMoves(scene) ? 1 : 0;
-    }
-    const std::size_t lights = settings.integrator == Integrator::Path ? scene.areaLights.size() : 0;
-    std::vector<TermShape> shapes(lights, light);
-    shapes.resize(lights + indirectTerms(settings, specular).size(), shape);
-    return shapes;
-}
-
-/// Bytes that waves and, between them, what analyses and filters have in turn.
-std::uint64_t leanBytes(const PlaneLayout& layout, const FrameShape& frame, const TermShape& receivers)
-{
-    const std::uint64_t scratch = frame.analysed ? Scratch::leanPlanes * layout.size * sizeof(float) : 0;
-    return std::max(scratch, Waves::bytes(receivers, frame.deltaLights));
-}
 
 /// A plane of which the window's pixels alone are known; the others are 0.
 std::vector<float> onlyInside(const image::Window& window, const PlaneLayout& layout, const std::vector<float>& plane)
@@ -151,7 +72,6 @@ Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Opti
     , hierarchy_(buildHierarchy(scene, options_.bvh, resolveTraversal(options_.traversal, device.info())))
     , queue_(device, options_.checkLaunches)
     , programs_(std::make_unique<device::ProgramLibrary>(device, programOptions(scene, options_, hierarchy_.traversal)))
-    , passes_(std::make_unique<Passes>(*programs_, queue_, packetSize(hierarchy_.traversal)))
     , kernels_(*programs_)
     , memory_(device_)
     , unused_(device::Buffer<std::uint32_t>(device_, 0, "nothing").cl())
@@ -160,137 +80,66 @@ Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Opti
 
 Renderer::~Renderer() = default;
 
+std::unique_ptr<FrameGraph> Renderer::declare(const scene::Scene& scene, const DeviceScene* deviceScene,
+    const Settings& settings, std::size_t packet, const cl::Buffer& unused, bool keepLayers)
+{
+    if (isDistributed(settings, scene)) {
+        return std::make_unique<DistributedFrame>(scene, deviceScene, settings, packet, unused, keepLayers);
+    }
+    return std::make_unique<PixelFrame>(scene, deviceScene, settings, packet, unused, keepLayers);
+}
+
 device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings,
     bool keepLayers, std::uint64_t mostSlabBytes)
 {
-    const PlaneLayout layout(settings.width, settings.height);
     device::MemoryPlan plan;
     DeviceScene::plan(plan, scene, hierarchy);
-    if (!isDistributed(settings, scene)) {
-        const PixelFrame frame(scene, nullptr, settings, packetSize(hierarchy.traversal), cl::Buffer(), keepLayers);
-        graph::Plan(frame.graph(), device::partAlignment, mostSlabBytes).addTo(plan);
-        return plan;
-    }
-    const bool specular = hasSpecular(scene);
-    const FrameShape frame = frameShape(settings, scene, keepLayers);
-    Frame::plan(plan, layout, frame);
-    const std::vector<TermShape> shapes = termShapes(settings, scene, specular, frame);
+    const std::size_t packet = packetSize(hierarchy.traversal);
     if (settings.progressive) {
-        Halves::plan(plan, layout, shapes);
-    } else {
-        for (const TermShape& shape : shapes) {
-            Term::plan(plan, layout, shape);
+        HalfMemories memories { SampleMemory(nullptr), SampleMemory(nullptr) };
+        const HalvesFrame frame(
+            scene, nullptr, settings, packet, cl::Buffer(), keepLayers, memories, 0, stepCounts(settings.spp).front());
+        for (const SampleMemory& memory : memories) {
+            memory.addTo(plan);
         }
-    }
-    const TermShape receivers = receiverShape(settings, scene, specular);
-    Waves::planTiles(plan, layout);
-    if (frame.lean) {
-        plan.add("receivers, or analysis and filters", leanBytes(layout, frame, receivers));
+        graph::Plan(frame.graph(), device::partAlignment, mostSlabBytes).addTo(plan);
     } else {
-        plan.add("receivers", Waves::bytes(receivers, true));
-    }
-    if (needsAnalysis(settings) && !frame.lean) {
-        Scratch::plan(plan, layout, filteredPlanes);
+        const std::unique_ptr<FrameGraph> frame = declare(scene, nullptr, settings, packet, cl::Buffer(), keepLayers);
+        graph::Plan(frame->graph(), device::partAlignment, mostSlabBytes).addTo(plan);
     }
     return plan;
 }
 
-void Renderer::allocate(const Settings& settings, bool keepLayers)
+void Renderer::prepare(const Settings& settings, bool keepLayers)
 {
     validate(settings, isDistributed(settings, scene_));
     plan(settings, keepLayers).check(device_.info(), options_.memoryLimit);
     if (!deviceScene_) {
         deviceScene_ = std::make_unique<DeviceScene>(scene_, hierarchy_, device_, queue_);
     }
-    if (!isDistributed(settings, scene_)) {
-        terms_.clear();
-        halves_.reset();
-        waves_.reset();
-        scratch_.reset();
-        return; // what is needed is allocated with the graph
-    }
-    memory_.hold({});
-    pixelFrame_.reset();
-    const PlaneLayout layout(settings.width, settings.height);
-    const FrameShape frame = frameShape(settings, scene_, keepLayers);
-    if (!frame_ || !(frame_->layout == layout) || !(frame_->shape == frame)) {
-        terms_.clear();
-        halves_.reset();
-        waves_.reset();
-        scratch_.reset();
-        frame_.reset();
-        frame_ = std::make_unique<Frame>(device_, queue_, layout, frame);
-    }
-    std::vector<TermShape> shapes = termShapes(settings, scene_, deviceScene_->specular, frame);
+    frame_.reset(); // it has parts of the memory
+    halfMemories_.reset();
     if (settings.progressive) {
-        if (!halves_ || !halves_->hold(layout, shapes)) {
-            halves_.reset();
-            halves_ = std::make_unique<Halves>(device_, queue_, layout, shapes);
-        }
-        shapes.clear();
-    } else {
-        halves_.reset();
+        memory_.hold({}); // before there is more
+        halfMemories_ = std::make_unique<HalfMemories>(HalfMemories { SampleMemory(&device_), SampleMemory(&device_) });
     }
-    terms_.resize(shapes.size());
-    for (std::size_t i = 0; i < shapes.size(); ++i) {
-        if (!terms_[i] || !terms_[i]->shape.holds(shapes[i])) {
-            terms_[i].reset();
-            terms_[i] = std::make_unique<Term>(device_, queue_, *frame_, shapes[i]);
-        }
-    }
-    if (frame.lean) {
-        allocateLeanWaves(settings, layout);
-    } else {
-        allocateWaves(settings, layout);
-    }
-}
-
-void Renderer::allocateWaves(const Settings& settings, const PlaneLayout& layout)
-{
-    const TermShape receivers = receiverShape(settings, scene_, deviceScene_->specular);
-    if (!waves_ || !waves_->shape.holds(receivers)) {
-        waves_.reset();
-        waves_ = std::make_unique<Waves>(device_, layout, receivers);
-    }
-    if (needsAnalysis(settings) && (!scratch_ || scratch_->values < filteredPlanes)) {
-        scratch_.reset();
-        scratch_ = std::make_unique<Scratch>(device_, queue_, layout, filteredPlanes);
-    }
-    if (!scratch_) {
-        scratch_ = std::make_unique<Scratch>(device_, queue_, PlaneLayout(1, 1), 0);
-    }
-}
-
-void Renderer::allocateLeanWaves(const Settings& settings, const PlaneLayout& layout)
-{
-    const TermShape receivers = receiverShape(settings, scene_, deviceScene_->specular);
-    if (waves_ && waves_->shape.holds(receivers)) {
-        return;
-    }
-    waves_.reset();
-    scratch_.reset();
-    const device::Buffer<float> memory(
-        device_, leanBytes(layout, frame_->shape, receivers) / sizeof(float), "receivers, or analysis and filters");
-    waves_ = std::make_unique<Waves>(device_, layout, receivers, frame_->shape.deltaLights, memory);
-    scratch_ = frame_->shape.analysed ? std::make_unique<Scratch>(device_, layout, memory)
-                                      : std::make_unique<Scratch>(device_, queue_, PlaneLayout(1, 1), 0);
 }
 
 void Renderer::rehearse(const Settings& settings, bool keepLayers)
 {
     const Clock::time_point start = Clock::now();
     const device::DriverCache::Mark mark; // drivers compile at the first launch
-    allocate(settings, keepLayers);
-    passes_->setRehearsal(true);
+    prepare(settings, keepLayers);
     queue_.setProgress({});
     queue_.setCancelFlag(nullptr);
     if (settings.progressive) {
-        rehearseHalves(settings);
+        runStep(settings, keepLayers, 0, stepCounts(settings.spp).front(), nullptr, true);
     } else {
-        renderPasses(settings, keepLayers);
+        frameGraph_ =
+            declare(scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal), unused_, keepLayers);
+        run(nullptr, true);
     }
     queue_.finish();
-    passes_->setRehearsal(false);
     queue_.takeRecords();
     queue_.forgetCosts(); // of nothing
     setupSeconds_ = secondsSince(start);
@@ -310,13 +159,11 @@ double Renderer::workUnits(const Settings& settings) const
 FrameStatistics Renderer::render(const Settings& settings, const Control& control, bool keepLayers)
 {
     assert(!settings.progressive);
-    allocate(settings, keepLayers);
+    prepare(settings, keepLayers);
     queue_.takeRecords();
     std::atomic<bool> stop { false };
     const double total = workUnits(settings);
     const Clock::time_point start = Clock::now();
-    // Of distributed frames waves are finished first: pixels without some of the terms would be wrong, not missing.
-    stop_ = &stop;
     queue_.setCancelFlag(nullptr);
     queue_.setProgress([&](double done) {
         if ((control.cancel != nullptr && control.cancel->load())
@@ -328,10 +175,11 @@ FrameStatistics Renderer::render(const Settings& settings, const Control& contro
         }
     });
     FrameStatistics statistics;
-    statistics.complete = renderPasses(settings, keepLayers);
+    frameGraph_ = declare(scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal), unused_, keepLayers);
+    run(&stop, false);
+    statistics.complete = frameGraph_->complete(stop);
     queue_.finish();
     statistics.wallMilliseconds = 1e3 * secondsSince(start);
-    stop_ = nullptr;
     queue_.setCancelFlag(nullptr);
     queue_.setProgress({});
     statistics.passes = queue_.takeRecords();
@@ -343,82 +191,43 @@ FrameStatistics Renderer::completed(const Settings& settings, FrameStatistics st
     for (const device::PassRecord& record : statistics.passes) {
         statistics.deviceMilliseconds += record.milliseconds;
     }
-    const bool layers = frame_->distributed ? !frame_->shape.lean : pixelFrame_->keepsLayers();
-    statistics.memoryBytes = plan(settings, layers).total();
+    statistics.memoryBytes = plan(settings, frameGraph_->keepsLayers()).total();
     countWork(settings, statistics);
     return statistics;
 }
 
-TermContext Renderer::contextOf(const Settings& settings)
+void Renderer::run(const std::atomic<bool>* stop, bool rehearsal)
 {
-    const image::Window output = outputWindow(settings);
-    const image::Window whole { 0, 0, settings.width, settings.height };
-    image::Window sampled = needsAnalysis(settings)
-        ? blockWindow(output, filterReach(settings, scene_), settings.width, settings.height)
-        : output;
-    // Tiles are to be those of the whole image.
-    constexpr int tile = static_cast<int>(WEDGE_TILE);
-    sampled = { sampled.x0 / tile * tile, sampled.y0 / tile * tile, sampled.x1, sampled.y1 };
-    return { *passes_, *deviceScene_, *frame_, *scratch_, settings,
-        frameParams(scene_, frame_->layout, whole, settings.seed),
-        frameParams(scene_, frame_->layout, sampled, settings.seed), output,
-        scene::geometryMoves(scene_) || scene::cameraMoves(scene_) };
-}
-
-bool Renderer::renderPasses(const Settings& settings, bool keepLayers)
-{
-    if (!isDistributed(settings, scene_)) {
-        return renderPixels(settings, keepLayers);
-    }
-    frame_->clear(queue_);
-    termPlanes_.clear();
-    return distributedPasses(contextOf(settings), keepLayers);
-}
-
-bool Renderer::renderPixels(const Settings& settings, bool keepLayers)
-{
-    frame_.reset(); // it has parts of the memory
-    pixelFrame_ = std::make_unique<PixelFrame>(
-        scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal), unused_, keepLayers);
-    const graph::Plan plan(pixelFrame_->graph(), device::partAlignment, mostSlabBytes());
+    const graph::Plan plan(frameGraph_->graph(), device::partAlignment, mostSlabBytes());
     graph::Execution execution(plan, memory_, kernels_, queue_);
+    run(execution, stop, rehearsal);
+}
+
+void Renderer::run(graph::Execution& execution, const std::atomic<bool>* stop, bool rehearsal)
+{
     termPlanes_.clear();
-    if (passes_->rehearsal()) {
+    if (rehearsal) {
         execution.rehearse();
-        frame_ = pixelFrame_->outputs(execution);
-        return true;
+    } else {
+        execution.run(stop, options_.poison);
+        keepWidths(execution);
     }
-    const bool complete = execution.run(stop_, options_.poison);
-    frame_ = pixelFrame_->outputs(execution);
+    frame_ = frameGraph_->outputs(execution);
+}
+
+void Renderer::keepWidths(const graph::Execution& execution)
+{
+    const Settings& settings = frameGraph_->settings();
     const std::vector<std::string> names = termNames(settings, scene_);
-    for (std::size_t i = 0; keepLayers && i < names.size(); ++i) {
-        const PixelFrame::TermWidths& term = pixelFrame_->terms()[i];
+    const PlaneLayout layout(settings.width, settings.height);
+    for (std::size_t i = 0; frameGraph_->keepsLayers() && i < names.size(); ++i) {
+        const FrameGraph::TermWidths& term = frameGraph_->terms()[i];
         std::vector<float> shown;
-        if (term.state->analysed) {
-            shown = onlyInside(
-                outputWindow(settings), frame_->layout, execution.output<float>(term.beta).downloadAll(queue_));
+        if (term.state->analysed && frameGraph_->wantsWidths()) {
+            shown = onlyInside(outputWindow(settings), layout, execution.output<float>(term.beta).downloadAll(queue_));
         }
         termPlanes_.push_back({ names[i], std::move(shown) });
     }
-    return complete;
-}
-
-bool Renderer::distributedPasses(const TermContext& context, bool keepLayers)
-{
-    const bool lit = context.settings.integrator == Integrator::Path;
-    DistributedFrame distributed(context, *waves_, terms_, lit ? deviceScene_->areaLightList.size() : 0,
-        cameraParams(scene_, frame_->layout.height, context.settings.antialias), keepLayers);
-    const bool complete = distributed.render(stop_);
-    for (std::size_t i = 0; keepLayers && i < terms_.size(); ++i) {
-        keepPlanes(context.settings, *terms_[i], distributed.analysed());
-    }
-    return complete;
-}
-
-void Renderer::keepPlanes(const Settings& settings, const Term& term, bool analysed)
-{
-    const std::string name = termNames(settings, scene_).at(termPlanes_.size());
-    termPlanes_.push_back({ name, analysed ? term.beta.downloadAll(queue_) : std::vector<float>() });
 }
 
 } // namespace wedge::render

@@ -4,12 +4,11 @@
 #include "host/device/program.h"
 #include "host/graph/execution.h"
 #include "host/render/device_scene.h"
-#include "host/render/effects/term_context.h"
 #include "host/render/frame.h"
+#include "host/render/frame_graph.h"
+#include "host/render/halves.h"
 #include "host/render/hierarchy.h"
-#include "host/render/passes.h"
 #include "host/render/settings.h"
-#include "host/render/waves.h"
 
 #include <atomic>
 #include <functional>
@@ -71,8 +70,6 @@ struct FrameStatistics {
     double milliseconds(const std::string& pass) const;
 };
 
-class Halves;
-class PixelFrame;
 struct ProgressiveStep;
 
 /// Renders frames of one scene on one device. Construction builds the hierarchy, the programs and the scene's buffers;
@@ -124,23 +121,21 @@ public:
     device::TimedQueue& queue() { return queue_; }
 
 private:
-    void allocate(const Settings& settings, bool keepLayers);
-    bool renderPasses(const Settings& settings, bool keepLayers);
-    bool renderPixels(const Settings& settings, bool keepLayers);
+    static std::unique_ptr<FrameGraph> declare(const scene::Scene& scene, const DeviceScene* deviceScene,
+        const Settings& settings, std::size_t packet, const cl::Buffer& unused, bool keepLayers);
     std::uint64_t mostSlabBytes() const { return options_.checkLaunches ? 0 : device_.info().maxAllocation; }
-    TermContext contextOf(const Settings& settings);
-    void beginHalves(const Settings& settings, bool keepLayers);
-    void rehearseHalves(const Settings& settings);
-    void keepHalfPlanes(const Settings& settings, bool keepLayers);
+    /// Tests the settings and whether memory suffices.
+    void prepare(const Settings& settings, bool keepLayers);
+    /// Runs frameGraph_, or rehearses it.
+    void run(const std::atomic<bool>* stop, bool rehearsal);
+    void run(graph::Execution& execution, const std::atomic<bool>* stop, bool rehearsal);
+    /// One step of a progressive frame, from so many samples a pixel to so many.
+    ErrorEstimate runStep(
+        const Settings& settings, bool keepLayers, int before, int spp, const std::atomic<bool>* stop, bool rehearsal);
+    void keepWidths(const graph::Execution& execution);
     /// With the sums of the passes, memory, and what the frame counted.
     FrameStatistics completed(const Settings& settings, FrameStatistics statistics);
-    void allocateWaves(const Settings& settings, const PlaneLayout& layout);
-    void allocateLeanWaves(const Settings& settings, const PlaneLayout& layout);
-    bool distributedPasses(const TermContext& context, bool keepLayers);
-    void keepPlanes(const Settings& settings, const Term& term, bool analysed);
     void countWork(const Settings& settings, FrameStatistics& statistics);
-    void countLeanSamples(
-        const Settings& settings, std::vector<std::uint32_t>& all, std::vector<std::uint32_t>& indirect);
     double workUnits(const Settings& settings) const;
 
     const scene::Scene& scene_;
@@ -149,20 +144,15 @@ private:
     Hierarchy hierarchy_;
     device::TimedQueue queue_;
     std::unique_ptr<device::ProgramLibrary> programs_;
-    std::unique_ptr<Passes> passes_;
     std::unique_ptr<DeviceScene> deviceScene_;
     graph::Kernels kernels_;
-    graph::Memory memory_; ///< of frames whose pixels are the receivers
+    graph::Memory memory_; ///< of the frame
     cl::Buffer unused_; ///< for parameters that nothing is read from
-    std::unique_ptr<PixelFrame> pixelFrame_;
-    std::unique_ptr<Frame> frame_;
-    std::vector<std::unique_ptr<Term>> terms_; ///< one; of a distributed frame one a term; of a progressive one none
-    std::unique_ptr<Scratch> scratch_;
-    std::unique_ptr<Waves> waves_; ///< of distributed frames
-    std::unique_ptr<Halves> halves_; ///< of progressive ones, of which frame_ is the mean
+    std::unique_ptr<HalfMemories> halfMemories_; ///< of progressive frames
+    std::unique_ptr<FrameGraph> frameGraph_;
+    std::unique_ptr<Frame> frame_; ///< parts of the memory
     std::vector<TermPlanes> termPlanes_;
     double setupSeconds_ = 0;
-    const std::atomic<bool>* stop_ = nullptr; ///< of the render in hand
 };
 
 } // namespace wedge::render

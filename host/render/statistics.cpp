@@ -27,29 +27,10 @@ double FrameStatistics::overheadFraction() const
     return deviceMilliseconds > 0 ? overhead / deviceMilliseconds : 0.0;
 }
 
-// Lean frames have no planes of such sums.
-void Renderer::countLeanSamples(
-    const Settings& settings, std::vector<std::uint32_t>& all, std::vector<std::uint32_t>& indirect)
-{
-    const std::size_t lights = settings.integrator == Integrator::Path ? scene_.areaLights.size() : 0;
-    all.assign(frame_->layout.size, 0);
-    indirect.assign(frame_->layout.size, 0);
-    for (std::size_t term = 0; term < terms_.size(); ++term) {
-        const std::vector<std::uint32_t> taken = terms_[term]->counts().downloadAll(queue_);
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            all[i] += taken[i];
-            indirect[i] += term >= lights ? taken[i] : 0;
-        }
-    }
-}
-
 void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
 {
     const auto planeOf = [&](const device::Buffer<std::uint32_t>& b) { return b.downloadAll(queue_); };
-    std::vector<std::uint32_t> samples = planeOf(frame_->samples), indirect = planeOf(frame_->indirectSamples);
-    if (frame_->shape.lean) {
-        countLeanSamples(settings, samples, indirect);
-    }
+    const std::vector<std::uint32_t> samples = planeOf(frame_->samples), indirect = planeOf(frame_->indirectSamples);
     const std::vector<std::uint32_t> rays = planeOf(frame_->rays), pathRays = planeOf(frame_->pathRays);
     const std::vector<std::uint32_t> objects = planeOf(frame_->objectId);
     const std::vector<float> specular =

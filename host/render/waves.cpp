@@ -1,121 +1,54 @@
 #include "host/render/waves.h"
 
+#include "host/graph/execution.h"
+
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace wedge::render {
 
 using device::PassKind;
+using graph::Launch;
+using graph::made;
+using graph::reads;
+using graph::Run;
+using graph::tallies;
+using graph::updates;
+using graph::value;
+using graph::writes;
 
 namespace {
 
-// Tiles of the padded image: no rectangle of pixels has more.
-std::uint64_t mostTiles(const PlaneLayout& layout)
+constexpr std::uint32_t receiversOfTile = WEDGE_TILE_PIXELS;
+
+/// Tiles of the whole image: no rectangle of its pixels has more.
+std::size_t mostTiles(const PlaneLayout& layout)
 {
-    const std::uint64_t across = (layout.width + WEDGE_TILE - 1) / WEDGE_TILE;
+    const std::size_t across = (layout.width + WEDGE_TILE - 1) / WEDGE_TILE;
     return across * ((layout.height + WEDGE_TILE - 1) / WEDGE_TILE);
 }
 
-// Surfaces: vectors, motion, single planes; samples and rays; lists; shading by a light.
-constexpr std::uint64_t surfacePlanes = 3 * 6 + 2 + 10, otherPlanes = 4 + 2 + 2;
+/// Receivers of a wave at most, where pixels have `most` new samples.
+std::uint32_t roomOf(const PlaneLayout& layout, double most)
+{
+    const double all = std::ceil(most) * WEDGE_TILE_PIXELS * static_cast<double>(mostTiles(layout));
+    return static_cast<std::uint32_t>(std::min<double>(WaveSchedule::capacity, all));
+}
+
+std::uint32_t tilesOf(std::uint32_t receivers) { return (receivers + receiversOfTile - 1) / receiversOfTile; }
 
 } // namespace
 
-std::uint64_t Waves::bytes(const TermShape& term, bool deltaLights)
+WaveSchedule::WaveSchedule(
+    const std::vector<std::uint32_t>& counts, const shared::WaveParams& settings, std::uint32_t room)
+    : first(counts.size())
 {
-    return sizeof(float) * planeSize
-        * (surfacePlanes + otherPlanes + term.sums + term.values + term.extremes + (deltaLights ? 6u : 0u));
-}
-
-void Waves::planTiles(device::MemoryPlan& plan, const PlaneLayout& layout)
-{
-    plan.addItems("tiles", mostTiles(layout), 8);
-}
-
-template <class T>
-device::Buffer<T> Waves::Pieces::take(std::size_t count, const std::string& name)
-{
-    if (count == 0) {
-        // Some buffer that nothing is written to.
-        return memory.part<T>(0, 0, name);
-    }
-    planes += count;
-    return memory.part<T>((planes - count) * planeSize, count * planeSize, name);
-}
-
-Waves::Waves(const device::Device& device, const PlaneLayout& layout, const TermShape& term, bool deltaLights,
-    const device::Buffer<float>& memory)
-    : Waves(device, layout, term, deltaLights, Pieces { memory })
-{
-}
-
-Waves::Waves(const device::Device& device, const PlaneLayout& layout, const TermShape& term)
-    : Waves(device, layout, term, true, device::Buffer<float>(device, bytes(term, true) / sizeof(float), "receivers"))
-{
-}
-
-Waves::Waves(
-    const device::Device& device, const PlaneLayout& layout, const TermShape& term, bool deltaLights, Pieces pieces)
-    : shape(term)
-    , position(pieces.take<float>(3, "receivers' positions"))
-    , normal(pieces.take<float>(3, "receivers' normals"))
-    , origin(pieces.take<float>(3, "receivers' origins"))
-    , geometric(pieces.take<std::uint32_t>(1, "receivers' geometric normals"))
-    , objectId(pieces.take<std::uint32_t>(1, "receivers' object ids"))
-    , gloss(pieces.take<float>(1, "receivers' gloss"))
-    , pixelOf(pieces.take<std::uint32_t>(1, "receivers' pixels"))
-    , sampleOf(pieces.take<std::uint32_t>(1, "receivers' samples"))
-    , shareOf(pieces.take<std::uint32_t>(1, "receivers' shares"))
-    , view(pieces.take<std::uint32_t>(1, "receivers' views"))
-    , time(pieces.take<float>(1, "receivers' times"))
-    , diffuse(pieces.take<float>(3, "receivers' diffuse"))
-    , specular(pieces.take<float>(3, "receivers' specular"))
-    , emission(pieces.take<float>(3, "receivers' emission"))
-    , pixelSize(pieces.take<float>(1, "receivers' pixel sizes"))
-    , depth(pieces.take<float>(1, "receivers' depths"))
-    , motion(pieces.take<float>(2, "receivers' motion"))
-    , sums(pieces.take<float>(term.sums, "receivers' sums"))
-    , value(pieces.take<float>(term.values, "receivers' values"))
-    , extremes(pieces.take<float>(term.extremes, "receivers' slopes and distances"))
-    , taken(pieces.take<std::uint32_t>(1, "receivers' samples taken"))
-    , wanted(pieces.take<std::uint32_t>(1, "receivers' samples wanted"))
-    , rays(pieces.take<std::uint32_t>(1, "receivers' rays"))
-    , pathRays(pieces.take<std::uint32_t>(1, "receivers' path rays"))
-    , unshadowed(pieces.take<float>(2, "receivers' unshadowed shading"))
-    , radiance(pieces.take<float>(deltaLights ? 3 : 0, "receivers' radiance"))
-    , radianceNoisy(pieces.take<float>(deltaLights ? 3 : 0, "receivers' unfiltered radiance"))
-    , tileReceivers(device, mostTiles(layout), "receivers of tiles")
-    , tileFirst(device, mostTiles(layout), "first receivers of tiles")
-    , pixelFirst(pieces.take<std::uint32_t>(1, "first receivers of pixels"))
-    , pixelCount(pieces.take<std::uint32_t>(1, "receivers of pixels"))
-{
-    assert(pieces.planes * planeSize * sizeof(float) == bytes(term, deltaLights));
-}
-
-void Waves::limitTiles(Passes& passes, const shared::FrameParams& params, const Frame& frame)
-{
-    passes.list("counts", PassKind::Analysis, "waves.cl", "limitTiles", params.tileCount, params, capacity,
-        frame.primaryTaken, frame.primaryWanted);
-}
-
-std::vector<shared::WaveParams> Waves::schedule(Passes& passes, const shared::FrameParams& params,
-    const shared::CameraParams& camera, const Frame& frame, shared::WaveParams settings, std::uint32_t last)
-{
-    camera_ = camera;
-    params_ = params;
-    settings.planeSize = planeSize;
-    settings.lastSample = last;
-    passes.list("lists", PassKind::Trace, "waves.cl", "countReceivers", params.tileCount, params, settings,
-        frame.primaryTaken, frame.primaryWanted, tileReceivers);
-    if (passes.rehearsal()) {
-        return { settings };
-    }
-    std::vector<std::uint32_t> counts(params.tileCount), first(params.tileCount);
-    tileReceivers.download(passes.queue(), counts);
-    std::vector<shared::WaveParams> waves;
-    constexpr std::uint32_t tilesOfWave = capacity / WEDGE_TILE_PIXELS;
-    for (std::uint32_t tile = 0; tile < params.tileCount; ++tile) {
+    const std::uint32_t tilesOfWave = room / WEDGE_TILE_PIXELS;
+    for (std::uint32_t tile = 0; tile < counts.size(); ++tile) {
+        assert(counts[tile] <= room);
         const bool fits =
-            !waves.empty() && waves.back().tiles < tilesOfWave && waves.back().receivers + counts[tile] <= capacity;
+            !waves.empty() && waves.back().tiles < tilesOfWave && waves.back().receivers + counts[tile] <= room;
         if (!fits) {
             waves.push_back(settings);
             waves.back().firstTile = tile;
@@ -124,46 +57,231 @@ std::vector<shared::WaveParams> Waves::schedule(Passes& passes, const shared::Fr
         waves.back().receivers += counts[tile];
         ++waves.back().tiles;
     }
-    tileFirst.upload(passes.queue(), first);
     std::erase_if(waves, [](const shared::WaveParams& wave) { return wave.receivers == 0; });
-    return waves;
 }
 
-shared::FrameParams Waves::receiverParams(const shared::WaveParams& wave) const
+const shared::WaveParams& Waves::State::wave(const Run& run) const
 {
-    shared::FrameParams p = params_;
-    p.planeSize = wave.planeSize;
-    p.receivers = wave.receivers;
-    p.tileCount = (wave.receivers + WEDGE_TILE_PIXELS - 1) / WEDGE_TILE_PIXELS;
-    return p;
+    return run.rehearsal() ? settings : waves.at(run.iteration());
 }
 
-void Waves::trace(Passes& passes, const DeviceScene& scene, const Frame& frame, const shared::WaveParams& wave,
-    bool lit, double workUnits)
+Waves::Waves(FrameBuilder& frame, const shared::WaveParams& settings, const shared::CameraParams& camera,
+    PrimaryCounts& counts, Sampling sampling)
+    : f_(frame)
+    , settings_(settings)
+    , camera_(camera)
+    , counts_(counts)
+    , sampling_(std::move(sampling))
+    , room_(roomOf(frame.layout, sampling_.most))
+    , state_(std::make_shared<State>())
 {
-    passes.list("lists", PassKind::Trace, "waves.cl", "listReceivers", wave.tiles, params_, wave, frame.primaryTaken,
-        frame.primaryWanted, tileFirst, pixelOf, sampleOf, shareOf, pixelFirst, pixelCount);
-    shared::FrameParams traced = params_;
-    traced.tileCount = receiverParams(wave).tileCount;
-    passes.tiles("primary rays", PassKind::Trace, "wave_primary.cl", "wavePrimary", traced, workUnits, camera_, wave,
-        scene.nodes, scene.blocks, surfaceArguments(scene), scene.objectIds, scene.areaLights,
-        static_cast<std::uint32_t>(lit ? scene.areaLightList.size() : 0), pixelOf, sampleOf, frame.primaryWanted,
-        position, normal, origin, geometric, objectId, gloss, view, time, diffuse, specular, emission, pixelSize, depth,
-        motion, rays, pathRays);
+    // Passes over blocks may read a little more.
+    settings_.planeSize = room_ + device::partAlignment / sizeof(float);
+    state_->settings = settings_;
 }
 
-void Waves::share(Passes& passes, const Term& term, const shared::WaveParams& wave)
+std::function<std::size_t(Run&)> Waves::counter() const
 {
-    passes.list("lists", PassKind::Trace, "waves.cl", "shareSamples", wave.receivers, params_, wave, pixelOf, shareOf,
-        term.taken, term.wanted, shape.sums, shape.extremes, taken, wanted, sums, extremes);
+    return [state = state_](Run&) { return state->waves.size(); };
 }
 
-void Waves::accumulateSurfaces(Passes& passes, Frame& frame, const shared::WaveParams& wave)
+graph::Argument Waves::pixelParams() const { return f_.frame(); }
+
+graph::Argument Waves::receiverParams() const
 {
-    pixels(passes, "accumulateSurfaces", wave, camera_, pixelFirst, pixelCount, objectId, position, normal, gloss,
-        diffuse, specular, emission, pixelSize, depth, motion, rays, pathRays, frame.primaryTaken, frame.hits,
-        frame.objectId, frame.position, frame.normal, frame.gloss, frame.diffuse, frame.specular, frame.emission,
-        frame.emissionSquares, frame.pixelSize, frame.depth, frame.confusion, frame.motion, frame.rays, frame.pathRays);
+    return made("frame",
+        [state = state_, &scene = f_.description, layout = f_.layout, seed = f_.settings.seed](const Launch& launch) {
+            const shared::WaveParams& wave = state->wave(launch.run);
+            shared::FrameParams p = frameParams(scene, layout, launch.window, seed);
+            p.planeSize = wave.planeSize;
+            p.receivers = wave.receivers;
+            p.tileCount = tilesOf(wave.receivers);
+            return p;
+        });
+}
+
+graph::Argument Waves::params(std::uint32_t omits) const
+{
+    return made("wave", [state = state_, omits](const Launch& launch) {
+        shared::WaveParams wave = state->wave(launch.run);
+        wave.omits |= omits;
+        return wave;
+    });
+}
+
+std::vector<graph::Argument> Waves::receiverArguments() const
+{
+    return { reads("position", r_.position), reads("normal", r_.normal), reads("origin", r_.origin),
+        reads("geometric", r_.geometric), reads("objectId", r_.objectId), reads("gloss", r_.gloss),
+        reads("pixelOf", r_.pixelOf), reads("view", r_.view), reads("time", r_.time) };
+}
+
+std::vector<graph::Argument> Waves::pixelLists() const
+{
+    return { reads("pixelFirst", r_.pixelFirst), reads("pixelCount", r_.pixelCount) };
+}
+
+void Waves::tiles(std::string name, graph::KernelName kernel, std::vector<graph::Argument> arguments, bool rays)
+{
+    const auto count = [state = state_, room = room_](const Launch& launch) -> std::size_t {
+        return launch.run.rehearsal() ? tilesOf(room) : tilesOf(state->wave(launch.run).receivers);
+    };
+    const double shares = static_cast<double>(sampling_.rounds) * (1.0 + static_cast<double>(sampling_.terms));
+    const double units = rays ? sampling_.workUnits / shares : 0.0;
+    f_.graph.add({ .name = std::move(name),
+        .kind = PassKind::Trace,
+        .kernel = std::move(kernel),
+        .arguments = std::move(arguments),
+        .domain = graph::Domain::Tiles,
+        .count = count,
+        .itemsOfTile = WEDGE_TILE_PIXELS / f_.packetSize,
+        .workUnits =
+            [state = state_, units](
+                const Launch&) { return units / static_cast<double>(std::max<std::size_t>(1, state->waves.size())); },
+        .everywhere = sampling_.everywhere });
+}
+
+void Waves::list(
+    std::string name, graph::KernelName kernel, std::uint32_t across, std::vector<graph::Argument> arguments)
+{
+    f_.graph.add({ .name = std::move(name),
+        .kind = PassKind::Trace,
+        .kernel = std::move(kernel),
+        .arguments = std::move(arguments),
+        .domain = graph::Domain::Items,
+        .count = [state = state_, across](const Launch& launch) -> std::size_t {
+            return (state->wave(launch.run).receivers + across - 1) / across;
+        },
+        .mostItems = room_ / across,
+        .everywhere = sampling_.everywhere });
+}
+
+void Waves::pixels(std::string kernel, std::vector<graph::Argument> arguments)
+{
+    f_.graph.add({ .name = "accumulate",
+        .kind = PassKind::Trace,
+        .kernel = { "accumulate.cl", std::move(kernel) },
+        .arguments = std::move(arguments),
+        .domain = graph::Domain::Items,
+        .count = [state = state_](const Launch& launch) -> std::size_t {
+            return std::size_t { state->wave(launch.run).tiles } * WEDGE_TILE_PIXELS;
+        },
+        .mostItems = room_,
+        .everywhere = sampling_.everywhere });
+}
+
+void Waves::schedule()
+{
+    const std::size_t most = mostTiles(f_.layout);
+    auto counts = f_.graph.list<Listed>("receivers of tiles", graph::counts, most);
+    tileFirst_ = f_.graph.list<Listed>("first receivers of tiles", graph::counts, most);
+    const auto tiles = [&scene = f_.description, layout = f_.layout](const Launch& launch) -> std::size_t {
+        return frameParams(scene, layout, launch.window, 0).tileCount;
+    };
+    // What all waves of the round have alike.
+    const auto round = [settings = settings_, last = sampling_.last](const Run& run, std::size_t outward) {
+        shared::WaveParams wave = settings;
+        wave.lastSample = last(run.iteration(outward));
+        return wave;
+    };
+    f_.graph.add({ .name = "lists",
+        .kind = PassKind::Trace,
+        .kernel = { "waves.cl", "countReceivers" },
+        .arguments = { pixelParams(), made("wave", [round](const Launch& launch) { return round(launch.run, 0); }),
+            reads("taken", counts_.taken), reads("wanted", counts_.wanted), writes("tileReceivers", counts) },
+        .domain = graph::Domain::Items,
+        .count = tiles,
+        .mostItems = most,
+        .everywhere = sampling_.everywhere });
+    const auto plan = [state = state_, room = room_, round, tiles, counts, first = tileFirst_](Run& run) {
+        if (run.rehearsal()) {
+            return;
+        }
+        std::vector<std::uint32_t> receivers(tiles({ run, run.window() }));
+        run.buffer<std::uint32_t>(counts).download(run.queue(), receivers);
+        WaveSchedule schedule(receivers, round(run, 0), room);
+        run.buffer<std::uint32_t>(first).upload(run.queue(), schedule.first);
+        state->waves = std::move(schedule.waves);
+    };
+    f_.graph.add({ .name = "waves",
+        .kind = PassKind::Trace,
+        .arguments = { reads("tileReceivers", counts), writes("tileFirst", tileFirst_) },
+        .domain = graph::Domain::Host,
+        .step = plan,
+        .everywhere = sampling_.everywhere });
+}
+
+void Waves::trace(bool lit)
+{
+    r_.pixelOf = list<Listed>("pixels", graph::counts);
+    r_.sampleOf = list<Listed>("samples", graph::counts);
+    r_.shareOf = list<Listed>("shares", graph::counts);
+    r_.pixelFirst = list<Listed>("firsts of pixels", graph::counts);
+    r_.pixelCount = list<Listed>("counts of pixels", graph::counts);
+    f_.graph.add({ .name = "lists",
+        .kind = PassKind::Trace,
+        .kernel = { "waves.cl", "listReceivers" },
+        .arguments = { pixelParams(), params(), reads("taken", counts_.taken), reads("wanted", counts_.wanted),
+            reads("tileFirst", tileFirst_), writes("pixelOf", r_.pixelOf), writes("sampleOf", r_.sampleOf),
+            writes("shareOf", r_.shareOf), writes("pixelFirst", r_.pixelFirst), writes("pixelCount", r_.pixelCount) },
+        .domain = graph::Domain::Items,
+        .count = [state = state_](const Launch& launch) -> std::size_t { return state->wave(launch.run).tiles; },
+        .mostItems = room_ / WEDGE_TILE_PIXELS,
+        .everywhere = sampling_.everywhere });
+    r_.position = list<Position>("positions", graph::vectors);
+    r_.normal = list<Normal>("normals", graph::vectors);
+    r_.origin = list<Position>("origins", graph::vectors);
+    r_.geometric = list<Packed>("geometric normals", graph::counts);
+    r_.objectId = list<ObjectId>("object ids", graph::counts);
+    r_.gloss = list<Gloss>("gloss", graph::floats);
+    r_.view = list<Packed>("views", graph::counts);
+    r_.time = list<Share>("times", graph::floats);
+    r_.diffuse = list<Reflectance>("diffuse", graph::vectors);
+    r_.specular = list<Reflectance>("specular", graph::vectors);
+    r_.emission = list<Radiance>("emission", graph::vectors);
+    r_.pixelSize = list<Metres>("pixel sizes", graph::floats);
+    r_.depth = list<Metres>("depths", graph::floats);
+    r_.motion = list<Pixels>("motion", graph::floatPlanes(2));
+    r_.rays = list<Count>("rays", graph::counts);
+    r_.pathRays = list<Count>("path rays", graph::counts);
+    const auto traced = made("frame",
+        [state = state_, &scene = f_.description, layout = f_.layout, seed = f_.settings.seed](const Launch& launch) {
+            shared::FrameParams p = frameParams(scene, layout, launch.window, seed);
+            p.tileCount = tilesOf(state->wave(launch.run).receivers);
+            return p;
+        });
+    const auto lights = static_cast<std::uint32_t>(lit ? f_.description.areaLights.size() : 0);
+    tiles("primary rays", { "wave_primary.cl", "wavePrimary" },
+        joined({ traced, value("camera", camera_), params() }, f_.hierarchy(), f_.geometry(),
+            Arguments { f_.ofScene("objectIds", "uint", &DeviceScene::objectIds),
+                f_.ofScene("lights", "AreaLight", &DeviceScene::areaLights), value("lightCount", lights),
+                reads("pixelOf", r_.pixelOf), reads("sampleOf", r_.sampleOf), reads("wanted", counts_.wanted),
+                writes("position", r_.position), writes("normal", r_.normal), writes("origin", r_.origin),
+                writes("geometric", r_.geometric), writes("objectId", r_.objectId), writes("gloss", r_.gloss),
+                writes("view", r_.view), writes("time", r_.time), writes("diffuse", r_.diffuse),
+                writes("specular", r_.specular), writes("emission", r_.emission), writes("pixelSize", r_.pixelSize),
+                writes("depth", r_.depth), writes("motion", r_.motion), writes("rays", r_.rays),
+                writes("pathRays", r_.pathRays) }));
+}
+
+std::uint32_t waveSampler(const Settings& settings)
+{
+    const bool counts = settings.method == Method::AxisAligned;
+    return static_cast<std::uint32_t>(counts || settings.progressive ? Sampler::Sobol : settings.sampler);
+}
+
+void limitTiles(FrameBuilder& frame, PrimaryCounts& counts)
+{
+    const auto tiles = static_cast<std::size_t>(frame.wholeFrame().tileCount);
+    frame.graph.add({ .name = "counts",
+        .kind = PassKind::Analysis,
+        .kernel = { "waves.cl", "limitTiles" },
+        .arguments = { frame.frame(), value("capacity", WaveSchedule::capacity), reads("taken", counts.taken),
+            updates("wanted", counts.wanted) },
+        .domain = graph::Domain::Items,
+        .count = [tiles](const Launch&) { return tiles; },
+        .mostItems = tiles,
+        .everywhere = true });
 }
 
 } // namespace wedge::render

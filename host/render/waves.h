@@ -1,100 +1,149 @@
 #pragma once
 
-#include "host/render/device_scene.h"
-#include "host/render/frame.h"
-#include "host/render/passes.h"
+#include "host/render/frame_builder.h"
 #include "kernels/shared/camera.h"
 #include "kernels/shared/wave.h"
 
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace wedge::render {
 
-/// Receivers of distributed frames: their lists, and what is found at each (kernels/waves.cl). Pixels that see a scene
-/// through a lens or a shutter have many, and no memory for all at once: they are traced in waves of a bounded number,
-/// each of which is added to its pixels before the next.
+/// The waves in which the receivers of tiles are traced, and where those of each tile start in theirs.
+struct WaveSchedule {
+    std::vector<shared::WaveParams> waves;
+    std::vector<std::uint32_t> first;
+
+    /// counts: receivers of each tile. settings: what all waves have alike. room: receivers of a wave at most; no tile
+    /// has more.
+    WaveSchedule(
+        const std::vector<std::uint32_t>& counts, const shared::WaveParams& settings, std::uint32_t room = capacity);
+
+    static constexpr std::uint32_t capacity = WEDGE_WAVE_RECEIVERS; ///< of any wave
+};
+
+/// Planes of a wave's receivers, see kernels/wave_primary.cl and waves.cl.
+struct Receivers {
+    graph::Handle<Position> position, origin;
+    graph::Handle<Normal> normal;
+    graph::Handle<Packed> geometric, view;
+    graph::Handle<ObjectId> objectId;
+    graph::Handle<Gloss> gloss;
+    graph::Handle<Listed> pixelOf, sampleOf, shareOf; ///< of receivers
+    graph::Handle<Listed> pixelFirst, pixelCount; ///< of the pixels of the wave's tiles
+    graph::Handle<Share> time;
+    graph::Handle<Reflectance> diffuse, specular;
+    graph::Handle<Radiance> emission;
+    graph::Handle<Metres> pixelSize, depth;
+    graph::Handle<Pixels> motion;
+    graph::Handle<Count> rays, pathRays;
+};
+
+/// How many primary samples pixels have, and how many they want.
+struct PrimaryCounts {
+    graph::Handle<Count> taken;
+    graph::Handle<Count> wanted; ///< of a size that kernels may read, whatever is in it, where waves omit counts
+};
+
+/// Samples of the image in waves of receivers: in a graph, a loop over rounds, and in each over waves. What passes in
+/// them take for arguments, and how they are declared.
 class Waves {
 public:
-    static constexpr std::uint32_t capacity = WEDGE_WAVE_RECEIVERS;
-    /// Elements from plane to plane: not a power of two, whose multiples caches confuse.
-    static constexpr std::uint32_t planeSize = capacity + device::partAlignment / sizeof(float);
+    /// One sampling of the image.
+    struct Sampling {
+        std::size_t rounds = 1;
+        std::function<std::uint32_t(std::size_t round)> last; ///< primary samples that pixels have at most after one
+        double most = 0; ///< new ones of a pixel in a round, at most, in the mean over the image's tiles
+        double workUnits = 0; ///< of all rounds together
+        std::size_t terms = 0; ///< of the frame, among which the work is shared out with the camera's rays
+        bool everywhere = false; ///< all of the image, whatever is wanted
+    };
 
-    /// Bytes of what lies in their memory, and the rest.
-    static std::uint64_t bytes(const TermShape& term, bool deltaLights);
-    static void planTiles(device::MemoryPlan& plan, const PlaneLayout& layout);
+    /// settings: of the waves, as far as they are known. counts: of the frame.
+    Waves(FrameBuilder& frame, const shared::WaveParams& settings, const shared::CameraParams& camera,
+        PrimaryCounts& counts, Sampling sampling);
 
-    /// term: planes that the receivers' terms need. memory: what is on no use between the waves of one pass and those
-    /// of the next lies there, from the start on.
-    Waves(const device::Device& device, const PlaneLayout& layout, const TermShape& term, bool deltaLights,
-        const device::Buffer<float>& memory);
-    /// With memory of their own, and point or directional lights.
-    Waves(const device::Device& device, const PlaneLayout& layout, const TermShape& term);
+    /// Declares the loops. body(): declares what a wave's receivers are sampled for, after their primary rays; the last
+    /// pass is to add to counts.taken.
+    template <class Body>
+    void declare(bool lit, const Body& body)
+    {
+        const std::size_t rounds = sampling_.rounds;
+        f_.graph.tiledLoop(
+            "rounds", WEDGE_TILE, [rounds](graph::Run&) { return rounds; },
+            [&] {
+                schedule();
+                f_.graph.loop("waves", counter(), [&] {
+                    trace(lit);
+                    body();
+                });
+            });
+    }
 
-    /// The waves in which the pixels of frame get their primary samples up to frame.primaryWanted, or up to `last`
-    /// samples. settings: sampler, firstPass and shading; the rest is filled in. They are for those pixels until the
-    /// next schedule.
-    /// Takes back what the pixels of a tile want beyond what fits in a wave. params: of the whole image.
-    static void limitTiles(Passes& passes, const shared::FrameParams& params, const Frame& frame);
-
-    std::vector<shared::WaveParams> schedule(Passes& passes, const shared::FrameParams& params,
-        const shared::CameraParams& camera, const Frame& frame, shared::WaveParams settings, std::uint32_t last);
-
+    const shared::WaveParams& settings() const { return settings_; }
     const shared::CameraParams& camera() const { return camera_; }
+    const Receivers& receivers() const { return r_; }
+    PrimaryCounts& counts() { return counts_; }
 
-    /// Lists the wave's receivers and traces their primary rays. lit: with area lights in view.
-    void trace(Passes& passes, const DeviceScene& scene, const Frame& frame, const shared::WaveParams& wave, bool lit,
-        double workUnits);
-
-    /// Shares the samples of a term that the wave's pixels take now out to their receivers, and clears those' sums.
-    void share(Passes& passes, const Term& term, const shared::WaveParams& wave);
-
-    /// Adds the receivers' surfaces to their pixels: the last that is done with a wave.
-    void accumulateSurfaces(Passes& passes, Frame& frame, const shared::WaveParams& wave);
-
-    /// What passes over the wave's receivers take for FrameParams.
-    shared::FrameParams receiverParams(const shared::WaveParams& wave) const;
-
-    /// A pass over the pixels of the wave's tiles.
-    template <class... Args>
-    void pixels(Passes& passes, const std::string& kernel, const shared::WaveParams& wave, const Args&... args)
+    /// A list of the receivers, or of the pixels of the wave's tiles, in the loop's body.
+    template <class Quantity>
+    graph::Handle<Quantity> list(std::string name, const graph::Format& format) const
     {
-        passes.list("accumulate", device::PassKind::Trace, "accumulate.cl", kernel,
-            std::size_t { wave.tiles } * WEDGE_TILE_PIXELS, params_, wave, args...);
+        return f_.graph.list<Quantity>("receivers' " + name, format, settings_.planeSize);
     }
 
-    /// What kernels take for WEDGE_RECEIVER_PARAMETERS.
-    auto receivers() const
-    {
-        return std::tie(position, normal, origin, geometric, objectId, gloss, pixelOf, view, time);
-    }
+    /// FrameParams: of the pixels; of passes over receivers.
+    graph::Argument pixelParams() const;
+    graph::Argument receiverParams() const;
+    /// The wave, which leaves out what `omits` has, too.
+    graph::Argument params(std::uint32_t omits = 0) const;
+    /// WEDGE_RECEIVER_PARAMETERS
+    std::vector<graph::Argument> receiverArguments() const;
+    /// pixelFirst, pixelCount
+    std::vector<graph::Argument> pixelLists() const;
 
-    TermShape shape;
-    device::Buffer<float> position, normal, origin;
-    device::Buffer<std::uint32_t> geometric, objectId;
-    device::Buffer<float> gloss;
-    device::Buffer<std::uint32_t> pixelOf, sampleOf, shareOf, view; ///< see waves.cl
-    device::Buffer<float> time, diffuse, specular, emission, pixelSize, depth, motion; ///< see wave_primary.cl
-    device::Buffer<float> sums, value, extremes; ///< of one term
-    device::Buffer<std::uint32_t> taken, wanted, rays, pathRays;
-    device::Buffer<float> unshadowed; ///< shading by a light, see wave_light.cl
-    device::Buffer<float> radiance, radianceNoisy; ///< of point and directional lights
-    device::Buffer<std::uint32_t> tileReceivers, tileFirst; ///< one a tile
-    device::Buffer<std::uint32_t> pixelFirst, pixelCount; ///< one a pixel of the wave's tiles
+    /// A pass over tiles of receivers; rays: whether it has a share in the work.
+    void tiles(std::string name, graph::KernelName kernel, std::vector<graph::Argument> arguments, bool rays = true);
+    /// One over blocks of `across` receivers.
+    void list(std::string name, graph::KernelName kernel, std::uint32_t across, std::vector<graph::Argument> arguments);
+    /// One over the pixels of the wave's tiles, of accumulate.cl.
+    void pixels(std::string kernel, std::vector<graph::Argument> arguments);
+
+    /// Counts of the rays that are traced for receivers.
+    graph::Argument tallyRays() { return graph::tallies("rays", r_.rays); }
+    graph::Argument tallyPathRays() { return graph::tallies("pathRays", r_.pathRays); }
 
 private:
-    /// Planes of receivers, one buffer after the other, in one memory.
-    struct Pieces {
-        const device::Buffer<float>& memory;
-        std::size_t planes = 0; ///< taken so far
+    struct State {
+        std::vector<shared::WaveParams> waves; ///< of the round in hand
+        shared::WaveParams settings;
 
-        template <class T>
-        device::Buffer<T> take(std::size_t count, const std::string& name);
+        const shared::WaveParams& wave(const graph::Run& run) const;
     };
-    Waves(const device::Device& device, const PlaneLayout& layout, const TermShape& term, bool deltaLights,
-        Pieces pieces);
 
-    shared::FrameParams params_ {}; ///< of the pixels
-    shared::CameraParams camera_ {};
+    std::function<std::size_t(graph::Run&)> counter() const;
+    void schedule();
+    void trace(bool lit);
+
+    FrameBuilder& f_;
+    shared::WaveParams settings_;
+    shared::CameraParams camera_;
+    PrimaryCounts& counts_;
+    Sampling sampling_;
+    std::uint32_t room_; ///< of waves: of small images none is as large as can be
+    std::shared_ptr<State> state_;
+    Receivers r_;
+    graph::Handle<Listed> tileFirst_;
 };
+
+/// WEDGE_SAMPLER_* of receivers in waves. Strata are for counts that are known before the first sample is taken, and
+/// frames with counts of their own a pixel, and progressive ones, take a sequence in their place.
+std::uint32_t waveSampler(const Settings& settings);
+
+/// Declares that no tile's pixels together want more new samples than a wave has room for.
+void limitTiles(FrameBuilder& frame, PrimaryCounts& counts);
 
 } // namespace wedge::render

@@ -8,6 +8,12 @@
 /// Primary samples that a pixel takes in one step of a progressive frame at most: a wave holds those of a tile.
 #define WEDGE_MOST_NEW_SAMPLES 1024u
 
+/// Radius of the median of flags, pixels (published.cl).
+#define WEDGE_MEDIAN_RADIUS 2
+
+/// Pixels around one whose variances make its demand (distributed.cl).
+#define WEDGE_DEMAND_REACH 2
+
 /// Pixels that the kernel along a motion reaches at most.
 #define WEDGE_MOTION_REACH 160
 

@@ -9,6 +9,9 @@
 #define WEDGE_COMPONENT_GLOSSY 1u ///< radiance that the specular lobe reflects, without its colour
 #define WEDGE_COMPONENT_AMBIENT 2u ///< fraction of the cosine-weighted hemisphere in which something is near
 
+/// Pixels around one, either way, whose rays tell how near what surrounds it is.
+#define WEDGE_NEARNESS_REACH 2
+
 /// Stripes of rows that each reduce what the camera sees.
 #define WEDGE_EXTENT_STRIPES 32u
 

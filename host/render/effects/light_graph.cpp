@@ -1,6 +1,7 @@
 #include "host/render/effects/light_graph.h"
 
 #include "host/graph/execution.h"
+#include "host/render/effects/light_widths.h"
 #include "host/render/effects/sample_slices.h"
 #include "host/render/effects/soft_shadows.h"
 #include "host/render/filters/filter_graph.h"
@@ -88,10 +89,7 @@ private:
     void firstPass();
     void samples(const char* pass, std::uint32_t from, std::uint32_t slice);
     void widthsAndCounts();
-    void publishedWidths();
-    void spreadOver(const graph::Argument& p, const graph::Argument& planes, const graph::Handle<Logarithms>& from,
-        graph::Handle<Logarithms>& rows, graph::Handle<Logarithms>& spread);
-    void smoothedWidths();
+    void narrowForLobes();
     void countsFromVariance();
     void widened();
     void shade(const graph::Handle<Value>& value, const std::function<bool(const Run&)>& condition);
@@ -146,10 +144,11 @@ void LightGraph::widthsAndCounts()
 {
     const bool spectrum = s_.sampling == Sampling::Adaptive && s_.counts == Counts::Spectrum;
     if (spectrum || s_.slopes == Slopes::Published) {
-        publishedWidths();
+        publishedWidths(f_, analysisParams(), extremes_, sums_, beta_, wanted_);
     }
     if (s_.slopes == Slopes::Smoothed) {
-        smoothedWidths();
+        smoothedWidths(f_, analysisParams(), extremes_, sums_, beta_);
+        narrowForLobes();
     }
     if (s_.sampling == Sampling::Uniform) {
         uniformCounts(f_, static_cast<std::uint32_t>(s_.spp), f_.surfaces.objectId, wanted_);
@@ -158,59 +157,15 @@ void LightGraph::widthsAndCounts()
     }
 }
 
-void LightGraph::publishedWidths()
+void LightGraph::narrowForLobes()
 {
-    const graph::Argument p = f_.rectangle(analysisParams());
-    const auto planes = value("planes", std::uint32_t { 4 });
-    auto distances = g_.plane<Logarithms>("distances", graph::floatPlanes(4));
-    auto rows = g_.plane<Logarithms>("distances spread along rows", graph::floatPlanes(4));
-    auto spread = g_.plane<Logarithms>("distances spread", graph::floatPlanes(4));
-    f_.zero(distances); // what spreads comes from the padding, too
-    f_.blocks("widths", PassKind::Analysis, { "analysis.cl", "publishedDistances" },
-        { p, reads("slopes", extremes_), reads("position", f_.surfaces.position),
-            reads("objectId", f_.surfaces.objectId), updates("distances", distances) });
-    spreadOver(p, planes, distances, rows, spread);
-    f_.pixels("widths", PassKind::Analysis, { "analysis.cl", "publishedWidths" },
-        { p, reads("slopes", extremes_), reads("distances", spread), reads("objectId", f_.surfaces.objectId),
-            reads("pixelSize", f_.surfaces.pixelSize), reads("sums", sums_), writes("beta", beta_),
-            writes("wanted", wanted_) });
-}
-
-void LightGraph::spreadOver(const graph::Argument& p, const graph::Argument& planes,
-    const graph::Handle<Logarithms>& from, graph::Handle<Logarithms>& rows, graph::Handle<Logarithms>& spread)
-{
-    const graph::Reach along { .x = s_.fillRadius }, across { .y = s_.fillRadius };
-    f_.blocks("widths", PassKind::Analysis, { "analysis.cl", "spreadRows" },
-        { p, planes, reads("in", from, along), writes("out", rows) });
-    f_.blocks("widths", PassKind::Analysis, { "analysis.cl", "spreadColumns" },
-        { p, planes, reads("in", rows, across), writes("out", spread) });
-}
-
-void LightGraph::smoothedWidths()
-{
-    const graph::Argument p = f_.rectangle(analysisParams());
-    const Surfaces& s = f_.surfaces;
-    auto eroded = g_.plane<Extremes>("eroded slopes", graph::floats);
-    auto logs = g_.plane<Logarithms>("logarithms", graph::floatPlanes(2));
-    auto rows = g_.plane<Logarithms>("logarithms spread along rows", graph::floatPlanes(2));
-    auto spread = g_.plane<Logarithms>("logarithms spread", graph::floatPlanes(2));
-    f_.blocks("widths", PassKind::Analysis, { "analysis.cl", "erodeSlopes" },
-        { p, reads("slopes", extremes_, around(1)), reads("objectId", s.objectId, around(1)),
-            writes("eroded", eroded) });
-    f_.zero(logs); // what spreads comes from the padding, too
-    f_.blocks("widths", PassKind::Analysis, { "analysis.cl", "smoothSlopes" },
-        { p, reads("eroded", eroded, around(1)), reads("objectId", s.objectId, around(1)),
-            updates("logSlopes", logs) });
-    spreadOver(p, value("planes", std::uint32_t { 2 }), logs, rows, spread);
-    f_.pixels("widths", PassKind::Analysis, { "analysis.cl", "widths" },
-        { p, reads("logSlopes", logs), reads("spread", spread), reads("objectId", s.objectId),
-            reads("pixelSize", s.pixelSize), reads("sums", sums_), writes("beta", beta_) });
     // With shading apart from visibility samples know nothing of the lobe.
     if (f_.specular && s_.filtering == Filtering::Adaptive && s_.shading != Shading::Separate) {
+        const Surfaces& s = f_.surfaces;
         f_.pixels("widths", PassKind::Analysis, { "analysis.cl", "narrowForLobes" },
-            { p, value("frame", f_.wholeFrame()), reads("sums", sums_), reads("position", s.position),
-                reads("gloss", s.gloss), reads("diffuse", s.diffuse), reads("specular", s.specular),
-                updates("beta", beta_) });
+            { f_.rectangle(analysisParams()), value("frame", f_.wholeFrame()), reads("sums", sums_),
+                reads("position", s.position), reads("gloss", s.gloss), reads("diffuse", s.diffuse),
+                reads("specular", s.specular), updates("beta", beta_) });
     }
 }
 
@@ -220,7 +175,7 @@ void LightGraph::countsFromVariance()
     graph::Handle<Value> visibility = value_;
     auto effective = g_.plane<Count>("effective count of first pass", graph::floats);
     if (s_.filtering == Filtering::None) {
-        setOnes(f_, effective);
+        f_.fill("ones", effective, 1.0f);
     } else {
         const Gathered gathered = gaussianFilter(
             f_, { "filter of first pass", PassKind::Analysis, "filter.cl" }, channels_, filterParams(), value_, beta_);
@@ -245,7 +200,7 @@ void LightGraph::widened()
             reads("taken", taken_), reads("sums", sums_), reads("diffuse", f_.surfaces.diffuse),
             reads("specular", f_.surfaces.specular), writes("visibility", visibility), writes("deviation", deviation),
             writes("weights", weights) });
-    widen(f_, "filter", filterParams(), s_.widening, { visibility, deviation, weights }, beta_);
+    widen(f_, "filter", filterParams(), s_.widening, pinholeNoise, { visibility, deviation, weights }, beta_);
 }
 
 void LightGraph::shade(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition)

@@ -85,8 +85,8 @@ private:
     bool isUniform() const { return s_.sampling == Sampling::Uniform || s_.indirect.counts == IndirectCounts::Uniform; }
     shared::FilterParams filterParams() const { return render::filterParams(s_, f_.wholeFrame(), g_.image()); }
     shared::AnalysisParams countParams() const { return pathCountParams(f_.analysisParams(), s_); }
-    shared::ReflectorParams reflectorParams() const;
-    shared::PathParams pathParams() const;
+    shared::ReflectorParams reflectorParams() const { return render::reflectorParams(f_, component_); }
+    shared::PathParams pathParams() const { return render::pathParams(f_, component_); }
 
     void paths(const char* pass, std::uint32_t from, std::uint32_t most, double mean, bool everywhere);
     void widthsAndCounts();
@@ -106,26 +106,6 @@ private:
     graph::Handle<Extremes> extremes_;
     graph::Handle<Count> taken_, wanted_;
 };
-
-shared::ReflectorParams PathGraph::reflectorParams() const
-{
-    shared::ReflectorParams p = render::reflectorParams(s_, component_);
-    p.width = f_.layout.width;
-    p.height = f_.layout.height;
-    p.stride = f_.layout.stride;
-    p.planeSize = static_cast<std::uint32_t>(f_.layout.size);
-    p.extent = s_.indirect.extent == ReflectorExtent::Scene && f_.scene != nullptr ? f_.scene->largestDimension : 0.0f;
-    return p;
-}
-
-shared::PathParams PathGraph::pathParams() const
-{
-    shared::PathParams p = render::pathParams(s_, component_);
-    p.areaLights = static_cast<std::uint32_t>(f_.description.areaLights.size());
-    p.deltaLights = f_.scene != nullptr ? f_.scene->deltaLightCount : 0;
-    p.sceneDiameter = f_.scene != nullptr ? f_.scene->diameter : 0.0f;
-    return p;
-}
 
 void PathGraph::paths(const char* pass, std::uint32_t from, std::uint32_t most, double mean, bool everywhere)
 {
@@ -148,18 +128,7 @@ void PathGraph::paths(const char* pass, std::uint32_t from, std::uint32_t most, 
 
 void PathGraph::widthsAndCounts()
 {
-    const Surfaces& s = f_.surfaces;
-    const graph::Argument p = f_.rectangle(reflectorParams());
-    auto bounds = g_.list<Metres>("visible bounds", graph::floats, 6 * WEDGE_EXTENT_STRIPES);
-    auto extent = g_.list<Metres>("visible extent", graph::floats, 1);
-    f_.items("widths", PassKind::Analysis, { "reflectors.cl", "visibleBounds" }, WEDGE_EXTENT_STRIPES,
-        { p, reads("position", s.position), reads("objectId", s.objectId), writes("bounds", bounds) });
-    f_.items("widths", PassKind::Analysis, { "reflectors.cl", "visibleExtent" }, 1,
-        { reads("bounds", bounds), writes("extent", extent) });
-    f_.pixels("widths", PassKind::Analysis, { "reflectors.cl", "reflectorWidths" },
-        { p, reads("reflectors", extremes_), reads("objectId", s.objectId), reads("extent", extent),
-            reads("pixelSize", s.pixelSize), reads("gloss", s.gloss), reads("taken", taken_), writes("beta", beta_),
-            updates("wanted", wanted_) });
+    reflectorWidths(f_, reflectorParams(), extremes_, taken_, beta_, &wanted_);
     if (isUniform()) {
         uniformCounts(f_, static_cast<std::uint32_t>(s_.spp), taken_, wanted_);
     } else if (s_.indirect.counts == IndirectCounts::Variance) {
@@ -181,7 +150,7 @@ void PathGraph::countsFromVariance()
             f_, { "pixels gathered", PassKind::Analysis, "filter_variance.cl" }, 1, filterParams(), variance, beta_)
                         .effective;
     } else {
-        setOnes(f_, effective);
+        f_.fill("ones", effective, 1.0f);
     }
     auto demand = g_.plane<Demand>("demand", graph::floats);
     f_.blocks("counts", PassKind::Analysis, { "reflectors.cl", "pathDemand" },
@@ -201,7 +170,8 @@ void PathGraph::widened()
             value("firstPass", WEDGE_INDIRECT_FIRST_RAYS), reads("reflectance", reflectance_), reads("value", value_),
             reads("taken", taken_), writes("irradiance", irradiance), writes("deviation", deviation),
             writes("weights", weights) });
-    widen(f_, "filter of indirect", filterParams(), s_.indirect.widening, { irradiance, deviation, weights }, beta_);
+    widen(f_, "filter of indirect", filterParams(), s_.indirect.widening, pinholeNoise,
+        { irradiance, deviation, weights }, beta_);
 }
 
 void PathGraph::composite(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition)

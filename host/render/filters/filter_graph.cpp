@@ -34,10 +34,10 @@ Gathered gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t
     auto rowCounts = frame.graph.plane<Count>("effective count of rows", graph::floats);
     Gathered out { frame.graph.plane<Value>("filtered", graph::floatPlanes(channels)),
         frame.graph.plane<Count>("effective count", graph::floats) };
-    frame.blocks(run.pass, run.kind, { run.program, "filterRows" },
+    frame.blocks(run.pass, run.kind, { frame.program(run.program), "filterRows" },
         joined({ frame.rectangle(params), reads("value", filtered, along), reads("beta", beta, along) },
             neighbours(frame.surfaces, along), Arguments { writes("filtered", rows), writes("effective", rowCounts) }));
-    frame.blocks(run.pass, run.kind, { run.program, "filterColumns" },
+    frame.blocks(run.pass, run.kind, { frame.program(run.program), "filterColumns" },
         joined({ frame.rectangle(params), reads("value", rows, across), reads("beta", beta, across) },
             neighbours(frame.surfaces, across),
             Arguments { reads("effectiveRows", rowCounts), writes("filtered", out.value),
@@ -45,14 +45,14 @@ Gathered gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t
     return out;
 }
 
-void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams params, float pixels, Compared compared,
-    graph::Handle<Metres>& beta)
+void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams params, float pixels, float noise,
+    Compared compared, graph::Handle<Metres>& beta)
 {
     params.maxRadius = static_cast<std::uint32_t>(comparedReach(frame.settings, pixels));
     const int far = static_cast<int>(params.maxRadius);
     const graph::Reach along { .x = far }, across { .y = far }, near = around(WEDGE_SHRINK_REACH);
     const graph::Reach noisy { .x = 2 * WEDGE_BLOCK_PIXELS - 1, .y = 3 * WEDGE_SHRINK_REACH };
-    const std::string program = "compare_widths.cl";
+    const std::string program = frame.program("compare_widths.cl");
     const shared::AnalysisParams p = frame.analysisParams();
     const auto all = value("frame", frame.wholeFrame());
     graph::Graph& g = frame.graph;
@@ -86,7 +86,7 @@ void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams para
             reads("deviation", compared.deviation), reads("weights", compared.weights), writes("squares", squares),
             writes("variance", variance) });
     frame.blocks(pass, PassKind::Filter, { "widen.cl", "wideShares" },
-        joined({ frame.rectangle(p), all, value("pixels", pixels), value("noise", pinholeNoise),
+        joined({ frame.rectangle(p), all, value("pixels", pixels), value("noise", noise),
                    reads("difference", squares, near), reads("variance", variance, near) },
             neighbours(frame.surfaces, near), Arguments { reads("beta", beta, near), writes("shares", shares) }));
     frame.blocks(pass, PassKind::Filter, { "widen.cl", "widen" },
@@ -123,16 +123,6 @@ void uniformCounts(FrameBuilder& frame, std::uint32_t count, const graph::Versio
     frame.pixels("counts", PassKind::Analysis, { "counts.cl", "uniformCounts" },
         { frame.rectangle(frame.analysisParams()), value("count", count), reads("mask", mask),
             writes("wanted", wanted) });
-}
-
-void setOnes(FrameBuilder& frame, graph::Handle<Count>& effective)
-{
-    const graph::Version resource = effective;
-    frame.graph.add({ .name = "counts",
-        .kind = PassKind::Analysis,
-        .arguments = { writes("effective", effective) },
-        .domain = graph::Domain::Host,
-        .step = [resource](graph::Run& run) { run.buffer<float>(resource).fill(run.queue(), 1.0f); } });
 }
 
 } // namespace wedge::render

@@ -28,8 +28,9 @@ struct Compared {
 };
 
 /// Declares the passes that widen beta where the samples do not speak against it (kernels/widen.cl), towards `pixels`.
-void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams params, float pixels, Compared compared,
-    graph::Handle<Metres>& beta);
+/// noise: how much of their variance counts, pinholeNoise or distributedNoise.
+void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams params, float pixels, float noise,
+    Compared compared, graph::Handle<Metres>& beta);
 
 /// Declares how counts follow from demands: clamp(C demand, params.leastCount, params.countCap) where mask is not 0,
 /// with C such that their mean is `mean` (kernels/counts.cl).
@@ -38,8 +39,5 @@ void countsFromDemand(FrameBuilder& frame, const shared::AnalysisParams& params,
 
 /// The same of equal counts.
 void uniformCounts(FrameBuilder& frame, std::uint32_t count, const graph::Version& mask, graph::Handle<Count>& wanted);
-
-/// Effective counts where nothing is filtered.
-void setOnes(FrameBuilder& frame, graph::Handle<Count>& effective);
 
 } // namespace wedge::render

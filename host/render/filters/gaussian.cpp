@@ -46,24 +46,4 @@ shared::FilterParams publishedParams(
     return p;
 }
 
-void gaussianFilter(Passes& passes, const FilterRun& run, shared::FilterParams params, const image::Window& window,
-    const Frame& frame, const device::Buffer<float>& value, const device::Buffer<float>& beta, Scratch& scratch,
-    device::Buffer<float>& filtered)
-{
-    const int width = static_cast<int>(frame.layout.width);
-    const int height = static_cast<int>(frame.layout.height);
-    const int reach = static_cast<int>(params.maxRadius);
-    // The columns' taps reach rows above and below the window, which the rows pass has to have done.
-    const image::Window columns = blockWindow(window, 0, width, height);
-    const image::Window rows { columns.x0, std::max(0, window.y0 - reach), columns.x1,
-        std::min(height, window.y1 + reach) };
-    const std::string program = (frame.shape.packed() ? "packed_" : "") + run.program;
-    setRectangle(params, rows);
-    passes.rows(run.pass, run.kind, program, "filterRows", params, WEDGE_BLOCK_PIXELS, value, beta, frame.position,
-        frame.normal, frame.objectId, scratch.rowsFiltered, scratch.rowsEffective);
-    setRectangle(params, columns);
-    passes.rows(run.pass, run.kind, program, "filterColumns", params, WEDGE_BLOCK_PIXELS, scratch.rowsFiltered, beta,
-        frame.position, frame.normal, frame.objectId, scratch.rowsEffective, filtered, scratch.effective);
-}
-
 } // namespace wedge::render

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "host/device/buffer.h"
+#include "host/device/queue.h"
 #include "host/render/frame.h"
-#include "host/render/passes.h"
 #include "host/render/settings.h"
 #include "kernels/shared/filter_params.h"
 #include "kernels/shared/light.h"
@@ -31,13 +30,5 @@ struct FilterRun {
 /// of both of a pair the narrower kernel counts.
 shared::FilterParams publishedParams(
     const Settings& settings, const shared::FrameParams& frame, const image::Window& window);
-
-/// The separable world-space Gaussian of kernels/gather.h from `value` into `filtered`, as many planes as the program
-/// has channels, and the effective counts into scratch.effective (but not those of packed frames' three channels), over
-/// window; widths are beta. It reads up to params.maxRadius pixels beyond the window. No state; scratch.rowsFiltered
-/// and rowsEffective are overwritten. params: of filterParams(); its rectangle does not matter.
-void gaussianFilter(Passes& passes, const FilterRun& run, shared::FilterParams params, const image::Window& window,
-    const Frame& frame, const device::Buffer<float>& value, const device::Buffer<float>& beta, Scratch& scratch,
-    device::Buffer<float>& filtered);
 
 } // namespace wedge::render

@@ -2,35 +2,28 @@
 
 #include "host/device/program.h"
 #include "host/device/queue.h"
-#include "host/image/image.h"
+#include "host/graph/execution.h"
 #include "kernels/shared/filter_params.h"
 #include "kernels/shared/frame.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <string_view>
 
-namespace wedge::render {
+namespace wedge::test {
 
-/// The passes of a frame: one kernel dispatch each, with a name, a kind and a region of pixels.
-///
-/// A rehearsal launches every kernel at its full size over no pixels at all: drivers compile at the first launch of a
-/// size, which must not land in anybody's timing.
+/// Kernels launched one by one as a frame's graph launches them.
 class Passes {
 public:
     /// packetSize: pixels that one work-item of a pass over tiles takes.
     Passes(device::ProgramLibrary& library, device::TimedQueue& queue, std::size_t packetSize)
-        : library_(library)
+        : kernels_(library)
         , queue_(queue)
         , packetSize_(packetSize)
     {
     }
-
-    device::TimedQueue& queue() { return queue_; }
-    void setRehearsal(bool on) { rehearsal_ = on; }
-    bool rehearsal() const { return rehearsal_; }
 
     /// A pass over the tiles of frame's rectangle. The kernel takes FrameParams first and firstGroup last.
     template <class... Args>
@@ -40,18 +33,12 @@ public:
         device::Kernel& k = find(file, kernel);
         const std::size_t items = WEDGE_TILE_PIXELS / packetSize_;
         const std::size_t local = localSize(k, items);
-        const std::size_t tiles = rehearsal_ ? std::max(1u, frame.tileCount) : frame.tileCount;
-        const std::size_t groups = tiles * (items / local);
-        if (rehearsal_) {
-            frame.tileCount = 0;
-        }
         k.setArgs(frame, args..., std::uint32_t { 0 });
-        queue_.launchTiled(pass, kind, k, groups, local, k.argCount() - 1, rehearsal_ ? 0.0 : workUnits);
+        queue_.launchTiled(pass, kind, k, frame.tileCount * (items / local), local, k.argCount() - 1, workUnits);
     }
 
     /// A pass over blocks of 16 pixels of a row (`across` = 16), or over pixels (`across` = 1). The kernel takes
-    /// Params, which have the rectangle, first. Large images go in bands of rows, so that no launch is long. The pass
-    /// is recorded as moving its buffers once, which is the least it can.
+    /// Params, which have the rectangle, first. Large images go in bands of rows, so that no launch is long.
     template <class Params, class... Args>
     void rows(std::string_view pass, device::PassKind kind, const std::string& file, const std::string& kernel,
         Params params, std::uint32_t across, const Args&... args)
@@ -62,17 +49,12 @@ public:
         const std::size_t localX = std::min<std::size_t>(local, across == 1 ? 16 : 4);
         const std::uint32_t first = params.y0, end = params.y1;
         const std::uint32_t band = std::max(16u, bandPixels / std::max(1u, params.x1 - params.x0));
-        if (rehearsal_) {
-            params.x1 = params.x0;
-        }
         for (std::uint32_t y = first; y < end; y += std::min(band, end - y)) {
             params.y0 = y;
             params.y1 = y + std::min(band, end - y);
             k.setArgs(params, args...);
             queue_.launch2D(pass, kind, k, columns, params.y1 - params.y0, localX, local / localX);
         }
-        const std::uint64_t touched = (std::uint64_t { 0 } + ... + bufferBytes(args));
-        queue_.addBytes(pass, kind, touched);
     }
 
     /// A pass over `items` items of a list. The kernel takes FrameParams first, and tests for the end itself. Its time
@@ -82,43 +64,26 @@ public:
         std::size_t items, shared::FrameParams frame, const Args&... args)
     {
         device::Kernel& k = find(file, kernel);
-        if (rehearsal_) {
-            frame.tileCount = 0;
-            items = std::max<std::size_t>(items, 1);
-        }
         k.setArgs(frame, args...);
         queue_.launch(pass, kind, k, items, localSize(k, listGroup));
     }
 
     /// The kernel, compiled when first asked for; one instance a name.
-    device::Kernel& find(const std::string& file, const std::string& kernel);
+    device::Kernel& find(const std::string& file, const std::string& kernel) { return kernels_.find(file, kernel); }
 
 private:
     static constexpr std::uint32_t bandPixels = 1u << 21;
     static constexpr std::size_t listGroup = 16;
 
-    template <class T>
-    static std::uint64_t bufferBytes(const T& argument)
+    /// The largest power of two that the kernel allows, at most `most`.
+    static std::size_t localSize(const device::Kernel& kernel, std::size_t most)
     {
-        if constexpr (device::HoldsBuffer<T>) {
-            return argument.bytes();
-        } else {
-            return 0;
-        }
+        return std::min(most, std::bit_floor(kernel.workGroupLimit()));
     }
 
-    /// The largest power of two that the kernel allows, at most `most`.
-    static std::size_t localSize(const device::Kernel& kernel, std::size_t most);
-
-    device::ProgramLibrary& library_;
+    graph::Kernels kernels_;
     device::TimedQueue& queue_;
     std::size_t packetSize_;
-    std::map<std::string, device::Kernel> kernels_;
-    bool rehearsal_ = false;
 };
 
-/// window grown by `margin` pixels on each side, x then rounded outwards to whole blocks, all inside width x height
-/// (x1 may end inside a block).
-image::Window blockWindow(const image::Window& window, int margin, int width, int height);
-
-} // namespace wedge::render
+} // namespace wedge::test

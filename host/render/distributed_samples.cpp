@@ -1,0 +1,545 @@
+#include "host/render/distributed_samples.h"
+
+#include "host/render/effects/light_waves.h"
+#include "host/render/effects/path_waves.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace wedge::render {
+
+using device::PassKind;
+using graph::reads;
+using graph::Run;
+using graph::updates;
+using graph::value;
+using graph::writes;
+
+namespace {
+
+// Samples of a pixel between two looks at what the image would be if the render stopped.
+constexpr std::uint32_t monteCarloRound = 16;
+
+constexpr std::uint32_t allSamples = std::numeric_limits<std::uint32_t>::max();
+
+bool somethingMoves(const scene::Scene& scene) { return scene::geometryMoves(scene) || scene::cameraMoves(scene); }
+
+} // namespace
+
+bool isDistributed(const Settings& settings, const scene::Scene& scene)
+{
+    return scene.camera.apertureRadius > 0 || somethingMoves(scene) || settings.antialias || settings.progressive;
+}
+
+SampleShape sampleShape(const Settings& settings, const scene::Scene& scene, bool keepLayers)
+{
+    SampleShape shape;
+    shape.analysed = settings.method == Method::AxisAligned;
+    shape.published = shape.analysed && settings.distributed.published;
+    // Counts from the spectrum, published slopes and widths from the nearest reflectors need more than one image does.
+    const bool usual = !settings.distributed.published && settings.slopes == Slopes::Smoothed
+        && !(settings.sampling == Sampling::Adaptive && settings.counts == Counts::Spectrum)
+        && settings.indirect.meanFraction > 0;
+    shape.all = keepLayers || settings.progressive || (shape.analysed && !usual);
+    shape.moves = somethingMoves(scene);
+    shape.geometryMoves = scene::geometryMoves(scene);
+    return shape;
+}
+
+DistributedSamples::DistributedSamples(FrameBuilder& frame, const SampleShape& shape, const Before& before)
+    : f_(frame)
+    , shape_(shape)
+    , before_(before)
+    , camera_(cameraParams(frame.description, frame.layout.height, frame.settings.antialias))
+    , lit_(frame.settings.integrator == Integrator::Path)
+{
+    f_.packed = shape.analysed && !shape.all;
+    state_->analysed = shape.analysed && before.taken > 0;
+    state_->complete = before.taken > 0;
+    keepPixels();
+    for (std::uint32_t i = 0; lit_ && i < frame.description.areaLights.size(); ++i) {
+        terms_.push_back(std::make_unique<LightWaves>(frame, shape, i));
+    }
+    lights_ = terms_.size();
+    for (const IndirectTerm& component : indirectTerms(frame.settings, frame.specular)) {
+        terms_.push_back(std::make_unique<PathWaves>(frame, shape, component.component));
+    }
+    const auto demand = [&](const char* name) {
+        return before.guides ? kept<Demand>(name, graph::floats) : f_.graph.plane<Demand>(name, graph::floats);
+    };
+    demand_ = demand("primary demand");
+    for (const std::unique_ptr<WaveTerm>& term : terms_) {
+        keepTerm(*term);
+        term->means.demand = demand("demand");
+    }
+}
+
+template <class Quantity>
+graph::Handle<Quantity> DistributedSamples::kept(const std::string& name, const graph::Format& format)
+{
+    if (before_.memory == nullptr) {
+        auto plane = f_.graph.plane<Quantity>(name, format);
+        f_.zero(plane);
+        return plane;
+    }
+    auto plane = f_.graph.imported<Quantity>(name, format, before_.memory->next(name, f_.layout.size * format.bytes));
+    if (before_.taken == 0) {
+        f_.zero(plane);
+    }
+    return plane;
+}
+
+void DistributedSamples::keepPixels()
+{
+    const graph::Format number = f_.packed ? shortFloats : graph::floats;
+    Surfaces& s = f_.surfaces;
+    s.position = kept<Position>("position", graph::vectors);
+    s.normal = kept<Normal>("normal", f_.packed ? packedNormals : graph::vectors);
+    s.objectId = kept<ObjectId>("object id", graph::counts);
+    s.emission = kept<Radiance>("emission", graph::vectors);
+    counts_.taken = kept<Count>("primary samples taken", graph::counts);
+    hits_ = kept<Count>("hits", f_.packed ? shortCounts : graph::counts);
+    confusion_ = kept<Pixels>("circles of confusion", f_.packed ? shortFloats : graph::floatPlanes(2));
+    if (shape_.measures()) {
+        s.pixelSize = kept<Metres>("pixel size", number);
+        s.gloss = kept<Gloss>("gloss", number);
+        emissionSquares_ = kept<Squares>("emission squares", graph::floats);
+    }
+    if (keepsMotion()) {
+        motion_ = kept<Pixels>("motion", f_.packed ? shortPairs : graph::vectors);
+    }
+    if (lit_ && !(f_.description.pointLights.empty() && f_.description.directionalLights.empty())) {
+        delta_ = kept<Radiance>("point lights", graph::vectors);
+        deltaSquares_ = kept<Squares>("squares of point lights", graph::floats);
+    }
+    Totals& t = f_.totals;
+    if (shape_.all) {
+        s.depth = kept<Metres>("depth", graph::floats);
+        s.diffuse = kept<Reflectance>("diffuse", graph::vectors);
+        s.specular = kept<Reflectance>("specular", graph::vectors);
+        t.samples = kept<Count>("samples", graph::counts);
+        t.indirectSamples = kept<Count>("indirect samples", graph::counts);
+        t.rays = kept<Count>("rays", graph::counts);
+        t.pathRays = kept<Count>("path rays", graph::counts);
+    } else {
+        // Sums are all that is of interest.
+        const std::uint64_t pixels = std::min<std::uint64_t>(
+            WaveSchedule::capacity, std::uint64_t { WEDGE_TILE_PIXELS } * f_.wholeFrame().tileCount);
+        t.rays = f_.graph.list<Count>("rays", graph::counts, pixels);
+        t.pathRays = f_.graph.list<Count>("path rays", graph::counts, pixels);
+        f_.zero(t.rays, t.pathRays);
+    }
+}
+
+void DistributedSamples::keepTerm(WaveTerm& term)
+{
+    TermMeans& m = term.means;
+    const bool light = term.isLight(), packed = f_.packed;
+    m.texture = kept<Texture>("texture", !packed ? graph::vectors : light ? packedColours : packedFractions);
+    m.value = kept<Value>("value", !packed ? graph::vectors : light ? packedFractions : packedColours);
+    if (shape_.measures()) {
+        m.plain = kept<Value>("plain mean", packed ? shortPairs : graph::floats);
+        m.squares = kept<Squares>("squares", packed ? shortPairs : graph::floats);
+        if (!packed) {
+            m.textureSquares = kept<Squares>("texture squares", graph::floats);
+        }
+    }
+    if (shape_.analysed && !shape_.published) {
+        m.deviation = kept<Deviation>("deviation", packed ? shortFloats : graph::floats);
+    }
+    if (term.extremePlanes() > 0) {
+        m.extremes =
+            kept<Extremes>("slopes and distances", packed ? shortPairs : graph::floatPlanes(term.extremePlanes()));
+    }
+    if (shape_.published) {
+        m.radiance = kept<Radiance>("radiance of the term", graph::vectors);
+    }
+    if (shape_.all) {
+        m.taken = kept<Count>("samples taken", graph::counts);
+    }
+}
+
+std::function<bool(const Run&)> DistributedSamples::analysed() const
+{
+    return [state = state_](const Run&) { return state->analysed; };
+}
+
+std::uint32_t DistributedSamples::firstPaths() const
+{
+    return static_cast<std::uint32_t>(std::min(f_.settings.distributed.firstPaths, f_.settings.spp));
+}
+
+shared::DistributedParams DistributedSamples::params() const
+{
+    const DistributedSettings& d = f_.settings.distributed;
+    shared::DistributedParams p {};
+    p.width = f_.layout.width;
+    p.height = f_.layout.height;
+    p.stride = f_.layout.stride;
+    p.planeSize = static_cast<std::uint32_t>(f_.layout.size);
+    p.factoringError = d.factoringError;
+    p.factoringRadius = static_cast<std::uint32_t>(d.factoringRadius);
+    p.blurWidth = d.blurWidth;
+    p.blurExponent = d.blurExponent;
+    p.shutterWidth = d.shutterWidth;
+    p.shutterExponent = d.shutterExponent;
+    p.leastRadius = d.leastRadius;
+    p.irradianceWidth = d.irradianceWidth;
+    p.countExponent = d.countExponent;
+    p.varianceSpread = d.varianceSpread;
+    p.oneVelocity = d.oneVelocity;
+    p.published = d.published ? 1 : 0;
+    p.packed = f_.packed ? 1 : 0;
+    p.still = keepsMotion() ? 0 : 1;
+    p.frames = static_cast<float>(d.frames);
+    p.never = d.factoring == Factoring::Never ? 1 : 0;
+    return p;
+}
+
+void DistributedSamples::take(const DistributedSamples* guide)
+{
+    if (shape_.analysed) {
+        adaptive(guide);
+    } else {
+        monteCarlo();
+    }
+    if (before_.guides && shape_.analysed) {
+        f_.graph.want(demand_, f_.graph.image());
+        for (const std::unique_ptr<WaveTerm>& term : terms_) {
+            f_.graph.want(term->means.demand, f_.graph.image());
+        }
+    }
+    f_.host("sampled", [state = state_](Run& run) {
+        state->whole = !run.stopped();
+        state->complete = state->complete || state->whole;
+    });
+}
+
+void DistributedSamples::monteCarlo()
+{
+    const auto spp = static_cast<std::uint32_t>(f_.settings.spp);
+    counts_.wanted = f_.graph.plane<Count>("primary samples wanted", graph::counts);
+    f_.fill("counts", counts_.wanted, spp);
+    for (const std::unique_ptr<WaveTerm>& term : terms_) {
+        term->means.wanted = f_.graph.plane<Count>("samples wanted", graph::counts);
+        f_.fill("counts", term->means.wanted, spp);
+    }
+    const std::uint32_t before = before_.taken, more = spp > before ? spp - before : 0;
+    const auto last = [before, spp](std::size_t round) {
+        return static_cast<std::uint32_t>(
+            std::min<std::uint64_t>(spp, before + (std::uint64_t { round } + 1) * monteCarloRound));
+    };
+    sample(false, counts_,
+        { .rounds = (more + monteCarloRound - 1) / monteCarloRound,
+            .last = last,
+            .most = static_cast<double>(std::min(more, monteCarloRound)),
+            .workUnits = static_cast<double>(more) });
+}
+
+void DistributedSamples::adaptive(const DistributedSamples* guide)
+{
+    const std::uint32_t first = firstPaths();
+    if (before_.taken < first) {
+        // Packed planes do not hold what is wanted: the wave says it.
+        PrimaryCounts counts { counts_.taken, counts_.taken };
+        if (!f_.packed) {
+            counts.wanted = f_.graph.plane<Count>("primary samples wanted first", graph::counts);
+            f_.fill("counts", counts.wanted, first);
+            for (const std::unique_ptr<WaveTerm>& term : terms_) {
+                term->means.wanted = f_.graph.plane<Count>("samples wanted first", graph::counts);
+                f_.fill("counts", term->means.wanted, first);
+            }
+        }
+        sample(true, counts,
+            { .last = [first](std::size_t) { return first; },
+                .most = static_cast<double>(first),
+                .workUnits = static_cast<double>(first),
+                .everywhere = true });
+        counts_.taken = counts.taken;
+        f_.host("analysable", [state = state_](Run& run) { state->analysed = !run.stopped(); });
+    }
+    counts_.wanted = f_.graph.plane<Count>("primary samples wanted", graph::counts);
+    for (const std::unique_ptr<WaveTerm>& term : terms_) {
+        TermMeans& m = term->means;
+        m.wanted = f_.graph.plane<Count>("samples wanted", graph::counts);
+        m.beta = f_.graph.plane<Metres>("filter width", graph::floats);
+        if (!shape_.all) {
+            m.taken = counts_.taken;
+        }
+    }
+    f_.graph.only("analysis", analysed(), [&] {
+        if (shape_.published) {
+            publishedCounts();
+        } else {
+            widths();
+            counts(guide != nullptr ? *guide : *this);
+        }
+        limitTiles(f_, counts_);
+    });
+    const double units = f_.settings.spp - static_cast<double>(std::max(before_.taken, first));
+    sample(false, counts_, { .last = [](std::size_t) { return allSamples; }, .most = mostNew(), .workUnits = units });
+}
+
+double DistributedSamples::mostNew() const
+{
+    const double most = std::max(f_.settings.distributed.maxSpp, f_.settings.spp);
+    // Counts of our own keep within a budget of rays; they are rounded to whole samples.
+    return shape_.published ? most : std::min(most, raysOfPath() * f_.settings.spp + 1.0);
+}
+
+double DistributedSamples::raysOfPath() const
+{
+    double rays = 1.0;
+    for (const std::unique_ptr<WaveTerm>& term : terms_) {
+        rays += term->rays;
+    }
+    return rays;
+}
+
+void DistributedSamples::sample(bool first, PrimaryCounts& counts, Waves::Sampling sampling)
+{
+    Adding adding { first, 0 };
+    if (!shape_.all) {
+        adding.omits = WEDGE_OMITS_LAYERS | (keepsMotion() ? 0u : WEDGE_OMITS_MOTION)
+            | (first ? 0u : WEDGE_OMITS_ANALYSIS) | (first && f_.packed ? WEDGE_OMITS_COUNTS : 0u);
+    }
+    shared::WaveParams settings {};
+    settings.sampler = waveSampler(f_.settings);
+    settings.published = shape_.published ? 1 : 0;
+    settings.omits = adding.omits;
+    settings.packed = f_.packed ? 1 : 0;
+    settings.oneVelocity = f_.settings.distributed.oneVelocity;
+    sampling.terms = terms_.size();
+    Waves waves(f_, settings, camera_, counts, std::move(sampling));
+    waves.declare(lit_, [&] {
+        for (std::size_t i = 0; i < lights_; ++i) {
+            terms_[i]->sample(waves, adding, counts, hits_);
+        }
+        if (delta_.graph != 0) {
+            deltaLights(waves);
+        }
+        for (std::size_t i = lights_; i < terms_.size(); ++i) {
+            terms_[i]->sample(waves, adding, counts, hits_);
+        }
+        accumulateSurfaces(waves, adding);
+    });
+}
+
+void DistributedSamples::deltaLights(Waves& waves)
+{
+    const Receivers& r = waves.receivers();
+    auto radiance = waves.list<Radiance>("radiance", graph::vectors);
+    auto noisy = waves.list<Radiance>("unfiltered radiance", graph::vectors);
+    f_.zero(radiance);
+    waves.tiles("point and directional lights", { "delta_lights.cl", "deltaLights" },
+        joined({ waves.receiverParams(), f_.ofScene("lights", "DeltaLight", &DeviceScene::deltaLights),
+                   value("lightCount", f_.scene != nullptr ? f_.scene->deltaLightCount : 0u),
+                   value("sceneDiameter", f_.scene != nullptr ? f_.scene->diameter : 0.0f) },
+            f_.hierarchy(), waves.receiverArguments(),
+            Arguments { reads("diffuse", r.diffuse), reads("specular", r.specular), updates("direct", radiance),
+                writes("directNoisy", noisy), waves.tallyRays() }),
+        false);
+    waves.pixels("accumulateDelta",
+        joined({ waves.pixelParams(), waves.params() }, waves.pixelLists(),
+            Arguments { reads("taken", waves.counts().taken), reads("objectId", r.objectId), reads("lit", radiance),
+                updates("delta", delta_), updates("deltaSquares", deltaSquares_) }));
+}
+
+void DistributedSamples::accumulateSurfaces(Waves& waves, const Adding& adding)
+{
+    const Receivers& r = waves.receivers();
+    Surfaces& s = f_.surfaces;
+    const bool measures = (adding.omits & WEDGE_OMITS_ANALYSIS) == 0, all = shape_.all;
+    const auto keeps = [&](bool keep, const char* name, graph::Version& plane) {
+        return keep ? updates(name, plane) : f_.nothing(name);
+    };
+    waves.pixels("accumulateSurfaces",
+        joined({ waves.pixelParams(), waves.params(), value("camera", camera_) }, waves.pixelLists(),
+            Arguments { reads("objectId", r.objectId), reads("position", r.position), reads("normal", r.normal),
+                reads("gloss", r.gloss), reads("diffuse", r.diffuse), reads("specular", r.specular),
+                reads("emission", r.emission), reads("pixelSize", r.pixelSize), reads("depth", r.depth),
+                reads("motion", r.motion), reads("rays", r.rays), reads("pathRays", r.pathRays),
+                updates("taken", waves.counts().taken), updates("hits", hits_), updates("objectIds", s.objectId),
+                updates("positions", s.position), updates("normals", s.normal), keeps(measures, "glosses", s.gloss),
+                keeps(all, "diffuses", s.diffuse), keeps(all, "speculars", s.specular),
+                updates("emissions", s.emission), keeps(measures, "emissionSquares", emissionSquares_),
+                keeps(measures, "pixelSizes", s.pixelSize), keeps(all, "distances", s.depth),
+                updates("confusion", confusion_), keeps(keepsMotion(), "motions", motion_),
+                updates("raysOf", f_.totals.rays), updates("pathRaysOf", f_.totals.pathRays) }));
+}
+
+void DistributedSamples::blurs(float samples, Blurs& out)
+{
+    shared::DistributedParams p = params();
+    p.samples = samples;
+    const auto sets = samples > 0 ? writes : updates;
+    f_.pixels("widths", PassKind::Analysis, { "distributed.cl", "blurs" },
+        { f_.rectangle(p), reads("confusion", confusion_),
+            keepsMotion() ? reads("motion", motion_) : f_.nothing("motion"), reads("taken", counts_.taken),
+            sets("lens", out.lens), keepsMotion() ? sets("along", out.along) : f_.nothing("along"),
+            keepsMotion() ? writes("directions", out.directions) : f_.nothing("directions") });
+}
+
+graph::Handle<Radiance>& DistributedSamples::sumOf(WaveTerm& term)
+{
+    return shape_.all ? term.sum().filtered : f_.totals.beauty;
+}
+
+void DistributedSamples::settle()
+{
+    const std::uint32_t first = shape_.analysed ? firstPaths() : allSamples;
+    Totals& t = f_.totals;
+    const auto add = [&](graph::Handle<Count>& sum, const graph::Handle<Count>& part) {
+        if (sum.graph == 0) {
+            sum = part;
+            return;
+        }
+        auto both = f_.graph.plane<Count>("samples", graph::counts);
+        f_.pixels("composite", PassKind::Composite, { "progressive.cl", "sumOfHalves" },
+            { pixels(), reads("a", sum), reads("b", part), writes("sum", both) });
+        sum = both;
+    };
+    for (const std::unique_ptr<WaveTerm>& term : terms_) {
+        f_.pixels("composite", PassKind::Composite, { "distributed.cl", "settleCounts" },
+            { pixels(), value("first", first), reads("primaryTaken", counts_.taken),
+                updates("counts", term->means.wanted) });
+        add(t.samples, term->means.wanted);
+        if (&term->sum() == &t.indirect) {
+            add(t.indirectSamples, term->means.wanted);
+        }
+    }
+    for (graph::Handle<Count>* none : { &t.samples, &t.indirectSamples }) {
+        if (none->graph == 0) {
+            *none = f_.graph.plane<Count>("no samples", graph::counts);
+            f_.zero(*none);
+        }
+    }
+}
+
+void DistributedSamples::startSums()
+{
+    Totals& t = f_.totals;
+    if (!shape_.all) {
+        // All that is reflected is added to what is emitted.
+        t.beauty = f_.surfaces.emission;
+        if (delta_.graph != 0) {
+            f_.pixels("composite", PassKind::Composite, { "distributed.cl", "addImage" },
+                { pixels(), reads("image", delta_), updates("sum", t.beauty) });
+        }
+        return;
+    }
+    const auto start = [&](graph::Handle<Radiance>& direct, graph::Handle<Radiance>& indirect) {
+        direct = f_.graph.plane<Radiance>("direct", graph::vectors);
+        indirect = f_.graph.plane<Radiance>("indirect", graph::vectors);
+        if (delta_.graph != 0) {
+            f_.pixels("composite", PassKind::Composite, { "progressive.cl", "copyImage" },
+                { pixels(), reads("in", delta_), writes("out", direct) });
+        } else {
+            f_.zero(direct);
+        }
+        f_.zero(indirect);
+    };
+    start(t.direct.filtered, t.indirect.filtered);
+    start(t.direct.noisy, t.indirect.noisy);
+    for (const std::unique_ptr<WaveTerm>& term : terms_) {
+        addOwn(*term, term->sum().noisy, false);
+    }
+}
+
+void DistributedSamples::addOwn(WaveTerm& term, graph::Handle<Radiance>& radiance, bool unlessAnalysed)
+{
+    const auto condition = [state = state_](const Run&) { return !state->analysed; };
+    f_.pixels("composite", PassKind::Composite, { "distributed.cl", "addTerm" },
+        { f_.rectangle(term.of(params())), reads("texture", term.means.texture), reads("value", term.means.value),
+            shape_.published ? reads("termRadiance", term.means.radiance) : f_.nothing("termRadiance"),
+            updates("radiance", radiance) },
+        unlessAnalysed ? condition : std::function<bool(const Run&)>());
+}
+
+void DistributedSamples::addFiltered(WaveTerm& term, const Blurs& own, graph::Handle<Radiance>& radiance)
+{
+    shared::DistributedParams p = term.of(params());
+    const graph::Handle<Value> value = term.filtered(params());
+    graph::Version texture = term.means.texture;
+    if (shape_.moves && f_.settings.distributed.blur) {
+        const graph::Reach far = graph::around(WEDGE_MOTION_REACH);
+        auto along = f_.graph.plane<Texture>("texture filtered along motion", graph::vectors);
+        f_.pixels("filter of motion", PassKind::Filter, { "blur.cl", "blurMotion" },
+            { f_.rectangle(p), graph::value("channels", 3u), reads("along", own.along, far),
+                reads("directions", own.directions, far), reads("in", term.means.texture, far), writes("out", along) });
+        texture = along;
+        p.plainTexture = 1;
+    }
+    f_.pixels("composite", PassKind::Composite, { "distributed.cl", "addFilteredTerm" },
+        { f_.rectangle(p), reads("texture", term.means.texture), reads("filteredTexture", texture),
+            reads("value", term.means.value), reads("filtered", value), reads("beta", term.means.beta),
+            shape_.published ? reads("termRadiance", term.means.radiance) : f_.nothing("termRadiance"),
+            updates("radiance", radiance) });
+}
+
+void DistributedSamples::blur(graph::Handle<Radiance>& image)
+{
+    const char* pass = "filter of lens and shutter";
+    const graph::Reach along { .x = WEDGE_MAX_RADIUS }, across { .y = WEDGE_MAX_RADIUS };
+    auto rows = f_.graph.plane<Radiance>("rows of the image", graph::vectors);
+    f_.pixels(pass, PassKind::Filter, { "blur.cl", "blurRows" },
+        { pixels(), reads("lens", lens_, along), reads("in", image, along), writes("out", rows) });
+    f_.pixels(pass, PassKind::Filter, { "blur.cl", "blurColumns" },
+        { pixels(), reads("lens", lens_, across), reads("in", rows, across), updates("out", image) });
+}
+
+void DistributedSamples::compose(bool layers)
+{
+    Totals& t = f_.totals;
+    if (!lit_) {
+        f_.zero(f_.surfaces.emission);
+    }
+    if (!shape_.all) {
+        settle();
+    }
+    startSums();
+    const bool filters = shape_.analysed && f_.settings.filtering != Filtering::None;
+    Blurs own { f_.graph.plane<Pixels>("lens filter width", graph::floats),
+        f_.graph.plane<Pixels>("motion filter width", graph::floats),
+        f_.graph.plane<Pixels>("direction of motion", f_.packed ? shortPairs : graph::floatPlanes(2)) };
+    f_.zero(own.lens, own.along);
+    if (filters) {
+        f_.graph.only("filters", analysed(), [&] {
+            blurs(0.0f, own);
+            for (const std::unique_ptr<WaveTerm>& term : terms_) {
+                addFiltered(*term, own, sumOf(*term));
+            }
+        });
+    }
+    for (const std::unique_ptr<WaveTerm>& term : terms_) {
+        addOwn(*term, sumOf(*term), filters);
+    }
+    lens_ = own.lens;
+    along_ = own.along;
+    emission_ = f_.surfaces.emission;
+    if (shape_.all) {
+        t.beauty = f_.graph.plane<Radiance>("beauty", graph::vectors);
+        f_.pixels("composite", PassKind::Composite, { "distributed.cl", "addAll" },
+            { pixels(), reads("emission", emission_), reads("direct", t.direct.filtered),
+                reads("indirect", t.indirect.filtered), writes("beauty", t.beauty) });
+    }
+    if (before_.memory != nullptr) {
+        // What is kept is not filtered.
+        emission_ = f_.graph.plane<Radiance>("emission, filtered", graph::vectors);
+        f_.pixels("composite", PassKind::Composite, { "progressive.cl", "copyImage" },
+            { pixels(), reads("in", f_.surfaces.emission), writes("out", emission_) });
+    }
+    if (!filters || !f_.settings.distributed.blur || camera_.apertureRadius <= 0) {
+        return;
+    }
+    f_.graph.only("filter of the image", analysed(), [&] {
+        blur(t.beauty);
+        if (layers) {
+            blur(emission_);
+            blur(t.direct.filtered);
+            blur(t.indirect.filtered);
+        }
+    });
+}
+
+} // namespace wedge::render

@@ -1,0 +1,131 @@
+#pragma once
+
+#include "host/render/effects/wave_term.h"
+#include "host/render/frame_builder.h"
+#include "host/render/sample_memory.h"
+#include "host/render/waves.h"
+#include "kernels/shared/distributed.h"
+
+#include <memory>
+#include <vector>
+
+namespace wedge::render {
+
+/// Whether pixels of such a frame have several receivers: through a lens, a shutter, or all of their square.
+bool isDistributed(const Settings& settings, const scene::Scene& scene);
+
+/// What pixels of frames of these settings keep of their samples.
+SampleShape sampleShape(const Settings& settings, const scene::Scene& scene, bool keepLayers);
+
+/// Samples of pixels that have several receivers each, and the image that is made of them, declared in a graph.
+/// Defocus, motion blur and antialiasing together with the other effects: thesis chapter 5 and appendix B,
+/// docs/multiple-effects.md. A first pass finds circles of confusion, motion, slopes and distances; those make widths,
+/// and variances the counts of primary and secondary samples; a second pass takes them; irradiances are filtered where
+/// they can be taken apart from textures, then the image by what lens and shutter have blurred.
+class DistributedSamples {
+public:
+    /// What there is already.
+    struct Before {
+        SampleMemory* memory = nullptr; ///< where it is, and what is added to it stays; null: there is nothing
+        std::uint32_t taken = 0; ///< samples of a pixel, their mean
+        bool guides = false; ///< demands stay, too, for others to follow in the next graph
+    };
+
+    /// frame: of these samples alone, whose surfaces and totals are filled in.
+    DistributedSamples(FrameBuilder& frame, const SampleShape& shape, const Before& before);
+
+    /// Takes samples up to the settings' mean count. The analysis is made anew of all that there are, and what is
+    /// sampled are the differences. Stops between waves, which are then whole.
+    /// guide: counts follow the demands of other samples of the same terms: counts that know nothing of what they are
+    /// for leave means unbiased. null: their own.
+    void take(const DistributedSamples* guide);
+
+    /// Makes the image: surfaces.emission, totals, lensWidth(), motionWidth(). layers: filters emission, direct and
+    /// indirect apart, too, so that they sum to the beauty.
+    void compose(bool layers);
+
+    const std::vector<std::unique_ptr<WaveTerm>>& terms() const { return terms_; }
+    const FrameBuilder& frame() const { return f_; }
+    /// Once composed: what is seen to emit, as the image has it.
+    const graph::Handle<Radiance>& emission() const { return emission_; }
+    const graph::Handle<Count>& taken() const { return counts_.taken; }
+    const graph::Handle<Count>& hits() const { return hits_; }
+    const graph::Handle<Pixels>& lensWidth() const { return lens_; }
+    const graph::Handle<Pixels>& motionWidth() const { return along_; }
+    const graph::Handle<Pixels>& motion() const { return motion_; }
+
+    /// Filled in by a run.
+    struct State : TermState {
+        bool whole = false; ///< nobody stopped while these were sampled
+        bool complete = false; ///< nor all the times before
+        float scale = 1.0f; ///< of demands
+    };
+    const std::shared_ptr<State>& state() const { return state_; }
+
+    /// Of kernels over the pixels, their rectangle to come.
+    shared::DistributedParams params() const;
+
+private:
+    template <class Quantity>
+    graph::Handle<Quantity> kept(const std::string& name, const graph::Format& format);
+    void keepPixels();
+    void keepTerm(WaveTerm& term);
+    std::uint32_t firstPaths() const; ///< samples of the first pass
+    /// Motions are.
+    bool keepsMotion() const { return shape_.all || (shape_.moves && shape_.analysed); }
+
+    void monteCarlo();
+    void adaptive(const DistributedSamples* guide);
+    void sample(bool first, PrimaryCounts& counts, Waves::Sampling sampling);
+    /// Rays of a primary sample of which all terms have one, its own among them.
+    double raysOfPath() const;
+    /// Primary samples after the first of a pixel at most, in the mean over tiles.
+    double mostNew() const;
+    void deltaLights(Waves& waves);
+    void accumulateSurfaces(Waves& waves, const Adding& adding);
+    void widths();
+    void publishedCounts();
+    void demands();
+    void counts(const DistributedSamples& guide);
+    /// Widths of the filters of lens and shutter.
+    struct Blurs {
+        graph::Handle<Pixels> lens, along, directions;
+    };
+
+    void demandOf(WaveTerm& term, const Blurs& blurs, graph::Handle<Squares>& ofTextures);
+    void settle();
+    void startSums();
+    void addOwn(WaveTerm& term, graph::Handle<Radiance>& radiance, bool unlessAnalysed);
+    void addFiltered(WaveTerm& term, const Blurs& own, graph::Handle<Radiance>& radiance);
+    void blur(graph::Handle<Radiance>& image);
+    graph::Handle<Radiance>& sumOf(WaveTerm& term);
+
+    /// Declares them, for `samples` of a pixel; 0: those that it has, over what there is.
+    void blurs(float samples, Blurs& out);
+    graph::Argument pixels() const { return f_.rectangle(params()); }
+    /// True once the first pass is complete.
+    std::function<bool(const graph::Run&)> analysed() const;
+
+    FrameBuilder& f_;
+    SampleShape shape_;
+    Before before_;
+    shared::CameraParams camera_;
+    std::shared_ptr<State> state_ = std::make_shared<State>();
+    bool lit_;
+    std::vector<std::unique_ptr<WaveTerm>> terms_;
+    std::size_t lights_ = 0; ///< the first of the terms
+
+    PrimaryCounts counts_;
+    graph::Handle<Count> hits_; ///< primary samples that met a surface
+    /// Planes: least and largest signed radius of the circle of confusion; packed, the one nearest to 0.
+    graph::Handle<Pixels> confusion_;
+    graph::Handle<Pixels> motion_; ///< planes: mean x and y, largest difference; packed, see accumulate.h
+    graph::Handle<Squares> emissionSquares_; ///< mean squared luminance of a primary sample's emission
+    graph::Handle<Radiance> delta_; ///< from point and directional lights
+    graph::Handle<Squares> deltaSquares_;
+    graph::Handle<Demand> demand_; ///< of primary samples
+    graph::Handle<Radiance> emission_;
+    graph::Handle<Pixels> lens_, along_;
+};
+
+} // namespace wedge::render

@@ -1,0 +1,167 @@
+#include "host/render/effects/light_waves.h"
+
+#include "host/render/effects/light_widths.h"
+#include "host/render/effects/soft_shadows.h"
+#include "host/render/filters/filter_graph.h"
+#include "host/render/filters/widening.h"
+#include "kernels/shared/packed.h"
+
+#include <limits>
+
+namespace wedge::render {
+
+using device::PassKind;
+using graph::reads;
+using graph::updates;
+using graph::value;
+using graph::writes;
+
+namespace {
+
+constexpr std::uint32_t allSamples = std::numeric_limits<std::uint32_t>::max();
+
+} // namespace
+
+LightWaves::LightWaves(FrameBuilder& frame, const SampleShape& shape, std::uint32_t index)
+    : WaveTerm(frame, shape, frame.totals.direct, 1, 1.0f)
+    , index_(index)
+    , light_(deviceLight(frame.description.areaLights[index]))
+    , channels_(frame.specular ? 2 : 1)
+{
+}
+
+std::uint32_t LightWaves::extremePlanes() const
+{
+    // Slopes, and where things move what their shadows' motions add up to; packed, the motions alone.
+    if (shape_.all) {
+        return shape_.geometryMoves ? 6 : 2;
+    }
+    return shape_.analysed && shape_.geometryMoves ? 1 : 0;
+}
+
+shared::AnalysisParams LightWaves::analysisParams() const
+{
+    return lightParams(f_.analysisParams(), settings(), light_);
+}
+
+shared::SampleParams LightWaves::sampleParams() const
+{
+    shared::SampleParams p = lightSampleParams(settings(), index_);
+    p.sampler = waveSampler(settings());
+    p.firstPass = 0;
+    p.strata = static_cast<std::uint32_t>(settings().spp); // receivers have but some of their pixel's samples
+    return p;
+}
+
+void LightWaves::sample(
+    Waves& waves, const Adding& adding, const PrimaryCounts& counts, const graph::Handle<Count>& hits)
+{
+    const Receivers& r = waves.receivers();
+    const auto params = value("params", sampleParams()), light = value("light", light_);
+    Shared own = share(waves, adding, counts, 2 * channels_, shape_.geometryMoves ? 6 : 2);
+    auto seen = waves.list<Value>("value", graph::floatPlanes(channels_));
+    if (adding.first) {
+        waves.tiles("first pass", { "area_light.cl", "firstPass" },
+            joined({ waves.receiverParams(), params, light, value("camera", waves.camera()) }, f_.hierarchy(),
+                f_.geometry(), waves.receiverArguments(),
+                Arguments { reads("wanted", own.last), updates("sums", own.sums), updates("taken", own.first),
+                    writes("value", seen), updates("slopes", own.extremes), waves.tallyRays() }));
+    } else {
+        waves.tiles("shadow rays", { "area_light.cl", "secondPass" },
+            joined({ waves.receiverParams(), params, light }, f_.hierarchy(), waves.receiverArguments(),
+                Arguments { reads("wanted", own.last), value("lastSample", allSamples), updates("sums", own.sums),
+                    updates("taken", own.first), writes("value", seen), waves.tallyRays() }));
+    }
+    const bool exact = settings().method == Method::AxisAligned && !shape_.published;
+    auto unshadowed = waves.list<Value>("unshadowed shading", graph::floatPlanes(2));
+    if (exact) {
+        waves.list("unshadowed shading", { "wave_light.cl", "unshadowedReceivers" }, WEDGE_BLOCK_PIXELS,
+            { waves.receiverParams(), waves.params(), light,
+                f_.outside("nodes", "float", f_.scene != nullptr ? &f_.scene->quadratures[index_].cl() : nullptr),
+                reads("pixelOf", r.pixelOf), reads("sampleOf", r.sampleOf), reads("position", r.position),
+                reads("normal", r.normal), reads("objectId", r.objectId), reads("specular", r.specular),
+                reads("gloss", r.gloss), reads("view", r.view), writes("unshadowed", unshadowed) });
+    }
+    waves.pixels("accumulateLight",
+        joined({ waves.pixelParams(), waves.params(omits()), light, value("exact", exact ? 1u : 0u) },
+            waves.pixelLists(), Arguments { reads("taken", counts.taken), reads("hits", hits) },
+            waves.receiverArguments(),
+            Arguments { reads("diffuse", r.diffuse), reads("specular", r.specular), reads("sums", own.sums),
+                exact ? reads("unshadowed", unshadowed) : f_.nothing("unshadowed"), reads("slopes", own.extremes) },
+            accumulated(adding, counts), Arguments { samplesOf("samples", f_.totals.samples) }));
+}
+
+void LightWaves::widths()
+{
+    const bool spectrum = settings().sampling == Sampling::Adaptive && settings().counts == Counts::Spectrum;
+    const graph::Handle<Extremes> slopes = leastExtreme();
+    const graph::Handle<Share> lit = weights("widths", PassKind::Analysis);
+    if (spectrum || settings().slopes == Slopes::Published) {
+        render::publishedWidths(f_, analysisParams(), slopes, lit, means.beta, means.wanted);
+    }
+    if (settings().slopes == Slopes::Smoothed) {
+        smoothedWidths(f_, analysisParams(), slopes, lit, means.beta);
+        narrowForHighlights();
+    }
+}
+
+void LightWaves::narrowForHighlights()
+{
+    // With shading apart from visibility samples know nothing of the lobe.
+    if (!f_.specular || settings().filtering != Filtering::Adaptive || settings().shading == Shading::Separate) {
+        return;
+    }
+    const Surfaces& s = f_.surfaces;
+    f_.pixels("widths", PassKind::Analysis, { "analysis.cl", "narrowForHighlights" },
+        { f_.rectangle(analysisParams()), value("frame", f_.wholeFrame()), value("light", light_),
+            value("bits", shared::textureBits(f_.packed ? 1 : 0, true)), reads("texture", means.texture),
+            reads("position", s.position), reads("gloss", s.gloss), reads("objectId", s.objectId),
+            updates("beta", means.beta) });
+}
+
+void LightWaves::publishedWidths(
+    const shared::DistributedParams& params, const graph::Handle<Share>& flags, const graph::Handle<Pixels>& confusion)
+{
+    const graph::Reach near = graph::around(WEDGE_MEDIAN_RADIUS);
+    // The light's effective half extent is two standard deviations, as in chapter 3.
+    f_.pixels("widths", PassKind::Analysis, { "published.cl", "publishedShadows" },
+        { f_.rectangle(of(params)), value("mu", settings().distributed.mu), value("lightExtent", 2.0f * light_.sigma),
+            reads("flags", flags, near), reads("slopes", means.extremes), reads("confusion", confusion),
+            reads("pixelSize", f_.surfaces.pixelSize), reads("objectId", f_.surfaces.objectId),
+            writes("beta", means.beta), writes("demand", means.demand) });
+}
+
+graph::Handle<Value> LightWaves::filtered(const shared::DistributedParams& params)
+{
+    const shared::FilterParams filter = shape_.published
+        ? publishedParams(settings(), f_.wholeFrame(), f_.graph.image())
+        : filterParams(settings(), f_.wholeFrame(), light_, f_.graph.image());
+    if (widens(settings())) {
+        widen("filter", params, filter, settings().widening);
+    }
+    const graph::Handle<Value> seen = visibility("filter", params);
+    const graph::Handle<Value> out =
+        gaussianFilter(f_, { "filter", PassKind::Filter, "filter_variance.cl" }, 1, filter, seen, means.beta).value;
+    return shape_.geometryMoves && settings().distributed.blur ? alongShadows(params, out) : out;
+}
+
+graph::Handle<Value> LightWaves::alongShadows(
+    const shared::DistributedParams& params, const graph::Handle<Value>& seen) const
+{
+    const char* pass = "filter of motion";
+    const graph::Argument p = f_.rectangle(of(params));
+    const graph::Reach far = graph::around(WEDGE_MOTION_REACH);
+    auto along = f_.graph.plane<Pixels>("width along shadows' motion", graph::floats);
+    auto directions =
+        f_.graph.plane<Pixels>("direction of shadows' motion", f_.packed ? shortPairs : graph::floatPlanes(2));
+    auto out = f_.graph.plane<Value>("filtered along shadows' motion", graph::floats);
+    f_.pixels(pass, PassKind::Filter, { "distributed.cl", "shadowBlurs" },
+        { p, reads("shadows", means.extremes), reads("taken", shape_.all ? means.taken : means.wanted),
+            reads("beta", means.beta), writes("along", along), writes("directions", directions) });
+    f_.pixels(pass, PassKind::Filter, { "blur.cl", "blurMotion" },
+        { p, value("channels", 1u), reads("along", along, far), reads("directions", directions, far),
+            reads("in", seen, far), writes("out", out) });
+    return out;
+}
+
+} // namespace wedge::render

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "host/render/effects/wave_term.h"
+#include "kernels/shared/light.h"
+
+namespace wedge::render {
+
+/// Direct light of an area light where pixels have several receivers, thesis chapters 3 and 5.
+class LightWaves : public WaveTerm {
+public:
+    /// index: of the light.
+    LightWaves(FrameBuilder& frame, const SampleShape& shape, std::uint32_t index);
+
+    void sample(
+        Waves& waves, const Adding& adding, const PrimaryCounts& counts, const graph::Handle<Count>& hits) override;
+    void widths() override;
+    void publishedWidths(const shared::DistributedParams& params, const graph::Handle<Share>& flags,
+        const graph::Handle<Pixels>& confusion) override;
+    graph::Handle<Value> filtered(const shared::DistributedParams& params) override;
+    std::uint32_t extremePlanes() const override;
+
+private:
+    shared::AnalysisParams analysisParams() const;
+    shared::SampleParams sampleParams() const;
+    void narrowForHighlights();
+    graph::Handle<Value> alongShadows(const shared::DistributedParams& params, const graph::Handle<Value>& value) const;
+
+    std::uint32_t index_;
+    shared::AreaLight light_;
+    std::uint32_t channels_; ///< of what is seen: diffuse, and where something is specular that, too
+};
+
+} // namespace wedge::render

@@ -1,0 +1,66 @@
+#include "host/render/effects/light_widths.h"
+
+namespace wedge::render {
+
+using device::PassKind;
+using graph::around;
+using graph::reads;
+using graph::updates;
+using graph::value;
+using graph::writes;
+
+namespace {
+
+/// Weighted sums of `planes` planes over the neighbourhood that slopes spread to.
+graph::Handle<Logarithms> spreadOver(FrameBuilder& frame, const shared::AnalysisParams& params, std::uint32_t planes,
+    const graph::Handle<Logarithms>& from)
+{
+    const graph::Argument p = frame.rectangle(params);
+    const int radius = static_cast<int>(params.fillRadius);
+    auto rows = frame.graph.plane<Logarithms>("spread along rows", graph::floatPlanes(planes));
+    auto spread = frame.graph.plane<Logarithms>("spread", graph::floatPlanes(planes));
+    frame.blocks("widths", PassKind::Analysis, { "analysis.cl", "spreadRows" },
+        { p, value("planes", planes), reads("in", from, { .x = radius }), writes("out", rows) });
+    frame.blocks("widths", PassKind::Analysis, { "analysis.cl", "spreadColumns" },
+        { p, value("planes", planes), reads("in", rows, { .y = radius }), writes("out", spread) });
+    return spread;
+}
+
+} // namespace
+
+void smoothedWidths(FrameBuilder& frame, const shared::AnalysisParams& params, const graph::Handle<Extremes>& slopes,
+    const graph::Version& lit, graph::Handle<Metres>& beta)
+{
+    const graph::Argument p = frame.rectangle(params);
+    const Surfaces& s = frame.surfaces;
+    auto eroded = frame.graph.plane<Extremes>("eroded slopes", graph::floats);
+    auto logs = frame.graph.plane<Logarithms>("logarithms", graph::floatPlanes(2));
+    frame.blocks("widths", PassKind::Analysis, { "analysis.cl", "erodeSlopes" },
+        { p, reads("slopes", slopes, around(1)), reads("objectId", s.objectId, around(1)), writes("eroded", eroded) });
+    frame.zero(logs); // what spreads comes from the padding, too
+    frame.blocks("widths", PassKind::Analysis, { "analysis.cl", "smoothSlopes" },
+        { p, reads("eroded", eroded, around(1)), reads("objectId", s.objectId, around(1)),
+            updates("logSlopes", logs) });
+    const auto spread = spreadOver(frame, params, 2, logs);
+    frame.pixels("widths", PassKind::Analysis, { "analysis.cl", "widths" },
+        { p, reads("logSlopes", logs), reads("spread", spread), reads("objectId", s.objectId),
+            reads("pixelSize", s.pixelSize), reads("lit", lit), writes("beta", beta) });
+}
+
+void publishedWidths(FrameBuilder& frame, const shared::AnalysisParams& params, const graph::Handle<Extremes>& slopes,
+    const graph::Version& lit, graph::Handle<Metres>& beta, graph::Handle<Count>& wanted)
+{
+    const graph::Argument p = frame.rectangle(params);
+    const Surfaces& s = frame.surfaces;
+    auto distances = frame.graph.plane<Logarithms>("distances", graph::floatPlanes(4));
+    frame.zero(distances); // what spreads comes from the padding, too
+    frame.blocks("widths", PassKind::Analysis, { "analysis.cl", "publishedDistances" },
+        { p, reads("slopes", slopes), reads("position", s.position), reads("objectId", s.objectId),
+            updates("distances", distances) });
+    const auto spread = spreadOver(frame, params, 4, distances);
+    frame.pixels("widths", PassKind::Analysis, { "analysis.cl", "publishedWidths" },
+        { p, reads("slopes", slopes), reads("distances", spread), reads("objectId", s.objectId),
+            reads("pixelSize", s.pixelSize), reads("lit", lit), writes("beta", beta), writes("wanted", wanted) });
+}
+
+} // namespace wedge::render

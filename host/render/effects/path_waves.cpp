@@ -1,0 +1,96 @@
+#include "host/render/effects/path_waves.h"
+
+#include "host/render/filters/filter_graph.h"
+#include "host/render/filters/widening.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace wedge::render {
+
+using device::PassKind;
+using graph::reads;
+using graph::updates;
+using graph::value;
+using graph::writes;
+
+PathWaves::PathWaves(FrameBuilder& frame, const SampleShape& shape, Component component)
+    : WaveTerm(frame, shape, frame.totals.indirect, 3, 2.0f * static_cast<float>(std::max(1, frame.settings.bounces)))
+    , component_(component)
+{
+}
+
+shared::PathParams PathWaves::pathParams() const
+{
+    shared::PathParams p = render::pathParams(f_, component_);
+    p.sampler = waveSampler(settings());
+    p.firstPass = 0;
+    p.strata = static_cast<std::uint32_t>(settings().spp); // receivers have but some of their pixel's samples
+    return p;
+}
+
+void PathWaves::sample(
+    Waves& waves, const Adding& adding, const PrimaryCounts& counts, const graph::Handle<Count>& hits)
+{
+    const Receivers& r = waves.receivers();
+    Shared own = share(waves, adding, counts, 4, 3);
+    auto found = waves.list<Value>("value", graph::vectors);
+    waves.tiles("paths", { "indirect.cl", "samplePaths" },
+        joined({ waves.receiverParams(), value("params", pathParams()) }, f_.hierarchy(), f_.geometry(),
+            Arguments { f_.ofScene("areaLights", "AreaLight", &DeviceScene::areaLights),
+                f_.ofScene("deltaLights", "DeltaLight", &DeviceScene::deltaLights) },
+            waves.receiverArguments(),
+            Arguments { reads("specular", r.specular), reads("wanted", own.last),
+                value("lastSample", std::numeric_limits<std::uint32_t>::max()), updates("sums", own.sums),
+                updates("taken", own.first), writes("value", found), updates("reflectors", own.extremes),
+                waves.tallyRays(), waves.tallyPathRays() }));
+    const graph::Handle<Reflectance>& reflectance = component_ == Component::Glossy ? r.specular : r.diffuse;
+    waves.pixels("accumulatePaths",
+        joined({ waves.pixelParams(), waves.params(omits()),
+                   value("ambient", component_ == Component::Ambient ? 1u : 0u) },
+            waves.pixelLists(),
+            Arguments { reads("taken", counts.taken), reads("hits", hits), reads("objectId", r.objectId),
+                reads("reflectance", reflectance), reads("sums", own.sums), reads("reflectors", own.extremes) },
+            accumulated(adding, counts),
+            Arguments {
+                samplesOf("samples", f_.totals.samples), samplesOf("indirectSamples", f_.totals.indirectSamples) }));
+}
+
+void PathWaves::widths()
+{
+    shared::ReflectorParams p = reflectorParams(f_, component_);
+    p.meanOnly = f_.packed ? 1 : 0;
+    reflectorWidths(f_, p, leastExtreme(), means.taken, means.beta, f_.packed ? nullptr : &means.wanted);
+}
+
+void PathWaves::publishedWidths(
+    const shared::DistributedParams& params, const graph::Handle<Share>& flags, const graph::Handle<Pixels>& confusion)
+{
+    f_.pixels("widths", PassKind::Analysis, { "published.cl", "publishedReflectors" },
+        { f_.rectangle(of(params)), value("mu", settings().distributed.mu),
+            value("component", static_cast<std::uint32_t>(component_)),
+            reads("flags", flags, graph::around(WEDGE_MEDIAN_RADIUS)), reads("reflectors", means.extremes),
+            reads("gloss", f_.surfaces.gloss), reads("confusion", confusion), reads("pixelSize", f_.surfaces.pixelSize),
+            reads("objectId", f_.surfaces.objectId), writes("beta", means.beta), writes("demand", means.demand) });
+}
+
+graph::Handle<Value> PathWaves::filtered(const shared::DistributedParams& params)
+{
+    const shared::FilterParams filter = shape_.published
+        ? publishedParams(settings(), f_.wholeFrame(), f_.graph.image())
+        : filterParams(settings(), f_.wholeFrame(), f_.graph.image());
+    if (widens(settings())) {
+        widen("filter of indirect", params, filter, settings().indirect.widening);
+    }
+    graph::Handle<Value> plain = means.value;
+    if (f_.packed) {
+        plain = f_.graph.plane<Value>("value", graph::vectors);
+        f_.pixels("filter of indirect", PassKind::Filter, { "distributed.cl", "unpackImage" },
+            { f_.rectangle(of(params)), reads("in", means.value), writes("out", plain) });
+    }
+    return gaussianFilter(
+        f_, { "filter of indirect", PassKind::Filter, "filter_indirect.cl" }, 3, filter, plain, means.beta)
+        .value;
+}
+
+} // namespace wedge::render

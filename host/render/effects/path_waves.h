@@ -1,0 +1,27 @@
+#pragma once
+
+#include "host/render/effects/indirect.h"
+#include "host/render/effects/wave_term.h"
+
+namespace wedge::render {
+
+/// A component of indirect light, or ambient occlusion, where pixels have several receivers, thesis chapters 4 and 5.
+class PathWaves : public WaveTerm {
+public:
+    PathWaves(FrameBuilder& frame, const SampleShape& shape, Component component);
+
+    void sample(
+        Waves& waves, const Adding& adding, const PrimaryCounts& counts, const graph::Handle<Count>& hits) override;
+    void widths() override;
+    void publishedWidths(const shared::DistributedParams& params, const graph::Handle<Share>& flags,
+        const graph::Handle<Pixels>& confusion) override;
+    graph::Handle<Value> filtered(const shared::DistributedParams& params) override;
+    std::uint32_t extremePlanes() const override { return shape_.all ? 3 : 0; }
+
+private:
+    shared::PathParams pathParams() const;
+
+    Component component_;
+};
+
+} // namespace wedge::render

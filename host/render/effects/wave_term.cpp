@@ -1,0 +1,101 @@
+#include "host/render/effects/wave_term.h"
+
+#include "host/render/filters/filter_graph.h"
+#include "host/render/filters/widening.h"
+#include "kernels/shared/packed.h"
+
+namespace wedge::render {
+
+using device::PassKind;
+using graph::reads;
+using graph::updates;
+using graph::value;
+using graph::writes;
+
+shared::DistributedParams WaveTerm::of(shared::DistributedParams params) const
+{
+    params.values = values_;
+    params.rays = rays;
+    return params;
+}
+
+std::uint32_t WaveTerm::omits() const
+{
+    return (extremePlanes() < 2 ? WEDGE_OMITS_EXTREMES : 0u)
+        | (means.deviation.graph == 0 ? WEDGE_OMITS_DEVIATION : 0u);
+}
+
+WaveTerm::Shared WaveTerm::share(
+    Waves& waves, const Adding& adding, const PrimaryCounts& counts, std::uint32_t sums, std::uint32_t extremes) const
+{
+    Shared out { waves.list<Count>("first samples", graph::counts), waves.list<Count>("last samples", graph::counts),
+        waves.list<Sums>("sums", graph::floatPlanes(sums)),
+        waves.list<Extremes>("slopes or distances", graph::floatPlanes(extremes)) };
+    const Receivers& r = waves.receivers();
+    waves.list("lists", { "waves.cl", "shareSamples" }, 1,
+        { waves.pixelParams(), waves.params(), reads("pixelOf", r.pixelOf), reads("shareOf", r.shareOf),
+            reads("taken", shape_.all ? means.taken : counts.taken),
+            reads("wanted", (adding.omits & WEDGE_OMITS_COUNTS) != 0 ? counts.taken : means.wanted),
+            value("sumPlanes", sums), value("extremePlanes", extremes), writes("first", out.first),
+            writes("last", out.last), writes("sums", out.sums), writes("extremes", out.extremes) });
+    return out;
+}
+
+std::vector<graph::Argument> WaveTerm::accumulated(const Adding& adding, const PrimaryCounts& counts)
+{
+    const bool measures = (adding.omits & WEDGE_OMITS_ANALYSIS) == 0;
+    const auto kept = [&](const char* name, graph::Version& plane, bool used) {
+        return used && plane.graph != 0 ? updates(name, plane) : f_.nothing(name);
+    };
+    const bool counted = (adding.omits & WEDGE_OMITS_COUNTS) == 0;
+    return { counted ? reads("termWanted", means.wanted) : f_.nothing("termWanted"),
+        shape_.all ? updates("termTaken", means.taken) : reads("termTaken", counts.taken),
+        updates("texture", means.texture), updates("value", means.value), kept("plain", means.plain, measures),
+        kept("squares", means.squares, measures), kept("textureSquares", means.textureSquares, measures),
+        kept("termRadiance", means.radiance, true), kept("deviation", means.deviation, true),
+        kept("extremes", means.extremes, measures) };
+}
+
+graph::Argument WaveTerm::samplesOf(std::string name, graph::Handle<Count>& total) const
+{
+    return shape_.all ? updates(std::move(name), total) : f_.nothing(std::move(name));
+}
+
+graph::Handle<Extremes> WaveTerm::leastExtreme() const
+{
+    if (!f_.packed) {
+        return means.extremes;
+    }
+    auto extreme = f_.graph.plane<Extremes>("slopes or distances", graph::floats);
+    f_.pixels("widths", PassKind::Analysis, { "analysis.cl", "unpackSecond" },
+        { f_.rectangle(f_.analysisParams()), reads("packed", means.plain), writes("out", extreme) });
+    return extreme;
+}
+
+graph::Handle<Share> WaveTerm::weights(std::string_view pass, PassKind kind) const
+{
+    auto weights = f_.graph.plane<Share>("luminance of texture", graph::floats);
+    f_.pixels(pass, kind, { "analysis.cl", "luminanceOf" },
+        { f_.rectangle(f_.analysisParams()), value("bits", shared::textureBits(f_.packed ? 1 : 0, isLight())),
+            reads("image", means.texture), writes("out", weights) });
+    return weights;
+}
+
+graph::Handle<Value> WaveTerm::visibility(std::string_view pass, const shared::DistributedParams& params) const
+{
+    auto seen = f_.graph.plane<Value>("value in one number", graph::floats);
+    f_.pixels(pass, PassKind::Filter, { "distributed.cl", "visibilityOf" },
+        { f_.rectangle(of(params)), reads("texture", means.texture), reads("value", means.value),
+            writes("visibility", seen) });
+    return seen;
+}
+
+void WaveTerm::widen(
+    std::string_view pass, const shared::DistributedParams& params, const shared::FilterParams& filter, float pixels)
+{
+    const graph::Handle<Value> seen = visibility(pass, params);
+    const graph::Handle<Share> worth = weights(pass, PassKind::Filter);
+    render::widen(f_, pass, filter, pixels, distributedNoise, { seen, means.deviation, worth }, means.beta);
+}
+
+} // namespace wedge::render

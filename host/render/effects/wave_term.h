@@ -1,0 +1,119 @@
+#pragma once
+
+#include "host/render/frame_builder.h"
+#include "host/render/waves.h"
+#include "kernels/shared/distributed.h"
+#include "kernels/shared/filter_params.h"
+
+#include <cstdint>
+#include <string>
+
+namespace wedge::render {
+
+/// What pixels of several receivers keep of a term, see kernels/accumulate.h. Those that a frame has no need of are of
+/// no graph.
+struct TermMeans {
+    graph::Handle<Texture> texture;
+    graph::Handle<Value> value;
+    graph::Handle<Value> plain; ///< mean; packed, the factoring error and the one extreme
+    graph::Handle<Squares> squares, textureSquares;
+    graph::Handle<Radiance> radiance; ///< as published
+    graph::Handle<Deviation> deviation;
+    graph::Handle<Extremes> extremes; ///< slopes and motions of shadows, or distances; packed, motions
+    graph::Handle<Count> taken; ///< samples; where none are kept they are the primary ones, between two passes
+    graph::Handle<Count> wanted;
+    // Made of these:
+    graph::Handle<Metres> beta; ///< width of the filter
+    graph::Handle<Demand> demand;
+};
+
+/// What a frame is to have of its pixels, and in which shape.
+struct SampleShape {
+    bool analysed = false; ///< filters and counts of their own
+    bool published = false; ///< as thesis chapter 5 has them
+    /// Of all that layers show and that steps of a progressive frame go on with; else pixels keep what one image is
+    /// made of.
+    bool all = false;
+    bool moves = false; ///< something moves while the shutter is open
+    bool geometryMoves = false;
+
+    bool measures() const { return all || analysed; } ///< what the analysis is made of
+};
+
+/// How one sampling adds to what there is.
+struct Adding {
+    bool first = false; ///< the analysis is made of these samples
+    /// WEDGE_OMITS_* of all terms.
+    std::uint32_t omits = 0;
+};
+
+/// A term of a frame whose pixels have several receivers: what an effect declares for it.
+class WaveTerm {
+public:
+    /// values: planes of what is filtered, 1, a light's visibility, or 3; ofSample: its rays; sum: what the term is
+    /// part of.
+    WaveTerm(FrameBuilder& frame, const SampleShape& shape, Sum& sum, std::uint32_t values, float ofSample)
+        : rays(ofSample)
+        , f_(frame)
+        , shape_(shape)
+        , sum_(sum)
+        , values_(values)
+    {
+    }
+    virtual ~WaveTerm() = default;
+    WaveTerm(const WaveTerm&) = delete;
+    WaveTerm& operator=(const WaveTerm&) = delete;
+
+    /// The samples of a wave's receivers, added to their pixels. counts, hits: of primary samples.
+    virtual void sample(
+        Waves& waves, const Adding& adding, const PrimaryCounts& counts, const graph::Handle<Count>& hits) = 0;
+    /// means.beta, metres, from what was measured.
+    virtual void widths() = 0;
+    /// The same as published, and means.demand; flags: 1 where texture and value are taken apart.
+    virtual void publishedWidths(const shared::DistributedParams& params, const graph::Handle<Share>& flags,
+        const graph::Handle<Pixels>& confusion) = 0;
+    /// Widens means.beta once the samples are complete, and filters the value; returns one of valuePlanes().
+    virtual graph::Handle<Value> filtered(const shared::DistributedParams& params) = 0;
+
+    bool isLight() const { return values_ == 1; }
+    Sum& sum() const { return sum_; }
+    /// params with what the kernels ask for of the term.
+    shared::DistributedParams of(shared::DistributedParams params) const;
+    /// Extremes that pixels keep; 0: none.
+    virtual std::uint32_t extremePlanes() const = 0;
+
+    const float rays;
+    TermMeans means;
+
+protected:
+    const Settings& settings() const { return f_.settings; }
+    /// shareSamples of waves.cl: the samples that each receiver takes, from the first to before the last.
+    struct Shared {
+        graph::Handle<Count> first, last;
+        graph::Handle<Sums> sums;
+        graph::Handle<Extremes> extremes;
+    };
+    Shared share(Waves& waves, const Adding& adding, const PrimaryCounts& counts, std::uint32_t sums,
+        std::uint32_t extremes) const;
+    /// What of the term is left out in adding to it.
+    std::uint32_t omits() const;
+    /// WEDGE_TERM_PARAMETERS.
+    std::vector<graph::Argument> accumulated(const Adding& adding, const PrimaryCounts& counts);
+    /// The counts of samples of all terms that pixels keep.
+    graph::Argument samplesOf(std::string name, graph::Handle<Count>& total) const;
+    /// Widens the filter by what one number a pixel says, which visibilityOf of distributed.cl makes.
+    void widen(std::string_view pass, const shared::DistributedParams& params, const shared::FilterParams& filter,
+        float pixels);
+    graph::Handle<Value> visibility(std::string_view pass, const shared::DistributedParams& params) const;
+    /// The plane of extremes that widths are made of.
+    graph::Handle<Extremes> leastExtreme() const;
+    /// Luminance of the texture.
+    graph::Handle<Share> weights(std::string_view pass, device::PassKind kind) const;
+
+    FrameBuilder& f_;
+    SampleShape shape_;
+    Sum& sum_;
+    std::uint32_t values_;
+};
+
+} // namespace wedge::render

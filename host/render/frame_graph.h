@@ -1,0 +1,65 @@
+#pragma once
+
+#include "host/graph/execution.h"
+#include "host/render/frame_builder.h"
+
+#include <memory>
+#include <vector>
+
+namespace wedge::render {
+
+/// A frame that is declared, and not run yet: its graph, and what is to be read of it afterwards. The graph's passes
+/// refer to this and to what it was made of.
+class FrameGraph {
+public:
+    virtual ~FrameGraph() = default;
+    FrameGraph(const FrameGraph&) = delete;
+    FrameGraph& operator=(const FrameGraph&) = delete;
+
+    const graph::Graph& graph() const { return graph_; }
+    const Settings& settings() const { return settings_; }
+    bool keepsLayers() const { return keepsLayers_; }
+    /// Whether those of terms() are to be read.
+    bool wantsWidths() const { return wantsWidths_; }
+
+    /// Whether a run took all its samples. stopped: somebody asked it to stop before it ended.
+    virtual bool complete(bool stopped) const { return !stopped; }
+    /// What is to be read of a run.
+    std::unique_ptr<Frame> outputs(const graph::Execution& execution) const;
+
+    /// One of termNames() each, in their order.
+    struct TermWidths {
+        std::shared_ptr<TermState> state;
+        graph::Handle<Metres> beta; ///< wanted only of layers
+    };
+    const std::vector<TermWidths>& terms() const { return terms_; }
+
+protected:
+    FrameGraph(const Settings& settings, bool keepLayers)
+        : settings_(settings)
+        , keepsLayers_(keepLayers)
+        , graph_(settings.width, settings.height, PlaneLayout(settings.width, settings.height).size)
+    {
+    }
+
+    /// What is shown; handles that are of no graph are not.
+    struct Shown {
+        Surfaces surfaces;
+        Totals totals;
+        graph::Handle<Count> primaryTaken;
+        graph::Handle<Pixels> lensWidth, motionWidth, motion;
+    };
+    /// Wants all that is shown, and the widths of terms that are analysed if layers are kept.
+    void show(const Shown& shown, bool distributed, bool analysed);
+
+    Settings settings_;
+    bool keepsLayers_;
+    graph::Graph graph_;
+    std::vector<TermWidths> terms_;
+
+private:
+    Shown shown_;
+    bool distributed_ = false, wantsWidths_ = false;
+};
+
+} // namespace wedge::render
