@@ -303,6 +303,36 @@ TEST_CASE("where nothing may be shared, whatever needs memory has a piece of exa
     }
 }
 
+TEST_CASE("what a body writes is what was there before where the body is left out")
+{
+    for (const bool repeats : { false, true }) {
+        CAPTURE(repeats);
+        Graph graph(width, height, 1024);
+        auto radiance = graph.plane<Radiance>("radiance", vectors);
+        auto mask = graph.plane<Metres>("mask", floats);
+        add(graph, "noisy", { writes("out", radiance) });
+        const auto body = [&] {
+            auto own = graph.plane<Radiance>("own", vectors);
+            add(graph, "first", { writes("out", own) });
+            add(graph, "own", { writes("out", own) });
+            add(graph, "filtered", { reads("in", own), writes("out", radiance), writes("mask", mask) });
+        };
+        if (repeats) {
+            graph.loop("loop", once, body);
+        } else {
+            graph.only(
+                "condition", [](Run&) { return false; }, body);
+        }
+        const Window wanted { 3, 2, 40, 20 };
+        graph.want(radiance, wanted);
+        const Plan plan(graph, alignment, noLimit);
+        // What the body has for itself is nobody else's, and its passes are run all or none.
+        CHECK(namesOf(plan) == Names { "noisy", "own", "filtered" });
+        CHECK(plan.passes.front().window == wanted);
+        CHECK(plan.lifetimes[radiance.resource]->first == 0);
+    }
+}
+
 TEST_CASE("what nobody wants is left out, and so is what only that needed")
 {
     Graph graph(width, height, 1024);

@@ -282,9 +282,9 @@ TEST_CASE("who is asked to stop ends loops, and does what is left")
                     stop = bodies == 2;
                 });
             });
-        onHost(graph, "image", [&](Run& run) { after += run.stopped(); });
+        onHost(graph, "image", [&](Run& run) { after += run.cut(); });
         onHost(
-            graph, "more", [&](Run&) { ++skipped; }, [](const Run& run) { return !run.stopped(); });
+            graph, "more", [&](Run&) { ++skipped; }, [](const Run& run) { return !run.cut(); });
         const Plan plan(graph, device::partAlignment, device.info().maxAllocation);
         Execution execution(plan, lab.memory, lab.kernels, lab.queue);
         CHECK_FALSE(execution.run(&stop));

@@ -59,7 +59,7 @@ struct EdgeErrors {
 /// if empty.
 EdgeErrors edgeErrors(render::Renderer& renderer, const render::Settings& settings, std::vector<double>& expected)
 {
-    renderer.render(settings);
+    renderer.render(settings, {}, true);
     const image::Window all { 0, 0, width, height };
     const std::vector<float> beauty = pixels(renderer, renderer.frame().beauty, all);
     const std::vector<float> position = pixels(renderer, renderer.frame().position, all);
@@ -109,7 +109,7 @@ TEST_CASE("a straight edge's penumbra: error function for a Gaussian light, ramp
             // With the light's centre for the shading, the ratio to the unshadowed image is the visibility itself.
             render::Settings separate = sized(render::monteCarlo(512), width, height);
             separate.shading = render::Shading::Separate;
-            renderer.render(separate);
+            renderer.render(separate, {}, true);
             const image::Window all { 0, 0, width, height };
             const std::vector<float> beauty = pixels(renderer, renderer.frame().beauty, all);
             const std::vector<float> position = pixels(renderer, renderer.frame().position, all);
@@ -139,7 +139,7 @@ TEST_CASE("an unoccluded uniform quad gives Lambert's formula")
         for (const bool filtered : { false, true }) {
             const render::Settings settings =
                 sized(filtered ? render::axisAligned(28) : render::monteCarlo(1024), 60, 44);
-            const std::vector<float> beauty = renderPixels(renderer, settings);
+            const std::vector<float> beauty = renderPixels(renderer, settings, true);
             const image::Window all { 0, 0, 60, 44 };
             const std::vector<float> position = pixels(renderer, renderer.frame().position, all);
             const std::vector<float> id = pixels(renderer, renderer.frame().depth, all);
@@ -191,7 +191,7 @@ TEST_CASE("lights that the floor's horizon cuts, and lights next to it: no pixel
             for (const bool filtered : { false, true }) {
                 const render::Settings settings =
                     sized(filtered ? render::axisAligned(28) : render::monteCarlo(256), 60, 44);
-                const std::vector<float> beauty = renderPixels(renderer, settings);
+                const std::vector<float> beauty = renderPixels(renderer, settings, true);
                 const std::vector<float> position = pixels(renderer, renderer.frame().position, all);
                 const std::vector<float> id = pixels(renderer, renderer.frame().depth, all);
                 double worst = 0, squared = 0, total = 0;
@@ -243,7 +243,7 @@ TEST_CASE("point and directional lights are exact")
         scene.pointLights.push_back({ { 1, 2, 1 }, { 6, 5, 4 } });
         scene.directionalLights.push_back({ glm::normalize(glm::vec3(0.4f, -1, 0.2f)), { 1, 2, 3 } });
         render::Renderer renderer(scene, device, renderOptions());
-        const std::vector<float> beauty = renderPixels(renderer, sized(render::monteCarlo(1), 50, 37));
+        const std::vector<float> beauty = renderPixels(renderer, sized(render::monteCarlo(1), 50, 37), true);
         const image::Window all { 0, 0, 50, 37 };
         const auto position = pixels(renderer, renderer.frame().position, all),
                    normal = pixels(renderer, renderer.frame().normal, all);
@@ -300,7 +300,8 @@ TEST_CASE("shading normals that face away from the viewer are lit as the round s
                 const glm::dvec3 toLight = glm::normalize(glm::dvec3(std::cos(turn), std::sin(turn), -0.3));
                 b.scene.directionalLights.push_back({ glm::vec3(-toLight), glm::vec3(lit) });
                 render::Renderer renderer(b.scene, device, renderOptions());
-                const std::vector<float> beauty = renderPixels(renderer, sized(render::monteCarlo(1), all.x1, all.y1));
+                const std::vector<float> beauty =
+                    renderPixels(renderer, sized(render::monteCarlo(1), all.x1, all.y1), true);
                 const std::vector<float> position = pixels(renderer, renderer.frame().position, all);
                 const std::vector<float> normal = pixels(renderer, renderer.frame().normal, all);
                 const std::vector<float> depth = pixels(renderer, renderer.frame().depth, all);
@@ -351,7 +352,7 @@ TEST_CASE("plain Monte Carlo is unbiased: no pixel is off by more than chance al
                 render::Settings settings = sized(render::monteCarlo(samples), w, h);
                 settings.sampler = sampler;
                 settings.seed = run;
-                renderer.render(settings);
+                renderer.render(settings, {}, true);
                 const std::vector<float> direct = pixels(renderer, renderer.frame().direct, all);
                 for (std::size_t i = 0; i < mean.size(); ++i) {
                     mean[i] += direct[3 * i] / static_cast<double>(runs);

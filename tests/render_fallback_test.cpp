@@ -19,7 +19,7 @@ render::Settings wide(bool fallback, int bounces)
 /// All that is reflected: as filtered, or of the samples alone.
 std::vector<float> reflected(render::Renderer& renderer, const render::Settings& settings, bool filtered)
 {
-    renderer.render(settings);
+    renderer.render(settings, {}, true);
     const render::Frame& f = renderer.frame();
     const image::Window all { 0, 0, width, height };
     std::vector<float> sum = pixels(renderer, filtered ? f.direct : f.directNoisy, all);

@@ -61,7 +61,7 @@ image::Window all(const render::Settings& settings) { return { 0, 0, settings.wi
 /// What is indirect of the frame of these settings.
 std::vector<float> indirectPixels(render::Renderer& renderer, const render::Settings& settings)
 {
-    renderer.render(settings);
+    renderer.render(settings, {}, true);
     return pixels(renderer, renderer.frame().indirect, all(settings));
 }
 
@@ -211,7 +211,7 @@ TEST_CASE(
         render::Renderer without(dark, device, renderOptions());
         for (const render::Settings& method : { render::monteCarlo(24), render::axisAligned(24) }) {
             const render::Settings settings = ambient(sized(method, width, height));
-            renderer.render(settings);
+            renderer.render(settings, {}, true);
             const render::Frame& f = renderer.frame();
             const std::vector<float> beauty = pixels(renderer, f.beauty, all(settings)),
                                      open = pixels(renderer, f.indirect, all(settings));

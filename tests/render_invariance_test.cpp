@@ -108,7 +108,7 @@ TEST_CASE("nothing shows of what lay in the memory before")
             CAPTURE(frame.name);
             const image::Window window = render::outputWindow(frame.settings);
             const auto planes = [&](render::Renderer& by) {
-                by.render(frame.settings);
+                by.render(frame.settings, {}, true);
                 std::vector<float> out;
                 const render::Frame& f = by.frame();
                 for (const device::Buffer<float>* plane :
@@ -144,14 +144,18 @@ TEST_CASE("a frame that is stopped anywhere has no pixel that is no number")
                 return renderer.render(settings, control).complete;
             };
             CHECK(rendered(1 << 30));
+            const auto shown = [&] {
+                return pixels(renderer, renderer.frame().beauty, render::outputWindow(settings));
+            };
+            const std::vector<float> finished = shown();
             const int all = looks;
             CHECK(all > 4);
             for (int last = 0; last < all; ++last) {
                 CAPTURE(m.name);
                 CAPTURE(last);
-                rendered(last);
-                const std::vector<float> image =
-                    pixels(renderer, renderer.frame().beauty, render::outputWindow(settings));
+                const bool complete = rendered(last);
+                const std::vector<float> image = shown();
+                CHECK((!complete || image == finished));
                 CHECK(std::ranges::all_of(image, [](float x) { return std::isfinite(x); }));
                 // What was sampled is shown.
                 const auto sum = [&](const device::Buffer<std::uint32_t>& counts) {
@@ -160,6 +164,15 @@ TEST_CASE("a frame that is stopped anywhere has no pixel that is no number")
                 };
                 CHECK((sum(renderer.frame().rays) > 0) == (sum(renderer.frame().samples) > 0));
             }
+            // Who asks when all has been sampled has the whole image. In batches whose number does not depend on time:
+            renderer.queue().setTargetMilliseconds(1e9);
+            rendered(1 << 30);
+            const int fewest = looks;
+            CHECK(rendered(fewest));
+            CHECK(cancel);
+            CHECK(shown() == finished);
+            CHECK_FALSE(rendered(fewest - 1));
+            renderer.queue().setTargetMilliseconds(100);
         }
     });
 }
@@ -197,6 +210,50 @@ TEST_CASE("any crop has the bits of the whole image")
     });
 }
 
+TEST_CASE("a crop in the middle of a large image has its bits, and reads nothing that nobody made")
+{
+    // Far from all borders: what a pass reads beyond the window that it declares is a not-a-number here.
+    onEveryDevice([](const device::Device& device) {
+        constexpr int across = 230, down = 190;
+        const image::Window crop { 110, 90, 131, 107 };
+        scene::Scene scene = richScene(), lens = richScene();
+        lens.camera.apertureRadius = 0.02f;
+        lens.camera.focusDistance = 4.0f;
+        render::Options poisoned = renderOptions();
+        poisoned.poison = true;
+        render::Settings aaf = sized(render::axisAligned(16), across, down);
+        aaf.bounces = 1;
+        render::Settings fixed = aaf, antialiased = aaf;
+        fixed.filtering = render::Filtering::Fixed;
+        antialiased.antialias = true;
+        struct Frame {
+            const scene::Scene& scene;
+            render::Settings settings;
+            bool layers;
+        };
+        for (const Frame& frame :
+            { Frame { scene, aaf, false }, Frame { scene, aaf, true }, Frame { scene, fixed, false },
+                Frame { scene, antialiased, false }, Frame { lens, aaf, false }, Frame { lens, aaf, true } }) {
+            CAPTURE(frame.layers);
+            CAPTURE(&frame.scene == &lens);
+            render::Renderer whole(frame.scene, device, renderOptions()), part(frame.scene, device, poisoned);
+            render::Settings settings = frame.settings;
+            const auto shown = [&](render::Renderer& by) {
+                by.render(settings, {}, frame.layers);
+                std::vector<float> out = pixels(by, by.frame().beauty, crop);
+                for (const device::Buffer<float>* layer : { &by.frame().direct, &by.frame().indirect }) {
+                    const std::vector<float> more = frame.layers ? pixels(by, *layer, crop) : std::vector<float>();
+                    out.insert(out.end(), more.begin(), more.end());
+                }
+                return out;
+            };
+            const std::vector<float> expected = shown(whole);
+            settings.crop = crop;
+            CHECK(sameBits(shown(part), expected));
+        }
+    });
+}
+
 TEST_CASE("two lights give the sum of each: every light is a term of its own")
 {
     onEveryDevice([](const device::Device& device) {
@@ -210,7 +267,7 @@ TEST_CASE("two lights give the sum of each: every light is a term of its own")
             CAPTURE(m.name);
             const image::Window all { 0, 0, width, height };
             const auto direct = [&](render::Renderer& r) {
-                r.render(m.settings);
+                r.render(m.settings, {}, true);
                 return pixels(r, r.frame().direct, all);
             };
             const std::vector<float> sum = direct(together), a = direct(one), b = direct(two);
@@ -241,7 +298,7 @@ TEST_CASE("aaf without filter and with uniform counts is the plain image of the 
         // In the other ways of shading, filtered and unfiltered are one where nothing is filtered.
         for (const render::Shading shading : { render::Shading::Ratio, render::Shading::Separate }) {
             unfiltered.shading = shading;
-            renderer.render(unfiltered);
+            renderer.render(unfiltered, {}, true);
             const image::Window all { 0, 0, width, height };
             CHECK(sameBits(
                 pixels(renderer, renderer.frame().direct, all), pixels(renderer, renderer.frame().directNoisy, all)));

@@ -108,7 +108,7 @@ Moments glossyFurnace(render::Renderer& renderer, const render::Settings& settin
 {
     const scene::Material& m = renderer.scene().materials[0];
     const image::Window all { 0, 0, settings.width, settings.height };
-    renderer.render(settings);
+    renderer.render(settings, {}, true);
     const std::vector<float> position = pixels(renderer, renderer.frame().position, all);
     const std::vector<float> normal = pixels(renderer, renderer.frame().normal, all);
     const shared::Lobe lobe = shared::makeLobe(m.exponent, modelOf(m));
@@ -200,7 +200,7 @@ TEST_CASE("a white furnace of textured surfaces")
         // Of two colours, each pixel reflects by its own.
         b.scene.textures[0].rgba = { 0xff203040u, 0xffc0e0ffu, 0xffc0e0ffu, 0xff203040u };
         render::Renderer checked(b.scene, device, renderOptions());
-        const std::vector<float> image = renderPixels(checked, bounced(16, 1, 24, 18));
+        const std::vector<float> image = renderPixels(checked, bounced(16, 1, 24, 18), true);
         const std::vector<float> kd = pixels(checked, checked.frame().diffuse, { 0, 0, 24, 18 });
         double worst = 0, least = 1, most = 0;
         for (std::size_t i = 0; i < image.size(); ++i) {

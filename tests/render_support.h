@@ -300,9 +300,10 @@ inline std::vector<float> pixels(render::Renderer& renderer, const device::Buffe
 }
 
 /// The beauty of the whole frame, rendered with these settings.
-inline std::vector<float> renderPixels(render::Renderer& renderer, const render::Settings& settings)
+inline std::vector<float> renderPixels(
+    render::Renderer& renderer, const render::Settings& settings, bool keepLayers = false)
 {
-    renderer.render(settings);
+    renderer.render(settings, {}, keepLayers);
     return pixels(renderer, renderer.frame().beauty, { 0, 0, settings.width, settings.height });
 }
 

@@ -122,7 +122,7 @@ bool Execution::run(const std::atomic<bool>* stop, bool poison)
     run.execution_ = this;
     poison_ = poison;
     runRange(run, 0, plan_.passes.size(), -1);
-    return !run.stopped();
+    return !run.cut();
 }
 
 void Execution::rehearse()
@@ -151,7 +151,11 @@ void Execution::runRange(Run& run, std::size_t begin, std::size_t end, int loop)
         const Loop& body = plan_.graph.loops()[static_cast<std::size_t>(inner)];
         const std::size_t count = run.rehearsal() ? 1 : body.count(run);
         // Whoever stops ends what is repeated; conditions say themselves what is left out then.
-        for (std::size_t k = 0; k < count && !(body.repeats && run.stopped()); ++k) {
+        for (std::size_t k = 0; k < count; ++k) {
+            if (body.repeats && run.stopped()) {
+                run.cut_ = true;
+                break;
+            }
             run.iterations_.push_back(k);
             runRange(run, i, last, inner);
             run.iterations_.pop_back();
@@ -178,7 +182,7 @@ void Execution::runPass(Run& run, const PlannedPass& planned)
     try {
         launch(run, planned);
     } catch (const device::Cancelled&) {
-        assert(run.stopped());
+        run.cut_ = true;
     }
     queue_.setCancelFlag(nullptr);
 }

@@ -53,8 +53,9 @@ public:
     device::TimedQueue& queue() const { return queue_; }
     /// Every kernel is launched at its full size over nothing, for drivers to compile: nothing is computed.
     bool rehearsal() const { return rehearsal_; }
-    /// Somebody asked to stop. Loops then end, and what is not for sampling goes on.
-    bool stopped() const { return stop_ != nullptr && stop_->load(); }
+    /// Whether something was left out since somebody asked to stop: a launch was ended early, or a loop before its last
+    /// iteration. What is not for sampling goes on.
+    bool cut() const { return cut_; }
     /// The pixels that the pass in hand covers.
     const Window& window() const { return pass_->window; }
     /// Iteration of the innermost loop around the pass in hand, or of the one `outward` around that.
@@ -78,10 +79,12 @@ private:
     }
     const Resource& used(const Version& version) const;
     const cl::Buffer& memory(const Version& version) const;
+    bool stopped() const { return stop_ != nullptr && stop_->load(); }
 
     device::TimedQueue& queue_;
     bool rehearsal_;
     const std::atomic<bool>* stop_;
+    bool cut_ = false;
     const Execution* execution_ = nullptr;
     const PlannedPass* pass_ = nullptr; ///< in hand
     std::vector<std::size_t> iterations_; ///< of the loops, outermost first
@@ -94,8 +97,8 @@ public:
     /// with overlapping memory.
     Execution(const Plan& plan, Memory& memory, Kernels& kernels, device::TimedQueue& queue);
 
-    /// Runs all passes; returns false if *stop became true, null for never. poison: what has no contents yet is filled
-    /// with not-a-numbers, for tests: nobody may see them.
+    /// Runs all passes; returns false if some were cut, which *stop asks for, null for never. poison: what has no
+    /// contents yet is filled with not-a-numbers, for tests: nobody may see them.
     bool run(const std::atomic<bool>* stop = nullptr, bool poison = false);
     /// Launches every kernel at its full size over nothing; bodies of loops once.
     void rehearse();

@@ -125,7 +125,8 @@ private:
             const std::uint32_t number = use.version.number;
             if (use.access == Access::Read) {
                 read(pass, use.version.resource, number, reached(*windows_[index], use.reach, graph_.image()));
-            } else if (use.access == Access::Update || pass.condition) {
+            } else if (use.access == Access::Update || pass.condition
+                || pass.loop != graph_.resources()[use.version.resource].loop) { // which may run not once
                 // What the pass leaves alone is what was there before.
                 const std::optional<Window>& after = wanted_[use.version.resource][number];
                 read(pass, use.version.resource, number - 1, windows_[index]->with(after.value_or(Window {})));

@@ -14,12 +14,7 @@ DistributedFrame::DistributedFrame(const scene::Scene& scene, const DeviceScene*
     for (const std::unique_ptr<WaveTerm>& term : samples_.terms()) {
         terms_.push_back({ samples_.state(), term->means.beta });
     }
-    Shown shown { {}, {}, samples_.taken(), {}, {}, {} };
-    shown.totals.beauty = f_.totals.beauty;
-    shown.totals.samples = f_.totals.samples;
-    shown.totals.indirectSamples = f_.totals.indirectSamples;
-    shown.totals.rays = f_.totals.rays;
-    shown.totals.pathRays = f_.totals.pathRays;
+    Shown shown { {}, imageOf(f_.totals), samples_.taken(), {}, {}, {} };
     if (keepLayers) {
         shown = { f_.surfaces, f_.totals, samples_.taken(), samples_.lensWidth(), samples_.motionWidth(),
             samples_.motion() };

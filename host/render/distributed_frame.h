@@ -12,8 +12,6 @@ public:
     DistributedFrame(const scene::Scene& scene, const DeviceScene* deviceScene, const Settings& settings,
         std::size_t packetSize, const cl::Buffer& unused, bool keepLayers);
 
-    bool complete(bool) const override { return samples_.state()->whole; }
-
 private:
     FrameBuilder f_;
     DistributedSamples samples_;

@@ -209,10 +209,7 @@ void DistributedSamples::take(const DistributedSamples* guide)
             f_.graph.want(term->means.demand, f_.graph.image());
         }
     }
-    f_.host("sampled", [state = state_](Run& run) {
-        state->whole = !run.stopped();
-        state->complete = state->complete || state->whole;
-    });
+    f_.host("sampled", [state = state_](Run& run) { state->complete = state->complete || !run.cut(); });
 }
 
 void DistributedSamples::monteCarlo()
@@ -256,7 +253,7 @@ void DistributedSamples::adaptive(const DistributedSamples* guide)
                 .workUnits = static_cast<double>(first),
                 .everywhere = true });
         counts_.taken = counts.taken;
-        f_.host("analysable", [state = state_](Run& run) { state->analysed = !run.stopped(); });
+        f_.host("analysable", [state = state_](Run& run) { state->analysed = !run.cut(); });
     }
     counts_.wanted = f_.graph.plane<Count>("primary samples wanted", graph::counts);
     for (const std::unique_ptr<WaveTerm>& term : terms_) {

@@ -56,8 +56,7 @@ public:
 
     /// Filled in by a run.
     struct State : TermState {
-        bool whole = false; ///< nobody stopped while these were sampled
-        bool complete = false; ///< nor all the times before
+        bool complete = false; ///< once all samples that a frame, or a step of it, asks for were taken
         float scale = 1.0f; ///< of demands
     };
     const std::shared_ptr<State>& state() const { return state_; }

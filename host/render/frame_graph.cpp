@@ -40,6 +40,17 @@ void eachShown(const Shown& shown, Frame& frame, const Visit& visit)
 
 } // namespace
 
+Totals imageOf(const Totals& totals)
+{
+    Totals image;
+    image.beauty = totals.beauty;
+    image.samples = totals.samples;
+    image.indirectSamples = totals.indirectSamples;
+    image.rays = totals.rays;
+    image.pathRays = totals.pathRays;
+    return image;
+}
+
 void FrameGraph::show(const Shown& shown, bool distributed, bool analysed)
 {
     shown_ = shown;

@@ -8,6 +8,9 @@
 
 namespace wedge::render {
 
+/// Of what a frame sums up the image, and what it cost.
+Totals imageOf(const Totals& totals);
+
 /// A frame that is declared, and not run yet: its graph, and what is to be read of it afterwards. The graph's passes
 /// refer to this and to what it was made of.
 class FrameGraph {
@@ -22,8 +25,6 @@ public:
     /// Whether those of terms() are to be read.
     bool wantsWidths() const { return wantsWidths_; }
 
-    /// Whether a run took all its samples. stopped: somebody asked it to stop before it ended.
-    virtual bool complete(bool stopped) const { return !stopped; }
     /// What is to be read of a run.
     std::unique_ptr<Frame> outputs(const graph::Execution& execution) const;
 

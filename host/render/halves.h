@@ -32,10 +32,6 @@ public:
     HalvesFrame(const scene::Scene& scene, const DeviceScene* deviceScene, const Settings& settings,
         std::size_t packetSize, const cl::Buffer& unused, bool keepLayers, HalfMemories& memories, int before, int spp);
 
-    bool complete(bool) const override
-    {
-        return halves_[0].samples->state()->whole && halves_[1].samples->state()->whole;
-    }
     /// Of the image shown, over its window.
     ErrorEstimate error(const graph::Execution& execution, device::TimedQueue& queue) const;
 

@@ -34,7 +34,7 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
     }
     if (usesFallback(settings)) {
         graph_.only(
-            "fallback", [](const Run& run) { return !run.stopped(); },
+            "fallback", [](const Run& run) { return !run.cut(); },
             [&] {
                 if (lit && !scene.areaLights.empty()) {
                     fallBack(f_.totals.direct);
@@ -48,7 +48,15 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
         { f_.rectangle(f_.analysisParams()), reads("emission", f_.surfaces.emission),
             reads("direct", f_.totals.direct.filtered), reads("indirect", f_.totals.indirect.filtered),
             reads("objectId", f_.surfaces.objectId), writes("beauty", f_.totals.beauty) });
-    show({ f_.surfaces, f_.totals, {}, {}, {}, {} }, false, f_.analysed());
+    Shown shown { {}, imageOf(f_.totals), {}, {}, {}, {} };
+    if (keepLayers) {
+        shown = { f_.surfaces, f_.totals, {}, {}, {}, {} };
+    }
+    shown.surfaces.objectId = f_.surfaces.objectId;
+    if (indirectTerms(settings, f_.specular).size() > 1) {
+        shown.surfaces.specular = f_.surfaces.specular; // pixels that have some are sampled for two terms
+    }
+    show(shown, false, f_.analysed());
 }
 
 void PixelFrame::primary(bool lit)
@@ -108,7 +116,7 @@ void PixelFrame::term(const std::string& name, bool keepWidths, const Declare& d
     }
     f_.host("term", [state = widths.state](Run&) { *state = {}; });
     graph_.only(
-        name, [](const Run& run) { return !run.stopped(); },
+        name, [](const Run& run) { return !run.cut(); },
         [&] {
             if (!keepWidths) {
                 beta();
@@ -122,7 +130,7 @@ void PixelFrame::deltaLights()
 {
     Totals& t = f_.totals;
     graph_.only(
-        "point lights", [](const Run& run) { return !run.stopped(); },
+        "point lights", [](const Run& run) { return !run.cut(); },
         [&] {
             f_.trace("point lights", { "delta_lights.cl", "deltaLights" },
                 joined({ f_.frame(), f_.ofScene("lights", "DeltaLight", &DeviceScene::deltaLights),

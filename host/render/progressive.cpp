@@ -41,7 +41,7 @@ void addRecords(std::vector<device::PassRecord>& sum, const std::vector<device::
     }
 }
 
-ErrorEstimate Renderer::runStep(
+Renderer::Step Renderer::runStep(
     const Settings& settings, bool keepLayers, int before, int spp, const std::atomic<bool>* stop, bool rehearsal)
 {
     for (SampleMemory& memory : *halfMemories_) {
@@ -54,8 +54,8 @@ ErrorEstimate Renderer::runStep(
     const graph::Plan plan(halves.graph(), device::partAlignment, mostSlabBytes());
     frame_.reset(); // it has parts of the memory
     graph::Execution execution(plan, memory_, kernels_, queue_);
-    run(execution, stop, rehearsal);
-    return rehearsal ? ErrorEstimate { 0, 0 } : halves.error(execution, queue_);
+    const bool whole = run(execution, stop, rehearsal);
+    return { rehearsal ? ErrorEstimate { 0, 0 } : halves.error(execution, queue_), whole };
 }
 
 FrameStatistics Renderer::renderProgressively(const Settings& wanted, const Control& control,
@@ -84,8 +84,8 @@ FrameStatistics Renderer::renderProgressively(const Settings& wanted, const Cont
     ProgressiveStep step;
     for (std::size_t i = 0; i < counts.size() && !(i > 0 && stop); ++i) {
         step.spp = counts[i];
-        step.error = runStep(settings, keepLayers, i == 0 ? 0 : counts[i - 1], step.spp, &stop, false);
-        const bool whole = frameGraph_->complete(stop);
+        const auto [error, whole] = runStep(settings, keepLayers, i == 0 ? 0 : counts[i - 1], step.spp, &stop, false);
+        step.error = error;
         const bool good = step.error.rmse() <= control.targetError;
         queue_.finish();
         FrameStatistics statistics;

@@ -176,8 +176,7 @@ FrameStatistics Renderer::render(const Settings& settings, const Control& contro
     });
     FrameStatistics statistics;
     frameGraph_ = declare(scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal), unused_, keepLayers);
-    run(&stop, false);
-    statistics.complete = frameGraph_->complete(stop);
+    statistics.complete = run(&stop, false);
     queue_.finish();
     statistics.wallMilliseconds = 1e3 * secondsSince(start);
     queue_.setCancelFlag(nullptr);
@@ -196,23 +195,25 @@ FrameStatistics Renderer::completed(const Settings& settings, FrameStatistics st
     return statistics;
 }
 
-void Renderer::run(const std::atomic<bool>* stop, bool rehearsal)
+bool Renderer::run(const std::atomic<bool>* stop, bool rehearsal)
 {
     const graph::Plan plan(frameGraph_->graph(), device::partAlignment, mostSlabBytes());
     graph::Execution execution(plan, memory_, kernels_, queue_);
-    run(execution, stop, rehearsal);
+    return run(execution, stop, rehearsal);
 }
 
-void Renderer::run(graph::Execution& execution, const std::atomic<bool>* stop, bool rehearsal)
+bool Renderer::run(graph::Execution& execution, const std::atomic<bool>* stop, bool rehearsal)
 {
     termPlanes_.clear();
+    bool whole = true;
     if (rehearsal) {
         execution.rehearse();
     } else {
-        execution.run(stop, options_.poison);
+        whole = execution.run(stop, options_.poison);
         keepWidths(execution);
     }
     frame_ = frameGraph_->outputs(execution);
+    return whole;
 }
 
 void Renderer::keepWidths(const graph::Execution& execution)

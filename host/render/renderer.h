@@ -115,7 +115,7 @@ public:
     std::string buildOptions() const { return programs_->optionsString(); }
     double setupSeconds() const { return setupSeconds_; }
 
-    /// Of the last frame.
+    /// Of the last frame: the image, counts and objects, and all else that layers show where those were kept.
     const Frame& frame() const { return *frame_; }
     const std::vector<TermPlanes>& termPlanes() const { return termPlanes_; }
     device::TimedQueue& queue() { return queue_; }
@@ -126,11 +126,15 @@ private:
     std::uint64_t mostSlabBytes() const { return options_.checkLaunches ? 0 : device_.info().maxAllocation; }
     /// Tests the settings and whether memory suffices.
     void prepare(const Settings& settings, bool keepLayers);
-    /// Runs frameGraph_, or rehearses it.
-    void run(const std::atomic<bool>* stop, bool rehearsal);
-    void run(graph::Execution& execution, const std::atomic<bool>* stop, bool rehearsal);
+    /// Runs frameGraph_, or rehearses it. Returns false if it was stopped before all samples were taken.
+    bool run(const std::atomic<bool>* stop, bool rehearsal);
+    bool run(graph::Execution& execution, const std::atomic<bool>* stop, bool rehearsal);
+    struct Step {
+        ErrorEstimate error;
+        bool whole; ///< it was not stopped before all its samples were taken
+    };
     /// One step of a progressive frame, from so many samples a pixel to so many.
-    ErrorEstimate runStep(
+    Step runStep(
         const Settings& settings, bool keepLayers, int before, int spp, const std::atomic<bool>* stop, bool rehearsal);
     void keepWidths(const graph::Execution& execution);
     /// With the sums of the passes, memory, and what the frame counted.

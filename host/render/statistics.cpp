@@ -33,10 +33,11 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
     const std::vector<std::uint32_t> samples = planeOf(frame_->samples), indirect = planeOf(frame_->indirectSamples);
     const std::vector<std::uint32_t> rays = planeOf(frame_->rays), pathRays = planeOf(frame_->pathRays);
     const std::vector<std::uint32_t> objects = planeOf(frame_->objectId);
-    const std::vector<float> specular =
-        frame_->distributed ? std::vector<float> {} : frame_->specular.downloadAll(queue_);
     const image::Window output = outputWindow(settings);
     const std::vector<IndirectTerm> terms = indirectTerms(settings, deviceScene_->specular);
+    // Pixels of several receivers take samples of both components whatever those are.
+    const bool apart = !frame_->distributed && terms.size() > 1;
+    const std::vector<float> specular = apart ? frame_->specular.downloadAll(queue_) : std::vector<float> {};
     const std::size_t size = frame_->layout.size;
     std::uint64_t total = 0, indirectTotal = 0, indirectPixels = 0;
     for (int y = output.y0; y < output.y1; ++y) {
@@ -49,9 +50,8 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
             ++statistics.shadedPixels;
             total += samples[i];
             indirectTotal += indirect[i];
-            // Pixels of several receivers take samples of both components whatever those are.
-            const bool glossy = frame_->distributed || specular[i] + specular[size + i] + specular[2 * size + i] > 0;
-            indirectPixels += terms.empty() ? 0 : terms.size() > 1 && !glossy ? 1 : terms.size();
+            const bool matte = apart && !(specular[i] + specular[size + i] + specular[2 * size + i] > 0);
+            indirectPixels += matte ? 1 : terms.size();
         }
     }
     const bool whole = settings.method == Method::AxisAligned;

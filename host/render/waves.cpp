@@ -80,6 +80,11 @@ Waves::Waves(FrameBuilder& frame, const shared::WaveParams& settings, const shar
     state_->settings = settings_;
 }
 
+std::size_t Waves::tilesOfWave() const
+{
+    return std::min<std::size_t>(mostTiles(f_.layout), room_ / WEDGE_TILE_PIXELS);
+}
+
 std::function<std::size_t(Run&)> Waves::counter() const
 {
     return [state = state_](Run&) { return state->waves.size(); };
@@ -166,7 +171,7 @@ void Waves::pixels(std::string kernel, std::vector<graph::Argument> arguments)
         .count = [state = state_](const Launch& launch) -> std::size_t {
             return std::size_t { state->wave(launch.run).tiles } * WEDGE_TILE_PIXELS;
         },
-        .mostItems = room_,
+        .mostItems = tilesOfWave() * WEDGE_TILE_PIXELS,
         .everywhere = sampling_.everywhere });
 }
 
@@ -226,7 +231,7 @@ void Waves::trace(bool lit)
             writes("shareOf", r_.shareOf), writes("pixelFirst", r_.pixelFirst), writes("pixelCount", r_.pixelCount) },
         .domain = graph::Domain::Items,
         .count = [state = state_](const Launch& launch) -> std::size_t { return state->wave(launch.run).tiles; },
-        .mostItems = room_ / WEDGE_TILE_PIXELS,
+        .mostItems = tilesOfWave(),
         .everywhere = sampling_.everywhere });
     r_.position = list<Position>("positions", graph::vectors);
     r_.normal = list<Normal>("normals", graph::vectors);

@@ -124,6 +124,7 @@ private:
         const shared::WaveParams& wave(const graph::Run& run) const;
     };
 
+    std::size_t tilesOfWave() const; ///< at most
     std::function<std::size_t(graph::Run&)> counter() const;
     void schedule();
     void trace(bool lit);

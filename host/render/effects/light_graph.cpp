@@ -73,7 +73,7 @@ public:
             // What was stopped early has not the counts that the parts of samples were made for.
             if (widens(s_)) {
                 g_.only(
-                    "widening", [](const Run& run) { return !run.stopped(); }, [&] { widened(); });
+                    "widening", [](const Run& run) { return !run.cut(); }, [&] { widened(); });
             }
             shade(gaussianFilter(
                       f_, { "filter", PassKind::Filter, "filter.cl" }, channels_, filterParams(), value_, beta_)
@@ -124,7 +124,7 @@ void LightGraph::firstPass()
             Arguments { reads("wanted", wanted_), updates("sums", sums_), updates("taken", taken_),
                 updates("value", value_), updates("slopes", extremes_), tallies("rays", f_.totals.rays) }),
         true, [](const graph::Launch&) { return WEDGE_FIRST_PASS_RAYS; });
-    f_.host("analysable", [state = state_](Run& run) { state->analysed = !run.stopped(); });
+    f_.host("analysable", [state = state_](Run& run) { state->analysed = !run.cut(); });
 }
 
 void LightGraph::samples(const char* pass, std::uint32_t from, std::uint32_t slice)

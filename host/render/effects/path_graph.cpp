@@ -58,7 +58,7 @@ public:
         constexpr std::uint32_t first = WEDGE_INDIRECT_FIRST_RAYS;
         uniformCounts(f_, first, f_.surfaces.objectId, wanted_);
         paths("first paths", 0, first, first, true);
-        f_.host("analysable", [state = state_](Run& run) { state->analysed = !run.stopped(); });
+        f_.host("analysable", [state = state_](Run& run) { state->analysed = !run.cut(); });
         const auto analysed = [state = state_](const Run&) { return state->analysed; };
         g_.only("analysis of paths", analysed, [&] { widthsAndCounts(); });
         const int most = isUniform() ? s_.spp : std::max(s_.indirect.maxSpp, s_.spp);
@@ -71,7 +71,7 @@ public:
             // What was stopped early has not the counts that the parts of samples were made for.
             if (widens(s_)) {
                 g_.only(
-                    "widening", [](const Run& run) { return !run.stopped(); }, [&] { widened(); });
+                    "widening", [](const Run& run) { return !run.cut(); }, [&] { widened(); });
             }
             composite(gaussianFilter(f_, { "filter of indirect", PassKind::Filter, "filter_indirect.cl" }, channels,
                           filterParams(), value_, beta_)
