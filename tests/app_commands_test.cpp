@@ -12,6 +12,33 @@
 namespace wedge::app::test {
 namespace {
 
+TEST_CASE("a frame that is explained is not rendered")
+{
+    const Workplace place;
+    for (const std::vector<std::string>& more :
+        { std::vector<std::string> {}, { "--progressive", "--spp", "32" }, { "--antialias", "--layers", "all" } }) {
+        std::vector<std::string> arguments { "render", box, "--bounces", "1", "--explain", "frame.svg" };
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = place.run(arguments);
+        CHECK(outcome.status == 0);
+        CHECK(outcome.err.empty());
+        for (const char* part :
+            { "passes\n", "samplePaths", "\nresources\n", "filter width", "memory of the planes: " }) {
+            CAPTURE(part);
+            CHECK(contains(outcome.out, part));
+        }
+        const std::string drawing = place.text("frame.svg");
+        CHECK(drawing.starts_with("<svg"));
+        CHECK(contains(drawing, ">filter width</text>"));
+        CHECK(drawing.ends_with("</svg>\n"));
+        CHECK(place.files() == std::vector<std::string> { "frame.svg" });
+    }
+    const Outcome png = place.run({ "render", box, "--explain", "frame.png" });
+    CHECK(png.status == 2);
+    CHECK(contains(png.err, "frame.png"));
+    CHECK(place.run({ "render", box, "--explain", "none/frame.svg" }).status == 1);
+}
+
 TEST_CASE("the report has what scripts read")
 {
     const Workplace place;

@@ -48,6 +48,8 @@ public:
 private:
     void checkCall() const;
     void load();
+    void build();
+    void explain() const;
     void prepare();
     void render();
     void renderSteps(const render::Control& control);
@@ -87,6 +89,11 @@ int RenderJob::run()
 {
     checkCall();
     load();
+    build();
+    if (!options_.explain.empty()) {
+        explain();
+        return 0;
+    }
     prepare();
     try {
         render();
@@ -121,10 +128,12 @@ void RenderJob::checkCall() const
     if (!options_.kernelDir.empty() && !std::filesystem::is_directory(options_.kernelDir, ignored)) {
         throw Error("kernel folder", options_.kernelDir, "name an existing folder");
     }
-    std::vector<std::string> written = { options_.report };
+    std::vector<std::string> written = { options_.report, options_.explain };
     std::ranges::transform(outputs, std::back_inserter(written), &Output::path);
     refuseOverwriting(written, { options_.scene, options_.reference });
-    requireWritable(outputs, options_.report);
+    if (options_.explain.empty()) {
+        requireWritable(outputs, options_.report);
+    }
 }
 
 void RenderJob::load()
@@ -146,7 +155,8 @@ void RenderJob::load()
     }
 }
 
-void RenderJob::prepare()
+/// What there is before memory is planned: the device, the hierarchy, and the programs' options.
+void RenderJob::build()
 {
     const device::Device device = device::Device::open(options_.devices.empty() ? "" : options_.devices[0]);
     if (const std::string notice = device::DriverCache::ofProcess().notice(); !notice.empty() && !options_.quiet) {
@@ -162,12 +172,26 @@ void RenderJob::prepare()
     progress_.show("building the hierarchy");
     renderer_ = std::make_unique<render::Renderer>(scene_, device, options);
     progress_.clear();
+}
 
+void RenderJob::explain() const
+{
+    const render::Explanation explanation = renderer_->explain(settings_, !layers_.empty());
+    say("{}", explanation.text);
+    writeText(options_.explain, explanation.drawing);
+    tell("wrote {}\n", printable(options_.explain));
+    std::fflush(stdout);
+}
+
+void RenderJob::prepare()
+{
+    const device::DeviceInfo& device = renderer_->device().info();
     const device::MemoryPlan plan = renderer_->plan(settings_, !layers_.empty());
     tell("scene {}: {} triangles\n", printable(scene_.path), scene_.geometry.indices.size() / 3);
-    tell("device {} ({})\n", device.info().name, device.info().platform);
+    tell("device {} ({})\n", device.name, device.platform);
     if (options_.verbose) {
-        tell("traversal {}\nbvh {}\n", render::traversalName(renderer_->traversal()), bvh::modeName(options.bvh));
+        tell("traversal {}\nbvh {}\n", render::traversalName(renderer_->traversal()),
+            bvh::modeName(renderer_->bvhMode()));
         for (const auto& [name, value] : render::describe(settings_)) {
             tell("{} {}\n", name, value);
         }

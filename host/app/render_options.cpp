@@ -106,6 +106,14 @@ void addCameraOptions(CLI::App& parser, RenderOptions& o)
         });
 }
 
+std::string svgPath(const std::string& text)
+{
+    if (!text.ends_with(".svg")) {
+        throw UsageError("--explain draws SVG", text, "name a file that ends in .svg");
+    }
+    return text;
+}
+
 void addMethodOptions(CLI::App& parser, RenderOptions& o)
 {
     addChoice(parser, howGroup, "--method", { "mc", "aaf" },
@@ -212,6 +220,9 @@ void addRenderOptions(CLI::App& parser, RenderOptions& options)
     addProgressiveOptions(parser, options);
     addDeviceOptions(parser, options);
     addAblationOptions(parser, options);
+    addValue(parser, talkGroup, "--explain", "FILE",
+        "Render nothing: print the frame's passes, what they use and its memory, and draw them into FILE (.svg)",
+        [&options](const std::string& text) { options.explain = svgPath(text); });
     parser.add_flag("--quiet", options.quiet, "Say nothing but errors")->group(talkGroup);
     parser.add_flag("--verbose", options.verbose, "Say more: memory by buffer, the settings")->group(talkGroup);
     parser.footer(footer());

@@ -36,6 +36,7 @@ struct RenderOptions {
     std::string layers;
     std::vector<std::string> devices;
     std::string reference, report;
+    std::string explain; ///< file of the drawing
     double timeLimitSeconds = 0; ///< 0: none
     bool progressive = false;
     std::optional<double> targetError; ///< radiance

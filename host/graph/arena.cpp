@@ -1,7 +1,9 @@
 #include "host/graph/arena.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
 
@@ -30,18 +32,10 @@ std::uint64_t bestGap(const std::vector<Taken>& taken, std::uint64_t bytes)
     return best ? best->begin : free;
 }
 
-} // namespace
-
-Placement place(const std::vector<Tenant>& tenants, std::uint64_t alignment, std::uint64_t mostSlabBytes)
+/// The tenants one after the other, each in the smallest gap that holds it.
+Placement placeInOrder(const std::vector<Tenant>& tenants, const std::vector<std::size_t>& order,
+    const std::function<std::uint64_t(std::uint64_t)>& aligned, std::uint64_t mostSlabBytes)
 {
-    const auto aligned = [&](std::uint64_t bytes) {
-        const std::uint64_t over = bytes % alignment;
-        return over == 0 ? bytes : end(bytes, alignment - over);
-    };
-    std::vector<std::size_t> order(tenants.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(
-        order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return tenants[a].bytes > tenants[b].bytes; });
     Placement out;
     out.places.resize(tenants.size());
     std::vector<std::size_t> placed;
@@ -71,6 +65,65 @@ Placement place(const std::vector<Tenant>& tenants, std::uint64_t alignment, std
         placed.push_back(i);
     }
     return out;
+}
+
+/// Bytes of all that meets somewhere, at most.
+std::uint64_t mostAtOnce(const std::vector<Tenant>& tenants, const std::function<std::uint64_t(std::uint64_t)>& aligned)
+{
+    std::map<std::uint64_t, std::uint64_t> begins, ends; // of each step
+    for (const Tenant& tenant : tenants) {
+        begins[tenant.first] += aligned(tenant.bytes);
+        ends[std::uint64_t { tenant.last } + 1] += aligned(tenant.bytes);
+    }
+    std::uint64_t now = 0, largest = 0;
+    for (const auto& [step, bytes] : begins) {
+        while (!ends.empty() && ends.begin()->first <= step) {
+            now -= ends.begin()->second;
+            ends.erase(ends.begin());
+        }
+        now += bytes;
+        largest = std::max(largest, now);
+    }
+    return largest;
+}
+
+} // namespace
+
+Placement place(const std::vector<Tenant>& tenants, std::uint64_t alignment, std::uint64_t mostSlabBytes)
+{
+    const auto aligned = [&](std::uint64_t bytes) {
+        const std::uint64_t over = bytes % alignment;
+        return over == 0 ? bytes : end(bytes, alignment - over);
+    };
+    const auto life = [&](std::size_t i) { return tenants[i].last - tenants[i].first; };
+    const auto bytes = [&](std::size_t i) { return tenants[i].bytes; };
+    // None of these is the best for all graphs.
+    const std::function<bool(std::size_t, std::size_t)> rules[] = {
+        [&](std::size_t a, std::size_t b) { return bytes(a) != bytes(b) ? bytes(a) > bytes(b) : life(a) > life(b); },
+        [&](std::size_t a, std::size_t b) { return life(a) != life(b) ? life(a) > life(b) : bytes(a) > bytes(b); },
+        [&](std::size_t a, std::size_t b) { return tenants[a].first < tenants[b].first; },
+        [&](std::size_t a, std::size_t b) {
+            return static_cast<double>(bytes(a)) * (life(a) + 1.0) > static_cast<double>(bytes(b)) * (life(b) + 1.0);
+        },
+    };
+    const std::uint64_t least = mostAtOnce(tenants, aligned);
+    const auto sum = [](const Placement& placement) {
+        return std::accumulate(placement.slabs.begin(), placement.slabs.end(), std::uint64_t { 0 });
+    };
+    Placement best;
+    for (const auto& before : rules) {
+        std::vector<std::size_t> order(tenants.size());
+        std::iota(order.begin(), order.end(), 0u);
+        std::stable_sort(order.begin(), order.end(), before);
+        Placement found = placeInOrder(tenants, order, aligned, mostSlabBytes);
+        if (best.places.empty() || sum(found) < sum(best)) {
+            best = std::move(found);
+        }
+        if (mostSlabBytes == 0 || sum(best) <= least) {
+            break;
+        }
+    }
+    return best;
 }
 
 } // namespace wedge::graph

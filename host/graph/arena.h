@@ -24,7 +24,8 @@ struct Placement {
     std::vector<std::uint64_t> slabs; ///< bytes of each piece of memory
 };
 
-/// Places tenants so that no two that meet overlap, the largest first, each in the smallest gap that holds it. Every
+/// Places tenants so that no two that meet overlap: in several orders, each in the smallest gap that holds it; the
+/// order that takes least memory counts. Every
 /// offset and every slab's size is a multiple of `alignment`. One slab, or as many as it takes where one would be
 /// larger than mostSlabBytes; what is larger by itself gets one of its own. 0: each tenant gets one, so that a
 /// simulator of a device sees who works past an end.

@@ -369,7 +369,7 @@ void DistributedSamples::blurs(float samples, Blurs& out)
 {
     shared::DistributedParams p = params();
     p.samples = samples;
-    const auto sets = samples > 0 ? writes : updates;
+    const auto sets = samples > 0 || !shape_.all ? writes : updates; // what is shown without motion is 0
     f_.pixels("widths", PassKind::Analysis, { "distributed.cl", "blurs" },
         { f_.rectangle(p), reads("confusion", confusion_),
             keepsMotion() ? reads("motion", motion_) : f_.nothing("motion"), reads("taken", counts_.taken),
@@ -453,10 +453,10 @@ void DistributedSamples::addOwn(WaveTerm& term, graph::Handle<Radiance>& radianc
         unlessAnalysed ? condition : std::function<bool(const Run&)>());
 }
 
-void DistributedSamples::addFiltered(WaveTerm& term, const Blurs& own, graph::Handle<Radiance>& radiance)
+void DistributedSamples::addFiltered(
+    WaveTerm& term, const graph::Handle<Value>& value, const Blurs& own, graph::Handle<Radiance>& radiance)
 {
     shared::DistributedParams p = term.of(params());
-    const graph::Handle<Value> value = term.filtered(params());
     graph::Version texture = term.means.texture;
     if (shape_.moves && f_.settings.distributed.blur) {
         const graph::Reach far = graph::around(WEDGE_MOTION_REACH);
@@ -499,12 +499,20 @@ void DistributedSamples::compose(bool layers)
     Blurs own { f_.graph.plane<Pixels>("lens filter width", graph::floats),
         f_.graph.plane<Pixels>("motion filter width", graph::floats),
         f_.graph.plane<Pixels>("direction of motion", f_.packed ? shortPairs : graph::floatPlanes(2)) };
-    f_.zero(own.lens, own.along);
+    if (shape_.all) {
+        f_.zero(own.lens, own.along); // they are shown, filtered or not
+    }
     if (filters) {
         f_.graph.only("filters", analysed(), [&] {
-            blurs(0.0f, own);
             for (const std::unique_ptr<WaveTerm>& term : terms_) {
-                addFiltered(*term, own, sumOf(*term));
+                const graph::Handle<Value> value = term->filtered(params());
+                if (term == terms_.front()) { // not before, for the memory's sake
+                    blurs(0.0f, own);
+                }
+                addFiltered(*term, value, own, sumOf(*term));
+            }
+            if (terms_.empty()) {
+                blurs(0.0f, own);
             }
         });
     }

@@ -95,7 +95,9 @@ private:
     void settle();
     void startSums();
     void addOwn(WaveTerm& term, graph::Handle<Radiance>& radiance, bool unlessAnalysed);
-    void addFiltered(WaveTerm& term, const Blurs& own, graph::Handle<Radiance>& radiance);
+    /// value: the term's, filtered. own: of the pixels.
+    void addFiltered(
+        WaveTerm& term, const graph::Handle<Value>& value, const Blurs& own, graph::Handle<Radiance>& radiance);
     void blur(graph::Handle<Radiance>& image);
     graph::Handle<Radiance>& sumOf(WaveTerm& term);
 

@@ -1,6 +1,7 @@
 #include "host/render/renderer.h"
 
 #include "host/device/driver_cache.h"
+#include "host/graph/explain.h"
 #include "host/render/distributed_frame.h"
 #include "host/render/effects/indirect.h"
 #include "host/render/halves.h"
@@ -94,20 +95,33 @@ device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hi
 {
     device::MemoryPlan plan;
     DeviceScene::plan(plan, scene, hierarchy);
-    const std::size_t packet = packetSize(hierarchy.traversal);
-    if (settings.progressive) {
-        HalfMemories memories { SampleMemory(nullptr), SampleMemory(nullptr) };
-        const HalvesFrame frame(
-            scene, nullptr, settings, packet, cl::Buffer(), keepLayers, memories, 0, stepCounts(settings.spp).front());
-        for (const SampleMemory& memory : memories) {
-            memory.addTo(plan);
-        }
-        graph::Plan(frame.graph(), device::partAlignment, mostSlabBytes).addTo(plan);
-    } else {
-        const std::unique_ptr<FrameGraph> frame = declare(scene, nullptr, settings, packet, cl::Buffer(), keepLayers);
-        graph::Plan(frame->graph(), device::partAlignment, mostSlabBytes).addTo(plan);
+    HalfMemories memories { SampleMemory(nullptr), SampleMemory(nullptr) };
+    const std::unique_ptr<FrameGraph> frame = declareUnbacked(scene, hierarchy, settings, keepLayers, memories);
+    for (const SampleMemory& memory : memories) {
+        memory.addTo(plan);
     }
+    graph::Plan(frame->graph(), device::partAlignment, mostSlabBytes).addTo(plan);
     return plan;
+}
+
+std::unique_ptr<FrameGraph> Renderer::declareUnbacked(const scene::Scene& scene, const Hierarchy& hierarchy,
+    const Settings& settings, bool keepLayers, HalfMemories& memories)
+{
+    const std::size_t packet = packetSize(hierarchy.traversal);
+    if (!settings.progressive) {
+        return declare(scene, nullptr, settings, packet, cl::Buffer(), keepLayers);
+    }
+    return std::make_unique<HalvesFrame>(
+        scene, nullptr, settings, packet, cl::Buffer(), keepLayers, memories, 0, stepCounts(settings.spp).front());
+}
+
+Explanation Renderer::explain(const Settings& settings, bool keepLayers) const
+{
+    validate(settings, isDistributed(settings, scene_));
+    HalfMemories memories { SampleMemory(nullptr), SampleMemory(nullptr) };
+    const std::unique_ptr<FrameGraph> frame = declareUnbacked(scene_, hierarchy_, settings, keepLayers, memories);
+    const graph::Plan plan(frame->graph(), device::partAlignment, mostSlabBytes());
+    return { graph::explain(plan), graph::drawing(plan) };
 }
 
 void Renderer::prepare(const Settings& settings, bool keepLayers)

@@ -70,6 +70,12 @@ struct FrameStatistics {
     double milliseconds(const std::string& pass) const;
 };
 
+/// A graph for people.
+struct Explanation {
+    std::string text; ///< see graph::explain()
+    std::string drawing; ///< SVG
+};
+
 struct ProgressiveStep;
 
 /// Renders frames of one scene on one device. Construction builds the hierarchy, the programs and the scene's buffers;
@@ -90,6 +96,9 @@ public:
     {
         return plan(scene_, hierarchy_, settings, keepLayers, mostSlabBytes());
     }
+
+    /// The passes of a frame, or of the first step of a progressive one, what they use, and the planes' memory.
+    Explanation explain(const Settings& settings, bool keepLayers = false) const;
 
     /// Renders; the result stays on the device until the next call. Throws Error if memory does not suffice or the
     /// device fails. keepLayers: for frames of which layers will be read. It fills termPlanes() for those of widths,
@@ -123,6 +132,9 @@ public:
 private:
     static std::unique_ptr<FrameGraph> declare(const scene::Scene& scene, const DeviceScene* deviceScene,
         const Settings& settings, std::size_t packet, const cl::Buffer& unused, bool keepLayers);
+    /// Of a frame that is only to be planned, or of the first step of a progressive one.
+    static std::unique_ptr<FrameGraph> declareUnbacked(const scene::Scene& scene, const Hierarchy& hierarchy,
+        const Settings& settings, bool keepLayers, HalfMemories& memories);
     std::uint64_t mostSlabBytes() const { return options_.checkLaunches ? 0 : device_.info().maxAllocation; }
     /// Tests the settings and whether memory suffices.
     void prepare(const Settings& settings, bool keepLayers);

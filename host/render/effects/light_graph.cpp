@@ -142,12 +142,13 @@ void LightGraph::samples(const char* pass, std::uint32_t from, std::uint32_t sli
 
 void LightGraph::widthsAndCounts()
 {
+    const auto lit = [this]() -> graph::Version { return sums_; };
     const bool spectrum = s_.sampling == Sampling::Adaptive && s_.counts == Counts::Spectrum;
     if (spectrum || s_.slopes == Slopes::Published) {
-        publishedWidths(f_, analysisParams(), extremes_, sums_, beta_, wanted_);
+        publishedWidths(f_, analysisParams(), extremes_, lit, beta_, wanted_);
     }
     if (s_.slopes == Slopes::Smoothed) {
-        smoothedWidths(f_, analysisParams(), extremes_, sums_, beta_);
+        smoothedWidths(f_, analysisParams(), extremes_, lit, beta_);
         narrowForLobes();
     }
     if (s_.sampling == Sampling::Uniform) {

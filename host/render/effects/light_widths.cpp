@@ -29,7 +29,7 @@ graph::Handle<Logarithms> spreadOver(FrameBuilder& frame, const shared::Analysis
 } // namespace
 
 void smoothedWidths(FrameBuilder& frame, const shared::AnalysisParams& params, const graph::Handle<Extremes>& slopes,
-    const graph::Version& lit, graph::Handle<Metres>& beta)
+    const std::function<graph::Version()>& lit, graph::Handle<Metres>& beta)
 {
     const graph::Argument p = frame.rectangle(params);
     const Surfaces& s = frame.surfaces;
@@ -44,11 +44,11 @@ void smoothedWidths(FrameBuilder& frame, const shared::AnalysisParams& params, c
     const auto spread = spreadOver(frame, params, 2, logs);
     frame.pixels("widths", PassKind::Analysis, { "analysis.cl", "widths" },
         { p, reads("logSlopes", logs), reads("spread", spread), reads("objectId", s.objectId),
-            reads("pixelSize", s.pixelSize), reads("lit", lit), writes("beta", beta) });
+            reads("pixelSize", s.pixelSize), reads("lit", lit()), writes("beta", beta) });
 }
 
 void publishedWidths(FrameBuilder& frame, const shared::AnalysisParams& params, const graph::Handle<Extremes>& slopes,
-    const graph::Version& lit, graph::Handle<Metres>& beta, graph::Handle<Count>& wanted)
+    const std::function<graph::Version()>& lit, graph::Handle<Metres>& beta, graph::Handle<Count>& wanted)
 {
     const graph::Argument p = frame.rectangle(params);
     const Surfaces& s = frame.surfaces;
@@ -60,7 +60,7 @@ void publishedWidths(FrameBuilder& frame, const shared::AnalysisParams& params, 
     const auto spread = spreadOver(frame, params, 4, distances);
     frame.pixels("widths", PassKind::Analysis, { "analysis.cl", "publishedWidths" },
         { p, reads("slopes", slopes), reads("distances", spread), reads("objectId", s.objectId),
-            reads("pixelSize", s.pixelSize), reads("lit", lit), writes("beta", beta), writes("wanted", wanted) });
+            reads("pixelSize", s.pixelSize), reads("lit", lit()), writes("beta", beta), writes("wanted", wanted) });
 }
 
 } // namespace wedge::render

@@ -3,16 +3,19 @@
 #include "host/render/frame_builder.h"
 #include "kernels/shared/filter_params.h"
 
+#include <functional>
+
 namespace wedge::render {
 
 /// Declares how the widths of a light's filter, metres, follow from slopes of occluders by default: the least one,
 /// eroded, smoothed and spread (kernels/analysis.cl).
-/// slopes: the least of each pixel, in the first plane; lit: above 0 where the light is seen, in the first plane
+/// slopes: the least of each pixel, in the first plane; lit(): above 0 where the light is seen, in the first plane,
+/// asked for when it is needed
 void smoothedWidths(FrameBuilder& frame, const shared::AnalysisParams& params, const graph::Handle<Extremes>& slopes,
-    const graph::Version& lit, graph::Handle<Metres>& beta);
+    const std::function<graph::Version()>& lit, graph::Handle<Metres>& beta);
 
 /// The same as published, and counts from the spectrum. slopes: least and largest
 void publishedWidths(FrameBuilder& frame, const shared::AnalysisParams& params, const graph::Handle<Extremes>& slopes,
-    const graph::Version& lit, graph::Handle<Metres>& beta, graph::Handle<Count>& wanted);
+    const std::function<graph::Version()>& lit, graph::Handle<Metres>& beta, graph::Handle<Count>& wanted);
 
 } // namespace wedge::render
