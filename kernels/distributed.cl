@@ -357,11 +357,3 @@ __kernel void addAll(DistributedParams p, __global const float* restrict emissio
     const uint n = p.planeSize;
     storeVec(beauty, n, i, vecAdd(vecAdd(loadVec(emission, n, i), loadVec(direct, n, i)), loadVec(indirect, n, i)));
 }
-
-__kernel void copyPlane(DistributedParams p, __global const float* restrict in, __global float* restrict out)
-{
-    uint x, y, i;
-    if (pixelOf(p, &x, &y, &i)) {
-        out[i] = in[i];
-    }
-}

@@ -220,6 +220,7 @@ private:
         }
         Pass pass = passOf("pass " + std::to_string(graph.passes().size()), std::move(uses));
         pass.everywhere = random_() % 8 == 0;
+        pass.constant = pass.arguments.size() == 1 && random_() % 2 == 0;
         graph.add(std::move(pass));
     }
 
@@ -301,6 +302,36 @@ TEST_CASE("where nothing may be shared, whatever needs memory has a piece of exa
         }
         CHECK(taken.size() == plan.slabs.size());
     }
+}
+
+TEST_CASE("what is constant is made right before it is used, and stays in its loop")
+{
+    Graph graph(width, height, 1024);
+    auto sum = graph.plane<Radiance>("sum", vectors), image = graph.plane<Radiance>("image", vectors);
+    const auto zeros = [&](Handle<Radiance>& handle) {
+        Pass pass = passOf("zeros", { writes("out", handle) });
+        pass.constant = true;
+        graph.add(std::move(pass));
+    };
+    zeros(sum);
+    zeros(image);
+    auto first = graph.plane<Metres>("first", floats);
+    add(graph, "trace", { writes("out", first) });
+    graph.loop("loop", once, [&] {
+        auto own = graph.plane<Radiance>("own", vectors);
+        zeros(own);
+        add(graph, "sample", { reads("first", first), updates("image", image) });
+        add(graph, "gather", { reads("in", image), updates("own", own) });
+        add(graph, "add", { reads("in", own), updates("sum", sum) });
+        zeros(image); // of the next iteration
+    });
+    graph.want(sum, { 0, 0, width, height });
+    const Plan plan(graph, alignment, noLimit);
+    CHECK(namesOf(plan) == Names { "trace", "zeros", "zeros", "sample", "zeros", "gather", "add", "zeros" });
+    CHECK(plan.lifetimes[sum.resource]->first == 2);
+    Pass reading = passOf("reading", { reads("in", first), writes("out", image) });
+    reading.constant = true;
+    CHECK(faultOf([&] { graph.add(reading); }) == "pass \"reading\" reads \"first\", though it is constant: it may write one resource, always");
 }
 
 TEST_CASE("what a body writes is what was there before where the body is left out")

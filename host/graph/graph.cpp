@@ -92,6 +92,9 @@ Resource& Graph::checkedUse(const Pass& pass, const Argument& use)
     }
     Resource& resource = resources_.at(version.resource);
     const std::string name = fmt::format("\"{}\"", resource.name);
+    if (pass.constant && (use.access != Access::Write || pass.arguments.size() != 1 || pass.condition)) {
+        refuse(name, "though it is constant: it may write one resource, always");
+    }
     if (!holds(resource.loop, pass.loop)) {
         refuse(name, "which is a loop's own, outside of it");
     }

@@ -50,10 +50,47 @@ public:
                 out.push_back({ &graph_.passes()[i], *windows_[i] });
             }
         }
+        for (std::size_t i = out.size(); i-- > 0;) {
+            if (out[i].pass->constant) {
+                delay(out, i);
+            }
+        }
         return out;
     }
 
 private:
+    /// Moves a pass to right before the first that uses what it makes, or before the loop that this one is in; it stays in
+    /// its own loop.
+    void delay(std::vector<PlannedPass>& passes, std::size_t at) const
+    {
+        const Pass& pass = *passes[at].pass;
+        const auto uses = [&](const Argument& use) { return use.isUse() && use.version.resource == made(pass); };
+        // The loop in this pass's own that another one is in, -1 for none.
+        const auto within = [&](int loop) {
+            int child = -1;
+            for (; loop != pass.loop; loop = graph_.loops()[static_cast<std::size_t>(loop)].parent) {
+                child = loop;
+            }
+            return child;
+        };
+        std::size_t to = at + 1;
+        const auto inside = [&] { return to < passes.size() && graph_.holds(pass.loop, passes[to].pass->loop); };
+        while (inside() && std::ranges::none_of(passes[to].pass->arguments, uses)) {
+            ++to;
+        }
+        if (inside()) {
+            const int child = within(passes[to].pass->loop);
+            while (child >= 0 && graph_.holds(child, passes[to - 1].pass->loop)) {
+                --to;
+            }
+        }
+        const auto position = [&](std::size_t i) { return passes.begin() + static_cast<std::ptrdiff_t>(i); };
+        std::rotate(position(at), position(at + 1), position(to));
+    }
+
+    /// The resource that a constant pass makes.
+    static std::uint32_t made(const Pass& pass) { return pass.arguments.front().version.resource; }
+
     void want(std::size_t resource, std::uint32_t version, const Window& window)
     {
         std::optional<Window>& known = wanted_[resource][version];

@@ -19,7 +19,8 @@ struct PlannedPass {
 /// What a graph becomes: which of its passes are run, over which pixels, and where their resources lie. Refers to the
 /// graph.
 struct Plan {
-    /// What the wanted versions need and nothing else, in the order of the graph. alignment and mostSlabBytes: as for
+    /// What the wanted versions need and nothing else, in the order of the graph, but for passes that are
+    /// constant. alignment and mostSlabBytes: as for
     /// place(), bytes.
     Plan(const Graph& graph, std::uint64_t alignment, std::uint64_t mostSlabBytes);
 

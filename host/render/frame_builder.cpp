@@ -129,7 +129,8 @@ void FrameBuilder::host(const char* name, graph::Argument use, const std::functi
         .kind = PassKind::Transfer,
         .arguments = { std::move(use) },
         .domain = graph::Domain::Host,
-        .step = step });
+        .step = step,
+        .constant = true });
 }
 
 } // namespace wedge::render

@@ -23,26 +23,22 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
     const bool lit = settings.integrator == Integrator::Path;
     primary(lit);
     for (std::uint32_t light = 0; lit && light < scene.areaLights.size(); ++light) {
-        term("light", keepLayers, [&](TermWidths& widths) { addAreaLight(f_, light, widths.state, widths.beta); });
+        TermWidths& term = startTerm();
+        addAreaLight(f_, light, term.state, term.beta);
     }
     if (lit && !(scene.pointLights.empty() && scene.directionalLights.empty())) {
         deltaLights();
     }
-    for (const IndirectTerm& component : indirectTerms(settings, f_.specular)) {
-        term("paths", keepLayers,
-            [&](TermWidths& widths) { addPaths(f_, component.component, widths.state, widths.beta); });
+    const bool fallsBack = usesFallback(settings);
+    if (fallsBack && lit && !scene.areaLights.empty()) {
+        fallBack(f_.totals.direct);
     }
-    if (usesFallback(settings)) {
-        graph_.only(
-            "fallback", [](const Run& run) { return !run.cut(); },
-            [&] {
-                if (lit && !scene.areaLights.empty()) {
-                    fallBack(f_.totals.direct);
-                }
-                if (tracesPaths(settings)) {
-                    fallBack(f_.totals.indirect);
-                }
-            });
+    for (const IndirectTerm& component : indirectTerms(settings, f_.specular)) {
+        TermWidths& term = startTerm();
+        addPaths(f_, component.component, term.state, term.beta);
+    }
+    if (fallsBack && tracesPaths(settings)) {
+        fallBack(f_.totals.indirect);
     }
     f_.blocks("composite", PassKind::Composite, { "composite.cl", "addEmission" },
         { f_.rectangle(f_.analysisParams()), reads("emission", f_.surfaces.emission),
@@ -106,55 +102,43 @@ void PixelFrame::primary(bool lit)
     }
 }
 
-template <class Declare>
-void PixelFrame::term(const std::string& name, bool keepWidths, const Declare& declare)
+FrameGraph::TermWidths& PixelFrame::startTerm()
 {
-    TermWidths widths { std::make_shared<TermState>(), {} };
-    const auto beta = [&] { widths.beta = graph_.plane<Metres>("filter width", graph::floats); };
-    if (keepWidths) {
-        beta();
-    }
-    f_.host("term", [state = widths.state](Run&) { *state = {}; });
-    graph_.only(
-        name, [](const Run& run) { return !run.cut(); },
-        [&] {
-            if (!keepWidths) {
-                beta();
-            }
-            declare(widths);
-        });
-    terms_.push_back(widths);
+    terms_.push_back({ std::make_shared<TermState>(), graph_.plane<Metres>("filter width", graph::floats) });
+    f_.host("term", [state = terms_.back().state](Run&) { *state = {}; });
+    return terms_.back();
 }
 
 void PixelFrame::deltaLights()
 {
     Totals& t = f_.totals;
-    graph_.only(
-        "point lights", [](const Run& run) { return !run.cut(); },
-        [&] {
-            f_.trace("point lights", { "delta_lights.cl", "deltaLights" },
-                joined({ f_.frame(), f_.ofScene("lights", "DeltaLight", &DeviceScene::deltaLights),
-                           value("lightCount", f_.scene != nullptr ? f_.scene->deltaLightCount : 0u),
-                           value("sceneDiameter", f_.scene != nullptr ? f_.scene->diameter : 0.0f) },
-                    f_.hierarchy(), f_.receivers(),
-                    Arguments { reads("diffuse", f_.surfaces.diffuse), reads("specular", f_.surfaces.specular),
-                        updates("direct", t.direct.filtered), updates("directNoisy", t.direct.noisy),
-                        tallies("rays", t.rays) }),
-                false, [](const graph::Launch&) { return 1.0; });
-        });
+    f_.trace("point lights", { "delta_lights.cl", "deltaLights" },
+        joined({ f_.frame(), f_.ofScene("lights", "DeltaLight", &DeviceScene::deltaLights),
+                   value("lightCount", f_.scene != nullptr ? f_.scene->deltaLightCount : 0u),
+                   value("sceneDiameter", f_.scene != nullptr ? f_.scene->diameter : 0.0f) },
+            f_.hierarchy(), f_.receivers(),
+            Arguments { reads("diffuse", f_.surfaces.diffuse), reads("specular", f_.surfaces.specular),
+                updates("direct", t.direct.filtered), updates("directNoisy", t.direct.noisy),
+                tallies("rays", t.rays) }),
+        false, [](const graph::Launch&) { return 1.0; });
 }
 
 void PixelFrame::fallBack(Sum& sum)
 {
     const graph::Argument p = f_.rectangle(f_.analysisParams());
     const graph::Reach near = around(WEDGE_SHRINK_REACH);
-    auto squares = graph_.plane<Share>("squares of what filters are off", graph::floatPlanes(2));
-    f_.blocks("fallback", PassKind::Filter, { "fallback.cl", "fallbackSquares" },
-        { p, reads("filtered", sum.filtered), reads("noisy", sum.noisy), reads("deviation", sum.deviation),
-            writes("squares", squares) });
-    f_.blocks("fallback", PassKind::Filter, { "fallback.cl", "fallBack" },
-        { p, reads("squares", squares, near), reads("objectId", f_.surfaces.objectId, near), reads("noisy", sum.noisy),
-            updates("filtered", sum.filtered) });
+    // What was stopped has not the counts that the parts of samples were made for.
+    graph_.only(
+        "fallback", [](const Run& run) { return !run.cut(); },
+        [&] {
+            auto squares = graph_.plane<Share>("squares of what filters are off", graph::floatPlanes(2));
+            f_.blocks("fallback", PassKind::Filter, { "fallback.cl", "fallbackSquares" },
+                { p, reads("filtered", sum.filtered), reads("noisy", sum.noisy), reads("deviation", sum.deviation),
+                    writes("squares", squares) });
+            f_.blocks("fallback", PassKind::Filter, { "fallback.cl", "fallBack" },
+                { p, reads("squares", squares, near), reads("objectId", f_.surfaces.objectId, near),
+                    reads("noisy", sum.noisy), updates("filtered", sum.filtered) });
+        });
 }
 
 } // namespace wedge::render

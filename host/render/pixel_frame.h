@@ -18,8 +18,7 @@ private:
     void primary(bool lit);
     void deltaLights();
     void fallBack(Sum& sum);
-    template <class Declare>
-    void term(const std::string& name, bool keepWidths, const Declare& declare);
+    TermWidths& startTerm();
 
     FrameBuilder f_;
 };
