@@ -331,7 +331,8 @@ TEST_CASE("what is constant is made right before it is used, and stays in its lo
     CHECK(plan.lifetimes[sum.resource]->first == 2);
     Pass reading = passOf("reading", { reads("in", first), writes("out", image) });
     reading.constant = true;
-    CHECK(faultOf([&] { graph.add(reading); }) == "pass \"reading\" reads \"first\", though it is constant: it may write one resource, always");
+    CHECK(faultOf([&] { graph.add(reading); })
+        == "pass \"reading\" reads \"first\", though it is constant: it may write one resource, always");
 }
 
 TEST_CASE("what a body writes is what was there before where the body is left out")

@@ -167,8 +167,8 @@ struct Pass {
     std::function<double(const Launch&)> workUnits = {}; ///< of the frame's progress: tiles
     std::function<void(Run&)> step = {}; ///< of the host
     bool everywhere = false; ///< covers the whole image whatever part of its results is wanted
-    /// Makes one resource and reads none: it is run right before the first pass that uses what it makes, so that memory is
-    /// not taken before.
+    /// Makes one resource and reads none: it is run right before the first pass that uses what it makes, so that memory
+    /// is not taken before.
     bool constant = false;
     bool always = false; ///< is run although nobody wants what it makes
     bool stoppable = false; ///< may end in the middle where the run is stopped; others, once begun, are finished

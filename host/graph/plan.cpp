@@ -59,8 +59,8 @@ public:
     }
 
 private:
-    /// Moves a pass to right before the first that uses what it makes, or before the loop that this one is in; it stays in
-    /// its own loop.
+    /// Moves a pass to right before the first that uses what it makes, or before the loop that this one is in; it stays
+    /// in its own loop.
     void delay(std::vector<PlannedPass>& passes, std::size_t at) const
     {
         const Pass& pass = *passes[at].pass;
