@@ -6,14 +6,15 @@
 
 namespace wedge::benchmark {
 
-std::uint64_t frameBytes(const scene::Scene& scene, const device::DeviceInfo& device, const render::Settings& settings)
+std::uint64_t frameBytes(const scene::Scene& scene, const device::DeviceInfo& device, const render::Settings& settings,
+    bool keepLayers)
 {
     const render::Options options;
     const render::Hierarchy hierarchy =
         render::buildHierarchy(scene, options.bvh, render::resolveTraversal(options.traversal, device));
     device::MemoryPlan ofScene;
     render::DeviceScene::plan(ofScene, scene, hierarchy);
-    return render::Renderer::plan(scene, hierarchy, settings).total() - ofScene.total();
+    return render::Renderer::plan(scene, hierarchy, settings, keepLayers).total() - ofScene.total();
 }
 
 } // namespace wedge::benchmark

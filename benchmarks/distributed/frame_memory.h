@@ -8,7 +8,9 @@
 
 namespace wedge::benchmark {
 
-/// Bytes of a frame's own buffers on a device, without the scene's and its hierarchy's.
-std::uint64_t frameBytes(const scene::Scene& scene, const device::DeviceInfo& device, const render::Settings& settings);
+/// Bytes of a frame's own buffers on a device, without the scene's and its hierarchy's. keepLayers: as
+/// Renderer::render() has it.
+std::uint64_t frameBytes(const scene::Scene& scene, const device::DeviceInfo& device, const render::Settings& settings,
+    bool keepLayers = false);
 
 } // namespace wedge::benchmark

@@ -1,0 +1,89 @@
+// frame_memory: device memory that frames take besides the scene, planned and not rendered; docs/benchmarks.md.
+#include "benchmarks/common/claims.h"
+#include "benchmarks/common/program.h"
+#include "benchmarks/common/scene_source.h"
+#include "benchmarks/distributed/frame_memory.h"
+#include "data/generator/cornell.h"
+#include "host/device/device.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace wedge;
+using namespace wedge::benchmark;
+
+struct Arguments {
+    int side = 1024;
+    std::string device, json, scene = "cornell_glossy";
+};
+
+struct Kind {
+    const char* name;
+    render::Settings settings;
+    bool layers = false;
+    double goal = 0; ///< MiB at 1024x1024; of direct light bytes a pixel
+};
+
+/// One bounce and the default method: through a pinhole, through a lens (or antialiased, which is the same), in steps,
+/// with all layers; and direct light alone in 3840x2160.
+std::vector<Kind> kindsOf(int side)
+{
+    render::Settings usual = render::axisAligned(28);
+    usual.width = usual.height = side;
+    usual.bounces = 1;
+    render::Settings lens = usual, progressive = usual, direct = usual;
+    lens.antialias = true;
+    progressive.progressive = true;
+    progressive.spp = 1024;
+    direct.width = 3840;
+    direct.height = 2160;
+    direct.bounces = 0;
+    return { { "pinhole", usual, false, 165 }, { "lens", lens, false, 150 }, { "progressive", progressive, false, 330 },
+        { "layers", lens, true, 400 }, { "direct_4k", direct, false, 150 } };
+}
+
+int measureAll(const Arguments& a)
+{
+    const device::Device device = device::Device::open(a.device);
+    const std::vector<SceneSource> known { generatedScene("cornell_glossy", generator::makeCornellGlossy) };
+    const scene::Scene scene = scene::loadScene(findScene(known, a.scene).file());
+    Json all = resultSkeleton("frame_memory", device.info());
+    fmt::print("{:<12} {:>11} {:>10} {:>14}\n", "frame", "pixels", "MiB", "bytes a pixel");
+    for (const Kind& kind : kindsOf(a.side)) {
+        const auto bytes = static_cast<double>(frameBytes(scene, device.info(), kind.settings, kind.layers));
+        const double pixels = static_cast<double>(kind.settings.width) * kind.settings.height;
+        const double mebibytes = bytes / (1 << 20);
+        fmt::print("{:<12} {:>5}x{:<5} {:>10.1f} {:>14.1f}\n", kind.name, kind.settings.width, kind.settings.height,
+            mebibytes, bytes / pixels);
+        ClaimList claims("frame_memory", kind.name);
+        const bool perPixel = kind.settings.bounces == 0;
+        const std::optional<double> goal = perPixel || a.side == 1024 ? std::optional(kind.goal) : std::nullopt;
+        claims.add("mebibytes", mebibytes, "MiB", {}, perPixel ? std::nullopt : goal);
+        claims.add("bytes_per_pixel", bytes / pixels, "B", {}, perPixel ? goal : std::nullopt);
+        for (const Claim& claim : claims.claims) {
+            all["claims"].push_back(json(claim));
+        }
+    }
+    if (!a.json.empty()) {
+        writeJson(a.json, all);
+    }
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    CLI::App parser("Measures the device memory of frames.", "frame_memory");
+    Arguments a;
+    parser.add_option("--scene", a.scene, "cornell_glossy, or a scene file with one area light");
+    parser.add_option("--size", a.side, "pixels a side (1024)")->check(CLI::Range(1, 32768));
+    parser.add_option("--device", a.device, "cpu, gpu, an index, or part of a name");
+    parser.add_option("--json", a.json, "where the results go");
+    return runProgram(parser, argc, argv, [&] { return measureAll(a); });
+}
