@@ -37,6 +37,11 @@ TEST_CASE("a frame that is explained is not rendered")
     CHECK(png.status == 2);
     CHECK(contains(png.err, "frame.png"));
     CHECK(place.run({ "render", box, "--explain", "none/frame.svg" }).status == 1);
+    for (const char* option : { "-o", "--report", "--reference" }) {
+        const Outcome both = place.run({ "render", box, "--explain", "frame.svg", option, "a.exr" });
+        CHECK(both.status == 2);
+        CHECK(contains(both.err, option));
+    }
 }
 
 TEST_CASE("the report has what scripts read")

@@ -6,8 +6,8 @@
 
 namespace wedge::benchmark {
 
-std::uint64_t frameBytes(const scene::Scene& scene, const device::DeviceInfo& device, const render::Settings& settings,
-    bool keepLayers)
+std::uint64_t frameBytes(
+    const scene::Scene& scene, const device::DeviceInfo& device, const render::Settings& settings, bool keepLayers)
 {
     const render::Options options;
     const render::Hierarchy hierarchy =

@@ -119,6 +119,13 @@ void RenderJob::checkCall() const
     if (options_.devices.size() > 1) {
         throw UsageError("several devices cannot render one image yet", options_.devices[1], "give one --device");
     }
+    const std::pair<const char*, bool> ofImages[] = { { "-o", !options_.outputs.empty() },
+        { "--report", !options_.report.empty() }, { "--reference", !options_.reference.empty() } };
+    for (const auto& [name, given] : ofImages) {
+        if (given && !options_.explain.empty()) {
+            throw UsageError("--explain renders nothing", name, "leave one of them out");
+        }
+    }
     const std::vector<Output>& outputs = images_.outputs();
     const bool anyExr = std::ranges::any_of(outputs, [](const Output& o) { return o.format == ImageFormat::Exr; });
     if (!options_.layers.empty() && !anyExr) {
