@@ -1,0 +1,39 @@
+// The benchmark of frames' memory, run as its users do but small.
+#include "tests/benchmark_testing.h"
+
+namespace wedge::app::test {
+namespace {
+
+TEST_CASE("memory of five kinds of frames, beside what it may be")
+{
+    const Workplace place;
+    const Outcome outcome = place.run({ "--size", "1024", "--json", "memory.json" });
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    const Json all = Json::parse(place.text("memory.json"));
+    CHECK(all["benchmark"] == "frame_memory");
+    const auto of = [&](const std::string& id) { return claim(all["claims"], "frame_memory." + id); };
+    for (const std::string kind : { "pinhole", "lens", "progressive", "layers" }) {
+        CAPTURE(kind);
+        CHECK(contains(outcome.out, kind));
+        const double mebibytes = of(kind + ".mebibytes")["value"];
+        CHECK(mebibytes == doctest::Approx(of(kind + ".bytes_per_pixel")["value"].get<double>()));
+        CHECK(of(kind + ".mebibytes")["goal"].is_number());
+    }
+    CHECK(of("direct_4k.bytes_per_pixel")["goal"] == 150);
+    // Goals that are reached, and what was reached where they are not.
+    CHECK(of("lens.mebibytes")["value"] < 150);
+    CHECK(of("layers.mebibytes")["value"] < 400);
+    CHECK(of("pinhole.mebibytes")["value"] < 225);
+    CHECK(of("progressive.mebibytes")["value"] < 760);
+    CHECK(of("direct_4k.bytes_per_pixel")["value"] < 168);
+}
+
+TEST_CASE("a wrong call says so")
+{
+    const Workplace place;
+    CHECK(place.run({ "--size", "0" }).status == 2);
+    CHECK(place.run({ "--scene", "none.toml" }).status == 2);
+}
+
+} // namespace
+} // namespace wedge::app::test
