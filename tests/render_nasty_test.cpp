@@ -117,6 +117,32 @@ TEST_CASE("no scene makes NaN, infinity or negative light, with any method")
     });
 }
 
+TEST_CASE("a tile of pixels whose demand is infinite wants no more than a wave has room for")
+{
+    // Squares of such radiances overflow, and means do not: of pixels that edges cut in two the variance is infinite.
+    onEveryDevice([](const device::Device& device) {
+        scene::Scene scene = smallScene();
+        scene.background = glm::vec3(3e19f);
+        render::Renderer renderer(scene, device, renderOptions());
+        for (const bool progressive : { false, true }) {
+            render::Settings settings = sized(render::axisAligned(16), 16, 16);
+            settings.antialias = true;
+            settings.bounces = 0;
+            std::uint64_t samples = 0;
+            if (progressive) {
+                settings.progressive = true;
+                settings.spp = 64;
+                samples = renderer.renderProgressively(settings, {}, {}).primaryRays;
+            } else {
+                samples = renderer.render(settings).primaryRays;
+            }
+            CAPTURE(samples);
+            CHECK(samples > 16 * 16 * 8);
+            CHECK(samples < 16 * 16 * 1024);
+        }
+    });
+}
+
 TEST_CASE("every combination of the ablations gives an image")
 {
     onEveryDevice([](const device::Device& device) {

@@ -213,7 +213,7 @@ void DistributedSamples::counts(const DistributedSamples& guide)
         float rays, least, room;
     };
     std::vector<Kind> kinds { { guide.demand_, counts_.taken, 1.0f, least,
-        static_cast<float>(WaveSchedule::capacity) } }; // limitTiles()
+        static_cast<float>(roomOfWaves(f_.layout, mostNew())) } }; // limitTiles()
     for (std::size_t i = 0; i < terms_.size(); ++i) {
         kinds.push_back({ guide.terms_[i]->means.demand, terms_[i]->means.taken, terms_[i]->rays, leastOfTerms,
             std::numeric_limits<float>::infinity() });

@@ -271,7 +271,7 @@ void DistributedSamples::adaptive(const DistributedSamples* guide)
             widths();
             counts(guide != nullptr ? *guide : *this);
         }
-        limitTiles(f_, counts_);
+        limitTiles(f_, counts_, roomOfWaves(f_.layout, mostNew()));
     });
     const double units = f_.settings.spp - static_cast<double>(std::max(before_.taken, first));
     sample(false, counts_, { .last = [](std::size_t) { return allSamples; }, .most = mostNew(), .workUnits = units });

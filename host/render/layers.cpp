@@ -274,7 +274,7 @@ std::vector<std::string> selectLayers(const std::string& list, const Settings& s
 image::LayeredImage readLayers(Renderer& renderer, const Settings& settings, const FrameStatistics& statistics,
     const std::vector<std::string>& layers)
 {
-    assert(layers.empty() || !renderer.frame().distributed || renderer.frame().keepsLayers);
+    assert(layers.empty() || renderer.frame().keepsLayers);
     image::LayeredImage image;
     image.width = settings.width;
     image.height = settings.height;

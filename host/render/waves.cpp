@@ -2,9 +2,11 @@
 
 #include "host/graph/execution.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+#include <stdexcept>
 
 namespace wedge::render {
 
@@ -29,16 +31,15 @@ std::size_t mostTiles(const PlaneLayout& layout)
     return across * ((layout.height + WEDGE_TILE - 1) / WEDGE_TILE);
 }
 
-/// Receivers of a wave at most, where pixels have `most` new samples.
-std::uint32_t roomOf(const PlaneLayout& layout, double most)
+std::uint32_t tilesOf(std::uint32_t receivers) { return (receivers + receiversOfTile - 1) / receiversOfTile; }
+
+} // namespace
+
+std::uint32_t roomOfWaves(const PlaneLayout& layout, double most)
 {
     const double all = std::ceil(most) * WEDGE_TILE_PIXELS * static_cast<double>(mostTiles(layout));
     return static_cast<std::uint32_t>(std::min<double>(WaveSchedule::capacity, all));
 }
-
-std::uint32_t tilesOf(std::uint32_t receivers) { return (receivers + receiversOfTile - 1) / receiversOfTile; }
-
-} // namespace
 
 WaveSchedule::WaveSchedule(
     const std::vector<std::uint32_t>& counts, const shared::WaveParams& settings, std::uint32_t room)
@@ -46,7 +47,9 @@ WaveSchedule::WaveSchedule(
 {
     const std::uint32_t tilesOfWave = room / WEDGE_TILE_PIXELS;
     for (std::uint32_t tile = 0; tile < counts.size(); ++tile) {
-        assert(counts[tile] <= room);
+        if (counts[tile] > room) { // memory is at stake
+            throw std::logic_error(fmt::format("a tile has {} receivers, and waves room for {}", counts[tile], room));
+        }
         const bool fits =
             !waves.empty() && waves.back().tiles < tilesOfWave && waves.back().receivers + counts[tile] <= room;
         if (!fits) {
@@ -72,7 +75,7 @@ Waves::Waves(FrameBuilder& frame, const shared::WaveParams& settings, const shar
     , camera_(camera)
     , counts_(counts)
     , sampling_(std::move(sampling))
-    , room_(roomOf(frame.layout, sampling_.most))
+    , room_(roomOfWaves(frame.layout, sampling_.most))
     , state_(std::make_shared<State>())
 {
     // Passes over blocks may read a little more.
@@ -275,13 +278,13 @@ std::uint32_t waveSampler(const Settings& settings)
     return static_cast<std::uint32_t>(counts || settings.progressive ? Sampler::Sobol : settings.sampler);
 }
 
-void limitTiles(FrameBuilder& frame, PrimaryCounts& counts)
+void limitTiles(FrameBuilder& frame, PrimaryCounts& counts, std::uint32_t room)
 {
     const auto tiles = static_cast<std::size_t>(frame.wholeFrame().tileCount);
     frame.graph.add({ .name = "counts",
         .kind = PassKind::Analysis,
         .kernel = { "waves.cl", "limitTiles" },
-        .arguments = { frame.frame(), value("capacity", WaveSchedule::capacity), reads("taken", counts.taken),
+        .arguments = { frame.frame(), value("capacity", room), reads("taken", counts.taken),
             updates("wanted", counts.wanted) },
         .domain = graph::Domain::Items,
         .count = [tiles](const Launch&) { return tiles; },

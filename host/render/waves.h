@@ -144,7 +144,11 @@ private:
 /// frames with counts of their own a pixel, and progressive ones, take a sequence in their place.
 std::uint32_t waveSampler(const Settings& settings);
 
-/// Declares that no tile's pixels together want more new samples than a wave has room for.
-void limitTiles(FrameBuilder& frame, PrimaryCounts& counts);
+/// Receivers of a wave at most, where pixels have `most` new samples in the mean over tiles: of small images fewer than
+/// WaveSchedule::capacity.
+std::uint32_t roomOfWaves(const PlaneLayout& layout, double most);
+
+/// Declares that no tile's pixels together want more new samples than a wave has room for, whatever they demand.
+void limitTiles(FrameBuilder& frame, PrimaryCounts& counts, std::uint32_t room);
 
 } // namespace wedge::render
