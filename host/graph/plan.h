@@ -24,7 +24,7 @@ struct Plan {
     /// place(), bytes.
     Plan(const Graph& graph, std::uint64_t alignment, std::uint64_t mostSlabBytes);
 
-    /// Adds the memory, a line a resource's share at its highest; the sum is what is allocated.
+    /// Adds the memory, a line a piece; the sum is what is allocated.
     void addTo(device::MemoryPlan& memory) const;
 
     const Graph& graph;
