@@ -134,13 +134,17 @@ __kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light
 }
 
 /// One term of indirect light.
-/// in      reflectance: 3 planes; value, noisy: 3 planes each, filtered and not, and after the latter 3 of the first of
-///         two parts of the samples, in frames with a first pass of so many; taken: the samples of value
+/// in      reflectance: 3 planes; value, noisy: 3 planes each, filtered and not, and, where they vary, the variance of
+/// a
+///         pixel's samples; deviations: whose square it is, in luminance over that of the reflectance
+///         taken: the samples of value
 ///         component: WEDGE_COMPONENT_*; of ambient occlusion the open part of the hemisphere is shown, on white
-/// in out  indirect, indirectNoisy (3 planes each), deviation (as of lights), samples (of all terms), indirectSamples
-__kernel void addIndirect(AnalysisParams p, uint component, uint firstPass, __global const float* restrict reflectance,
-    __global const float* restrict value, __global const float* restrict noisy, __global const uint* restrict taken,
-    __global float* restrict indirect, __global float* restrict indirectNoisy, __global float* restrict deviation,
+/// in out  indirect, indirectNoisy (3 planes each), deviation (as of lights), variance (gathered as value is), samples
+///         (of all terms), indirectSamples
+__kernel void addIndirect(AnalysisParams p, uint component, uint varies, __global const float* restrict reflectance,
+    __global const float* restrict value, __global const float* restrict noisy,
+    __global const float* restrict deviations, __global const uint* restrict taken, __global float* restrict indirect,
+    __global float* restrict indirectNoisy, __global float* restrict deviation, __global float* restrict variance,
     __global uint* restrict samples, __global uint* restrict indirectSamples)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
@@ -154,8 +158,6 @@ __kernel void addIndirect(AnalysisParams p, uint component, uint firstPass, __gl
     vstore16(loadIdBlock(samples, i) + count, 0, samples + i);
     vstore16(loadIdBlock(indirectSamples, i) + count, 0, indirectSamples + i);
     const bool ambient = component == WEDGE_COMPONENT_AMBIENT;
-    const float luminances[3] = { 0.2126f, 0.7152f, 0.0722f };
-    float16 off = (float16)(0.0f);
     for (uint plane = 0u; plane < 3u; ++plane) {
         const int j = i + (int)(plane * p.planeSize);
         const float16 filtered = loadBlock(value, j);
@@ -165,13 +167,13 @@ __kernel void addIndirect(AnalysisParams p, uint component, uint firstPass, __gl
         const float16 shownNoisy = has ? k * (ambient ? 1.0f - unfiltered : unfiltered) : (float16)(0.0f);
         vstore16(loadBlock(indirect, j) + shown, 0, indirect + j);
         vstore16(loadBlock(indirectNoisy, j) + shownNoisy, 0, indirectNoisy + j);
-        if (firstPass > 0u) {
-            const float16 ofPart = loadBlock(noisy + 3u * p.planeSize, j);
-            off += has ? luminances[plane] * k * deviation16(unfiltered, ofPart, count, firstPass) : (float16)(0.0f);
-        }
     }
-    if (firstPass > 0u) {
-        vstore16(loadBlock(deviation, i) + off, 0, deviation + i);
+    if (varies != 0u) {
+        const Vec3x16 white = splat3(vec3(1.0f, 1.0f, 1.0f));
+        const float16 k = luminance16(ambient ? white : loadVecBlock(reflectance, p.planeSize, i));
+        const float16 gathered = k * k * loadBlock(value + 3u * p.planeSize, i);
+        vstore16(loadBlock(deviation, i) + (has ? k * loadBlock(deviations, i) : (float16)(0.0f)), 0, deviation + i);
+        vstore16(loadBlock(variance, i) + (has ? gathered : (float16)(0.0f)), 0, variance + i);
     }
 }
 

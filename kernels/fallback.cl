@@ -8,16 +8,24 @@
 // (shrink.h): where u and f differ by no more than noise does it is f, where the filter is off by more it is u, and
 // whatever f is, its error is no larger than u's (c up to 2, many pixels). As samples become more V goes to 0 and with
 // it what f is off by.
+//
+// Where light comes from something small that few paths meet, pixels that all missed it seem to have no noise, and f
+// differs from them by what it brings from those that did not. Did each fall back to its own samples while what the
+// others found is spread, pictures would become too dark. So V is what the filter makes of the variances of the pixels
+// that it gathers, as those of f's pixels are alike if f is right, where that is more.
 #include "shrink.h"
 
 /// c: an error of f of up to c - 1 times the noise's variance counts as none. 1 would be best were V and D known; but
 /// they are estimates, and what is taken for bias by mistake brings noise back.
 #define WEDGE_FALLBACK_NOISE 2.0f
 
-/// What is averaged. in: filtered, noisy (3 planes each), deviation (composite.cl); out squares (planes: (u - f)^2 and
-/// the deviation's, of luminances)
-__kernel void fallbackSquares(AnalysisParams p, __global const float* restrict filtered,
-    __global const float* restrict noisy, __global const float* restrict deviation, __global float* restrict squares)
+/// What is averaged.
+/// in   filtered, noisy: 3 planes each; deviation: of noisy's luminance (composite.cl); variance: gathered as filtered
+///      was, where `gathered`
+/// out  squares: planes of (u - f)^2 and of the deviation's, of luminances, and, where `gathered`, of that variance
+__kernel void fallbackSquares(AnalysisParams p, uint gathered, __global const float* restrict filtered,
+    __global const float* restrict noisy, __global const float* restrict deviation,
+    __global const float* restrict variance, __global float* restrict squares)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -29,11 +37,14 @@ __kernel void fallbackSquares(AnalysisParams p, __global const float* restrict f
     const float16 v = loadBlock(deviation, i);
     vstore16(d * d, 0, squares + i);
     vstore16(v * v, 0, squares + p.planeSize + i);
+    if (gathered != 0u) {
+        vstore16(loadBlock(variance, i), 0, squares + 2u * p.planeSize + i);
+    }
 }
 
 /// in out  filtered
-__kernel void fallBack(AnalysisParams p, __global const float* restrict squares, __global const uint* restrict objectId,
-    __global const float* restrict noisy, __global float* restrict filtered)
+__kernel void fallBack(AnalysisParams p, uint gathered, __global const float* restrict squares,
+    __global const uint* restrict objectId, __global const float* restrict noisy, __global float* restrict filtered)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -46,8 +57,12 @@ __kernel void fallBack(AnalysisParams p, __global const float* restrict squares,
         return;
     }
     const SquaresAround around = squaresAround(p, y, i, objectId, squares, squares + p.planeSize);
+    float16 variance = around.variance;
+    if (gathered != 0u) {
+        variance = max16(variance, squaresAround(p, y, i, objectId, squares, squares + 2u * p.planeSize).variance);
+    }
     const float16 least = max16(around.difference, (float16)(1e-37f));
-    const float16 own = max16(1.0f - WEDGE_FALLBACK_NOISE * around.variance / least, (float16)(0.0f));
+    const float16 own = max16(1.0f - WEDGE_FALLBACK_NOISE * variance / least, (float16)(0.0f));
     const Vec3x16 f = loadVecBlock(filtered, p.planeSize, i), u = loadVecBlock(noisy, p.planeSize, i);
     const float16 share = differs ? own : (float16)(0.0f);
     // Where nothing is shared what the other holds is not looked at.

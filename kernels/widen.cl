@@ -134,10 +134,11 @@ __kernel void oneOfLight(AnalysisParams p, uint firstPass, __global const float*
 }
 
 /// The same of indirect light: the irradiance that is reflected.
-/// in   reflectance: 3 planes; value: 3 planes, and 3 of the first part; component: WEDGE_COMPONENT_*; of ambient
-///      occlusion all is reflected
+/// in       reflectance: 3 planes; component: WEDGE_COMPONENT_*; of ambient occlusion all is reflected
+/// in out   value: 3 planes, and 3 of the first part, in the place of whose first comes the square of the deviation: a
+///          fourth plane for filters (fallback.cl)
 __kernel void oneOfPaths(AnalysisParams p, uint component, uint firstPass, __global const float* restrict reflectance,
-    __global const float* restrict value, __global const uint* restrict taken, __global float* restrict irradiance,
+    __global float* restrict value, __global const uint* restrict taken, __global float* restrict irradiance,
     __global float* restrict deviation, __global float* restrict weights)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
@@ -152,6 +153,8 @@ __kernel void oneOfPaths(AnalysisParams p, uint component, uint firstPass, __glo
     const Vec3x16 all = loadVecBlock(value, size, i), part = loadVecBlock(value + 3u * size, size, i);
     storeOne(luminance16(k), luminance16(mul16(k, all)), luminance16(mul16(k, part)), loadIdBlock(taken, i), firstPass,
         i, irradiance, deviation, weights);
+    const float16 d = loadBlock(deviation, i);
+    vstore16(d * d, 0, value + 3u * size + i);
 }
 
 /// What is averaged, both of what is shown and not of irradiances, which may be noisy where there is little of them to

@@ -232,7 +232,7 @@ inline OracleResult gatherLine(const FilterImage& image, const OracleResult& in,
             const int radius =
                 static_cast<int>(std::clamp(std::ceil(exactRadius), 1.0, static_cast<double>(p.maxRadius)));
             bool doubt = false;
-            double weights = 0, squares = 0, sums[3] = { 0, 0, 0 };
+            double weights = 0, squares = 0, sums[4] = { 0, 0, 0, 0 };
             for (int k = -radius - 1; k <= radius + 1; ++k) {
                 const int qx = x + k * dx, qy = y + k * dy;
                 if (qx < 0 || qy < 0 || qx >= width || qy >= height)

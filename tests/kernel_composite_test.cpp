@@ -299,32 +299,35 @@ TEST_CASE("addIndirect: terms times reflectance add up, with their samples; ambi
         for (const auto& [width, height] : { std::pair(1, 1), { 37, 5 } }) {
             Receivers in(width, height, 8);
             const Receivers other(width, height, 9);
-            Planes<float> value(in.layout(), 3, 0.0f), noisy(in.layout(), 6, 0.0f);
+            Planes<float> value(in.layout(), 4, 0.0f), noisy(in.layout(), 3, 0.0f), deviations(in.layout(), 1, 0.0f);
             in.everyPixel([&](int x, int y) {
                 for (std::size_t c = 0; c < 3; ++c) {
                     // What was never sampled holds anything.
                     const bool sampled = in.taken.at(x, y) > 0;
                     value.at(x, y, c) = sampled ? other.diffuse.at(x, y, c) : std::nanf("");
                     noisy.at(x, y, c) = sampled ? other.specular.at(x, y, c) : std::nanf("");
-                    noisy.at(x, y, c + 3) = sampled ? other.diffuse.at(x, y, 2 - c) : std::nanf("");
+                    value.at(x, y, 3) = sampled ? other.diffuse.at(x, y, 2) : std::nanf("");
+                    deviations.at(x, y) = sampled ? other.specular.at(x, y, 1) - 0.5f : std::nanf("");
                 }
             });
             const auto indirect = bench.filled(3 * in.layout().size, 0.5f),
                        indirectNoisy = bench.filled(3 * in.layout().size, 0.25f);
             const auto samples = bench.filled(in.layout().size, 7u),
                        indirectSamples = bench.filled(in.layout().size, 0u);
-            const auto deviation = bench.filled(in.layout().size, 0.125f);
+            const auto deviation = bench.filled(in.layout().size, 0.125f),
+                       variance = bench.filled(in.layout().size, 0.25f);
             const auto add = [&](std::uint32_t component, const Planes<float>& reflectance) {
                 bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addIndirect", in.params,
-                    WEDGE_BLOCK_PIXELS, component, 9u, bench.buffer(reflectance.values), bench.buffer(value.values),
-                    bench.buffer(noisy.values), bench.buffer(in.taken.values), indirect, indirectNoisy, deviation,
-                    samples, indirectSamples);
+                    WEDGE_BLOCK_PIXELS, component, 1u, bench.buffer(reflectance.values), bench.buffer(value.values),
+                    bench.buffer(noisy.values), bench.buffer(deviations.values), bench.buffer(in.taken.values),
+                    indirect, indirectNoisy, deviation, variance, samples, indirectSamples);
             };
             // After each term, what the terms so far multiply value by, and add.
             const auto check = [&](const auto& expected, unsigned terms) {
                 const Planes<float> found = planesOf(in.layout(), bench.read(indirect));
                 const Planes<float> foundNoisy = planesOf(in.layout(), bench.read(indirectNoisy));
                 const Planes<float> foundDeviation = planesOf(in.layout(), bench.read(deviation));
+                const Planes<float> foundVariance = planesOf(in.layout(), bench.read(variance));
                 const auto all = planesOf(in.layout(), bench.read(samples));
                 const auto ofPaths = planesOf(in.layout(), bench.read(indirectSamples));
                 in.everyPixel([&](int x, int y) {
@@ -332,14 +335,17 @@ TEST_CASE("addIndirect: terms times reflectance add up, with their samples; ambi
                     REQUIRE(all.at(x, y) == 7 + terms * in.taken.at(x, y));
                     // What is open falls by as much as what is occluded rises: the deviation of a term in k has no
                     // sign.
-                    double off = 0;
-                    for (std::size_t c = 0; c < 3 && in.taken.at(x, y) > 0; ++c) {
-                        const double k =
-                            in.diffuse.at(x, y, c) + (terms > 1 ? in.specular.at(x, y, c) : 0) + (terms > 2 ? 1 : 0);
-                        off += deviationOf(noisy.at(x, y, c), noisy.at(x, y, c + 3), in.taken.at(x, y),
-                            k * std::array { 0.2126, 0.7152, 0.0722 }[c]);
+                    double off = 0, varies = 0;
+                    for (unsigned term = 0; term < terms && in.taken.at(x, y) > 0; ++term) {
+                        double k = term > 1 ? 1 : 0;
+                        for (std::size_t c = 0; c < 3 && term < 2; ++c)
+                            k += std::array { 0.2126, 0.7152, 0.0722 }[c]
+                                * (term == 0 ? in.diffuse : in.specular).at(x, y, c);
+                        off += k * deviations.at(x, y);
+                        varies += k * k * value.at(x, y, 3);
                     }
                     REQUIRE(std::fabs(foundDeviation.at(x, y) - 0.125 - off) < 2e-6);
+                    REQUIRE(std::fabs(foundVariance.at(x, y) - 0.25 - varies) < 2e-6);
                     for (std::size_t c = 0; c < 3; ++c) {
                         const bool has = in.taken.at(x, y) > 0;
                         const double sum = has ? expected(x, y, c, value.at(x, y, c)) : 0.0;

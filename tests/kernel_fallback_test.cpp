@@ -8,7 +8,7 @@ using namespace wedge::test;
 namespace {
 
 struct Images {
-    Planes<float> filtered, noisy, deviation;
+    Planes<float> filtered, noisy, deviation, variance; ///< no variance: none was gathered
     Planes<std::uint32_t> objectId;
 
     /// Pixels of two objects and none; filters are off by `bias`, samples by noise of deviation `noise`.
@@ -16,6 +16,7 @@ struct Images {
         : filtered(layout, 3, 0.0f)
         , noisy(layout, 3, 0.0f)
         , deviation(layout, 1, 0.0f)
+        , variance(layout, 1, 0.0f)
         , objectId(layout, 1, 0u)
     {
         std::normal_distribution<double> gauss;
@@ -26,6 +27,7 @@ struct Images {
                 filtered.setVector(x, y, glm::dvec3(1 + bias));
                 noisy.setVector(x, y, glm::dvec3(1 + off));
                 deviation.at(x, y) = static_cast<float>(noise * gauss(random));
+                variance.at(x, y) = static_cast<float>(noise * noise * uniform(random, 0, 3));
                 if (objectId.at(x, y) == 0)
                     filtered.setVector(x, y, glm::dvec3(std::nan("")));
             }
@@ -42,14 +44,17 @@ shared::AnalysisParams paramsOf(const render::PlaneLayout& layout)
     return p;
 }
 
-Planes<float> fallBack(KernelBench& bench, const shared::AnalysisParams& p, const Images& in)
+/// Squares of the whole image, and what is shown of the rectangle; gathered: whether variances are, too.
+Planes<float> fallBack(KernelBench& bench, const shared::AnalysisParams& rectangle, const Images& in, bool gathered)
 {
     const auto filtered = bench.buffer(in.filtered.values), noisy = bench.buffer(in.noisy.values);
-    const auto squares = bench.filled(2 * in.filtered.layout.size, 0.0f);
-    bench.passes.rows("fallback", device::PassKind::Filter, "fallback.cl", "fallbackSquares", p, WEDGE_BLOCK_PIXELS,
-        filtered, noisy, bench.buffer(in.deviation.values), squares);
-    bench.passes.rows("fallback", device::PassKind::Filter, "fallback.cl", "fallBack", p, WEDGE_BLOCK_PIXELS, squares,
-        bench.buffer(in.objectId.values), noisy, filtered);
+    const auto squares = bench.filled((gathered ? 3 : 2) * in.filtered.layout.size, 0.0f);
+    const std::uint32_t flag = gathered ? 1 : 0;
+    bench.passes.rows("fallback", device::PassKind::Filter, "fallback.cl", "fallbackSquares",
+        paramsOf(in.filtered.layout), WEDGE_BLOCK_PIXELS, flag, filtered, noisy, bench.buffer(in.deviation.values),
+        bench.buffer(in.variance.values), squares);
+    bench.passes.rows("fallback", device::PassKind::Filter, "fallback.cl", "fallBack", rectangle, WEDGE_BLOCK_PIXELS,
+        flag, squares, bench.buffer(in.objectId.values), noisy, filtered);
     return planesOf(in.filtered.layout, bench.read(filtered));
 }
 
@@ -61,25 +66,29 @@ TEST_CASE("fallback: shrinks samples towards what is filtered by the noise and d
 {
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);
-        for (const auto& [width, height] : { std::pair(1, 1), { 1, 9 }, { 41, 23 } })
+        for (const auto& [width, height, gathered] :
+            { std::tuple(1, 1, false), { 1, 9, false }, { 41, 23, false }, { 41, 23, true } })
             for (const auto& [bias, noise] :
                 { std::pair(0.0, 0.1), { 0.1, 0.1 }, { 0.3, 0.1 }, { 0.2, 0.0 }, { 0.0, 0.0 } }) {
                 const render::PlaneLayout layout(width, height);
                 std::mt19937 random(7);
                 const Images in(layout, random, bias, noise);
-                const Planes<float> found = fallBack(bench, paramsOf(layout), in);
+                const Planes<float> found = fallBack(bench, paramsOf(layout), in, gathered);
                 int kept = 0, replaced = 0, between = 0;
                 for (int y = 0; y < height; ++y)
                     for (int x = 0; x < width; ++x) {
                         if (in.objectId.at(x, y) == 0)
                             continue;
-                        double variance = 0, difference = 0;
+                        double variance = 0, difference = 0, around = 0;
                         for (int py = std::max(0, y - 3); py <= std::min(height - 1, y + 3); ++py)
                             for (int px = std::max(0, x - 3); px <= std::min(width - 1, x + 3); ++px)
                                 if (in.objectId.at(px, py) == in.objectId.at(x, y)) {
                                     variance += squared(in.deviation.at(px, py));
+                                    around += in.variance.at(px, py);
                                     difference += squared(in.noisy.at(px, py) - in.filtered.at(px, py));
                                 }
+                        if (gathered)
+                            variance = std::max(variance, around);
                         const double share = difference > 0 ? std::max(0.0, 1 - 2 * variance / difference) : 0;
                         const double f = in.filtered.at(x, y), u = in.noisy.at(x, y);
                         for (std::size_t c = 0; c < 3; ++c)
@@ -108,20 +117,13 @@ TEST_CASE("fallback: pixels of a rectangle are those of the whole image")
         const render::PlaneLayout layout(53, 31);
         std::mt19937 random(9);
         const Images in(layout, random, 0.2, 0.1);
-        const Planes<float> whole = fallBack(bench, paramsOf(layout), in);
-        // Squares of the pixels around are of the whole image, too.
+        const Planes<float> whole = fallBack(bench, paramsOf(layout), in, true);
         shared::AnalysisParams p = paramsOf(layout);
-        const auto filtered = bench.buffer(in.filtered.values), noisy = bench.buffer(in.noisy.values);
-        const auto squares = bench.filled(2 * layout.size, 0.0f);
-        bench.passes.rows("fallback", device::PassKind::Filter, "fallback.cl", "fallbackSquares", p, WEDGE_BLOCK_PIXELS,
-            filtered, noisy, bench.buffer(in.deviation.values), squares);
         p.x0 = 16;
         p.x1 = 32;
         p.y0 = 7;
         p.y1 = 19;
-        bench.passes.rows("fallback", device::PassKind::Filter, "fallback.cl", "fallBack", p, WEDGE_BLOCK_PIXELS,
-            squares, bench.buffer(in.objectId.values), noisy, filtered);
-        const Planes<float> found = planesOf(layout, bench.read(filtered));
+        const Planes<float> found = fallBack(bench, p, in, true);
         for (int y = 0; y < 31; ++y)
             for (int x = 0; x < 53; ++x) {
                 const bool inside = x >= 16 && x < 32 && y >= 7 && y < 19;

@@ -1,4 +1,5 @@
-// filter_indirect.cl and filter_variance.cl alone: the gather over plain distances, of three planes and of one.
+// filter_indirect.cl, filter_paths.cl and filter_variance.cl alone: the gather over plain distances, of three planes,
+// four and one.
 #include "kernels/shared/packed.h"
 #include "tests/filter_run.h"
 
@@ -15,12 +16,14 @@ const float notANumber = std::numeric_limits<float>::quiet_NaN();
 struct Program {
     std::string file;
     int planes;
+    bool packs = true; ///< has a variant for packed frames
 };
-const Program programs[] = { { "filter_indirect.cl", 3 }, { "filter_variance.cl", 1 } };
+const Program programs[] = { { "filter_indirect.cl", 3 }, { "filter_paths.cl", 4, false },
+    { "filter_variance.cl", 1 } };
 
-/// Calls test(filter, planes) for either program on every device.
+/// Calls test(filter, planes) for each program on every device.
 template <class Test>
-void withEither(const Test& test)
+void withEach(const Test& test)
 {
     onEveryDevice([&](const device::Device& device) {
         for (const Program& program : programs) {
@@ -92,7 +95,7 @@ FilterImage smoothImage(int width, int height, unsigned seed)
 
 TEST_CASE("without a light: degenerate sizes gather what the definition in double gathers")
 {
-    withEither([](FilterRun& filter, int planes) {
+    withEach([](FilterRun& filter, int planes) {
         for (const auto& [width, height] : { std::pair(1, 1), { 1, 23 }, { 23, 1 }, { 17, 2 } }) {
             CAPTURE(width);
             CAPTURE(height);
@@ -106,7 +109,7 @@ TEST_CASE("without a light: degenerate sizes gather what the definition in doubl
 
 TEST_CASE("without a light: both passes gather over plain distances, all planes with the same weights")
 {
-    withEither([](FilterRun& filter, int planes) {
+    withEach([](FilterRun& filter, int planes) {
         double uncertain = 0;
         unsigned runs = 0, seed = 30;
         for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough })
@@ -126,7 +129,7 @@ TEST_CASE("without a light: both passes gather over plain distances, all planes 
 
 TEST_CASE("without a light: a constant field comes out unchanged to rounding")
 {
-    withEither([](FilterRun& filter, int planes) {
+    withEach([](FilterRun& filter, int planes) {
         for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough }) {
             FilterImage image = unlit(50, 33, shape, 77, planes);
             everyPixel(image, [&](int x, int y) {
@@ -147,7 +150,7 @@ TEST_CASE("without a light: a constant field comes out unchanged to rounding")
 
 TEST_CASE("without a light: NaN of another object, of another normal or of a pixel without a term does not spread")
 {
-    withEither([](FilterRun& filter, int planes) {
+    withEach([](FilterRun& filter, int planes) {
         FilterImage image = unlit(40, 24, Shape::Flat, 19, planes);
         std::vector<std::pair<int, int>> bad;
         std::mt19937 random(2);
@@ -226,6 +229,8 @@ TEST_CASE("packed programs: what the others make of the same normals, without co
 {
     onEveryDevice([](const device::Device& device) {
         for (const Program& program : programs) {
+            if (!program.packs)
+                continue;
             CAPTURE(program.file);
             FilterRun filter(device, {}, program.file), packedFilter(device, {}, "packed_" + program.file);
             const bool counts = program.planes == 1;

@@ -413,9 +413,10 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
                         sum += reflected(x, y, c) * value.at(x, y, part * channels + c);
                     return sum;
                 });
+            const auto paths = bench.buffer(value.values);
             bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "oneOfPaths", paramsOf(layout),
-                WEDGE_BLOCK_PIXELS, WEDGE_COMPONENT_DIFFUSE, WEDGE_INDIRECT_FIRST_RAYS, bench.buffer(kd.values),
-                bench.buffer(value.values), bench.buffer(taken.values), seen, deviation, weights);
+                WEDGE_BLOCK_PIXELS, WEDGE_COMPONENT_DIFFUSE, WEDGE_INDIRECT_FIRST_RAYS, bench.buffer(kd.values), paths,
+                bench.buffer(taken.values), seen, deviation, weights);
             constexpr double luminances[] = { 0.2126, 0.7152, 0.0722 };
             check(
                 WEDGE_INDIRECT_FIRST_RAYS,
@@ -431,6 +432,15 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
                         sum += luminances[c] * kd.at(x, y, c) * value.at(x, y, 3 * part + c);
                     return sum;
                 });
+            // Of the samples' two parts the first plane of the first becomes the variance; what is read else stays.
+            const Planes<float> after = planesOf(layout, bench.read(paths)),
+                                ofPaths = planesOf(layout, bench.read(deviation));
+            for (int y = 0; y < static_cast<int>(layout.height); ++y)
+                for (int x = 0; x < static_cast<int>(layout.width); ++x) {
+                    REQUIRE(after.at(x, y, 3) == ofPaths.at(x, y) * ofPaths.at(x, y));
+                    for (std::size_t c = 0; c < 3; ++c)
+                        REQUIRE(after.at(x, y, c) == value.at(x, y, c));
+                }
         }
     });
 }

@@ -62,6 +62,7 @@ struct Surfaces {
 struct Sum {
     graph::Handle<Radiance> filtered, noisy;
     graph::Handle<Deviation> deviation;
+    graph::Handle<Value> variance; ///< gathered; of indirect light alone
 };
 struct Totals {
     Sum direct, indirect;

@@ -77,6 +77,8 @@ void PixelFrame::primary(bool lit)
         sum->deviation = graph_.plane<Deviation>(name + " deviation", graph::floats);
         f_.zero(sum->filtered, sum->noisy, sum->deviation);
     }
+    t.indirect.variance = graph_.plane<Value>("indirect variance", graph::floats);
+    f_.zero(t.indirect.variance);
     t.samples = graph_.plane<Count>("samples", graph::counts);
     t.indirectSamples = graph_.plane<Count>("indirect samples", graph::counts);
     t.rays = graph_.plane<Count>("rays", graph::counts);
@@ -131,12 +133,15 @@ void PixelFrame::fallBack(Sum& sum)
     graph_.only(
         "fallback", [](const Run& run) { return !run.cut(); },
         [&] {
-            auto squares = graph_.plane<Share>("squares of what filters are off", graph::floatPlanes(2));
+            const bool gathered = sum.variance.graph != 0;
+            auto squares = graph_.plane<Share>("squares of what filters are off", graph::floatPlanes(gathered ? 3 : 2));
+            const auto flag = value("gathered", gathered ? 1u : 0u);
             f_.blocks("fallback", PassKind::Filter, { "fallback.cl", "fallbackSquares" },
-                { p, reads("filtered", sum.filtered), reads("noisy", sum.noisy), reads("deviation", sum.deviation),
-                    writes("squares", squares) });
+                { p, flag, reads("filtered", sum.filtered), reads("noisy", sum.noisy),
+                    reads("deviation", sum.deviation),
+                    gathered ? reads("variance", sum.variance) : f_.nothing("variance"), writes("squares", squares) });
             f_.blocks("fallback", PassKind::Filter, { "fallback.cl", "fallBack" },
-                { p, reads("squares", squares, near), reads("objectId", f_.surfaces.objectId, near),
+                { p, flag, reads("squares", squares, near), reads("objectId", f_.surfaces.objectId, near),
                     reads("noisy", sum.noisy), updates("filtered", sum.filtered) });
         });
 }

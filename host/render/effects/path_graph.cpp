@@ -42,6 +42,9 @@ public:
         , extremes_(g_.plane<Extremes>("distances", graph::floatPlanes(3)))
         , taken_(g_.plane<Count>("samples taken", graph::counts))
         , wanted_(g_.plane<Count>("samples wanted", graph::counts))
+        , irradiance_(g_.plane<Value>("irradiance", graph::floats))
+        , deviation_(g_.plane<Deviation>("deviation", graph::floats))
+        , weights_(g_.plane<Share>("weights", graph::floats))
     {
     }
 
@@ -67,14 +70,22 @@ public:
             composite(value_, {});
             return;
         }
+        if (varies()) {
+            deviations();
+        }
         g_.only("filter of paths", analysed, [&] {
             // What was stopped early has not the counts that the parts of samples were made for.
             if (widens(s_)) {
                 g_.only(
-                    "widening", [](const Run& run) { return !run.cut(); }, [&] { widened(); });
+                    "widening", [](const Run& run) { return !run.cut(); },
+                    [&] {
+                        widen(f_, "filter of indirect", filterParams(), s_.indirect.widening, pinholeNoise,
+                            { irradiance_, deviation_, weights_ }, beta_);
+                    });
             }
-            composite(gaussianFilter(f_, { "filter of indirect", PassKind::Filter, "filter_indirect.cl" }, channels,
-                          filterParams(), value_, beta_)
+            const char* program = varies() ? "filter_paths.cl" : "filter_indirect.cl";
+            composite(gaussianFilter(f_, { "filter of indirect", PassKind::Filter, program },
+                          varies() ? channels + 1 : channels, filterParams(), value_, beta_)
                           .value,
                 {});
         });
@@ -83,6 +94,8 @@ public:
 
 private:
     bool isUniform() const { return s_.sampling == Sampling::Uniform || s_.indirect.counts == IndirectCounts::Uniform; }
+    /// Whether a pixel's samples are asked how much they vary, for what filters do.
+    bool varies() const { return widens(s_) || usesFallback(s_); }
     shared::FilterParams filterParams() const { return render::filterParams(s_, f_.wholeFrame(), g_.image()); }
     shared::AnalysisParams countParams() const { return pathCountParams(f_.analysisParams(), s_); }
     shared::ReflectorParams reflectorParams() const { return render::reflectorParams(f_, component_); }
@@ -91,7 +104,7 @@ private:
     void paths(const char* pass, std::uint32_t from, std::uint32_t most, double mean, bool everywhere);
     void widthsAndCounts();
     void countsFromVariance();
-    void widened();
+    void deviations();
     void composite(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition);
 
     FrameBuilder& f_;
@@ -105,6 +118,9 @@ private:
     graph::Handle<Value> value_;
     graph::Handle<Extremes> extremes_;
     graph::Handle<Count> taken_, wanted_;
+    graph::Handle<Value> irradiance_;
+    graph::Handle<Deviation> deviation_;
+    graph::Handle<Share> weights_;
 };
 
 void PathGraph::paths(const char* pass, std::uint32_t from, std::uint32_t most, double mean, bool everywhere)
@@ -160,18 +176,13 @@ void PathGraph::countsFromVariance()
     countsFromDemand(f_, countParams(), static_cast<float>(s_.spp), demand, taken_, wanted_);
 }
 
-void PathGraph::widened()
+void PathGraph::deviations()
 {
-    auto irradiance = g_.plane<Value>("irradiance", graph::floats);
-    auto deviation = g_.plane<Deviation>("deviation", graph::floats);
-    auto weights = g_.plane<Share>("weights", graph::floats);
     f_.blocks("filter of indirect", PassKind::Filter, { "widen.cl", "oneOfPaths" },
         { f_.rectangle(countParams()), value("component", static_cast<std::uint32_t>(component_)),
-            value("firstPass", WEDGE_INDIRECT_FIRST_RAYS), reads("reflectance", reflectance_), reads("value", value_),
-            reads("taken", taken_), writes("irradiance", irradiance), writes("deviation", deviation),
-            writes("weights", weights) });
-    widen(f_, "filter of indirect", filterParams(), s_.indirect.widening, pinholeNoise,
-        { irradiance, deviation, weights }, beta_);
+            value("firstPass", WEDGE_INDIRECT_FIRST_RAYS), reads("reflectance", reflectance_), updates("value", value_),
+            reads("taken", taken_), writes("irradiance", irradiance_), writes("deviation", deviation_),
+            writes("weights", weights_) });
 }
 
 void PathGraph::composite(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition)
@@ -179,9 +190,10 @@ void PathGraph::composite(const graph::Handle<Value>& shown, const std::function
     Sum& indirect = f_.totals.indirect;
     f_.blocks("composite", PassKind::Composite, { "composite.cl", "addIndirect" },
         { f_.rectangle(countParams()), value("component", static_cast<std::uint32_t>(component_)),
-            value("firstPass", pathParams().firstPass), reads("reflectance", reflectance_), reads("value", shown),
-            reads("noisy", value_), reads("taken", taken_), updates("indirect", indirect.filtered),
-            updates("indirectNoisy", indirect.noisy), updates("deviation", indirect.deviation),
+            value("varies", varies() ? 1u : 0u), reads("reflectance", reflectance_), reads("value", shown),
+            reads("noisy", value_), varies() ? reads("deviations", deviation_) : f_.nothing("deviations"),
+            reads("taken", taken_), updates("indirect", indirect.filtered), updates("indirectNoisy", indirect.noisy),
+            updates("deviation", indirect.deviation), updates("variance", indirect.variance),
             updates("samples", f_.totals.samples), updates("indirectSamples", f_.totals.indirectSamples) },
         condition);
 }
