@@ -66,24 +66,43 @@ WEDGE_FN float bandlimitOf(uint component, float gloss)
         : WEDGE_DIFFUSE_BANDLIMIT;
 }
 
-/// Harmonic mean of the distances that the rays of the object's pixels around found, infinite where none hit anything;
-/// as published of the pixel's own. A few rays miss what is near and small, and the filter would then blur what it
-/// lights. Of glossy light pixels count that met something: `taken` of several receivers has matt ones' samples, too.
-WEDGE_FN float nearness(ReflectorParams p, uint x, uint y, uint i, __global const float* inverse,
+/// Distances, infinite where nothing was hit.
+typedef struct {
+    float mean, least;
+} Nearness;
+
+/// Harmonic means of the distances that the rays of the object's pixels around found, and of the least one of each;
+/// rays and pixels that hit nothing count as infinitely far. Not of the pixel's own, if there are others: a width that
+/// follows the samples that it then weighs makes the image too dark, as pixels that found something bright and near
+/// would get narrower filters than those around that did not, and count less in these. Of glossy light pixels count
+/// that met something: `taken` of several receivers has matt ones' samples, too.
+WEDGE_FN Nearness nearness(ReflectorParams p, uint x, uint y, uint i, __global const float* reflectors,
     __global const uint* objectId, __global const uint* taken)
 {
-    const int reach = p.meanFraction > 0.0f ? WEDGE_NEARNESS_REACH : 0;
-    float sum = 0.0f, rays = 0.0f;
+    const int reach = (int)WEDGE_NEARNESS_REACH;
+    __global const float* inverse = reflectors + (p.meanOnly != 0u ? 0u : 2u * p.planeSize);
+    float sum = 0.0f, rays = 0.0f, leasts = 0.0f, pixels = 0.0f;
     for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
         for (int dx = -min((int)x, reach); dx <= min((int)(p.width - 1u - x), reach); ++dx) {
             const int j = (int)i + dy * (int)p.stride + dx;
-            const bool counts =
-                objectId[j] == objectId[i] && (p.component != WEDGE_COMPONENT_GLOSSY || inverse[j] > 0.0f);
+            const bool counts = j != (int)i && objectId[j] == objectId[i] && taken[j] > 0u
+                && (p.component != WEDGE_COMPONENT_GLOSSY || inverse[j] > 0.0f);
             sum += counts ? inverse[j] : 0.0f;
             rays += counts ? (float)taken[j] : 0.0f;
+            leasts += counts && reflectors[j] > 0.0f ? 1.0f / reflectors[j] : 0.0f;
+            pixels += counts ? 1.0f : 0.0f;
         }
     }
-    return sum > 0.0f ? rays / sum : INFINITY;
+    if (!(pixels > 0.0f)) {
+        sum = inverse[i];
+        rays = (float)taken[i];
+        leasts = reflectors[i] > 0.0f ? 1.0f / reflectors[i] : 0.0f;
+        pixels = 1.0f;
+    }
+    Nearness near;
+    near.mean = sum > 0.0f ? rays / sum : INFINITY;
+    near.least = leasts > 0.0f ? pixels / leasts : INFINITY;
+    return near;
 }
 
 /// Widths in metres (4.15), (4.16), -1 where the pixel has no such term, and counts (4.21).
@@ -104,18 +123,18 @@ __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict 
     const uint i = pixelIndex(x, y, p.stride);
     const float size = loadNumber(pixelSize, p.planeSize, i, p.meanOnly, 0u);
     const float exponent = loadNumber(gloss, p.planeSize, i, p.meanOnly, 0u);
-    const float mean = nearness(p, x, y, i, reflectors + (p.meanOnly != 0u ? 0u : 2u * p.planeSize), objectId, taken);
-    const bool has = reflectors[i] > 0.0f || mean < INFINITY;
-    // What is nearer than the fraction of the mean counts itself: of open scenes most rays hit nothing.
-    // Where there is but one number for both, the pixel's own fraction of the mean is as near as its least distance or
-    // nearer.
-    const float own = p.meanOnly != 0u ? p.meanFraction * (float)taken[i] / fmax(reflectors[i], 1e-20f) : reflectors[i];
-    const float least = reflectors[i] > 0.0f ? own : INFINITY;
-    const float fraction = fmin(p.meanFraction * mean, least);
-    const float near = p.meanFraction > 0.0f ? fraction : least;
+    // As published of the pixel's own rays.
+    float near = reflectors[i] > 0.0f ? reflectors[i] : INFINITY;
+    if (p.meanFraction > 0.0f) {
+        const Nearness around = nearness(p, x, y, i, reflectors, objectId, taken);
+        // What is nearer than the fraction of the mean counts itself: of open scenes most rays hit nothing. Where there
+        // is but one number for both, it has that in it.
+        near = p.meanFraction * around.mean;
+        near = p.meanOnly != 0u ? near : fmin(near, around.least);
+    }
     // Where no ray hit anything, nothing is nearer than what there is is large.
     const float far = p.extent > 0.0f ? p.extent : extent[0];
-    const float zMin = fmax(has ? near : far, leastDistance(p, extent));
+    const float zMin = fmax(near < INFINITY ? near : far, leastDistance(p, extent));
     const float zMax = fmax(p.meanOnly != 0u ? zMin : reflectors[p.planeSize + i], zMin);
     const float bandlimit = bandlimitOf(p.component, exponent);
     const float gamma = p.component == WEDGE_COMPONENT_GLOSSY ? glossyGamma(fabs(exponent)) : WEDGE_DIFFUSE_GAMMA;

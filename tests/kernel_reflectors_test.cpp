@@ -166,7 +166,8 @@ std::vector<shared::ReflectorParams> settings()
     return out;
 }
 
-/// Pixels of `width` whose rays say together, with those of the object's pixels around, how near things are on average.
+/// Pixels of `width` that found what the object's pixels around did in the mean, or, where there are none, they
+/// themselves.
 std::vector<Found> pooled(
     const std::vector<Found>& pixels, const std::vector<std::uint32_t>& objects, int width, bool glossy)
 {
@@ -175,17 +176,22 @@ std::vector<Found> pooled(
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const std::size_t i = static_cast<std::size_t>(y * width + x);
-            double inverse = 0, rays = 0;
+            double inverse = 0, rays = 0, leasts = 0, count = 0;
             for (int py = std::max(0, y - 2); py <= std::min(height - 1, y + 2); ++py)
                 for (int px = std::max(0, x - 2); px <= std::min(width - 1, x + 2); ++px) {
                     const std::size_t k = static_cast<std::size_t>(py * width + px);
-                    const bool counts = objects[k] == objects[i] && (!glossy || pixels[k].inverse > 0);
-                    inverse += counts ? pixels[k].inverse : 0.0f;
-                    rays += counts ? pixels[k].taken : 0u;
+                    if (k == i || objects[k] != objects[i] || pixels[k].taken == 0
+                        || (glossy && !(pixels[k].inverse > 0)))
+                        continue;
+                    inverse += pixels[k].inverse;
+                    rays += pixels[k].taken;
+                    leasts += pixels[k].nearest > 0 ? 1 / pixels[k].nearest : 0;
+                    count += 1;
                 }
-            out[i].inverse = static_cast<float>(rays > 0 ? pixels[i].taken * inverse / rays : 0);
-            // None of its own, but of others.
-            out[i].nearest = pixels[i].nearest > 0 || inverse == 0 ? pixels[i].nearest : 1e30f;
+            if (count == 0)
+                continue;
+            out[i].inverse = static_cast<float>(pixels[i].taken * inverse / rays);
+            out[i].nearest = static_cast<float>(leasts > 0 ? count / leasts : 0);
         }
     return out;
 }
@@ -333,7 +339,7 @@ TEST_CASE("exponents outside of the fit's range give widths and counts within bo
     });
 }
 
-TEST_CASE("widths go by the mean of the rays of the object's pixels around, as published by each pixel's own")
+TEST_CASE("widths go by what the object's other pixels around found, as published by each pixel's own rays")
 {
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);
@@ -360,10 +366,7 @@ TEST_CASE("widths go by the mean of the rays of the object's pixels around, as p
                 CAPTURE(around.beta);
                 CAPTURE(meanOnly);
                 CAPTURE(meanFraction);
-                // Lean frames have one number for the mean and the least: their own bounds them as well.
-                const double lean = pixels[i].inverse > 0 ? std::min(own.beta, around.beta) : around.beta;
-                const double expected = meanFraction == 0 ? own.beta : meanOnly != 0 ? lean : around.beta;
-                REQUIRE(close(found.beta[i], expected, meanOnly != 0 ? 5e-3 : 1e-4));
+                REQUIRE(close(found.beta[i], meanFraction == 0 ? own.beta : around.beta, meanOnly != 0 ? 5e-3 : 1e-4));
                 changed += close(own.beta, around.beta, 0.01) ? 0 : 1;
             }
             CHECK(changed > 20);
