@@ -142,6 +142,23 @@ WEDGE_FN void takePart(SampleParams params, AreaLight light, ReceiverPacket* r)
     r->anyCut = any != 0u;
 }
 
+WEDGE_INLINE Vec3 lanePosition(const ReceiverPacket* r, uint lane)
+{
+    return vec3(r->positionX[lane], r->positionY[lane], r->positionZ[lane]);
+}
+
+/// How far a lane's shadow rays start from the point that is shaded.
+WEDGE_INLINE Vec3 laneLift(const ReceiverPacket* r, uint lane)
+{
+    return vecSub(vec3(r->originX[lane], r->originY[lane], r->originZ[lane]), lanePosition(r, lane));
+}
+
+/// From the point that is shaded to a lane's sample of the light.
+WEDGE_INLINE Vec3 sampleVector(const ReceiverPacket* r, const LightSamples* s, uint lane)
+{
+    return vecAdd(vec3(s->rayX[lane], s->rayY[lane], s->rayZ[lane]), laneLift(r, lane));
+}
+
 /// Position in [0,1)^2 of sample `index` of `count`.
 WEDGE_FN Vec2 stratifiedPosition(SampleParams params, uint index, uint count, uint order, uint seed)
 {
@@ -238,9 +255,7 @@ WEDGE_FN void sampleLights(FrameParams frame, SampleParams params, AreaLight lig
 #ifdef WEDGE_SPECULAR
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const Vec3 normal = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
-        const Vec3 moved = vec3(r->originX[lane] - r->positionX[lane], r->originY[lane] - r->positionY[lane],
-            r->originZ[lane] - r->positionZ[lane]);
-        const Vec3 l = vecNormalize(vecAdd(vec3(s->rayX[lane], s->rayY[lane], s->rayZ[lane]), moved));
+        const Vec3 l = vecNormalize(sampleVector(r, s, lane));
         const float value = s->diffuse[lane] * lobeValue(laneLobe(r, lane), normal, laneView(r, lane), l);
         s->specular[lane] = separate ? s->specular[lane] : value;
     }

@@ -1,5 +1,6 @@
 // The other technique of direct light: reflected directions of a packet's pixels that happen to meet the light. Where a
-// lobe is sharp or the light near, they find it better than points on it do.
+// lobe is sharp or the light near, they find it better than points on it do. Both are seen from the point that is
+// shaded: where shadow rays start is lifted off it, which a light that is near does look different from.
 #ifndef WEDGE_MET_LIGHT_H
 #define WEDGE_MET_LIGHT_H
 
@@ -17,19 +18,24 @@ WEDGE_INLINE float laneMass(AreaLight light, const ReceiverPacket* r, uint lane,
     return r->cut[lane] != 0u ? mass : 1.0f;
 }
 
+/// Density in 1/sr of a lane's point on the light, in direction l.
+WEDGE_INLINE float pointPdf(AreaLight light, const ReceiverPacket* r, const LightSamples* s, uint lane, Vec3 l)
+{
+    const LightMeeting m = meetLight(light, lanePosition(r, lane), l);
+    const float a = clamp(m.a, -1.0f, 1.0f), b = clamp(m.b, -1.0f, 1.0f);
+    const float distance = vecLength(sampleVector(r, s, lane));
+    return lightPdf(light, a, b, distance, vecDot(l, light.normal)) / laneMass(light, r, lane, a, b);
+}
+
 /// Weights of the lanes' points on the light against reflected directions, multiplied into s.
 WEDGE_FN void weighPoints(SampleParams params, AreaLight light, const ReceiverPacket* r, LightSamples* s)
 {
     light.pick = 1.0f;
     const float used = params.lightSampling == WEDGE_LIGHTS_MET ? 0.0f : 1.0f;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const Vec3 ray = vec3(s->rayX[lane], s->rayY[lane], s->rayZ[lane]);
-        const Vec3 l = vecNormalize(ray);
+        const Vec3 l = vecNormalize(sampleVector(r, s, lane));
         const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
-        const Vec3 origin = vec3(r->originX[lane], r->originY[lane], r->originZ[lane]);
-        const LightMeeting m = meetLight(light, origin, l);
-        const float a = clamp(m.a, -1.0f, 1.0f), b = clamp(m.b, -1.0f, 1.0f);
-        const float p = lightPdf(light, a, b, vecLength(ray), vecDot(l, light.normal)) / laneMass(light, r, lane, a, b);
+        const float p = pointPdf(light, r, s, lane, l);
         const float diffuse = used * powerHeuristic(p, fmax(0.0f, vecDot(n, l)) * WEDGE_INV_PI);
         s->diffuse[lane] *= s->diffuse[lane] > 0.0f ? diffuse : 1.0f;
 #ifdef WEDGE_SPECULAR
@@ -68,13 +74,10 @@ WEDGE_FN void weighLobePoints(AreaLight light, const ReceiverPacket* r, const ui
 {
     light.pick = 1.0f;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const Vec3 ray = vec3(s->rayX[lane], s->rayY[lane], s->rayZ[lane]);
-        const Vec3 l = vecNormalize(ray);
+        const Vec3 l = vecNormalize(sampleVector(r, s, lane));
         const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
-        const LightMeeting m = meetLight(light, vec3(r->originX[lane], r->originY[lane], r->originZ[lane]), l);
-        const float a = clamp(m.a, -1.0f, 1.0f), b = clamp(m.b, -1.0f, 1.0f);
-        const float p = lightPdf(light, a, b, vecLength(ray), vecDot(l, light.normal)) / laneMass(light, r, lane, a, b);
-        const float weight = powerHeuristic(p, lobePdf(laneLobe(r, lane), n, laneView(r, lane), l));
+        const float weight =
+            powerHeuristic(pointPdf(light, r, s, lane, l), lobePdf(laneLobe(r, lane), n, laneView(r, lane), l));
         s->specular[lane] *= narrow[lane] != 0u && s->specular[lane] > 0.0f ? weight : 1.0f;
     }
 }
@@ -123,17 +126,17 @@ WEDGE_FN void meetDirections(SampleParams params, AreaLight light, const Receive
         float pdf, reflected;
         const Vec3 l = reflectedDirection(r, lane, specular, vec2(u[lane], v[lane]), &pdf, &reflected);
         const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
-        const Vec3 origin = vec3(r->originX[lane], r->originY[lane], r->originZ[lane]);
-        const LightMeeting m = meetLight(light, origin, l);
+        const LightMeeting m = meetLight(light, lanePosition(r, lane), l);
         const bool meets = m.t < INFINITY && vecDot(n, l) > 0.0f && pdf > 0.0f && index[lane] < last[lane];
         const float w = params.lightSampling == WEDGE_LIGHTS_MET
             ? 1.0f
             : powerHeuristic(pdf, lightPdf(light, m.a, m.b, m.t, m.facing) / laneMass(light, r, lane, m.a, m.b));
         weight[lane] = meets ? w * reflected * metProfile(light, m) / light.profileArea : 0.0f;
-        end[lane] = weight[lane] > 0.0f ? m.t * WEDGE_SHADOW_RAY_END : 0.0f;
-        x[lane] = l.x;
-        y[lane] = l.y;
-        z[lane] = l.z;
+        end[lane] = weight[lane] > 0.0f ? WEDGE_SHADOW_RAY_END : 0.0f;
+        const Vec3 ray = vecSub(vecScale(l, meets ? m.t : 1.0f), laneLift(r, lane));
+        x[lane] = ray.x;
+        y[lane] = ray.y;
+        z[lane] = ray.z;
     }
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         // Lanes without a receiver have no samples to take either: see the callers.

@@ -87,7 +87,7 @@ WEDGE_FN void chooseLight(LightData lights, SampleParams params, PathPacket* pat
 {
     const Vec2 choice = pathPair(params, paths, lane, vertex, WEDGE_DIMENSION_CHOICE);
     const Vec2 point = pathPair(params, paths, lane, vertex, WEDGE_DIMENSION_LIGHT);
-    const LightChoice c = sampleLight(lights, s->position, s->origin, s->normal, choice.x, point);
+    const LightChoice c = sampleLight(lights, s->origin, s->normal, choice.x, point);
     const bool area = c.pdf > 0.0f;
     const bool above = vecDot(s->geometric, c.direction) > 0.0f;
     if (!above || !(luminance(c.irradiance) > 0.0f) || (area && lights.sampling == WEDGE_LIGHTS_MET)) {

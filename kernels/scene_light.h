@@ -17,7 +17,7 @@ typedef struct {
 /// One sample of one light.
 typedef struct {
     Vec3 ray; ///< from the shadow ray's origin to the light's point
-    Vec3 direction; ///< unit, from the shaded point
+    Vec3 direction; ///< unit, of the ray
     Vec3 irradiance; ///< on the shaded point, over the probability of the sample; 0: no need to trace
     float pdf; ///< density of the direction, 1/sr; 0 for point and directional lights
 } LightChoice;
@@ -30,19 +30,17 @@ WEDGE_INLINE float lightPdf(AreaLight light, float a, float b, float distance, f
         / (light.profileArea * fmax(fabs(facing), 1e-12f));
 }
 
-WEDGE_INLINE LightChoice sampleAreaLight(AreaLight light, Vec3 position, Vec3 origin, Vec3 normal, Vec2 u)
+/// As seen from where rays start, as directions that meet a light see it: the two are combined.
+WEDGE_INLINE LightChoice sampleAreaLight(AreaLight light, Vec3 origin, Vec3 normal, Vec2 u)
 {
     LightChoice choice;
     const float a = lightCoordinate(u.x, light.profile, light.cut, light.erfCut);
     const float b = lightCoordinate(u.y, light.profile, light.cut, light.erfCut);
-    const Vec3 point = lightPoint(light.centre, light.halfU, light.halfV, a, b);
-    const Vec3 d = vecSub(point, position);
-    const float geometry = geometryTerm(normal, d, light.normal, light.twoSided);
-    choice.ray = vecSub(point, origin);
-    choice.direction = vecNormalize(d);
+    choice.ray = vecSub(lightPoint(light.centre, light.halfU, light.halfV, a, b), origin);
+    choice.direction = vecNormalize(choice.ray);
+    const float geometry = geometryTerm(normal, choice.ray, light.normal, light.twoSided);
     choice.irradiance = vecScale(light.power, geometry / light.pick);
-    // From where rays start, as the density of a ray that meets the light is.
-    const float facing = vecDot(vecNormalize(choice.ray), light.normal);
+    const float facing = vecDot(choice.direction, light.normal);
     choice.pdf = geometry > 0.0f ? lightPdf(light, a, b, vecLength(choice.ray), facing) : 0.0f;
     return choice;
 }
@@ -60,13 +58,13 @@ WEDGE_FN LightChoice sampleDeltaLight(__global const DeltaLight* light, float sc
 }
 
 /// Chooses a light by `pick` in [0, 1) and a point on it by u, as seen from a point with this normal.
-WEDGE_FN LightChoice sampleLight(LightData lights, Vec3 position, Vec3 origin, Vec3 normal, float pick, Vec2 u)
+WEDGE_FN LightChoice sampleLight(LightData lights, Vec3 origin, Vec3 normal, float pick, Vec2 u)
 {
     float below = 0.0f;
     for (uint i = 0u; i < lights.areaCount; ++i) {
         below += lights.area[i].pick;
         if (pick < below) {
-            return sampleAreaLight(lights.area[i], position, origin, normal, u);
+            return sampleAreaLight(lights.area[i], origin, normal, u);
         }
     }
     for (uint i = 0u; i < lights.deltaCount; ++i) {

@@ -267,6 +267,39 @@ TEST_CASE("lights found by points on them, by directions and by both give one im
     });
 }
 
+TEST_CASE("a light close to a coarse mesh of smooth normals is one, however it is found, and as without samples")
+{
+    // Shadow rays start where the curved surface would be, off the triangles: the light is not to look nearer from
+    // there.
+    onEveryDevice([](const device::Device& device) {
+        for (const bool glossy : { false, true }) {
+            SceneBuilder b;
+            if (glossy) {
+                b.scene.materials[0].specular = glm::vec3(0.4f);
+                b.scene.materials[0].exponent = 20;
+            }
+            b.newObject();
+            b.sphere({ 0, 0, 0 }, 1, 5);
+            b.light({ 0.05f, 1.1f, 0 }, { 0.2f, 0, 0 }, { 0, 0, 0.2f }, scene::LightProfile::Uniform, 1);
+            b.camera({ 0, 2.5f, 2.5f }, { 0, 1, 0 }, { 0, 1, 0 }, 6);
+            render::Renderer renderer(b.scene, device, renderOptions());
+            const auto image = [&](render::Settings settings, render::LightSampling way) {
+                settings = sized(settings, 16, 16);
+                settings.lightSampling = way;
+                return moments(renderer, settings, Part::Beauty, 8);
+            };
+            const Moments points = image(render::monteCarlo(1024), render::LightSampling::Lights);
+            render::Settings ratio = render::axisAligned(1024);
+            ratio.filtering = render::Filtering::None;
+            CAPTURE(glossy);
+            CHECK(points.average() > 0.1);
+            checkAgreement(image(render::monteCarlo(1024), render::LightSampling::Directions), points, 1e-3);
+            checkAgreement(image(render::monteCarlo(1024), render::LightSampling::Both), points, 1e-3);
+            checkAgreement(image(ratio, render::LightSampling::Both), points, 1e-3);
+        }
+    });
+}
+
 TEST_CASE("points exactly on the edge of two walls do not see past either")
 {
     onEveryDevice([](const device::Device& device) {
