@@ -316,3 +316,23 @@ TEST_CASE("ambient occlusion and indirect light are rendered progressively, too"
         }
     });
 }
+
+TEST_CASE("the memory that is told is that of the step that takes most")
+{
+    const render::StepRange most = render::largestStep(70);
+    CHECK(most.before == 32);
+    CHECK(most.spp == 64);
+    CHECK(render::largestStep(16).before == 0);
+    onEveryDevice([](const device::Device& device) {
+        const scene::Scene scene = smallScene();
+        render::Renderer renderer(scene, device, renderOptions());
+        const auto planned = [&](int spp) {
+            render::Settings settings = sized(render::axisAligned(spp), 24, 16);
+            settings.progressive = true;
+            return renderer.plan(settings).total();
+        };
+        // Waves of so small an image go by the samples of a step.
+        CHECK(planned(4096) > planned(16));
+        CHECK(planned(4098) == planned(4096));
+    });
+}

@@ -10,7 +10,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int firstStep = 16; // 8 first paths of each half
+constexpr int leastStep = 16; // 8 first paths of each half
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -20,11 +20,25 @@ std::vector<int> stepCounts(int spp)
 {
     const int last = std::max(2, spp - spp % 2);
     std::vector<int> counts;
-    for (int count = firstStep; count < last; count *= 2) {
+    for (int count = leastStep; count < last; count *= 2) {
         counts.push_back(count);
     }
     counts.push_back(last);
     return counts;
+}
+
+StepRange firstStep(const Settings& settings) { return { 0, stepCounts(settings.spp).front() }; }
+
+StepRange largestStep(int spp)
+{
+    StepRange largest, step;
+    for (const int count : stepCounts(spp)) {
+        step = { step.spp, count };
+        if (step.spp - step.before > largest.spp - largest.before) {
+            largest = step;
+        }
+    }
+    return largest;
 }
 
 void addRecords(std::vector<device::PassRecord>& sum, const std::vector<device::PassRecord>& more)
@@ -42,13 +56,13 @@ void addRecords(std::vector<device::PassRecord>& sum, const std::vector<device::
 }
 
 Renderer::Step Renderer::runStep(
-    const Settings& settings, bool keepLayers, int before, int spp, const std::atomic<bool>* stop, bool rehearsal)
+    const Settings& settings, bool keepLayers, const StepRange& range, const std::atomic<bool>* stop, bool rehearsal)
 {
     for (SampleMemory& memory : *halfMemories_) {
         memory.rewind();
     }
     auto frame = std::make_unique<HalvesFrame>(scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal),
-        unused_, keepLayers, *halfMemories_, before, spp);
+        unused_, keepLayers, *halfMemories_, range.before, range.spp);
     const HalvesFrame& halves = *frame;
     frameGraph_ = std::move(frame);
     const graph::Plan plan(halves.graph(), device::partAlignment, mostSlabBytes());
@@ -84,7 +98,8 @@ FrameStatistics Renderer::renderProgressively(const Settings& wanted, const Cont
     ProgressiveStep step;
     for (std::size_t i = 0; i < counts.size() && !(i > 0 && stop); ++i) {
         step.spp = counts[i];
-        const auto [error, whole] = runStep(settings, keepLayers, i == 0 ? 0 : counts[i - 1], step.spp, &stop, false);
+        const auto [error, whole] =
+            runStep(settings, keepLayers, { i == 0 ? 0 : counts[i - 1], step.spp }, &stop, false);
         step.error = error;
         const bool good = step.error.rmse() <= control.targetError;
         queue_.finish();

@@ -18,6 +18,15 @@ struct ProgressiveStep {
 /// `spp`, but no less than 2.
 std::vector<int> stepCounts(int spp);
 
+/// One of these steps, from so many samples a pixel to so many.
+struct StepRange {
+    int before = 0, spp = 0;
+};
+
+/// The first one, and that of most new samples (the first such).
+StepRange firstStep(const Settings& settings);
+StepRange largestStep(int spp);
+
 /// Adds what passes of the same names cost; new ones go to the end.
 void addRecords(std::vector<device::PassRecord>& sum, const std::vector<device::PassRecord>& more);
 

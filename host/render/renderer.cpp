@@ -93,33 +93,46 @@ std::unique_ptr<FrameGraph> Renderer::declare(const scene::Scene& scene, const D
 device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings,
     bool keepLayers, std::uint64_t mostSlabBytes)
 {
-    device::MemoryPlan plan;
-    DeviceScene::plan(plan, scene, hierarchy);
-    HalfMemories memories { SampleMemory(nullptr), SampleMemory(nullptr) };
-    const std::unique_ptr<FrameGraph> frame = declareUnbacked(scene, hierarchy, settings, keepLayers, memories);
-    for (const SampleMemory& memory : memories) {
-        memory.addTo(plan);
+    const auto planned = [&](const StepRange& step) {
+        device::MemoryPlan plan;
+        DeviceScene::plan(plan, scene, hierarchy);
+        HalfMemories memories { SampleMemory(nullptr), SampleMemory(nullptr) };
+        const std::unique_ptr<FrameGraph> frame =
+            declareUnbacked(scene, hierarchy, settings, keepLayers, memories, step);
+        for (const SampleMemory& memory : memories) {
+            memory.addTo(plan);
+        }
+        graph::Plan(frame->graph(), device::partAlignment, mostSlabBytes).addTo(plan);
+        return plan;
+    };
+    device::MemoryPlan most = planned(firstStep(settings));
+    if (settings.progressive) {
+        // The first step has first paths, and waves go by the new samples of a step.
+        device::MemoryPlan other = planned(largestStep(settings.spp));
+        if (other.total() > most.total()) {
+            most = std::move(other);
+        }
     }
-    graph::Plan(frame->graph(), device::partAlignment, mostSlabBytes).addTo(plan);
-    return plan;
+    return most;
 }
 
 std::unique_ptr<FrameGraph> Renderer::declareUnbacked(const scene::Scene& scene, const Hierarchy& hierarchy,
-    const Settings& settings, bool keepLayers, HalfMemories& memories)
+    const Settings& settings, bool keepLayers, HalfMemories& memories, const StepRange& step)
 {
     const std::size_t packet = packetSize(hierarchy.traversal);
     if (!settings.progressive) {
         return declare(scene, nullptr, settings, packet, cl::Buffer(), keepLayers);
     }
     return std::make_unique<HalvesFrame>(
-        scene, nullptr, settings, packet, cl::Buffer(), keepLayers, memories, 0, stepCounts(settings.spp).front());
+        scene, nullptr, settings, packet, cl::Buffer(), keepLayers, memories, step.before, step.spp);
 }
 
 Explanation Renderer::explain(const Settings& settings, bool keepLayers) const
 {
     validate(settings, isDistributed(settings, scene_));
     HalfMemories memories { SampleMemory(nullptr), SampleMemory(nullptr) };
-    const std::unique_ptr<FrameGraph> frame = declareUnbacked(scene_, hierarchy_, settings, keepLayers, memories);
+    const std::unique_ptr<FrameGraph> frame =
+        declareUnbacked(scene_, hierarchy_, settings, keepLayers, memories, firstStep(settings));
     const graph::Plan plan(frame->graph(), device::partAlignment, mostSlabBytes());
     return { graph::explain(plan), graph::drawing(plan) };
 }
@@ -147,7 +160,7 @@ void Renderer::rehearse(const Settings& settings, bool keepLayers)
     queue_.setProgress({});
     queue_.setCancelFlag(nullptr);
     if (settings.progressive) {
-        runStep(settings, keepLayers, 0, stepCounts(settings.spp).front(), nullptr, true);
+        runStep(settings, keepLayers, firstStep(settings), nullptr, true);
     } else {
         frameGraph_ =
             declare(scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal), unused_, keepLayers);

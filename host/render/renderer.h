@@ -77,6 +77,7 @@ struct Explanation {
 };
 
 struct ProgressiveStep;
+struct StepRange;
 
 /// Renders frames of one scene on one device. Construction builds the hierarchy, the programs and the scene's buffers;
 /// render() may be called any number of times with other settings.
@@ -87,7 +88,8 @@ public:
     Renderer(scene::Scene&& scene, const device::Device& device, Options options = {}) = delete;
     ~Renderer();
 
-    /// Device memory that a frame of these settings takes, before anything of it is allocated.
+    /// Device memory that a frame of these settings takes, before anything of it is allocated; of a progressive one the
+    /// step that takes most.
     /// keepLayers: as render() has it.
     /// mostSlabBytes: as graph::place() has it.
     static device::MemoryPlan plan(const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings,
@@ -132,9 +134,9 @@ public:
 private:
     static std::unique_ptr<FrameGraph> declare(const scene::Scene& scene, const DeviceScene* deviceScene,
         const Settings& settings, std::size_t packet, const cl::Buffer& unused, bool keepLayers);
-    /// Of a frame that is only to be planned, or of the first step of a progressive one.
+    /// Of a frame that is only to be planned, or of a step of a progressive one.
     static std::unique_ptr<FrameGraph> declareUnbacked(const scene::Scene& scene, const Hierarchy& hierarchy,
-        const Settings& settings, bool keepLayers, HalfMemories& memories);
+        const Settings& settings, bool keepLayers, HalfMemories& memories, const StepRange& step);
     std::uint64_t mostSlabBytes() const { return options_.checkLaunches ? 0 : device_.info().maxAllocation; }
     /// Tests the settings and whether memory suffices.
     void prepare(const Settings& settings, bool keepLayers);
@@ -145,9 +147,9 @@ private:
         ErrorEstimate error;
         bool whole; ///< it was not stopped before all its samples were taken
     };
-    /// One step of a progressive frame, from so many samples a pixel to so many.
-    Step runStep(
-        const Settings& settings, bool keepLayers, int before, int spp, const std::atomic<bool>* stop, bool rehearsal);
+    /// One step of a progressive frame.
+    Step runStep(const Settings& settings, bool keepLayers, const StepRange& range, const std::atomic<bool>* stop,
+        bool rehearsal);
     void keepWidths(const graph::Execution& execution);
     /// With the sums of the passes, memory, and what the frame counted.
     FrameStatistics completed(const Settings& settings, FrameStatistics statistics);
