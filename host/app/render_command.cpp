@@ -138,9 +138,7 @@ void RenderJob::checkCall() const
     std::vector<std::string> written = { options_.report, options_.explain };
     std::ranges::transform(outputs, std::back_inserter(written), &Output::path);
     refuseOverwriting(written, { options_.scene, options_.reference });
-    if (options_.explain.empty()) {
-        requireWritable(outputs, options_.report);
-    }
+    requireWritable(outputs, options_.explain.empty() ? options_.report : options_.explain);
 }
 
 void RenderJob::load()

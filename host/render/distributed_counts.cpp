@@ -202,7 +202,9 @@ void DistributedSamples::counts(const DistributedSamples& guide)
     // The scale of all demands that makes the mean number of rays what uniform counts would have.
     const DistributedSettings& d = f_.settings.distributed;
     const auto spp = static_cast<float>(f_.settings.spp);
-    const auto first = static_cast<float>(std::min(d.firstPaths, f_.settings.spp)), most = static_cast<float>(d.maxSpp);
+    const auto first = static_cast<float>(std::min(d.firstPaths, f_.settings.spp));
+    const auto most =
+        static_cast<float>(std::max(d.maxSpp, f_.settings.spp)); // no pixel can keep below the mean of all
     const auto leastOf = [&](float share) { return std::max(first, std::floor(share * spp)); };
     const float leastOfTerms = leastOf(std::max(d.leastShare, d.leastTermShare));
     // Samples of terms go to new receivers: one at least.

@@ -68,7 +68,7 @@ shared::ReflectorParams reflectorParams(const FrameBuilder& frame, Component com
 
 shared::AnalysisParams pathCountParams(shared::AnalysisParams p, const Settings& settings)
 {
-    p.countCap = static_cast<std::uint32_t>(settings.indirect.maxSpp);
+    p.countCap = static_cast<std::uint32_t>(std::max(settings.indirect.maxSpp, settings.spp)); // not below the mean
     // Where the first paths met nothing bright there is still noise of what they may meet: rare, and large.
     p.leastCount = std::max(WEDGE_INDIRECT_FIRST_RAYS, static_cast<std::uint32_t>(settings.spp) / 2);
     return p;

@@ -45,7 +45,7 @@ shared::AnalysisParams lightParams(shared::AnalysisParams p, const Settings& set
     p.alpha = settings.alpha;
     p.fillRadius = static_cast<std::uint32_t>(settings.fillRadius);
     p.fillScale = gaussianScale(settings.fillSigma);
-    p.countCap = static_cast<std::uint32_t>(settings.maxSpp);
+    p.countCap = static_cast<std::uint32_t>(std::max(settings.maxSpp, settings.spp)); // not below the mean
     p.fixedWidth = settings.filtering == Filtering::Fixed ? settings.fixedWidth : 0.0f;
     p.countExponent = settings.countExponent;
     p.varianceFloor = settings.varianceFloor;
