@@ -133,18 +133,38 @@ __kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light
     }
 }
 
-/// One term of indirect light.
-/// in      reflectance: 3 planes; value, noisy: 3 planes each, filtered and not, and, where they vary, the variance of
-/// a
-///         pixel's samples; deviations: whose square it is, in luminance over that of the reflectance
-///         taken: the samples of value
-///         component: WEDGE_COMPONENT_*; of ambient occlusion the open part of the hemisphere is shown, on white
-/// in out  indirect, indirectNoisy (3 planes each), deviation (as of lights), variance (gathered as value is), samples
-///         (of all terms), indirectSamples
-__kernel void addIndirect(AnalysisParams p, uint component, uint varies, __global const float* restrict reflectance,
-    __global const float* restrict value, __global const float* restrict noisy,
-    __global const float* restrict deviations, __global const uint* restrict taken, __global float* restrict indirect,
-    __global float* restrict indirectNoisy, __global float* restrict deviation, __global float* restrict variance,
+/// What one term of indirect light is multiplied by in the image. component: WEDGE_COMPONENT_*; of ambient occlusion
+/// the open part of the hemisphere is shown, on white. reflectance: 3 planes
+WEDGE_FN Vec3x16 reflectanceOf(AnalysisParams p, uint component, __global const float* restrict reflectance, int i)
+{
+    return component == WEDGE_COMPONENT_AMBIENT ? splat3(vec3(1.0f, 1.0f, 1.0f))
+                                                : loadVecBlock(reflectance, p.planeSize, i);
+}
+
+/// Adds a term, of pixels that have it, to the sum of all.
+WEDGE_FN void addTerm(AnalysisParams p, uint component, Vec3x16 k, int16 has, __global const float* restrict value,
+    int i, __global float* restrict sum)
+{
+    const Vec3x16 arrives = loadVecBlock(value, p.planeSize, i);
+    const float16 zero = (float16)(0.0f);
+    const bool ambient = component == WEDGE_COMPONENT_AMBIENT;
+    Vec3x16 all = loadVecBlock(sum, p.planeSize, i);
+    // What was never sampled holds anything.
+    all.x += has ? k.x * (ambient ? 1.0f - arrives.x : arrives.x) : zero;
+    all.y += has ? k.y * (ambient ? 1.0f - arrives.y : arrives.y) : zero;
+    all.z += has ? k.z * (ambient ? 1.0f - arrives.z : arrives.z) : zero;
+    vstore16(all.x, 0, sum + i);
+    vstore16(all.y, 0, sum + p.planeSize + i);
+    vstore16(all.z, 0, sum + 2u * p.planeSize + i);
+}
+
+/// The samples of one term of indirect light, as they are.
+/// in      value: 3 planes; deviations: where they vary, as deviation16() has them, in luminance over that of the
+///         reflectance; taken: the samples of value
+/// in out  indirectNoisy (3 planes), deviation (as of lights), samples (of all terms), indirectSamples
+__kernel void addPathSamples(AnalysisParams p, uint component, uint varies, __global const float* restrict reflectance,
+    __global const float* restrict value, __global const float* restrict deviations,
+    __global const uint* restrict taken, __global float* restrict indirectNoisy, __global float* restrict deviation,
     __global uint* restrict samples, __global uint* restrict indirectSamples)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
@@ -155,32 +175,41 @@ __kernel void addIndirect(AnalysisParams p, uint component, uint varies, __globa
     const int i = (int)pixelIndex(x, y, p.stride);
     const uint16 count = loadIdBlock(taken, i);
     const int16 has = count != 0u;
+    const Vec3x16 k = reflectanceOf(p, component, reflectance, i);
     vstore16(loadIdBlock(samples, i) + count, 0, samples + i);
     vstore16(loadIdBlock(indirectSamples, i) + count, 0, indirectSamples + i);
-    const bool ambient = component == WEDGE_COMPONENT_AMBIENT;
-    for (uint plane = 0u; plane < 3u; ++plane) {
-        const int j = i + (int)(plane * p.planeSize);
-        const float16 filtered = loadBlock(value, j);
-        const float16 unfiltered = loadBlock(noisy, j);
-        const float16 k = ambient ? (float16)(1.0f) : loadBlock(reflectance, j);
-        const float16 shown = has ? k * (ambient ? 1.0f - filtered : filtered) : (float16)(0.0f);
-        const float16 shownNoisy = has ? k * (ambient ? 1.0f - unfiltered : unfiltered) : (float16)(0.0f);
-        vstore16(loadBlock(indirect, j) + shown, 0, indirect + j);
-        vstore16(loadBlock(indirectNoisy, j) + shownNoisy, 0, indirectNoisy + j);
-    }
+    addTerm(p, component, k, has, value, i, indirectNoisy);
     if (varies != 0u) {
-        const Vec3x16 white = splat3(vec3(1.0f, 1.0f, 1.0f));
-        const float16 k = luminance16(ambient ? white : loadVecBlock(reflectance, p.planeSize, i));
-        const float16 gathered = k * k * loadBlock(value + 3u * p.planeSize, i);
-        vstore16(loadBlock(deviation, i) + (has ? k * loadBlock(deviations, i) : (float16)(0.0f)), 0, deviation + i);
+        const float16 off = luminance16(k) * loadBlock(deviations, i);
+        vstore16(loadBlock(deviation, i) + (has ? off : (float16)(0.0f)), 0, deviation + i);
+    }
+}
+
+/// One term of indirect light, filtered.
+/// in      value: 3 planes, and, where they vary, the variance of a pixel's samples; taken
+/// in out  indirect (3 planes), variance (in the luminance that is shown)
+__kernel void addIndirect(AnalysisParams p, uint component, uint varies, __global const float* restrict reflectance,
+    __global const float* restrict value, __global const uint* restrict taken, __global float* restrict indirect,
+    __global float* restrict variance)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const int16 has = loadIdBlock(taken, i) != 0u;
+    const Vec3x16 k = reflectanceOf(p, component, reflectance, i);
+    addTerm(p, component, k, has, value, i, indirect);
+    if (varies != 0u) {
+        const float16 l = luminance16(k), gathered = l * l * loadBlock(value + 3u * p.planeSize, i);
         vstore16(loadBlock(variance, i) + (has ? gathered : (float16)(0.0f)), 0, variance + i);
     }
 }
 
-/// beauty = emission + direct + indirect, at misses emission alone (3 planes each).
-__kernel void addEmission(AnalysisParams p, __global const float* restrict emission,
-    __global const float* restrict direct, __global const float* restrict indirect,
-    __global const uint* restrict objectId, __global float* restrict beauty)
+/// Adds what a surface reflects, `light`, to what is there without, `below` (3 planes each).
+__kernel void addReflected(AnalysisParams p, __global const float* restrict below, __global const float* restrict light,
+    __global const uint* restrict objectId, __global float* restrict sum)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -191,7 +220,6 @@ __kernel void addEmission(AnalysisParams p, __global const float* restrict emiss
     const int16 surface = loadIdBlock(objectId, i) != 0u;
     for (uint plane = 0u; plane < 3u; ++plane) {
         const int j = i + (int)(plane * p.planeSize);
-        const float16 reflected = surface ? loadBlock(direct, j) + loadBlock(indirect, j) : (float16)(0.0f);
-        vstore16(loadBlock(emission, j) + reflected, 0, beauty + j);
+        vstore16(loadBlock(below, j) + (surface ? loadBlock(light, j) : (float16)(0.0f)), 0, sum + j);
     }
 }

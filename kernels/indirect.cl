@@ -2,8 +2,8 @@
 //
 // in      frame, BVH, surfaces, lights, receivers; wanted: samples a pixel; lastSample: where this launch ends
 // in out  sums (planes: R, G, B, squared luminance), taken (samples so far), reflectors (planes: least and largest
-//         distance in metres of a surface that a ray hit, 0 where none did; sum of inverse distances), rays (all),
-//         pathRays (those that look for the nearest surface)
+//         distance in metres of a surface that a ray hit, 0 where none did; sum of inverse distances; where
+//         params.keepsDistances), rays (all), pathRays (those that look for the nearest surface)
 // out     value (R, G, B): means, which are filtered; of frames with a first pass then those of the first of the
 //         samples' two parts (firstPart())
 #include "path_packet.h"
@@ -21,7 +21,7 @@ typedef struct {
     uint partSamples[WEDGE_PACKET_SIZE], partComplete[WEDGE_PACKET_SIZE];
 } PathSums;
 
-WEDGE_FN void loadSums(uint size, const ReceiverPacket* receivers, __global const float* sums,
+WEDGE_FN void loadSums(uint size, bool distances, const ReceiverPacket* receivers, __global const float* sums,
     __global const float* reflectors, PathSums* out)
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
@@ -29,9 +29,10 @@ WEDGE_FN void loadSums(uint size, const ReceiverPacket* receivers, __global cons
         const uint i = shaded ? receivers->pixel[lane] : 0u;
         out->radiance[lane] = shaded ? loadVec(sums, size, i) : vec3(0.0f, 0.0f, 0.0f);
         out->squared[lane] = shaded ? sums[3u * size + i] : 0.0f;
-        out->nearest[lane] = shaded && reflectors[i] > 0.0f ? reflectors[i] : INFINITY;
-        out->farthest[lane] = shaded ? reflectors[size + i] : 0.0f;
-        out->inverse[lane] = shaded ? reflectors[2u * size + i] : 0.0f;
+        const bool known = shaded && distances;
+        out->nearest[lane] = known && reflectors[i] > 0.0f ? reflectors[i] : INFINITY;
+        out->farthest[lane] = known ? reflectors[size + i] : 0.0f;
+        out->inverse[lane] = known ? reflectors[2u * size + i] : 0.0f;
         out->rays[lane] = out->pathRays[lane] = 0u;
         out->part[lane] = vec3(0.0f, 0.0f, 0.0f);
         out->partComplete[lane] = 0u;
@@ -112,9 +113,9 @@ WEDGE_FN void addPaths(const PathPacket* paths, const float* weight, const uint*
     }
 }
 
-WEDGE_FN void storeSums(uint size, const ReceiverPacket* receivers, const PathSums* s, const PathPacket* paths,
-    __global float* sums, __global uint* taken, __global float* value, __global float* reflectors, __global uint* rays,
-    __global uint* pathRays)
+WEDGE_FN void storeSums(uint size, bool distances, const ReceiverPacket* receivers, const PathSums* s,
+    const PathPacket* paths, __global float* sums, __global uint* taken, __global float* value,
+    __global float* reflectors, __global uint* rays, __global uint* pathRays)
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const uint i = receivers->pixel[lane];
@@ -128,9 +129,11 @@ WEDGE_FN void storeSums(uint size, const ReceiverPacket* receivers, const PathSu
             storeVec(value + 3u * size, size, i, vecScale(s->part[lane], 1.0f / (float)s->partSamples[lane]));
         }
         taken[i] = paths->index[lane];
-        reflectors[i] = s->nearest[lane] < INFINITY ? s->nearest[lane] : 0.0f;
-        reflectors[size + i] = s->farthest[lane];
-        reflectors[2u * size + i] = s->inverse[lane];
+        if (distances) {
+            reflectors[i] = s->nearest[lane] < INFINITY ? s->nearest[lane] : 0.0f;
+            reflectors[size + i] = s->farthest[lane];
+            reflectors[2u * size + i] = s->inverse[lane];
+        }
         rays[i] += s->rays[lane];
         pathRays[i] += s->pathRays[lane];
     }
@@ -202,7 +205,8 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
     const uint steps =
         preparePaths(size, params, lastSample, specular, geometric, taken, wanted, &receivers, facing, &paths, last);
     PathSums sum;
-    loadSums(size, &receivers, sums, reflectors, &sum);
+    const bool distances = params.keepsDistances != 0u;
+    loadSums(size, distances, &receivers, sums, reflectors, &sum);
     const bool parts = params.firstPass > 0u;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         sum.partSamples[lane] = parts ? firstPart(paths.count[lane], params.firstPass) : 0xffffffffu;
@@ -228,5 +232,5 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
             keepPart(&paths, &sum);
         }
     }
-    storeSums(size, &receivers, &sum, &paths, sums, taken, value, reflectors, rays, pathRays);
+    storeSums(size, distances, &receivers, &sum, &paths, sums, taken, value, reflectors, rays, pathRays);
 }

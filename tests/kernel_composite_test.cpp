@@ -292,7 +292,8 @@ TEST_CASE("addSpecular: a mirror shows the light's own radiance, where it shows 
     });
 }
 
-TEST_CASE("addIndirect: terms times reflectance add up, with their samples; ambient is what is open, on white")
+TEST_CASE("addPathSamples, addIndirect: terms times reflectance add up, with their samples; ambient is what is open, "
+          "on white")
 {
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);
@@ -317,10 +318,13 @@ TEST_CASE("addIndirect: terms times reflectance add up, with their samples; ambi
             const auto deviation = bench.filled(in.layout().size, 0.125f),
                        variance = bench.filled(in.layout().size, 0.25f);
             const auto add = [&](std::uint32_t component, const Planes<float>& reflectance) {
+                const auto k = bench.buffer(reflectance.values);
+                const auto taken = bench.buffer(in.taken.values);
+                bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addPathSamples", in.params,
+                    WEDGE_BLOCK_PIXELS, component, 1u, k, bench.buffer(noisy.values), bench.buffer(deviations.values),
+                    taken, indirectNoisy, deviation, samples, indirectSamples);
                 bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addIndirect", in.params,
-                    WEDGE_BLOCK_PIXELS, component, 1u, bench.buffer(reflectance.values), bench.buffer(value.values),
-                    bench.buffer(noisy.values), bench.buffer(deviations.values), bench.buffer(in.taken.values),
-                    indirect, indirectNoisy, deviation, variance, samples, indirectSamples);
+                    WEDGE_BLOCK_PIXELS, component, 1u, k, bench.buffer(value.values), taken, indirect, variance);
             };
             // After each term, what the terms so far multiply value by, and add.
             const auto check = [&](const auto& expected, unsigned terms) {
@@ -368,21 +372,19 @@ TEST_CASE("addIndirect: terms times reflectance add up, with their samples; ambi
     });
 }
 
-TEST_CASE("addEmission: emission and reflection on surfaces, emission alone elsewhere")
+TEST_CASE("addReflected: what is below and reflection on surfaces, what is below alone elsewhere")
 {
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);
         const Receivers in(37, 5, 6);
         const auto emission = bench.buffer(in.position.values), direct = bench.buffer(in.diffuse.values);
-        const auto indirect = bench.buffer(in.normal.values);
         const auto beauty = bench.filled(3 * in.layout().size, -7.0f);
-        bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addEmission", in.params,
-            WEDGE_BLOCK_PIXELS, emission, direct, indirect, bench.buffer(in.objectId.values), beauty);
+        bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addReflected", in.params,
+            WEDGE_BLOCK_PIXELS, emission, direct, bench.buffer(in.objectId.values), beauty);
         const Planes<float> found = planesOf(in.layout(), bench.read(beauty));
         in.everyPixel([&](int x, int y) {
             for (std::size_t c = 0; c < 3; ++c) {
-                const float reflected =
-                    in.objectId.at(x, y) != 0 ? in.diffuse.at(x, y, c) + in.normal.at(x, y, c) : 0.0f;
+                const float reflected = in.objectId.at(x, y) != 0 ? in.diffuse.at(x, y, c) : 0.0f;
                 REQUIRE(found.at(x, y, c) == in.position.at(x, y, c) + reflected);
             }
         });

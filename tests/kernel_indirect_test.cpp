@@ -49,6 +49,7 @@ public:
         params.deltaLights = traced.onDevice.deltaLightCount;
         params.sceneDiameter = traced.onDevice.diameter;
         params.ambientDistance = infinity;
+        params.keepsDistances = 1;
     }
 
     /// Forgets all samples.

@@ -33,6 +33,15 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
     if (fallsBack && lit && !scene.areaLights.empty()) {
         fallBack(f_.totals.direct);
     }
+    // Two planes become one before paths are traced.
+    auto beauty = graph_.plane<Radiance>("emission and direct light", graph::vectors);
+    const auto add = [this](const graph::Handle<Radiance>& below, const graph::Handle<Radiance>& light,
+                         graph::Handle<Radiance>& sum) {
+        f_.blocks("composite", PassKind::Composite, { "composite.cl", "addReflected" },
+            { f_.rectangle(f_.analysisParams()), reads("below", below), reads("light", light),
+                reads("objectId", f_.surfaces.objectId), writes("sum", sum) });
+    };
+    add(f_.surfaces.emission, f_.totals.direct.filtered, beauty);
     for (const IndirectTerm& component : indirectTerms(settings, f_.specular)) {
         TermWidths& term = startTerm();
         addPaths(f_, component.component, term.state, term.beta);
@@ -40,10 +49,11 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
     if (fallsBack && tracesPaths(settings)) {
         fallBack(f_.totals.indirect);
     }
-    f_.blocks("composite", PassKind::Composite, { "composite.cl", "addEmission" },
-        { f_.rectangle(f_.analysisParams()), reads("emission", f_.surfaces.emission),
-            reads("direct", f_.totals.direct.filtered), reads("indirect", f_.totals.indirect.filtered),
-            reads("objectId", f_.surfaces.objectId), writes("beauty", f_.totals.beauty) });
+    if (indirectTerms(settings, f_.specular).empty()) {
+        f_.totals.beauty = beauty;
+    } else {
+        add(beauty, f_.totals.indirect.filtered, f_.totals.beauty);
+    }
     Shown shown { {}, imageOf(f_.totals), {}, {}, {}, {} };
     if (keepLayers) {
         shown = { f_.surfaces, f_.totals, {}, {}, {}, {} };

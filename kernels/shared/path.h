@@ -27,7 +27,8 @@ typedef struct {
     float sceneDiameter; ///< metres
     float ambientDistance; ///< metres; surfaces farther away do not count for the ambient component
     uint strata; ///< as of SampleParams
-    uint padding[2];
+    uint keepsDistances; ///< 1: adds to the planes of reflectors; 0: there are none
+    uint padding;
 } PathParams;
 
 /// Distances of reflectors to widths and counts.

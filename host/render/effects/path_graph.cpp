@@ -50,46 +50,46 @@ public:
 
     void declare()
     {
-        f_.zero(sums_, value_, extremes_, taken_);
+        f_.zero(sums_, value_, taken_);
         const auto spp = static_cast<std::uint32_t>(s_.spp);
         if (!f_.analysed()) {
             uniformCounts(f_, spp, f_.surfaces.objectId, wanted_);
             paths("paths", 0, spp, s_.spp, false);
-            composite(value_, {});
+            addSamples();
+            addFiltered(value_);
             return;
         }
+        f_.zero(extremes_);
         constexpr std::uint32_t first = WEDGE_INDIRECT_FIRST_RAYS;
         uniformCounts(f_, first, f_.surfaces.objectId, wanted_);
         paths("first paths", 0, first, first, true);
         f_.host("analysable", [state = state_](Run& run) { state->analysed = !run.cut(); });
-        const auto analysed = [state = state_](const Run&) { return state->analysed; };
-        g_.only("analysis of paths", analysed, [&] { widthsAndCounts(); });
+        f_.zero(beta_); // which filters nothing
+        g_.only(
+            "analysis of paths", [state = state_](const Run&) { return state->analysed; }, [&] { widthsAndCounts(); });
         const int most = isUniform() ? s_.spp : std::max(s_.indirect.maxSpp, s_.spp);
         paths("second paths", first, static_cast<std::uint32_t>(most), s_.spp, false);
-        if (s_.filtering == Filtering::None) {
-            composite(value_, {});
-            return;
-        }
         if (varies()) {
             deviations();
         }
-        g_.only("filter of paths", analysed, [&] {
-            // What was stopped early has not the counts that the parts of samples were made for.
-            if (widens(s_)) {
-                g_.only(
-                    "widening", [](const Run& run) { return !run.cut(); },
-                    [&] {
-                        widen(f_, "filter of indirect", filterParams(), s_.indirect.widening, pinholeNoise,
-                            { irradiance_, deviation_, weights_ }, beta_);
-                    });
-            }
-            const char* program = varies() ? "filter_paths.cl" : "filter_indirect.cl";
-            composite(gaussianFilter(f_, { "filter of indirect", PassKind::Filter, program },
-                          varies() ? channels + 1 : channels, filterParams(), value_, beta_)
-                          .value,
-                {});
-        });
-        composite(value_, [analysed](const Run& run) { return !analysed(run); });
+        addSamples();
+        if (s_.filtering == Filtering::None) {
+            addFiltered(value_);
+            return;
+        }
+        // What was stopped early has not the counts that the parts of samples were made for.
+        if (widens(s_)) {
+            g_.only(
+                "widening", [state = state_](const Run& run) { return state->analysed && !run.cut(); },
+                [&] {
+                    widen(f_, "filter of indirect", filterParams(), s_.indirect.widening, pinholeNoise,
+                        { irradiance_, deviation_, weights_ }, beta_);
+                });
+        }
+        const char* program = varies() ? "filter_paths.cl" : "filter_indirect.cl";
+        addFiltered(gaussianFilter(f_, { "filter of indirect", PassKind::Filter, program },
+            varies() ? channels + 1 : channels, filterParams(), value_, beta_)
+                        .value);
     }
 
 private:
@@ -99,13 +99,13 @@ private:
     shared::FilterParams filterParams() const { return render::filterParams(s_, f_.wholeFrame(), g_.image()); }
     shared::AnalysisParams countParams() const { return pathCountParams(f_.analysisParams(), s_); }
     shared::ReflectorParams reflectorParams() const { return render::reflectorParams(f_, component_); }
-    shared::PathParams pathParams() const { return render::pathParams(f_, component_); }
 
     void paths(const char* pass, std::uint32_t from, std::uint32_t most, double mean, bool everywhere);
     void widthsAndCounts();
     void countsFromVariance();
     void deviations();
-    void composite(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition);
+    void addSamples();
+    void addFiltered(const graph::Handle<Value>& filtered);
 
     FrameBuilder& f_;
     graph::Graph& g_;
@@ -128,16 +128,20 @@ void PathGraph::paths(const char* pass, std::uint32_t from, std::uint32_t most, 
     const int vertices = std::max(1, s_.bounces);
     const auto slice = static_cast<std::uint32_t>(std::max(1, sliceVertices / vertices));
     const SampleSlices slices(from, most, slice, mean);
+    shared::PathParams params = pathParams(f_, component_);
+    const bool first = f_.analysed() && from == 0; // distances are for the analysis
+    params.keepsDistances = first ? 1 : 0;
     g_.loop("slices", slices.counter(), [&] {
         f_.trace(pass, { "indirect.cl", "samplePaths" },
-            joined({ f_.frame(), value("params", pathParams()) }, f_.hierarchy(), f_.geometry(),
+            joined({ f_.frame(), value("params", params) }, f_.hierarchy(), f_.geometry(),
                 Arguments { f_.ofScene("areaLights", "AreaLight", &DeviceScene::areaLights),
                     f_.ofScene("deltaLights", "DeltaLight", &DeviceScene::deltaLights) },
                 f_.receivers(),
                 Arguments { reads("specular", f_.surfaces.specular), reads("wanted", wanted_), slices.last(),
                     updates("sums", sums_), updates("taken", taken_), updates("value", value_),
-                    updates("reflectors", extremes_), tallies("rays", f_.totals.rays),
-                    tallies("pathRays", f_.totals.pathRays) }),
+
+                    first ? updates("reflectors", extremes_) : f_.nothing("reflectors"),
+                    tallies("rays", f_.totals.rays), tallies("pathRays", f_.totals.pathRays) }),
             everywhere, slices.workUnits(std::max(1.0, mean - from) * vertices));
     });
 }
@@ -185,17 +189,24 @@ void PathGraph::deviations()
             writes("weights", weights_) });
 }
 
-void PathGraph::composite(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition)
+void PathGraph::addSamples()
+{
+    Sum& indirect = f_.totals.indirect;
+    f_.blocks("composite", PassKind::Composite, { "composite.cl", "addPathSamples" },
+        { f_.rectangle(countParams()), value("component", static_cast<std::uint32_t>(component_)),
+            value("varies", varies() ? 1u : 0u), reads("reflectance", reflectance_), reads("value", value_),
+            varies() ? reads("deviations", deviation_) : f_.nothing("deviations"), reads("taken", taken_),
+            updates("indirectNoisy", indirect.noisy), updates("deviation", indirect.deviation),
+            updates("samples", f_.totals.samples), updates("indirectSamples", f_.totals.indirectSamples) });
+}
+
+void PathGraph::addFiltered(const graph::Handle<Value>& filtered)
 {
     Sum& indirect = f_.totals.indirect;
     f_.blocks("composite", PassKind::Composite, { "composite.cl", "addIndirect" },
         { f_.rectangle(countParams()), value("component", static_cast<std::uint32_t>(component_)),
-            value("varies", varies() ? 1u : 0u), reads("reflectance", reflectance_), reads("value", shown),
-            reads("noisy", value_), varies() ? reads("deviations", deviation_) : f_.nothing("deviations"),
-            reads("taken", taken_), updates("indirect", indirect.filtered), updates("indirectNoisy", indirect.noisy),
-            updates("deviation", indirect.deviation), updates("variance", indirect.variance),
-            updates("samples", f_.totals.samples), updates("indirectSamples", f_.totals.indirectSamples) },
-        condition);
+            value("varies", varies() ? 1u : 0u), reads("reflectance", reflectance_), reads("value", filtered),
+            reads("taken", taken_), updates("indirect", indirect.filtered), updates("variance", indirect.variance) });
 }
 
 } // namespace

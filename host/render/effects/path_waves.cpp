@@ -23,6 +23,7 @@ PathWaves::PathWaves(FrameBuilder& frame, const SampleShape& shape, Component co
 shared::PathParams PathWaves::pathParams() const
 {
     shared::PathParams p = render::pathParams(f_, component_);
+    p.keepsDistances = 1;
     p.sampler = waveSampler(settings());
     p.firstPass = 0;
     p.strata = static_cast<std::uint32_t>(settings().spp); // receivers have but some of their pixel's samples
