@@ -317,6 +317,27 @@ TEST_CASE("ambient occlusion and indirect light are rendered progressively, too"
     });
 }
 
+TEST_CASE("ambient occlusion takes no samples for the edges of what emits, which it does not show")
+{
+    onEveryDevice([](const device::Device& device) {
+        scene::Scene scene = lensScene();
+        render::Settings settings = filtered(64);
+        settings.integrator = render::Integrator::AmbientOcclusion;
+        const auto rendered = [&](glm::vec3 background) {
+            scene.background = background;
+            render::Renderer renderer(scene, device, renderOptions());
+            return steps(renderer, settings);
+        };
+        const std::vector<Step> dark = rendered({ 0, 0, 0 }), bright = rendered({ 20, 10, 5 });
+        REQUIRE(dark.size() == 3);
+        REQUIRE(bright.size() == 3);
+        for (std::size_t i = 0; i < dark.size(); ++i) {
+            CHECK(raysOf(bright[i].step.statistics) == raysOf(dark[i].step.statistics));
+            CHECK(sameBits(bright[i].image, dark[i].image));
+        }
+    });
+}
+
 TEST_CASE("the memory that is told is that of the step that takes most")
 {
     const render::StepRange most = render::largestStep(70);

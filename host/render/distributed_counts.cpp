@@ -162,7 +162,11 @@ void DistributedSamples::demands()
             { pixels, reads("emission", image), reads("squares", squares), reads("taken", counts_.taken),
                 writes("variance", out) });
     };
-    variance(f_.surfaces.emission, emissionSquares_, ofTextures);
+    if (lit_) {
+        variance(f_.surfaces.emission, emissionSquares_, ofTextures);
+    } else {
+        f_.zero(ofTextures); // what emits is not shown
+    }
     if (delta_.graph != 0) {
         auto ofDelta = plane("variance of point lights");
         variance(delta_, deltaSquares_, ofDelta);
