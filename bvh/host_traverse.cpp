@@ -38,7 +38,7 @@ Vec3 turned(Vec3 v, int last)
     return last == 0 ? shared::vec3(v.y, v.z, v.x) : last == 1 ? shared::vec3(v.z, v.x, v.y) : v;
 }
 
-/// The triangle test of kernels/intersect.h for one lane, in the same floats.
+/// The triangle test of kernels/trace/intersect.h for one lane, in the same floats.
 bool hitsLane(const shared::TriangleBlock& block, unsigned lane, const Ray& ray, Hit& hit)
 {
     const float x = std::fabs(ray.direction.x), y = std::fabs(ray.direction.y), z = std::fabs(ray.direction.z);

@@ -14,8 +14,8 @@ struct Ray {
     float tMax;
 };
 
-/// What closestHit of kernels/traverse.h finds, one box and one triangle at a time: the oracle of the device code.
-/// The nearest hit on either face, of equal t the one of the smallest triangle; on a miss t is tMax.
+/// What closestHit of kernels/trace/traverse.h finds, one box and one triangle at a time: the oracle of the device
+/// code. The nearest hit on either face, of equal t the one of the smallest triangle; on a miss t is tMax.
 shared::Hit closestHit(const Bvh& bvh, const Ray& ray);
 
 /// Whether the ray hits anything.

@@ -4,11 +4,11 @@
 
 namespace wedge::bvh {
 
-/// The hierarchy with 4 children a node instead of 8, for the scalar family of traversals (kernels/traverse_scalar.h).
-/// It refers to the same blocks: only nodes differ. Each node of up to 4 children becomes one node; those of more
-/// become one whose children are grouped, each group a node of its own, so that the boxes of the groups are small.
-/// nodes[0] is the root, has the hierarchy's unit and is always there; children follow their parents. Takes time in
-/// proportion to the nodes.
+/// The hierarchy with 4 children a node instead of 8, for the scalar family of traversals
+/// (kernels/trace/traverse_scalar.h). It refers to the same blocks: only nodes differ. Each node of up to 4 children
+/// becomes one node; those of more become one whose children are grouped, each group a node of its own, so that the
+/// boxes of the groups are small. nodes[0] is the root, has the hierarchy's unit and is always there; children follow
+/// their parents. Takes time in proportion to the nodes.
 ///
 /// A traversal's stack needs no more entries than in the wide tree, and so WEDGE_BVH_STACK suffices. It leaves at most
 /// c - 1 entries at a wide node of c children when it goes on into one of them. Here it passes the root of the node's

@@ -14,8 +14,8 @@ namespace wedge::bvh {
 /// Words of a ray, and of a hit, in a packet: one array of as many lanes for each.
 inline constexpr std::size_t rayWords = sizeof(Ray) / sizeof(float), hitWords = sizeof(shared::Hit) / sizeof(float);
 
-/// Rays as RayPacket of kernels/packet.h holds them, `lanes` to a packet: the same word of all its rays side by side.
-/// Lanes that the last packet has over hold rays of an empty interval. times: one a ray, for programs with
+/// Rays as RayPacket of kernels/trace/packet.h holds them, `lanes` to a packet: the same word of all its rays side by
+/// side. Lanes that the last packet has over hold rays of an empty interval. times: one a ray, for programs with
 /// WEDGE_MOTION; empty for those without.
 inline std::vector<float> packRays(std::span<const Ray> rays, std::size_t lanes, std::span<const float> times = {})
 {
@@ -34,7 +34,7 @@ inline std::vector<float> packRays(std::span<const Ray> rays, std::size_t lanes,
     return out;
 }
 
-/// The hits of the first `count` rays from PacketHits of kernels/packet.h, as words.
+/// The hits of the first `count` rays from PacketHits of kernels/trace/packet.h, as words.
 inline std::vector<shared::Hit> unpackHits(std::span<const std::uint32_t> packets, std::size_t lanes, std::size_t count)
 {
     assert(packets.size() >= (count + lanes - 1) / lanes * lanes * hitWords);

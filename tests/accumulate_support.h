@@ -189,7 +189,7 @@ public:
     template <class... Args>
     void launch(const std::string& kernel, const Args&... args)
     {
-        waves.bench.passes.list("accumulate", device::PassKind::Trace, "accumulate.cl", kernel,
+        waves.bench.passes.list("accumulate", device::PassKind::Trace, "waves/accumulate.cl", kernel,
             std::size_t { lists.wave.tiles } * WEDGE_TILE_PIXELS, waves.params, lists.wave, args...);
     }
 

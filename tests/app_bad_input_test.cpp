@@ -240,12 +240,12 @@ TEST_CASE("references that do not fit")
 TEST_CASE("a kernel that does not compile is one line of ours, whatever the driver says itself")
 {
     const Workplace place;
-    place.write("primary.cl", "__kernel void primary(int a) { return nonsense; }\n");
+    place.write("frame/primary.cl", "__kernel void primary(int a) { return nonsense; }\n");
     const Outcome outcome = place.run({ "render", box, "--kernel-dir", ".", "-o", "a.exr" });
     CHECK(outcome.status == failure);
     const std::size_t line = outcome.err.rfind("wedge: error: ");
     REQUIRE(line != std::string::npos);
-    CHECK(contains(outcome.err.substr(line), "primary.cl"));
+    CHECK(contains(outcome.err.substr(line), "frame/primary.cl"));
     CHECK(outcome.err.find('\n', line) == outcome.err.size() - 1);
     CHECK_FALSE(place.has("a.exr"));
 }

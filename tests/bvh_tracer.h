@@ -158,7 +158,7 @@ private:
         std::vector<Result> untouched(count);
         std::memset(static_cast<void*>(untouched.data()), 0x5a, untouched.size() * sizeof(Result));
         results.upload(queue_, untouched);
-        device::Kernel kernel = library_.kernel("trace_test.cl", name);
+        device::Kernel kernel = library_.kernel("trace/trace_test.cl", name);
         kernel.setArgs(rayBuffer, results, nodes, blocks, static_cast<std::uint32_t>(items));
         const std::size_t local = std::min<std::size_t>(64, kernel.workGroupLimit());
         queue_.launch(name, device::PassKind::Trace, kernel, items, local);

@@ -11,7 +11,7 @@ namespace wedge::test {
 class FilterRun {
 public:
     explicit FilterRun(
-        const device::Device& device, const Defines& defines = {}, const std::string& program = "filter.cl")
+        const device::Device& device, const Defines& defines = {}, const std::string& program = "filter/filter.cl")
         : bench_(device, defines)
         , program_(program)
     {

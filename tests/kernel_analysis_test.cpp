@@ -72,7 +72,7 @@ public:
     template <class... Args>
     void launch(const std::string& kernel, const shared::AnalysisParams& p, std::uint32_t across, const Args&... args)
     {
-        bench.passes.rows("analysis", device::PassKind::Analysis, "analysis.cl", kernel, p, across, args...);
+        bench.passes.rows("analysis", device::PassKind::Analysis, "analysis/analysis.cl", kernel, p, across, args...);
     }
     Planes<float> eroded(const Slopes& in)
     {

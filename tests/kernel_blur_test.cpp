@@ -83,7 +83,7 @@ Planes<float> lensFiltered(KernelBench& bench, const Blurred& image, const std::
 {
     Output<float> out(bench, image.region, 3);
     const auto sigma = bench.buffer(image.sigma.values), value = bench.buffer(image.value.values);
-    launchPixels(bench, "blur.cl", kernel, paramsOf(image.region), sigma, value, out.buffer());
+    launchPixels(bench, "filter/blur.cl", kernel, paramsOf(image.region), sigma, value, out.buffer());
     return out.read();
 }
 
@@ -98,7 +98,7 @@ Planes<float> motionFiltered(
     const auto direction = bench.buffer((packed != 0 ? image.packedDirections() : image.direction).values);
     const auto value = bench.buffer(
         channels == 3 ? packedColours(image.value, shared::textureBits(packed, true)).values : image.value.values);
-    launchPixels(bench, "blur.cl", "blurMotion", p, channels, sigma, direction, value, out.buffer());
+    launchPixels(bench, "filter/blur.cl", "blurMotion", p, channels, sigma, direction, value, out.buffer());
     return out.read();
 }
 

@@ -48,7 +48,7 @@ struct Difference {
 
 /// window: the pixels to compare, all by default
 Difference differenceOf(KernelBench& bench, const Compared& in, const Planes<float>& normals,
-    const char* program = "compare_widths.cl", image::Window window = {})
+    const char* program = "filter/compare_widths.cl", image::Window window = {})
 {
     const FilterImage& image = in.image;
     const std::size_t size = image.value.layout.size;
@@ -161,7 +161,7 @@ TEST_CASE("two widths at once in a window are the whole image's, bit by bit")
         const Compared in(Shape::Tilted, 44);
         const Difference whole = differenceOf(bench, in, in.image.normal);
         const image::Window window { 16, 7, 48, 19 };
-        const Difference part = differenceOf(bench, in, in.image.normal, "compare_widths.cl", window);
+        const Difference part = differenceOf(bench, in, in.image.normal, "filter/compare_widths.cl", window);
         for (int y = 0; y < in.image.height(); ++y)
             for (int x = 0; x < in.image.width(); ++x) {
                 const bool inside = x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1;
@@ -185,6 +185,6 @@ TEST_CASE("two widths at once with packed normals")
                 packed.at(x, y) = std::bit_cast<float>(bits);
                 in.image.normal.setVector(x, y, { rounded.x, rounded.y, rounded.z });
             }
-        check(in, differenceOf(bench, in, packed, "packed_compare_widths.cl"));
+        check(in, differenceOf(bench, in, packed, "filter/packed_compare_widths.cl"));
     });
 }

@@ -128,9 +128,10 @@ TEST_CASE("addDiffuse: value times unshadowed shading times reflectance, in each
                                noisy = bench.filled(3 * in.layout().size, 0.25f);
                     const auto samples = bench.filled(in.layout().size, 100u);
                     const auto deviation = bench.filled(in.layout().size, 0.125f);
-                    bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addDiffuse", in.params,
-                        WEDGE_BLOCK_PIXELS, shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} },
-                        made, bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values),
+                    bench.passes.rows("composite", device::PassKind::Composite, "frame/composite.cl", "addDiffuse",
+                        in.params, WEDGE_BLOCK_PIXELS,
+                        shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made,
+                        bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values),
                         bench.buffer(in.normal.values), bench.buffer(in.objectId.values),
                         bench.buffer(in.diffuse.values), bench.buffer(in.value.values), bench.buffer(in.noisy.values),
                         bench.buffer(in.taken.values), direct, noisy, deviation, samples);
@@ -190,7 +191,7 @@ TEST_CASE("addSpecular: the second term times the lobe's unshadowed shading time
             const auto direct = bench.filled(3 * in.layout().size, 0.5f),
                        noisy = bench.filled(3 * in.layout().size, 0.25f),
                        deviation = bench.filled(in.layout().size, 0.125f);
-            bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addSpecular", in.params,
+            bench.passes.rows("composite", device::PassKind::Composite, "frame/composite.cl", "addSpecular", in.params,
                 WEDGE_BLOCK_PIXELS, shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made, frame,
                 std::uint32_t { 256 }, bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values),
                 bench.buffer(in.normal.values), bench.buffer(in.objectId.values), bench.buffer(in.gloss.values),
@@ -267,7 +268,7 @@ TEST_CASE("addSpecular: a mirror shows the light's own radiance, where it shows 
             const std::vector<float> sharp(in.gloss.values.size(), -1e6f), whole(in.value.values.size(), 1.0f);
             const auto direct = bench.filled(3 * in.layout().size, 0.0f),
                        noisy = bench.filled(3 * in.layout().size, 0.0f);
-            bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addSpecular", in.params,
+            bench.passes.rows("composite", device::PassKind::Composite, "frame/composite.cl", "addSpecular", in.params,
                 WEDGE_BLOCK_PIXELS, shared::SampleParams { WEDGE_SHADING_RATIO, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} },
                 made, frame, std::uint32_t { 256 }, bench.buffer(render::lightNodes(light)),
                 bench.buffer(in.position.values), bench.buffer(in.normal.values), bench.buffer(in.objectId.values),
@@ -320,11 +321,12 @@ TEST_CASE("addPathSamples, addIndirect: terms times reflectance add up, with the
             const auto add = [&](std::uint32_t component, const Planes<float>& reflectance) {
                 const auto k = bench.buffer(reflectance.values);
                 const auto taken = bench.buffer(in.taken.values);
-                bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addPathSamples", in.params,
-                    WEDGE_BLOCK_PIXELS, component, 1u, k, bench.buffer(noisy.values), bench.buffer(deviations.values),
-                    taken, indirectNoisy, deviation, samples, indirectSamples);
-                bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addIndirect", in.params,
-                    WEDGE_BLOCK_PIXELS, component, 1u, k, bench.buffer(value.values), taken, indirect, variance);
+                bench.passes.rows("composite", device::PassKind::Composite, "frame/composite.cl", "addPathSamples",
+                    in.params, WEDGE_BLOCK_PIXELS, component, 1u, k, bench.buffer(noisy.values),
+                    bench.buffer(deviations.values), taken, indirectNoisy, deviation, samples, indirectSamples);
+                bench.passes.rows("composite", device::PassKind::Composite, "frame/composite.cl", "addIndirect",
+                    in.params, WEDGE_BLOCK_PIXELS, component, 1u, k, bench.buffer(value.values), taken, indirect,
+                    variance);
             };
             // After each term, what the terms so far multiply value by, and add.
             const auto check = [&](const auto& expected, unsigned terms) {
@@ -379,7 +381,7 @@ TEST_CASE("addReflected: what is below and reflection on surfaces, what is below
         const Receivers in(37, 5, 6);
         const auto emission = bench.buffer(in.position.values), direct = bench.buffer(in.diffuse.values);
         const auto beauty = bench.filled(3 * in.layout().size, -7.0f);
-        bench.passes.rows("composite", device::PassKind::Composite, "composite.cl", "addReflected", in.params,
+        bench.passes.rows("composite", device::PassKind::Composite, "frame/composite.cl", "addReflected", in.params,
             WEDGE_BLOCK_PIXELS, emission, direct, bench.buffer(in.objectId.values), beauty);
         const Planes<float> found = planesOf(in.layout(), bench.read(beauty));
         in.everyPixel([&](int x, int y) {

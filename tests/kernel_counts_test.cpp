@@ -39,15 +39,15 @@ Planes<std::uint32_t> countsOf(KernelBench& bench, const Planes<float>& demand, 
                scale = bench.filled(1, -1.0f);
     const auto demands = bench.buffer(demand.values);
     const auto objects = bench.buffer(objectId.values);
-    device::Kernel& histogram = bench.passes.find("counts.cl", "demandHistogram");
+    device::Kernel& histogram = bench.passes.find("analysis/counts.cl", "demandHistogram");
     histogram.setArgs(p, demands, objects, counts, sums, shaded);
     bench.queue.launch("counts", device::PassKind::Analysis, histogram, stripes, 1);
-    device::Kernel& solve = bench.passes.find("counts.cl", "solveCountScale");
+    device::Kernel& solve = bench.passes.find("analysis/counts.cl", "solveCountScale");
     solve.setArgs(mean, 9.0f, static_cast<float>(cap), counts, sums, shaded, binCounts, binSums, scale);
     bench.queue.launch("counts", device::PassKind::Analysis, solve, 1, 1);
     const auto wanted = bench.filled(demand.layout.size, 777u);
-    bench.passes.rows(
-        "counts", device::PassKind::Analysis, "counts.cl", "countsFromDemand", p, 1, demands, scale, objects, wanted);
+    bench.passes.rows("counts", device::PassKind::Analysis, "analysis/counts.cl", "countsFromDemand", p, 1, demands,
+        scale, objects, wanted);
     return planesOf(demand.layout, bench.read(wanted));
 }
 
@@ -194,9 +194,9 @@ TEST_CASE("countDemand is (v / K)^0.4 with v floored by its neighbourhood")
                         beta.at(x, y) = -1;
                 }
             const auto out = bench.filled(layout.size, -7.0f);
-            bench.passes.rows("counts", device::PassKind::Analysis, "counts.cl", "countDemand", p, WEDGE_BLOCK_PIXELS,
-                bench.buffer(filtered.values), bench.buffer(effective.values), bench.buffer(beta.values),
-                bench.buffer(objectId.values), out);
+            bench.passes.rows("counts", device::PassKind::Analysis, "analysis/counts.cl", "countDemand", p,
+                WEDGE_BLOCK_PIXELS, bench.buffer(filtered.values), bench.buffer(effective.values),
+                bench.buffer(beta.values), bench.buffer(objectId.values), out);
             const Planes<float> demand = planesOf(layout, bench.read(out));
             const auto variance = [&](int x, int y) {
                 const double v = std::clamp<double>(filtered.at(x, y), 0, 1);
@@ -228,7 +228,7 @@ TEST_CASE("uniformCounts gives each shaded pixel of its window the same count")
         p.y0 = 3;
         p.y1 = 9;
         const auto wanted = bench.filled(in.demand.layout.size, 777u);
-        bench.passes.rows("counts", device::PassKind::Analysis, "counts.cl", "uniformCounts", p, 1,
+        bench.passes.rows("counts", device::PassKind::Analysis, "analysis/counts.cl", "uniformCounts", p, 1,
             std::uint32_t { 13 }, bench.buffer(in.objectId.values), wanted);
         const Planes<std::uint32_t> found = planesOf(in.demand.layout, bench.read(wanted));
         for (int y = 0; y < 12; ++y)

@@ -76,7 +76,8 @@ SplitPlanes splitVariance(
                l2 =
                    bench.buffer((p.packed != 0 ? packedNumbers(in.deviation, in.textureDeviation) : in.squares).values);
     const auto taken = bench.buffer(in.taken.values);
-    launchPixels(bench, "distributed.cl", "splitVariance", p, k, k2, e, l2, taken, first.buffer(), second.buffer());
+    launchPixels(
+        bench, "waves/distributed.cl", "splitVariance", p, k, k2, e, l2, taken, first.buffer(), second.buffer());
     return { first.read(), second.read() };
 }
 
@@ -135,7 +136,8 @@ Planes<float> sampleDemand(
     const auto variance = bench.buffer(in.variance.values), effective = bench.buffer(in.effective.values),
                beta = bench.buffer(in.beta.values), lens = bench.buffer(in.lens.values),
                along = bench.buffer(in.along.values);
-    launchPixels(bench, "distributed.cl", "sampleDemand", p, variance, effective, beta, lens, along, demand.buffer());
+    launchPixels(
+        bench, "waves/distributed.cl", "sampleDemand", p, variance, effective, beta, lens, along, demand.buffer());
     return demand.read();
 }
 
@@ -243,7 +245,7 @@ TEST_CASE("emission: the variance of its luminance, none of a sample or less")
         Output<float> variance(bench, region, 1);
         const auto e = bench.buffer(emission.values), e2 = bench.buffer(squares.values);
         const auto n = bench.buffer(taken.values);
-        launchPixels(bench, "distributed.cl", "emissionVariance", paramsOf(region), e, e2, n, variance.buffer());
+        launchPixels(bench, "waves/distributed.cl", "emissionVariance", paramsOf(region), e, e2, n, variance.buffer());
         const Planes<float> found = variance.read();
         everyPixel(region.window, [&](int x, int y) {
             const double rest = squares.at(x, y) - std::pow(luminanceOf(emission.vector(x, y)), 2);
@@ -304,7 +306,8 @@ TEST_CASE("at least so many samples of one kind as of another, where taken apart
         const Planes<float> before = in.effective;
         Output<float> demand(bench, region, before);
         const auto beta = bench.buffer(in.beta.values), least = bench.buffer(in.along.values);
-        launchPixels(bench, "distributed.cl", "atLeast", paramsOf(region), 0.5f, 8.0f, beta, least, demand.buffer());
+        launchPixels(
+            bench, "waves/distributed.cl", "atLeast", paramsOf(region), 0.5f, 8.0f, beta, least, demand.buffer());
         const Planes<float> found = demand.read();
         int raised[2] = {};
         everyPixel(region.window, [&](int x, int y) {
@@ -327,7 +330,7 @@ TEST_CASE("counts: no more new primary samples than a wave has room for")
         everyPixel({ 0, 0, region.width, region.height },
             [&](int x, int y) { atLeastTaken.at(x, y) = std::max(wanted.at(x, y), taken.at(x, y)); });
         Output<std::uint32_t> primary(bench, region, atLeastTaken);
-        launchPixels(bench, "distributed.cl", "limitStep", paramsOf(region), takenBuffer, primary.buffer());
+        launchPixels(bench, "waves/distributed.cl", "limitStep", paramsOf(region), takenBuffer, primary.buffer());
         const Planes<std::uint32_t> found = primary.read();
         everyPixel(region.window, [&](int x, int y) {
             const std::uint32_t steps = std::min(atLeastTaken.at(x, y) - taken.at(x, y), 1024u);

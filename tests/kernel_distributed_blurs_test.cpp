@@ -172,8 +172,8 @@ BlursFound blurs(KernelBench& bench, const Region& region, const shared::Distrib
     const auto takens = bench.buffer(taken.values);
     if (p.packed == 0) {
         const auto confusions = bench.buffer(confusion.values), motions = bench.buffer(motion.values);
-        launchPixels(bench, "distributed.cl", "blurs", p, confusions, motions, takens, lens.buffer(), along.buffer(),
-            directions.buffer());
+        launchPixels(bench, "waves/distributed.cl", "blurs", p, confusions, motions, takens, lens.buffer(),
+            along.buffer(), directions.buffer());
         return { lens.read(), along.read(), directions.read() };
     }
     Planes<float> ofY = motion;
@@ -183,7 +183,7 @@ BlursFound blurs(KernelBench& bench, const Region& region, const shared::Distrib
     const auto confusions = bench.buffer(packedNumbers(confusion, confusion).values),
                motions = bench.buffer(both.values);
     launchPixels(
-        bench, "distributed.cl", "blurs", p, confusions, motions, takens, lens.buffer(), along.buffer(), motions);
+        bench, "waves/distributed.cl", "blurs", p, confusions, motions, takens, lens.buffer(), along.buffer(), motions);
     return { lens.read(), along.read(), directionsOf(bench, region, motions, both) };
 }
 
@@ -200,7 +200,7 @@ BlursFound shadowBlurs(KernelBench& bench, const Region& region, const shared::D
     Output<float> along(bench, region, 1), directions(bench, region, 2);
     const Planes<float> before(region.layout, 1, 0.0f);
     const auto packed = bench.buffer(before.values);
-    launchPixels(bench, "distributed.cl", "shadowBlurs", p, shadowed, takens, betas, along.buffer(),
+    launchPixels(bench, "waves/distributed.cl", "shadowBlurs", p, shadowed, takens, betas, along.buffer(),
         p.packed != 0 ? packed : directions.buffer());
     const Planes<float> width = along.read();
     return { width, width, p.packed != 0 ? directionsOf(bench, region, packed, before) : directions.read() };

@@ -86,7 +86,7 @@ Planes<float> factoredWidths(
                confusion = bench.buffer((packed ? packedNumbers(in.confusion, other) : in.confusion).values),
                size = bench.buffer((packed ? packedNumbers(in.pixelSize, other) : in.pixelSize).values);
     const auto objects = bench.buffer(in.objectId.values);
-    launchPixels(bench, "distributed.cl", "factoredWidths", p, error, confusion, size, objects, beta.buffer());
+    launchPixels(bench, "waves/distributed.cl", "factoredWidths", p, error, confusion, size, objects, beta.buffer());
     return beta.read();
 }
 
@@ -100,7 +100,7 @@ TEST_CASE("the factoring error is the signed luminance of k E - k mean(e)")
                    plain = filledPlanes(region, 1, 1e30f, any);
         Output<float> error(bench, region, 1);
         const auto k = bench.buffer(texture.values), e = bench.buffer(value.values), m = bench.buffer(plain.values);
-        launchPixels(bench, "distributed.cl", "factoringError", paramsOf(region), k, e, m, error.buffer());
+        launchPixels(bench, "waves/distributed.cl", "factoringError", paramsOf(region), k, e, m, error.buffer());
         const Planes<float> found = error.read();
         int negative = 0;
         everyPixel(region.window, [&](int x, int y) {
@@ -175,8 +175,8 @@ TEST_CASE("counts are the scaled demand to the nearest, within bounds, and never
             Output<std::uint32_t> wanted(bench, region, 1);
             const auto demands = bench.buffer(demand.values);
             const auto takens = bench.buffer(taken.values);
-            launchPixels(bench, "distributed.cl", "scaleCounts", paramsOf(region), scale, 8u, 100u, demands, takens,
-                wanted.buffer());
+            launchPixels(bench, "waves/distributed.cl", "scaleCounts", paramsOf(region), scale, 8u, 100u, demands,
+                takens, wanted.buffer());
             const Planes<std::uint32_t> found = wanted.read();
             everyPixel(region.window, [&](int x, int y) {
                 const double n = std::clamp(static_cast<double>(scale) * demand.at(x, y), 8.0, 100.0);

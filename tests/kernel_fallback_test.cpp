@@ -50,11 +50,11 @@ Planes<float> fallBack(KernelBench& bench, const shared::AnalysisParams& rectang
     const auto filtered = bench.buffer(in.filtered.values), noisy = bench.buffer(in.noisy.values);
     const auto squares = bench.filled((gathered ? 3 : 2) * in.filtered.layout.size, 0.0f);
     const std::uint32_t flag = gathered ? 1 : 0;
-    bench.passes.rows("fallback", device::PassKind::Filter, "fallback.cl", "fallbackSquares",
+    bench.passes.rows("fallback", device::PassKind::Filter, "analysis/fallback.cl", "fallbackSquares",
         paramsOf(in.filtered.layout), WEDGE_BLOCK_PIXELS, flag, filtered, noisy, bench.buffer(in.deviation.values),
         bench.buffer(in.variance.values), squares);
-    bench.passes.rows("fallback", device::PassKind::Filter, "fallback.cl", "fallBack", rectangle, WEDGE_BLOCK_PIXELS,
-        flag, squares, bench.buffer(in.objectId.values), noisy, filtered);
+    bench.passes.rows("fallback", device::PassKind::Filter, "analysis/fallback.cl", "fallBack", rectangle,
+        WEDGE_BLOCK_PIXELS, flag, squares, bench.buffer(in.objectId.values), noisy, filtered);
     return planesOf(in.filtered.layout, bench.read(filtered));
 }
 

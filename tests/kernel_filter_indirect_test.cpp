@@ -18,8 +18,8 @@ struct Program {
     int planes;
     bool packs = true; ///< has a variant for packed frames
 };
-const Program programs[] = { { "filter_indirect.cl", 3 }, { "filter_paths.cl", 4, false },
-    { "filter_variance.cl", 1 } };
+const Program programs[] = { { "filter/filter_indirect.cl", 3 }, { "filter/filter_paths.cl", 4, false },
+    { "filter/filter_variance.cl", 1 } };
 
 /// Calls test(filter, planes) for each program on every device.
 template <class Test>
@@ -185,7 +185,7 @@ TEST_CASE("without a light: NaN of another object, of another normal or of a pix
 TEST_CASE("on a smooth scene two passes over plain distances are close to the gather over squares of pixels")
 {
     onEveryDevice([](const device::Device& device) {
-        FilterRun filter(device, {}, "filter_indirect.cl");
+        FilterRun filter(device, {}, "filter/filter_indirect.cl");
         for (const bool narrower : { false, true })
             for (const unsigned seed : { 41u, 42u, 43u }) {
                 FilterImage image = smoothImage(64, 48, seed);

@@ -12,7 +12,7 @@ using namespace wedge::test;
 
 namespace {
 
-/// "path", as kernels/indirect.cl seeds its samples.
+/// "path", as kernels/paths/indirect.cl seeds its samples.
 constexpr std::uint32_t pathSeed = 0x70617468u;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -71,8 +71,8 @@ public:
     {
         const render::DeviceScene& s = traced.onDevice;
         const SurfaceBuffers& f = traced.frame;
-        traced.bench.passes.tiles("paths", device::PassKind::Trace, "indirect.cl", "samplePaths", traced.params, 1.0,
-            params, s.nodes, s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, f.receivers(), f.specular,
+        traced.bench.passes.tiles("paths", device::PassKind::Trace, "paths/indirect.cl", "samplePaths", traced.params,
+            1.0, params, s.nodes, s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, f.receivers(), f.specular,
             traced.bench.buffer(wanted), last, sums_, traced.taken, value_, reflectors_, f.rays, f.pathRays);
     }
     PathResult result()

@@ -14,8 +14,8 @@ Planes<std::uint32_t> counts(KernelBench& bench, const Region& region, std::uint
     Output<std::uint32_t> wanted(bench, region, 1);
     const auto demands = bench.buffer(demand.values);
     const auto leasts = bench.buffer(least.values), takens = bench.buffer(taken.values);
-    launchPixels(
-        bench, "published.cl", "publishedCounts", paramsOf(region), most, demands, leasts, takens, wanted.buffer());
+    launchPixels(bench, "analysis/published.cl", "publishedCounts", paramsOf(region), most, demands, leasts, takens,
+        wanted.buffer());
     return wanted.read();
 }
 
@@ -48,7 +48,7 @@ TEST_CASE("flags (5.30): |L - k E| below the threshold, of one value and of thre
                     Output<float> flags(bench, region, 1);
                     const auto k = bench.buffer(texture.values), e = bench.buffer(value.values),
                                l = bench.buffer(radiance.values);
-                    launchPixels(bench, "published.cl", "publishedFlags", p, k, e, l, flags.buffer());
+                    launchPixels(bench, "analysis/published.cl", "publishedFlags", p, k, e, l, flags.buffer());
                     const Planes<float> found = flags.read();
                     everyPixel(region.window, [&](int x, int y) {
                         const glm::dvec3 arrives = values == 3 ? value.vector(x, y) : glm::dvec3(value.at(x, y));

@@ -110,8 +110,8 @@ Found shadows(KernelBench& bench, const Pixels& in, float mu, float extent)
     const auto flags = bench.buffer(in.flags.values), slopes = bench.buffer(in.slopes.values),
                confusion = bench.buffer(in.confusion.values), size = bench.buffer(in.pixelSize.values);
     const auto objects = bench.buffer(in.objectId.values);
-    launchPixels(bench, "published.cl", "publishedShadows", paramsOf(in.region), mu, extent, flags, slopes, confusion,
-        size, objects, beta.buffer(), demand.buffer());
+    launchPixels(bench, "analysis/published.cl", "publishedShadows", paramsOf(in.region), mu, extent, flags, slopes,
+        confusion, size, objects, beta.buffer(), demand.buffer());
     return { beta.read(), demand.read() };
 }
 
@@ -122,8 +122,8 @@ Found reflectors(KernelBench& bench, const Pixels& in, float mu, std::uint32_t c
                gloss = bench.buffer(in.gloss.values), confusion = bench.buffer(in.confusion.values),
                size = bench.buffer(in.pixelSize.values);
     const auto objects = bench.buffer(in.objectId.values);
-    launchPixels(bench, "published.cl", "publishedReflectors", paramsOf(in.region), mu, component, flags, distances,
-        gloss, confusion, size, objects, beta.buffer(), demand.buffer());
+    launchPixels(bench, "analysis/published.cl", "publishedReflectors", paramsOf(in.region), mu, component, flags,
+        distances, gloss, confusion, size, objects, beta.buffer(), demand.buffer());
     return { beta.read(), demand.read() };
 }
 
@@ -131,8 +131,8 @@ Planes<float> primaries(KernelBench& bench, const Pixels& in, float mu, float mi
 {
     Output<float> demand(bench, in.region, 1);
     const auto confusion = bench.buffer(in.confusion.values), motion = bench.buffer(in.motion.values);
-    launchPixels(
-        bench, "published.cl", "publishedPrimary", paramsOf(in.region), mu, mixed, confusion, motion, demand.buffer());
+    launchPixels(bench, "analysis/published.cl", "publishedPrimary", paramsOf(in.region), mu, mixed, confusion, motion,
+        demand.buffer());
     return demand.read();
 }
 

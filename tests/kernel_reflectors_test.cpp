@@ -18,10 +18,10 @@ float extentOf(KernelBench& bench, const Planes<float>& position, const Planes<s
     const auto positions = bench.buffer(position.values), bounds = bench.filled(6 * WEDGE_EXTENT_STRIPES, 1e9f),
                extent = bench.filled(1, -7.0f);
     const auto objects = bench.buffer(objectId.values);
-    device::Kernel& first = bench.passes.find("reflectors.cl", "visibleBounds");
+    device::Kernel& first = bench.passes.find("paths/reflectors.cl", "visibleBounds");
     first.setArgs(paramsFor(position.layout), positions, objects, bounds);
     bench.queue.launch("widths", device::PassKind::Analysis, first, WEDGE_EXTENT_STRIPES, 1);
-    device::Kernel& second = bench.passes.find("reflectors.cl", "visibleExtent");
+    device::Kernel& second = bench.passes.find("paths/reflectors.cl", "visibleExtent");
     second.setArgs(bounds, extent);
     bench.queue.launch("widths", device::PassKind::Analysis, second, 1, 1);
     return bench.read(extent).at(0);

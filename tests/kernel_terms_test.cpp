@@ -112,7 +112,7 @@ TEST_CASE(
                        e = bench.buffer(term.valueOf(p).values), filteredE = bench.buffer(term.filtered.values),
                        beta = bench.buffer(term.beta.values), own = bench.buffer(term.own.values);
             launchPixels(
-                bench, "distributed.cl", "addFilteredTerm", p, k, filteredK, e, filteredE, beta, own, radiance);
+                bench, "waves/distributed.cl", "addFilteredTerm", p, k, filteredK, e, filteredE, beta, own, radiance);
         },
         [](const shared::DistributedParams& p, const TermPlanes& term, int x, int y) {
             if (term.beta.at(x, y) < 0)
@@ -143,7 +143,7 @@ TEST_CASE("a term without a filter adds texture times value, or as published wha
             const device::Buffer<float>& radiance) {
             const auto k = bench.buffer(term.textureOf(p).values), e = bench.buffer(term.valueOf(p).values),
                        own = bench.buffer(term.own.values);
-            launchPixels(bench, "distributed.cl", "addTerm", p, k, e, own, radiance);
+            launchPixels(bench, "waves/distributed.cl", "addTerm", p, k, e, own, radiance);
         },
         [](const shared::DistributedParams& p, const TermPlanes& term, int x, int y) {
             return term.ownRadiance(p.published != 0, x, y);
@@ -161,7 +161,7 @@ TEST_CASE("a light's visibility: of its channels the mean that keeps the radianc
             const TermPlanes term(region, random, p);
             Output<float> visibility(bench, region, 1);
             const auto k = bench.buffer(term.textureOf(p).values), e = bench.buffer(term.valueOf(p).values);
-            launchPixels(bench, "distributed.cl", "visibilityOf", p, k, e, visibility.buffer());
+            launchPixels(bench, "waves/distributed.cl", "visibilityOf", p, k, e, visibility.buffer());
             const Planes<float> found = visibility.read();
             everyPixel(region.window, [&](int x, int y) {
                 if (published != 0) {
@@ -184,8 +184,8 @@ TEST_CASE("planes add up")
         Output<float> sum(bench, region, term.radiance), all(bench, region, 3);
         const auto k = bench.buffer(term.texture.values), e = bench.buffer(term.value.values),
                    own = bench.buffer(term.own.values);
-        launchPixels(bench, "distributed.cl", "addPlane", p, own, sum.buffer());
-        launchPixels(bench, "distributed.cl", "addAll", p, k, e, own, all.buffer());
+        launchPixels(bench, "waves/distributed.cl", "addPlane", p, own, sum.buffer());
+        launchPixels(bench, "waves/distributed.cl", "addAll", p, k, e, own, all.buffer());
         const Planes<float> added = sum.read(), beauty = all.read();
         everyPixel(region.window, [&](int x, int y) {
             REQUIRE(added.at(x, y) == term.radiance.at(x, y) + term.own.at(x, y));
@@ -209,8 +209,8 @@ TEST_CASE("images add up, and a term's value is the same unpacked")
                 const TermPlanes term(region, random, p);
                 Output<float> sum(bench, region, term.radiance), unpacked(bench, region, 3);
                 const auto own = bench.buffer(term.own.values), value = bench.buffer(term.valueOf(p).values);
-                launchPixels(bench, "distributed.cl", "addImage", p, own, sum.buffer());
-                launchPixels(bench, "distributed.cl", "unpackImage", p, value, unpacked.buffer());
+                launchPixels(bench, "waves/distributed.cl", "addImage", p, own, sum.buffer());
+                launchPixels(bench, "waves/distributed.cl", "unpackImage", p, value, unpacked.buffer());
                 const Planes<float> added = sum.read(), image = unpacked.read();
                 everyPixel(region.window, [&](int x, int y) {
                     REQUIRE(nearTo(added.vector(x, y), term.radiance.vector(x, y) + term.own.vector(x, y)));
@@ -232,7 +232,7 @@ TEST_CASE(
         constexpr std::uint32_t first = 8;
         Output<std::uint32_t> settled(bench, region, wanted);
         const auto taken = bench.buffer(primary.values);
-        launchPixels(bench, "distributed.cl", "settleCounts", paramsOf(region), first, taken, settled.buffer());
+        launchPixels(bench, "waves/distributed.cl", "settleCounts", paramsOf(region), first, taken, settled.buffer());
         const Planes<std::uint32_t> found = settled.read();
         everyPixel(region.window, [&](int x, int y) {
             REQUIRE(found.at(x, y) == (primary.at(x, y) > first ? wanted.at(x, y) : primary.at(x, y)));

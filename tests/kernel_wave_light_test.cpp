@@ -148,7 +148,7 @@ std::vector<float> unshadowed(
     wave.receivers = static_cast<std::uint32_t>(count);
     wave.planeSize = planeSize;
     const auto out = bench.filled(2 * planeSize, untouched);
-    bench.passes.list("unshadowed shading", device::PassKind::Trace, "wave_light.cl", "unshadowedReceivers",
+    bench.passes.list("unshadowed shading", device::PassKind::Trace, "light/wave_light.cl", "unshadowedReceivers",
         (count + WEDGE_BLOCK_PIXELS - 1) / WEDGE_BLOCK_PIXELS, frame, wave, render::deviceLight(light),
         bench.buffer(render::lightNodes(light)), bench.buffer(pixels), bench.buffer(samples),
         planes(3, [](const ReceiverPoint& p, int c) { return p.position[c]; }),

@@ -131,7 +131,7 @@ TEST_CASE("limitTiles: a tile's new samples fit into a wave, and no pixel is cut
                 for (int x = 0; x < 24; ++x)
                     counts.wanted.at(x, y) = x < 8 || (x == 9 && y == 3) ? 16384u : counts.wanted.at(x, y) % 3;
             const auto wanted = bench.bench.buffer(counts.wanted.values);
-            bench.bench.passes.list("counts", device::PassKind::Analysis, "waves.cl", "limitTiles",
+            bench.bench.passes.list("counts", device::PassKind::Analysis, "waves/waves.cl", "limitTiles",
                 bench.params.tileCount, bench.params, capacity, bench.bench.buffer(counts.taken.values), wanted);
             const Planes<std::uint32_t> found = planesOf(bench.layout, bench.bench.read(wanted));
             int cut = 0, whole = 0;

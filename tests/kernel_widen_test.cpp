@@ -98,7 +98,7 @@ TEST_CASE("widen: narrow pixels are compared with a width of that many pixels, w
         std::mt19937 random(3);
         const Pixels in(layout, random, 0, 0.1, 20);
         const auto wide = bench.filled(layout.size, -7.0f);
-        bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "comparedWidths", paramsOf(layout),
+        bench.passes.rows("widen", device::PassKind::Filter, "analysis/widen.cl", "comparedWidths", paramsOf(layout),
             WEDGE_BLOCK_PIXELS, cameraOf(layout), wideInPixels, bench.buffer(in.deviation.values),
             bench.buffer(in.position.values), bench.buffer(in.normal.values), bench.buffer(in.objectId.values),
             bench.buffer(in.beta.values), wide);
@@ -206,10 +206,11 @@ TEST_CASE("widen: widths in pixels are those of the tangent planes that pixels s
             shared::AnalysisParams p = paramsOf(layout);
             p.packed = packed ? 1 : 0;
             const auto wide = bench.filled(layout.size, -7.0f);
-            bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "comparedWidths", p, WEDGE_BLOCK_PIXELS,
-                in.camera, wideInPixels, bench.buffer((packed ? packedDeviation : deviation).values),
-                bench.buffer(in.position.values), bench.buffer((packed ? packedNormals : in.normal).values),
-                bench.buffer(objectId.values), bench.filled(layout.size, 0.0f), wide);
+            bench.passes.rows("widen", device::PassKind::Filter, "analysis/widen.cl", "comparedWidths", p,
+                WEDGE_BLOCK_PIXELS, in.camera, wideInPixels,
+                bench.buffer((packed ? packedDeviation : deviation).values), bench.buffer(in.position.values),
+                bench.buffer((packed ? packedNormals : in.normal).values), bench.buffer(objectId.values),
+                bench.filled(layout.size, 0.0f), wide);
             const Planes<float> w = planesOf(layout, bench.read(wide));
             int seen = 0;
             everyPixel(layout, [&](int x, int y) {
@@ -277,13 +278,14 @@ TEST_CASE("widen: the width is as far between both as noise and difference of th
                            shares = bench.filled(layout.size, -7.0f), beta = bench.buffer(in.beta.values),
                            position = bench.buffer(in.position.values), normal = bench.buffer(in.normal.values);
                 const auto objectId = bench.buffer(in.objectId.values);
-                bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "widenSquares", p, WEDGE_BLOCK_PIXELS,
-                    bench.buffer(difference.values), bench.buffer(apart.values), bench.buffer(in.deviation.values),
-                    bench.buffer(in.weights.values), squares, variance);
-                bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "wideShares", p, WEDGE_BLOCK_PIXELS,
-                    camera, wideInPixels, c, squares, variance, position, normal, objectId, beta, shares);
-                bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "widen", p, WEDGE_BLOCK_PIXELS, camera,
-                    wideInPixels, shares, position, normal, objectId, beta);
+                bench.passes.rows("widen", device::PassKind::Filter, "analysis/widen.cl", "widenSquares", p,
+                    WEDGE_BLOCK_PIXELS, bench.buffer(difference.values), bench.buffer(apart.values),
+                    bench.buffer(in.deviation.values), bench.buffer(in.weights.values), squares, variance);
+                bench.passes.rows("widen", device::PassKind::Filter, "analysis/widen.cl", "wideShares", p,
+                    WEDGE_BLOCK_PIXELS, camera, wideInPixels, c, squares, variance, position, normal, objectId, beta,
+                    shares);
+                bench.passes.rows("widen", device::PassKind::Filter, "analysis/widen.cl", "widen", p,
+                    WEDGE_BLOCK_PIXELS, camera, wideInPixels, shares, position, normal, objectId, beta);
                 const Planes<float> t = planesOf(layout, bench.read(shares)),
                                     found = planesOf(layout, bench.read(beta));
                 int kept = 0, widened = 0, between = 0;
@@ -329,7 +331,7 @@ TEST_CASE("widen: squares that are no number widen nothing around them, and noth
         });
         const auto sharesOf = [&] {
             const auto shares = bench.filled(layout.size, -7.0f);
-            bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "wideShares", paramsOf(layout),
+            bench.passes.rows("widen", device::PassKind::Filter, "analysis/widen.cl", "wideShares", paramsOf(layout),
                 WEDGE_BLOCK_PIXELS, cameraOf(layout), wideInPixels, 1.0f, bench.buffer(squares.values),
                 bench.buffer(variance.values), bench.buffer(in.position.values), bench.buffer(in.normal.values),
                 bench.buffer(in.objectId.values), bench.buffer(in.beta.values), shares);
@@ -395,7 +397,7 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
                 CHECK(black > 10);
                 CHECK(noisy > 100);
             };
-            bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "oneOfLight", paramsOf(layout),
+            bench.passes.rows("widen", device::PassKind::Filter, "analysis/widen.cl", "oneOfLight", paramsOf(layout),
                 WEDGE_BLOCK_PIXELS, WEDGE_FIRST_PASS_RAYS, bench.buffer(value.values), bench.buffer(taken.values),
                 bench.buffer(sums.values), bench.buffer(kd.values), bench.buffer(ks.values), seen, deviation, weights);
             const auto reflected = [&](int x, int y, std::size_t c) {
@@ -414,7 +416,7 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
                     return sum;
                 });
             const auto paths = bench.buffer(value.values);
-            bench.passes.rows("widen", device::PassKind::Filter, "widen.cl", "oneOfPaths", paramsOf(layout),
+            bench.passes.rows("widen", device::PassKind::Filter, "analysis/widen.cl", "oneOfPaths", paramsOf(layout),
                 WEDGE_BLOCK_PIXELS, WEDGE_COMPONENT_DIFFUSE, WEDGE_INDIRECT_FIRST_RAYS, bench.buffer(kd.values), paths,
                 bench.buffer(taken.values), seen, deviation, weights);
             constexpr double luminances[] = { 0.2126, 0.7152, 0.0722 };

@@ -1,4 +1,4 @@
-// Planes of pixels in fewer bits (kernels/packed_planes.h), made of plain ones and read back, and what rounding is
+// Planes of pixels in fewer bits (kernels/core/packed_planes.h), made of plain ones and read back, and what rounding is
 // allowed.
 #pragma once
 

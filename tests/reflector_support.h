@@ -39,7 +39,7 @@ template <class... Args>
 void launchRows(KernelBench& bench, const std::string& kernel, const shared::ReflectorParams& p, std::uint32_t across,
     const Args&... args)
 {
-    bench.passes.rows("widths", device::PassKind::Analysis, "reflectors.cl", kernel, p, across, args...);
+    bench.passes.rows("widths", device::PassKind::Analysis, "paths/reflectors.cl", kernel, p, across, args...);
 }
 
 /// Within a fraction of b, however small that is.

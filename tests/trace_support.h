@@ -89,8 +89,8 @@ public:
 
     void primary()
     {
-        bench.passes.tiles("primary", device::PassKind::Trace, "primary.cl", "primary", params, 1.0, onDevice.nodes,
-            onDevice.blocks, surfaceArguments(onDevice), onDevice.objectIds, onDevice.areaLights,
+        bench.passes.tiles("primary", device::PassKind::Trace, "frame/primary.cl", "primary", params, 1.0,
+            onDevice.nodes, onDevice.blocks, surfaceArguments(onDevice), onDevice.objectIds, onDevice.areaLights,
             static_cast<std::uint32_t>(onDevice.areaLightList.size()), frame.position, frame.normal, frame.origin,
             frame.geometric, frame.objectId, frame.depth, frame.pixelSize, frame.diffuse, frame.specular,
             frame.emission, frame.gloss);
@@ -100,13 +100,13 @@ public:
     {
         taken.fill(bench.queue, 0u);
         firstWanted.fill(bench.queue, p.firstPass);
-        bench.passes.tiles("first", device::PassKind::Trace, "area_light.cl", "firstPass", params, 1.0, p,
+        bench.passes.tiles("first", device::PassKind::Trace, "light/area_light.cl", "firstPass", params, 1.0, p,
             onDevice.areaLightList[p.light], shared::CameraParams {}, onDevice.nodes, onDevice.blocks,
             surfaceArguments(onDevice), frame.receivers(), firstWanted, sums, taken, value, slopes, frame.rays);
     }
     void secondPass(const shared::SampleParams& p, std::uint32_t last)
     {
-        bench.passes.tiles("second", device::PassKind::Trace, "area_light.cl", "secondPass", params, 1.0, p,
+        bench.passes.tiles("second", device::PassKind::Trace, "light/area_light.cl", "secondPass", params, 1.0, p,
             onDevice.areaLightList[p.light], onDevice.nodes, onDevice.blocks, frame.receivers(), wanted, last, sums,
             taken, value, frame.rays);
     }

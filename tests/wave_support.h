@@ -78,7 +78,7 @@ public:
     template <class... Args>
     void launch(const std::string& kernel, std::size_t items, const Args&... args)
     {
-        bench.passes.list("lists", device::PassKind::Trace, "waves.cl", kernel, items, params, args...);
+        bench.passes.list("lists", device::PassKind::Trace, "waves/waves.cl", kernel, items, params, args...);
     }
 
     template <class Visit>

@@ -28,17 +28,17 @@ std::string kernelFingerprint(
     const render::Renderer& renderer, const render::Settings& settings, const std::string& layer)
 {
     const bool distributed = render::isDistributed(settings, renderer.scene());
-    std::vector<const char*> files = { distributed ? "wave_primary.cl" : "primary.cl" };
+    std::vector<const char*> files = { distributed ? "waves/wave_primary.cl" : "frame/primary.cl" };
     if (distributed) {
-        files.insert(files.end(), { "waves.cl", "accumulate.cl" });
+        files.insert(files.end(), { "waves/waves.cl", "waves/accumulate.cl" });
     } else {
-        files.push_back("composite.cl");
+        files.push_back("frame/composite.cl");
     }
     if (layer != "indirect") {
-        files.insert(files.end(), { "area_light.cl", "delta_lights.cl" });
+        files.insert(files.end(), { "light/area_light.cl", "light/delta_lights.cl" });
     }
     if (render::tracesPaths(settings)) {
-        files.push_back("indirect.cl");
+        files.push_back("paths/indirect.cl");
     }
     Fingerprint f;
     for (const char* file : files) {

@@ -16,7 +16,7 @@ struct TraversalCounts {
 TraversalCounts countTraversal(const bvh::Bvh& bvh, const RaySet& set, std::size_t sample);
 
 /// The model of what a ray costs at least (docs/benchmarks.md): vector operations of 8 floats that a node and a block
-/// take in kernels/intersect.h, and how many of them a core starts in a cycle.
+/// take in kernels/trace/intersect.h, and how many of them a core starts in a cycle.
 inline constexpr double nodeOperations = 20, blockOperations = 45, operationsPerCycle = 2;
 
 /// Cycles a ray of these counts takes where nothing but the vector units limits it.

@@ -9,7 +9,7 @@ namespace wedge::benchmark::kernel {
 using namespace wedge::shared;
 #define __global
 #define restrict
-#include "kernels/surface.h"
+#include "kernels/trace/surface.h"
 #undef restrict
 #undef __global
 } // namespace wedge::benchmark::kernel

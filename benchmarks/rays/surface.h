@@ -11,7 +11,7 @@ namespace wedge::benchmark {
 
 /// What a ray found, as shading and further rays need it.
 struct SurfacePoint {
-    shared::Vec3 position, origin, normal, geometric; ///< as kernels/surface.h has them
+    shared::Vec3 position, origin, normal, geometric; ///< as kernels/trace/surface.h has them
     shared::Vec3 diffuse, emission;
 };
 

@@ -29,7 +29,7 @@ WedgeTracer::WedgeTracer(const device::Device& device, render::Traversal travers
     , library_(device, programOptions(traversal_))
 {
     for (const char* name : { "traceClosest", "traceClosestPackets", "traceAny", "traceAnyPackets" })
-        kernels_.push_back(library_.kernel("trace_test.cl", name));
+        kernels_.push_back(library_.kernel("trace/trace_test.cl", name));
 }
 
 WedgeHierarchy::WedgeHierarchy(WedgeTracer& tracer, std::string modeName, bvh::Bvh built)

@@ -26,7 +26,7 @@ class ProgramLibrary {
 public:
     ProgramLibrary(const Device& device, BuildOptions options);
 
-    /// The program of a file of kernels/, "primary.cl"; valid as long as the library. Throws Error if a file is
+    /// The program of a file of kernels/, "frame/primary.cl"; valid as long as the library. Throws Error if a file is
     /// missing or does not compile: the message has the device, the options and the first error, and names a file in
     /// the temporary folder with the whole log and the flattened source.
     cl::Program& program(const std::string& file);

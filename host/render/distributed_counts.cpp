@@ -78,18 +78,18 @@ void DistributedSamples::publishedCounts()
     for (const std::unique_ptr<WaveTerm>& term : terms_) {
         TermMeans& m = term->means;
         auto flags = f_.graph.plane<Share>("flags", graph::floats);
-        f_.pixels("widths", PassKind::Analysis, { "published.cl", "publishedFlags" },
+        f_.pixels("widths", PassKind::Analysis, { "analysis/published.cl", "publishedFlags" },
             { pixels(), reads("texture", m.texture), reads("value", m.value), reads("termRadiance", m.radiance),
                 writes("flags", flags) });
         term->publishedWidths(params(), flags, confusion_);
     }
     const auto most = static_cast<std::uint32_t>(d.maxSpp);
-    f_.pixels("counts", PassKind::Analysis, { "published.cl", "publishedPrimary" },
+    f_.pixels("counts", PassKind::Analysis, { "analysis/published.cl", "publishedPrimary" },
         { pixels(), value("mu", d.mu), value("mixed", static_cast<float>(d.mixedPaths)), reads("confusion", confusion_),
             reads("motion", motion_), writes("demand", demand_) });
     const auto count = [&](const graph::Handle<Demand>& demand, const graph::Handle<Count>& least,
                            const graph::Handle<Count>& taken, graph::Handle<Count>& wanted) {
-        f_.pixels("counts", PassKind::Analysis, { "published.cl", "publishedCounts" },
+        f_.pixels("counts", PassKind::Analysis, { "analysis/published.cl", "publishedCounts" },
             { pixels(), value("most", most), reads("demand", demand, around(1)), reads("least", least),
                 reads("taken", taken), writes("wanted", wanted) });
     };
@@ -107,13 +107,13 @@ void DistributedSamples::widths()
         graph::Version error = m.plain; // packed, which has it
         if (!f_.packed) {
             auto made = f_.graph.plane<Value>("error of taking apart", graph::floats);
-            f_.pixels("widths", PassKind::Analysis, { "distributed.cl", "factoringError" },
+            f_.pixels("widths", PassKind::Analysis, { "waves/distributed.cl", "factoringError" },
                 { pixels(), reads("texture", m.texture), reads("value", m.value), reads("plain", m.plain),
                     writes("error", made) });
             error = made;
         }
         term->widths();
-        f_.pixels("widths", PassKind::Analysis, { "distributed.cl", "factoredWidths" },
+        f_.pixels("widths", PassKind::Analysis, { "waves/distributed.cl", "factoredWidths" },
             { pixels(), reads("error", error, around(reach)), reads("confusion", confusion_),
                 reads("pixelSize", f_.surfaces.pixelSize), reads("objectId", f_.surfaces.objectId, around(reach)),
                 updates("beta", m.beta) });
@@ -127,17 +127,17 @@ void DistributedSamples::demandOf(WaveTerm& term, const Blurs& blurs, graph::Han
     const graph::Reach near = around(WEDGE_DEMAND_REACH);
     auto ofTexture = f_.graph.plane<Squares>("variance of texture", graph::floats);
     auto ofIrradiance = f_.graph.plane<Value>("variance of irradiance", graph::floats);
-    f_.pixels("counts", PassKind::Analysis, { "distributed.cl", "splitVariance" },
+    f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "splitVariance" },
         { p, reads("texture", m.texture),
             f_.packed ? f_.nothing("textureSquares") : reads("textureSquares", m.textureSquares),
             reads("value", m.value), reads("squares", m.squares), reads("taken", counts_.taken),
             writes("ofTexture", ofTexture), writes("ofIrradiance", ofIrradiance) });
-    f_.pixels("counts", PassKind::Analysis, { "distributed.cl", "addPlane" },
+    f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "addPlane" },
         { p, reads("part", ofTexture), updates("sum", ofTextures) });
     // For the effective counts alone.
-    const Gathered gathered = gaussianFilter(f_, { "pixels gathered", PassKind::Analysis, "filter_variance.cl" }, 1,
-        filterParams(f_.settings, f_.wholeFrame(), f_.graph.image()), ofIrradiance, m.beta);
-    f_.pixels("counts", PassKind::Analysis, { "distributed.cl", "sampleDemand" },
+    const Gathered gathered = gaussianFilter(f_, { "pixels gathered", PassKind::Analysis, "filter/filter_variance.cl" },
+        1, filterParams(f_.settings, f_.wholeFrame(), f_.graph.image()), ofIrradiance, m.beta);
+    f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "sampleDemand" },
         { p, reads("variance", ofIrradiance, near), reads("effective", gathered.effective, near),
             reads("beta", m.beta, near), reads("lens", blurs.lens, near),
             keepsMotion() ? reads("along", blurs.along, near) : f_.nothing("along"), writes("demand", m.demand) });
@@ -158,7 +158,7 @@ void DistributedSamples::demands()
     auto ofTextures = plane("variance of textures");
     const auto variance = [&](const graph::Handle<Radiance>& image, const graph::Handle<Squares>& squares,
                               graph::Handle<Squares>& out) {
-        f_.pixels("counts", PassKind::Analysis, { "distributed.cl", "emissionVariance" },
+        f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "emissionVariance" },
             { pixels, reads("emission", image), reads("squares", squares), reads("taken", counts_.taken),
                 writes("variance", out) });
     };
@@ -170,7 +170,7 @@ void DistributedSamples::demands()
     if (delta_.graph != 0) {
         auto ofDelta = plane("variance of point lights");
         variance(delta_, deltaSquares_, ofDelta);
-        f_.pixels("counts", PassKind::Analysis, { "distributed.cl", "addPlane" },
+        f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "addPlane" },
             { pixels, reads("part", ofDelta), updates("sum", ofTextures) });
     }
     for (const std::unique_ptr<WaveTerm>& term : terms_) {
@@ -180,14 +180,14 @@ void DistributedSamples::demands()
     const graph::Reach near = around(WEDGE_DEMAND_REACH);
     auto none = f_.graph.plane<Metres>("no widths", graph::floats);
     f_.fill("counts", none, -1.0f);
-    f_.pixels("counts", PassKind::Analysis, { "distributed.cl", "sampleDemand" },
+    f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "sampleDemand" },
         { pixels, reads("variance", ofTextures, near), reads("effective", ofTextures, near), reads("beta", none, near),
             reads("lens", own.lens, near), keepsMotion() ? reads("along", own.along, near) : f_.nothing("along"),
             writes("demand", demand_) });
     const DistributedSettings& d = f_.settings.distributed;
     const auto atLeast = [&](float apart, float together, const TermMeans& term, const graph::Handle<Demand>& least,
                              graph::Handle<Demand>& demand) {
-        f_.pixels("counts", PassKind::Analysis, { "distributed.cl", "atLeast" },
+        f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "atLeast" },
             { pixels, value("apart", apart), value("together", together), reads("beta", term.beta),
                 reads("least", least), updates("demand", demand) });
     };
@@ -246,7 +246,7 @@ void DistributedSamples::counts(const DistributedSamples& guide)
         uses);
     const auto scale = made("scale", [state = state_](const graph::Launch&) { return state->scale; });
     const auto wants = [&](const Kind& kind, graph::Handle<Count>& wanted) {
-        f_.pixels("counts", PassKind::Analysis, { "distributed.cl", "scaleCounts" },
+        f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "scaleCounts" },
             { pixels(), scale, value("least", static_cast<std::uint32_t>(kind.least)),
                 value("most", static_cast<std::uint32_t>(most)), reads("demand", kind.demand),
                 reads("taken", kind.taken), writes("wanted", wanted) });
@@ -256,7 +256,7 @@ void DistributedSamples::counts(const DistributedSamples& guide)
         wants(kinds[i + 1], terms_[i]->means.wanted);
     }
     if (f_.settings.progressive) {
-        f_.pixels("counts", PassKind::Analysis, { "distributed.cl", "limitStep" },
+        f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "limitStep" },
             { pixels(), reads("taken", counts_.taken), updates("wanted", counts_.wanted) });
     }
 }

@@ -328,7 +328,7 @@ void DistributedSamples::deltaLights(Waves& waves)
     auto radiance = waves.list<Radiance>("radiance", graph::vectors);
     auto noisy = waves.list<Radiance>("unfiltered radiance", graph::vectors);
     f_.zero(radiance);
-    waves.tiles("point and directional lights", { "delta_lights.cl", "deltaLights" },
+    waves.tiles("point and directional lights", { "light/delta_lights.cl", "deltaLights" },
         joined({ waves.receiverParams(), f_.ofScene("lights", "DeltaLight", &DeviceScene::deltaLights),
                    value("lightCount", f_.scene != nullptr ? f_.scene->deltaLightCount : 0u),
                    value("sceneDiameter", f_.scene != nullptr ? f_.scene->diameter : 0.0f) },
@@ -370,7 +370,7 @@ void DistributedSamples::blurs(float samples, Blurs& out)
     shared::DistributedParams p = params();
     p.samples = samples;
     const auto sets = samples > 0 || !shape_.all ? writes : updates; // what is shown without motion is 0
-    f_.pixels("widths", PassKind::Analysis, { "distributed.cl", "blurs" },
+    f_.pixels("widths", PassKind::Analysis, { "waves/distributed.cl", "blurs" },
         { f_.rectangle(p), reads("confusion", confusion_),
             keepsMotion() ? reads("motion", motion_) : f_.nothing("motion"), reads("taken", counts_.taken),
             sets("lens", out.lens), keepsMotion() ? sets("along", out.along) : f_.nothing("along"),
@@ -392,12 +392,12 @@ void DistributedSamples::settle()
             return;
         }
         auto both = f_.graph.plane<Count>("samples", graph::counts);
-        f_.pixels("composite", PassKind::Composite, { "progressive.cl", "sumOfHalves" },
+        f_.pixels("composite", PassKind::Composite, { "frame/progressive.cl", "sumOfHalves" },
             { pixels(), reads("a", sum), reads("b", part), writes("sum", both) });
         sum = both;
     };
     for (const std::unique_ptr<WaveTerm>& term : terms_) {
-        f_.pixels("composite", PassKind::Composite, { "distributed.cl", "settleCounts" },
+        f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "settleCounts" },
             { pixels(), value("first", first), reads("primaryTaken", counts_.taken),
                 updates("counts", term->means.wanted) });
         add(t.samples, term->means.wanted);
@@ -420,7 +420,7 @@ void DistributedSamples::startSums()
         // All that is reflected is added to what is emitted.
         t.beauty = f_.surfaces.emission;
         if (delta_.graph != 0) {
-            f_.pixels("composite", PassKind::Composite, { "distributed.cl", "addImage" },
+            f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "addImage" },
                 { pixels(), reads("image", delta_), updates("sum", t.beauty) });
         }
         return;
@@ -429,7 +429,7 @@ void DistributedSamples::startSums()
         direct = f_.graph.plane<Radiance>("direct", graph::vectors);
         indirect = f_.graph.plane<Radiance>("indirect", graph::vectors);
         if (delta_.graph != 0) {
-            f_.pixels("composite", PassKind::Composite, { "progressive.cl", "copyImage" },
+            f_.pixels("composite", PassKind::Composite, { "frame/progressive.cl", "copyImage" },
                 { pixels(), reads("in", delta_), writes("out", direct) });
         } else {
             f_.zero(direct);
@@ -446,7 +446,7 @@ void DistributedSamples::startSums()
 void DistributedSamples::addOwn(WaveTerm& term, graph::Handle<Radiance>& radiance, bool unlessAnalysed)
 {
     const auto condition = [state = state_](const Run&) { return !state->analysed; };
-    f_.pixels("composite", PassKind::Composite, { "distributed.cl", "addTerm" },
+    f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "addTerm" },
         { f_.rectangle(term.of(params())), reads("texture", term.means.texture), reads("value", term.means.value),
             shape_.published ? reads("termRadiance", term.means.radiance) : f_.nothing("termRadiance"),
             updates("radiance", radiance) },
@@ -461,13 +461,13 @@ void DistributedSamples::addFiltered(
     if (shape_.moves && f_.settings.distributed.blur) {
         const graph::Reach far = graph::around(WEDGE_MOTION_REACH);
         auto along = f_.graph.plane<Texture>("texture filtered along motion", graph::vectors);
-        f_.pixels("filter of motion", PassKind::Filter, { "blur.cl", "blurMotion" },
+        f_.pixels("filter of motion", PassKind::Filter, { "filter/blur.cl", "blurMotion" },
             { f_.rectangle(p), graph::value("channels", 3u), reads("along", own.along, far),
                 reads("directions", own.directions, far), reads("in", term.means.texture, far), writes("out", along) });
         texture = along;
         p.plainTexture = 1;
     }
-    f_.pixels("composite", PassKind::Composite, { "distributed.cl", "addFilteredTerm" },
+    f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "addFilteredTerm" },
         { f_.rectangle(p), reads("texture", term.means.texture), reads("filteredTexture", texture),
             reads("value", term.means.value), reads("filtered", value), reads("beta", term.means.beta),
             shape_.published ? reads("termRadiance", term.means.radiance) : f_.nothing("termRadiance"),
@@ -479,9 +479,9 @@ void DistributedSamples::blur(graph::Handle<Radiance>& image)
     const char* pass = "filter of lens and shutter";
     const graph::Reach along { .x = WEDGE_MAX_RADIUS }, across { .y = WEDGE_MAX_RADIUS };
     auto rows = f_.graph.plane<Radiance>("rows of the image", graph::vectors);
-    f_.pixels(pass, PassKind::Filter, { "blur.cl", "blurRows" },
+    f_.pixels(pass, PassKind::Filter, { "filter/blur.cl", "blurRows" },
         { pixels(), reads("lens", lens_, along), reads("in", image, along), writes("out", rows) });
-    f_.pixels(pass, PassKind::Filter, { "blur.cl", "blurColumns" },
+    f_.pixels(pass, PassKind::Filter, { "filter/blur.cl", "blurColumns" },
         { pixels(), reads("lens", lens_, across), reads("in", rows, across), updates("out", image) });
 }
 
@@ -524,14 +524,14 @@ void DistributedSamples::compose(bool layers)
     emission_ = f_.surfaces.emission;
     if (shape_.all) {
         t.beauty = f_.graph.plane<Radiance>("beauty", graph::vectors);
-        f_.pixels("composite", PassKind::Composite, { "distributed.cl", "addAll" },
+        f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "addAll" },
             { pixels(), reads("emission", emission_), reads("direct", t.direct.filtered),
                 reads("indirect", t.indirect.filtered), writes("beauty", t.beauty) });
     }
     if (before_.memory != nullptr) {
         // What is kept is not filtered.
         emission_ = f_.graph.plane<Radiance>("emission, filtered", graph::vectors);
-        f_.pixels("composite", PassKind::Composite, { "progressive.cl", "copyImage" },
+        f_.pixels("composite", PassKind::Composite, { "frame/progressive.cl", "copyImage" },
             { pixels(), reads("in", f_.surfaces.emission), writes("out", emission_) });
     }
     if (!filters || !f_.settings.distributed.blur || camera_.apertureRadius <= 0) {

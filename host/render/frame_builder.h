@@ -37,7 +37,7 @@ struct Squares { }; ///< mean squares of luminances, or what is made of them
 struct Pixels { }; ///< lengths in the image
 struct Listed { }; ///< of waves' lists, see waves.cl
 
-// Formats of packed planes, see kernels/packed_planes.h.
+// Formats of packed planes, see kernels/core/packed_planes.h.
 inline constexpr graph::Format shortFloats { "short1", 2, "float", "", "", "" };
 inline constexpr graph::Format shortPairs { "short2", 4, "float", "", "", "" };
 inline constexpr graph::Format shortCounts { "ushort1", 2, "uint", "", "", "" };
@@ -45,8 +45,8 @@ inline constexpr graph::Format packedNormals { "normal32", 4, "float", "", "", "
 inline constexpr graph::Format packedColours { "colour48", 6, "float", "", "", "" };
 inline constexpr graph::Format packedFractions { "fraction32", 4, "float", "", "", "" };
 
-/// What the camera sees through each pixel, see kernels/primary.cl; or means over the receivers of pixels that have
-/// several.
+/// What the camera sees through each pixel, see kernels/frame/primary.cl; or means over the receivers of pixels that
+/// have several.
 struct Surfaces {
     graph::Handle<Position> position, origin;
     graph::Handle<Normal> normal;
@@ -86,13 +86,16 @@ struct FrameBuilder {
     std::size_t packetSize; ///< pixels of a work-item over tiles
     bool specular; ///< hasSpecular()
     cl::Buffer unused; ///< for parameters that nothing is read from, or written to
-    bool packed = false; ///< planes of pixels that have several receivers are packed, see kernels/accumulate.h
+    bool packed = false; ///< planes of pixels that have several receivers are packed, see kernels/waves/accumulate.h
     Surfaces surfaces = {};
     Totals totals = {};
 
     bool analysed() const { return settings.method == Method::AxisAligned; }
-    /// The program of that name, or the one of packed planes.
-    std::string program(const std::string& name) const { return packed ? "packed_" + name : name; }
+    /// The file of that path below kernels/, or the one beside it of packed planes.
+    std::string program(const std::string& path) const
+    {
+        return packed ? std::string(path).insert(path.rfind('/') + 1, "packed_") : path;
+    }
     /// Of the whole image.
     shared::FrameParams wholeFrame() const;
     /// Where kernels of analysis find pixels; the rectangle is to come.

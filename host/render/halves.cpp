@@ -14,7 +14,7 @@ using graph::writes;
 namespace {
 
 constexpr const char* pass = "mean of halves";
-constexpr const char* file = "progressive.cl";
+constexpr const char* file = "frame/progressive.cl";
 
 // Both halves' numbers are hashes of their seeds: any two seeds will do.
 constexpr std::uint32_t secondSeed = 0x9e3779b9u;

@@ -23,7 +23,7 @@ using HalfMemories = std::array<SampleMemory, 2>;
 
 /// One step of a progressive frame. Its two halves are samples that are independent of each other, both of which keep
 /// what they have sampled from step to step. The image is their mean, and they tell its error: see errorOfHalves in
-/// kernels/progressive.cl.
+/// kernels/frame/progressive.cl.
 class HalvesFrame : public FrameGraph {
 public:
     /// As DistributedFrame. settings: of the last step. memories: of both halves, rewound. before, spp: samples a pixel

@@ -37,7 +37,7 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
     auto beauty = graph_.plane<Radiance>("emission and direct light", graph::vectors);
     const auto add = [this](const graph::Handle<Radiance>& below, const graph::Handle<Radiance>& light,
                          graph::Handle<Radiance>& sum) {
-        f_.blocks("composite", PassKind::Composite, { "composite.cl", "addReflected" },
+        f_.blocks("composite", PassKind::Composite, { "frame/composite.cl", "addReflected" },
             { f_.rectangle(f_.analysisParams()), reads("below", below), reads("light", light),
                 reads("objectId", f_.surfaces.objectId), writes("sum", sum) });
     };
@@ -99,7 +99,7 @@ void PixelFrame::primary(bool lit)
     // 0.
     f_.zero(s.position, s.normal, s.origin, s.geometric, s.objectId, s.depth, s.pixelSize, s.diffuse, s.specular,
         s.emission, s.gloss);
-    f_.trace("primary rays", { "primary.cl", "primary" },
+    f_.trace("primary rays", { "frame/primary.cl", "primary" },
         joined({ f_.frame() }, f_.hierarchy(), f_.geometry(),
             Arguments { f_.ofScene("objectIds", "uint", &DeviceScene::objectIds),
                 f_.ofScene("lights", "AreaLight", &DeviceScene::areaLights),
@@ -124,7 +124,7 @@ FrameGraph::TermWidths& PixelFrame::startTerm()
 void PixelFrame::deltaLights()
 {
     Totals& t = f_.totals;
-    f_.trace("point lights", { "delta_lights.cl", "deltaLights" },
+    f_.trace("point lights", { "light/delta_lights.cl", "deltaLights" },
         joined({ f_.frame(), f_.ofScene("lights", "DeltaLight", &DeviceScene::deltaLights),
                    value("lightCount", f_.scene != nullptr ? f_.scene->deltaLightCount : 0u),
                    value("sceneDiameter", f_.scene != nullptr ? f_.scene->diameter : 0.0f) },
@@ -146,11 +146,11 @@ void PixelFrame::fallBack(Sum& sum)
             const bool gathered = sum.variance.graph != 0;
             auto squares = graph_.plane<Share>("squares of what filters are off", graph::floatPlanes(gathered ? 3 : 2));
             const auto flag = value("gathered", gathered ? 1u : 0u);
-            f_.blocks("fallback", PassKind::Filter, { "fallback.cl", "fallbackSquares" },
+            f_.blocks("fallback", PassKind::Filter, { "analysis/fallback.cl", "fallbackSquares" },
                 { p, flag, reads("filtered", sum.filtered), reads("noisy", sum.noisy),
                     reads("deviation", sum.deviation),
                     gathered ? reads("variance", sum.variance) : f_.nothing("variance"), writes("squares", squares) });
-            f_.blocks("fallback", PassKind::Filter, { "fallback.cl", "fallBack" },
+            f_.blocks("fallback", PassKind::Filter, { "analysis/fallback.cl", "fallBack" },
                 { p, flag, reads("squares", squares, near), reads("objectId", f_.surfaces.objectId, near),
                     reads("noisy", sum.noisy), updates("filtered", sum.filtered) });
         });

@@ -164,9 +164,10 @@ struct Settings {
     bool narrower = true; ///< a pair of pixels is weighted by the narrower of both kernels
     bool surface =
         true; ///< pixels weigh by the surface that they see, and those off a pixel's own surface are left out
-    bool fallback = true; ///< where filters are off by more than noise explains, samples show (kernels/fallback.cl)
+    bool fallback =
+        true; ///< where filters are off by more than noise explains, samples show (kernels/analysis/fallback.cl)
     /// Pixels: lights' filters that are narrower are compared with one of this width, and widened where nothing speaks
-    /// for them (kernels/widen.cl); 0: never.
+    /// for them (kernels/analysis/widen.cl); 0: never.
     float widening = 2.0f;
     float normalDegrees = 10.0f; ///< neighbours whose normals differ by more are not gathered
     float cut = 3.0f; ///< kernel radius in standard deviations

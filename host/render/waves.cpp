@@ -168,7 +168,7 @@ void Waves::pixels(std::string kernel, std::vector<graph::Argument> arguments)
 {
     f_.graph.add({ .name = "accumulate",
         .kind = PassKind::Trace,
-        .kernel = { "accumulate.cl", std::move(kernel) },
+        .kernel = { "waves/accumulate.cl", std::move(kernel) },
         .arguments = std::move(arguments),
         .domain = graph::Domain::Items,
         .count = [state = state_](const Launch& launch) -> std::size_t {
@@ -194,7 +194,7 @@ void Waves::schedule()
     };
     f_.graph.add({ .name = "lists",
         .kind = PassKind::Trace,
-        .kernel = { "waves.cl", "countReceivers" },
+        .kernel = { "waves/waves.cl", "countReceivers" },
         .arguments = { pixelParams(), made("wave", [round](const Launch& launch) { return round(launch.run, 0); }),
             reads("taken", counts_.taken), reads("wanted", counts_.wanted), writes("tileReceivers", counts) },
         .domain = graph::Domain::Items,
@@ -228,7 +228,7 @@ void Waves::trace(bool lit)
     r_.pixelCount = list<Listed>("counts of pixels", graph::counts);
     f_.graph.add({ .name = "lists",
         .kind = PassKind::Trace,
-        .kernel = { "waves.cl", "listReceivers" },
+        .kernel = { "waves/waves.cl", "listReceivers" },
         .arguments = { pixelParams(), params(), reads("taken", counts_.taken), reads("wanted", counts_.wanted),
             reads("tileFirst", tileFirst_), writes("pixelOf", r_.pixelOf), writes("sampleOf", r_.sampleOf),
             writes("shareOf", r_.shareOf), writes("pixelFirst", r_.pixelFirst), writes("pixelCount", r_.pixelCount) },
@@ -259,7 +259,7 @@ void Waves::trace(bool lit)
             return p;
         });
     const auto lights = static_cast<std::uint32_t>(lit ? f_.description.areaLights.size() : 0);
-    tiles("primary rays", { "wave_primary.cl", "wavePrimary" },
+    tiles("primary rays", { "waves/wave_primary.cl", "wavePrimary" },
         joined({ traced, value("camera", camera_), params() }, f_.hierarchy(), f_.geometry(),
             Arguments { f_.ofScene("objectIds", "uint", &DeviceScene::objectIds),
                 f_.ofScene("lights", "AreaLight", &DeviceScene::areaLights), value("lightCount", lights),
@@ -283,7 +283,7 @@ void limitTiles(FrameBuilder& frame, PrimaryCounts& counts, std::uint32_t room)
     const auto tiles = static_cast<std::size_t>(frame.wholeFrame().tileCount);
     frame.graph.add({ .name = "counts",
         .kind = PassKind::Analysis,
-        .kernel = { "waves.cl", "limitTiles" },
+        .kernel = { "waves/waves.cl", "limitTiles" },
         .arguments = { frame.frame(), value("capacity", room), reads("taken", counts.taken),
             updates("wanted", counts.wanted) },
         .domain = graph::Domain::Items,

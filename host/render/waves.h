@@ -25,7 +25,7 @@ struct WaveSchedule {
     static constexpr std::uint32_t capacity = WEDGE_WAVE_RECEIVERS; ///< of any wave
 };
 
-/// Planes of a wave's receivers, see kernels/wave_primary.cl and waves.cl.
+/// Planes of a wave's receivers, see kernels/waves/wave_primary.cl and waves.cl.
 struct Receivers {
     graph::Handle<Position> position, origin;
     graph::Handle<Normal> normal;

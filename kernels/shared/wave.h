@@ -1,4 +1,4 @@
-// Waves: lists of receivers, many to a pixel, that are traced together (kernels/waves.cl).
+// Waves: lists of receivers, many to a pixel, that are traced together (kernels/waves/waves.cl).
 #ifndef WEDGE_SHARED_WAVE_H
 #define WEDGE_SHARED_WAVE_H
 

@@ -1,6 +1,6 @@
 // Surfaces that rays find on geometry that moves: where they are at the ray's time, and where they go.
-#include "surface.h"
-#include "traverse.h"
+#include "trace/surface.h"
+#include "trace/traverse.h"
 
 /// rays: 8 floats each, as in trace_test.cl; times: one each. triangle: what each hit; out: 15 floats each, of that hit
 /// u v, then position, shading normal, geometric normal and motion, and the distance to the ray's origin.

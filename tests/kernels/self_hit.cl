@@ -1,6 +1,6 @@
 // Rays that leave a surface in all directions above it: does any come back to the triangle that it started from?
-#include "surface.h"
-#include "traverse.h"
+#include "trace/surface.h"
+#include "trace/traverse.h"
 
 /// rays: 8 floats each, as in trace_test.cl; directions: 3 floats each, unit.
 /// out: triangle hit first and how many of the rays from there hit it again; points: position and origin (6 floats).

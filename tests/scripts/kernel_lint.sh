@@ -26,8 +26,22 @@ lint() { # TARGET FILE DEFINE...
 }
 export -f lint
 
-files=(*.cl)
+files=(*/*.cl)
 [ -f "${files[0]}" ] || { echo "kernel_lint: no .cl file in $PWD" >&2; exit 1; }
+
+# Rooms include what is in rooms before them.
+rooms=(shared core trace light paths waves filter analysis frame)
+allowed=
+for room in "${rooms[@]}"; do
+    allowed="$allowed|$room"
+    if grep -nE '#include "[a-z_]+/' "$room"/* | grep -vE "#include \"(${allowed#|})/"; then
+        echo "kernel_lint: $room/ includes what is in none of${allowed//|/ }" >&2
+        exit 1
+    fi
+done
+for room in */; do
+    [[ " ${rooms[*]} " == *" ${room%/} "* ]] || { echo "kernel_lint: no order is known for the room $room" >&2; exit 1; }
+done
 
 # The linter itself must complain where there is something to complain of.
 if lint spir64 - <<<'kernel void f(global float* a) { int unused = *a; }' 2>/dev/null; then

@@ -61,7 +61,7 @@ checkSabotaged() {
 
 checkAllKernelsRan() {
     local kernel missing=0
-    for kernel in $(grep -hoP '__kernel void \K\w+' $(ls "$sources"/kernels/*.cl | grep -v _test.cl)); do
+    for kernel in $(grep -hoP '__kernel void \K\w+' $(ls "$sources"/kernels/*/*.cl | grep -v _test.cl)); do
         grep -qF "\"$kernel\"" "$work"/*.json || { echo "oclgrind_frame: kernel never ran: $kernel" >&2; missing=1; }
     done
     return $missing

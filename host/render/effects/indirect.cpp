@@ -83,11 +83,11 @@ void reflectorWidths(FrameBuilder& frame, const shared::ReflectorParams& params,
     const graph::Reach near = graph::around(WEDGE_NEARNESS_REACH);
     auto bounds = frame.graph.list<Metres>("visible bounds", graph::floats, 6 * WEDGE_EXTENT_STRIPES);
     auto extent = frame.graph.list<Metres>("visible extent", graph::floats, 1);
-    frame.items("widths", PassKind::Analysis, { "reflectors.cl", "visibleBounds" }, WEDGE_EXTENT_STRIPES,
+    frame.items("widths", PassKind::Analysis, { "paths/reflectors.cl", "visibleBounds" }, WEDGE_EXTENT_STRIPES,
         { p, reads("position", s.position), reads("objectId", s.objectId), writes("bounds", bounds) });
-    frame.items("widths", PassKind::Analysis, { "reflectors.cl", "visibleExtent" }, 1,
+    frame.items("widths", PassKind::Analysis, { "paths/reflectors.cl", "visibleExtent" }, 1,
         { reads("bounds", bounds), writes("extent", extent) });
-    frame.pixels("widths", PassKind::Analysis, { "reflectors.cl", "reflectorWidths" },
+    frame.pixels("widths", PassKind::Analysis, { "paths/reflectors.cl", "reflectorWidths" },
         { p, reads("reflectors", reflectors, near), reads("objectId", s.objectId, near), reads("extent", extent),
             reads("pixelSize", s.pixelSize), reads("gloss", s.gloss), reads("taken", taken, near), writes("beta", beta),
             wanted != nullptr ? writes("wanted", *wanted) : frame.nothing("wanted") });

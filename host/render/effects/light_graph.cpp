@@ -76,7 +76,7 @@ public:
                     "widening", [](const Run& run) { return !run.cut(); }, [&] { widened(); });
             }
             shade(gaussianFilter(
-                      f_, { "filter", PassKind::Filter, "filter.cl" }, channels_, filterParams(), value_, beta_)
+                      f_, { "filter", PassKind::Filter, "filter/filter.cl" }, channels_, filterParams(), value_, beta_)
                       .value,
                 {});
         });
@@ -118,7 +118,7 @@ private:
 
 void LightGraph::firstPass()
 {
-    f_.trace("first pass", { "area_light.cl", "firstPass" },
+    f_.trace("first pass", { "light/area_light.cl", "firstPass" },
         joined({ f_.frame(), sampleParams(), light(), value("camera", shared::CameraParams {}) }, f_.hierarchy(),
             f_.geometry(), f_.receivers(),
             Arguments { reads("wanted", wanted_), updates("sums", sums_), updates("taken", taken_),
@@ -132,7 +132,7 @@ void LightGraph::samples(const char* pass, std::uint32_t from, std::uint32_t sli
     const int most = s_.sampling == Sampling::Uniform ? s_.spp : std::max(s_.maxSpp, s_.spp);
     const SampleSlices slices(from, static_cast<std::uint32_t>(most), slice, s_.spp);
     g_.loop("slices", slices.counter(), [&] {
-        f_.trace(pass, { "area_light.cl", "secondPass" },
+        f_.trace(pass, { "light/area_light.cl", "secondPass" },
             joined({ f_.frame(), sampleParams(), light() }, f_.hierarchy(), f_.receivers(),
                 Arguments { reads("wanted", wanted_), slices.last(), updates("sums", sums_), updates("taken", taken_),
                     updates("value", value_), tallies("rays", f_.totals.rays) }),
@@ -163,7 +163,7 @@ void LightGraph::narrowForLobes()
     // With shading apart from visibility samples know nothing of the lobe.
     if (f_.specular && s_.filtering == Filtering::Adaptive && s_.shading != Shading::Separate) {
         const Surfaces& s = f_.surfaces;
-        f_.pixels("widths", PassKind::Analysis, { "analysis.cl", "narrowForLobes" },
+        f_.pixels("widths", PassKind::Analysis, { "analysis/analysis.cl", "narrowForLobes" },
             { f_.rectangle(analysisParams()), value("frame", f_.wholeFrame()), reads("sums", sums_),
                 reads("position", s.position), reads("gloss", s.gloss), reads("diffuse", s.diffuse),
                 reads("specular", s.specular), updates("beta", beta_) });
@@ -178,13 +178,13 @@ void LightGraph::countsFromVariance()
     if (s_.filtering == Filtering::None) {
         f_.fill("ones", effective, 1.0f);
     } else {
-        const Gathered gathered = gaussianFilter(
-            f_, { "filter of first pass", PassKind::Analysis, "filter.cl" }, channels_, filterParams(), value_, beta_);
+        const Gathered gathered = gaussianFilter(f_, { "filter of first pass", PassKind::Analysis, "filter/filter.cl" },
+            channels_, filterParams(), value_, beta_);
         visibility = gathered.value;
         effective = gathered.effective;
     }
     auto demand = g_.plane<Demand>("demand", graph::floats);
-    f_.blocks("counts", PassKind::Analysis, { "counts.cl", "countDemand" },
+    f_.blocks("counts", PassKind::Analysis, { "analysis/counts.cl", "countDemand" },
         { f_.rectangle(p), reads("filtered", visibility, around(2)), reads("effective", effective),
             reads("beta", beta_, around(2)), reads("objectId", f_.surfaces.objectId, around(2)),
             writes("demand", demand) });
@@ -196,7 +196,7 @@ void LightGraph::widened()
     auto visibility = g_.plane<Value>("visibility", graph::floats);
     auto deviation = g_.plane<Deviation>("deviation", graph::floats);
     auto weights = g_.plane<Share>("weights", graph::floats);
-    f_.blocks("filter", PassKind::Filter, { "widen.cl", "oneOfLight" },
+    f_.blocks("filter", PassKind::Filter, { "analysis/widen.cl", "oneOfLight" },
         { f_.rectangle(analysisParams()), value("firstPass", WEDGE_FIRST_PASS_RAYS), reads("value", value_),
             reads("taken", taken_), reads("sums", sums_), reads("diffuse", f_.surfaces.diffuse),
             reads("specular", f_.surfaces.specular), writes("visibility", visibility), writes("deviation", deviation),
@@ -209,14 +209,14 @@ void LightGraph::shade(const graph::Handle<Value>& shown, const std::function<bo
     const graph::Argument p = f_.rectangle(analysisParams());
     const Surfaces& s = f_.surfaces;
     Sum& direct = f_.totals.direct;
-    f_.blocks("composite", PassKind::Composite, { "composite.cl", "addDiffuse" },
+    f_.blocks("composite", PassKind::Composite, { "frame/composite.cl", "addDiffuse" },
         { p, sampleParams(), light(), quadrature(), reads("position", s.position), reads("normal", s.normal),
             reads("objectId", s.objectId), reads("diffuse", s.diffuse), reads("value", shown), reads("noisy", value_),
             reads("taken", taken_), updates("direct", direct.filtered), updates("directNoisy", direct.noisy),
             updates("deviation", direct.deviation), updates("samples", f_.totals.samples) },
         condition);
     if (f_.specular) {
-        f_.blocks("composite", PassKind::Composite, { "composite.cl", "addSpecular" },
+        f_.blocks("composite", PassKind::Composite, { "frame/composite.cl", "addSpecular" },
             { p, sampleParams(), light(), value("frame", f_.wholeFrame()), value("directions", lobeDirections(s_.spp)),
                 quadrature(), reads("position", s.position), reads("normal", s.normal), reads("objectId", s.objectId),
                 reads("gloss", s.gloss), reads("specular", s.specular), reads("value", shown), reads("noisy", value_),

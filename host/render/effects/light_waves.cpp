@@ -61,13 +61,13 @@ void LightWaves::sample(
     Shared own = share(waves, adding, counts, 2 * channels_, shape_.geometryMoves ? 6 : 2);
     auto seen = waves.list<Value>("value", graph::floatPlanes(channels_));
     if (adding.first) {
-        waves.tiles("first pass", { "area_light.cl", "firstPass" },
+        waves.tiles("first pass", { "light/area_light.cl", "firstPass" },
             joined({ waves.receiverParams(), params, light, value("camera", waves.camera()) }, f_.hierarchy(),
                 f_.geometry(), waves.receiverArguments(),
                 Arguments { reads("wanted", own.last), updates("sums", own.sums), updates("taken", own.first),
                     writes("value", seen), updates("slopes", own.extremes), waves.tallyRays() }));
     } else {
-        waves.tiles("shadow rays", { "area_light.cl", "secondPass" },
+        waves.tiles("shadow rays", { "light/area_light.cl", "secondPass" },
             joined({ waves.receiverParams(), params, light }, f_.hierarchy(), waves.receiverArguments(),
                 Arguments { reads("wanted", own.last), value("lastSample", allSamples), updates("sums", own.sums),
                     updates("taken", own.first), writes("value", seen), waves.tallyRays() }));
@@ -75,7 +75,7 @@ void LightWaves::sample(
     const bool exact = settings().method == Method::AxisAligned && !shape_.published;
     auto unshadowed = waves.list<Value>("unshadowed shading", graph::floatPlanes(2));
     if (exact) {
-        waves.list("unshadowed shading", { "wave_light.cl", "unshadowedReceivers" }, WEDGE_BLOCK_PIXELS,
+        waves.list("unshadowed shading", { "light/wave_light.cl", "unshadowedReceivers" }, WEDGE_BLOCK_PIXELS,
             { waves.receiverParams(), waves.params(), light,
                 f_.outside("nodes", "float", f_.scene != nullptr ? &f_.scene->quadratures[index_].cl() : nullptr),
                 reads("pixelOf", r.pixelOf), reads("sampleOf", r.sampleOf), reads("position", r.position),
@@ -112,7 +112,7 @@ void LightWaves::narrowForHighlights()
         return;
     }
     const Surfaces& s = f_.surfaces;
-    f_.pixels("widths", PassKind::Analysis, { "analysis.cl", "narrowForHighlights" },
+    f_.pixels("widths", PassKind::Analysis, { "analysis/analysis.cl", "narrowForHighlights" },
         { f_.rectangle(analysisParams()), value("frame", f_.wholeFrame()), value("light", light_),
             value("bits", shared::textureBits(f_.packed ? 1 : 0, true)), reads("texture", means.texture),
             reads("position", s.position), reads("gloss", s.gloss), reads("objectId", s.objectId),
@@ -124,7 +124,7 @@ void LightWaves::publishedWidths(
 {
     const graph::Reach near = graph::around(WEDGE_MEDIAN_RADIUS);
     // The light's effective half extent is two standard deviations, as in chapter 3.
-    f_.pixels("widths", PassKind::Analysis, { "published.cl", "publishedShadows" },
+    f_.pixels("widths", PassKind::Analysis, { "analysis/published.cl", "publishedShadows" },
         { f_.rectangle(of(params)), value("mu", settings().distributed.mu), value("lightExtent", 2.0f * light_.sigma),
             reads("flags", flags, near), reads("slopes", means.extremes), reads("confusion", confusion),
             reads("pixelSize", f_.surfaces.pixelSize), reads("objectId", f_.surfaces.objectId),
@@ -141,7 +141,8 @@ graph::Handle<Value> LightWaves::filtered(const shared::DistributedParams& param
     }
     const graph::Handle<Value> seen = visibility("filter", params);
     const graph::Handle<Value> out =
-        gaussianFilter(f_, { "filter", PassKind::Filter, "filter_variance.cl" }, 1, filter, seen, means.beta).value;
+        gaussianFilter(f_, { "filter", PassKind::Filter, "filter/filter_variance.cl" }, 1, filter, seen, means.beta)
+            .value;
     return shape_.geometryMoves && settings().distributed.blur ? alongShadows(params, out) : out;
 }
 
@@ -155,10 +156,10 @@ graph::Handle<Value> LightWaves::alongShadows(
     auto directions =
         f_.graph.plane<Pixels>("direction of shadows' motion", f_.packed ? shortPairs : graph::floatPlanes(2));
     auto out = f_.graph.plane<Value>("filtered along shadows' motion", graph::floats);
-    f_.pixels(pass, PassKind::Filter, { "distributed.cl", "shadowBlurs" },
+    f_.pixels(pass, PassKind::Filter, { "waves/distributed.cl", "shadowBlurs" },
         { p, reads("shadows", means.extremes), reads("taken", shape_.all ? means.taken : means.wanted),
             reads("beta", means.beta), writes("along", along), writes("directions", directions) });
-    f_.pixels(pass, PassKind::Filter, { "blur.cl", "blurMotion" },
+    f_.pixels(pass, PassKind::Filter, { "filter/blur.cl", "blurMotion" },
         { p, value("channels", 1u), reads("along", along, far), reads("directions", directions, far),
             reads("in", seen, far), writes("out", out) });
     return out;

@@ -19,9 +19,9 @@ graph::Handle<Logarithms> spreadOver(FrameBuilder& frame, const shared::Analysis
     const int radius = static_cast<int>(params.fillRadius);
     auto rows = frame.graph.plane<Logarithms>("spread along rows", graph::floatPlanes(planes));
     auto spread = frame.graph.plane<Logarithms>("spread", graph::floatPlanes(planes));
-    frame.blocks("widths", PassKind::Analysis, { "analysis.cl", "spreadRows" },
+    frame.blocks("widths", PassKind::Analysis, { "analysis/analysis.cl", "spreadRows" },
         { p, value("planes", planes), reads("in", from, { .x = radius }), writes("out", rows) });
-    frame.blocks("widths", PassKind::Analysis, { "analysis.cl", "spreadColumns" },
+    frame.blocks("widths", PassKind::Analysis, { "analysis/analysis.cl", "spreadColumns" },
         { p, value("planes", planes), reads("in", rows, { .y = radius }), writes("out", spread) });
     return spread;
 }
@@ -35,14 +35,14 @@ void smoothedWidths(FrameBuilder& frame, const shared::AnalysisParams& params, c
     const Surfaces& s = frame.surfaces;
     auto eroded = frame.graph.plane<Extremes>("eroded slopes", graph::floats);
     auto logs = frame.graph.plane<Logarithms>("logarithms", graph::floatPlanes(2));
-    frame.blocks("widths", PassKind::Analysis, { "analysis.cl", "erodeSlopes" },
+    frame.blocks("widths", PassKind::Analysis, { "analysis/analysis.cl", "erodeSlopes" },
         { p, reads("slopes", slopes, around(1)), reads("objectId", s.objectId, around(1)), writes("eroded", eroded) });
     frame.zero(logs); // what spreads comes from the padding, too
-    frame.blocks("widths", PassKind::Analysis, { "analysis.cl", "smoothSlopes" },
+    frame.blocks("widths", PassKind::Analysis, { "analysis/analysis.cl", "smoothSlopes" },
         { p, reads("eroded", eroded, around(1)), reads("objectId", s.objectId, around(1)),
             updates("logSlopes", logs) });
     const auto spread = spreadOver(frame, params, 2, logs);
-    frame.pixels("widths", PassKind::Analysis, { "analysis.cl", "widths" },
+    frame.pixels("widths", PassKind::Analysis, { "analysis/analysis.cl", "widths" },
         { p, reads("logSlopes", logs), reads("spread", spread), reads("objectId", s.objectId),
             reads("pixelSize", s.pixelSize), reads("lit", lit()), writes("beta", beta) });
 }
@@ -54,11 +54,11 @@ void publishedWidths(FrameBuilder& frame, const shared::AnalysisParams& params, 
     const Surfaces& s = frame.surfaces;
     auto distances = frame.graph.plane<Logarithms>("distances", graph::floatPlanes(4));
     frame.zero(distances); // what spreads comes from the padding, too
-    frame.blocks("widths", PassKind::Analysis, { "analysis.cl", "publishedDistances" },
+    frame.blocks("widths", PassKind::Analysis, { "analysis/analysis.cl", "publishedDistances" },
         { p, reads("slopes", slopes), reads("position", s.position), reads("objectId", s.objectId),
             updates("distances", distances) });
     const auto spread = spreadOver(frame, params, 4, distances);
-    frame.pixels("widths", PassKind::Analysis, { "analysis.cl", "publishedWidths" },
+    frame.pixels("widths", PassKind::Analysis, { "analysis/analysis.cl", "publishedWidths" },
         { p, reads("slopes", slopes), reads("distances", spread), reads("objectId", s.objectId),
             reads("pixelSize", s.pixelSize), reads("lit", lit()), writes("beta", beta), writes("wanted", wanted) });
 }

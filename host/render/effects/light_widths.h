@@ -8,7 +8,7 @@
 namespace wedge::render {
 
 /// Declares how the widths of a light's filter, metres, follow from slopes of occluders by default: the least one,
-/// eroded, smoothed and spread (kernels/analysis.cl).
+/// eroded, smoothed and spread (kernels/analysis/analysis.cl).
 /// slopes: the least of each pixel, in the first plane; lit(): above 0 where the light is seen, in the first plane,
 /// asked for when it is needed
 void smoothedWidths(FrameBuilder& frame, const shared::AnalysisParams& params, const graph::Handle<Extremes>& slopes,

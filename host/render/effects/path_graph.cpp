@@ -86,7 +86,7 @@ public:
                         { irradiance_, deviation_, weights_ }, beta_);
                 });
         }
-        const char* program = varies() ? "filter_paths.cl" : "filter_indirect.cl";
+        const char* program = varies() ? "filter/filter_paths.cl" : "filter/filter_indirect.cl";
         addFiltered(gaussianFilter(f_, { "filter of indirect", PassKind::Filter, program },
             varies() ? channels + 1 : channels, filterParams(), value_, beta_)
                         .value);
@@ -132,7 +132,7 @@ void PathGraph::paths(const char* pass, std::uint32_t from, std::uint32_t most, 
     const bool first = f_.analysed() && from == 0; // distances are for the analysis
     params.keepsDistances = first ? 1 : 0;
     g_.loop("slices", slices.counter(), [&] {
-        f_.trace(pass, { "indirect.cl", "samplePaths" },
+        f_.trace(pass, { "paths/indirect.cl", "samplePaths" },
             joined({ f_.frame(), value("params", params) }, f_.hierarchy(), f_.geometry(),
                 Arguments { f_.ofScene("areaLights", "AreaLight", &DeviceScene::areaLights),
                     f_.ofScene("deltaLights", "DeltaLight", &DeviceScene::deltaLights) },
@@ -160,20 +160,20 @@ void PathGraph::countsFromVariance()
 {
     const graph::Argument p = f_.rectangle(reflectorParams());
     auto variance = g_.plane<Value>("variance", graph::floats);
-    f_.blocks("counts", PassKind::Analysis, { "reflectors.cl", "sampleVariance" },
+    f_.blocks("counts", PassKind::Analysis, { "paths/reflectors.cl", "sampleVariance" },
         { p, reads("sums", sums_), reads("taken", taken_), reads("reflectance", reflectance_),
             writes("variance", variance) });
     auto effective = g_.plane<Count>("effective count of variance", graph::floats);
     if (s_.filtering != Filtering::None) {
         // For the effective counts alone.
-        effective = gaussianFilter(
-            f_, { "pixels gathered", PassKind::Analysis, "filter_variance.cl" }, 1, filterParams(), variance, beta_)
+        effective = gaussianFilter(f_, { "pixels gathered", PassKind::Analysis, "filter/filter_variance.cl" }, 1,
+            filterParams(), variance, beta_)
                         .effective;
     } else {
         f_.fill("ones", effective, 1.0f);
     }
     auto demand = g_.plane<Demand>("demand", graph::floats);
-    f_.blocks("counts", PassKind::Analysis, { "reflectors.cl", "pathDemand" },
+    f_.blocks("counts", PassKind::Analysis, { "paths/reflectors.cl", "pathDemand" },
         { p, reads("variance", variance, around(2)), reads("effective", effective, around(2)),
             reads("beta", beta_, around(2)), reads("objectId", f_.surfaces.objectId, around(2)),
             writes("demand", demand) });
@@ -182,7 +182,7 @@ void PathGraph::countsFromVariance()
 
 void PathGraph::deviations()
 {
-    f_.blocks("filter of indirect", PassKind::Filter, { "widen.cl", "oneOfPaths" },
+    f_.blocks("filter of indirect", PassKind::Filter, { "analysis/widen.cl", "oneOfPaths" },
         { f_.rectangle(countParams()), value("component", static_cast<std::uint32_t>(component_)),
             value("firstPass", WEDGE_INDIRECT_FIRST_RAYS), reads("reflectance", reflectance_), updates("value", value_),
             reads("taken", taken_), writes("irradiance", irradiance_), writes("deviation", deviation_),
@@ -192,7 +192,7 @@ void PathGraph::deviations()
 void PathGraph::addSamples()
 {
     Sum& indirect = f_.totals.indirect;
-    f_.blocks("composite", PassKind::Composite, { "composite.cl", "addPathSamples" },
+    f_.blocks("composite", PassKind::Composite, { "frame/composite.cl", "addPathSamples" },
         { f_.rectangle(countParams()), value("component", static_cast<std::uint32_t>(component_)),
             value("varies", varies() ? 1u : 0u), reads("reflectance", reflectance_), reads("value", value_),
             varies() ? reads("deviations", deviation_) : f_.nothing("deviations"), reads("taken", taken_),
@@ -203,7 +203,7 @@ void PathGraph::addSamples()
 void PathGraph::addFiltered(const graph::Handle<Value>& filtered)
 {
     Sum& indirect = f_.totals.indirect;
-    f_.blocks("composite", PassKind::Composite, { "composite.cl", "addIndirect" },
+    f_.blocks("composite", PassKind::Composite, { "frame/composite.cl", "addIndirect" },
         { f_.rectangle(countParams()), value("component", static_cast<std::uint32_t>(component_)),
             value("varies", varies() ? 1u : 0u), reads("reflectance", reflectance_), reads("value", filtered),
             reads("taken", taken_), updates("indirect", indirect.filtered), updates("variance", indirect.variance) });

@@ -36,7 +36,7 @@ void PathWaves::sample(
     const Receivers& r = waves.receivers();
     Shared own = share(waves, adding, counts, 4, 3);
     auto found = waves.list<Value>("value", graph::vectors);
-    waves.tiles("paths", { "indirect.cl", "samplePaths" },
+    waves.tiles("paths", { "paths/indirect.cl", "samplePaths" },
         joined({ waves.receiverParams(), value("params", pathParams()) }, f_.hierarchy(), f_.geometry(),
             Arguments { f_.ofScene("areaLights", "AreaLight", &DeviceScene::areaLights),
                 f_.ofScene("deltaLights", "DeltaLight", &DeviceScene::deltaLights) },
@@ -67,7 +67,7 @@ void PathWaves::widths()
 void PathWaves::publishedWidths(
     const shared::DistributedParams& params, const graph::Handle<Share>& flags, const graph::Handle<Pixels>& confusion)
 {
-    f_.pixels("widths", PassKind::Analysis, { "published.cl", "publishedReflectors" },
+    f_.pixels("widths", PassKind::Analysis, { "analysis/published.cl", "publishedReflectors" },
         { f_.rectangle(of(params)), value("mu", settings().distributed.mu),
             value("component", static_cast<std::uint32_t>(component_)),
             reads("flags", flags, graph::around(WEDGE_MEDIAN_RADIUS)), reads("reflectors", means.extremes),
@@ -86,11 +86,11 @@ graph::Handle<Value> PathWaves::filtered(const shared::DistributedParams& params
     graph::Handle<Value> plain = means.value;
     if (f_.packed) {
         plain = f_.graph.plane<Value>("value", graph::vectors);
-        f_.pixels("filter of indirect", PassKind::Filter, { "distributed.cl", "unpackImage" },
+        f_.pixels("filter of indirect", PassKind::Filter, { "waves/distributed.cl", "unpackImage" },
             { f_.rectangle(of(params)), reads("in", means.value), writes("out", plain) });
     }
     return gaussianFilter(
-        f_, { "filter of indirect", PassKind::Filter, "filter_indirect.cl" }, 3, filter, plain, means.beta)
+        f_, { "filter of indirect", PassKind::Filter, "filter/filter_indirect.cl" }, 3, filter, plain, means.beta)
         .value;
 }
 

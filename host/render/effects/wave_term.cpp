@@ -32,7 +32,7 @@ WaveTerm::Shared WaveTerm::share(
         waves.list<Sums>("sums", graph::floatPlanes(sums)),
         waves.list<Extremes>("slopes or distances", graph::floatPlanes(extremes)) };
     const Receivers& r = waves.receivers();
-    waves.list("lists", { "waves.cl", "shareSamples" }, 1,
+    waves.list("lists", { "waves/waves.cl", "shareSamples" }, 1,
         { waves.pixelParams(), waves.params(), reads("pixelOf", r.pixelOf), reads("shareOf", r.shareOf),
             reads("taken", shape_.all ? means.taken : counts.taken),
             reads("wanted", (adding.omits & WEDGE_OMITS_COUNTS) != 0 ? counts.taken : means.wanted),
@@ -67,7 +67,7 @@ graph::Handle<Extremes> WaveTerm::leastExtreme() const
         return means.extremes;
     }
     auto extreme = f_.graph.plane<Extremes>("slopes or distances", graph::floats);
-    f_.pixels("widths", PassKind::Analysis, { "analysis.cl", "unpackSecond" },
+    f_.pixels("widths", PassKind::Analysis, { "analysis/analysis.cl", "unpackSecond" },
         { f_.rectangle(f_.analysisParams()), reads("packed", means.plain), writes("out", extreme) });
     return extreme;
 }
@@ -75,7 +75,7 @@ graph::Handle<Extremes> WaveTerm::leastExtreme() const
 graph::Handle<Share> WaveTerm::weights(std::string_view pass, PassKind kind) const
 {
     auto weights = f_.graph.plane<Share>("luminance of texture", graph::floats);
-    f_.pixels(pass, kind, { "analysis.cl", "luminanceOf" },
+    f_.pixels(pass, kind, { "analysis/analysis.cl", "luminanceOf" },
         { f_.rectangle(f_.analysisParams()), value("bits", shared::textureBits(f_.packed ? 1 : 0, isLight())),
             reads("image", means.texture), writes("out", weights) });
     return weights;
@@ -84,7 +84,7 @@ graph::Handle<Share> WaveTerm::weights(std::string_view pass, PassKind kind) con
 graph::Handle<Value> WaveTerm::visibility(std::string_view pass, const shared::DistributedParams& params) const
 {
     auto seen = f_.graph.plane<Value>("value in one number", graph::floats);
-    f_.pixels(pass, PassKind::Filter, { "distributed.cl", "visibilityOf" },
+    f_.pixels(pass, PassKind::Filter, { "waves/distributed.cl", "visibilityOf" },
         { f_.rectangle(of(params)), reads("texture", means.texture), reads("value", means.value),
             writes("visibility", seen) });
     return seen;

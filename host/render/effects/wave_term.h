@@ -10,8 +10,8 @@
 
 namespace wedge::render {
 
-/// What pixels of several receivers keep of a term, see kernels/accumulate.h. Those that a frame has no need of are of
-/// no graph.
+/// What pixels of several receivers keep of a term, see kernels/waves/accumulate.h. Those that a frame has no need of
+/// are of no graph.
 struct TermMeans {
     graph::Handle<Texture> texture;
     graph::Handle<Value> value;

@@ -52,7 +52,7 @@ void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams para
     const int far = static_cast<int>(params.maxRadius);
     const graph::Reach along { .x = far }, across { .y = far }, near = around(WEDGE_SHRINK_REACH);
     const graph::Reach noisy { .x = 2 * WEDGE_BLOCK_PIXELS - 1, .y = 3 * WEDGE_SHRINK_REACH };
-    const std::string program = frame.program("compare_widths.cl");
+    const std::string program = frame.program("filter/compare_widths.cl");
     const shared::AnalysisParams p = frame.analysisParams();
     const auto all = value("frame", frame.wholeFrame());
     graph::Graph& g = frame.graph;
@@ -66,7 +66,7 @@ void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams para
     auto squares = g.plane<Value>("squares", graph::floats);
     auto variance = g.plane<Value>("variance", graph::floats);
     auto shares = g.plane<Share>("shares", graph::floats);
-    frame.blocks(pass, PassKind::Filter, { "widen.cl", "comparedWidths" },
+    frame.blocks(pass, PassKind::Filter, { "analysis/widen.cl", "comparedWidths" },
         joined({ frame.rectangle(p), all, value("pixels", pixels), reads("deviation", compared.deviation, noisy) },
             neighbours(frame.surfaces, {}), Arguments { reads("beta", beta), writes("compared", wider) }));
     frame.blocks(pass, PassKind::Filter, { program, "compareRows" },
@@ -81,15 +81,15 @@ void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams para
                    reads("compared", wider, across) },
             neighbours(frame.surfaces, across),
             Arguments { writes("difference", difference), writes("apart", apart) }));
-    frame.blocks(pass, PassKind::Filter, { "widen.cl", "widenSquares" },
+    frame.blocks(pass, PassKind::Filter, { "analysis/widen.cl", "widenSquares" },
         { frame.rectangle(p), reads("difference", difference), reads("apart", apart),
             reads("deviation", compared.deviation), reads("weights", compared.weights), writes("squares", squares),
             writes("variance", variance) });
-    frame.blocks(pass, PassKind::Filter, { "widen.cl", "wideShares" },
+    frame.blocks(pass, PassKind::Filter, { "analysis/widen.cl", "wideShares" },
         joined({ frame.rectangle(p), all, value("pixels", pixels), value("noise", noise),
                    reads("difference", squares, near), reads("variance", variance, near) },
             neighbours(frame.surfaces, near), Arguments { reads("beta", beta, near), writes("shares", shares) }));
-    frame.blocks(pass, PassKind::Filter, { "widen.cl", "widen" },
+    frame.blocks(pass, PassKind::Filter, { "analysis/widen.cl", "widen" },
         joined({ frame.rectangle(p), all, value("pixels", pixels), reads("shares", shares, near) },
             neighbours(frame.surfaces, near), Arguments { updates("beta", beta) }));
 }
@@ -105,22 +105,22 @@ void countsFromDemand(FrameBuilder& frame, const shared::AnalysisParams& params,
     auto binCounts = g.list<Count>("demand bins", graph::counts, bins);
     auto binSums = g.list<Demand>("demand bin sums", graph::floats, bins);
     auto scale = g.list<Share>("count scale", graph::floats, 1);
-    frame.items("counts", PassKind::Analysis, { "counts.cl", "demandHistogram" }, stripes,
+    frame.items("counts", PassKind::Analysis, { "analysis/counts.cl", "demandHistogram" }, stripes,
         { frame.rectangle(params), reads("demand", demand), reads("mask", mask), writes("counts", counts),
             writes("sums", sums), writes("shaded", shaded) });
-    frame.items("counts", PassKind::Analysis, { "counts.cl", "solveCountScale" }, 1,
+    frame.items("counts", PassKind::Analysis, { "analysis/counts.cl", "solveCountScale" }, 1,
         { value("mean", mean), value("least", static_cast<float>(params.leastCount)),
             value("cap", static_cast<float>(params.countCap)), reads("counts", counts), reads("sums", sums),
             reads("shaded", shaded), writes("binCounts", binCounts), writes("binSums", binSums),
             writes("scale", scale) });
-    frame.pixels("counts", PassKind::Analysis, { "counts.cl", "countsFromDemand" },
+    frame.pixels("counts", PassKind::Analysis, { "analysis/counts.cl", "countsFromDemand" },
         { frame.rectangle(params), reads("demand", demand), reads("scale", scale), reads("mask", mask),
             writes("wanted", wanted) });
 }
 
 void uniformCounts(FrameBuilder& frame, std::uint32_t count, const graph::Version& mask, graph::Handle<Count>& wanted)
 {
-    frame.pixels("counts", PassKind::Analysis, { "counts.cl", "uniformCounts" },
+    frame.pixels("counts", PassKind::Analysis, { "analysis/counts.cl", "uniformCounts" },
         { frame.rectangle(frame.analysisParams()), value("count", count), reads("mask", mask),
             writes("wanted", wanted) });
 }

@@ -14,8 +14,8 @@ struct Gathered {
     graph::Handle<Count> effective;
 };
 
-/// Declares the separable world-space Gaussian of kernels/gather.h, of as many planes of `value` as the program has
-/// channels; widths are beta. params: of filterParams(); its rectangle does not matter.
+/// Declares the separable world-space Gaussian of kernels/filter/gather.h, of as many planes of `value` as the program
+/// has channels; widths are beta. params: of filterParams(); its rectangle does not matter.
 Gathered gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels,
     const shared::FilterParams& params, const graph::Handle<Value>& value, const graph::Handle<Metres>& beta);
 
@@ -27,13 +27,13 @@ struct Compared {
     graph::Handle<Share> weights;
 };
 
-/// Declares the passes that widen beta where the samples do not speak against it (kernels/widen.cl), towards `pixels`.
-/// noise: how much of their variance counts, pinholeNoise or distributedNoise.
+/// Declares the passes that widen beta where the samples do not speak against it (kernels/analysis/widen.cl), towards
+/// `pixels`. noise: how much of their variance counts, pinholeNoise or distributedNoise.
 void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams params, float pixels, float noise,
     Compared compared, graph::Handle<Metres>& beta);
 
 /// Declares how counts follow from demands: clamp(C demand, params.leastCount, params.countCap) where mask is not 0,
-/// with C such that their mean is `mean` (kernels/counts.cl).
+/// with C such that their mean is `mean` (kernels/analysis/counts.cl).
 void countsFromDemand(FrameBuilder& frame, const shared::AnalysisParams& params, float mean,
     const graph::Handle<Demand>& demand, const graph::Version& mask, graph::Handle<Count>& wanted);
 

@@ -23,7 +23,8 @@ shared::FilterParams filterParams(const Settings& settings, const shared::FrameP
 struct FilterRun {
     std::string_view pass;
     device::PassKind kind;
-    std::string program; ///< a file that includes kernels/gather_lines.h; packed frames take the one called packed_...
+    std::string
+        program; ///< a file that includes kernels/filter/gather_lines.h; packed frames take the one called packed_...
 };
 
 /// Of the irradiances of distributed frames as published: (5.31) measures distances in space, also those of lights, and

@@ -1,0 +1,283 @@
+// From the first pass's slopes to filter widths.
+//
+// Published (thesis section 3.6): an unoccluded pixel takes the mean distances of the occluded pixels within 5
+// pixels. Default: s_min is eroded over 3x3 pixels of the same object, smoothed in the logarithm, and spread to
+// unoccluded pixels with Gaussian weights, so that the widths have no border of their own.
+#include "core/packed_planes.h"
+#include "core/vector16.h"
+#include "shared/bsdf.h"
+#include "shared/filter_params.h"
+#include "shared/frame.h"
+#include "shared/light.h"
+#include "shared/wedge.h"
+
+/// Weight of spread slopes below which a pixel counts as far from any shadow.
+#define WEDGE_LEAST_SPREAD 1e-4f
+
+/// 3x3 minimum of s_min over occluded pixels of the same object; 0 where there is none.
+__kernel void erodeSlopes(AnalysisParams p, __global const float* restrict slopes,
+    __global const uint* restrict objectId, __global float* restrict eroded)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const uint16 object = loadIdBlock(objectId, i);
+    float16 least = (float16)(2.0f * WEDGE_SLOPE_MAX);
+    for (int dy = y > 0u ? -1 : 0; dy <= (y + 1u < p.height ? 1 : 0); ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+            const int j = i + dy * (int)p.stride + dx;
+            const float16 slope = loadBlock(slopes, j);
+            const int16 taken = (slope > 0.0f) & (loadIdBlock(objectId, j) == object) & (object != 0u);
+            least = taken ? min16(least, slope) : least;
+        }
+    }
+    vstore16(least <= WEDGE_SLOPE_MAX ? least : (float16)(0.0f), 0, eroded + i);
+}
+
+/// 3x3 mean of log2 s over the pixels of the same object that have a slope. out planes: log2 of the slope, weight
+/// (1 where there is one, else 0).
+__kernel void smoothSlopes(AnalysisParams p, __global const float* restrict eroded,
+    __global const uint* restrict objectId, __global float* restrict logSlopes)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const uint16 object = loadIdBlock(objectId, i);
+    const int16 has = (loadBlock(eroded, i) > 0.0f) & (object != 0u);
+    float16 sum = (float16)(0.0f);
+    float16 count = (float16)(0.0f);
+    if (any(has)) {
+        for (int dy = y > 0u ? -1 : 0; dy <= (y + 1u < p.height ? 1 : 0); ++dy) {
+            for (int dx = -1; dx <= 1; ++dx) {
+                const int j = i + dy * (int)p.stride + dx;
+                const float16 slope = loadBlock(eroded, j);
+                const int16 taken = (slope > 0.0f) & (loadIdBlock(objectId, j) == object);
+                sum += taken ? log2Block(slope) : (float16)(0.0f);
+                count += taken ? (float16)(1.0f) : (float16)(0.0f);
+            }
+        }
+    }
+    vstore16(has ? sum / count : (float16)(0.0f), 0, logSlopes + i);
+    vstore16(has ? (float16)(1.0f) : (float16)(0.0f), 0, logSlopes + p.planeSize + i);
+}
+
+/// Distances of the published fallback: planes d1 w, d2_max w, d2_min w, w with w = 1 at occluded pixels, else 0;
+/// d1 = receiver to the light's centre in metres, d2 = d1 / (1 + s) (3.4).
+__kernel void publishedDistances(AnalysisParams p, __global const float* restrict slopes,
+    __global const float* restrict position, __global const uint* restrict objectId, __global float* restrict distances)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const float16 sMin = loadBlock(slopes, i);
+    const float16 sMax = loadBlock(slopes + p.planeSize, i);
+    const Vec3x16 toLight = sub16(splat3(p.lightCentre), loadVecBlock(position, p.planeSize, i));
+    const int16 occluded = (sMin > 0.0f) & (loadIdBlock(objectId, i) != 0u);
+    const float16 w = occluded ? (float16)(1.0f) : (float16)(0.0f);
+    const float16 d1 = occluded ? sqrt(dot16(toLight, toLight)) : (float16)(0.0f);
+    vstore16(d1, 0, distances + i);
+    vstore16(d1 / (1.0f + sMin), 0, distances + p.planeSize + i);
+    vstore16(d1 / (1.0f + sMax), 0, distances + 2u * p.planeSize + i);
+    vstore16(w, 0, distances + 3u * p.planeSize + i);
+}
+
+/// One direction of a separable weighted sum over `planes` planes whose last is the weight (values arrive multiplied
+/// by their weights). element: 1 for rows, the stride for columns.
+WEDGE_FN void spreadLine(AnalysisParams p, uint x, uint y, int element, int before, int after, uint planes,
+    __global const float* in, __global float* out)
+{
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const int radius = (int)p.fillRadius;
+    const float first = exp2(p.fillScale);
+    const float ratio = first * first;
+    for (uint plane = 0u; plane < planes; ++plane) {
+        __global const float* source = in + plane * p.planeSize;
+        float16 sum = loadBlock(source, i);
+        // exp2(k^2 s) for k = 1, 2, ... by its two ratios: each weight is the one before times step, step shrinks.
+        float w = 1.0f;
+        float step = first;
+        for (int k = 1; k <= radius; ++k) {
+            w *= step;
+            step *= ratio;
+            sum += k <= before ? w * loadBlock(source, i - k * element) : (float16)(0.0f);
+            sum += k <= after ? w * loadBlock(source, i + k * element) : (float16)(0.0f);
+        }
+        vstore16(sum, 0, out + plane * p.planeSize + i);
+    }
+}
+
+__kernel void spreadRows(AnalysisParams p, uint planes, __global const float* restrict in, __global float* restrict out)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x < p.x1 && y < p.y1) {
+        spreadLine(p, x, y, 1, (int)p.fillRadius, (int)p.fillRadius, planes, in, out);
+    }
+}
+
+__kernel void spreadColumns(
+    AnalysisParams p, uint planes, __global const float* restrict in, __global float* restrict out)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x < p.x1 && y < p.y1) {
+        spreadLine(p, x, y, (int)p.stride, (int)y, (int)(p.height - 1u - y), planes, in, out);
+    }
+}
+
+/// The luminance of a texture: what widths() takes for the sums of a light's unshadowed samples, and what a pixel's
+/// irradiance is worth in the image. bits: WEDGE_*_BITS.
+__kernel void luminanceOf(
+    AnalysisParams p, uint bits, __global const float* restrict image, __global float* restrict out)
+{
+    const uint x = p.x0 + get_global_id(0);
+    const uint y = p.y0 + get_global_id(1);
+    if (x < p.x1 && y < p.y1) {
+        const uint i = pixelIndex(x, y, p.stride);
+        out[i] = luminance(loadColour(image, p.planeSize, i, bits));
+    }
+}
+
+/// The second of the numbers that a packed plane holds.
+__kernel void unpackSecond(AnalysisParams p, __global const float* restrict packed, __global float* restrict out)
+{
+    const uint x = p.x0 + get_global_id(0);
+    const uint y = p.y0 + get_global_id(1);
+    if (x < p.x1 && y < p.y1) {
+        const uint i = pixelIndex(x, y, p.stride);
+        out[i] = loadShort(packed, p.planeSize, i, 1u);
+    }
+}
+
+/// Widths of the default setting, metres: from the pixel's own smoothed slope, else from what spread to it, else 0
+/// (nothing near is in shadow). -1 where the pixel sees nothing of the light. fixedWidth replaces the analysis.
+__kernel void widths(AnalysisParams p, __global const float* restrict logSlopes, __global const float* restrict spread,
+    __global const uint* restrict objectId, __global const float* restrict pixelSize,
+    __global const float* restrict sums, __global float* restrict beta)
+{
+    const uint x = p.x0 + get_global_id(0);
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const uint i = pixelIndex(x, y, p.stride);
+    const float size = loadNumber(pixelSize, p.planeSize, i, p.packed, 0u);
+    const float own = logSlopes[p.planeSize + i];
+    const float near = spread[p.planeSize + i];
+    const bool has = own > 0.0f || near > WEDGE_LEAST_SPREAD;
+    const float logSlope = own > 0.0f ? logSlopes[i] : spread[i] / fmax(near, WEDGE_LEAST_SPREAD);
+    const float slope = exp(0.69314718f * logSlope);
+    const float analysed = has ? filterWidth(slope, p.sigma, size, p.k, p.mu, p.alpha) : 0.0f;
+    const float wide = p.fixedWidth > 0.0f ? p.fixedWidth * size : analysed;
+    beta[i] = objectId[i] != 0u && sums[i] > 0.0f ? wide : -1.0f;
+}
+
+/// Narrows a width to what a highlight allows, by its share of what arrives. A lobe that is narrower than the light has
+/// sharper shadows, and moves over the light as the receiver moves: an edge at distance o of the receiver, seen in a
+/// lobe of standard deviation a from distance e, is a / (1 / o + 1 / e) wide, as a reflected image is. 1 / beta^2 =
+/// 1 / beta_diffuse^2 + share / beta_lobe^2. wide: beta_diffuse > 0, metres; gloss: exponent, negative for Phong
+WEDGE_FN float narrowed(AnalysisParams p, Vec3 toLight, Vec3 toEye, float gloss, float share, float wide)
+{
+    const float light = vecLength(toLight), eye = vecLength(toEye);
+    // Of Blinn-Phong the half vector has that deviation, and the direction |l + v| times as much.
+    const float spread = vecLength(vecAdd(vecScale(toLight, 1.0f / light), vecScale(toEye, 1.0f / eye)));
+    const float deviation = (gloss < 0.0f ? 1.0f : spread) * rsqrt(fmax(fabs(gloss), 1.0f));
+    const float slope = wide * p.k * p.mu / p.sigma;
+    const float occluder = light * slope / (1.0f + slope);
+    const float lobe = deviation / ((1.0f / occluder + 1.0f / eye) * p.k * p.mu);
+    return rsqrt(1.0f / (wide * wide) + share / (lobe * lobe));
+}
+
+/// narrowed() where the pixels are the receivers.
+/// in      sums: of the light's samples, as area_light.cl has them, with the specular ones
+/// in out  beta
+__kernel void narrowForLobes(AnalysisParams p, FrameParams frame, __global const float* restrict sums,
+    __global const float* restrict position, __global const float* restrict gloss,
+    __global const float* restrict diffuse, __global const float* restrict specular, __global float* restrict beta)
+{
+    const uint x = p.x0 + get_global_id(0);
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const uint i = pixelIndex(x, y, p.stride);
+    const float wide = beta[i];
+    const float lobes = wide > 0.0f ? luminance(loadVec(specular, p.planeSize, i)) * sums[2u * p.planeSize + i] : 0.0f;
+    if (!(lobes > 0.0f)) {
+        return;
+    }
+    const float matt = luminance(loadVec(diffuse, p.planeSize, i)) * WEDGE_INV_PI * sums[i];
+    const Vec3 at = loadVec(position, p.planeSize, i);
+    beta[i] = narrowed(p, vecSub(p.lightCentre, at), vecSub(frame.eye, at), gloss[i], lobes / (lobes + matt), wide);
+}
+
+/// narrowed() of pixels of many receivers, which keep what they reflect of the light as one. At least what a white matt
+/// surface that faced all of the light, as near as its nearest corner may be, would not reflect is a highlight's.
+/// in      texture: of the light's term, bits: WEDGE_*_BITS of it; gloss: may be packed
+/// in out  beta
+__kernel void narrowForHighlights(AnalysisParams p, FrameParams frame, AreaLight light, uint bits,
+    __global const float* restrict texture, __global const float* restrict position,
+    __global const float* restrict gloss, __global const uint* restrict objectId, __global float* restrict beta)
+{
+    const uint x = p.x0 + get_global_id(0);
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const uint i = pixelIndex(x, y, p.stride);
+    const float wide = beta[i];
+    if (!(wide > 0.0f) || objectId[i] == 0u) {
+        return;
+    }
+    const Vec3 at = loadVec(position, p.planeSize, i);
+    const Vec3 toLight = vecSub(p.lightCentre, at);
+    const float reach = vecLength(light.halfU) + vecLength(light.halfV);
+    const float nearest = fmax(vecLength(toLight) - reach, 0.0f);
+    const float white = WEDGE_INV_PI * luminance(light.power) / fmax(nearest * nearest, 1e-20f);
+    const float reflected = luminance(loadColour(texture, p.planeSize, i, bits));
+    if (reflected > white) {
+        beta[i] = narrowed(p, toLight, vecSub(frame.eye, at), loadNumber(gloss, p.planeSize, i, p.packed, 0u),
+            1.0f - white / reflected, wide);
+    }
+}
+
+/// Widths (3.13) and sample counts (3.21) of the published setting; distances: the sums of publishedDistances over
+/// the window. A pixel with no occluded one near keeps the first pass's samples and is not filtered.
+__kernel void publishedWidths(AnalysisParams p, __global const float* restrict slopes,
+    __global const float* restrict distances, __global const uint* restrict objectId,
+    __global const float* restrict pixelSize, __global const float* restrict sums, __global float* restrict beta,
+    __global uint* restrict wanted)
+{
+    const uint x = p.x0 + get_global_id(0);
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const uint i = pixelIndex(x, y, p.stride);
+    const uint size = p.planeSize;
+    const bool lit = objectId[i] != 0u && sums[i] > 0.0f;
+    const bool occluded = slopes[i] > 0.0f;
+    const bool near = distances[3u * size + i] > 0.0f;
+    const float farthest = fmax(distances[size + i], 1e-20f);
+    const float nearest = fmax(distances[2u * size + i], 1e-20f);
+    const float spreadMin = clamp(distances[i] / farthest - 1.0f, WEDGE_SLOPE_MIN, WEDGE_SLOPE_MAX);
+    const float spreadMax = clamp(distances[i] / nearest - 1.0f, WEDGE_SLOPE_MIN, WEDGE_SLOPE_MAX);
+    const float sMin = occluded ? slopes[i] : spreadMin;
+    const float sMax = occluded ? slopes[size + i] : spreadMax;
+    const bool filtered = occluded || near;
+    const float analysed = filtered ? filterWidth(sMin, p.sigma, pixelSize[i], p.k, p.mu, p.alpha) : 0.0f;
+    const float wide = p.fixedWidth > 0.0f ? p.fixedWidth * pixelSize[i] : analysed;
+    beta[i] = lit ? wide : -1.0f;
+    const float count = filtered && lit ? sampleCount(sMin, sMax, pixelSize[i], p.lightSize, p.mu, p.alpha) : 0.0f;
+    const float bounded = fmin(fmax(count, (float)WEDGE_FIRST_PASS_RAYS), (float)p.countCap);
+    wanted[i] = objectId[i] != 0u ? (uint)(bounded + 0.5f) : 0u;
+}

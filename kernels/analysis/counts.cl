@@ -1,0 +1,166 @@
+// Sample counts from variance: pixels whose filtered value is uncertain get more.
+//
+// The variance of a pixel's filtered value is about v / (n K): v = p (1 - p) of the visibility p that the first pass
+// and its filter found, K the number of equal pixels that the filter gathers. Counts n = C (v / K)^exponent, clamped,
+// with C such that the mean count is what was asked for.
+#include "core/vector16.h"
+#include "shared/filter_params.h"
+#include "shared/wedge.h"
+
+/// The range that the histogram of log2 demand covers.
+#define WEDGE_DEMAND_LOG2_MIN -24.0f
+#define WEDGE_DEMAND_LOG2_MAX 8.0f
+
+WEDGE_FN float16 binaryVariance(float16 p)
+{
+    const float16 bounded = min16(max16(p, (float16)(0.0f)), (float16)(1.0f));
+    return bounded * (1.0f - bounded);
+}
+
+/// demand = (v / K)^exponent, 0 where no slope reaches. v is at least varianceSpread of the largest within 5x5 pixels
+/// of the same object, and at least varianceFloor: nine rays miss thin occluders.
+__kernel void countDemand(AnalysisParams p, __global const float* restrict filtered,
+    __global const float* restrict effective, __global const float* restrict beta,
+    __global const uint* restrict objectId, __global float* restrict demand)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const int16 wants = loadBlock(beta, i) > 0.0f;
+    if (!any(wants)) {
+        vstore16((float16)(0.0f), 0, demand + i);
+        return;
+    }
+    const uint16 object = loadIdBlock(objectId, i);
+    float16 largest = (float16)(0.0f);
+    for (int dy = -(int)min(y, 2u); dy <= (int)min(p.height - 1u - y, 2u); ++dy) {
+        for (int dx = -2; dx <= 2; ++dx) {
+            const int j = i + dy * (int)p.stride + dx;
+            const int16 same = (loadIdBlock(objectId, j) == object) & (loadBlock(beta, j) >= 0.0f);
+            largest = same ? max16(largest, binaryVariance(loadBlock(filtered, j))) : largest;
+        }
+    }
+    const float16 own = binaryVariance(loadBlock(filtered, i));
+    const float16 v = max16(max16(own, p.varianceSpread * largest), (float16)(p.varianceFloor));
+    const float16 k = max16(loadBlock(effective, i), (float16)(1.0f));
+    vstore16(wants ? exp2Block(p.countExponent * log2Block(v / k)) : (float16)(0.0f), 0, demand + i);
+}
+
+/// Per stripe of rows: a histogram of log2 demand. counts and sums: WEDGE_DEMAND_BINS a stripe; shaded: pixels that
+/// take samples at all, a stripe: those whose mask is not 0. Pixels without demand are in no bin.
+__kernel void demandHistogram(AnalysisParams p, __global const float* restrict demand,
+    __global const uint* restrict mask, __global uint* restrict counts, __global float* restrict sums,
+    __global uint* restrict shaded)
+{
+    const uint stripe = get_global_id(0);
+    if (stripe >= WEDGE_DEMAND_STRIPES) {
+        return;
+    }
+    __global uint* bins = counts + stripe * WEDGE_DEMAND_BINS;
+    __global float* totals = sums + stripe * WEDGE_DEMAND_BINS;
+    for (uint b = 0u; b < WEDGE_DEMAND_BINS; ++b) {
+        bins[b] = 0u;
+        totals[b] = 0.0f;
+    }
+    const float scale = (float)WEDGE_DEMAND_BINS / (WEDGE_DEMAND_LOG2_MAX - WEDGE_DEMAND_LOG2_MIN);
+    uint pixels = 0u;
+    for (uint y = stripe; y < p.height; y += WEDGE_DEMAND_STRIPES) {
+        for (uint x = 0u; x < p.width; x += WEDGE_BLOCK_PIXELS) {
+            const int i = (int)pixelIndex(x, y, p.stride);
+            float values[WEDGE_BLOCK_PIXELS];
+            int index[WEDGE_BLOCK_PIXELS];
+            const float16 d = loadBlock(demand, i);
+            vstore16(d, 0, values);
+            const float16 bin = (log2Block(max16(d, (float16)(1e-30f))) - WEDGE_DEMAND_LOG2_MIN) * scale;
+            vstore16(convert_int16(clamp(bin, 0.0f, (float)WEDGE_DEMAND_BINS - 1.0f)), 0, index);
+            for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
+                if (mask[i + (int)lane] == 0u) {
+                    continue;
+                }
+                ++pixels;
+                if (values[lane] > 0.0f) {
+                    bins[index[lane]] += 1u;
+                    totals[index[lane]] += values[lane];
+                }
+            }
+        }
+    }
+    shaded[stripe] = pixels;
+}
+
+/// Finds C such that the mean of clamp(C demand, least, cap) over the shaded pixels is `mean`, by bisection on the
+/// summed histograms, and writes it to scale[0]. One work-item. The mean grows with C, so 40 halvings settle it.
+__kernel void solveCountScale(float mean, float least, float cap, __global const uint* restrict counts,
+    __global const float* restrict sums, __global const uint* restrict shaded, __global uint* restrict binCounts,
+    __global float* restrict binSums, __global float* restrict scale)
+{
+    if (get_global_id(0) != 0u) {
+        return;
+    }
+    uint pixels = 0u;
+    uint demanding = 0u;
+    for (uint s = 0u; s < WEDGE_DEMAND_STRIPES; ++s) {
+        pixels += shaded[s];
+    }
+    for (uint b = 0u; b < WEDGE_DEMAND_BINS; ++b) {
+        uint count = 0u;
+        float sum = 0.0f;
+        for (uint s = 0u; s < WEDGE_DEMAND_STRIPES; ++s) {
+            count += counts[s * WEDGE_DEMAND_BINS + b];
+            sum += sums[s * WEDGE_DEMAND_BINS + b];
+        }
+        binCounts[b] = count;
+        binSums[b] = sum;
+        demanding += count;
+    }
+    const float target = mean * (float)pixels - least * (float)(pixels - demanding);
+    float low = -20.0f;
+    float high = 60.0f;
+    for (uint step = 0u; step < 40u; ++step) {
+        const float middle = 0.5f * (low + high);
+        const float c = exp2(middle);
+        float total = 0.0f;
+        for (uint b = 0u; b < WEDGE_DEMAND_BINS; ++b) {
+            if (binCounts[b] > 0u) {
+                const float n = (float)binCounts[b];
+                total += n * fmin(fmax(c * binSums[b] / n, least), cap);
+            }
+        }
+        if (total < target) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    scale[0] = exp2(0.5f * (low + high));
+}
+
+/// Wanted samples: clamp(C demand, leastCount, cap); 0 where the mask is.
+__kernel void countsFromDemand(AnalysisParams p, __global const float* restrict demand,
+    __global const float* restrict scale, __global const uint* restrict mask, __global uint* restrict wanted)
+{
+    const uint x = p.x0 + get_global_id(0);
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const uint i = pixelIndex(x, y, p.stride);
+    const float count = fmin(fmax(scale[0] * demand[i], (float)p.leastCount), (float)p.countCap);
+    wanted[i] = mask[i] != 0u ? (uint)(count + 0.5f) : 0u;
+}
+
+/// The same count for every pixel of the mask.
+__kernel void uniformCounts(
+    AnalysisParams p, uint count, __global const uint* restrict mask, __global uint* restrict wanted)
+{
+    const uint x = p.x0 + get_global_id(0);
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const uint i = pixelIndex(x, y, p.stride);
+    wanted[i] = mask[i] != 0u ? count : 0u;
+}

@@ -1,0 +1,132 @@
+// The analysis of distributed frames as thesis chapter 5 and appendix B have it: flags (5.30), widths (5.18), (5.22),
+// counts (5.24) to (5.28), with (5.29).
+#include "core/distributed_pixel.h"
+#include "core/pixel.h"
+#include "shared/defocus.h"
+#include "shared/distributed.h"
+#include "shared/indirect.h"
+#include "shared/path.h"
+#include "shared/wedge.h"
+
+/// (5.31) and (5.33).
+#define WEDGE_PUBLISHED_KERNEL_FACTOR 16.0f
+
+WEDGE_FN float largestConfusion(DistributedParams p, __global const float* confusion, uint i)
+{
+    return fmax(fabs(confusion[i]), fabs(confusion[p.planeSize + i]));
+}
+
+/// 1 where |L - k E| is small enough (5.30), else 0.
+__kernel void publishedFlags(DistributedParams p, __global const float* restrict texture,
+    __global const float* restrict value, __global const float* restrict termRadiance, __global float* restrict flags)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    const Vec3 k = loadVec(texture, p.planeSize, i);
+    const Vec3 e = p.values == 3u ? loadVec(value, p.planeSize, i) : vec3(value[i], value[i], value[i]);
+    const float error = vecLength(vecSub(loadVec(termRadiance, p.planeSize, i), vecMul(k, e)));
+    flags[i] = p.never == 0u && error < p.factoringError ? 1.0f : 0.0f;
+}
+
+/// The median of the flags around a pixel.
+WEDGE_FN bool medianFlag(DistributedParams p, __global const float* flags, uint x, uint y)
+{
+    float sum = 0.0f, count = 0.0f;
+    for (int dy = -WEDGE_MEDIAN_RADIUS; dy <= WEDGE_MEDIAN_RADIUS; ++dy) {
+        for (int dx = -WEDGE_MEDIAN_RADIUS; dx <= WEDGE_MEDIAN_RADIUS; ++dx) {
+            const int px = (int)x + dx, py = (int)y + dy;
+            if (px >= 0 && py >= 0 && px < (int)p.width && py < (int)p.height) {
+                sum += flags[pixelIndex((uint)px, (uint)py, p.stride)];
+                count += 1.0f;
+            }
+        }
+    }
+    return 2.0f * sum > count;
+}
+
+/// Width of the irradiance's filter, metres, -1 where it is not taken apart from the texture.
+WEDGE_FN float publishedWidth(bool apart, float bandlimit, float pixelSize)
+{
+    return apart ? kernelDeviation(bandlimit, WEDGE_PUBLISHED_KERNEL_FACTOR) * pixelSize : -1.0f;
+}
+
+/// A light's widths (5.18) and counts (5.25), (5.27). slopes: s_min, s_max; lightExtent: l_I, metres.
+/// out  beta, demand: the count
+__kernel void publishedShadows(DistributedParams p, float mu, float lightExtent, __global const float* restrict flags,
+    __global const float* restrict slopes, __global const float* restrict confusion,
+    __global const float* restrict pixelSize, __global const uint* restrict objectId, __global float* restrict beta,
+    __global float* restrict demand)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    const float sMin = slopes[i], sMax = slopes[p.planeSize + i];
+    const float rMin = leastConfusion(p, confusion, i), rMax = largestConfusion(p, confusion, i);
+    const bool apart = medianFlag(p, flags, x, y);
+    const float factored = scaledBandlimit(shadowBandlimit(sMin, lightExtent, pixelSize[i], rMin), mu);
+    const float combined = scaledBandlimit(defocusBandlimit(rMin), mu);
+    beta[i] = objectId[i] != 0u ? publishedWidth(apart, factored, pixelSize[i]) : -1.0f;
+    demand[i] =
+        objectId[i] != 0u ? directCount(apart ? factored : combined, rMax, sMax, lightExtent, pixelSize[i]) : 0.0f;
+}
+
+/// A component's widths (5.22) and counts (5.26), (5.28). reflectors: z_min, z_max.
+__kernel void publishedReflectors(DistributedParams p, float mu, uint component, __global const float* restrict flags,
+    __global const float* restrict reflectors, __global const float* restrict gloss,
+    __global const float* restrict confusion, __global const float* restrict pixelSize,
+    __global const uint* restrict objectId, __global float* restrict beta, __global float* restrict demand)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    const uint model = gloss[i] < 0.0f ? WEDGE_SPECULAR_PHONG : WEDGE_SPECULAR_BLINN_PHONG;
+    const float transfer =
+        component == WEDGE_COMPONENT_GLOSSY ? glossyBandlimit(fabs(gloss[i]), model) : WEDGE_DIFFUSE_BANDLIMIT;
+    const float rMin = leastConfusion(p, confusion, i), rMax = largestConfusion(p, confusion, i);
+    const bool apart = medianFlag(p, flags, x, y);
+    const float factored = scaledBandlimit(indirectBandlimit(reflectors[i], transfer, pixelSize[i], rMin), mu);
+    const float combined = scaledBandlimit(defocusBandlimit(rMin), mu);
+    beta[i] = objectId[i] != 0u ? publishedWidth(apart, factored, pixelSize[i]) : -1.0f;
+    demand[i] = objectId[i] != 0u
+        ? indirectRayCount(apart ? factored : combined, rMax, reflectors[p.planeSize + i], transfer, pixelSize[i])
+        : 0.0f;
+}
+
+/// n_p: (5.24), where something moves (B.3), and `mixed` where motions differ.
+__kernel void publishedPrimary(DistributedParams p, float mu, float mixed, __global const float* restrict confusion,
+    __global const float* restrict motion, __global float* restrict demand)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    const float band = scaledBandlimit(defocusBandlimit(leastConfusion(p, confusion, i)), mu);
+    const float ofLens = primaryCount(band, largestConfusion(p, confusion, i));
+    const float speed = sqrt(motion[i] * motion[i] + motion[p.planeSize + i] * motion[p.planeSize + i]);
+    const float spread = motion[2u * p.planeSize + i];
+    const float ofMotion = motionCountPrinted(scaledBandlimit(motionBandlimit(speed), mu), speed);
+    const bool several = fmax(speed, spread) >= p.leastRadius && spread > p.oneVelocity * speed;
+    demand[i] = fmax(ofLens, several ? mixed : speed >= p.leastRadius ? ofMotion : 1.0f);
+}
+
+/// wanted = the largest demand within 3x3 pixels, rounded up, `most` at most; but never less than `least` and `taken`.
+__kernel void publishedCounts(DistributedParams p, uint most, __global const float* restrict demand,
+    __global const uint* restrict least, __global const uint* restrict taken, __global uint* restrict wanted)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    float largest = 0.0f;
+    for (int dy = -min((int)y, 1); dy <= min((int)(p.height - 1u - y), 1); ++dy) {
+        for (int dx = -min((int)x, 1); dx <= min((int)(p.width - 1u - x), 1); ++dx) {
+            largest = fmax(largest, demand[(int)i + dy * (int)p.stride + dx]);
+        }
+    }
+    const uint n = (uint)fmin(ceil(largest), (float)most);
+    wanted[i] = max(max(n, least[i]), taken[i]);
+}

@@ -1,0 +1,250 @@
+// Where a term's filter is narrow and its samples do not say that it has to be, it is widened.
+//
+// A width follows from the nearest occluder or reflector that a pixel's first rays found. Where a surface shadows
+// itself, or something small is near and all else is far, that is next to no width, and pixels keep the noise of their
+// own samples. So pixels whose width is less than a few pixels are filtered twice, with it (n) and with those few
+// pixels (w). Of the blend n + t (w - n) that t has the least error, as James and Stein's has (shrink.h), for which
+//
+//     t = max(0, (c V - r (D - q c V)) / D)
+//
+// with D the mean of (n - w)^2 over the pixels of the object around and V what noise makes of n's error that w does not
+// have in common with it. With v the variance of a pixel's own mean, and Gaussians that amount to K_n and K_w equal
+// pixels, one inside the other, n has the variance v / K_n, in common with w 2 v / (K_n + K_w), and their difference
+// has q V, q = 1 - K_n / K_w. What else is in D is bias, of which n has a part already: bias goes with the square of
+// widths, so that it is r = K_n / (K_w - K_n) times what w has more. The pixel's filter gets a width that is as far
+// between both widths. That blurs edges more than the blend and keeps less noise.
+#include "analysis/deviation.h"
+#include "analysis/shrink.h"
+#include "core/packed_planes.h"
+#include "shared/bsdf.h"
+#include "shared/path.h"
+
+/// The widths to compare with, `pixels` on the surfaces that a block of pixels sees, in metres: projectedPixel() of
+/// sixteen. normal: packed where p says so
+WEDGE_FN float16 comparedWidth16(AnalysisParams p, FrameParams frame, float pixels, __global const float* position,
+    __global const float* normal, int i)
+{
+    const Vec3x16 ray = sub16(loadVecBlock(position, p.planeSize, i), splat3(frame.eye));
+    const float16 squared = max16(dot16(ray, ray), (float16)(1e-30f)), inverse = rsqrt(squared);
+    // Solid angle of a pixel off the axis: area / distance^2 times the cosine to the image plane.
+    const float16 axis = max16(
+        (ray.x * frame.forward.x + ray.y * frame.forward.y + ray.z * frame.forward.z) * inverse, (float16)(1e-10f));
+    const float16 facing = fabs(dot16(loadNormals16(normal, p.planeSize, i, p.packed), ray)) * inverse;
+    const float pixel = vecLength(vecCross(frame.right, frame.down));
+    return pixels * sqrt(pixel * squared * axis * axis * axis / max16(facing, (float16)(WEDGE_MIN_VIEW_COSINE)));
+}
+
+/// Deviations of a block of pixels; packed, they have 16 bits.
+WEDGE_FN float16 loadDeviations(AnalysisParams p, __global const float* deviation, int i)
+{
+    if (p.packed == 0u) {
+        return loadBlock(deviation, i);
+    }
+    float d[WEDGE_BLOCK_PIXELS];
+    for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
+        d[lane] = loadShort(deviation, p.planeSize, (uint)i + lane, 0u);
+    }
+    return vload16(0, d);
+}
+
+/// Whether there is noise in a block of pixels or in those whose squares count where its own do: where there is none,
+/// V is 0, and no width changes.
+WEDGE_FN bool noiseAround(AnalysisParams p, uint x, uint y, __global const float* deviation)
+{
+    const int reach = 3 * WEDGE_SHRINK_REACH, block = (int)WEDGE_BLOCK_PIXELS;
+    const int first = x >= WEDGE_BLOCK_PIXELS ? -block : 0, last = x + WEDGE_BLOCK_PIXELS < p.width ? block : 0;
+    for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
+        for (int dx = first; dx <= last; dx += block) {
+            const int j = (int)pixelIndex(x, y, p.stride) + dy * (int)p.stride + dx;
+            if (any(loadDeviations(p, deviation, j) != 0.0f)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/// The widths to compare with, where a pixel's own is narrower; 0 where it is not or nothing is noisy, -1 where it has
+/// none.
+/// in   deviation: of the value that is filtered; beta, metres
+/// out  compared: metres
+__kernel void comparedWidths(AnalysisParams p, FrameParams frame, float pixels,
+    __global const float* restrict deviation, __global const float* restrict position,
+    __global const float* restrict normal, __global const uint* restrict objectId, __global const float* restrict beta,
+    __global float* restrict compared)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const float16 own = loadBlock(beta, i);
+    const int16 has = (loadIdBlock(objectId, i) != 0u) & (own >= 0.0f);
+    float16 wide = (float16)(0.0f);
+    if (noiseAround(p, x, y, deviation)) {
+        wide = comparedWidth16(p, frame, pixels, position, normal, i);
+    }
+    vstore16(!has ? (float16)(-1.0f) : own < wide ? wide : (float16)(0.0f), 0, compared + i);
+}
+
+/// A term of pixels that are the receivers in one number. weights: what it is multiplied by in the image; seen, ofPart:
+/// the products, of all samples and of the first of two parts of them
+WEDGE_FN void storeOne(float16 weights, float16 seen, float16 ofPart, uint16 taken, uint firstPass, int i,
+    __global float* value, __global float* deviation, __global float* weight)
+{
+    const int16 counts = weights > 0.0f;
+    const float16 over = counts ? 1.0f / weights : (float16)(0.0f);
+    const float16 mean = counts ? seen * over : (float16)(0.0f), part = counts ? ofPart * over : (float16)(0.0f);
+    vstore16(mean, 0, value + i);
+    vstore16(deviation16(mean, part, taken, firstPass), 0, deviation + i);
+    vstore16(counts ? weights : (float16)(0.0f), 0, weight + i);
+}
+
+/// Of pixels that are the receivers, a light in one number: what is seen of it, diffuse and specular together.
+/// in   value: diffuse and, where something is specular, specular visibility, and both of the first of two parts of the
+///      samples; taken: these samples; sums: of them, as area_light.cl has them
+/// out  visibility; deviation, as deviation16() has it; weights: the luminance that is reflected where all is visible,
+///      1/m^2
+__kernel void oneOfLight(AnalysisParams p, uint firstPass, __global const float* restrict value,
+    __global const uint* restrict taken, __global const float* restrict sums, __global const float* restrict diffuse,
+    __global const float* restrict specular, __global float* restrict visibility, __global float* restrict deviation,
+    __global float* restrict weights)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const uint size = p.planeSize;
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const uint16 count = loadIdBlock(taken, i);
+    const float16 scale = 1.0f / max16(convert_float16(count), (float16)(1.0f));
+    float16 weight = WEDGE_INV_PI * luminance16(loadVecBlock(diffuse, size, i)) * loadBlock(sums, i) * scale;
+#ifdef WEDGE_SPECULAR
+    const float16 mirrored = luminance16(loadVecBlock(specular, size, i)) * loadBlock(sums + 2u * size, i) * scale;
+    const float16 seen = weight * loadBlock(value, i) + mirrored * loadBlock(value + size, i);
+    const float16 first = weight * loadBlock(value + 2u * size, i) + mirrored * loadBlock(value + 3u * size, i);
+    weight += mirrored;
+#else
+    (void)specular;
+    const float16 seen = weight * loadBlock(value, i), first = weight * loadBlock(value + size, i);
+#endif
+    storeOne(weight, seen, first, count, firstPass, i, visibility, deviation, weights);
+}
+
+/// The same of indirect light: the irradiance that is reflected.
+/// in       reflectance: 3 planes; component: WEDGE_COMPONENT_*; of ambient occlusion all is reflected
+/// in out   value: 3 planes, and 3 of the first part, in the place of whose first comes the square of the deviation: a
+///          fourth plane for filters (fallback.cl)
+__kernel void oneOfPaths(AnalysisParams p, uint component, uint firstPass, __global const float* restrict reflectance,
+    __global float* restrict value, __global const uint* restrict taken, __global float* restrict irradiance,
+    __global float* restrict deviation, __global float* restrict weights)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const uint size = p.planeSize;
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const Vec3x16 k =
+        component == WEDGE_COMPONENT_AMBIENT ? splat3(vec3(1.0f, 1.0f, 1.0f)) : loadVecBlock(reflectance, size, i);
+    const Vec3x16 all = loadVecBlock(value, size, i), part = loadVecBlock(value + 3u * size, size, i);
+    storeOne(luminance16(k), luminance16(mul16(k, all)), luminance16(mul16(k, part)), loadIdBlock(taken, i), firstPass,
+        i, irradiance, deviation, weights);
+    const float16 d = loadBlock(deviation, i);
+    vstore16(d * d, 0, value + 3u * size + i);
+}
+
+/// What is averaged, both of what is shown and not of irradiances, which may be noisy where there is little of them to
+/// see.
+/// in   difference, apart: of compareColumns(); deviation: its square is v; weights: of what n and w are multiplied by
+/// out  squares: (n - w)^2; variance: V. Both are 0 where the wide filter does not gather more.
+__kernel void widenSquares(AnalysisParams p, __global const float* restrict difference,
+    __global const float* restrict apart, __global const float* restrict deviation,
+    __global const float* restrict weights, __global float* restrict squares, __global float* restrict variance)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const float16 ofVariance = loadBlock(apart, i), t = loadBlock(weights, i);
+    const int16 wider = ofVariance > 0.0f;
+    const float16 own = t * loadDeviations(p, deviation, i), d = t * loadBlock(difference, i);
+    vstore16(wider ? own * own * ofVariance : (float16)(0.0f), 0, variance + i);
+    vstore16(wider ? d * d : (float16)(0.0f), 0, squares + i);
+}
+
+/// t of the head of this file. ratio: of the squared widths
+WEDGE_FN float16 wideShare(float16 difference, float16 variance, float16 ratio)
+{
+    const float16 rest = max16(1.0f - ratio, (float16)(1e-3f));
+    const float16 bias = max16(difference - rest * variance, (float16)(0.0f));
+    const float16 share = (variance - ratio / rest * bias) / max16(difference, (float16)(1e-36f));
+    return min16(max16(share, (float16)(0.0f)), (float16)(1.0f));
+}
+
+/// in   noise: c; difference, variance: of widenSquares(); beta, metres
+/// out  shares: t; -1 of pixels that have no wider filter to compare with
+__kernel void wideShares(AnalysisParams p, FrameParams frame, float pixels, float noise,
+    __global const float* restrict difference, __global const float* restrict variance,
+    __global const float* restrict position, __global const float* restrict normal,
+    __global const uint* restrict objectId, __global const float* restrict beta, __global float* restrict shares)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    vstore16((float16)(-1.0f), 0, shares + i);
+    const int16 differs = (loadIdBlock(objectId, i) != 0u) & (loadBlock(difference, i) > 0.0f);
+    if (!any(differs)) {
+        return;
+    }
+    const SquaresAround around = squaresAround(p, y, i, objectId, difference, variance);
+    const float16 wide = comparedWidth16(p, frame, pixels, position, normal, i), own = loadBlock(beta, i);
+    const float16 ratio = own * own / max16(wide * wide, (float16)(1e-30f));
+    const float16 share = wideShare(around.difference, noise * around.variance, ratio);
+    // Of a sum that is no number nothing follows.
+    const int16 known = differs & (around.difference > 0.0f);
+    vstore16(known ? share : (float16)(-1.0f), 0, shares + i);
+}
+
+/// Widths by the mean of the shares around: where it changes from pixel to pixel a filter takes more from one side than
+/// from the other, as pairs are weighted by the narrower of both, and shifts what has a gradient.
+/// in out  beta, metres
+__kernel void widen(AnalysisParams p, FrameParams frame, float pixels, __global const float* restrict shares,
+    __global const float* restrict position, __global const float* restrict normal,
+    __global const uint* restrict objectId, __global float* restrict beta)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const float16 own = loadBlock(shares, i);
+    if (!any((own >= 0.0f) & (loadIdBlock(objectId, i) != 0u))) {
+        return;
+    }
+    const uint16 object = loadIdBlock(objectId, i);
+    float16 sum = (float16)(0.0f), count = (float16)(0.0f);
+    const int reach = (int)WEDGE_SHRINK_REACH;
+    for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
+        for (int dx = -reach; dx <= reach; ++dx) {
+            const int j = i + dy * (int)p.stride + dx;
+            const float16 share = loadBlock(shares, j);
+            const int16 taken = (loadIdBlock(objectId, j) == object) & (share >= 0.0f);
+            sum += taken ? share : (float16)(0.0f);
+            count += taken ? (float16)(1.0f) : (float16)(0.0f);
+        }
+    }
+    const int16 compared = (object != 0u) & (own >= 0.0f);
+    const float16 narrow = loadBlock(beta, i), wide = comparedWidth16(p, frame, pixels, position, normal, i);
+    const float16 mean = sum / max16(count, (float16)(1.0f));
+    vstore16(compared ? narrow + mean * max16(wide - narrow, (float16)(0.0f)) : narrow, 0, beta + i);
+}

@@ -1,0 +1,110 @@
+// Planes of pixels that may be packed (shared/packed.h): frames of one image have them.
+#ifndef WEDGE_PACKED_PLANES_H
+#define WEDGE_PACKED_PLANES_H
+
+#include "core/pixel.h"
+#include "core/vector16.h"
+#include "shared/packed.h"
+
+/// A colour of three planes, of one and a half, or of one.
+WEDGE_FN Vec3 loadColour(__global const float* planes, uint planeSize, uint i, uint bits)
+{
+    if (bits == WEDGE_PLAIN_BITS) {
+        return loadVec(planes, planeSize, i);
+    }
+    if (bits == WEDGE_FRACTION_BITS) {
+        return unpackFraction(((__global const uint*)planes)[i]);
+    }
+    PackedColour c;
+    c.low = ((__global const uint*)planes)[i];
+    c.high = ((__global const ushort*)(planes + planeSize))[i];
+    return unpackColour(c);
+}
+
+WEDGE_FN void storeColour(__global float* planes, uint planeSize, uint i, uint bits, Vec3 colour)
+{
+    if (bits == WEDGE_PLAIN_BITS) {
+        storeVec(planes, planeSize, i, colour);
+        return;
+    }
+    if (bits == WEDGE_FRACTION_BITS) {
+        ((__global uint*)planes)[i] = packFraction(colour);
+        return;
+    }
+    const PackedColour c = packColour(colour);
+    ((__global uint*)planes)[i] = c.low;
+    ((__global ushort*)(planes + planeSize))[i] = (ushort)c.high;
+}
+
+/// A unit vector of three planes, or of one.
+WEDGE_FN Vec3 loadNormal(__global const float* planes, uint planeSize, uint i, uint packed)
+{
+    return packed != 0u ? unpackNormal(((__global const uint*)planes)[i]) : loadVec(planes, planeSize, i);
+}
+
+/// Sixteen vectors of one plane.
+WEDGE_FN Vec3x16 unpackNormals16(__global const float* plane, int i)
+{
+    const int16 packed = as_int16(vload16(0, (__global const uint*)plane + i));
+    const float scale = 1.0f / WEDGE_NORMAL_UNITS;
+    Vec3x16 v;
+    v.x = convert_float16((packed << 22) >> 22) * scale;
+    v.y = convert_float16((packed << 12) >> 22) * scale;
+    v.z = convert_float16((packed << 2) >> 22) * scale;
+    return v;
+}
+
+WEDGE_FN Vec3x16 loadNormals16(__global const float* planes, uint planeSize, int i, uint packed)
+{
+    return packed != 0u ? unpackNormals16(planes, i) : loadVecBlock(planes, planeSize, i);
+}
+
+WEDGE_FN void storeNormal(__global float* planes, uint planeSize, uint i, uint packed, Vec3 normal)
+{
+    if (packed != 0u) {
+        ((__global uint*)planes)[i] = packNormal(normal);
+    } else {
+        storeVec(planes, planeSize, i, normal);
+    }
+}
+
+/// One of two numbers in a plane: the first (which: 0) or the second of all pixels.
+WEDGE_FN float loadShort(__global const float* plane, uint planeSize, uint i, uint which)
+{
+    return unpackShort(((__global const ushort*)plane)[which * planeSize + i]);
+}
+
+/// A number of a plane of its own or, packed, of one that it shares.
+WEDGE_FN float loadNumber(__global const float* plane, uint planeSize, uint i, uint packed, uint which)
+{
+    return packed != 0u ? loadShort(plane, planeSize, i, which) : plane[i];
+}
+
+/// Primary samples with a surface: packed, these are whole numbers of 16 bits.
+WEDGE_FN uint loadHits(__global const uint* hits, uint i, uint packed)
+{
+    return packed != 0u ? ((__global const ushort*)hits)[i] : hits[i];
+}
+
+WEDGE_FN void storeHits(__global uint* hits, uint i, uint packed, uint count)
+{
+    if (packed != 0u) {
+        ((__global ushort*)hits)[i] = (ushort)count;
+    } else {
+        hits[i] = count;
+    }
+}
+
+WEDGE_FN void storeShort(__global float* plane, uint planeSize, uint i, uint which, float x)
+{
+    ((__global ushort*)plane)[which * planeSize + i] = (ushort)packShort(x);
+}
+
+/// A vector on the image in one plane of two numbers.
+WEDGE_FN void storePair(__global float* plane, uint planeSize, uint i, float x, float y)
+{
+    storeShort(plane, planeSize, i, 0u, x);
+    storeShort(plane, planeSize, i, 1u, y);
+}
+
+#endif

@@ -1,0 +1,66 @@
+// Receivers: points of surfaces that light is gathered for. They are the pixels of a rectangle, one each, in the
+// frame's own planes; or those of a wave, in planes of the wave's, many to a pixel (waves.cl).
+#ifndef WEDGE_RECEIVERS_H
+#define WEDGE_RECEIVERS_H
+
+#include "core/pixel.h"
+
+/// The planes that effects sample at.
+typedef struct {
+    __global const float *position, *normal, *origin; ///< 3 planes each, as primary.cl has them
+    __global const uint* geometric;
+    __global const uint* objectId; ///< 0: nothing to shade
+    __global const float* gloss;
+    __global const uint* pixelOf; ///< of a wave: x in the lower 16 bits, y in the upper
+    __global const uint* view; ///< of a wave: packed direction to where the primary ray came from
+    __global const float* time; ///< of a wave: in [0, 1] while the shutter is open
+} ReceiverData;
+
+/// A kernel's parameters that say where its receivers are, and the ReceiverData made of them.
+#define WEDGE_RECEIVER_PARAMETERS                                                                                      \
+    __global const float *restrict position, __global const float *restrict normal,                                    \
+        __global const float *restrict origin, __global const uint *restrict geometric,                                \
+        __global const uint *restrict objectId, __global const float *restrict gloss,                                  \
+        __global const uint *restrict pixelOf, __global const uint *restrict view, __global const float *restrict time
+#define WEDGE_RECEIVER_ARGUMENTS receiverData(position, normal, origin, geometric, objectId, gloss, pixelOf, view, time)
+
+WEDGE_FN ReceiverData receiverData(WEDGE_RECEIVER_PARAMETERS)
+{
+    ReceiverData data;
+    data.position = position;
+    data.normal = normal;
+    data.origin = origin;
+    data.geometric = geometric;
+    data.objectId = objectId;
+    data.gloss = gloss;
+    data.pixelOf = pixelOf;
+    data.view = view;
+    data.time = time;
+    return data;
+}
+
+/// Where one lane's receiver lies in the planes, and its pixel; false where there is none.
+WEDGE_FN bool receiverOf(FrameParams frame, ReceiverData data, uint firstGroup, uint lane, uint* i, uint* x, uint* y)
+{
+    if (frame.receivers == 0u) {
+        const bool inside = tilePixel(frame, firstGroup, lane, x, y);
+        *i = inside ? pixelIndex(*x, *y, frame.stride) : 0u;
+        return inside;
+    }
+    const ulong receiver = ((ulong)firstGroup * get_local_size(0) + get_global_id(0)) * WEDGE_PACKET_SIZE + lane;
+    if (receiver >= frame.receivers) {
+        return false;
+    }
+    *i = (uint)receiver;
+    *x = data.pixelOf[*i] & 0xffffu;
+    *y = data.pixelOf[*i] >> 16;
+    return true;
+}
+
+/// Unit vector from a receiver to where it is seen from.
+WEDGE_FN Vec3 viewOf(FrameParams frame, ReceiverData data, uint i, Vec3 at)
+{
+    return frame.receivers == 0u ? vecNormalize(vecSub(frame.eye, at)) : unpackDirection(data.view[i]);
+}
+
+#endif

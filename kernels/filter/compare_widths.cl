@@ -1,0 +1,127 @@
+// One plane filtered with two widths at once: with pixels' own, and with what these are compared with (widen.cl). As
+// gather.h does it, but that pixels which are not compared keep their own value, and that what comes out is how far the
+// two are apart.
+#define WEDGE_GATHER_CHANNELS 1
+#include "filter/gather.h"
+
+/// A plane filtered along lines, and the equal samples that this amounts to.
+typedef struct {
+    float16 value, count;
+} LineMean;
+
+typedef struct {
+    LineMean narrow, wide;
+} LineMeans;
+
+WEDGE_FN GatherSum startSum(float16 own)
+{
+    GatherSum sum;
+    sum.weight = sum.squared = (float16)(1.0f);
+    sum.channel[0] = own;
+    return sum;
+}
+
+WEDGE_FN LineMean meanOf(GatherSum sum, int16 gathers, LineMean before)
+{
+    LineMean mean;
+    mean.value = gathers ? sum.channel[0] / sum.weight : before.value;
+    mean.count = before.count * (gathers ? sum.weight * sum.weight / sum.squared : (float16)(1.0f));
+    return mean;
+}
+
+/// Of a block of pixels; own: what they have so far; before, after: pixels that the line goes on to. narrow, wide:
+/// planes of values along the line, which may be the same one. Where compared is 0 nothing is gathered and no neighbour
+/// narrowed, where it is less there is no value to take.
+WEDGE_FN LineMeans compareLine(FilterParams p, int i, int element, Vec3 step, int before, int after,
+    __global const float* narrow, __global const float* wide, __global const float* beta,
+    __global const float* compared, __global const float* position, __global const float* normal,
+    __global const uint* objectId, LineMeans own)
+{
+    const float16 wideHere = loadBlock(compared, i), narrowHere = loadBlock(beta, i);
+    const uint16 object = loadIdBlock(objectId, i);
+    const int16 gathers = (wideHere > 0.0f) & (object != 0u), narrowGathers = gathers & (narrowHere > 0.0f);
+    if (!any(gathers)) {
+        return own;
+    }
+    const GatherBlock b = gatherBlock(p, i, object, position, normal);
+    const GatherWidth ofWide = gatherWidth(p, b, step, gathers, wideHere),
+                      ofNarrow = gatherWidth(p, b, step, narrowGathers, narrowHere);
+    GatherSum wideSum = startSum(own.wide.value), narrowSum = startSum(own.narrow.value);
+    const int radius = (int)largestOf(ofWide.radius), narrowRadius = (int)largestOf(ofNarrow.radius);
+    for (int k = -min(radius, before); k <= min(radius, after); ++k) {
+        if (k == 0) {
+            continue;
+        }
+        const int j = i + k * element;
+        const float steps = fabs((float)k);
+        const float16 wideThere = loadBlock(compared, j);
+        const Neighbours n = neighboursAt(p, b, j, wideThere, position, normal, objectId);
+        const float16 w = neighbourWeights(p, ofWide, n, wideThere, steps);
+        addWeight(&wideSum, w);
+        addValue(&wideSum, 0u, w, loadBlock(wide, j));
+        if (abs(k) <= (uint)narrowRadius) {
+            const float16 narrowThere = wideThere > 0.0f ? loadBlock(beta, j) : (float16)(0.0f);
+            const float16 v = neighbourWeights(p, ofNarrow, n, narrowThere, steps);
+            addWeight(&narrowSum, v);
+            addValue(&narrowSum, 0u, v, loadBlock(narrow, j));
+        }
+    }
+    LineMeans means;
+    means.narrow = meanOf(narrowSum, narrowGathers, own.narrow);
+    means.wide = meanOf(wideSum, gathers, own.wide);
+    return means;
+}
+
+/// Along x.
+/// in   value; beta: widths, metres; compared: those to compare with, 0 where beta is not less than they are or there
+///      is no need to, -1 where there is no value
+/// out  of both: rows filtered, and equal samples that they amount to
+__kernel void compareRows(FilterParams p, __global const float* restrict value, __global const float* restrict beta,
+    __global const float* restrict compared, __global const float* restrict position,
+    __global const float* restrict normal, __global const uint* restrict objectId, __global float* restrict narrowRows,
+    __global float* restrict wideRows, __global float* restrict narrowCounts, __global float* restrict wideCounts)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    LineMeans own;
+    own.narrow.value = own.wide.value = loadBlock(value, i);
+    own.narrow.count = own.wide.count = (float16)(1.0f);
+    const LineMeans means = compareLine(p, i, 1, p.right, WEDGE_MAX_RADIUS, WEDGE_MAX_RADIUS, value, value, beta,
+        compared, position, normal, objectId, own);
+    vstore16(means.narrow.value, 0, narrowRows + i);
+    vstore16(means.wide.value, 0, wideRows + i);
+    vstore16(means.narrow.count, 0, narrowCounts + i);
+    vstore16(means.wide.count, 0, wideCounts + i);
+}
+
+/// Along y. `apart` may be in the place of either count: of each block these are read first.
+/// in   what compareRows() made
+/// out  difference: n - w; apart: what the variance of a pixel's mean is to be multiplied by for V of widen.cl, 0 where
+///      the wide filter does not gather more
+__kernel void compareColumns(FilterParams p, __global const float* restrict narrowRows,
+    __global const float* restrict wideRows, __global const float* narrowCounts, __global const float* wideCounts,
+    __global const float* restrict beta, __global const float* restrict compared,
+    __global const float* restrict position, __global const float* restrict normal,
+    __global const uint* restrict objectId, __global float* restrict difference, __global float* apart)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    LineMeans own;
+    own.narrow.value = loadBlock(narrowRows, i);
+    own.wide.value = loadBlock(wideRows, i);
+    own.narrow.count = loadBlock(narrowCounts, i);
+    own.wide.count = loadBlock(wideCounts, i);
+    const LineMeans means = compareLine(p, i, (int)p.stride, p.down, (int)y, (int)(p.height - 1u - y), narrowRows,
+        wideRows, beta, compared, position, normal, objectId, own);
+    const float16 k = means.narrow.count, kWide = means.wide.count;
+    vstore16(means.narrow.value - means.wide.value, 0, difference + i);
+    vstore16(kWide > k ? 1.0f / k - 2.0f / (k + kWide) : (float16)(0.0f), 0, apart + i);
+}

@@ -1,0 +1,190 @@
+// The image-space filter: a Gaussian of world-space standard deviation beta(x), as two one-dimensional passes.
+// Weights come from distances between the pixels' positions, so depth edges need no special case; neighbours of another
+// object or with another normal are left out. Distances are those in the plane parallel to a light, or, where the term
+// is of no light, plain ones. Here is what neighbours weigh; gather_lines.h has the passes. Each program that includes
+// this sets WEDGE_GATHER_CHANNELS, the planes of value. Those of packed frames set WEDGE_GATHER_PACKED, too: normals
+// are packed (packed_planes.h). They are programs of their own since a test of a parameter in each tap takes several
+// times as long.
+#ifndef WEDGE_GATHER_H
+#define WEDGE_GATHER_H
+
+#include "core/packed_planes.h"
+#include "core/vector16.h"
+#include "shared/filter_params.h"
+
+/// Least cosine between the ray to the light's centre and the light's normal in the oblique projection.
+#define WEDGE_MIN_OBLIQUE_COSINE 0.05f
+/// Least cosine between view ray and surface in the estimate of a pixel's step on the surface.
+#define WEDGE_MIN_STEP_COSINE 0.05f
+/// Largest sine between the way to a neighbour and a pixel's surface: what is farther from it is another surface, such
+/// as the floor beyond a table's edge, also where the light's rays make both one (distance16).
+#define WEDGE_MOST_RISE 0.3f
+/// Most that a neighbour counts for what it sees of the surface, against the pixel: where surfaces turn away, samples
+/// are few.
+#define WEDGE_MOST_AREA 4.0f
+/// log2(e) / 2
+#define WEDGE_HALF_LOG2E 0.72134752f
+
+/// What a block of pixels needs to weigh its neighbours.
+typedef struct {
+    Vec3x16 position, normal, slant; ///< slant: what a motion of 1 along the light's normal adds, see distance16
+    uint16 object;
+    float16 area; ///< of the surface that the pixel sees, as surfaceArea() has it
+} GatherBlock;
+
+/// A kernel for each pixel of a block.
+typedef struct {
+    float16 beta; ///< metres; 1 where there is none
+    float16 scale; ///< -log2(e) / (2 beta^2)
+    float16 limit; ///< (cut beta)^2
+    float16 radius; ///< pixels along the line, 0 where there is none
+} GatherWidth;
+
+/// Normals of three planes, or of one that is packed.
+WEDGE_FN Vec3x16 loadNormalBlock(FilterParams p, __global const float* normal, int i)
+{
+#ifdef WEDGE_GATHER_PACKED
+    (void)p;
+    return unpackNormals16(normal, i);
+#else
+    return loadVecBlock(normal, p.planeSize, i);
+#endif
+}
+
+/// Squared distance between a pixel and its neighbour at offset d, as far as the light's shadow is concerned:
+/// d less its part along the light's normal (3.12), or, oblique, slid along the ray to the light's centre onto the
+/// plane through the pixel parallel to the light. Without a light, whose normal is then 0, it is |d|^2.
+WEDGE_FN float16 distance16(FilterParams p, Vec3x16 slant, Vec3x16 d)
+{
+    const float16 along = d.x * p.lightNormal.x + d.y * p.lightNormal.y + d.z * p.lightNormal.z;
+    const Vec3x16 e = mad16(d, slant, -along);
+    return dot16(e, e);
+}
+
+/// Surface that a pixel sees, but for a factor that all pixels share: z^3 / |n.d| at depth z and vector d from the eye,
+/// over `unit`. The convolutions (3.10) and (4.16) are integrals over the surface, and pixels are not alike in what
+/// they see of it.
+WEDGE_FN float16 surfaceArea(FilterParams p, Vec3x16 position, Vec3x16 normal, float16 unit)
+{
+    const Vec3x16 d = sub16(position, splat3(p.eye));
+    const float16 z = d.x * p.forward.x + d.y * p.forward.y + d.z * p.forward.z;
+    const float16 facing = max16(fabs(dot16(normal, d)), WEDGE_MIN_STEP_COSINE * fabs(z));
+    return z * z * z / max16(facing * unit, (float16)(1e-37f));
+}
+
+WEDGE_FN Vec3x16 slantOf(FilterParams p, Vec3x16 position)
+{
+    if (p.oblique == 0u) {
+        return splat3(p.lightNormal);
+    }
+    Vec3x16 l = sub16(splat3(p.lightCentre), position);
+    const float16 inverse = rsqrt(max16(dot16(l, l), (float16)(1e-20f)));
+    const float16 cosine = (l.x * p.lightNormal.x + l.y * p.lightNormal.y + l.z * p.lightNormal.z) * inverse;
+    const float16 least = (float16)(WEDGE_MIN_OBLIQUE_COSINE);
+    const float16 bounded = fabs(cosine) < least ? copysign(least, cosine) : cosine;
+    const float16 scale = inverse / bounded;
+    l.x *= scale;
+    l.y *= scale;
+    l.z *= scale;
+    return l;
+}
+
+/// Pixels that a kernel of radius `reach` metres spans on the surface's tangent plane, along image step `step`.
+WEDGE_FN float16 radiusInPixels(FilterParams p, GatherBlock b, Vec3 step, float16 reach)
+{
+    const Vec3x16 fromEye = sub16(b.position, splat3(p.eye));
+    const float16 z = fromEye.x * p.forward.x + fromEye.y * p.forward.y + fromEye.z * p.forward.z;
+    const float16 facing = dot16(b.normal, fromEye);
+    const float16 least = WEDGE_MIN_STEP_COSINE * sqrt(dot16(fromEye, fromEye));
+    const float16 bounded = fabs(facing) < least ? copysign(least, facing) : facing;
+    const float16 turn = (b.normal.x * step.x + b.normal.y * step.y + b.normal.z * step.z) * z / bounded;
+    Vec3x16 moved;
+    moved.x = z * step.x - fromEye.x * turn;
+    moved.y = z * step.y - fromEye.y * turn;
+    moved.z = z * step.z - fromEye.z * turn;
+    const float16 metres = sqrt(distance16(p, b.slant, moved));
+    const float16 pixels = ceil(reach / max16(metres, (float16)(1e-20f)));
+    return min16(max16(pixels, (float16)(1.0f)), (float16)((float)p.maxRadius));
+}
+
+WEDGE_FN GatherBlock gatherBlock(
+    FilterParams p, int i, uint16 object, __global const float* position, __global const float* normal)
+{
+    GatherBlock b;
+    b.object = object;
+    b.position = loadVecBlock(position, p.planeSize, i);
+    b.normal = loadNormalBlock(p, normal, i);
+    b.slant = slantOf(p, b.position);
+    b.area = surfaceArea(p, b.position, b.normal, (float16)(1.0f));
+    return b;
+}
+
+/// The kernels of pixels `gathers`, of standard deviation beta, along image step `step`.
+WEDGE_FN GatherWidth gatherWidth(FilterParams p, GatherBlock b, Vec3 step, int16 gathers, float16 beta)
+{
+    GatherWidth w;
+    w.beta = gathers ? beta : (float16)(1.0f);
+    w.scale = -WEDGE_HALF_LOG2E / (w.beta * w.beta);
+    w.limit = p.cut * p.cut * w.beta * w.beta;
+    w.radius = gathers ? radiusInPixels(p, b, step, p.cut * w.beta) : (float16)(0.0f);
+    return w;
+}
+
+/// Neighbours of a block of pixels, however wide the kernels are.
+typedef struct {
+    int16 known; ///< of the same surface
+    float16 squared; ///< distance
+    float16 area; ///< over the pixel's own
+} Neighbours;
+
+/// betaThere: negative where there is no value to take
+WEDGE_FN Neighbours neighboursAt(FilterParams p, GatherBlock b, int j, float16 betaThere,
+    __global const float* position, __global const float* normal, __global const uint* objectId)
+{
+    const uint16 object = loadIdBlock(objectId, j);
+    const Vec3x16 normalThere = loadNormalBlock(p, normal, j);
+    const Vec3x16 there = loadVecBlock(position, p.planeSize, j);
+    const Vec3x16 d = sub16(there, b.position);
+    Neighbours n;
+    n.squared = distance16(p, b.slant, d);
+    n.known = (object == b.object) & (betaThere >= 0.0f) & (dot16(b.normal, normalThere) >= p.normalCosine);
+    n.area = (float16)(1.0f);
+    if (p.surface != 0u) {
+        const float16 rise = dot16(b.normal, d);
+        n.known &= rise * rise <= WEDGE_MOST_RISE * WEDGE_MOST_RISE * dot16(d, d);
+        n.area = min16(surfaceArea(p, there, normalThere, b.area), (float16)(WEDGE_MOST_AREA));
+    }
+    return n;
+}
+
+/// What neighbours `steps` pixels away weigh, whose own kernels are betaThere wide: 0 where they are not in reach.
+WEDGE_FN float16 neighbourWeights(FilterParams p, GatherWidth width, Neighbours n, float16 betaThere, float steps)
+{
+    const int16 taken = n.known & (n.squared <= width.limit) & (steps <= width.radius);
+    float16 scale = width.scale;
+    if (p.narrower != 0u) {
+        // A pixel with no kernel of its own (beta 0) does not narrow its neighbours'.
+        const float16 own = betaThere > 0.0f ? min16(width.beta, betaThere) : width.beta;
+        scale = -WEDGE_HALF_LOG2E / (own * own);
+    }
+    return taken ? n.area * exp2Block(n.squared * scale) : (float16)(0.0f);
+}
+
+typedef struct {
+    float16 weight, squared;
+    float16 channel[WEDGE_GATHER_CHANNELS];
+} GatherSum;
+
+WEDGE_FN void addWeight(GatherSum* sum, float16 w)
+{
+    sum->weight += w;
+    sum->squared += w * w;
+}
+
+/// Not the weight alone: 0 times a NaN would let it in.
+WEDGE_FN void addValue(GatherSum* sum, uint channel, float16 w, float16 value)
+{
+    sum->channel[channel] += w > 0.0f ? w * value : (float16)(0.0f);
+}
+
+#endif

@@ -1,0 +1,225 @@
+// From filtered terms to radiance: each light's value times its unshadowed shading and the surface's reflectance,
+// added up over lights, then with what surfaces and background emit.
+#include "analysis/deviation.h"
+#include "light/light_sample.h"
+#include "light/unshadowed.h"
+#include "shared/filter_params.h"
+#include "shared/path.h"
+
+/// Adds light's value times `shading` (already times the reflectance) to planes of radiance.
+WEDGE_FN void addBlock(__global float* planes, uint size, int i, float16 value, Vec3x16 shading)
+{
+    vstore16(loadBlock(planes, i) + value * shading.x, 0, planes + i);
+    vstore16(loadBlock(planes + size, i) + value * shading.y, 0, planes + size + i);
+    vstore16(loadBlock(planes + 2u * size, i) + value * shading.z, 0, planes + 2u * size + i);
+}
+
+/// Planes of a light's values.
+#ifdef WEDGE_SPECULAR
+#define WEDGE_LIGHT_VALUES 2u
+#else
+#define WEDGE_LIGHT_VALUES 1u
+#endif
+
+/// Adds deviations of one term, times what it is shaded with, to those of the luminance.
+WEDGE_FN void addDeviation(__global float* plane, int i, float16 deviation, Vec3x16 shading)
+{
+    const float16 shown = 0.2126f * shading.x + 0.7152f * shading.y + 0.0722f * shading.z;
+    vstore16(loadBlock(plane, i) + deviation * shown, 0, plane + i);
+}
+
+/// One light's diffuse reflection.
+/// in      value: filtered; noisy: not filtered, and of frames with a first pass (params.firstPass) the same of the
+///         first of two parts of the samples; nodes: of the quadratures, (coordinate, weight) pairs; taken: the samples
+///         of value
+/// in out  direct, directNoisy (3 planes each), deviation (of directNoisy's luminance, as deviation16() has it),
+///         samples (of all lights)
+__kernel void addDiffuse(AnalysisParams p, SampleParams params, AreaLight light, __global const float* restrict nodes,
+    __global const float* restrict position, __global const float* restrict normal,
+    __global const uint* restrict objectId, __global const float* restrict diffuse,
+    __global const float* restrict value, __global const float* restrict noisy, __global const uint* restrict taken,
+    __global float* restrict direct, __global float* restrict directNoisy, __global float* restrict deviation,
+    __global uint* restrict samples)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const uint size = p.planeSize;
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const int16 surface = loadIdBlock(objectId, i) != 0u;
+    if (!any(surface)) {
+        return;
+    }
+    vstore16(loadIdBlock(samples, i) + loadIdBlock(taken, i), 0, samples + i);
+    const Vec3x16 at = loadVecBlock(position, size, i);
+    const Vec3x16 facing = loadVecBlock(normal, size, i);
+    float16 shading = (float16)(1.0f);
+    if (params.shading == WEDGE_SHADING_SEPARATE) {
+        shading = geometryTerm16(facing, sub16(splat3(light.centre), at), light.normal, light.twoSided);
+    } else if (params.shading == WEDGE_SHADING_RATIO) {
+        shading = unshadowedDiffuse(light, mattReceivers(at, facing), nodes, surface);
+    }
+    shading = surface ? shading * WEDGE_INV_PI : (float16)(0.0f);
+    const Vec3x16 kd = loadVecBlock(diffuse, size, i);
+    Vec3x16 reflected;
+    reflected.x = shading * kd.x * light.power.x;
+    reflected.y = shading * kd.y * light.power.y;
+    reflected.z = shading * kd.z * light.power.z;
+    addBlock(direct, size, i, loadBlock(value, i), reflected);
+    const float16 mean = loadBlock(noisy, i);
+    addBlock(directNoisy, size, i, mean, reflected);
+    if (params.firstPass > 0u) {
+        const float16 ofPart = loadBlock(noisy + WEDGE_LIGHT_VALUES * size, i);
+        addDeviation(deviation, i, deviation16(mean, ofPart, loadIdBlock(taken, i), params.firstPass), reflected);
+    }
+}
+
+/// Unshadowed specular shading in the way of the term, of lanes `wanted`.
+WEDGE_FN float16 specularShading(SampleParams params, AreaLight light, Receivers16 r, __global const float* nodes,
+    int16 wanted, LobeDirections directions)
+{
+    if (params.shading == WEDGE_SHADING_INSIDE) {
+        return (float16)(1.0f);
+    }
+    if (params.shading == WEDGE_SHADING_RATIO) {
+        return unshadowedSpecular(light, r, nodes, wanted, directions);
+    }
+    return arrivesFrom(light, r, splat3(light.centre), true) * normalization16(r);
+}
+
+/// One light's specular reflection; value and noisy hold the specular term in their second plane, that of the first
+/// part of the samples is in the fourth. directions: of each lobe that is too sharp for a rule
+__kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light, FrameParams frame, uint directions,
+    __global const float* restrict nodes, __global const float* restrict position,
+    __global const float* restrict normal, __global const uint* restrict objectId, __global const float* restrict gloss,
+    __global const float* restrict specular, __global const float* restrict value, __global const float* restrict noisy,
+    __global const uint* restrict taken, __global float* restrict direct, __global float* restrict directNoisy,
+    __global float* restrict deviation)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const uint size = p.planeSize;
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const Vec3x16 ks = loadVecBlock(specular, size, i);
+    const int16 mirrors = (loadIdBlock(objectId, i) != 0u) & (ks.x + ks.y + ks.z > 0.0f);
+    if (!any(mirrors)) {
+        return;
+    }
+    const Vec3x16 at = loadVecBlock(position, size, i);
+    const Receivers16 r =
+        glossyReceivers(at, loadVecBlock(normal, size, i), unit16(sub16(splat3(frame.eye), at)), loadBlock(gloss, i));
+    LobeDirections lobes;
+    lobes.pixel = (x + (uint16)(0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 9u, 10u, 11u, 12u, 13u, 14u, 15u)) | (y << 16);
+    lobes.first = (uint16)(0u);
+    lobes.count = directions;
+    lobes.seed = frame.seed;
+    const float16 shading = mirrors ? specularShading(params, light, r, nodes, mirrors, lobes) : (float16)(0.0f);
+    Vec3x16 reflected;
+    reflected.x = shading * ks.x * light.power.x;
+    reflected.y = shading * ks.y * light.power.y;
+    reflected.z = shading * ks.z * light.power.z;
+    // What misses hold is not looked at: 0 times a NaN would let it in.
+    addBlock(direct, size, i, mirrors ? loadBlock(value + size, i) : (float16)(0.0f), reflected);
+    const float16 mean = mirrors ? loadBlock(noisy + size, i) : (float16)(0.0f);
+    addBlock(directNoisy, size, i, mean, reflected);
+    if (params.firstPass > 0u) {
+        const float16 ofPart = mirrors ? loadBlock(noisy + 3u * size, i) : (float16)(0.0f);
+        addDeviation(deviation, i, deviation16(mean, ofPart, loadIdBlock(taken, i), params.firstPass), reflected);
+    }
+}
+
+/// What one term of indirect light is multiplied by in the image. component: WEDGE_COMPONENT_*; of ambient occlusion
+/// the open part of the hemisphere is shown, on white. reflectance: 3 planes
+WEDGE_FN Vec3x16 reflectanceOf(AnalysisParams p, uint component, __global const float* restrict reflectance, int i)
+{
+    return component == WEDGE_COMPONENT_AMBIENT ? splat3(vec3(1.0f, 1.0f, 1.0f))
+                                                : loadVecBlock(reflectance, p.planeSize, i);
+}
+
+/// Adds a term, of pixels that have it, to the sum of all.
+WEDGE_FN void addTerm(AnalysisParams p, uint component, Vec3x16 k, int16 has, __global const float* restrict value,
+    int i, __global float* restrict sum)
+{
+    const Vec3x16 arrives = loadVecBlock(value, p.planeSize, i);
+    const float16 zero = (float16)(0.0f);
+    const bool ambient = component == WEDGE_COMPONENT_AMBIENT;
+    Vec3x16 all = loadVecBlock(sum, p.planeSize, i);
+    // What was never sampled holds anything.
+    all.x += has ? k.x * (ambient ? 1.0f - arrives.x : arrives.x) : zero;
+    all.y += has ? k.y * (ambient ? 1.0f - arrives.y : arrives.y) : zero;
+    all.z += has ? k.z * (ambient ? 1.0f - arrives.z : arrives.z) : zero;
+    vstore16(all.x, 0, sum + i);
+    vstore16(all.y, 0, sum + p.planeSize + i);
+    vstore16(all.z, 0, sum + 2u * p.planeSize + i);
+}
+
+/// The samples of one term of indirect light, as they are.
+/// in      value: 3 planes; deviations: where they vary, as deviation16() has them, in luminance over that of the
+///         reflectance; taken: the samples of value
+/// in out  indirectNoisy (3 planes), deviation (as of lights), samples (of all terms), indirectSamples
+__kernel void addPathSamples(AnalysisParams p, uint component, uint varies, __global const float* restrict reflectance,
+    __global const float* restrict value, __global const float* restrict deviations,
+    __global const uint* restrict taken, __global float* restrict indirectNoisy, __global float* restrict deviation,
+    __global uint* restrict samples, __global uint* restrict indirectSamples)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const uint16 count = loadIdBlock(taken, i);
+    const int16 has = count != 0u;
+    const Vec3x16 k = reflectanceOf(p, component, reflectance, i);
+    vstore16(loadIdBlock(samples, i) + count, 0, samples + i);
+    vstore16(loadIdBlock(indirectSamples, i) + count, 0, indirectSamples + i);
+    addTerm(p, component, k, has, value, i, indirectNoisy);
+    if (varies != 0u) {
+        const float16 off = luminance16(k) * loadBlock(deviations, i);
+        vstore16(loadBlock(deviation, i) + (has ? off : (float16)(0.0f)), 0, deviation + i);
+    }
+}
+
+/// One term of indirect light, filtered.
+/// in      value: 3 planes, and, where they vary, the variance of a pixel's samples; taken
+/// in out  indirect (3 planes), variance (in the luminance that is shown)
+__kernel void addIndirect(AnalysisParams p, uint component, uint varies, __global const float* restrict reflectance,
+    __global const float* restrict value, __global const uint* restrict taken, __global float* restrict indirect,
+    __global float* restrict variance)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const int16 has = loadIdBlock(taken, i) != 0u;
+    const Vec3x16 k = reflectanceOf(p, component, reflectance, i);
+    addTerm(p, component, k, has, value, i, indirect);
+    if (varies != 0u) {
+        const float16 l = luminance16(k), gathered = l * l * loadBlock(value + 3u * p.planeSize, i);
+        vstore16(loadBlock(variance, i) + (has ? gathered : (float16)(0.0f)), 0, variance + i);
+    }
+}
+
+/// Adds what a surface reflects, `light`, to what is there without, `below` (3 planes each).
+__kernel void addReflected(AnalysisParams p, __global const float* restrict below, __global const float* restrict light,
+    __global const uint* restrict objectId, __global float* restrict sum)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const int16 surface = loadIdBlock(objectId, i) != 0u;
+    for (uint plane = 0u; plane < 3u; ++plane) {
+        const int j = i + (int)(plane * p.planeSize);
+        vstore16(loadBlock(below, j) + (surface ? loadBlock(light, j) : (float16)(0.0f)), 0, sum + j);
+    }
+}

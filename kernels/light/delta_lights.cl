@@ -1,0 +1,59 @@
+// Point and directional lights: one shadow ray each, nothing to filter.
+//
+// in      frame, BVH, the lights, G-buffer
+// in out  direct, directNoisy (3 planes each, radiance), rays
+#include "light/light_packet.h"
+#include "trace/packet.h"
+
+__kernel void deltaLights(FrameParams frame, __global const DeltaLight* restrict lights, uint lightCount,
+    float sceneDiameter, __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
+    WEDGE_RECEIVER_PARAMETERS, __global const float* restrict diffuse, __global const float* restrict specular,
+    __global float* restrict direct, __global float* restrict directNoisy, __global uint* restrict rays,
+    uint firstGroup)
+{
+    ReceiverPacket receivers;
+    const ReceiverData data = WEDGE_RECEIVER_ARGUMENTS;
+    loadReceivers(frame, 0u, firstGroup, data, &receivers);
+    Vec3 radiance[WEDGE_PACKET_SIZE];
+    uint traced[WEDGE_PACKET_SIZE], occluded[WEDGE_PACKET_SIZE];
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        radiance[lane] = vec3(0.0f, 0.0f, 0.0f);
+        traced[lane] = 0u;
+    }
+    for (uint k = 0u; k < lightCount; ++k) {
+        const DeltaLight light = lights[k];
+        RayPacket packet;
+        float cosine[WEDGE_PACKET_SIZE];
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const Vec3 start = vec3(receivers.originX[lane], receivers.originY[lane], receivers.originZ[lane]);
+            const Vec3 n = vec3(receivers.normalX[lane], receivers.normalY[lane], receivers.normalZ[lane]);
+            const Vec3 toLight = vectorToLight(light, sceneDiameter, start);
+            cosine[lane] = vecDot(n, vecNormalize(toLight));
+            setRay(&packet, lane, start, toLight, 0.0f, cosine[lane] > 0.0f ? WEDGE_SHADOW_RAY_END : 0.0f);
+            setTime(&packet, lane, receiverTime(&receivers, lane));
+            traced[lane] += cosine[lane] > 0.0f ? 1u : 0u;
+        }
+        anyHits(nodes, blocks, &packet, occluded);
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const uint i = receivers.pixel[lane];
+            if (!(cosine[lane] > 0.0f) || occluded[lane] != 0u || i == WEDGE_NO_PIXEL) {
+                continue;
+            }
+            const Receiver r = loadReceiver(frame, data, i);
+            const Vec3 toLight = vectorToLight(light, sceneDiameter, r.origin);
+            const float falloff = light.directional != 0u ? cosine[lane] : cosine[lane] / vecDot(toLight, toLight);
+            const Vec3 lobe = vecScale(
+                loadVec(specular, frame.planeSize, i), lobeValue(r.lobe, r.normal, r.view, vecNormalize(toLight)));
+            const Vec3 reflected = vecMad(lobe, loadVec(diffuse, frame.planeSize, i), WEDGE_INV_PI);
+            radiance[lane] = vecMad(radiance[lane], vecMul(reflected, light.colour), falloff);
+        }
+    }
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const uint i = receivers.pixel[lane];
+        if (i != WEDGE_NO_PIXEL) {
+            rays[i] += traced[lane];
+            storeVec(direct, frame.planeSize, i, vecAdd(loadVec(direct, frame.planeSize, i), radiance[lane]));
+            storeVec(directNoisy, frame.planeSize, i, vecAdd(loadVec(directNoisy, frame.planeSize, i), radiance[lane]));
+        }
+    }
+}

@@ -1,0 +1,211 @@
+// From the distances of reflectors to filter widths, and to sample counts.
+//
+// Published (thesis section 4.5): widths and counts from each pixel's least and largest distance. Default: widths from
+// the harmonic mean of distances, counts from the variance of what the filter gathers.
+#include "core/packed_planes.h"
+#include "core/vector16.h"
+#include "shared/indirect.h"
+#include "shared/path.h"
+
+/// Bounds of what the camera sees, one stripe of rows each: planes of WEDGE_EXTENT_STRIPES least x, y, z and largest x,
+/// y, z.
+__kernel void visibleBounds(ReflectorParams p, __global const float* restrict position,
+    __global const uint* restrict objectId, __global float* restrict bounds)
+{
+    const uint stripe = get_global_id(0);
+    if (stripe >= WEDGE_EXTENT_STRIPES) {
+        return;
+    }
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        float16 least = (float16)(INFINITY);
+        float16 largest = (float16)(-INFINITY);
+        for (uint y = stripe; y < p.height; y += WEDGE_EXTENT_STRIPES) {
+            for (uint x = 0u; x < p.width; x += WEDGE_BLOCK_PIXELS) {
+                const int i = (int)pixelIndex(x, y, p.stride);
+                const int16 surface = loadIdBlock(objectId, i) != 0u;
+                const float16 at = loadBlock(position + axis * p.planeSize, i);
+                least = surface ? min16(least, at) : least;
+                largest = surface ? max16(largest, at) : largest;
+            }
+        }
+        bounds[axis * WEDGE_EXTENT_STRIPES + stripe] = -largestOf(-least);
+        bounds[(3u + axis) * WEDGE_EXTENT_STRIPES + stripe] = largestOf(largest);
+    }
+}
+
+/// Largest dimension of the bounds, metres; 0 where nothing is seen. One work-item.
+__kernel void visibleExtent(__global const float* restrict bounds, __global float* restrict extent)
+{
+    if (get_global_id(0) != 0u) {
+        return;
+    }
+    float size = 0.0f;
+    for (uint axis = 0u; axis < 3u; ++axis) {
+        float least = INFINITY;
+        float largest = -INFINITY;
+        for (uint s = 0u; s < WEDGE_EXTENT_STRIPES; ++s) {
+            least = fmin(least, bounds[axis * WEDGE_EXTENT_STRIPES + s]);
+            largest = fmax(largest, bounds[(3u + axis) * WEDGE_EXTENT_STRIPES + s]);
+        }
+        size = fmax(size, largest - least);
+    }
+    extent[0] = size;
+}
+
+/// The least distance that counts, metres.
+WEDGE_FN float leastDistance(ReflectorParams p, __global const float* extent)
+{
+    return fmax(p.leastReflector * (p.extent > 0.0f ? p.extent : extent[0]), 1e-12f);
+}
+
+/// Bandlimit of a pixel's transfer function; gloss: exponents, negative for Phong.
+WEDGE_FN float bandlimitOf(uint component, float gloss)
+{
+    return component == WEDGE_COMPONENT_GLOSSY
+        ? glossyBandlimit(fabs(gloss), gloss < 0.0f ? WEDGE_SPECULAR_PHONG : WEDGE_SPECULAR_BLINN_PHONG)
+        : WEDGE_DIFFUSE_BANDLIMIT;
+}
+
+/// Distances, infinite where nothing was hit.
+typedef struct {
+    float mean, least;
+} Nearness;
+
+/// Harmonic means of the distances that the rays of the object's pixels around found, and of the least one of each;
+/// rays and pixels that hit nothing count as infinitely far. Not of the pixel's own, if there are others: a width that
+/// follows the samples that it then weighs makes the image too dark, as pixels that found something bright and near
+/// would get narrower filters than those around that did not, and count less in these. Of glossy light pixels count
+/// that met something: `taken` of several receivers has matt ones' samples, too.
+WEDGE_FN Nearness nearness(ReflectorParams p, uint x, uint y, uint i, __global const float* reflectors,
+    __global const uint* objectId, __global const uint* taken)
+{
+    const int reach = (int)WEDGE_NEARNESS_REACH;
+    __global const float* inverse = reflectors + (p.meanOnly != 0u ? 0u : 2u * p.planeSize);
+    float sum = 0.0f, rays = 0.0f, leasts = 0.0f, pixels = 0.0f;
+    for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
+        for (int dx = -min((int)x, reach); dx <= min((int)(p.width - 1u - x), reach); ++dx) {
+            const int j = (int)i + dy * (int)p.stride + dx;
+            const bool counts = j != (int)i && objectId[j] == objectId[i] && taken[j] > 0u
+                && (p.component != WEDGE_COMPONENT_GLOSSY || inverse[j] > 0.0f);
+            sum += counts ? inverse[j] : 0.0f;
+            rays += counts ? (float)taken[j] : 0.0f;
+            leasts += counts && reflectors[j] > 0.0f ? 1.0f / reflectors[j] : 0.0f;
+            pixels += counts ? 1.0f : 0.0f;
+        }
+    }
+    if (!(pixels > 0.0f)) {
+        sum = inverse[i];
+        rays = (float)taken[i];
+        leasts = reflectors[i] > 0.0f ? 1.0f / reflectors[i] : 0.0f;
+        pixels = 1.0f;
+    }
+    Nearness near;
+    near.mean = sum > 0.0f ? rays / sum : INFINITY;
+    near.least = leasts > 0.0f ? pixels / leasts : INFINITY;
+    return near;
+}
+
+/// Widths in metres (4.15), (4.16), -1 where the pixel has no such term, and counts (4.21).
+/// Of the distances there is the least, as published, or, if that is nearer, a fraction of their harmonic mean, in
+/// which rays that hit nothing count as infinitely far: an estimate of the same from all rays, with less noise.
+/// fixedWidth replaces the analysis. meanOnly: reflectors have but one plane, the sum of inverse distances, or what
+/// stands for it (WEDGE_NEAREST_FRACTION); no counts.
+__kernel void reflectorWidths(ReflectorParams p, __global const float* restrict reflectors,
+    __global const uint* restrict objectId, __global const float* restrict extent,
+    __global const float* restrict pixelSize, __global const float* restrict gloss, __global const uint* restrict taken,
+    __global float* restrict beta, __global uint* restrict wanted)
+{
+    const uint x = p.x0 + get_global_id(0);
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const uint i = pixelIndex(x, y, p.stride);
+    const float size = loadNumber(pixelSize, p.planeSize, i, p.meanOnly, 0u);
+    const float exponent = loadNumber(gloss, p.planeSize, i, p.meanOnly, 0u);
+    // As published of the pixel's own rays.
+    float near = reflectors[i] > 0.0f ? reflectors[i] : INFINITY;
+    if (p.meanFraction > 0.0f) {
+        const Nearness around = nearness(p, x, y, i, reflectors, objectId, taken);
+        // What is nearer than the fraction of the mean counts itself: of open scenes most rays hit nothing. Where there
+        // is but one number for both, it has that in it.
+        near = p.meanFraction * around.mean;
+        near = p.meanOnly != 0u ? near : fmin(near, around.least);
+    }
+    // Where no ray hit anything, nothing is nearer than what there is is large.
+    const float far = p.extent > 0.0f ? p.extent : extent[0];
+    const float zMin = fmax(near < INFINITY ? near : far, leastDistance(p, extent));
+    const float zMax = fmax(p.meanOnly != 0u ? zMin : reflectors[p.planeSize + i], zMin);
+    const float bandlimit = bandlimitOf(p.component, exponent);
+    const float gamma = p.component == WEDGE_COMPONENT_GLOSSY ? glossyGamma(fabs(exponent)) : WEDGE_DIFFUSE_GAMMA;
+    const float bandwidth = indirectBandwidth(zMin, bandlimit, size, p.mu, p.alpha);
+    const float wide = p.fixedWidth > 0.0f ? p.fixedWidth * size : p.widthScale / bandwidth;
+    const float count = indirectCount(zMin, zMax, bandlimit, gamma, size, p.mu, p.alpha);
+    const float bounded = fmin(fmax(count, (float)WEDGE_INDIRECT_FIRST_RAYS), (float)p.countCap);
+    beta[i] = taken[i] > 0u ? wide : -1.0f;
+    if (p.meanOnly == 0u) {
+        wanted[i] = taken[i] > 0u ? (uint)(bounded + 0.5f) : 0u;
+    }
+}
+
+/// Variance of a sample's luminance as the image shows it, (sum l^2 - n mean^2) / (n - 1) times the squared luminance
+/// of the reflectance: planes R, G, B, all 1 for ambient occlusion.
+__kernel void sampleVariance(ReflectorParams p, __global const float* restrict sums,
+    __global const uint* restrict taken, __global const float* restrict reflectance, __global float* restrict variance)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const float16 n = convert_float16(loadIdBlock(taken, i));
+    const Vec3x16 sum = loadVecBlock(sums, p.planeSize, i);
+    const float16 total = 0.2126f * sum.x + 0.7152f * sum.y + 0.0722f * sum.z;
+    const float16 spread = loadBlock(sums + 3u * p.planeSize, i) - total * total / max16(n, (float16)(1.0f));
+    const Vec3x16 k = loadVecBlock(reflectance, p.planeSize, i);
+    const float16 shown =
+        p.component == WEDGE_COMPONENT_AMBIENT ? (float16)(1.0f) : 0.2126f * k.x + 0.7152f * k.y + 0.0722f * k.z;
+    const float16 v = max16(spread, (float16)(0.0f)) / max16(n - 1.0f, (float16)(1.0f));
+    vstore16(n > 1.0f ? v * shown * shown : (float16)(0.0f), 0, variance + i);
+}
+
+/// demand = (v / K)^exponent of a pixel's neighbours of the same object, 0 where there is none: the mean of v / K of
+/// the eight nearest, at least varianceSpread of the largest within 5x5. Not of the pixel's own, if it has any: a count
+/// that follows the samples that it then divides makes their mean too small, as pixels whose first samples happened to
+/// be bright take more, which outvote those. variance: v; effective: K, pixels that the filter gathers.
+__kernel void pathDemand(ReflectorParams p, __global const float* restrict variance,
+    __global const float* restrict effective, __global const float* restrict beta,
+    __global const uint* restrict objectId, __global float* restrict demand)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const uint16 object = loadIdBlock(objectId, i);
+    const float16 one = (float16)(1.0f), none = (float16)(0.0f);
+    float16 largest = none, sum = none, count = none, within = none, own = none;
+    for (int dy = -(int)min(y, 2u); dy <= (int)min(p.height - 1u - y, 2u); ++dy) {
+        for (int dx = -2; dx <= 2; ++dx) {
+            const int j = i + dy * (int)p.stride + dx;
+            const float16 there = loadBlock(variance, j) / max16(loadBlock(effective, j), one);
+            if (dx == 0 && dy == 0) {
+                own = there;
+                continue;
+            }
+            const int16 same = (loadIdBlock(objectId, j) == object) & (loadBlock(beta, j) >= 0.0f);
+            largest = same ? max16(largest, there) : largest;
+            within += same ? one : none;
+            if (abs(dx) <= 1 && abs(dy) <= 1) {
+                sum += same ? there : none;
+                count += same ? one : none;
+            }
+        }
+    }
+    const float16 around = max16(sum / max16(count, one), p.varianceSpread * largest);
+    const float16 v = within > 0.0f ? around : own;
+    const int16 wants = (v > 1e-30f) & (loadBlock(beta, i) >= 0.0f);
+    vstore16(wants ? exp2Block(p.countExponent * log2Block(v)) : none, 0, demand + i);
+}

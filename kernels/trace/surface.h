@@ -1,0 +1,212 @@
+// From a ray's hit to the surface that is shaded: position, normals, ray origin, material.
+#ifndef WEDGE_SURFACE_H
+#define WEDGE_SURFACE_H
+
+#include "shared/hit.h"
+#include "trace/texture.h"
+
+/// Rounding errors of a hit point and of the next ray's triangle test, in units of the last place of the largest
+/// coordinate involved.
+#define WEDGE_ORIGIN_ULPS 32.0f
+#define WEDGE_ULP 5.96046448e-8f
+
+/// The scene's geometry and materials.
+typedef struct {
+    __global const float* positions; ///< 3 a vertex
+    __global const float* normals; ///< 3 a vertex, zero: use the geometric normal
+    __global const float* texcoords; ///< 2 a vertex
+    __global const uint* indices; ///< 3 a triangle
+    __global const uint* materialIds; ///< 1 a triangle
+    __global const MaterialData* materials;
+    __global const TextureData* textures;
+    __global const uint* texels;
+    __global const float* srgbToLinear; ///< 256 entries of colours, then 256 of plain numbers
+    /// When the shutter closes; positions and normals are those when it opens. Nobody reads them without WEDGE_MOTION.
+    __global const float *positionsAtClose, *normalsAtClose;
+} SurfaceData;
+
+/// The scene's geometry and materials among a kernel's parameters, and the SurfaceData made of them.
+#define WEDGE_SURFACE_PARAMETERS                                                                                       \
+    __global const float *restrict positions, __global const float *restrict normals,                                  \
+        __global const float *restrict texcoords, __global const uint *restrict indices,                               \
+        __global const uint *restrict materialIds, __global const MaterialData *restrict materials,                    \
+        __global const TextureData *restrict textures, __global const uint *restrict texels,                           \
+        __global const float *restrict srgbToLinear, __global const float *restrict positionsAtClose,                  \
+        __global const float *restrict normalsAtClose
+#define WEDGE_SURFACE_ARGUMENTS                                                                                        \
+    surfaceData(positions, normals, texcoords, indices, materialIds, materials, textures, texels, srgbToLinear,        \
+        positionsAtClose, normalsAtClose)
+
+WEDGE_FN SurfaceData surfaceData(WEDGE_SURFACE_PARAMETERS)
+{
+    SurfaceData data;
+    data.positions = positions;
+    data.normals = normals;
+    data.texcoords = texcoords;
+    data.indices = indices;
+    data.materialIds = materialIds;
+    data.materials = materials;
+    data.textures = textures;
+    data.texels = texels;
+    data.srgbToLinear = srgbToLinear;
+    data.positionsAtClose = positionsAtClose;
+    data.normalsAtClose = normalsAtClose;
+    return data;
+}
+
+typedef struct {
+    Vec3 position; ///< metres, on the triangle
+    Vec3 origin; ///< where rays start: position lifted off the surface on the viewer's side
+    Vec3 normal; ///< unit shading normal on the viewer's side
+    Vec3 geometric; ///< unit geometric normal on the viewer's side
+    Vec3 diffuse, specular, emission;
+    float exponent;
+    uint specularModel;
+} Surface;
+
+WEDGE_FN Vec3 loadVertex(__global const float* data, uint vertex)
+{
+    return vec3(data[3u * vertex], data[3u * vertex + 1u], data[3u * vertex + 2u]);
+}
+
+/// A vertex at a time, the same floats as traversals compute in the hierarchy's units.
+WEDGE_FN Vec3 positionAt(SurfaceData data, uint vertex, float time)
+{
+    const Vec3 open = loadVertex(data.positions, vertex);
+#ifdef WEDGE_MOTION
+    return vecMad(open, vecSub(loadVertex(data.positionsAtClose, vertex), open), time);
+#else
+    (void)time;
+    return open;
+#endif
+}
+
+/// A vertex' unit normal at a time; the zero vector where it has none, or turns round and has none halfway.
+WEDGE_FN Vec3 normalAt(SurfaceData data, uint vertex, float time)
+{
+    const Vec3 open = loadVertex(data.normals, vertex);
+#ifdef WEDGE_MOTION
+    const Vec3 n = vecMad(open, vecSub(loadVertex(data.normalsAtClose, vertex), open), time);
+    return vecDot(n, n) > 1e-12f ? vecNormalize(n) : vec3(0.0f, 0.0f, 0.0f);
+#else
+    (void)time;
+    return open;
+#endif
+}
+
+/// How far the point of a hit moves from the shutter's opening to its closing, in metres; 0 where nothing moves.
+WEDGE_FN Vec3 hitMotion(SurfaceData data, Hit hit)
+{
+#ifdef WEDGE_MOTION
+    Vec3 sum = vec3(0.0f, 0.0f, 0.0f);
+    const float weights[3] = { 1.0f - hit.u - hit.v, hit.u, hit.v };
+    for (uint corner = 0u; corner < 3u; ++corner) {
+        const uint vertex = data.indices[3u * hit.triangle + corner];
+        const Vec3 displacement = vecSub(loadVertex(data.positionsAtClose, vertex), loadVertex(data.positions, vertex));
+        sum = vecMad(sum, displacement, weights[corner]);
+    }
+    return sum;
+#else
+    (void)data;
+    (void)hit;
+    return vec3(0.0f, 0.0f, 0.0f);
+#endif
+}
+
+/// How far p lies below the tangent plane of a vertex, along that plane's normal; 0 where it lies above.
+WEDGE_FN Vec3 liftToTangentPlane(Vec3 p, Vec3 vertex, Vec3 normal)
+{
+    return vecScale(normal, -fmin(0.0f, vecDot(vecSub(p, vertex), normal)));
+}
+
+/// Ray origin of point p = (a, b, c weighted by barycentrics): lifted onto the curved surface that the vertex
+/// normals suggest, so that a coarse mesh does not shadow itself at the terminator (Hanika, Hacking the Shadow
+/// Terminator, Ray Tracing Gems II, 2021), then off the plane by the rounding error of everything that made p:
+/// a bound from the coordinates themselves instead of one global distance.
+WEDGE_FN Vec3 rayOrigin(
+    Vec3 p, Vec3 geometric, Vec3 a, Vec3 b, Vec3 c, Vec3 na, Vec3 nb, Vec3 nc, bool smooth, float u, float v)
+{
+    Vec3 lifted = p;
+    if (smooth) {
+        lifted = vecMad(lifted, liftToTangentPlane(p, a, na), 1.0f - u - v);
+        lifted = vecMad(lifted, liftToTangentPlane(p, b, nb), u);
+        lifted = vecMad(lifted, liftToTangentPlane(p, c, nc), v);
+    }
+    const float x = fmax(fmax(fabs(a.x), fabs(b.x)), fabs(c.x));
+    const float y = fmax(fmax(fabs(a.y), fabs(b.y)), fabs(c.y));
+    const float z = fmax(fmax(fabs(a.z), fabs(b.z)), fabs(c.z));
+    const float error = WEDGE_ORIGIN_ULPS * WEDGE_ULP
+        * (fabs(geometric.x) * x + fabs(geometric.y) * y + fabs(geometric.z) * z + 0.125f * fmax(fmax(x, y), z));
+    // And by as much towards the middle of the triangle: a point on its edge lies in the neighbour's plane, too, and a
+    // ray from there would pass the neighbour by.
+    const Vec3 inwards = vecSub(vecScale(vecAdd(vecAdd(a, b), c), 1.0f / 3.0f), p);
+    lifted = vecMad(lifted, inwards, fmin(error / fmax(vecLength(inwards), 1e-30f), 1.0f));
+    return vecMad(lifted, geometric, error);
+}
+
+/// Surface hit by a ray of the given direction (any length) and time (0 where the shutter opens, 1 where it closes).
+WEDGE_FN Surface surfaceAt(SurfaceData data, Hit hit, Vec3 direction, float time)
+{
+    Surface s;
+    const uint ia = data.indices[3u * hit.triangle];
+    const uint ib = data.indices[3u * hit.triangle + 1u];
+    const uint ic = data.indices[3u * hit.triangle + 2u];
+    const Vec3 a = positionAt(data, ia, time);
+    const Vec3 b = positionAt(data, ib, time);
+    const Vec3 c = positionAt(data, ic, time);
+    const float wa = 1.0f - hit.u - hit.v;
+    const Vec3 ab = vecSub(b, a);
+    const Vec3 ac = vecSub(c, a);
+    s.position = vecMad(vecMad(a, ab, hit.u), ac, hit.v);
+    Vec3 geometric = vecNormalize(vecCross(ab, ac));
+    const float side = vecDot(geometric, direction) > 0.0f ? -1.0f : 1.0f;
+    geometric = vecScale(geometric, side);
+
+    // Vertex normals follow the winding in well-made files and do not in others: each is turned to the viewer's side.
+    Vec3 na = normalAt(data, ia, time);
+    Vec3 nb = normalAt(data, ib, time);
+    Vec3 nc = normalAt(data, ic, time);
+    na = vecScale(na, vecDot(na, geometric) < 0.0f ? -1.0f : 1.0f);
+    nb = vecScale(nb, vecDot(nb, geometric) < 0.0f ? -1.0f : 1.0f);
+    nc = vecScale(nc, vecDot(nc, geometric) < 0.0f ? -1.0f : 1.0f);
+    const Vec3 interpolated = vecMad(vecMad(vecScale(na, wa), nb, hit.u), nc, hit.v);
+    const bool smooth = vecDot(interpolated, interpolated) > 1e-12f;
+    s.normal = smooth ? vecNormalize(interpolated) : geometric;
+    s.geometric = geometric;
+    s.origin = rayOrigin(s.position, geometric, a, b, c, na, nb, nc, smooth, hit.u, hit.v);
+
+    const MaterialData material = data.materials[data.materialIds[hit.triangle]];
+    s.diffuse = material.diffuse;
+    s.specular = material.specular;
+    s.emission = material.emission;
+    s.exponent = material.exponent;
+    s.specularModel = material.specularModel;
+    const bool textured = material.diffuseTexture != WEDGE_NO_TEXTURE || material.specularTexture != WEDGE_NO_TEXTURE
+        || material.emissionTexture != WEDGE_NO_TEXTURE || material.exponentTexture != WEDGE_NO_TEXTURE;
+    if (!textured) {
+        return s;
+    }
+    const float tu = data.texcoords[2u * ia] * wa + data.texcoords[2u * ib] * hit.u + data.texcoords[2u * ic] * hit.v;
+    const float tv =
+        data.texcoords[2u * ia + 1u] * wa + data.texcoords[2u * ib + 1u] * hit.u + data.texcoords[2u * ic + 1u] * hit.v;
+    if (material.diffuseTexture != WEDGE_NO_TEXTURE) {
+        s.diffuse = vecMul(
+            s.diffuse, sampleTexture(data.textures, data.texels, data.srgbToLinear, material.diffuseTexture, tu, tv));
+    }
+    if (material.specularTexture != WEDGE_NO_TEXTURE) {
+        s.specular = vecMul(
+            s.specular, sampleTexture(data.textures, data.texels, data.srgbToLinear, material.specularTexture, tu, tv));
+    }
+    if (material.emissionTexture != WEDGE_NO_TEXTURE) {
+        s.emission = vecMul(
+            s.emission, sampleTexture(data.textures, data.texels, data.srgbToLinear, material.emissionTexture, tu, tv));
+    }
+    if (material.exponentTexture != WEDGE_NO_TEXTURE) {
+        // An exponent is a number and no colour: nothing has encoded it.
+        s.exponent *=
+            sampleTexture(data.textures, data.texels, data.srgbToLinear + 256, material.exponentTexture, tu, tv).x;
+    }
+    return s;
+}
+
+#endif

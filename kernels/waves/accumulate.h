@@ -1,0 +1,286 @@
+// What a pixel keeps of a term, and how a wave's receivers are added to it (accumulate.cl).
+//
+// Of each term a pixel keeps the mean texture k (reflectance; of lights times the unshadowed shading) of all receivers,
+// and of those that took samples of the term the mean irradiance E (of lights: visibility), each channel weighted by
+// the texture and by the samples, so that their product is the radiance of the term, and neither holds what belongs to
+// the other; besides, the plain mean of E's luminance, by which thesis (5.30) judges whether texture and irradiance may
+// be taken apart. As published (wave.published) E is the plain mean, that of lights holds the light's form factor
+// (5.14), k the lobe towards its centre (5.20), and the term's radiance L is kept apart.
+//
+// Packed planes (wave.packed) hold of k and E the one that is a fraction in 32 bits and the other in 47
+// (packed_planes.h), normals in one plane, and what one wave alone measures in 16 bits: in `plain` the factoring error
+// (distributed.cl) and, after it, the one of the extremes that there is; in `squares` the standard deviations of a
+// primary sample's radiance and of its texture; in 16 bits of its own the deviation of the value. Sizes of pixels,
+// gloss, hits and the signed radius nearest to 0 of the circles of confusion have 16 bits each. Motions are the mean's
+// two numbers, the first of which is infinite where the pixel's motions differ (storeOneMotion): of surfaces in
+// `motion`, of a light's shadows in `extremes`.
+#ifndef WEDGE_ACCUMULATE_H
+#define WEDGE_ACCUMULATE_H
+
+#include "core/packed_planes.h"
+#include "light/light_sample.h"
+#include "shared/bsdf.h"
+#include "shared/wave.h"
+
+/// Least texture with which an irradiance counts: black surfaces have one, too.
+#define WEDGE_LEAST_TEXTURE 1e-6f
+
+/// A pixel and its receivers in the wave.
+typedef struct {
+    uint i; ///< in planes of pixels
+    uint slot; ///< in planes of the wave's pixels
+    uint first, count; ///< receivers
+    uint before; ///< primary samples that its means hold already
+} WavePixel;
+
+WEDGE_FN bool wavePixel(FrameParams frame, WaveParams wave, __global const uint* pixelFirst,
+    __global const uint* pixelCount, __global const uint* taken, WavePixel* p)
+{
+    const uint slot = get_global_id(0);
+    uint x, y;
+    if (slot >= wave.tiles * WEDGE_TILE_PIXELS
+        || !slotPixel(frame, wave.firstTile + slot / WEDGE_TILE_PIXELS, slot % WEDGE_TILE_PIXELS, &x, &y)) {
+        return false;
+    }
+    p->i = pixelIndex(x, y, frame.stride);
+    p->slot = slot;
+    p->first = pixelFirst[slot];
+    p->count = pixelCount[slot];
+    p->before = taken[p->i];
+    return p->count > 0u;
+}
+
+/// The mean of before + count numbers, of which `mean` is that of the first and sum that of the others.
+WEDGE_FN float meanWith(float mean, float before, float sum, float count)
+{
+    return (mean * before + sum) / fmax(before + count, 1e-20f);
+}
+
+WEDGE_FN void storeMean(__global float* planes, uint size, uint i, float before, Vec3 sum, float count)
+{
+    const Vec3 mean = loadVec(planes, size, i);
+    storeVec(planes, size, i,
+        vec3(meanWith(mean.x, before, sum.x, count), meanWith(mean.y, before, sum.y, count),
+            meanWith(mean.z, before, sum.z, count)));
+}
+
+/// Texture and irradiance of a receiver under one light as published; visible: of its samples, the fraction that sees
+/// it.
+WEDGE_FN void publishedReceiver(FrameParams frame, ReceiverData data, AreaLight light, uint r, Vec3 kd, Vec3 ks,
+    float visible, Vec3* texture, float* irradiance)
+{
+    const Receiver at = loadReceiver(frame, data, r);
+    const Vec3 d = vecSub(light.centre, at.position);
+    const Vec3 lobe = vecScale(ks, lobeValue(at.lobe, at.normal, at.view, vecNormalize(d)));
+    *texture = vecMul(vecMad(lobe, kd, WEDGE_INV_PI), light.power);
+    *irradiance = visible * geometryTerm(at.normal, d, light.normal, light.twoSided);
+}
+
+/// What a pixel's new receivers add to one term.
+typedef struct {
+    Vec3 texture;
+    float textureSquared, textures; ///< textures: receivers whose texture is known, misses included
+    Vec3 radiance;
+    Vec3 weighted, weights; ///< irradiance times its weight, and the weights
+    float plain, counted; ///< luminances of irradiances, and how many
+    float squared;
+    float early, earlyWeights; ///< luminances of weighted and weights, of the first half of the samples
+} TermSums;
+
+WEDGE_FN TermSums noTermSums(float textures)
+{
+    TermSums s;
+    s.radiance = s.texture = s.weighted = s.weights = vec3(0.0f, 0.0f, 0.0f);
+    s.plain = s.counted = s.squared = s.textureSquared = s.early = s.earlyWeights = 0.0f;
+    s.textures = textures;
+    return s;
+}
+
+WEDGE_FN void addTexture(TermSums* s, Vec3 t)
+{
+    s->texture = vecAdd(s->texture, t);
+    s->textureSquared += luminance(t) * luminance(t);
+}
+
+/// Adds what the samples of a receiver found: radiance l, that is irradiance times texture, weighted as given. early:
+/// they are of the first half of the wave's
+WEDGE_FN void addSamples(TermSums* s, Vec3 l, float irradiance, Vec3 weighted, Vec3 weights, bool early)
+{
+    s->early += early ? luminance(weighted) : 0.0f;
+    s->earlyWeights += early ? luminance(weights) : 0.0f;
+    s->radiance = vecAdd(s->radiance, l);
+    s->weighted = vecAdd(s->weighted, weighted);
+    s->weights = vecAdd(s->weights, weights);
+    s->plain += irradiance;
+    s->counted += 1.0f;
+    s->squared += luminance(l) * luminance(l);
+}
+
+/// The planes of pixels that terms keep.
+typedef struct {
+    __global float *texture, *value, *plain, *squares, *textureSquares;
+    __global float* radiance; ///< of the term alone, as published
+    __global float* deviation;
+    uint textureBits, valueBits;
+} TermPlanes;
+
+WEDGE_FN float weightedMean(float mean, float known, float weighted, float weights)
+{
+    return known + weights > 0.0f ? (mean * known + weighted) / (known + weights) : 0.0f;
+}
+
+/// What the analysis is made of, of the first wave of a pixel's; t, e: its mean texture and irradiance, of `have`
+/// receivers with samples.
+WEDGE_FN void storeMeasured(WavePixel p, uint pixels, TermPlanes planes, Vec3 t, Vec3 e, float have, const TermSums* s)
+{
+    const float mean = luminance(vecMul(t, e)), texture = luminance(t);
+    const float squared = meanWith(0.0f, 0.0f, s->squared, have), plain = meanWith(0.0f, 0.0f, s->plain, s->counted);
+    const float textureSquared = meanWith(0.0f, 0.0f, s->textureSquared, s->textures);
+    storeShort(planes.plain, pixels, p.i, 0u, mean - texture * plain);
+    storeShort(planes.squares, pixels, p.i, 0u, sqrt(fmax(squared - mean * mean, 0.0f)));
+    storeShort(planes.squares, pixels, p.i, 1u, sqrt(fmax(textureSquared - texture * texture, 0.0f)));
+}
+
+/// A number whose square is, in the mean, the variance of a pixel's mean value, in luminance, as deviation16() of
+/// deviation.h has it for pixels of one receiver: the sum of all waves' differences between the first half of their
+/// samples and the second, over the weights of all. Each wave's mean is taken out, so that halves of different weights
+/// do not count for noise. known: weights before the wave
+WEDGE_FN void storeDeviation(
+    WaveParams wave, uint pixels, uint i, __global float* deviation, float known, const TermSums* s)
+{
+    const float weights = luminance(s->weights);
+    const float mean = weights > 0.0f ? luminance(s->weighted) / weights : 0.0f;
+    const float apart = 2.0f * (s->early - mean * s->earlyWeights);
+    if (wave.packed != 0u) {
+        storeShort(deviation, pixels, i, 0u, weightedMean(loadShort(deviation, pixels, i, 0u), known, apart, weights));
+    } else {
+        deviation[i] = weightedMean(deviation[i], known, apart, weights);
+    }
+}
+
+/// taken: samples of the term before the wave, total: in it; hits: receivers with a surface before; known: what the
+/// mean value weighs so far.
+WEDGE_FN void storeTermSums(WaveParams wave, WavePixel p, uint pixels, TermPlanes planes, uint taken, uint total,
+    float hits, Vec3 known, const TermSums* s)
+{
+    const float before = (float)p.before;
+    // Receivers that took samples, misses included: samples are shared evenly.
+    const float had = (float)min(taken, p.before), have = (float)min(total, p.count);
+    if ((wave.omits & WEDGE_OMITS_DEVIATION) == 0u) {
+        storeDeviation(wave, pixels, p.i, planes.deviation, luminance(known), s);
+    }
+    Vec3 e = loadColour(planes.value, pixels, p.i, planes.valueBits);
+    Vec3 t = loadColour(planes.texture, pixels, p.i, planes.textureBits);
+    e = vec3(weightedMean(e.x, known.x, s->weighted.x, s->weights.x),
+        weightedMean(e.y, known.y, s->weighted.y, s->weights.y),
+        weightedMean(e.z, known.z, s->weighted.z, s->weights.z));
+    t = vec3(meanWith(t.x, before, s->texture.x, s->textures), meanWith(t.y, before, s->texture.y, s->textures),
+        meanWith(t.z, before, s->texture.z, s->textures));
+    storeColour(planes.value, pixels, p.i, planes.valueBits, e);
+    storeColour(planes.texture, pixels, p.i, planes.textureBits, t);
+    if (wave.packed != 0u) {
+        if ((wave.omits & WEDGE_OMITS_ANALYSIS) == 0u) {
+            storeMeasured(p, pixels, planes, t, e, have, s);
+        }
+    } else if ((wave.omits & WEDGE_OMITS_ANALYSIS) == 0u) {
+        planes.textureSquares[p.i] = meanWith(planes.textureSquares[p.i], before, s->textureSquared, s->textures);
+        const float hadHits = p.before > 0u ? hits * had / before : 0.0f;
+        planes.plain[p.i] = meanWith(planes.plain[p.i], hadHits, s->plain, s->counted);
+        planes.squares[p.i] = meanWith(planes.squares[p.i], had, s->squared, have);
+    }
+    if (wave.published != 0u) {
+        storeMean(planes.radiance, pixels, p.i, had, s->radiance, have);
+    }
+}
+
+/// Samples of a term that the wave takes for pixel i. What is wanted is not looked at where the planes do not hold it:
+/// squares are in its place then.
+WEDGE_FN uint newTermSamples(WaveParams wave, uint i, __global const uint* taken, __global const uint* wanted)
+{
+    const uint before = taken[i];
+    const uint after = (wave.omits & WEDGE_OMITS_COUNTS) != 0u ? wave.lastSample : wantedSamples(wave, wanted[i]);
+    return max(after, before) - before;
+}
+
+/// Parameters of the kernels that add to a term, and its planes made of them.
+#define WEDGE_TERM_PARAMETERS                                                                                          \
+    __global const uint *restrict termWanted, __global uint *restrict termTaken, __global float *restrict texture,     \
+        __global float *restrict value, __global float *restrict plain, __global float *restrict squares,              \
+        __global float *restrict textureSquares, __global float *restrict termRadiance,                                \
+        __global float *restrict deviation, __global float *restrict extremes
+/// light: of a light; false: of indirect light.
+#define WEDGE_TERM_ARGUMENTS(light)                                                                                    \
+    termPlanes(wave.packed, light, texture, value, plain, squares, textureSquares, termRadiance, deviation)
+
+WEDGE_FN TermPlanes termPlanes(uint packed, bool light, __global float* texture, __global float* value,
+    __global float* plain, __global float* squares, __global float* textureSquares, __global float* radiance,
+    __global float* deviation)
+{
+    TermPlanes planes;
+    planes.textureBits = textureBits(packed, light);
+    planes.valueBits = valueBits(packed, light);
+    planes.texture = texture;
+    planes.value = value;
+    planes.plain = plain;
+    planes.squares = squares;
+    planes.textureSquares = textureSquares;
+    planes.radiance = radiance;
+    planes.deviation = deviation;
+    return planes;
+}
+
+/// Mean unshadowed weights of a light's samples, diffuse and specular, over the receivers that took some, each as much
+/// as it reflects: what textures of the others are made with. Returns false if none of them is known.
+WEDGE_FN bool meanWeights(WaveParams wave, WavePixel p, uint total, __global const uint* objectId,
+    __global const float* diffuse, __global const float* specular, __global const float* sums, float* weight,
+    float* specularWeight)
+{
+    const uint size = wave.planeSize;
+    float reflected = 0.0f, mirrored = 0.0f, known = 0.0f;
+    *weight = *specularWeight = 0.0f;
+    for (uint k = 0u; k < p.count; ++k) {
+        const uint r = p.first + k;
+        const uint n = sharedSamples(k + 1u, p.count, total) - sharedSamples(k, p.count, total);
+        if (objectId[r] == 0u || n == 0u) {
+            continue;
+        }
+        const float scale = 1.0f / (float)n, kd = luminance(loadVec(diffuse, size, r));
+        known += 1.0f;
+        reflected += kd;
+        *weight += kd * scale * sums[r];
+#ifdef WEDGE_SPECULAR
+        const float ks = luminance(loadVec(specular, size, r));
+        mirrored += ks;
+        *specularWeight += ks * scale * sums[2u * size + r];
+#else
+        (void)specular;
+#endif
+    }
+    *weight = reflected > 0.0f ? *weight / reflected : 0.0f;
+    *specularWeight = mirrored > 0.0f ? *specularWeight / mirrored : 0.0f;
+    return known > 0.0f;
+}
+
+/// A mean motion as packed planes have it. differing: length of a difference between the mean and what it is made of.
+WEDGE_FN void storeOneMotion(
+    WaveParams wave, uint pixels, uint i, __global float* plane, float x, float y, float differing)
+{
+    const bool one = differing <= wave.oneVelocity * sqrt(x * x + y * y);
+    storePair(plane, pixels, i, one ? x : INFINITY, one ? y : 0.0f);
+}
+
+/// The one extreme that widths are made with.
+WEDGE_FN void storeExtreme(
+    WaveParams wave, WavePixel p, uint pixels, __global float* plain, __global float* extremes, float x)
+{
+    if ((wave.omits & WEDGE_OMITS_ANALYSIS) != 0u) {
+        return;
+    }
+    if (wave.packed != 0u) {
+        storeShort(plain, pixels, p.i, 1u, x);
+    } else {
+        extremes[p.i] = x;
+    }
+}
+
+#endif

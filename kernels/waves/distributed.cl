@@ -1,0 +1,359 @@
+// The analysis of distributed frames (thesis 5.7, 5.8): where texture and irradiance may be taken apart, how wide the
+// irradiance's filter is then, which samples are worth most, and what becomes of the filtered term.
+#include "core/distributed_pixel.h"
+#include "core/packed_planes.h"
+#include "core/pixel.h"
+#include "shared/bsdf.h"
+#include "shared/distributed.h"
+
+/// The signed luminance of L - k E with plain means k and E. Packed, it is in `plain` already.
+__kernel void factoringError(DistributedParams p, __global const float* restrict texture,
+    __global const float* restrict value, __global const float* restrict plain, __global float* restrict error)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    const Vec3 k = loadVec(texture, p.planeSize, i);
+    error[i] = luminance(vecMul(k, loadVec(value, p.planeSize, i))) - luminance(k) * plain[i];
+}
+
+/// Narrows nothing and widens beta, metres, to what the lens has blurred already (5.18), (5.22); takes pixels out whose
+/// error is too large (beta = -1: they keep their own, and are nobody's neighbours). in   error; packed, the term's
+/// plain means, with which it lies
+__kernel void factoredWidths(DistributedParams p, __global const float* restrict error,
+    __global const float* restrict confusion, __global const float* restrict pixelSize,
+    __global const uint* restrict objectId, __global float* restrict beta)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    float sum = 0.0f, count = 0.0f;
+    const int reach = (int)p.factoringRadius;
+    for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
+        for (int dx = -min((int)x, reach); dx <= min((int)(p.width - 1u - x), reach); ++dx) {
+            const int j = (int)i + dy * (int)p.stride + dx;
+            const bool same = objectId[j] == objectId[i];
+            sum += same ? loadNumber(error, p.planeSize, (uint)j, p.packed, 0u) : 0.0f;
+            count += same ? 1.0f : 0.0f;
+        }
+    }
+    const bool apart = p.never == 0u && fabs(sum) <= p.factoringError * count;
+    const float r = leastConfusion(p, confusion, i);
+    const float blurred =
+        r >= p.leastRadius ? p.irradianceWidth * r * loadNumber(pixelSize, p.planeSize, i, p.packed, 0u) : 0.0f;
+    beta[i] = apart && beta[i] >= 0.0f ? fmax(beta[i], blurred) : -1.0f;
+}
+
+/// A term's variance a primary sample, in two: what the texture makes, which every pixel has to average by itself, and
+/// the rest, which the irradiance's filter averages. out  ofTexture, ofIrradiance
+__kernel void splitVariance(DistributedParams p, __global const float* restrict texture,
+    __global const float* restrict textureSquares, __global const float* restrict value,
+    __global const float* restrict squares, __global const uint* restrict taken, __global float* restrict ofTexture,
+    __global float* restrict ofIrradiance)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    const Vec3 k = loadTexture(p, texture, i);
+    const float mean = luminance(vecMul(k, loadValue(p, value, i))), t = luminance(k);
+    const float n = (float)taken[i];
+    const float unbiased = n > 1.0f ? n / (n - 1.0f) : 0.0f;
+    float all, spread;
+    if (p.packed != 0u) {
+        const float d = loadShort(squares, p.planeSize, i, 0u), dTexture = loadShort(squares, p.planeSize, i, 1u);
+        all = d * d * unbiased;
+        spread = dTexture * dTexture * unbiased;
+    } else {
+        all = fmax(squares[i] - mean * mean, 0.0f) * unbiased;
+        spread = fmax(textureSquares[i] - t * t, 0.0f) * unbiased;
+    }
+    const float irradiance = t > 0.0f ? mean / t : 0.0f;
+    const float texturePart = fmin(spread * irradiance * irradiance, all);
+    ofTexture[i] = texturePart;
+    ofIrradiance[i] = all - texturePart;
+}
+
+/// The variance of what is seen to emit, a primary sample.
+__kernel void emissionVariance(DistributedParams p, __global const float* restrict emission,
+    __global const float* restrict squares, __global const uint* restrict taken, __global float* restrict variance)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    const float n = (float)taken[i], mean = luminance(loadVec(emission, p.planeSize, i));
+    variance[i] = n > 1.0f ? fmax(squares[i] - mean * mean, 0.0f) * n / (n - 1.0f) : 0.0f;
+}
+
+/// Equal samples that Gaussians one after the other amount to: that of the irradiance alone gathers so many, the
+/// image's have the standard deviations lens, and, along one direction, along (pixels). Their covariances add up.
+WEDGE_FN float gatheredBy(float irradiance, float lens, float along)
+{
+    const float across = irradiance / (4.0f * 3.14159265f) + lens * lens;
+    return fmax(4.0f * 3.14159265f * sqrt(across * (across + along * along)), 1.0f);
+}
+
+/// Demand of a term's samples: (v / K / rays)^exponent of a pixel's neighbours, the mean of v / K of the eight nearest,
+/// at least varianceSpread of the largest within 5x5; not of its own, if it has any (reflectors.cl says why). variance:
+/// v; effective: pixels that the irradiance's filter gathers; lens, along: standard deviations of the image-space
+/// filters, pixels.
+__kernel void sampleDemand(DistributedParams p, __global const float* restrict variance,
+    __global const float* restrict effective, __global const float* restrict beta, __global const float* restrict lens,
+    __global const float* restrict along, __global float* restrict demand)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    float largest = 0.0f, sum = 0.0f, count = 0.0f, ofOwn = 0.0f;
+    for (int dy = -min((int)y, WEDGE_DEMAND_REACH); dy <= min((int)(p.height - 1u - y), WEDGE_DEMAND_REACH); ++dy) {
+        for (int dx = -min((int)x, WEDGE_DEMAND_REACH); dx <= min((int)(p.width - 1u - x), WEDGE_DEMAND_REACH); ++dx) {
+            const int j = (int)i + dy * (int)p.stride + dx;
+            const float irradiance = beta[j] > 0.0f ? fmax(effective[j], 1.0f) : 1.0f;
+            const float there = variance[j] / gatheredBy(irradiance, lens[j], p.alongMotion != 0u ? along[j] : 0.0f);
+            const bool own = dx == 0 && dy == 0, nearest = abs(dx) <= 1 && abs(dy) <= 1;
+            ofOwn = own ? there : ofOwn;
+            largest = own ? largest : fmax(largest, there);
+            sum += nearest && !own ? there : 0.0f;
+            count += nearest && !own ? 1.0f : 0.0f;
+        }
+    }
+    const float v = count > 0.0f ? fmax(sum / count, p.varianceSpread * largest) : ofOwn;
+    demand[i] = v > 1e-30f ? pow(v / p.rays, p.countExponent) : 0.0f;
+}
+
+/// sum += part.
+__kernel void addPlane(DistributedParams p, __global const float* restrict part, __global float* restrict sum)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        sum[i] += part[i];
+    }
+}
+
+/// At least as many samples of one kind as of another, times apart where texture and irradiance are taken apart (beta
+/// >= 0), times together elsewhere.
+__kernel void atLeast(DistributedParams p, float apart, float together, __global const float* restrict beta,
+    __global const float* restrict least, __global float* restrict demand)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        demand[i] = fmax(demand[i], (beta[i] >= 0.0f ? apart : together) * least[i]);
+    }
+}
+
+/// A term's value out of its packed planes.
+__kernel void unpackImage(DistributedParams p, __global const float* restrict in, __global float* restrict out)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        storeVec(out, p.planeSize, i, loadValue(p, in, i));
+    }
+}
+
+/// wanted = clamp(scale demand, least, most), and never less than `taken`. Both may be one plane: of each pixel demand
+/// is read first.
+__kernel void scaleCounts(DistributedParams p, float scale, uint least, uint most, __global const float* demand,
+    __global const uint* restrict taken, __global uint* wanted)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        const float n = clamp(scale * demand[i], (float)least, (float)most);
+        wanted[i] = max((uint)(n + 0.5f), taken[i]);
+    }
+}
+
+/// Counts of a term's samples after the last wave of a lean frame: pixels without new primary samples took none of the
+/// term. in out  counts: wanted; taken
+__kernel void settleCounts(
+    DistributedParams p, uint first, __global const uint* restrict primaryTaken, __global uint* restrict counts)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        counts[i] = primaryTaken[i] > first ? counts[i] : primaryTaken[i];
+    }
+}
+
+/// No more new primary samples than a wave has room for.
+__kernel void limitStep(DistributedParams p, __global const uint* restrict taken, __global uint* restrict wanted)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        wanted[i] = min(wanted[i], taken[i] + WEDGE_MOST_NEW_SAMPLES);
+    }
+}
+
+/// The filter along a motion (mx, my) of n samples; one: all that the pixel shows has it. Returns the standard
+/// deviation, pixels. out  directions: 2 planes, a unit vector; packed, one plane of two numbers, times the standard
+/// deviation
+WEDGE_FN float storeBlur(
+    DistributedParams p, uint i, bool one, float mx, float my, float length, float n, __global float* directions)
+{
+    const float h = 0.5f * length;
+    const float along = one ? p.shutterWidth * h * pow(n * h, -p.shutterExponent) : 0.0f;
+    const float x = one ? mx / length : 1.0f, y = one ? my / length : 0.0f;
+    if (p.packed != 0u) {
+        storePair(directions, p.planeSize, i, along * x, along * y);
+    } else {
+        directions[i] = x;
+        directions[p.planeSize + i] = y;
+    }
+    return along;
+}
+
+/// Standard deviations in pixels of the image-space filters: of the blur that all of a pixel has, else 0.
+/// out  lens, along (the motion), directions of that (2 planes, unit; packed, see storeBlur); lens alone where all is
+/// still.
+///      Directions may be in the place of packed motions: of each pixel those are read first.
+__kernel void blurs(DistributedParams p, __global const float* restrict confusion, __global const float* motion,
+    __global const uint* restrict taken, __global float* restrict lens, __global float* restrict along,
+    __global float* directions)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    const float n = p.frames * (p.samples > 0.0f ? p.samples : fmax((float)taken[i], 1.0f));
+    const float r = leastConfusion(p, confusion, i);
+    lens[i] = r >= p.leastRadius ? p.blurWidth * r * pow(n * r * r, -p.blurExponent) : 0.0f;
+    if (p.still != 0u) {
+        return;
+    }
+    const bool packed = p.packed != 0u;
+    const float mx = loadNumber(motion, p.planeSize, i, p.packed, 0u);
+    const float my = packed ? loadShort(motion, p.planeSize, i, 1u) : motion[p.planeSize + i];
+    const float length = sqrt(mx * mx + my * my);
+    const bool alike = packed ? length < INFINITY : motion[2u * p.planeSize + i] <= p.oneVelocity * length;
+    along[i] = storeBlur(p, i, alike && length >= p.leastRadius, mx, my, length, n, directions);
+}
+
+/// Standard deviations in pixels of the filter of a light's irradiance along its shadows' motion (B.2): where all that
+/// move move alike, else 0. in   shadows: slopes and sums of motions as area_light.cl has them, or packed motions;
+/// taken: the light's samples out  along, directions as blurs() has them
+__kernel void shadowBlurs(DistributedParams p, __global const float* restrict shadows,
+    __global const uint* restrict taken, __global const float* restrict beta, __global float* restrict along,
+    __global float* restrict directions)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    const uint n = p.planeSize;
+    const float samples = p.frames * (p.samples > 0.0f ? p.samples : fmax((float)taken[i], 1.0f));
+    float mx, my, length;
+    bool alike;
+    if (p.packed != 0u) {
+        mx = loadShort(shadows, n, i, 0u);
+        my = loadShort(shadows, n, i, 1u);
+        length = sqrt(mx * mx + my * my);
+        alike = length < INFINITY;
+    } else {
+        const float count = fmax(shadows[5u * n + i], 1.0f);
+        mx = shadows[2u * n + i] / count;
+        my = shadows[3u * n + i] / count;
+        const float squared = mx * mx + my * my;
+        length = sqrt(squared);
+        alike = sqrt(fmax(shadows[4u * n + i] / count - squared, 0.0f)) <= p.oneVelocity * length;
+    }
+    along[i] =
+        storeBlur(p, i, alike && length >= p.leastRadius && beta[i] >= 0.0f, mx, my, length, samples, directions);
+}
+
+/// A term's value in one plane: of a light, whose filter averages it, what is seen. As published it is in the first one
+/// already.
+__kernel void visibilityOf(DistributedParams p, __global const float* restrict texture,
+    __global const float* restrict value, __global float* restrict visibility)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    const Vec3 k = loadTexture(p, texture, i);
+    const float t = luminance(k);
+    visibility[i] = p.published != 0u ? value[i] : t > 0.0f ? luminance(vecMul(k, loadValue(p, value, i))) / t : 0.0f;
+}
+
+/// A term's own radiance, k E; as published L, termRadiance.
+WEDGE_FN Vec3 ownRadiance(DistributedParams p, uint i, __global const float* texture, __global const float* value,
+    __global const float* termRadiance)
+{
+    return p.published != 0u ? loadVec(termRadiance, p.planeSize, i)
+                             : vecMul(loadTexture(p, texture, i), loadValue(p, value, i));
+}
+
+/// What a light's own radiance k V has of colour that its luminance times k has not: textures of several colours that
+/// see the light differently. It has no luminance, and is 0 where all that a pixel shows has one colour.
+WEDGE_FN Vec3 ownColour(Vec3 texture, Vec3 value)
+{
+    const Vec3 own = vecMul(texture, value);
+    const float t = luminance(texture);
+    return t > 0.0f ? vecSub(own, vecScale(texture, luminance(own) / t)) : vec3(0.0f, 0.0f, 0.0f);
+}
+
+/// How much of a difference can be added to a number >= 0 that is to stay so: 1, or the part that makes it 0.
+WEDGE_FN float keptOf(float number, float difference)
+{
+    return number + difference < 0.0f ? -number / difference : 1.0f;
+}
+
+/// radiance += a term: where it is taken apart filteredTexture filtered (p.values planes), elsewhere its own. Of lights
+/// visibilities are filtered, in which colours have no part: each pixel keeps its own.
+__kernel void addFilteredTerm(DistributedParams p, __global const float* restrict texture,
+    __global const float* restrict filteredTexture, __global const float* restrict value,
+    __global const float* restrict filtered, __global const float* restrict beta,
+    __global const float* restrict termRadiance, __global float* restrict radiance)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    const uint n = p.planeSize;
+    const Vec3 e = p.values == 3u ? loadVec(filtered, n, i) : vec3(filtered[i], filtered[i], filtered[i]);
+    Vec3 term;
+    if (beta[i] >= 0.0f) {
+        term = vecMul(p.plainTexture != 0u ? loadVec(filteredTexture, n, i) : loadTexture(p, filteredTexture, i), e);
+        if (p.values == 1u && p.published == 0u) {
+            const Vec3 colour = ownColour(loadTexture(p, texture, i), loadValue(p, value, i));
+            const float kept = fmin(keptOf(term.x, colour.x), fmin(keptOf(term.y, colour.y), keptOf(term.z, colour.z)));
+            term = vecMad(term, colour, kept);
+        }
+    } else {
+        term = ownRadiance(p, i, texture, value, termRadiance);
+    }
+    storeVec(radiance, n, i, vecAdd(loadVec(radiance, n, i), term));
+}
+
+/// radiance += a term without any filter.
+__kernel void addTerm(DistributedParams p, __global const float* restrict texture, __global const float* restrict value,
+    __global const float* restrict termRadiance, __global float* restrict radiance)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        const Vec3 term = ownRadiance(p, i, texture, value, termRadiance);
+        storeVec(radiance, p.planeSize, i, vecAdd(loadVec(radiance, p.planeSize, i), term));
+    }
+}
+
+/// sum += image (3 planes each).
+__kernel void addImage(DistributedParams p, __global const float* restrict image, __global float* restrict sum)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        storeVec(sum, p.planeSize, i, vecAdd(loadVec(sum, p.planeSize, i), loadVec(image, p.planeSize, i)));
+    }
+}
+
+/// beauty = emission + direct + indirect (3 planes each).
+__kernel void addAll(DistributedParams p, __global const float* restrict emission,
+    __global const float* restrict direct, __global const float* restrict indirect, __global float* restrict beauty)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    const uint n = p.planeSize;
+    storeVec(beauty, n, i, vecAdd(vecAdd(loadVec(emission, n, i), loadVec(direct, n, i)), loadVec(indirect, n, i)));
+}
