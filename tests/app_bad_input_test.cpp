@@ -240,6 +240,7 @@ TEST_CASE("references that do not fit")
 TEST_CASE("a kernel that does not compile is one line of ours, whatever the driver says itself")
 {
     const Workplace place;
+    std::filesystem::create_directory(place.path() / "frame");
     place.write("frame/primary.cl", "__kernel void primary(int a) { return nonsense; }\n");
     const Outcome outcome = place.run({ "render", box, "--kernel-dir", ".", "-o", "a.exr" });
     CHECK(outcome.status == failure);

@@ -232,7 +232,8 @@ TEST_CASE("packed programs: what the others make of the same normals, without co
             if (!program.packs)
                 continue;
             CAPTURE(program.file);
-            FilterRun filter(device, {}, program.file), packedFilter(device, {}, "packed_" + program.file);
+            const std::string packed = std::string(program.file).insert(program.file.rfind('/') + 1, "packed_");
+            FilterRun filter(device, {}, program.file), packedFilter(device, {}, packed);
             const bool counts = program.planes == 1;
             for (const Shape shape : { Shape::Tilted, Shape::Steps, Shape::Rough }) {
                 FilterImage plain = unlit(61, 29, shape, 50, program.planes), packed = plain;
