@@ -348,7 +348,7 @@ inline void accumulateLight(
         a.vectors([](const SeenPoint& p) { return p.position; }),
         a.vectors([](const SeenPoint& p) { return p.normal; }),
         a.vectors([](const SeenPoint& p) { return p.position; }), a.objectId, a.objectId,
-        a.receiverBuffer<float>(1, [](const SeenPoint& p, std::size_t) { return p.gloss; }), a.lists.pixelOf,
+        a.glosses(), a.lists.pixelOf,
         a.receiverBuffer<std::uint32_t>(
             1, [](const SeenPoint& p, std::size_t) { return shared::packDirection(viewOf(p)); }),
         a.receiverBuffer<float>(1, [](const SeenPoint&, std::size_t) { return 0; }),

@@ -17,7 +17,8 @@ inline double luminanceOf(glm::dvec3 c) { return 0.2126 * c.x + 0.7152 * c.y + 0
 struct SeenPoint {
     std::uint32_t object; ///< 0: nothing
     glm::dvec3 diffuse, specular, emission, position, normal;
-    double gloss, pixelSize, depth;
+    shared::Gloss gloss;
+    double pixelSize, depth;
     glm::dvec2 motion;
     std::uint32_t rays, pathRays;
     double weight[2], visible[2]; ///< of a light's samples there: mean weight, diffuse and specular; visible fractions
@@ -61,7 +62,9 @@ inline SeenPoint seenPoint(Receivers kind, int x, int y, std::uint32_t index)
     p.emission = vector(0, 2);
     p.position = vector(-1, 1) + glm::dvec3(x, y, -5);
     p.normal = glm::normalize(glm::dvec3(0.1, 0.9, 0.2) + 0.05 * unitVector(random));
-    p.gloss = uniform(random, 1, 30);
+    const auto exponent = static_cast<float>(uniform(random, 1, 30));
+    p.gloss = shared::makeGloss(exponent,
+        p.specular == glm::dvec3(0) ? WEDGE_LAMBERT : random() % 2 == 0 ? WEDGE_PHONG : WEDGE_BLINN_PHONG);
     p.pixelSize = uniform(random, 0.01, 0.1);
     p.depth = p.object == 0 && random() % 2 == 0 ? std::numeric_limits<double>::infinity() : uniform(random, 1, 9);
     p.motion = { uniform(random, -3, 3), uniform(random, -3, 3) };
@@ -143,6 +146,12 @@ public:
     {
         return receiverBuffer<float>(
             3, [&](const SeenPoint& p, std::size_t c) { return value(p)[static_cast<int>(c)]; });
+    }
+
+    device::Buffer<std::uint32_t> glosses()
+    {
+        return receiverBuffer<std::uint32_t>(
+            1, [](const SeenPoint& p, std::size_t) { return shared::packGloss(p.gloss); });
     }
 
     /// Samples that a receiver has of a term whose pixels go from `before` to `after`.
@@ -231,16 +240,16 @@ inline const Rounds threeRounds = { [](int x, int y) { return total(x, y) / 3; }
     [](int x, int y) { return total(x, y) * 2 / 3; }, total };
 /// The planes that accumulateSurfaces fills.
 struct SurfacePixels {
-    device::Buffer<std::uint32_t> object, rays, pathRays;
-    device::Buffer<float> position, normal, gloss, diffuse, specular, emission, emissionSquares, pixelSize, distance,
+    device::Buffer<std::uint32_t> object, rays, pathRays, gloss;
+    device::Buffer<float> position, normal, diffuse, specular, emission, emissionSquares, pixelSize, distance,
         confusion, motion;
     explicit SurfacePixels(Accumulation& a)
         : object(a.waves.bench.filled(a.waves.layout.size, 0u))
         , rays(a.waves.bench.filled(a.waves.layout.size, 0u))
         , pathRays(a.waves.bench.filled(a.waves.layout.size, 0u))
+        , gloss(a.waves.bench.filled(a.waves.layout.size, 0u))
         , position(a.pixelBuffer(3))
         , normal(a.pixelBuffer(3))
-        , gloss(a.pixelBuffer(1))
         , diffuse(a.pixelBuffer(3))
         , specular(a.pixelBuffer(3))
         , emission(a.pixelBuffer(3))
@@ -269,7 +278,7 @@ inline void accumulateSurfaces(Accumulation& a, SurfacePixels& out, const shared
     };
     a.launch("accumulateSurfaces", camera, a.lists.pixelFirst, a.lists.pixelCount, a.objectId,
         a.vectors([](const SeenPoint& p) { return p.position; }),
-        a.vectors([](const SeenPoint& p) { return p.normal; }), single([](const SeenPoint& p) { return p.gloss; }),
+        a.vectors([](const SeenPoint& p) { return p.normal; }), a.glosses(),
         a.vectors([](const SeenPoint& p) { return p.diffuse; }),
         a.vectors([](const SeenPoint& p) { return p.specular; }),
         a.vectors([](const SeenPoint& p) { return p.emission; }),

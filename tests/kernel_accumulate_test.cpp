@@ -199,7 +199,7 @@ TEST_CASE(
                     const shared::Vec3 view = shared::unpackDirection(shared::packDirection(viewOf(p)));
                     const double lobe =
                         shared::specularLobe(narrow(p.normal), view, narrow(glm::normalize(centre - p.position)),
-                            static_cast<float>(p.gloss), WEDGE_SPECULAR_BLINN_PHONG);
+                            p.gloss.exponent, p.gloss.kind);
                     return glm::dvec3(300, 200, 100) * (p.diffuse / std::numbers::pi + p.specular * lobe);
                 };
                 TermPixels term(a, count);

@@ -247,13 +247,13 @@ TEST_CASE("widths are (3.13) of the pixel's own slope, else of what spread to it
 }
 
 /// A width that a highlight of that share narrows, as analysis.cl says.
-double narrowedWidth(glm::dvec3 toLight, glm::dvec3 toEye, double gloss, double share, double wide)
+double narrowedWidth(glm::dvec3 toLight, glm::dvec3 toEye, shared::Gloss gloss, double share, double wide)
 {
     const double light = glm::length(toLight), eye = glm::length(toEye);
-    const double spread = gloss < 0 ? 1.0 : glm::length(toLight / light + toEye / eye);
+    const double spread = gloss.kind == WEDGE_PHONG ? 1.0 : glm::length(toLight / light + toEye / eye);
     const double s = wide * 3 * 2 / 0.25; // k, mu and sigma of Slopes
     const double occluder = light * s / (1 + s);
-    const double lobe = spread / std::sqrt(std::max(std::fabs(gloss), 1.0)) / (1 / occluder + 1 / eye) / 6;
+    const double lobe = spread / std::sqrt(std::max<double>(gloss.exponent, 1)) / (1 / occluder + 1 / eye) / 6;
     return 1 / std::sqrt(1 / (wide * wide) + share / (lobe * lobe));
 }
 
@@ -272,7 +272,8 @@ TEST_CASE("highlights narrow widths by their share, those of no width and of no 
         for (const Slopes& in : cases()) {
             std::mt19937 random(9);
             Planes<float> sums(in.layout(), 4, 0.0f), diffuse(in.layout(), 3, 0.0f), specular(in.layout(), 3, 0.0f),
-                texture(in.layout(), 3, 0.0f), gloss(in.layout(), 1, 1.0f), before(in.layout(), 1, 0.0f);
+                texture(in.layout(), 3, 0.0f), before(in.layout(), 1, 0.0f);
+            Planes<std::uint32_t> gloss(in.layout(), 1, 0u);
             everyPixel(in, [&](int x, int y) {
                 sums.at(x, y) = static_cast<float>(uniform(random));
                 sums.at(x, y, 2) = random() % 4 == 0 ? 0.0f : static_cast<float>(uniform(random, 0, 5));
@@ -280,7 +281,8 @@ TEST_CASE("highlights narrow widths by their share, those of no width and of no 
                 specular.setVector(x, y, glm::dvec3(random() % 4 == 0 ? 0.0 : uniform(random)));
                 texture.setVector(x, y, glm::dvec3(uniform(random, 0, 2)));
                 gloss.at(x, y) =
-                    static_cast<float>((random() % 2 == 0 ? 1 : -1) * std::pow(10.0, uniform(random, -1, 4)));
+                    shared::packGloss(shared::makeGloss(static_cast<float>(std::pow(10.0, uniform(random, -1, 4))),
+                        random() % 2 == 0 ? WEDGE_PHONG : WEDGE_BLINN_PHONG));
                 before.at(x, y) = random() % 5 == 0 ? static_cast<float>(random() % 2) - 1.0f
                                                     : static_cast<float>(uniform(random, 0.001, 0.5));
             });
@@ -301,13 +303,13 @@ TEST_CASE("highlights narrow widths by their share, those of no width and of no 
                 const double wide = before.at(x, y), pi = 3.14159265358979;
                 const double lobes = specular.at(x, y) * sums.at(x, y, 2), matt = diffuse.at(x, y) * sums.at(x, y) / pi;
                 const double expected = wide > 0 && lobes > 0
-                    ? narrowedWidth(toLight, toEye, gloss.at(x, y), lobes / (lobes + matt), wide)
+                    ? narrowedWidth(toLight, toEye, shared::unpackGloss(gloss.at(x, y)), lobes / (lobes + matt), wide)
                     : wide;
                 REQUIRE(one.at(x, y) == doctest::Approx(expected).epsilon(1e-4));
                 const double nearest = std::max(glm::length(toLight) - 0.8, 0.0);
                 const double white = power / pi / (nearest * nearest), shown = texture.at(x, y);
                 const double narrowest = wide > 0 && in.objectId.at(x, y) != 0 && shown > white
-                    ? narrowedWidth(toLight, toEye, gloss.at(x, y), 1 - white / shown, wide)
+                    ? narrowedWidth(toLight, toEye, shared::unpackGloss(gloss.at(x, y)), 1 - white / shown, wide)
                     : wide;
                 REQUIRE(many.at(x, y) == doctest::Approx(narrowest).epsilon(1e-4));
             });

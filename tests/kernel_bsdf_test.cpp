@@ -22,7 +22,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double degree = pi / 180;
-constexpr uint models[] = { WEDGE_SPECULAR_PHONG, WEDGE_SPECULAR_BLINN_PHONG };
+constexpr uint models[] = { WEDGE_PHONG, WEDGE_BLINN_PHONG };
 const Vec3 up = vec3(0, 0, 1);
 
 Vec3 mirrored(Vec3 n, Vec3 v) { return vecMad(vecScale(v, -1.0f), n, 2.0f * vecDot(n, v)); }
@@ -171,16 +171,16 @@ TEST_CASE("densities integrate to 1, less the half vectors that look away from t
         };
         CAPTURE(angle);
         for (const float exponent : { 0.0f, 1.0f, 4.0f, 12.0f, 64.0f, 1000.0f })
-            CHECK(mass(exponent, WEDGE_SPECULAR_PHONG) == doctest::Approx(1).epsilon(2e-3));
+            CHECK(mass(exponent, WEDGE_PHONG) == doctest::Approx(1).epsilon(2e-3));
         // Of the half vectors about n, those on v's side: a lune of the hemisphere, and its projection.
-        CHECK(mass(0, WEDGE_SPECULAR_BLINN_PHONG) == doctest::Approx(1 - angle / 180).epsilon(3e-3));
-        CHECK(mass(1, WEDGE_SPECULAR_BLINN_PHONG) == doctest::Approx((1 + std::cos(angle * degree)) / 2).epsilon(3e-3));
+        CHECK(mass(0, WEDGE_BLINN_PHONG) == doctest::Approx(1 - angle / 180).epsilon(3e-3));
+        CHECK(mass(1, WEDGE_BLINN_PHONG) == doctest::Approx((1 + std::cos(angle * degree)) / 2).epsilon(3e-3));
         for (const float exponent : { 4.0f, 12.0f, 64.0f, 1000.0f }) {
             CAPTURE(exponent);
             const double kept = LobeGrid(up).overSphere([&](Vec3 h) {
                 return h.z > 0 && vecDot(h, v) > 0 ? (exponent + 1) / (2 * pi) * std::pow(h.z, exponent) : 0.0;
             });
-            CHECK(mass(exponent, WEDGE_SPECULAR_BLINN_PHONG) == doctest::Approx(kept).epsilon(3e-3));
+            CHECK(mass(exponent, WEDGE_BLINN_PHONG) == doctest::Approx(kept).epsilon(3e-3));
         }
     }
 }
@@ -235,7 +235,7 @@ TEST_CASE("no lobe reflects more than arrives")
                     mostAngle = angle;
                 }
             }
-        MESSAGE(std::string(model == WEDGE_SPECULAR_PHONG ? "Phong" : "Blinn-Phong")
+        MESSAGE(std::string(model == WEDGE_PHONG ? "Phong" : "Blinn-Phong")
             << ": largest albedo " << most << " at exponent " << mostExponent << ", " << mostAngle << " degrees");
     }
 }

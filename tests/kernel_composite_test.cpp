@@ -17,8 +17,8 @@ namespace {
 /// Receivers scattered around a light at y = 2, with made-up terms.
 struct Receivers {
     shared::AnalysisParams params {};
-    Planes<float> position, normal, diffuse, specular, gloss, value, noisy;
-    Planes<std::uint32_t> objectId, taken;
+    Planes<float> position, normal, diffuse, specular, value, noisy;
+    Planes<std::uint32_t> gloss, objectId, taken;
 
     Receivers(int width, int height, unsigned seed)
         : Receivers(render::PlaneLayout(width, height))
@@ -32,7 +32,8 @@ struct Receivers {
                 diffuse.setVector(x, y, { uniform(random), uniform(random), uniform(random) });
                 specular.setVector(x, y,
                     random() % 4 == 0 ? glm::dvec3(0) : glm::dvec3(uniform(random), uniform(random), uniform(random)));
-                gloss.at(x, y) = static_cast<float>(uniform(random, 1, 20) * (random() % 2 == 0 ? 1 : -1));
+                gloss.at(x, y) = shared::packGloss(shared::makeGloss(
+                    static_cast<float>(uniform(random, 1, 20)), random() % 2 == 0 ? WEDGE_PHONG : WEDGE_BLINN_PHONG));
                 for (std::size_t c = 0; c < 2; ++c) {
                     value.at(x, y, c) = static_cast<float>(uniform(random));
                     noisy.at(x, y, c) = static_cast<float>(uniform(random));
@@ -46,9 +47,9 @@ struct Receivers {
         , normal(layout, 3, 0.0f)
         , diffuse(layout, 3, 0.0f)
         , specular(layout, 3, 0.0f)
-        , gloss(layout, 1, 0.0f)
         , value(layout, 2, 0.0f)
         , noisy(layout, 4, 0.0f)
+        , gloss(layout, 1, 0u)
         , objectId(layout, 1, 0u)
         , taken(layout, 1, 0u)
     {
@@ -205,11 +206,11 @@ TEST_CASE("addSpecular: the second term times the lobe's unshadowed shading time
             in.everyPixel([&](int x, int y) {
                 const glm::dvec3 at = in.position.vector(x, y), n = in.normal.vector(x, y);
                 const glm::dvec3 view = glm::normalize(glm::dvec3(0.5, 1, 6) - at);
-                const float gloss = in.gloss.at(x, y);
+                const shared::Gloss gloss = shared::unpackGloss(in.gloss.at(x, y));
                 const auto lobe = [&](glm::dvec3 d) {
                     return static_cast<double>(
-                        shared::specularLobe(narrowed(n), narrowed(view), narrowed(glm::normalize(d)), std::fabs(gloss),
-                            gloss < 0 ? WEDGE_SPECULAR_PHONG : WEDGE_SPECULAR_BLINN_PHONG));
+                        shared::specularLobe(narrowed(n), narrowed(view), narrowed(glm::normalize(d)),
+                            gloss.exponent, gloss.kind));
                 };
                 double shade = made.power.z, slack = 1e-4;
                 if (shading == WEDGE_SHADING_SEPARATE) {
@@ -265,7 +266,9 @@ TEST_CASE("addSpecular: a mirror shows the light's own radiance, where it shows 
             });
             shared::FrameParams frame {};
             frame.eye = shared::vec3(0.5f, 1, 6);
-            const std::vector<float> sharp(in.gloss.values.size(), -1e6f), whole(in.value.values.size(), 1.0f);
+            const std::vector<std::uint32_t> sharp(
+                in.gloss.values.size(), shared::packGloss(shared::makeGloss(1e6f, WEDGE_PHONG)));
+            const std::vector<float> whole(in.value.values.size(), 1.0f);
             const auto direct = bench.filled(3 * in.layout().size, 0.0f),
                        noisy = bench.filled(3 * in.layout().size, 0.0f);
             bench.passes.rows("composite", device::PassKind::Composite, "frame/composite.cl", "addSpecular", in.params,

@@ -276,7 +276,7 @@ TEST_CASE("widths and counts are numbers over all slopes, sizes and mu, and conv
 
 TEST_CASE("specular lobes reflect all light at normal incidence, and never more than arrives")
 {
-    for (const uint model : { WEDGE_SPECULAR_PHONG, WEDGE_SPECULAR_BLINN_PHONG })
+    for (const uint model : { WEDGE_PHONG, WEDGE_BLINN_PHONG })
         for (const float exponent : { 0.0f, 1.0f, 10.0f, 80.0f }) {
             CAPTURE(model);
             CAPTURE(exponent);
@@ -291,7 +291,7 @@ TEST_CASE("specular lobes are reciprocal, never negative, and finite at their en
     const std::vector<Vec3> directions = { vec3(0, 0, 1), vecNormalize(vec3(1, 0, 0.5f)),
         vecNormalize(vec3(-1, 0, 0.5f)), vecNormalize(vec3(0.3f, -0.9f, 0.01f)), vec3(1, 0, 0), vec3(-1, 0, 0) };
     const Vec3 n = vec3(0, 0, 1);
-    for (const uint model : { WEDGE_SPECULAR_PHONG, WEDGE_SPECULAR_BLINN_PHONG })
+    for (const uint model : { WEDGE_PHONG, WEDGE_BLINN_PHONG })
         for (const float exponent : { 0.0f, 1.0f, 30.0f, 1e6f })
             for (const Vec3 v : directions)
                 for (const Vec3 l : directions) {
@@ -302,7 +302,7 @@ TEST_CASE("specular lobes are reciprocal, never negative, and finite at their en
                 }
     // In the mirror direction the lobe is at its largest: the normalisation itself.
     const Vec3 v = vecNormalize(vec3(1, 0, 1)), mirrored = vecNormalize(vec3(-1, 0, 1));
-    CHECK(specularLobe(n, v, mirrored, 20, WEDGE_SPECULAR_PHONG) == doctest::Approx(22 / (2 * pi)).epsilon(1e-4));
+    CHECK(specularLobe(n, v, mirrored, 20, WEDGE_PHONG) == doctest::Approx(22 / (2 * pi)).epsilon(1e-4));
 }
 
 TEST_CASE("directions in 32 bits come back as unit vectors within 1e-4 radians")

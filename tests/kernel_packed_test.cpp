@@ -1,5 +1,6 @@
 // Colours, directions and numbers in fewer bits (kernels/shared/packed.h), as C++: how exact they are, and what has no
 // place in them.
+#include "kernels/shared/bsdf.h"
 #include "kernels/shared/packed.h"
 
 #include <doctest/doctest.h>
@@ -80,6 +81,52 @@ TEST_CASE("numbers: 8 bits of precision, signs and the whole range")
     CHECK(unpackShort(packShort(0.0f)) == 0.0f);
     CHECK(unpackShort(packShort(-1.0f)) == -1.0f);
     CHECK(unpackShort(packShort(infinity)) == infinity);
+}
+
+TEST_CASE("a kind and an exponent: in one word to 1e-6, in 16 bits to 0.2 % or the ends of their range")
+{
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> magnitude(-10, 22);
+    for (std::uint32_t kind = 0; kind < 1u << WEDGE_KIND_BITS; ++kind) {
+        for (int k = 0; k < 5000; ++k) {
+            const float exponent = std::exp2(magnitude(random));
+            const Gloss word = unpackGloss(packGloss(makeGloss(exponent, kind)));
+            const Gloss half = unpackGlossShort(packGlossShort(makeGloss(exponent, kind)));
+            REQUIRE(word.kind == kind);
+            REQUIRE(half.kind == kind);
+            REQUIRE(std::fabs(word.exponent - exponent) <= 1e-6f * exponent);
+            REQUIRE(std::fabs(half.exponent - exponent) <= exponent / 500.0f);
+            REQUIRE(packGlossShort(half) == packGlossShort(makeGloss(exponent, kind)));
+        }
+        for (const float whole : { 0.0f, 1.0f, 20.0f, 1000.0f, 1e6f })
+            CHECK(unpackGloss(packGloss(makeGloss(whole, kind))).exponent == whole);
+        for (const float low : { 0.0f, 1e-30f, -5.0f, notANumber })
+            CHECK(unpackGlossShort(packGlossShort(makeGloss(low, kind))).exponent == 0x1p-10f);
+        for (const float high : { 5e6f, 1e30f, infinity }) {
+            const Gloss found = unpackGlossShort(packGlossShort(makeGloss(high, kind)));
+            CHECK(found.exponent == doctest::Approx(0x1p22f).epsilon(2e-3));
+            CHECK(found.kind == kind);
+        }
+    }
+}
+
+TEST_CASE("exponents of lobes as wide as each other: where both fall to a half near the mirrored view")
+{
+    CHECK(exponentAs(makeGloss(40, WEDGE_PHONG), WEDGE_PHONG) == 40);
+    CHECK(exponentAs(makeGloss(40, WEDGE_BLINN_PHONG), WEDGE_BLINN_PHONG) == 40);
+    CHECK(exponentAs(makeGloss(40, WEDGE_LAMBERT), WEDGE_PHONG) == 40);
+    const Vec3 up = vec3(0, 0, 1);
+    for (const float exponent : { 40.0f, 400.0f, 4000.0f }) {
+        const float other = exponentAs(makeGloss(exponent, WEDGE_PHONG), WEDGE_BLINN_PHONG);
+        CHECK(exponentAs(makeGloss(other, WEDGE_BLINN_PHONG), WEDGE_PHONG) == exponent);
+        const float angle = std::acos(std::pow(0.5f, 1 / exponent));
+        const Vec3 aside = vec3(std::sin(angle), 0, std::cos(angle));
+        const auto fall = [&](float e, std::uint32_t kind) {
+            return specularLobe(up, up, aside, e, kind) / specularLobe(up, up, up, e, kind);
+        };
+        CHECK(fall(exponent, WEDGE_PHONG) == doctest::Approx(0.5).epsilon(0.01));
+        CHECK(fall(other, WEDGE_BLINN_PHONG) == doctest::Approx(0.5).epsilon(0.01));
+    }
 }
 
 namespace {

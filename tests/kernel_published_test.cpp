@@ -37,7 +37,15 @@ double count(double band, double rMax, double secondary = 0)
 /// Width in metres of exp(-16 d^2 (band / l_p)^2), (5.31).
 double width(double band, double pixelSize) { return pixelSize / (std::sqrt(32.0) * band); }
 /// Bandlimits of lobes, (A.3) and (A.5).
-double lobeBand(double gloss) { return gloss < 0 ? 4.27 - 0.15 * gloss : 3.6 + 0.084 * gloss; }
+double lobeBand(std::uint32_t gloss)
+{
+    const shared::Gloss lobe = shared::unpackGloss(gloss);
+    return lobe.kind == WEDGE_PHONG ? 4.27 + 0.15 * lobe.exponent : 3.6 + 0.084 * lobe.exponent;
+}
+std::uint32_t lobe(double exponent, bool phong)
+{
+    return shared::packGloss(shared::makeGloss(static_cast<float>(exponent), phong ? WEDGE_PHONG : WEDGE_BLINN_PHONG));
+}
 
 /// What the kernels read of each pixel.
 struct Pixels {
@@ -49,11 +57,12 @@ struct Pixels {
         , confusion(plane(2, [](int, int, std::size_t) { return 0; }))
         , slopes(plane(2, [](int, int, std::size_t) { return 0; }))
         , reflectors(slopes)
-        , gloss(plane(1, [&](int, int, std::size_t) { return uniform(random, -50, 50); }))
         , pixelSize(plane(1, [&](int, int, std::size_t) { return std::exp(uniform(random, -7, -3)); }))
         , motion(plane(3, [](int, int, std::size_t) { return 0; }))
         , objectId(
               filledPlanes(of, 1, 3u, [&](int, int, std::size_t) { return random() % 7 == 0 ? 0 : 1 + random() % 3; }))
+        , gloss(filledPlanes(
+              of, 1, 0u, [&](int, int, std::size_t) { return lobe(uniform(random, 0, 50), random() % 2 == 0); }))
     {
         everyPixel({ 0, 0, of.width, of.height }, [&](int x, int y) {
             pair(confusion, x, y, -uniform(random) * uniform(random) * 60, uniform(random) * uniform(random) * 60);
@@ -96,8 +105,8 @@ struct Pixels {
 
     Region region;
     std::mt19937 random;
-    Planes<float> flags, confusion, slopes, reflectors, gloss, pixelSize, motion;
-    Planes<std::uint32_t> objectId;
+    Planes<float> flags, confusion, slopes, reflectors, pixelSize, motion;
+    Planes<std::uint32_t> objectId, gloss;
 };
 
 struct Found {
@@ -270,7 +279,7 @@ TEST_CASE("no input makes anything but a width and a count within bounds")
             Pixels::pair(in.slopes, x, y, values[x % 6], values[y % 6]);
             Pixels::pair(in.reflectors, x, y, values[x % 6], values[y % 6]);
             in.pixelSize.at(x, y) = values[x / 6];
-            in.gloss.at(x, y) = y % 2 == 0 ? -values[y / 6] : values[y / 6];
+            in.gloss.at(x, y) = lobe(values[y / 6], y % 2 == 0);
             Pixels::pair(in.confusion, x, y, (x + y) % 3 == 0 ? -1e4f : 1e4f, y % 4 == 0 ? 0 : 1e4f);
         });
         for (const float mu : { 1e-3f, 1.0f, 1e30f }) {

@@ -30,8 +30,11 @@ float extentOf(KernelBench& bench, const Planes<float>& position, const Planes<s
 /// What a pixel's first pass found, and what it shows.
 struct Found {
     float nearest = 0, farthest = 0, inverse = 0;
-    float pixelSize = 0.01f, gloss = 1;
+    float pixelSize = 0.01f, exponent = 1;
     std::uint32_t taken = 16;
+    std::uint32_t kind = WEDGE_BLINN_PHONG;
+
+    shared::Gloss gloss() const { return shared::makeGloss(exponent, kind); }
 };
 
 /// Widths and counts of pixels in a row.
@@ -51,8 +54,8 @@ Widths widthsOf(KernelBench& bench, shared::ReflectorParams p, float extent, con
     const shared::ReflectorParams sized = paramsFor(layout);
     std::tie(p.x1, p.width, p.y1, p.height, p.stride, p.planeSize) =
         std::tie(sized.x1, sized.width, sized.y1, sized.height, sized.stride, sized.planeSize);
-    Planes<float> reflectors(layout, 3, 0.0f), pixelSize(layout, 1, 0.0f), gloss(layout, 1, 0.0f);
-    Planes<std::uint32_t> taken(layout, 1, 0u), objectId(layout, 1, 0u);
+    Planes<float> reflectors(layout, 3, 0.0f), pixelSize(layout, 1, 0.0f);
+    Planes<std::uint32_t> gloss(layout, 1, 0u), taken(layout, 1, 0u), objectId(layout, 1, 0u);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
         if (p.meanOnly != 0)
@@ -60,13 +63,13 @@ Widths widthsOf(KernelBench& bench, shared::ReflectorParams p, float extent, con
         else
             reflectors.setVector(x, y, { pixels[i].nearest, pixels[i].farthest, pixels[i].inverse });
         pixelSize.at(x, y) = pixels[i].pixelSize;
-        gloss.at(x, y) = pixels[i].gloss;
+        gloss.at(x, y) = shared::packGloss(pixels[i].gloss());
         taken.at(x, y) = pixels[i].taken;
         objectId.at(x, y) = objects.empty() ? static_cast<std::uint32_t>(i + 1) : objects[i];
     }
     if (p.meanOnly != 0) {
         pixelSize = packedNumbers(pixelSize, pixelSize);
-        gloss = packedNumbers(gloss, gloss);
+        gloss = shortGlosses(gloss);
     }
     const auto beta = bench.filled(layout.size, -7.0f);
     const auto wanted = bench.filled(layout.size, noCount);
@@ -99,8 +102,8 @@ Expected expectedOf(const shared::ReflectorParams& p, double extent, const Found
     if (f.taken == 0)
         return {};
     const bool glossy = p.component == WEDGE_COMPONENT_GLOSSY;
-    const double m = std::fabs(f.gloss), size = p.extent > 0 ? p.extent : extent;
-    const double bandlimit = !glossy ? 2.8 : f.gloss < 0 ? 4.27 + 0.15 * m : 3.6 + 0.084 * m;
+    const double m = f.exponent, size = p.extent > 0 ? p.extent : extent;
+    const double bandlimit = !glossy ? 2.8 : f.kind == WEDGE_PHONG ? 4.27 + 0.15 * m : 3.6 + 0.084 * m;
     const double gamma =
         glossy ? std::acos(std::pow(std::sqrt(0.5), 1 / std::max(m, 1.0))) / (0.5 * std::numbers::pi) : 0.4;
     const double harmonic = f.taken / std::max<double>(f.inverse, 1e-20);
@@ -140,7 +143,8 @@ std::vector<Found> randomPixels(int count, int spread, unsigned seed)
         f.farthest = static_cast<float>(farthest);
         f.inverse = static_cast<float>(inverse);
         f.pixelSize = static_cast<float>(std::pow(10.0, uniform(random, -3, -1)));
-        f.gloss = static_cast<float>(std::pow(10.0, uniform(random, -1, 3)) * (random() % 2 == 0 ? 1 : -1));
+        f.exponent = static_cast<float>(std::pow(10.0, uniform(random, -1, 3)));
+        f.kind = random() % 2 == 0 ? WEDGE_PHONG : WEDGE_BLINN_PHONG;
         out.push_back(f);
     }
     return out;
@@ -203,7 +207,8 @@ void checkWidths(KernelBench& bench, const shared::ReflectorParams& p, float ext
         const Expected expected = expectedOf(p, extent, pixels[i]);
         CAPTURE(pixels[i].nearest);
         CAPTURE(pixels[i].farthest);
-        CAPTURE(pixels[i].gloss);
+        CAPTURE(pixels[i].exponent);
+        CAPTURE(pixels[i].kind);
         CAPTURE(p.component);
         REQUIRE(std::isfinite(found.beta[i]));
         REQUIRE(close(found.beta[i], expected.beta, 1e-4));
@@ -281,7 +286,7 @@ TEST_CASE("widths of lean frames: from the mean alone, with sizes and exponents 
         std::vector<Found> pixels = randomPixels(150, 3, 10);
         for (Found& f : pixels) {
             f.pixelSize = rounded(f.pixelSize);
-            f.gloss = rounded(f.gloss);
+            f.exponent = shared::unpackGlossShort(shared::packGlossShort(f.gloss())).exponent;
         }
         for (shared::ReflectorParams p : settings()) {
             p.meanOnly = 1;
@@ -320,17 +325,17 @@ TEST_CASE("exponents outside of the fit's range give widths and counts within bo
         shared::ReflectorParams p = paramsFor(render::PlaneLayout(1, 1));
         p.component = WEDGE_COMPONENT_GLOSSY;
         std::vector<Found> pixels, sharp;
-        for (const float gloss : { 0.0f, 0.1f, 1.0f, 3.9f, 4.0f, 50.0f, 51.0f, 1000.0f })
-            for (const float sign : { 1.0f, -1.0f })
-                pixels.push_back({ 1, 3, 8, 0.01f, sign * gloss });
+        for (const float exponent : { 0.0f, 0.1f, 1.0f, 3.9f, 4.0f, 50.0f, 51.0f, 1000.0f })
+            for (const std::uint32_t kind : { WEDGE_PHONG, WEDGE_BLINN_PHONG })
+                pixels.push_back({ 1, 3, 8, 0.01f, exponent, 16, kind });
         checkWidths(bench, p, 4, pixels);
-        for (const float gloss : { 1e4f, 1e6f, 1e8f, 1e20f, 1e37f })
-            for (const float sign : { 1.0f, -1.0f })
-                sharp.push_back({ 1, 3, 8, 0.01f, sign * gloss });
+        for (const float exponent : { 1e4f, 1e6f, 1e8f, 1e20f, 1e37f })
+            for (const std::uint32_t kind : { WEDGE_PHONG, WEDGE_BLINN_PHONG })
+                sharp.push_back({ 1, 3, 8, 0.01f, exponent, 16, kind });
         const Widths found = widthsOf(bench, p, 4, sharp);
         for (std::size_t i = 0; i < sharp.size(); ++i) {
             // Their bandlimit is the pixel's at most.
-            CAPTURE(sharp[i].gloss);
+            CAPTURE(sharp[i].exponent);
             const double least = 0.5 * 0.01 / (0.9 * 0.3);
             REQUIRE(close(found.beta[i], std::max(least, expectedOf(p, 4, sharp[i]).beta), 1e-4));
             REQUIRE(found.wanted[i] >= 16);

@@ -67,7 +67,7 @@ PlaneSpectrum glossySpectrum(uint model, double exponent, double inclination)
     const double camera = std::tan(inclination * pi / 180), lc = std::sqrt(1 + camera * camera);
     return planeSpectrum([=](double v1, double v2) {
         const double l = std::sqrt(1 + v1 * v1 + v2 * v2), geometry = std::pow(l, -4.0);
-        if (model == WEDGE_SPECULAR_PHONG)
+        if (model == WEDGE_PHONG)
             return geometry * std::pow(std::max(0.0, (1 - v1 * camera) / (l * lc)), exponent);
         const double h1 = (l * camera + lc * v1) / (l + lc), h2 = lc * v2 / (l + lc);
         return geometry * std::pow(1 + h1 * h1 + h2 * h2, -exponent / 2);
@@ -92,7 +92,7 @@ TEST_CASE("spectra of the plane agree with Bessel functions where there are clos
     for (const double exponent : { 0.0, 4.0, 20.0, 50.0 }) {
         CAPTURE(exponent);
         const double power = 2 + exponent / 2;
-        const PlaneSpectrum s = glossySpectrum(WEDGE_SPECULAR_PHONG, exponent, 0);
+        const PlaneSpectrum s = glossySpectrum(WEDGE_PHONG, exponent, 0);
         const double strip = limitOf(power, 2, Band::Strip), box = limitOf(power, 2, Band::Box);
         CHECK(s.first.limit(0.99) == doctest::Approx(strip).epsilon(2e-3));
         CHECK(s.second.limit(0.99) == doctest::Approx(strip).epsilon(2e-3));
@@ -120,16 +120,16 @@ TEST_CASE("the Blinn-Phong fit is 2 to 10 % above 99 % of the energy seen from a
 {
     for (const float exponent : exponents) {
         CAPTURE(exponent);
-        const double fit = glossyBandlimit(exponent, WEDGE_SPECULAR_BLINN_PHONG);
+        const double fit = glossyBandlimit(exponent, WEDGE_BLINN_PHONG);
         CHECK(fit == doctest::Approx(3.6 + 0.084 * exponent).epsilon(1e-6));
-        const Limits above = limits(WEDGE_SPECULAR_BLINN_PHONG, exponent, 0);
+        const Limits above = limits(WEDGE_BLINN_PHONG, exponent, 0);
         CHECK(above.across == doctest::Approx(above.strip).epsilon(1e-3));
         CHECK(fit / above.strip > 1.02);
         CHECK(fit / above.strip < 1.10);
         CHECK(fit / above.box > 0.92); // as a box it is short
         CHECK(fit / above.box < 1.0);
         // Lobes narrow across the camera's inclination, by a factor of its own; along it they widen.
-        const PlaneSpectrum aslant = glossySpectrum(WEDGE_SPECULAR_BLINN_PHONG, exponent, 60);
+        const PlaneSpectrum aslant = glossySpectrum(WEDGE_BLINN_PHONG, exponent, 60);
         CHECK(aslant.second.limit(0.99) > above.across);
         CHECK(fit / aslant.second.limit(0.99) > 0.86);
         CHECK(fit / aslant.second.limit(0.99) < 0.98);
@@ -144,9 +144,9 @@ TEST_CASE("the Phong fit is right at exponent 4 and up to 17 % below 99 % of the
     double worst = 1;
     for (const float exponent : exponents) {
         CAPTURE(exponent);
-        const double fit = glossyBandlimit(exponent, WEDGE_SPECULAR_PHONG);
+        const double fit = glossyBandlimit(exponent, WEDGE_PHONG);
         CHECK(fit == doctest::Approx(4.27 + 0.15 * exponent).epsilon(1e-6));
-        const PlaneSpectrum above = glossySpectrum(WEDGE_SPECULAR_PHONG, exponent, 0);
+        const PlaneSpectrum above = glossySpectrum(WEDGE_PHONG, exponent, 0);
         const double strip = above.first.limit(0.99), box = above.box.limit(0.99);
         CHECK(fit / strip < 1.01);
         CHECK(fit / strip > 0.83);
@@ -157,7 +157,7 @@ TEST_CASE("the Phong fit is right at exponent 4 and up to 17 % below 99 % of the
         worst = std::min(worst, fit / strip);
         // The camera that looks straight down needs the widest band.
         for (const double inclination : { 30.0, 60.0 }) {
-            const Limits aslant = limits(WEDGE_SPECULAR_PHONG, exponent, inclination);
+            const Limits aslant = limits(WEDGE_PHONG, exponent, inclination);
             CHECK(std::max(aslant.strip, aslant.across) < strip);
             CHECK(aslant.box < box);
         }
@@ -167,7 +167,7 @@ TEST_CASE("the Phong fit is right at exponent 4 and up to 17 % below 99 % of the
 
 TEST_CASE("bandlimits outside of the fits' range are finite and no narrower than the lobe")
 {
-    for (const uint model : { WEDGE_SPECULAR_PHONG, WEDGE_SPECULAR_BLINN_PHONG }) {
+    for (const uint model : { WEDGE_PHONG, WEDGE_BLINN_PHONG }) {
         CHECK(glossyBandlimit(-3, model) == glossyBandlimit(0, model));
         CHECK(glossyBandlimit(std::numeric_limits<float>::quiet_NaN(), model) == glossyBandlimit(0, model));
         CHECK(std::isfinite(glossyBandlimit(1e6f, model)));

@@ -2,6 +2,7 @@
 // allowed.
 #pragma once
 
+#include "kernels/shared/material.h"
 #include "kernels/shared/packed.h"
 #include "tests/render_support.h"
 
@@ -102,6 +103,18 @@ inline Planes<float> packedNumbers(const Planes<float>& first, const Planes<floa
     char* bytes = reinterpret_cast<char*>(out.values.data());
     for (std::size_t i = 0; i < 2 * n; ++i) {
         const auto bits = static_cast<std::uint16_t>(shared::packShort(i < n ? first.values[i] : second.values[i - n]));
+        std::memcpy(bytes + sizeof(bits) * i, &bits, sizeof(bits));
+    }
+    return out;
+}
+
+/// packGloss() of all pixels in 16 bits.
+inline Planes<std::uint32_t> shortGlosses(const Planes<std::uint32_t>& plane)
+{
+    Planes<std::uint32_t> out(plane.layout, 1, 0u);
+    char* bytes = reinterpret_cast<char*>(out.values.data());
+    for (std::size_t i = 0; i < plane.values.size(); ++i) {
+        const auto bits = static_cast<std::uint16_t>(shared::packGlossShort(shared::unpackGloss(plane.values[i])));
         std::memcpy(bytes + sizeof(bits) * i, &bits, sizeof(bits));
     }
     return out;

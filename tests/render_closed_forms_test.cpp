@@ -270,7 +270,7 @@ TEST_CASE("point and directional lights are exact")
                     || bvh::anyHit(renderer.hierarchy(), { at(origin), 0, shared::vec3(d.x, d.y, d.z), 0.9999f }))
                     continue;
                 const double lobe = shared::specularLobe(at(normal), shared::vec3(view.x, view.y, view.z),
-                    shared::vec3(l.x, l.y, l.z), 12, WEDGE_SPECULAR_BLINN_PHONG);
+                    shared::vec3(l.x, l.y, l.z), 12, WEDGE_BLINN_PHONG);
                 expected += (0.7 / std::numbers::pi + 0.3 * lobe) * cosine * (point ? 5 / glm::dot(d, d) : 2.0);
             }
             ++shaded;
@@ -389,7 +389,7 @@ TEST_CASE("plain Monte Carlo is unbiased: no pixel is off by more than chance al
                             continue;
                         const double c = std::max(0.0, glm::dot(n, glm::normalize(view + glm::normalize(d))));
                         const double lobe =
-                            shared::specularNormalization(8, WEDGE_SPECULAR_BLINN_PHONG) * std::pow(c, 8);
+                            shared::specularNormalization(8, WEDGE_BLINN_PHONG) * std::pow(c, 8);
                         const double f = light.radiance.x * profileAt(light, a, b) * lightArea(light) * g
                             * (0.8 / std::numbers::pi + 0.2 * lobe);
                         total += f;

@@ -104,7 +104,7 @@ inline shared::Vec3 toShared(glm::dvec3 v)
 
 inline std::uint32_t modelOf(const scene::Material& m)
 {
-    return m.specularModel == scene::SpecularModel::Phong ? WEDGE_SPECULAR_PHONG : WEDGE_SPECULAR_BLINN_PHONG;
+    return m.specularModel == scene::SpecularModel::Phong ? WEDGE_PHONG : WEDGE_BLINN_PHONG;
 }
 
 /// Reflectance of a material without textures in 1/sr, straight from its definition.

@@ -16,8 +16,8 @@ struct Keeping {
 
 /// The planes after all rounds, unpacked.
 struct SurfacesFound {
-    Planes<std::uint32_t> object, rays, pathRays, taken, hits;
-    Planes<float> position, normal, gloss, diffuse, specular, emission, emissionSquares, pixelSize, distance, confusion,
+    Planes<std::uint32_t> object, rays, pathRays, taken, hits, gloss;
+    Planes<float> position, normal, diffuse, specular, emission, emissionSquares, pixelSize, distance, confusion,
         motion;
 
     SurfacesFound(Accumulation& a, const SurfacePixels& p)
@@ -26,9 +26,9 @@ struct SurfacesFound {
         , pathRays(a.read(p.pathRays))
         , taken(a.read(a.primaryTaken))
         , hits(a.read(a.hits))
+        , gloss(a.read(p.gloss))
         , position(a.read(p.position))
         , normal(a.packed != 0 ? normalsOf(a.read(p.normal)) : a.read(p.normal))
-        , gloss(a.packed != 0 ? numbersOf(a.read(p.gloss), 0) : a.read(p.gloss))
         , diffuse(a.read(p.diffuse))
         , specular(a.read(p.specular))
         , emission(a.read(p.emission))
@@ -39,7 +39,7 @@ struct SurfacesFound {
         , motion(a.read(p.motion))
     {
         for (const Planes<float>* planes :
-            { &position, &normal, &gloss, &pixelSize, &diffuse, &emission, &emissionSquares, &distance, &confusion })
+            { &position, &normal, &pixelSize, &diffuse, &emission, &emissionSquares, &distance, &confusion })
             checkElsewhere(a, *planes);
         if (a.packed == 0) {
             checkElsewhere(a, motion);
@@ -151,9 +151,33 @@ inline void requireMeasured(
     }) / std::max<double>(1, static_cast<double>(seen.size()))));
     const std::vector<SeenPoint> hit = hitsOf(seen);
     const double h = std::max<double>(1, static_cast<double>(hit.size())), tolerance = packed != 0 ? 1.0 / 256 : 2e-5;
-    REQUIRE(nearTo(found.gloss.at(x, y), sumOf(hit, [](const SeenPoint& p) { return p.gloss; }) / h, tolerance));
     REQUIRE(
         nearTo(found.pixelSize.at(x, y), sumOf(hit, [](const SeenPoint& p) { return p.pixelSize; }) / h, tolerance));
+}
+
+/// Kind and mean exponent of the lobes that the first round with a lobe has seen.
+inline void requireGloss(
+    const SurfacesFound& found, std::uint32_t packed, const std::vector<SeenPoint>& seen, const Rounds& rounds, int x, int y)
+{
+    double sum = 0, lobes = 0;
+    std::uint32_t kind = WEDGE_LAMBERT, first = 0;
+    for (const auto& upTo : rounds) {
+        for (const std::uint32_t last = upTo(x, y); first < last; ++first) {
+            const SeenPoint& p = seen[first];
+            if (p.object == 0 || p.gloss.kind == WEDGE_LAMBERT)
+                continue;
+            kind = kind == WEDGE_LAMBERT ? p.gloss.kind : kind;
+            // Blinn-Phong's exponent is four times Phong's of the same width.
+            sum += p.gloss.exponent * (p.gloss.kind == kind ? 1 : kind == WEDGE_PHONG ? 0.25 : 4);
+            ++lobes;
+        }
+        if (lobes > 0)
+            break;
+    }
+    const shared::Gloss gloss = packed != 0 ? shared::unpackGlossShort(shortOf(found.gloss, x, y, 0))
+                                            : shared::unpackGloss(found.gloss.at(x, y));
+    REQUIRE(gloss.kind == kind);
+    REQUIRE((lobes == 0 || nearTo(gloss.exponent, sum / lobes, packed != 0 ? 1.0 / 500 : 2e-5)));
 }
 
 /// What layers show: lean frames leave it as it was.
@@ -234,6 +258,7 @@ inline SurfaceKinds requireSurfaces(
         if (a.packed != 0)
             measured.resize(rounds[0](x, y));
         requireMeasured(found, a.packed, measured, x, y);
+        requireGloss(found, a.packed, seen, a.packed != 0 ? Rounds { rounds[0] } : rounds, x, y);
         requireLayers(a, found, x, y);
         if (seen.empty())
             return;

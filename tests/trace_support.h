@@ -31,9 +31,9 @@ struct SurfaceBuffers {
         , diffuse(floats(bench, layout, 3))
         , specular(floats(bench, layout, 3))
         , emission(floats(bench, layout, 3))
-        , gloss(floats(bench, layout, 1))
         , geometric(counts(bench, layout))
         , objectId(counts(bench, layout))
+        , gloss(counts(bench, layout))
         , rays(counts(bench, layout))
         , pathRays(counts(bench, layout))
         , ofWaves(bench.filled(1, 0u))
@@ -45,8 +45,8 @@ struct SurfaceBuffers {
         return std::tie(position, normal, origin, geometric, objectId, gloss, ofWaves, ofWaves, ofWaves);
     }
 
-    device::Buffer<float> position, normal, origin, depth, pixelSize, diffuse, specular, emission, gloss;
-    device::Buffer<std::uint32_t> geometric, objectId, rays, pathRays;
+    device::Buffer<float> position, normal, origin, depth, pixelSize, diffuse, specular, emission;
+    device::Buffer<std::uint32_t> geometric, objectId, gloss, rays, pathRays;
     device::Buffer<std::uint32_t> ofWaves; ///< which nobody reads
 
 private:

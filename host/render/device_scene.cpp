@@ -25,6 +25,15 @@ double profileMean(const scene::AreaLight& light)
     return std::sqrt(std::acos(-1.0) / 2.0) * std::erf(cut / std::sqrt(2.0)) / cut;
 }
 
+/// Textures multiply the specular colour.
+std::uint32_t kindOf(const scene::Material& m)
+{
+    if (m.specular == glm::vec3(0.0f)) {
+        return WEDGE_LAMBERT;
+    }
+    return m.specularModel == scene::SpecularModel::Phong ? WEDGE_PHONG : WEDGE_BLINN_PHONG;
+}
+
 std::vector<shared::MaterialData> materialData(const scene::Scene& scene)
 {
     std::vector<shared::MaterialData> out;
@@ -34,8 +43,7 @@ std::vector<shared::MaterialData> materialData(const scene::Scene& scene)
         d.specular = toVec3(m.specular);
         d.emission = toVec3(m.emission);
         d.exponent = m.exponent;
-        d.specularModel =
-            m.specularModel == scene::SpecularModel::Phong ? WEDGE_SPECULAR_PHONG : WEDGE_SPECULAR_BLINN_PHONG;
+        d.kind = kindOf(m);
         d.diffuseTexture = textureId(m.diffuseTexture);
         d.specularTexture = textureId(m.specularTexture);
         d.exponentTexture = textureId(m.exponentTexture);

@@ -91,7 +91,6 @@ graph::Handle<Quantity> DistributedSamples::kept(const std::string& name, const 
 
 void DistributedSamples::keepPixels()
 {
-    const graph::Format number = f_.packed ? shortFloats : graph::floats;
     Surfaces& s = f_.surfaces;
     s.position = kept<Position>("position", graph::vectors);
     s.normal = kept<Normal>("normal", f_.packed ? packedNormals : graph::vectors);
@@ -101,8 +100,8 @@ void DistributedSamples::keepPixels()
     hits_ = kept<Count>("hits", f_.packed ? shortCounts : graph::counts);
     confusion_ = kept<Pixels>("circles of confusion", f_.packed ? shortFloats : graph::floatPlanes(2));
     if (shape_.measures()) {
-        s.pixelSize = kept<Metres>("pixel size", number);
-        s.gloss = kept<Gloss>("gloss", number);
+        s.pixelSize = kept<Metres>("pixel size", f_.packed ? shortFloats : graph::floats);
+        s.gloss = kept<Gloss>("gloss", f_.packed ? shortGloss : graph::counts);
         emissionSquares_ = kept<Squares>("emission squares", graph::floats);
     }
     if (keepsMotion()) {

@@ -21,7 +21,7 @@ struct Packed { }; ///< a normal in one number
 struct Metres { };
 struct ObjectId { }; ///< from 1; 0: nothing was hit
 struct Reflectance { };
-struct Gloss { }; ///< exponent of the lobe
+struct Gloss { }; ///< kind and exponent of what is reflected, packGloss()
 struct Radiance { };
 struct Deviation { }; ///< numbers whose squares are variances in the mean
 struct Count { };
@@ -41,6 +41,7 @@ struct Listed { }; ///< of waves' lists, see waves.cl
 inline constexpr graph::Format shortFloats { "short1", 2, "float", "", "", "" };
 inline constexpr graph::Format shortPairs { "short2", 4, "float", "", "", "" };
 inline constexpr graph::Format shortCounts { "ushort1", 2, "uint", "", "", "" };
+inline constexpr graph::Format shortGloss { "gloss16", 2, "uint", "", "", "" };
 inline constexpr graph::Format packedNormals { "normal32", 4, "float", "", "", "" };
 inline constexpr graph::Format packedColours { "colour48", 6, "float", "", "", "" };
 inline constexpr graph::Format packedFractions { "fraction32", 4, "float", "", "", "" };

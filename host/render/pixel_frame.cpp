@@ -78,7 +78,7 @@ void PixelFrame::primary(bool lit)
     s.diffuse = graph_.plane<Reflectance>("diffuse", graph::vectors);
     s.specular = graph_.plane<Reflectance>("specular", graph::vectors);
     s.emission = graph_.plane<Radiance>("emission", graph::vectors);
-    s.gloss = graph_.plane<Gloss>("gloss", graph::floats);
+    s.gloss = graph_.plane<Gloss>("gloss", graph::counts);
     Totals& t = f_.totals;
     for (Sum* sum : { &t.direct, &t.indirect }) {
         const std::string name = sum == &t.direct ? "direct" : "indirect";

@@ -241,7 +241,7 @@ void Waves::trace(bool lit)
     r_.origin = list<Position>("origins", graph::vectors);
     r_.geometric = list<Packed>("geometric normals", graph::counts);
     r_.objectId = list<ObjectId>("object ids", graph::counts);
-    r_.gloss = list<Gloss>("gloss", graph::floats);
+    r_.gloss = list<Gloss>("gloss", graph::counts);
     r_.view = list<Packed>("views", graph::counts);
     r_.time = list<Share>("times", graph::floats);
     r_.diffuse = list<Reflectance>("diffuse", graph::vectors);

@@ -184,24 +184,24 @@ __kernel void widths(AnalysisParams p, __global const float* restrict logSlopes,
 /// Narrows a width to what a highlight allows, by its share of what arrives. A lobe that is narrower than the light has
 /// sharper shadows, and moves over the light as the receiver moves: an edge at distance o of the receiver, seen in a
 /// lobe of standard deviation a from distance e, is a / (1 / o + 1 / e) wide, as a reflected image is. 1 / beta^2 =
-/// 1 / beta_diffuse^2 + share / beta_lobe^2. wide: beta_diffuse > 0, metres; gloss: exponent, negative for Phong
-WEDGE_FN float narrowed(AnalysisParams p, Vec3 toLight, Vec3 toEye, float gloss, float share, float wide)
+/// 1 / beta_diffuse^2 + share / beta_lobe^2. wide: beta_diffuse > 0, metres
+WEDGE_FN float narrowed(AnalysisParams p, Vec3 toLight, Vec3 toEye, Gloss lobe, float share, float wide)
 {
     const float light = vecLength(toLight), eye = vecLength(toEye);
     // Of Blinn-Phong the half vector has that deviation, and the direction |l + v| times as much.
     const float spread = vecLength(vecAdd(vecScale(toLight, 1.0f / light), vecScale(toEye, 1.0f / eye)));
-    const float deviation = (gloss < 0.0f ? 1.0f : spread) * rsqrt(fmax(fabs(gloss), 1.0f));
+    const float deviation = (lobe.kind == WEDGE_PHONG ? 1.0f : spread) * rsqrt(fmax(lobe.exponent, 1.0f));
     const float slope = wide * p.k * p.mu / p.sigma;
     const float occluder = light * slope / (1.0f + slope);
-    const float lobe = deviation / ((1.0f / occluder + 1.0f / eye) * p.k * p.mu);
-    return rsqrt(1.0f / (wide * wide) + share / (lobe * lobe));
+    const float ofLobe = deviation / ((1.0f / occluder + 1.0f / eye) * p.k * p.mu);
+    return rsqrt(1.0f / (wide * wide) + share / (ofLobe * ofLobe));
 }
 
 /// narrowed() where the pixels are the receivers.
 /// in      sums: of the light's samples, as area_light.cl has them, with the specular ones
 /// in out  beta
 __kernel void narrowForLobes(AnalysisParams p, FrameParams frame, __global const float* restrict sums,
-    __global const float* restrict position, __global const float* restrict gloss,
+    __global const float* restrict position, __global const uint* restrict gloss,
     __global const float* restrict diffuse, __global const float* restrict specular, __global float* restrict beta)
 {
     const uint x = p.x0 + get_global_id(0);
@@ -217,7 +217,7 @@ __kernel void narrowForLobes(AnalysisParams p, FrameParams frame, __global const
     }
     const float matt = luminance(loadVec(diffuse, p.planeSize, i)) * WEDGE_INV_PI * sums[i];
     const Vec3 at = loadVec(position, p.planeSize, i);
-    beta[i] = narrowed(p, vecSub(p.lightCentre, at), vecSub(frame.eye, at), gloss[i], lobes / (lobes + matt), wide);
+    beta[i] = narrowed(p, vecSub(p.lightCentre, at), vecSub(frame.eye, at), unpackGloss(gloss[i]), lobes / (lobes + matt), wide);
 }
 
 /// narrowed() of pixels of many receivers, which keep what they reflect of the light as one. At least what a white matt
@@ -226,7 +226,7 @@ __kernel void narrowForLobes(AnalysisParams p, FrameParams frame, __global const
 /// in out  beta
 __kernel void narrowForHighlights(AnalysisParams p, FrameParams frame, AreaLight light, uint bits,
     __global const float* restrict texture, __global const float* restrict position,
-    __global const float* restrict gloss, __global const uint* restrict objectId, __global float* restrict beta)
+    __global const uint* restrict gloss, __global const uint* restrict objectId, __global float* restrict beta)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -245,7 +245,7 @@ __kernel void narrowForHighlights(AnalysisParams p, FrameParams frame, AreaLight
     const float white = WEDGE_INV_PI * luminance(light.power) / fmax(nearest * nearest, 1e-20f);
     const float reflected = luminance(loadColour(texture, p.planeSize, i, bits));
     if (reflected > white) {
-        beta[i] = narrowed(p, toLight, vecSub(frame.eye, at), loadNumber(gloss, p.planeSize, i, p.packed, 0u),
+        beta[i] = narrowed(p, toLight, vecSub(frame.eye, at), loadGloss(gloss, i, p.packed),
             1.0f - white / reflected, wide);
     }
 }

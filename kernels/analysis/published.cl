@@ -75,7 +75,7 @@ __kernel void publishedShadows(DistributedParams p, float mu, float lightExtent,
 
 /// A component's widths (5.22) and counts (5.26), (5.28). reflectors: z_min, z_max.
 __kernel void publishedReflectors(DistributedParams p, float mu, uint component, __global const float* restrict flags,
-    __global const float* restrict reflectors, __global const float* restrict gloss,
+    __global const float* restrict reflectors, __global const uint* restrict gloss,
     __global const float* restrict confusion, __global const float* restrict pixelSize,
     __global const uint* restrict objectId, __global float* restrict beta, __global float* restrict demand)
 {
@@ -83,9 +83,9 @@ __kernel void publishedReflectors(DistributedParams p, float mu, uint component,
     if (!pixelOf(p, &x, &y, &i)) {
         return;
     }
-    const uint model = gloss[i] < 0.0f ? WEDGE_SPECULAR_PHONG : WEDGE_SPECULAR_BLINN_PHONG;
+    const Gloss lobe = unpackGloss(gloss[i]);
     const float transfer =
-        component == WEDGE_COMPONENT_GLOSSY ? glossyBandlimit(fabs(gloss[i]), model) : WEDGE_DIFFUSE_BANDLIMIT;
+        component == WEDGE_COMPONENT_GLOSSY ? glossyBandlimit(lobe.exponent, lobe.kind) : WEDGE_DIFFUSE_BANDLIMIT;
     const float rMin = leastConfusion(p, confusion, i), rMax = largestConfusion(p, confusion, i);
     const bool apart = medianFlag(p, flags, x, y);
     const float factored = scaledBandlimit(indirectBandlimit(reflectors[i], transfer, pixelSize[i], rMin), mu);

@@ -4,6 +4,7 @@
 
 #include "core/pixel.h"
 #include "core/vector16.h"
+#include "shared/material.h"
 #include "shared/packed.h"
 
 /// A colour of three planes, of one and a half, or of one.
@@ -78,6 +79,21 @@ WEDGE_FN float loadShort(__global const float* plane, uint planeSize, uint i, ui
 WEDGE_FN float loadNumber(__global const float* plane, uint planeSize, uint i, uint packed, uint which)
 {
     return packed != 0u ? loadShort(plane, planeSize, i, which) : plane[i];
+}
+
+/// What packGloss() or, packed, packGlossShort() made.
+WEDGE_FN Gloss loadGloss(__global const uint* plane, uint i, uint packed)
+{
+    return packed != 0u ? unpackGlossShort(((__global const ushort*)plane)[i]) : unpackGloss(plane[i]);
+}
+
+WEDGE_FN void storeGloss(__global uint* plane, uint i, uint packed, Gloss g)
+{
+    if (packed != 0u) {
+        ((__global ushort*)plane)[i] = (ushort)packGlossShort(g);
+    } else {
+        plane[i] = packGloss(g);
+    }
 }
 
 /// Primary samples with a surface: packed, these are whole numbers of 16 bits.

@@ -10,7 +10,7 @@ typedef struct {
     __global const float *position, *normal, *origin; ///< 3 planes each, as primary.cl has them
     __global const uint* geometric;
     __global const uint* objectId; ///< 0: nothing to shade
-    __global const float* gloss;
+    __global const uint* gloss; ///< packGloss()
     __global const uint* pixelOf; ///< of a wave: x in the lower 16 bits, y in the upper
     __global const uint* view; ///< of a wave: packed direction to where the primary ray came from
     __global const float* time; ///< of a wave: in [0, 1] while the shutter is open
@@ -20,7 +20,7 @@ typedef struct {
 #define WEDGE_RECEIVER_PARAMETERS                                                                                      \
     __global const float *restrict position, __global const float *restrict normal,                                    \
         __global const float *restrict origin, __global const uint *restrict geometric,                                \
-        __global const uint *restrict objectId, __global const float *restrict gloss,                                  \
+        __global const uint *restrict objectId, __global const uint *restrict gloss,                                  \
         __global const uint *restrict pixelOf, __global const uint *restrict view, __global const float *restrict time
 #define WEDGE_RECEIVER_ARGUMENTS receiverData(position, normal, origin, geometric, objectId, gloss, pixelOf, view, time)
 

@@ -93,7 +93,7 @@ WEDGE_FN float16 specularShading(SampleParams params, AreaLight light, Receivers
 /// part of the samples is in the fourth. directions: of each lobe that is too sharp for a rule
 __kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light, FrameParams frame, uint directions,
     __global const float* restrict nodes, __global const float* restrict position,
-    __global const float* restrict normal, __global const uint* restrict objectId, __global const float* restrict gloss,
+    __global const float* restrict normal, __global const uint* restrict objectId, __global const uint* restrict gloss,
     __global const float* restrict specular, __global const float* restrict value, __global const float* restrict noisy,
     __global const uint* restrict taken, __global float* restrict direct, __global float* restrict directNoisy,
     __global float* restrict deviation)
@@ -112,7 +112,7 @@ __kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light
     }
     const Vec3x16 at = loadVecBlock(position, size, i);
     const Receivers16 r =
-        glossyReceivers(at, loadVecBlock(normal, size, i), unit16(sub16(splat3(frame.eye), at)), loadBlock(gloss, i));
+        glossyReceivers(at, loadVecBlock(normal, size, i), unit16(sub16(splat3(frame.eye), at)), loadIdBlock(gloss, i));
     LobeDirections lobes;
     lobes.pixel = (x + (uint16)(0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 9u, 10u, 11u, 12u, 13u, 14u, 15u)) | (y << 16);
     lobes.first = (uint16)(0u);

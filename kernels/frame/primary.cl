@@ -3,7 +3,7 @@
 // in   frame, BVH, surfaces, area lights (the camera sees those that are visible)
 // out  position, normal, origin (3 planes each), geometric (normal, packed), objectId (0: nothing to shade), depth (ray
 //      distance, +inf on a miss), pixelSize (projected edge of the pixel on the surface, metres), diffuse, specular,
-//      emission (3 each; emission holds background and light radiance where nothing is shaded), gloss (exponent;
+//      emission (3 each; emission holds background and light radiance where nothing is shaded), gloss (packed;
 //      negative: Phong)
 #include "core/pixel.h"
 #include "light/seen_light.h"
@@ -23,7 +23,7 @@ __kernel void primary(FrameParams frame, __global const TraversalNode* restrict 
     __global float* restrict normal, __global float* restrict origin, __global uint* restrict geometric,
     __global uint* restrict objectId, __global float* restrict depth, __global float* restrict pixelSize,
     __global float* restrict diffuse, __global float* restrict specular, __global float* restrict emission,
-    __global float* restrict gloss, uint firstGroup)
+    __global uint* restrict gloss, uint firstGroup)
 {
     const SurfaceData data = WEDGE_SURFACE_ARGUMENTS;
     const uint size = frame.planeSize;
@@ -66,6 +66,6 @@ __kernel void primary(FrameParams frame, __global const TraversalNode* restrict 
         storeVec(diffuse, size, i, s.diffuse);
         storeVec(specular, size, i, s.specular);
         storeVec(emission, size, i, s.emission);
-        gloss[i] = s.specularModel == WEDGE_SPECULAR_PHONG ? -s.exponent : s.exponent;
+        gloss[i] = packGloss(s.gloss);
     }
 }

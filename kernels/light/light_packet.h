@@ -14,7 +14,7 @@ typedef struct {
     float originX[WEDGE_PACKET_SIZE], originY[WEDGE_PACKET_SIZE], originZ[WEDGE_PACKET_SIZE];
     float positionX[WEDGE_PACKET_SIZE], positionY[WEDGE_PACKET_SIZE], positionZ[WEDGE_PACKET_SIZE];
     float normalX[WEDGE_PACKET_SIZE], normalY[WEDGE_PACKET_SIZE], normalZ[WEDGE_PACKET_SIZE];
-    float gloss[WEDGE_PACKET_SIZE]; ///< as in the plane of that name
+    uint gloss[WEDGE_PACKET_SIZE]; ///< as in the plane of that name
     uint cut[WEDGE_PACKET_SIZE], turned[WEDGE_PACKET_SIZE]; ///< of the light's part that is sampled, see LightPart
     float first[WEDGE_PACKET_SIZE], range[WEDGE_PACKET_SIZE], height[WEDGE_PACKET_SIZE];
     float inner[WEDGE_PACKET_SIZE], outer[WEDGE_PACKET_SIZE];
@@ -26,7 +26,7 @@ typedef struct {
     float viewX[WEDGE_PACKET_SIZE], viewY[WEDGE_PACKET_SIZE], viewZ[WEDGE_PACKET_SIZE]; ///< unit, to the eye
     float exponent[WEDGE_PACKET_SIZE], normalization[WEDGE_PACKET_SIZE],
         leastCosine[WEDGE_PACKET_SIZE]; ///< of the lobe
-    uint model[WEDGE_PACKET_SIZE];
+    uint kind[WEDGE_PACKET_SIZE];
 #endif
 } ReceiverPacket;
 
@@ -35,7 +35,7 @@ WEDGE_INLINE Lobe laneLobe(const ReceiverPacket* r, uint lane)
 {
     Lobe lobe;
     lobe.exponent = r->exponent[lane];
-    lobe.model = r->model[lane];
+    lobe.kind = r->kind[lane];
     lobe.normalization = r->normalization[lane];
     lobe.leastCosine = r->leastCosine[lane];
     return lobe;
@@ -92,7 +92,7 @@ WEDGE_FN void loadReceivers(
         receivers->normalX[lane] = n.x;
         receivers->normalY[lane] = n.y;
         receivers->normalZ[lane] = n.z;
-        receivers->gloss[lane] = shaded ? data.gloss[i] : 1.0f;
+        receivers->gloss[lane] = shaded ? data.gloss[i] : 0u;
 #ifdef WEDGE_MOTION
         receivers->time[lane] = shaded && frame.receivers > 0u ? data.time[i] : 0.0f;
 #endif
@@ -103,7 +103,7 @@ WEDGE_FN void loadReceivers(
         receivers->viewZ[lane] = view.z;
         const Lobe lobe = glossLobe(receivers->gloss[lane]);
         receivers->exponent[lane] = lobe.exponent;
-        receivers->model[lane] = lobe.model;
+        receivers->kind[lane] = lobe.kind;
         receivers->normalization[lane] = lobe.normalization;
         receivers->leastCosine[lane] = lobe.leastCosine;
 #endif

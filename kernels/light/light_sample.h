@@ -15,10 +15,11 @@ typedef struct {
     Lobe lobe; ///< of the specular reflection
 } Receiver;
 
-/// The lobe of a gloss plane's value: its exponent, negative for Phong.
-WEDGE_INLINE Lobe glossLobe(float gloss)
+/// The lobe of a gloss plane's value.
+WEDGE_INLINE Lobe glossLobe(uint packed)
 {
-    return makeLobe(fabs(gloss), gloss < 0.0f ? WEDGE_SPECULAR_PHONG : WEDGE_SPECULAR_BLINN_PHONG);
+    const Gloss g = unpackGloss(packed);
+    return makeLobe(g.exponent, g.kind);
 }
 
 /// Seed of the samples of a pixel and light.

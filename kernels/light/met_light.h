@@ -61,7 +61,7 @@ WEDGE_FN bool narrowLobes(SampleParams params, AreaLight light, const ReceiverPa
         const float squared = fmax(vecDot(d, d), 1e-30f);
         const float widening = fmax(2.0f + 2.0f * vecDot(laneView(r, lane), d) * rsqrt(squared), 1e-6f);
         const float across = extent * r->exponent[lane] / squared;
-        const bool phong = r->model[lane] == WEDGE_SPECULAR_PHONG;
+        const bool phong = r->kind[lane] == WEDGE_PHONG;
         const bool found = (phong ? across : across / widening) > WEDGE_LOBE_SAMPLED;
         narrow[lane] = found && params.shading == WEDGE_SHADING_RATIO && r->pixel[lane] != WEDGE_NO_PIXEL ? 1u : 0u;
         any |= narrow[lane];

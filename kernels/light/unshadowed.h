@@ -93,14 +93,15 @@ WEDGE_FN Receivers16 mattReceivers(Vec3x16 position, Vec3x16 normal)
     return r;
 }
 
-/// gloss: exponents, negative for Phong.
-WEDGE_FN Receivers16 glossyReceivers(Vec3x16 position, Vec3x16 normal, Vec3x16 view, float16 gloss)
+/// gloss: packGloss() of each.
+WEDGE_FN Receivers16 glossyReceivers(Vec3x16 position, Vec3x16 normal, Vec3x16 view, uint16 gloss)
 {
     Receivers16 r = mattReceivers(position, normal);
     r.view = view;
     r.cosine = dot16(normal, view);
-    r.exponent = fabs(gloss);
-    r.phong = gloss < 0.0f;
+    const uint kinds = (1u << WEDGE_KIND_BITS) - 1u;
+    r.exponent = as_float16(gloss & ~kinds);
+    r.phong = (gloss & kinds) == WEDGE_PHONG;
     return r;
 }
 
@@ -386,7 +387,7 @@ typedef struct {
     float normalX[WEDGE_BLOCK_PIXELS], normalY[WEDGE_BLOCK_PIXELS], normalZ[WEDGE_BLOCK_PIXELS];
     float viewX[WEDGE_BLOCK_PIXELS], viewY[WEDGE_BLOCK_PIXELS], viewZ[WEDGE_BLOCK_PIXELS];
     float exponent[WEDGE_BLOCK_PIXELS], normalization[WEDGE_BLOCK_PIXELS];
-    uint model[WEDGE_BLOCK_PIXELS];
+    uint kind[WEDGE_BLOCK_PIXELS];
 } ReceiverLanes;
 
 WEDGE_FN ReceiverLanes lanesOf(Receivers16 r)
@@ -403,7 +404,7 @@ WEDGE_FN ReceiverLanes lanesOf(Receivers16 r)
     vstore16(r.view.z, 0, lanes.viewZ);
     vstore16(r.exponent, 0, lanes.exponent);
     vstore16(normalization16(r), 0, lanes.normalization);
-    vstore16(r.phong ? (uint16)(WEDGE_SPECULAR_PHONG) : (uint16)(WEDGE_SPECULAR_BLINN_PHONG), 0, lanes.model);
+    vstore16(r.phong ? (uint16)(WEDGE_PHONG) : (uint16)(WEDGE_BLINN_PHONG), 0, lanes.kind);
     return lanes;
 }
 
@@ -415,7 +416,7 @@ WEDGE_INLINE float broughtByLobe(AreaLight light, const ReceiverLanes* r, uint l
     const Vec3 v = vec3(r->viewX[lane], r->viewY[lane], r->viewZ[lane]);
     Lobe lobe;
     lobe.exponent = r->exponent[lane];
-    lobe.model = r->model[lane];
+    lobe.kind = r->kind[lane];
     lobe.normalization = r->normalization[lane];
     lobe.leastCosine = 0.0f;
     const Vec3 l = sampleLobe(lobe, n, v, u);

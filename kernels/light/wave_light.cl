@@ -28,7 +28,7 @@ __kernel void unshadowedReceivers(FrameParams frame, WaveParams wave, AreaLight 
     __global const float* restrict nodes, __global const uint* restrict pixelOf, __global const uint* restrict sampleOf,
     __global const float* restrict position, __global const float* restrict normal,
     __global const uint* restrict objectId, __global const float* restrict specular,
-    __global const float* restrict gloss, __global const uint* restrict view, __global float* restrict unshadowed)
+    __global const uint* restrict gloss, __global const uint* restrict view, __global float* restrict unshadowed)
 {
     const uint first = get_global_id(0) * WEDGE_BLOCK_PIXELS;
     if (frame.tileCount == 0u || first >= wave.receivers) {
@@ -45,7 +45,7 @@ __kernel void unshadowedReceivers(FrameParams frame, WaveParams wave, AreaLight 
     float16 lobes = (float16)(0.0f);
     if (any(mirrors)) {
         const Receivers16 r =
-            glossyReceivers(at, facing, unpackDirection16(loadIdBlock(view, (int)first)), loadBlock(gloss, (int)first));
+            glossyReceivers(at, facing, unpackDirection16(loadIdBlock(view, (int)first)), loadIdBlock(gloss, (int)first));
         LobeDirections directions;
         directions.pixel = loadIdBlock(pixelOf, (int)first);
         directions.first = loadIdBlock(sampleOf, (int)first) * WEDGE_LOBE_DIRECTIONS;

@@ -59,10 +59,10 @@ WEDGE_FN Scattering scatteringOf(const Surface* s, Vec3 direction)
     const float g = luminance(s->specular);
     out.glossy = g > 0.0f;
     out.diffuseShare = out.glossy ? d / (d + g) : 1.0f;
-    out.lobe.model = s->specularModel;
+    out.lobe.kind = s->gloss.kind;
     out.lobe.exponent = out.lobe.normalization = out.lobe.leastCosine = 1.0f;
     if (out.glossy) {
-        out.lobe = makeLobe(s->exponent, s->specularModel);
+        out.lobe = makeLobe(s->gloss.exponent, s->gloss.kind);
     }
     return out;
 }

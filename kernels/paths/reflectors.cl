@@ -58,12 +58,10 @@ WEDGE_FN float leastDistance(ReflectorParams p, __global const float* extent)
     return fmax(p.leastReflector * (p.extent > 0.0f ? p.extent : extent[0]), 1e-12f);
 }
 
-/// Bandlimit of a pixel's transfer function; gloss: exponents, negative for Phong.
-WEDGE_FN float bandlimitOf(uint component, float gloss)
+/// Bandlimit of a pixel's transfer function.
+WEDGE_FN float bandlimitOf(uint component, Gloss lobe)
 {
-    return component == WEDGE_COMPONENT_GLOSSY
-        ? glossyBandlimit(fabs(gloss), gloss < 0.0f ? WEDGE_SPECULAR_PHONG : WEDGE_SPECULAR_BLINN_PHONG)
-        : WEDGE_DIFFUSE_BANDLIMIT;
+    return component == WEDGE_COMPONENT_GLOSSY ? glossyBandlimit(lobe.exponent, lobe.kind) : WEDGE_DIFFUSE_BANDLIMIT;
 }
 
 /// Distances, infinite where nothing was hit.
@@ -112,7 +110,7 @@ WEDGE_FN Nearness nearness(ReflectorParams p, uint x, uint y, uint i, __global c
 /// stands for it (WEDGE_NEAREST_FRACTION); no counts.
 __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict reflectors,
     __global const uint* restrict objectId, __global const float* restrict extent,
-    __global const float* restrict pixelSize, __global const float* restrict gloss, __global const uint* restrict taken,
+    __global const float* restrict pixelSize, __global const uint* restrict gloss, __global const uint* restrict taken,
     __global float* restrict beta, __global uint* restrict wanted)
 {
     const uint x = p.x0 + get_global_id(0);
@@ -122,7 +120,7 @@ __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict 
     }
     const uint i = pixelIndex(x, y, p.stride);
     const float size = loadNumber(pixelSize, p.planeSize, i, p.meanOnly, 0u);
-    const float exponent = loadNumber(gloss, p.planeSize, i, p.meanOnly, 0u);
+    const Gloss lobe = loadGloss(gloss, i, p.meanOnly);
     // As published of the pixel's own rays.
     float near = reflectors[i] > 0.0f ? reflectors[i] : INFINITY;
     if (p.meanFraction > 0.0f) {
@@ -136,8 +134,8 @@ __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict 
     const float far = p.extent > 0.0f ? p.extent : extent[0];
     const float zMin = fmax(near < INFINITY ? near : far, leastDistance(p, extent));
     const float zMax = fmax(p.meanOnly != 0u ? zMin : reflectors[p.planeSize + i], zMin);
-    const float bandlimit = bandlimitOf(p.component, exponent);
-    const float gamma = p.component == WEDGE_COMPONENT_GLOSSY ? glossyGamma(fabs(exponent)) : WEDGE_DIFFUSE_GAMMA;
+    const float bandlimit = bandlimitOf(p.component, lobe);
+    const float gamma = p.component == WEDGE_COMPONENT_GLOSSY ? glossyGamma(lobe.exponent) : WEDGE_DIFFUSE_GAMMA;
     const float bandwidth = indirectBandwidth(zMin, bandlimit, size, p.mu, p.alpha);
     const float wide = p.fixedWidth > 0.0f ? p.fixedWidth * size : p.widthScale / bandwidth;
     const float count = indirectCount(zMin, zMax, bandlimit, gamma, size, p.mu, p.alpha);

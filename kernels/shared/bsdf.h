@@ -2,12 +2,11 @@
 #ifndef WEDGE_SHARED_BSDF_H
 #define WEDGE_SHARED_BSDF_H
 
+#include "material.h"
 #include "maths.h"
 #include "rng.h"
 #include "vec.h"
 
-#define WEDGE_SPECULAR_BLINN_PHONG 0u
-#define WEDGE_SPECULAR_PHONG 1u
 #define WEDGE_INV_PI 0.318309886f
 
 WEDGE_SHARED_BEGIN
@@ -15,28 +14,28 @@ WEDGE_SHARED_BEGIN
 /// What multiplies the power of the cosine so that the lobe reflects at most what arrives, 1/sr. Phong:
 /// (m + 2) / 2 pi (Lafortune and Willems 1994); Blinn-Phong: (m + 2)(m + 4) / 8 pi (2^(-m/2) + m), the exact
 /// albedo at normal incidence.
-WEDGE_INLINE float specularNormalization(float exponent, uint model)
+WEDGE_INLINE float specularNormalization(float exponent, uint kind)
 {
     const float phong = (exponent + 2.0f) * (0.5f * WEDGE_INV_PI);
     const float blinn =
         (exponent + 2.0f) * (exponent + 4.0f) * (0.125f * WEDGE_INV_PI) / (exp2Bounded(-0.5f * exponent) + exponent);
-    return model == WEDGE_SPECULAR_PHONG ? phong : blinn;
+    return kind == WEDGE_PHONG ? phong : blinn;
 }
 
 /// A specular lobe with what does not depend on directions worked out once.
 typedef struct {
     float exponent;
-    uint model; ///< WEDGE_SPECULAR_*
+    uint kind; ///< WEDGE_PHONG and so on; of WEDGE_LAMBERT nobody asks
     float normalization;
     float leastCosine; ///< below it the lobe is under 1e-7 of its peak and counts as 0: most of a scene's directions
 } Lobe;
 
-WEDGE_INLINE Lobe makeLobe(float exponent, uint model)
+WEDGE_INLINE Lobe makeLobe(float exponent, uint kind)
 {
     Lobe lobe;
     lobe.exponent = exponent;
-    lobe.model = model;
-    lobe.normalization = specularNormalization(exponent, model);
+    lobe.kind = kind;
+    lobe.normalization = specularNormalization(exponent, kind);
     lobe.leastCosine = exp2Bounded(-23.2534966f / fmax(exponent, 1e-3f));
     return lobe;
 }
@@ -50,7 +49,7 @@ typedef struct {
 /// For unit vectors: n normal, v to the viewer, l to the light, both above n's horizon.
 WEDGE_INLINE LobeAt lobeAt(Lobe lobe, Vec3 n, Vec3 v, Vec3 l)
 {
-    const bool phong = lobe.model == WEDGE_SPECULAR_PHONG;
+    const bool phong = lobe.kind == WEDGE_PHONG;
     const Vec3 sum = vecAdd(v, l);
     const float inverse = 1.0f / fmax(vecLength(sum), 1e-20f);
     const float across = vecDot(v, sum) * inverse; // of the half vector to the view
@@ -120,7 +119,7 @@ WEDGE_INLINE Vec3 powerCosineDirection(Vec3 n, float exponent, Vec2 u)
 /// nothing. Phong: about the mirrored view; Blinn-Phong: the view mirrored by a half vector about n.
 WEDGE_INLINE Vec3 sampleLobe(Lobe lobe, Vec3 n, Vec3 v, Vec2 u)
 {
-    const bool phong = lobe.model == WEDGE_SPECULAR_PHONG;
+    const bool phong = lobe.kind == WEDGE_PHONG;
     const Vec3 mirrored = vecMad(vecScale(v, -1.0f), n, 2.0f * vecDot(n, v));
     const Vec3 axis = vec3(phong ? mirrored.x : n.x, phong ? mirrored.y : n.y, phong ? mirrored.z : n.z);
     const Vec3 h = powerCosineDirection(axis, lobe.exponent, u);
@@ -134,7 +133,7 @@ WEDGE_INLINE float lobePdf(Lobe lobe, Vec3 n, Vec3 v, Vec3 l) { return lobeAt(lo
 /// lobeValue() over lobePdf() at a direction that sampleLobe() gave; 0 where the lobe is cut off.
 WEDGE_INLINE float lobeOverPdf(Lobe lobe, Vec3 n, Vec3 v, Vec3 l)
 {
-    const bool phong = lobe.model == WEDGE_SPECULAR_PHONG;
+    const bool phong = lobe.kind == WEDGE_PHONG;
     const float scale = 6.28318531f * lobe.normalization / (lobe.exponent + 1.0f);
     const Vec3 h = vecNormalize(vecAdd(v, l));
     const float mirrored = 2.0f * vecDot(n, v) * vecDot(n, l) - vecDot(v, l);
@@ -145,9 +144,9 @@ WEDGE_INLINE float lobeOverPdf(Lobe lobe, Vec3 n, Vec3 v, Vec3 l)
 }
 
 /// The same for a lobe that is used once.
-WEDGE_FN float specularLobe(Vec3 n, Vec3 v, Vec3 l, float exponent, uint model)
+WEDGE_FN float specularLobe(Vec3 n, Vec3 v, Vec3 l, float exponent, uint kind)
 {
-    return lobeValue(makeLobe(exponent, model), n, v, l);
+    return lobeValue(makeLobe(exponent, kind), n, v, l);
 }
 
 WEDGE_SHARED_END

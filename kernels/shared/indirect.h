@@ -20,10 +20,10 @@ WEDGE_SHARED_BEGIN
 
 /// Bandlimit of a specular lobe's transfer function (A.3), (A.5): fits to the exponents 4 to 50. Beyond them they go on
 /// as lines, which errs to narrow filters for exponents below 4; negative exponents count as 0.
-WEDGE_FN float glossyBandlimit(float exponent, uint model)
+WEDGE_FN float glossyBandlimit(float exponent, uint kind)
 {
     const float m = fmax(exponent, 0.0f);
-    return model == WEDGE_SPECULAR_PHONG ? 4.27f + 0.15f * m : 3.6f + 0.084f * m;
+    return kind == WEDGE_PHONG ? 4.27f + 0.15f * m : 3.6f + 0.084f * m;
 }
 
 /// Scaling of counts for samples of a lobe: the part of the quarter circle that holds 80 % of it (section 4.4.3).

@@ -60,8 +60,7 @@ typedef struct {
     Vec3 normal; ///< unit shading normal on the viewer's side
     Vec3 geometric; ///< unit geometric normal on the viewer's side
     Vec3 diffuse, specular, emission;
-    float exponent;
-    uint specularModel;
+    Gloss gloss;
 } Surface;
 
 WEDGE_FN Vec3 loadVertex(__global const float* data, uint vertex)
@@ -179,8 +178,7 @@ WEDGE_FN Surface surfaceAt(SurfaceData data, Hit hit, Vec3 direction, float time
     s.diffuse = material.diffuse;
     s.specular = material.specular;
     s.emission = material.emission;
-    s.exponent = material.exponent;
-    s.specularModel = material.specularModel;
+    s.gloss = makeGloss(material.exponent, material.kind);
     const bool textured = material.diffuseTexture != WEDGE_NO_TEXTURE || material.specularTexture != WEDGE_NO_TEXTURE
         || material.emissionTexture != WEDGE_NO_TEXTURE || material.exponentTexture != WEDGE_NO_TEXTURE;
     if (!textured) {
@@ -203,7 +201,7 @@ WEDGE_FN Surface surfaceAt(SurfaceData data, Hit hit, Vec3 direction, float time
     }
     if (material.exponentTexture != WEDGE_NO_TEXTURE) {
         // An exponent is a number and no colour: nothing has encoded it.
-        s.exponent *=
+        s.gloss.exponent *=
             sampleTexture(data.textures, data.texels, data.srgbToLinear + 256, material.exponentTexture, tu, tv).x;
     }
     return s;

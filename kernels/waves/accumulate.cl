@@ -225,11 +225,26 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient,
     }
 }
 
+/// Exponents of those receivers of a pixel that have a lobe, as of the first one's kind; 0 at first.
+typedef struct {
+    Gloss sum;
+    float count;
+} GlossSum;
+
+WEDGE_FN void addGloss(GlossSum* s, Gloss g)
+{
+    if (g.kind == WEDGE_LAMBERT) {
+        return;
+    }
+    s->sum.kind = s->count > 0.0f ? s->sum.kind : g.kind;
+    s->sum.exponent += exponentAs(g, s->sum.kind);
+    s->count += 1.0f;
+}
+
 /// Where and what the receivers are, and what they emit; closes the wave.
 /// in      wave's planes: as wave_primary.cl fills them, rays, pathRays
-/// in out  of pixels: means of position, normal, pixelSize, distance, gloss, diffuse, specular, emission,
-/// emissionSquares
-///         (squared luminance); objectId (0:
+/// in out  of pixels: means of position, normal, pixelSize, distance, gloss (of the first wave that saw a lobe), diffuse,
+///         specular, emission, emissionSquares (squared luminance); objectId (0:
 ///         no surface, WEDGE_MIXED: several objects); hits; confusion (planes: least and largest signed radius of
 ///         the circle of confusion, pixels); motion (planes: mean x, mean y, largest difference from the mean; packed:
 ///         see accumulate.h);
@@ -237,12 +252,12 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient,
 __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParams camera,
     __global const uint* restrict pixelFirst, __global const uint* restrict pixelCount,
     __global const uint* restrict objectId, __global const float* restrict position,
-    __global const float* restrict normal, __global const float* restrict gloss, __global const float* restrict diffuse,
+    __global const float* restrict normal, __global const uint* restrict gloss, __global const float* restrict diffuse,
     __global const float* restrict specular, __global const float* restrict emission,
     __global const float* restrict pixelSize, __global const float* restrict depth,
     __global const float* restrict motion, __global const uint* restrict rays, __global const uint* restrict pathRays,
     __global uint* restrict taken, __global uint* restrict hitsOf, __global uint* restrict objectOf,
-    __global float* restrict positionOf, __global float* restrict normalOf, __global float* restrict glossOf,
+    __global float* restrict positionOf, __global float* restrict normalOf, __global uint* restrict glossOf,
     __global float* restrict diffuseOf, __global float* restrict specularOf, __global float* restrict emissionOf,
     __global float* restrict emissionSquaresOf, __global float* restrict pixelSizeOf,
     __global float* restrict distanceOf, __global float* restrict confusionOf, __global float* restrict motionOf,
@@ -255,7 +270,8 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
     const uint size = wave.planeSize, pixels = frame.planeSize;
     const Vec3 none = vec3(0.0f, 0.0f, 0.0f);
     Vec3 at = none, facing = none, kd = none, ks = none, emitted = none;
-    float hit = 0.0f, exponent = 0.0f, edge = 0.0f, moveX = 0.0f, moveY = 0.0f, squared = 0.0f;
+    GlossSum lobes = { { 0.0f, WEDGE_LAMBERT }, 0.0f };
+    float hit = 0.0f, edge = 0.0f, moveX = 0.0f, moveY = 0.0f, squared = 0.0f;
     const bool has = p.before > 0u && wave.packed == 0u;
     float low = has ? confusionOf[p.i] : INFINITY, high = has ? confusionOf[pixels + p.i] : -INFINITY;
     uint object = objectOf[p.i], traced = 0u, paths = 0u;
@@ -279,7 +295,7 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
         facing = vecAdd(facing, loadVec(normal, size, r));
         kd = vecAdd(kd, loadVec(diffuse, size, r));
         ks = vecAdd(ks, loadVec(specular, size, r));
-        exponent += gloss[r];
+        addGloss(&lobes, unpackGloss(gloss[r]));
         edge += pixelSize[r];
         moveX += motion[r];
         moveY += motion[size + r];
@@ -322,10 +338,16 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
     storeNormal(normalOf, pixels, p.i, wave.packed, vecNormalize(vecMad(facing, faced, hits)));
     if (measures && wave.packed != 0u) {
         storeShort(pixelSizeOf, pixels, p.i, 0u, edge / hit);
-        storeShort(glossOf, pixels, p.i, 0u, exponent / hit);
     } else if (measures) {
-        glossOf[p.i] = meanWith(glossOf[p.i], hits, exponent, hit);
         pixelSizeOf[p.i] = meanWith(pixelSizeOf[p.i], hits, edge, hit);
+    }
+    if (measures) {
+        // Of the first wave that has a lobe: how many of the receivers before another did is not known.
+        const bool known = hits > 0.0f && loadGloss(glossOf, p.i, wave.packed).kind != WEDGE_LAMBERT;
+        const Gloss mean = makeGloss(lobes.sum.exponent / fmax(lobes.count, 1.0f), lobes.sum.kind);
+        if (!known) {
+            storeGloss(glossOf, p.i, wave.packed, mean);
+        }
     }
     if (layers) {
         distanceOf[p.i] = vecLength(vecSub(loadVec(positionOf, pixels, p.i), frame.eye));

@@ -4,7 +4,7 @@
 //      wanted: primary samples of each pixel
 // out  planes of the wave: position, normal, origin (3 each), geometric (normal, packed), objectId (0: nothing to
 // shade),
-//      gloss (exponent; negative: Phong), view (packed direction back along the ray), time, diffuse, specular, emission
+//      gloss (packed), view (packed direction back along the ray), time, diffuse, specular, emission
 //      (3 each; emission holds background and light radiance where nothing is shaded), pixelSize (metres), depth
 //      (along the view axis; +inf on a miss), motion (2 planes: pixels that the point moves in the image from shutter
 //      open to close), rays and pathRays (0: for the effects to count in)
@@ -57,7 +57,7 @@ __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wav
     uint lightCount, __global const uint* restrict pixelOf, __global const uint* restrict sampleOf,
     __global const uint* restrict wanted, __global float* restrict position, __global float* restrict normal,
     __global float* restrict origin, __global uint* restrict geometric, __global uint* restrict objectId,
-    __global float* restrict gloss, __global uint* restrict view, __global float* restrict time,
+    __global uint* restrict gloss, __global uint* restrict view, __global float* restrict time,
     __global float* restrict diffuse, __global float* restrict specular, __global float* restrict emission,
     __global float* restrict pixelSize, __global float* restrict depth, __global float* restrict motion,
     __global uint* restrict rays, __global uint* restrict pathRays, uint firstGroup)
@@ -104,7 +104,7 @@ __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wav
         storeVec(origin, size, i, s.origin);
         geometric[i] = packDirection(s.geometric);
         objectId[i] = objectIds[hit.triangle];
-        gloss[i] = s.specularModel == WEDGE_SPECULAR_PHONG ? -s.exponent : s.exponent;
+        gloss[i] = packGloss(s.gloss);
         view[i] = packDirection(vecScale(vecNormalize(ray.direction), -1.0f));
         storeVec(diffuse, size, i, s.diffuse);
         storeVec(specular, size, i, s.specular);
