@@ -347,8 +347,7 @@ inline void accumulateLight(
     a.launch("accumulateLight", light, exact ? 1u : 0u, a.lists.pixelFirst, a.lists.pixelCount, a.primaryTaken, a.hits,
         a.vectors([](const SeenPoint& p) { return p.position; }),
         a.vectors([](const SeenPoint& p) { return p.normal; }),
-        a.vectors([](const SeenPoint& p) { return p.position; }), a.objectId, a.objectId,
-        a.glosses(), a.lists.pixelOf,
+        a.vectors([](const SeenPoint& p) { return p.position; }), a.objectId, a.objectId, a.glosses(), a.lists.pixelOf,
         a.receiverBuffer<std::uint32_t>(
             1, [](const SeenPoint& p, std::size_t) { return shared::packDirection(viewOf(p)); }),
         a.receiverBuffer<float>(1, [](const SeenPoint&, std::size_t) { return 0; }),

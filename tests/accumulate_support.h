@@ -64,7 +64,9 @@ inline SeenPoint seenPoint(Receivers kind, int x, int y, std::uint32_t index)
     p.normal = glm::normalize(glm::dvec3(0.1, 0.9, 0.2) + 0.05 * unitVector(random));
     const auto exponent = static_cast<float>(uniform(random, 1, 30));
     p.gloss = shared::makeGloss(exponent,
-        p.specular == glm::dvec3(0) ? WEDGE_LAMBERT : random() % 2 == 0 ? WEDGE_PHONG : WEDGE_BLINN_PHONG);
+        p.specular == glm::dvec3(0) ? WEDGE_LAMBERT
+            : random() % 2 == 0     ? WEDGE_PHONG
+                                    : WEDGE_BLINN_PHONG);
     p.pixelSize = uniform(random, 0.01, 0.1);
     p.depth = p.object == 0 && random() % 2 == 0 ? std::numeric_limits<double>::infinity() : uniform(random, 1, 9);
     p.motion = { uniform(random, -3, 3), uniform(random, -3, 3) };

@@ -197,9 +197,8 @@ TEST_CASE(
                 const auto texture = [&](const SeenPoint& p) {
                     const auto narrow = [](glm::dvec3 v) { return shared::vec3(float(v.x), float(v.y), float(v.z)); };
                     const shared::Vec3 view = shared::unpackDirection(shared::packDirection(viewOf(p)));
-                    const double lobe =
-                        shared::specularLobe(narrow(p.normal), view, narrow(glm::normalize(centre - p.position)),
-                            p.gloss.exponent, p.gloss.kind);
+                    const double lobe = shared::specularLobe(narrow(p.normal), view,
+                        narrow(glm::normalize(centre - p.position)), p.gloss.exponent, p.gloss.kind);
                     return glm::dvec3(300, 200, 100) * (p.diffuse / std::numbers::pi + p.specular * lobe);
                 };
                 TermPixels term(a, count);

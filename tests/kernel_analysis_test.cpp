@@ -291,8 +291,8 @@ TEST_CASE("highlights narrow widths by their share, those of no width and of no 
                 analysis.launch(kernel, in.params, 1, frame, arguments..., beta);
                 return planesOf(in.layout(), analysis.bench.read(beta));
             };
-            const auto position = analysis.bench.buffer(in.position.values),
-                       glosses = analysis.bench.buffer(gloss.values);
+            const auto position = analysis.bench.buffer(in.position.values);
+            const auto glosses = analysis.bench.buffer(gloss.values);
             const Planes<float> one = run("narrowForLobes", analysis.bench.buffer(sums.values), position, glosses,
                                     analysis.bench.buffer(diffuse.values), analysis.bench.buffer(specular.values)),
                                 many = run("narrowForHighlights", light, WEDGE_PLAIN_BITS,

@@ -208,9 +208,8 @@ TEST_CASE("addSpecular: the second term times the lobe's unshadowed shading time
                 const glm::dvec3 view = glm::normalize(glm::dvec3(0.5, 1, 6) - at);
                 const shared::Gloss gloss = shared::unpackGloss(in.gloss.at(x, y));
                 const auto lobe = [&](glm::dvec3 d) {
-                    return static_cast<double>(
-                        shared::specularLobe(narrowed(n), narrowed(view), narrowed(glm::normalize(d)),
-                            gloss.exponent, gloss.kind));
+                    return static_cast<double>(shared::specularLobe(
+                        narrowed(n), narrowed(view), narrowed(glm::normalize(d)), gloss.exponent, gloss.kind));
                 };
                 double shade = made.power.z, slack = 1e-4;
                 if (shading == WEDGE_SHADING_SEPARATE) {

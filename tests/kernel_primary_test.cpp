@@ -218,8 +218,8 @@ TEST_CASE("textures are bilinear, repeated, and linear: colours after the sRGB c
             TracedScene traced(scene, device, 33, 25, { { "WEDGE_SPECULAR", "1" } });
             traced.primary();
             const auto diffuse = traced.read(traced.frame.diffuse), emission = traced.read(traced.frame.emission);
-            const auto exponent = traced.read(traced.frame.gloss), position = traced.read(traced.frame.position);
-            const auto id = traced.read(traced.frame.objectId);
+            const auto position = traced.read(traced.frame.position);
+            const auto id = traced.read(traced.frame.objectId), glosses = traced.read(traced.frame.gloss);
             double worst = 0;
             traced.everyPixel([&](int x, int y) {
                 if (id.at(x, y) == 0)
@@ -229,7 +229,9 @@ TEST_CASE("textures are bilinear, repeated, and linear: colours after the sRGB c
                 worst = std::max(worst, std::fabs(diffuse.at(x, y, 1) - 0.5 * texel(scene.textures[1], u, v, 1)));
                 worst = std::max(worst, std::fabs(emission.at(x, y, 2) - 2 * texel(scene.textures[0], u, v, 2)));
                 // A number and no colour.
-                worst = std::max(worst, std::fabs(exponent.at(x, y) / 200 - texel(scene.textures[1], u, v, 0, plain)));
+                const shared::Gloss gloss = shared::unpackGloss(glosses.at(x, y));
+                worst = std::max(worst, std::fabs(gloss.exponent / 200 - texel(scene.textures[1], u, v, 0, plain)));
+                REQUIRE(gloss.kind == WEDGE_BLINN_PHONG);
             });
             CAPTURE(offset);
             CHECK(worst < (offset > 100 ? 5e-3 : 2e-4));

@@ -135,13 +135,14 @@ std::vector<float> unshadowed(
         return bench.buffer(out);
     };
     // One pixel's receivers, the first to the last.
-    std::vector<std::uint32_t> objects(planeSize, 0), views(planeSize, 0), glosses(planeSize, 0), pixels(planeSize, 7), samples(planeSize, 0);
+    std::vector<std::uint32_t> objects(planeSize, 0), views(planeSize, 0), glosses(planeSize, 0), pixels(planeSize, 7),
+        samples(planeSize, 0);
     std::iota(samples.begin(), samples.end(), 0u);
     for (std::size_t r = 0; r < points.size(); ++r) {
         objects[r] = points[r].surface ? 5 : 0;
         const glm::vec3 v(points[r].view);
-        glosses[r] = shared::packGloss(
-            shared::makeGloss(static_cast<float>(points[r].exponent), points[r].phong ? WEDGE_PHONG : WEDGE_BLINN_PHONG));
+        glosses[r] = shared::packGloss(shared::makeGloss(
+            static_cast<float>(points[r].exponent), points[r].phong ? WEDGE_PHONG : WEDGE_BLINN_PHONG));
         views[r] = shared::packDirection(shared::vec3(v.x, v.y, v.z));
     }
     shared::FrameParams frame {};
@@ -155,8 +156,8 @@ std::vector<float> unshadowed(
         bench.buffer(render::lightNodes(light)), bench.buffer(pixels), bench.buffer(samples),
         planes(3, [](const ReceiverPoint& p, int c) { return p.position[c]; }),
         planes(3, [](const ReceiverPoint& p, int c) { return p.normal[c]; }), bench.buffer(objects),
-        planes(3, [](const ReceiverPoint& p, int) { return p.specular; }),
-        bench.buffer(glosses), bench.buffer(views), out);
+        planes(3, [](const ReceiverPoint& p, int) { return p.specular; }), bench.buffer(glosses), bench.buffer(views),
+        out);
     return bench.read(out);
 }
 

@@ -388,8 +388,7 @@ TEST_CASE("plain Monte Carlo is unbiased: no pixel is off by more than chance al
                         if (bvh::anyHit(renderer.hierarchy(), { o, 0, ray, WEDGE_SHADOW_RAY_END }))
                             continue;
                         const double c = std::max(0.0, glm::dot(n, glm::normalize(view + glm::normalize(d))));
-                        const double lobe =
-                            shared::specularNormalization(8, WEDGE_BLINN_PHONG) * std::pow(c, 8);
+                        const double lobe = shared::specularNormalization(8, WEDGE_BLINN_PHONG) * std::pow(c, 8);
                         const double f = light.radiance.x * profileAt(light, a, b) * lightArea(light) * g
                             * (0.8 / std::numbers::pi + 0.2 * lobe);
                         total += f;

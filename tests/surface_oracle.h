@@ -156,8 +156,8 @@ inline void requireMeasured(
 }
 
 /// Kind and mean exponent of the lobes that the first round with a lobe has seen.
-inline void requireGloss(
-    const SurfacesFound& found, std::uint32_t packed, const std::vector<SeenPoint>& seen, const Rounds& rounds, int x, int y)
+inline void requireGloss(const SurfacesFound& found, std::uint32_t packed, const std::vector<SeenPoint>& seen,
+    const Rounds& rounds, int x, int y)
 {
     double sum = 0, lobes = 0;
     std::uint32_t kind = WEDGE_LAMBERT, first = 0;

@@ -217,7 +217,8 @@ __kernel void narrowForLobes(AnalysisParams p, FrameParams frame, __global const
     }
     const float matt = luminance(loadVec(diffuse, p.planeSize, i)) * WEDGE_INV_PI * sums[i];
     const Vec3 at = loadVec(position, p.planeSize, i);
-    beta[i] = narrowed(p, vecSub(p.lightCentre, at), vecSub(frame.eye, at), unpackGloss(gloss[i]), lobes / (lobes + matt), wide);
+    beta[i] = narrowed(
+        p, vecSub(p.lightCentre, at), vecSub(frame.eye, at), unpackGloss(gloss[i]), lobes / (lobes + matt), wide);
 }
 
 /// narrowed() of pixels of many receivers, which keep what they reflect of the light as one. At least what a white matt
@@ -245,8 +246,8 @@ __kernel void narrowForHighlights(AnalysisParams p, FrameParams frame, AreaLight
     const float white = WEDGE_INV_PI * luminance(light.power) / fmax(nearest * nearest, 1e-20f);
     const float reflected = luminance(loadColour(texture, p.planeSize, i, bits));
     if (reflected > white) {
-        beta[i] = narrowed(p, toLight, vecSub(frame.eye, at), loadGloss(gloss, i, p.packed),
-            1.0f - white / reflected, wide);
+        beta[i] =
+            narrowed(p, toLight, vecSub(frame.eye, at), loadGloss(gloss, i, p.packed), 1.0f - white / reflected, wide);
     }
 }
 

@@ -20,7 +20,7 @@ typedef struct {
 #define WEDGE_RECEIVER_PARAMETERS                                                                                      \
     __global const float *restrict position, __global const float *restrict normal,                                    \
         __global const float *restrict origin, __global const uint *restrict geometric,                                \
-        __global const uint *restrict objectId, __global const uint *restrict gloss,                                  \
+        __global const uint *restrict objectId, __global const uint *restrict gloss,                                   \
         __global const uint *restrict pixelOf, __global const uint *restrict view, __global const float *restrict time
 #define WEDGE_RECEIVER_ARGUMENTS receiverData(position, normal, origin, geometric, objectId, gloss, pixelOf, view, time)
 

@@ -44,8 +44,8 @@ __kernel void unshadowedReceivers(FrameParams frame, WaveParams wave, AreaLight 
     const int16 mirrors = surface & (ks.x + ks.y + ks.z > 0.0f);
     float16 lobes = (float16)(0.0f);
     if (any(mirrors)) {
-        const Receivers16 r =
-            glossyReceivers(at, facing, unpackDirection16(loadIdBlock(view, (int)first)), loadIdBlock(gloss, (int)first));
+        const Receivers16 r = glossyReceivers(
+            at, facing, unpackDirection16(loadIdBlock(view, (int)first)), loadIdBlock(gloss, (int)first));
         LobeDirections directions;
         directions.pixel = loadIdBlock(pixelOf, (int)first);
         directions.first = loadIdBlock(sampleOf, (int)first) * WEDGE_LOBE_DIRECTIONS;

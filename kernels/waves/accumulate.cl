@@ -243,7 +243,8 @@ WEDGE_FN void addGloss(GlossSum* s, Gloss g)
 
 /// Where and what the receivers are, and what they emit; closes the wave.
 /// in      wave's planes: as wave_primary.cl fills them, rays, pathRays
-/// in out  of pixels: means of position, normal, pixelSize, distance, gloss (of the first wave that saw a lobe), diffuse,
+/// in out  of pixels: means of position, normal, pixelSize, distance, gloss (of the first wave that saw a lobe),
+/// diffuse,
 ///         specular, emission, emissionSquares (squared luminance); objectId (0:
 ///         no surface, WEDGE_MIXED: several objects); hits; confusion (planes: least and largest signed radius of
 ///         the circle of confusion, pixels); motion (planes: mean x, mean y, largest difference from the mean; packed:
