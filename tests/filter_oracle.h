@@ -14,7 +14,7 @@ namespace wedge::test {
 /// What the filters read.
 struct FilterImage {
     shared::FilterParams params {};
-    Planes<float> value, beta, position, normal;
+    Planes<float> value, beta, position, normal, pixelSize;
     Planes<std::uint32_t> objectId;
 
     FilterImage(int width, int height, std::size_t channels)
@@ -26,6 +26,7 @@ struct FilterImage {
         , beta(layout, 1, 0.0f)
         , position(layout, 3, 0.0f)
         , normal(layout, 3, 0.0f)
+        , pixelSize(layout, 1, 1.0f)
         , objectId(layout, 1, 0u)
     {
     }
@@ -94,6 +95,8 @@ inline FilterImage randomImage(int width, int height, Shape shape, unsigned seed
             }
             image.position.setVector(x, y, at);
             image.normal.setVector(x, y, n);
+            const double z = glm::dot(at - eye, toGlm(p.forward)), facing = std::fabs(glm::dot(n, at - eye));
+            image.pixelSize.at(x, y) = static_cast<float>(0.0173 * std::sqrt(z * z * z / facing));
             image.objectId.at(x, y) = object;
             image.beta.at(x, y) = shape == Shape::Flat ? widths[3 + random() % 3] : widths[random() % 8];
             for (std::size_t c = 0; c < channels; ++c)
@@ -127,6 +130,7 @@ inline FilterImage mirrored(const FilterImage& image, bool vertical)
     turn(out.beta, image.beta, 1);
     turn(out.position, image.position, 3);
     turn(out.normal, image.normal, 3);
+    turn(out.pixelSize, image.pixelSize, 1);
     turn(out.objectId, image.objectId, 1);
     return out;
 }
@@ -137,6 +141,8 @@ inline FilterImage scaled(const FilterImage& image, float factor)
     FilterImage out = image;
     for (float& x : out.position.values)
         x *= factor;
+    for (float& s : out.pixelSize.values)
+        s *= factor;
     for (float& b : out.beta.values)
         b *= b > 0 ? factor : 1.0f;
     out.params.eye = shared::vecScale(out.params.eye, factor);
@@ -182,14 +188,6 @@ public:
         return glm::dot(e, e);
     }
 
-    /// Surface that a pixel sees, but for a common factor: z^3 / |n.d|.
-    double area(int x, int y) const
-    {
-        const glm::dvec3 d = image_.position.vector(x, y) - toGlm(image_.params.eye);
-        const double z = glm::dot(d, toGlm(image_.params.forward));
-        return z * z * z / std::max(std::fabs(glm::dot(image_.normal.vector(x, y), d)), 0.05 * std::fabs(z));
-    }
-
     /// What a neighbour counts for the surface that it sees: 0 off the pixel's own. *doubt: a rounding may decide.
     double surface(int x, int y, int qx, int qy, bool* doubt) const
     {
@@ -198,7 +196,7 @@ public:
         const glm::dvec3 d = image_.position.vector(qx, qy) - position_;
         const double rise = std::fabs(glm::dot(image_.normal.vector(x, y), d)) / std::max(glm::length(d), 1e-30);
         *doubt = *doubt || std::fabs(rise - 0.3) < 1e-4;
-        return rise > 0.3 ? 0.0 : std::min(area(qx, qy) / area(x, y), 4.0);
+        return rise > 0.3 ? 0.0 : std::min(std::pow(image_.pixelSize.at(qx, qy) / image_.pixelSize.at(x, y), 2.0), 4.0);
     }
 
     /// Pixels along image step `step` that `reach` metres on the tangent plane take, not rounded.

@@ -29,10 +29,11 @@ public:
         const auto beta = bench_.buffer(image.beta.values);
         const auto position = bench_.buffer(image.position.values);
         const auto normal = bench_.buffer(image.normal.values);
+        const auto pixelSize = bench_.buffer(image.pixelSize.values);
         const auto objectId = bench_.buffer(image.objectId.values);
         const auto rows = bench_.filled(image.value.values.size(), -7.0f);
         const auto rowsEffective = bench_.filled(image.value.layout.size, -7.0f);
-        launch("filterRows", p, value, beta, position, normal, objectId, rows, rowsEffective);
+        launch("filterRows", p, value, beta, position, normal, pixelSize, objectId, rows, rowsEffective);
         if (rowsOnly)
             return result(image, rows, rowsEffective);
         if (window.width() > 0) {
@@ -41,7 +42,7 @@ public:
         }
         const auto out = bench_.filled(image.value.values.size(), -7.0f);
         const auto effective = bench_.filled(image.value.layout.size, -7.0f);
-        launch("filterColumns", p, rows, beta, position, normal, objectId, rowsEffective, out, effective);
+        launch("filterColumns", p, rows, beta, position, normal, pixelSize, objectId, rowsEffective, out, effective);
         // Filtering in place would race: what was filtered is still there.
         const std::vector<float> after = bench_.read(value);
         CHECK(std::memcmp(after.data(), image.value.values.data(), after.size() * sizeof(float)) == 0);

@@ -1,7 +1,7 @@
 // compare_widths.cl alone: a plane filtered with two widths at once, against the gather in double with one after the
 // other.
-#include "kernels/shared/packed.h"
 #include "tests/filter_oracle.h"
+#include "tests/packed_support.h"
 
 #include <bit>
 
@@ -46,9 +46,9 @@ struct Difference {
     Planes<float> difference, apart;
 };
 
-/// window: the pixels to compare, all by default
+/// normals, sizes: of the image, as the program has them; window: the pixels to compare, all by default
 Difference differenceOf(KernelBench& bench, const Compared& in, const Planes<float>& normals,
-    const char* program = "filter/compare_widths.cl", image::Window window = {})
+    const Planes<float>& sizes, const char* program = "filter/compare_widths.cl", image::Window window = {})
 {
     const FilterImage& image = in.image;
     const std::size_t size = image.value.layout.size;
@@ -63,17 +63,18 @@ Difference differenceOf(KernelBench& bench, const Compared& in, const Planes<flo
     }
     const auto value = bench.buffer(image.value.values), beta = bench.buffer(image.beta.values),
                wide = bench.buffer(in.wide.values), position = bench.buffer(image.position.values),
-               normal = bench.buffer(normals.values);
+               normal = bench.buffer(normals.values), pixelSize = bench.buffer(sizes.values);
     const auto objectId = bench.buffer(image.objectId.values);
     const auto narrowRows = bench.filled(size, -7.0f), wideRows = bench.filled(size, -7.0f),
                narrowCounts = bench.filled(size, -7.0f), wideCounts = bench.filled(size, -7.0f),
                difference = bench.filled(size, -7.0f);
-    run("compareRows", value, beta, wide, position, normal, objectId, narrowRows, wideRows, narrowCounts, wideCounts);
+    run("compareRows", value, beta, wide, position, normal, pixelSize, objectId, narrowRows, wideRows, narrowCounts,
+        wideCounts);
     if (window.width() > 0)
         render::setRectangle(p, window);
     // As in lean frames, in the place of the counts.
-    run("compareColumns", narrowRows, wideRows, narrowCounts, wideCounts, beta, wide, position, normal, objectId,
-        difference, wideCounts);
+    run("compareColumns", narrowRows, wideRows, narrowCounts, wideCounts, beta, wide, position, normal, pixelSize,
+        objectId, difference, wideCounts);
     return { planesOf(image.value.layout, bench.read(difference)),
         planesOf(image.value.layout, bench.read(wideCounts)) };
 }
@@ -110,9 +111,9 @@ TEST_CASE("two widths at once are what a gather with each makes, and what noise 
         for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough }) {
             CAPTURE(static_cast<int>(shape));
             Compared in(shape, 40);
-            check(in, differenceOf(bench, in, in.image.normal));
+            check(in, differenceOf(bench, in, in.image.normal, in.image.pixelSize));
             in.image = withoutLight(in.image);
-            check(in, differenceOf(bench, in, in.image.normal));
+            check(in, differenceOf(bench, in, in.image.normal, in.image.pixelSize));
         }
     });
 }
@@ -128,7 +129,7 @@ TEST_CASE("two widths at once by the settings of a gather: the pixel's own width
                 Compared in(Shape::Rough, 42);
                 in.image.params.narrower = narrower ? 1 : 0;
                 in.image.params.surface = surface ? 1 : 0;
-                check(in, differenceOf(bench, in, in.image.normal));
+                check(in, differenceOf(bench, in, in.image.normal, in.image.pixelSize));
             }
     });
 }
@@ -146,7 +147,7 @@ TEST_CASE("what is no number where there is no value to take reaches no other pi
                     ++without;
                 }
         CHECK(without > 100);
-        const Difference found = differenceOf(bench, in, in.image.normal);
+        const Difference found = differenceOf(bench, in, in.image.normal, in.image.pixelSize);
         // The gather in double knows numbers alone, and takes none of these.
         for (float& v : in.image.value.values)
             v = std::isnan(v) ? 0.0f : v;
@@ -159,9 +160,10 @@ TEST_CASE("two widths at once in a window are the whole image's, bit by bit")
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);
         const Compared in(Shape::Tilted, 44);
-        const Difference whole = differenceOf(bench, in, in.image.normal);
+        const Difference whole = differenceOf(bench, in, in.image.normal, in.image.pixelSize);
         const image::Window window { 16, 7, 48, 19 };
-        const Difference part = differenceOf(bench, in, in.image.normal, "filter/compare_widths.cl", window);
+        const Difference part =
+            differenceOf(bench, in, in.image.normal, in.image.pixelSize, "filter/compare_widths.cl", window);
         for (int y = 0; y < in.image.height(); ++y)
             for (int x = 0; x < in.image.width(); ++x) {
                 const bool inside = x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1;
@@ -172,7 +174,7 @@ TEST_CASE("two widths at once in a window are the whole image's, bit by bit")
     });
 }
 
-TEST_CASE("two widths at once with packed normals")
+TEST_CASE("two widths at once with packed normals and sizes")
 {
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);
@@ -184,7 +186,10 @@ TEST_CASE("two widths at once with packed normals")
                 const shared::Vec3 rounded = shared::unpackNormal(bits);
                 packed.at(x, y) = std::bit_cast<float>(bits);
                 in.image.normal.setVector(x, y, { rounded.x, rounded.y, rounded.z });
+                float& size = in.image.pixelSize.at(x, y);
+                size = test::rounded(size);
             }
-        check(in, differenceOf(bench, in, packed, "filter/packed_compare_widths.cl"));
+        const Planes<float> sizes = packedNumbers(in.image.pixelSize, in.image.pixelSize);
+        check(in, differenceOf(bench, in, packed, sizes, "filter/packed_compare_widths.cl"));
     });
 }

@@ -1,7 +1,7 @@
 // filter_indirect.cl, filter_paths.cl and filter_variance.cl alone: the gather over plain distances, of three planes,
 // four and one.
-#include "kernels/shared/packed.h"
 #include "tests/filter_run.h"
+#include "tests/packed_support.h"
 
 #include <algorithm>
 #include <bit>
@@ -220,7 +220,9 @@ void packNormals(FilterImage& plain, FilterImage& packed)
         const std::uint32_t bits = shared::packNormal(toShared(plain.normal.vector(x, y)));
         packed.normal.at(x, y) = std::bit_cast<float>(bits);
         plain.normal.setVector(x, y, toGlm(shared::unpackNormal(bits)));
+        plain.pixelSize.at(x, y) = rounded(plain.pixelSize.at(x, y));
     });
+    packed.pixelSize = packedNumbers(plain.pixelSize, plain.pixelSize);
 }
 
 } // namespace

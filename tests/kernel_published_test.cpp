@@ -128,8 +128,7 @@ Found reflectors(KernelBench& bench, const Pixels& in, float mu, std::uint32_t c
 {
     Output<float> beta(bench, in.region, 1), demand(bench, in.region, 1);
     const auto flags = bench.buffer(in.flags.values), distances = bench.buffer(in.reflectors.values),
-               confusion = bench.buffer(in.confusion.values),
-               size = bench.buffer(in.pixelSize.values);
+               confusion = bench.buffer(in.confusion.values), size = bench.buffer(in.pixelSize.values);
     const auto objects = bench.buffer(in.objectId.values), gloss = bench.buffer(in.gloss.values);
     launchPixels(bench, "analysis/published.cl", "publishedReflectors", paramsOf(in.region), mu, component, flags,
         distances, gloss, confusion, size, objects, beta.buffer(), demand.buffer());

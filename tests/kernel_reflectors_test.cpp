@@ -73,9 +73,14 @@ Widths widthsOf(KernelBench& bench, shared::ReflectorParams p, float extent, con
     }
     const auto beta = bench.filled(layout.size, -7.0f);
     const auto wanted = bench.filled(layout.size, noCount);
-    launchRows(bench, "reflectorWidths", p, 1, bench.buffer(reflectors.values), bench.buffer(objectId.values),
-        bench.filled(1, extent), bench.buffer(pixelSize.values), bench.buffer(gloss.values), bench.buffer(taken.values),
-        beta, wanted);
+    const auto launch = [&](const char* kernel, const auto& out) {
+        launchRows(bench, kernel, p, WEDGE_BLOCK_PIXELS, bench.buffer(reflectors.values), bench.buffer(objectId.values),
+            bench.filled(1, extent), bench.buffer(pixelSize.values), bench.buffer(gloss.values),
+            bench.buffer(taken.values), out);
+    };
+    launch("reflectorWidths", beta);
+    if (p.meanOnly == 0)
+        launch("reflectorCounts", wanted);
     const Planes<float> betas = planesOf(layout, bench.read(beta));
     const Planes<std::uint32_t> counts = planesOf(layout, bench.read(wanted));
     Widths out;

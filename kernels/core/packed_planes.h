@@ -75,6 +75,12 @@ WEDGE_FN float loadShort(__global const float* plane, uint planeSize, uint i, ui
     return unpackShort(((__global const ushort*)plane)[which * planeSize + i]);
 }
 
+/// Sixteen first ones.
+WEDGE_FN float16 loadShortBlock(__global const float* plane, int i)
+{
+    return as_float16(convert_uint16(vload16(0, (__global const ushort*)plane + i)) << 16);
+}
+
 /// A number of a plane of its own or, packed, of one that it shares.
 WEDGE_FN float loadNumber(__global const float* plane, uint planeSize, uint i, uint packed, uint which)
 {

@@ -13,7 +13,7 @@ typedef struct {
     LineMean narrow, wide;
 } LineMeans;
 
-WEDGE_FN GatherSum startSum(float16 own)
+WEDGE_INLINE GatherSum startSum(float16 own)
 {
     GatherSum sum;
     sum.weight = sum.squared = (float16)(1.0f);
@@ -21,7 +21,7 @@ WEDGE_FN GatherSum startSum(float16 own)
     return sum;
 }
 
-WEDGE_FN LineMean meanOf(GatherSum sum, int16 gathers, LineMean before)
+WEDGE_INLINE LineMean meanOf(GatherSum sum, int16 gathers, LineMean before)
 {
     LineMean mean;
     mean.value = gathers ? sum.channel[0] / sum.weight : before.value;
@@ -32,10 +32,10 @@ WEDGE_FN LineMean meanOf(GatherSum sum, int16 gathers, LineMean before)
 /// Of a block of pixels; own: what they have so far; before, after: pixels that the line goes on to. narrow, wide:
 /// planes of values along the line, which may be the same one. Where compared is 0 nothing is gathered and no neighbour
 /// narrowed, where it is less there is no value to take.
-WEDGE_FN LineMeans compareLine(FilterParams p, int i, int element, Vec3 step, int before, int after,
+WEDGE_INLINE LineMeans compareLine(FilterParams p, int i, int element, Vec3 step, int before, int after,
     __global const float* narrow, __global const float* wide, __global const float* beta,
     __global const float* compared, __global const float* position, __global const float* normal,
-    __global const uint* objectId, LineMeans own)
+    __global const float* pixelSize, __global const uint* objectId, LineMeans own)
 {
     const float16 wideHere = loadBlock(compared, i), narrowHere = loadBlock(beta, i);
     const uint16 object = loadIdBlock(objectId, i);
@@ -43,7 +43,7 @@ WEDGE_FN LineMeans compareLine(FilterParams p, int i, int element, Vec3 step, in
     if (!any(gathers)) {
         return own;
     }
-    const GatherBlock b = gatherBlock(p, i, object, position, normal);
+    const GatherBlock b = gatherBlock(p, i, object, position, normal, pixelSize);
     const GatherWidth ofWide = gatherWidth(p, b, step, gathers, wideHere),
                       ofNarrow = gatherWidth(p, b, step, narrowGathers, narrowHere);
     GatherSum wideSum = startSum(own.wide.value), narrowSum = startSum(own.narrow.value);
@@ -55,7 +55,7 @@ WEDGE_FN LineMeans compareLine(FilterParams p, int i, int element, Vec3 step, in
         const int j = i + k * element;
         const float steps = fabs((float)k);
         const float16 wideThere = loadBlock(compared, j);
-        const Neighbours n = neighboursAt(p, b, j, wideThere, position, normal, objectId);
+        const Neighbours n = neighboursAt(p, b, j, wideThere, position, normal, pixelSize, objectId);
         const float16 w = neighbourWeights(p, ofWide, n, wideThere, steps);
         addWeight(&wideSum, w);
         addValue(&wideSum, 0u, w, loadBlock(wide, j));
@@ -78,8 +78,9 @@ WEDGE_FN LineMeans compareLine(FilterParams p, int i, int element, Vec3 step, in
 /// out  of both: rows filtered, and equal samples that they amount to
 __kernel void compareRows(FilterParams p, __global const float* restrict value, __global const float* restrict beta,
     __global const float* restrict compared, __global const float* restrict position,
-    __global const float* restrict normal, __global const uint* restrict objectId, __global float* restrict narrowRows,
-    __global float* restrict wideRows, __global float* restrict narrowCounts, __global float* restrict wideCounts)
+    __global const float* restrict normal, __global const float* restrict pixelSize,
+    __global const uint* restrict objectId, __global float* restrict narrowRows, __global float* restrict wideRows,
+    __global float* restrict narrowCounts, __global float* restrict wideCounts)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -91,7 +92,7 @@ __kernel void compareRows(FilterParams p, __global const float* restrict value, 
     own.narrow.value = own.wide.value = loadBlock(value, i);
     own.narrow.count = own.wide.count = (float16)(1.0f);
     const LineMeans means = compareLine(p, i, 1, p.right, WEDGE_MAX_RADIUS, WEDGE_MAX_RADIUS, value, value, beta,
-        compared, position, normal, objectId, own);
+        compared, position, normal, pixelSize, objectId, own);
     vstore16(means.narrow.value, 0, narrowRows + i);
     vstore16(means.wide.value, 0, wideRows + i);
     vstore16(means.narrow.count, 0, narrowCounts + i);
@@ -106,7 +107,8 @@ __kernel void compareColumns(FilterParams p, __global const float* restrict narr
     __global const float* restrict wideRows, __global const float* narrowCounts, __global const float* wideCounts,
     __global const float* restrict beta, __global const float* restrict compared,
     __global const float* restrict position, __global const float* restrict normal,
-    __global const uint* restrict objectId, __global float* restrict difference, __global float* apart)
+    __global const float* restrict pixelSize, __global const uint* restrict objectId,
+    __global float* restrict difference, __global float* apart)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -120,7 +122,7 @@ __kernel void compareColumns(FilterParams p, __global const float* restrict narr
     own.narrow.count = loadBlock(narrowCounts, i);
     own.wide.count = loadBlock(wideCounts, i);
     const LineMeans means = compareLine(p, i, (int)p.stride, p.down, (int)y, (int)(p.height - 1u - y), narrowRows,
-        wideRows, beta, compared, position, normal, objectId, own);
+        wideRows, beta, compared, position, normal, pixelSize, objectId, own);
     const float16 k = means.narrow.count, kWide = means.wide.count;
     vstore16(means.narrow.value - means.wide.value, 0, difference + i);
     vstore16(kWide > k ? 1.0f / k - 2.0f / (k + kWide) : (float16)(0.0f), 0, apart + i);

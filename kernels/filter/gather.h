@@ -1,10 +1,13 @@
 // The image-space filter: a Gaussian of world-space standard deviation beta(x), as two one-dimensional passes.
 // Weights come from distances between the pixels' positions, so depth edges need no special case; neighbours of another
 // object or with another normal are left out. Distances are those in the plane parallel to a light, or, where the term
-// is of no light, plain ones. Here is what neighbours weigh; gather_lines.h has the passes. Each program that includes
-// this sets WEDGE_GATHER_CHANNELS, the planes of value. Those of packed frames set WEDGE_GATHER_PACKED, too: normals
-// are packed (packed_planes.h). They are programs of their own since a test of a parameter in each tap takes several
-// times as long.
+// is of no light, plain ones. Each pixel counts for the surface that it sees: the convolutions (3.10) and (4.16) are
+// integrals over the surface, and pixels are not alike in what they see of it. Here is what neighbours weigh;
+// gather_lines.h has the passes. Each program that includes this sets WEDGE_GATHER_CHANNELS, the planes of value. Those
+// of packed frames set WEDGE_GATHER_PACKED, too: normals are packed, and pixels' sizes have 16 bits (packed_planes.h).
+// They are programs of their own since a test of a parameter in each tap takes several times as long. And all is
+// inlined by order: compilers leave calls, with vectors in memory, to functions of this size, and gathers took twice as
+// long.
 #ifndef WEDGE_GATHER_H
 #define WEDGE_GATHER_H
 
@@ -29,7 +32,7 @@
 typedef struct {
     Vec3x16 position, normal, slant; ///< slant: what a motion of 1 along the light's normal adds, see distance16
     uint16 object;
-    float16 area; ///< of the surface that the pixel sees, as surfaceArea() has it
+    float16 perSize; ///< 1 over the side of the surface that the pixel sees, metres
 } GatherBlock;
 
 /// A kernel for each pixel of a block.
@@ -41,7 +44,7 @@ typedef struct {
 } GatherWidth;
 
 /// Normals of three planes, or of one that is packed.
-WEDGE_FN Vec3x16 loadNormalBlock(FilterParams p, __global const float* normal, int i)
+WEDGE_INLINE Vec3x16 loadNormalBlock(FilterParams p, __global const float* normal, int i)
 {
 #ifdef WEDGE_GATHER_PACKED
     (void)p;
@@ -54,25 +57,24 @@ WEDGE_FN Vec3x16 loadNormalBlock(FilterParams p, __global const float* normal, i
 /// Squared distance between a pixel and its neighbour at offset d, as far as the light's shadow is concerned:
 /// d less its part along the light's normal (3.12), or, oblique, slid along the ray to the light's centre onto the
 /// plane through the pixel parallel to the light. Without a light, whose normal is then 0, it is |d|^2.
-WEDGE_FN float16 distance16(FilterParams p, Vec3x16 slant, Vec3x16 d)
+WEDGE_INLINE float16 distance16(FilterParams p, Vec3x16 slant, Vec3x16 d)
 {
     const float16 along = d.x * p.lightNormal.x + d.y * p.lightNormal.y + d.z * p.lightNormal.z;
     const Vec3x16 e = mad16(d, slant, -along);
     return dot16(e, e);
 }
 
-/// Surface that a pixel sees, but for a factor that all pixels share: z^3 / |n.d| at depth z and vector d from the eye,
-/// over `unit`. The convolutions (3.10) and (4.16) are integrals over the surface, and pixels are not alike in what
-/// they see of it.
-WEDGE_FN float16 surfaceArea(FilterParams p, Vec3x16 position, Vec3x16 normal, float16 unit)
+/// Sides of the surface that pixels see, metres (projectedPixel()); packed, these have 16 bits.
+WEDGE_INLINE float16 loadSizeBlock(__global const float* pixelSize, int i)
 {
-    const Vec3x16 d = sub16(position, splat3(p.eye));
-    const float16 z = d.x * p.forward.x + d.y * p.forward.y + d.z * p.forward.z;
-    const float16 facing = max16(fabs(dot16(normal, d)), WEDGE_MIN_STEP_COSINE * fabs(z));
-    return z * z * z / max16(facing * unit, (float16)(1e-37f));
+#ifdef WEDGE_GATHER_PACKED
+    return loadShortBlock(pixelSize, i);
+#else
+    return loadBlock(pixelSize, i);
+#endif
 }
 
-WEDGE_FN Vec3x16 slantOf(FilterParams p, Vec3x16 position)
+WEDGE_INLINE Vec3x16 slantOf(FilterParams p, Vec3x16 position)
 {
     if (p.oblique == 0u) {
         return splat3(p.lightNormal);
@@ -90,7 +92,7 @@ WEDGE_FN Vec3x16 slantOf(FilterParams p, Vec3x16 position)
 }
 
 /// Pixels that a kernel of radius `reach` metres spans on the surface's tangent plane, along image step `step`.
-WEDGE_FN float16 radiusInPixels(FilterParams p, GatherBlock b, Vec3 step, float16 reach)
+WEDGE_INLINE float16 radiusInPixels(FilterParams p, GatherBlock b, Vec3 step, float16 reach)
 {
     const Vec3x16 fromEye = sub16(b.position, splat3(p.eye));
     const float16 z = fromEye.x * p.forward.x + fromEye.y * p.forward.y + fromEye.z * p.forward.z;
@@ -107,20 +109,20 @@ WEDGE_FN float16 radiusInPixels(FilterParams p, GatherBlock b, Vec3 step, float1
     return min16(max16(pixels, (float16)(1.0f)), (float16)((float)p.maxRadius));
 }
 
-WEDGE_FN GatherBlock gatherBlock(
-    FilterParams p, int i, uint16 object, __global const float* position, __global const float* normal)
+WEDGE_INLINE GatherBlock gatherBlock(FilterParams p, int i, uint16 object, __global const float* position,
+    __global const float* normal, __global const float* pixelSize)
 {
     GatherBlock b;
     b.object = object;
     b.position = loadVecBlock(position, p.planeSize, i);
     b.normal = loadNormalBlock(p, normal, i);
     b.slant = slantOf(p, b.position);
-    b.area = surfaceArea(p, b.position, b.normal, (float16)(1.0f));
+    b.perSize = p.surface != 0u ? 1.0f / max16(loadSizeBlock(pixelSize, i), (float16)(1e-30f)) : (float16)(1.0f);
     return b;
 }
 
 /// The kernels of pixels `gathers`, of standard deviation beta, along image step `step`.
-WEDGE_FN GatherWidth gatherWidth(FilterParams p, GatherBlock b, Vec3 step, int16 gathers, float16 beta)
+WEDGE_INLINE GatherWidth gatherWidth(FilterParams p, GatherBlock b, Vec3 step, int16 gathers, float16 beta)
 {
     GatherWidth w;
     w.beta = gathers ? beta : (float16)(1.0f);
@@ -138,13 +140,13 @@ typedef struct {
 } Neighbours;
 
 /// betaThere: negative where there is no value to take
-WEDGE_FN Neighbours neighboursAt(FilterParams p, GatherBlock b, int j, float16 betaThere,
-    __global const float* position, __global const float* normal, __global const uint* objectId)
+WEDGE_INLINE Neighbours neighboursAt(FilterParams p, GatherBlock b, int j, float16 betaThere,
+    __global const float* position, __global const float* normal, __global const float* pixelSize,
+    __global const uint* objectId)
 {
     const uint16 object = loadIdBlock(objectId, j);
     const Vec3x16 normalThere = loadNormalBlock(p, normal, j);
-    const Vec3x16 there = loadVecBlock(position, p.planeSize, j);
-    const Vec3x16 d = sub16(there, b.position);
+    const Vec3x16 d = sub16(loadVecBlock(position, p.planeSize, j), b.position);
     Neighbours n;
     n.squared = distance16(p, b.slant, d);
     n.known = (object == b.object) & (betaThere >= 0.0f) & (dot16(b.normal, normalThere) >= p.normalCosine);
@@ -152,13 +154,14 @@ WEDGE_FN Neighbours neighboursAt(FilterParams p, GatherBlock b, int j, float16 b
     if (p.surface != 0u) {
         const float16 rise = dot16(b.normal, d);
         n.known &= rise * rise <= WEDGE_MOST_RISE * WEDGE_MOST_RISE * dot16(d, d);
-        n.area = min16(surfaceArea(p, there, normalThere, b.area), (float16)(WEDGE_MOST_AREA));
+        const float16 size = loadSizeBlock(pixelSize, j) * b.perSize;
+        n.area = min16(size * size, (float16)(WEDGE_MOST_AREA));
     }
     return n;
 }
 
 /// What neighbours `steps` pixels away weigh, whose own kernels are betaThere wide: 0 where they are not in reach.
-WEDGE_FN float16 neighbourWeights(FilterParams p, GatherWidth width, Neighbours n, float16 betaThere, float steps)
+WEDGE_INLINE float16 neighbourWeights(FilterParams p, GatherWidth width, Neighbours n, float16 betaThere, float steps)
 {
     const int16 taken = n.known & (n.squared <= width.limit) & (steps <= width.radius);
     float16 scale = width.scale;
@@ -175,14 +178,14 @@ typedef struct {
     float16 channel[WEDGE_GATHER_CHANNELS];
 } GatherSum;
 
-WEDGE_FN void addWeight(GatherSum* sum, float16 w)
+WEDGE_INLINE void addWeight(GatherSum* sum, float16 w)
 {
     sum->weight += w;
     sum->squared += w * w;
 }
 
 /// Not the weight alone: 0 times a NaN would let it in.
-WEDGE_FN void addValue(GatherSum* sum, uint channel, float16 w, float16 value)
+WEDGE_INLINE void addValue(GatherSum* sum, uint channel, float16 w, float16 value)
 {
     sum->channel[channel] += w > 0.0f ? w * value : (float16)(0.0f);
 }

@@ -2,7 +2,7 @@
 // WEDGE_GATHER_VALUE_ONLY.
 //
 // in   value, beta (metres; 0: keep the pixel's own value, still a neighbour of others; negative: neither), position,
-//      normal, objectId, and for the second pass the first one's effective counts
+//      normal, pixelSize, objectId, and for the second pass the first one's effective counts
 // out  filtered (like value), effective: (sum w)^2 / sum w^2, the number of equal samples that the gather
 //      amounts to, times that of the pass before
 #ifndef WEDGE_GATHER_LINES_H
@@ -10,7 +10,7 @@
 
 #include "filter/gather.h"
 
-WEDGE_FN void storeEffective(float16 count, __global float* effective)
+WEDGE_INLINE void storeEffective(float16 count, __global float* effective)
 {
 #ifdef WEDGE_GATHER_VALUE_ONLY
     (void)count;
@@ -21,12 +21,12 @@ WEDGE_FN void storeEffective(float16 count, __global float* effective)
 }
 
 /// Adds the neighbours at element j, `steps` pixels away.
-WEDGE_FN void gatherTap(FilterParams p, GatherBlock b, GatherWidth width, int j, float steps,
+WEDGE_INLINE void gatherTap(FilterParams p, GatherBlock b, GatherWidth width, int j, float steps,
     __global const float* value, __global const float* beta, __global const float* position,
-    __global const float* normal, __global const uint* objectId, GatherSum* sum)
+    __global const float* normal, __global const float* pixelSize, __global const uint* objectId, GatherSum* sum)
 {
     const float16 betaThere = loadBlock(beta, j);
-    const Neighbours n = neighboursAt(p, b, j, betaThere, position, normal, objectId);
+    const Neighbours n = neighboursAt(p, b, j, betaThere, position, normal, pixelSize, objectId);
     const float16 w = neighbourWeights(p, width, n, betaThere, steps);
     addWeight(sum, w);
     for (uint c = 0u; c < WEDGE_GATHER_CHANNELS; ++c) {
@@ -34,10 +34,10 @@ WEDGE_FN void gatherTap(FilterParams p, GatherBlock b, GatherWidth width, int j,
     }
 }
 
-WEDGE_FN void gatherLine(FilterParams p, uint x, uint y, int element, Vec3 step, int before, int after,
+WEDGE_INLINE void gatherLine(FilterParams p, uint x, uint y, int element, Vec3 step, int before, int after,
     __global const float* value, __global const float* beta, __global const float* position,
-    __global const float* normal, __global const uint* objectId, float16 effectiveBefore, __global float* filtered,
-    __global float* effective)
+    __global const float* normal, __global const float* pixelSize, __global const uint* objectId,
+    float16 effectiveBefore, __global float* filtered, __global float* effective)
 {
     const int i = (int)pixelIndex(x, y, p.stride);
     const float16 betaHere = loadBlock(beta, i);
@@ -54,7 +54,7 @@ WEDGE_FN void gatherLine(FilterParams p, uint x, uint y, int element, Vec3 step,
         storeEffective(effectiveBefore, effective + i);
         return;
     }
-    const GatherBlock b = gatherBlock(p, i, object, position, normal);
+    const GatherBlock b = gatherBlock(p, i, object, position, normal, pixelSize);
     const GatherWidth width = gatherWidth(p, b, step, gathers, betaHere);
     GatherSum sum;
     sum.weight = (float16)(1.0f);
@@ -65,10 +65,10 @@ WEDGE_FN void gatherLine(FilterParams p, uint x, uint y, int element, Vec3 step,
     const int radius = (int)largestOf(width.radius);
     for (int k = 1; k <= radius; ++k) {
         if (k <= before) {
-            gatherTap(p, b, width, i - k * element, (float)k, value, beta, position, normal, objectId, &sum);
+            gatherTap(p, b, width, i - k * element, (float)k, value, beta, position, normal, pixelSize, objectId, &sum);
         }
         if (k <= after) {
-            gatherTap(p, b, width, i + k * element, (float)k, value, beta, position, normal, objectId, &sum);
+            gatherTap(p, b, width, i + k * element, (float)k, value, beta, position, normal, pixelSize, objectId, &sum);
         }
     }
     for (uint c = 0u; c < WEDGE_GATHER_CHANNELS; ++c) {
@@ -81,27 +81,28 @@ WEDGE_FN void gatherLine(FilterParams p, uint x, uint y, int element, Vec3 step,
 /// Along x. The padding of the rows holds objectId 0, so no tap has to ask where the row ends.
 __kernel void filterRows(FilterParams p, __global const float* restrict value, __global const float* restrict beta,
     __global const float* restrict position, __global const float* restrict normal,
-    __global const uint* restrict objectId, __global float* restrict filtered, __global float* restrict effective)
+    __global const float* restrict pixelSize, __global const uint* restrict objectId, __global float* restrict filtered,
+    __global float* restrict effective)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
     if (x < p.x1 && y < p.y1) {
-        gatherLine(p, x, y, 1, p.right, WEDGE_MAX_RADIUS, WEDGE_MAX_RADIUS, value, beta, position, normal, objectId,
-            (float16)(1.0f), filtered, effective);
+        gatherLine(p, x, y, 1, p.right, WEDGE_MAX_RADIUS, WEDGE_MAX_RADIUS, value, beta, position, normal, pixelSize,
+            objectId, (float16)(1.0f), filtered, effective);
     }
 }
 
 /// Along y. The effective counts may be in the place of those of the rows: of each block these are read first.
 __kernel void filterColumns(FilterParams p, __global const float* restrict value, __global const float* restrict beta,
     __global const float* restrict position, __global const float* restrict normal,
-    __global const uint* restrict objectId, __global const float* effectiveRows, __global float* restrict filtered,
-    __global float* effective)
+    __global const float* restrict pixelSize, __global const uint* restrict objectId,
+    __global const float* effectiveRows, __global float* restrict filtered, __global float* effective)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
     if (x < p.x1 && y < p.y1) {
         gatherLine(p, x, y, (int)p.stride, p.down, (int)y, (int)(p.height - 1u - y), value, beta, position, normal,
-            objectId, loadBlock(effectiveRows, (int)pixelIndex(x, y, p.stride)), filtered, effective);
+            pixelSize, objectId, loadBlock(effectiveRows, (int)pixelIndex(x, y, p.stride)), filtered, effective);
     }
 }
 

@@ -66,7 +66,7 @@ WEDGE_FN float bandlimitOf(uint component, Gloss lobe)
 
 /// Distances, infinite where nothing was hit.
 typedef struct {
-    float mean, least;
+    float16 mean, least;
 } Nearness;
 
 /// Harmonic means of the distances that the rays of the object's pixels around found, and of the least one of each;
@@ -74,74 +74,110 @@ typedef struct {
 /// follows the samples that it then weighs makes the image too dark, as pixels that found something bright and near
 /// would get narrower filters than those around that did not, and count less in these. Of glossy light pixels count
 /// that met something: `taken` of several receivers has matt ones' samples, too.
-WEDGE_FN Nearness nearness(ReflectorParams p, uint x, uint y, uint i, __global const float* reflectors,
+WEDGE_FN Nearness nearness(ReflectorParams p, uint y, int i, __global const float* reflectors,
     __global const uint* objectId, __global const uint* taken)
 {
     const int reach = (int)WEDGE_NEARNESS_REACH;
+    const bool glossy = p.component == WEDGE_COMPONENT_GLOSSY;
     __global const float* inverse = reflectors + (p.meanOnly != 0u ? 0u : 2u * p.planeSize);
-    float sum = 0.0f, rays = 0.0f, leasts = 0.0f, pixels = 0.0f;
+    const uint16 object = loadIdBlock(objectId, i);
+    const float16 none = (float16)(0.0f), one = (float16)(1.0f);
+    float16 sum = none, rays = none, leasts = none, pixels = none;
     for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
-        for (int dx = -min((int)x, reach); dx <= min((int)(p.width - 1u - x), reach); ++dx) {
-            const int j = (int)i + dy * (int)p.stride + dx;
-            const bool counts = j != (int)i && objectId[j] == objectId[i] && taken[j] > 0u
-                && (p.component != WEDGE_COMPONENT_GLOSSY || inverse[j] > 0.0f);
-            sum += counts ? inverse[j] : 0.0f;
-            rays += counts ? (float)taken[j] : 0.0f;
-            leasts += counts && reflectors[j] > 0.0f ? 1.0f / reflectors[j] : 0.0f;
-            pixels += counts ? 1.0f : 0.0f;
+        for (int dx = -reach; dx <= reach; ++dx) {
+            if (dx == 0 && dy == 0) {
+                continue;
+            }
+            const int j = i + dy * (int)p.stride + dx;
+            const float16 there = loadBlock(inverse, j), least = loadBlock(reflectors, j);
+            const uint16 samples = loadIdBlock(taken, j);
+            int16 counts = (loadIdBlock(objectId, j) == object) & (samples > 0u);
+            counts &= glossy ? there > 0.0f : (int16)(-1);
+            sum += counts ? there : none;
+            rays += counts ? convert_float16(samples) : none;
+            leasts += (counts & (least > 0.0f)) ? one / least : none;
+            pixels += counts ? one : none;
         }
     }
-    if (!(pixels > 0.0f)) {
-        sum = inverse[i];
-        rays = (float)taken[i];
-        leasts = reflectors[i] > 0.0f ? 1.0f / reflectors[i] : 0.0f;
-        pixels = 1.0f;
-    }
+    const int16 alone = !(pixels > 0.0f);
+    const float16 own = loadBlock(reflectors, i);
+    sum = alone ? loadBlock(inverse, i) : sum;
+    rays = alone ? convert_float16(loadIdBlock(taken, i)) : rays;
+    leasts = !alone ? leasts : own > 0.0f ? one / own : none;
+    pixels = alone ? one : pixels;
     Nearness near;
-    near.mean = sum > 0.0f ? rays / sum : INFINITY;
-    near.least = leasts > 0.0f ? pixels / leasts : INFINITY;
+    near.mean = sum > 0.0f ? rays / sum : (float16)(INFINITY);
+    near.least = leasts > 0.0f ? pixels / leasts : (float16)(INFINITY);
     return near;
 }
 
-/// Widths in metres (4.15), (4.16), -1 where the pixel has no such term, and counts (4.21).
-/// Of the distances there is the least, as published, or, if that is nearer, a fraction of their harmonic mean, in
-/// which rays that hit nothing count as infinitely far: an estimate of the same from all rays, with less noise.
-/// fixedWidth replaces the analysis. meanOnly: reflectors have but one plane, the sum of inverse distances, or what
-/// stands for it (WEDGE_NEAREST_FRACTION); no counts.
+/// z_min of a block of pixels, metres: the least distance, as published of the pixel's own rays, or, if that is nearer,
+/// a fraction of their harmonic mean, in which rays that hit nothing count as infinitely far: an estimate of the same
+/// from all rays, with less noise.
+WEDGE_FN void nearestReflectors(ReflectorParams p, uint y, int i, __global const float* reflectors,
+    __global const uint* objectId, __global const float* extent, __global const uint* taken, float* nearest)
+{
+    const float16 own = loadBlock(reflectors, i);
+    float16 near = own > 0.0f ? own : (float16)(INFINITY);
+    if (p.meanFraction > 0.0f) {
+        const Nearness around = nearness(p, y, i, reflectors, objectId, taken);
+        // What is nearer than the fraction of the mean counts itself: of open scenes most rays hit nothing. Where there
+        // is but one number for both, it has that in it.
+        near = p.meanFraction * around.mean;
+        near = p.meanOnly != 0u ? near : min16(near, around.least);
+    }
+    // Where no ray hit anything, nothing is nearer than what there is is large.
+    const float far = p.extent > 0.0f ? p.extent : extent[0];
+    near = near < INFINITY ? near : (float16)(far);
+    vstore16(max16(near, (float16)(leastDistance(p, extent))), 0, nearest);
+}
+
+/// Widths in metres (4.15), (4.16), -1 where the pixel has no such term. fixedWidth replaces the analysis. meanOnly:
+/// reflectors have but one plane, the sum of inverse distances, or what stands for it (WEDGE_NEAREST_FRACTION).
 __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict reflectors,
     __global const uint* restrict objectId, __global const float* restrict extent,
     __global const float* restrict pixelSize, __global const uint* restrict gloss, __global const uint* restrict taken,
-    __global float* restrict beta, __global uint* restrict wanted)
+    __global float* restrict beta)
 {
-    const uint x = p.x0 + get_global_id(0);
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
     if (x >= p.x1 || y >= p.y1) {
         return;
     }
-    const uint i = pixelIndex(x, y, p.stride);
-    const float size = loadNumber(pixelSize, p.planeSize, i, p.meanOnly, 0u);
-    const Gloss lobe = loadGloss(gloss, i, p.meanOnly);
-    // As published of the pixel's own rays.
-    float near = reflectors[i] > 0.0f ? reflectors[i] : INFINITY;
-    if (p.meanFraction > 0.0f) {
-        const Nearness around = nearness(p, x, y, i, reflectors, objectId, taken);
-        // What is nearer than the fraction of the mean counts itself: of open scenes most rays hit nothing. Where there
-        // is but one number for both, it has that in it.
-        near = p.meanFraction * around.mean;
-        near = p.meanOnly != 0u ? near : fmin(near, around.least);
+    const int i = (int)pixelIndex(x, y, p.stride);
+    float zMin[WEDGE_BLOCK_PIXELS], size[WEDGE_BLOCK_PIXELS], width[WEDGE_BLOCK_PIXELS];
+    nearestReflectors(p, y, i, reflectors, objectId, extent, taken, zMin);
+    vstore16(p.meanOnly != 0u ? loadShortBlock(pixelSize, i) : loadBlock(pixelSize, i), 0, size);
+    for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
+        const float bandlimit = bandlimitOf(p.component, loadGloss(gloss, (uint)i + lane, p.meanOnly));
+        const float bandwidth = indirectBandwidth(zMin[lane], bandlimit, size[lane], p.mu, p.alpha);
+        width[lane] = p.fixedWidth > 0.0f ? p.fixedWidth * size[lane] : p.widthScale / bandwidth;
     }
-    // Where no ray hit anything, nothing is nearer than what there is is large.
-    const float far = p.extent > 0.0f ? p.extent : extent[0];
-    const float zMin = fmax(near < INFINITY ? near : far, leastDistance(p, extent));
-    const float zMax = fmax(p.meanOnly != 0u ? zMin : reflectors[p.planeSize + i], zMin);
-    const float bandlimit = bandlimitOf(p.component, lobe);
-    const float gamma = p.component == WEDGE_COMPONENT_GLOSSY ? glossyGamma(lobe.exponent) : WEDGE_DIFFUSE_GAMMA;
-    const float bandwidth = indirectBandwidth(zMin, bandlimit, size, p.mu, p.alpha);
-    const float wide = p.fixedWidth > 0.0f ? p.fixedWidth * size : p.widthScale / bandwidth;
-    const float count = indirectCount(zMin, zMax, bandlimit, gamma, size, p.mu, p.alpha);
-    const float bounded = fmin(fmax(count, (float)WEDGE_INDIRECT_FIRST_RAYS), (float)p.countCap);
-    beta[i] = taken[i] > 0u ? wide : -1.0f;
-    if (p.meanOnly == 0u) {
+    vstore16(loadIdBlock(taken, i) > 0u ? vload16(0, width) : (float16)(-1.0f), 0, beta + i);
+}
+
+/// Counts (4.21), 0 where the pixel has no such term. reflectors: of all planes
+__kernel void reflectorCounts(ReflectorParams p, __global const float* restrict reflectors,
+    __global const uint* restrict objectId, __global const float* restrict extent,
+    __global const float* restrict pixelSize, __global const uint* restrict gloss, __global const uint* restrict taken,
+    __global uint* restrict wanted)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const uint first = pixelIndex(x, y, p.stride);
+    float zMin[WEDGE_BLOCK_PIXELS];
+    nearestReflectors(p, y, (int)first, reflectors, objectId, extent, taken, zMin);
+    for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
+        const uint i = first + lane;
+        const Gloss lobe = unpackGloss(gloss[i]);
+        const float zMax = fmax(reflectors[p.planeSize + i], zMin[lane]);
+        const float gamma = p.component == WEDGE_COMPONENT_GLOSSY ? glossyGamma(lobe.exponent) : WEDGE_DIFFUSE_GAMMA;
+        const float count =
+            indirectCount(zMin[lane], zMax, bandlimitOf(p.component, lobe), gamma, pixelSize[i], p.mu, p.alpha);
+        const float bounded = fmin(fmax(count, (float)WEDGE_INDIRECT_FIRST_RAYS), (float)p.countCap);
         wanted[i] = taken[i] > 0u ? (uint)(bounded + 0.5f) : 0u;
     }
 }

@@ -74,23 +74,47 @@ shared::AnalysisParams pathCountParams(shared::AnalysisParams p, const Settings&
     return p;
 }
 
-void reflectorWidths(FrameBuilder& frame, const shared::ReflectorParams& params,
-    const graph::Handle<Extremes>& reflectors, const graph::Handle<Count>& taken, graph::Handle<Metres>& beta,
-    graph::Handle<Count>* wanted)
+namespace {
+
+/// Largest dimension of what the camera sees, metres.
+graph::Handle<Metres> visibleExtent(FrameBuilder& frame, const graph::Argument& p)
+{
+    auto bounds = frame.graph.list<Metres>("visible bounds", graph::floats, 6 * WEDGE_EXTENT_STRIPES);
+    auto extent = frame.graph.list<Metres>("visible extent", graph::floats, 1);
+    frame.items("widths", PassKind::Analysis, { "paths/reflectors.cl", "visibleBounds" }, WEDGE_EXTENT_STRIPES,
+        { p, reads("position", frame.surfaces.position), reads("objectId", frame.surfaces.objectId),
+            writes("bounds", bounds) });
+    frame.items("widths", PassKind::Analysis, { "paths/reflectors.cl", "visibleExtent" }, 1,
+        { reads("bounds", bounds), writes("extent", extent) });
+    return extent;
+}
+
+/// What kernels make widths or counts of.
+std::vector<graph::Argument> found(FrameBuilder& frame, const shared::ReflectorParams& params,
+    const graph::Handle<Extremes>& reflectors, const graph::Handle<Count>& taken)
 {
     const Surfaces& s = frame.surfaces;
     const graph::Argument p = frame.rectangle(params);
     const graph::Reach near = graph::around(WEDGE_NEARNESS_REACH);
-    auto bounds = frame.graph.list<Metres>("visible bounds", graph::floats, 6 * WEDGE_EXTENT_STRIPES);
-    auto extent = frame.graph.list<Metres>("visible extent", graph::floats, 1);
-    frame.items("widths", PassKind::Analysis, { "paths/reflectors.cl", "visibleBounds" }, WEDGE_EXTENT_STRIPES,
-        { p, reads("position", s.position), reads("objectId", s.objectId), writes("bounds", bounds) });
-    frame.items("widths", PassKind::Analysis, { "paths/reflectors.cl", "visibleExtent" }, 1,
-        { reads("bounds", bounds), writes("extent", extent) });
-    frame.pixels("widths", PassKind::Analysis, { "paths/reflectors.cl", "reflectorWidths" },
-        { p, reads("reflectors", reflectors, near), reads("objectId", s.objectId, near), reads("extent", extent),
-            reads("pixelSize", s.pixelSize), reads("gloss", s.gloss), reads("taken", taken, near), writes("beta", beta),
-            wanted != nullptr ? writes("wanted", *wanted) : frame.nothing("wanted") });
+    return { p, reads("reflectors", reflectors, near), reads("objectId", s.objectId, near),
+        reads("extent", visibleExtent(frame, p)), reads("pixelSize", s.pixelSize), reads("gloss", s.gloss),
+        reads("taken", taken, near) };
+}
+
+} // namespace
+
+void reflectorWidths(FrameBuilder& frame, const shared::ReflectorParams& params,
+    const graph::Handle<Extremes>& reflectors, const graph::Handle<Count>& taken, graph::Handle<Metres>& beta)
+{
+    frame.blocks("widths", PassKind::Analysis, { "paths/reflectors.cl", "reflectorWidths" },
+        joined(found(frame, params, reflectors, taken), Arguments { writes("beta", beta) }));
+}
+
+void reflectorCounts(FrameBuilder& frame, const shared::ReflectorParams& params,
+    const graph::Handle<Extremes>& reflectors, const graph::Handle<Count>& taken, graph::Handle<Count>& wanted)
+{
+    frame.blocks("counts", PassKind::Analysis, { "paths/reflectors.cl", "reflectorCounts" },
+        joined(found(frame, params, reflectors, taken), Arguments { writes("wanted", wanted) }));
 }
 
 } // namespace wedge::render

@@ -34,10 +34,12 @@ shared::PathParams pathParams(const FrameBuilder& frame, Component component);
 shared::AnalysisParams pathCountParams(shared::AnalysisParams params, const Settings& settings);
 
 /// Declares how the widths of a component's filter, metres, follow from the distances of reflectors
-/// (kernels/paths/reflectors.cl), and counts as published. wanted: these; null: none are made, and reflectors have but
-/// one plane
+/// (kernels/paths/reflectors.cl).
 void reflectorWidths(FrameBuilder& frame, const shared::ReflectorParams& params,
-    const graph::Handle<Extremes>& reflectors, const graph::Handle<Count>& taken, graph::Handle<Metres>& beta,
-    graph::Handle<Count>* wanted);
+    const graph::Handle<Extremes>& reflectors, const graph::Handle<Count>& taken, graph::Handle<Metres>& beta);
+
+/// The same of the counts (4.21), as published.
+void reflectorCounts(FrameBuilder& frame, const shared::ReflectorParams& params,
+    const graph::Handle<Extremes>& reflectors, const graph::Handle<Count>& taken, graph::Handle<Count>& wanted);
 
 } // namespace wedge::render

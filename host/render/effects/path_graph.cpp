@@ -148,11 +148,13 @@ void PathGraph::paths(const char* pass, std::uint32_t from, std::uint32_t most, 
 
 void PathGraph::widthsAndCounts()
 {
-    reflectorWidths(f_, reflectorParams(), extremes_, taken_, beta_, &wanted_);
+    reflectorWidths(f_, reflectorParams(), extremes_, taken_, beta_);
     if (isUniform()) {
         uniformCounts(f_, static_cast<std::uint32_t>(s_.spp), taken_, wanted_);
     } else if (s_.indirect.counts == IndirectCounts::Variance) {
         countsFromVariance();
+    } else {
+        reflectorCounts(f_, reflectorParams(), extremes_, taken_, wanted_);
     }
 }
 

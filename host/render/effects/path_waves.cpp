@@ -61,7 +61,7 @@ void PathWaves::widths()
 {
     shared::ReflectorParams p = reflectorParams(f_, component_);
     p.meanOnly = f_.packed ? 1 : 0;
-    reflectorWidths(f_, p, leastExtreme(), means.taken, means.beta, f_.packed ? nullptr : &means.wanted);
+    reflectorWidths(f_, p, leastExtreme(), means.taken, means.beta);
 }
 
 void PathWaves::publishedWidths(

@@ -16,10 +16,19 @@ using graph::writes;
 
 namespace {
 
-/// What every gather asks of the neighbours that it may reach.
+/// Where pixels and those that they may reach are.
 std::vector<graph::Argument> neighbours(const Surfaces& s, graph::Reach reach)
 {
     return { reads("position", s.position, reach), reads("normal", s.normal, reach),
+        reads("objectId", s.objectId, reach) };
+}
+
+/// And what a gather asks of them.
+std::vector<graph::Argument> gathered(const FrameBuilder& frame, const shared::FilterParams& params, graph::Reach reach)
+{
+    const Surfaces& s = frame.surfaces;
+    return { reads("position", s.position, reach), reads("normal", s.normal, reach),
+        params.surface != 0 ? reads("pixelSize", s.pixelSize, reach) : frame.nothing("pixelSize"),
         reads("objectId", s.objectId, reach) };
 }
 
@@ -36,10 +45,10 @@ Gathered gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t
         frame.graph.plane<Count>("effective count", graph::floats) };
     frame.blocks(run.pass, run.kind, { frame.program(run.program), "filterRows" },
         joined({ frame.rectangle(params), reads("value", filtered, along), reads("beta", beta, along) },
-            neighbours(frame.surfaces, along), Arguments { writes("filtered", rows), writes("effective", rowCounts) }));
+            gathered(frame, params, along), Arguments { writes("filtered", rows), writes("effective", rowCounts) }));
     frame.blocks(run.pass, run.kind, { frame.program(run.program), "filterColumns" },
         joined({ frame.rectangle(params), reads("value", rows, across), reads("beta", beta, across) },
-            neighbours(frame.surfaces, across),
+            gathered(frame, params, across),
             Arguments { reads("effectiveRows", rowCounts), writes("filtered", out.value),
                 writes("effective", out.effective) }));
     return out;
@@ -72,15 +81,14 @@ void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams para
     frame.blocks(pass, PassKind::Filter, { program, "compareRows" },
         joined({ frame.rectangle(params), reads("value", compared.value, along), reads("beta", beta, along),
                    reads("compared", wider, along) },
-            neighbours(frame.surfaces, along),
+            gathered(frame, params, along),
             Arguments { writes("narrowRows", narrowRows), writes("wideRows", wideRows),
                 writes("narrowCounts", narrowCounts), writes("wideCounts", wideCounts) }));
     frame.blocks(pass, PassKind::Filter, { program, "compareColumns" },
         joined({ frame.rectangle(params), reads("narrowRows", narrowRows, across), reads("wideRows", wideRows, across),
                    reads("narrowCounts", narrowCounts), reads("wideCounts", wideCounts), reads("beta", beta, across),
                    reads("compared", wider, across) },
-            neighbours(frame.surfaces, across),
-            Arguments { writes("difference", difference), writes("apart", apart) }));
+            gathered(frame, params, across), Arguments { writes("difference", difference), writes("apart", apart) }));
     frame.blocks(pass, PassKind::Filter, { "analysis/widen.cl", "widenSquares" },
         { frame.rectangle(p), reads("difference", difference), reads("apart", apart),
             reads("deviation", compared.deviation), reads("weights", compared.weights), writes("squares", squares),
