@@ -20,7 +20,7 @@
 #define WEDGE_PIXEL_SEED 0x70697865u
 
 /// Two random numbers of a primary sample.
-WEDGE_FN Vec2 cameraPair(FrameParams frame, WaveParams wave, uint what, uint x, uint y, uint index, uint count)
+WEDGE_INLINE Vec2 cameraPair(FrameParams frame, WaveParams wave, uint what, uint x, uint y, uint index, uint count)
 {
     const uint seed = hashCombine(hashCombine(frame.seed, what), y * frame.width + x);
     if (wave.sampler == WEDGE_SAMPLER_SOBOL) {
@@ -33,7 +33,7 @@ WEDGE_FN Vec2 cameraPair(FrameParams frame, WaveParams wave, uint what, uint x, 
         : stratified(index - wave.firstPass, count - wave.firstPass, hashUint(seed ^ 0x33333333u), hashUint(seed));
 }
 
-WEDGE_FN CameraRay primaryRay(
+WEDGE_INLINE CameraRay primaryRay(
     FrameParams frame, CameraParams camera, WaveParams wave, uint x, uint y, uint index, uint count)
 {
     Vec2 lens = vec2(0.0f, 0.0f), at = vec2(0.5f, 0.5f);
