@@ -140,8 +140,6 @@ inline shared::DistributedParams paramsOf(const Region& region)
     p.shutterExponent = 0.25f;
     p.leastRadius = 2;
     p.irradianceWidth = 0.18f;
-    p.countExponent = 0.5f;
-    p.varianceSpread = 0.25f;
     p.rays = 1;
     p.values = 1;
     p.oneVelocity = 0.1f;

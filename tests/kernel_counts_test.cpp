@@ -1,4 +1,4 @@
-// counts.cl alone: sample counts from variance.
+// demand.cl and counts.cl alone: from variances to demands, and from those to counts.
 #include "kernels/shared/filter_params.h"
 #include "tests/render_support.h"
 
@@ -172,49 +172,96 @@ TEST_CASE("counts follow the demand")
     });
 }
 
-TEST_CASE("countDemand is (v / K)^0.4 with v floored by its neighbourhood")
+TEST_CASE(
+    "uncertainty: variance over equal pixels, of visibilities p (1 - p) and no less than the floor; -1 where there "
+    "are no samples, or no slopes")
 {
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);
         for (const auto& [width, height] : { std::pair(1, 1), { 19, 1 }, { 1, 7 }, { 50, 27 } }) {
             const render::PlaneLayout layout(width, height);
             const shared::AnalysisParams p = paramsFor(layout);
-            // Beyond the image stands what must not be taken.
             Planes<float> filtered(layout, 1, 0.5f), effective(layout, 1, 1.0f), beta(layout, 1, 1.0f);
-            Planes<std::uint32_t> objectId(layout, 1, 0u);
             std::mt19937 random(8);
-            for (int y = 0; y < height; ++y)
-                for (int x = 0; x < width; ++x) {
-                    filtered.at(x, y) = static_cast<float>(
-                        random() % 3 == 0 ? uniform(random, -0.001, 1.001) : std::round(uniform(random)));
-                    effective.at(x, y) = static_cast<float>(uniform(random, 0, 40));
-                    beta.at(x, y) = static_cast<float>(static_cast<int>(random() % 4) - 1) * 0.1f;
-                    objectId.at(x, y) = random() % 5 == 0 ? 0 : 1 + static_cast<std::uint32_t>(x / 7 % 2);
-                    if (objectId.at(x, y) == 0)
-                        beta.at(x, y) = -1;
-                }
-            const auto out = bench.filled(layout.size, -7.0f);
-            bench.passes.rows("counts", device::PassKind::Analysis, "analysis/counts.cl", "countDemand", p,
-                WEDGE_BLOCK_PIXELS, bench.buffer(filtered.values), bench.buffer(effective.values),
-                bench.buffer(beta.values), bench.buffer(objectId.values), out);
-            const Planes<float> demand = planesOf(layout, bench.read(out));
-            const auto variance = [&](int x, int y) {
-                const double v = std::clamp<double>(filtered.at(x, y), 0, 1);
-                return v * (1 - v);
+            everyPixel(layout, [&](int x, int y) {
+                filtered.at(x, y) = static_cast<float>(
+                    random() % 3 == 0 ? uniform(random, -0.001, 1.001) : std::round(uniform(random)));
+                effective.at(x, y) = static_cast<float>(uniform(random, 0, 40));
+                beta.at(x, y) = static_cast<float>(static_cast<int>(random() % 3) - 1) * 0.1f;
+            });
+            const auto seen = bench.buffer(filtered.values), gathered = bench.buffer(effective.values),
+                       widths = bench.buffer(beta.values);
+            const auto run = [&](const char* kernel) {
+                const auto out = bench.filled(layout.size, -7.0f);
+                bench.passes.rows("counts", device::PassKind::Analysis, "analysis/demand.cl", kernel, p,
+                    WEDGE_BLOCK_PIXELS, seen, gathered, widths, out);
+                return planesOf(layout, bench.read(out));
             };
-            for (int y = 0; y < height; ++y)
-                for (int x = 0; x < width; ++x) {
-                    double largest = 0;
-                    for (int qy = std::max(0, y - 2); qy <= std::min(height - 1, y + 2); ++qy)
-                        for (int qx = std::max(0, x - 2); qx <= std::min(width - 1, x + 2); ++qx)
-                            if (objectId.at(qx, qy) == objectId.at(x, y) && beta.at(qx, qy) >= 0)
-                                largest = std::max(largest, variance(qx, qy));
-                    const double v = std::max({ variance(x, y), 0.25 * largest, 0.004 });
-                    const double k = std::max<double>(effective.at(x, y), 1);
-                    const double expected = beta.at(x, y) > 0 ? std::pow(v / k, 0.4) : 0.0;
-                    REQUIRE(demand.at(x, y) == doctest::Approx(expected).epsilon(1e-3));
-                }
+            const Planes<float> ofLight = run("visibilityUncertainty"), ofPaths = run("uncertaintyOf");
+            everyPixel(layout, [&](int x, int y) {
+                const double k = std::max<double>(effective.at(x, y), 1);
+                const double visible = std::clamp<double>(filtered.at(x, y), 0, 1);
+                const double v = std::max(visible * (1 - visible), 0.004);
+                REQUIRE(ofLight.at(x, y) == doctest::Approx(beta.at(x, y) > 0 ? v / k : -1.0).epsilon(1e-5));
+                REQUIRE(ofPaths.at(x, y)
+                    == doctest::Approx(beta.at(x, y) >= 0 ? filtered.at(x, y) / k : -1.0).epsilon(1e-5));
+            });
         }
+    });
+}
+
+TEST_CASE(
+    "demand: a power of the neighbours' mean uncertainty, at least a fraction of the largest within 5x5, and never of "
+    "its own; of one object, or of all pixels of the image")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        for (const auto& [width, height] : { std::pair(1, 1), { 1, 9 }, { 40, 21 }, { 48, 3 } })
+            for (const double dark : { 0.2, 1.0 }) {
+                // What lies beside and below the image does not count.
+                const render::PlaneLayout layout(width, height + 2);
+                Planes<float> uncertainty(layout, 1, 1e30f);
+                Planes<std::uint32_t> objectId(layout, 1, 1u);
+                std::mt19937 random(8);
+                everyPixel(layout, [&](int x, int y) {
+                    objectId.at(x, y) = random() % 6 == 0 ? 0 : 1 + static_cast<std::uint32_t>(x / 9 + y / 7) % 2;
+                    uncertainty.at(x, y) = random() % 8 == 0 ? -1.0f
+                        : uniform(random) < dark             ? (random() % 2 == 0 ? 0.0f : 1e-31f)
+                                                 : static_cast<float>(std::pow(10.0, uniform(random, -25, 3)));
+                });
+                shared::AnalysisParams p = paramsFor(layout);
+                p.y1 = p.height = static_cast<std::uint32_t>(height);
+                for (const std::uint32_t oneObject : { 0u, 1u }) {
+                    const auto out = bench.filled(layout.size, -7.0f);
+                    bench.passes.rows("counts", device::PassKind::Analysis, "analysis/demand.cl", "demandOf", p,
+                        WEDGE_BLOCK_PIXELS, oneObject, bench.buffer(uncertainty.values), bench.buffer(objectId.values),
+                        out);
+                    const Planes<float> found = planesOf(layout, bench.read(out));
+                    everyPixel(layout, [&](int x, int y) {
+                        if (y >= height)
+                            return;
+                        double largest = 0, sum = 0;
+                        int nearest = 0, within = 0;
+                        for (int qy = std::max(0, y - 2); qy <= std::min(height - 1, y + 2); ++qy)
+                            for (int qx = std::max(0, x - 2); qx <= std::min(width - 1, x + 2); ++qx) {
+                                const double u = uncertainty.at(qx, qy);
+                                const bool other = objectId.at(qx, qy) != objectId.at(x, y);
+                                if (u < 0 || (oneObject != 0 && other) || (qx == x && qy == y))
+                                    continue;
+                                largest = std::max(largest, u);
+                                ++within;
+                                if (std::abs(qx - x) <= 1 && std::abs(qy - y) <= 1) {
+                                    sum += u;
+                                    ++nearest;
+                                }
+                            }
+                        const double own = uncertainty.at(x, y);
+                        const double u = within > 0 ? std::max(sum / std::max(nearest, 1), 0.25 * largest) : own;
+                        const double expected = own >= 0 && u > 1e-30 ? std::pow(u, 0.4) : 0.0;
+                        REQUIRE(found.at(x, y) == doctest::Approx(expected).epsilon(1e-3));
+                    });
+                }
+            }
     });
 }
 

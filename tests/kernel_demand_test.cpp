@@ -1,4 +1,4 @@
-// distributed.cl alone: variances of pixels, which samples those ask for, and bounds of counts.
+// distributed.cl alone: variances of pixels, how uncertain they leave an image, and bounds of counts.
 #include "tests/distributed_support.h"
 #include "tests/packed_support.h"
 
@@ -81,7 +81,7 @@ SplitPlanes splitVariance(
     return { first.read(), second.read() };
 }
 
-/// What sampleDemand takes.
+/// What uncertaintyOfRays takes.
 struct Filters {
     Planes<float> variance, effective, beta, lens, along;
 
@@ -109,36 +109,17 @@ struct Filters {
         const double lengthwise = across + (p.alongMotion != 0 ? std::pow(along.at(x, y), 2) : 0);
         return std::max(1.0, 4 * pi * std::sqrt(across) * std::sqrt(lengthwise));
     }
-    double expected(const Region& region, const shared::DistributedParams& p, int x, int y) const
-    {
-        double largest = 0, sum = 0;
-        int nearest = 0;
-        for (int py = y - 2; py <= y + 2; ++py)
-            for (int px = x - 2; px <= x + 2; ++px) {
-                if (!region.contains(px, py) || (px == x && py == y))
-                    continue;
-                const double there = variance.at(px, py) / gathered(p, px, py);
-                largest = std::max(largest, there);
-                if (std::abs(px - x) <= 1 && std::abs(py - y) <= 1) {
-                    sum += there;
-                    ++nearest;
-                }
-            }
-        const double v =
-            nearest > 0 ? std::max(sum / nearest, p.varianceSpread * largest) : variance.at(x, y) / gathered(p, x, y);
-        return v > 1e-30 ? std::pow(v / p.rays, p.countExponent) : 0;
-    }
 };
-Planes<float> sampleDemand(
+Planes<float> uncertaintyOfRays(
     KernelBench& bench, const Region& region, const shared::DistributedParams& p, const Filters& in)
 {
-    Output<float> demand(bench, region, 1);
+    Output<float> uncertainty(bench, region, 1);
     const auto variance = bench.buffer(in.variance.values), effective = bench.buffer(in.effective.values),
                beta = bench.buffer(in.beta.values), lens = bench.buffer(in.lens.values),
                along = bench.buffer(in.along.values);
-    launchPixels(
-        bench, "waves/distributed.cl", "sampleDemand", p, variance, effective, beta, lens, along, demand.buffer());
-    return demand.read();
+    launchPixels(bench, "waves/distributed.cl", "uncertaintyOfRays", p, variance, effective, beta, lens, along,
+        uncertainty.buffer());
+    return uncertainty.read();
 }
 
 /// Sum of the squares of Gaussians of those deviations, one convolved with the other, on whole numbers.
@@ -254,28 +235,26 @@ TEST_CASE("emission: the variance of its luminance, none of a sample or less")
     });
 }
 
-TEST_CASE("demand: a power of the neighbours' variance over what filters gather and rays cost, no less than a part of "
-          "the largest")
+TEST_CASE("uncertainty: variance over what filters gather and rays cost")
 {
     onEveryRegion(40, [](KernelBench& bench, const Region& region, std::mt19937& random) {
         for (const std::uint32_t alongMotion : { 0u, 1u })
-            for (const auto& [rays, exponent] : { std::pair(1.0f, 0.5f), { 4.0f, 0.35f } }) {
+            for (const float rays : { 1.0f, 4.0f }) {
                 const Filters in(region, random);
                 shared::DistributedParams p = paramsOf(region);
                 p.alongMotion = alongMotion;
                 p.rays = rays;
-                p.countExponent = exponent;
-                const Planes<float> found = sampleDemand(bench, region, p, in);
+                const Planes<float> found = uncertaintyOfRays(bench, region, p, in);
                 everyPixel(region.window, [&](int x, int y) {
                     CAPTURE(x);
                     CAPTURE(y);
-                    REQUIRE(agree(found.at(x, y), in.expected(region, p, x, y), 1e-4));
+                    REQUIRE(agree(found.at(x, y), in.variance.at(x, y) / in.gathered(p, x, y) / rays, 1e-4));
                 });
             }
     });
 }
 
-TEST_CASE("demand: filters one after the other gather what their kernels, convolved, do")
+TEST_CASE("uncertainty: filters one after the other gather what their kernels, convolved, do")
 {
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);
@@ -291,10 +270,9 @@ TEST_CASE("demand: filters one after the other gather what their kernels, convol
                     in.lens.at(0, 0) = static_cast<float>(lens);
                     in.along.at(0, 0) = static_cast<float>(along);
                     shared::DistributedParams p = paramsOf(region);
-                    p.countExponent = 1;
                     p.alongMotion = 1;
                     const double gathered = 1 / (squaredWeights({ own, lens }) * squaredWeights({ own, lens, along }));
-                    REQUIRE(agree(sampleDemand(bench, region, p, in).at(0, 0), 1 / gathered, 1e-3));
+                    REQUIRE(agree(uncertaintyOfRays(bench, region, p, in).at(0, 0), 1 / gathered, 1e-3));
                 }
     });
 }

@@ -1,4 +1,4 @@
-// reflectors.cl alone: from the samples' variance to what each pixel demands, against the same in double.
+// reflectors.cl alone: from the samples' variance against the same in double.
 #include "tests/reflector_support.h"
 
 #include <algorithm>
@@ -58,62 +58,6 @@ TEST_CASE("sampleVariance is the variance of the samples' luminance as the image
                 everyPixel(layout, [&](int x, int y) {
                     REQUIRE(found.at(x, y) >= 0.0f);
                     REQUIRE(std::fabs(found.at(x, y) - exact.at(x, y)) <= 2e-6 * scale.at(x, y));
-                });
-            }
-    });
-}
-
-TEST_CASE("pathDemand weighs the neighbours' variance, at least a fraction of the object's largest within 5x5, and "
-          "never its own")
-{
-    onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        for (const auto& [width, height] : { std::pair(1, 1), { 1, 9 }, { 40, 21 } })
-            for (const double dark : { 0.2, 1.0 }) {
-                // What lies below the image does not count.
-                const render::PlaneLayout layout(width, height + 2);
-                Planes<float> variance(layout, 1, 0.0f), effective(layout, 1, 0.0f), beta(layout, 1, 0.0f);
-                Planes<std::uint32_t> objectId(layout, 1, 0u);
-                std::mt19937 random(8);
-                everyPixel(layout, [&](int x, int y) {
-                    objectId.at(x, y) = random() % 6 == 0 ? 0 : 1 + static_cast<std::uint32_t>(x / 9 + y / 7) % 2;
-                    beta.at(x, y) = objectId.at(x, y) == 0 || random() % 8 == 0 ? -1.0f
-                        : random() % 4 == 0                                     ? 0.0f
-                                                                                : 0.3f;
-                    variance.at(x, y) = uniform(random) < dark
-                        ? (random() % 2 == 0 ? 0.0f : 1e-31f)
-                        : static_cast<float>(std::pow(10.0, uniform(random, -25, 3)));
-                    effective.at(x, y) = static_cast<float>(uniform(random, 0, 200));
-                });
-                shared::ReflectorParams p = paramsFor(layout);
-                p.y1 = p.height = static_cast<std::uint32_t>(height);
-                const auto out = bench.filled(layout.size, -7.0f);
-                launchRows(bench, "pathDemand", p, block, bench.buffer(variance.values), bench.buffer(effective.values),
-                    bench.buffer(beta.values), bench.buffer(objectId.values), out);
-                const Planes<float> found = planesOf(layout, bench.read(out));
-                everyPixel(layout, [&](int x, int y) {
-                    if (y >= height)
-                        return;
-                    double largest = 0, sum = 0;
-                    int nearest = 0, within = 0;
-                    const auto over = [&](int px, int py) {
-                        return variance.at(px, py) / std::max<double>(effective.at(px, py), 1);
-                    };
-                    for (int qy = std::max(0, y - 2); qy <= std::min(height - 1, y + 2); ++qy)
-                        for (int qx = std::max(0, x - 2); qx <= std::min(width - 1, x + 2); ++qx)
-                            if (objectId.at(qx, qy) == objectId.at(x, y) && beta.at(qx, qy) >= 0
-                                && (qx != x || qy != y)) {
-                                largest = std::max(largest, over(qx, qy));
-                                ++within;
-                                if (std::abs(qx - x) <= 1 && std::abs(qy - y) <= 1) {
-                                    sum += over(qx, qy);
-                                    ++nearest;
-                                }
-                            }
-                    const double v = within > 0 ? std::max(sum / std::max(nearest, 1), 0.25 * largest) : over(x, y);
-                    const bool wants = beta.at(x, y) >= 0 && v > 1e-30;
-                    const double expected = wants ? std::pow(v, 0.4) : 0.0;
-                    REQUIRE(close(found.at(x, y), expected, 1e-3));
                 });
             }
     });

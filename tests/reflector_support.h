@@ -21,17 +21,7 @@ inline shared::ReflectorParams paramsFor(const render::PlaneLayout& layout)
     p.widthScale = 0.5f;
     p.leastReflector = 0.005f;
     p.countCap = 256;
-    p.countExponent = 0.4f;
-    p.varianceSpread = 0.25f;
     return p;
-}
-
-template <class Visit>
-void everyPixel(const render::PlaneLayout& layout, const Visit& visit)
-{
-    for (int y = 0; y < static_cast<int>(layout.height); ++y)
-        for (int x = 0; x < static_cast<int>(layout.width); ++x)
-            visit(x, y);
 }
 
 /// Launches a kernel of reflectors.cl; across as for Passes::rows().

@@ -333,4 +333,12 @@ inline std::size_t notFinite(std::span<const float> values)
     return count;
 }
 
+template <class Visit>
+void everyPixel(const render::PlaneLayout& layout, const Visit& visit)
+{
+    for (int y = 0; y < static_cast<int>(layout.height); ++y)
+        for (int x = 0; x < static_cast<int>(layout.width); ++x)
+            visit(x, y);
+}
+
 } // namespace wedge::test

@@ -120,11 +120,10 @@ void DistributedSamples::widths()
     }
 }
 
-void DistributedSamples::demandOf(WaveTerm& term, const Blurs& blurs, graph::Handle<Squares>& ofTextures)
+void DistributedSamples::demandOfTerm(WaveTerm& term, const Blurs& blurs, graph::Handle<Squares>& ofTextures)
 {
     TermMeans& m = term.means;
     const graph::Argument p = f_.rectangle(term.of(params()));
-    const graph::Reach near = around(WEDGE_DEMAND_REACH);
     auto ofTexture = f_.graph.plane<Squares>("variance of texture", graph::floats);
     auto ofIrradiance = f_.graph.plane<Value>("variance of irradiance", graph::floats);
     f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "splitVariance" },
@@ -137,10 +136,21 @@ void DistributedSamples::demandOf(WaveTerm& term, const Blurs& blurs, graph::Han
     // For the effective counts alone.
     const Gathered gathered = gaussianFilter(f_, { "pixels gathered", PassKind::Analysis, "filter/filter_variance.cl" },
         1, filterParams(f_.settings, f_.wholeFrame(), f_.graph.image()), ofIrradiance, m.beta);
-    f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "sampleDemand" },
-        { p, reads("variance", ofIrradiance, near), reads("effective", gathered.effective, near),
-            reads("beta", m.beta, near), reads("lens", blurs.lens, near),
-            keepsMotion() ? reads("along", blurs.along, near) : f_.nothing("along"), writes("demand", m.demand) });
+    demandOfRays(p, ofIrradiance, gathered.effective, m.beta, blurs, m.demand);
+}
+
+void DistributedSamples::demandOfRays(const graph::Argument& p, const graph::Version& variance,
+    const graph::Version& effective, const graph::Handle<Metres>& beta, const Blurs& blurs,
+    graph::Handle<Demand>& demand)
+{
+    auto uncertainty = f_.graph.plane<Uncertainty>("uncertainty", graph::floats);
+    f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "uncertaintyOfRays" },
+        { p, reads("variance", variance), reads("effective", effective), reads("beta", beta), reads("lens", blurs.lens),
+            keepsMotion() ? reads("along", blurs.along) : f_.nothing("along"), writes("uncertainty", uncertainty) });
+    shared::AnalysisParams params = f_.analysisParams();
+    params.countExponent = f_.settings.distributed.countExponent;
+    params.varianceSpread = f_.settings.distributed.varianceSpread;
+    demandOf(f_, params, uncertainty, Reaching::All, demand);
 }
 
 void DistributedSamples::demands()
@@ -174,16 +184,12 @@ void DistributedSamples::demands()
             { pixels, reads("part", ofDelta), updates("sum", ofTextures) });
     }
     for (const std::unique_ptr<WaveTerm>& term : terms_) {
-        demandOf(*term, own, ofTextures);
+        demandOfTerm(*term, own, ofTextures);
     }
     // Nothing but lens and shutter averages textures and what emits.
-    const graph::Reach near = around(WEDGE_DEMAND_REACH);
     auto none = f_.graph.plane<Metres>("no widths", graph::floats);
     f_.fill("counts", none, -1.0f);
-    f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "sampleDemand" },
-        { pixels, reads("variance", ofTextures, near), reads("effective", ofTextures, near), reads("beta", none, near),
-            reads("lens", own.lens, near), keepsMotion() ? reads("along", own.along, near) : f_.nothing("along"),
-            writes("demand", demand_) });
+    demandOfRays(pixels, ofTextures, ofTextures, none, own, demand_);
     const DistributedSettings& d = f_.settings.distributed;
     const auto atLeast = [&](float apart, float together, const TermMeans& term, const graph::Handle<Demand>& least,
                              graph::Handle<Demand>& demand) {

@@ -184,8 +184,6 @@ shared::DistributedParams DistributedSamples::params() const
     p.shutterExponent = d.shutterExponent;
     p.leastRadius = d.leastRadius;
     p.irradianceWidth = d.irradianceWidth;
-    p.countExponent = d.countExponent;
-    p.varianceSpread = d.varianceSpread;
     p.oneVelocity = d.oneVelocity;
     p.published = d.published ? 1 : 0;
     p.packed = f_.packed ? 1 : 0;

@@ -91,7 +91,9 @@ private:
         graph::Handle<Pixels> lens, along, directions;
     };
 
-    void demandOf(WaveTerm& term, const Blurs& blurs, graph::Handle<Squares>& ofTextures);
+    void demandOfRays(const graph::Argument& p, const graph::Version& variance, const graph::Version& effective,
+        const graph::Handle<Metres>& beta, const Blurs& blurs, graph::Handle<Demand>& demand);
+    void demandOfTerm(WaveTerm& term, const Blurs& blurs, graph::Handle<Squares>& ofTextures);
     void settle();
     void startSums();
     void addOwn(WaveTerm& term, graph::Handle<Radiance>& radiance, bool unlessAnalysed);

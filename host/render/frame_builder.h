@@ -29,6 +29,7 @@ struct Sums { }; ///< of a term's samples, see area_light.cl and indirect.cl
 struct Value { }; ///< of a term, what is filtered: visibility or irradiance
 struct Extremes { }; ///< least and largest slopes of occluders, or distances of reflectors
 struct Logarithms { };
+struct Uncertainty { }; ///< variance over the equal pixels that a filter gathers, see demand.cl
 struct Demand { };
 struct Share { }; ///< numbers from 0 to 1, or that others are multiplied by
 

@@ -1,8 +1,5 @@
-// Sample counts from variance: pixels whose filtered value is uncertain get more.
-//
-// The variance of a pixel's filtered value is about v / (n K): v = p (1 - p) of the visibility p that the first pass
-// and its filter found, K the number of equal pixels that the filter gathers. Counts n = C (v / K)^exponent, clamped,
-// with C such that the mean count is what was asked for.
+// Sample counts from demands: n = C demand, clamped, with C such that the mean count is what was asked for. demand.cl
+// makes demands of variances.
 #include "core/vector16.h"
 #include "shared/filter_params.h"
 #include "shared/wedge.h"
@@ -10,44 +7,6 @@
 /// The range that the histogram of log2 demand covers.
 #define WEDGE_DEMAND_LOG2_MIN -24.0f
 #define WEDGE_DEMAND_LOG2_MAX 8.0f
-
-WEDGE_FN float16 binaryVariance(float16 p)
-{
-    const float16 bounded = min16(max16(p, (float16)(0.0f)), (float16)(1.0f));
-    return bounded * (1.0f - bounded);
-}
-
-/// demand = (v / K)^exponent, 0 where no slope reaches. v is at least varianceSpread of the largest within 5x5 pixels
-/// of the same object, and at least varianceFloor: nine rays miss thin occluders.
-__kernel void countDemand(AnalysisParams p, __global const float* restrict filtered,
-    __global const float* restrict effective, __global const float* restrict beta,
-    __global const uint* restrict objectId, __global float* restrict demand)
-{
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
-    const int16 wants = loadBlock(beta, i) > 0.0f;
-    if (!any(wants)) {
-        vstore16((float16)(0.0f), 0, demand + i);
-        return;
-    }
-    const uint16 object = loadIdBlock(objectId, i);
-    float16 largest = (float16)(0.0f);
-    for (int dy = -(int)min(y, 2u); dy <= (int)min(p.height - 1u - y, 2u); ++dy) {
-        for (int dx = -2; dx <= 2; ++dx) {
-            const int j = i + dy * (int)p.stride + dx;
-            const int16 same = (loadIdBlock(objectId, j) == object) & (loadBlock(beta, j) >= 0.0f);
-            largest = same ? max16(largest, binaryVariance(loadBlock(filtered, j))) : largest;
-        }
-    }
-    const float16 own = binaryVariance(loadBlock(filtered, i));
-    const float16 v = max16(max16(own, p.varianceSpread * largest), (float16)(p.varianceFloor));
-    const float16 k = max16(loadBlock(effective, i), (float16)(1.0f));
-    vstore16(wants ? exp2Block(p.countExponent * log2Block(v / k)) : (float16)(0.0f), 0, demand + i);
-}
 
 /// Per stripe of rows: a histogram of log2 demand. counts and sums: WEDGE_DEMAND_BINS a stripe; shaded: pixels that
 /// take samples at all, a stripe: those whose mask is not 0. Pixels without demand are in no bin.

@@ -11,9 +11,6 @@
 /// Radius of the median of flags, pixels (published.cl).
 #define WEDGE_MEDIAN_RADIUS 2
 
-/// Pixels around one whose variances make its demand (distributed.cl).
-#define WEDGE_DEMAND_REACH 2
-
 /// Pixels that the kernel along a motion reaches at most.
 #define WEDGE_MOTION_REACH 160
 
@@ -31,8 +28,6 @@ typedef struct {
     float leastRadius; ///< pixels: smaller circles of confusion and motions are not filtered
     float irradianceWidth; ///< of the irradiance's filter: its least standard deviation in radii of the circle of
                            ///< confusion
-    float countExponent; ///< counts ~ (variance / gathered pixels / rays of a sample)^this
-    float varianceSpread; ///< fraction of the 5x5 neighbours' largest v / K that a pixel takes at least
     float rays; ///< of one sample of the term
     uint values; ///< planes of what is filtered of the term: 1, a light's visibility; 3, radiance
     float oneVelocity; ///< largest difference of motions in a pixel that counts as one, as a fraction of the motion

@@ -8,6 +8,9 @@
 #define WEDGE_DEMAND_BINS 512u
 #define WEDGE_DEMAND_STRIPES 32u
 
+/// Pixels around one whose uncertainties make its demand, either way (demand.cl).
+#define WEDGE_DEMAND_REACH 2
+
 /// Pixels around one whose differences and noise say which of two estimates is to be trusted, either way.
 #define WEDGE_SHRINK_REACH 3
 
@@ -44,7 +47,7 @@ typedef struct {
     float fixedWidth; ///< pixels; more than 0: this width everywhere in place of the analysis
     float countExponent; ///< of the counts from variance: n ~ (v / K)^exponent
     float varianceFloor; ///< least variance where there are slopes
-    float varianceSpread; ///< fraction of the 5x5 neighbourhood's largest variance that a pixel takes at least
+    float varianceSpread; ///< fraction of the 5x5 neighbours' largest v / K that a pixel takes at least
     Vec3 lightCentre; ///< metres
     uint packed; ///< 1: sizes of pixels are packed, packed_planes.h
     uint leastCount; ///< samples that every pixel takes, at least those of the first pass

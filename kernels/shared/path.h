@@ -43,8 +43,6 @@ typedef struct {
     float meanFraction; ///< of the harmonic mean distance that stands for the least one; 0: the least one itself
     uint countCap; ///< most samples a pixel may take
     float fixedWidth; ///< pixels; more than 0: this width everywhere in place of the analysis
-    float countExponent; ///< of the counts from variance: n ~ (v / K)^exponent
-    float varianceSpread; ///< fraction of the 5x5 neighbours' largest v / K that a pixel takes at least
     uint meanOnly; ///< 1: of reflectors there is but the sum of inverse distances; pixels' sizes and gloss are packed
 } ReflectorParams;
 

@@ -96,33 +96,20 @@ WEDGE_FN float gatheredBy(float irradiance, float lens, float along)
     return fmax(4.0f * 3.14159265f * sqrt(across * (across + along * along)), 1.0f);
 }
 
-/// Demand of a term's samples: (v / K / rays)^exponent of a pixel's neighbours, the mean of v / K of the eight nearest,
-/// at least varianceSpread of the largest within 5x5; not of its own, if it has any (reflectors.cl says why). variance:
-/// v; effective: pixels that the irradiance's filter gathers; lens, along: standard deviations of the image-space
-/// filters, pixels.
-__kernel void sampleDemand(DistributedParams p, __global const float* restrict variance,
+/// Uncertainty (demand.cl) of a term's samples for their rays: v / K / rays, of the whole image. variance: v;
+/// effective: pixels that the irradiance's filter gathers; lens, along: standard deviations of the image-space filters,
+/// pixels.
+__kernel void uncertaintyOfRays(DistributedParams p, __global const float* restrict variance,
     __global const float* restrict effective, __global const float* restrict beta, __global const float* restrict lens,
-    __global const float* restrict along, __global float* restrict demand)
+    __global const float* restrict along, __global float* restrict uncertainty)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
         return;
     }
-    float largest = 0.0f, sum = 0.0f, count = 0.0f, ofOwn = 0.0f;
-    for (int dy = -min((int)y, WEDGE_DEMAND_REACH); dy <= min((int)(p.height - 1u - y), WEDGE_DEMAND_REACH); ++dy) {
-        for (int dx = -min((int)x, WEDGE_DEMAND_REACH); dx <= min((int)(p.width - 1u - x), WEDGE_DEMAND_REACH); ++dx) {
-            const int j = (int)i + dy * (int)p.stride + dx;
-            const float irradiance = beta[j] > 0.0f ? fmax(effective[j], 1.0f) : 1.0f;
-            const float there = variance[j] / gatheredBy(irradiance, lens[j], p.alongMotion != 0u ? along[j] : 0.0f);
-            const bool own = dx == 0 && dy == 0, nearest = abs(dx) <= 1 && abs(dy) <= 1;
-            ofOwn = own ? there : ofOwn;
-            largest = own ? largest : fmax(largest, there);
-            sum += nearest && !own ? there : 0.0f;
-            count += nearest && !own ? 1.0f : 0.0f;
-        }
-    }
-    const float v = count > 0.0f ? fmax(sum / count, p.varianceSpread * largest) : ofOwn;
-    demand[i] = v > 1e-30f ? pow(v / p.rays, p.countExponent) : 0.0f;
+    const float irradiance = beta[i] > 0.0f ? fmax(effective[i], 1.0f) : 1.0f;
+    const float gathered = gatheredBy(irradiance, lens[i], p.alongMotion != 0u ? along[i] : 0.0f);
+    uncertainty[i] = variance[i] / (gathered * p.rays);
 }
 
 /// sum += part.

@@ -56,8 +56,6 @@ shared::ReflectorParams reflectorParams(const FrameBuilder& frame, Component com
     p.meanFraction = in.meanFraction;
     p.countCap = static_cast<std::uint32_t>(in.maxSpp);
     p.fixedWidth = settings.filtering == Filtering::Fixed ? settings.fixedWidth : 0.0f;
-    p.countExponent = in.countExponent;
-    p.varianceSpread = settings.varianceSpread;
     p.width = frame.layout.width;
     p.height = frame.layout.height;
     p.stride = frame.layout.stride;
@@ -69,6 +67,8 @@ shared::ReflectorParams reflectorParams(const FrameBuilder& frame, Component com
 shared::AnalysisParams pathCountParams(shared::AnalysisParams p, const Settings& settings)
 {
     p.countCap = static_cast<std::uint32_t>(std::max(settings.indirect.maxSpp, settings.spp)); // not below the mean
+    p.countExponent = settings.indirect.countExponent;
+    p.varianceSpread = settings.varianceSpread;
     // Where the first paths met nothing bright there is still noise of what they may meet: rare, and large.
     p.leastCount = std::max(WEDGE_INDIRECT_FIRST_RAYS, static_cast<std::uint32_t>(settings.spp) / 2);
     return p;

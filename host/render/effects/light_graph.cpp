@@ -14,7 +14,6 @@
 namespace wedge::render {
 
 using device::PassKind;
-using graph::around;
 using graph::reads;
 using graph::Run;
 using graph::tallies;
@@ -183,11 +182,12 @@ void LightGraph::countsFromVariance()
         visibility = gathered.value;
         effective = gathered.effective;
     }
+    auto uncertainty = g_.plane<Uncertainty>("uncertainty", graph::floats);
+    f_.blocks("counts", PassKind::Analysis, { "analysis/demand.cl", "visibilityUncertainty" },
+        { f_.rectangle(p), reads("filtered", visibility), reads("effective", effective), reads("beta", beta_),
+            writes("uncertainty", uncertainty) });
     auto demand = g_.plane<Demand>("demand", graph::floats);
-    f_.blocks("counts", PassKind::Analysis, { "analysis/counts.cl", "countDemand" },
-        { f_.rectangle(p), reads("filtered", visibility, around(2)), reads("effective", effective),
-            reads("beta", beta_, around(2)), reads("objectId", f_.surfaces.objectId, around(2)),
-            writes("demand", demand) });
+    demandOf(f_, p, uncertainty, Reaching::Object, demand);
     countsFromDemand(f_, p, static_cast<float>(s_.spp), demand, f_.surfaces.objectId, wanted_);
 }
 

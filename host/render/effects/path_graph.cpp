@@ -10,7 +10,6 @@
 namespace wedge::render {
 
 using device::PassKind;
-using graph::around;
 using graph::reads;
 using graph::Run;
 using graph::tallies;
@@ -174,11 +173,12 @@ void PathGraph::countsFromVariance()
     } else {
         f_.fill("ones", effective, 1.0f);
     }
+    auto uncertainty = g_.plane<Uncertainty>("uncertainty", graph::floats);
+    f_.blocks("counts", PassKind::Analysis, { "analysis/demand.cl", "uncertaintyOf" },
+        { f_.rectangle(countParams()), reads("variance", variance), reads("effective", effective), reads("beta", beta_),
+            writes("uncertainty", uncertainty) });
     auto demand = g_.plane<Demand>("demand", graph::floats);
-    f_.blocks("counts", PassKind::Analysis, { "paths/reflectors.cl", "pathDemand" },
-        { p, reads("variance", variance, around(2)), reads("effective", effective, around(2)),
-            reads("beta", beta_, around(2)), reads("objectId", f_.surfaces.objectId, around(2)),
-            writes("demand", demand) });
+    demandOf(f_, countParams(), uncertainty, Reaching::Object, demand);
     countsFromDemand(f_, countParams(), static_cast<float>(s_.spp), demand, taken_, wanted_);
 }
 

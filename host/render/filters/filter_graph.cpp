@@ -102,6 +102,17 @@ void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams para
             neighbours(frame.surfaces, near), Arguments { updates("beta", beta) }));
 }
 
+void demandOf(FrameBuilder& frame, const shared::AnalysisParams& params, const graph::Handle<Uncertainty>& uncertainty,
+    Reaching reaching, graph::Handle<Demand>& demand)
+{
+    const graph::Reach near = around(WEDGE_DEMAND_REACH);
+    const bool oneObject = reaching == Reaching::Object;
+    frame.blocks("counts", PassKind::Analysis, { "analysis/demand.cl", "demandOf" },
+        { frame.rectangle(params), value("oneObject", oneObject ? 1u : 0u), reads("uncertainty", uncertainty, near),
+            oneObject ? reads("objectId", frame.surfaces.objectId, near) : frame.nothing("objectId"),
+            writes("demand", demand) });
+}
+
 void countsFromDemand(FrameBuilder& frame, const shared::AnalysisParams& params, float mean,
     const graph::Handle<Demand>& demand, const graph::Version& mask, graph::Handle<Count>& wanted)
 {
