@@ -72,8 +72,9 @@ public:
         const render::DeviceScene& s = traced.onDevice;
         const SurfaceBuffers& f = traced.frame;
         traced.bench.passes.tiles("paths", device::PassKind::Trace, "paths/indirect.cl", "samplePaths", traced.params,
-            1.0, params, s.nodes, s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, f.receivers(), f.specular,
-            traced.bench.buffer(wanted), last, sums_, traced.taken, value_, reflectors_, f.rays, f.pathRays);
+            1.0, params, s.nodes, s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, s.emitters,
+            s.emitterPicks, f.receivers(), f.specular, traced.bench.buffer(wanted), last, sums_, traced.taken, value_,
+            reflectors_, f.rays, f.pathRays);
     }
     PathResult result()
     {

@@ -75,8 +75,10 @@ std::vector<shared::DeltaLight> deltaLightData(const scene::Scene& scene)
 }
 
 /// Probabilities with which path vertices choose each light: by what it sends out, so that strong ones are sampled
-/// more. A directional light counts with what falls on the scene.
-void setPicks(std::vector<shared::AreaLight>& area, std::vector<shared::DeltaLight>& delta, float diameter)
+/// more. A directional light counts with what falls on the scene. emitters: power of the meshes that emit, whose
+/// probability is returned.
+float setPicks(
+    std::vector<shared::AreaLight>& area, std::vector<shared::DeltaLight>& delta, double emitters, float diameter)
 {
     const auto powerOf = [&](const shared::AreaLight& l) {
         return shared::luminance(l.power) * (l.twoSided != 0 ? 2.0f : 1.0f);
@@ -84,7 +86,7 @@ void setPicks(std::vector<shared::AreaLight>& area, std::vector<shared::DeltaLig
     const auto fluxOf = [&](const shared::DeltaLight& l) {
         return shared::luminance(l.colour) * (l.directional != 0 ? diameter * diameter : 4.0f);
     };
-    double total = 0;
+    double total = emitters;
     for (const shared::AreaLight& l : area) {
         total += powerOf(l);
     }
@@ -98,6 +100,7 @@ void setPicks(std::vector<shared::AreaLight>& area, std::vector<shared::DeltaLig
     for (shared::DeltaLight& l : delta) {
         l.pick = static_cast<float>(fluxOf(l) * scale);
     }
+    return static_cast<float>(emitters * scale);
 }
 
 /// What the bytes of textures mean: those of colours, which are sRGB-encoded, then those of plain numbers.
@@ -161,6 +164,10 @@ void DeviceScene::plan(device::MemoryPlan& plan, const scene::Scene& scene, cons
     plan.addItems("object ids", g.objectIds.size(), sizeof(std::uint32_t));
     plan.addItems("materials", scene.materials.size(), sizeof(shared::MaterialData));
     plan.addItems("texels", texelCount(scene), sizeof(std::uint32_t));
+    if (const std::size_t emitters = emitterList(scene).list.size(); emitters > 0) {
+        plan.addItems("emitters", emitters, sizeof(shared::Emitter));
+        plan.addItems("emitters' probabilities", g.materialIds.size(), sizeof(float));
+    }
     if (scene::geometryMoves(scene)) {
         plan.addItems("positions at closing", g.positionsAtClose.size(), sizeof(float));
         plan.addItems("normals at closing", g.normalsAtClose.size(), sizeof(float));
@@ -169,6 +176,12 @@ void DeviceScene::plan(device::MemoryPlan& plan, const scene::Scene& scene, cons
 
 DeviceScene::DeviceScene(
     const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device, device::TimedQueue& queue)
+    : DeviceScene(scene, hierarchy, device, queue, emitterList(scene))
+{
+}
+
+DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device,
+    device::TimedQueue& queue, const EmitterList& list)
     : nodes(device::Buffer<std::byte>::readOnly(device, queue, hierarchy.nodes(), "BVH nodes"))
     , blocks(device::Buffer<std::byte>::readOnly(device, queue, hierarchy.blocks(), "triangle blocks"))
     , positions(device::Buffer<float>::readOnly(device, queue, scene.geometry.positions, "positions"))
@@ -187,6 +200,8 @@ DeviceScene::DeviceScene(
     , srgbToLinear(device, 512, "sRGB table")
     , areaLights(device, scene.areaLights.size(), "area lights")
     , deltaLights(device, scene.pointLights.size() + scene.directionalLights.size(), "point and directional lights")
+    , emitters(device, list.list.size(), "emitters")
+    , emitterPicks(device, list.picks.size(), "emitters' probabilities")
 {
     materials.upload(queue, materialData(scene));
     std::vector<shared::TextureData> infos;
@@ -210,7 +225,11 @@ DeviceScene::DeviceScene(
     const glm::vec3 extent = bounds.empty() ? glm::vec3(1.0f) : bounds.hi - bounds.lo;
     diameter = bounds.empty() ? 1.0f : glm::length(extent);
     largestDimension = std::max({ extent.x, extent.y, extent.z });
-    setPicks(areaLightList, delta, diameter);
+    emitterShare = setPicks(areaLightList, delta, list.power, diameter);
+    emitters.upload(queue, list.list);
+    emitterPicks.upload(queue, list.picks);
+    emitterCount = static_cast<std::uint32_t>(list.list.size());
+    emits = emitterCount > 0;
     areaLights.upload(queue, areaLightList);
     deltaLights.upload(queue, delta);
     deltaLightCount = static_cast<std::uint32_t>(delta.size());

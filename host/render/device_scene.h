@@ -2,9 +2,11 @@
 
 #include "host/device/buffer.h"
 #include "host/device/memory_plan.h"
+#include "host/render/emitters.h"
 #include "host/render/hierarchy.h"
 #include "host/scene/scene.h"
 #include "kernels/shared/bvh_types.h"
+#include "kernels/shared/emitter.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/material.h"
 
@@ -32,6 +34,11 @@ public:
 
     DeviceScene(const scene::Scene&, Hierarchy&&, const device::Device&, device::TimedQueue&) = delete;
 
+private:
+    DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device,
+        device::TimedQueue& queue, const EmitterList& list);
+
+public:
     device::Buffer<std::byte> nodes; ///< of the hierarchy's family of traversals
     device::Buffer<std::byte> blocks;
     device::Buffer<float> positions, normals, texcoords;
@@ -43,13 +50,17 @@ public:
     device::Buffer<float> srgbToLinear;
     device::Buffer<shared::AreaLight> areaLights;
     device::Buffer<shared::DeltaLight> deltaLights;
+    device::Buffer<shared::Emitter> emitters; ///< emitterList(); one element that nobody reads where nothing emits
+    device::Buffer<float> emitterPicks;
 
     std::vector<shared::AreaLight> areaLightList; ///< the same as areaLights, for kernels that take one by value
     std::vector<device::Buffer<float>> quadratures; ///< one a light: the nodes of all rules, lightNodes()
-    std::uint32_t deltaLightCount = 0;
+    std::uint32_t deltaLightCount = 0, emitterCount = 0;
+    float emitterShare = 0; ///< probability that a path's vertex samples them and no other light
     float diameter = 0; ///< metres, diagonal of the bounds
     float largestDimension = 0; ///< metres, of the bounds
     bool specular = false; ///< hasSpecular()
+    bool emits = false; ///< hasEmitters()
     bool moves = false; ///< scene::geometryMoves()
 };
 

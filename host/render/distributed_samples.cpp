@@ -61,7 +61,7 @@ DistributedSamples::DistributedSamples(FrameBuilder& frame, const SampleShape& s
         terms_.push_back(std::make_unique<LightWaves>(frame, shape, i));
     }
     lights_ = terms_.size();
-    for (const IndirectTerm& component : indirectTerms(frame.settings, frame.specular)) {
+    for (const IndirectTerm& component : indirectTerms(frame.settings, frame.specular, frame.emits)) {
         terms_.push_back(std::make_unique<PathWaves>(frame, shape, component.component));
     }
     const auto demand = [&](const char* name) {

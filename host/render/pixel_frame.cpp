@@ -18,7 +18,7 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
     std::size_t packetSize, const cl::Buffer& unused, bool keepLayers)
     : FrameGraph(settings, keepLayers)
     , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize,
-        hasSpecular(scene), unused }
+        hasSpecular(scene), hasEmitters(scene), unused }
 {
     const bool lit = settings.integrator == Integrator::Path;
     primary(lit);
@@ -29,8 +29,18 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
     if (lit && !(scene.pointLights.empty() && scene.directionalLights.empty())) {
         deltaLights();
     }
+    const std::vector<IndirectTerm> components = indirectTerms(settings, f_.specular, f_.emits);
+    const auto paths = [&](bool ofEmitters) {
+        for (const IndirectTerm& component : components) {
+            if (isOfEmitters(component.component) == ofEmitters) {
+                TermWidths& term = startTerm();
+                addPaths(f_, component.component, term.state, term.beta);
+            }
+        }
+    };
+    paths(true);
     const bool fallsBack = usesFallback(settings);
-    if (fallsBack && lit && !scene.areaLights.empty()) {
+    if (fallsBack && lit && !(scene.areaLights.empty() && !f_.emits)) {
         fallBack(f_.totals.direct);
     }
     // Two planes become one before paths are traced.
@@ -42,14 +52,11 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
                 reads("objectId", f_.surfaces.objectId), writes("sum", sum) });
     };
     add(f_.surfaces.emission, f_.totals.direct.filtered, beauty);
-    for (const IndirectTerm& component : indirectTerms(settings, f_.specular)) {
-        TermWidths& term = startTerm();
-        addPaths(f_, component.component, term.state, term.beta);
-    }
+    paths(false);
     if (fallsBack && tracesPaths(settings)) {
         fallBack(f_.totals.indirect);
     }
-    if (indirectTerms(settings, f_.specular).empty()) {
+    if (!tracesPaths(settings)) {
         f_.totals.beauty = beauty;
     } else {
         add(beauty, f_.totals.indirect.filtered, f_.totals.beauty);
@@ -59,7 +66,7 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
         shown = { f_.surfaces, f_.totals, {}, {}, {}, {} };
     }
     shown.surfaces.objectId = f_.surfaces.objectId;
-    if (indirectTerms(settings, f_.specular).size() > 1) {
+    if (f_.specular && tracesPaths(settings) && settings.integrator == Integrator::Path) {
         shown.surfaces.specular = f_.surfaces.specular; // pixels that have some are sampled for two terms
     }
     show(shown, false, f_.analysed());
@@ -89,6 +96,10 @@ void PixelFrame::primary(bool lit)
     }
     t.indirect.variance = graph_.plane<Value>("indirect variance", graph::floats);
     f_.zero(t.indirect.variance);
+    if (f_.emits && lit) {
+        t.direct.variance = graph_.plane<Value>("direct variance", graph::floats);
+        f_.zero(t.direct.variance);
+    }
     t.samples = graph_.plane<Count>("samples", graph::counts);
     t.indirectSamples = graph_.plane<Count>("indirect samples", graph::counts);
     t.rays = graph_.plane<Count>("rays", graph::counts);

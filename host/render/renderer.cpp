@@ -60,7 +60,7 @@ std::vector<std::string> termNames(const Settings& settings, const scene::Scene&
     for (std::size_t i = 0; i < lights; ++i) {
         names.push_back(lights == 1 ? "" : std::to_string(i + 1));
     }
-    for (const IndirectTerm& term : indirectTerms(settings, hasSpecular(scene))) {
+    for (const IndirectTerm& term : indirectTerms(settings, hasSpecular(scene), hasEmitters(scene))) {
         names.emplace_back(term.name);
     }
     return names;
@@ -180,7 +180,7 @@ double Renderer::workUnits(const Settings& settings) const
         return 1.0 + settings.spp;
     }
     return 1.0 + (scene_.pointLights.empty() && scene_.directionalLights.empty() ? 0.0 : 1.0)
-        + static_cast<double>(scene_.areaLights.size()) * settings.spp + paths;
+        + static_cast<double>(scene_.areaLights.size() + (hasEmitters(scene_) ? 1 : 0)) * settings.spp + paths;
 }
 
 FrameStatistics Renderer::render(const Settings& settings, const Control& control, bool keepLayers)

@@ -34,7 +34,9 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
     const std::vector<std::uint32_t> rays = planeOf(frame_->rays), pathRays = planeOf(frame_->pathRays);
     const std::vector<std::uint32_t> objects = planeOf(frame_->objectId);
     const image::Window output = outputWindow(settings);
-    const std::vector<IndirectTerm> terms = indirectTerms(settings, deviceScene_->specular);
+    std::vector<IndirectTerm> terms = indirectTerms(settings, deviceScene_->specular, deviceScene_->emits);
+    const std::size_t ofEmitters =
+        std::erase_if(terms, [](const IndirectTerm& t) { return isOfEmitters(t.component); });
     // Pixels of several receivers take samples of both components whatever those are.
     const bool apart = !frame_->distributed && terms.size() > 1;
     const std::vector<float> specular = apart ? frame_->specular.downloadAll(queue_) : std::vector<float> {};
@@ -71,8 +73,8 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
     }
     statistics.indirectRays = std::accumulate(pathRays.begin(), pathRays.end(), std::uint64_t { 0 });
     statistics.shadowRays = std::accumulate(rays.begin(), rays.end(), std::uint64_t { 0 }) - statistics.indirectRays;
-    const std::uint64_t directPixels =
-        statistics.shadedPixels * (settings.integrator == Integrator::Path ? scene_.areaLights.size() : 0);
+    const std::uint64_t directPixels = statistics.shadedPixels
+        * (settings.integrator == Integrator::Path ? scene_.areaLights.size() + (ofEmitters > 0 ? 1 : 0) : 0);
     const auto mean = [](std::uint64_t sum, std::uint64_t count) {
         return count > 0 ? static_cast<double>(sum) / static_cast<double>(count) : 0.0;
     };

@@ -84,7 +84,9 @@ void checkScene(const Scene& scene, Warnings& warnings)
     assert(!geometryMoves(scene) || scene.geometry.positionsAtClose.size() == scene.geometry.positions.size());
     if (scene.geometry.indices.empty())
         warnings.add("meshes", fmt::format("scene {}: no mesh, only lights and background are seen", scene.path));
-    if (scene.areaLights.empty() && scene.pointLights.empty() && scene.directionalLights.empty())
+    const bool emits = std::ranges::any_of(
+        scene.geometry.materialIds, [&](std::uint32_t id) { return scene.materials[id].emission != glm::vec3(0.0f); });
+    if (scene.areaLights.empty() && scene.pointLights.empty() && scene.directionalLights.empty() && !emits)
         warnings.add("lights", fmt::format("scene {}: no light, surfaces stay black", scene.path));
 }
 

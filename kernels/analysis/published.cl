@@ -85,7 +85,7 @@ __kernel void publishedReflectors(DistributedParams p, float mu, uint component,
     }
     const Gloss lobe = unpackGloss(gloss[i]);
     const float transfer =
-        component == WEDGE_COMPONENT_GLOSSY ? glossyBandlimit(lobe.exponent, lobe.kind) : WEDGE_DIFFUSE_BANDLIMIT;
+        WEDGE_IS_GLOSSY(component) ? glossyBandlimit(lobe.exponent, lobe.kind) : WEDGE_DIFFUSE_BANDLIMIT;
     const float rMin = leastConfusion(p, confusion, i), rMax = largestConfusion(p, confusion, i);
     const bool apart = medianFlag(p, flags, x, y);
     const float factored = scaledBandlimit(indirectBandlimit(reflectors[i], transfer, pixelSize[i], rMin), mu);

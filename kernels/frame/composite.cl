@@ -177,7 +177,9 @@ __kernel void addPathSamples(AnalysisParams p, uint component, uint varies, __gl
     const int16 has = count != 0u;
     const Vec3x16 k = reflectanceOf(p, component, reflectance, i);
     vstore16(loadIdBlock(samples, i) + count, 0, samples + i);
-    vstore16(loadIdBlock(indirectSamples, i) + count, 0, indirectSamples + i);
+    if (!WEDGE_IS_OF_EMITTERS(component)) {
+        vstore16(loadIdBlock(indirectSamples, i) + count, 0, indirectSamples + i);
+    }
     addTerm(p, component, k, has, value, i, indirectNoisy);
     if (varies != 0u) {
         const float16 off = luminance16(k) * loadBlock(deviations, i);

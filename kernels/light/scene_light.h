@@ -2,6 +2,7 @@
 #ifndef WEDGE_SCENE_LIGHT_H
 #define WEDGE_SCENE_LIGHT_H
 
+#include "light/emitters.h"
 #include "shared/bsdf.h"
 #include "shared/light.h"
 #include "shared/path.h"
@@ -9,6 +10,7 @@
 typedef struct {
     __global const AreaLight* area;
     __global const DeltaLight* delta;
+    EmitterData emitters;
     uint areaCount, deltaCount;
     float sceneDiameter;
     uint sampling; ///< WEDGE_LIGHTS_*
@@ -57,8 +59,22 @@ WEDGE_FN LightChoice sampleDeltaLight(__global const DeltaLight* light, float sc
     return choice;
 }
 
-/// Chooses a light by `pick` in [0, 1) and a point on it by u, as seen from a point with this normal.
-WEDGE_FN LightChoice sampleLight(LightData lights, Vec3 origin, Vec3 normal, float pick, Vec2 u)
+WEDGE_FN LightChoice sampleEmitterLight(EmitterData emitters, Vec3 origin, Vec3 normal, Vec2 u, float time)
+{
+    const EmitterPoint p = sampleEmitter(emitters, u, time);
+    LightChoice choice;
+    choice.ray = vecSub(p.point, origin);
+    const float distance = vecLength(choice.ray);
+    choice.direction = vecScale(choice.ray, 1.0f / fmax(distance, 1e-30f));
+    const float cosine = vecDot(normal, choice.direction);
+    const bool found = cosine > 0.0f && p.density > 0.0f;
+    choice.pdf = found ? emitters.share * densityOfDirection(p.density, p.normal, choice.direction, distance) : 0.0f;
+    choice.irradiance = vecScale(p.radiance, found ? cosine / choice.pdf : 0.0f);
+    return choice;
+}
+
+/// Chooses a light by `pick` in [0, 1) and a point on it by u, as seen from a point with this normal at a time.
+WEDGE_FN LightChoice sampleLight(LightData lights, Vec3 origin, Vec3 normal, float pick, Vec2 u, float time)
 {
     float below = 0.0f;
     for (uint i = 0u; i < lights.areaCount; ++i) {
@@ -72,6 +88,9 @@ WEDGE_FN LightChoice sampleLight(LightData lights, Vec3 origin, Vec3 normal, flo
         if (pick < below) {
             return sampleDeltaLight(&lights.delta[i], lights.sceneDiameter, origin, normal);
         }
+    }
+    if (lights.emitters.count > 0u) {
+        return sampleEmitterLight(lights.emitters, origin, normal, u, time);
     }
     LightChoice none;
     none.ray = none.direction = none.irradiance = vec3(0.0f, 0.0f, 0.0f);

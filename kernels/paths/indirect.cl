@@ -1,11 +1,13 @@
-// Rays over the hemispheres of what the camera sees: indirect light by paths, and ambient occlusion.
+// Rays over the hemispheres of what the camera sees: indirect light by paths, direct light of meshes that emit, and
+// ambient occlusion.
 //
-// in      frame, BVH, surfaces, lights, receivers; wanted: samples a pixel; lastSample: where this launch ends
-// in out  sums (planes: R, G, B, squared luminance), taken (samples so far), reflectors (planes: least and largest
+// in      frame, BVH, surfaces, lights, emitters, receivers; wanted: samples a pixel; lastSample: where this launch
+// ends in out  sums (planes: R, G, B, squared luminance), taken (samples so far), reflectors (planes: least and largest
 //         distance in metres of a surface that a ray hit, 0 where none did; sum of inverse distances; where
 //         params.keepsDistances), rays (all), pathRays (those that look for the nearest surface)
 // out     value (R, G, B): means, which are filtered; of frames with a first pass then those of the first of the
 //         samples' two parts (firstPart())
+#include "paths/emitter_rays.h"
 #include "paths/path_packet.h"
 #include "shared/wedge.h"
 
@@ -63,7 +65,7 @@ WEDGE_FN void firstRays(FrameParams frame, PathParams params, SampleParams sampl
         Vec3 l = cosineDirection(n, vec2(u[lane], v[lane]));
         weight[lane] = 1.0f;
 #ifdef WEDGE_SPECULAR
-        if (params.component == WEDGE_COMPONENT_GLOSSY) {
+        if (WEDGE_IS_GLOSSY(params.component)) {
             const Lobe lobe = laneLobe(r, lane);
             l = sampleLobe(lobe, n, laneView(r, lane), vec2(u[lane], v[lane]));
             weight[lane] = lobeOverPdf(lobe, n, laneView(r, lane), l) * vecDot(n, l);
@@ -139,9 +141,15 @@ WEDGE_FN void storeSums(uint size, bool distances, const ReceiverPacket* receive
     }
 }
 
-WEDGE_FN LightData lightData(PathParams params, __global const AreaLight* area, __global const DeltaLight* delta)
+WEDGE_FN LightData lightData(PathParams params, __global const AreaLight* area, __global const DeltaLight* delta,
+    SurfaceData surfaces, __global const Emitter* emitters, __global const float* emitterPicks)
 {
     LightData lights;
+    lights.emitters.surfaces = surfaces;
+    lights.emitters.list = emitters;
+    lights.emitters.picks = emitterPicks;
+    lights.emitters.count = params.emitters;
+    lights.emitters.share = params.emitterShare;
     lights.area = area;
     lights.delta = delta;
     lights.areaCount = params.areaLights;
@@ -173,7 +181,7 @@ WEDGE_FN uint preparePaths(uint size, PathParams params, uint lastSample, __glob
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const uint at = receivers->pixel[lane];
         const bool reflects = at != WEDGE_NO_PIXEL
-            && (params.component != WEDGE_COMPONENT_GLOSSY || luminance(loadVec(specular, size, at)) > 0.0f);
+            && (!WEDGE_IS_GLOSSY(params.component) || luminance(loadVec(specular, size, at)) > 0.0f);
         receivers->pixel[lane] = reflects ? at : WEDGE_NO_PIXEL;
         const uint i = reflects ? at : 0u;
         facing[lane] = reflects ? unpackDirection(geometric[i]) : vec3(0.0f, 0.0f, 1.0f);
@@ -189,13 +197,14 @@ WEDGE_FN uint preparePaths(uint size, PathParams params, uint lastSample, __glob
 __kernel void samplePaths(FrameParams frame, PathParams params, __global const TraversalNode* restrict nodes,
     __global const TriangleBlock* restrict blocks, WEDGE_SURFACE_PARAMETERS,
     __global const AreaLight* restrict areaLights, __global const DeltaLight* restrict deltaLights,
-    WEDGE_RECEIVER_PARAMETERS, __global const float* restrict specular, __global const uint* restrict wanted,
-    uint lastSample, __global float* restrict sums, __global uint* restrict taken, __global float* restrict value,
-    __global float* restrict reflectors, __global uint* restrict rays, __global uint* restrict pathRays,
-    uint firstGroup)
+    WEDGE_EMITTER_PARAMETERS, WEDGE_RECEIVER_PARAMETERS, __global const float* restrict specular,
+    __global const uint* restrict wanted, uint lastSample, __global float* restrict sums, __global uint* restrict taken,
+    __global float* restrict value, __global float* restrict reflectors, __global uint* restrict rays,
+    __global uint* restrict pathRays, uint firstGroup)
 {
     const uint size = frame.planeSize;
-    const LightData lights = lightData(params, areaLights, deltaLights);
+    const SurfaceData surfaces = WEDGE_SURFACE_ARGUMENTS;
+    const LightData lights = lightData(params, areaLights, deltaLights, surfaces, emitters, emitterPicks);
     const SampleParams sampling = samplingOf(params);
     ReceiverPacket receivers;
     loadReceivers(frame, sampling.light, firstGroup, WEDGE_RECEIVER_ARGUMENTS, &receivers);
@@ -214,13 +223,15 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
     if (parts) {
         keepPart(&paths, &sum);
     }
-    const SurfaceData surfaces = WEDGE_SURFACE_ARGUMENTS;
     for (uint step = 0u; step < steps; ++step) {
         RayPacket packet;
         float weight[WEDGE_PACKET_SIZE];
         firstRays(frame, params, sampling, &receivers, facing, &paths, last, &packet, weight);
         if (params.component == WEDGE_COMPONENT_AMBIENT) {
             traceAmbient(nodes, blocks, &packet, &paths);
+        } else if (WEDGE_IS_OF_EMITTERS(params.component)) {
+            traceEmitters(nodes, blocks, lights.emitters, sampling, distances,
+                params.component == WEDGE_COMPONENT_EMITTERS_GLOSSY, &receivers, facing, last, &packet, weight, &paths);
         } else {
             tracePaths(nodes, blocks, surfaces, lights, sampling, params.bounces, &packet, &paths);
         }

@@ -1,8 +1,8 @@
 // Paths of a packet's pixels, all at the same vertex at a time: what arrives along each packet's first rays.
 //
-// Direct light of the pixels themselves is another effect's: the first rays count what surfaces send, not what lights
-// do. From the first surface on, each vertex samples one light, and the ray that goes on also counts the lights it
-// meets; the two are combined by the power heuristic.
+// Direct light of the pixels themselves is another effect's: the first rays count what surfaces reflect, not what they
+// or lights send. From the first surface on, each vertex samples one light, or a mesh that emits, and the ray that goes
+// on also counts what it meets of these; the two are combined by the power heuristic.
 #ifndef WEDGE_PATH_PACKET_H
 #define WEDGE_PATH_PACKET_H
 
@@ -87,7 +87,7 @@ WEDGE_FN void chooseLight(LightData lights, SampleParams params, PathPacket* pat
 {
     const Vec2 choice = pathPair(params, paths, lane, vertex, WEDGE_DIMENSION_CHOICE);
     const Vec2 point = pathPair(params, paths, lane, vertex, WEDGE_DIMENSION_LIGHT);
-    const LightChoice c = sampleLight(lights, s->origin, s->normal, choice.x, point);
+    const LightChoice c = sampleLight(lights, s->origin, s->normal, choice.x, point, timeOf(shadow, lane));
     const bool area = c.pdf > 0.0f;
     const bool above = vecDot(s->geometric, c.direction) > 0.0f;
     if (!above || !(luminance(c.irradiance) > 0.0f) || (area && lights.sampling == WEDGE_LIGHTS_MET)) {
@@ -132,7 +132,8 @@ WEDGE_FN bool goOn(LightData lights, SampleParams params, PathPacket* paths, uin
         }
         throughput = vecScale(throughput, 1.0f / survival);
     }
-    const float end = last ? farthestMeeting(lights, s->origin, l) : INFINITY;
+    // What emits may be anywhere.
+    const float end = last && lights.emitters.count == 0u ? farthestMeeting(lights, s->origin, l) : INFINITY;
     paths->throughput[lane] = throughput;
     paths->pdf[lane] = pdf;
     setRay(rays, lane, s->origin, l, 0.0f, end);
@@ -148,6 +149,18 @@ WEDGE_FN Vec3 rayOriginOf(const RayPacket* rays, uint lane)
 WEDGE_FN Vec3 rayDirectionOf(const RayPacket* rays, uint lane)
 {
     return vec3(rays->directionX[lane], rays->directionY[lane], rays->directionZ[lane]);
+}
+
+/// The part of what the surface that a ray met emits that counts for the technique of reflected directions; pdf as for
+/// radianceMet().
+WEDGE_FN Vec3 emittedMet(LightData lights, Hit hit, Vec3 direction, float pdf, float time)
+{
+    const Vec3 emitted = emittedOf(lights.emitters, hit);
+    if (!(luminance(emitted) > 0.0f) || lights.sampling == WEDGE_LIGHTS_SAMPLED) {
+        return vec3(0.0f, 0.0f, 0.0f);
+    }
+    const float other = lights.emitters.share * emitterPdf(lights.emitters, hit, direction, time);
+    return vecScale(emitted, lights.sampling == WEDGE_LIGHTS_BOTH ? powerHeuristic(pdf, other) : 1.0f);
 }
 
 /// Traces the paths whose first rays (unit directions; tMax 0: no path) are in `rays`, all rays of a path at the time
@@ -181,16 +194,19 @@ WEDGE_FN void tracePaths(__global const TraversalNode* restrict nodes, __global 
             }
             rays->tMax[lane] = 0.0f;
             const Hit hit = packetHit(&hits, lane);
+            if (vertex > 1u) {
+                const Vec3 met = emittedMet(lights, hit, direction, paths->pdf[lane], timeOf(rays, lane));
+                paths->radiance[lane] = vecAdd(paths->radiance[lane], vecMul(paths->throughput[lane], met));
+            }
             if (vertex > bounces || hit.triangle == WEDGE_NO_TRIANGLE) {
                 continue;
             }
             const Surface s = surfaceAt(surfaces, hit, direction, timeOf(rays, lane));
             const Scattering how = scatteringOf(&s, direction);
             paths->distance[lane] = vertex == 1u ? hit.t : paths->distance[lane];
-            paths->radiance[lane] = vecAdd(paths->radiance[lane], vecMul(paths->throughput[lane], s.emission));
             chooseLight(lights, params, paths, lane, vertex, &s, &how, &shadow, &light[lane]);
             const bool last = vertex == bounces;
-            if (!last || (lights.sampling != WEDGE_LIGHTS_SAMPLED && lights.areaCount > 0u)) {
+            if (!last || (lights.sampling != WEDGE_LIGHTS_SAMPLED && lights.areaCount + lights.emitters.count > 0u)) {
                 alive |= goOn(lights, params, paths, lane, vertex, last, &s, &how, rays);
             }
         }

@@ -61,7 +61,7 @@ WEDGE_FN float leastDistance(ReflectorParams p, __global const float* extent)
 /// Bandlimit of a pixel's transfer function.
 WEDGE_FN float bandlimitOf(uint component, Gloss lobe)
 {
-    return component == WEDGE_COMPONENT_GLOSSY ? glossyBandlimit(lobe.exponent, lobe.kind) : WEDGE_DIFFUSE_BANDLIMIT;
+    return WEDGE_IS_GLOSSY(component) ? glossyBandlimit(lobe.exponent, lobe.kind) : WEDGE_DIFFUSE_BANDLIMIT;
 }
 
 /// Distances, infinite where nothing was hit.
@@ -78,7 +78,7 @@ WEDGE_FN Nearness nearness(ReflectorParams p, uint y, int i, __global const floa
     __global const uint* objectId, __global const uint* taken)
 {
     const int reach = (int)WEDGE_NEARNESS_REACH;
-    const bool glossy = p.component == WEDGE_COMPONENT_GLOSSY;
+    const bool glossy = WEDGE_IS_GLOSSY(p.component);
     __global const float* inverse = reflectors + (p.meanOnly != 0u ? 0u : 2u * p.planeSize);
     const uint16 object = loadIdBlock(objectId, i);
     const float16 none = (float16)(0.0f), one = (float16)(1.0f);
@@ -174,7 +174,7 @@ __kernel void reflectorCounts(ReflectorParams p, __global const float* restrict 
         const uint i = first + lane;
         const Gloss lobe = unpackGloss(gloss[i]);
         const float zMax = fmax(reflectors[p.planeSize + i], zMin[lane]);
-        const float gamma = p.component == WEDGE_COMPONENT_GLOSSY ? glossyGamma(lobe.exponent) : WEDGE_DIFFUSE_GAMMA;
+        const float gamma = WEDGE_IS_GLOSSY(p.component) ? glossyGamma(lobe.exponent) : WEDGE_DIFFUSE_GAMMA;
         const float count =
             indirectCount(zMin[lane], zMax, bandlimitOf(p.component, lobe), gamma, pixelSize[i], p.mu, p.alpha);
         const float bounded = fmin(fmax(count, (float)WEDGE_INDIRECT_FIRST_RAYS), (float)p.countCap);

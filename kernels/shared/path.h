@@ -8,6 +8,12 @@
 #define WEDGE_COMPONENT_DIFFUSE 0u ///< radiance that arrives, cosine-weighted mean
 #define WEDGE_COMPONENT_GLOSSY 1u ///< radiance that the specular lobe reflects, without its colour
 #define WEDGE_COMPONENT_AMBIENT 2u ///< fraction of the cosine-weighted hemisphere in which something is near
+#define WEDGE_COMPONENT_EMITTERS 3u ///< as diffuse, of meshes that emit alone
+#define WEDGE_COMPONENT_EMITTERS_GLOSSY 4u ///< as glossy
+
+#define WEDGE_IS_GLOSSY(component)                                                                                     \
+    ((component) == WEDGE_COMPONENT_GLOSSY || (component) == WEDGE_COMPONENT_EMITTERS_GLOSSY)
+#define WEDGE_IS_OF_EMITTERS(component) ((component) >= WEDGE_COMPONENT_EMITTERS)
 
 /// Pixels around one, either way, whose rays tell how near what surrounds it is.
 #define WEDGE_NEARNESS_REACH 2
@@ -28,6 +34,8 @@ typedef struct {
     float ambientDistance; ///< metres; surfaces farther away do not count for the ambient component
     uint strata; ///< as of SampleParams
     uint keepsDistances; ///< 1: adds to the planes of reflectors; 0: there are none
+    uint emitters; ///< triangles that emit
+    float emitterShare; ///< probability that a path's vertex samples one of them and no other light
     uint padding;
 } PathParams;
 

@@ -11,17 +11,23 @@ using device::PassKind;
 using graph::reads;
 using graph::writes;
 
-std::vector<IndirectTerm> indirectTerms(const Settings& settings, bool specular)
+std::vector<IndirectTerm> indirectTerms(const Settings& settings, bool specular, bool emits)
 {
     if (settings.integrator == Integrator::AmbientOcclusion) {
         return { { Component::Ambient, "Ambient" } };
     }
-    if (settings.bounces == 0) {
-        return {};
+    std::vector<IndirectTerm> terms;
+    const auto add = [&](IndirectTerm diffuse, IndirectTerm glossy) {
+        terms.push_back(diffuse);
+        if (specular) {
+            terms.push_back(glossy);
+        }
+    };
+    if (emits) {
+        add({ Component::Emitters, "Emitters" }, { Component::EmittersGlossy, "EmittersGlossy" });
     }
-    std::vector<IndirectTerm> terms { { Component::Diffuse, "Indirect" } };
-    if (specular) {
-        terms.push_back({ Component::Glossy, "Glossy" });
+    if (settings.bounces > 0) {
+        add({ Component::Diffuse, "Indirect" }, { Component::Glossy, "Glossy" });
     }
     return terms;
 }
@@ -39,6 +45,8 @@ shared::PathParams pathParams(const FrameBuilder& frame, Component component)
                                                               : std::numeric_limits<float>::infinity();
     p.areaLights = static_cast<std::uint32_t>(frame.description.areaLights.size());
     p.deltaLights = frame.scene != nullptr ? frame.scene->deltaLightCount : 0;
+    p.emitters = frame.scene != nullptr ? frame.scene->emitterCount : 0;
+    p.emitterShare = frame.scene != nullptr ? frame.scene->emitterShare : 0.0f;
     p.sceneDiameter = frame.scene != nullptr ? frame.scene->diameter : 0.0f;
     return p;
 }

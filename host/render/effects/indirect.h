@@ -13,7 +13,14 @@ enum class Component : std::uint32_t {
     Diffuse = WEDGE_COMPONENT_DIFFUSE,
     Glossy = WEDGE_COMPONENT_GLOSSY,
     Ambient = WEDGE_COMPONENT_AMBIENT,
+    Emitters = WEDGE_COMPONENT_EMITTERS,
+    EmittersGlossy = WEDGE_COMPONENT_EMITTERS_GLOSSY,
 };
+
+/// Whether a component is of the specular lobes.
+constexpr bool isGlossy(Component c) { return c == Component::Glossy || c == Component::EmittersGlossy; }
+/// Whether it is direct light.
+constexpr bool isOfEmitters(Component c) { return c == Component::Emitters || c == Component::EmittersGlossy; }
 
 /// A component that frames of some settings have, and what its filter widths' layer ends in.
 struct IndirectTerm {
@@ -21,8 +28,9 @@ struct IndirectTerm {
     const char* name;
 };
 
-/// The indirect terms of a frame. specular: the scene reflects so.
-std::vector<IndirectTerm> indirectTerms(const Settings& settings, bool specular);
+/// The terms of a frame that are sampled by rays over the hemisphere: direct light of meshes that emit, where `emits`,
+/// and indirect light. specular: the scene reflects so.
+std::vector<IndirectTerm> indirectTerms(const Settings& settings, bool specular, bool emits);
 
 /// What the analysis of a component needs besides the rectangle.
 shared::ReflectorParams reflectorParams(const FrameBuilder& frame, Component component);

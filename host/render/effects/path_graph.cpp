@@ -33,7 +33,9 @@ public:
         , g_(frame.graph)
         , s_(frame.settings)
         , component_(component)
-        , reflectance_(component == Component::Glossy ? frame.surfaces.specular : frame.surfaces.diffuse)
+        , reflectance_(isGlossy(component) ? frame.surfaces.specular : frame.surfaces.diffuse)
+        , sum_(isOfEmitters(component) ? frame.totals.direct : frame.totals.indirect)
+        , vertices_(isOfEmitters(component) ? 1 : std::max(1, frame.settings.bounces))
         , state_(state)
         , beta_(beta)
         , sums_(g_.plane<Sums>("sums", graph::floatPlanes(4)))
@@ -111,6 +113,8 @@ private:
     const Settings& s_;
     Component component_;
     graph::Handle<Reflectance> reflectance_;
+    Sum& sum_;
+    int vertices_; ///< of a path
     std::shared_ptr<TermState> state_;
     graph::Handle<Metres>& beta_;
     graph::Handle<Sums> sums_;
@@ -124,8 +128,7 @@ private:
 
 void PathGraph::paths(const char* pass, std::uint32_t from, std::uint32_t most, double mean, bool everywhere)
 {
-    const int vertices = std::max(1, s_.bounces);
-    const auto slice = static_cast<std::uint32_t>(std::max(1, sliceVertices / vertices));
+    const auto slice = static_cast<std::uint32_t>(std::max(1, sliceVertices / vertices_));
     const SampleSlices slices(from, most, slice, mean);
     shared::PathParams params = pathParams(f_, component_);
     const bool first = f_.analysed() && from == 0; // distances are for the analysis
@@ -134,14 +137,16 @@ void PathGraph::paths(const char* pass, std::uint32_t from, std::uint32_t most, 
         f_.trace(pass, { "paths/indirect.cl", "samplePaths" },
             joined({ f_.frame(), value("params", params) }, f_.hierarchy(), f_.geometry(),
                 Arguments { f_.ofScene("areaLights", "AreaLight", &DeviceScene::areaLights),
-                    f_.ofScene("deltaLights", "DeltaLight", &DeviceScene::deltaLights) },
+                    f_.ofScene("deltaLights", "DeltaLight", &DeviceScene::deltaLights),
+                    f_.ofScene("emitters", "Emitter", &DeviceScene::emitters),
+                    f_.ofScene("emitterPicks", "float", &DeviceScene::emitterPicks) },
                 f_.receivers(),
                 Arguments { reads("specular", f_.surfaces.specular), reads("wanted", wanted_), slices.last(),
                     updates("sums", sums_), updates("taken", taken_), updates("value", value_),
 
                     first ? updates("reflectors", extremes_) : f_.nothing("reflectors"),
                     tallies("rays", f_.totals.rays), tallies("pathRays", f_.totals.pathRays) }),
-            everywhere, slices.workUnits(std::max(1.0, mean - from) * vertices));
+            everywhere, slices.workUnits(std::max(1.0, mean - from) * vertices_));
     });
 }
 
@@ -193,22 +198,20 @@ void PathGraph::deviations()
 
 void PathGraph::addSamples()
 {
-    Sum& indirect = f_.totals.indirect;
     f_.blocks("composite", PassKind::Composite, { "frame/composite.cl", "addPathSamples" },
         { f_.rectangle(countParams()), value("component", static_cast<std::uint32_t>(component_)),
             value("varies", varies() ? 1u : 0u), reads("reflectance", reflectance_), reads("value", value_),
             varies() ? reads("deviations", deviation_) : f_.nothing("deviations"), reads("taken", taken_),
-            updates("indirectNoisy", indirect.noisy), updates("deviation", indirect.deviation),
-            updates("samples", f_.totals.samples), updates("indirectSamples", f_.totals.indirectSamples) });
+            updates("noisy", sum_.noisy), updates("deviation", sum_.deviation), updates("samples", f_.totals.samples),
+            updates("indirectSamples", f_.totals.indirectSamples) });
 }
 
 void PathGraph::addFiltered(const graph::Handle<Value>& filtered)
 {
-    Sum& indirect = f_.totals.indirect;
     f_.blocks("composite", PassKind::Composite, { "frame/composite.cl", "addIndirect" },
         { f_.rectangle(countParams()), value("component", static_cast<std::uint32_t>(component_)),
             value("varies", varies() ? 1u : 0u), reads("reflectance", reflectance_), reads("value", filtered),
-            reads("taken", taken_), updates("indirect", indirect.filtered), updates("variance", indirect.variance) });
+            reads("taken", taken_), updates("sum", sum_.filtered), updates("variance", sum_.variance) });
 }
 
 } // namespace

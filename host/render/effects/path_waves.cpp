@@ -15,7 +15,8 @@ using graph::value;
 using graph::writes;
 
 PathWaves::PathWaves(FrameBuilder& frame, const SampleShape& shape, Component component)
-    : WaveTerm(frame, shape, frame.totals.indirect, 3, 2.0f * static_cast<float>(std::max(1, frame.settings.bounces)))
+    : WaveTerm(frame, shape, isOfEmitters(component) ? frame.totals.direct : frame.totals.indirect, 3,
+        isOfEmitters(component) ? 2.0f : 2.0f * static_cast<float>(std::max(1, frame.settings.bounces)))
     , component_(component)
 {
 }
@@ -39,13 +40,15 @@ void PathWaves::sample(
     waves.tiles("paths", { "paths/indirect.cl", "samplePaths" },
         joined({ waves.receiverParams(), value("params", pathParams()) }, f_.hierarchy(), f_.geometry(),
             Arguments { f_.ofScene("areaLights", "AreaLight", &DeviceScene::areaLights),
-                f_.ofScene("deltaLights", "DeltaLight", &DeviceScene::deltaLights) },
+                f_.ofScene("deltaLights", "DeltaLight", &DeviceScene::deltaLights),
+                f_.ofScene("emitters", "Emitter", &DeviceScene::emitters),
+                f_.ofScene("emitterPicks", "float", &DeviceScene::emitterPicks) },
             waves.receiverArguments(),
             Arguments { reads("specular", r.specular), reads("wanted", own.last),
                 value("lastSample", std::numeric_limits<std::uint32_t>::max()), updates("sums", own.sums),
                 updates("taken", own.first), writes("value", found), updates("reflectors", own.extremes),
                 waves.tallyRays(), waves.tallyPathRays() }));
-    const graph::Handle<Reflectance>& reflectance = component_ == Component::Glossy ? r.specular : r.diffuse;
+    const graph::Handle<Reflectance>& reflectance = isGlossy(component_) ? r.specular : r.diffuse;
     waves.pixels("accumulatePaths",
         joined({ waves.pixelParams(), waves.params(omits()),
                    value("ambient", component_ == Component::Ambient ? 1u : 0u) },

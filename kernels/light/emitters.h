@@ -1,0 +1,119 @@
+// Meshes that emit as lights: points on their triangles, chosen by power, and the density of those where a ray meets
+// them. Both sides of a triangle emit.
+#ifndef WEDGE_EMITTERS_H
+#define WEDGE_EMITTERS_H
+
+#include "shared/emitter.h"
+#include "trace/surface.h"
+
+typedef struct {
+    SurfaceData surfaces;
+    __global const Emitter* list;
+    __global const float* picks; ///< of each triangle of the scene: the probability that it is chosen
+    uint count; ///< of the list
+    float share; ///< probability that a path's vertex samples them and not other lights
+} EmitterData;
+
+/// The scene's emitters among a kernel's parameters.
+#define WEDGE_EMITTER_PARAMETERS __global const Emitter *restrict emitters, __global const float *restrict emitterPicks
+
+/// A point on one of them.
+typedef struct {
+    Vec3 point; ///< metres
+    Vec3 normal; ///< unit, of the triangle, on either side
+    Vec3 radiance;
+    float density; ///< of the point, 1/m^2
+    float extent; ///< metres, of the emitter
+} EmitterPoint;
+
+/// Twice the area of a triangle times its unit normal, at a time.
+WEDGE_FN Vec3 triangleNormal(SurfaceData data, uint triangle, float time)
+{
+    const Vec3 a = positionAt(data, data.indices[3u * triangle], time);
+    const Vec3 ab = vecSub(positionAt(data, data.indices[3u * triangle + 1u], time), a);
+    return vecCross(ab, vecSub(positionAt(data, data.indices[3u * triangle + 2u], time), a));
+}
+
+/// The first of the list whose numbers reach beyond `number`.
+WEDGE_FN uint findEmitter(EmitterData e, float number)
+{
+    uint low = 0u, high = e.count - 1u;
+    while (low < high) {
+        const uint middle = (low + high) / 2u;
+        const bool below = e.list[middle].upTo <= number;
+        low = below ? middle + 1u : low;
+        high = below ? high : middle;
+    }
+    return low;
+}
+
+WEDGE_FN Vec3 emittedAt(SurfaceData data, uint triangle, Vec2 weights)
+{
+    const MaterialData material = data.materials[data.materialIds[triangle]];
+    if (material.emissionTexture == WEDGE_NO_TEXTURE) {
+        return material.emission;
+    }
+    __global const uint* corner = data.indices + 3u * triangle;
+    const float first = 1.0f - weights.x - weights.y;
+    const float u = data.texcoords[2u * corner[0]] * first + data.texcoords[2u * corner[1]] * weights.x
+        + data.texcoords[2u * corner[2]] * weights.y;
+    const float v = data.texcoords[2u * corner[0] + 1u] * first + data.texcoords[2u * corner[1] + 1u] * weights.x
+        + data.texcoords[2u * corner[2] + 1u] * weights.y;
+    return vecMul(material.emission,
+        sampleTexture(data.textures, data.texels, data.srgbToLinear, material.emissionTexture, u, v));
+}
+
+/// The point of the numbers u at a time. The first number chooses the triangle and goes on within it: what is
+/// stratified over the square is so over the list, too.
+WEDGE_FN EmitterPoint sampleEmitter(EmitterData e, Vec2 u, float time)
+{
+    const uint i = findEmitter(e, u.x);
+    const Emitter emitter = e.list[i];
+    const float from = i > 0u ? e.list[i - 1u].upTo : 0.0f;
+    const float within = clamp((u.x - from) / fmax(emitter.upTo - from, 1e-30f), 0.0f, 1.0f);
+    uint second = 0u;
+    const Vec2 at = vec2(within, u.y);
+    const Vec2 weights =
+        emitter.pair != WEDGE_PAIR_NONE ? squareToPair(emitter.pair, at, &second) : squareToTriangle(at);
+    const uint triangle = emitter.triangle + second;
+    const SurfaceData data = e.surfaces;
+    const Vec3 a = positionAt(data, data.indices[3u * triangle], time);
+    const Vec3 ab = vecSub(positionAt(data, data.indices[3u * triangle + 1u], time), a);
+    const Vec3 ac = vecSub(positionAt(data, data.indices[3u * triangle + 2u], time), a);
+    const Vec3 normal = vecCross(ab, ac);
+    const float twice = vecLength(normal);
+    EmitterPoint p;
+    p.point = vecMad(vecMad(a, ab, weights.x), ac, weights.y);
+    p.normal = vecScale(normal, 1.0f / fmax(twice, 1e-30f));
+    p.radiance = emittedAt(data, triangle, weights);
+    p.density = 2.0f * e.picks[triangle] / fmax(twice, 1e-30f);
+    p.extent = emitter.extent;
+    return p;
+}
+
+/// Density in 1/sr of a point of that density on a surface of that unit normal, `distance` metres away in direction l.
+WEDGE_INLINE float densityOfDirection(float density, Vec3 normal, Vec3 l, float distance)
+{
+    return density * distance * distance / fmax(fabs(vecDot(normal, l)), 1e-12f);
+}
+
+/// Density in 1/sr at which sampleEmitter() finds what a ray of unit direction l met.
+WEDGE_FN float emitterPdf(EmitterData e, Hit hit, Vec3 l, float time)
+{
+    const float pick = e.picks[hit.triangle];
+    if (!(pick > 0.0f)) {
+        return 0.0f;
+    }
+    const Vec3 normal = triangleNormal(e.surfaces, hit.triangle, time);
+    const float twice = fmax(vecLength(normal), 1e-30f);
+    return densityOfDirection(2.0f * pick / twice, vecScale(normal, 1.0f / twice), l, hit.t);
+}
+
+/// What a ray meets that emits; 0 of all else.
+WEDGE_FN Vec3 emittedOf(EmitterData e, Hit hit)
+{
+    return hit.triangle != WEDGE_NO_TRIANGLE && e.count > 0u ? emittedAt(e.surfaces, hit.triangle, vec2(hit.u, hit.v))
+                                                             : vec3(0.0f, 0.0f, 0.0f);
+}
+
+#endif
