@@ -19,9 +19,13 @@ struct Output {
 /// The format that the name's extension tells, if any.
 std::optional<ImageFormat> formatOf(const std::string& path);
 
-/// The outputs that the paths name; without any, the scene's name with .exr in the current folder. Throws UsageError
-/// for other extensions.
-std::vector<Output> planOutputs(const std::vector<std::string>& paths, const std::string& scene);
+/// The outputs that the paths name. Throws UsageError for other extensions.
+std::vector<Output> planOutputs(const std::vector<std::string>& paths);
+
+/// Those of a call that names none: the scene's name with .exr and with .png in the current folder. The second is left
+/// out where that file is there and no picture of ours (it may be a texture, or a photograph), or is one of those in
+/// use.
+std::vector<Output> defaultOutputs(const std::string& scene, const std::vector<std::string>& inUse);
 
 /// Throws UsageError where two of the files that are written are one, and where one of them is read: under whatever
 /// spelling, also through symbolic links. Empty paths stand for none.

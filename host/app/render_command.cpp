@@ -33,12 +33,18 @@ double millisecondsSince(Clock::time_point start)
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
+std::vector<Output> outputsOf(const RenderOptions& options)
+{
+    return options.outputs.empty() ? defaultOutputs(options.scene, { options.reference, options.report })
+                                   : planOutputs(options.outputs);
+}
+
 /// One call of `wedge render`, step by step.
 class RenderJob {
 public:
     explicit RenderJob(const RenderOptions& options)
         : options_(options)
-        , images_(planOutputs(options.outputs, options.scene), options.exposureStops)
+        , images_(outputsOf(options), options.exposureStops)
         , progress_(!options.quiet)
     {
     }
@@ -47,6 +53,7 @@ public:
 
 private:
     void checkCall() const;
+    void warnOfPicture() const;
     void load();
     void build();
     void explain() const;
@@ -94,6 +101,7 @@ int RenderJob::run()
         explain();
         return 0;
     }
+    warnOfPicture();
     prepare();
     try {
         render();
@@ -139,6 +147,16 @@ void RenderJob::checkCall() const
     std::ranges::transform(outputs, std::back_inserter(written), &Output::path);
     refuseOverwriting(written, { options_.scene, options_.reference });
     requireWritable(outputs, options_.explain.empty() ? options_.report : options_.explain);
+}
+
+/// A call that names no outputs takes no picture that is not its own.
+void RenderJob::warnOfPicture() const
+{
+    if (options_.outputs.empty() && images_.outputs().size() == 1 && !options_.quiet) {
+        const std::string& exr = images_.outputs().front().path;
+        warn(message("no picture is written, since its file is read or was not written by wedge",
+            std::filesystem::path(exr).replace_extension(".png").string(), "name outputs with -o"));
+    }
 }
 
 void RenderJob::load()

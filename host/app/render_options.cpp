@@ -54,7 +54,7 @@ void addFrameOptions(CLI::App& parser, RenderOptions& o)
 {
     addList(parser, whatGroup, "-o,--output", "FILE",
         "Image to write, .exr (linear, with layers) or .png (sRGB); may be given several times. Default: the scene's "
-        "name with .exr, in the current folder",
+        "name with .exr and with .png, in the current folder",
         o.outputs);
     addValue(parser, whatGroup, "--size", "WxH", "Image size in pixels",
         [&o](const std::string& text) { o.size = imageSize("--size", text); });

@@ -7,11 +7,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
 #include <png.h>
 
 namespace wedge::image {
 
 namespace {
+
+using namespace std::string_view_literals;
+
+/// The chunk "Software: wedge": length, type, text, and the checksum of the last two.
+constexpr std::string_view software = "\0\0\0\x0etEXtSoftware\0wedge\xb7\xe2\x2a\x27"sv;
+constexpr std::size_t softwareAt = 8 + 25; // behind the signature and the header, which are of one size in all files
 
 std::vector<std::uint8_t> quantize(const RgbImage& image, float exposureStops)
 {
@@ -39,8 +49,21 @@ void writePng(const std::string& path, const RgbImage& image, float exposureStop
     png_alloc_size_t size = encoded.size();
     if (!png_image_write_to_memory(&png, encoded.data(), &size, 0, bytes.data(), 0, nullptr))
         throw Error(std::string("cannot encode PNG image (") + png.message + ")", path, "write a smaller image or EXR");
-    file.write(std::string_view(encoded).substr(0, size));
+    file.write(std::string_view(encoded).substr(0, softwareAt));
+    file.write(software);
+    file.write(std::string_view(encoded).substr(softwareAt, size - softwareAt));
     file.commit();
+}
+
+bool isOwnPng(const std::string& path)
+{
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) { // opening a pipe would wait for its writer
+        return false;
+    }
+    std::string start(softwareAt + software.size(), '\0');
+    std::ifstream(path, std::ios::binary).read(start.data(), static_cast<std::streamsize>(start.size()));
+    return start.starts_with("\x89PNG"sv) && start.ends_with(software);
 }
 
 } // namespace wedge::image
