@@ -114,6 +114,31 @@ TEST_CASE("without -o no file is replaced that the program did not write")
     }
 }
 
+TEST_CASE("--view is for PNGs alone")
+{
+    const Workplace place;
+    const auto rendered = [&place](const Arguments& more) {
+        Arguments arguments = { "render", box, "--quiet", "--size", "32x24", "--method", "mc", "--spp", "4",
+            "--exposure", "2", "-o", "a.exr", "-o", "a.png" };
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        CHECK(place.run(arguments).status == 0);
+        return std::pair(place.exr("a.exr"), place.text("a.png"));
+    };
+    const auto plain = rendered({}), srgb = rendered({ "--view", "srgb" });
+    const auto filmic = rendered({ "--view", "filmic" }), agx = rendered({ "--view=agx" });
+    CHECK(srgb.second == plain.second);
+    CHECK(filmic.second != plain.second);
+    CHECK(agx.second != plain.second);
+    CHECK(agx.second != filmic.second);
+    for (const auto* other : { &srgb, &filmic, &agx }) {
+        for (const char* channel : { "R", "G", "B" }) {
+            CHECK(values(other->first, channel) == values(plain.first, channel));
+        }
+    }
+    checkRefused(place, { "render", box, "--view", "aces", "-o", "b.png" }, wrongCall, "aces");
+    checkRefused(place, { "render", box, "--view", "agx", "-o", "b.exr" }, wrongCall, "--view: add an output");
+}
+
 TEST_CASE("the output's folder disappears")
 {
     const Workplace place;

@@ -110,9 +110,9 @@ TEST_CASE("values are clipped, not mapped, and exposure is in stops")
     writePng(directory / "a.png", wild);
     checkValues(readPng(directory / "a.png"), { 0, 1, 1, 0, 0, linear(137.0 / 255.0) });
     const RgbImage gray { 2, 1, { 0.5f, 0.25f, 0.125f, 2, 4, 8 } };
-    writePng(directory / "b.png", gray, 1.0f);
+    writePng(directory / "b.png", gray, { .exposureStops = 1.0f });
     checkValues(readPng(directory / "b.png"), { 1, linear(188.0 / 255.0), linear(137.0 / 255.0), 1, 1, 1 });
-    writePng(directory / "c.png", gray, -3.0f);
+    writePng(directory / "c.png", gray, { .exposureStops = -3.0f });
     CHECK(readPng(directory / "c.png").rgb[5] == 1.0f);
     CHECK(readPng(directory / "c.png").rgb[3] == doctest::Approx(linear(137.0 / 255.0)));
     CHECK_THROWS_AS(writePng(directory / "d.png", RgbImage {}), std::logic_error);

@@ -135,12 +135,12 @@ void requireWritable(const std::vector<Output>& outputs, const std::string& repo
     }
 }
 
-void writeImage(const Output& output, const image::LayeredImage& image, float exposureStops)
+void writeImage(const Output& output, const image::LayeredImage& image, const image::Look& look)
 {
     if (output.format == ImageFormat::Exr) {
         image::writeExr(output.path, image);
     } else {
-        image::writePng(output.path, image::beauty(image), exposureStops);
+        image::writePng(output.path, image::beauty(image), look);
     }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/image/image.h"
+#include "host/image/view.h"
 
 #include <optional>
 #include <string>
@@ -35,7 +36,7 @@ void refuseOverwriting(const std::vector<std::string>& written, const std::vecto
 void requireWritable(const std::vector<Output>& outputs, const std::string& report);
 
 /// Writes the image, whole or not at all. Throws Error.
-void writeImage(const Output& output, const image::LayeredImage& image, float exposureStops);
+void writeImage(const Output& output, const image::LayeredImage& image, const image::Look& look);
 
 /// Writes text to a file, whole or not at all. Throws Error.
 void writeText(const std::string& path, const std::string& text);

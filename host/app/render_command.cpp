@@ -44,7 +44,7 @@ class RenderJob {
 public:
     explicit RenderJob(const RenderOptions& options)
         : options_(options)
-        , images_(outputsOf(options), options.exposureStops)
+        , images_(outputsOf(options), { options.exposureStops, options.view.value_or(image::View::Srgb) })
         , progress_(!options.quiet)
     {
     }
@@ -138,6 +138,10 @@ void RenderJob::checkCall() const
     const bool anyExr = std::ranges::any_of(outputs, [](const Output& o) { return o.format == ImageFormat::Exr; });
     if (!options_.layers.empty() && !anyExr) {
         throw UsageError("layers have no file to go to", options_.layers, "add an output that ends in .exr");
+    }
+    const bool anyPng = std::ranges::any_of(outputs, [](const Output& o) { return o.format == ImageFormat::Png; });
+    if (options_.view && !anyPng) {
+        throw UsageError("a view has no picture to go to", "--view", "add an output that ends in .png");
     }
     std::error_code ignored;
     if (!options_.kernelDir.empty() && !std::filesystem::is_directory(options_.kernelDir, ignored)) {
