@@ -28,7 +28,7 @@ std::string stemOf(const std::string& path)
 std::string reserve(const std::string& folder, const std::string& stem, const std::string& extension)
 {
     for (int i = 1; i <= mostTries; ++i) {
-        const std::string path =
+        std::string path =
             fmt::format("{}/{}-rescued{}{}", folder, stem, i == 1 ? "" : fmt::format("-{}", i), extension);
         const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (file >= 0) {
@@ -45,7 +45,7 @@ std::string reserve(const std::string& folder, const std::string& stem, const st
 std::string keepIn(
     const std::string& folder, const Output& output, const image::LayeredImage& image, const image::Look& look)
 {
-    const std::string path = reserve(folder, stemOf(output.path), output.format == ImageFormat::Exr ? ".exr" : ".png");
+    std::string path = reserve(folder, stemOf(output.path), output.format == ImageFormat::Exr ? ".exr" : ".png");
     if (path.empty()) {
         return path;
     }
