@@ -62,7 +62,7 @@ changed() { # REV
     } | awk '!seen[$0]++'
 }
 
-# The file itself, or of a header the first file that includes it: better the one of the same name.
+# The file itself, or of a header one that includes it: best that of the same name, else one beside it.
 unit() { # FILE
     local source=${1%.h}.cpp
     case $1 in
@@ -71,7 +71,8 @@ unit() { # FILE
         if [ -f "$source" ]; then
             echo "$source"
         else
-            { compiled | xargs -d '\n' grep -lF "#include \"$1\"" || true; } | sed -n 1p
+            { { compiled | grep "^$(dirname "$1")/[^/]*$" || true; compiled; } |
+                xargs -d '\n' grep -lF "#include \"$1\"" || true; } | sed -n 1p
         fi
         ;;
     esac

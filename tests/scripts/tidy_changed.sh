@@ -79,12 +79,17 @@ expect 0 "no files to look at (since v9)"
 
 # A header that changed counts through a file that includes it.
 good inHeader | sed 's/^/inline /' >host/part.h
-printf '#include "host/part.h"\n' >host/old.cpp
+mkdir app
+printf '#include "host/part.h"\nint* far() { return 0; }\n' >app/far.cpp
+printf '#include "host/part.h"\n' >host/old.cpp # the one beside it
+compiles app/far.cpp host/old.cpp host/first.cpp host/second.cpp
 commit "a header" >/dev/null
 git tag v10
 expect 0 "no files to look at (since v10)"
 bad inHeader | sed 's/^/inline /' >host/part.h
 expect 1 "host/part.h:1:39: error: use nullptr"
+expect 1 "1 files (since v10): findings above"
+[[ $(bash scripts/tidy.sh || true) != *app/far.cpp* ]] || { echo "a header was looked at from afar"; exit 1; }
 
 # Slow files: what is not begun in time is left out, and said so.
 mkdir tools
