@@ -105,11 +105,11 @@ TEST_CASE("the pass table and the error are printed, and nothing goes to stderr 
     CHECK(outcome.status == 0);
     CHECK(outcome.err == "");
     for (const std::string part : { "primary rays", "first pass", "second pass", "filter", "composite", "device time",
-             "wall clock", "overhead", "Mrays/s", "rmse", "flip", "wrote penumbra.exr" }) {
+             "wall clock", "overhead", "Mrays/s", "rmse", "flip", "wrote penumbra.exr", "wrote penumbra.png" }) {
         CAPTURE(part);
         CHECK(contains(outcome.out, part));
     }
-    CHECK(place.files() == std::vector<std::string> { "penumbra.exr", "r.exr" }); // named after the scene
+    CHECK(place.files() == std::vector<std::string> { "penumbra.exr", "penumbra.png", "r.exr" });
 }
 
 TEST_CASE("the command line goes before the scene file")

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <sys/stat.h>
+
 namespace wedge::app::test {
 namespace {
 
@@ -23,6 +25,13 @@ Outcome renderWhile(const Workplace& place, const std::function<void()>& happens
         happens();
         kill(process, SIGINT);
     });
+}
+
+/// What is in a regular file, and nothing of anything else, which reading might wait for.
+std::string readIfFile(const fs::path& path)
+{
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored) ? readAll(path) : "";
 }
 
 /// The name behind "kept as".
@@ -45,6 +54,89 @@ void checkKept(const Workplace& place, const Outcome& outcome, const std::string
     const image::LayeredImage image = image::readExr((place.path() / name).string());
     CHECK(image.width == 64);
     CHECK(std::get<int>(image.metadata.at("complete")) == 0);
+}
+
+TEST_CASE("without -o a render is an EXR and a PNG of the scene's name")
+{
+    const Workplace place;
+    const Arguments call = { "render", box, "--size", "16x12", "--method", "mc", "--spp", "1" };
+    const auto with = [&call](const Arguments& more) {
+        Arguments arguments = call;
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return arguments;
+    };
+    const Outcome first = place.run(call);
+    CHECK(first.status == 0);
+    CHECK(first.err == "");
+    CHECK(contains(first.out, "wrote cornell.exr\nwrote cornell.png\n"));
+    REQUIRE(place.files() == std::vector<std::string> { "cornell.exr", "cornell.png" });
+
+    // What it wrote itself it replaces, also behind a link, and says nothing where it is to be quiet.
+    const std::string exr = place.text("cornell.exr"), png = place.text("cornell.png");
+    fs::create_directory(place.path() / "d");
+    fs::rename(place.path() / "cornell.png", place.path() / "d" / "p.png");
+    fs::create_symlink("d/p.png", place.path() / "cornell.png");
+    const Outcome again = place.run(with({ "--seed", "5", "--quiet" }));
+    CHECK(again.status == 0);
+    CHECK(again.out + again.err == "");
+    CHECK(place.text("cornell.exr") != exr);
+    CHECK(place.text("d/p.png") != png);
+
+    // A picture that is read or reported to is none to write.
+    const std::string seeded = place.text("d/p.png");
+    CHECK(place.run(with({ "--reference", "d/p.png" })).status == 0);
+    CHECK(place.text("d/p.png") == seeded);
+    CHECK(place.run(with({ "--report", "cornell.png" })).status == 0);
+    CHECK(place.text("d/p.png").starts_with("{"));
+}
+
+TEST_CASE("without -o no file is replaced that the program did not write")
+{
+    const Workplace place;
+    const fs::path picture = place.path() / "cornell.png";
+    const std::function<void()> others[] = { [&] { place.write("cornell.png", "\x89PNG a photograph"); },
+        [&] { fs::create_directory(picture); }, [&] { fs::create_symlink("nowhere", picture); },
+        [&] { fs::create_symlink("cornell.png", picture); }, [&] { REQUIRE(mkfifo(picture.c_str(), 0600) == 0); } };
+    for (const std::function<void()>& make : others) {
+        make();
+        const std::string before = readIfFile(picture);
+        const Arguments call = { "render", box, "--size", "8x6", "--method", "mc", "--spp", "1" };
+        const Outcome outcome = place.run(call);
+        CHECK(outcome.status == 0);
+        CHECK(contains(outcome.out, "wrote cornell.exr\n"));
+        CHECK_FALSE(contains(outcome.out, "cornell.png"));
+        CHECK(contains(outcome.err, "wedge: warning: no picture is written"));
+        CHECK(contains(outcome.err, "cornell.png: name outputs with -o"));
+        CHECK(readIfFile(picture) == before);
+        CHECK(place.files() == std::vector<std::string> { "cornell.exr", "cornell.png" });
+        fs::remove(picture);
+        fs::remove(place.path() / "cornell.exr");
+    }
+}
+
+TEST_CASE("--view is for PNGs alone")
+{
+    const Workplace place;
+    const auto rendered = [&place](const Arguments& more) {
+        Arguments arguments = { "render", box, "--quiet", "--size", "32x24", "--method", "mc", "--spp", "4",
+            "--exposure", "2", "-o", "a.exr", "-o", "a.png" };
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        CHECK(place.run(arguments).status == 0);
+        return std::pair(place.exr("a.exr"), place.text("a.png"));
+    };
+    const auto plain = rendered({}), srgb = rendered({ "--view", "srgb" });
+    const auto filmic = rendered({ "--view", "filmic" }), agx = rendered({ "--view=agx" });
+    CHECK(srgb.second == plain.second);
+    CHECK(filmic.second != plain.second);
+    CHECK(agx.second != plain.second);
+    CHECK(agx.second != filmic.second);
+    for (const auto* other : { &srgb, &filmic, &agx }) {
+        for (const char* channel : { "R", "G", "B" }) {
+            CHECK(values(other->first, channel) == values(plain.first, channel));
+        }
+    }
+    checkRefused(place, { "render", box, "--view", "aces", "-o", "b.png" }, wrongCall, "aces");
+    checkRefused(place, { "render", box, "--view", "agx", "-o", "b.exr" }, wrongCall, "--view: add an output");
 }
 
 TEST_CASE("the output's folder disappears")

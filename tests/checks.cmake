@@ -7,7 +7,10 @@ add_test(NAME second_driver COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/sec
                                     $<TARGET_FILE:bvh_traverse_test> $<TARGET_FILE:bvh_traverse_families_test>
                                     $<TARGET_FILE:bvh_watertight_test>)
 add_test(NAME bare_root COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/bare_root.sh ${CMAKE_SOURCE_DIR}/scripts/bare.sh)
-set_tests_properties(bare_root PROPERTIES SKIP_RETURN_CODE 77)
+add_test(NAME tidy_changed COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/tidy_changed.sh ${CMAKE_SOURCE_DIR})
+add_test(NAME format_check COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/format_check.sh ${CMAKE_SOURCE_DIR})
+add_test(NAME installed COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/installed.sh ${CMAKE_COMMAND} ${CMAKE_BINARY_DIR})
+set_tests_properties(bare_root tidy_changed format_check PROPERTIES SKIP_RETURN_CODE 77)
 # Simulated devices are slow, and slower still beside other tests.
 set_tests_properties(kernel_lint oclgrind_frame second_driver PROPERTIES TIMEOUT 1200)
 # What the system has no package for cannot be run, and its test says so.

@@ -156,7 +156,7 @@ struct OracleResult {
     int width = 0, channels = 1;
     std::vector<double> values, counts;
     std::vector<bool> doubtful;
-    std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * width + x); }
+    std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
     double value(int x, int y, int c) const
     {
         return values[index(x, y) * static_cast<std::size_t>(channels) + static_cast<std::size_t>(c)];

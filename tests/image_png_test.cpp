@@ -110,13 +110,41 @@ TEST_CASE("values are clipped, not mapped, and exposure is in stops")
     writePng(directory / "a.png", wild);
     checkValues(readPng(directory / "a.png"), { 0, 1, 1, 0, 0, linear(137.0 / 255.0) });
     const RgbImage gray { 2, 1, { 0.5f, 0.25f, 0.125f, 2, 4, 8 } };
-    writePng(directory / "b.png", gray, 1.0f);
+    writePng(directory / "b.png", gray, { .exposureStops = 1.0f });
     checkValues(readPng(directory / "b.png"), { 1, linear(188.0 / 255.0), linear(137.0 / 255.0), 1, 1, 1 });
-    writePng(directory / "c.png", gray, -3.0f);
+    writePng(directory / "c.png", gray, { .exposureStops = -3.0f });
     CHECK(readPng(directory / "c.png").rgb[5] == 1.0f);
     CHECK(readPng(directory / "c.png").rgb[3] == doctest::Approx(linear(137.0 / 255.0)));
     CHECK_THROWS_AS(writePng(directory / "d.png", RgbImage {}), std::logic_error);
     CHECK(directory.entries() == 3);
+}
+
+TEST_CASE("PNGs of ours say so, to everyone")
+{
+    const TempDirectory directory;
+    const std::string own = directory / "own.png", foreign = directory / "foreign.png";
+    writePng(own, testCard(3, 2));
+    writeForeign(foreign, PNG_COLOR_TYPE_GRAY, 8, { 128, 255 });
+    CHECK(isOwnPng(own));
+    CHECK_FALSE(isOwnPng(foreign));
+    CHECK_FALSE(isOwnPng(directory.path()));
+    CHECK_FALSE(isOwnPng(directory / "missing.png"));
+    CHECK_FALSE(isOwnPng("/dev/zero"));
+    writeBytes(foreign, readBytes(own).substr(0, 40));
+    CHECK_FALSE(isOwnPng(foreign));
+
+    // libpng passes over a chunk whose checksum is wrong.
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(png);
+    std::FILE* file = std::fopen(own.c_str(), "rb");
+    png_init_io(png, file);
+    png_read_info(png, info);
+    png_textp text = nullptr;
+    REQUIRE(png_get_text(png, info, &text, nullptr) == 1);
+    CHECK(std::string(text[0].key) == "Software");
+    CHECK(std::string(text[0].text) == "wedge");
+    png_destroy_read_struct(&png, &info, nullptr);
+    std::fclose(file);
 }
 
 TEST_CASE("PNG of every kind is read as linear RGB")

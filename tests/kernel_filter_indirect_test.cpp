@@ -96,7 +96,8 @@ FilterImage smoothImage(int width, int height, unsigned seed)
 TEST_CASE("without a light: degenerate sizes gather what the definition in double gathers")
 {
     withEach([](FilterRun& filter, int planes) {
-        for (const auto& [width, height] : { std::pair(1, 1), { 1, 23 }, { 23, 1 }, { 17, 2 } }) {
+        for (const std::pair<int, int>& size : { std::pair(1, 1), { 1, 23 }, { 23, 1 }, { 17, 2 } }) {
+            const int width = size.first, height = size.second;
             CAPTURE(width);
             CAPTURE(height);
             const FilterImage image = unlit(width, height, Shape::Tilted, 3, planes);
@@ -194,7 +195,7 @@ TEST_CASE("on a smooth scene two passes over plain distances are close to the ga
                 const std::vector<double> square = oracleSquare(image);
                 double difference = 0, effect = 0, worst = 0;
                 everyPixel(image, [&](int x, int y) {
-                    const double reference = square[static_cast<std::size_t>(y * 64 + x)];
+                    const double reference = square[static_cast<std::size_t>(y) * 64 + x];
                     const double apart = separable.value.at(x, y) - reference;
                     worst = std::max(worst, std::fabs(apart));
                     difference += apart * apart / (64 * 48);
@@ -234,8 +235,8 @@ TEST_CASE("packed programs: what the others make of the same normals, without co
             if (!program.packs)
                 continue;
             CAPTURE(program.file);
-            const std::string packed = std::string(program.file).insert(program.file.rfind('/') + 1, "packed_");
-            FilterRun filter(device, {}, program.file), packedFilter(device, {}, packed);
+            const std::string packedFile = std::string(program.file).insert(program.file.rfind('/') + 1, "packed_");
+            FilterRun filter(device, {}, program.file), packedFilter(device, {}, packedFile);
             const bool counts = program.planes == 1;
             for (const Shape shape : { Shape::Tilted, Shape::Steps, Shape::Rough }) {
                 FilterImage plain = unlit(61, 29, shape, 50, program.planes), packed = plain;

@@ -155,7 +155,7 @@ public:
         scene.materials[0].diffuse = { 0.8f, 0.7f, 0.6f };
     }
 
-    void newObject() { scene.geometry.objectNames.push_back("object"); }
+    void newObject() { scene.geometry.objectNames.emplace_back("object"); }
 
     void triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c, std::uint32_t material = 0)
     {

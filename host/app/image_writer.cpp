@@ -12,10 +12,10 @@ namespace wedge::app {
 namespace {
 
 /// What went wrong, or "".
-std::string attempt(const Output& output, const image::LayeredImage& image, float exposureStops)
+std::string attempt(const Output& output, const image::LayeredImage& image, const image::Look& look)
 {
     try {
-        writeImage(output, image, exposureStops);
+        writeImage(output, image, look);
         return "";
     } catch (const Error& error) {
         return error.what();
@@ -44,7 +44,7 @@ std::vector<std::string> ImageWriter::write(std::shared_ptr<const image::Layered
     failures_.clear();
     written_.clear();
     for (const Output& output : outputs_) {
-        const std::string error = attempt(output, *image, exposureStops_);
+        const std::string error = attempt(output, *image, look_);
         if (error.empty()) {
             written_.push_back(output.path);
             continue;
@@ -72,7 +72,7 @@ std::optional<Output> ImageWriter::rescueUnwritten() const
         wanted.push_back({ failures_.front().output->path, ImageFormat::Png });
     }
     for (const Output& output : wanted) {
-        if (const auto path = rescue(output, *unwritten_, exposureStops_)) {
+        if (const auto path = rescue(output, *unwritten_, look_)) {
             return Output { *path, output.format };
         }
     }

@@ -13,9 +13,9 @@ namespace wedge::app {
 /// is tried again with the next image of a progressive render, and of the last one kept in a rescue file.
 class ImageWriter {
 public:
-    ImageWriter(std::vector<Output> outputs, float exposureStops)
+    ImageWriter(std::vector<Output> outputs, const image::Look& look)
         : outputs_(std::move(outputs))
-        , exposureStops_(exposureStops)
+        , look_(look)
     {
     }
 
@@ -39,7 +39,7 @@ private:
     std::optional<Output> rescueUnwritten() const;
 
     std::vector<Output> outputs_;
-    float exposureStops_;
+    image::Look look_;
     std::shared_ptr<const image::LayeredImage> unwritten_; // the last image, where an output failed
     std::vector<Failure> failures_; // of the last image
     std::vector<const Output*> known_; // outputs that failed before

@@ -61,11 +61,8 @@ std::optional<ImageFormat> formatOf(const std::string& path)
     return std::nullopt;
 }
 
-std::vector<Output> planOutputs(const std::vector<std::string>& paths, const std::string& scene)
+std::vector<Output> planOutputs(const std::vector<std::string>& paths)
 {
-    if (paths.empty()) {
-        return { { std::filesystem::path(scene).stem().string() + ".exr", ImageFormat::Exr } };
-    }
     std::vector<Output> outputs;
     for (const std::string& path : paths) {
         const std::optional<ImageFormat> format = formatOf(path);
@@ -73,6 +70,23 @@ std::vector<Output> planOutputs(const std::vector<std::string>& paths, const std
             throw UsageError("output of unknown format", path, "end its name in .exr or .png");
         }
         outputs.push_back({ path, *format });
+    }
+    return outputs;
+}
+
+std::vector<Output> defaultOutputs(const std::string& scene, const std::vector<std::string>& inUse)
+{
+    const std::string stem = std::filesystem::path(scene).stem().string();
+    std::vector<Output> outputs = { { stem + ".exr", ImageFormat::Exr } };
+    const std::string picture = stem + ".png";
+    std::error_code ignored;
+    if (std::filesystem::exists(std::filesystem::symlink_status(picture, ignored)) && !image::isOwnPng(picture)) {
+        return outputs;
+    }
+    const Place place = placeOf(picture);
+    const auto isPlace = [&place](const std::string& path) { return !path.empty() && placeOf(path) == place; };
+    if (std::ranges::none_of(inUse, isPlace)) {
+        outputs.push_back({ picture, ImageFormat::Png });
     }
     return outputs;
 }
@@ -121,12 +135,12 @@ void requireWritable(const std::vector<Output>& outputs, const std::string& repo
     }
 }
 
-void writeImage(const Output& output, const image::LayeredImage& image, float exposureStops)
+void writeImage(const Output& output, const image::LayeredImage& image, const image::Look& look)
 {
     if (output.format == ImageFormat::Exr) {
         image::writeExr(output.path, image);
     } else {
-        image::writePng(output.path, image::beauty(image), exposureStops);
+        image::writePng(output.path, image::beauty(image), look);
     }
 }
 

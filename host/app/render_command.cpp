@@ -33,12 +33,18 @@ double millisecondsSince(Clock::time_point start)
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
+std::vector<Output> outputsOf(const RenderOptions& options)
+{
+    return options.outputs.empty() ? defaultOutputs(options.scene, { options.reference, options.report })
+                                   : planOutputs(options.outputs);
+}
+
 /// One call of `wedge render`, step by step.
 class RenderJob {
 public:
     explicit RenderJob(const RenderOptions& options)
         : options_(options)
-        , images_(planOutputs(options.outputs, options.scene), options.exposureStops)
+        , images_(outputsOf(options), { options.exposureStops, options.view.value_or(image::View::Srgb) })
         , progress_(!options.quiet)
     {
     }
@@ -47,6 +53,7 @@ public:
 
 private:
     void checkCall() const;
+    void warnOfPicture() const;
     void load();
     void build();
     void explain() const;
@@ -94,6 +101,7 @@ int RenderJob::run()
         explain();
         return 0;
     }
+    warnOfPicture();
     prepare();
     try {
         render();
@@ -131,6 +139,10 @@ void RenderJob::checkCall() const
     if (!options_.layers.empty() && !anyExr) {
         throw UsageError("layers have no file to go to", options_.layers, "add an output that ends in .exr");
     }
+    const bool anyPng = std::ranges::any_of(outputs, [](const Output& o) { return o.format == ImageFormat::Png; });
+    if (options_.view && !anyPng) {
+        throw UsageError("a view has no picture to go to", "--view", "add an output that ends in .png");
+    }
     std::error_code ignored;
     if (!options_.kernelDir.empty() && !std::filesystem::is_directory(options_.kernelDir, ignored)) {
         throw Error("kernel folder", options_.kernelDir, "name an existing folder");
@@ -139,6 +151,16 @@ void RenderJob::checkCall() const
     std::ranges::transform(outputs, std::back_inserter(written), &Output::path);
     refuseOverwriting(written, { options_.scene, options_.reference });
     requireWritable(outputs, options_.explain.empty() ? options_.report : options_.explain);
+}
+
+/// A call that names no outputs takes no picture that is not its own.
+void RenderJob::warnOfPicture() const
+{
+    if (options_.outputs.empty() && images_.outputs().size() == 1 && !options_.quiet) {
+        const std::string& exr = images_.outputs().front().path;
+        warn(message("no picture is written, since its file is read or was not written by wedge",
+            std::filesystem::path(exr).replace_extension(".png").string(), "name outputs with -o"));
+    }
 }
 
 void RenderJob::load()

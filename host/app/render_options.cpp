@@ -54,7 +54,7 @@ void addFrameOptions(CLI::App& parser, RenderOptions& o)
 {
     addList(parser, whatGroup, "-o,--output", "FILE",
         "Image to write, .exr (linear, with layers) or .png (sRGB); may be given several times. Default: the scene's "
-        "name with .exr, in the current folder",
+        "name with .exr and with .png, in the current folder",
         o.outputs);
     addValue(parser, whatGroup, "--size", "WxH", "Image size in pixels",
         [&o](const std::string& text) { o.size = imageSize("--size", text); });
@@ -66,6 +66,10 @@ void addFrameOptions(CLI::App& parser, RenderOptions& o)
     addValue(parser, whatGroup, "--exposure", "STOPS", "Multiply PNGs by 2^STOPS", [&o](const std::string& text) {
         o.exposureStops = static_cast<float>(finiteNumber("--exposure", text, -64, 64));
     });
+    addChoice(parser, whatGroup, "--view", { "srgb", "filmic", "agx" },
+        "How PNGs show radiance: clipped, the default; by a film's curve; by AgX, in which bright colours fade to "
+        "white",
+        o.view);
     addValue(parser, whatGroup, "--reference", "FILE", "Compare with this image (.exr, .png or .hdr) of the same size",
         [&o](const std::string& text) { o.reference = text; });
     addValue(parser, whatGroup, "--report", "FILE", "Write a report as JSON",

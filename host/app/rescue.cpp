@@ -28,7 +28,7 @@ std::string stemOf(const std::string& path)
 std::string reserve(const std::string& folder, const std::string& stem, const std::string& extension)
 {
     for (int i = 1; i <= mostTries; ++i) {
-        const std::string path =
+        std::string path =
             fmt::format("{}/{}-rescued{}{}", folder, stem, i == 1 ? "" : fmt::format("-{}", i), extension);
         const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (file >= 0) {
@@ -43,14 +43,14 @@ std::string reserve(const std::string& folder, const std::string& stem, const st
 }
 
 std::string keepIn(
-    const std::string& folder, const Output& output, const image::LayeredImage& image, float exposureStops)
+    const std::string& folder, const Output& output, const image::LayeredImage& image, const image::Look& look)
 {
-    const std::string path = reserve(folder, stemOf(output.path), output.format == ImageFormat::Exr ? ".exr" : ".png");
+    std::string path = reserve(folder, stemOf(output.path), output.format == ImageFormat::Exr ? ".exr" : ".png");
     if (path.empty()) {
         return path;
     }
     try {
-        writeImage({ path, output.format }, image, exposureStops);
+        writeImage({ path, output.format }, image, look);
         return path;
     } catch (const std::exception&) {
         unlink(path.c_str());
@@ -60,14 +60,14 @@ std::string keepIn(
 
 } // namespace
 
-std::optional<std::string> rescue(const Output& output, const image::LayeredImage& image, float exposureStops)
+std::optional<std::string> rescue(const Output& output, const image::LayeredImage& image, const image::Look& look)
 {
     const char* temporary = std::getenv("TMPDIR");
     for (const std::string folder : { ".", temporary == nullptr ? "" : temporary, "/tmp" }) {
         if (folder.empty() || folder.size() + longestName > longestPath) {
             continue;
         }
-        if (const std::string path = keepIn(folder, output, image, exposureStops); !path.empty()) {
+        if (const std::string path = keepIn(folder, output, image, look); !path.empty()) {
             return path;
         }
     }

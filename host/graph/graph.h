@@ -102,10 +102,10 @@ Argument value(std::string name, const T& constant)
 inline Argument outside(std::string name, std::string_view type, const cl::Buffer& memory)
 {
     // Holds it: drivers need not.
-    return { std::move(name), "__global const " + std::string(type) + " *", [memory](const Launch&) {
+    return { std::move(name), "__global const " + std::string(type) + " *", [memory = memory](const Launch&) {
                 const cl_mem handle = memory();
                 const auto* bytes = reinterpret_cast<const std::byte*>(&handle);
-                return std::vector<std::byte>(bytes, bytes + sizeof(handle));
+                return std::vector<std::byte>(bytes, bytes + sizeof(cl_mem));
             } };
 }
 

@@ -1,15 +1,20 @@
 #pragma once
 
 #include "host/image/image.h"
+#include "host/image/view.h"
 
 #include <string>
 
 namespace wedge::image {
 
-/// Writes an 8-bit sRGB PNG. Values are multiplied by 2^exposureStops, clipped to 0 .. 1 (no tone mapping; NaN to 0),
-/// encoded with the sRGB curve and rounded. The file appears whole or not at all.
-/// Throws Error where it cannot be written, and std::logic_error where the image is empty or contradicts itself.
-void writePng(const std::string& path, const RgbImage& image, float exposureStops = 0.0f);
+/// Writes an 8-bit sRGB PNG. Values are multiplied and mapped to 0 .. 1 as the look has it (by default clipped, NaN to
+/// 0), encoded with the sRGB curve and rounded. The file names this program as its software, and appears whole or not
+/// at all. Throws Error where it cannot be written, and std::logic_error where the image is empty or contradicts
+/// itself.
+void writePng(const std::string& path, const RgbImage& image, const Look& look = {});
+
+/// Whether a path leads to a file that writePng() wrote.
+bool isOwnPng(const std::string& path);
 
 /// Reads a PNG of any kind (gray, RGB, palette, 1 to 16 bits, interlaced) as linear Rec.709. Alpha is ignored. Samples
 /// are taken as sRGB, unless the file states another gamma (a gAMA chunk that is not 1/2.2, and no sRGB chunk).

@@ -136,7 +136,8 @@ WEDGE_INLINE Vec2 stratumPoint(Strata s, uint stratum, uint jitter)
 {
     const float u = toUnitFloat(hashUint(jitter ^ 0x9c1b7a55u));
     const float v = toUnitFloat(hashUint(jitter ^ 0x3d6fb1e7u));
-    const float x = (float)(stratum % s.columns), y = (float)(stratum / s.columns);
+    const uint row = stratum / s.columns;
+    const float x = (float)(stratum % s.columns), y = (float)row;
     const bool inside = stratum < s.columns * s.rows;
     return vec2(inside ? (x + u) / (float)s.columns : u, inside ? (y + v) / (float)s.rows : v);
 }

@@ -15,10 +15,10 @@ const std::string rightToLeft = "\xe2\x80\xae";
 const std::string longName(100'000, 'n'); // of one argument Linux takes up to 128 KiB
 
 const std::vector<std::string> renderOptions = { "--output", "-o", "--size", "--crop", "--layers", "--exposure",
-    "--reference", "--report", "--integrator", "--bounces", "--ao-distance", "--aperture", "--focus", "--method",
-    "--spp", "--max-spp", "--mu", "--seed", "--device", "--traversal", "--bvh", "--time-limit", "--memory-limit",
-    "--kernel-dir", "--target-error", "--sampling", "--filter", "--filter-width", "--falloff", "--sampler", "--counts",
-    "--light-sampling" };
+    "--view", "--reference", "--report", "--integrator", "--bounces", "--ao-distance", "--aperture", "--focus",
+    "--method", "--spp", "--max-spp", "--mu", "--seed", "--device", "--traversal", "--bvh", "--time-limit",
+    "--memory-limit", "--kernel-dir", "--target-error", "--sampling", "--filter", "--filter-width", "--falloff",
+    "--sampler", "--counts", "--light-sampling" };
 
 /// Options without a value, or with the next option in its place.
 Rows missingValues()
