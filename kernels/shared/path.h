@@ -27,8 +27,7 @@ typedef struct {
     float sceneDiameter; ///< metres
     float ambientDistance; ///< metres; surfaces farther away do not count for the ambient component
     uint strata; ///< as of SampleParams
-    uint keepsDistances; ///< 1: adds to the planes of reflectors; 0: there are none
-    uint padding;
+    uint padding[2];
 } PathParams;
 
 /// Distances of reflectors to widths and counts.
