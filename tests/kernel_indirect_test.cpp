@@ -49,7 +49,6 @@ public:
         params.deltaLights = traced.onDevice.deltaLightCount;
         params.sceneDiameter = traced.onDevice.diameter;
         params.ambientDistance = infinity;
-        params.keepsDistances = 1;
     }
 
     /// Forgets all samples.
@@ -73,8 +72,8 @@ public:
         const SurfaceBuffers& f = traced.frame;
         traced.bench.passes.tiles("paths", device::PassKind::Trace, "paths/indirect.cl", "samplePaths", traced.params,
             1.0, params, s.nodes, s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, s.emitters,
-            s.emitterPicks, f.receivers(), f.specular, traced.bench.buffer(wanted), last, sums_, traced.taken, value_,
-            reflectors_, f.rays, f.pathRays);
+            s.emitterPicks, f.receivers(), f.specular, traced.bench.buffer(wanted), last, traced.taken, f.rays,
+            f.pathRays, sums_, value_, reflectors_);
     }
     PathResult result()
     {

@@ -30,7 +30,12 @@ public:
     void tiles(std::string_view pass, device::PassKind kind, const std::string& file, const std::string& kernel,
         shared::FrameParams frame, double workUnits, const Args&... args)
     {
-        device::Kernel& k = find(file, kernel);
+        tiles(pass, kind, find(file, kernel), frame, workUnits, args...);
+    }
+    template <class... Args>
+    void tiles(std::string_view pass, device::PassKind kind, device::Kernel& k, shared::FrameParams frame,
+        double workUnits, const Args&... args)
+    {
         const std::size_t items = WEDGE_TILE_PIXELS / packetSize_;
         const std::size_t local = localSize(k, items);
         k.setArgs(frame, args..., std::uint32_t { 0 });
@@ -68,8 +73,11 @@ public:
         queue_.launch(pass, kind, k, items, localSize(k, listGroup));
     }
 
-    /// The kernel, compiled when first asked for; one instance a name.
-    device::Kernel& find(const std::string& file, const std::string& kernel) { return kernels_.find(file, kernel); }
+    /// The kernel, compiled when first asked for; one instance a name and a sink, as graph::Kernels has them.
+    device::Kernel& find(const std::string& file, const std::string& kernel, const std::string& sink = {})
+    {
+        return kernels_.find(file, kernel, sink);
+    }
 
 private:
     static constexpr std::uint32_t bandPixels = 1u << 21;

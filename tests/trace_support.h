@@ -2,7 +2,9 @@
 #pragma once
 
 #include "bvh/host_traverse.h"
+#include "host/graph/interface.h"
 #include "host/render/device_scene.h"
+#include "host/render/effects/sinks.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/wedge.h"
 #include "tests/render_support.h"
@@ -60,6 +62,18 @@ private:
     }
 };
 
+/// sink.h of a kernel whose samples go to these sinks, which are handed planes of floats of these names.
+inline std::string sinkOf(const std::vector<graph::Sink>& sinks, const std::vector<std::string>& planes)
+{
+    graph::Graph graph(1, 1, 1);
+    graph::Pass pass { .name = "samples", .kernel = { "", "", sinks } };
+    for (const std::string& name : planes) {
+        auto plane = graph.plane<render::Sums>(name, graph::floats);
+        pass.arguments.push_back(graph::updates(name, plane));
+    }
+    return graph::sinkText(graph, pass);
+}
+
 /// One scene's buffers, and the tracing kernels over them as the renderer launches them.
 class TracedScene {
 public:
@@ -95,20 +109,25 @@ public:
             frame.geometric, frame.objectId, frame.depth, frame.pixelSize, frame.diffuse, frame.specular,
             frame.emission, frame.gloss);
     }
-    /// p.firstPass samples of each pixel, the first of their light.
+    /// p.firstPass samples of each pixel, the first of their light. Their sinks are those that the kernel has alone.
     void firstPass(const shared::SampleParams& p)
     {
         taken.fill(bench.queue, 0u);
+        for (device::Buffer<float>* b : { &sums, &slopes })
+            b->fill(bench.queue, 0.0f);
         firstWanted.fill(bench.queue, p.firstPass);
-        bench.passes.tiles("first", device::PassKind::Trace, "light/area_light.cl", "firstPass", params, 1.0, p,
-            onDevice.areaLightList[p.light], shared::CameraParams {}, onDevice.nodes, onDevice.blocks,
-            surfaceArguments(onDevice), frame.receivers(), firstWanted, sums, taken, value, slopes, frame.rays);
+        bench.passes.tiles("first", device::PassKind::Trace, "light/area_light.cl", "sampleShadows", params, 1.0, p,
+            onDevice.areaLightList[p.light], onDevice.nodes, onDevice.blocks, frame.receivers(), firstWanted,
+            p.firstPass, taken, frame.rays, sums, value, slopes);
     }
     void secondPass(const shared::SampleParams& p, std::uint32_t last)
     {
-        bench.passes.tiles("second", device::PassKind::Trace, "light/area_light.cl", "secondPass", params, 1.0, p,
-            onDevice.areaLightList[p.light], onDevice.nodes, onDevice.blocks, frame.receivers(), wanted, last, sums,
-            taken, value, frame.rays);
+        namespace sinks = render::sinks;
+        const std::string sink = sinkOf({ sinks::sums(), sinks::means(), sinks::parts() }, { "sums", "value" });
+        bench.passes.tiles("second", device::PassKind::Trace,
+            bench.passes.find("light/area_light.cl", "sampleShadows", sink), params, 1.0, p,
+            onDevice.areaLightList[p.light], onDevice.nodes, onDevice.blocks, frame.receivers(), wanted, last, taken,
+            frame.rays, sums, value);
     }
     template <class T>
     Planes<T> read(const device::Buffer<T>& buffer)

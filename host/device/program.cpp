@@ -98,15 +98,16 @@ ProgramLibrary::ProgramLibrary(const Device& device, BuildOptions options)
     }
 }
 
-cl::Program& ProgramLibrary::program(const std::string& file)
+cl::Program& ProgramLibrary::program(const std::string& file, const GeneratedSources& more)
 {
-    const auto found = programs_.find(file);
-    return found != programs_.end() ? found->second : programs_.emplace(file, obtain(file)).first->second;
+    const auto found = programs_.find({ file, more });
+    return found != programs_.end() ? found->second
+                                    : programs_.emplace(std::pair(file, more), obtain(file, more)).first->second;
 }
 
-Kernel ProgramLibrary::kernel(const std::string& file, const std::string& name)
+Kernel ProgramLibrary::kernel(const std::string& file, const std::string& name, const GeneratedSources& more)
 {
-    return Kernel(device_, program(file), file, name);
+    return Kernel(device_, program(file, more), file, name);
 }
 
 std::string ProgramLibrary::optionsString() const
@@ -126,9 +127,11 @@ std::string ProgramLibrary::optionsString() const
     return text;
 }
 
-cl::Program ProgramLibrary::obtain(const std::string& file)
+cl::Program ProgramLibrary::obtain(const std::string& file, const GeneratedSources& more)
 {
-    const std::string source = flattenKernel(options_.kernelDir, file, options_.generated).text;
+    GeneratedSources generated = options_.generated;
+    generated.insert(more.begin(), more.end());
+    const std::string source = flattenKernel(options_.kernelDir, file, generated).text;
     const DriverCache::Mark mark;
     const std::string key = cacheKey(source);
     if (const auto binary = disk_.load(key)) {

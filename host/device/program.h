@@ -26,13 +26,14 @@ class ProgramLibrary {
 public:
     ProgramLibrary(const Device& device, BuildOptions options);
 
-    /// The program of a file of kernels/, "frame/primary.cl"; valid as long as the library. Throws Error if a file is
-    /// missing or does not compile: the message has the device, the options and the first error, and names a file in
-    /// the temporary folder with the whole log and the flattened source.
-    cl::Program& program(const std::string& file);
+    /// The program of a file of kernels/, "frame/primary.cl"; valid as long as the library. more: generated sources
+    /// besides those of the options. Throws Error if a file is missing or does not compile: the message has the device,
+    /// the options and the first error, and names a file in the temporary folder with the whole log and the flattened
+    /// source.
+    cl::Program& program(const std::string& file, const GeneratedSources& more = {});
 
     /// A new kernel, with arguments of its own, of that program.
-    Kernel kernel(const std::string& file, const std::string& name);
+    Kernel kernel(const std::string& file, const std::string& name, const GeneratedSources& more = {});
 
     /// What the compiler is called with, "-cl-std=CL1.2 -DNAME=VALUE".
     std::string optionsString() const;
@@ -42,7 +43,7 @@ public:
     unsigned loaded() const { return loaded_; }
 
 private:
-    cl::Program obtain(const std::string& file);
+    cl::Program obtain(const std::string& file, const GeneratedSources& more);
     cl::Program compile(const std::string& file, const std::string& source);
     bool load(const ProgramCache::Binary& binary, cl::Program& program);
     std::string cacheKey(const std::string& source) const;
@@ -51,7 +52,7 @@ private:
     Device device_;
     BuildOptions options_;
     ProgramCache disk_;
-    std::map<std::string, cl::Program> programs_;
+    std::map<std::pair<std::string, GeneratedSources>, cl::Program> programs_;
     unsigned compiled_ = 0;
     unsigned loaded_ = 0;
 };

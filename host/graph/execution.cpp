@@ -52,11 +52,18 @@ void requireApart(const Plan& plan)
 
 } // namespace
 
-device::Kernel& Kernels::find(const std::string& file, const std::string& kernel)
+device::Kernel& Kernels::find(const std::string& file, const std::string& kernel, const std::string& sink)
 {
-    const std::string key = file + ":" + kernel;
+    const std::string key = fmt::format("{}:{}:{}", file, kernel, sink);
     const auto found = kernels_.find(key);
-    return found != kernels_.end() ? found->second : kernels_.emplace(key, library_.kernel(file, kernel)).first->second;
+    if (found != kernels_.end()) {
+        return found->second;
+    }
+    device::GeneratedSources generated;
+    if (!sink.empty()) {
+        generated.emplace(file.substr(0, file.rfind('/') + 1) + "sink.h", sink);
+    }
+    return kernels_.emplace(key, library_.kernel(file, kernel, generated)).first->second;
 }
 
 void Memory::hold(const std::vector<std::uint64_t>& slabs)
@@ -214,7 +221,7 @@ void Execution::setArguments(Run& run, device::Kernel& kernel, const PlannedPass
 void Execution::launch(Run& run, const PlannedPass& planned)
 {
     const Pass& pass = *planned.pass;
-    device::Kernel& kernel = kernels_.find(pass.kernel.file, pass.kernel.name);
+    device::Kernel& kernel = kernels_.find(pass.kernel.file, pass.kernel.name, pass.sink);
     const bool tiles = pass.domain == Domain::Tiles;
     kernel.requireCount(pass.arguments.size() + (tiles ? 1 : 0));
     if (pass.domain == Domain::Pixels || pass.domain == Domain::Blocks) {

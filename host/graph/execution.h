@@ -19,7 +19,8 @@ public:
         : library_(library)
     {
     }
-    device::Kernel& find(const std::string& file, const std::string& kernel);
+    /// sink: of a kernel that takes samples, see sinkText(); empty: the one beside its file, or none.
+    device::Kernel& find(const std::string& file, const std::string& kernel, const std::string& sink = {});
 
 private:
     device::ProgramLibrary& library_;

@@ -1,5 +1,7 @@
 #include "host/graph/graph.h"
 
+#include "host/graph/interface.h"
+
 #include <fmt/format.h>
 
 #include <atomic>
@@ -47,6 +49,9 @@ void Graph::add(Pass pass)
             use.handle->number = use.version.number = ++resources_[use.version.resource].newest;
         }
         use.handle = nullptr; // which need not live on
+    }
+    if (!pass.kernel.sinks.empty()) {
+        pass.sink = sinkText(*this, pass);
     }
     passes_.push_back(std::move(pass));
 }

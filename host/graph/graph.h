@@ -149,8 +149,17 @@ enum class Domain {
     Host, ///< no kernel: the host does a step
 };
 
+/// What becomes of the samples that a kernel takes, see kernels/sinks/sums.h: a header of kernels/, and X of its
+/// functions beginX(), takeX() and finishX(). They are handed arguments of the pass, by name.
+struct Sink {
+    std::string file, name;
+    std::vector<std::string> begin = {}, take = {}, finish = {};
+    bool onlyFinishes = false; ///< it keeps nothing, and has no other function
+};
+
 struct KernelName {
     std::string file, name;
+    std::vector<Sink> sinks = {}; ///< of kernels that have any; what they are handed are the pass's last arguments
 };
 
 /// One step of a frame.
@@ -166,6 +175,7 @@ struct Pass {
     std::size_t mostOfGroup = 16; ///< of a list: items of a work-group
     std::function<double(const Launch&)> workUnits = {}; ///< of the frame's progress: tiles
     std::function<void(Run&)> step = {}; ///< of the host
+    std::string sink = {}; ///< sinkText() of the kernel's sinks: the graph's to say
     bool everywhere = false; ///< covers the whole image whatever part of its results is wanted
     /// Makes one resource and reads none: it is run right before the first pass that uses what it makes, so that memory
     /// is not taken before.

@@ -1,7 +1,11 @@
 #include "host/graph/interface.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <set>
+#include <span>
 #include <stdexcept>
 
 namespace wedge::graph {
@@ -33,7 +37,48 @@ std::string parameterOf(const Graph& graph, const Pass& pass, const Argument& ar
         throw std::logic_error(
             fmt::format("pass \"{}\" has a value \"{}\" of a type without a name", pass.name, argument.name));
     }
-    return fmt::format("{}{}{}", argument.type.ends_with('*') ? "" : "const ", argument.type + " ", argument.name);
+    return argument.type.ends_with('*') ? fmt::format("{}restrict {}", argument.type, argument.name)
+                                        : fmt::format("const {} {}", argument.type, argument.name);
+}
+
+/// The arguments of the pass that its sinks are handed: its last ones.
+std::span<const Argument> sinkArguments(const Pass& pass)
+{
+    std::set<std::string> names;
+    for (const Sink& sink : pass.kernel.sinks) {
+        for (const std::vector<std::string>* handed : { &sink.begin, &sink.take, &sink.finish }) {
+            names.insert(handed->begin(), handed->end());
+        }
+    }
+    const std::span<const Argument> all = pass.arguments;
+    const auto last = all.last(std::min(names.size(), all.size()));
+    for (const std::string& name : names) {
+        if (std::ranges::none_of(last, [&](const Argument& argument) { return argument.name == name; })) {
+            throw std::logic_error(
+                fmt::format("pass \"{}\" hands sinks \"{}\", which is not among its last arguments", pass.name, name));
+        }
+    }
+    return last;
+}
+
+/// What one of the sinks' three functions of a packet does: the same of each sink.
+std::string sinkFunction(const Pass& pass, const std::string& step, const std::string& name,
+    std::vector<std::string> Sink::*handed, const std::string& more, const std::string& names)
+{
+    std::string body;
+    for (const Sink& sink : pass.kernel.sinks) {
+        if (sink.onlyFinishes && step != "finish") {
+            continue;
+        }
+        std::string call = step == "take" ? "at, s" : "at";
+        call += sink.onlyFinishes ? "" : fmt::format(", &sink->of{}", sink.name);
+        for (const std::string& argument : sink.*handed) {
+            call += ", " + argument;
+        }
+        body += fmt::format("    {}{}({});\n", step, sink.name, call);
+    }
+    return fmt::format("WEDGE_INLINE void {}(const Sampling *at, {}Sink *sink, WEDGE_SINK_PARAMETERS)\n{{\n{}{}}}\n",
+        name, more, names, body);
 }
 
 } // namespace
@@ -64,6 +109,28 @@ std::string interfaceText(const Graph& graph, const Pass& pass)
         parameters += ", const uint firstGroup";
     }
     return formats + macros + macro("PARAMETERS", "", parameters);
+}
+
+std::string sinkText(const Graph& graph, const Pass& pass)
+{
+    std::vector<std::string> parameters, names;
+    std::set<std::string> includes;
+    std::string states, unused = "    (void)sink;\n";
+    for (const Argument& argument : sinkArguments(pass)) {
+        parameters.push_back(parameterOf(graph, pass, argument));
+        names.push_back(argument.name);
+        unused += fmt::format("    (void){};\n", argument.name);
+    }
+    for (const Sink& sink : pass.kernel.sinks) {
+        includes.insert(fmt::format("#include \"{}\"\n", sink.file));
+        states += sink.onlyFinishes ? "" : fmt::format("    {0} of{0};\n", sink.name);
+    }
+    return fmt::format(
+               "{}\n#define WEDGE_SINK_PARAMETERS {}\n#define WEDGE_SINK_ARGUMENTS {}\ntypedef struct {{\n{}}} Sink;\n",
+               fmt::join(includes, ""), fmt::join(parameters, ", "), fmt::join(names, ", "), states)
+        + sinkFunction(pass, "begin", "beginReceivers", &Sink::begin, "", unused)
+        + sinkFunction(pass, "take", "takeSamples", &Sink::take, "const Samples *s, ", unused)
+        + sinkFunction(pass, "finish", "finishReceivers", &Sink::finish, "", unused);
 }
 
 device::GeneratedSources interfaces(const Graph& graph)

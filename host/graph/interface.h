@@ -13,6 +13,13 @@ namespace wedge::graph {
 /// std::logic_error for a value of a type that kernelType does not know.
 std::string interfaceText(const Graph& graph, const Pass& pass);
 
+/// What a kernel that takes samples includes as sink.h, the file of that name in its folder being for those who compile
+/// it alone: WEDGE_SINK_PARAMETERS and WEDGE_SINK_ARGUMENTS, the end of its list of parameters and their names; Sink,
+/// what the sinks keep of a packet; beginReceivers(), takeSamples() and finishReceivers(), which call those of each
+/// sink in their order. Throws std::logic_error where a sink is handed what is not among the pass's last arguments, and
+/// as interfaceText() does.
+std::string sinkText(const Graph& graph, const Pass& pass);
+
 /// The interfaces of all kernels of the graph, each as "pass/KERNEL.h", to be included before the kernel. Throws
 /// std::logic_error where two passes hand one kernel different things.
 device::GeneratedSources interfaces(const Graph& graph);

@@ -25,7 +25,7 @@ struct Gloss { }; ///< kind and exponent of what is reflected, packGloss()
 struct Radiance { };
 struct Deviation { }; ///< numbers whose squares are variances in the mean
 struct Count { };
-struct Sums { }; ///< of a term's samples, see area_light.cl and indirect.cl
+struct Sums { }; ///< of a term's samples, see light_sampling.h and path_sampling.h
 struct Value { }; ///< of a term, what is filtered: visibility or irradiance
 struct Extremes { }; ///< least and largest slopes of occluders, or distances of reflectors
 struct Logarithms { };

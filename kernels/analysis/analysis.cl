@@ -198,7 +198,7 @@ WEDGE_FN float narrowed(AnalysisParams p, Vec3 toLight, Vec3 toEye, Gloss lobe, 
 }
 
 /// narrowed() where the pixels are the receivers.
-/// in      sums: of the light's samples, as area_light.cl has them, with the specular ones
+/// in      sums: of the light's samples, see light_sampling.h, with the specular ones
 /// in out  beta
 __kernel void narrowForLobes(AnalysisParams p, FrameParams frame, __global const float* restrict sums,
     __global const float* restrict position, __global const uint* restrict gloss,

@@ -103,7 +103,7 @@ WEDGE_FN void storeOne(float16 weights, float16 seen, float16 ofPart, uint16 tak
 
 /// Of pixels that are the receivers, a light in one number: what is seen of it, diffuse and specular together.
 /// in   value: diffuse and, where something is specular, specular visibility, and both of the first of two parts of the
-///      samples; taken: these samples; sums: of them, as area_light.cl has them
+///      samples; taken: these samples; sums: of them, see light_sampling.h
 /// out  visibility; deviation, as deviation16() has it; weights: the luminance that is reflected where all is visible,
 ///      1/m^2
 __kernel void oneOfLight(AnalysisParams p, uint firstPass, __global const float* restrict value,

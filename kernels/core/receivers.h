@@ -5,6 +5,8 @@
 
 #include "core/pixel.h"
 
+#define WEDGE_NO_PIXEL 0xffffffffu ///< the index of a lane without a receiver
+
 /// The planes that effects sample at.
 typedef struct {
     __global const float *position, *normal, *origin; ///< 3 planes each, as primary.cl has them

@@ -47,8 +47,6 @@ WEDGE_INLINE Vec3 laneView(const ReceiverPacket* r, uint lane)
 }
 #endif
 
-#define WEDGE_NO_PIXEL 0xffffffffu
-
 /// Time of a lane's receiver; 0 where nothing moves.
 WEDGE_FN float receiverTime(const ReceiverPacket* r, uint lane)
 {

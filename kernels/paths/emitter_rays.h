@@ -4,6 +4,8 @@
 #define WEDGE_EMITTER_RAYS_H
 
 #include "paths/path_packet.h"
+#include "paths/path_sampling.h"
+#include "paths/sink.h"
 
 /// What a receiver reflects.
 typedef struct {
@@ -56,11 +58,11 @@ WEDGE_FN float emitterRay(EmitterData emitters, SampleParams sampling, const Pat
 }
 
 /// One sample a lane, whose reflected direction is that of `rays` and counts `weight`, which becomes 1: fills
-/// paths->radiance and counts of rays, and, where it is asked for, in paths->distance what widths follow from: how far
+/// paths->radiance and counts of rays, and, where sinks take distances, in paths->distance what widths follow from: how far
 /// it is to what emits; or, where something is in between, how far from there a reflector would be whose light varies
 /// as the penumbra does, (the emitter's extent) t / (T - t) for an occluder t on a way of T metres.
 WEDGE_FN void traceEmitters(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
-    EmitterData emitters, SampleParams sampling, bool distances, bool glossy, const ReceiverPacket* r,
+    EmitterData emitters, SampleParams sampling, bool glossy, const ReceiverPacket* r,
     const Vec3* facing, const uint* last, const RayPacket* rays, float* weight, PathPacket* paths)
 {
     PacketHits hits;
@@ -95,20 +97,24 @@ WEDGE_FN void traceEmitters(__global const TraversalNode* restrict nodes, __glob
             paths->shadowRays[lane] = shadow.tMax[lane] > 0.0f ? 1u : 0u;
         }
     }
+#ifdef WEDGE_SINK_TAKES_DISTANCES
+    closestHits(nodes, blocks, &shadow, &hits);
+#else
     uint occluded[WEDGE_PACKET_SIZE];
-    if (distances) {
-        closestHits(nodes, blocks, &shadow, &hits);
-    } else {
-        anyHits(nodes, blocks, &shadow, occluded);
-    }
+    anyHits(nodes, blocks, &shadow, occluded);
+#endif
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         if (!(shadow.tMax[lane] > 0.0f)) {
             continue;
         }
-        const bool hidden = distances ? hits.triangle[lane] != WEDGE_NO_TRIANGLE : occluded[lane] != 0u;
         const float far = vecLength(rayDirectionOf(&shadow, lane));
-        const float penumbra =
-            distances && hidden ? extent[lane] * hits.t[lane] / fmax(1.0f - hits.t[lane], 1e-6f) : far;
+#ifdef WEDGE_SINK_TAKES_DISTANCES
+        const bool hidden = hits.triangle[lane] != WEDGE_NO_TRIANGLE;
+        const float penumbra = hidden ? extent[lane] * hits.t[lane] / fmax(1.0f - hits.t[lane], 1e-6f) : far;
+#else
+        const bool hidden = occluded[lane] != 0u;
+        const float penumbra = far;
+#endif
         paths->radiance[lane] = hidden ? paths->radiance[lane] : vecAdd(paths->radiance[lane], light[lane]);
         paths->distance[lane] = fmin(paths->distance[lane], fmax(fmin(penumbra, far), 1e-20f));
     }

@@ -33,10 +33,8 @@ typedef struct {
     float sceneDiameter; ///< metres
     float ambientDistance; ///< metres; surfaces farther away do not count for the ambient component
     uint strata; ///< as of SampleParams
-    uint keepsDistances; ///< 1: adds to the planes of reflectors; 0: there are none
     uint emitters; ///< triangles that emit
     float emitterShare; ///< probability that a path's vertex samples one of them and no other light
-    uint padding;
 } PathParams;
 
 /// Distances of reflectors to widths and counts.

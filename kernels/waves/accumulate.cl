@@ -23,7 +23,7 @@ WEDGE_FN void storeShadows(WaveParams wave, WavePixel p, uint pixels, __global f
 #endif
 
 /// One area light.
-/// in      wave's planes: receivers, diffuse, specular, sums (as area_light.cl has them), slopes
+/// in      wave's planes: receivers, diffuse, specular, sums (see light_sampling.h), slopes
 ///         exact: 1: unshadowed has the receivers' shading (wave_light.cl); 0: it is that of their samples
 ///         hits: the pixels' primary samples with a surface, before the wave
 ///         termTaken, termWanted: the pixels' samples of the light before and after the wave
@@ -159,7 +159,8 @@ __kernel void accumulateDelta(FrameParams frame, WaveParams wave, __global const
 
 /// One component of indirect light.
 /// in      ambient: 1 for ambient occlusion: the irradiance is what is open of the hemisphere, the texture white
-///         wave's planes: objectId, reflectance (3), sums, reflectors (as indirect.cl has them); hits, as of a light
+///         wave's planes: objectId, reflectance (3), sums (path_sampling.h), reflectors (distances.h); hits, as
+///         of a light
 /// in out  as of a light; extremes: reflectors of pixels, like those of receivers; indirectSamples
 __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient,
     __global const uint* restrict pixelFirst, __global const uint* restrict pixelCount,

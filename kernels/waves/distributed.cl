@@ -218,7 +218,7 @@ __kernel void blurs(DistributedParams p, __global const float* restrict confusio
 }
 
 /// Standard deviations in pixels of the filter of a light's irradiance along its shadows' motion (B.2): where all that
-/// move move alike, else 0. in   shadows: slopes and sums of motions as area_light.cl has them, or packed motions;
+/// move move alike, else 0. in   shadows: slopes and sums of motions (shadow_motions.h), or packed motions;
 /// taken: the light's samples out  along, directions as blurs() has them
 __kernel void shadowBlurs(DistributedParams p, __global const float* restrict shadows,
     __global const uint* restrict taken, __global const float* restrict beta, __global float* restrict along,

@@ -30,7 +30,7 @@ files=(*/*.cl)
 [ -f "${files[0]}" ] || { echo "kernel_lint: no .cl file in $PWD" >&2; exit 1; }
 
 # Rooms include what is in rooms before them.
-rooms=(shared core trace light paths waves filter analysis frame)
+rooms=(shared core trace sinks light paths waves filter analysis frame)
 allowed=
 for room in "${rooms[@]}"; do
     allowed="$allowed|$room"

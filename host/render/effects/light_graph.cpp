@@ -3,6 +3,7 @@
 #include "host/graph/execution.h"
 #include "host/render/effects/light_widths.h"
 #include "host/render/effects/sample_slices.h"
+#include "host/render/effects/sinks.h"
 #include "host/render/effects/soft_shadows.h"
 #include "host/render/filters/filter_graph.h"
 #include "host/render/filters/widening.h"
@@ -54,7 +55,7 @@ public:
         const auto spp = static_cast<std::uint32_t>(s_.spp);
         if (!f_.analysed()) {
             uniformCounts(f_, spp, f_.surfaces.objectId, wanted_);
-            samples("shadow rays", 0, monteCarloSlice);
+            samples("shadow rays", 0, monteCarloSlice, { sinks::sums(), sinks::means() });
             shade(value_, {});
             return;
         }
@@ -63,7 +64,8 @@ public:
         firstPass();
         const auto analysed = [state = state_](const Run&) { return state->analysed; };
         g_.only("analysis of light", analysed, [&] { widthsAndCounts(); });
-        samples("second pass", WEDGE_FIRST_PASS_RAYS, secondPassSlice);
+        samples(
+            "second pass", WEDGE_FIRST_PASS_RAYS, secondPassSlice, { sinks::sums(), sinks::means(), sinks::parts() });
         if (s_.filtering == Filtering::None) {
             shade(value_, {});
             return;
@@ -86,7 +88,7 @@ private:
     shared::FilterParams filterParams() const { return render::filterParams(s_, f_.wholeFrame(), light_, g_.image()); }
 
     void firstPass();
-    void samples(const char* pass, std::uint32_t from, std::uint32_t slice);
+    void samples(const char* pass, std::uint32_t from, std::uint32_t slice, std::vector<graph::Sink> becoming);
     void widthsAndCounts();
     void narrowForLobes();
     void countsFromVariance();
@@ -117,24 +119,25 @@ private:
 
 void LightGraph::firstPass()
 {
-    f_.trace("first pass", { "light/area_light.cl", "firstPass" },
-        joined({ f_.frame(), sampleParams(), light(), value("camera", shared::CameraParams {}) }, f_.hierarchy(),
-            f_.geometry(), f_.receivers(),
-            Arguments { reads("wanted", wanted_), updates("sums", sums_), updates("taken", taken_),
-                updates("value", value_), updates("slopes", extremes_), tallies("rays", f_.totals.rays) }),
+    f_.trace("first pass",
+        { "light/area_light.cl", "sampleShadows", { sinks::sums(), sinks::means(), sinks::parts(), sinks::slopes() } },
+        joined({ f_.frame(), sampleParams(), light() }, f_.hierarchy(), f_.receivers(),
+            Arguments { reads("wanted", wanted_), value("lastSample", WEDGE_FIRST_PASS_RAYS), updates("taken", taken_),
+                tallies("rays", f_.totals.rays), updates("sums", sums_), updates("value", value_),
+                updates("slopes", extremes_) }),
         true, [](const graph::Launch&) { return WEDGE_FIRST_PASS_RAYS; });
     f_.host("analysable", [state = state_](Run& run) { state->analysed = !run.cut(); });
 }
 
-void LightGraph::samples(const char* pass, std::uint32_t from, std::uint32_t slice)
+void LightGraph::samples(const char* pass, std::uint32_t from, std::uint32_t slice, std::vector<graph::Sink> becoming)
 {
     const int most = s_.sampling == Sampling::Uniform ? s_.spp : std::max(s_.maxSpp, s_.spp);
     const SampleSlices slices(from, static_cast<std::uint32_t>(most), slice, s_.spp);
     g_.loop("slices", slices.counter(), [&] {
-        f_.trace(pass, { "light/area_light.cl", "secondPass" },
+        f_.trace(pass, { "light/area_light.cl", "sampleShadows", std::move(becoming) },
             joined({ f_.frame(), sampleParams(), light() }, f_.hierarchy(), f_.receivers(),
-                Arguments { reads("wanted", wanted_), slices.last(), updates("sums", sums_), updates("taken", taken_),
-                    updates("value", value_), tallies("rays", f_.totals.rays) }),
+                Arguments { reads("wanted", wanted_), slices.last(), updates("taken", taken_),
+                    tallies("rays", f_.totals.rays), updates("sums", sums_), updates("value", value_) }),
             false, slices.workUnits(std::max(1.0, static_cast<double>(s_.spp) - from)));
     });
 }

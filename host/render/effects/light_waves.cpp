@@ -1,6 +1,7 @@
 #include "host/render/effects/light_waves.h"
 
 #include "host/render/effects/light_widths.h"
+#include "host/render/effects/sinks.h"
 #include "host/render/effects/soft_shadows.h"
 #include "host/render/filters/filter_graph.h"
 #include "host/render/filters/widening.h"
@@ -59,19 +60,21 @@ void LightWaves::sample(
     const Receivers& r = waves.receivers();
     const auto params = value("params", sampleParams()), light = value("light", light_);
     Shared own = share(waves, adding, counts, 2 * channels_, shape_.geometryMoves ? 6 : 2);
-    auto seen = waves.list<Value>("value", graph::floatPlanes(channels_));
+    std::vector<graph::Sink> becoming { sinks::sums() };
+    Arguments sunk { updates("sums", own.sums) };
     if (adding.first) {
-        waves.tiles("first pass", { "light/area_light.cl", "firstPass" },
-            joined({ waves.receiverParams(), params, light, value("camera", waves.camera()) }, f_.hierarchy(),
-                f_.geometry(), waves.receiverArguments(),
-                Arguments { reads("wanted", own.last), updates("sums", own.sums), updates("taken", own.first),
-                    writes("value", seen), updates("slopes", own.extremes), waves.tallyRays() }));
-    } else {
-        waves.tiles("shadow rays", { "light/area_light.cl", "secondPass" },
-            joined({ waves.receiverParams(), params, light }, f_.hierarchy(), waves.receiverArguments(),
-                Arguments { reads("wanted", own.last), value("lastSample", allSamples), updates("sums", own.sums),
-                    updates("taken", own.first), writes("value", seen), waves.tallyRays() }));
+        becoming.push_back(sinks::slopes());
+        sunk.push_back(updates("slopes", own.extremes));
+        if (shape_.geometryMoves) {
+            becoming.push_back(sinks::shadowMotions(f_.geometry()));
+            sunk = joined({ value("camera", waves.camera()) }, f_.geometry(), sunk);
+        }
     }
+    waves.tiles(adding.first ? "first pass" : "shadow rays", { "light/area_light.cl", "sampleShadows", becoming },
+        joined({ waves.receiverParams(), params, light }, f_.hierarchy(), waves.receiverArguments(),
+            Arguments { reads("wanted", own.last), value("lastSample", allSamples), updates("taken", own.first),
+                waves.tallyRays() },
+            sunk));
     const bool exact = settings().method == Method::AxisAligned && !shape_.published;
     auto unshadowed = waves.list<Value>("unshadowed shading", graph::floatPlanes(2));
     if (exact) {

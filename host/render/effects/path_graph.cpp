@@ -1,6 +1,7 @@
 #include "host/render/effects/path_graph.h"
 
 #include "host/render/effects/sample_slices.h"
+#include "host/render/effects/sinks.h"
 #include "host/render/filters/filter_graph.h"
 #include "host/render/filters/widening.h"
 #include "kernels/shared/indirect.h"
@@ -130,22 +131,27 @@ void PathGraph::paths(const char* pass, std::uint32_t from, std::uint32_t most, 
 {
     const auto slice = static_cast<std::uint32_t>(std::max(1, sliceVertices / vertices_));
     const SampleSlices slices(from, most, slice, mean);
-    shared::PathParams params = pathParams(f_, component_);
-    const bool first = f_.analysed() && from == 0; // distances are for the analysis
-    params.keepsDistances = first ? 1 : 0;
+    std::vector<graph::Sink> becoming { sinks::sums(), sinks::means() };
+    Arguments sunk { updates("sums", sums_), updates("value", value_) };
+    if (f_.analysed()) {
+        becoming.push_back(sinks::parts());
+    }
+    if (f_.analysed() && from == 0) { // distances are for the analysis
+        becoming.push_back(sinks::distances());
+        sunk.push_back(updates("reflectors", extremes_));
+    }
     g_.loop("slices", slices.counter(), [&] {
-        f_.trace(pass, { "paths/indirect.cl", "samplePaths" },
-            joined({ f_.frame(), value("params", params) }, f_.hierarchy(), f_.geometry(),
+        f_.trace(pass, { "paths/indirect.cl", "samplePaths", becoming },
+            joined({ f_.frame(), value("params", pathParams(f_, component_)) }, f_.hierarchy(), f_.geometry(),
                 Arguments { f_.ofScene("areaLights", "AreaLight", &DeviceScene::areaLights),
                     f_.ofScene("deltaLights", "DeltaLight", &DeviceScene::deltaLights),
                     f_.ofScene("emitters", "Emitter", &DeviceScene::emitters),
                     f_.ofScene("emitterPicks", "float", &DeviceScene::emitterPicks) },
                 f_.receivers(),
                 Arguments { reads("specular", f_.surfaces.specular), reads("wanted", wanted_), slices.last(),
-                    updates("sums", sums_), updates("taken", taken_), updates("value", value_),
-
-                    first ? updates("reflectors", extremes_) : f_.nothing("reflectors"),
-                    tallies("rays", f_.totals.rays), tallies("pathRays", f_.totals.pathRays) }),
+                    updates("taken", taken_), tallies("rays", f_.totals.rays),
+                    tallies("pathRays", f_.totals.pathRays) },
+                sunk),
             everywhere, slices.workUnits(std::max(1.0, mean - from) * vertices_));
     });
 }

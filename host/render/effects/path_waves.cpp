@@ -1,5 +1,6 @@
 #include "host/render/effects/path_waves.h"
 
+#include "host/render/effects/sinks.h"
 #include "host/render/filters/filter_graph.h"
 #include "host/render/filters/widening.h"
 
@@ -24,7 +25,6 @@ PathWaves::PathWaves(FrameBuilder& frame, const SampleShape& shape, Component co
 shared::PathParams PathWaves::pathParams() const
 {
     shared::PathParams p = render::pathParams(f_, component_);
-    p.keepsDistances = 1;
     p.sampler = waveSampler(settings());
     p.firstPass = 0;
     p.strata = static_cast<std::uint32_t>(settings().spp); // receivers have but some of their pixel's samples
@@ -36,8 +36,7 @@ void PathWaves::sample(
 {
     const Receivers& r = waves.receivers();
     Shared own = share(waves, adding, counts, 4, 3);
-    auto found = waves.list<Value>("value", graph::vectors);
-    waves.tiles("paths", { "paths/indirect.cl", "samplePaths" },
+    waves.tiles("paths", { "paths/indirect.cl", "samplePaths", { sinks::sums(), sinks::distances() } },
         joined({ waves.receiverParams(), value("params", pathParams()) }, f_.hierarchy(), f_.geometry(),
             Arguments { f_.ofScene("areaLights", "AreaLight", &DeviceScene::areaLights),
                 f_.ofScene("deltaLights", "DeltaLight", &DeviceScene::deltaLights),
@@ -45,9 +44,9 @@ void PathWaves::sample(
                 f_.ofScene("emitterPicks", "float", &DeviceScene::emitterPicks) },
             waves.receiverArguments(),
             Arguments { reads("specular", r.specular), reads("wanted", own.last),
-                value("lastSample", std::numeric_limits<std::uint32_t>::max()), updates("sums", own.sums),
-                updates("taken", own.first), writes("value", found), updates("reflectors", own.extremes),
-                waves.tallyRays(), waves.tallyPathRays() }));
+                value("lastSample", std::numeric_limits<std::uint32_t>::max()), updates("taken", own.first),
+                waves.tallyRays(), waves.tallyPathRays(), updates("sums", own.sums),
+                updates("reflectors", own.extremes) }));
     const graph::Handle<Reflectance>& reflectance = isGlossy(component_) ? r.specular : r.diffuse;
     waves.pixels("accumulatePaths",
         joined({ waves.pixelParams(), waves.params(omits()),

@@ -1,0 +1,53 @@
+// What becomes of samples: the sinks that frames have, and the arguments that they are handed.
+#pragma once
+
+#include "host/graph/graph.h"
+#include "host/render/frame_builder.h"
+
+namespace wedge::render::sinks {
+
+/// What a receiver's samples add up to: "sums".
+inline graph::Sink sums()
+{
+    return { .file = "sinks/sums.h", .name = "Sums", .begin = { "sums" }, .finish = { "sums" } };
+}
+
+/// What is made of the sums to be filtered: "value". After sums().
+inline graph::Sink means()
+{
+    return { .file = "sinks/means.h", .name = "Means", .finish = { "sums", "value" }, .onlyFinishes = true };
+}
+
+/// The same of the first of two parts, in planes of "value" after those of means(). After sums().
+inline graph::Sink parts()
+{
+    return { .file = "sinks/parts.h", .name = "Parts", .begin = { "sums" }, .finish = { "value" } };
+}
+
+/// Of what occludes a light: "slopes".
+inline graph::Sink slopes()
+{
+    return { .file = "light/slopes.h", .name = "Slopes", .begin = { "slopes" }, .finish = { "slopes" } };
+}
+
+/// Of shadows in the image, after "slopes" in its planes: of "camera" and the scene's geometry.
+inline graph::Sink shadowMotions(const Arguments& geometry)
+{
+    graph::Sink out { .file = "light/shadow_motions.h",
+        .name = "ShadowMotions",
+        .begin = { "slopes" },
+        .take = { "camera" },
+        .finish = { "slopes" } };
+    for (const graph::Argument& argument : geometry) {
+        out.take.push_back(argument.name);
+    }
+    return out;
+}
+
+/// Of what paths come from: "reflectors".
+inline graph::Sink distances()
+{
+    return { .file = "paths/distances.h", .name = "Distances", .begin = { "reflectors" }, .finish = { "reflectors" } };
+}
+
+} // namespace wedge::render::sinks

@@ -1,0 +1,32 @@
+// What the samples of paths are for their sinks (sinks/sums.h).
+#ifndef WEDGE_PATH_SAMPLING_H
+#define WEDGE_PATH_SAMPLING_H
+
+#include "light/light_packet.h"
+
+#define WEDGE_SUMS 4u ///< numbers of a sample: R, G, B, squared luminance
+#define WEDGE_VALUES 3u ///< that are filtered: means of R, G, B
+
+/// A packet's receivers, and their samples. Members are pointers, so that compilers see through it.
+typedef struct {
+    uint size; ///< elements of a plane
+    uint firstPass; ///< samples of a first pass; 0: there is none
+    const ReceiverPacket* receivers;
+    const uint* pixel; ///< of the receivers
+    const uint *first, *index, *last; ///< samples before this launch, now, and after it
+    const uint* count; ///< samples that strata are made for
+} Sampling;
+
+/// One sample of each lane.
+typedef struct {
+    const float (*value)[WEDGE_PACKET_SIZE]; ///< WEDGE_SUMS of them
+    const RayPacket* rays; ///< the first rays of the paths, where sinks take rays; else null
+    const float* distance; ///< to the first surface, metres; +inf where there is none
+} Samples;
+
+WEDGE_INLINE void storeValue(const Sampling* at, uint i, const float* sums, uint n, __global float* value)
+{
+    storeVec(value, at->size, i, vecScale(vec3(sums[0], sums[1], sums[2]), 1.0f / (float)n));
+}
+
+#endif

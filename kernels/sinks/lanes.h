@@ -1,0 +1,29 @@
+// What all sinks ask of a packet's lanes.
+#ifndef WEDGE_LANES_H
+#define WEDGE_LANES_H
+
+#include "core/packet_size.h"
+#include "core/receivers.h"
+
+/// Whether the lane takes the sample in hand.
+WEDGE_INLINE bool takesSample(const Sampling* at, uint lane) { return at->index[lane] < at->last[lane]; }
+
+/// Whether the lane has a receiver that has taken samples in this launch.
+WEDGE_INLINE bool hasTaken(const Sampling* at, uint lane)
+{
+    return at->pixel[lane] != WEDGE_NO_PIXEL && at->index[lane] > at->first[lane];
+}
+
+/// The sums of earlier launches; 0 in lanes without a receiver.
+WEDGE_INLINE void loadSums(const Sampling* at, __global const float* sums, float (*out)[WEDGE_PACKET_SIZE])
+{
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const bool shaded = at->pixel[lane] != WEDGE_NO_PIXEL;
+        const uint i = shaded ? at->pixel[lane] : 0u;
+        for (uint k = 0u; k < WEDGE_SUMS; ++k) {
+            out[k][lane] = shaded ? sums[k * at->size + i] : 0.0f;
+        }
+    }
+}
+
+#endif

@@ -1,0 +1,50 @@
+// The sink of parts: what the first of two parts of the samples (firstPart()) alone would be filtered as, for the noise
+// that its difference from all of them tells.
+#ifndef WEDGE_PARTS_H
+#define WEDGE_PARTS_H
+
+#include "shared/wedge.h"
+#include "sinks/lanes.h"
+
+typedef struct {
+    float sum[WEDGE_SUMS][WEDGE_PACKET_SIZE];
+    uint samples[WEDGE_PACKET_SIZE]; ///< of the part
+} Parts;
+
+/// in  sums: of earlier launches
+WEDGE_INLINE void beginParts(const Sampling* at, Parts* state, __global const float* sums)
+{
+    loadSums(at, sums, state->sum);
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        state->samples[lane] = firstPart(at->count[lane], at->firstPass);
+    }
+}
+
+WEDGE_INLINE void takeParts(const Sampling* at, const Samples* s, Parts* state)
+{
+    for (uint k = 0u; k < WEDGE_SUMS; ++k) {
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            state->sum[k][lane] += at->index[lane] < state->samples[lane] ? s->value[k][lane] : 0.0f;
+        }
+    }
+}
+
+/// out  value: WEDGE_VALUES planes, after those of the sink of means, of parts that are complete. If one was before
+/// this
+///      launch, it is there.
+WEDGE_INLINE void finishParts(const Sampling* at, const Parts* state, __global float* value)
+{
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const uint n = state->samples[lane];
+        if (!hasTaken(at, lane) || n < at->first[lane] || n > at->index[lane]) {
+            continue;
+        }
+        float total[WEDGE_SUMS];
+        for (uint k = 0u; k < WEDGE_SUMS; ++k) {
+            total[k] = state->sum[k][lane];
+        }
+        storeValue(at, at->pixel[lane], total, n, value + WEDGE_VALUES * at->size);
+    }
+}
+
+#endif

@@ -1,0 +1,371 @@
+// Sinks: the kernels that sample, with a sink of this test's own beside the renderer's and in their place, over pixels
+// and over receivers of a wave.
+#include "host/graph/execution.h"
+#include "kernels/embedded_kernels.hpp"
+#include "kernels/shared/path.h"
+#include "tests/trace_support.h"
+
+#include <cctype>
+#include <set>
+#include <stdexcept>
+
+using namespace wedge;
+using namespace wedge::test;
+namespace sinks = wedge::render::sinks;
+
+namespace {
+
+constexpr std::uint32_t room = 40; ///< stored samples of a receiver
+constexpr std::uint32_t sumPlanes = 4, storedPlanes = 3 + sumPlanes;
+
+/// Each sample by itself, tests/kernels/sinks/stored.h.
+graph::Sink stored()
+{
+    return { .file = "sinks/stored.h",
+        .name = "Stored",
+        .begin = { "storedCounts" },
+        .take = { "room", "stored" },
+        .finish = { "storedCounts" } };
+}
+
+scene::Scene glossyScene()
+{
+    scene::Scene scene = smallScene();
+    scene.materials[0].specular = glm::vec3(0.3f);
+    scene.materials[0].exponent = 20;
+    return scene;
+}
+
+/// Points that are sampled, and which samples each is to take.
+struct Points {
+    shared::FrameParams frame;
+    std::vector<float> position, normal, origin, specular;
+    std::vector<std::uint32_t> geometric, objectId, gloss, pixelOf, view;
+    std::vector<std::uint32_t> first, wanted;
+
+    std::size_t size() const { return frame.planeSize; }
+    shared::Vec3 at(const std::vector<float>& planes, std::size_t i) const
+    {
+        return shared::vec3(planes[i], planes[size() + i], planes[2 * size() + i]);
+    }
+};
+
+/// All pixels, each with the same samples.
+Points pixelPoints(TracedScene& traced, std::uint32_t wanted)
+{
+    KernelBench& b = traced.bench;
+    const SurfaceBuffers& f = traced.frame;
+    const std::size_t size = traced.layout.size;
+    return { traced.params, b.read(f.position), b.read(f.normal), b.read(f.origin), b.read(f.specular),
+        b.read(f.geometric), b.read(f.objectId), b.read(f.gloss), std::vector<std::uint32_t>(size),
+        std::vector<std::uint32_t>(size), std::vector<std::uint32_t>(size), std::vector<std::uint32_t>(size, wanted) };
+}
+
+/// Receivers of a wave, any number to a pixel, each with samples of its own or none.
+Points wavePoints(const Points& pixels, const render::PlaneLayout& layout)
+{
+    constexpr std::uint32_t count = 777, size = count + 5;
+    std::mt19937 random(3);
+    Points out { pixels.frame, std::vector<float>(3 * size), std::vector<float>(3 * size), std::vector<float>(3 * size),
+        std::vector<float>(3 * size), std::vector<std::uint32_t>(size), std::vector<std::uint32_t>(size),
+        std::vector<std::uint32_t>(size), std::vector<std::uint32_t>(size), std::vector<std::uint32_t>(size),
+        std::vector<std::uint32_t>(size), std::vector<std::uint32_t>(size) };
+    out.frame.receivers = count;
+    out.frame.planeSize = size;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t x = static_cast<std::uint32_t>(random()) % layout.width;
+        const std::uint32_t y = static_cast<std::uint32_t>(random()) % layout.height;
+        const std::size_t pixel = shared::pixelIndex(x, y, layout.stride);
+        for (std::size_t k = 0; k < 3; ++k) {
+            out.position[k * size + i] = pixels.position[k * pixels.size() + pixel];
+            out.normal[k * size + i] = pixels.normal[k * pixels.size() + pixel];
+            out.origin[k * size + i] = pixels.origin[k * pixels.size() + pixel];
+            out.specular[k * size + i] = pixels.specular[k * pixels.size() + pixel];
+        }
+        out.geometric[i] = pixels.geometric[pixel];
+        out.objectId[i] = pixels.objectId[pixel];
+        out.gloss[i] = pixels.gloss[pixel];
+        out.pixelOf[i] = x | y << 16;
+        out.view[i] =
+            shared::packDirection(shared::vecNormalize(shared::vecSub(pixels.frame.eye, out.at(out.position, i))));
+        out.first[i] = static_cast<std::uint32_t>(random()) % 5;
+        out.wanted[i] = out.first[i] + static_cast<std::uint32_t>(random()) % 13;
+    }
+    return out;
+}
+
+struct Listed { };
+
+/// What a run leaves behind; of sinks that there are not, zeros.
+struct Result {
+    std::vector<float> sums, stored;
+    std::vector<std::uint32_t> counts, taken;
+};
+
+/// Kernels that sample, run by graphs that declare what becomes of the samples.
+class Sampler {
+public:
+    explicit Sampler(TracedScene& traced)
+        : traced_(traced)
+        , library_(traced.bench.device, { { { "WEDGE_SPECULAR", "1" } }, false, WEDGE_TEST_KERNELS })
+        , kernels_(library_)
+        , memory_(traced.bench.device)
+        , none_(traced.bench.filled(1, 0u))
+    {
+    }
+
+    /// Points on a light, in two launches.
+    Result lights(const Points& points, const shared::SampleParams& params, const std::vector<graph::Sink>& becoming)
+    {
+        return run({ "light/area_light.cl", "sampleShadows", becoming },
+            { graph::value("frame", points.frame), graph::value("params", params),
+                graph::value("light", traced_.onDevice.areaLightList[params.light]) },
+            {}, false, points);
+    }
+    Result paths(const Points& points, const shared::PathParams& params, const std::vector<graph::Sink>& becoming)
+    {
+        const render::DeviceScene& s = traced_.onDevice;
+        std::vector<graph::Argument> surfaces;
+        std::apply([&](const auto&... buffer) { (surfaces.push_back(graph::outside("", "", buffer.cl())), ...); },
+            surfaceArguments(s));
+        surfaces.push_back(graph::outside("", "", s.areaLights.cl()));
+        surfaces.push_back(graph::outside("", "", s.deltaLights.cl()));
+        surfaces.push_back(graph::outside("", "", s.emitters.cl()));
+        surfaces.push_back(graph::outside("", "", s.emitterPicks.cl()));
+        return run({ "paths/indirect.cl", "samplePaths", becoming },
+            { graph::value("frame", points.frame), graph::value("params", params) }, surfaces, true, points);
+    }
+
+private:
+    Result run(const graph::KernelName& kernel, const std::vector<graph::Argument>& params,
+        const std::vector<graph::Argument>& surfaces, bool ofPaths, const Points& points)
+    {
+        KernelBench& b = traced_.bench;
+        const std::size_t size = points.size();
+        graph::Graph graph(1, 1, 1);
+        auto taken = graph.list<Listed>("taken", graph::counts, size);
+        auto rays = graph.list<Listed>("rays", graph::counts, size);
+        auto pathRays = graph.list<Listed>("path rays", graph::counts, size);
+        auto counts = graph.list<Listed>("counts", graph::counts, size);
+        auto sums = graph.list<Listed>("sums", graph::floats, sumPlanes * size);
+        auto samples = graph.list<Listed>("samples", graph::floats, room * storedPlanes * size);
+        for (graph::Handle<Listed>* list : { &rays, &pathRays, &counts, &sums, &samples })
+            fill(graph, *list, {});
+        fill(graph, taken, points.first);
+        const auto outside = [&](const auto& values) { return graph::outside("", "", b.buffer(values).cl()); };
+        const graph::Argument nobody = graph::outside("", "", none_.cl());
+        std::vector<graph::Argument> own = params;
+        own.push_back(graph::outside("", "", traced_.onDevice.nodes.cl()));
+        own.push_back(graph::outside("", "", traced_.onDevice.blocks.cl()));
+        own.insert(own.end(), surfaces.begin(), surfaces.end());
+        own.insert(own.end(),
+            { outside(points.position), outside(points.normal), outside(points.origin), outside(points.geometric),
+                outside(points.objectId), outside(points.gloss), outside(points.pixelOf), outside(points.view),
+                nobody });
+        if (ofPaths)
+            own.push_back(outside(points.specular));
+        own.push_back(outside(points.wanted));
+        for (const std::uint32_t last : { 6u, 1000u }) {
+            std::vector<graph::Argument> all = own;
+            all.insert(all.end(),
+                { graph::value("lastSample", last), graph::updates("taken", taken), graph::updates("rays", rays) });
+            if (ofPaths)
+                all.push_back(graph::updates("pathRays", pathRays));
+            for (const graph::Sink& sink : kernel.sinks) {
+                if (sink.name == "Sums")
+                    all.push_back(graph::updates("sums", sums));
+                else
+                    all.insert(all.end(),
+                        { graph::value("room", room), graph::updates("stored", samples),
+                            graph::updates("storedCounts", counts) });
+            }
+            const std::size_t tiles = points.frame.receivers == 0
+                ? points.frame.tileCount
+                : (points.frame.receivers + WEDGE_TILE_PIXELS - 1) / WEDGE_TILE_PIXELS;
+            graph.add({ .name = "samples",
+                .kernel = kernel,
+                .arguments = all,
+                .domain = graph::Domain::Tiles,
+                .count = [tiles](const graph::Launch&) { return tiles; },
+                .itemsOfTile = WEDGE_TILE_PIXELS / render::packetSize(render::Traversal::Wide) });
+        }
+        for (const graph::Handle<Listed>* list : { &taken, &sums, &samples, &counts })
+            graph.want(*list, graph.image());
+        const graph::Plan plan(graph, device::partAlignment, b.device.info().maxAllocation);
+        graph::Execution execution(plan, memory_, kernels_, b.queue);
+        REQUIRE(execution.run());
+        const auto floats = [&](const graph::Version& list) {
+            return execution.output<float>(list).downloadAll(b.queue);
+        };
+        const auto numbers = [&](const graph::Version& list) {
+            return execution.output<std::uint32_t>(list).downloadAll(b.queue);
+        };
+        return { floats(sums), floats(samples), numbers(counts), numbers(taken) };
+    }
+
+    static void fill(graph::Graph& graph, graph::Version& list, const std::vector<std::uint32_t>& values)
+    {
+        const graph::Argument use = graph::writes("list", list);
+        const graph::Version resource = list;
+        graph.add({ .name = "fill",
+            .arguments = { use },
+            .domain = graph::Domain::Host,
+            .step = [resource, values](graph::Run& run) {
+                auto buffer = run.buffer<std::uint32_t>(resource);
+                if (values.empty())
+                    buffer.fill(run.queue(), 0u);
+                else
+                    buffer.upload(run.queue(), std::span<const std::uint32_t>(values));
+            } });
+    }
+
+    TracedScene& traced_;
+    device::ProgramLibrary library_;
+    graph::Kernels kernels_;
+    graph::Memory memory_;
+    device::Buffer<std::uint32_t> none_;
+};
+
+/// Checks that each sink gets the same samples, alone or beside another, and calls visit(i, direction, values) for each
+/// stored one; ways: how often an index is sampled. sample(sinks): runs the kernel.
+template <class Sample, class Visit>
+void checkSinks(const Points& points, std::uint32_t ways, const Sample& sample, const Visit& visit)
+{
+    const Result sums = sample({ sinks::sums() }), apart = sample({ stored() }),
+                 both = sample({ stored(), sinks::sums() });
+    CHECK(both.sums == sums.sums);
+    CHECK(both.stored == apart.stored);
+    CHECK(both.counts == apart.counts);
+    CHECK(both.taken == sums.taken);
+    CHECK(both.taken == apart.taken);
+    unsigned receivers = 0, different = 0;
+    double total = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::uint32_t count = apart.counts[i];
+        REQUIRE(count == ways * (apart.taken[i] - points.first[i]));
+        if (count == 0)
+            continue;
+        ++receivers;
+        double expected[sumPlanes] = {}, size[sumPlanes] = {};
+        std::set<float> seen;
+        for (std::uint32_t slot = 0; slot < count; ++slot) {
+            const float* at = &apart.stored[std::size_t { slot } * storedPlanes * points.size() + i];
+            float values[sumPlanes];
+            for (std::size_t k = 0; k < sumPlanes; ++k) {
+                values[k] = at[(3 + k) * points.size()];
+                expected[k] += values[k];
+                size[k] += std::fabs(values[k]);
+            }
+            visit(i, shared::vec3(at[0], at[points.size()], at[2 * points.size()]), values);
+            seen.insert(at[0]);
+        }
+        different += seen.size() + 1 >= count ? 1 : 0;
+        for (std::size_t k = 0; k < sumPlanes; ++k) {
+            REQUIRE(std::fabs(sums.sums[k * points.size() + i] - expected[k]) <= 1e-6 * size[k]);
+            total += size[k];
+        }
+    }
+    CHECK(receivers > 300);
+    CHECK(different > 0.9 * receivers);
+    CHECK(total > 1);
+}
+
+std::string withoutSpace(std::string_view text)
+{
+    std::string out;
+    while (!text.empty()) {
+        const std::string_view line = text.substr(0, text.find('\n'));
+        text.remove_prefix(std::min(line.size() + 1, text.size()));
+        for (const char c : line.starts_with("//") ? std::string_view() : line)
+            if (!std::isspace(static_cast<unsigned char>(c)) && c != '\\')
+                out += c;
+    }
+    return out;
+}
+
+} // namespace
+
+TEST_CASE("points on lights: a sink that stores each sample gets what the sums are made of")
+{
+    onEveryDevice([](const device::Device& device) {
+        TracedScene traced(glossyScene(), device, 31, 23, { { "WEDGE_SPECULAR", "1" } });
+        traced.primary();
+        Sampler sampler(traced);
+        const Points pixels = pixelPoints(traced, 12), wave = wavePoints(pixels, traced.layout);
+        for (const Points* points : { &pixels, &wave })
+            // Points alone, or with directions of both parts.
+            for (const auto& [finding, ways] : { std::pair(WEDGE_LIGHTS_SAMPLED, 1u), { WEDGE_LIGHTS_BOTH, 3u } }) {
+                const shared::SampleParams params { WEDGE_SHADING_INSIDE, WEDGE_SAMPLER_SOBOL, 1, 0, finding, 0, {} };
+                const shared::AreaLight& light = traced.onDevice.areaLightList[1];
+                unsigned onLight = 0;
+                checkSinks(
+                    *points, ways,
+                    [&](const std::vector<graph::Sink>& becoming) { return sampler.lights(*points, params, becoming); },
+                    [&](std::size_t i, shared::Vec3 ray, const float* values) {
+                        REQUIRE(values[1] >= 0);
+                        if (!(values[0] > 0))
+                            return;
+                        const shared::Vec3 at =
+                            shared::vecSub(shared::vecAdd(points->at(points->origin, i), ray), light.centre);
+                        REQUIRE(std::fabs(shared::vecDot(at, light.normal)) < 1e-5);
+                        for (const shared::Vec3& half : { light.halfU, light.halfV })
+                            REQUIRE(std::fabs(shared::vecDot(at, half)) <= 1.0001 * shared::vecDot(half, half));
+                        REQUIRE((values[1] == 0 || values[1] == values[0]));
+                        ++onLight;
+                    });
+                CHECK(onLight > 1000);
+            }
+    });
+}
+
+TEST_CASE("paths: a sink that stores each sample gets what the sums are made of")
+{
+    onEveryDevice([](const device::Device& device) {
+        TracedScene traced(glossyScene(), device, 31, 23, { { "WEDGE_SPECULAR", "1" } });
+        traced.primary();
+        Sampler sampler(traced);
+        const Points pixels = pixelPoints(traced, 12), wave = wavePoints(pixels, traced.layout);
+        shared::PathParams params {};
+        params.bounces = 2;
+        params.areaLights = static_cast<std::uint32_t>(traced.onDevice.areaLightList.size());
+        params.sceneDiameter = traced.onDevice.diameter;
+        params.ambientDistance = std::numeric_limits<float>::infinity();
+        for (const Points* points : { &pixels, &wave })
+            for (const std::uint32_t component : { WEDGE_COMPONENT_DIFFUSE, WEDGE_COMPONENT_GLOSSY }) {
+                params.component = component;
+                checkSinks(
+                    *points, 1,
+                    [&](const std::vector<graph::Sink>& becoming) { return sampler.paths(*points, params, becoming); },
+                    [&](std::size_t i, shared::Vec3 ray, const float* values) {
+                        REQUIRE(shared::vecLength(ray) == doctest::Approx(1).epsilon(1e-5));
+                        // Nothing comes from below the horizon.
+                        if (values[3] > 0)
+                            REQUIRE(shared::vecDot(points->at(points->normal, i), ray) > 0);
+                    });
+            }
+    });
+}
+
+TEST_CASE("kernels alone have the sinks of first passes over pixels")
+{
+    const auto embedded = [](std::string_view path) {
+        for (const EmbeddedKernel& kernel : embeddedKernels())
+            if (kernel.path == path)
+                return withoutSpace(kernel.text);
+        return std::string();
+    };
+    CHECK(embedded("light/sink.h")
+        == withoutSpace(
+            sinkOf({ sinks::sums(), sinks::means(), sinks::parts(), sinks::slopes() }, { "sums", "value", "slopes" })));
+    CHECK(embedded("paths/sink.h")
+        == withoutSpace(sinkOf(
+            { sinks::sums(), sinks::means(), sinks::parts(), sinks::distances() }, { "sums", "value", "reflectors" })));
+}
+
+TEST_CASE("what sinks are handed are the pass's last arguments")
+{
+    CHECK_THROWS_WITH_AS(sinkOf({ sinks::sums(), sinks::means() }, { "sums" }),
+        "pass \"samples\" hands sinks \"value\", which is not among its last arguments", std::logic_error);
+    CHECK_THROWS_WITH_AS(sinkOf({ sinks::sums() }, { "sums", "taken" }),
+        "pass \"samples\" hands sinks \"sums\", which is not among its last arguments", std::logic_error);
+}
