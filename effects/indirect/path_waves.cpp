@@ -1,4 +1,4 @@
-#include "host/render/effects/path_waves.h"
+#include "effects/indirect/path_waves.h"
 
 #include "host/render/filters/filter_graph.h"
 #include "host/render/filters/widening.h"

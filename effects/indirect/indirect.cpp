@@ -1,4 +1,4 @@
-#include "host/render/effects/indirect.h"
+#include "effects/indirect/indirect.h"
 
 #include "kernels/shared/indirect.h"
 
@@ -10,21 +10,6 @@ namespace wedge::render {
 using device::PassKind;
 using graph::reads;
 using graph::writes;
-
-std::vector<IndirectTerm> indirectTerms(const Settings& settings, bool specular)
-{
-    if (settings.integrator == Integrator::AmbientOcclusion) {
-        return { { Component::Ambient, "Ambient" } };
-    }
-    if (settings.bounces == 0) {
-        return {};
-    }
-    std::vector<IndirectTerm> terms { { Component::Diffuse, "Indirect" } };
-    if (specular) {
-        terms.push_back({ Component::Glossy, "Glossy" });
-    }
-    return terms;
-}
 
 shared::PathParams pathParams(const FrameBuilder& frame, Component component)
 {

@@ -4,7 +4,7 @@
 #include "kernels/shared/filter_params.h"
 #include "kernels/shared/path.h"
 
-#include <vector>
+#include <cstdint>
 
 namespace wedge::render {
 
@@ -14,15 +14,6 @@ enum class Component : std::uint32_t {
     Glossy = WEDGE_COMPONENT_GLOSSY,
     Ambient = WEDGE_COMPONENT_AMBIENT,
 };
-
-/// A component that frames of some settings have, and what its filter widths' layer ends in.
-struct IndirectTerm {
-    Component component;
-    const char* name;
-};
-
-/// The indirect terms of a frame. specular: the scene reflects so.
-std::vector<IndirectTerm> indirectTerms(const Settings& settings, bool specular);
 
 /// What the analysis of a component needs besides the rectangle.
 shared::ReflectorParams reflectorParams(const FrameBuilder& frame, Component component);
