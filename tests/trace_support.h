@@ -4,7 +4,7 @@
 #include "bvh/host_traverse.h"
 #include "host/graph/interface.h"
 #include "host/render/device_scene.h"
-#include "host/render/effects/sinks.h"
+#include "host/render/sinks.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/wedge.h"
 #include "tests/render_support.h"

@@ -177,11 +177,11 @@ void DistributedSamples::demands()
     } else {
         f_.zero(ofTextures); // what emits is not shown
     }
-    if (delta_.graph != 0) {
-        auto ofDelta = plane("variance of point lights");
-        variance(delta_, deltaSquares_, ofDelta);
+    for (const Added& added : added_) {
+        auto ofLight = f_.graph.plane<Squares>("variance of " + added.light.name, graph::floats);
+        variance(added.radiance, added.squares, ofLight);
         f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "addPlane" },
-            { pixels, reads("part", ofDelta), updates("sum", ofTextures) });
+            { pixels, reads("part", ofLight), updates("sum", ofTextures) });
     }
     for (const std::unique_ptr<WaveTerm>& term : terms_) {
         demandOfTerm(*term, own, ofTextures);

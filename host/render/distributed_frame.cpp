@@ -6,7 +6,7 @@ DistributedFrame::DistributedFrame(const scene::Scene& scene, const DeviceScene*
     std::size_t packetSize, const cl::Buffer& unused, bool keepLayers)
     : FrameGraph(settings, keepLayers)
     , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize,
-        hasSpecular(scene), hasEmitters(scene), unused }
+        hasSpecular(scene), unused }
     , samples_(f_, sampleShape(settings, scene, keepLayers), {})
 {
     samples_.take(nullptr);

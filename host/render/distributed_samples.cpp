@@ -1,8 +1,5 @@
 #include "host/render/distributed_samples.h"
 
-#include "host/render/effects/light_waves.h"
-#include "host/render/effects/path_waves.h"
-
 #include <algorithm>
 #include <limits>
 
@@ -57,13 +54,11 @@ DistributedSamples::DistributedSamples(FrameBuilder& frame, const SampleShape& s
     state_->analysed = shape.analysed && before.taken > 0;
     state_->complete = before.taken > 0;
     keepPixels();
-    for (std::uint32_t i = 0; lit_ && i < frame.description.areaLights.size(); ++i) {
-        terms_.push_back(std::make_unique<LightWaves>(frame, shape, i));
+    const std::vector<Term> terms = frameTerms(frame.settings, frame.description);
+    for (const Term& term : terms) {
+        terms_.push_back(term.ofWaves(frame, shape));
     }
-    lights_ = terms_.size();
-    for (const IndirectTerm& component : indirectTerms(frame.settings, frame.specular, frame.emits)) {
-        terms_.push_back(std::make_unique<PathWaves>(frame, shape, component.component));
-    }
+    direct_ = countOf(Part::Direct, terms);
     const auto demand = [&](const char* name) {
         return before.guides ? kept<Demand>(name, graph::floats) : f_.graph.plane<Demand>(name, graph::floats);
     };
@@ -107,9 +102,10 @@ void DistributedSamples::keepPixels()
     if (keepsMotion()) {
         motion_ = kept<Pixels>("motion", f_.packed ? shortPairs : graph::vectors);
     }
-    if (lit_ && !(f_.description.pointLights.empty() && f_.description.directionalLights.empty())) {
-        delta_ = kept<Radiance>("point lights", graph::vectors);
-        deltaSquares_ = kept<Squares>("squares of point lights", graph::floats);
+    for (Unfiltered& light : frameUnfiltered(f_.settings, f_.description)) {
+        auto radiance = kept<Radiance>(light.name, graph::vectors);
+        auto squares = kept<Squares>("squares of " + light.name, graph::floats);
+        added_.push_back({ std::move(light), radiance, squares });
     }
     Totals& t = f_.totals;
     if (shape_.all) {
@@ -133,9 +129,9 @@ void DistributedSamples::keepPixels()
 void DistributedSamples::keepTerm(WaveTerm& term)
 {
     TermMeans& m = term.means;
-    const bool light = term.isLight(), packed = f_.packed;
-    m.texture = kept<Texture>("texture", !packed ? graph::vectors : light ? packedColours : packedFractions);
-    m.value = kept<Value>("value", !packed ? graph::vectors : light ? packedFractions : packedColours);
+    const bool fraction = term.isFraction(), packed = f_.packed;
+    m.texture = kept<Texture>("texture", !packed ? graph::vectors : fraction ? packedColours : packedFractions);
+    m.value = kept<Value>("value", !packed ? graph::vectors : fraction ? packedFractions : packedColours);
     if (shape_.measures()) {
         m.plain = kept<Value>("plain mean", packed ? shortPairs : graph::floats);
         m.squares = kept<Squares>("squares", packed ? shortPairs : graph::floats);
@@ -306,37 +302,29 @@ void DistributedSamples::sample(bool first, PrimaryCounts& counts, Waves::Sampli
     sampling.terms = terms_.size();
     Waves waves(f_, settings, camera_, counts, std::move(sampling));
     waves.declare(lit_, [&] {
-        for (std::size_t i = 0; i < lights_; ++i) {
+        for (std::size_t i = 0; i < direct_; ++i) {
             terms_[i]->sample(waves, adding, counts, hits_);
         }
-        if (delta_.graph != 0) {
-            deltaLights(waves);
-        }
-        for (std::size_t i = lights_; i < terms_.size(); ++i) {
+        addUnfiltered(waves);
+        for (std::size_t i = direct_; i < terms_.size(); ++i) {
             terms_[i]->sample(waves, adding, counts, hits_);
         }
         accumulateSurfaces(waves, adding);
     });
 }
 
-void DistributedSamples::deltaLights(Waves& waves)
+void DistributedSamples::addUnfiltered(Waves& waves)
 {
-    const Receivers& r = waves.receivers();
-    auto radiance = waves.list<Radiance>("radiance", graph::vectors);
-    auto noisy = waves.list<Radiance>("unfiltered radiance", graph::vectors);
-    f_.zero(radiance);
-    waves.tiles("point and directional lights", { "light/delta_lights.cl", "deltaLights" },
-        joined({ waves.receiverParams(), f_.ofScene("lights", "DeltaLight", &DeviceScene::deltaLights),
-                   value("lightCount", f_.scene != nullptr ? f_.scene->deltaLightCount : 0u),
-                   value("sceneDiameter", f_.scene != nullptr ? f_.scene->diameter : 0.0f) },
-            f_.hierarchy(), waves.receiverArguments(),
-            Arguments { reads("diffuse", r.diffuse), reads("specular", r.specular), updates("direct", radiance),
-                writes("directNoisy", noisy), waves.tallyRays() }),
-        false);
-    waves.pixels("accumulateDelta",
-        joined({ waves.pixelParams(), waves.params() }, waves.pixelLists(),
-            Arguments { reads("taken", waves.counts().taken), reads("objectId", r.objectId), reads("lit", radiance),
-                updates("delta", delta_), updates("deltaSquares", deltaSquares_) }));
+    for (Added& added : added_) {
+        auto radiance = waves.list<Radiance>("radiance", graph::vectors);
+        f_.zero(radiance);
+        added.light.ofWaves(f_, waves, radiance);
+        waves.pixels("accumulateDelta",
+            joined({ waves.pixelParams(), waves.params() }, waves.pixelLists(),
+                Arguments { reads("taken", waves.counts().taken), reads("objectId", waves.receivers().objectId),
+                    reads("lit", radiance), updates("delta", added.radiance),
+                    updates("deltaSquares", added.squares) }));
+    }
 }
 
 void DistributedSamples::accumulateSurfaces(Waves& waves, const Adding& adding)
@@ -416,20 +404,22 @@ void DistributedSamples::startSums()
     if (!shape_.all) {
         // All that is reflected is added to what is emitted.
         t.beauty = f_.surfaces.emission;
-        if (delta_.graph != 0) {
+        for (const Added& added : added_) {
             f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "addImage" },
-                { pixels(), reads("image", delta_), updates("sum", t.beauty) });
+                { pixels(), reads("image", added.radiance), updates("sum", t.beauty) });
         }
         return;
     }
     const auto start = [&](graph::Handle<Radiance>& direct, graph::Handle<Radiance>& indirect) {
         direct = f_.graph.plane<Radiance>("direct", graph::vectors);
         indirect = f_.graph.plane<Radiance>("indirect", graph::vectors);
-        if (delta_.graph != 0) {
-            f_.pixels("composite", PassKind::Composite, { "frame/progressive.cl", "copyImage" },
-                { pixels(), reads("in", delta_), writes("out", direct) });
-        } else {
-            f_.zero(direct);
+        f_.zero(direct);
+        for (const Added& added : added_) {
+            const bool first = &added == added_.data();
+            f_.pixels("composite", PassKind::Composite,
+                { first ? "frame/progressive.cl" : "waves/distributed.cl", first ? "copyImage" : "addImage" },
+                { pixels(), reads(first ? "in" : "image", added.radiance),
+                    first ? writes("out", direct) : updates("sum", direct) });
         }
         f_.zero(indirect);
     };

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/render/effects/wave_term.h"
+#include "host/render/effect.h"
 #include "host/render/frame_builder.h"
 #include "host/render/sample_memory.h"
 #include "host/render/waves.h"
@@ -80,7 +80,7 @@ private:
     double raysOfPath() const;
     /// Primary samples after the first of a pixel at most, in the mean over tiles.
     double mostNew() const;
-    void deltaLights(Waves& waves);
+    void addUnfiltered(Waves& waves);
     void accumulateSurfaces(Waves& waves, const Adding& adding);
     void widths();
     void publishedCounts();
@@ -116,7 +116,7 @@ private:
     std::shared_ptr<State> state_ = std::make_shared<State>();
     bool lit_;
     std::vector<std::unique_ptr<WaveTerm>> terms_;
-    std::size_t lights_ = 0; ///< the first of the terms
+    std::size_t direct_ = 0; ///< the first of the terms, of direct light
 
     PrimaryCounts counts_;
     graph::Handle<Count> hits_; ///< primary samples that met a surface
@@ -124,8 +124,13 @@ private:
     graph::Handle<Pixels> confusion_;
     graph::Handle<Pixels> motion_; ///< planes: mean x and y, largest difference; packed, see accumulate.h
     graph::Handle<Squares> emissionSquares_; ///< mean squared luminance of a primary sample's emission
-    graph::Handle<Radiance> delta_; ///< from point and directional lights
-    graph::Handle<Squares> deltaSquares_;
+    /// Direct light that is not filtered.
+    struct Added {
+        Unfiltered light;
+        graph::Handle<Radiance> radiance;
+        graph::Handle<Squares> squares;
+    };
+    std::vector<Added> added_;
     graph::Handle<Demand> demand_; ///< of primary samples
     graph::Handle<Radiance> emission_;
     graph::Handle<Pixels> lens_, along_;

@@ -64,7 +64,7 @@ struct Surfaces {
 struct Sum {
     graph::Handle<Radiance> filtered, noisy;
     graph::Handle<Deviation> deviation;
-    graph::Handle<Value> variance; ///< gathered; of terms that are sampled by rays over the hemisphere alone
+    graph::Handle<Value> variance; ///< gathered, of terms that do; where there are any
 };
 struct Totals {
     Sum direct, indirect;
@@ -87,7 +87,6 @@ struct FrameBuilder {
     PlaneLayout layout;
     std::size_t packetSize; ///< pixels of a work-item over tiles
     bool specular; ///< hasSpecular()
-    bool emits; ///< hasEmitters()
     cl::Buffer unused; ///< for parameters that nothing is read from, or written to
     bool packed = false; ///< planes of pixels that have several receivers are packed, see kernels/waves/accumulate.h
     Surfaces surfaces = {};

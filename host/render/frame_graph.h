@@ -28,7 +28,7 @@ public:
     /// What is to be read of a run.
     std::unique_ptr<Frame> outputs(const graph::Execution& execution) const;
 
-    /// One of termNames() each, in their order.
+    /// One of frameTerms() each, in their order.
     struct TermWidths {
         std::shared_ptr<TermState> state;
         graph::Handle<Metres> beta; ///< wanted only of layers

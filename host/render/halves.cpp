@@ -34,8 +34,8 @@ HalvesFrame::HalvesFrame(const scene::Scene& scene, const DeviceScene* deviceSce
         Half& half = halves_[i];
         half.settings = halfAt(settings, spp);
         half.settings.seed += static_cast<std::uint32_t>(i) * secondSeed;
-        half.frame = std::make_unique<FrameBuilder>(FrameBuilder { graph_, scene, deviceScene, half.settings, layout_,
-            packetSize, hasSpecular(scene), hasEmitters(scene), unused });
+        half.frame = std::make_unique<FrameBuilder>(FrameBuilder {
+            graph_, scene, deviceScene, half.settings, layout_, packetSize, hasSpecular(scene), unused });
         half.samples = std::make_unique<DistributedSamples>(
             *half.frame, shape, DistributedSamples::Before { &memories[i], taken, i == 1 });
     }

@@ -1,6 +1,7 @@
 #include "host/render/layers.h"
 
 #include "host/error.h"
+#include "host/render/effect.h"
 #include "host/render/metadata.h"
 
 #include <algorithm>
@@ -105,14 +106,13 @@ public:
     /// 0 where the term is not (the analysis has -1 there), and of terms that an early stop kept from being analysed.
     void filterWidths()
     {
-        const std::vector<std::string> terms = termNames(settings_, renderer_.scene());
         const std::vector<float> pixelSize = frame().pixelSize.downloadAll(renderer_.queue());
         const std::vector<float> none(frame().layout.size, 0.0f);
-        for (const std::string& term : terms) {
-            const auto known = std::ranges::find(renderer_.termPlanes(), term, &TermPlanes::name);
+        for (const Term& term : frameTerms(settings_, renderer_.scene())) {
+            const auto known = std::ranges::find(renderer_.termPlanes(), term.name, &TermPlanes::name);
             const bool analysed = known != renderer_.termPlanes().end() && !known->beta.empty();
             const std::vector<float>& beta = analysed ? known->beta : none;
-            const std::string name = widthLayer + term;
+            const std::string name = widthLayer + term.name;
             channel(name + ".world", Where::OnSurfaces, [&](std::size_t i) { return std::max(0.0f, beta[i]); });
             channel(name + ".pixels", Where::OnSurfaces,
                 [&](std::size_t i) { return pixelSize[i] > 0 ? std::max(0.0f, beta[i]) / pixelSize[i] : 0.0f; });
@@ -155,6 +155,18 @@ struct Layer {
     void (*read)(LayerReader& reader);
 };
 
+/// How layers of filter widths are called.
+std::string widthLayers()
+{
+    std::vector<std::string> names;
+    for (const auto& effect : effects()) {
+        if (std::string name = effect->widthLayers(); !name.empty()) {
+            names.push_back(std::move(name));
+        }
+    }
+    return fmt::format("{}", fmt::join(names, "; "));
+}
+
 const std::vector<Layer>& layerTable()
 {
     static const std::vector<Layer> table = {
@@ -181,8 +193,8 @@ const std::vector<Layer>& layerTable()
         { { "rays", "Y: rays traced for the pixel, the camera's included" }, [](LayerReader& r) { r.rays(); } },
         { { widthLayer,
               "world, pixels: standard deviation of the filter in metres and in pixels, 0 where the term is not "
-              "(method aaf; of the area light; of several filterWidth1, filterWidth2, ...; of indirect light "
-              "filterWidthIndirect, filterWidthGlossy; of ambient occlusion filterWidthAmbient)" },
+              "(method aaf; "
+                  + widthLayers() + ")" },
             [](LayerReader& r) { r.filterWidths(); } },
         { { lensWidthLayer,
               "pixels: standard deviation of the image's filter of what the lens blurs, 0 where there is none "
@@ -204,8 +216,9 @@ const std::vector<Layer>& layerTable()
 /// Why the layer cannot be made; "" if it can.
 std::string obstacle(const std::string& layer, const Settings& settings, const scene::Scene& scene)
 {
-    if (layer.starts_with("indirect") && !tracesPaths(settings)) {
-        return "there are no bounces of light";
+    const std::vector<Term> terms = frameTerms(settings, scene);
+    if (layer.starts_with("indirect") && countOf(Part::Indirect, terms) == 0) {
+        return absenceOf(Part::Indirect);
     }
     if (!layer.starts_with(widthLayer)) {
         return "";
@@ -213,7 +226,7 @@ std::string obstacle(const std::string& layer, const Settings& settings, const s
     if (settings.method != Method::AxisAligned) {
         return "method " + methodName(settings.method) + " has no filter";
     }
-    return layer == widthLayer && termNames(settings, scene).empty() ? "the scene has no area light" : "";
+    return layer == widthLayer && terms.empty() ? absenceOf(Part::Direct) : "";
 }
 
 std::vector<std::string> split(const std::string& list)

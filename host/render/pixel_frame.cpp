@@ -1,7 +1,6 @@
 #include "host/render/pixel_frame.h"
 
-#include "host/render/effects/light_graph.h"
-#include "host/render/effects/path_graph.h"
+#include <algorithm>
 
 namespace wedge::render {
 
@@ -18,29 +17,17 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
     std::size_t packetSize, const cl::Buffer& unused, bool keepLayers)
     : FrameGraph(settings, keepLayers)
     , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize,
-        hasSpecular(scene), hasEmitters(scene), unused }
+        hasSpecular(scene), unused }
 {
     const bool lit = settings.integrator == Integrator::Path;
     primary(lit);
-    for (std::uint32_t light = 0; lit && light < scene.areaLights.size(); ++light) {
-        TermWidths& term = startTerm();
-        addAreaLight(f_, light, term.state, term.beta);
+    const std::vector<Term> terms = frameTerms(settings, scene);
+    addTerms(Part::Direct, terms);
+    for (const Unfiltered& light : frameUnfiltered(settings, scene)) {
+        light.ofPixels(f_);
     }
-    if (lit && !(scene.pointLights.empty() && scene.directionalLights.empty())) {
-        deltaLights();
-    }
-    const std::vector<IndirectTerm> components = indirectTerms(settings, f_.specular, f_.emits);
-    const auto paths = [&](bool ofEmitters) {
-        for (const IndirectTerm& component : components) {
-            if (isOfEmitters(component.component) == ofEmitters) {
-                TermWidths& term = startTerm();
-                addPaths(f_, component.component, term.state, term.beta);
-            }
-        }
-    };
-    paths(true);
-    const bool fallsBack = usesFallback(settings);
-    if (fallsBack && lit && !(scene.areaLights.empty() && !f_.emits)) {
+    const bool fallsBack = usesFallback(settings), reflects = countOf(Part::Indirect, terms) > 0;
+    if (fallsBack && countOf(Part::Direct, terms) > 0) {
         fallBack(f_.totals.direct);
     }
     // Two planes become one before paths are traced.
@@ -52,22 +39,22 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
                 reads("objectId", f_.surfaces.objectId), writes("sum", sum) });
     };
     add(f_.surfaces.emission, f_.totals.direct.filtered, beauty);
-    paths(false);
-    if (fallsBack && tracesPaths(settings)) {
+    addTerms(Part::Indirect, terms);
+    if (fallsBack && reflects) {
         fallBack(f_.totals.indirect);
     }
-    if (!tracesPaths(settings)) {
-        f_.totals.beauty = beauty;
-    } else {
+    if (reflects) {
         add(beauty, f_.totals.indirect.filtered, f_.totals.beauty);
+    } else {
+        f_.totals.beauty = beauty;
     }
     Shown shown { {}, imageOf(f_.totals), {}, {}, {}, {} };
     if (keepLayers) {
         shown = { f_.surfaces, f_.totals, {}, {}, {}, {} };
     }
     shown.surfaces.objectId = f_.surfaces.objectId;
-    if (f_.specular && tracesPaths(settings) && settings.integrator == Integrator::Path) {
-        shown.surfaces.specular = f_.surfaces.specular; // pixels that have some are sampled for two terms
+    if (std::ranges::any_of(terms, &Term::ofLobes)) {
+        shown.surfaces.specular = f_.surfaces.specular; // pixels that have some are sampled for more terms
     }
     show(shown, false, f_.analysed());
 }
@@ -94,12 +81,6 @@ void PixelFrame::primary(bool lit)
         sum->deviation = graph_.plane<Deviation>(name + " deviation", graph::floats);
         f_.zero(sum->filtered, sum->noisy, sum->deviation);
     }
-    t.indirect.variance = graph_.plane<Value>("indirect variance", graph::floats);
-    f_.zero(t.indirect.variance);
-    if (f_.emits && lit) {
-        t.direct.variance = graph_.plane<Value>("direct variance", graph::floats);
-        f_.zero(t.direct.variance);
-    }
     t.samples = graph_.plane<Count>("samples", graph::counts);
     t.indirectSamples = graph_.plane<Count>("indirect samples", graph::counts);
     t.rays = graph_.plane<Count>("rays", graph::counts);
@@ -125,25 +106,20 @@ void PixelFrame::primary(bool lit)
     }
 }
 
-FrameGraph::TermWidths& PixelFrame::startTerm()
+void PixelFrame::addTerms(Part part, const std::vector<Term>& terms)
 {
-    terms_.push_back({ std::make_shared<TermState>(), graph_.plane<Metres>("filter width", graph::floats) });
-    f_.host("term", [state = terms_.back().state](Run&) { *state = {}; });
-    return terms_.back();
-}
-
-void PixelFrame::deltaLights()
-{
-    Totals& t = f_.totals;
-    f_.trace("point lights", { "light/delta_lights.cl", "deltaLights" },
-        joined({ f_.frame(), f_.ofScene("lights", "DeltaLight", &DeviceScene::deltaLights),
-                   value("lightCount", f_.scene != nullptr ? f_.scene->deltaLightCount : 0u),
-                   value("sceneDiameter", f_.scene != nullptr ? f_.scene->diameter : 0.0f) },
-            f_.hierarchy(), f_.receivers(),
-            Arguments { reads("diffuse", f_.surfaces.diffuse), reads("specular", f_.surfaces.specular),
-                updates("direct", t.direct.filtered), updates("directNoisy", t.direct.noisy),
-                tallies("rays", t.rays) }),
-        false, [](const graph::Launch&) { return 1.0; });
+    Sum& sum = part == Part::Direct ? f_.totals.direct : f_.totals.indirect;
+    if (std::ranges::any_of(terms, [&](const Term& t) { return t.part == part && t.gathersVariance; })) {
+        sum.variance = graph_.plane<Value>("gathered variance", graph::floats);
+        f_.zero(sum.variance);
+    }
+    for (const Term& term : terms) {
+        if (term.part == part) {
+            terms_.push_back({ std::make_shared<TermState>(), graph_.plane<Metres>("filter width", graph::floats) });
+            f_.host("term", [state = terms_.back().state](Run&) { *state = {}; });
+            term.ofPixels(f_, terms_.back().state, terms_.back().beta);
+        }
+    }
 }
 
 void PixelFrame::fallBack(Sum& sum)

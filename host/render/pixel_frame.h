@@ -1,8 +1,9 @@
 #pragma once
 
+#include "host/render/effect.h"
 #include "host/render/frame_graph.h"
 
-#include <string>
+#include <vector>
 
 namespace wedge::render {
 
@@ -16,9 +17,9 @@ public:
 
 private:
     void primary(bool lit);
-    void deltaLights();
+    /// Terms of the one part, of all those of the frame.
+    void addTerms(Part part, const std::vector<Term>& terms);
     void fallBack(Sum& sum);
-    TermWidths& startTerm();
 
     FrameBuilder f_;
 };

@@ -3,7 +3,7 @@
 #include "host/device/driver_cache.h"
 #include "host/graph/explain.h"
 #include "host/render/distributed_frame.h"
-#include "host/render/effects/indirect.h"
+#include "host/render/effect.h"
 #include "host/render/halves.h"
 #include "host/render/pixel_frame.h"
 #include "host/render/progressive.h"
@@ -52,19 +52,6 @@ device::BuildOptions programOptions(const scene::Scene& scene, const Options& op
 }
 
 } // namespace
-
-std::vector<std::string> termNames(const Settings& settings, const scene::Scene& scene)
-{
-    std::vector<std::string> names;
-    const std::size_t lights = settings.integrator == Integrator::Path ? scene.areaLights.size() : 0;
-    for (std::size_t i = 0; i < lights; ++i) {
-        names.push_back(lights == 1 ? "" : std::to_string(i + 1));
-    }
-    for (const IndirectTerm& term : indirectTerms(settings, hasSpecular(scene), hasEmitters(scene))) {
-        names.emplace_back(term.name);
-    }
-    return names;
-}
 
 Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Options options)
     : scene_(scene)
@@ -174,13 +161,14 @@ void Renderer::rehearse(const Settings& settings, bool keepLayers)
 
 double Renderer::workUnits(const Settings& settings) const
 {
-    const double paths =
-        tracesPaths(settings) ? settings.spp * std::max(1, settings.bounces) * (hasSpecular(scene_) ? 2.0 : 1.0) : 0.0;
-    if (settings.integrator == Integrator::AmbientOcclusion) {
-        return 1.0 + settings.spp;
+    double units = 1.0; // primary rays
+    for (const Term& term : frameTerms(settings, scene_)) {
+        units += term.workUnits;
     }
-    return 1.0 + (scene_.pointLights.empty() && scene_.directionalLights.empty() ? 0.0 : 1.0)
-        + static_cast<double>(scene_.areaLights.size() + (hasEmitters(scene_) ? 1 : 0)) * settings.spp + paths;
+    for (const Unfiltered& light : frameUnfiltered(settings, scene_)) {
+        units += light.workUnits;
+    }
+    return units;
 }
 
 FrameStatistics Renderer::render(const Settings& settings, const Control& control, bool keepLayers)
@@ -246,15 +234,15 @@ bool Renderer::run(graph::Execution& execution, const std::atomic<bool>* stop, b
 void Renderer::keepWidths(const graph::Execution& execution)
 {
     const Settings& settings = frameGraph_->settings();
-    const std::vector<std::string> names = termNames(settings, scene_);
+    const std::vector<Term> terms = frameTerms(settings, scene_);
     const PlaneLayout layout(settings.width, settings.height);
-    for (std::size_t i = 0; frameGraph_->keepsLayers() && i < names.size(); ++i) {
+    for (std::size_t i = 0; frameGraph_->keepsLayers() && i < terms.size(); ++i) {
         const FrameGraph::TermWidths& term = frameGraph_->terms()[i];
         std::vector<float> shown;
         if (term.state->analysed && frameGraph_->wantsWidths()) {
             shown = onlyInside(outputWindow(settings), layout, execution.output<float>(term.beta).downloadAll(queue_));
         }
-        termPlanes_.push_back({ names[i], std::move(shown) });
+        termPlanes_.push_back({ terms[i].name, std::move(shown) });
     }
 }
 

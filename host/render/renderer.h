@@ -43,13 +43,9 @@ struct Control {
 
 /// Filter widths of one term, for the layers, a plane as on the device; empty if the term was not analysed.
 struct TermPlanes {
-    std::string name; ///< of termNames(): what its layer's name ends in
+    std::string name; ///< what its layer's name ends in
     std::vector<float> beta;
 };
-
-/// Names of the terms of a frame in their order: "" for a single area light, "1", "2", ... for several, then those of
-/// indirectTerms().
-std::vector<std::string> termNames(const Settings& settings, const scene::Scene& scene);
 
 /// What a frame cost and took.
 struct FrameStatistics {

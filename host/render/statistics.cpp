@@ -1,7 +1,8 @@
 // What a frame cost and took.
-#include "host/render/effects/indirect.h"
+#include "host/render/effect.h"
 #include "host/render/renderer.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace wedge::render {
@@ -34,11 +35,11 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
     const std::vector<std::uint32_t> rays = planeOf(frame_->rays), pathRays = planeOf(frame_->pathRays);
     const std::vector<std::uint32_t> objects = planeOf(frame_->objectId);
     const image::Window output = outputWindow(settings);
-    std::vector<IndirectTerm> terms = indirectTerms(settings, deviceScene_->specular, deviceScene_->emits);
-    const std::size_t ofEmitters =
-        std::erase_if(terms, [](const IndirectTerm& t) { return isOfEmitters(t.component); });
-    // Pixels of several receivers take samples of both components whatever those are.
-    const bool apart = !frame_->distributed && terms.size() > 1;
+    const std::vector<Term> terms = frameTerms(settings, scene_);
+    const std::size_t direct = countOf(Part::Direct, terms), reflected = terms.size() - direct;
+    // Pixels of several receivers take samples of all terms whatever is there.
+    const auto ofLobes = static_cast<std::size_t>(std::ranges::count(terms, true, &Term::ofLobes));
+    const bool apart = !frame_->distributed && ofLobes > 0;
     const std::vector<float> specular = apart ? frame_->specular.downloadAll(queue_) : std::vector<float> {};
     const std::size_t size = frame_->layout.size;
     std::uint64_t total = 0, indirectTotal = 0, indirectPixels = 0;
@@ -53,7 +54,7 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
             total += samples[i];
             indirectTotal += indirect[i];
             const bool matte = apart && !(specular[i] + specular[size + i] + specular[2 * size + i] > 0);
-            indirectPixels += matte ? 1 : terms.size();
+            indirectPixels += matte ? reflected - ofLobes : reflected;
         }
     }
     const bool whole = settings.method == Method::AxisAligned;
@@ -73,8 +74,7 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
     }
     statistics.indirectRays = std::accumulate(pathRays.begin(), pathRays.end(), std::uint64_t { 0 });
     statistics.shadowRays = std::accumulate(rays.begin(), rays.end(), std::uint64_t { 0 }) - statistics.indirectRays;
-    const std::uint64_t directPixels = statistics.shadedPixels
-        * (settings.integrator == Integrator::Path ? scene_.areaLights.size() + (ofEmitters > 0 ? 1 : 0) : 0);
+    const std::uint64_t directPixels = statistics.shadedPixels * direct;
     const auto mean = [](std::uint64_t sum, std::uint64_t count) {
         return count > 0 ? static_cast<double>(sum) / static_cast<double>(count) : 0.0;
     };

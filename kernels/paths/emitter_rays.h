@@ -58,12 +58,12 @@ WEDGE_FN float emitterRay(EmitterData emitters, SampleParams sampling, const Pat
 }
 
 /// One sample a lane, whose reflected direction is that of `rays` and counts `weight`, which becomes 1: fills
-/// paths->radiance and counts of rays, and, where sinks take distances, in paths->distance what widths follow from: how far
-/// it is to what emits; or, where something is in between, how far from there a reflector would be whose light varies
-/// as the penumbra does, (the emitter's extent) t / (T - t) for an occluder t on a way of T metres.
+/// paths->radiance and counts of rays, and, where sinks take distances, in paths->distance what widths follow from: how
+/// far it is to what emits; or, where something is in between, how far from there a reflector would be whose light
+/// varies as the penumbra does, (the emitter's extent) t / (T - t) for an occluder t on a way of T metres.
 WEDGE_FN void traceEmitters(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
-    EmitterData emitters, SampleParams sampling, bool glossy, const ReceiverPacket* r,
-    const Vec3* facing, const uint* last, const RayPacket* rays, float* weight, PathPacket* paths)
+    EmitterData emitters, SampleParams sampling, bool glossy, const ReceiverPacket* r, const Vec3* facing,
+    const uint* last, const RayPacket* rays, float* weight, PathPacket* paths)
 {
     PacketHits hits;
     closestHits(nodes, blocks, rays, &hits);

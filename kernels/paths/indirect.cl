@@ -172,9 +172,8 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
         if (params.component == WEDGE_COMPONENT_AMBIENT) {
             traceAmbient(nodes, blocks, &packet, &paths);
         } else if (WEDGE_IS_OF_EMITTERS(params.component)) {
-            traceEmitters(nodes, blocks, lights.emitters, sampling,
-                params.component == WEDGE_COMPONENT_EMITTERS_GLOSSY, &receivers, facing, counts.last, &packet, weight,
-                &paths);
+            traceEmitters(nodes, blocks, lights.emitters, sampling, params.component == WEDGE_COMPONENT_EMITTERS_GLOSSY,
+                &receivers, facing, counts.last, &packet, weight, &paths);
         } else {
             tracePaths(nodes, blocks, surfaces, lights, sampling, params.bounces, &packet, &paths);
         }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/render/effects/wave_term.h"
+#include "host/render/wave_term.h"
 #include "kernels/shared/light.h"
 
 namespace wedge::render {

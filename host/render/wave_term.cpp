@@ -1,4 +1,4 @@
-#include "host/render/effects/wave_term.h"
+#include "host/render/wave_term.h"
 
 #include "host/render/filters/filter_graph.h"
 #include "host/render/filters/widening.h"
@@ -76,7 +76,7 @@ graph::Handle<Share> WaveTerm::weights(std::string_view pass, PassKind kind) con
 {
     auto weights = f_.graph.plane<Share>("luminance of texture", graph::floats);
     f_.pixels(pass, kind, { "analysis/analysis.cl", "luminanceOf" },
-        { f_.rectangle(f_.analysisParams()), value("bits", shared::textureBits(f_.packed ? 1 : 0, isLight())),
+        { f_.rectangle(f_.analysisParams()), value("bits", shared::textureBits(f_.packed ? 1 : 0, isFraction())),
             reads("image", means.texture), writes("out", weights) });
     return weights;
 }

@@ -1,4 +1,4 @@
-#include "host/render/effects/indirect.h"
+#include "effects/indirect/indirect.h"
 
 #include "kernels/shared/indirect.h"
 
@@ -10,27 +10,6 @@ namespace wedge::render {
 using device::PassKind;
 using graph::reads;
 using graph::writes;
-
-std::vector<IndirectTerm> indirectTerms(const Settings& settings, bool specular, bool emits)
-{
-    if (settings.integrator == Integrator::AmbientOcclusion) {
-        return { { Component::Ambient, "Ambient" } };
-    }
-    std::vector<IndirectTerm> terms;
-    const auto add = [&](IndirectTerm diffuse, IndirectTerm glossy) {
-        terms.push_back(diffuse);
-        if (specular) {
-            terms.push_back(glossy);
-        }
-    };
-    if (emits) {
-        add({ Component::Emitters, "Emitters" }, { Component::EmittersGlossy, "EmittersGlossy" });
-    }
-    if (settings.bounces > 0) {
-        add({ Component::Diffuse, "Indirect" }, { Component::Glossy, "Glossy" });
-    }
-    return terms;
-}
 
 shared::PathParams pathParams(const FrameBuilder& frame, Component component)
 {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "host/render/effects/indirect.h"
-#include "host/render/effects/wave_term.h"
+#include "effects/indirect/indirect.h"
+#include "host/render/wave_term.h"
 
 namespace wedge::render {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/render/effects/indirect.h"
+#include "effects/indirect/indirect.h"
 #include "host/render/frame_builder.h"
 
 #include <memory>

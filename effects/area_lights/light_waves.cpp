@@ -1,10 +1,10 @@
-#include "host/render/effects/light_waves.h"
+#include "effects/area_lights/light_waves.h"
 
-#include "host/render/effects/light_widths.h"
-#include "host/render/effects/sinks.h"
-#include "host/render/effects/soft_shadows.h"
+#include "effects/area_lights/light_widths.h"
+#include "effects/area_lights/soft_shadows.h"
 #include "host/render/filters/filter_graph.h"
 #include "host/render/filters/widening.h"
+#include "host/render/sinks.h"
 #include "kernels/shared/packed.h"
 
 #include <limits>

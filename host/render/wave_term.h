@@ -50,8 +50,8 @@ struct Adding {
 /// A term of a frame whose pixels have several receivers: what an effect declares for it.
 class WaveTerm {
 public:
-    /// values: planes of what is filtered, 1, a light's visibility, or 3; ofSample: its rays; sum: what the term is
-    /// part of.
+    /// values: numbers of what is filtered, 1 where the texture has all colour, or 3; ofSample: its rays; sum: what the
+    /// term is part of.
     WaveTerm(FrameBuilder& frame, const SampleShape& shape, Sum& sum, std::uint32_t values, float ofSample)
         : rays(ofSample)
         , f_(frame)
@@ -75,7 +75,9 @@ public:
     /// Widens means.beta once the samples are complete, and filters the value; returns one of valuePlanes().
     virtual graph::Handle<Value> filtered(const shared::DistributedParams& params) = 0;
 
-    bool isLight() const { return values_ == 1; }
+    /// Whether what is filtered is one number, from 0 to 1, and the texture a radiance; else it is an irradiance, and
+    /// the texture a reflectance.
+    bool isFraction() const { return values_ == 1; }
     Sum& sum() const { return sum_; }
     /// params with what the kernels ask for of the term.
     shared::DistributedParams of(shared::DistributedParams params) const;

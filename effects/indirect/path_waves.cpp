@@ -1,8 +1,8 @@
-#include "host/render/effects/path_waves.h"
+#include "effects/indirect/path_waves.h"
 
-#include "host/render/effects/sinks.h"
 #include "host/render/filters/filter_graph.h"
 #include "host/render/filters/widening.h"
+#include "host/render/sinks.h"
 
 #include <algorithm>
 #include <limits>

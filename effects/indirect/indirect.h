@@ -4,7 +4,7 @@
 #include "kernels/shared/filter_params.h"
 #include "kernels/shared/path.h"
 
-#include <vector>
+#include <cstdint>
 
 namespace wedge::render {
 
@@ -21,16 +21,6 @@ enum class Component : std::uint32_t {
 constexpr bool isGlossy(Component c) { return c == Component::Glossy || c == Component::EmittersGlossy; }
 /// Whether it is direct light.
 constexpr bool isOfEmitters(Component c) { return c == Component::Emitters || c == Component::EmittersGlossy; }
-
-/// A component that frames of some settings have, and what its filter widths' layer ends in.
-struct IndirectTerm {
-    Component component;
-    const char* name;
-};
-
-/// The terms of a frame that are sampled by rays over the hemisphere: direct light of meshes that emit, where `emits`,
-/// and indirect light. specular: the scene reflects so.
-std::vector<IndirectTerm> indirectTerms(const Settings& settings, bool specular, bool emits);
 
 /// What the analysis of a component needs besides the rectangle.
 shared::ReflectorParams reflectorParams(const FrameBuilder& frame, Component component);

@@ -1,12 +1,12 @@
-#include "host/render/effects/light_graph.h"
+#include "effects/area_lights/light_graph.h"
 
+#include "effects/area_lights/light_widths.h"
+#include "effects/area_lights/soft_shadows.h"
 #include "host/graph/execution.h"
-#include "host/render/effects/light_widths.h"
-#include "host/render/effects/sample_slices.h"
-#include "host/render/effects/sinks.h"
-#include "host/render/effects/soft_shadows.h"
 #include "host/render/filters/filter_graph.h"
 #include "host/render/filters/widening.h"
+#include "host/render/sample_slices.h"
+#include "host/render/sinks.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/wedge.h"
 

@@ -1,9 +1,9 @@
-#include "host/render/effects/path_graph.h"
+#include "effects/indirect/path_graph.h"
 
-#include "host/render/effects/sample_slices.h"
-#include "host/render/effects/sinks.h"
 #include "host/render/filters/filter_graph.h"
 #include "host/render/filters/widening.h"
+#include "host/render/sample_slices.h"
+#include "host/render/sinks.h"
 #include "kernels/shared/indirect.h"
 
 #include <algorithm>

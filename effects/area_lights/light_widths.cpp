@@ -1,4 +1,4 @@
-#include "host/render/effects/light_widths.h"
+#include "effects/area_lights/light_widths.h"
 
 namespace wedge::render {
 

@@ -1,4 +1,4 @@
-#include "host/render/effects/soft_shadows.h"
+#include "effects/area_lights/soft_shadows.h"
 
 #include "kernels/shared/wedge.h"
 

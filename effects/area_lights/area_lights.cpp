@@ -1,0 +1,38 @@
+#include "effects/area_lights/area_lights.h"
+
+#include "effects/area_lights/light_graph.h"
+#include "effects/area_lights/light_waves.h"
+
+namespace wedge::render {
+namespace {
+
+class AreaLights : public Effect {
+public:
+    std::string name() const override { return "area lights"; }
+
+    std::vector<Term> terms(const Settings& settings, const scene::Scene& scene) const override
+    {
+        std::vector<Term> out;
+        const std::size_t count = settings.integrator == Integrator::Path ? scene.areaLights.size() : 0;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            out.push_back({ .name = count == 1 ? "" : std::to_string(i + 1),
+                .part = Part::Direct,
+                .workUnits = static_cast<double>(settings.spp),
+                .ofPixels = [i](FrameBuilder& frame, const std::shared_ptr<TermState>& state,
+                                graph::Handle<Metres>& beta) { addAreaLight(frame, i, state, beta); },
+                .ofWaves = [i](FrameBuilder& frame,
+                               const SampleShape& shape) { return std::make_unique<LightWaves>(frame, shape, i); } });
+        }
+        return out;
+    }
+
+    std::string absence(Part part) const override { return part == Part::Direct ? "the scene has no area light" : ""; }
+
+    std::string widthLayers() const override { return "of the area light; of several filterWidth1, filterWidth2, ..."; }
+};
+
+} // namespace
+
+std::unique_ptr<const Effect> areaLights() { return std::make_unique<AreaLights>(); }
+
+} // namespace wedge::render

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "host/render/effect.h"
+
+#include <memory>
+
+namespace wedge::render {
+
+/// Direct light of meshes that emit, docs/emitters.md: a diffuse term, and, where something is specular, a glossy one.
+std::unique_ptr<const Effect> emitters();
+
+} // namespace wedge::render

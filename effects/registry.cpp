@@ -1,0 +1,16 @@
+// The effects, in the order in which frames have them: one line each.
+#include "effects/area_lights/area_lights.h"
+#include "effects/delta_lights/delta_lights.h"
+#include "effects/emitters/emitters.h"
+#include "effects/indirect/indirect_light.h"
+
+namespace wedge::render {
+namespace {
+
+const Registration ofAreaLights(areaLights());
+const Registration ofDeltaLights(deltaLights());
+const Registration ofEmitters(emitters());
+const Registration ofIndirectLight(indirectLight());
+
+} // namespace
+} // namespace wedge::render

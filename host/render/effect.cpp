@@ -1,0 +1,63 @@
+#include "host/render/effect.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace wedge::render {
+namespace {
+
+std::vector<std::unique_ptr<const Effect>>& registry()
+{
+    static std::vector<std::unique_ptr<const Effect>> registered; // before any that registers itself
+    return registered;
+}
+
+} // namespace
+
+const std::vector<std::unique_ptr<const Effect>>& effects() { return registry(); }
+
+void registerEffect(std::unique_ptr<const Effect> effect)
+{
+    if (std::ranges::any_of(registry(), [&](const auto& known) { return known->name() == effect->name(); })) {
+        throw std::logic_error("there are two effects called " + effect->name());
+    }
+    registry().push_back(std::move(effect));
+}
+
+std::vector<Term> frameTerms(const Settings& settings, const scene::Scene& scene)
+{
+    std::vector<Term> terms;
+    for (const auto& effect : effects()) {
+        std::ranges::move(effect->terms(settings, scene), std::back_inserter(terms));
+    }
+    std::ranges::stable_sort(terms, {}, &Term::part);
+    return terms;
+}
+
+std::size_t countOf(Part part, const std::vector<Term>& terms)
+{
+    return static_cast<std::size_t>(std::ranges::count(terms, part, &Term::part));
+}
+
+std::vector<Unfiltered> frameUnfiltered(const Settings& settings, const scene::Scene& scene)
+{
+    std::vector<Unfiltered> out;
+    for (const auto& effect : effects()) {
+        if (std::optional<Unfiltered> light = effect->unfiltered(settings, scene)) {
+            out.push_back(std::move(*light));
+        }
+    }
+    return out;
+}
+
+std::string absenceOf(Part part)
+{
+    for (const auto& effect : effects()) {
+        if (std::string why = effect->absence(part); !why.empty()) {
+            return why;
+        }
+    }
+    return "no effect has any";
+}
+
+} // namespace wedge::render

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "host/render/frame_builder.h"
+#include "host/render/wave_term.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wedge::render {
+
+/// Which of a frame's sums something is part of.
+enum class Part { Direct, Indirect };
+
+/// Something that is sampled, filtered by itself, and added to the image: a light, a component of indirect light.
+struct Term {
+    std::string name; ///< what the name of its filter widths' layer ends in
+    Part part = Part::Direct;
+    double workUnits = 0; ///< of a pixel, about as many as it has rays
+    bool gathersVariance = false; ///< it adds to Sum::variance of its part
+    bool ofLobes = false; ///< where the pixels are the receivers, those that reflect nothing specularly have none of it
+    /// Declares its passes where the pixels are the receivers: samples, widths, filter, and what they add to the sum.
+    /// The state is filled in while the graph runs; the widths, metres, are written where it says so.
+    std::function<void(FrameBuilder&, const std::shared_ptr<TermState>&, graph::Handle<Metres>&)> ofPixels;
+    /// The same where pixels have several receivers.
+    std::function<std::unique_ptr<WaveTerm>(FrameBuilder&, const SampleShape&)> ofWaves;
+};
+
+/// Direct light that is added as it is sampled.
+struct Unfiltered {
+    std::string name; ///< of its planes
+    double workUnits = 0;
+    /// Declares its passes where the pixels are the receivers, which add to both images of totals.direct.
+    std::function<void(FrameBuilder&)> ofPixels;
+    /// The same of a wave's receivers, which add to their radiance.
+    std::function<void(FrameBuilder&, Waves&, graph::Handle<Radiance>&)> ofWaves;
+};
+
+/// Something that light does: what it brings to a frame of given settings. Frames know effects by this alone.
+class Effect {
+public:
+    virtual ~Effect() = default;
+
+    virtual std::string name() const = 0; ///< no other effect's
+    virtual std::vector<Term> terms(const Settings&, const scene::Scene&) const { return {}; }
+    virtual std::optional<Unfiltered> unfiltered(const Settings&, const scene::Scene&) const { return std::nullopt; }
+
+    /// Why a frame has no terms of this part, of an effect that could have some; "" of others.
+    virtual std::string absence(Part) const { return ""; }
+    /// How its terms' layers of filter widths are called, for people; "" without terms.
+    virtual std::string widthLayers() const { return ""; }
+};
+
+/// All effects that there are, in the order in which frames have them.
+const std::vector<std::unique_ptr<const Effect>>& effects();
+
+/// Adds one. Not while anybody renders.
+void registerEffect(std::unique_ptr<const Effect> effect);
+
+/// Adds an effect before the program starts.
+struct Registration {
+    explicit Registration(std::unique_ptr<const Effect> effect) { registerEffect(std::move(effect)); }
+};
+
+/// The terms of a frame: those of direct light, then those of indirect light, each by effects.
+std::vector<Term> frameTerms(const Settings& settings, const scene::Scene& scene);
+std::size_t countOf(Part part, const std::vector<Term>& terms);
+
+std::vector<Unfiltered> frameUnfiltered(const Settings& settings, const scene::Scene& scene);
+
+/// Why a frame has no terms of this part.
+std::string absenceOf(Part part);
+
+} // namespace wedge::render
