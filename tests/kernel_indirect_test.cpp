@@ -261,7 +261,7 @@ TEST_CASE("with a first pass, what the first part of the samples alone would be 
     });
 }
 
-TEST_CASE("one bounce under an emitting quad converges to its form factor times the emission")
+TEST_CASE("light of an emitting quad converges to its form factor times the emission, however it is found")
 {
     onEveryDevice([](const device::Device& device) {
         SceneBuilder b;
@@ -270,42 +270,51 @@ TEST_CASE("one bounce under an emitting quad converges to its form factor times 
         b.newObject();
         b.quad({ 0.2f, 0.8f, -0.3f }, { 0.7f, 0, 0 }, { 0, 0, 0.5f }, 1);
         b.camera({ 0, 0.6f, 3.0f }, { 0, 0, 0 });
-        PathRun run(b.scene, device, 15, 11);
-        constexpr std::uint32_t count = 4096;
-        run.sample(count, count);
-        const PathResult found = run.result();
-        const auto id = run.traced.read(run.traced.frame.objectId);
-        const auto position = run.traced.read(run.traced.frame.position);
-        unsigned floor = 0;
-        double sum = 0, expected = 0, worst = 0;
-        run.traced.everyPixel([&](int x, int y) {
-            if (id.at(x, y) != 1)
-                return;
-            const glm::dvec3 at = position.vector(x, y);
-            double factor = 0;
-            constexpr int steps = 150;
-            for (int i = 0; i < steps; ++i)
-                for (int k = 0; k < steps; ++k) {
-                    const glm::dvec3 d = glm::dvec3(0.2 + 0.7 * (2 * (i + 0.5) / steps - 1), 0.8,
-                                             -0.3 + 0.5 * (2 * (k + 0.5) / steps - 1))
-                        - at;
-                    const double r2 = glm::dot(d, d);
-                    factor += d.y * d.y / (std::numbers::pi * r2 * r2) * (4 * 0.7 * 0.5) / (steps * steps);
-                }
-            ++floor;
-            sum += found.value.at(x, y);
-            expected += 2 * factor;
-            worst = std::max(worst, std::fabs(found.value.at(x, y) - 2 * factor));
-            REQUIRE(found.value.at(x, y, 1) == doctest::Approx(0.5 * found.value.at(x, y)).epsilon(1e-4));
-            REQUIRE(found.value.at(x, y, 2) == doctest::Approx(0.25 * found.value.at(x, y)).epsilon(1e-4));
-            // Without lights there is nothing to send more rays to.
-            REQUIRE(found.rays.at(x, y) == count);
-        });
-        CHECK(floor > 60);
-        CHECK(expected / floor > 0.05);
-        // A sample is 0 or 2: independent ones would deviate by 0.03 in the worst case, those of Sobol by far less.
-        CHECK(worst < 0.012);
-        CHECK(std::fabs(sum - expected) / floor < 1e-3);
+        for (const std::uint32_t ways : { WEDGE_LIGHTS_BOTH, WEDGE_LIGHTS_SAMPLED, WEDGE_LIGHTS_MET }) {
+            PathRun run(b.scene, device, 15, 11);
+            run.params.component = WEDGE_COMPONENT_EMITTERS;
+            run.params.lightSampling = ways;
+            run.params.emitters = run.traced.onDevice.emitterCount;
+            run.params.emitterShare = run.traced.onDevice.emitterShare;
+            REQUIRE(run.params.emitters == 1); // one of two triangles
+            REQUIRE(run.params.emitterShare == 1);
+            constexpr std::uint32_t count = 4096;
+            run.sample(count, count);
+            const PathResult found = run.result();
+            const auto id = run.traced.read(run.traced.frame.objectId);
+            const auto position = run.traced.read(run.traced.frame.position);
+            unsigned floor = 0;
+            double sum = 0, expected = 0, worst = 0;
+            run.traced.everyPixel([&](int x, int y) {
+                if (id.at(x, y) != 1)
+                    return;
+                const glm::dvec3 at = position.vector(x, y);
+                double factor = 0;
+                constexpr int steps = 150;
+                for (int i = 0; i < steps; ++i)
+                    for (int k = 0; k < steps; ++k) {
+                        const glm::dvec3 d = glm::dvec3(0.2 + 0.7 * (2 * (i + 0.5) / steps - 1), 0.8,
+                                                 -0.3 + 0.5 * (2 * (k + 0.5) / steps - 1))
+                            - at;
+                        const double r2 = glm::dot(d, d);
+                        factor += d.y * d.y / (std::numbers::pi * r2 * r2) * (4 * 0.7 * 0.5) / (steps * steps);
+                    }
+                ++floor;
+                sum += found.value.at(x, y);
+                expected += 2 * factor;
+                worst = std::max(worst, std::fabs(found.value.at(x, y) - 2 * factor));
+                REQUIRE(found.value.at(x, y, 1) == doctest::Approx(0.5 * found.value.at(x, y)).epsilon(1e-4));
+                REQUIRE(found.value.at(x, y, 2) == doctest::Approx(0.25 * found.value.at(x, y)).epsilon(1e-4));
+                REQUIRE(found.pathRays.at(x, y) == count);
+                REQUIRE(found.rays.at(x, y) == (ways == WEDGE_LIGHTS_MET ? 1 : 2) * count);
+            });
+            CHECK(floor > 60);
+            CHECK(expected / floor > 0.05);
+            // A reflected direction brings 0 or 2: independent ones would deviate by 0.03 in the worst case, those of
+            // Sobol by far less; points vary smoothly.
+            CHECK(worst < (ways == WEDGE_LIGHTS_SAMPLED ? 0.001 : 0.012));
+            CHECK(std::fabs(sum - expected) / floor < 1e-3);
+        }
     });
 }
 

@@ -70,7 +70,11 @@ std::uint32_t pairOf(const scene::Geometry& g, const Emitting& one, const Emitti
         || std::abs(one.power - other.power) > 0.1 * std::max(one.power, other.power)) {
         return WEDGE_PAIR_NONE;
     }
-    const auto corner = [&](const Emitting& e, std::size_t k) { return g.indices[3 * e.triangle + k]; };
+    // By where they are: readers may split corners.
+    const auto corner = [&](const Emitting& e, std::size_t k) {
+        const std::size_t v = g.indices[3 * e.triangle + k];
+        return glm::vec3(g.positions[3 * v], g.positions[3 * v + 1], g.positions[3 * v + 2]);
+    };
     if (corner(one, 0) == corner(other, 0) && corner(one, 2) == corner(other, 1)) {
         return WEDGE_PAIR_FIRST;
     }
