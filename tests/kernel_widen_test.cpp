@@ -41,14 +41,6 @@ shared::FrameParams cameraOf(const render::PlaneLayout& layout)
     return f;
 }
 
-template <class Do>
-void everyPixel(const render::PlaneLayout& layout, const Do& run)
-{
-    for (int y = 0; y < static_cast<int>(layout.height); ++y)
-        for (int x = 0; x < static_cast<int>(layout.width); ++x)
-            run(x, y);
-}
-
 /// Pixels of two objects and none on the plane z = 0, and what their filters are made of.
 struct Pixels {
     Planes<float> position, normal, beta, deviation, weights, narrow, wide, counts, countsWide;

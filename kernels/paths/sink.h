@@ -1,5 +1,5 @@
-// What becomes of the samples of indirect.cl where it is compiled alone: what becomes of those of first paths over
-// pixels. In a frame each pass has a text of its own in the place of this file, generated from what the pass declares
+// What becomes of the samples of indirect.cl where it is compiled alone: the sinks of the first paths over pixels. In
+// a frame each pass has a text of its own in the place of this file, generated from what the pass declares
 // (host/graph/interface.h).
 #include "paths/distances.h"
 #include "sinks/means.h"

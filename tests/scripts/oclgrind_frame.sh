@@ -47,8 +47,8 @@ check() {
 # The check itself must fail where a kernel writes past the end of a buffer.
 checkSabotaged() {
     cp -r "$sources/kernels" "$work/kernels"
-    sed -i 's/objectId\[i\] = /objectId[i + frame.planeSize] = /' "$work/kernels/primary.cl"
-    if cmp -s "$sources/kernels/primary.cl" "$work/kernels/primary.cl"; then
+    sed -i 's/objectId\[i\] = /objectId[i + frame.planeSize] = /' "$work/kernels/frame/primary.cl"
+    if cmp -s "$sources/kernels/frame/primary.cl" "$work/kernels/frame/primary.cl"; then
         echo "oclgrind_frame: primary.cl no longer has the line to sabotage: name another" >&2
         return 1
     fi
