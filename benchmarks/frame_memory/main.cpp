@@ -2,7 +2,7 @@
 #include "benchmarks/common/claims.h"
 #include "benchmarks/common/program.h"
 #include "benchmarks/common/scene_source.h"
-#include "benchmarks/distributed/frame_memory.h"
+#include "benchmarks/frame_memory/frame_bytes.h"
 #include "data/generator/cornell.h"
 #include "host/device/device.h"
 
