@@ -7,7 +7,7 @@ namespace {
 TEST_CASE("memory of five kinds of frames, beside what it may be")
 {
     const Workplace place;
-    const Outcome outcome = place.run({ "--size", "1024", "--json", "memory.json" });
+    const Outcome outcome = place.run({ "--size", "1024", "--plan-only", "--json", "memory.json" });
     REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
     const Json all = Json::parse(place.text("memory.json"));
     CHECK(all["benchmark"] == "frame_memory");
@@ -26,6 +26,22 @@ TEST_CASE("memory of five kinds of frames, beside what it may be")
     CHECK(of("pinhole.mebibytes")["value"] < 205);
     CHECK(of("progressive.mebibytes")["value"] < 760);
     CHECK(of("direct_4k.bytes_per_pixel")["value"] < 168);
+}
+
+TEST_CASE("what is planned is what is allocated")
+{
+    const Workplace place;
+    const Outcome outcome = place.run({ "--size", "128", "--json", "memory.json" });
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    const Json all = Json::parse(place.text("memory.json"));
+    for (const std::string kind : { "pinhole", "lens", "progressive", "layers", "direct_4k" }) {
+        CAPTURE(kind);
+        const Json& ratio = claim(all["claims"], "frame_memory." + kind + ".planned_vs_allocated");
+        CHECK(ratio["goal"] == 1);
+        CHECK(ratio["unit"] == "1");
+        // Tables of lights and what stands in for what a scene lacks, a few KB, are not planned.
+        CHECK(ratio["value"].get<double>() == doctest::Approx(1.0).epsilon(0.001));
+    }
 }
 
 TEST_CASE("a wrong call says so")

@@ -85,6 +85,7 @@ Measured Lab::measure(render::Settings settings, std::uint32_t seed)
     out.error = compared(out.rmse, settings);
     out.mu = subject_.muOf(settings);
     out.seed = seed;
+    out.corrected = withoutNoise(out.rmse, truth.noise);
     say(fmt::format("{:<40} {:7.2f} spp  rmse {:.6f}  {:6.1f} s", subject_.describe(settings), out.spp, out.rmse,
         1e-3 * frame.wallMilliseconds));
     measured_.emplace(key, out);

@@ -17,6 +17,7 @@ struct Measured {
     double error = 0; ///< what is compared: the same, without the reference's noise if the plan wants that
     float mu = 0;
     std::uint32_t seed = 0;
+    double corrected = 0; ///< the RMS error with the reference's noise taken out in quadrature
 };
 
 /// What images converge to: its name, and the settings of its reference, size and seed left open.

@@ -17,6 +17,9 @@ TimingColumn ofKind(const std::string& column, PassKind kind)
     return { column, [kind](const FrameStatistics& f) { return f.milliseconds(kind); } };
 }
 
+int timedWidth(const MeasurePlan& plan) { return plan.timedWidth > 0 ? plan.timedWidth : plan.width; }
+int timedHeight(const MeasurePlan& plan) { return plan.timedHeight > 0 ? plan.timedHeight : plan.height; }
+
 double overhead(const FrameStatistics& f) { return f.overheadFraction() * f.deviceMilliseconds; }
 
 } // namespace
@@ -36,9 +39,9 @@ TimingColumn tracing() { return ofKind("tracing", PassKind::Trace); }
 
 TimingColumn widthsAndCounts() { return ofKind("widths_and_counts", PassKind::Analysis); }
 
-const std::vector<TimingColumn>& frameColumns()
+std::vector<TimingColumn> withFrameColumns(std::vector<TimingColumn> columns)
 {
-    static const std::vector<TimingColumn> all = {
+    const std::vector<TimingColumn> all = {
         ofKind("filter", PassKind::Filter),
         ofKind("composite", PassKind::Composite),
         ofKind("transfer", PassKind::Transfer),
@@ -50,7 +53,8 @@ const std::vector<TimingColumn>& frameColumns()
         { "overhead_fraction", [](const FrameStatistics& f) { return f.overheadFraction(); } },
         { "wall_gap", [](const FrameStatistics& f) { return 1.0 - f.deviceMilliseconds / f.wallMilliseconds; } },
     };
-    return all;
+    columns.insert(columns.end(), all.begin(), all.end());
+    return columns;
 }
 
 const Summary& Timing::operator[](const std::string& column) const
@@ -63,11 +67,13 @@ const Summary& Timing::operator[](const std::string& column) const
     throw std::out_of_range("no such column: " + column);
 }
 
+double timedPixels(const MeasurePlan& plan) { return static_cast<double>(timedWidth(plan)) * timedHeight(plan); }
+
 Timing timeFrames(
     Lab& lab, render::Settings settings, const std::vector<TimingColumn>& columns, const std::string& label)
 {
-    settings.width = lab.plan().width;
-    settings.height = lab.plan().height;
+    settings.width = timedWidth(lab.plan());
+    settings.height = timedHeight(lab.plan());
     settings.seed = 1;
     lab.renderer().rehearse(settings);
     lab.renderer().render(settings);

@@ -30,8 +30,12 @@ TimingColumn ofPasses(const std::string& column, const std::vector<std::string>&
 /// Milliseconds of all tracing, of all analysis.
 TimingColumn tracing();
 TimingColumn widthsAndCounts();
-/// What every benchmark of frames has: filter, composite, overhead, total, the host's clock, frames a second.
-const std::vector<TimingColumn>& frameColumns();
+/// Those, and what every benchmark of frames has: filter, composite, overhead, total, the host's clock, frames a
+/// second.
+std::vector<TimingColumn> withFrameColumns(std::vector<TimingColumn> columns);
+
+/// Pixels of a timed frame.
+double timedPixels(const MeasurePlan& plan);
 
 /// Renders plan().frames frames after a rehearsal and a frame that warms up. label: of the settings, for progress.
 Timing timeFrames(

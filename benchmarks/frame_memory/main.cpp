@@ -1,14 +1,20 @@
-// frame_memory: device memory that frames take besides the scene, planned and not rendered; docs/benchmarks.md.
+// frame_memory: device memory that frames take besides the scene, as planned, and whether that is what is allocated;
+// docs/benchmarks.md.
 #include "benchmarks/common/claims.h"
 #include "benchmarks/common/program.h"
 #include "benchmarks/common/scene_source.h"
-#include "benchmarks/distributed/frame_memory.h"
+#include "benchmarks/frame_memory/allocations.h"
+#include "benchmarks/frame_memory/frame_bytes.h"
 #include "data/generator/cornell.h"
 #include "host/device/device.h"
+#include "host/render/progressive.h"
+#include "host/render/renderer.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <atomic>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -19,6 +25,7 @@ using namespace wedge::benchmark;
 
 struct Arguments {
     int side = 1024;
+    bool planOnly = false;
     std::string device, json, scene = "cornell_glossy";
 };
 
@@ -47,24 +54,50 @@ std::vector<Kind> kindsOf(int side)
         { "layers", lens, true, 400 }, { "direct_4k", direct, false, 150 } };
 }
 
+/// Bytes of scene and frame as planned, over the most that were allocated while one was rendered. Its sampling is ended
+/// at once, since all memory is there before the first launch.
+double plannedVsAllocated(const scene::Scene& scene, const device::Device& device, const Kind& kind)
+{
+    const std::uint64_t before = Allocations::current();
+    Allocations::restart();
+    render::Renderer renderer(scene, device);
+    const auto planned = static_cast<double>(renderer.plan(kind.settings, kind.layers).total());
+    const std::atomic<bool> cancel { true };
+    render::Control control;
+    control.cancel = &cancel;
+    if (kind.settings.progressive) {
+        renderer.renderProgressively(
+            kind.settings, control, [](const render::ProgressiveStep&) {}, kind.layers);
+    } else {
+        renderer.render(kind.settings, control, kind.layers);
+    }
+    return planned / static_cast<double>(Allocations::largest() - before);
+}
+
 int measureAll(const Arguments& a)
 {
     const device::Device device = device::Device::open(a.device);
     const std::vector<SceneSource> known { generatedScene("cornell_glossy", generator::makeCornellGlossy) };
     const scene::Scene scene = scene::loadScene(findScene(known, a.scene).file());
     Json all = resultSkeleton("frame_memory", device.info());
-    fmt::print("{:<12} {:>11} {:>10} {:>14}\n", "frame", "pixels", "MiB", "bytes a pixel");
+    fmt::print("{:<12} {:>11} {:>10} {:>14} {:>18}\n", "frame", "pixels", "MiB", "bytes a pixel", "planned/allocated");
     for (const Kind& kind : kindsOf(a.side)) {
         const auto bytes = static_cast<double>(frameBytes(scene, device.info(), kind.settings, kind.layers));
         const double pixels = static_cast<double>(kind.settings.width) * kind.settings.height;
         const double mebibytes = bytes / (1 << 20);
-        fmt::print("{:<12} {:>5}x{:<5} {:>10.1f} {:>14.1f}\n", kind.name, kind.settings.width, kind.settings.height,
-            mebibytes, bytes / pixels);
         ClaimList claims("frame_memory", kind.name);
         const bool perPixel = kind.settings.bounces == 0;
         const std::optional<double> goal = perPixel || a.side == 1024 ? std::optional(kind.goal) : std::nullopt;
         claims.add("mebibytes", mebibytes, "MiB", {}, perPixel ? std::nullopt : goal);
         claims.add("bytes_per_pixel", bytes / pixels, "B", {}, perPixel ? goal : std::nullopt);
+        std::string ratio = "-";
+        if (!a.planOnly) {
+            claims.add("planned_vs_allocated", plannedVsAllocated(scene, device, kind), "1", {}, 1);
+            ratio = fmt::format("{:.6f}", claims.claims.back().value);
+        }
+        fmt::print("{:<12} {:>5}x{:<5} {:>10.1f} {:>14.1f} {:>18}\n", kind.name, kind.settings.width,
+            kind.settings.height, mebibytes, bytes / pixels, ratio);
+        std::fflush(stdout);
         for (const Claim& claim : claims.claims) {
             all["claims"].push_back(json(claim));
         }
@@ -83,6 +116,7 @@ int main(int argc, char** argv)
     Arguments a;
     parser.add_option("--scene", a.scene, "cornell_glossy, or a scene file with one area light");
     parser.add_option("--size", a.side, "pixels a side (1024)")->check(CLI::Range(1, 32768));
+    parser.add_flag("--plan-only", a.planOnly, "renders nothing, compares with nothing allocated");
     parser.add_option("--device", a.device, "cpu, gpu, an index, or part of a name");
     parser.add_option("--json", a.json, "where the results go");
     return runProgram(parser, argc, argv, [&] { return measureAll(a); });

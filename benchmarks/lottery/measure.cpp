@@ -2,7 +2,7 @@
 
 #include "benchmarks/common/statistics.h"
 #include "benchmarks/common/variants.h"
-#include "benchmarks/distributed/image_blur.h"
+#include "benchmarks/harness/image_blur.h"
 #include "data/generator/lottery/lottery.h"
 #include "host/image/png.h"
 #include "host/render/distributed_frame.h"

@@ -1,0 +1,20 @@
+#include "benchmarks/frame_memory/frame_bytes.h"
+
+#include "host/render/device_scene.h"
+#include "host/render/hierarchy.h"
+#include "host/render/renderer.h"
+
+namespace wedge::benchmark {
+
+std::uint64_t frameBytes(
+    const scene::Scene& scene, const device::DeviceInfo& device, const render::Settings& settings, bool keepLayers)
+{
+    const render::Options options;
+    const render::Hierarchy hierarchy =
+        render::buildHierarchy(scene, options.bvh, render::resolveTraversal(options.traversal, device));
+    device::MemoryPlan ofScene;
+    render::DeviceScene::plan(ofScene, scene, hierarchy);
+    return render::Renderer::plan(scene, hierarchy, settings, keepLayers).total() - ofScene.total();
+}
+
+} // namespace wedge::benchmark

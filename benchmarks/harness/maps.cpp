@@ -1,0 +1,118 @@
+#include "benchmarks/harness/maps.h"
+
+#include "benchmarks/harness/heat_map.h"
+#include "host/error.h"
+#include "host/image/png.h"
+#include "host/render/layers.h"
+#include "kernels/shared/frame.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace wedge::benchmark {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Writes maps of one frame.
+class MapWriter {
+public:
+    MapWriter(Lab& lab, const render::Settings& settings, const std::string& folder)
+        : lab_(lab)
+        , settings_(settings)
+        , folder_(folder)
+    {
+    }
+
+    /// Counts go logarithmically from 1.
+    void write(const std::string& quantity, const std::string& unit, const std::vector<float>& values, bool logarithmic)
+    {
+        Map map { pathOf("_" + quantity), quantity, unit, logarithmic ? 1.0 : 0.0, 0.0, logarithmic };
+        std::vector<float> sorted = values;
+        const auto place = sorted.begin() + static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(sorted.size() - 1));
+        std::ranges::nth_element(sorted, place);
+        map.high = std::max(static_cast<double>(*place), map.low + 1e-6);
+        image::writePng(map.file, heatMap(values, settings_.width, settings_.height, map.low, map.high, logarithmic));
+        maps.push_back(std::move(map));
+    }
+
+    /// A plane of the frame's.
+    template <class T>
+    void plane(const std::string& quantity, const std::string& unit, const device::Buffer<T>& buffer, bool logarithmic)
+    {
+        const std::vector<T> all = buffer.downloadAll(lab_.renderer().queue());
+        const std::uint32_t stride = lab_.renderer().frame().layout.stride;
+        std::vector<float> values;
+        for (int y = 0; y < settings_.height; ++y) {
+            for (int x = 0; x < settings_.width; ++x) {
+                const auto i = shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), stride);
+                values.push_back(static_cast<float>(all[i]));
+            }
+        }
+        write(quantity, unit, values, logarithmic);
+    }
+
+    std::string pathOf(const std::string& suffix) const
+    {
+        return (fs::path(folder_) / fmt::format("{}{}.png", lab_.name(), suffix)).string();
+    }
+
+    std::vector<Map> maps;
+
+private:
+    Lab& lab_;
+    const render::Settings& settings_;
+    std::string folder_;
+};
+
+/// "width_indirect" of the channel "filterWidthIndirect.pixels"; "" of other channels.
+std::string widthName(const std::string& channel)
+{
+    const std::string before = "filterWidth", after = ".pixels";
+    if (!channel.starts_with(before) || !channel.ends_with(after)) {
+        return "";
+    }
+    std::string term = channel.substr(before.size(), channel.size() - before.size() - after.size());
+    std::ranges::transform(term, term.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return "width_" + (term.empty() ? "light" : term);
+}
+
+} // namespace
+
+std::vector<Map> writeMaps(Lab& lab, render::Settings settings, const std::string& folder)
+{
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+    if (failed) {
+        throw Error("folder for maps", folder, failed.message() + ", name another one");
+    }
+    settings.width = lab.plan().width;
+    settings.height = lab.plan().height;
+    settings.seed = 1;
+    render::Renderer& renderer = lab.renderer();
+    const render::FrameStatistics frame = renderer.render(settings, {}, true);
+    const image::LayeredImage layers = render::readLayers(renderer, settings, frame, { "samples", "filterWidth" });
+    MapWriter writer(lab, settings, folder);
+    image::writePng(writer.pathOf(""), image::beauty(layers));
+    writer.write("samples", "samples/pixel", layers.find("samples.Y")->values, true);
+    // A pinhole scene file has none of the rest.
+    if (renderer.frame().distributed) {
+        writer.plane("primary", "samples/pixel", renderer.frame().primaryTaken, true);
+        writer.plane("width_lens", "pixels", renderer.frame().lensWidth, false);
+    }
+    if (scene::geometryMoves(renderer.scene()) || scene::cameraMoves(renderer.scene())) {
+        writer.plane("width_motion", "pixels", renderer.frame().motionWidth, false);
+    }
+    for (const image::Channel& channel : layers.channels) {
+        if (const std::string name = widthName(channel.name); !name.empty()) {
+            writer.write(name, "pixels", channel.values, false);
+        }
+    }
+    lab.say(fmt::format("{} maps in {}", writer.maps.size(), folder));
+    return std::move(writer.maps);
+}
+
+} // namespace wedge::benchmark
