@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/image/image.h"
+#include "host/render/effect.h"
 #include "host/render/hierarchy.h"
 #include "host/render/settings.h"
 #include "host/scene/scene.h"
@@ -49,6 +50,7 @@ struct RenderOptions {
     bool checkLaunches = false;
     bool quiet = false, verbose = false;
     float exposureStops = 0; ///< of PNGs
+    std::vector<render::SceneChange> changes; ///< by options of effects
 
     // Ablations.
     std::optional<render::Sampling> sampling;

@@ -2,12 +2,13 @@
 //
 // Direct light of the pixels themselves is another effect's: the first rays count what surfaces send, not what lights
 // do. From the first surface on, each vertex samples one light, and the ray that goes on also counts the lights it
-// meets; the two are combined by the power heuristic.
+// meets; the two are combined by the power heuristic. What is seen beyond the scene, rays that go on meet alone.
 #ifndef WEDGE_PATH_PACKET_H
 #define WEDGE_PATH_PACKET_H
 
 #include "light/light_packet.h"
 #include "light/scene_light.h"
+#include "trace/environment.h"
 #include "trace/surface.h"
 
 /// Throughput above which Russian roulette lets every path go on, and the vertex from which it plays: paths of one or
@@ -102,7 +103,7 @@ WEDGE_FN void chooseLight(LightData lights, SampleParams params, PathPacket* pat
 }
 
 /// Sends the lane's path on from its vertex, or ends it: returns whether there is a next ray. last: the path has all
-/// its bounces, and the ray is only for the lights it meets.
+/// its bounces, and the ray is only for the lights it meets and what is beyond the scene.
 WEDGE_FN bool goOn(LightData lights, SampleParams params, PathPacket* paths, uint lane, uint vertex, bool last,
     const Surface* s, const Scattering* how, RayPacket* rays)
 {
@@ -132,7 +133,7 @@ WEDGE_FN bool goOn(LightData lights, SampleParams params, PathPacket* paths, uin
         }
         throughput = vecScale(throughput, 1.0f / survival);
     }
-    const float end = last ? farthestMeeting(lights, s->origin, l) : INFINITY;
+    const float end = last && WEDGE_ENVIRONMENT == 0 ? farthestMeeting(lights, s->origin, l) : INFINITY;
     paths->throughput[lane] = throughput;
     paths->pdf[lane] = pdf;
     setRay(rays, lane, s->origin, l, 0.0f, end);
@@ -179,8 +180,12 @@ WEDGE_FN void tracePaths(__global const TraversalNode* restrict nodes, __global 
                 const Vec3 met = radianceMet(lights, origin, direction, paths->pdf[lane], hits.t[lane]);
                 paths->radiance[lane] = vecAdd(paths->radiance[lane], vecMul(paths->throughput[lane], met));
             }
-            rays->tMax[lane] = 0.0f;
             const Hit hit = packetHit(&hits, lane);
+            if (WEDGE_ENVIRONMENT != 0 && vertex > 1u && rays->tMax[lane] > 0.0f && hit.triangle == WEDGE_NO_TRIANGLE) {
+                const Vec3 beyond = vecMul(paths->throughput[lane], environmentRadiance(direction));
+                paths->radiance[lane] = vecAdd(paths->radiance[lane], beyond);
+            }
+            rays->tMax[lane] = 0.0f;
             if (vertex > bounces || hit.triangle == WEDGE_NO_TRIANGLE) {
                 continue;
             }
@@ -190,7 +195,7 @@ WEDGE_FN void tracePaths(__global const TraversalNode* restrict nodes, __global 
             paths->radiance[lane] = vecAdd(paths->radiance[lane], vecMul(paths->throughput[lane], s.emission));
             chooseLight(lights, params, paths, lane, vertex, &s, &how, &shadow, &light[lane]);
             const bool last = vertex == bounces;
-            if (!last || (lights.sampling != WEDGE_LIGHTS_SAMPLED && lights.areaCount > 0u)) {
+            if (!last || WEDGE_ENVIRONMENT != 0 || (lights.sampling != WEDGE_LIGHTS_SAMPLED && lights.areaCount > 0u)) {
                 alive |= goOn(lights, params, paths, lane, vertex, last, &s, &how, rays);
             }
         }
