@@ -20,7 +20,7 @@ std::vector<graph::Argument> lights(const FrameBuilder& f)
         value("sceneDiameter", f.scene != nullptr ? f.scene->diameter : 0.0f) };
 }
 
-void ofPixels(FrameBuilder& f)
+void ofPixels(FrameBuilder& f, graph::Handle<Radiance>* /*own*/)
 {
     Totals& t = f.totals;
     f.trace("point lights", { program, "deltaLights" },

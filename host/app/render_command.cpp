@@ -174,6 +174,9 @@ void RenderJob::load()
         warnOf(scene_.warnings);
     }
     applyLens(options_, scene_);
+    for (const render::SceneChange& change : options_.changes) {
+        change(scene_);
+    }
     settings_ = resolveSettings(options_, scene_);
     layers_ = render::selectLayers(options_.layers, settings_, scene_);
     if (!options_.reference.empty()) {

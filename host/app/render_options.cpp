@@ -201,6 +201,16 @@ void addAblationOptions(CLI::App& parser, RenderOptions& o)
         o.lightSampling);
 }
 
+void addEffectOptions(CLI::App& parser, RenderOptions& o)
+{
+    for (const auto& effect : render::effects()) {
+        for (const render::EffectOption& option : effect->options()) {
+            addValue(parser, whatGroup, option.name, option.type, option.help,
+                [&o, parse = option.parse](const std::string& text) { o.changes.push_back(parse(text)); });
+        }
+    }
+}
+
 std::string footer()
 {
     std::string text = "Layers of an EXR besides the beauty (R G B):\n";
@@ -220,6 +230,7 @@ void addRenderOptions(CLI::App& parser, RenderOptions& options)
     addFrameOptions(parser, options);
     addIntegratorOptions(parser, options);
     addCameraOptions(parser, options);
+    addEffectOptions(parser, options);
     addMethodOptions(parser, options);
     addProgressiveOptions(parser, options);
     addDeviceOptions(parser, options);

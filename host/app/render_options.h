@@ -2,6 +2,7 @@
 
 #include "host/image/image.h"
 #include "host/image/view.h"
+#include "host/render/effect.h"
 #include "host/render/hierarchy.h"
 #include "host/render/settings.h"
 #include "host/scene/scene.h"
@@ -51,6 +52,7 @@ struct RenderOptions {
     bool quiet = false, verbose = false;
     float exposureStops = 0; ///< of PNGs
     std::optional<image::View> view; ///< of PNGs
+    std::vector<render::SceneChange> changes; ///< by options of effects
 
     // Ablations.
     std::optional<render::Sampling> sampling;

@@ -14,10 +14,10 @@ DistributedFrame::DistributedFrame(const scene::Scene& scene, const DeviceScene*
     for (const std::unique_ptr<WaveTerm>& term : samples_.terms()) {
         terms_.push_back({ samples_.state(), term->means.beta });
     }
-    Shown shown { {}, imageOf(f_.totals), samples_.taken(), {}, {}, {} };
+    Shown shown { {}, imageOf(f_.totals), samples_.taken(), {}, {}, {}, {} };
     if (keepLayers) {
         shown = { f_.surfaces, f_.totals, samples_.taken(), samples_.lensWidth(), samples_.motionWidth(),
-            samples_.motion() };
+            samples_.motion(), samples_.unfiltered() };
         shown.surfaces.emission = samples_.emission();
     }
     shown.surfaces.objectId = f_.surfaces.objectId;

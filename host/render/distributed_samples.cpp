@@ -102,10 +102,10 @@ void DistributedSamples::keepPixels()
     if (keepsMotion()) {
         motion_ = kept<Pixels>("motion", f_.packed ? shortPairs : graph::vectors);
     }
-    for (Unfiltered& light : frameUnfiltered(f_.settings, f_.description)) {
-        auto radiance = kept<Radiance>(light.name, graph::vectors);
-        auto squares = kept<Squares>("squares of " + light.name, graph::floats);
-        added_.push_back({ std::move(light), radiance, squares });
+    for (UnfilteredOf& of : frameUnfiltered(f_.settings, f_.description)) {
+        auto radiance = kept<Radiance>(of.light.name, graph::vectors);
+        auto squares = kept<Squares>("squares of " + of.light.name, graph::floats);
+        added_.push_back({ std::move(of), radiance, squares });
     }
     Totals& t = f_.totals;
     if (shape_.all) {
@@ -318,13 +318,24 @@ void DistributedSamples::addUnfiltered(Waves& waves)
     for (Added& added : added_) {
         auto radiance = waves.list<Radiance>("radiance", graph::vectors);
         f_.zero(radiance);
-        added.light.ofWaves(f_, waves, radiance);
+        added.of.light.ofWaves(f_, waves, radiance);
         waves.pixels("accumulateDelta",
             joined({ waves.pixelParams(), waves.params() }, waves.pixelLists(),
                 Arguments { reads("taken", waves.counts().taken), reads("objectId", waves.receivers().objectId),
                     reads("lit", radiance), updates("delta", added.radiance),
                     updates("deltaSquares", added.squares) }));
     }
+}
+
+std::map<std::string, graph::Handle<Radiance>> DistributedSamples::unfiltered() const
+{
+    std::map<std::string, graph::Handle<Radiance>> out;
+    for (const Added& added : added_) {
+        if (!added.of.layer.empty()) {
+            out.emplace(added.of.layer, added.radiance);
+        }
+    }
+    return out;
 }
 
 void DistributedSamples::accumulateSurfaces(Waves& waves, const Adding& adding)

@@ -6,6 +6,7 @@
 #include "host/render/waves.h"
 #include "kernels/shared/distributed.h"
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -48,6 +49,8 @@ public:
     const FrameBuilder& frame() const { return f_; }
     /// Once composed: what is seen to emit, as the image has it.
     const graph::Handle<Radiance>& emission() const { return emission_; }
+    /// Means of direct light that is not filtered, by effects' layers.
+    std::map<std::string, graph::Handle<Radiance>> unfiltered() const;
     const graph::Handle<Count>& taken() const { return counts_.taken; }
     const graph::Handle<Count>& hits() const { return hits_; }
     const graph::Handle<Pixels>& lensWidth() const { return lens_; }
@@ -126,7 +129,7 @@ private:
     graph::Handle<Squares> emissionSquares_; ///< mean squared luminance of a primary sample's emission
     /// Direct light that is not filtered.
     struct Added {
-        Unfiltered light;
+        UnfilteredOf of;
         graph::Handle<Radiance> radiance;
         graph::Handle<Squares> squares;
     };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 namespace wedge::render {
 namespace {
 
@@ -39,13 +41,36 @@ std::size_t countOf(Part part, const std::vector<Term>& terms)
     return static_cast<std::size_t>(std::ranges::count(terms, part, &Term::part));
 }
 
-std::vector<Unfiltered> frameUnfiltered(const Settings& settings, const scene::Scene& scene)
+std::vector<UnfilteredOf> frameUnfiltered(const Settings& settings, const scene::Scene& scene)
 {
-    std::vector<Unfiltered> out;
+    std::vector<UnfilteredOf> out;
     for (const auto& effect : effects()) {
         if (std::optional<Unfiltered> light = effect->unfiltered(settings, scene)) {
-            out.push_back(std::move(*light));
+            const std::optional<LayerInfo> layer = effect->layer();
+            out.push_back({ std::move(*light), layer ? layer->name : "" });
         }
+    }
+    return out;
+}
+
+device::GeneratedSources programSources(const scene::Scene& scene)
+{
+    device::GeneratedSources out;
+    std::string functions, sum;
+    for (const auto& effect : effects()) {
+        out.merge(effect->sources());
+        if (const std::optional<Environment> seen = effect->environment(scene)) {
+            functions += seen->source;
+            sum += fmt::format("    sum = vecAdd(sum, {}(direction));\n", seen->function);
+        }
+    }
+    if (!sum.empty()) {
+        out["trace/environment.h"] =
+            fmt::format("#ifndef WEDGE_ENVIRONMENT_H\n#define WEDGE_ENVIRONMENT_H\n"
+                        "#include \"shared/vec.h\"\n#define WEDGE_ENVIRONMENT 1\n{}"
+                        "WEDGE_INLINE Vec3 environmentRadiance(Vec3 direction)\n{{\n"
+                        "    Vec3 sum = vec3(0.0f, 0.0f, 0.0f);\n{}    return sum;\n}}\n#endif\n",
+                functions, sum);
     }
     return out;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/device/source.h"
 #include "host/render/frame_builder.h"
 #include "host/render/wave_term.h"
 
@@ -28,14 +29,36 @@ struct Term {
     std::function<std::unique_ptr<WaveTerm>(FrameBuilder&, const SampleShape&)> ofWaves;
 };
 
+/// A layer that wedge can write, and what its channels hold.
+struct LayerInfo {
+    std::string name;
+    std::string meaning; ///< one line, channels and units
+};
+
 /// Direct light that is added as it is sampled.
 struct Unfiltered {
     std::string name; ///< of its planes
     double workUnits = 0;
-    /// Declares its passes where the pixels are the receivers, which add to both images of totals.direct.
-    std::function<void(FrameBuilder&)> ofPixels;
+    /// Declares its passes where the pixels are the receivers, which add to both images of totals.direct, and to `own`,
+    /// which is null where nobody wants it.
+    std::function<void(FrameBuilder&, graph::Handle<Radiance>* own)> ofPixels;
     /// The same of a wave's receivers, which add to their radiance.
     std::function<void(FrameBuilder&, Waves&, graph::Handle<Radiance>&)> ofWaves;
+};
+
+/// What rays see that leave the scene, the camera's and those of paths: OpenCL C.
+struct Environment {
+    std::string function; ///< the name of one from a unit direction to radiance, both of type Vec3
+    std::string source; ///< its definition, and what it needs
+};
+
+using SceneChange = std::function<void(scene::Scene&)>;
+
+/// An option of `wedge render`, of one value.
+struct EffectOption {
+    std::string name, type, help; ///< "--sky", "RADIANCE"
+    /// What a value does. Throws UsageError.
+    std::function<SceneChange(const std::string&)> parse;
 };
 
 /// Something that light does: what it brings to a frame of given settings. Frames know effects by this alone.
@@ -51,6 +74,14 @@ public:
     virtual std::string absence(Part) const { return ""; }
     /// How its terms' layers of filter widths are called, for people; "" without terms.
     virtual std::string widthLayers() const { return ""; }
+    /// That of its unfiltered light, R G B.
+    virtual std::optional<LayerInfo> layer() const { return std::nullopt; }
+
+    /// Kernels of its own and what they include, by the paths that passes and includes name.
+    virtual device::GeneratedSources sources() const { return {}; }
+    virtual std::optional<Environment> environment(const scene::Scene&) const { return std::nullopt; }
+    /// Its table in scene files is registered with host/scene/sections.h.
+    virtual std::vector<EffectOption> options() const { return {}; }
 };
 
 /// All effects that there are, in the order in which frames have them.
@@ -68,7 +99,15 @@ struct Registration {
 std::vector<Term> frameTerms(const Settings& settings, const scene::Scene& scene);
 std::size_t countOf(Part part, const std::vector<Term>& terms);
 
-std::vector<Unfiltered> frameUnfiltered(const Settings& settings, const scene::Scene& scene);
+/// Unfiltered light of a frame, and its effect's layer, "" without.
+struct UnfilteredOf {
+    Unfiltered light;
+    std::string layer;
+};
+std::vector<UnfilteredOf> frameUnfiltered(const Settings& settings, const scene::Scene& scene);
+
+/// What effects have programs made of.
+device::GeneratedSources programSources(const scene::Scene& scene);
 
 /// Why a frame has no terms of this part.
 std::string absenceOf(Part part);

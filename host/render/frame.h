@@ -8,6 +8,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <string>
 
 namespace wedge::render {
 
@@ -44,6 +46,8 @@ struct Frame {
     device::Buffer<float> direct = none<float>(), directNoisy = none<float>(); ///< radiance, filtered and not
     device::Buffer<float> indirect = none<float>(),
                           indirectNoisy = none<float>(); ///< radiance, or how open the hemisphere is
+    std::map<std::string, device::Buffer<float>>
+        unfiltered = {}; ///< direct light that no filter had, by effects' layers
     device::Buffer<std::uint32_t> samples = none<std::uint32_t>(); ///< of all terms
     device::Buffer<std::uint32_t> indirectSamples = none<std::uint32_t>(); ///< of the indirect terms
 

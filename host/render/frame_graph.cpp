@@ -36,6 +36,9 @@ void eachShown(const Shown& shown, Frame& frame, const Visit& visit)
     one(frame.lensWidth, shown.lensWidth);
     one(frame.motionWidth, shown.motionWidth);
     one(frame.motion, shown.motion);
+    for (const auto& [layer, radiance] : shown.unfiltered) {
+        one(frame.unfiltered.try_emplace(layer, Frame::none<float>()).first->second, radiance);
+    }
 }
 
 } // namespace

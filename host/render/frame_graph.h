@@ -3,7 +3,9 @@
 #include "host/graph/execution.h"
 #include "host/render/frame_builder.h"
 
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace wedge::render {
@@ -49,6 +51,7 @@ protected:
         Totals totals;
         graph::Handle<Count> primaryTaken;
         graph::Handle<Pixels> lensWidth, motionWidth, motion;
+        std::map<std::string, graph::Handle<Radiance>> unfiltered; ///< by effects' layers
     };
     /// Wants all that is shown, and the widths of terms that are analysed if layers are kept.
     void show(const Shown& shown, bool distributed, bool analysed);

@@ -104,6 +104,10 @@ void HalvesFrame::join(bool analysed)
         t.direct.noisy = mean(a.totals.direct.noisy, b.totals.direct.noisy);
         t.indirect.filtered = mean(a.totals.indirect.filtered, b.totals.indirect.filtered);
         t.indirect.noisy = mean(a.totals.indirect.noisy, b.totals.indirect.noisy);
+        const auto ofSecond = second.unfiltered();
+        for (const auto& [layer, radiance] : first.unfiltered()) {
+            shown.unfiltered.emplace(layer, mean(radiance, ofSecond.at(layer)));
+        }
         shown.lensWidth = first.lensWidth();
         shown.motionWidth = first.motionWidth();
         shown.motion = first.motion();

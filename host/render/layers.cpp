@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -74,6 +75,8 @@ public:
     {
         vector(layer, "RGB", planes, frame().distributed ? Where::Everywhere : Where::OnSurfaces);
     }
+
+    void unfiltered(const std::string& layer) { reflected(layer + ".", frame().unfiltered.at(layer)); }
 
     /// Of an image whose pixels have one primary sample: 0.
     void ofDistributed(const std::string& layer, const char* letters, const device::Buffer<float>& planes)
@@ -152,7 +155,7 @@ using Where = LayerReader::Where;
 
 struct Layer {
     LayerInfo info;
-    void (*read)(LayerReader& reader);
+    std::function<void(LayerReader&)> read;
 };
 
 /// How layers of filter widths are called.
@@ -167,9 +170,10 @@ std::string widthLayers()
     return fmt::format("{}", fmt::join(names, "; "));
 }
 
-const std::vector<Layer>& layerTable()
+/// Those of effects last.
+std::vector<Layer> layerTable()
 {
-    static const std::vector<Layer> table = {
+    std::vector<Layer> table = {
         { { "albedo", "R G B: diffuse reflectance with its texture, 0 on a miss" },
             [](LayerReader& r) { r.vector("albedo.", "RGB", r.frame().diffuse, Where::OnSurfaces); } },
         { { "normal", "X Y Z: unit shading normal in world space on the viewer's side, 0 on a miss" },
@@ -210,6 +214,11 @@ const std::vector<Layer>& layerTable()
         { { "objectId", "I: number of the object hit, from 1; 0 on a miss, 4294967295 where several are" },
             [](LayerReader& r) { r.objectId(); } },
     };
+    for (const auto& effect : effects()) {
+        if (const std::optional<LayerInfo> layer = effect->layer()) {
+            table.push_back({ *layer, [name = layer->name](LayerReader& r) { r.unfiltered(name); } });
+        }
+    }
     return table;
 }
 
@@ -219,6 +228,12 @@ std::string obstacle(const std::string& layer, const Settings& settings, const s
     const std::vector<Term> terms = frameTerms(settings, scene);
     if (layer.starts_with("indirect") && countOf(Part::Indirect, terms) == 0) {
         return absenceOf(Part::Indirect);
+    }
+    for (const auto& effect : effects()) {
+        const std::optional<LayerInfo> own = effect->layer();
+        if (own && own->name == layer && !effect->unfiltered(settings, scene)) {
+            return "the frame has no " + effect->name();
+        }
     }
     if (!layer.starts_with(widthLayer)) {
         return "";
@@ -247,16 +262,13 @@ bool contains(const std::vector<std::string>& names, const std::string& name)
 
 } // namespace
 
-const std::vector<LayerInfo>& knownLayers()
+std::vector<LayerInfo> knownLayers()
 {
-    static const std::vector<LayerInfo> infos = [] {
-        std::vector<LayerInfo> out;
-        for (const Layer& layer : layerTable()) {
-            out.push_back(layer.info);
-        }
-        return out;
-    }();
-    return infos;
+    std::vector<LayerInfo> out;
+    for (const Layer& layer : layerTable()) {
+        out.push_back(layer.info);
+    }
+    return out;
 }
 
 std::vector<std::string> selectLayers(const std::string& list, const Settings& settings, const scene::Scene& scene)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/image/image.h"
+#include "host/render/effect.h"
 #include "host/render/renderer.h"
 #include "host/render/settings.h"
 
@@ -9,14 +10,8 @@
 
 namespace wedge::render {
 
-/// A layer that wedge can write, and what its channels hold.
-struct LayerInfo {
-    std::string name;
-    std::string meaning; ///< one line, channels and units
-};
-
 /// All layers, in the order in which they are written. The beauty is not among them: it is always there.
-const std::vector<LayerInfo>& knownLayers();
+std::vector<LayerInfo> knownLayers();
 
 /// The layers that a list "albedo,normal" names, each once; "all" means all that `settings` and the scene make, ""
 /// none. Throws UsageError for a name that is unknown, or that these settings do not make.

@@ -23,8 +23,14 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
     primary(lit);
     const std::vector<Term> terms = frameTerms(settings, scene);
     addTerms(Part::Direct, terms);
-    for (const Unfiltered& light : frameUnfiltered(settings, scene)) {
-        light.ofPixels(f_);
+    std::map<std::string, graph::Handle<Radiance>> unfiltered;
+    for (const UnfilteredOf& added : frameUnfiltered(settings, scene)) {
+        graph::Handle<Radiance>* own = nullptr;
+        if (keepLayers && !added.layer.empty()) {
+            own = &unfiltered.emplace(added.layer, graph_.plane<Radiance>(added.layer, graph::vectors)).first->second;
+            f_.zero(*own);
+        }
+        added.light.ofPixels(f_, own);
     }
     const bool fallsBack = usesFallback(settings), reflects = countOf(Part::Indirect, terms) > 0;
     if (fallsBack && countOf(Part::Direct, terms) > 0) {
@@ -48,9 +54,9 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
     } else {
         f_.totals.beauty = beauty;
     }
-    Shown shown { {}, imageOf(f_.totals), {}, {}, {}, {} };
+    Shown shown { {}, imageOf(f_.totals), {}, {}, {}, {}, {} };
     if (keepLayers) {
-        shown = { f_.surfaces, f_.totals, {}, {}, {}, {} };
+        shown = { f_.surfaces, f_.totals, {}, {}, {}, {}, unfiltered };
     }
     shown.surfaces.objectId = f_.surfaces.objectId;
     if (std::ranges::any_of(terms, &Term::ofLobes)) {

@@ -48,6 +48,7 @@ device::BuildOptions programOptions(const scene::Scene& scene, const Options& op
     }
     out.fastMath = options.fastMath;
     out.kernelDir = options.kernelDir;
+    out.generated = programSources(scene);
     return out;
 }
 
@@ -165,8 +166,8 @@ double Renderer::workUnits(const Settings& settings) const
     for (const Term& term : frameTerms(settings, scene_)) {
         units += term.workUnits;
     }
-    for (const Unfiltered& light : frameUnfiltered(settings, scene_)) {
-        units += light.workUnits;
+    for (const UnfilteredOf& added : frameUnfiltered(settings, scene_)) {
+        units += added.light.workUnits;
     }
     return units;
 }

@@ -31,6 +31,7 @@ void readSceneText(const std::string& text, const std::filesystem::path& path, c
     readBackground(root, scene);
     readLights(root, scene, warnings);
     readShutter(root, scene);
+    readExtensions(root, scene);
     // Materials before the meshes that choose among them, meshes before the camera that may have to frame them.
     scene.materials = readMaterials(root, textures, warnings);
     for (const char* later : { "mesh", "camera" })

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <any>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -112,6 +114,7 @@ struct Scene {
     ShutterProfile shutterProfile = ShutterProfile::Box;
     double shutterOpen = 0.0, shutterClose = 0.0; ///< in the time of the scene file's keys; all above is as of these
     Settings settings;
+    std::map<std::string, std::any> extensions; ///< of the tables of sections.h, by their keys
     std::vector<std::string> warnings; ///< one line each, for the user
 };
 

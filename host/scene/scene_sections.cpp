@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "host/scene/sections.h"
 #include "host/scene/validate.h"
 
 namespace wedge::scene {
@@ -144,6 +145,16 @@ void readLights(TableReader& root, Scene& scene, Warnings& warnings)
         else
             readDirectional(table, scene);
         table.finish();
+    }
+}
+
+void readExtensions(TableReader& root, Scene& scene)
+{
+    for (const Section& section : sections()) {
+        if (auto table = root.table(section.key)) {
+            scene.extensions[section.key] = section.read(*table);
+            table->finish();
+        }
     }
 }
 

@@ -12,5 +12,7 @@ void readImage(TableReader& root, Scene& scene);
 void readIntegrator(TableReader& root, Scene& scene);
 void readBackground(TableReader& root, Scene& scene);
 void readLights(TableReader& root, Scene& scene, Warnings& warnings);
+/// Those of sections.h.
+void readExtensions(TableReader& root, Scene& scene);
 
 } // namespace wedge::scene

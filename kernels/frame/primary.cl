@@ -7,6 +7,7 @@
 //      negative: Phong)
 #include "core/pixel.h"
 #include "light/seen_light.h"
+#include "trace/environment.h"
 #include "trace/packet.h"
 #include "trace/surface.h"
 
@@ -52,7 +53,8 @@ __kernel void primary(FrameParams frame, __global const TraversalNode* restrict 
         if (hit.triangle == WEDGE_NO_TRIANGLE) {
             objectId[i] = 0u;
             depth[i] = hit.t * length;
-            storeVec(emission, size, i, hit.t < INFINITY ? lightRadiance[lane] : frame.background);
+            const Vec3 behind = vecAdd(frame.background, environmentRadiance(vecNormalize(direction)));
+            storeVec(emission, size, i, hit.t < INFINITY ? lightRadiance[lane] : behind);
             continue;
         }
         const Surface s = surfaceAt(data, hit, direction, timeOf(&packet, lane));

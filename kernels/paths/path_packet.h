@@ -2,12 +2,14 @@
 //
 // Direct light of the pixels themselves is another effect's: the first rays count what surfaces reflect, not what they
 // or lights send. From the first surface on, each vertex samples one light, or a mesh that emits, and the ray that goes
-// on also counts what it meets of these; the two are combined by the power heuristic.
+// on also counts what it meets of these; the two are combined by the power heuristic. What is seen beyond the scene,
+// rays that go on meet alone.
 #ifndef WEDGE_PATH_PACKET_H
 #define WEDGE_PATH_PACKET_H
 
 #include "light/light_packet.h"
 #include "light/scene_light.h"
+#include "trace/environment.h"
 #include "trace/surface.h"
 
 /// Throughput above which Russian roulette lets every path go on, and the vertex from which it plays: paths of one or
@@ -102,7 +104,7 @@ WEDGE_FN void chooseLight(LightData lights, SampleParams params, PathPacket* pat
 }
 
 /// Sends the lane's path on from its vertex, or ends it: returns whether there is a next ray. last: the path has all
-/// its bounces, and the ray is only for the lights it meets.
+/// its bounces, and the ray is only for the lights it meets and what is beyond the scene.
 WEDGE_FN bool goOn(LightData lights, SampleParams params, PathPacket* paths, uint lane, uint vertex, bool last,
     const Surface* s, const Scattering* how, RayPacket* rays)
 {
@@ -132,8 +134,9 @@ WEDGE_FN bool goOn(LightData lights, SampleParams params, PathPacket* paths, uin
         }
         throughput = vecScale(throughput, 1.0f / survival);
     }
-    // What emits may be anywhere.
-    const float end = last && lights.emitters.count == 0u ? farthestMeeting(lights, s->origin, l) : INFINITY;
+    // What emits may be anywhere, and so is what lies beyond the scene.
+    const bool anywhere = lights.emitters.count > 0u || WEDGE_ENVIRONMENT != 0;
+    const float end = last && !anywhere ? farthestMeeting(lights, s->origin, l) : INFINITY;
     paths->throughput[lane] = throughput;
     paths->pdf[lane] = pdf;
     setRay(rays, lane, s->origin, l, 0.0f, end);
@@ -192,12 +195,16 @@ WEDGE_FN void tracePaths(__global const TraversalNode* restrict nodes, __global 
                 const Vec3 met = radianceMet(lights, origin, direction, paths->pdf[lane], hits.t[lane]);
                 paths->radiance[lane] = vecAdd(paths->radiance[lane], vecMul(paths->throughput[lane], met));
             }
-            rays->tMax[lane] = 0.0f;
             const Hit hit = packetHit(&hits, lane);
             if (vertex > 1u) {
                 const Vec3 met = emittedMet(lights, hit, direction, paths->pdf[lane], timeOf(rays, lane));
                 paths->radiance[lane] = vecAdd(paths->radiance[lane], vecMul(paths->throughput[lane], met));
             }
+            if (WEDGE_ENVIRONMENT != 0 && vertex > 1u && rays->tMax[lane] > 0.0f && hit.triangle == WEDGE_NO_TRIANGLE) {
+                const Vec3 beyond = vecMul(paths->throughput[lane], environmentRadiance(direction));
+                paths->radiance[lane] = vecAdd(paths->radiance[lane], beyond);
+            }
+            rays->tMax[lane] = 0.0f;
             if (vertex > bounces || hit.triangle == WEDGE_NO_TRIANGLE) {
                 continue;
             }
@@ -206,7 +213,8 @@ WEDGE_FN void tracePaths(__global const TraversalNode* restrict nodes, __global 
             paths->distance[lane] = vertex == 1u ? hit.t : paths->distance[lane];
             chooseLight(lights, params, paths, lane, vertex, &s, &how, &shadow, &light[lane]);
             const bool last = vertex == bounces;
-            if (!last || (lights.sampling != WEDGE_LIGHTS_SAMPLED && lights.areaCount + lights.emitters.count > 0u)) {
+            const bool meets = lights.sampling != WEDGE_LIGHTS_SAMPLED && lights.areaCount + lights.emitters.count > 0u;
+            if (!last || WEDGE_ENVIRONMENT != 0 || meets) {
                 alive |= goOn(lights, params, paths, lane, vertex, last, &s, &how, rays);
             }
         }

@@ -12,6 +12,7 @@
 #include "light/seen_light.h"
 #include "shared/camera.h"
 #include "shared/wave.h"
+#include "trace/environment.h"
 #include "trace/packet.h"
 #include "trace/surface.h"
 
@@ -95,7 +96,8 @@ __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wav
         depth[i] = hit.t;
         if (hit.triangle == WEDGE_NO_TRIANGLE) {
             objectId[i] = 0u;
-            storeVec(emission, size, i, hit.t < INFINITY ? lightRadiance[lane] : frame.background);
+            const Vec3 behind = vecAdd(frame.background, environmentRadiance(vecNormalize(ray.direction)));
+            storeVec(emission, size, i, hit.t < INFINITY ? lightRadiance[lane] : behind);
             continue;
         }
         const Surface s = surfaceAt(data, hit, ray.direction, ray.time);

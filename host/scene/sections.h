@@ -1,0 +1,23 @@
+#pragma once
+
+#include <any>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace wedge::scene {
+
+class TableReader;
+
+/// A table of scene files that means something to others alone: [key]. What is read of it becomes
+/// Scene::extensions[key].
+struct Section {
+    std::string key;
+    std::function<std::any(TableReader&)> read; ///< throws Error for what is wrong in it
+};
+
+/// Adds one. Not while anybody reads scenes.
+void registerSection(Section section);
+const std::vector<Section>& sections();
+
+} // namespace wedge::scene
