@@ -134,6 +134,7 @@ TEST_CASE("more samples asked for are taken: where the first ones saw little, an
             scene::Scene scene = wallInFocus();
             scene.camera.apertureRadius = 0.1f;
             scene.camera.focusDistance = 2.5f;
+            scene.materials[0].emission = glm::vec3(0);
             (pointLights ? scene.areaLights.clear() : scene.pointLights.clear());
             render::Renderer renderer(scene, device, renderOptions());
             const render::Settings truth = sized(render::monteCarlo(400), 40, 30);
@@ -315,6 +316,7 @@ TEST_CASE(
             CAPTURE(static_cast<int>(moves));
             scene::Scene scene = movingWall(moves);
             scene.pointLights.clear();
+            scene.materials[0].emission = glm::vec3(0);
             render::Settings settings = sized(render::axisAligned(16), 1024, 1024);
             settings.bounces = 1;
             const render::Renderer renderer(scene, device, renderOptions());
