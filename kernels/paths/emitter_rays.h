@@ -4,8 +4,6 @@
 #define WEDGE_EMITTER_RAYS_H
 
 #include "paths/path_packet.h"
-#include "paths/path_sampling.h"
-#include "paths/sink.h"
 
 /// What a receiver reflects.
 typedef struct {

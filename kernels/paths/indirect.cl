@@ -5,10 +5,12 @@
 //         ends
 // in out  taken (samples so far), rays (all), pathRays (those that look for the nearest surface), and what the sinks
 //         have
-#include "paths/emitter_rays.h"
 #include "paths/path_packet.h"
 #include "paths/path_sampling.h"
 #include "paths/sink.h"
+
+// After the sinks, of which it asks whether they take distances.
+#include "paths/emitter_rays.h"
 
 #define WEDGE_PATH_SEED 0x70617468u
 

@@ -135,7 +135,7 @@ WEDGE_FN bool goOn(LightData lights, SampleParams params, PathPacket* paths, uin
         throughput = vecScale(throughput, 1.0f / survival);
     }
     // What emits may be anywhere, and so is what lies beyond the scene.
-    const bool anywhere = lights.emitters.count > 0u || WEDGE_ENVIRONMENT != 0;
+    const bool open = WEDGE_ENVIRONMENT != 0, anywhere = open || lights.emitters.count > 0u;
     const float end = last && !anywhere ? farthestMeeting(lights, s->origin, l) : INFINITY;
     paths->throughput[lane] = throughput;
     paths->pdf[lane] = pdf;
@@ -214,7 +214,8 @@ WEDGE_FN void tracePaths(__global const TraversalNode* restrict nodes, __global 
             chooseLight(lights, params, paths, lane, vertex, &s, &how, &shadow, &light[lane]);
             const bool last = vertex == bounces;
             const bool meets = lights.sampling != WEDGE_LIGHTS_SAMPLED && lights.areaCount + lights.emitters.count > 0u;
-            if (!last || WEDGE_ENVIRONMENT != 0 || meets) {
+            const bool open = WEDGE_ENVIRONMENT != 0;
+            if (!last || open || meets) {
                 alive |= goOn(lights, params, paths, lane, vertex, last, &s, &how, rays);
             }
         }
