@@ -167,7 +167,7 @@ TEST_CASE("a mesh lamp brings the light of a quad of its size and power, and har
     });
 }
 
-TEST_CASE("points on emitters, directions and both agree: glossy, textured, small, in motion, over bounces")
+TEST_CASE("points on emitters, directions and both agree: glossy, textured, small, over bounces")
 {
     onEveryDevice([](const device::Device& device) {
         checkWays(roomWithMeshLamp(), device, 0);
@@ -184,6 +184,52 @@ TEST_CASE("points on emitters, directions and both agree: glossy, textured, smal
         balls.sphere({ -1.0f, 0.9f, -1.2f }, 0.1f, 5, addGlow(balls, { 4, 9, 30 }));
         checkWays(balls, device, 0);
         checkWays(balls, device, 2);
+    });
+}
+
+TEST_CASE("points on emitters, directions and both agree: in motion, and beside other lights")
+{
+    onEveryDevice([](const device::Device& device) {
+        SceneBuilder moving = room();
+        const std::size_t before = moving.scene.geometry.positions.size();
+        moving.sphere({ 0.4f, 0.5f, 0.5f }, 0.15f, 5, addGlow(moving, { 15, 12, 9 }));
+        scene::Geometry& g = moving.scene.geometry;
+        g.positionsAtClose = g.positions;
+        g.normalsAtClose = g.normals;
+        for (std::size_t i = before; i < g.positions.size(); i += 3)
+            g.positionsAtClose[i] = 1.3f * g.positions[i] + 0.3f; // wider, and to the right
+        checkWays(moving, device, 1);
+        SceneBuilder mixed = roomWithMeshLamp();
+        mixed.light({ -1, 1.8f, 0.5f }, { 0.2f, 0, 0 }, { 0, 0, 0.2f }, scene::LightProfile::Gaussian, 20).twoSided =
+            true;
+        checkWays(mixed, device, 1);
+    });
+}
+
+TEST_CASE("faces that are there twice count once, and thin plates hide what is behind them")
+{
+    onEveryDevice([](const device::Device& device) {
+        for (const float apart : { 0.0f, 5e-5f }) {
+            CAPTURE(apart);
+            SceneBuilder twice = roomWithMeshLamp();
+            twice.quad(lampCentre - glm::vec3(0, apart, 0), lampV, lampU,
+                static_cast<std::uint32_t>(twice.scene.materials.size() - 1));
+            const Moments once = lightOf(roomWithMeshLamp(), device, found(render::LightSampling::Both, 256, 1));
+            checkAgreement(lightOf(twice, device, found(render::LightSampling::Both, 256, 1)), once, 2e-3);
+            checkAgreement(lightOf(twice, device, found(render::LightSampling::Lights, 256, 1)), once, 2e-3);
+        }
+    });
+}
+
+TEST_CASE("what emits and has no area is no light")
+{
+    onEveryDevice([](const device::Device& device) {
+        SceneBuilder b = room();
+        b.triangle({ 0, 1, 0 }, { 1, 1, 0 }, { 2, 1, 0 }, addGlow(b, glm::vec3(5)));
+        CHECK_FALSE(render::hasEmitters(b.scene));
+        CHECK(render::emitterList(b.scene).list.empty());
+        for (const render::Settings& method : { render::monteCarlo(16), render::axisAligned(16) })
+            CHECK(lightOf(b, device, settingsOf(method, 1), 2).average() == 0);
     });
 }
 

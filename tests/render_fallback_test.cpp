@@ -82,7 +82,7 @@ TEST_CASE("pictures of light that few paths find do not become darker")
         b.camera({ 0, 3, 3 }, { 0, 0, 0 });
         render::Renderer renderer(b.scene, device, renderOptions());
         render::Settings settings = sized(render::axisAligned(28), width, height);
-        settings.bounces = 1;
+        settings.lightSampling = render::LightSampling::Directions;
         // Of the same samples, so that they need not be many.
         double plain = 0, filtered = 0, shown = 0;
         const auto sumOf = [&](const device::Buffer<float>& plane) {
@@ -94,11 +94,11 @@ TEST_CASE("pictures of light that few paths find do not become darker")
         for (settings.seed = 1; settings.seed <= 16; ++settings.seed) {
             settings.fallback = false;
             renderer.render(settings, {}, true);
-            plain += sumOf(renderer.frame().indirectNoisy);
-            filtered += sumOf(renderer.frame().indirect);
+            plain += sumOf(renderer.frame().directNoisy);
+            filtered += sumOf(renderer.frame().direct);
             settings.fallback = true;
             renderer.render(settings, {}, true);
-            shown += sumOf(renderer.frame().indirect);
+            shown += sumOf(renderer.frame().direct);
         }
         CAPTURE(filtered / plain);
         CAPTURE(shown / filtered);

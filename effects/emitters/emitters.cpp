@@ -12,7 +12,7 @@ Term termOf(Component component, const char* name, const Settings& settings)
 {
     return { .name = name,
         .part = Part::Direct,
-        .workUnits = 2.0 * settings.spp,
+        .workUnits = static_cast<double>(settings.spp),
         .gathersVariance = true,
         .ofLobes = isGlossy(component),
         .ofPixels = [component](FrameBuilder& frame, const std::shared_ptr<TermState>& state,

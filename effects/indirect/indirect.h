@@ -8,7 +8,7 @@
 
 namespace wedge::render {
 
-/// What a term of indirect light holds.
+/// What a term holds that is sampled by rays over the hemisphere.
 enum class Component : std::uint32_t {
     Diffuse = WEDGE_COMPONENT_DIFFUSE,
     Glossy = WEDGE_COMPONENT_GLOSSY,

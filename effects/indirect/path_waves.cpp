@@ -49,7 +49,7 @@ void PathWaves::sample(
                 updates("reflectors", own.extremes) }));
     const graph::Handle<Reflectance>& reflectance = isGlossy(component_) ? r.specular : r.diffuse;
     waves.pixels("accumulatePaths",
-        joined({ waves.pixelParams(), waves.params(omits()),
+        joined({ waves.pixelParams(), waves.params(omits() | (isOfEmitters(component_) ? WEDGE_OMITS_INDIRECT : 0u)),
                    value("ambient", component_ == Component::Ambient ? 1u : 0u) },
             waves.pixelLists(),
             Arguments { reads("taken", counts.taken), reads("hits", hits), reads("objectId", r.objectId),

@@ -4,6 +4,7 @@
 #include "host/app/values.h"
 #include "host/error.h"
 #include "host/render/distributed_frame.h"
+#include "host/render/emitters.h"
 
 #include <algorithm>
 
@@ -79,13 +80,14 @@ void refuse(bool given, const std::string& with, const std::string& option, cons
     }
 }
 
-void applyPaths(const RenderOptions& o, const scene::Settings& file, render::Settings& s)
+void applyPaths(const RenderOptions& o, const scene::Scene& scene, render::Settings& s)
 {
     refuse(o.ambientDistance.has_value(), "with integrator path",
         fmt::format("--ao-distance {}", o.ambientDistance.value_or(0)), "add --integrator ao");
+    const scene::Settings& file = scene.settings;
     s.bounces = o.bounces ? *o.bounces : file.bounces.value_or(0);
-    refuse(o.lightSampling && s.bounces == 0 && s.method == Method::AxisAligned, "without bounces", "--light-sampling",
-        "add --bounces 1");
+    refuse(o.lightSampling && s.bounces == 0 && s.method == Method::AxisAligned && !render::hasEmitters(scene),
+        "without bounces", "--light-sampling", "add --bounces 1");
     if (o.lightSampling) {
         s.lightSampling = *o.lightSampling;
     } else if (file.lightSampling) {
@@ -105,13 +107,14 @@ void applyAmbientOcclusion(const RenderOptions& o, const scene::Settings& file, 
 
 /// The integrator and what goes with it alone. Options for the other one are mistakes; what the file has for the other
 /// one is overridden.
-void applyIntegrator(const RenderOptions& o, const scene::Settings& file, render::Settings& s)
+void applyIntegrator(const RenderOptions& o, const scene::Scene& scene, render::Settings& s)
 {
+    const scene::Settings& file = scene.settings;
     s.integrator = o.integrator.value_or(file.integrator == "ao" ? Integrator::AmbientOcclusion : Integrator::Path);
     if (s.integrator == Integrator::AmbientOcclusion) {
         applyAmbientOcclusion(o, file, s);
     } else {
-        applyPaths(o, file, s);
+        applyPaths(o, scene, s);
     }
 }
 
@@ -214,7 +217,7 @@ render::Settings resolveSettings(const RenderOptions& o, const scene::Scene& sce
     s.seed = o.seed.value_or(file.seed);
     s.sampler = o.sampler.value_or(s.sampler);
     s.progressive = o.progressive;
-    applyIntegrator(o, file, s);
+    applyIntegrator(o, scene, s);
     s.antialias = o.antialias.value_or(file.antialias);
     const bool distributed = render::isDistributed(s, scene);
     if (method == Method::AxisAligned) {

@@ -229,7 +229,6 @@ DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, 
     emitters.upload(queue, list.list);
     emitterPicks.upload(queue, list.picks);
     emitterCount = static_cast<std::uint32_t>(list.list.size());
-    emits = emitterCount > 0;
     areaLights.upload(queue, areaLightList);
     deltaLights.upload(queue, delta);
     deltaLightCount = static_cast<std::uint32_t>(delta.size());

@@ -60,7 +60,6 @@ public:
     float diameter = 0; ///< metres, diagonal of the bounds
     float largestDimension = 0; ///< metres, of the bounds
     bool specular = false; ///< hasSpecular()
-    bool emits = false; ///< hasEmitters()
     bool moves = false; ///< scene::geometryMoves()
 };
 

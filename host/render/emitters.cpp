@@ -3,9 +3,11 @@
 #include "kernels/shared/bsdf.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <utility>
 
 namespace wedge::render {
 namespace {
@@ -28,6 +30,14 @@ glm::vec3 meanColour(const scene::Scene& scene, const scene::Texture& texture, s
         const double within = x - std::floor(x);
         return std::isfinite(within) ? std::min(static_cast<int>(within * size), size - 1) : 0;
     };
+    // 2.2 in the place of the sRGB curve: these are probabilities.
+    static const std::array<double, 256> linear = [] {
+        std::array<double, 256> out {};
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            out[i] = std::pow(static_cast<double>(i) / 255.0, 2.2);
+        }
+        return out;
+    }();
     glm::dvec3 sum(0);
     for (int i = 0; i < textureSamples * textureSamples; ++i) {
         const shared::Vec2 w =
@@ -38,11 +48,47 @@ glm::vec3 meanColour(const scene::Scene& scene, const scene::Texture& texture, s
             texture.rgba[static_cast<std::size_t>(texel(at.y, texture.height)) * static_cast<std::size_t>(texture.width)
                 + static_cast<std::size_t>(texel(at.x, texture.width))];
         for (int channel = 0; channel < 3; ++channel) {
-            // 2.2 in the place of the sRGB curve: these are probabilities.
-            sum[channel] += std::pow(((rgba >> (8 * channel)) & 255u) / 255.0, 2.2);
+            sum[channel] += linear[(rgba >> (8 * channel)) & 255u];
         }
     }
     return glm::max(glm::vec3(sum / static_cast<double>(textureSamples * textureSamples)), glm::vec3(1e-3f));
+}
+
+glm::dvec3 cornerOf(const scene::Geometry& g, std::size_t triangle, std::size_t k)
+{
+    const std::size_t v = g.indices[3 * triangle + k];
+    return { g.positions[3 * v], g.positions[3 * v + 1], g.positions[3 * v + 2] };
+}
+
+/// When the shutter opens.
+double areaOf(const scene::Geometry& g, std::size_t triangle)
+{
+    const glm::dvec3 a = cornerOf(g, triangle, 0);
+    return 0.5 * glm::length(glm::cross(cornerOf(g, triangle, 1) - a, cornerOf(g, triangle, 2) - a));
+}
+
+/// 0 of what has no area, or more than numbers can hold.
+double powerOf(double area, float luminance)
+{
+    const double power = area * luminance;
+    return std::isfinite(power) && power > 1e-30 ? power : 0.0;
+}
+
+/// A triangle's corners in an order that does not depend on where it begins or which way it winds.
+using Corners = std::array<float, 9>;
+Corners cornersOf(const scene::Geometry& g, std::size_t triangle)
+{
+    std::array<std::array<float, 3>, 3> corners {};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::vec3 c(cornerOf(g, triangle, k));
+        corners[k] = { c.x, c.y, c.z };
+    }
+    std::ranges::sort(corners);
+    Corners out {};
+    for (std::size_t i = 0; i < 9; ++i) {
+        out[i] = corners[i / 3][i % 3];
+    }
+    return out;
 }
 
 /// What is added up of an object's triangles.
@@ -71,10 +117,7 @@ std::uint32_t pairOf(const scene::Geometry& g, const Emitting& one, const Emitti
         return WEDGE_PAIR_NONE;
     }
     // By where they are: readers may split corners.
-    const auto corner = [&](const Emitting& e, std::size_t k) {
-        const std::size_t v = g.indices[3 * e.triangle + k];
-        return glm::vec3(g.positions[3 * v], g.positions[3 * v + 1], g.positions[3 * v + 2]);
-    };
+    const auto corner = [&](const Emitting& e, std::size_t k) { return cornerOf(g, e.triangle, k); };
     if (corner(one, 0) == corner(other, 0) && corner(one, 2) == corner(other, 1)) {
         return WEDGE_PAIR_FIRST;
     }
@@ -82,25 +125,30 @@ std::uint32_t pairOf(const scene::Geometry& g, const Emitting& one, const Emitti
     return second ? WEDGE_PAIR_SECOND : WEDGE_PAIR_NONE;
 }
 
-std::vector<Emitting> emitting(const scene::Scene& scene, std::map<std::uint32_t, Moments>& objects)
+/// twins: triangles that lie in the place of another one, and that one.
+std::vector<Emitting> emitting(const scene::Scene& scene, std::map<std::uint32_t, Moments>& objects,
+    std::vector<std::pair<std::size_t, std::size_t>>& twins)
 {
     const scene::Geometry& g = scene.geometry;
     std::vector<Emitting> out;
+    std::map<Corners, std::size_t> known;
     for (std::size_t t = 0; t < g.materialIds.size(); ++t) {
         const scene::Material& m = scene.materials[g.materialIds[t]];
         if (!(luminanceOf(m.emission) > 0)) {
             continue;
         }
-        const auto corner = [&](std::size_t k) {
-            const std::size_t v = g.indices[3 * t + k];
-            return glm::dvec3(g.positions[3 * v], g.positions[3 * v + 1], g.positions[3 * v + 2]);
-        };
-        const glm::dvec3 a = corner(0), b = corner(1), c = corner(2), middle = (a + b + c) / 3.0;
+        const glm::dvec3 a = cornerOf(g, t, 0), b = cornerOf(g, t, 1), c = cornerOf(g, t, 2),
+                         middle = (a + b + c) / 3.0;
         const glm::vec3 colour = m.emissionTexture < 0
             ? m.emission
             : m.emission * meanColour(scene, scene.textures[static_cast<std::size_t>(m.emissionTexture)], t);
-        const double power = 0.5 * glm::length(glm::cross(b - a, c - a)) * luminanceOf(colour);
-        if (!(power > 0) || !std::isfinite(power)) {
+        const double power = powerOf(areaOf(g, t), luminanceOf(colour));
+        if (!(power > 0)) {
+            continue;
+        }
+        // Faces that exporters write twice, once each way round, are one: rays meet one of them.
+        if (const auto [first, isFirst] = known.try_emplace(cornersOf(g, t), t); !isFirst) {
+            twins.emplace_back(t, first->second);
             continue;
         }
         out.push_back({ t, power });
@@ -122,14 +170,21 @@ bool hasEmitters(const scene::Scene& scene)
     for (const scene::Material& m : scene.materials) {
         emits.push_back(luminanceOf(m.emission) > 0);
     }
-    return std::ranges::any_of(scene.geometry.materialIds, [&](std::uint32_t id) { return emits[id]; });
+    for (std::size_t t = 0; t < scene.geometry.materialIds.size(); ++t) {
+        const std::uint32_t id = scene.geometry.materialIds[t];
+        if (emits[id] && powerOf(areaOf(scene.geometry, t), luminanceOf(scene.materials[id].emission)) > 0) {
+            return true;
+        }
+    }
+    return false;
 }
 
 EmitterList emitterList(const scene::Scene& scene)
 {
     EmitterList out;
     std::map<std::uint32_t, Moments> objects;
-    const std::vector<Emitting> triangles = emitting(scene, objects);
+    std::vector<std::pair<std::size_t, std::size_t>> twins;
+    const std::vector<Emitting> triangles = emitting(scene, objects, twins);
     if (triangles.empty()) {
         return out;
     }
@@ -159,6 +214,9 @@ EmitterList emitterList(const scene::Scene& scene)
             picks[e.triangle + 1] = picks[e.triangle];
         }
         before = upTo;
+    }
+    for (const auto& [twin, first] : twins) {
+        picks[twin] = picks[first];
     }
     return out;
 }

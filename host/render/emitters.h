@@ -7,7 +7,7 @@
 
 namespace wedge::render {
 
-/// Whether any triangle emits.
+/// Whether any triangle emits, when the shutter opens: one that has an area then.
 bool hasEmitters(const scene::Scene& scene);
 
 /// The scene's triangles that emit, as kernels choose among them (kernels/light/emitters.h): in proportion to their

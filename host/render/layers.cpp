@@ -192,7 +192,7 @@ std::vector<Layer> layerTable()
             [](LayerReader& r) { r.reflected("indirect.", r.frame().indirect); } },
         { { "indirectNoisy", "R G B: the same before the filter" },
             [](LayerReader& r) { r.reflected("indirectNoisy.", r.frame().indirectNoisy); } },
-        { { "samples", "Y: samples taken of all terms (area lights, indirect diffuse, indirect glossy) together" },
+        { { "samples", "Y: samples taken of all terms (lights, indirect diffuse, indirect glossy) together" },
             [](LayerReader& r) { r.samples(); } },
         { { "rays", "Y: rays traced for the pixel, the camera's included" }, [](LayerReader& r) { r.rays(); } },
         { { widthLayer,

@@ -38,11 +38,15 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
     const std::vector<Term> terms = frameTerms(settings, scene_);
     const std::size_t direct = countOf(Part::Direct, terms), reflected = terms.size() - direct;
     // Pixels of several receivers take samples of all terms whatever is there.
-    const auto ofLobes = static_cast<std::size_t>(std::ranges::count(terms, true, &Term::ofLobes));
-    const bool apart = !frame_->distributed && ofLobes > 0;
+    const auto lobesOf = [&](Part part) {
+        return static_cast<std::size_t>(
+            std::ranges::count_if(terms, [&](const Term& t) { return t.part == part && t.ofLobes; }));
+    };
+    const std::size_t directLobes = lobesOf(Part::Direct), reflectedLobes = lobesOf(Part::Indirect);
+    const bool apart = !frame_->distributed && directLobes + reflectedLobes > 0;
     const std::vector<float> specular = apart ? frame_->specular.downloadAll(queue_) : std::vector<float> {};
     const std::size_t size = frame_->layout.size;
-    std::uint64_t total = 0, indirectTotal = 0, indirectPixels = 0;
+    std::uint64_t total = 0, indirectTotal = 0, directPixels = 0, indirectPixels = 0;
     for (int y = output.y0; y < output.y1; ++y) {
         for (int x = output.x0; x < output.x1; ++x) {
             const std::size_t i =
@@ -54,7 +58,8 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
             total += samples[i];
             indirectTotal += indirect[i];
             const bool matte = apart && !(specular[i] + specular[size + i] + specular[2 * size + i] > 0);
-            indirectPixels += matte ? reflected - ofLobes : reflected;
+            directPixels += matte ? direct - directLobes : direct;
+            indirectPixels += matte ? reflected - reflectedLobes : reflected;
         }
     }
     const bool whole = settings.method == Method::AxisAligned;
@@ -74,7 +79,6 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
     }
     statistics.indirectRays = std::accumulate(pathRays.begin(), pathRays.end(), std::uint64_t { 0 });
     statistics.shadowRays = std::accumulate(rays.begin(), rays.end(), std::uint64_t { 0 }) - statistics.indirectRays;
-    const std::uint64_t directPixels = statistics.shadedPixels * direct;
     const auto mean = [](std::uint64_t sum, std::uint64_t count) {
         return count > 0 ? static_cast<double>(sum) / static_cast<double>(count) : 0.0;
     };

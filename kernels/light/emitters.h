@@ -24,6 +24,7 @@ typedef struct {
     Vec3 radiance;
     float density; ///< of the point, 1/m^2
     float extent; ///< metres, of the emitter
+    float error; ///< metres: rounding of the point and of tests of rays that end at it
 } EmitterPoint;
 
 /// Twice the area of a triangle times its unit normal, at a time.
@@ -88,7 +89,18 @@ WEDGE_FN EmitterPoint sampleEmitter(EmitterData e, Vec2 u, float time)
     p.radiance = emittedAt(data, triangle, weights);
     p.density = 2.0f * e.picks[triangle] / fmax(twice, 1e-30f);
     p.extent = emitter.extent;
+    const Vec3 far = vec3(
+        fabs(a.x) + fabs(ab.x) + fabs(ac.x), fabs(a.y) + fabs(ab.y) + fabs(ac.y), fabs(a.z) + fabs(ab.z) + fabs(ac.z));
+    p.error = WEDGE_ORIGIN_ULPS * WEDGE_ULP * (far.x + far.y + far.z);
     return p;
+}
+
+/// From there to the point, lifted off the emitter: the ray meets what is before it, be it ever so near, but not the
+/// emitter itself.
+WEDGE_FN Vec3 emitterShadowRay(const EmitterPoint* p, Vec3 origin)
+{
+    const Vec3 ray = vecSub(p->point, origin);
+    return vecMad(ray, p->normal, vecDot(p->normal, ray) > 0.0f ? -p->error : p->error);
 }
 
 /// Density in 1/sr of a point of that density on a surface of that unit normal, `distance` metres away in direction l.

@@ -22,6 +22,7 @@ typedef struct {
     Vec3 direction; ///< unit, of the ray
     Vec3 irradiance; ///< on the shaded point, over the probability of the sample; 0: no need to trace
     float pdf; ///< density of the direction, 1/sr; 0 for point and directional lights
+    float end; ///< of the ray, in its lengths
 } LightChoice;
 
 /// Density in 1/sr at which a vertex samples an area light's point, local coordinates (a, b), in a direction in which
@@ -36,6 +37,7 @@ WEDGE_INLINE float lightPdf(AreaLight light, float a, float b, float distance, f
 WEDGE_INLINE LightChoice sampleAreaLight(AreaLight light, Vec3 origin, Vec3 normal, Vec2 u)
 {
     LightChoice choice;
+    choice.end = WEDGE_SHADOW_RAY_END;
     const float a = lightCoordinate(u.x, light.profile, light.cut, light.erfCut);
     const float b = lightCoordinate(u.y, light.profile, light.cut, light.erfCut);
     choice.ray = vecSub(lightPoint(light.centre, light.halfU, light.halfV, a, b), origin);
@@ -50,6 +52,7 @@ WEDGE_INLINE LightChoice sampleAreaLight(AreaLight light, Vec3 origin, Vec3 norm
 WEDGE_FN LightChoice sampleDeltaLight(__global const DeltaLight* light, float sceneDiameter, Vec3 origin, Vec3 normal)
 {
     LightChoice choice;
+    choice.end = WEDGE_SHADOW_RAY_END;
     choice.ray = vectorToLight(*light, sceneDiameter, origin);
     choice.direction = vecNormalize(choice.ray);
     const float cosine = fmax(0.0f, vecDot(normal, choice.direction));
@@ -67,9 +70,12 @@ WEDGE_FN LightChoice sampleEmitterLight(EmitterData emitters, Vec3 origin, Vec3 
     const float distance = vecLength(choice.ray);
     choice.direction = vecScale(choice.ray, 1.0f / fmax(distance, 1e-30f));
     const float cosine = vecDot(normal, choice.direction);
-    const bool found = cosine > 0.0f && p.density > 0.0f;
-    choice.pdf = found ? emitters.share * densityOfDirection(p.density, p.normal, choice.direction, distance) : 0.0f;
-    choice.irradiance = vecScale(p.radiance, found ? cosine / choice.pdf : 0.0f);
+    const float pdf = emitters.share * densityOfDirection(p.density, p.normal, choice.direction, distance);
+    const bool found = cosine > 0.0f && pdf > 0.0f;
+    choice.pdf = found ? pdf : 0.0f;
+    choice.irradiance = vecScale(p.radiance, found ? cosine / pdf : 0.0f);
+    choice.ray = emitterShadowRay(&p, origin);
+    choice.end = 1.0f;
     return choice;
 }
 
@@ -94,7 +100,7 @@ WEDGE_FN LightChoice sampleLight(LightData lights, Vec3 origin, Vec3 normal, flo
     }
     LightChoice none;
     none.ray = none.direction = none.irradiance = vec3(0.0f, 0.0f, 0.0f);
-    none.pdf = 0.0f;
+    none.pdf = none.end = 0.0f;
     return none;
 }
 

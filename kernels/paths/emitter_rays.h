@@ -42,7 +42,7 @@ WEDGE_FN float emitterRay(EmitterData emitters, SampleParams sampling, const Pat
     const Vec3 ray = vecSub(p.point, origin);
     const float distance = vecLength(ray);
     const Vec3 l = vecScale(ray, 1.0f / fmax(distance, 1e-30f));
-    if (!(vecDot(n, l) > 0.0f) || !(vecDot(facing, l) > 0.0f) || !(p.density > 0.0f)) {
+    if (!(vecDot(n, l) > 0.0f) || !(vecDot(facing, l) > 0.0f) || !(p.density > 0.0f) || !(distance > 0.0f)) {
         return p.extent;
     }
     const Reflected reflected = reflectedTo(r, lane, glossy, l);
@@ -50,7 +50,7 @@ WEDGE_FN float emitterRay(EmitterData emitters, SampleParams sampling, const Pat
     const float w = sampling.lightSampling == WEDGE_LIGHTS_BOTH ? powerHeuristic(pdf, reflected.pdf) : 1.0f;
     *light = vecScale(p.radiance, w * reflected.value / pdf);
     if (luminance(*light) > 0.0f) {
-        setRay(shadow, lane, origin, ray, 0.0f, WEDGE_SHADOW_RAY_END);
+        setRay(shadow, lane, origin, emitterShadowRay(&p, origin), 0.0f, 1.0f);
     }
     return p.extent;
 }
@@ -90,7 +90,7 @@ WEDGE_FN void traceEmitters(__global const TraversalNode* restrict nodes, __glob
             paths->distance[lane] = hit.t;
         }
         weight[lane] = 1.0f;
-        if (sampling.lightSampling != WEDGE_LIGHTS_MET) {
+        if (sampling.lightSampling != WEDGE_LIGHTS_MET && emitters.count > 0u) {
             extent[lane] = emitterRay(emitters, sampling, paths, r, lane, glossy, facing[lane], &shadow, &light[lane]);
             paths->shadowRays[lane] = shadow.tMax[lane] > 0.0f ? 1u : 0u;
         }

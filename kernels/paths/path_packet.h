@@ -99,7 +99,7 @@ WEDGE_FN void chooseLight(LightData lights, SampleParams params, PathPacket* pat
     const Vec3 value = scatter(s, how, c.direction, &pdf);
     const float w = area && lights.sampling == WEDGE_LIGHTS_BOTH ? powerHeuristic(c.pdf, pdf) : 1.0f;
     *light = vecScale(vecMul(vecMul(value, c.irradiance), paths->throughput[lane]), w);
-    setRay(shadow, lane, s->origin, c.ray, 0.0f, WEDGE_SHADOW_RAY_END);
+    setRay(shadow, lane, s->origin, c.ray, 0.0f, c.end);
     paths->shadowRays[lane] += 1u;
 }
 

@@ -33,7 +33,7 @@ typedef struct {
     float sceneDiameter; ///< metres
     float ambientDistance; ///< metres; surfaces farther away do not count for the ambient component
     uint strata; ///< as of SampleParams
-    uint emitters; ///< triangles that emit
+    uint emitters; ///< length of their list
     float emitterShare; ///< probability that a path's vertex samples one of them and no other light
 } PathParams;
 

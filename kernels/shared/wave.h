@@ -20,6 +20,7 @@
 #define WEDGE_OMITS_EXTREMES 8u
 #define WEDGE_OMITS_COUNTS 16u
 #define WEDGE_OMITS_DEVIATION 32u
+#define WEDGE_OMITS_INDIRECT 64u ///< a term's samples are of direct light
 
 WEDGE_SHARED_BEGIN
 

@@ -221,7 +221,7 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient,
     }
     if ((wave.omits & WEDGE_OMITS_LAYERS) == 0u) {
         samples[p.i] += total;
-        indirectSamples[p.i] += total;
+        indirectSamples[p.i] += (wave.omits & WEDGE_OMITS_INDIRECT) == 0u ? total : 0u;
         termTaken[p.i] += total;
     }
 }
