@@ -204,7 +204,9 @@ Outcome renderSteps(const Workplace& place, const std::function<void()>& later)
                 }
             };
             waitFor("16 spp, ");
-            fs::remove_all(place.path() / "d");
+            // Out of the way first: the program may be writing into it.
+            fs::rename(place.path() / "d", place.path() / "gone");
+            fs::remove_all(place.path() / "gone");
             waitFor("\n256 spp, ");
             later();
             waitFor("\n2048 spp, ");
