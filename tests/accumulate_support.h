@@ -65,7 +65,7 @@ inline SeenPoint seenPoint(Receivers kind, int x, int y, std::uint32_t index)
     const auto exponent = static_cast<float>(uniform(random, 1, 30));
     p.gloss = shared::makeGloss(exponent,
         p.specular == glm::dvec3(0) ? WEDGE_LAMBERT
-            : random() % 2 == 0     ? WEDGE_PHONG
+            : index % 2 == 0        ? WEDGE_PHONG
                                     : WEDGE_BLINN_PHONG);
     p.pixelSize = uniform(random, 0.01, 0.1);
     p.depth = p.object == 0 && random() % 2 == 0 ? std::numeric_limits<double>::infinity() : uniform(random, 1, 9);

@@ -40,7 +40,7 @@ void checkDeviations(Accumulation& a, const TermPixels& term)
     CAPTURE(pixels);
     CAPTURE(variance);
     CAPTURE(expected / pixels);
-    CHECK(expected / pixels > 0.65 * variance);
+    CHECK(expected / pixels > 0.7 * variance);
     CHECK(expected / pixels < 1.4 * variance);
 }
 
