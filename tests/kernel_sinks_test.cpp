@@ -115,12 +115,12 @@ public:
     }
 
     /// Points on a light, in two launches.
-    Result lights(const Points& points, const shared::SampleParams& params, const std::vector<graph::Sink>& becoming)
+    Result lights(const Points& points, const shared::SampleParams& params, const shared::AreaLight& light,
+        const std::vector<graph::Sink>& becoming)
     {
         return run({ "light/area_light.cl", "sampleShadows", becoming },
-            { graph::value("frame", points.frame), graph::value("params", params),
-                graph::value("light", traced_.onDevice.areaLightList[params.light]) },
-            {}, false, points);
+            { graph::value("frame", points.frame), graph::value("params", params), graph::value("light", light) }, {},
+            false, points);
     }
     Result paths(const Points& points, const shared::PathParams& params, const std::vector<graph::Sink>& becoming)
     {
@@ -293,14 +293,20 @@ TEST_CASE("points on lights: a sink that stores each sample gets what the sums a
         Sampler sampler(traced);
         const Points pixels = pixelPoints(traced, 12), wave = wavePoints(pixels, traced.layout);
         for (const Points* points : { &pixels, &wave })
-            // Points alone, or with directions of both parts.
+            // Points alone, or with directions of both parts: the light is made so large that these are as dense.
             for (const auto& [finding, ways] : { std::pair(WEDGE_LIGHTS_SAMPLED, 1u), { WEDGE_LIGHTS_BOTH, 3u } }) {
                 const shared::SampleParams params { WEDGE_SHADING_INSIDE, WEDGE_SAMPLER_SOBOL, 1, 0, finding, 0, {} };
-                const shared::AreaLight& light = traced.onDevice.areaLightList[1];
+                shared::AreaLight light = traced.onDevice.areaLightList[1];
+                const float scale = finding == WEDGE_LIGHTS_BOTH ? 20.0f : 1.0f;
+                light.halfU = shared::vecScale(light.halfU, scale);
+                light.halfV = shared::vecScale(light.halfV, scale);
+                light.profileArea *= scale * scale;
                 unsigned onLight = 0;
                 checkSinks(
                     *points, ways,
-                    [&](const std::vector<graph::Sink>& becoming) { return sampler.lights(*points, params, becoming); },
+                    [&](const std::vector<graph::Sink>& becoming) {
+                        return sampler.lights(*points, params, light, becoming);
+                    },
                     [&](std::size_t i, shared::Vec3 ray, const float* values) {
                         REQUIRE(values[1] >= 0);
                         if (!(values[0] > 0))

@@ -300,6 +300,35 @@ TEST_CASE("a light close to a coarse mesh of smooth normals is one, however it i
     });
 }
 
+TEST_CASE("where reflected directions begin to help points on a light there is no seam")
+{
+    // They are followed where they are as dense as the points: within a circle under a light, and of a sharp lobe where
+    // it is narrower than the light. Some of a packet's receivers are in, some are out.
+    onEveryDevice([](const device::Device& device) {
+        for (const float exponent : { 0.0f, 30.0f }) {
+            SceneBuilder b;
+            if (exponent > 0) {
+                b.scene.materials[0].specular = glm::vec3(0.4f);
+                b.scene.materials[0].exponent = exponent;
+            }
+            b.newObject();
+            b.quad({ 0, 0, 0 }, { 4, 0, 0 }, { 0, 0, -4 });
+            b.light({ 0, 0.45f, 0 }, { 0.25f, 0, 0 }, { 0, 0, 0.25f }, scene::LightProfile::Uniform, 1);
+            b.camera({ 0, 2, 1.2f }, { 0, 0, -0.1f }, { 0, 1, 0 }, 40);
+            render::Renderer renderer(b.scene, device, renderOptions());
+            const auto image = [&](render::LightSampling way) {
+                render::Settings settings = sized(render::monteCarlo(256), 32, 32);
+                settings.lightSampling = way;
+                return moments(renderer, settings, Part::Beauty, 8);
+            };
+            const Moments points = image(render::LightSampling::Lights), both = image(render::LightSampling::Both);
+            CAPTURE(exponent);
+            CHECK(points.average() > 0.01);
+            checkAgreement(both, points, 1e-3);
+        }
+    });
+}
+
 TEST_CASE("points exactly on the edge of two walls do not see past either")
 {
     onEveryDevice([](const device::Device& device) {

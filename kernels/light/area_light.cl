@@ -1,7 +1,7 @@
 // Shadow rays to one area light, from points on it; its sinks (sinks/sums.h) say what becomes of the samples. Where one
 // takes hits the nearest occluder along each ray is found, else only whether there is one. Plain Monte Carlo also
-// follows reflected directions that meet the light (met_light.h); so do ratios of lobes that are narrower than the
-// light, whose specular sums then have points on the light and directions, weighted by both densities.
+// follows reflected directions that meet the light (met_light.h) where they may be as dense; so do ratios of lobes that
+// are narrower than the light, whose specular sums then have points on it and directions, weighted by both densities.
 //
 // in      frame, BVH, the light, receivers; wanted: samples of each when the pass ends; lastSample: where this launch
 //         ends
@@ -47,57 +47,31 @@ WEDGE_FN void countRays(const RayPacket* packet, LightCounts* counts)
     }
 }
 
-/// Takes one reflected direction of the diffuse part and one of the specular part a lane: of them it is known what
-/// arrives, and they weigh nothing.
+/// Takes one direction of a part of each lane that follows them. Of it it is known what arrives: in plain Monte Carlo
+/// it weighs nothing; in a ratio its estimate, with that of the points on the light, is of all that arrives and of what
+/// is seen of it.
 WEDGE_FN void takeDirections(SampleParams params, AreaLight light, __global const TraversalNode* restrict nodes,
-    __global const TriangleBlock* restrict blocks, const Sampling* at, LightCounts* counts, Sink* sink,
-    WEDGE_SINK_PARAMETERS)
-{
-    for (uint part = 0u; part < WEDGE_VALUES; ++part) {
-        RayPacket packet;
-        float weight[WEDGE_PACKET_SIZE];
-        uint occluded[WEDGE_PACKET_SIZE];
-        meetDirections(params, light, at->receivers, part == 1u, at->index, at->last, at->count, &packet, weight);
-        anyHits(nodes, blocks, &packet, occluded);
-        float numbers[WEDGE_SUMS][WEDGE_PACKET_SIZE];
-        for (uint k = 0u; k < WEDGE_SUMS; ++k) {
-            for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-                numbers[k][lane] = k == 2u * part + 1u && occluded[lane] == 0u ? weight[lane] : 0.0f;
-            }
-        }
-        const Samples samples = { numbers, &packet, 0 };
-        takeSamples(at, &samples, sink, WEDGE_SINK_ARGUMENTS);
-        countRays(&packet, counts);
-    }
-}
-
-#ifdef WEDGE_SPECULAR
-/// Takes one direction of the lobe of each lane that has a narrow one, in the specular term: with the points on the
-/// light, weighted by both densities, its estimate of all that arrives and of what is seen of it.
-WEDGE_FN void takeLobes(SampleParams params, AreaLight light, __global const TraversalNode* restrict nodes,
-    __global const TriangleBlock* restrict blocks, const uint* narrow, const Sampling* at, LightCounts* counts,
-    Sink* sink, WEDGE_SINK_PARAMETERS)
+    __global const TriangleBlock* restrict blocks, uint part, const Directions* directions, const Sampling* at,
+    LightCounts* counts, Sink* sink, WEDGE_SINK_PARAMETERS)
 {
     RayPacket packet;
     float weight[WEDGE_PACKET_SIZE];
     uint occluded[WEDGE_PACKET_SIZE];
-    meetDirections(params, light, at->receivers, true, at->index, at->last, at->count, &packet, weight);
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        packet.tMax[lane] = narrow[lane] != 0u ? packet.tMax[lane] : 0.0f;
-    }
+    meetDirections(params, light, at->receivers, part == 1u, directions->lane[part], at->index, at->last, at->count,
+        &packet, weight);
     anyHits(nodes, blocks, &packet, occluded);
+    const bool ratio = params.shading == WEDGE_SHADING_RATIO;
     float numbers[WEDGE_SUMS][WEDGE_PACKET_SIZE];
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const float arrives = narrow[lane] != 0u ? weight[lane] : 0.0f;
-        numbers[0][lane] = numbers[1][lane] = 0.0f;
-        numbers[2][lane] = arrives;
-        numbers[3][lane] = occluded[lane] == 0u ? arrives : 0.0f;
+    for (uint k = 0u; k < WEDGE_SUMS; ++k) {
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const bool all = k == 2u * part && ratio, seen = k == 2u * part + 1u && occluded[lane] == 0u;
+            numbers[k][lane] = all || seen ? weight[lane] : 0.0f;
+        }
     }
     const Samples samples = { numbers, &packet, 0 };
     takeSamples(at, &samples, sink, WEDGE_SINK_ARGUMENTS);
     countRays(&packet, counts);
 }
-#endif
 
 /// Takes the points on the light. Receivers that have all their samples wait for the others, and theirs are void.
 WEDGE_FN void takePoints(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
@@ -144,11 +118,8 @@ __kernel void sampleShadows(FrameParams frame, SampleParams params, AreaLight li
     ReceiverPacket receivers;
     loadReceivers(frame, params.light, firstGroup, WEDGE_RECEIVER_ARGUMENTS, &receivers);
     takePart(params, light, &receivers);
-    const bool directions = params.lightSampling != WEDGE_LIGHTS_SAMPLED && params.shading == WEDGE_SHADING_INSIDE;
-#ifdef WEDGE_SPECULAR
-    uint narrow[WEDGE_PACKET_SIZE];
-    const bool lobes = narrowLobes(params, light, &receivers, narrow);
-#endif
+    Directions directions;
+    chooseDirections(params, light, &receivers, &directions);
     LightCounts counts;
     const uint steps = prepareSamples(params, lastSample, &receivers, wanted, taken, &counts);
     const Sampling at = { frame.planeSize, params.shading, params.firstPass, &receivers, receivers.pixel, counts.first,
@@ -158,16 +129,13 @@ __kernel void sampleShadows(FrameParams frame, SampleParams params, AreaLight li
     for (uint step = 0u; step < steps; ++step) {
         LightSamples s;
         sampleLights(frame, params, light, &receivers, counts.index, counts.count, &s);
-        if (directions) {
-            weighPoints(params, light, &receivers, &s);
-            takeDirections(params, light, nodes, blocks, &at, &counts, &sink, WEDGE_SINK_ARGUMENTS);
+        weighPoints(params, light, &receivers, &directions, &s);
+        for (uint part = 0u; part < WEDGE_VALUES; ++part) {
+            if (directions.any[part]) {
+                takeDirections(
+                    params, light, nodes, blocks, part, &directions, &at, &counts, &sink, WEDGE_SINK_ARGUMENTS);
+            }
         }
-#ifdef WEDGE_SPECULAR
-        if (lobes) {
-            weighLobePoints(light, &receivers, narrow, &s);
-            takeLobes(params, light, nodes, blocks, narrow, &at, &counts, &sink, WEDGE_SINK_ARGUMENTS);
-        }
-#endif
         takePoints(nodes, blocks, &s, &at, &counts, &sink, WEDGE_SINK_ARGUMENTS);
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
             counts.index[lane] += counts.index[lane] < counts.last[lane] ? 1u : 0u;

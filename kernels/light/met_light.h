@@ -5,6 +5,7 @@
 #define WEDGE_MET_LIGHT_H
 
 #include "light/light_packet.h"
+#include "light/light_sampling.h"
 #include "light/scene_light.h"
 
 /// Seeds of the directions, apart from that of the light's points.
@@ -27,91 +28,156 @@ WEDGE_INLINE float pointPdf(AreaLight light, const ReceiverPacket* r, const Ligh
     return lightPdf(light, a, b, distance, vecDot(l, light.normal)) / laneMass(light, r, lane, a, b);
 }
 
-/// Weights of the lanes' points on the light against reflected directions, multiplied into s.
-WEDGE_FN void weighPoints(SampleParams params, AreaLight light, const ReceiverPacket* r, LightSamples* s)
+/// Where reflected directions are followed besides points on the light: where they may be as dense as those. Decided
+/// by the receiver alone, so that each sample's expectation is the same with them and without.
+typedef struct {
+    uint lane[WEDGE_VALUES][WEDGE_PACKET_SIZE]; ///< 1: a lane's diffuse, its specular part is sampled by both
+    bool any[WEDGE_VALUES]; ///< of the lanes
+} Directions;
+
+/// Density of the diffuse part's directions over that of points on the light from which on both are sampled; where
+/// directions are sparser, their weight is below a half and points do as well alone.
+#define WEDGE_DIFFUSE_DIRECTED 1.0f
+/// Squared angular half extent of the light over the squared width of a lobe from which on both are sampled: points on
+/// the light find too little of it, in plain Monte Carlo and in ratios (lobesAcross16() in unshadowed.h).
+#define WEDGE_LOBE_DIRECTED 4.0f
+
+/// The most that the density of cosine-distributed directions can be over that of points on the light: as if its
+/// nearest point faced the receiver overhead.
+WEDGE_INLINE float diffuseDensity(AreaLight light, Vec3 position)
 {
-    light.pick = 1.0f;
-    const float used = params.lightSampling == WEDGE_LIGHTS_MET ? 0.0f : 1.0f;
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const Vec3 l = vecNormalize(sampleVector(r, s, lane));
-        const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
-        const float p = pointPdf(light, r, s, lane, l);
-        const float diffuse = used * powerHeuristic(p, fmax(0.0f, vecDot(n, l)) * WEDGE_INV_PI);
-        s->diffuse[lane] *= s->diffuse[lane] > 0.0f ? diffuse : 1.0f;
-#ifdef WEDGE_SPECULAR
-        const float specular = used * powerHeuristic(p, lobePdf(laneLobe(r, lane), n, laneView(r, lane), l));
-        s->specular[lane] *= s->specular[lane] > 0.0f ? specular : 1.0f;
-#endif
-    }
+    const Vec3 d = vecSub(light.centre, position);
+    const float edges = vecDot(light.halfU, light.halfU) + vecDot(light.halfV, light.halfV);
+    const float nearest = fmax(vecLength(d) - sqrt(edges), 0.0f);
+    const float edge = lightProfile(1.0f, 1.0f, light.profile, light.cut);
+    return WEDGE_INV_PI * light.profileArea / fmax(edge * nearest * nearest, 1e-30f);
 }
 
-#ifdef WEDGE_SPECULAR
-/// Squared angular half extent of the light over the squared width of a lobe, from which on points on the light find
-/// too little of it (lobesAcross16() in unshadowed.h).
-#define WEDGE_LOBE_SAMPLED 4.0f
-
-/// 1 for lanes whose lobe is so much narrower than the light that their specular term is sampled by directions, too.
-/// Returns whether there are any.
-WEDGE_FN bool narrowLobes(SampleParams params, AreaLight light, const ReceiverPacket* r, uint* narrow)
+WEDGE_FN void chooseDirections(SampleParams params, AreaLight light, const ReceiverPacket* r, Directions* out)
 {
-    const float extent = fmax(vecDot(light.halfU, light.halfU), vecDot(light.halfV, light.halfV));
+    const bool plain = params.shading == WEDGE_SHADING_INSIDE && params.lightSampling != WEDGE_LIGHTS_SAMPLED;
+    const bool all = plain && params.lightSampling == WEDGE_LIGHTS_MET;
     uint any = 0u;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const Vec3 d = vecSub(light.centre, vec3(r->positionX[lane], r->positionY[lane], r->positionZ[lane]));
+        const bool near = diffuseDensity(light, lanePosition(r, lane)) > WEDGE_DIFFUSE_DIRECTED;
+        const bool chosen = plain && (all || near) && r->pixel[lane] != WEDGE_NO_PIXEL;
+        out->lane[0][lane] = chosen ? 1u : 0u;
+        any |= out->lane[0][lane];
+    }
+    out->any[0] = any != 0u;
+#ifdef WEDGE_SPECULAR
+    const float extent = fmax(vecDot(light.halfU, light.halfU), vecDot(light.halfV, light.halfV));
+    any = 0u;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const Vec3 d = vecSub(light.centre, lanePosition(r, lane));
         const float squared = fmax(vecDot(d, d), 1e-30f);
         const float widening = fmax(2.0f + 2.0f * vecDot(laneView(r, lane), d) * rsqrt(squared), 1e-6f);
         const float across = extent * r->exponent[lane] / squared;
         const bool phong = r->kind[lane] == WEDGE_PHONG;
-        const bool found = (phong ? across : across / widening) > WEDGE_LOBE_SAMPLED;
-        narrow[lane] = found && params.shading == WEDGE_SHADING_RATIO && r->pixel[lane] != WEDGE_NO_PIXEL ? 1u : 0u;
-        any |= narrow[lane];
+        const bool narrow = (phong ? across : across / widening) > WEDGE_LOBE_DIRECTED;
+        const bool chosen = all || (narrow && (plain || params.shading == WEDGE_SHADING_RATIO));
+        out->lane[1][lane] = chosen && r->pixel[lane] != WEDGE_NO_PIXEL ? 1u : 0u;
+        any |= out->lane[1][lane];
     }
-    return any != 0u;
+    out->any[1] = any != 0u;
+#endif
 }
 
-/// Weights of the points of lanes with narrow lobes in the specular term alone, multiplied into s.
-WEDGE_FN void weighLobePoints(AreaLight light, const ReceiverPacket* r, const uint* narrow, LightSamples* s)
+/// Weights of the lanes' points on the light against reflected directions, multiplied into s.
+WEDGE_FN void weighPoints(
+    SampleParams params, AreaLight light, const ReceiverPacket* r, const Directions* directions, LightSamples* s)
 {
     light.pick = 1.0f;
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const Vec3 l = vecNormalize(sampleVector(r, s, lane));
-        const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
-        const float weight =
-            powerHeuristic(pointPdf(light, r, s, lane, l), lobePdf(laneLobe(r, lane), n, laneView(r, lane), l));
-        s->specular[lane] *= narrow[lane] != 0u && s->specular[lane] > 0.0f ? weight : 1.0f;
+    const float used = params.lightSampling == WEDGE_LIGHTS_MET ? 0.0f : 1.0f;
+    if (directions->any[0]) {
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const Vec3 l = vecNormalize(sampleVector(r, s, lane));
+            const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
+            const float p = pointPdf(light, r, s, lane, l);
+            const float weight = used * powerHeuristic(p, fmax(0.0f, vecDot(n, l)) * WEDGE_INV_PI);
+            s->diffuse[lane] *= directions->lane[0][lane] != 0u && s->diffuse[lane] > 0.0f ? weight : 1.0f;
+        }
     }
+#ifdef WEDGE_SPECULAR
+    if (directions->any[1]) {
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const Vec3 l = vecNormalize(sampleVector(r, s, lane));
+            const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
+            const float p = pointPdf(light, r, s, lane, l);
+            const float weight = used * powerHeuristic(p, lobePdf(laneLobe(r, lane), n, laneView(r, lane), l));
+            s->specular[lane] *= directions->lane[1][lane] != 0u && s->specular[lane] > 0.0f ? weight : 1.0f;
+        }
+    }
+#endif
+}
+
+/// A reflected direction of a lane.
+typedef struct {
+    Vec3 direction; ///< unit
+    float pdf; ///< 1/sr
+    float reflected; ///< over that density, without the diffuse part's 1 / pi, which the light's points leave out too
+} Reflection;
+
+WEDGE_INLINE Reflection diffuseReflection(const ReceiverPacket* r, uint lane, Vec2 u)
+{
+    const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
+    Reflection out;
+    out.direction = cosineDirection(n, u);
+    out.pdf = fmax(0.0f, vecDot(n, out.direction)) * WEDGE_INV_PI;
+    out.reflected = 1.0f / WEDGE_INV_PI;
+    return out;
+}
+
+#ifdef WEDGE_SPECULAR
+WEDGE_INLINE Reflection specularReflection(const ReceiverPacket* r, uint lane, Vec2 u)
+{
+    const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
+    const Lobe lobe = laneLobe(r, lane);
+    Reflection out;
+    out.direction = sampleLobe(lobe, n, laneView(r, lane), u);
+    const LobeAt at = lobeAt(lobe, n, laneView(r, lane), out.direction);
+    out.pdf = at.pdf;
+    out.reflected = at.value * vecDot(n, out.direction) / fmax(at.pdf, 1e-30f);
+    return out;
 }
 #endif
 
-/// A reflected direction of the diffuse or the specular part for the numbers u; in *pdf its density, 1/sr, and in
-/// *reflected what the part reflects over that density, without the diffuse part's 1 / pi, which the light's points
-/// leave out too.
-WEDGE_INLINE Vec3 reflectedDirection(
-    const ReceiverPacket* r, uint lane, bool specular, Vec2 u, float* pdf, float* reflected)
+/// Reflected directions of all lanes for the numbers (u, v), apart.
+typedef struct {
+    float x[WEDGE_PACKET_SIZE], y[WEDGE_PACKET_SIZE], z[WEDGE_PACKET_SIZE];
+    float pdf[WEDGE_PACKET_SIZE], reflected[WEDGE_PACKET_SIZE];
+} Reflections;
+
+WEDGE_INLINE void keepReflection(Reflections* out, uint lane, Reflection r)
 {
-    const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
+    out->x[lane] = r.direction.x;
+    out->y[lane] = r.direction.y;
+    out->z[lane] = r.direction.z;
+    out->pdf[lane] = r.pdf;
+    out->reflected[lane] = r.reflected;
+}
+
+WEDGE_FN void reflect(const ReceiverPacket* r, bool specular, const float* u, const float* v, Reflections* out)
+{
 #ifdef WEDGE_SPECULAR
     if (specular) {
-        const Lobe lobe = laneLobe(r, lane);
-        const Vec3 l = sampleLobe(lobe, n, laneView(r, lane), u);
-        const LobeAt at = lobeAt(lobe, n, laneView(r, lane), l);
-        *pdf = at.pdf;
-        *reflected = at.value * vecDot(n, l) / fmax(at.pdf, 1e-30f);
-        return l;
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            keepReflection(out, lane, specularReflection(r, lane, vec2(u[lane], v[lane])));
+        }
+        return;
     }
 #else
     (void)specular;
 #endif
-    const Vec3 l = cosineDirection(n, u);
-    *pdf = fmax(0.0f, vecDot(n, l)) * WEDGE_INV_PI;
-    *reflected = 1.0f / WEDGE_INV_PI;
-    return l;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        keepReflection(out, lane, diffuseReflection(r, lane, vec2(u[lane], v[lane])));
+    }
 }
 
-/// One reflected direction a lane: the ray to where it meets the light into `packet`, and in weight what it counts in
-/// its term if nothing is in the way; 0 where it meets nothing.
+/// One reflected direction of each lane that follows them: the ray to where it meets the light into `packet`, and in
+/// weight what it counts in its term if nothing is in the way; 0 where it meets nothing.
 WEDGE_FN void meetDirections(SampleParams params, AreaLight light, const ReceiverPacket* r, bool specular,
-    const uint* index, const uint* last, const uint* count, RayPacket* packet, float* weight)
+    const uint* follow, const uint* index, const uint* last, const uint* count, RayPacket* packet, float* weight)
 {
     light.pick = 1.0f;
     float u[WEDGE_PACKET_SIZE], v[WEDGE_PACKET_SIZE];
@@ -121,17 +187,20 @@ WEDGE_FN void meetDirections(SampleParams params, AreaLight light, const Receive
         seed[lane] = hashCombine(r->seed[lane], kind);
     }
     samplePositions(params, kind, seed, index, count, u, v);
+    Reflections reflections;
+    reflect(r, specular, u, v, &reflections);
     float x[WEDGE_PACKET_SIZE], y[WEDGE_PACKET_SIZE], z[WEDGE_PACKET_SIZE], end[WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        float pdf, reflected;
-        const Vec3 l = reflectedDirection(r, lane, specular, vec2(u[lane], v[lane]), &pdf, &reflected);
+        const Vec3 l = vec3(reflections.x[lane], reflections.y[lane], reflections.z[lane]);
+        const float pdf = reflections.pdf[lane];
         const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
         const LightMeeting m = meetLight(light, lanePosition(r, lane), l);
-        const bool meets = m.t < INFINITY && vecDot(n, l) > 0.0f && pdf > 0.0f && index[lane] < last[lane];
+        const bool wanted = follow[lane] != 0u && index[lane] < last[lane];
+        const bool meets = wanted && m.t < INFINITY && vecDot(n, l) > 0.0f && pdf > 0.0f;
         const float w = params.lightSampling == WEDGE_LIGHTS_MET
             ? 1.0f
             : powerHeuristic(pdf, lightPdf(light, m.a, m.b, m.t, m.facing) / laneMass(light, r, lane, m.a, m.b));
-        weight[lane] = meets ? w * reflected * metProfile(light, m) / light.profileArea : 0.0f;
+        weight[lane] = meets ? w * reflections.reflected[lane] * metProfile(light, m) / light.profileArea : 0.0f;
         end[lane] = weight[lane] > 0.0f ? WEDGE_SHADOW_RAY_END : 0.0f;
         const Vec3 ray = vecSub(vecScale(l, meets ? m.t : 1.0f), laneLift(r, lane));
         x[lane] = ray.x;

@@ -111,23 +111,20 @@ typedef struct {
     float facing; ///< the direction times the light's normal; negative on the emitting side
 } LightMeeting;
 
+/// Without branches, so that loops over lanes become vectors.
 WEDGE_INLINE LightMeeting meetLight(AreaLight light, Vec3 origin, Vec3 direction)
 {
     LightMeeting m;
     m.facing = vecDot(light.normal, direction);
-    m.t = INFINITY;
-    m.a = m.b = 0.0f;
     const float t = vecDot(light.normal, vecSub(light.centre, origin)) / m.facing;
-    if (m.facing == 0.0f || !(t > 0.0f) || !(t < INFINITY)) {
-        return m;
-    }
+    const bool before = m.facing != 0.0f && t > 0.0f && t < INFINITY;
     // Local coordinates from the two edges' cross products, so that the quad may be a parallelogram.
-    const Vec3 d = vecSub(vecMad(origin, direction, t), light.centre);
+    const Vec3 d = vecSub(vecMad(origin, direction, before ? t : 0.0f), light.centre);
     const Vec3 n = vecCross(light.halfU, light.halfV);
-    const float scale = 1.0f / vecDot(n, n);
+    const float scale = before ? 1.0f / vecDot(n, n) : 0.0f;
     m.a = vecDot(vecCross(d, light.halfV), n) * scale;
     m.b = vecDot(vecCross(light.halfU, d), n) * scale;
-    m.t = fabs(m.a) <= 1.0f && fabs(m.b) <= 1.0f ? t : INFINITY;
+    m.t = before && fabs(m.a) <= 1.0f && fabs(m.b) <= 1.0f ? t : INFINITY;
     return m;
 }
 
