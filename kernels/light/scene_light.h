@@ -79,29 +79,26 @@ WEDGE_FN LightChoice sampleEmitterLight(EmitterData emitters, Vec3 origin, Vec3 
     return choice;
 }
 
-/// Chooses a light by `pick` in [0, 1) and a point on it by u, as seen from a point with this normal at a time.
-WEDGE_FN LightChoice sampleLight(LightData lights, Vec3 origin, Vec3 normal, float pick, Vec2 u, float time)
+/// No light: see pickLight().
+#define WEDGE_NO_LIGHT 0xffffffffu
+
+/// Chooses a light by `pick` in [0, 1): a number of the area lights, then of the others, then one for all emitters.
+WEDGE_FN uint pickLight(LightData lights, float pick)
 {
     float below = 0.0f;
     for (uint i = 0u; i < lights.areaCount; ++i) {
         below += lights.area[i].pick;
         if (pick < below) {
-            return sampleAreaLight(lights.area[i], origin, normal, u);
+            return i;
         }
     }
     for (uint i = 0u; i < lights.deltaCount; ++i) {
         below += lights.delta[i].pick;
         if (pick < below) {
-            return sampleDeltaLight(&lights.delta[i], lights.sceneDiameter, origin, normal);
+            return lights.areaCount + i;
         }
     }
-    if (lights.emitters.count > 0u) {
-        return sampleEmitterLight(lights.emitters, origin, normal, u, time);
-    }
-    LightChoice none;
-    none.ray = none.direction = none.irradiance = vec3(0.0f, 0.0f, 0.0f);
-    none.pdf = none.end = 0.0f;
-    return none;
+    return lights.emitters.count > 0u ? lights.areaCount + lights.deltaCount : WEDGE_NO_LIGHT;
 }
 
 /// Where a ray meets a light's quad.
@@ -141,38 +138,6 @@ WEDGE_INLINE float powerHeuristic(float p, float q)
     // By the ratio, so that no square overflows.
     const float ratio = q / fmax(p, 1e-30f);
     return 1.0f / (1.0f + ratio * ratio);
-}
-
-/// The part of the lights' radiance along a ray (unit direction) that counts for the technique of reflected directions,
-/// up to distance tEnd. pdf: density at which the direction was sampled. Lights hide nothing, as for shadow rays.
-WEDGE_FN Vec3 radianceMet(LightData lights, Vec3 origin, Vec3 direction, float pdf, float tEnd)
-{
-    Vec3 sum = vec3(0.0f, 0.0f, 0.0f);
-    if (lights.sampling == WEDGE_LIGHTS_SAMPLED) {
-        return sum;
-    }
-    for (uint i = 0u; i < lights.areaCount; ++i) {
-        const LightMeeting m = meetLight(lights.area[i], origin, direction);
-        // As for shadow rays, what lies just before the light is its housing.
-        if (m.t * WEDGE_SHADOW_RAY_END < tEnd && m.t < INFINITY) {
-            const float w = lights.sampling == WEDGE_LIGHTS_MET
-                ? 1.0f
-                : powerHeuristic(pdf, lightPdf(lights.area[i], m.a, m.b, m.t, m.facing));
-            sum = vecMad(sum, lights.area[i].radiance, w * metProfile(lights.area[i], m));
-        }
-    }
-    return sum;
-}
-
-/// Distance of the farthest light that the ray meets; 0 if it meets none.
-WEDGE_FN float farthestMeeting(LightData lights, Vec3 origin, Vec3 direction)
-{
-    float farthest = 0.0f;
-    for (uint i = 0u; i < lights.areaCount; ++i) {
-        const float t = meetLight(lights.area[i], origin, direction).t;
-        farthest = t < INFINITY ? fmax(farthest, t) : farthest;
-    }
-    return farthest;
 }
 
 #endif

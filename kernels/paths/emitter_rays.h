@@ -60,7 +60,7 @@ WEDGE_FN float emitterRay(EmitterData emitters, SampleParams sampling, const Pat
 /// far it is to what emits; or, where something is in between, how far from there a reflector would be whose light
 /// varies as the penumbra does, (the emitter's extent) t / (T - t) for an occluder t on a way of T metres.
 WEDGE_FN void traceEmitters(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
-    EmitterData emitters, SampleParams sampling, bool glossy, const ReceiverPacket* r, const Vec3* facing,
+    EmitterData emitters, SampleParams sampling, bool glossy, const ReceiverPacket* r, const VecLanes* facing,
     const uint* last, const RayPacket* rays, float* weight, PathPacket* paths)
 {
     PacketHits hits;
@@ -69,13 +69,14 @@ WEDGE_FN void traceEmitters(__global const TraversalNode* restrict nodes, __glob
     Vec3 light[WEDGE_PACKET_SIZE];
     float extent[WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        paths->radiance[lane] = light[lane] = vec3(0.0f, 0.0f, 0.0f);
+        setLaneVec(&paths->radiance, lane, vec3(0.0f, 0.0f, 0.0f));
+        light[lane] = vec3(0.0f, 0.0f, 0.0f);
         paths->distance[lane] = INFINITY;
         paths->rays[lane] = rays->tMax[lane] > 0.0f ? 1u : 0u;
         paths->shadowRays[lane] = 0u;
         extent[lane] = 0.0f;
-        const Vec3 direction = rayDirectionOf(rays, lane);
-        setRay(&shadow, lane, rayOriginOf(rays, lane), direction, 0.0f, 0.0f);
+        const Vec3 direction = rayDirection(rays, lane);
+        setRay(&shadow, lane, rayStart(rays, lane), direction, 0.0f, 0.0f);
         setTime(&shadow, lane, receiverTime(r, lane));
         if (r->pixel[lane] == WEDGE_NO_PIXEL || paths->index[lane] >= last[lane]) {
             continue;
@@ -86,12 +87,13 @@ WEDGE_FN void traceEmitters(__global const TraversalNode* restrict nodes, __glob
             const float own = reflectedTo(r, lane, glossy, direction).pdf;
             const float other = emitterPdf(emitters, hit, direction, receiverTime(r, lane));
             const float w = sampling.lightSampling == WEDGE_LIGHTS_BOTH ? powerHeuristic(own, other) : 1.0f;
-            paths->radiance[lane] = vecScale(emitted, w * weight[lane]);
+            setLaneVec(&paths->radiance, lane, vecScale(emitted, w * weight[lane]));
             paths->distance[lane] = hit.t;
         }
         weight[lane] = 1.0f;
         if (sampling.lightSampling != WEDGE_LIGHTS_MET && emitters.count > 0u) {
-            extent[lane] = emitterRay(emitters, sampling, paths, r, lane, glossy, facing[lane], &shadow, &light[lane]);
+            extent[lane] =
+                emitterRay(emitters, sampling, paths, r, lane, glossy, laneVec(facing, lane), &shadow, &light[lane]);
             paths->shadowRays[lane] = shadow.tMax[lane] > 0.0f ? 1u : 0u;
         }
     }
@@ -105,7 +107,7 @@ WEDGE_FN void traceEmitters(__global const TraversalNode* restrict nodes, __glob
         if (!(shadow.tMax[lane] > 0.0f)) {
             continue;
         }
-        const float far = vecLength(rayDirectionOf(&shadow, lane));
+        const float far = vecLength(rayDirection(&shadow, lane));
 #ifdef WEDGE_SINK_TAKES_DISTANCES
         const bool hidden = hits.triangle[lane] != WEDGE_NO_TRIANGLE;
         const float penumbra = hidden ? extent[lane] * hits.t[lane] / fmax(1.0f - hits.t[lane], 1e-6f) : far;
@@ -113,7 +115,7 @@ WEDGE_FN void traceEmitters(__global const TraversalNode* restrict nodes, __glob
         const bool hidden = occluded[lane] != 0u;
         const float penumbra = far;
 #endif
-        paths->radiance[lane] = hidden ? paths->radiance[lane] : vecAdd(paths->radiance[lane], light[lane]);
+        setLaneVecIf(&paths->radiance, lane, !hidden, vecAdd(laneVec(&paths->radiance, lane), light[lane]));
         paths->distance[lane] = fmin(paths->distance[lane], fmax(fmin(penumbra, far), 1e-20f));
     }
 }

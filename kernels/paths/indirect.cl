@@ -23,24 +23,33 @@ typedef struct {
 /// First rays of one sample a lane, and in weight what their radiance counts. Directions below the horizon of either
 /// normal are not traced.
 WEDGE_FN void firstRays(FrameParams frame, PathParams params, SampleParams sampling, const ReceiverPacket* r,
-    const Vec3* geometric, const PathPacket* paths, const uint* last, RayPacket* rays, float* weight)
+    const VecLanes* geometric, const PathPacket* paths, const uint* last, RayPacket* rays, float* weight)
 {
     float u[WEDGE_PACKET_SIZE], v[WEDGE_PACKET_SIZE];
     samplePositions(sampling, hashCombine(frame.seed, params.component), r->seed, paths->index, paths->count, u, v);
     const float end = params.component == WEDGE_COMPONENT_AMBIENT ? params.ambientDistance : INFINITY;
+    VecLanes directions;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
-        Vec3 l = cosineDirection(n, vec2(u[lane], v[lane]));
+        setLaneVec(&directions, lane, cosineDirection(n, vec2(u[lane], v[lane])));
         weight[lane] = 1.0f;
+    }
 #ifdef WEDGE_SPECULAR
-        if (WEDGE_IS_GLOSSY(params.component)) {
+    if (WEDGE_IS_GLOSSY(params.component)) {
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
             const Lobe lobe = laneLobe(r, lane);
-            l = sampleLobe(lobe, n, laneView(r, lane), vec2(u[lane], v[lane]));
+            const Vec3 l = sampleLobe(lobe, n, laneView(r, lane), vec2(u[lane], v[lane]));
+            setLaneVec(&directions, lane, l);
             weight[lane] = lobeOverPdf(lobe, n, laneView(r, lane), l) * vecDot(n, l);
         }
+    }
 #endif
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]), l = laneVec(&directions, lane);
         const bool wanted = r->pixel[lane] != WEDGE_NO_PIXEL && paths->index[lane] < last[lane];
-        const bool traced = wanted && weight[lane] > 0.0f && vecDot(geometric[lane], l) > 0.0f && vecDot(n, l) > 0.0f;
+        const bool traced =
+            wanted && weight[lane] > 0.0f && vecDot(laneVec(geometric, lane), l) > 0.0f && vecDot(n, l) > 0.0f;
         setRay(rays, lane, vec3(r->originX[lane], r->originY[lane], r->originZ[lane]), l, 0.0f, traced ? end : 0.0f);
         setTime(rays, lane, receiverTime(r, lane));
     }
@@ -56,7 +65,7 @@ WEDGE_FN void traceAmbient(__global const TraversalNode* restrict nodes, __globa
         const bool hit = hits.triangle[lane] != WEDGE_NO_TRIANGLE;
         // Directions below a horizon, which are not traced, lie in the surface itself.
         const float occluded = hit || !(rays->tMax[lane] > 0.0f) ? 1.0f : 0.0f;
-        paths->radiance[lane] = vec3(occluded, occluded, occluded);
+        setLaneVec(&paths->radiance, lane, vec3(occluded, occluded, occluded));
         paths->distance[lane] = hit ? hits.t[lane] : INFINITY;
         paths->rays[lane] = rays->tMax[lane] > 0.0f ? 1u : 0u;
         paths->shadowRays[lane] = 0u;
@@ -71,7 +80,7 @@ WEDGE_FN void takePaths(const PathPacket* paths, const float* weight, const RayP
     float numbers[WEDGE_SUMS][WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const bool taken = takesSample(at, lane);
-        const Vec3 radiance = vecScale(paths->radiance[lane], weight[lane]);
+        const Vec3 radiance = vecScale(laneVec(&paths->radiance, lane), weight[lane]);
         const float l = luminance(radiance);
         numbers[0][lane] = taken ? radiance.x : 0.0f;
         numbers[1][lane] = taken ? radiance.y : 0.0f;
@@ -118,7 +127,7 @@ WEDGE_FN SampleParams samplingOf(PathParams params)
 /// `receivers` that do not have the component. Returns the most samples that a lane takes now.
 WEDGE_FN uint preparePaths(uint size, PathParams params, uint lastSample, __global const float* specular,
     __global const uint* geometric, __global const uint* taken, __global const uint* wanted, ReceiverPacket* receivers,
-    Vec3* facing, PathPacket* paths, PathCounts* counts)
+    VecLanes* facing, PathPacket* paths, PathCounts* counts)
 {
     uint steps = 0u;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
@@ -129,7 +138,7 @@ WEDGE_FN uint preparePaths(uint size, PathParams params, uint lastSample, __glob
         const uint i = reflects ? at : 0u;
         const uint first = reflects ? taken[i] : 0u;
         const uint last = reflects ? min(wanted[i], lastSample) : 0u;
-        facing[lane] = reflects ? unpackDirection(geometric[i]) : vec3(0.0f, 0.0f, 1.0f);
+        setLaneVec(facing, lane, reflects ? unpackDirection(geometric[i]) : vec3(0.0f, 0.0f, 1.0f));
         paths->seed[lane] = receivers->seed[lane];
         paths->index[lane] = counts->first[lane] = first;
         counts->last[lane] = last;
@@ -152,11 +161,11 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
     const SampleParams sampling = samplingOf(params);
     ReceiverPacket receivers;
     loadReceivers(frame, sampling.light, firstGroup, WEDGE_RECEIVER_ARGUMENTS, &receivers);
-    Vec3 facing[WEDGE_PACKET_SIZE];
+    VecLanes facing;
     PathPacket paths;
     PathCounts counts;
     const uint steps = preparePaths(
-        frame.planeSize, params, lastSample, specular, geometric, taken, wanted, &receivers, facing, &paths, &counts);
+        frame.planeSize, params, lastSample, specular, geometric, taken, wanted, &receivers, &facing, &paths, &counts);
     const Sampling at = { frame.planeSize, params.firstPass, &receivers, receivers.pixel, counts.first, paths.index,
         counts.last, paths.count };
     Sink sink;
@@ -164,7 +173,7 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
     for (uint step = 0u; step < steps; ++step) {
         RayPacket packet;
         float weight[WEDGE_PACKET_SIZE];
-        firstRays(frame, params, sampling, &receivers, facing, &paths, counts.last, &packet, weight);
+        firstRays(frame, params, sampling, &receivers, &facing, &paths, counts.last, &packet, weight);
 #ifdef WEDGE_SINK_TAKES_RAYS
         const RayPacket first = packet; // paths go on in the packet
         const RayPacket* firstOnes = &first;
@@ -175,7 +184,7 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
             traceAmbient(nodes, blocks, &packet, &paths);
         } else if (WEDGE_IS_OF_EMITTERS(params.component)) {
             traceEmitters(nodes, blocks, lights.emitters, sampling, params.component == WEDGE_COMPONENT_EMITTERS_GLOSSY,
-                &receivers, facing, counts.last, &packet, weight, &paths);
+                &receivers, &facing, counts.last, &packet, weight, &paths);
         } else {
             tracePaths(nodes, blocks, surfaces, lights, sampling, params.bounces, &packet, &paths);
         }

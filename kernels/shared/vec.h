@@ -31,15 +31,17 @@ WEDGE_INLINE Vec3 vecCross(Vec3 a, Vec3 b)
     return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 WEDGE_INLINE float vecLength(Vec3 a) { return sqrt(vecDot(a, a)); }
-/// a / |a|, or the zero vector where |a| is 0. Chosen number by number: a choice of vectors keeps compilers from
-/// turning a loop over lanes into vectors (a Vec3 that is returned is a pair of floats and a float to them, and stays
-/// so).
+/// a or b, number by number: a choice of whole vectors keeps compilers from turning a loop over lanes into vectors (a
+/// Vec3 that is returned is a pair of floats and a float to them, and stays so).
+WEDGE_INLINE Vec3 vecChoose(bool first, Vec3 a, Vec3 b)
+{
+    return vec3(first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z);
+}
+/// a / |a|, or the zero vector where |a| is 0.
 WEDGE_INLINE Vec3 vecNormalize(Vec3 a)
 {
     const float length = vecLength(a);
-    const bool any = length > 0.0f;
-    const float scale = 1.0f / length;
-    return vec3(any ? a.x * scale : 0.0f, any ? a.y * scale : 0.0f, any ? a.z * scale : 0.0f);
+    return vecChoose(length > 0.0f, vecScale(a, 1.0f / length), vec3(0.0f, 0.0f, 0.0f));
 }
 
 WEDGE_SHARED_END

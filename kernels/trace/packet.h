@@ -63,6 +63,16 @@ WEDGE_INLINE float timeOf(const RayPacket* packet, uint lane)
 #endif
 }
 
+WEDGE_INLINE Vec3 rayStart(const RayPacket* packet, uint lane)
+{
+    return vec3(packet->originX[lane], packet->originY[lane], packet->originZ[lane]);
+}
+
+WEDGE_INLINE Vec3 rayDirection(const RayPacket* packet, uint lane)
+{
+    return vec3(packet->directionX[lane], packet->directionY[lane], packet->directionZ[lane]);
+}
+
 WEDGE_INLINE Hit packetHit(const PacketHits* hits, uint lane)
 {
     Hit hit;

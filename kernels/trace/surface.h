@@ -113,7 +113,7 @@ WEDGE_FN Vec3 hitMotion(SurfaceData data, Hit hit)
 }
 
 /// How far p lies below the tangent plane of a vertex, along that plane's normal; 0 where it lies above.
-WEDGE_FN Vec3 liftToTangentPlane(Vec3 p, Vec3 vertex, Vec3 normal)
+WEDGE_INLINE Vec3 liftToTangentPlane(Vec3 p, Vec3 vertex, Vec3 normal)
 {
     return vecScale(normal, -fmin(0.0f, vecDot(vecSub(p, vertex), normal)));
 }
@@ -122,15 +122,13 @@ WEDGE_FN Vec3 liftToTangentPlane(Vec3 p, Vec3 vertex, Vec3 normal)
 /// normals suggest, so that a coarse mesh does not shadow itself at the terminator (Hanika, Hacking the Shadow
 /// Terminator, Ray Tracing Gems II, 2021), then off the plane by the rounding error of everything that made p:
 /// a bound from the coordinates themselves instead of one global distance.
-WEDGE_FN Vec3 rayOrigin(
+WEDGE_INLINE Vec3 rayOrigin(
     Vec3 p, Vec3 geometric, Vec3 a, Vec3 b, Vec3 c, Vec3 na, Vec3 nb, Vec3 nc, bool smooth, float u, float v)
 {
-    Vec3 lifted = p;
-    if (smooth) {
-        lifted = vecMad(lifted, liftToTangentPlane(p, a, na), 1.0f - u - v);
-        lifted = vecMad(lifted, liftToTangentPlane(p, b, nb), u);
-        lifted = vecMad(lifted, liftToTangentPlane(p, c, nc), v);
-    }
+    Vec3 curved = vecMad(p, liftToTangentPlane(p, a, na), 1.0f - u - v);
+    curved = vecMad(curved, liftToTangentPlane(p, b, nb), u);
+    curved = vecMad(curved, liftToTangentPlane(p, c, nc), v);
+    Vec3 lifted = vecChoose(smooth, curved, p);
     const float x = fmax(fmax(fabs(a.x), fabs(b.x)), fabs(c.x));
     const float y = fmax(fmax(fabs(a.y), fabs(b.y)), fabs(c.y));
     const float z = fmax(fmax(fabs(a.z), fabs(b.z)), fabs(c.z));
@@ -143,37 +141,61 @@ WEDGE_FN Vec3 rayOrigin(
     return vecMad(lifted, geometric, error);
 }
 
-/// Surface hit by a ray of the given direction (any length) and time (0 where the shutter opens, 1 where it closes).
-WEDGE_FN Surface surfaceAt(SurfaceData data, Hit hit, Vec3 direction, float time)
+/// A triangle's corners and its vertex normals at a time, see positionAt() and normalAt().
+typedef struct {
+    Vec3 a, b, c;
+    Vec3 normalA, normalB, normalC;
+} Corners;
+
+WEDGE_FN Corners cornersOf(SurfaceData data, uint triangle, float time)
 {
-    Surface s;
-    const uint ia = data.indices[3u * hit.triangle];
-    const uint ib = data.indices[3u * hit.triangle + 1u];
-    const uint ic = data.indices[3u * hit.triangle + 2u];
-    const Vec3 a = positionAt(data, ia, time);
-    const Vec3 b = positionAt(data, ib, time);
-    const Vec3 c = positionAt(data, ic, time);
-    const float wa = 1.0f - hit.u - hit.v;
-    const Vec3 ab = vecSub(b, a);
-    const Vec3 ac = vecSub(c, a);
-    s.position = vecMad(vecMad(a, ab, hit.u), ac, hit.v);
-    Vec3 geometric = vecNormalize(vecCross(ab, ac));
-    const float side = vecDot(geometric, direction) > 0.0f ? -1.0f : 1.0f;
-    geometric = vecScale(geometric, side);
+    const uint a = data.indices[3u * triangle];
+    const uint b = data.indices[3u * triangle + 1u];
+    const uint c = data.indices[3u * triangle + 2u];
+    Corners k;
+    k.a = positionAt(data, a, time);
+    k.b = positionAt(data, b, time);
+    k.c = positionAt(data, c, time);
+    k.normalA = normalAt(data, a, time);
+    k.normalB = normalAt(data, b, time);
+    k.normalC = normalAt(data, c, time);
+    return k;
+}
+
+/// Where and how a surface lies.
+typedef struct {
+    Vec3 position, origin, normal, geometric; ///< as of Surface
+} Facet;
+
+/// The triangle's at barycentrics (u, v), seen along a direction. Without branches, for loops over lanes.
+WEDGE_INLINE Facet facetOf(Corners k, float u, float v, Vec3 direction)
+{
+    const Vec3 ab = vecSub(k.b, k.a), ac = vecSub(k.c, k.a);
+    Facet f;
+    f.position = vecMad(vecMad(k.a, ab, u), ac, v);
+    const Vec3 winding = vecNormalize(vecCross(ab, ac));
+    f.geometric = vecScale(winding, vecDot(winding, direction) > 0.0f ? -1.0f : 1.0f);
 
     // Vertex normals follow the winding in well-made files and do not in others: each is turned to the viewer's side.
-    Vec3 na = normalAt(data, ia, time);
-    Vec3 nb = normalAt(data, ib, time);
-    Vec3 nc = normalAt(data, ic, time);
-    na = vecScale(na, vecDot(na, geometric) < 0.0f ? -1.0f : 1.0f);
-    nb = vecScale(nb, vecDot(nb, geometric) < 0.0f ? -1.0f : 1.0f);
-    nc = vecScale(nc, vecDot(nc, geometric) < 0.0f ? -1.0f : 1.0f);
-    const Vec3 interpolated = vecMad(vecMad(vecScale(na, wa), nb, hit.u), nc, hit.v);
+    const Vec3 na = vecScale(k.normalA, vecDot(k.normalA, f.geometric) < 0.0f ? -1.0f : 1.0f);
+    const Vec3 nb = vecScale(k.normalB, vecDot(k.normalB, f.geometric) < 0.0f ? -1.0f : 1.0f);
+    const Vec3 nc = vecScale(k.normalC, vecDot(k.normalC, f.geometric) < 0.0f ? -1.0f : 1.0f);
+    const Vec3 interpolated = vecMad(vecMad(vecScale(na, 1.0f - u - v), nb, u), nc, v);
     const bool smooth = vecDot(interpolated, interpolated) > 1e-12f;
-    s.normal = smooth ? vecNormalize(interpolated) : geometric;
-    s.geometric = geometric;
-    s.origin = rayOrigin(s.position, geometric, a, b, c, na, nb, nc, smooth, hit.u, hit.v);
+    f.normal = vecChoose(smooth, vecNormalize(interpolated), f.geometric);
+    f.origin = rayOrigin(f.position, f.geometric, k.a, k.b, k.c, na, nb, nc, smooth, u, v);
+    return f;
+}
 
+/// What a surface is made of.
+typedef struct {
+    Vec3 diffuse, specular, emission;
+    Gloss gloss;
+} Finish;
+
+WEDGE_FN Finish finishOf(SurfaceData data, Hit hit)
+{
+    Finish s;
     const MaterialData material = data.materials[data.materialIds[hit.triangle]];
     s.diffuse = material.diffuse;
     s.specular = material.specular;
@@ -184,6 +206,10 @@ WEDGE_FN Surface surfaceAt(SurfaceData data, Hit hit, Vec3 direction, float time
     if (!textured) {
         return s;
     }
+    const uint ia = data.indices[3u * hit.triangle];
+    const uint ib = data.indices[3u * hit.triangle + 1u];
+    const uint ic = data.indices[3u * hit.triangle + 2u];
+    const float wa = 1.0f - hit.u - hit.v;
     const float tu = data.texcoords[2u * ia] * wa + data.texcoords[2u * ib] * hit.u + data.texcoords[2u * ic] * hit.v;
     const float tv =
         data.texcoords[2u * ia + 1u] * wa + data.texcoords[2u * ib + 1u] * hit.u + data.texcoords[2u * ic + 1u] * hit.v;
@@ -204,6 +230,23 @@ WEDGE_FN Surface surfaceAt(SurfaceData data, Hit hit, Vec3 direction, float time
         s.gloss.exponent *=
             sampleTexture(data.textures, data.texels, data.srgbToLinear + 256, material.exponentTexture, tu, tv).x;
     }
+    return s;
+}
+
+/// Surface hit by a ray of the given direction (any length) and time (0 where the shutter opens, 1 where it closes).
+WEDGE_FN Surface surfaceAt(SurfaceData data, Hit hit, Vec3 direction, float time)
+{
+    const Facet f = facetOf(cornersOf(data, hit.triangle, time), hit.u, hit.v, direction);
+    const Finish finish = finishOf(data, hit);
+    Surface s;
+    s.position = f.position;
+    s.origin = f.origin;
+    s.normal = f.normal;
+    s.geometric = f.geometric;
+    s.diffuse = finish.diffuse;
+    s.specular = finish.specular;
+    s.emission = finish.emission;
+    s.gloss = finish.gloss;
     return s;
 }
 
