@@ -151,6 +151,50 @@ TEST_CASE("squared errors have the reference's noise taken out, and the worst pi
     CHECK(spiked.deviation == 0);
 }
 
+TEST_CASE("how well the reference's noise is known enters errors and slopes")
+{
+    // Most of the noise in a few grey pixels, as at the edges of lights, where the image is good.
+    std::mt19937 random(5);
+    const image::RgbImage truth = plainImage(0.5f);
+    image::RgbImage image = truth;
+    addNoise(image, 0.002, random);
+    std::vector<double> means, predicted;
+    for (unsigned trial = 0; trial < 200; ++trial) {
+        Reference reference;
+        reference.image = reference.deviation = truth;
+        for (std::size_t i = 0; i < truth.rgb.size() / 3; ++i) {
+            const double size = i % 150 == 0 ? 0.05 : 0.001;
+            const auto noise = static_cast<float>(size * gaussian(random));
+            const auto known = static_cast<float>(size * gaussian(random));
+            for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
+                reference.image.rgb[c] = truth.rgb[c] + noise;
+                reference.deviation.rgb[c] = known;
+            }
+        }
+        const SquaredError found = squaredError({ image }, reference);
+        means.push_back(found.mean);
+        predicted.push_back(found.referenceDeviation * found.mean);
+    }
+    double mean = 0, scatter = 0, expected = 0;
+    for (const double m : means)
+        mean += m / 200;
+    for (std::size_t i = 0; i < 200; ++i) {
+        scatter += (means[i] - mean) * (means[i] - mean) / 199;
+        expected += predicted[i] * predicted[i] / 200;
+    }
+    CHECK(std::sqrt(scatter) > 0.3 * mean);
+    CHECK(std::sqrt(expected / scatter) == doctest::Approx(1).epsilon(0.25));
+
+    LotteryResult known = resultOf(0.2, -0.3, 0, 1), unknown = known;
+    unknown.filtered.back().error.referenceDeviation = 2;
+    CHECK(verdictOf(known, 28).slopeDeviation < 0.02);
+    CHECK(verdictOf(unknown, 28).slopeDeviation == doctest::Approx(1 / std::log(512 / 28.0)).epsilon(0.01));
+    for (const auto& [result, broken] : { std::pair(known, 1.0), { unknown, 0.0 } })
+        for (const Claim& claim : lotteryClaims({ result }, 28))
+            if (claim.id == "lottery.all.slope_broken")
+                CHECK(claim.value == broken);
+}
+
 TEST_CASE("verdicts: savings, slopes and bounds")
 {
     // Half the error of plain sampling at every count, at twice the time of a sample.

@@ -43,6 +43,19 @@ double mean(const std::vector<Pixel>& pixels, std::size_t count)
     return own(squared, noise) / static_cast<double>(count);
 }
 
+/// Variance of mean() over references of as much noise. Of a pixel whose error is e and whose reference's is a Gaussian
+/// of variance s^2, the squared difference has 2 s^4 + 4 e^2 s^2, and the estimate of s^2 that is taken off, one number
+/// squared, 2 s^4 again; of that number the fourth power is 3 s^4.
+double referenceVariance(const std::vector<Pixel>& pixels)
+{
+    double sum = 0;
+    for (const Pixel& p : pixels) {
+        sum += p.noise * (4.0 / 3.0 * p.noise + 4.0 * std::max(p.squared - p.noise, 0.0));
+    }
+    const auto n = static_cast<double>(pixels.size());
+    return sum / (n * n);
+}
+
 double meanOf(const std::vector<double>& values)
 {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -75,11 +88,12 @@ double SquaredError::trimmedRmse() const { return std::sqrt(trimmed); }
 
 SquaredError squaredError(const std::vector<image::RgbImage>& images, const Reference& reference)
 {
-    std::vector<double> whole, trimmed, bias;
+    std::vector<double> whole, trimmed, bias, fromReference;
     const double truth = std::max(level(reference.image), 1e-30);
     for (const image::RgbImage& image : images) {
         std::vector<Pixel> pixels = pixelErrors(image, reference);
         whole.push_back(mean(pixels, pixels.size()));
+        fromReference.push_back(referenceVariance(pixels));
         std::ranges::sort(pixels, std::less {}, [](const Pixel& p) { return p.squared; });
         const auto left = static_cast<std::size_t>(std::ceil((1.0 - worstPixels) * static_cast<double>(pixels.size())));
         trimmed.push_back(mean(pixels, left));
@@ -89,6 +103,7 @@ SquaredError squaredError(const std::vector<image::RgbImage>& images, const Refe
     out.mean = meanOf(whole);
     out.trimmed = meanOf(trimmed);
     out.deviation = out.mean > 0 ? standardError(whole) / out.mean : 0;
+    out.referenceDeviation = out.mean > 0 ? std::sqrt(meanOf(fromReference)) / out.mean : 0;
     out.bias = meanOf(bias);
     out.biasDeviation = standardError(bias);
     return out;

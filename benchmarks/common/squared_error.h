@@ -14,6 +14,9 @@ struct SquaredError {
     double trimmed = 0; ///< without the pixels of largest error, worstPixels of them
     double deviation =
         0; ///< standard error of `mean`, as a fraction of it, from the scatter between the seeds; 0 for one seed
+    /// Standard error of `mean`, as a fraction of it, that the reference's noise is the cause of: the same for all
+    /// seeds.
+    double referenceDeviation = 0;
     double bias = 0; ///< mean of the images over that of the reference, less 1
     double biasDeviation = 0; ///< standard error of `bias`, likewise; 0 for one seed
 
@@ -21,6 +24,7 @@ struct SquaredError {
     double trimmedRmse() const;
     /// Standard error of rmse(), as a fraction of it.
     double rmseDeviation() const { return 0.5 * deviation; }
+    double rmseReferenceDeviation() const { return 0.5 * referenceDeviation; }
 };
 
 /// The fraction of an image's pixels that `trimmed` leaves out.

@@ -29,12 +29,14 @@ std::string methodFingerprint()
 Json dataOf(const SquaredError& e)
 {
     return { { "mse", number(e.mean) }, { "mse_trimmed", number(e.trimmed) }, { "deviation", number(e.deviation) },
-        { "bias", number(e.bias) }, { "bias_deviation", number(e.biasDeviation) } };
+        { "reference_deviation", number(e.referenceDeviation) }, { "bias", number(e.bias) },
+        { "bias_deviation", number(e.biasDeviation) } };
 }
 
 SquaredError errorOf(const Json& j)
 {
-    return { j.at("mse"), j.at("mse_trimmed"), j.at("deviation"), j.at("bias"), j.at("bias_deviation") };
+    return { j.at("mse"), j.at("mse_trimmed"), j.at("deviation"), j.value("reference_deviation", 0.0), j.at("bias"),
+        j.at("bias_deviation") };
 }
 
 Json dataOf(const std::vector<LotteryPoint>& points)
@@ -67,8 +69,9 @@ Json dataOf(const LotteryResult& r, int compared)
         { "against_mc_in_equal_time", number(v.againstEqualTime.value) }, { "saved_samples", number(v.savedSamples) },
         { "saved_samples_trimmed", number(v.savedTrimmed) }, { "saved_time", number(v.savedTime) },
         { "saved_wall_time", number(v.savedWallTime) }, { "slope", number(v.slope) },
-        { "mc_slope", number(v.plainSlope) }, { "bias", number(v.bias) }, { "mc", dataOf(r.plain) },
-        { "aaf", dataOf(r.filtered) }, { "fixed_blur", dataOf(r.fixedBlur) }, { "fixed_blur_name", r.fixedBlurName } };
+        { "slope_deviation", number(v.slopeDeviation) }, { "mc_slope", number(v.plainSlope) },
+        { "bias", number(v.bias) }, { "mc", dataOf(r.plain) }, { "aaf", dataOf(r.filtered) },
+        { "fixed_blur", dataOf(r.fixedBlur) }, { "fixed_blur_name", r.fixedBlurName } };
 }
 
 LotteryResult resultOf(const Json& j)

@@ -170,7 +170,10 @@ Verdict verdictOf(const LotteryResult& r, int compared)
     v.savedWallTime = plainWall.milliseconds(needed) / filteredWall.milliseconds(compared);
     v.slope = slopeOf(r.filtered, compared);
     v.plainSlope = slopeOf(r.plain, compared);
-    v.slopeDeviation = std::hypot(deviation, singleDeviation(r.filtered))
+    // Both ends are held against one reference, so that its noise moves them together; the sum bounds what it does.
+    const double fromReference =
+        filtered.error.rmseReferenceDeviation() + r.filtered.back().error.rmseReferenceDeviation();
+    v.slopeDeviation = std::hypot(deviation, singleDeviation(r.filtered), fromReference)
         / std::log(static_cast<double>(r.filtered.back().spp) / compared);
     v.bias = filtered.error.bias;
     v.biasDeviation = filtered.error.biasDeviation;
@@ -215,8 +218,8 @@ std::vector<Claim> lotteryClaims(const std::vector<LotteryResult>& results, int 
 
 std::string lotteryTable(const std::vector<LotteryResult>& results, int compared)
 {
-    std::string text = fmt::format("{:>6} {:>3} {:>6} {:>6} {:>6} {:>7} {:>7} {:>6} {:>6} {:>8}  {}\n", "seed", "b",
-        "/mc", "/blur", "/time", "samples", "time", "slope", "mc's", "bias %", "traits");
+    std::string text = fmt::format("{:>6} {:>3} {:>6} {:>6} {:>6} {:>7} {:>7} {:>6} {:>5} {:>6} {:>8}  {}\n", "seed",
+        "b", "/mc", "/blur", "/time", "samples", "time", "slope", "+-", "mc's", "bias %", "traits");
     for (const LotteryResult& r : results) {
         const Verdict v = verdictOf(r, compared);
         std::vector<std::string> traits = generator::hardCases(r.traits);
@@ -233,10 +236,10 @@ std::string lotteryTable(const std::vector<LotteryResult>& results, int compared
             return fmt::format("{:.2f}{}", ratio.value, ratio.exceeds(bound) ? "!" : "");
         };
         text += fmt::format(
-            "{:>6} {:>3} {:>6} {:>6} {:>6} {:>7.1f} {:>7.1f} {:>6.2f} {:>6.2f} {:>8.2f}  {} lights {}\n", r.seed,
-            r.traits.bounces, marked(v.againstPlain, mostAgainstPlain), marked(v.againstBlur, mostAgainstBlur),
-            marked(v.againstEqualTime, mostAgainstEqualTime), v.savedSamples, v.savedTime, v.slope, v.plainSlope,
-            100 * v.bias, r.traits.lights, fmt::join(traits, " "));
+            "{:>6} {:>3} {:>6} {:>6} {:>6} {:>7.1f} {:>7.1f} {:>6.2f} {:>5.2f} {:>6.2f} {:>8.2f}  {} lights {}\n",
+            r.seed, r.traits.bounces, marked(v.againstPlain, mostAgainstPlain), marked(v.againstBlur, mostAgainstBlur),
+            marked(v.againstEqualTime, mostAgainstEqualTime), v.savedSamples, v.savedTime, v.slope, v.slopeDeviation,
+            v.plainSlope, 100 * v.bias, r.traits.lights, fmt::join(traits, " "));
     }
     text += '\n';
     for (const Claim& claim : lotteryClaims(results, compared)) {

@@ -1,6 +1,6 @@
 // Shadow rays to one area light, from points on it; its sinks (sinks/sums.h) say what becomes of the samples. Where one
 // takes hits the nearest occluder along each ray is found, else only whether there is one. Plain Monte Carlo also
-// follows reflected directions that meet the light (met_light.h) where they may be as dense; so do ratios of lobes that
+// follows reflected directions that meet the light (met_light.h) where these may help; so do ratios of lobes that
 // are narrower than the light, whose specular sums then have points on it and directions, weighted by both densities.
 //
 // in      frame, BVH, the light, receivers; wanted: samples of each when the pass ends; lastSample: where this launch

@@ -4,6 +4,7 @@
 #ifndef WEDGE_MET_LIGHT_H
 #define WEDGE_MET_LIGHT_H
 
+#include "core/vec_lanes.h"
 #include "light/light_packet.h"
 #include "light/light_sampling.h"
 #include "light/scene_light.h"
@@ -35,22 +36,22 @@ typedef struct {
     bool any[WEDGE_VALUES]; ///< of the lanes
 } Directions;
 
-/// Density of the diffuse part's directions over that of points on the light from which on both are sampled; where
-/// directions are sparser, their weight is below a half and points do as well alone.
+/// What a light could bring at most, over a diffuse reflection's largest, from which on its diffuse part is sampled by
+/// directions, too. Below it points on the light, which follow its profile, do as well alone.
 #define WEDGE_DIFFUSE_DIRECTED 1.0f
 /// Squared angular half extent of the light over the squared width of a lobe from which on both are sampled: points on
 /// the light find too little of it, in plain Monte Carlo and in ratios (lobesAcross16() in unshadowed.h).
 #define WEDGE_LOBE_DIRECTED 4.0f
 
-/// The most that the density of cosine-distributed directions can be over that of points on the light: as if its
-/// nearest point faced the receiver overhead.
-WEDGE_INLINE float diffuseDensity(AreaLight light, Vec3 position)
+/// The light as if all of it shone from its nearest point, overhead and face on, over what the whole hemisphere could
+/// bring: profileArea / (pi r^2). It is also the most that the density of cosine-distributed directions can be over
+/// that of points on a uniform light.
+WEDGE_INLINE float diffuseShare(AreaLight light, Vec3 position)
 {
-    const Vec3 d = vecSub(light.centre, position);
-    const float edges = vecDot(light.halfU, light.halfU) + vecDot(light.halfV, light.halfV);
-    const float nearest = fmax(vecLength(d) - sqrt(edges), 0.0f);
-    const float edge = lightProfile(1.0f, 1.0f, light.profile, light.cut);
-    return WEDGE_INV_PI * light.profileArea / fmax(edge * nearest * nearest, 1e-30f);
+    const float u = vecDot(light.halfU, light.halfU), v = vecDot(light.halfV, light.halfV);
+    const float corner = sqrt(u + v + 2.0f * fabs(vecDot(light.halfU, light.halfV)));
+    const float nearest = fmax(vecLength(vecSub(light.centre, position)) - corner, 0.0f);
+    return WEDGE_INV_PI * light.profileArea / fmax(nearest * nearest, 1e-30f);
 }
 
 WEDGE_FN void chooseDirections(SampleParams params, AreaLight light, const ReceiverPacket* r, Directions* out)
@@ -59,7 +60,7 @@ WEDGE_FN void chooseDirections(SampleParams params, AreaLight light, const Recei
     const bool all = plain && params.lightSampling == WEDGE_LIGHTS_MET;
     uint any = 0u;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const bool near = diffuseDensity(light, lanePosition(r, lane)) > WEDGE_DIFFUSE_DIRECTED;
+        const bool near = diffuseShare(light, lanePosition(r, lane)) > WEDGE_DIFFUSE_DIRECTED;
         const bool chosen = plain && (all || near) && r->pixel[lane] != WEDGE_NO_PIXEL;
         out->lane[0][lane] = chosen ? 1u : 0u;
         any |= out->lane[0][lane];
@@ -75,8 +76,9 @@ WEDGE_FN void chooseDirections(SampleParams params, AreaLight light, const Recei
         const float across = extent * r->exponent[lane] / squared;
         const bool phong = r->kind[lane] == WEDGE_PHONG;
         const bool narrow = (phong ? across : across / widening) > WEDGE_LOBE_DIRECTED;
+        const bool lobe = r->pixel[lane] != WEDGE_NO_PIXEL && r->kind[lane] != WEDGE_LAMBERT;
         const bool chosen = all || (narrow && (plain || params.shading == WEDGE_SHADING_RATIO));
-        out->lane[1][lane] = chosen && r->pixel[lane] != WEDGE_NO_PIXEL ? 1u : 0u;
+        out->lane[1][lane] = chosen && lobe ? 1u : 0u;
         any |= out->lane[1][lane];
     }
     out->any[1] = any != 0u;
@@ -142,17 +144,15 @@ WEDGE_INLINE Reflection specularReflection(const ReceiverPacket* r, uint lane, V
 }
 #endif
 
-/// Reflected directions of all lanes for the numbers (u, v), apart.
+/// Reflected directions of all lanes for the numbers (u, v), number by number.
 typedef struct {
-    float x[WEDGE_PACKET_SIZE], y[WEDGE_PACKET_SIZE], z[WEDGE_PACKET_SIZE];
+    VecLanes direction;
     float pdf[WEDGE_PACKET_SIZE], reflected[WEDGE_PACKET_SIZE];
 } Reflections;
 
 WEDGE_INLINE void keepReflection(Reflections* out, uint lane, Reflection r)
 {
-    out->x[lane] = r.direction.x;
-    out->y[lane] = r.direction.y;
-    out->z[lane] = r.direction.z;
+    setLaneVec(&out->direction, lane, r.direction);
     out->pdf[lane] = r.pdf;
     out->reflected[lane] = r.reflected;
 }
@@ -191,7 +191,7 @@ WEDGE_FN void meetDirections(SampleParams params, AreaLight light, const Receive
     reflect(r, specular, u, v, &reflections);
     float x[WEDGE_PACKET_SIZE], y[WEDGE_PACKET_SIZE], z[WEDGE_PACKET_SIZE], end[WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const Vec3 l = vec3(reflections.x[lane], reflections.y[lane], reflections.z[lane]);
+        const Vec3 l = laneVec(&reflections.direction, lane);
         const float pdf = reflections.pdf[lane];
         const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
         const LightMeeting m = meetLight(light, lanePosition(r, lane), l);

@@ -3,7 +3,8 @@
 #ifndef WEDGE_EMITTER_RAYS_H
 #define WEDGE_EMITTER_RAYS_H
 
-#include "paths/path_packet.h"
+#include "light/scene_light.h"
+#include "paths/path_state.h"
 
 /// What a receiver reflects.
 typedef struct {
@@ -66,11 +67,12 @@ WEDGE_FN void traceEmitters(__global const TraversalNode* restrict nodes, __glob
     PacketHits hits;
     closestHits(nodes, blocks, rays, &hits);
     RayPacket shadow;
-    Vec3 light[WEDGE_PACKET_SIZE];
+    VecLanes light;
     float extent[WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         setLaneVec(&paths->radiance, lane, vec3(0.0f, 0.0f, 0.0f));
-        light[lane] = vec3(0.0f, 0.0f, 0.0f);
+        Vec3 brought = vec3(0.0f, 0.0f, 0.0f);
+        setLaneVec(&light, lane, brought);
         paths->distance[lane] = INFINITY;
         paths->rays[lane] = rays->tMax[lane] > 0.0f ? 1u : 0u;
         paths->shadowRays[lane] = 0u;
@@ -93,7 +95,8 @@ WEDGE_FN void traceEmitters(__global const TraversalNode* restrict nodes, __glob
         weight[lane] = 1.0f;
         if (sampling.lightSampling != WEDGE_LIGHTS_MET && emitters.count > 0u) {
             extent[lane] =
-                emitterRay(emitters, sampling, paths, r, lane, glossy, laneVec(facing, lane), &shadow, &light[lane]);
+                emitterRay(emitters, sampling, paths, r, lane, glossy, laneVec(facing, lane), &shadow, &brought);
+            setLaneVec(&light, lane, brought);
             paths->shadowRays[lane] = shadow.tMax[lane] > 0.0f ? 1u : 0u;
         }
     }
@@ -115,7 +118,7 @@ WEDGE_FN void traceEmitters(__global const TraversalNode* restrict nodes, __glob
         const bool hidden = occluded[lane] != 0u;
         const float penumbra = far;
 #endif
-        setLaneVecIf(&paths->radiance, lane, !hidden, vecAdd(laneVec(&paths->radiance, lane), light[lane]));
+        setLaneVecIf(&paths->radiance, lane, !hidden, vecAdd(laneVec(&paths->radiance, lane), laneVec(&light, lane)));
         paths->distance[lane] = fmin(paths->distance[lane], fmax(fmin(penumbra, far), 1e-20f));
     }
 }

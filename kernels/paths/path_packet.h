@@ -157,7 +157,9 @@ WEDGE_FN void addBeyond(const RayPacket* rays, const PacketHits* hits, PathPacke
     VecLanes sum;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const bool beyond = rays->tMax[lane] > 0.0f && hits->triangle[lane] == WEDGE_NO_TRIANGLE;
-        const Vec3 radiance = environmentRadiance(rayDirection(rays, lane));
+        // Rays that there are not need not be of length 1.
+        const Vec3 direction = vecChoose(beyond, rayDirection(rays, lane), vec3(0.0f, 0.0f, 1.0f));
+        const Vec3 radiance = environmentRadiance(direction);
         setLaneVec(&sum, lane, vec3(0.0f, 0.0f, 0.0f));
         setLaneVecIf(&sum, lane, beyond, radiance);
     }

@@ -1,5 +1,5 @@
 // Where a packet's paths are: the surfaces there, and how they scatter. What differs from lane to lane in kind (the
-// surface, the light) is fetched one by one; all arithmetic is in loops over lanes without branches, which become
+// surface, the light) is fetched one by one; arithmetic is in loops over lanes without branches, which become
 // vectors. What no lane needs, such as lobes, is left out for all of them.
 #ifndef WEDGE_PATH_VERTICES_H
 #define WEDGE_PATH_VERTICES_H

@@ -6,7 +6,8 @@
 //
 // begin   before the launch's samples are taken: at->first says how many a receiver has of earlier launches
 // take    a sample of each lane: at->index says which one of its receiver it is, from 0. Several times for one index
-//         where an effect samples in several ways. Lanes of which there is none (takesSample()) have values of 0
+//         where an effect samples in several ways, as often as the packet's lanes ask for: a way that a lane does not
+//         take, and lanes of which there is no sample (takesSample()), have values of 0 and no ray
 // finish  at->index says how many samples there are now; lanes without new ones (hasTaken()) keep what was there
 #ifndef WEDGE_SUMS_H
 #define WEDGE_SUMS_H
