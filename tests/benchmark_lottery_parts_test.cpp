@@ -110,9 +110,9 @@ TEST_CASE("of the seeds to tune on and of those to report on, a quarter or more 
             REQUIRE(t.lights <= 16);
         }
         CHECK(cases.size() == 5);
-        for (const auto& [name, count] : cases) {
-            CAPTURE(name);
-            CHECK(count >= 50);
+        for (const auto& found : cases) {
+            CAPTURE(found.first);
+            CHECK(found.second >= 50);
         }
         CHECK(bounces > 70);
         CHECK(antialiased > 50);

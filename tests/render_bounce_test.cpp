@@ -98,7 +98,8 @@ glm::dvec3 wallRadiance(const scene::Scene& scene, glm::dvec3 at, glm::dvec3 out
     glm::dvec3 sum(0);
     for (const scene::AreaLight& light : scene.areaLights)
         for (int i = 0; i < steps * steps; ++i) {
-            const double a = 2 * (i % steps + 0.5) / steps - 1, b = 2 * (i / steps + 0.5) / steps - 1;
+            const int column = i % steps, row = i / steps;
+            const double a = 2 * (column + 0.5) / steps - 1, b = 2 * (row + 0.5) / steps - 1;
             const glm::dvec3 d = pointOf(light, a, b) - at;
             sum += glm::dvec3(light.radiance)
                 * (profileAt(light, a, b) * geometry(n, d, lightNormal(light), light.twoSided) * lightArea(light)

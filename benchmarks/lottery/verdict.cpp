@@ -112,6 +112,7 @@ double medianOf(
     const std::vector<LotteryResult>& results, int compared, const std::function<double(const Verdict&)>& value)
 {
     std::vector<double> values;
+    values.reserve(results.size());
     for (const LotteryResult& r : results) {
         values.push_back(value(verdictOf(r, compared)));
     }

@@ -38,11 +38,11 @@ HostSurfaces::HostSurfaces(const scene::Scene& scene)
 SurfacePoint HostSurfaces::at(const shared::Hit& hit, shared::Vec3 direction) const
 {
     const scene::Geometry& g = scene_.geometry;
-    static constexpr float noTexels[512] = {}; // of scenes without textures
     const kernel::SurfaceData data { g.positions.data(), g.normals.data(), g.texcoords.data(), g.indices.data(),
-        g.materialIds.data(), materials_.data(), nullptr, nullptr, noTexels, nullptr, nullptr };
-    const kernel::Surface s = kernel::surfaceAt(data, hit, direction, 0.0f);
-    return { s.position, s.origin, s.normal, s.geometric, s.diffuse, s.emission };
+        g.materialIds.data(), materials_.data(), nullptr, nullptr, nullptr, nullptr, nullptr };
+    const kernel::Facet f = kernel::facetOf(kernel::cornersOf(data, hit.triangle, 0.0f), hit.u, hit.v, direction);
+    const shared::MaterialData& material = materials_[g.materialIds[hit.triangle]]; // of scenes without textures
+    return { f.position, f.origin, f.normal, f.geometric, material.diffuse, material.emission };
 }
 
 bool mattAndUntextured(const scene::Scene& scene)

@@ -39,12 +39,6 @@ WEDGE_FN Receiver loadReceiver(FrameParams frame, ReceiverData data, uint i)
     return r;
 }
 
-/// Weight of the light's point at vector d from the receiver in the specular term.
-WEDGE_FN float specularWeight(Receiver r, Vec3 d, float geometry)
-{
-    return geometry * lobeValue(r.lobe, r.normal, r.view, vecNormalize(d));
-}
-
 /// The quantity that is filtered: weighted mean visibility, or for WEDGE_SHADING_INSIDE the mean of the weights of
 /// visible samples. Divides by what was taken, never by what was asked for; 0 where nothing was.
 WEDGE_FN float termValue(uint shading, float weights, float visible, uint taken)

@@ -13,7 +13,7 @@ LotteryTraits lotteryTraits(std::uint32_t seed)
     t.open = chance(random, 0.35);
     t.oneGroup = chance(random, 0.35);
     t.bounces = chance(random, 0.5) ? 1 : 0;
-    // What emits lights others by paths alone.
+    // When seeds were frozen, what emits lit others by paths alone.
     t.smallEmitters = chance(random, t.bounces > 0 ? 0.6 : 0.12);
     t.textures = chance(random, 0.5);
     t.antialias = chance(random, 0.35);
