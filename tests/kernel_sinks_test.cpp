@@ -227,9 +227,9 @@ private:
 };
 
 /// Checks that each sink gets the same samples, alone or beside another, and calls visit(i, direction, values) for each
-/// stored one; ways: how often an index is sampled. sample(sinks): runs the kernel.
+/// stored one. sample(sinks): runs the kernel.
 template <class Sample, class Visit>
-void checkSinks(const Points& points, std::uint32_t ways, const Sample& sample, const Visit& visit)
+void checkSinks(const Points& points, const Sample& sample, const Visit& visit)
 {
     const Result sums = sample({ sinks::sums() }), apart = sample({ stored() }),
                  both = sample({ stored(), sinks::sums() });
@@ -242,7 +242,7 @@ void checkSinks(const Points& points, std::uint32_t ways, const Sample& sample, 
     double total = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const std::uint32_t count = apart.counts[i];
-        REQUIRE(count == ways * (apart.taken[i] - points.first[i]));
+        REQUIRE(count == apart.taken[i] - points.first[i]);
         if (count == 0)
             continue;
         ++receivers;
@@ -270,6 +270,44 @@ void checkSinks(const Points& points, std::uint32_t ways, const Sample& sample, 
     CHECK(total > 1);
 }
 
+/// Checks that samples of receivers that want `room` each are, to the bit, those of receivers that want fewer, any
+/// number in each lane of a packet; and that these add up in their order. sample(points): runs the kernel.
+template <class Sample>
+void checkIndependence(const Points& pixels, const Sample& sample)
+{
+    const Result all = sample(pixels);
+    std::mt19937 random(11);
+    // Few different ones, all different ones, and a few that want far more than the others.
+    for (const std::uint32_t kind : { 0u, 1u, 2u }) {
+        Points some = pixels;
+        for (std::uint32_t& wanted : some.wanted) {
+            const std::uint32_t number = static_cast<std::uint32_t>(random());
+            wanted = kind == 0 ? 9 + number % 3 : kind == 1 ? number % (room + 1) : number % 8 == 0 ? room : 7;
+        }
+        const Result result = sample(some);
+        std::size_t receivers = 0, differ = 0;
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            if (some.objectId[i] == 0)
+                continue;
+            ++receivers;
+            REQUIRE(result.taken[i] == some.wanted[i]);
+            REQUIRE(result.counts[i] == some.wanted[i]);
+            float sums[sumPlanes] = {};
+            for (std::size_t slot = 0; slot < some.wanted[i]; ++slot)
+                for (std::size_t k = 0; k < storedPlanes; ++k) {
+                    const std::size_t at = (slot * storedPlanes + k) * some.size() + i;
+                    differ += result.stored[at] == all.stored[at] ? 0 : 1;
+                    if (k >= 3)
+                        sums[k - 3] += result.stored[at];
+                }
+            for (std::size_t k = 0; k < sumPlanes; ++k)
+                differ += result.sums[k * some.size() + i] == sums[k] ? 0 : 1;
+        }
+        CHECK(receivers > 300);
+        CHECK(differ == 0);
+    }
+}
+
 std::string withoutSpace(std::string_view text)
 {
     std::string out;
@@ -294,7 +332,7 @@ TEST_CASE("points on lights: a sink that stores each sample gets what the sums a
         const Points pixels = pixelPoints(traced, 12), wave = wavePoints(pixels, traced.layout);
         for (const Points* points : { &pixels, &wave })
             // Points alone, or with directions of both parts: the light is made so large that these are as dense.
-            for (const auto& [finding, ways] : { std::pair(WEDGE_LIGHTS_SAMPLED, 1u), { WEDGE_LIGHTS_BOTH, 3u } }) {
+            for (const std::uint32_t finding : { WEDGE_LIGHTS_SAMPLED, WEDGE_LIGHTS_BOTH }) {
                 const shared::SampleParams params { WEDGE_SHADING_INSIDE, WEDGE_SAMPLER_SOBOL, 1, 0, finding, 0, {} };
                 shared::AreaLight light = traced.onDevice.areaLightList[1];
                 const float scale = finding == WEDGE_LIGHTS_BOTH ? 20.0f : 1.0f;
@@ -303,7 +341,7 @@ TEST_CASE("points on lights: a sink that stores each sample gets what the sums a
                 light.profileArea *= scale * scale;
                 unsigned onLight = 0;
                 checkSinks(
-                    *points, ways,
+                    *points,
                     [&](const std::vector<graph::Sink>& becoming) {
                         return sampler.lights(*points, params, light, becoming);
                     },
@@ -316,7 +354,8 @@ TEST_CASE("points on lights: a sink that stores each sample gets what the sums a
                         REQUIRE(std::fabs(shared::vecDot(at, light.normal)) < 1e-5);
                         for (const shared::Vec3& half : { light.halfU, light.halfV })
                             REQUIRE(std::fabs(shared::vecDot(at, half)) <= 1.0001 * shared::vecDot(half, half));
-                        REQUIRE((values[1] == 0 || values[1] == values[0]));
+                        // Of points alone either all arrives or nothing; directions add what they meet.
+                        REQUIRE((values[1] == 0 || values[1] == values[0] || finding == WEDGE_LIGHTS_BOTH));
                         ++onLight;
                     });
                 CHECK(onLight > 1000);
@@ -340,7 +379,7 @@ TEST_CASE("paths: a sink that stores each sample gets what the sums are made of"
             for (const std::uint32_t component : { WEDGE_COMPONENT_DIFFUSE, WEDGE_COMPONENT_GLOSSY }) {
                 params.component = component;
                 checkSinks(
-                    *points, 1,
+                    *points,
                     [&](const std::vector<graph::Sink>& becoming) { return sampler.paths(*points, params, becoming); },
                     [&](std::size_t i, shared::Vec3 ray, const float* values) {
                         REQUIRE(shared::vecLength(ray) == doctest::Approx(1).epsilon(1e-5));
@@ -349,6 +388,35 @@ TEST_CASE("paths: a sink that stores each sample gets what the sums are made of"
                             REQUIRE(shared::vecDot(points->at(points->normal, i), ray) > 0);
                     });
             }
+    });
+}
+
+TEST_CASE("samples and sums of a receiver do not depend on what others of its packet want")
+{
+    onEveryDevice([](const device::Device& device) {
+        TracedScene traced(glossyScene(), device, 31, 23, { { "WEDGE_SPECULAR", "1" } });
+        traced.primary();
+        Sampler sampler(traced);
+        const Points pixels = pixelPoints(traced, room);
+        for (const std::uint32_t finding : { WEDGE_LIGHTS_SAMPLED, WEDGE_LIGHTS_BOTH }) {
+            const shared::SampleParams params { WEDGE_SHADING_INSIDE, WEDGE_SAMPLER_SOBOL, 1, 0, finding, 0, {} };
+            shared::AreaLight light = traced.onDevice.areaLightList[1];
+            const float scale = finding == WEDGE_LIGHTS_BOTH ? 20.0f : 1.0f;
+            light.halfU = shared::vecScale(light.halfU, scale);
+            light.halfV = shared::vecScale(light.halfV, scale);
+            light.profileArea *= scale * scale;
+            checkIndependence(pixels, [&](const Points& points) {
+                return sampler.lights(points, params, light, { stored(), sinks::sums() });
+            });
+        }
+        shared::PathParams params {};
+        params.bounces = 2;
+        params.areaLights = static_cast<std::uint32_t>(traced.onDevice.areaLightList.size());
+        params.sceneDiameter = traced.onDevice.diameter;
+        params.component = WEDGE_COMPONENT_DIFFUSE;
+        checkIndependence(pixels, [&](const Points& points) {
+            return sampler.paths(points, params, { stored(), sinks::sums() });
+        });
     });
 }
 

@@ -16,73 +16,72 @@ WEDGE_FN uint strataCount(SampleParams params, uint wanted) { return params.stra
 
 /// A packet's samples while they are taken.
 typedef struct {
-    uint first[WEDGE_PACKET_SIZE], index[WEDGE_PACKET_SIZE], last[WEDGE_PACKET_SIZE]; ///< see Sampling
-    uint count[WEDGE_PACKET_SIZE];
-    uint rays[WEDGE_PACKET_SIZE]; ///< traced
+    Wanted wanted; ///< of the receivers
+    Deal deal;
+    uint rays[WEDGE_PACKET_SIZE]; ///< traced for each receiver
+    uint laneRays[WEDGE_PACKET_SIZE]; ///< and of those, in the lanes of this deal
 } LightCounts;
 
-/// Sets what each lane has and is to have; returns the most samples that one takes now.
-WEDGE_FN uint prepareSamples(SampleParams params, uint lastSample, const ReceiverPacket* receivers,
+/// The receivers of the lanes, and what they follow.
+typedef struct {
+    ReceiverPacket receivers;
+    Directions directions;
+} LightLanes;
+
+/// Sets what each receiver has and is to have.
+WEDGE_FN void prepareSamples(SampleParams params, uint lastSample, const ReceiverPacket* receivers,
     __global const uint* wanted, __global const uint* taken, LightCounts* counts)
 {
-    uint steps = 0u;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const bool shaded = receivers->pixel[lane] != WEDGE_NO_PIXEL;
         const uint i = shaded ? receivers->pixel[lane] : 0u;
-        const uint first = shaded ? taken[i] : 0u;
-        const uint last = shaded ? min(wanted[i], lastSample) : 0u;
-        counts->first[lane] = counts->index[lane] = first;
-        counts->last[lane] = last;
-        counts->count[lane] = strataCount(params, shaded ? wanted[i] : 0u);
-        counts->rays[lane] = 0u;
-        steps = max(steps, last > first ? last - first : 0u);
+        counts->wanted.first[lane] = counts->wanted.next[lane] = shaded ? taken[i] : 0u;
+        counts->wanted.last[lane] = shaded ? min(wanted[i], lastSample) : 0u;
+        counts->wanted.strata[lane] = strataCount(params, shaded ? wanted[i] : 0u);
+        counts->rays[lane] = counts->laneRays[lane] = 0u;
     }
-    return steps;
 }
 
 WEDGE_FN void countRays(const RayPacket* packet, LightCounts* counts)
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        counts->rays[lane] += packet->tMax[lane] > 0.0f ? 1u : 0u;
+        counts->laneRays[lane] += packet->tMax[lane] > 0.0f ? 1u : 0u;
     }
 }
 
-/// Takes one direction of a part of each lane that follows them. Of it it is known what arrives: in plain Monte Carlo
+/// Adds one direction of a part of each lane that follows them. Of it it is known what arrives: in plain Monte Carlo
 /// it weighs nothing; in a ratio its estimate, with that of the points on the light, is of all that arrives and of what
 /// is seen of it.
-WEDGE_FN void takeDirections(SampleParams params, AreaLight light, __global const TraversalNode* restrict nodes,
-    __global const TriangleBlock* restrict blocks, uint part, const Directions* directions, const Sampling* at,
-    LightCounts* counts, Sink* sink, WEDGE_SINK_PARAMETERS)
+WEDGE_FN void addDirections(SampleParams params, AreaLight light, __global const TraversalNode* restrict nodes,
+    __global const TriangleBlock* restrict blocks, uint part, const LightLanes* lanes, LightCounts* counts,
+    float (*numbers)[WEDGE_PACKET_SIZE])
 {
     RayPacket packet;
     float weight[WEDGE_PACKET_SIZE];
     uint occluded[WEDGE_PACKET_SIZE];
-    meetDirections(params, light, at->receivers, part == 1u, directions->lane[part], at->index, at->last, at->count,
-        &packet, weight);
+    meetDirections(params, light, &lanes->receivers, part == 1u, lanes->directions.lane[part], counts->deal.index,
+        counts->deal.last, counts->deal.count, &packet, weight);
     anyHits(nodes, blocks, &packet, occluded);
     const bool ratio = params.shading == WEDGE_SHADING_RATIO;
-    float numbers[WEDGE_SUMS][WEDGE_PACKET_SIZE];
-    for (uint k = 0u; k < WEDGE_SUMS; ++k) {
-        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-            const bool all = k == 2u * part && ratio, seen = k == 2u * part + 1u && occluded[lane] == 0u;
-            numbers[k][lane] = all || seen ? weight[lane] : 0.0f;
-        }
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        numbers[2u * part][lane] += ratio ? weight[lane] : 0.0f;
+        numbers[2u * part + 1u][lane] += occluded[lane] == 0u ? weight[lane] : 0.0f;
     }
-    const Samples samples = { numbers, &packet, 0 };
-    takeSamples(at, &samples, sink, WEDGE_SINK_ARGUMENTS);
     countRays(&packet, counts);
 }
 
-/// Takes the points on the light. Receivers that have all their samples wait for the others, and theirs are void.
+/// Takes the points on the light, with what `numbers` have of directions. Receivers that have all their samples wait
+/// for the others, and theirs are void.
 WEDGE_FN void takePoints(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
-    LightSamples* s, const Sampling* at, LightCounts* counts, Sink* sink, WEDGE_SINK_PARAMETERS)
+    LightSamples* s, float (*numbers)[WEDGE_PACKET_SIZE], const Sampling* at, LightCounts* counts, Sink* sink,
+    WEDGE_SINK_PARAMETERS)
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        s->diffuse[lane] = at->index[lane] < at->last[lane] ? s->diffuse[lane] : 0.0f;
-        s->specular[lane] = at->index[lane] < at->last[lane] ? s->specular[lane] : 0.0f;
+        s->diffuse[lane] = takesSample(at, lane) ? s->diffuse[lane] : 0.0f;
+        s->specular[lane] = takesSample(at, lane) ? s->specular[lane] : 0.0f;
     }
     RayPacket packet;
-    shadowRays(at->receivers, s, &packet);
+    shadowRays(at->dealt, s, &packet);
     uint occluded[WEDGE_PACKET_SIZE];
 #ifdef WEDGE_SINK_TAKES_HITS
     PacketHits nearest;
@@ -95,19 +94,53 @@ WEDGE_FN void takePoints(__global const TraversalNode* restrict nodes, __global 
     anyHits(nodes, blocks, &packet, occluded);
     const PacketHits* hits = 0;
 #endif
-    float numbers[WEDGE_SUMS][WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const bool visible = occluded[lane] == 0u;
-        numbers[0][lane] = s->diffuse[lane];
-        numbers[1][lane] = visible ? s->diffuse[lane] : 0.0f;
+        numbers[0][lane] += s->diffuse[lane];
+        numbers[1][lane] += visible ? s->diffuse[lane] : 0.0f;
 #ifdef WEDGE_SPECULAR
-        numbers[2][lane] = s->specular[lane];
-        numbers[3][lane] = visible ? s->specular[lane] : 0.0f;
+        numbers[2][lane] += s->specular[lane];
+        numbers[3][lane] += visible ? s->specular[lane] : 0.0f;
 #endif
     }
-    const Samples samples = { numbers, &packet, hits };
+    const Samples samples = { (const float(*)[WEDGE_PACKET_SIZE])numbers, &packet, hits };
     takeSamples(at, &samples, sink, WEDGE_SINK_ARGUMENTS);
     countRays(&packet, counts);
+}
+
+/// One sample of each lane.
+WEDGE_FN void takeStep(FrameParams frame, SampleParams params, AreaLight light,
+    __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
+    const LightLanes* lanes, const Sampling* at, LightCounts* counts, Sink* sink, WEDGE_SINK_PARAMETERS)
+{
+    LightSamples s;
+    sampleLights(frame, params, light, &lanes->receivers, counts->deal.index, counts->deal.count, &s);
+    weighPoints(params, light, &lanes->receivers, &lanes->directions, &s);
+    float numbers[WEDGE_SUMS][WEDGE_PACKET_SIZE];
+    for (uint k = 0u; k < WEDGE_SUMS; ++k) {
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            numbers[k][lane] = 0.0f;
+        }
+    }
+    for (uint part = 0u; part < WEDGE_VALUES; ++part) {
+        if (lanes->directions.any[part]) {
+            addDirections(params, light, nodes, blocks, part, lanes, counts, numbers);
+        }
+    }
+    takePoints(nodes, blocks, &s, numbers, at, counts, sink, WEDGE_SINK_ARGUMENTS);
+}
+
+/// The lanes of a deal that does not keep the receivers' own.
+WEDGE_FN void dealLanes(const LightLanes* own, const Deal* deal, LightLanes* dealt)
+{
+    dealReceivers(&own->receivers, deal, &dealt->receivers);
+    dealParts(&own->receivers, deal, &dealt->receivers);
+    for (uint part = 0u; part < WEDGE_VALUES; ++part) {
+        dealt->directions.any[part] = own->directions.any[part];
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            dealt->directions.lane[part][lane] = own->directions.lane[part][deal->receiver[lane]];
+        }
+    }
 }
 
 __kernel void sampleShadows(FrameParams frame, SampleParams params, AreaLight light,
@@ -115,37 +148,34 @@ __kernel void sampleShadows(FrameParams frame, SampleParams params, AreaLight li
     WEDGE_RECEIVER_PARAMETERS, __global const uint* restrict wanted, uint lastSample, __global uint* restrict taken,
     __global uint* restrict rays, WEDGE_SINK_PARAMETERS, uint firstGroup)
 {
-    ReceiverPacket receivers;
-    loadReceivers(frame, params.light, firstGroup, WEDGE_RECEIVER_ARGUMENTS, &receivers);
-    takePart(params, light, &receivers);
-    Directions directions;
-    chooseDirections(params, light, &receivers, &directions);
+    LightLanes own, dealt;
+    loadReceivers(frame, params.light, firstGroup, WEDGE_RECEIVER_ARGUMENTS, &own.receivers);
+    takePart(params, light, &own.receivers);
+    chooseDirections(params, light, &own.receivers, &own.directions);
+    const uint* pixel = own.receivers.pixel;
     LightCounts counts;
-    const uint steps = prepareSamples(params, lastSample, &receivers, wanted, taken, &counts);
-    const Sampling at = { frame.planeSize, params.shading, params.firstPass, &receivers, receivers.pixel, counts.first,
-        counts.index, counts.last, counts.count };
+    prepareSamples(params, lastSample, &own.receivers, wanted, taken, &counts);
+    Sampling at = { frame.planeSize, params.shading, params.firstPass, &own.receivers, pixel, &counts.wanted,
+        &counts.deal };
     Sink sink;
     beginReceivers(&at, &sink, WEDGE_SINK_ARGUMENTS);
-    for (uint step = 0u; step < steps; ++step) {
-        LightSamples s;
-        sampleLights(frame, params, light, &receivers, counts.index, counts.count, &s);
-        weighPoints(params, light, &receivers, &directions, &s);
-        for (uint part = 0u; part < WEDGE_VALUES; ++part) {
-            if (directions.any[part]) {
-                takeDirections(
-                    params, light, nodes, blocks, part, &directions, &at, &counts, &sink, WEDGE_SINK_ARGUMENTS);
-            }
+    while (dealSamples(&counts.wanted, &counts.deal)) {
+        if (!counts.deal.own) {
+            dealLanes(&own, &counts.deal, &dealt);
         }
-        takePoints(nodes, blocks, &s, &at, &counts, &sink, WEDGE_SINK_ARGUMENTS);
-        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-            counts.index[lane] += counts.index[lane] < counts.last[lane] ? 1u : 0u;
+        const LightLanes* lanes = counts.deal.own ? &own : &dealt;
+        at.dealt = &lanes->receivers;
+        for (uint step = 0u; step < counts.deal.steps; ++step) {
+            takeStep(frame, params, light, nodes, blocks, lanes, &at, &counts, &sink, WEDGE_SINK_ARGUMENTS);
+            nextStep(&counts.deal);
         }
+        moveToReceivers(&counts.deal, counts.laneRays, counts.rays);
     }
     finishReceivers(&at, &sink, WEDGE_SINK_ARGUMENTS);
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         if (hasTaken(&at, lane)) {
-            taken[receivers.pixel[lane]] = counts.index[lane];
-            rays[receivers.pixel[lane]] += counts.rays[lane];
+            taken[pixel[lane]] = counts.wanted.next[lane];
+            rays[pixel[lane]] += counts.rays[lane];
         }
     }
 }

@@ -3,6 +3,7 @@
 #ifndef WEDGE_LIGHT_PACKET_H
 #define WEDGE_LIGHT_PACKET_H
 
+#include "core/deal.h"
 #include "core/receivers.h"
 #include "light/light_sample.h"
 #include "trace/packet.h"
@@ -107,6 +108,57 @@ WEDGE_FN void loadReceivers(
 #endif
     }
 }
+
+#define WEDGE_DEALT(field) out->field[lane] = r->field[from]
+
+/// The receivers whose samples the lanes take.
+WEDGE_FN void dealReceivers(const ReceiverPacket* r, const Deal* deal, ReceiverPacket* out)
+{
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const uint from = deal->receiver[lane];
+        WEDGE_DEALT(pixel);
+        WEDGE_DEALT(seed);
+        WEDGE_DEALT(originX);
+        WEDGE_DEALT(originY);
+        WEDGE_DEALT(originZ);
+        WEDGE_DEALT(positionX);
+        WEDGE_DEALT(positionY);
+        WEDGE_DEALT(positionZ);
+        WEDGE_DEALT(normalX);
+        WEDGE_DEALT(normalY);
+        WEDGE_DEALT(normalZ);
+        WEDGE_DEALT(gloss);
+#ifdef WEDGE_MOTION
+        WEDGE_DEALT(time);
+#endif
+#ifdef WEDGE_SPECULAR
+        WEDGE_DEALT(viewX);
+        WEDGE_DEALT(viewY);
+        WEDGE_DEALT(viewZ);
+        WEDGE_DEALT(exponent);
+        WEDGE_DEALT(normalization);
+        WEDGE_DEALT(leastCosine);
+        WEDGE_DEALT(kind);
+#endif
+    }
+}
+
+/// The parts of the light that they sample, see takePart().
+WEDGE_FN void dealParts(const ReceiverPacket* r, const Deal* deal, ReceiverPacket* out)
+{
+    out->anyCut = r->anyCut;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const uint from = deal->receiver[lane];
+        WEDGE_DEALT(cut);
+        WEDGE_DEALT(turned);
+        WEDGE_DEALT(first);
+        WEDGE_DEALT(range);
+        WEDGE_DEALT(height);
+        WEDGE_DEALT(inner);
+        WEDGE_DEALT(outer);
+    }
+}
+#undef WEDGE_DEALT
 
 WEDGE_INLINE LightPart lanePart(const ReceiverPacket* r, uint lane)
 {

@@ -33,8 +33,8 @@ WEDGE_INLINE void beginShadowMotions(const Sampling* at, ShadowMotions* state, _
 
 /// Adds the motion of the shadow that hit, `along` of the way to the light's point, throws at the lane's receiver: the
 /// occluder's, seen from that point, on the receiver's plane.
-WEDGE_INLINE void addShadowMotion(
-    CameraParams camera, SurfaceData surfaces, Hit hit, const ReceiverPacket* r, uint lane, Vec3 ray, ShadowMotions* m)
+WEDGE_INLINE void addShadowMotion(CameraParams camera, SurfaceData surfaces, Hit hit, const ReceiverPacket* r,
+    uint lane, uint to, Vec3 ray, ShadowMotions* m)
 {
     const Vec3 p = vec3(r->positionX[lane], r->positionY[lane], r->positionZ[lane]);
     const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
@@ -44,10 +44,10 @@ WEDGE_INLINE void addShadowMotion(
     const Vec2 before = projectPoint(camera, vecMad(p, moved, -0.5f), 0.5f);
     const Vec2 after = projectPoint(camera, vecMad(p, moved, 0.5f), 0.5f);
     const float x = after.x - before.x, y = after.y - before.y;
-    m->sum[0][lane] += x;
-    m->sum[1][lane] += y;
-    m->sum[2][lane] += x * x + y * y;
-    m->sum[3][lane] += 1.0f;
+    m->sum[0][to] += x;
+    m->sum[1][to] += y;
+    m->sum[2][to] += x * x + y * y;
+    m->sum[3][to] += 1.0f;
 }
 
 WEDGE_INLINE void takeShadowMotions(
@@ -60,7 +60,8 @@ WEDGE_INLINE void takeShadowMotions(
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         if (s->hits->triangle[lane] != WEDGE_NO_TRIANGLE) {
             const Vec3 ray = vec3(s->rays->directionX[lane], s->rays->directionY[lane], s->rays->directionZ[lane]);
-            addShadowMotion(camera, surfaces, packetHit(s->hits, lane), at->receivers, lane, ray, state);
+            addShadowMotion(
+                camera, surfaces, packetHit(s->hits, lane), at->dealt, lane, at->deal->receiver[lane], ray, state);
         }
     }
 }

@@ -27,15 +27,19 @@ WEDGE_INLINE void beginSlopes(const Sampling* at, Slopes* state, __global const 
 
 WEDGE_INLINE void takeSlopes(const Sampling* at, const Samples* s, Slopes* state)
 {
-    (void)at;
     if (s->hits == 0) {
         return;
     }
+    float slope[WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const bool occluded = s->hits->triangle[lane] != WEDGE_NO_TRIANGLE;
-        const float slope = slopeOfHit(s->hits->t[lane]);
-        state->least[lane] = occluded ? fmin(state->least[lane], slope) : state->least[lane];
-        state->largest[lane] = occluded ? fmax(state->largest[lane], slope) : state->largest[lane];
+        slope[lane] = slopeOfHit(s->hits->t[lane]);
+    }
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        if (s->hits->triangle[lane] != WEDGE_NO_TRIANGLE) {
+            const uint r = at->deal->receiver[lane];
+            state->least[r] = fmin(state->least[r], slope[lane]);
+            state->largest[r] = fmax(state->largest[r], slope[lane]);
+        }
     }
 }
 

@@ -30,9 +30,10 @@ WEDGE_INLINE void takeDistances(const Sampling* at, const Samples* s, Distances*
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const float distance = s->distance[lane];
         if (takesSample(at, lane) && distance < INFINITY) {
-            state->nearest[lane] = fmin(state->nearest[lane], distance);
-            state->farthest[lane] = fmax(state->farthest[lane], distance);
-            state->inverse[lane] += 1.0f / fmax(distance, 1e-20f);
+            const uint r = at->deal->receiver[lane];
+            state->nearest[r] = fmin(state->nearest[r], distance);
+            state->farthest[r] = fmax(state->farthest[r], distance);
+            state->inverse[r] += 1.0f / fmax(distance, 1e-20f);
         }
     }
 }

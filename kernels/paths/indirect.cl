@@ -14,17 +14,26 @@
 
 #define WEDGE_PATH_SEED 0x70617468u
 
-/// A packet's samples while they are taken, beside what is in PathPacket.
+/// A packet's samples while they are taken.
 typedef struct {
-    uint first[WEDGE_PACKET_SIZE], last[WEDGE_PACKET_SIZE]; ///< see Sampling
-    uint rays[WEDGE_PACKET_SIZE], pathRays[WEDGE_PACKET_SIZE]; ///< traced
+    Wanted wanted; ///< of the receivers
+    Deal deal;
+    uint rays[WEDGE_PACKET_SIZE], pathRays[WEDGE_PACKET_SIZE]; ///< traced for each receiver
+    uint laneRays[WEDGE_PACKET_SIZE], lanePathRays[WEDGE_PACKET_SIZE]; ///< and of those, in the lanes of this deal
 } PathCounts;
+
+/// The receivers of the lanes, and their geometric normals.
+typedef struct {
+    ReceiverPacket receivers;
+    VecLanes facing;
+} PathLanes;
 
 /// First rays of one sample a lane, and in weight what their radiance counts. Directions below the horizon of either
 /// normal are not traced.
-WEDGE_FN void firstRays(FrameParams frame, PathParams params, SampleParams sampling, const ReceiverPacket* r,
-    const VecLanes* geometric, const PathPacket* paths, const uint* last, RayPacket* rays, float* weight)
+WEDGE_FN void firstRays(FrameParams frame, PathParams params, SampleParams sampling, const PathLanes* lanes,
+    const PathPacket* paths, const uint* last, RayPacket* rays, float* weight)
 {
+    const ReceiverPacket* r = &lanes->receivers;
     float u[WEDGE_PACKET_SIZE], v[WEDGE_PACKET_SIZE];
     samplePositions(sampling, hashCombine(frame.seed, params.component), r->seed, paths->index, paths->count, u, v);
     const float end = params.component == WEDGE_COMPONENT_AMBIENT ? params.ambientDistance : INFINITY;
@@ -49,7 +58,7 @@ WEDGE_FN void firstRays(FrameParams frame, PathParams params, SampleParams sampl
         const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]), l = laneVec(&directions, lane);
         const bool wanted = r->pixel[lane] != WEDGE_NO_PIXEL && paths->index[lane] < last[lane];
         const bool traced =
-            wanted && weight[lane] > 0.0f && vecDot(laneVec(geometric, lane), l) > 0.0f && vecDot(n, l) > 0.0f;
+            wanted && weight[lane] > 0.0f && vecDot(laneVec(&lanes->facing, lane), l) > 0.0f && vecDot(n, l) > 0.0f;
         setRay(rays, lane, vec3(r->originX[lane], r->originY[lane], r->originZ[lane]), l, 0.0f, traced ? end : 0.0f);
         setTime(rays, lane, receiverTime(r, lane));
     }
@@ -86,8 +95,8 @@ WEDGE_FN void takePaths(const PathPacket* paths, const float* weight, const RayP
         numbers[1][lane] = taken ? radiance.y : 0.0f;
         numbers[2][lane] = taken ? radiance.z : 0.0f;
         numbers[3][lane] = taken ? l * l : 0.0f;
-        counts->rays[lane] += taken ? paths->rays[lane] + paths->shadowRays[lane] : 0u;
-        counts->pathRays[lane] += taken ? paths->rays[lane] : 0u;
+        counts->laneRays[lane] += taken ? paths->rays[lane] + paths->shadowRays[lane] : 0u;
+        counts->lanePathRays[lane] += taken ? paths->rays[lane] : 0u;
     }
     const Samples samples = { numbers, rays, paths->distance };
     takeSamples(at, &samples, sink, WEDGE_SINK_ARGUMENTS);
@@ -123,30 +132,43 @@ WEDGE_FN SampleParams samplingOf(PathParams params)
     return sampling;
 }
 
-/// Sets each lane's geometric normal, samples taken and wanted, and where this launch ends; takes lanes out of
-/// `receivers` that do not have the component. Returns the most samples that a lane takes now.
-WEDGE_FN uint preparePaths(uint size, PathParams params, uint lastSample, __global const float* specular,
-    __global const uint* geometric, __global const uint* taken, __global const uint* wanted, ReceiverPacket* receivers,
-    VecLanes* facing, PathPacket* paths, PathCounts* counts)
+/// Sets geometric normals, and what each receiver has and is to have; takes those out that do not have the component.
+WEDGE_FN void preparePaths(uint size, PathParams params, uint lastSample, __global const float* specular,
+    __global const uint* geometric, __global const uint* taken, __global const uint* wanted, PathLanes* own,
+    PathCounts* counts)
 {
-    uint steps = 0u;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const uint at = receivers->pixel[lane];
+        const uint at = own->receivers.pixel[lane];
         const bool reflects = at != WEDGE_NO_PIXEL
             && (!WEDGE_IS_GLOSSY(params.component) || luminance(loadVec(specular, size, at)) > 0.0f);
-        receivers->pixel[lane] = reflects ? at : WEDGE_NO_PIXEL;
+        own->receivers.pixel[lane] = reflects ? at : WEDGE_NO_PIXEL;
         const uint i = reflects ? at : 0u;
-        const uint first = reflects ? taken[i] : 0u;
-        const uint last = reflects ? min(wanted[i], lastSample) : 0u;
-        setLaneVec(facing, lane, reflects ? unpackDirection(geometric[i]) : vec3(0.0f, 0.0f, 1.0f));
-        paths->seed[lane] = receivers->seed[lane];
-        paths->index[lane] = counts->first[lane] = first;
-        counts->last[lane] = last;
+        setLaneVec(&own->facing, lane, reflects ? unpackDirection(geometric[i]) : vec3(0.0f, 0.0f, 1.0f));
+        counts->wanted.first[lane] = counts->wanted.next[lane] = reflects ? taken[i] : 0u;
+        counts->wanted.last[lane] = reflects ? min(wanted[i], lastSample) : 0u;
+        counts->wanted.strata[lane] = params.strata > 0u ? params.strata : reflects ? wanted[i] : 0u;
         counts->rays[lane] = counts->pathRays[lane] = 0u;
-        paths->count[lane] = params.strata > 0u ? params.strata : reflects ? wanted[i] : 0u;
-        steps = max(steps, last > first ? last - first : 0u);
+        counts->laneRays[lane] = counts->lanePathRays[lane] = 0u;
     }
-    return steps;
+}
+
+/// The lanes of a deal that does not keep the receivers' own.
+WEDGE_FN void dealLanes(const PathLanes* own, const Deal* deal, PathLanes* dealt)
+{
+    dealReceivers(&own->receivers, deal, &dealt->receivers);
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        setLaneVec(&dealt->facing, lane, laneVec(&own->facing, deal->receiver[lane]));
+    }
+}
+
+/// What paths need for their random numbers.
+WEDGE_FN void numberPaths(const ReceiverPacket* receivers, const Deal* deal, PathPacket* paths)
+{
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        paths->seed[lane] = receivers->seed[lane];
+        paths->index[lane] = deal->index[lane];
+        paths->count[lane] = deal->count[lane];
+    }
 }
 
 __kernel void samplePaths(FrameParams frame, PathParams params, __global const TraversalNode* restrict nodes,
@@ -159,45 +181,52 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
     const SurfaceData surfaces = WEDGE_SURFACE_ARGUMENTS;
     const LightData lights = lightData(params, areaLights, deltaLights, surfaces, emitters, emitterPicks);
     const SampleParams sampling = samplingOf(params);
-    ReceiverPacket receivers;
-    loadReceivers(frame, sampling.light, firstGroup, WEDGE_RECEIVER_ARGUMENTS, &receivers);
-    VecLanes facing;
-    PathPacket paths;
+    PathLanes own, dealt;
+    loadReceivers(frame, sampling.light, firstGroup, WEDGE_RECEIVER_ARGUMENTS, &own.receivers);
+    const uint* pixel = own.receivers.pixel;
     PathCounts counts;
-    const uint steps = preparePaths(
-        frame.planeSize, params, lastSample, specular, geometric, taken, wanted, &receivers, &facing, &paths, &counts);
-    const Sampling at = { frame.planeSize, params.firstPass, &receivers, receivers.pixel, counts.first, paths.index,
-        counts.last, paths.count };
+    preparePaths(frame.planeSize, params, lastSample, specular, geometric, taken, wanted, &own, &counts);
+    Sampling at = { frame.planeSize, params.firstPass, &own.receivers, pixel, &counts.wanted, &counts.deal };
     Sink sink;
     beginReceivers(&at, &sink, WEDGE_SINK_ARGUMENTS);
-    for (uint step = 0u; step < steps; ++step) {
-        RayPacket packet;
-        float weight[WEDGE_PACKET_SIZE];
-        firstRays(frame, params, sampling, &receivers, &facing, &paths, counts.last, &packet, weight);
+    while (dealSamples(&counts.wanted, &counts.deal)) {
+        if (!counts.deal.own) {
+            dealLanes(&own, &counts.deal, &dealt);
+        }
+        const PathLanes* lanes = counts.deal.own ? &own : &dealt;
+        at.dealt = &lanes->receivers;
+        for (uint step = 0u; step < counts.deal.steps; ++step) {
+            PathPacket paths;
+            numberPaths(at.dealt, &counts.deal, &paths);
+            RayPacket packet;
+            float weight[WEDGE_PACKET_SIZE];
+            firstRays(frame, params, sampling, lanes, &paths, counts.deal.last, &packet, weight);
 #ifdef WEDGE_SINK_TAKES_RAYS
-        const RayPacket first = packet; // paths go on in the packet
-        const RayPacket* firstOnes = &first;
+            const RayPacket first = packet; // paths go on in the packet
+            const RayPacket* firstOnes = &first;
 #else
-        const RayPacket* firstOnes = 0;
+            const RayPacket* firstOnes = 0;
 #endif
-        if (params.component == WEDGE_COMPONENT_AMBIENT) {
-            traceAmbient(nodes, blocks, &packet, &paths);
-        } else if (WEDGE_IS_OF_EMITTERS(params.component)) {
-            traceEmitters(nodes, blocks, lights.emitters, sampling, params.component == WEDGE_COMPONENT_EMITTERS_GLOSSY,
-                &receivers, &facing, counts.last, &packet, weight, &paths);
-        } else {
-            tracePaths(nodes, blocks, surfaces, lights, sampling, params.bounces, &packet, &paths);
+            if (params.component == WEDGE_COMPONENT_AMBIENT) {
+                traceAmbient(nodes, blocks, &packet, &paths);
+            } else if (WEDGE_IS_OF_EMITTERS(params.component)) {
+                traceEmitters(nodes, blocks, lights.emitters, sampling,
+                    params.component == WEDGE_COMPONENT_EMITTERS_GLOSSY, at.dealt, &lanes->facing, counts.deal.last,
+                    &packet, weight, &paths);
+            } else {
+                tracePaths(nodes, blocks, surfaces, lights, sampling, params.bounces, &packet, &paths);
+            }
+            takePaths(&paths, weight, firstOnes, &at, &counts, &sink, WEDGE_SINK_ARGUMENTS);
+            nextStep(&counts.deal);
         }
-        takePaths(&paths, weight, firstOnes, &at, &counts, &sink, WEDGE_SINK_ARGUMENTS);
-        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-            paths.index[lane] += paths.index[lane] < counts.last[lane] ? 1u : 0u;
-        }
+        moveToReceivers(&counts.deal, counts.laneRays, counts.rays);
+        moveToReceivers(&counts.deal, counts.lanePathRays, counts.pathRays);
     }
     finishReceivers(&at, &sink, WEDGE_SINK_ARGUMENTS);
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         if (hasTaken(&at, lane)) {
-            const uint i = receivers.pixel[lane];
-            taken[i] = paths.index[lane];
+            const uint i = pixel[lane];
+            taken[i] = counts.wanted.next[lane];
             rays[i] += counts.rays[lane];
             pathRays[i] += counts.pathRays[lane];
         }

@@ -11,10 +11,10 @@
 typedef struct {
     uint size; ///< elements of a plane
     uint firstPass; ///< samples of a first pass; 0: there is none
-    const ReceiverPacket* receivers;
-    const uint* pixel; ///< of the receivers
-    const uint *first, *index, *last; ///< samples before this launch, now, and after it
-    const uint* count; ///< samples that strata are made for
+    const ReceiverPacket* dealt; ///< the receiver of each lane
+    const uint* pixel; ///< of the packet's receivers
+    const Wanted* wanted; ///< of the packet's receivers
+    const Deal* deal;
 } Sampling;
 
 /// One sample of each lane.

@@ -1,4 +1,4 @@
-// What all sinks ask of a packet's lanes.
+// What all sinks ask of a packet's receivers and lanes.
 #ifndef WEDGE_LANES_H
 #define WEDGE_LANES_H
 
@@ -6,12 +6,26 @@
 #include "core/receivers.h"
 
 /// Whether the lane takes the sample in hand.
-WEDGE_INLINE bool takesSample(const Sampling* at, uint lane) { return at->index[lane] < at->last[lane]; }
+WEDGE_INLINE bool takesSample(const Sampling* at, uint lane) { return at->deal->index[lane] < at->deal->last[lane]; }
 
-/// Whether the lane has a receiver that has taken samples in this launch.
-WEDGE_INLINE bool hasTaken(const Sampling* at, uint lane)
+/// Whether there is a receiver, and it has taken samples in this launch.
+WEDGE_INLINE bool hasTaken(const Sampling* at, uint receiver)
 {
-    return at->pixel[lane] != WEDGE_NO_PIXEL && at->index[lane] > at->first[lane];
+    return at->pixel[receiver] != WEDGE_NO_PIXEL && at->wanted->next[receiver] > at->wanted->first[receiver];
+}
+
+/// Adds what each lane has to its receiver's.
+WEDGE_INLINE void addLanes(const Sampling* at, const float* lanes, float* receivers)
+{
+    if (at->deal->own) {
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            receivers[lane] += lanes[lane];
+        }
+        return;
+    }
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        receivers[at->deal->receiver[lane]] += lanes[lane];
+    }
 }
 
 /// The sums of earlier launches; 0 in lanes without a receiver.

@@ -16,7 +16,7 @@ WEDGE_INLINE void finishMeans(const Sampling* at, __global const float* sums, __
         for (uint k = 0u; k < WEDGE_SUMS; ++k) {
             total[k] = sums[k * at->size + at->pixel[lane]];
         }
-        storeValue(at, at->pixel[lane], total, at->index[lane], value);
+        storeValue(at, at->pixel[lane], total, at->wanted->next[lane], value);
     }
 }
 

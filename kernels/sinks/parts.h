@@ -16,16 +16,19 @@ WEDGE_INLINE void beginParts(const Sampling* at, Parts* state, __global const fl
 {
     loadSums(at, sums, state->sum);
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        state->samples[lane] = firstPart(at->count[lane], at->firstPass);
+        state->samples[lane] = firstPart(at->wanted->strata[lane], at->firstPass);
     }
 }
 
 WEDGE_INLINE void takeParts(const Sampling* at, const Samples* s, Parts* state)
 {
     for (uint k = 0u; k < WEDGE_SUMS; ++k) {
+        float ofPart[WEDGE_PACKET_SIZE];
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-            state->sum[k][lane] += at->index[lane] < state->samples[lane] ? s->value[k][lane] : 0.0f;
+            const uint samples = state->samples[at->deal->receiver[lane]];
+            ofPart[lane] = at->deal->index[lane] < samples ? s->value[k][lane] : 0.0f;
         }
+        addLanes(at, ofPart, state->sum[k]);
     }
 }
 
@@ -36,7 +39,7 @@ WEDGE_INLINE void finishParts(const Sampling* at, const Parts* state, __global f
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const uint n = state->samples[lane];
-        if (!hasTaken(at, lane) || n < at->first[lane] || n > at->index[lane]) {
+        if (!hasTaken(at, lane) || n < at->wanted->first[lane] || n > at->wanted->next[lane]) {
             continue;
         }
         float total[WEDGE_SUMS];

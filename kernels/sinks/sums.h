@@ -2,13 +2,16 @@
 //
 // A sink is what becomes of samples. A kernel that samples defines Sampling, the receivers of a packet and how many
 // samples each has, and Samples, one of each lane, and hands them to the functions of its sink.h, which is generated
-// from what the pass declares (host/graph/interface.h); they call beginX(), takeX() and finishX() of each sink X:
+// from what the pass declares (host/graph/interface.h); they call beginX(), takeX() and finishX() of each sink X. What
+// they keep is of the packet's receivers, and a lane's sample may be of any of them (core/deal.h):
 //
-// begin   before the launch's samples are taken: at->first says how many a receiver has of earlier launches
-// take    a sample of each lane: at->index says which one of its receiver it is, from 0. Several times for one index
-//         where an effect samples in several ways, as often as the packet's lanes ask for: a way that a lane does not
-//         take, and lanes of which there is no sample (takesSample()), have values of 0 and no ray
-// finish  at->index says how many samples there are now; lanes without new ones (hasTaken()) keep what was there
+// begin   before the launch's samples are taken: at->wanted->first says how many a receiver has of earlier launches
+// take    a sample of each lane: at->deal->receiver says whose, and at->deal->index which one of its, from 0; what
+// there
+//         is of several ways to sample comes together. Lanes of which there is no sample (takesSample()) have values of
+//         0 and no ray
+// finish  at->wanted->next says how many samples there are now; receivers without new ones (hasTaken()) keep what was
+//         there
 #ifndef WEDGE_SUMS_H
 #define WEDGE_SUMS_H
 
@@ -26,11 +29,8 @@ WEDGE_INLINE void beginSums(const Sampling* at, Sums* state, __global const floa
 
 WEDGE_INLINE void takeSums(const Sampling* at, const Samples* s, Sums* state)
 {
-    (void)at;
     for (uint k = 0u; k < WEDGE_SUMS; ++k) {
-        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-            state->sum[k][lane] += s->value[k][lane];
-        }
+        addLanes(at, s->value[k], state->sum[k]);
     }
 }
 

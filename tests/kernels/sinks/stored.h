@@ -25,17 +25,18 @@ WEDGE_INLINE void beginStored(const Sampling* at, Stored* state, __global const 
 WEDGE_INLINE void takeStored(const Sampling* at, const Samples* s, Stored* state, uint room, __global float* stored)
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        if (!takesSample(at, lane) || state->count[lane] == room) {
+        const uint r = at->deal->receiver[lane];
+        if (!takesSample(at, lane) || state->count[r] == room) {
             continue;
         }
-        __global float* sample = stored + state->count[lane] * WEDGE_STORED_PLANES * at->size + at->pixel[lane];
+        __global float* sample = stored + state->count[r] * WEDGE_STORED_PLANES * at->size + at->pixel[r];
         sample[0] = s->rays->directionX[lane];
         sample[at->size] = s->rays->directionY[lane];
         sample[2u * at->size] = s->rays->directionZ[lane];
         for (uint k = 0u; k < WEDGE_SUMS; ++k) {
             sample[(3u + k) * at->size] = s->value[k][lane];
         }
-        state->count[lane] += 1u;
+        state->count[r] += 1u;
     }
 }
 
