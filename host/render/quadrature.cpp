@@ -151,7 +151,7 @@ std::vector<float> lightNodes(const scene::AreaLight& light)
     for (const std::vector<Node>& rule : { profileRule(light.profile, light.cut, WEDGE_COARSE_NODES),
              profileRule(light.profile, light.cut, WEDGE_FINE_NODES),
              profileRule(light.profile, light.cut, WEDGE_FEW_NODES), gaussLegendre(WEDGE_FITTED_NODES),
-             gaussLegendre(WEDGE_CLIPPED_NODES) }) {
+             gaussLegendre(WEDGE_CLIPPED_NODES), profileRule(light.profile, light.cut, WEDGE_MEDIUM_NODES) }) {
         for (const Node& node : rule) {
             out.push_back(static_cast<float>(node.position));
             out.push_back(static_cast<float>(node.weight));

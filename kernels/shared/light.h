@@ -37,6 +37,8 @@
 #define WEDGE_FITTED_OFFSET (WEDGE_FEW_OFFSET + 2u * WEDGE_FEW_NODES)
 #define WEDGE_CLIPPED_NODES 8u ///< likewise, on the part of a light above a receiver's horizon
 #define WEDGE_CLIPPED_OFFSET (WEDGE_FITTED_OFFSET + 2u * WEDGE_FITTED_NODES)
+#define WEDGE_MEDIUM_NODES 8u ///< of the Gauss rule of the light's profile itself
+#define WEDGE_MEDIUM_OFFSET (WEDGE_CLIPPED_OFFSET + 2u * WEDGE_CLIPPED_NODES)
 
 WEDGE_SHARED_BEGIN
 
