@@ -23,7 +23,7 @@ struct TermSample {
 struct TermMeans {
     glm::dvec3 texture {}, value {}, radiance {};
     double plain = 0, squares = 0, textureSquares = 0, floor = 0; ///< floor: what weights are besides textures
-    double deviation = 0; ///< of the value's luminance, by halves of waves
+    double deviation = 0; ///< of the value's luminance, by halves of waves, or from what is held
     double primary = 0, hits = 0, taken = 0,
            sampled = 0; ///< samples, those that hit, the term's, and primary ones with some
     double least = std::numeric_limits<double>::infinity(), largest = 0, sums[4] {};
@@ -46,7 +46,7 @@ struct TermMeans {
         const double share = primary > 0 ? hits / primary : 0;
         const glm::dvec3 held = published ? glm::dvec3(hits) : taken * (texture + floor * share);
         const glm::dvec3 weights = held + sum([](const TermSample& s) { return s.weights; });
-        addDeviation(wave, luminanceOf(held));
+        addDeviation(wave, luminanceOf(held), luminanceOf(value * held));
         const glm::dvec3 weighted = value * held + sum([](const TermSample& s) { return s.weights * s.irradiance; });
         for (int c = 0; c < 3; ++c)
             value[c] = weights[c] > 0 ? weighted[c] / weights[c] : 0;
@@ -74,8 +74,8 @@ struct TermMeans {
         primary += all;
         sampled += ran;
     }
-    /// held: luminance of earlier waves' weights
-    void addDeviation(const std::vector<TermSample>& wave, double held)
+    /// held, heldValue: luminances of earlier waves' weights, and of what they weigh
+    void addDeviation(const std::vector<TermSample>& wave, double held, double heldValue)
     {
         double total = 0, before = 0, halves[2] = {}, weights[2] = {}; // of the first half of the samples, of the rest
         for (const TermSample& s : wave)
@@ -89,7 +89,10 @@ struct TermMeans {
             }
         }
         const double all = weights[0] + weights[1], mean = all > 0 ? (halves[0] + halves[1]) / all : 0;
-        const double apart = halves[0] - mean * weights[0] - (halves[1] - mean * weights[1]);
+        double apart = halves[0] - mean * weights[0] - (halves[1] - mean * weights[1]);
+        // Of one half alone, from what is held already.
+        if (weights[0] == 0 || weights[1] == 0)
+            apart = held > 0 ? std::sqrt(held / (held + all)) * (all * mean - all * heldValue / held) : 0;
         deviation = held + all > 0 ? (deviation * held + apart) / (held + all) : 0;
     }
     /// Adds the slopes or distances of receivers that took samples, and of lights the motions of shadows.

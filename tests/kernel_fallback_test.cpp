@@ -44,8 +44,10 @@ shared::AnalysisParams paramsOf(const render::PlaneLayout& layout)
     return p;
 }
 
-/// Squares of the whole image, and what is shown of the rectangle; gathered: whether variances are, too.
-Planes<float> fallBack(KernelBench& bench, const shared::AnalysisParams& rectangle, const Images& in, bool gathered)
+/// Squares of the whole image, and what is shown of the rectangle; gathered: whether variances are, too; others: pixels
+/// do not count for themselves.
+Planes<float> fallBack(
+    KernelBench& bench, const shared::AnalysisParams& rectangle, const Images& in, bool gathered, bool others = false)
 {
     const auto filtered = bench.buffer(in.filtered.values), noisy = bench.buffer(in.noisy.values);
     const auto squares = bench.filled((gathered ? 3 : 2) * in.filtered.layout.size, 0.0f);
@@ -54,7 +56,7 @@ Planes<float> fallBack(KernelBench& bench, const shared::AnalysisParams& rectang
         paramsOf(in.filtered.layout), WEDGE_BLOCK_PIXELS, flag, filtered, noisy, bench.buffer(in.deviation.values),
         bench.buffer(in.variance.values), squares);
     bench.passes.rows("fallback", device::PassKind::Filter, "analysis/fallback.cl", "fallBack", rectangle,
-        WEDGE_BLOCK_PIXELS, flag, squares, bench.buffer(in.objectId.values), noisy, filtered);
+        WEDGE_BLOCK_PIXELS, 3u, flag, others ? 1u : 0u, squares, bench.buffer(in.objectId.values), noisy, filtered);
     return planesOf(in.filtered.layout, bench.read(filtered));
 }
 
@@ -66,14 +68,15 @@ TEST_CASE("fallback: shrinks samples towards what is filtered by the noise and d
 {
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);
-        for (const auto& [width, height, gathered] :
-            { std::tuple(1, 1, false), { 1, 9, false }, { 41, 23, false }, { 41, 23, true } })
+        for (const auto& [width, height, gathered, others] :
+            { std::tuple(1, 1, false, false), { 1, 9, false, false }, { 41, 23, false, false }, { 41, 23, true, false },
+                { 1, 1, false, true }, { 41, 23, false, true }, { 41, 23, true, true } })
             for (const auto& [bias, noise] :
                 { std::pair(0.0, 0.1), { 0.1, 0.1 }, { 0.3, 0.1 }, { 0.2, 0.0 }, { 0.0, 0.0 } }) {
                 const render::PlaneLayout layout(width, height);
                 std::mt19937 random(7);
                 const Images in(layout, random, bias, noise);
-                const Planes<float> found = fallBack(bench, paramsOf(layout), in, gathered);
+                const Planes<float> found = fallBack(bench, paramsOf(layout), in, gathered, others);
                 int kept = 0, replaced = 0, between = 0;
                 for (int y = 0; y < height; ++y)
                     for (int x = 0; x < width; ++x) {
@@ -82,7 +85,7 @@ TEST_CASE("fallback: shrinks samples towards what is filtered by the noise and d
                         double variance = 0, difference = 0, around = 0;
                         for (int py = std::max(0, y - 3); py <= std::min(height - 1, y + 3); ++py)
                             for (int px = std::max(0, x - 3); px <= std::min(width - 1, x + 3); ++px)
-                                if (in.objectId.at(px, py) == in.objectId.at(x, y)) {
+                                if (in.objectId.at(px, py) == in.objectId.at(x, y) && !(others && px == x && py == y)) {
                                     variance += squared(in.deviation.at(px, py));
                                     around += in.variance.at(px, py);
                                     difference += squared(in.noisy.at(px, py) - in.filtered.at(px, py));

@@ -143,10 +143,14 @@ graph::Handle<Value> LightWaves::filtered(const shared::DistributedParams& param
         widen("filter", params, filter, settings().widening);
     }
     const graph::Handle<Value> seen = visibility("filter", params);
-    const graph::Handle<Value> out =
+    graph::Handle<Value> out =
         gaussianFilter(f_, { "filter", PassKind::Filter, "filter/filter_variance.cl" }, 1, filter, seen, means.beta)
             .value;
-    return shape_.geometryMoves && settings().distributed.blur ? alongShadows(params, out) : out;
+    if (shape_.geometryMoves && settings().distributed.blur) {
+        out = alongShadows(params, out);
+    }
+    fallBack(params, seen, nullptr, out);
+    return out;
 }
 
 graph::Handle<Value> LightWaves::alongShadows(

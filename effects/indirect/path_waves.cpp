@@ -91,9 +91,11 @@ graph::Handle<Value> PathWaves::filtered(const shared::DistributedParams& params
         f_.pixels("filter of indirect", PassKind::Filter, { "waves/distributed.cl", "unpackImage" },
             { f_.rectangle(of(params)), reads("in", means.value), writes("out", plain) });
     }
-    return gaussianFilter(
+    graph::Handle<Value> out = gaussianFilter(
         f_, { "filter of indirect", PassKind::Filter, "filter/filter_indirect.cl" }, 3, filter, plain, means.beta)
-        .value;
+                                   .value;
+    fallBack(params, plain, &filter, out);
+    return out;
 }
 
 } // namespace wedge::render

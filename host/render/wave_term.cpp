@@ -98,4 +98,34 @@ void WaveTerm::widen(
     render::widen(f_, pass, filter, pixels, distributedNoise, { seen, means.deviation, worth }, means.beta);
 }
 
+void WaveTerm::fallBack(const shared::DistributedParams& params, const graph::Handle<Value>& own,
+    const shared::FilterParams* filter, graph::Handle<Value>& filtered)
+{
+    if (!usesFallback(settings()) || means.deviation.graph == 0) {
+        return;
+    }
+    const char* pass = "fallback";
+    const graph::Argument p = f_.rectangle(f_.analysisParams());
+    const bool gathered = filter != nullptr;
+    const auto planes = value("planes", values_), flag = value("gathered", gathered ? 1u : 0u);
+    graph::Handle<Value> variance;
+    if (gathered) {
+        auto squared = f_.graph.plane<Value>("variance of the term", graph::floats);
+        f_.blocks(pass, PassKind::Filter, { "analysis/fallback.cl", "termVariance" },
+            { p, reads("deviation", means.deviation), writes("variance", squared) });
+        const FilterRun run { pass, PassKind::Filter, "filter/filter_variance.cl" };
+        variance = gaussianFilter(f_, run, 1, *filter, squared, means.beta).value;
+    }
+    auto squares = f_.graph.plane<Share>("squares of what filters are off", graph::floatPlanes(gathered ? 3 : 2));
+    f_.pixels(pass, PassKind::Filter, { "waves/distributed.cl", "termSquares" },
+        { f_.rectangle(of(params)), flag, reads("texture", means.texture), reads("value", means.value),
+            reads("filtered", filtered), reads("deviation", means.deviation),
+            gathered ? reads("variance", variance) : f_.nothing("variance"), reads("beta", means.beta),
+            writes("squares", squares) });
+    const graph::Reach near = graph::around(WEDGE_SHRINK_REACH);
+    f_.blocks(pass, PassKind::Filter, { "analysis/fallback.cl", "fallBack" },
+        { p, planes, flag, value("others", 1u), reads("squares", squares, near),
+            reads("objectId", f_.surfaces.objectId, near), reads("noisy", own), updates("filtered", filtered) });
+}
+
 } // namespace wedge::render

@@ -13,7 +13,11 @@
 // differs from them by what it brings from those that did not. Did each fall back to its own samples while what the
 // others found is spread, pictures would become too dark. So V is what the filter makes of the variances of the pixels
 // that it gathers, as those of f's pixels are alike if f is right, where that is more.
+//
+// Where pixels have several receivers u and f are a term's values, before they are multiplied by its texture, and
+// squares are times that of the texture's luminance.
 #include "analysis/shrink.h"
+#include "core/packed_planes.h"
 
 /// c: an error of f of up to c - 1 times the noise's variance counts as none. 1 would be best were V and D known; but
 /// they are estimates, and what is taken for bias by mistake brings noise back.
@@ -42,9 +46,26 @@ __kernel void fallbackSquares(AnalysisParams p, uint gathered, __global const fl
     }
 }
 
-/// in out  filtered
-__kernel void fallBack(AnalysisParams p, uint gathered, __global const float* restrict squares,
-    __global const uint* restrict objectId, __global const float* restrict noisy, __global float* restrict filtered)
+/// Squares of a term's deviations, a value for filters.
+__kernel void termVariance(
+    AnalysisParams p, __global const float* restrict deviation, __global float* restrict variance)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const float16 d = loadDeviations16(deviation, i, p.packed);
+    vstore16(d * d, 0, variance + i);
+}
+
+/// in out  filtered: `planes` planes, as noisy
+/// others: what is decided for a pixel follows from those around it alone. Two bright paths in one pixel, one in each
+/// half, leave no trace in V, and all of D is theirs.
+__kernel void fallBack(AnalysisParams p, uint planes, uint gathered, uint others,
+    __global const float* restrict squares, __global const uint* restrict objectId,
+    __global const float* restrict noisy, __global float* restrict filtered)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -56,18 +77,20 @@ __kernel void fallBack(AnalysisParams p, uint gathered, __global const float* re
     if (!any(differs)) {
         return;
     }
-    const SquaresAround around = squaresAround(p, y, i, objectId, squares, squares + p.planeSize);
+    const uint size = p.planeSize;
+    const SquaresAround around = squaresAround(p, y, i, objectId, squares, squares + size, others != 0u);
     float16 variance = around.variance;
     if (gathered != 0u) {
-        variance = max16(variance, squaresAround(p, y, i, objectId, squares, squares + 2u * p.planeSize).variance);
+        const SquaresAround all = squaresAround(p, y, i, objectId, squares, squares + 2u * size, others != 0u);
+        variance = max16(variance, all.variance);
     }
     const float16 least = max16(around.difference, (float16)(1e-37f));
     const float16 own = max16(1.0f - WEDGE_FALLBACK_NOISE * variance / least, (float16)(0.0f));
-    const Vec3x16 f = loadVecBlock(filtered, p.planeSize, i), u = loadVecBlock(noisy, p.planeSize, i);
-    const float16 share = differs ? own : (float16)(0.0f);
+    const float16 share = differs & (around.difference > 0.0f) ? own : (float16)(0.0f);
     // Where nothing is shared what the other holds is not looked at.
     const int16 shares = share > 0.0f;
-    vstore16(shares ? f.x + share * (u.x - f.x) : f.x, 0, filtered + i);
-    vstore16(shares ? f.y + share * (u.y - f.y) : f.y, 0, filtered + p.planeSize + i);
-    vstore16(shares ? f.z + share * (u.z - f.z) : f.z, 0, filtered + 2u * p.planeSize + i);
+    for (uint k = 0u; k < planes; ++k) {
+        const float16 f = loadBlock(filtered + k * p.planeSize, i), u = loadBlock(noisy + k * p.planeSize, i);
+        vstore16(shares ? f + share * (u - f) : f, 0, filtered + k * p.planeSize + i);
+    }
 }

@@ -34,19 +34,6 @@ WEDGE_FN float16 comparedWidth16(AnalysisParams p, FrameParams frame, float pixe
     return pixels * sqrt(pixel * squared * axis * axis * axis / max16(facing, (float16)(WEDGE_MIN_VIEW_COSINE)));
 }
 
-/// Deviations of a block of pixels; packed, they have 16 bits.
-WEDGE_FN float16 loadDeviations(AnalysisParams p, __global const float* deviation, int i)
-{
-    if (p.packed == 0u) {
-        return loadBlock(deviation, i);
-    }
-    float d[WEDGE_BLOCK_PIXELS];
-    for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
-        d[lane] = loadShort(deviation, p.planeSize, (uint)i + lane, 0u);
-    }
-    return vload16(0, d);
-}
-
 /// Whether there is noise in a block of pixels or in those whose squares count where its own do: where there is none,
 /// V is 0, and no width changes.
 WEDGE_FN bool noiseAround(AnalysisParams p, uint x, uint y, __global const float* deviation)
@@ -56,7 +43,7 @@ WEDGE_FN bool noiseAround(AnalysisParams p, uint x, uint y, __global const float
     for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
         for (int dx = first; dx <= last; dx += block) {
             const int j = (int)pixelIndex(x, y, p.stride) + dy * (int)p.stride + dx;
-            if (any(loadDeviations(p, deviation, j) != 0.0f)) {
+            if (any(loadDeviations16(deviation, j, p.packed) != 0.0f)) {
                 return true;
             }
         }
@@ -173,7 +160,7 @@ __kernel void widenSquares(AnalysisParams p, __global const float* restrict diff
     const int i = (int)pixelIndex(x, y, p.stride);
     const float16 ofVariance = loadBlock(apart, i), t = loadBlock(weights, i);
     const int16 wider = ofVariance > 0.0f;
-    const float16 own = t * loadDeviations(p, deviation, i), d = t * loadBlock(difference, i);
+    const float16 own = t * loadDeviations16(deviation, i, p.packed), d = t * loadBlock(difference, i);
     vstore16(wider ? own * own * ofVariance : (float16)(0.0f), 0, variance + i);
     vstore16(wider ? d * d : (float16)(0.0f), 0, squares + i);
 }
@@ -205,7 +192,7 @@ __kernel void wideShares(AnalysisParams p, FrameParams frame, float pixels, floa
     if (!any(differs)) {
         return;
     }
-    const SquaresAround around = squaresAround(p, y, i, objectId, difference, variance);
+    const SquaresAround around = squaresAround(p, y, i, objectId, difference, variance, false);
     const float16 wide = comparedWidth16(p, frame, pixels, position, normal, i), own = loadBlock(beta, i);
     const float16 ratio = own * own / max16(wide * wide, (float16)(1e-30f));
     const float16 share = wideShare(around.difference, noise * around.variance, ratio);

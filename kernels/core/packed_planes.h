@@ -81,6 +81,12 @@ WEDGE_FN float16 loadShortBlock(__global const float* plane, int i)
     return as_float16(convert_uint16(vload16(0, (__global const ushort*)plane + i)) << 16);
 }
 
+/// Sixteen deviations, which have 16 bits where they are packed.
+WEDGE_FN float16 loadDeviations16(__global const float* plane, int i, uint packed)
+{
+    return packed != 0u ? loadShortBlock(plane, i) : loadBlock(plane, i);
+}
+
 /// A number of a plane of its own or, packed, of one that it shares.
 WEDGE_FN float loadNumber(__global const float* plane, uint planeSize, uint i, uint packed, uint which)
 {

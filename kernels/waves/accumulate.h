@@ -144,13 +144,17 @@ WEDGE_FN void storeMeasured(WavePixel p, uint pixels, TermPlanes planes, Vec3 t,
 /// A number whose square is, in the mean, the variance of a pixel's mean value, in luminance, as deviation16() of
 /// deviation.h has it for pixels of one receiver: the sum of all waves' differences between the first half of their
 /// samples and the second, over the weights of all. Each wave's mean is taken out, so that halves of different weights
-/// do not count for noise. known: weights before the wave
+/// do not count for noise. Of a wave that has but one half, a single sample, the difference from what is known already:
+/// were it left out, a rare bright path there would count for none of the noise that it makes.
+/// known, before: weights and mean value before the wave, luminances
 WEDGE_FN void storeDeviation(
-    WaveParams wave, uint pixels, uint i, __global float* deviation, float known, const TermSums* s)
+    WaveParams wave, uint pixels, uint i, __global float* deviation, float known, float before, const TermSums* s)
 {
-    const float weights = luminance(s->weights);
-    const float mean = weights > 0.0f ? luminance(s->weighted) / weights : 0.0f;
-    const float apart = 2.0f * (s->early - mean * s->earlyWeights);
+    const float weights = luminance(s->weights), all = luminance(s->weighted);
+    const float mean = weights > 0.0f ? all / weights : 0.0f;
+    const bool whole = fmin(s->earlyWeights, weights - s->earlyWeights) <= 1e-5f * weights;
+    const float apart = whole ? sqrt(known / fmax(known + weights, 1e-30f)) * (all - weights * before)
+                              : 2.0f * (s->early - mean * s->earlyWeights);
     if (wave.packed != 0u) {
         storeShort(deviation, pixels, i, 0u, weightedMean(loadShort(deviation, pixels, i, 0u), known, apart, weights));
     } else {
@@ -166,10 +170,12 @@ WEDGE_FN void storeTermSums(WaveParams wave, WavePixel p, uint pixels, TermPlane
     const float before = (float)p.before;
     // Receivers that took samples, misses included: samples are shared evenly.
     const float had = (float)min(taken, p.before), have = (float)min(total, p.count);
-    if ((wave.omits & WEDGE_OMITS_DEVIATION) == 0u) {
-        storeDeviation(wave, pixels, p.i, planes.deviation, luminance(known), s);
-    }
     Vec3 e = loadColour(planes.value, pixels, p.i, planes.valueBits);
+    if ((wave.omits & WEDGE_OMITS_DEVIATION) == 0u) {
+        const float weight = luminance(known);
+        const float mean = weight > 0.0f ? luminance(vecMul(e, known)) / weight : 0.0f;
+        storeDeviation(wave, pixels, p.i, planes.deviation, weight, mean, s);
+    }
     Vec3 t = loadColour(planes.texture, pixels, p.i, planes.textureBits);
     e = vec3(weightedMean(e.x, known.x, s->weighted.x, s->weights.x),
         weightedMean(e.y, known.y, s->weighted.y, s->weights.y),

@@ -263,6 +263,32 @@ __kernel void visibilityOf(DistributedParams p, __global const float* restrict t
     visibility[i] = p.published != 0u ? value[i] : t > 0.0f ? luminance(vecMul(k, loadValue(p, value, i))) / t : 0.0f;
 }
 
+/// fallbackSquares() of fallback.cl for a term: what filters are off by and noise, of the luminance that is seen.
+/// in   filtered: p.values planes; deviation: of the value; variance: gathered as filtered was, where `gathered`; beta:
+///      pixels below 0 keep their own, and nothing is averaged of them
+__kernel void termSquares(DistributedParams p, uint gathered, __global const float* restrict texture,
+    __global const float* restrict value, __global const float* restrict filtered,
+    __global const float* restrict deviation, __global const float* restrict variance,
+    __global const float* restrict beta, __global float* restrict squares)
+{
+    uint x, y, i;
+    if (!pixelOf(p, &x, &y, &i)) {
+        return;
+    }
+    const uint n = p.planeSize;
+    const Vec3 k = loadTexture(p, texture, i);
+    const Vec3 f = p.values == 3u ? loadVec(filtered, n, i) : vec3(filtered[i], filtered[i], filtered[i]);
+    const bool counts = beta[i] >= 0.0f;
+    const float t = luminance(k);
+    const float d = luminance(vecMul(k, vecSub(loadValue(p, value, i), f)));
+    const float v = t * loadNumber(deviation, n, i, p.packed, 0u);
+    squares[i] = counts ? d * d : 0.0f;
+    squares[n + i] = counts ? v * v : 0.0f;
+    if (gathered != 0u) {
+        squares[2u * n + i] = counts ? t * t * variance[i] : 0.0f;
+    }
+}
+
 /// A term's own radiance, k E; as published L, termRadiance.
 WEDGE_FN Vec3 ownRadiance(DistributedParams p, uint i, __global const float* texture, __global const float* value,
     __global const float* termRadiance)
