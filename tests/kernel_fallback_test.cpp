@@ -55,8 +55,20 @@ Planes<float> fallBack(
     bench.passes.rows("fallback", device::PassKind::Filter, "analysis/fallback.cl", "fallbackSquares",
         paramsOf(in.filtered.layout), WEDGE_BLOCK_PIXELS, flag, filtered, noisy, bench.buffer(in.deviation.values),
         bench.buffer(in.variance.values), squares);
+    if (others) {
+        const auto shares = bench.filled(in.filtered.layout.size, 0.0f);
+        bench.passes.rows("fallback", device::PassKind::Filter, "analysis/fallback.cl", "ownShares", rectangle,
+            WEDGE_BLOCK_PIXELS, flag, squares, bench.buffer(in.objectId.values), shares);
+        Planes<float> out = in.filtered;
+        const auto share = planesOf(in.filtered.layout, bench.read(shares));
+        for (std::size_t c = 0; c < 3; ++c)
+            for (int y = 0; y < static_cast<int>(in.filtered.layout.height); ++y)
+                for (int x = 0; x < static_cast<int>(in.filtered.layout.width); ++x)
+                    out.at(x, y, c) += share.at(x, y) * (in.noisy.at(x, y, c) - in.filtered.at(x, y, c));
+        return out;
+    }
     bench.passes.rows("fallback", device::PassKind::Filter, "analysis/fallback.cl", "fallBack", rectangle,
-        WEDGE_BLOCK_PIXELS, 3u, flag, others ? 1u : 0u, squares, bench.buffer(in.objectId.values), noisy, filtered);
+        WEDGE_BLOCK_PIXELS, flag, squares, bench.buffer(in.objectId.values), noisy, filtered);
     return planesOf(in.filtered.layout, bench.read(filtered));
 }
 

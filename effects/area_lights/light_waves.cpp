@@ -149,7 +149,7 @@ graph::Handle<Value> LightWaves::filtered(const shared::DistributedParams& param
     if (shape_.geometryMoves && settings().distributed.blur) {
         out = alongShadows(params, out);
     }
-    fallBack(params, seen, nullptr, out);
+    fallBack(params, nullptr, out);
     return out;
 }
 

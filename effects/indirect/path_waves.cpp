@@ -94,7 +94,7 @@ graph::Handle<Value> PathWaves::filtered(const shared::DistributedParams& params
     graph::Handle<Value> out = gaussianFilter(
         f_, { "filter of indirect", PassKind::Filter, "filter/filter_indirect.cl" }, 3, filter, plain, means.beta)
                                    .value;
-    fallBack(params, plain, &filter, out);
+    fallBack(params, &filter, out);
     return out;
 }
 

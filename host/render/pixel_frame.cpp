@@ -144,9 +144,8 @@ void PixelFrame::fallBack(Sum& sum)
                     reads("deviation", sum.deviation),
                     gathered ? reads("variance", sum.variance) : f_.nothing("variance"), writes("squares", squares) });
             f_.blocks("fallback", PassKind::Filter, { "analysis/fallback.cl", "fallBack" },
-                { p, value("planes", 3u), flag, value("others", 0u), reads("squares", squares, near),
-                    reads("objectId", f_.surfaces.objectId, near), reads("noisy", sum.noisy),
-                    updates("filtered", sum.filtered) });
+                { p, flag, reads("squares", squares, near), reads("objectId", f_.surfaces.objectId, near),
+                    reads("noisy", sum.noisy), updates("filtered", sum.filtered) });
         });
 }
 

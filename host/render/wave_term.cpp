@@ -98,8 +98,8 @@ void WaveTerm::widen(
     render::widen(f_, pass, filter, pixels, distributedNoise, { seen, means.deviation, worth }, means.beta);
 }
 
-void WaveTerm::fallBack(const shared::DistributedParams& params, const graph::Handle<Value>& own,
-    const shared::FilterParams* filter, graph::Handle<Value>& filtered)
+void WaveTerm::fallBack(
+    const shared::DistributedParams& params, const shared::FilterParams* filter, graph::Handle<Value>& filtered)
 {
     if (!usesFallback(settings()) || means.deviation.graph == 0) {
         return;
@@ -107,7 +107,7 @@ void WaveTerm::fallBack(const shared::DistributedParams& params, const graph::Ha
     const char* pass = "fallback";
     const graph::Argument p = f_.rectangle(f_.analysisParams());
     const bool gathered = filter != nullptr;
-    const auto planes = value("planes", values_), flag = value("gathered", gathered ? 1u : 0u);
+    const auto flag = value("gathered", gathered ? 1u : 0u);
     graph::Handle<Value> variance;
     if (gathered) {
         auto squared = f_.graph.plane<Value>("variance of the term", graph::floats);
@@ -123,9 +123,13 @@ void WaveTerm::fallBack(const shared::DistributedParams& params, const graph::Ha
             gathered ? reads("variance", variance) : f_.nothing("variance"), reads("beta", means.beta),
             writes("squares", squares) });
     const graph::Reach near = graph::around(WEDGE_SHRINK_REACH);
-    f_.blocks(pass, PassKind::Filter, { "analysis/fallback.cl", "fallBack" },
-        { p, planes, flag, value("others", 1u), reads("squares", squares, near),
-            reads("objectId", f_.surfaces.objectId, near), reads("noisy", own), updates("filtered", filtered) });
+    auto shares = f_.graph.plane<Share>("share of own samples", graph::floats);
+    f_.blocks(pass, PassKind::Filter, { "analysis/fallback.cl", "ownShares" },
+        { p, flag, reads("squares", squares, near), reads("objectId", f_.surfaces.objectId, near),
+            writes("shares", shares) });
+    f_.pixels(pass, PassKind::Filter, { "waves/distributed.cl", "fallBackTerm" },
+        { f_.rectangle(of(params)), reads("texture", means.texture), reads("value", means.value),
+            reads("shares", shares), updates("filtered", filtered) });
 }
 
 } // namespace wedge::render

@@ -106,11 +106,11 @@ protected:
     /// Widens the filter by what one number a pixel says, which visibilityOf of distributed.cl makes.
     void widen(std::string_view pass, const shared::DistributedParams& params, const shared::FilterParams& filter,
         float pixels);
-    /// filtered, or where it is off by more than noise the term's own values (kernels/analysis/fallback.cl), of which
-    /// it takes the place. own: as many planes as filtered, see valuePlanes(). filter: what made it, if pixels that
-    /// seem to have no noise are to have that of the pixels that it gathers.
-    void fallBack(const shared::DistributedParams& params, const graph::Handle<Value>& own,
-        const shared::FilterParams* filter, graph::Handle<Value>& filtered);
+    /// Where filtered is off by more than noise it becomes the term's own values (kernels/analysis/fallback.cl).
+    /// filter: what made it, if pixels that seem to have no noise are to have that of the pixels that it gathers; else
+    /// null.
+    void fallBack(
+        const shared::DistributedParams& params, const shared::FilterParams* filter, graph::Handle<Value>& filtered);
     graph::Handle<Value> visibility(std::string_view pass, const shared::DistributedParams& params) const;
     /// The plane of extremes that widths are made of.
     graph::Handle<Extremes> leastExtreme() const;

@@ -60,12 +60,33 @@ __kernel void termVariance(
     vstore16(d * d, 0, variance + i);
 }
 
-/// in out  filtered: `planes` planes, as noisy
-/// others: what is decided for a pixel follows from those around it alone. Two bright paths in one pixel, one in each
-/// half, leave no trace in V, and all of D is theirs.
-__kernel void fallBack(AnalysisParams p, uint planes, uint gathered, uint others,
-    __global const float* restrict squares, __global const uint* restrict objectId,
-    __global const float* restrict noisy, __global float* restrict filtered)
+/// The share of their own samples that pixels differing from their filtered values show. others: what is decided for a
+/// pixel follows from those around it alone
+WEDGE_FN float16 ownShare16(AnalysisParams p, uint y, int i, uint gathered, bool others, int16 differs,
+    __global const float* squares, __global const uint* objectId)
+{
+    const uint size = p.planeSize;
+    const SquaresAround around = squaresAround(p, y, i, objectId, squares, squares + size, others);
+    float16 variance = around.variance;
+    if (gathered != 0u) {
+        const SquaresAround all = squaresAround(p, y, i, objectId, squares, squares + 2u * size, others);
+        variance = max16(variance, all.variance);
+    }
+    const float16 least = max16(around.difference, (float16)(1e-37f));
+    const float16 own = max16(1.0f - WEDGE_FALLBACK_NOISE * variance / least, (float16)(0.0f));
+    const int16 known = differs & (around.difference > 0.0f);
+    return known ? own : (float16)(0.0f);
+}
+
+/// Pixels with a surface whose filtered value is not their own.
+WEDGE_FN int16 differing(__global const float* squares, __global const uint* objectId, int i)
+{
+    return (loadIdBlock(objectId, i) != 0u) & (loadBlock(squares, i) > 0.0f);
+}
+
+/// in out  filtered
+__kernel void fallBack(AnalysisParams p, uint gathered, __global const float* restrict squares,
+    __global const uint* restrict objectId, __global const float* restrict noisy, __global float* restrict filtered)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -73,24 +94,35 @@ __kernel void fallBack(AnalysisParams p, uint planes, uint gathered, uint others
         return;
     }
     const int i = (int)pixelIndex(x, y, p.stride);
-    const int16 differs = (loadIdBlock(objectId, i) != 0u) & (loadBlock(squares, i) > 0.0f);
+    const int16 differs = differing(squares, objectId, i);
     if (!any(differs)) {
         return;
     }
-    const uint size = p.planeSize;
-    const SquaresAround around = squaresAround(p, y, i, objectId, squares, squares + size, others != 0u);
-    float16 variance = around.variance;
-    if (gathered != 0u) {
-        const SquaresAround all = squaresAround(p, y, i, objectId, squares, squares + 2u * size, others != 0u);
-        variance = max16(variance, all.variance);
-    }
-    const float16 least = max16(around.difference, (float16)(1e-37f));
-    const float16 own = max16(1.0f - WEDGE_FALLBACK_NOISE * variance / least, (float16)(0.0f));
-    const float16 share = differs & (around.difference > 0.0f) ? own : (float16)(0.0f);
+    const float16 share = ownShare16(p, y, i, gathered, false, differs, squares, objectId);
+    const Vec3x16 f = loadVecBlock(filtered, p.planeSize, i), u = loadVecBlock(noisy, p.planeSize, i);
     // Where nothing is shared what the other holds is not looked at.
     const int16 shares = share > 0.0f;
-    for (uint k = 0u; k < planes; ++k) {
-        const float16 f = loadBlock(filtered + k * p.planeSize, i), u = loadBlock(noisy + k * p.planeSize, i);
-        vstore16(shares ? f + share * (u - f) : f, 0, filtered + k * p.planeSize + i);
+    vstore16(shares ? f.x + share * (u.x - f.x) : f.x, 0, filtered + i);
+    vstore16(shares ? f.y + share * (u.y - f.y) : f.y, 0, filtered + p.planeSize + i);
+    vstore16(shares ? f.z + share * (u.z - f.z) : f.z, 0, filtered + 2u * p.planeSize + i);
+}
+
+/// The shares of terms, decided by the pixels around each alone: two bright paths in one pixel, one in each half of its
+/// samples, leave no trace in V, and all of D is theirs.
+/// out  shares
+__kernel void ownShares(AnalysisParams p, uint gathered, __global const float* restrict squares,
+    __global const uint* restrict objectId, __global float* restrict shares)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
     }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const int16 differs = differing(squares, objectId, i);
+    float16 share = (float16)(0.0f);
+    if (any(differs)) {
+        share = ownShare16(p, y, i, gathered, true, differs, squares, objectId);
+    }
+    vstore16(share, 0, shares + i);
 }

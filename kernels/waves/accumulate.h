@@ -85,13 +85,14 @@ typedef struct {
     float plain, counted; ///< luminances of irradiances, and how many
     float squared;
     float early, earlyWeights; ///< luminances of weighted and weights, of the first half of the samples
+    float lateWeights; ///< of the others
 } TermSums;
 
 WEDGE_FN TermSums noTermSums(float textures)
 {
     TermSums s;
     s.radiance = s.texture = s.weighted = s.weights = vec3(0.0f, 0.0f, 0.0f);
-    s.plain = s.counted = s.squared = s.textureSquared = s.early = s.earlyWeights = 0.0f;
+    s.plain = s.counted = s.squared = s.textureSquared = s.early = s.earlyWeights = s.lateWeights = 0.0f;
     s.textures = textures;
     return s;
 }
@@ -108,6 +109,7 @@ WEDGE_FN void addSamples(TermSums* s, Vec3 l, float irradiance, Vec3 weighted, V
 {
     s->early += early ? luminance(weighted) : 0.0f;
     s->earlyWeights += early ? luminance(weights) : 0.0f;
+    s->lateWeights += early ? 0.0f : luminance(weights);
     s->radiance = vecAdd(s->radiance, l);
     s->weighted = vecAdd(s->weighted, weighted);
     s->weights = vecAdd(s->weights, weights);
@@ -152,7 +154,7 @@ WEDGE_FN void storeDeviation(
 {
     const float weights = luminance(s->weights), all = luminance(s->weighted);
     const float mean = weights > 0.0f ? all / weights : 0.0f;
-    const bool whole = fmin(s->earlyWeights, weights - s->earlyWeights) <= 1e-5f * weights;
+    const bool whole = s->earlyWeights == 0.0f || s->lateWeights == 0.0f;
     const float apart = whole ? sqrt(known / fmax(known + weights, 1e-30f)) * (all - weights * before)
                               : 2.0f * (s->early - mean * s->earlyWeights);
     if (wave.packed != 0u) {

@@ -289,6 +289,26 @@ __kernel void termSquares(DistributedParams p, uint gathered, __global const flo
     }
 }
 
+/// A term's filtered value falls back to its own, of which shares say how much counts.
+__kernel void fallBackTerm(DistributedParams p, __global const float* restrict texture,
+    __global const float* restrict value, __global const float* restrict shares, __global float* restrict filtered)
+{
+    uint x, y, i;
+    // Where nothing is shared what is not filtered is not looked at.
+    if (!pixelOf(p, &x, &y, &i) || !(shares[i] > 0.0f)) {
+        return;
+    }
+    const uint n = p.planeSize;
+    const Vec3 u = loadValue(p, value, i);
+    if (p.values == 3u) {
+        const Vec3 f = loadVec(filtered, n, i);
+        storeVec(filtered, n, i, vecMad(f, vecSub(u, f), shares[i]));
+        return;
+    }
+    const Vec3 k = loadTexture(p, texture, i);
+    filtered[i] += shares[i] * (luminance(vecMul(k, u)) / fmax(luminance(k), 1e-30f) - filtered[i]);
+}
+
 /// A term's own radiance, k E; as published L, termRadiance.
 WEDGE_FN Vec3 ownRadiance(DistributedParams p, uint i, __global const float* texture, __global const float* value,
     __global const float* termRadiance)
