@@ -8,10 +8,11 @@ namespace {
 
 constexpr int width = 96, height = 72;
 
-render::Settings wide(bool fallback, int bounces)
+render::Settings wide(bool fallback, int bounces, bool antialias)
 {
     render::Settings s = sized(render::axisAligned(64, 0.15f), width, height);
     s.bounces = bounces;
+    s.antialias = antialias;
     s.fallback = fallback;
     return s;
 }
@@ -38,14 +39,16 @@ TEST_CASE("filters that blur far too wide lose to the pixels' own samples")
         scene.materials[0].specular = glm::vec3(0.2f);
         scene.materials[0].exponent = 8;
         render::Renderer renderer(scene, device, renderOptions());
-        for (const int bounces : { 0, 1 }) {
+        for (const auto& [bounces, antialias] : { std::pair(0, false), { 1, false }, { 0, true }, { 1, true } }) {
             CAPTURE(bounces);
+            CAPTURE(antialias);
             render::Settings truth = sized(render::monteCarlo(2048), width, height);
             truth.bounces = bounces;
+            truth.antialias = antialias;
             const std::vector<float> reference = reflected(renderer, truth, true);
-            const double off = rmse(reflected(renderer, wide(false, bounces), true), reference);
-            const double kept = rmse(reflected(renderer, wide(true, bounces), true), reference);
-            const double own = rmse(reflected(renderer, wide(true, bounces), false), reference);
+            const double off = rmse(reflected(renderer, wide(false, bounces, antialias), true), reference);
+            const double kept = rmse(reflected(renderer, wide(true, bounces, antialias), true), reference);
+            const double own = rmse(reflected(renderer, wide(true, bounces, antialias), false), reference);
             CAPTURE(off);
             CAPTURE(kept);
             CAPTURE(own);
@@ -65,6 +68,10 @@ TEST_CASE("where filters are right, falling back changes next to nothing")
         render::Settings with = sized(render::axisAligned(28), width, height), without = with;
         without.fallback = false;
         CHECK(rmse(renderPixels(renderer, with), reference) < 1.03 * rmse(renderPixels(renderer, without), reference));
+        render::Settings truth = sized(render::monteCarlo(2048), width, height);
+        truth.antialias = with.antialias = without.antialias = true;
+        const std::vector<float> smooth = renderPixels(renderer, truth);
+        CHECK(rmse(renderPixels(renderer, with), smooth) < 1.03 * rmse(renderPixels(renderer, without), smooth));
     });
 }
 
@@ -83,29 +90,33 @@ TEST_CASE("pictures of light that few paths find do not become darker")
         render::Renderer renderer(b.scene, device, renderOptions());
         render::Settings settings = sized(render::axisAligned(28), width, height);
         settings.lightSampling = render::LightSampling::Directions;
-        // Of the same samples, so that they need not be many.
-        double plain = 0, filtered = 0, shown = 0;
-        const auto sumOf = [&](const device::Buffer<float>& plane) {
-            double sum = 0;
-            for (const float v : pixels(renderer, plane, { 0, 0, width, height }))
-                sum += v;
-            return sum;
-        };
-        for (settings.seed = 1; settings.seed <= 16; ++settings.seed) {
-            settings.fallback = false;
-            renderer.render(settings, {}, true);
-            plain += sumOf(renderer.frame().directNoisy);
-            filtered += sumOf(renderer.frame().direct);
-            settings.fallback = true;
-            renderer.render(settings, {}, true);
-            shown += sumOf(renderer.frame().direct);
+        for (const bool antialias : { false, true }) {
+            CAPTURE(antialias);
+            settings.antialias = antialias;
+            // Of the same samples, so that they need not be many.
+            double plain = 0, filtered = 0, shown = 0;
+            const auto sumOf = [&](const device::Buffer<float>& plane) {
+                double sum = 0;
+                for (const float v : pixels(renderer, plane, { 0, 0, width, height }))
+                    sum += v;
+                return sum;
+            };
+            for (settings.seed = 1; settings.seed <= 16; ++settings.seed) {
+                settings.fallback = false;
+                renderer.render(settings, {}, true);
+                plain += sumOf(renderer.frame().directNoisy);
+                filtered += sumOf(renderer.frame().direct);
+                settings.fallback = true;
+                renderer.render(settings, {}, true);
+                shown += sumOf(renderer.frame().direct);
+            }
+            CAPTURE(filtered / plain);
+            CAPTURE(shown / filtered);
+            // Widths of pixels' own samples lose 31 %; such wide ones on a floor that ends gain 9 %.
+            CHECK(std::fabs(filtered / plain - 1) < 0.12);
+            // V of the pixels around alone loses 41 %.
+            CHECK(std::fabs(shown / filtered - 1) < 0.02);
         }
-        CAPTURE(filtered / plain);
-        CAPTURE(shown / filtered);
-        // Widths of pixels' own samples lose 31 %; such wide ones on a floor that ends gain 9 %.
-        CHECK(std::fabs(filtered / plain - 1) < 0.12);
-        // V of the pixels around alone loses 41 %.
-        CHECK(std::fabs(shown / filtered - 1) < 0.02);
     });
 }
 
@@ -114,16 +125,19 @@ TEST_CASE("a crop that falls back has the whole image's pixels")
     onEveryDevice([](const device::Device& device) {
         const scene::Scene scene = smallScene();
         render::Renderer renderer(scene, device, renderOptions());
-        render::Settings settings = wide(true, 1);
-        renderer.render(settings);
-        const image::Window crop { 37, 21, 62, 44 };
-        const std::vector<float> whole = pixels(renderer, renderer.frame().beauty, crop);
-        // What another image leaves in the buffers is not to be mistaken for what is around the crop.
-        settings.seed = 77;
-        renderer.render(settings);
-        settings.seed = render::Settings {}.seed;
-        settings.crop = crop;
-        renderer.render(settings);
-        CHECK(pixels(renderer, renderer.frame().beauty, crop) == whole);
+        for (const bool antialias : { false, true }) {
+            CAPTURE(antialias);
+            render::Settings settings = wide(true, 1, antialias);
+            renderer.render(settings);
+            const image::Window crop { 37, 21, 62, 44 };
+            const std::vector<float> whole = pixels(renderer, renderer.frame().beauty, crop);
+            // What another image leaves in the buffers is not to be mistaken for what is around the crop.
+            settings.seed = 77;
+            renderer.render(settings);
+            settings.seed = render::Settings {}.seed;
+            settings.crop = crop;
+            renderer.render(settings);
+            CHECK(pixels(renderer, renderer.frame().beauty, crop) == whole);
+        }
     });
 }
