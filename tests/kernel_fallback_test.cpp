@@ -111,8 +111,10 @@ TEST_CASE("fallback: shrinks samples towards what is filtered by the noise and d
                         (share == 0 ? kept : share == 1 ? replaced : between) += 1;
                     }
                 if (width > 1) {
-                    CAPTURE(bias);
-                    CAPTURE(noise);
+                    // Copies: a binding cannot be captured.
+                    const double off = bias, spread = noise;
+                    CAPTURE(off);
+                    CAPTURE(spread);
                     // Noise alone is hardly ever taken for bias, bias without noise always for what it is.
                     if (bias == 0)
                         CHECK(kept > 10 * (between + replaced));

@@ -40,8 +40,11 @@ TEST_CASE("filters that blur far too wide lose to the pixels' own samples")
         scene.materials[0].exponent = 8;
         render::Renderer renderer(scene, device, renderOptions());
         for (const auto& [bounces, antialias] : { std::pair(0, false), { 1, false }, { 0, true }, { 1, true } }) {
-            CAPTURE(bounces);
-            CAPTURE(antialias);
+            // Copies: a binding cannot be captured.
+            const int number = bounces;
+            const bool smooth = antialias;
+            CAPTURE(number);
+            CAPTURE(smooth);
             render::Settings truth = sized(render::monteCarlo(2048), width, height);
             truth.bounces = bounces;
             truth.antialias = antialias;

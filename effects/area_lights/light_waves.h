@@ -23,7 +23,7 @@ private:
     shared::AnalysisParams analysisParams() const;
     shared::SampleParams sampleParams() const;
     void narrowForHighlights();
-    graph::Handle<Value> alongShadows(const shared::DistributedParams& params, const graph::Handle<Value>& value) const;
+    graph::Handle<Value> alongShadows(const shared::DistributedParams& params, const graph::Handle<Value>& seen) const;
 
     std::uint32_t index_;
     shared::AreaLight light_;

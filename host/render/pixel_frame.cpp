@@ -8,7 +8,6 @@ using device::PassKind;
 using graph::around;
 using graph::reads;
 using graph::Run;
-using graph::tallies;
 using graph::updates;
 using graph::value;
 using graph::writes;

@@ -139,6 +139,7 @@ std::vector<Node> profileRule(scene::LightProfile profile, double cut, int count
         roots = next;
     }
     std::vector<Node> nodes;
+    nodes.reserve(roots.size());
     for (const double x : roots) {
         nodes.push_back({ x, polynomials.weightAt(x) });
     }
