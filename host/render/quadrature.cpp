@@ -94,17 +94,15 @@ std::vector<Node> gaussLegendre(int count)
     for (int i = 0; i < count; ++i) {
         // Newton's method from Tricomi's estimate; converges in a handful of steps.
         double x = -std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5));
-        double slope = 1.0;
         for (int step = 0; step < 100; ++step) {
             const auto [value, derivative] = legendre(count, x);
-            slope = derivative;
             const double change = value / derivative;
             x -= change;
             if (std::fabs(change) < 1e-15) {
                 break;
             }
         }
-        slope = legendre(count, x).second;
+        const double slope = legendre(count, x).second;
         nodes[static_cast<std::size_t>(i)] = { x, 2.0 / ((1.0 - x * x) * slope * slope) };
     }
     return nodes;
