@@ -3,7 +3,9 @@
 #include "host/device/buffer.h"
 #include "host/device/program_cache.h"
 #include "host/device/queue.h"
+#include "host/device/quirks.h"
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -41,6 +43,14 @@ BuildOptions testOptions(const std::string& value)
     options.defines = { { "TEST_VALUE", value } };
     return options;
 }
+
+/// While it lives no driver is taken for one that keeps kernels by itself: ours are the only binaries.
+struct DriverForgets {
+    DriverForgets() { ::setenv("POCL_KERNEL_CACHE", "0", 1); }
+    ~DriverForgets() { ::unsetenv("POCL_KERNEL_CACHE"); }
+    DriverForgets(const DriverForgets&) = delete;
+    DriverForgets& operator=(const DriverForgets&) = delete;
+};
 
 /// Builds with TEST_VALUE = value, runs the kernel, checks its answer, and says how the program came about.
 std::string provenance(const Device& device, const std::string& value)
@@ -203,6 +213,7 @@ TEST_CASE("binaries come from the disk when nothing changed, and from the source
 {
     for (const Device& device : wedge::test::usableDevices()) {
         CAPTURE(device.info().name);
+        const DriverForgets setting;
         const TemporaryFolder folder;
         const fs::path cache = folder.path() / "made" / "on demand";
         ::setenv("WEDGE_CACHE_DIR", cache.c_str(), 1);
@@ -220,6 +231,7 @@ TEST_CASE("a damaged cache entry is ignored and replaced")
     constexpr std::size_t headerBytes = 32;
     for (const Device& device : wedge::test::usableDevices()) {
         CAPTURE(device.info().name);
+        const DriverForgets setting;
         const TemporaryFolder folder;
         ::setenv("WEDGE_CACHE_DIR", folder.path().c_str(), 1);
         REQUIRE(provenance(device, "5") == "compiled");
@@ -264,9 +276,25 @@ TEST_CASE("of hundreds of entries the oldest are dropped, and nothing else")
     CHECK(fs::exists(folder.path() / "theirs304.clbin"));
 }
 
+TEST_CASE("a driver that keeps kernels by itself is not asked for binaries, for which it would compile them again")
+{
+    for (const Device& device : wedge::test::usableDevices()) {
+        CAPTURE(device.info().name);
+        const TemporaryFolder folder;
+        ::setenv("WEDGE_CACHE_DIR", folder.path().c_str(), 1);
+        const bool keeps = driverKeepsKernels(device.info().platformVersion);
+        CHECK(provenance(device, "7") == "compiled");
+        CHECK(provenance(device, "7") == (keeps ? "compiled" : "loaded"));
+        const auto files = filesOf(folder.path());
+        const auto binaries = std::ranges::count_if(files, [](const fs::path& file) { return file.extension() == ".clbin"; });
+        CHECK(binaries == (keeps ? 0 : 1));
+    }
+}
+
 TEST_CASE("the cache can be off, and a folder that cannot be written costs nothing but time")
 {
     const Device device = Device::open("");
+    const DriverForgets setting;
     const TemporaryFolder folder;
     writeText(folder.path() / "file", "in the way");
     for (const fs::path& cache : { fs::path(), folder.path() / "file", folder.path() / "file" / "below" }) {

@@ -25,6 +25,20 @@ TEST_CASE("which PoCL fails to compile")
     CHECK_FALSE(poclFailsToCompile(""));
 }
 
+TEST_CASE("which driver keeps kernels by itself")
+{
+    const char* pocl = "OpenCL 3.0 PoCL 3.1+debian  Linux, None+Asserts, RELOC, SPIR, LLVM 15.0.6, SLEEF, DISTRO";
+    CHECK(driverKeepsKernels(pocl));
+    ::setenv("POCL_KERNEL_CACHE", "0", 1);
+    CHECK_FALSE(driverKeepsKernels(pocl));
+    ::setenv("POCL_KERNEL_CACHE", "1", 1);
+    CHECK(driverKeepsKernels(pocl));
+    ::unsetenv("POCL_KERNEL_CACHE");
+    CHECK_FALSE(driverKeepsKernels("OpenCL 3.0 CUDA 12.4.131"));
+    CHECK_FALSE(driverKeepsKernels("OpenCL 3.0 LINUX"));
+    CHECK_FALSE(driverKeepsKernels(""));
+}
+
 TEST_CASE("a quirk changes what it has to, and what the user chose stays")
 {
     DeviceInfo info;
@@ -33,17 +47,20 @@ TEST_CASE("a quirk changes what it has to, and what the user chose stays")
     const char* users = std::getenv("POCL_WORK_GROUP_METHOD");
     const std::string before = users == nullptr ? "" : users;
     ::unsetenv("POCL_WORK_GROUP_METHOD");
-    CHECK(applyQuirks(info).size() == 1);
+    // Besides, PoCL keeps kernels by itself.
+    CHECK(applyQuirks(info).size() == 2);
     CHECK(std::string(std::getenv("POCL_WORK_GROUP_METHOD")) == "cbs");
     ::setenv("POCL_WORK_GROUP_METHOD", "loops", 1);
-    REQUIRE(applyQuirks(info).size() == 1);
+    REQUIRE(applyQuirks(info).size() == 2);
     CHECK(applyQuirks(info).front().starts_with("POCL_WORK_GROUP_METHOD=loops is set"));
     CHECK(std::string(std::getenv("POCL_WORK_GROUP_METHOD")) == "loops");
     ::unsetenv("POCL_WORK_GROUP_METHOD");
     info.platformVersion = "OpenCL 3.0 PoCL 7.0  Linux, LLVM 19.1.7";
-    CHECK(applyQuirks(info).empty());
+    CHECK(applyQuirks(info).size() == 1);
     CHECK(std::getenv("POCL_WORK_GROUP_METHOD") == nullptr);
     info.hostTimers = true;
+    CHECK(applyQuirks(info).size() == 2);
+    info.platformVersion = "OpenCL 3.0 CUDA 12.4.131";
     CHECK(applyQuirks(info).size() == 1);
     if (!before.empty()) {
         ::setenv("POCL_WORK_GROUP_METHOD", before.c_str(), 1);

@@ -2,6 +2,7 @@
 
 #include "host/device/cl_error.h"
 #include "host/device/driver_cache.h"
+#include "host/device/quirks.h"
 #include "host/device/source.h"
 
 #include <fmt/format.h>
@@ -133,6 +134,10 @@ cl::Program ProgramLibrary::obtain(const std::string& file, const GeneratedSourc
     generated.insert(more.begin(), more.end());
     const std::string source = flattenKernel(options_.kernelDir, file, generated).text;
     const DriverCache::Mark mark;
+    if (driverKeepsKernels(device_.info().platformVersion)) {
+        ++compiled_;
+        return compile(file, source);
+    }
     const std::string key = cacheKey(source);
     if (const auto binary = disk_.load(key)) {
         if (cl::Program program; load(*binary, program)) {

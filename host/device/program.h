@@ -21,7 +21,7 @@ struct BuildOptions {
 };
 
 /// The programs of one device, each built of one .cl file when first asked for: from memory, else from the binary
-/// cache on disk (program_cache.h), else from source. Not for use by several threads at once.
+/// cache on disk (program_cache.h; not where the driver has its own, quirks.h), else from source. Not for use by several threads at once.
 class ProgramLibrary {
 public:
     ProgramLibrary(const Device& device, BuildOptions options);
@@ -38,7 +38,7 @@ public:
     /// What the compiler is called with, "-cl-std=CL1.2 -DNAME=VALUE".
     std::string optionsString() const;
 
-    /// Programs compiled from source, and loaded from the disk, so far.
+    /// Programs compiled from source (or fetched from the driver's own cache by it), and loaded from the disk, so far.
     unsigned compiled() const { return compiled_; }
     unsigned loaded() const { return loaded_; }
 

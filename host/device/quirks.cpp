@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* workGroupMethod = "POCL_WORK_GROUP_METHOD"; // read whenever PoCL compiles a kernel
 constexpr const char* continuations = "cbs";
+constexpr const char* kernelCache = "POCL_KERNEL_CACHE"; // 0: PoCL forgets
 
 /// The whole number behind a word: 18 of "... LLVM 18.1.8 ..." and "LLVM ".
 std::optional<int> numberBehind(std::string_view text, std::string_view word)
@@ -35,6 +36,12 @@ bool poclFailsToCompile(std::string_view platformVersion)
     return pocl && llvm && *pocl < 7 && *llvm >= 18;
 }
 
+bool driverKeepsKernels(std::string_view platformVersion)
+{
+    const char* setting = std::getenv(kernelCache);
+    return numberBehind(platformVersion, "PoCL ").has_value() && (setting == nullptr || std::string_view(setting) != "0");
+}
+
 std::vector<std::string> applyQuirks(const DeviceInfo& info)
 {
     std::vector<std::string> inForce;
@@ -48,6 +55,9 @@ std::vector<std::string> applyQuirks(const DeviceInfo& info)
                 fmt::format("{}={} is set: this version may end the process while it compiles, {} does not",
                     workGroupMethod, std::getenv(workGroupMethod), continuations));
         }
+    }
+    if (driverKeepsKernels(info.platformVersion)) {
+        inForce.emplace_back("programs come from the driver's own cache: binaries would be compiled anew for it");
     }
     if (info.hostTimers) {
         inForce.emplace_back("passes are timed by the host's clock: the driver's times are none");
