@@ -286,7 +286,8 @@ TEST_CASE("a driver that keeps kernels by itself is not asked for binaries, for 
         CHECK(provenance(device, "7") == "compiled");
         CHECK(provenance(device, "7") == (keeps ? "compiled" : "loaded"));
         const auto files = filesOf(folder.path());
-        const auto binaries = std::ranges::count_if(files, [](const fs::path& file) { return file.extension() == ".clbin"; });
+        const auto binaries =
+            std::ranges::count_if(files, [](const fs::path& file) { return file.extension() == ".clbin"; });
         CHECK(binaries == (keeps ? 0 : 1));
     }
 }

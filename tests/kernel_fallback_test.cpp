@@ -95,13 +95,19 @@ TEST_CASE("fallback: shrinks samples towards what is filtered by the noise and d
                         if (in.objectId.at(x, y) == 0)
                             continue;
                         double variance = 0, difference = 0, around = 0;
+                        const auto add = [&](int px, int py) {
+                            variance += squared(in.deviation.at(px, py));
+                            around += in.variance.at(px, py);
+                            difference += squared(in.noisy.at(px, py) - in.filtered.at(px, py));
+                        };
                         for (int py = std::max(0, y - 3); py <= std::min(height - 1, y + 3); ++py)
                             for (int px = std::max(0, x - 3); px <= std::min(width - 1, x + 3); ++px)
-                                if (in.objectId.at(px, py) == in.objectId.at(x, y) && !(others && px == x && py == y)) {
-                                    variance += squared(in.deviation.at(px, py));
-                                    around += in.variance.at(px, py);
-                                    difference += squared(in.noisy.at(px, py) - in.filtered.at(px, py));
-                                }
+                                if (in.objectId.at(px, py) == in.objectId.at(x, y) && !(others && px == x && py == y))
+                                    add(px, py);
+                        if (difference == 0) {
+                            variance = around = 0;
+                            add(x, y);
+                        }
                         if (gathered)
                             variance = std::max(variance, around);
                         const double share = difference > 0 ? std::max(0.0, 1 - 2 * variance / difference) : 0;

@@ -84,7 +84,8 @@ TEST_CASE("the rule of n nodes averages polynomials of degree 2n - 1 over the pr
 {
     for (const scene::LightProfile profile : { scene::LightProfile::Uniform, scene::LightProfile::Gaussian })
         for (const double cut : { 0.01, 0.5, 2.0, 4.0, 8.0 })
-            for (const std::uint32_t count : { 1u, WEDGE_FEW_NODES, WEDGE_COARSE_NODES, WEDGE_FINE_NODES, 16u }) {
+            for (const std::uint32_t count :
+                { 1u, WEDGE_FEW_NODES, WEDGE_COARSE_NODES, WEDGE_MEDIUM_NODES, WEDGE_FINE_NODES, 16u }) {
                 CAPTURE(cut);
                 CAPTURE(count);
                 const std::vector<render::Node> rule = render::profileRule(profile, cut, static_cast<int>(count));

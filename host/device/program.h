@@ -21,7 +21,8 @@ struct BuildOptions {
 };
 
 /// The programs of one device, each built of one .cl file when first asked for: from memory, else from the binary
-/// cache on disk (program_cache.h; not where the driver has its own, quirks.h), else from source. Not for use by several threads at once.
+/// cache on disk (program_cache.h; not where the driver has its own, quirks.h), else from source. Not for use by
+/// several threads at once.
 class ProgramLibrary {
 public:
     ProgramLibrary(const Device& device, BuildOptions options);

@@ -39,7 +39,8 @@ bool poclFailsToCompile(std::string_view platformVersion)
 bool driverKeepsKernels(std::string_view platformVersion)
 {
     const char* setting = std::getenv(kernelCache);
-    return numberBehind(platformVersion, "PoCL ").has_value() && (setting == nullptr || std::string_view(setting) != "0");
+    return numberBehind(platformVersion, "PoCL ").has_value()
+        && (setting == nullptr || std::string_view(setting) != "0");
 }
 
 std::vector<std::string> applyQuirks(const DeviceInfo& info)

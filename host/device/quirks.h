@@ -17,8 +17,8 @@ namespace wedge::device {
 bool poclFailsToCompile(std::string_view platformVersion);
 
 /// Whether a platform's driver keeps what it compiled by itself and finds it again: PoCL, unless POCL_KERNEL_CACHE=0 in
-/// the environment. Asked for a program's binary, it compiles all of its kernels once more, for work-groups of any size:
-/// what it has compiled and launched by then is for given sizes.
+/// the environment. Asked for a program's binary, it compiles all of its kernels once more, for work-groups of any
+/// size: what it has compiled and launched by then is for given sizes.
 bool driverKeepsKernels(std::string_view platformVersion);
 
 /// Does what has to be done before the driver of this device compiles anything, and says which quirks are in force

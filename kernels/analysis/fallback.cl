@@ -60,16 +60,28 @@ __kernel void termVariance(
     vstore16(d * d, 0, variance + i);
 }
 
-/// The share of their own samples that pixels differing from their filtered values show. others: what is decided for a
-/// pixel follows from those around it alone
+/// Sums over the pixels around; where there are none that differ those of the pixel itself.
+WEDGE_FN SquaresAround squaresOfOthers(AnalysisParams p, uint y, int i, __global const uint* objectId,
+    __global const float* difference, __global const float* variance)
+{
+    SquaresAround around = squaresAround(p, y, i, objectId, difference, variance, true);
+    const int16 alone = !(around.difference > 0.0f);
+    around.variance = alone ? loadBlock(variance, i) : around.variance;
+    around.difference = alone ? loadBlock(difference, i) : around.difference;
+    return around;
+}
+
+/// The share of their own samples that pixels differing from their filtered values show. others: squaresOfOthers()
 WEDGE_FN float16 ownShare16(AnalysisParams p, uint y, int i, uint gathered, bool others, int16 differs,
     __global const float* squares, __global const uint* objectId)
 {
     const uint size = p.planeSize;
-    const SquaresAround around = squaresAround(p, y, i, objectId, squares, squares + size, others);
+    const SquaresAround around = others ? squaresOfOthers(p, y, i, objectId, squares, squares + size)
+                                        : squaresAround(p, y, i, objectId, squares, squares + size, false);
     float16 variance = around.variance;
     if (gathered != 0u) {
-        const SquaresAround all = squaresAround(p, y, i, objectId, squares, squares + 2u * size, others);
+        const SquaresAround all = others ? squaresOfOthers(p, y, i, objectId, squares, squares + 2u * size)
+                                         : squaresAround(p, y, i, objectId, squares, squares + 2u * size, false);
         variance = max16(variance, all.variance);
     }
     const float16 least = max16(around.difference, (float16)(1e-37f));
@@ -107,9 +119,10 @@ __kernel void fallBack(AnalysisParams p, uint gathered, __global const float* re
     vstore16(shares ? f.z + share * (u.z - f.z) : f.z, 0, filtered + 2u * p.planeSize + i);
 }
 
-/// The shares of terms, decided by the pixels around each alone: two bright paths in one pixel, one in each half of its
-/// samples, leave no trace in V, and all of D is theirs.
-/// out  shares
+/// The shares of terms, of D and V without the pixel's own: two bright paths in one pixel, one in each half of its
+/// samples, leave no trace in V, and would be all of D. (They are in the filtered values of the pixels around, too,
+/// where others' noise is to outweigh them.) Pixels whose like is not near, twigs and grains, have but their own. out
+/// shares
 __kernel void ownShares(AnalysisParams p, uint gathered, __global const float* restrict squares,
     __global const uint* restrict objectId, __global float* restrict shares)
 {

@@ -28,13 +28,16 @@
 /// profiles cut at this many standard deviations at most.
 #define WEDGE_CLIPPED_LIGHT 2.0f
 #define WEDGE_CLIPPED_CUT 3.0f
+/// And Blinn-Phong lobes whose view makes a cosine of at least this with the light's direction.
+#define WEDGE_CLIPPED_TURN -0.875f
 
 /// The coarse one serves lobes whose squared width is at least the light's squared angular half extent over this.
 #define WEDGE_COARSE_LOBE 4.0f
 /// Those of few nodes, far from the light, at least over this.
 #define WEDGE_FEW_LOBE 1.5f
-/// The medium and the clipped one at least over this. Of a lobe like exp(-across x^2 / 2) on [-1, 1] they err by 2e-4
-/// of its peak there, by the fine one 4e-7, and 3e-4 where lobes are sharp.
+/// The medium one at least over this. Of a lobe like exp(-across x^2 / 2) on [-1, 1] it errs by 2e-4 of its peak there,
+/// by the fine one 4e-7, and 3e-4 where lobes are sharp. The clipped one has the profile among what it integrates: of a
+/// Gaussian cut at c standard deviations as much as c^2 across.
 #define WEDGE_MEDIUM_LOBE 14.0f
 /// Lobes sharper than this, in the same measure, fall between the fine rule's nodes.
 #define WEDGE_SHARP_LOBE 40.0f
@@ -346,8 +349,11 @@ WEDGE_FN float16 unshadowedMean(
     const float16 across = lobes ? lobesAcross16(light, toLight, r) : (float16)(0.0f);
     const int16 horizon = horizonAcross(light, toLight, r.normal);
     const int16 at = squaredDistanceTo(light, toLight) < extent * WEDGE_AT_LIGHT * WEDGE_AT_LIGHT;
-    const bool smooth = light.profile != WEDGE_PROFILE_GAUSSIAN || light.cut <= WEDGE_CLIPPED_CUT;
-    const int16 clipped = horizon & !at & (across < WEDGE_MEDIUM_LOBE)
+    const float profile = light.profile == WEDGE_PROFILE_GAUSSIAN ? light.cut * light.cut : 0.0f;
+    const bool smooth = profile <= WEDGE_CLIPPED_CUT * WEDGE_CLIPPED_CUT;
+    // Towards the mirrored view a half vector turns far faster in some places of the light than at its centre.
+    const int16 steady = lobes ? r.phong | (dot16(r.view, toLight) > WEDGE_CLIPPED_TURN * sqrt(squared)) : (int16)(-1);
+    const int16 clipped = horizon & !at & steady & (across + profile < WEDGE_MEDIUM_LOBE)
         & (squared >= (smooth ? extent * WEDGE_CLIPPED_LIGHT * WEDGE_CLIPPED_LIGHT : INFINITY));
     const int16 fitted = (horizon & !clipped) | at;
     const int16 few =

@@ -6,10 +6,8 @@
 // they keep is of the packet's receivers, and a lane's sample may be of any of them (core/deal.h):
 //
 // begin   before the launch's samples are taken: at->wanted->first says how many a receiver has of earlier launches
-// take    a sample of each lane: at->deal->receiver says whose, and at->deal->index which one of its, from 0; what
-// there
-//         is of several ways to sample comes together. Lanes of which there is no sample (takesSample()) have values of
-//         0 and no ray
+// take    a sample of each lane: at->deal->receiver says whose, and at->deal->index which one of its, from 0. Several
+//         ways to sample come together. Lanes of which there is no sample (takesSample()) have values of 0 and no ray
 // finish  at->wanted->next says how many samples there are now; receivers without new ones (hasTaken()) keep what was
 //         there
 #ifndef WEDGE_SUMS_H
