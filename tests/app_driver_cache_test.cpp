@@ -76,6 +76,33 @@ TEST_CASE("files that were damaged in the cache of the driver are compiled again
     }
 }
 
+TEST_CASE("what was compiled for frames of a kind is remembered where it is kept")
+{
+    const Used used;
+    const auto marks = [&] {
+        std::size_t count = 0;
+        for (const fs::directory_entry& entry : fs::directory_iterator(used.driver))
+            count += entry.path().filename().string().starts_with("known-") ? 1 : 0;
+        return count;
+    };
+    if (marks() == 0) {
+        MESSAGE("skipped: this system has no driver that keeps its cache where it is told to");
+        return;
+    }
+    CHECK(marks() == 1);
+    CHECK(used.place.run(used.call).status == 0);
+    CHECK(marks() == 1);
+    std::vector<std::string> other = used.call;
+    other.emplace_back("--antialias");
+    CHECK(used.place.run(other).status == 0);
+    CHECK(marks() == 2);
+    // Where the cache is emptied nothing is known of it.
+    damageAll(used.driver, Damage::Truncated);
+    std::ofstream(used.driver / "record") << "no record";
+    CHECK(used.place.run({ "devices" }).status == 0);
+    CHECK(marks() == 0);
+}
+
 TEST_CASE("a damaged cache of which nothing is recorded is emptied by the start after the one that it ended")
 {
     const Used used;

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <new>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -142,6 +143,9 @@ int main(int argc, char** argv)
     prepareProcess();
     keepIgnoring();
     try {
+        if (const std::optional<int> status = compileForOther(argc, argv)) {
+            return *status;
+        }
         CLI::App parser(
             "wedge renders soft shadows and indirect light from few samples, on any OpenCL device.", "wedge");
         parser.set_version_flag("--version", std::string("wedge ") + render::version());

@@ -199,6 +199,10 @@ void RenderJob::build()
     options.traversal = options_.traversal.value_or(render::Traversal::Automatic);
     options.checkLaunches = options_.checkLaunches;
     options.memoryLimit = options_.memoryLimitBytes;
+    options.compiler = ownProgram();
+    options.onCompile = [this](std::size_t kernels) {
+        progress_.show(fmt::format("compiling {} kernels, once for frames of this kind on this device", kernels));
+    };
     progress_.show("building the hierarchy");
     renderer_ = std::make_unique<render::Renderer>(scene_, device, options);
     progress_.clear();

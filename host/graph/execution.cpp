@@ -11,17 +11,8 @@
 namespace wedge::graph {
 namespace {
 
+constexpr std::size_t rowsOfGroup = 64; ///< items of a work-group over rows
 constexpr int bandPixels = 1 << 21; ///< of a launch over rows, so that none is long
-
-/// The largest power of two that the kernel allows, at most `most`.
-std::size_t localSize(const device::Kernel& kernel, std::size_t most)
-{
-    std::size_t size = most;
-    while (size > kernel.workGroupLimit() && size > 1) {
-        size /= 2;
-    }
-    return size;
-}
 
 /// In the place of a pass's window where nothing is to be computed.
 Window nothing(const Window& window) { return { window.x0, window.y0, window.x0, window.y1 }; }
@@ -140,6 +131,15 @@ void Execution::rehearse()
     runRange(run, 0, plan_.passes.size(), -1);
 }
 
+std::vector<Trial> Execution::trials()
+{
+    std::vector<Trial> found;
+    trials_ = &found;
+    rehearse();
+    trials_ = nullptr;
+    return found;
+}
+
 void Execution::runRange(Run& run, std::size_t begin, std::size_t end, int loop)
 {
     for (std::size_t i = begin; i < end;) {
@@ -220,6 +220,10 @@ void Execution::setArguments(Run& run, device::Kernel& kernel, const PlannedPass
 
 void Execution::launch(Run& run, const PlannedPass& planned)
 {
+    if (run.rehearsal()) {
+        rehearse(run, planned);
+        return;
+    }
     const Pass& pass = *planned.pass;
     device::Kernel& kernel = kernels_.find(pass.kernel.file, pass.kernel.name, pass.sink);
     const bool tiles = pass.domain == Domain::Tiles;
@@ -228,33 +232,77 @@ void Execution::launch(Run& run, const PlannedPass& planned)
         launchRows(run, kernel, planned);
         return;
     }
-    const Window window = run.rehearsal() ? nothing(planned.window) : planned.window;
+    const Window& window = planned.window;
     setArguments(run, kernel, planned, window);
     if (tiles) {
         const std::size_t items = pass.itemsOfTile, local = localSize(kernel, items);
-        const std::size_t count = std::max<std::size_t>(pass.count({ run, planned.window }), run.rehearsal() ? 1 : 0);
-        queue_.launchTiled(pass.name, pass.kind, kernel, count * (items / local), local, kernel.argCount() - 1,
-            run.rehearsal() || !pass.workUnits ? 0.0 : pass.workUnits({ run, window }));
+        queue_.launchTiled(pass.name, pass.kind, kernel, pass.count({ run, window }) * (items / local), local,
+            kernel.argCount() - 1, pass.workUnits ? pass.workUnits({ run, window }) : 0.0);
     } else {
-        const std::size_t items = run.rehearsal() ? pass.mostItems : pass.count({ run, window });
+        const std::size_t items = pass.count({ run, window });
         assert(items <= pass.mostItems);
         queue_.launch(pass.name, pass.kind, kernel, items, localSize(kernel, pass.mostOfGroup));
     }
 }
 
-void Execution::launchRows(Run& run, device::Kernel& kernel, const PlannedPass& planned)
+Trial Execution::trialOf(Run& run, const PlannedPass& planned) const
 {
     const Pass& pass = *planned.pass;
-    const int across = pass.domain == Domain::Pixels ? 1 : static_cast<int>(WEDGE_BLOCK_PIXELS);
+    Trial trial { pass.kernel.file, pass.kernel.name, pass.sink, pass.domain };
+    Window covered = nothing(planned.window);
+    if (pass.domain == Domain::Tiles) {
+        trial.items = std::max<std::size_t>(pass.count({ run, planned.window }), 1);
+        trial.itemsOfGroup = pass.itemsOfTile;
+    } else if (pass.domain == Domain::Items) {
+        trial.items = pass.mostItems;
+        trial.itemsOfGroup = pass.mostOfGroup;
+    } else {
+        const Rows rows = rowsOf(planned);
+        covered = nothing(rows.all);
+        trial.columns = rows.columns;
+        trial.rows = static_cast<std::size_t>(std::min(rows.band, rows.all.height()));
+        trial.itemsOfGroup = rowsOfGroup;
+        trial.columnsOfGroup = rows.columnsOfGroup;
+    }
+    for (const Argument& argument : pass.arguments) {
+        const bool memory = argument.isUse() || argument.type.starts_with("__global");
+        trial.arguments.push_back(memory ? std::vector<std::byte>() : argument.value({ run, covered }));
+    }
+    return trial;
+}
+
+void Execution::rehearse(Run& run, const PlannedPass& planned)
+{
+    const Trial trial = trialOf(run, planned);
+    if (trials_ != nullptr) {
+        trials_->push_back(trial);
+        return;
+    }
+    const Pass& pass = *planned.pass;
+    device::Kernel& kernel = kernels_.find(pass.kernel.file, pass.kernel.name, pass.sink);
+    kernel.requireCount(pass.arguments.size() + (pass.domain == Domain::Tiles ? 1 : 0));
+    setArguments(run, kernel, planned, nothing(planned.window));
+    graph::launch(queue_, pass.name, pass.kind, kernel, trial);
+}
+
+Execution::Rows Execution::rowsOf(const PlannedPass& planned) const
+{
+    const int across = planned.pass->domain == Domain::Pixels ? 1 : static_cast<int>(WEDGE_BLOCK_PIXELS);
     // Results beside the window are nobody's, and may be of nothing.
     const Window all { planned.window.x0 / across * across, planned.window.y0,
         std::min(plan_.graph.image().x1, (planned.window.x1 + across - 1) / across * across), planned.window.y1 };
-    const std::size_t columns = static_cast<std::size_t>((all.width() + across - 1) / across);
-    const std::size_t local = localSize(kernel, 64), localX = std::min<std::size_t>(local, across == 1 ? 16 : 4);
-    const int band = std::max(16, bandPixels / std::max(1, all.width()));
+    return { all, static_cast<std::size_t>((all.width() + across - 1) / across),
+        std::max(16, bandPixels / std::max(1, all.width())), across == 1 ? std::size_t { 16 } : std::size_t { 4 } };
+}
+
+void Execution::launchRows(Run& run, device::Kernel& kernel, const PlannedPass& planned)
+{
+    const Pass& pass = *planned.pass;
+    const auto& [all, columns, band, columnsOfGroup] = rowsOf(planned);
+    const std::size_t local = localSize(kernel, rowsOfGroup), localX = std::min(local, columnsOfGroup);
     for (int y = all.y0; y < all.y1; y += std::min(band, all.y1 - y)) {
         const Window rows { all.x0, y, all.x1, y + std::min(band, all.y1 - y) };
-        setArguments(run, kernel, planned, run.rehearsal() ? nothing(rows) : rows);
+        setArguments(run, kernel, planned, rows);
         queue_.launch2D(
             pass.name, pass.kind, kernel, columns, static_cast<std::size_t>(rows.height()), localX, local / localX);
     }

@@ -3,6 +3,7 @@
 #include "host/device/buffer.h"
 #include "host/device/program.h"
 #include "host/graph/plan.h"
+#include "host/graph/trial.h"
 
 #include <atomic>
 #include <map>
@@ -103,6 +104,9 @@ public:
     bool run(const std::atomic<bool>* stop = nullptr, bool poison = false);
     /// Launches every kernel at its full size over nothing; bodies of loops once.
     void rehearse();
+    /// What rehearse() launches, which launches nothing this once: for other processes to compile.
+    std::vector<Trial> trials();
+    const Plan& plan() const { return plan_; }
 
     /// Contents of a wanted version, or of an import, after run().
     template <class T>
@@ -120,6 +124,16 @@ private:
     void launch(Run& run, const PlannedPass& planned);
     void setArguments(Run& run, device::Kernel& kernel, const PlannedPass& planned, const Window& window) const;
     void launchRows(Run& run, device::Kernel& kernel, const PlannedPass& planned);
+    void rehearse(Run& run, const PlannedPass& planned);
+    Trial trialOf(Run& run, const PlannedPass& planned) const;
+    /// How a launch over rows covers its window: bands of rows, so that none is long.
+    struct Rows {
+        Window all;
+        std::size_t columns; ///< items
+        int band; ///< rows of a launch
+        std::size_t columnsOfGroup;
+    };
+    Rows rowsOf(const PlannedPass& planned) const;
     void fillNew(const PlannedPass& planned);
 
     const Plan& plan_;
@@ -127,6 +141,7 @@ private:
     device::TimedQueue& queue_;
     std::vector<cl::Buffer> memory_; ///< of each resource that is used
     bool poison_ = false;
+    std::vector<Trial>* trials_ = nullptr; ///< while they are asked for
 };
 
 } // namespace wedge::graph

@@ -1,7 +1,9 @@
 #include "host/render/renderer.h"
 
 #include "host/device/driver_cache.h"
+#include "host/device/quirks.h"
 #include "host/graph/explain.h"
+#include "host/render/compilers.h"
 #include "host/render/distributed_frame.h"
 #include "host/render/effect.h"
 #include "host/render/halves.h"
@@ -16,6 +18,8 @@
 namespace wedge::render {
 
 namespace {
+
+constexpr std::size_t mostCompilers = 7; ///< besides this process
 
 using Clock = std::chrono::steady_clock;
 
@@ -223,13 +227,39 @@ bool Renderer::run(graph::Execution& execution, const std::atomic<bool>* stop, b
     termPlanes_.clear();
     bool whole = true;
     if (rehearsal) {
-        execution.rehearse();
+        rehearse(execution);
     } else {
         whole = execution.run(stop, options_.poison);
         keepWidths(execution);
     }
     frame_ = frameGraph_->outputs(execution);
     return whole;
+}
+
+void Renderer::rehearse(graph::Execution& execution)
+{
+    const graph::Plan& plan = execution.plan();
+    const device::DeviceInfo& info = device_.info();
+    if (!device::driverKeepsKernels(info.platformVersion)) {
+        execution.rehearse();
+        return;
+    }
+    const device::BuildOptions options = programOptions(scene_, options_, hierarchy_.traversal);
+    const KnownKernels kernels(device_, programs_->optionsString(), options, plan);
+    if (!kernels.areKnown()) {
+        const CompileWork work = compileWork(device_, options, plan, execution.trials());
+        if (options_.onCompile) {
+            options_.onCompile(work.kernels());
+        }
+        // Each takes some 200 MB.
+        const std::size_t others = std::min<std::size_t>(std::max(info.computeUnits, 1u) - 1, mostCompilers);
+        if (!options_.compiler.empty() && others > 0) {
+            compileSideBySide(options_.compiler, others, work, queue_, kernels_);
+        }
+    }
+    execution.rehearse();
+    queue_.finish();
+    kernels.remember();
 }
 
 void Renderer::keepWidths(const graph::Execution& execution)

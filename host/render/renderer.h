@@ -30,6 +30,10 @@ struct Options {
     std::uint64_t memoryLimit = 0; ///< bytes on the device, 0: the device's own limit
     bvh::Mode bvh = bvh::Mode::Default; ///< how the hierarchy is built: the image is the same
     Traversal traversal = Traversal::Automatic;
+    /// The path of wedge, to be started for compiling kernels side by side; "": one after the other.
+    std::string compiler {};
+    /// Called with the number of kernels before those are compiled that were not before, where that can be known.
+    std::function<void(std::size_t kernels)> onCompile {};
 };
 
 /// How a render is watched and stopped.
@@ -139,6 +143,8 @@ private:
     /// Runs frameGraph_, or rehearses it. Returns false if it was stopped before all samples were taken.
     bool run(const std::atomic<bool>* stop, bool rehearsal);
     bool run(graph::Execution& execution, const std::atomic<bool>* stop, bool rehearsal);
+    /// Compiles all of its kernels.
+    void rehearse(graph::Execution& execution);
     struct Step {
         ErrorEstimate error;
         bool whole; ///< it was not stopped before all its samples were taken
