@@ -5,7 +5,7 @@
 #define WEDGE_PATH_VERTICES_H
 
 #include "paths/path_state.h"
-#include "trace/surface.h"
+#include "trace/surface_lanes.h"
 
 /// Scattering is Lambert and one specular lobe.
 typedef struct {
@@ -52,49 +52,23 @@ WEDGE_FN void prepareScattering(VertexPacket* at)
     }
 }
 
-/// Corners of each lane's triangle.
-typedef struct {
-    VecLanes a, b, c, normalA, normalB, normalC;
-} CornerLanes;
-
-WEDGE_INLINE Corners laneCorners(const CornerLanes* k, uint lane)
-{
-    Corners out;
-    out.a = laneVec(&k->a, lane);
-    out.b = laneVec(&k->b, lane);
-    out.c = laneVec(&k->c, lane);
-    out.normalA = laneVec(&k->normalA, lane);
-    out.normalB = laneVec(&k->normalB, lane);
-    out.normalC = laneVec(&k->normalC, lane);
-    return out;
-}
-
 /// Fetches what the rays hit; where they hit nothing, zeros.
 WEDGE_FN void fetchSurfaces(
     SurfaceData surfaces, const RayPacket* rays, const PacketHits* hits, CornerLanes* corners, VertexPacket* at)
 {
-    const Vec3 none = vec3(0.0f, 0.0f, 0.0f);
     at->any = false;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const Hit hit = packetHit(hits, lane);
         const bool live = hit.triangle != WEDGE_NO_TRIANGLE;
         at->live[lane] = live ? 1u : 0u;
         at->any |= live;
-        Corners k;
-        k.a = k.b = k.c = k.normalA = k.normalB = k.normalC = none;
-        Finish finish;
-        finish.diffuse = finish.specular = none;
-        finish.gloss = makeGloss(1.0f, WEDGE_LAMBERT);
+        Corners k = noCorners();
+        Finish finish = noFinish();
         if (live) {
             k = cornersOf(surfaces, hit.triangle, timeOf(rays, lane));
             finish = finishOf(surfaces, hit);
         }
-        setLaneVec(&corners->a, lane, k.a);
-        setLaneVec(&corners->b, lane, k.b);
-        setLaneVec(&corners->c, lane, k.c);
-        setLaneVec(&corners->normalA, lane, k.normalA);
-        setLaneVec(&corners->normalB, lane, k.normalB);
-        setLaneVec(&corners->normalC, lane, k.normalC);
+        setLaneCorners(corners, lane, k);
         setLaneVec(&at->diffuse, lane, finish.diffuse);
         setLaneVec(&at->specular, lane, finish.specular);
         at->exponent[lane] = finish.gloss.exponent;

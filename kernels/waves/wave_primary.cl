@@ -14,19 +14,17 @@
 #include "shared/wave.h"
 #include "trace/environment.h"
 #include "trace/packet.h"
-#include "trace/surface.h"
+#include "trace/surface_lanes.h"
 
 #define WEDGE_LENS_SEED 0x6c656e73u
 #define WEDGE_SHUTTER_SEED 0x74696d65u
 #define WEDGE_PIXEL_SEED 0x70697865u
 
-/// Two random numbers of a primary sample.
-WEDGE_INLINE Vec2 cameraPair(FrameParams frame, WaveParams wave, uint what, uint x, uint y, uint index, uint count)
+/// Two random numbers of a primary sample, not of the sequence.
+WEDGE_FN Vec2 stratifiedCameraPair(
+    FrameParams frame, WaveParams wave, uint what, uint x, uint y, uint index, uint count)
 {
     const uint seed = hashCombine(hashCombine(frame.seed, what), y * frame.width + x);
-    if (wave.sampler == WEDGE_SAMPLER_SOBOL) {
-        return sobolOwen(index, seed);
-    }
     // Strata of lens, time, light and hemisphere are paired at random: each pixel has an order of its own.
     const bool first = index < wave.firstPass;
     return first
@@ -34,22 +32,86 @@ WEDGE_INLINE Vec2 cameraPair(FrameParams frame, WaveParams wave, uint what, uint
         : stratified(index - wave.firstPass, count - wave.firstPass, hashUint(seed ^ 0x33333333u), hashUint(seed));
 }
 
-WEDGE_INLINE CameraRay primaryRay(
-    FrameParams frame, CameraParams camera, WaveParams wave, uint x, uint y, uint index, uint count)
+/// What a packet's samples are drawn for.
+typedef struct {
+    uint x[WEDGE_PACKET_SIZE], y[WEDGE_PACKET_SIZE]; ///< pixels
+    uint index[WEDGE_PACKET_SIZE], count[WEDGE_PACKET_SIZE]; ///< primary samples, and how many their pixels have
+} PrimaryLanes;
+
+/// Two random numbers of each lane's primary sample.
+WEDGE_FN void cameraPairs(
+    FrameParams frame, WaveParams wave, uint what, const PrimaryLanes* at, float* restrict u, float* restrict v)
 {
-    Vec2 lens = vec2(0.0f, 0.0f), at = vec2(0.5f, 0.5f);
-    float time = 0.0f;
+    if (wave.sampler == WEDGE_SAMPLER_SOBOL) {
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const uint seed = hashCombine(hashCombine(frame.seed, what), at->y[lane] * frame.width + at->x[lane]);
+            const Vec2 p = sobolOwen(at->index[lane], seed);
+            u[lane] = p.x;
+            v[lane] = p.y;
+        }
+        return;
+    }
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const Vec2 p =
+            stratifiedCameraPair(frame, wave, what, at->x[lane], at->y[lane], at->index[lane], at->count[lane]);
+        u[lane] = p.x;
+        v[lane] = p.y;
+    }
+}
+
+/// Each lane's ray and its time. tMax is for the caller to set.
+WEDGE_FN void sendRays(FrameParams frame, CameraParams camera, WaveParams wave, const PrimaryLanes* at, RayPacket* rays,
+    float* restrict time)
+{
+    float lensX[WEDGE_PACKET_SIZE], lensY[WEDGE_PACKET_SIZE], u[WEDGE_PACKET_SIZE], v[WEDGE_PACKET_SIZE];
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        lensX[lane] = lensY[lane] = time[lane] = 0.0f;
+    }
     if (camera.apertureRadius > 0.0f) {
-        lens = aperturePoint(camera.gaussianAperture, cameraPair(frame, wave, WEDGE_LENS_SEED, x, y, index, count));
+        cameraPairs(frame, wave, WEDGE_LENS_SEED, at, u, v);
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const Vec2 lens = aperturePoint(camera.gaussianAperture, vec2(u[lane], v[lane]));
+            lensX[lane] = lens.x;
+            lensY[lane] = lens.y;
+        }
     }
     if (camera.shutter != 0u) {
-        time = shutterTime(camera, cameraPair(frame, wave, WEDGE_SHUTTER_SEED, x, y, index, count).x);
+        cameraPairs(frame, wave, WEDGE_SHUTTER_SEED, at, u, v);
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            time[lane] = shutterTime(camera, u[lane]);
+        }
+    }
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        u[lane] = v[lane] = 0.5f;
     }
     if (camera.pixelFilter > 0.0f) {
-        const Vec2 u = cameraPair(frame, wave, WEDGE_PIXEL_SEED, x, y, index, count);
-        at = vec2(0.5f + camera.pixelFilter * (u.x - 0.5f), 0.5f + camera.pixelFilter * (u.y - 0.5f));
+        cameraPairs(frame, wave, WEDGE_PIXEL_SEED, at, u, v);
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            u[lane] = 0.5f + camera.pixelFilter * (u[lane] - 0.5f);
+            v[lane] = 0.5f + camera.pixelFilter * (v[lane] - 0.5f);
+        }
     }
-    return cameraRay(camera, (float)frame.width, (float)frame.height, (float)x + at.x, (float)y + at.y, lens, time);
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const CameraRay ray = cameraRay(camera, (float)frame.width, (float)frame.height, (float)at->x[lane] + u[lane],
+            (float)at->y[lane] + v[lane], vec2(lensX[lane], lensY[lane]), time[lane]);
+        setRay(rays, lane, ray.origin, ray.direction, 0.0f, INFINITY);
+        setTime(rays, lane, time[lane]);
+    }
+}
+
+/// The first `count` lanes to a plane.
+WEDGE_INLINE void storeLanes(__global float* restrict plane, const float* restrict lanes, uint count)
+{
+    for (uint lane = 0u; lane < count; ++lane) {
+        plane[lane] = lanes[lane];
+    }
+}
+
+WEDGE_INLINE void storeVecLanes(__global float* restrict planes, uint planeSize, const VecLanes* v, uint count)
+{
+    storeLanes(planes, v->x, count);
+    storeLanes(planes + planeSize, v->y, count);
+    storeLanes(planes + 2u * planeSize, v->z, count);
 }
 
 __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wave,
@@ -69,57 +131,97 @@ __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wav
     if (first >= wave.receivers) {
         return;
     }
-    RayPacket packet;
-    CameraRay sent[WEDGE_PACKET_SIZE];
-    Vec3 lightRadiance[WEDGE_PACKET_SIZE];
+    const uint count = min((uint)WEDGE_PACKET_SIZE, wave.receivers - first);
+    PrimaryLanes at;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const bool inside = first + lane < wave.receivers;
-        const uint receiver = inside ? first + lane : first;
+        const uint receiver = lane < count ? first + lane : first;
         const uint x = pixelOf[receiver] & 0xffffu, y = pixelOf[receiver] >> 16;
-        sent[lane] = primaryRay(frame, camera, wave, x, y, sampleOf[receiver], wanted[pixelIndex(x, y, frame.stride)]);
-        const LightHit seen = hitLights(lights, lightCount, sent[lane].origin, sent[lane].direction);
-        setRay(&packet, lane, sent[lane].origin, sent[lane].direction, 0.0f, inside ? seen.t : 0.0f);
-        setTime(&packet, lane, sent[lane].time);
-        lightRadiance[lane] = seen.radiance;
+        at.x[lane] = x;
+        at.y[lane] = y;
+        at.index[lane] = sampleOf[receiver];
+        at.count[lane] = wanted[pixelIndex(x, y, frame.stride)];
+    }
+    RayPacket packet;
+    float times[WEDGE_PACKET_SIZE];
+    VecLanes emitted;
+    sendRays(frame, camera, wave, &at, &packet, times);
+    endAtLights(lights, lightCount, &packet, &emitted);
+    for (uint lane = count; lane < WEDGE_PACKET_SIZE; ++lane) {
+        packet.tMax[lane] = 0.0f;
     }
     PacketHits hits;
     closestHits(nodes, blocks, &packet, &hits);
+
+    CornerLanes corners;
+    VecLanes diffuses, speculars, moved;
+    uint objects[WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const uint i = first + lane;
-        if (i >= wave.receivers) {
-            break;
-        }
         const Hit hit = packetHit(&hits, lane);
-        const CameraRay ray = sent[lane];
-        time[i] = ray.time;
-        rays[i] = pathRays[i] = 0u;
-        depth[i] = hit.t;
-        if (hit.triangle == WEDGE_NO_TRIANGLE) {
-            objectId[i] = 0u;
-            const Vec3 behind = vecAdd(frame.background, environmentRadiance(vecNormalize(ray.direction)));
-            storeVec(emission, size, i, hit.t < INFINITY ? lightRadiance[lane] : behind);
-            continue;
+        Corners k = noCorners();
+        Finish finish = noFinish();
+        Vec3 motionOfHit = vec3(0.0f, 0.0f, 0.0f);
+        objects[lane] = 0u;
+        if (hit.triangle != WEDGE_NO_TRIANGLE) {
+            k = cornersOf(data, hit.triangle, timeOf(&packet, lane));
+            finish = finishOf(data, hit);
+            objects[lane] = objectIds[hit.triangle];
+            motionOfHit = hitMotion(data, hit);
+            setLaneVec(&emitted, lane, finish.emission);
+        } else if (!(hit.t < INFINITY)) {
+            const Vec3 direction = vecNormalize(rayDirection(&packet, lane));
+            setLaneVec(&emitted, lane, vecAdd(frame.background, environmentRadiance(direction)));
         }
-        const Surface s = surfaceAt(data, hit, ray.direction, ray.time);
-        storeVec(position, size, i, s.position);
-        storeVec(normal, size, i, s.normal);
-        storeVec(origin, size, i, s.origin);
-        geometric[i] = packDirection(s.geometric);
-        objectId[i] = objectIds[hit.triangle];
-        gloss[i] = packGloss(s.gloss);
-        view[i] = packDirection(vecScale(vecNormalize(ray.direction), -1.0f));
-        storeVec(diffuse, size, i, s.diffuse);
-        storeVec(specular, size, i, s.specular);
-        storeVec(emission, size, i, s.emission);
-        pixelSize[i] = projectedPixel(frame, s.geometric, ray.direction, hit.t);
-        motion[i] = 0.0f;
-        motion[size + i] = 0.0f;
-        if (camera.shutter != 0u) {
-            const Vec3 moved = hitMotion(data, hit);
-            const Vec2 open = projectPoint(camera, vecMad(s.position, moved, -ray.time), 0.0f);
-            const Vec2 close = projectPoint(camera, vecMad(s.position, moved, 1.0f - ray.time), 1.0f);
-            motion[i] = close.x - open.x;
-            motion[size + i] = close.y - open.y;
+        setLaneCorners(&corners, lane, k);
+        setLaneVec(&diffuses, lane, finish.diffuse);
+        setLaneVec(&speculars, lane, finish.specular);
+        setLaneVec(&moved, lane, motionOfHit);
+        if (lane < count) {
+            objectId[first + lane] = objects[lane];
+            gloss[first + lane] = packGloss(finish.gloss);
+            rays[first + lane] = pathRays[first + lane] = 0u;
         }
     }
+    // What hits nothing has a surface that nobody asks for.
+    VecLanes places, shadings, origins;
+    uint geometrics[WEDGE_PACKET_SIZE], views[WEDGE_PACKET_SIZE];
+    float sizes[WEDGE_PACKET_SIZE];
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const Vec3 direction = rayDirection(&packet, lane);
+        const Facet f = facetOf(laneCorners(&corners, lane), hits.u[lane], hits.v[lane], direction);
+        setLaneVec(&places, lane, f.position);
+        setLaneVec(&shadings, lane, f.normal);
+        setLaneVec(&origins, lane, f.origin);
+        const bool live = objects[lane] != 0u;
+        const Vec3 facing = vecScale(vecNormalize(direction), -1.0f);
+        geometrics[lane] = packDirection(vecChoose(live, f.geometric, facing));
+        views[lane] = packDirection(facing);
+        sizes[lane] = projectedPixel(frame, f.geometric, direction, hits.t[lane]);
+    }
+    for (uint lane = 0u; lane < count; ++lane) {
+        geometric[first + lane] = geometrics[lane];
+        view[first + lane] = views[lane];
+    }
+    storeLanes(time + first, times, count);
+    storeLanes(depth + first, hits.t, count);
+    storeLanes(pixelSize + first, sizes, count);
+    storeVecLanes(position + first, size, &places, count);
+    storeVecLanes(normal + first, size, &shadings, count);
+    storeVecLanes(origin + first, size, &origins, count);
+    storeVecLanes(diffuse + first, size, &diffuses, count);
+    storeVecLanes(specular + first, size, &speculars, count);
+    storeVecLanes(emission + first, size, &emitted, count);
+    VecLanes shift;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        setLaneVec(&shift, lane, vec3(0.0f, 0.0f, 0.0f));
+    }
+    if (camera.shutter != 0u) {
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const Vec3 p = laneVec(&places, lane), m = laneVec(&moved, lane);
+            const Vec2 open = projectPoint(camera, vecMad(p, m, -times[lane]), 0.0f);
+            const Vec2 close = projectPoint(camera, vecMad(p, m, 1.0f - times[lane]), 1.0f);
+            setLaneVec(&shift, lane, vec3(close.x - open.x, close.y - open.y, 0.0f));
+        }
+    }
+    storeLanes(motion + first, shift.x, count);
+    storeLanes(motion + size + first, shift.y, count);
 }
