@@ -189,6 +189,26 @@ TEST_CASE("antialiasing from the command line and the scene file")
     CHECK(at(smooth, edge) < 0.2f);
 }
 
+TEST_CASE("the filter of antialiased pixels from the command line and the scene file")
+{
+    const Workplace place;
+    writeScene(place, "plain.toml");
+    writeScene(place, "wide.toml", "", "", "antialias = true\npixel_filter = 'gaussian'\n");
+    const image::LayeredImage wide = rendered(place, "wide.toml");
+    CHECK(textOf(wide, "method.pixelFilter") == "gaussian");
+    const image::LayeredImage square = rendered(place, "plain.toml", { "--antialias" });
+    CHECK(textOf(square, "method.pixelFilter") == "box");
+    CHECK(values(rendered(place, "wide.toml", { "--pixel-filter", "box" }), "G") == values(square, "G"));
+    CHECK(values(rendered(place, "plain.toml", { "--antialias", "--pixel-filter", "gaussian" }), "G")
+        == values(wide, "G"));
+    CHECK(values(wide, "G") != values(square, "G"));
+    CHECK(values(rendered(place, "wide.toml", { "--pixel-filter", "blackman-harris" }), "G") != values(wide, "G"));
+    checkRenderRefused(place, "plain.toml", { "--pixel-filter", "box" }, wrongCall,
+        "option has no effect without antialiasing: --pixel-filter: leave it out, or add --antialias");
+    checkRenderRefused(place, "plain.toml", { "--antialias", "--pixel-filter", "mitchell" }, wrongCall,
+        "--pixel-filter: mitchell: choose box, gaussian, blackman-harris");
+}
+
 TEST_CASE("counts of frames through a lens, and options that have no effect on them")
 {
     const Workplace place;

@@ -273,3 +273,37 @@ TEST_CASE("projectPoint finds the image point of a pinhole's ray, also when the 
     CHECK(std::isfinite(none.x));
     CHECK(std::isfinite(none.y));
 }
+
+TEST_CASE("rays of a pixel lie around its centre as its filter weighs")
+{
+    constexpr double pi = 3.14159265358979;
+    const auto box = [](double x) { return std::clamp(x + 0.5, 0.0, 1.0); };
+    const auto gaussian = [](double x) {
+        const double whole = std::erf(3 / std::sqrt(2.0));
+        return std::clamp(0.5 + 0.5 * std::erf(x / 0.5 / std::sqrt(2.0)) / whole, 0.0, 1.0);
+    };
+    const auto blackmanHarris = [](double x) {
+        const double t = x / 3 + 0.5;
+        const double sum = 0.35875 * t - 0.48829 * std::sin(2 * pi * t) / (2 * pi)
+            + 0.14128 * std::sin(4 * pi * t) / (4 * pi) - 0.01168 * std::sin(6 * pi * t) / (6 * pi);
+        return std::clamp(sum / 0.35875, 0.0, 1.0);
+    };
+    std::mt19937 random(11);
+    for (const auto& [filter, cumulative] :
+        std::vector<std::pair<std::uint32_t, std::function<double(double)>>> { { WEDGE_PIXEL_BOX, box },
+            { WEDGE_PIXEL_GAUSSIAN, gaussian }, { WEDGE_PIXEL_BLACKMAN_HARRIS, blackmanHarris } }) {
+        CAPTURE(filter);
+        std::vector<double> offsets;
+        float before = -2;
+        for (int k = 0; k <= 4096; ++k) {
+            const float u = std::min(static_cast<float>(k) / 4096.0f, 0.99999994f), offset = pixelOffset(filter, u);
+            REQUIRE(offset >= before);
+            REQUIRE(std::fabs(offset) <= (filter == WEDGE_PIXEL_BOX ? 0.5f : 1.5f));
+            REQUIRE(std::fabs(cumulative(offset) - u) < 1.5e-4);
+            before = offset;
+        }
+        for (int k = 0; k < 200000; ++k)
+            offsets.push_back(pixelOffset(filter, unitFloat(random)));
+        CHECK(equalCellsP(offsets, cumulative) > 1e-4);
+    }
+}

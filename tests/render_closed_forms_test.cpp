@@ -418,3 +418,41 @@ TEST_CASE("plain Monte Carlo is unbiased: no pixel is off by more than chance al
         }
     });
 }
+
+TEST_CASE("an edge through an antialiased pixel is as its filter has it")
+{
+    // What emits ends 0.3 pixels right of the image's middle.
+    constexpr int wide = 16, high = 8;
+    constexpr double shift = 0.3, distance = 4;
+    const double pixel = 2 * distance * std::tan(0.5 * 45 * 3.14159265358979 / 180) / high;
+    onEveryDevice([&](const device::Device& device) {
+        SceneBuilder b;
+        b.scene.materials[0].emission = glm::vec3(1.0f);
+        b.newObject();
+        b.quad({ static_cast<float>(shift * pixel - 50), 0, 0 }, { 50, 0, 0 }, { 0, 50, 0 });
+        b.camera({ 0, 0, static_cast<float>(distance) }, { 0, 0, 0 });
+        render::Renderer renderer(b.scene, device, renderOptions());
+        for (const auto& [filter, cumulative] :
+            std::vector<std::pair<render::PixelFilter, std::function<double(double)>>> {
+                { render::PixelFilter::Box, [](double x) { return std::clamp(x + 0.5, 0.0, 1.0); } },
+                { render::PixelFilter::Gaussian, [](double x) {
+                     return std::clamp(
+                         0.5 + 0.5 * std::erf(x * std::sqrt(2.0)) / std::erf(3 / std::sqrt(2.0)), 0.0, 1.0);
+                 } } }) {
+            for (const render::Method method : { render::Method::MonteCarlo, render::Method::AxisAligned }) {
+                render::Settings s =
+                    sized(method == render::Method::MonteCarlo ? render::monteCarlo(1024) : render::axisAligned(1024),
+                        wide, high);
+                s.antialias = true;
+                s.pixelFilter = filter;
+                const std::vector<float> seen = renderPixels(renderer, s);
+                for (int x = 0; x < wide; ++x) {
+                    const double expected = cumulative(shift - (x + 0.5 - wide / 2));
+                    CAPTURE(x);
+                    CAPTURE((filter == render::PixelFilter::Box));
+                    CHECK(std::fabs(seen[static_cast<std::size_t>(3 * (4 * wide + x))] - expected) < 0.004);
+                }
+            }
+        }
+    });
+}

@@ -203,6 +203,8 @@ TEST_CASE("the integrator: paths or ambient occlusion, and the keys of one that 
     CHECK_FALSE(integrator("type = 'ao'\n").ambientDistance.has_value());
     CHECK(integrator("ao_distance = 0.25\ntype = 'ao'\n").ambientDistance == 0.25f);
     CHECK(integrator("light_sampling = 'lights'\n").lightSampling == "lights");
+    CHECK(integrator("pixel_filter = 'blackman-harris'\n").pixelFilter == "blackman-harris");
+    CHECK(contains(refused("pixel_filter = 'sinc'\n"), "pixel_filter of integrator is unknown: 'sinc'"));
 
     CHECK(refused("type = 'ao'\nbounces = 0\n")
         == "scene file s.toml:3:11: bounces of integrator has no effect with type ao, which follows no paths: 0: leave "

@@ -15,7 +15,7 @@ _wedge() {
     fi
     help=$("$program" "${COMP_WORDS[1]}" --help 2>/dev/null) || return 0
     # "  --method mc|aaf   what it is" has the values of --method behind it.
-    values=$(awk -v option="$option" '$1 == option && $2 ~ /^[a-z]+(\|[a-z]+)+$/ { gsub(/\|/, " ", $2); print $2 }' <<<"$help")
+    values=$(awk -v option="$option" '$1 == option && $2 ~ /^[a-z-]+(\|[a-z-]+)+$/ { gsub(/\|/, " ", $2); print $2 }' <<<"$help")
     if [ -n "$values" ]; then
         mapfile -t COMPREPLY < <(compgen -W "$values" -- "$current")
     elif [[ $current == -* ]]; then

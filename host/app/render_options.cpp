@@ -100,6 +100,10 @@ void addCameraOptions(CLI::App& parser, RenderOptions& o)
             "Sample all of a pixel's square in place of its centre, or not")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
         ->group(whatGroup);
+    addChoice(parser, whatGroup, "--pixel-filter", pixelFilters,
+        "What antialiased pixels are: the mean over their square, the default, or weighted over the square of three "
+        "around it",
+        o.pixelFilter);
     addValue(parser, whatGroup, "--aperture", "M",
         "Radius of the lens in metres, 0 for a pinhole. Default: the scene's", [&o](const std::string& text) {
             o.aperture = static_cast<float>(finiteNumber("--aperture", text, 0, scene::mostAperture));

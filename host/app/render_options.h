@@ -29,6 +29,7 @@ struct RenderOptions {
     std::optional<int> bounces;
     std::optional<float> ambientDistance; ///< metres
     std::optional<bool> antialias;
+    std::optional<render::PixelFilter> pixelFilter;
     std::optional<float> aperture, focus; ///< metres
     std::optional<int> spp, maxSpp;
     std::optional<float> mu;

@@ -219,6 +219,12 @@ render::Settings resolveSettings(const RenderOptions& o, const scene::Scene& sce
     s.progressive = o.progressive;
     applyIntegrator(o, scene, s);
     s.antialias = o.antialias.value_or(file.antialias);
+    refuse(o.pixelFilter && !s.antialias, "without antialiasing", "--pixel-filter", "add --antialias");
+    if (o.pixelFilter) {
+        s.pixelFilter = *o.pixelFilter;
+    } else if (file.pixelFilter) {
+        s.pixelFilter = static_cast<render::PixelFilter>(choice("pixel_filter", *file.pixelFilter, pixelFilters));
+    }
     const bool distributed = render::isDistributed(s, scene);
     if (method == Method::AxisAligned) {
         if (distributed) {

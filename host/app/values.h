@@ -33,8 +33,9 @@ std::int64_t texturePixels(const std::string& option, const std::string& text);
 /// The names of bvh::Mode, in the order of its values.
 inline const std::vector<std::string> bvhModes = { "fast", "default", "quality" };
 
-/// The names of render::Integrator and render::LightSampling, in the order of their values.
+/// The names of render::Integrator, render::PixelFilter and render::LightSampling, in the order of their values.
 inline const std::vector<std::string> integrators = { "path", "ao" };
+inline const std::vector<std::string> pixelFilters = { "box", "gaussian", "blackman-harris" };
 inline const std::vector<std::string> lightSamplings = { "both", "lights", "directions" };
 
 /// The index of text among choices.

@@ -47,7 +47,7 @@ DistributedSamples::DistributedSamples(FrameBuilder& frame, const SampleShape& s
     : f_(frame)
     , shape_(shape)
     , before_(before)
-    , camera_(cameraParams(frame.description, frame.layout.height, frame.settings.antialias))
+    , camera_(cameraParams(frame.description, frame.layout.height, pixelFilterOf(frame.settings)))
     , lit_(frame.settings.integrator == Integrator::Path)
 {
     f_.packed = shape.analysed && !shape.all;

@@ -83,7 +83,7 @@ shared::FrameParams frameParams(
     return p;
 }
 
-shared::CameraParams cameraParams(const scene::Scene& scene, std::uint32_t height, bool antialias)
+shared::CameraParams cameraParams(const scene::Scene& scene, std::uint32_t height, std::uint32_t pixelFilter)
 {
     const scene::Camera& camera = scene.camera;
     const Axes open = axesOf(camera, height);
@@ -101,7 +101,7 @@ shared::CameraParams cameraParams(const scene::Scene& scene, std::uint32_t heigh
     p.focusDistance = scene::distanceInFocus(camera);
     p.gaussianAperture = camera.apertureProfile == scene::ApertureProfile::Gaussian ? 1 : 0;
     p.gaussianShutter = scene.shutterProfile == scene::ShutterProfile::Gaussian ? 1 : 0;
-    p.pixelFilter = antialias ? 1.0f : 0.0f;
+    p.pixelFilter = pixelFilter;
     p.erfCut = std::erf(WEDGE_APERTURE_CUT / std::sqrt(2.0f));
     p.shutter = scene::geometryMoves(scene) || scene::cameraMoves(scene) ? 1 : 0;
     p.pixelStep = glm::length(open.right);

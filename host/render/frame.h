@@ -72,8 +72,7 @@ void setRectangle(Params& params, const image::Window& window)
 shared::FrameParams frameParams(
     const scene::Scene& scene, const PlaneLayout& layout, const image::Window& window, std::uint32_t seed);
 
-/// The lens, the shutter and the camera's motion for an image of that height. antialias: a pixel's rays go through all
-/// of its square.
-shared::CameraParams cameraParams(const scene::Scene& scene, std::uint32_t height, bool antialias);
+/// The lens, the shutter and the camera's motion for an image of that height. pixelFilter: WEDGE_PIXEL_*.
+shared::CameraParams cameraParams(const scene::Scene& scene, std::uint32_t height, std::uint32_t pixelFilter);
 
 } // namespace wedge::render

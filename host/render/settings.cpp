@@ -1,6 +1,7 @@
 #include "host/render/settings.h"
 
 #include "host/error.h"
+#include "kernels/shared/camera.h"
 #include "kernels/shared/frame.h"
 #include "kernels/shared/indirect.h"
 #include "kernels/shared/wedge.h"
@@ -288,6 +289,11 @@ Settings halfAt(const Settings& settings, int spp)
     return s;
 }
 
+std::uint32_t pixelFilterOf(const Settings& s)
+{
+    return s.antialias ? WEDGE_PIXEL_BOX + static_cast<std::uint32_t>(s.pixelFilter) : WEDGE_PIXEL_CENTRE;
+}
+
 image::Window outputWindow(const Settings& s)
 {
     const bool whole = s.crop.width() == 0 || s.crop.height() == 0;
@@ -345,7 +351,9 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
         describeDistributed(s.distributed, out);
     }
     if (s.antialias) {
+        constexpr const char* pixelFilters[] = { "box", "gaussian", "blackman-harris" };
         out.emplace_back("antialias", "true");
+        out.emplace_back("pixelFilter", pixelFilters[static_cast<int>(s.pixelFilter)]);
     }
     if (s.filtering == Filtering::Fixed) {
         out.emplace_back("fixedWidth", number(s.fixedWidth));

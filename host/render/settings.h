@@ -20,6 +20,13 @@ enum class Integrator {
     AmbientOcclusion, ///< how much of each point's hemisphere is open, on white surfaces; no lights
 };
 
+/// How antialiased pixels weigh what is around their centres.
+enum class PixelFilter {
+    Box, ///< the mean over their square
+    Gaussian, ///< standard deviation half a pixel, to one and a half pixels
+    BlackmanHarris, ///< the window of four terms, to one and a half pixels
+};
+
 /// How paths find the area lights. All three converge to the same image.
 enum class LightSampling {
     Both, ///< points on lights and reflected directions, combined by the power heuristic
@@ -142,7 +149,8 @@ struct Settings {
     LightSampling lightSampling = LightSampling::Both;
     IndirectSettings indirect;
     bool progressive = false; ///< for Renderer::renderProgressively(); spp: of the last image
-    bool antialias = false; ///< pixels are their squares, not their centres
+    bool antialias = false; ///< pixels are what pixelFilter makes of their surroundings, not their centres
+    PixelFilter pixelFilter = PixelFilter::Box;
     DistributedSettings distributed;
 
     Sampler sampler = Sampler::Sobol;
@@ -199,6 +207,9 @@ Settings halfAt(const Settings& settings, int spp);
 
 /// The pixels that a frame of these settings produces: the crop, or all.
 image::Window outputWindow(const Settings& settings);
+
+/// WEDGE_PIXEL_* of kernels.
+std::uint32_t pixelFilterOf(const Settings& settings);
 
 /// Whether frames of these settings look along rays over the hemisphere: for indirect light or ambient occlusion.
 bool tracesPaths(const Settings& settings);

@@ -98,6 +98,7 @@ struct Settings {
     std::optional<float> ambientDistance; ///< metres, leastAmbientDistance to mostAmbientDistance; with ao only
     std::optional<std::string> lightSampling; ///< both, lights or directions; not with ao
     bool antialias = false;
+    std::optional<std::string> pixelFilter; ///< box, gaussian or blackman-harris
 };
 
 struct Scene {

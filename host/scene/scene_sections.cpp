@@ -120,6 +120,7 @@ void readIntegrator(TableReader& root, Scene& scene)
         s.mu = static_cast<float>(*mu);
     readIntegratorType(*table, s);
     s.antialias = table->boolean("antialias").value_or(false);
+    s.pixelFilter = table->choice("pixel_filter", { "box", "gaussian", "blackman-harris" });
     s.seed =
         static_cast<std::uint32_t>(table->integer("seed", 0, std::numeric_limits<std::uint32_t>::max()).value_or(0));
     table->finish();

@@ -10,6 +10,15 @@
 /// here.
 #define WEDGE_LEAST_DEPTH 1e-6f
 #define WEDGE_TWO_PI 6.28318531f
+/// Filters of pixels. None: rays go through the centre.
+#define WEDGE_PIXEL_CENTRE 0u
+#define WEDGE_PIXEL_BOX 1u
+#define WEDGE_PIXEL_GAUSSIAN 2u
+#define WEDGE_PIXEL_BLACKMAN_HARRIS 3u
+/// How far from the centre the wide ones end, pixels, and the Gaussian's standard deviation.
+#define WEDGE_PIXEL_REACH 1.5f
+#define WEDGE_PIXEL_SIGMA 0.5f
+#define WEDGE_PIXEL_ERF 0.9973002f ///< erf(WEDGE_PIXEL_REACH / WEDGE_PIXEL_SIGMA / sqrt 2)
 
 WEDGE_SHARED_BEGIN
 
@@ -24,7 +33,7 @@ typedef struct {
     Vec3 down;
     uint gaussianShutter; ///< the same of half the time
     Vec3 eyeMotion;
-    float pixelFilter; ///< edge in pixels of the square that a pixel's rays go through: 0, its centre, or 1
+    uint pixelFilter; ///< WEDGE_PIXEL_*: where in a pixel and around it its rays go through
     Vec3 forwardMotion;
     float erfCut; ///< erf(WEDGE_APERTURE_CUT / sqrt 2)
     Vec3 rightMotion;
@@ -38,6 +47,26 @@ typedef struct {
     Vec3 origin, direction;
     float time;
 } CameraRay;
+
+/// How far from a pixel's centre, pixels along one axis, its ray goes through, of a uniform number: distributed as the
+/// filter weighs what is there.
+WEDGE_FN float pixelOffset(uint filter, float u)
+{
+    const float x = 2.0f * u - 1.0f;
+    if (filter == WEDGE_PIXEL_BOX) {
+        return u - 0.5f;
+    }
+    if (filter == WEDGE_PIXEL_GAUSSIAN) {
+        const float cut = WEDGE_PIXEL_REACH / WEDGE_PIXEL_SIGMA;
+        return WEDGE_PIXEL_REACH * lightCoordinate(u, WEDGE_PROFILE_GAUSSIAN, cut, WEDGE_PIXEL_ERF);
+    }
+    // The window of four terms (F. J. Harris, 1978), which is nearly a Gaussian: its quantiles by a rational function
+    // of the Gaussian's, 1e-3 pixels exact but for the last 1e-5 of it.
+    const float e = erfInverse(clamp(x, -0.9999999f, 0.9999999f)), s = e * e;
+    const float t =
+        e * (0.40481878f + s * (-0.04234933f + s * 9.932001e-4f)) / (1.0f + s * (-0.08358073f + s * 9.819796e-4f));
+    return WEDGE_PIXEL_REACH * clamp(t, -1.0f, 1.0f);
+}
 
 /// A point of the unit disc that is the lens, distributed as it transmits, of two uniform numbers.
 WEDGE_FN Vec2 aperturePoint(uint gaussian, Vec2 u)

@@ -84,11 +84,11 @@ WEDGE_FN void sendRays(FrameParams frame, CameraParams camera, WaveParams wave, 
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         u[lane] = v[lane] = 0.5f;
     }
-    if (camera.pixelFilter > 0.0f) {
+    if (camera.pixelFilter != WEDGE_PIXEL_CENTRE) {
         cameraPairs(frame, wave, WEDGE_PIXEL_SEED, at, u, v);
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-            u[lane] = 0.5f + camera.pixelFilter * (u[lane] - 0.5f);
-            v[lane] = 0.5f + camera.pixelFilter * (v[lane] - 0.5f);
+            u[lane] = 0.5f + pixelOffset(camera.pixelFilter, u[lane]);
+            v[lane] = 0.5f + pixelOffset(camera.pixelFilter, v[lane]);
         }
     }
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
