@@ -1,5 +1,6 @@
 // antialiasing: pixels that sample their squares against images of four times the size, which the thesis renders;
 // docs/benchmarks.md.
+#include "benchmarks/common/claims.h"
 #include "benchmarks/common/lab.h"
 #include "benchmarks/common/program.h"
 #include "benchmarks/common/references.h"
@@ -11,23 +12,26 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <fstream>
+#include <optional>
 
 namespace {
 
 using namespace wedge;
 using namespace wedge::benchmark;
 
+constexpr int equalSpp = 28; ///< of the frame of pixel centres whose error is to be reached
+constexpr int rayPricedSpp = 64; ///< of both frames of plain Monte Carlo
 constexpr std::uint32_t referenceSeed = 0x2e5eed;
 
 struct Arguments {
     std::vector<std::string> scenes;
     int side = 256, referenceSpp = 512;
     std::vector<int> spp { 16, 32, 64 }, largeSpp { 16, 28 };
+    bool costs = false;
     std::string device, json, references = defaultReferenceFolder();
 };
 
@@ -42,6 +46,13 @@ struct Curve {
     const char* name;
     const char* meaning;
     std::vector<Point> points;
+};
+
+/// What antialiasing costs, as factors of device time.
+struct Cost {
+    double ofPlain; ///< plain Monte Carlo of as many samples, over pixel centres
+    double atEqualError; ///< the default setting at the error of pixel centres, each against its own reference
+    bool beyond; ///< that error was not reached: the factor is of the largest count, a lower bound
 };
 
 /// The mean of each square of 2x2 pixels.
@@ -73,6 +84,17 @@ image::RgbImage shown(image::RgbImage image)
     return image;
 }
 
+/// Mean squared error of a reference where it is shown as it is.
+double shownNoise(const Reference& reference)
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < reference.image.rgb.size(); ++i) {
+        const double off = reference.image.rgb[i] < 1.0f ? reference.deviation.rgb[i] : 0.0f;
+        sum += off * off;
+    }
+    return sum / static_cast<double>(reference.image.rgb.size());
+}
+
 class Comparison {
 public:
     Comparison(const SceneSource& source, const device::Device& device, const Arguments& a)
@@ -102,6 +124,41 @@ public:
 
     double noise() const { return reference_.noise; }
 
+    /// Of scenes whose pixels need not have several rays.
+    std::optional<Cost> cost()
+    {
+        const render::Settings centre = sized(render::axisAligned(equalSpp), arguments_.side, 1, false);
+        if (render::isDistributed(centre, scene_)) {
+            return std::nullopt;
+        }
+        const Reference ofCentres = obtainReference(renderer_,
+            sized(render::monteCarlo(arguments_.referenceSpp), arguments_.side, referenceSeed, false),
+            arguments_.references, name_ + "_centres");
+        const Timed wanted = timed(centre, ofCentres);
+        const auto plain = [&](bool antialias) {
+            return timed(sized(render::monteCarlo(rayPricedSpp), arguments_.side, 1, antialias),
+                antialias ? reference_ : ofCentres)
+                .milliseconds;
+        };
+        Cost cost { plain(true) / plain(false), 0, true };
+        Timed before {};
+        for (const int spp : { 8, 16, 28, 64, 128, 256 }) {
+            const Timed now = timed(sized(render::axisAligned(spp), arguments_.side, 1, true), reference_);
+            if (now.error <= wanted.error) {
+                // Straight in logarithms between two counts.
+                const double part =
+                    before.error > 0 ? std::log(before.error / wanted.error) / std::log(before.error / now.error) : 1.0;
+                const double from = before.error > 0 ? before.milliseconds : now.milliseconds;
+                cost.atEqualError = from * std::pow(now.milliseconds / from, part) / wanted.milliseconds;
+                cost.beyond = false;
+                break;
+            }
+            before = now;
+            cost.atEqualError = now.milliseconds / wanted.milliseconds;
+        }
+        return cost;
+    }
+
 private:
     render::Settings sized(render::Settings s, int side, std::uint32_t seed, bool antialias) const
     {
@@ -110,6 +167,28 @@ private:
         s.antialias = antialias;
         s.bounces = scene_.settings.bounces.value_or(0);
         return s;
+    }
+
+    struct Timed {
+        double error = 0; ///< RMS, the reference's noise taken out
+        double milliseconds = 0; ///< the median of three
+    };
+
+    Timed timed(const render::Settings& settings, const Reference& reference)
+    {
+        renderer_.rehearse(settings);
+        std::array<double, 3> milliseconds {};
+        render::FrameStatistics frame;
+        for (double& one : milliseconds) {
+            frame = renderer_.render(settings);
+            one = frame.deviceMilliseconds;
+        }
+        std::ranges::sort(milliseconds);
+        const double rmse = image::rmse(shown(imageOf(renderer_, settings, frame)), shown(reference.image));
+        progress("antialiasing",
+            fmt::format("{}: {}, {} spp: rmse {:.5f}, {:.0f} ms", name_, settings.antialias ? "squares" : "centres",
+                settings.spp, rmse, milliseconds[1]));
+        return { std::sqrt(std::max(rmse * rmse - shownNoise(reference), 0.0)), milliseconds[1] };
     }
 
     Point measure(const render::Settings& wanted, bool antialias, int spp)
@@ -135,9 +214,9 @@ private:
     Reference reference_;
 };
 
-nlohmann::json dataOf(const Curve& curve)
+Json dataOf(const Curve& curve)
 {
-    nlohmann::json out { { "name", curve.name }, { "meaning", curve.meaning } };
+    Json out { { "name", curve.name }, { "meaning", curve.meaning } };
     for (const Point& p : curve.points) {
         out["points"].push_back(
             { { "spp", p.spp }, { "rays_per_pixel", p.rays }, { "rmse", p.error }, { "device_ms", p.milliseconds } });
@@ -149,19 +228,44 @@ std::vector<SceneSource> knownScenes()
 {
     return { generatedScene("cornell_figure", generator::makeCornellFigure),
         generatedScene("tentacles", generator::makeTentacles), generatedScene("chess", generator::makeChess),
-        generatedScene("room", generator::makeRoom) };
+        generatedScene("room", generator::makeRoom), generatedScene("grids", generator::makeGrids),
+        generatedScene("bench", generator::makeBench), generatedScene("cornell_glossy", generator::makeCornellGlossy),
+        externalScene("conference", "the conference room, from WEDGE_DATA", "conference/conference.obj") };
+}
+
+void store(const Arguments& a, const Json& all)
+{
+    if (!a.json.empty()) {
+        writeJson(a.json, all);
+    }
 }
 
 int measureAll(const Arguments& a)
 {
     const device::Device device = device::Device::open(a.device);
-    nlohmann::json all { { "schema", 1 }, { "benchmark", "antialiasing" }, { "device", device.info().name },
-        { "side", a.side }, { "reference_spp", a.referenceSpp } };
+    Json all = resultSkeleton("antialiasing", device.info());
+    all["schema"] = 1;
+    all["side"] = a.side;
+    all["reference_spp"] = a.referenceSpp;
     std::vector<std::string> skipped;
     for (const SceneSource& source : chooseScenes(knownScenes(), a.scenes, skipped)) {
         Comparison comparison(source, device, a);
+        ClaimList claims("antialiasing", source.name);
+        if (const std::optional<Cost> cost = comparison.cost()) {
+            claims.add("time_vs_pinhole", cost->ofPlain, "1", {}, 1.5);
+            claims.add("time_at_equal_error", cost->atEqualError, "1", {}, 1.15);
+            fmt::print("{:<16} plain sampling {:.2f} times the time of pixel centres, at equal error {}{:.2f}\n",
+                source.name, cost->ofPlain, cost->beyond ? "more than " : "", cost->atEqualError);
+        }
+        for (const Claim& claim : claims.claims) {
+            all["claims"].push_back(json(claim));
+        }
+        if (a.costs) {
+            store(a, all);
+            continue;
+        }
         const std::vector<Curve> curves = comparison.curves();
-        nlohmann::json data { { "name", source.name }, { "reference_noise", comparison.noise() } };
+        Json data { { "name", source.name }, { "reference_noise", comparison.noise() } };
         for (const Curve& curve : curves) {
             data["curves"].push_back(dataOf(curve));
             for (const Point& p : curve.points) {
@@ -170,9 +274,7 @@ int measureAll(const Arguments& a)
             }
         }
         all["scenes"].push_back(data);
-        if (!a.json.empty() && !(std::ofstream(a.json) << all.dump(2) << '\n')) {
-            throw Error("results " + a.json, "cannot be written", "choose a folder that exists");
-        }
+        store(a, all);
     }
     return 0;
 }
@@ -184,6 +286,7 @@ int main(int argc, char** argv)
     CLI::App parser("Measures antialiasing against images of four times the size.", "antialiasing");
     Arguments a;
     parser.add_option("--scene", a.scenes, "a scene's name or a scene file; again for more (all there are)");
+    parser.add_flag("--costs", a.costs, "only what antialiasing costs against pixel centres, no curves");
     parser.add_option("--size", a.side, "pixels a side (256)")->check(CLI::Range(8, 4096));
     parser.add_option("--spp", a.spp, "samples a pixel of antialiased images (16 32 64)")->check(CLI::Range(1, 2048));
     parser.add_option("--large-spp", a.largeSpp, "samples a pixel of images of four times the size (16 28)")
