@@ -151,6 +151,16 @@ TEST_CASE("squared errors have the reference's noise taken out, and the worst pi
     CHECK(spiked.deviation == 0);
 }
 
+TEST_CASE("a black image of a scene without light is neither biased nor wrong")
+{
+    Reference reference;
+    reference.image = reference.deviation = { 2, 1, std::vector<float>(6, 0.0f) };
+    const SquaredError found = squaredError({ reference.image, reference.image }, reference);
+    CHECK(found.mean == 0);
+    CHECK(found.bias == 0);
+    CHECK(found.biasDeviation == 0);
+}
+
 TEST_CASE("how well the reference's noise is known enters errors and slopes")
 {
     // Most of the noise in a few grey pixels, as at the edges of lights, where the image is good.

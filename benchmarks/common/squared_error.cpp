@@ -97,7 +97,7 @@ SquaredError squaredError(const std::vector<image::RgbImage>& images, const Refe
         std::ranges::sort(pixels, std::less {}, [](const Pixel& p) { return p.squared; });
         const auto left = static_cast<std::size_t>(std::ceil((1.0 - worstPixels) * static_cast<double>(pixels.size())));
         trimmed.push_back(mean(pixels, left));
-        bias.push_back(level(image) / truth - 1.0);
+        bias.push_back((level(image) - level(reference.image)) / truth);
     }
     SquaredError out;
     out.mean = meanOf(whole);

@@ -17,7 +17,7 @@ struct SquaredError {
     /// Standard error of `mean`, as a fraction of it, that the reference's noise is the cause of: the same for all
     /// seeds.
     double referenceDeviation = 0;
-    double bias = 0; ///< mean of the images over that of the reference, less 1
+    double bias = 0; ///< mean of the images over that of the reference, less 1; 0 where both are black
     double biasDeviation = 0; ///< standard error of `bias`, likewise; 0 for one seed
 
     double rmse() const;
