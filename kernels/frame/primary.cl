@@ -9,7 +9,7 @@
 #include "light/seen_light.h"
 #include "trace/environment.h"
 #include "trace/packet.h"
-#include "trace/surface.h"
+#include "trace/surface_lanes.h"
 
 /// Through the centre of a pixel.
 WEDGE_FN Vec3 pixelDirection(FrameParams frame, uint x, uint y)
@@ -29,45 +29,44 @@ __kernel void primary(FrameParams frame, __global const TraversalNode* restrict 
     const SurfaceData data = WEDGE_SURFACE_ARGUMENTS;
     const uint size = frame.planeSize;
     RayPacket packet;
-    Vec3 lightRadiance[WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         uint x, y;
         const bool inside = tilePixel(frame, firstGroup, lane, &x, &y);
         const Vec3 direction = pixelDirection(frame, inside ? x : 0u, inside ? y : 0u);
-        const LightHit seen = hitLights(lights, lightCount, frame.eye, direction);
-        setRay(&packet, lane, frame.eye, direction, 0.0f, inside ? seen.t : 0.0f);
+        setRay(&packet, lane, frame.eye, direction, 0.0f, inside ? INFINITY : 0.0f);
         setTime(&packet, lane, 0.0f);
-        lightRadiance[lane] = seen.radiance;
     }
+    VecLanes emitted;
+    endAtLights(lights, lightCount, &packet, &emitted);
     PacketHits hits;
     closestHits(nodes, blocks, &packet, &hits);
+    SurfaceLanes at;
+    surfacesAt(data, &packet, &hits, &at);
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         uint x, y;
         if (!tilePixel(frame, firstGroup, lane, &x, &y)) {
             continue;
         }
         const uint i = pixelIndex(x, y, frame.stride);
-        const Vec3 direction = pixelDirection(frame, x, y);
-        const float length = vecLength(direction);
+        const Vec3 direction = rayDirection(&packet, lane);
         const Hit hit = packetHit(&hits, lane);
-        if (hit.triangle == WEDGE_NO_TRIANGLE) {
+        depth[i] = hit.t * vecLength(direction);
+        if (at.live[lane] == 0u) {
             objectId[i] = 0u;
-            depth[i] = hit.t * length;
             const Vec3 behind = vecAdd(frame.background, environmentRadiance(vecNormalize(direction)));
-            storeVec(emission, size, i, hit.t < INFINITY ? lightRadiance[lane] : behind);
+            storeVec(emission, size, i, vecChoose(hit.t < INFINITY, laneVec(&emitted, lane), behind));
             continue;
         }
-        const Surface s = surfaceAt(data, hit, direction, timeOf(&packet, lane));
-        storeVec(position, size, i, s.position);
-        storeVec(normal, size, i, s.normal);
-        storeVec(origin, size, i, s.origin);
-        geometric[i] = packDirection(s.geometric);
+        const Vec3 facing = laneVec(&at.geometric, lane);
+        storeVec(position, size, i, laneVec(&at.position, lane));
+        storeVec(normal, size, i, laneVec(&at.normal, lane));
+        storeVec(origin, size, i, laneVec(&at.origin, lane));
+        geometric[i] = packDirection(facing);
         objectId[i] = objectIds[hit.triangle];
-        depth[i] = hit.t * length;
-        pixelSize[i] = projectedPixel(frame, s.geometric, direction, hit.t);
-        storeVec(diffuse, size, i, s.diffuse);
-        storeVec(specular, size, i, s.specular);
-        storeVec(emission, size, i, s.emission);
-        gloss[i] = packGloss(s.gloss);
+        pixelSize[i] = projectedPixel(frame, facing, direction, hit.t);
+        storeVec(diffuse, size, i, laneVec(&at.diffuse, lane));
+        storeVec(specular, size, i, laneVec(&at.specular, lane));
+        storeVec(emission, size, i, laneVec(&at.emission, lane));
+        gloss[i] = at.gloss[lane];
     }
 }

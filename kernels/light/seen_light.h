@@ -6,28 +6,8 @@
 #include "light/scene_light.h"
 #include "trace/packet.h"
 
-typedef struct {
-    float t; ///< along the camera direction; +inf where no light is hit
-    Vec3 radiance;
-} LightHit;
-
-/// Nearest visible area light along the ray.
-WEDGE_FN LightHit hitLights(__global const AreaLight* lights, uint count, Vec3 eye, Vec3 direction)
-{
-    LightHit hit;
-    hit.t = INFINITY;
-    hit.radiance = vec3(0.0f, 0.0f, 0.0f);
-    for (uint i = 0; i < count; ++i) {
-        const LightMeeting m = meetLight(lights[i], eye, direction);
-        if (lights[i].visible != 0u && m.t < hit.t) {
-            hit.t = m.t;
-            hit.radiance = vecScale(lights[i].radiance, metProfile(lights[i], m));
-        }
-    }
-    return hit;
-}
-
-/// The same of each lane's ray, which ends there: lanes with tMax 0 have none.
+/// Ends each lane's ray at the nearest visible area light that it meets. radiance: what arrives from there, 0 where
+/// there is none. Lanes with tMax 0 have no ray.
 WEDGE_FN void endAtLights(__global const AreaLight* lights, uint count, RayPacket* rays, VecLanes* radiance)
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {

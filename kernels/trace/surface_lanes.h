@@ -50,4 +50,43 @@ WEDGE_FN Finish noFinish(void)
     return finish;
 }
 
+/// As Surface, lane by lane.
+typedef struct {
+    uint live[WEDGE_PACKET_SIZE]; ///< 1: the lane's ray met a surface; else all else is void, and directions finite
+    VecLanes position, origin, normal, geometric;
+    VecLanes diffuse, specular, emission;
+    uint gloss[WEDGE_PACKET_SIZE]; ///< packGloss()
+} SurfaceLanes;
+
+/// surfaceAt() of each lane's hit.
+WEDGE_FN void surfacesAt(SurfaceData data, const RayPacket* rays, const PacketHits* hits, SurfaceLanes* s)
+{
+    CornerLanes corners;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const Hit hit = packetHit(hits, lane);
+        Corners k = noCorners();
+        Finish finish = noFinish();
+        s->live[lane] = hit.triangle != WEDGE_NO_TRIANGLE ? 1u : 0u;
+        if (s->live[lane] != 0u) {
+            k = cornersOf(data, hit.triangle, timeOf(rays, lane));
+            finish = finishOf(data, hit);
+        }
+        setLaneCorners(&corners, lane, k);
+        setLaneVec(&s->diffuse, lane, finish.diffuse);
+        setLaneVec(&s->specular, lane, finish.specular);
+        setLaneVec(&s->emission, lane, finish.emission);
+        s->gloss[lane] = packGloss(finish.gloss);
+    }
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const Vec3 direction = rayDirection(rays, lane);
+        const Facet f = facetOf(laneCorners(&corners, lane), hits->u[lane], hits->v[lane], direction);
+        const bool live = s->live[lane] != 0u;
+        const Vec3 facing = vecScale(vecNormalize(direction), -1.0f);
+        setLaneVec(&s->position, lane, f.position);
+        setLaneVec(&s->origin, lane, f.origin);
+        setLaneVec(&s->normal, lane, vecChoose(live, f.normal, facing));
+        setLaneVec(&s->geometric, lane, vecChoose(live, f.geometric, facing));
+    }
+}
+
 #endif

@@ -132,19 +132,19 @@ __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wav
         return;
     }
     const uint count = min((uint)WEDGE_PACKET_SIZE, wave.receivers - first);
-    PrimaryLanes at;
+    PrimaryLanes samples;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const uint receiver = lane < count ? first + lane : first;
         const uint x = pixelOf[receiver] & 0xffffu, y = pixelOf[receiver] >> 16;
-        at.x[lane] = x;
-        at.y[lane] = y;
-        at.index[lane] = sampleOf[receiver];
-        at.count[lane] = wanted[pixelIndex(x, y, frame.stride)];
+        samples.x[lane] = x;
+        samples.y[lane] = y;
+        samples.index[lane] = sampleOf[receiver];
+        samples.count[lane] = wanted[pixelIndex(x, y, frame.stride)];
     }
     RayPacket packet;
     float times[WEDGE_PACKET_SIZE];
     VecLanes emitted;
-    sendRays(frame, camera, wave, &at, &packet, times);
+    sendRays(frame, camera, wave, &samples, &packet, times);
     endAtLights(lights, lightCount, &packet, &emitted);
     for (uint lane = count; lane < WEDGE_PACKET_SIZE; ++lane) {
         packet.tMax[lane] = 0.0f;
@@ -152,50 +152,37 @@ __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wav
     PacketHits hits;
     closestHits(nodes, blocks, &packet, &hits);
 
-    CornerLanes corners;
-    VecLanes diffuses, speculars, moved;
-    uint objects[WEDGE_PACKET_SIZE];
+    SurfaceLanes at;
+    surfacesAt(data, &packet, &hits, &at);
+    VecLanes moved;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const Hit hit = packetHit(&hits, lane);
-        Corners k = noCorners();
-        Finish finish = noFinish();
+        const bool live = at.live[lane] != 0u;
         Vec3 motionOfHit = vec3(0.0f, 0.0f, 0.0f);
-        objects[lane] = 0u;
-        if (hit.triangle != WEDGE_NO_TRIANGLE) {
-            k = cornersOf(data, hit.triangle, timeOf(&packet, lane));
-            finish = finishOf(data, hit);
-            objects[lane] = objectIds[hit.triangle];
+        uint object = 0u;
+        if (live) {
+            object = objectIds[hit.triangle];
             motionOfHit = hitMotion(data, hit);
-            setLaneVec(&emitted, lane, finish.emission);
+            setLaneVec(&emitted, lane, laneVec(&at.emission, lane));
         } else if (!(hit.t < INFINITY)) {
             const Vec3 direction = vecNormalize(rayDirection(&packet, lane));
             setLaneVec(&emitted, lane, vecAdd(frame.background, environmentRadiance(direction)));
         }
-        setLaneCorners(&corners, lane, k);
-        setLaneVec(&diffuses, lane, finish.diffuse);
-        setLaneVec(&speculars, lane, finish.specular);
         setLaneVec(&moved, lane, motionOfHit);
         if (lane < count) {
-            objectId[first + lane] = objects[lane];
-            gloss[first + lane] = packGloss(finish.gloss);
+            objectId[first + lane] = object;
+            gloss[first + lane] = at.gloss[lane];
             rays[first + lane] = pathRays[first + lane] = 0u;
         }
     }
     // What hits nothing has a surface that nobody asks for.
-    VecLanes places, shadings, origins;
     uint geometrics[WEDGE_PACKET_SIZE], views[WEDGE_PACKET_SIZE];
     float sizes[WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const Vec3 direction = rayDirection(&packet, lane);
-        const Facet f = facetOf(laneCorners(&corners, lane), hits.u[lane], hits.v[lane], direction);
-        setLaneVec(&places, lane, f.position);
-        setLaneVec(&shadings, lane, f.normal);
-        setLaneVec(&origins, lane, f.origin);
-        const bool live = objects[lane] != 0u;
-        const Vec3 facing = vecScale(vecNormalize(direction), -1.0f);
-        geometrics[lane] = packDirection(vecChoose(live, f.geometric, facing));
-        views[lane] = packDirection(facing);
-        sizes[lane] = projectedPixel(frame, f.geometric, direction, hits.t[lane]);
+        const Vec3 direction = rayDirection(&packet, lane), facing = laneVec(&at.geometric, lane);
+        geometrics[lane] = packDirection(facing);
+        views[lane] = packDirection(vecScale(vecNormalize(direction), -1.0f));
+        sizes[lane] = projectedPixel(frame, facing, direction, hits.t[lane]);
     }
     for (uint lane = 0u; lane < count; ++lane) {
         geometric[first + lane] = geometrics[lane];
@@ -204,11 +191,11 @@ __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wav
     storeLanes(time + first, times, count);
     storeLanes(depth + first, hits.t, count);
     storeLanes(pixelSize + first, sizes, count);
-    storeVecLanes(position + first, size, &places, count);
-    storeVecLanes(normal + first, size, &shadings, count);
-    storeVecLanes(origin + first, size, &origins, count);
-    storeVecLanes(diffuse + first, size, &diffuses, count);
-    storeVecLanes(specular + first, size, &speculars, count);
+    storeVecLanes(position + first, size, &at.position, count);
+    storeVecLanes(normal + first, size, &at.normal, count);
+    storeVecLanes(origin + first, size, &at.origin, count);
+    storeVecLanes(diffuse + first, size, &at.diffuse, count);
+    storeVecLanes(specular + first, size, &at.specular, count);
     storeVecLanes(emission + first, size, &emitted, count);
     VecLanes shift;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
@@ -216,7 +203,7 @@ __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wav
     }
     if (camera.shutter != 0u) {
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-            const Vec3 p = laneVec(&places, lane), m = laneVec(&moved, lane);
+            const Vec3 p = laneVec(&at.position, lane), m = laneVec(&moved, lane);
             const Vec2 open = projectPoint(camera, vecMad(p, m, -times[lane]), 0.0f);
             const Vec2 close = projectPoint(camera, vecMad(p, m, 1.0f - times[lane]), 1.0f);
             setLaneVec(&shift, lane, vec3(close.x - open.x, close.y - open.y, 0.0f));
