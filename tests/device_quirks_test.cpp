@@ -31,6 +31,8 @@ TEST_CASE("which driver keeps kernels by itself")
     CHECK(driverKeepsKernels(pocl));
     ::setenv("POCL_KERNEL_CACHE", "0", 1);
     CHECK_FALSE(driverKeepsKernels(pocl));
+    ::setenv("POCL_KERNEL_CACHE", "no", 1);
+    CHECK_FALSE(driverKeepsKernels(pocl));
     ::setenv("POCL_KERNEL_CACHE", "1", 1);
     CHECK(driverKeepsKernels(pocl));
     ::unsetenv("POCL_KERNEL_CACHE");

@@ -188,7 +188,7 @@ private:
         progress("antialiasing",
             fmt::format("{}: {}, {} spp: rmse {:.5f}, {:.0f} ms", name_, settings.antialias ? "squares" : "centres",
                 settings.spp, rmse, milliseconds[1]));
-        return { std::sqrt(std::max(rmse * rmse - shownNoise(reference), 0.0)), milliseconds[1] };
+        return { std::sqrt(std::max(rmse * rmse - shownNoise(reference), 0.01 * rmse * rmse)), milliseconds[1] };
     }
 
     Point measure(const render::Settings& wanted, bool antialias, int spp)
@@ -251,7 +251,9 @@ int measureAll(const Arguments& a)
     for (const SceneSource& source : chooseScenes(knownScenes(), a.scenes, skipped)) {
         Comparison comparison(source, device, a);
         ClaimList claims("antialiasing", source.name);
+        bool beyond = false;
         if (const std::optional<Cost> cost = comparison.cost()) {
+            beyond = cost->beyond;
             claims.add("time_vs_pinhole", cost->ofPlain, "1", {}, 1.5);
             claims.add("time_at_equal_error", cost->atEqualError, "1", {}, 1.15);
             fmt::print("{:<16} plain sampling {:.2f} times the time of pixel centres, at equal error {}{:.2f}\n",
@@ -261,6 +263,7 @@ int measureAll(const Arguments& a)
             all["claims"].push_back(json(claim));
         }
         if (a.costs) {
+            all["scenes"].push_back({ { "name", source.name }, { "beyond", beyond } });
             store(a, all);
             continue;
         }

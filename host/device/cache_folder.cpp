@@ -133,6 +133,16 @@ void emptyCacheFolder(const fs::path& folder)
     CacheRecord::begin(folder);
 }
 
+void forgetKnownKernels(const fs::path& folder)
+{
+    std::error_code ignored;
+    for (const fs::path& entry : entriesOf(folder)) {
+        if (entry.filename().string().starts_with(knownKernels) && isPlainFile(entry, true)) {
+            fs::remove(entry, ignored);
+        }
+    }
+}
+
 std::vector<fs::path> marksIn(const fs::path& folder)
 {
     std::vector<fs::path> marks = entriesOf(folder);

@@ -37,6 +37,12 @@ void emptyCacheFolder(const std::filesystem::path& folder);
 /// The marks of processes in the folder: empty regular files that are named by a number.
 std::vector<std::filesystem::path> marksIn(const std::filesystem::path& folder);
 
+/// What the names of empty files begin with that say of some kernels that they are in the folder.
+inline constexpr const char* knownKernels = "known-";
+
+/// Removes those files: something of the folder was removed.
+void forgetKnownKernels(const std::filesystem::path& folder);
+
 /// The name of the mark of a process.
 std::string markName(long process);
 

@@ -129,6 +129,7 @@ void DriverCache::recover(const std::string& users)
         notice_ = fmt::format(
             "the record of the OpenCL driver's cache is damaged: the cache was emptied: {}", folder_.string());
     } else if (const std::size_t damaged = record.removeDamaged(othersWork); damaged > 0) {
+        forgetKnownKernels(folder_);
         notice_ = fmt::format("the OpenCL driver's cache was damaged: files removed, to be compiled again: {} in {}",
             damaged, folder_.string());
     }

@@ -64,8 +64,15 @@ std::string writeTemporary(const std::string& text)
     return rest.empty() ? path : "";
 }
 
-/// The environment's settings for a driver's compiler, which a binary depends on as on the options: without them
-/// someone who compares two settings would measure one binary twice.
+void requirePlain(const std::string& text)
+{
+    if (text.find_first_of(" \t\n\"'\\") != std::string::npos) {
+        throw Error("build option", text, "write defines without blanks and quotes, which drivers split differently");
+    }
+}
+
+} // namespace
+
 std::string compilerEnvironment()
 {
     std::vector<std::string> settings;
@@ -78,15 +85,6 @@ std::string compilerEnvironment()
     std::sort(settings.begin(), settings.end());
     return fmt::format("{}", fmt::join(settings, "\n"));
 }
-
-void requirePlain(const std::string& text)
-{
-    if (text.find_first_of(" \t\n\"'\\") != std::string::npos) {
-        throw Error("build option", text, "write defines without blanks and quotes, which drivers split differently");
-    }
-}
-
-} // namespace
 
 ProgramLibrary::ProgramLibrary(const Device& device, BuildOptions options)
     : device_(device)

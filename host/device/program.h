@@ -20,6 +20,10 @@ struct BuildOptions {
     GeneratedSources generated {}; ///< what includes name and no file holds
 };
 
+/// The environment's settings for a driver's compiler, which a binary depends on as on the options: without them
+/// someone who compares two settings would measure one binary twice.
+std::string compilerEnvironment();
+
 /// The programs of one device, each built of one .cl file when first asked for: from memory, else from the binary
 /// cache on disk (program_cache.h; not where the driver has its own, quirks.h), else from source. Not for use by
 /// several threads at once.

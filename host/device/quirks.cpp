@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* workGroupMethod = "POCL_WORK_GROUP_METHOD"; // read whenever PoCL compiles a kernel
 constexpr const char* continuations = "cbs";
-constexpr const char* kernelCache = "POCL_KERNEL_CACHE"; // 0: PoCL forgets
+constexpr const char* kernelCache = "POCL_KERNEL_CACHE"; // not 1: PoCL forgets
 
 /// The whole number behind a word: 18 of "... LLVM 18.1.8 ..." and "LLVM ".
 std::optional<int> numberBehind(std::string_view text, std::string_view word)
@@ -39,8 +39,7 @@ bool poclFailsToCompile(std::string_view platformVersion)
 bool driverKeepsKernels(std::string_view platformVersion)
 {
     const char* setting = std::getenv(kernelCache);
-    return numberBehind(platformVersion, "PoCL ").has_value()
-        && (setting == nullptr || std::string_view(setting) != "0");
+    return numberBehind(platformVersion, "PoCL ").has_value() && (setting == nullptr || *setting == '1');
 }
 
 std::vector<std::string> applyQuirks(const DeviceInfo& info)

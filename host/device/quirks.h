@@ -16,9 +16,9 @@ namespace wedge::device {
 /// ("cbs") compiles everything, to the same bits, and runs in 0.85 to 1.05 of the time.
 bool poclFailsToCompile(std::string_view platformVersion);
 
-/// Whether a platform's driver keeps what it compiled by itself and finds it again: PoCL, unless POCL_KERNEL_CACHE=0 in
-/// the environment. Asked for a program's binary, it compiles all of its kernels once more, for work-groups of any
-/// size: what it has compiled and launched by then is for given sizes.
+/// Whether a platform's driver keeps what it compiled by itself and finds it again: PoCL, unless POCL_KERNEL_CACHE is
+/// set, and not to 1, in the environment. Asked for a program's binary, it compiles all of its kernels once more, for
+/// work-groups of any size: what it has compiled and launched by then is for given sizes.
 bool driverKeepsKernels(std::string_view platformVersion);
 
 /// Does what has to be done before the driver of this device compiles anything, and says which quirks are in force

@@ -1,5 +1,6 @@
 #include "host/render/compilers.h"
 
+#include "host/device/cache_folder.h"
 #include "host/device/driver_cache.h"
 
 #include <fcntl.h>
@@ -15,14 +16,19 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <map>
 #include <memory>
 #include <set>
+#include <stdexcept>
+#include <thread>
 #include <tuple>
 #include <utility>
 
@@ -30,6 +36,11 @@ namespace wedge::render {
 namespace {
 
 using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t largeGrid = 65535;
+/// For the last program that a process has begun with, once nobody has another to begin with.
+constexpr std::chrono::minutes longestWait { 2 };
 
 json bytesOf(const std::vector<std::byte>& value)
 {
@@ -64,6 +75,9 @@ graph::Trial trialFrom(const json& j)
     t.columnsOfGroup = j.at(7);
     t.items = j.at(8);
     t.itemsOfGroup = j.at(9);
+    if (t.itemsOfGroup == 0 || (t.rows > 0 && t.columnsOfGroup == 0)) {
+        throw std::runtime_error("work-groups of no items");
+    }
     return t;
 }
 
@@ -153,8 +167,8 @@ std::unique_ptr<std::FILE, int (*)(std::FILE*)> written(const CompileWork& work)
 /// The numbers of the processes that started.
 std::vector<pid_t> startProcesses(const std::string& program, std::size_t count, int file)
 {
-    // A name that outlives exec: the file itself has none, and its number here is close-on-exec or not as the system
-    // likes.
+    // The copy's number is theirs, too; the file's own is not.
+    ::fcntl(file, F_SETFD, FD_CLOEXEC);
     posix_spawn_file_actions_t actions;
     ::posix_spawn_file_actions_init(&actions);
     ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -173,6 +187,24 @@ std::vector<pid_t> startProcesses(const std::string& program, std::size_t count,
     ::close(inherited);
     ::posix_spawn_file_actions_destroy(&actions);
     return started;
+}
+
+/// Whether a process ends with status 0 until then; ends it if it does not end.
+bool endsWell(pid_t process, Clock::time_point until)
+{
+    int status = 0;
+    for (;;) {
+        const pid_t ended = ::waitpid(process, &status, WNOHANG);
+        if (ended == process) {
+            return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+        }
+        if ((ended < 0 && errno != EINTR) || Clock::now() > until) {
+            ::kill(process, SIGKILL);
+            ::waitpid(process, &status, 0);
+            return false;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
 }
 
 /// The program's text, with what its sinks are.
@@ -255,36 +287,41 @@ std::vector<std::uint8_t> workFile(const CompileWork& work)
     return bytes;
 }
 
-void compileSideBySide(const std::string& program, std::size_t count, const CompileWork& work,
+std::size_t compileSideBySide(const std::string& program, std::size_t count, const CompileWork& work,
     device::TimedQueue& queue, graph::Kernels& kernels)
 {
     const auto file = written(work);
     if (!file || work.programs.empty()) {
-        return;
+        return 0;
     }
     SharedWork shared(::fileno(file.get()));
     if (!shared.isMapped()) {
-        return;
+        return 0;
     }
     const std::vector<pid_t> processes =
         startProcesses(program, std::min(count, work.programs.size() - 1), shared.file());
-    compile(shared, work, queue, kernels);
-    for (const pid_t process : processes) {
-        int status = 0;
-        while (::waitpid(process, &status, 0) < 0 && errno == EINTR) { }
+    try {
+        compile(shared, work, queue, kernels);
+    } catch (const std::exception&) {
+        // What does not compile, or fit, is said where it is launched for good.
     }
+    const Clock::time_point until = Clock::now() + longestWait;
+    return static_cast<std::size_t>(
+        std::ranges::count_if(processes, [&](pid_t process) { return endsWell(process, until); }));
 }
 
 int compileShare(int file)
 {
     ::prctl(PR_SET_PDEATHSIG, SIGTERM); // nobody waits for it then
+    // Who started it holds the mark of the driver's cache and records what comes in: of one that is ended from outside
+    // nothing is to be left that speaks of damage. The driver has its folder from there, too.
+    ::setenv("WEDGE_CACHE_DIR", "", 1);
     SharedWork shared(file);
     if (!shared.isMapped()) {
         return 1;
     }
     const CompileWork work = shared.work();
     const device::Device device = device::Device::open(std::to_string(work.device));
-    const device::DriverCache::Mark mark;
     device::ProgramLibrary programs(device, work.options);
     graph::Kernels kernels(programs);
     device::TimedQueue queue(device);
@@ -296,21 +333,26 @@ KnownKernels::KnownKernels(const device::Device& device, const std::string& opti
     const device::BuildOptions& options, const graph::Plan& plan)
 {
     const std::filesystem::path& folder = device::DriverCache::ofProcess().folder();
-    if (folder.empty()) {
-        return;
+    const char* drivers = std::getenv("POCL_CACHE_DIR");
+    if (folder.empty() || drivers == nullptr || folder != drivers) {
+        return; // the driver's cache is elsewhere, or nowhere
     }
     std::map<std::pair<std::string, std::string>, std::set<std::string>> programs;
     for (const graph::PlannedPass& planned : plan.passes) {
         if (planned.pass->domain != graph::Domain::Host) {
-            programs[{ planned.pass->kernel.file, planned.pass->sink }].insert(planned.pass->kernel.name);
+            // Kernels are compiled once more for grids of 65535 items along one axis, which only lists have.
+            const graph::Pass& pass = *planned.pass;
+            const char* size = pass.domain == graph::Domain::Items && pass.mostItems >= largeGrid ? "large" : "";
+            programs[{ pass.kernel.file, pass.sink }].insert(pass.kernel.name + size);
         }
     }
     const device::DeviceInfo& info = device.info();
-    std::string all = fmt::format("{}\n{}\n{}\n{}\n", info.platformVersion, info.name, info.driver, optionsString);
+    std::string all = fmt::format("{}\n{}\n{}\n{}\n{}\n", info.platformVersion, info.name, info.driver, optionsString,
+        device::compilerEnvironment());
     for (const auto& [program, kernels] : programs) {
         all += fmt::format("{}\n{}\n", fmt::join(kernels, " "), textOf(options, program.first, program.second));
     }
-    path_ = folder / fmt::format("known-{:016x}", std::hash<std::string>()(all));
+    path_ = folder / fmt::format("{}{:016x}", device::knownKernels, std::hash<std::string>()(all));
 }
 
 bool KnownKernels::areKnown() const

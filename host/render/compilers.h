@@ -29,9 +29,9 @@ CompileWork compileWork(const device::Device& device, const device::BuildOptions
     const std::vector<graph::Trial>& trials);
 
 /// Starts `program compile-kernels FILE` in up to `count` processes that share out the work among them and this one,
-/// which does its part and waits for theirs. Nothing depends on whether they start, or end well: what nobody compiled
-/// is compiled when it is launched.
-void compileSideBySide(const std::string& program, std::size_t count, const CompileWork& work,
+/// which does its part and waits for theirs, some minutes at most. Nothing depends on whether they start, or end well:
+/// what nobody compiled is compiled when it is launched. Returns how many of them did their part.
+std::size_t compileSideBySide(const std::string& program, std::size_t count, const CompileWork& work,
     device::TimedQueue& queue, graph::Kernels& kernels);
 
 /// What the file of such a process holds: the number of the next program to begin with, and the work.
@@ -40,8 +40,8 @@ std::vector<std::uint8_t> workFile(const CompileWork& work);
 /// The part of such a process: file is open, for reading and writing. Returns its exit status.
 int compileShare(int file);
 
-/// Whether a plan's kernels were compiled before, by a mark in the folder of the driver's cache, which goes where that
-/// is emptied.
+/// Whether a plan's kernels were compiled before, by a mark in the folder of the driver's cache, which goes where
+/// anything is removed from that.
 class KnownKernels {
 public:
     KnownKernels(const device::Device& device, const std::string& optionsString, const device::BuildOptions& options,

@@ -14,12 +14,23 @@
 #include <cassert>
 #include <chrono>
 #include <numeric>
+#include <unistd.h>
 
 namespace wedge::render {
 
 namespace {
 
 constexpr std::size_t mostCompilers = 7; ///< besides this process
+
+/// By the memory that is free: each takes some 200 MB.
+std::size_t compilersThatFit()
+{
+    const long pages = ::sysconf(_SC_AVPHYS_PAGES), bytes = ::sysconf(_SC_PAGESIZE);
+    constexpr std::uint64_t each = std::uint64_t { 400 } << 20;
+    return pages > 0 && bytes > 0
+        ? static_cast<std::size_t>(static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(bytes) / each)
+        : 0;
+}
 
 using Clock = std::chrono::steady_clock;
 
@@ -240,7 +251,7 @@ void Renderer::rehearse(graph::Execution& execution)
 {
     const graph::Plan& plan = execution.plan();
     const device::DeviceInfo& info = device_.info();
-    if (!device::driverKeepsKernels(info.platformVersion)) {
+    if (!device::driverKeepsKernels(info.platformVersion) || info.type != device::DeviceType::Cpu) {
         execution.rehearse();
         return;
     }
@@ -251,9 +262,10 @@ void Renderer::rehearse(graph::Execution& execution)
         if (options_.onCompile) {
             options_.onCompile(work.kernels());
         }
-        // Each takes some 200 MB.
-        const std::size_t others = std::min<std::size_t>(std::max(info.computeUnits, 1u) - 1, mostCompilers);
-        if (!options_.compiler.empty() && others > 0) {
+        const std::size_t others =
+            std::min({ std::size_t { std::max(info.computeUnits, 1u) - 1 }, mostCompilers, compilersThatFit() });
+        // Who edits kernels wants one message, and all warnings.
+        if (!options_.compiler.empty() && options_.kernelDir.empty() && others > 0) {
             compileSideBySide(options_.compiler, others, work, queue_, kernels_);
         }
     }

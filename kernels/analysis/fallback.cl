@@ -121,8 +121,10 @@ __kernel void fallBack(AnalysisParams p, uint gathered, __global const float* re
 
 /// The shares of terms, of D and V without the pixel's own: two bright paths in one pixel, one in each half of its
 /// samples, leave no trace in V, and would be all of D. (They are in the filtered values of the pixels around, too,
-/// where others' noise is to outweigh them.) Pixels whose like is not near, twigs and grains, have but their own. out
-/// shares
+/// where others' noise is to outweigh them.) Where none around differs, as where none is of the
+/// object, twigs and grains, it is the pixel's own that count.
+///
+/// out  shares
 __kernel void ownShares(AnalysisParams p, uint gathered, __global const float* restrict squares,
     __global const uint* restrict objectId, __global float* restrict shares)
 {

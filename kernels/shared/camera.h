@@ -61,7 +61,7 @@ WEDGE_FN float pixelOffset(uint filter, float u)
         return WEDGE_PIXEL_REACH * lightCoordinate(u, WEDGE_PROFILE_GAUSSIAN, cut, WEDGE_PIXEL_ERF);
     }
     // The window of four terms (F. J. Harris, 1978), which is nearly a Gaussian: its quantiles by a rational function
-    // of the Gaussian's, 1e-3 pixels exact but for the last 1e-5 of it.
+    // of the Gaussian's, 1e-3 pixels exact but for the last 1e-4, 4e-3 there.
     const float e = erfInverse(clamp(x, -0.9999999f, 0.9999999f)), s = e * e;
     const float t =
         e * (0.40481878f + s * (-0.04234933f + s * 9.932001e-4f)) / (1.0f + s * (-0.08358073f + s * 9.819796e-4f));

@@ -59,7 +59,7 @@ WEDGE_FN void cameraPairs(
     }
 }
 
-/// Each lane's ray and its time. tMax is for the caller to set.
+/// Each lane's ray, which does not end, and its time.
 WEDGE_FN void sendRays(FrameParams frame, CameraParams camera, WaveParams wave, const PrimaryLanes* at, RayPacket* rays,
     float* restrict time)
 {
