@@ -181,7 +181,7 @@ TEST_CASE("antialiasing from the command line and the scene file")
     const auto at = [&](const image::LayeredImage& of, std::size_t x) {
         return values(of, "B")[width * (height / 2) + x];
     };
-    const auto edge = static_cast<std::size_t>(width / 2 - 1 / (depth * step()));
+    const auto edge = static_cast<std::size_t>(0.5 * width - 1 / (depth * step()));
     CHECK(at(plain, edge - 1) == 0.3f);
     CHECK(at(plain, edge) < 0.1f);
     CHECK(at(smooth, edge - 1) == doctest::Approx(0.3));

@@ -48,6 +48,23 @@ TEST_CASE("curves of sampled squares, of four times the pixels and of unfiltered
     CHECK(place.has("references"));
 }
 
+TEST_CASE("what antialiasing costs")
+{
+    const Workplace place;
+    const Outcome outcome = place.run({ "--costs", "--scene", box, "--size", "32", "--reference-spp", "1024",
+        "--reference-dir", "references", "--json", "results.json" });
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    CHECK(contains(outcome.out, "at equal error "));
+    const Json all = Json::parse(place.text("results.json"));
+    REQUIRE(all["claims"].size() == 2);
+    for (const Json& claim : all["claims"])
+        CHECK(claim["value"].get<double>() > 0);
+    CHECK(all["claims"][0]["id"] == "antialiasing.cornell.time_vs_pinhole");
+    CHECK(all["claims"][1]["id"] == "antialiasing.cornell.time_at_equal_error");
+    REQUIRE(all["scenes"].size() == 1);
+    CHECK(all["scenes"][0]["beyond"].get<bool>() == contains(outcome.out, "more than"));
+}
+
 TEST_CASE("wrong calls end in one line")
 {
     const Workplace place;

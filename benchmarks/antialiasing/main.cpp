@@ -244,6 +244,7 @@ int measureAll(const Arguments& a)
 {
     const device::Device device = device::Device::open(a.device);
     Json all = resultSkeleton("antialiasing", device.info());
+    all["device"] = device.info().name;
     all["schema"] = 1;
     all["side"] = a.side;
     all["reference_spp"] = a.referenceSpp;

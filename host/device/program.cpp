@@ -192,9 +192,11 @@ void ProgramLibrary::reportFailure(const std::string& file, const std::string& s
     const std::string report =
         writeTemporary(fmt::format("program: {}\ndevice: {} ({}, driver {})\noptions: {}\n\n{}\n\n{}", file,
             device_.info().name, device_.info().platform, device_.info().driver, optionsString(), log, source));
+    const std::string remedy = options_.kernelDir.empty()
+        ? "make room on the disk that the driver keeps its cache on, or report it"
+        : "correct the kernel";
     throw Error(fmt::format("program {} does not build on {} with {}", file, device_.info().name, optionsString()),
-        firstError(log),
-        report.empty() ? "correct the kernel" : "correct the kernel; whole log and source are in " + report);
+        firstError(log), report.empty() ? remedy : remedy + "; whole log and source are in " + report);
 }
 
 } // namespace wedge::device

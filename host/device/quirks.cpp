@@ -47,13 +47,14 @@ std::vector<std::string> applyQuirks(const DeviceInfo& info)
     std::vector<std::string> inForce;
     if (poclFailsToCompile(info.platformVersion)) {
         ::setenv(workGroupMethod, continuations, 0);
-        if (std::string_view(std::getenv(workGroupMethod)) == continuations) {
+        const char* method = std::getenv(workGroupMethod);
+        if (method == nullptr || std::string_view(method) == continuations) {
             inForce.push_back(fmt::format("{}={}: this version ends the process while it compiles by its other methods",
                 workGroupMethod, continuations));
         } else {
             inForce.push_back(
                 fmt::format("{}={} is set: this version may end the process while it compiles, {} does not",
-                    workGroupMethod, std::getenv(workGroupMethod), continuations));
+                    workGroupMethod, method, continuations));
         }
     }
     if (driverKeepsKernels(info.platformVersion)) {

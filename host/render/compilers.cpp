@@ -270,6 +270,7 @@ CompileWork compileWork(const device::Device& device, const device::BuildOptions
     }
     // What traces has most text, and takes longest by far.
     std::vector<std::pair<std::size_t, std::vector<graph::Trial>>> bySize;
+    bySize.reserve(programs.size());
     for (auto& [program, of] : programs) {
         bySize.emplace_back(textOf(options, program.first, program.second).size(), std::move(of));
     }

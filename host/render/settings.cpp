@@ -177,9 +177,9 @@ Settings axisAligned(std::optional<int> spp, std::optional<float> mu)
     return s;
 }
 
-Settings asPublished(std::optional<float> wanted)
+Settings asPublished(std::optional<float> mu)
 {
-    const float mu = wanted.value_or(publishedMu);
+    const float direct = mu.value_or(publishedMu);
     Settings s;
     s.published = true;
     s.sampler = Sampler::Stratified;
@@ -191,13 +191,13 @@ Settings asPublished(std::optional<float> wanted)
     s.surface = false;
     s.fallback = false;
     s.widening = 0.0f;
-    s.mu = mu;
+    s.mu = direct;
     s.fillRadius = 5;
     s.fillSigma = 0.0f;
     // The thesis caps nothing explicitly; 100 suits its mu of 2, and counts grow with the square of mu.
-    s.maxSpp = static_cast<int>(std::lround(std::clamp(100.0f * std::max(1.0f, mu * mu / 4.0f), 100.0f, 1e5f)));
+    s.maxSpp = static_cast<int>(std::lround(std::clamp(100.0f * std::max(1.0f, direct * direct / 4.0f), 100.0f, 1e5f)));
     IndirectSettings& in = s.indirect;
-    in.mu = wanted.value_or(publishedIndirectMu);
+    in.mu = mu.value_or(publishedIndirectMu);
     in.alpha = 0.3f;
     in.widthScale = 2.0f;
     in.extent = ReflectorExtent::Scene;
@@ -208,7 +208,7 @@ Settings asPublished(std::optional<float> wanted)
     DistributedSettings& d = s.distributed;
     d.published = true;
     d.firstPaths = 16;
-    d.mu = wanted.value_or(publishedDistributedMu);
+    d.mu = mu.value_or(publishedDistributedMu);
     d.blurWidth = d.shutterWidth = 0.177f / d.mu; // exp(-16 d^2 / r^2) of (5.33), whose bandwidth (5.29) scales
     d.blurExponent = 0.0f;
     d.shutterExponent = 0.0f;

@@ -1,6 +1,7 @@
 #include "tests/hostile/bytes.h"
 #include "tests/hostile/row.h"
 
+#include <algorithm>
 #include <sys/stat.h>
 
 namespace wedge::hostile {
@@ -85,12 +86,17 @@ Rows lateFailures()
             { "-o", "full.exr", "--spp", "1000000", "--time-limit", "0.05", "--quiet" }, 1, keptExr,
             { "full-rescued.exr" }),
     };
+    // Images are large and limits more than what PoCL writes before it finds a program in its cache: 1.5 MB.
+    const auto large = [](Row row) {
+        std::ranges::replace(row.call, std::string("16x16"), std::string("2000x1500"));
+        return row;
+    };
     Row small =
-        late("a file size limit", {}, { "-o", "a.exr", "-o", "b.png" }, 2, "nor could it be kept elsewhere", {});
-    small.start.fileSizeLimit = 300;
-    Row medium = late("a file size limit that a PNG fits in", {}, { "-o", "a.exr" }, 1, "kept as ./a-rescued.png",
-        { "a-rescued.png" });
-    medium.start.fileSizeLimit = 1000;
+        large(late("a file size limit", {}, { "-o", "a.exr", "-o", "b.png" }, 2, "nor could it be kept elsewhere", {}));
+    small.start.fileSizeLimit = 2'000'000;
+    Row medium = large(late("a file size limit that a PNG fits in", {}, { "-o", "a.exr" }, 1, "kept as ./a-rescued.png",
+        { "a-rescued.png" }));
+    medium.start.fileSizeLimit = 12'000'000;
     rows.push_back(small);
     rows.push_back(medium);
     return rows;
