@@ -87,16 +87,18 @@ Rows lateFailures()
             { "full-rescued.exr" }),
     };
     // Images are large and limits more than what PoCL writes before it finds a program in its cache: 1.5 MB.
-    const auto large = [](Row row) {
-        std::ranges::replace(row.call, std::string("16x16"), std::string("2000x1500"));
+    const auto large = [](Row row, const std::string& size) {
+        std::ranges::replace(row.call, std::string("16x16"), size);
         return row;
     };
     Row small =
-        large(late("a file size limit", {}, { "-o", "a.exr", "-o", "b.png" }, 2, "nor could it be kept elsewhere", {}));
+        large(late("a file size limit", {}, { "-o", "a.exr", "-o", "b.png" }, 2, "nor could it be kept elsewhere", {}),
+            "2000x1500");
     small.start.fileSizeLimit = 2'000'000;
     Row medium = large(late("a file size limit that a PNG fits in", {}, { "-o", "a.exr" }, 1, "kept as ./a-rescued.png",
-        { "a-rescued.png" }));
-    medium.start.fileSizeLimit = 12'000'000;
+                           { "a-rescued.png" }),
+        "1200x900");
+    medium.start.fileSizeLimit = 4'000'000;
     rows.push_back(small);
     rows.push_back(medium);
     return rows;
