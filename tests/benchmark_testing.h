@@ -23,10 +23,11 @@ inline std::set<std::string> keys(const Json& object)
 }
 
 /// A tiny run over a scene, whose table names it; fails the test unless it succeeds.
-inline Json tinyResults(const Workplace& place, const std::string& scene, const std::vector<std::string>& more)
+inline Json tinyResults(const Workplace& place, const std::string& scene, const std::vector<std::string>& more,
+    const std::string& referenceSpp = "64")
 {
-    std::vector<std::string> arguments = { "--quick", "--size", "48x36", "--reference-spp", "64", "--reference-dir",
-        "references", "--scene", scene, "--json", "results.json" };
+    std::vector<std::string> arguments = { "--quick", "--size", "48x36", "--reference-spp", referenceSpp,
+        "--reference-dir", "references", "--scene", scene, "--json", "results.json" };
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome outcome = place.run(arguments);
     REQUIRE_MESSAGE(outcome.status == 0, outcome.err);

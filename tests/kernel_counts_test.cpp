@@ -211,8 +211,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "demand: a power of the neighbours' mean uncertainty, at least a fraction of the largest within 5x5, and never of "
-    "its own; of one object, or of all pixels of the image")
+    "demand: a power of the neighbours' mean uncertainty, at least a fraction of the largest within 5x5; of its own "
+    "where that is asked for, or there are no others; of one object, or of all pixels of the image")
 {
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);
@@ -231,11 +231,12 @@ TEST_CASE(
                 });
                 shared::AnalysisParams p = paramsFor(layout);
                 p.y1 = p.height = static_cast<std::uint32_t>(height);
-                for (const std::uint32_t oneObject : { 0u, 1u }) {
+                for (const std::uint32_t which : { 0u, 1u, 2u, 3u }) {
+                    const std::uint32_t oneObject = which & 1u, ownToo = which >> 1;
                     const auto out = bench.filled(layout.size, -7.0f);
                     bench.passes.rows("counts", device::PassKind::Analysis, "analysis/demand.cl", "demandOf", p,
-                        WEDGE_BLOCK_PIXELS, oneObject, bench.buffer(uncertainty.values), bench.buffer(objectId.values),
-                        out);
+                        WEDGE_BLOCK_PIXELS, oneObject, ownToo, bench.buffer(uncertainty.values),
+                        bench.buffer(objectId.values), out);
                     const Planes<float> found = planesOf(layout, bench.read(out));
                     everyPixel(layout, [&](int x, int y) {
                         if (y >= height)
@@ -256,7 +257,8 @@ TEST_CASE(
                                 }
                             }
                         const double own = uncertainty.at(x, y);
-                        const double u = within > 0 ? std::max(sum / std::max(nearest, 1), 0.25 * largest) : own;
+                        const double others = std::max(sum / std::max(nearest, 1), 0.25 * largest);
+                        const double u = within == 0 ? own : ownToo != 0 ? std::max(others, own) : others;
                         const double expected = own >= 0 && u > 1e-30 ? std::pow(u, 0.4) : 0.0;
                         REQUIRE(found.at(x, y) == doctest::Approx(expected).epsilon(1e-3));
                     });

@@ -135,3 +135,51 @@ TEST_CASE("what a glossy floor reflects of bars before a light is sharper than t
         }
     });
 }
+
+TEST_CASE("pixels alone in a small penumbra take the samples that they need")
+{
+    // Grains over a floor, each with a shadow about as large as a pixel: what is around is lit.
+    onEveryDevice([](const device::Device& device) {
+        SceneBuilder b;
+        b.newObject();
+        b.quad({ 0, 0, 0 }, { 0, 0, 5 }, { 5, 0, 0 });
+        b.newObject();
+        std::mt19937 random(4);
+        for (int x = -4; x <= 4; ++x)
+            for (int z = -3; z <= 3; ++z) {
+                const double px = 0.5 * x + uniform(random, -0.1, 0.1), pz = 0.5 * z + uniform(random, -0.1, 0.1);
+                b.quad({ static_cast<float>(px), 0.5f, static_cast<float>(pz) }, { 0, 0, 0.012f }, { 0.012f, 0, 0 });
+            }
+        b.light({ 0, 3, 0 }, { 0.1f, 0, 0 }, { 0, 0, 0.1f }, scene::LightProfile::Uniform, 500);
+        b.camera({ 0, 6, 0.5f }, { 0, 0, 0 });
+        render::Renderer renderer(b.scene, device, renderOptions());
+        const std::vector<float> reference = renderPixels(renderer, sized(render::monteCarlo(4096), width, height));
+        renderPixels(renderer, sized(render::axisAligned(28), width, height));
+        const render::PlaneLayout layout(width, height);
+        const std::vector<std::uint32_t> samples = renderer.frame().samples.downloadAll(renderer.queue());
+        double lit = 0, darker = 0;
+        int penumbrae = 0, others = 0;
+        for (int y = 2; y < height - 2; ++y)
+            for (int x = 2; x < width - 2; ++x) {
+                const auto at = [&](int px, int py) {
+                    return reference[static_cast<std::size_t>(3 * (py * width + px))];
+                };
+                const double around = 0.25 * (at(x - 2, y) + at(x + 2, y) + at(x, y - 2) + at(x, y + 2));
+                const double seen = at(x, y) / around;
+                const double taken = samples[shared::pixelIndex(
+                    static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), layout.stride)];
+                if (seen > 0.2 && seen < 0.8) {
+                    ++penumbrae;
+                    darker += taken;
+                } else if (seen > 0.99 && seen < 1.01) {
+                    ++others;
+                    lit += taken;
+                }
+            }
+        MESSAGE(penumbrae << " pixels in penumbrae, samples " << darker / penumbrae << ", where it is lit "
+                          << lit / others);
+        CHECK(penumbrae > 10);
+        CHECK(darker / penumbrae > 100);
+        CHECK(lit / others < 28);
+    });
+}

@@ -190,7 +190,7 @@ void LightGraph::countsFromVariance()
         { f_.rectangle(p), reads("filtered", visibility), reads("effective", effective), reads("beta", beta_),
             writes("uncertainty", uncertainty) });
     auto demand = g_.plane<Demand>("demand", graph::floats);
-    demandOf(f_, p, uncertainty, Reaching::Object, demand);
+    demandOf(f_, p, uncertainty, { .oneObject = true, .ownToo = true }, demand);
     countsFromDemand(f_, p, static_cast<float>(s_.spp), demand, f_.surfaces.objectId, wanted_);
 }
 

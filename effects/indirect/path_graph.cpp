@@ -189,7 +189,7 @@ void PathGraph::countsFromVariance()
         { f_.rectangle(countParams()), reads("variance", variance), reads("effective", effective), reads("beta", beta_),
             writes("uncertainty", uncertainty) });
     auto demand = g_.plane<Demand>("demand", graph::floats);
-    demandOf(f_, countParams(), uncertainty, Reaching::Object, demand);
+    demandOf(f_, countParams(), uncertainty, { .oneObject = true, .ownToo = false }, demand);
     countsFromDemand(f_, countParams(), static_cast<float>(s_.spp), demand, taken_, wanted_);
 }
 

@@ -150,7 +150,7 @@ void DistributedSamples::demandOfRays(const graph::Argument& p, const graph::Ver
     shared::AnalysisParams params = f_.analysisParams();
     params.countExponent = f_.settings.distributed.countExponent;
     params.varianceSpread = f_.settings.distributed.varianceSpread;
-    demandOf(f_, params, uncertainty, Reaching::All, demand);
+    demandOf(f_, params, uncertainty, { .oneObject = false, .ownToo = false }, demand);
 }
 
 void DistributedSamples::demands()

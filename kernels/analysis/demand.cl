@@ -56,10 +56,13 @@ WEDGE_INLINE void addAround(Around* a, float16 there, int16 counts, bool nearest
 }
 
 /// demand = u^exponent, 0 where there is none. u is the mean uncertainty of the eight nearest pixels, at least
-/// varianceSpread of the largest within 5x5; and not the pixel's own, if there are others: a count that follows the
-/// samples that it then divides makes their mean too small, as pixels whose first samples happened to be bright take
-/// more, which outvote those. oneObject: 1: of the pixel's object alone.
-__kernel void demandOf(AnalysisParams p, uint oneObject, __global const float* restrict uncertainty,
+/// varianceSpread of the largest within 5x5, with ownToo at least the pixel's own; the pixel's own where no other has
+/// any. oneObject: 1: of the pixel's object alone.
+/// A count that follows the samples that it then divides makes means of bright and rare samples too small: pixels whose
+/// first samples happened to be bright take more, which outvote those. So terms of that kind look at others alone. The
+/// visibility of an area light is between 0 and 1, where the error near 0 is that near 1 with its sign turned, and in
+/// small penumbrae no pixel around has the same.
+__kernel void demandOf(AnalysisParams p, uint oneObject, uint ownToo, __global const float* restrict uncertainty,
     __global const uint* restrict objectId, __global float* restrict demand)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
@@ -91,7 +94,7 @@ __kernel void demandOf(AnalysisParams p, uint oneObject, __global const float* r
         }
     }
     const float16 others = max16(around.sum / max16(around.count, one), p.varianceSpread * around.largest);
-    const float16 u = around.within > 0.0f ? others : own;
+    const float16 u = around.within > 0.0f ? (ownToo != 0u ? max16(others, own) : others) : own;
     const int16 wants = (own >= 0.0f) & (u > 1e-30f);
     vstore16(wants ? exp2Block(p.countExponent * log2Block(u)) : none, 0, demand + i);
 }

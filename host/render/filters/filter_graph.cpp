@@ -103,13 +103,13 @@ void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams para
 }
 
 void demandOf(FrameBuilder& frame, const shared::AnalysisParams& params, const graph::Handle<Uncertainty>& uncertainty,
-    Reaching reaching, graph::Handle<Demand>& demand)
+    Demanding demanding, graph::Handle<Demand>& demand)
 {
     const graph::Reach near = around(WEDGE_DEMAND_REACH);
-    const bool oneObject = reaching == Reaching::Object;
     frame.blocks("counts", PassKind::Analysis, { "analysis/demand.cl", "demandOf" },
-        { frame.rectangle(params), value("oneObject", oneObject ? 1u : 0u), reads("uncertainty", uncertainty, near),
-            oneObject ? reads("objectId", frame.surfaces.objectId, near) : frame.nothing("objectId"),
+        { frame.rectangle(params), value("oneObject", demanding.oneObject ? 1u : 0u),
+            value("ownToo", demanding.ownToo ? 1u : 0u), reads("uncertainty", uncertainty, near),
+            demanding.oneObject ? reads("objectId", frame.surfaces.objectId, near) : frame.nothing("objectId"),
             writes("demand", demand) });
 }
 

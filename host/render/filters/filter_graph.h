@@ -32,12 +32,15 @@ struct Compared {
 void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams params, float pixels, float noise,
     Compared compared, graph::Handle<Metres>& beta);
 
-/// Which pixels around one have a part in its demand: those of its object, or all.
-enum class Reaching { Object, All };
+/// Which pixels have a part in the demand of one: those of its object around it, or all around it; and itself, or the
+/// others alone.
+struct Demanding {
+    bool oneObject, ownToo;
+};
 
 /// Declares how demands follow from uncertainties, by params.countExponent and varianceSpread (demand.cl).
 void demandOf(FrameBuilder& frame, const shared::AnalysisParams& params, const graph::Handle<Uncertainty>& uncertainty,
-    Reaching reaching, graph::Handle<Demand>& demand);
+    Demanding demanding, graph::Handle<Demand>& demand);
 
 /// Declares how counts follow from demands: clamp(C demand, params.leastCount, params.countCap) where mask is not 0,
 /// with C such that their mean is `mean` (kernels/analysis/counts.cl).
