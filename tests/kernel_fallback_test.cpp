@@ -1,6 +1,9 @@
 // fallback.cl alone: against the same in double.
 #include "kernels/shared/filter_params.h"
+#include "kernels/shared/packed.h"
 #include "tests/render_support.h"
+
+#include <bit>
 
 using namespace wedge;
 using namespace wedge::test;
@@ -11,8 +14,9 @@ struct Images {
     Planes<float> filtered, noisy, deviation, variance; ///< no variance: none was gathered
     Planes<std::uint32_t> objectId;
 
-    /// Pixels of two objects and none; filters are off by `bias`, samples by noise of deviation `noise`.
-    Images(const render::PlaneLayout& layout, std::mt19937& random, double bias, double noise)
+    /// Pixels of two objects and none; filters are off by `bias`, in turns up and down where it is `uneven`, samples by
+    /// noise of deviation `noise`.
+    Images(const render::PlaneLayout& layout, std::mt19937& random, double bias, double noise, bool uneven = false)
         : filtered(layout, 3, 0.0f)
         , noisy(layout, 3, 0.0f)
         , deviation(layout, 1, 0.0f)
@@ -24,7 +28,7 @@ struct Images {
             for (int x = 0; x < static_cast<int>(layout.width); ++x) {
                 objectId.at(x, y) = random() % 7 == 0 ? 0 : 1 + static_cast<std::uint32_t>(x / 9 + y / 5) % 2;
                 const double off = noise * gauss(random);
-                filtered.setVector(x, y, glm::dvec3(1 + bias));
+                filtered.setVector(x, y, glm::dvec3(1 + (uneven && (x + y) % 2 == 0 ? -bias : bias)));
                 noisy.setVector(x, y, glm::dvec3(1 + off));
                 deviation.at(x, y) = static_cast<float>(noise * gauss(random));
                 variance.at(x, y) = static_cast<float>(noise * noise * uniform(random, 0, 3));
@@ -44,35 +48,65 @@ shared::AnalysisParams paramsOf(const render::PlaneLayout& layout)
     return p;
 }
 
-/// Squares of the whole image, and what is shown of the rectangle; gathered: whether variances are, too; others: pixels
-/// do not count for themselves.
-Planes<float> fallBack(
-    KernelBench& bench, const shared::AnalysisParams& rectangle, const Images& in, bool gathered, bool others = false)
+/// Several numbers of 16 bits a pixel.
+struct Shorts {
+    std::vector<float> words;
+    render::PlaneLayout layout;
+
+    float at(int x, int y, std::size_t which) const
+    {
+        const std::size_t i = which * layout.size + shared::pixelIndex(x, y, layout.stride);
+        return shared::unpackShort(std::bit_cast<std::uint32_t>(words[i / 2]) >> 16 * (i % 2) & 0xffffu);
+    }
+};
+
+/// Differences of the whole image, and what is shown of the rectangle; gathered: whether variances are, too; others:
+/// pixels do not count for themselves.
+Planes<float> fallBack(KernelBench& bench, const shared::AnalysisParams& rectangle, const Images& in, bool gathered,
+    bool others = false, Shorts* found = nullptr)
 {
     const auto filtered = bench.buffer(in.filtered.values), noisy = bench.buffer(in.noisy.values);
-    const auto squares = bench.filled((gathered ? 3 : 2) * in.filtered.layout.size, 0.0f);
+    const auto differences = bench.filled(2 * in.filtered.layout.size, 0.0f);
     const std::uint32_t flag = gathered ? 1 : 0;
-    bench.passes.rows("fallback", device::PassKind::Filter, "analysis/fallback.cl", "fallbackSquares",
+    bench.passes.rows("fallback", device::PassKind::Filter, "analysis/fallback.cl", "fallbackDifferences",
         paramsOf(in.filtered.layout), WEDGE_BLOCK_PIXELS, flag, filtered, noisy, bench.buffer(in.deviation.values),
-        bench.buffer(in.variance.values), squares);
+        bench.buffer(in.variance.values), differences);
+    if (found != nullptr)
+        *found = { bench.read(differences), in.filtered.layout };
     if (others) {
         const auto shares = bench.filled(in.filtered.layout.size, 0.0f);
         bench.passes.rows("fallback", device::PassKind::Filter, "analysis/fallback.cl", "ownShares", rectangle,
-            WEDGE_BLOCK_PIXELS, flag, squares, bench.buffer(in.objectId.values), shares);
+            WEDGE_BLOCK_PIXELS, flag, differences, bench.buffer(in.objectId.values), shares);
         Planes<float> out = in.filtered;
-        const auto share = planesOf(in.filtered.layout, bench.read(shares));
+        const Shorts share { bench.read(shares), in.filtered.layout };
         for (std::size_t c = 0; c < 3; ++c)
             for (int y = 0; y < static_cast<int>(in.filtered.layout.height); ++y)
-                for (int x = 0; x < static_cast<int>(in.filtered.layout.width); ++x)
-                    out.at(x, y, c) += share.at(x, y) * (in.noisy.at(x, y, c) - in.filtered.at(x, y, c));
+                for (int x = 0; x < static_cast<int>(in.filtered.layout.width); ++x) {
+                    const float f = in.filtered.at(x, y, c) * (1 + share.at(x, y, 1));
+                    out.at(x, y, c) = f + share.at(x, y, 0) * (in.noisy.at(x, y, c) - f);
+                }
         return out;
     }
     bench.passes.rows("fallback", device::PassKind::Filter, "analysis/fallback.cl", "fallBack", rectangle,
-        WEDGE_BLOCK_PIXELS, flag, squares, bench.buffer(in.objectId.values), noisy, filtered);
+        WEDGE_BLOCK_PIXELS, flag, differences, bench.buffer(in.objectId.values), noisy, filtered);
     return planesOf(in.filtered.layout, bench.read(filtered));
 }
 
 double squared(double x) { return x * x; }
+
+/// What is summed of a pixel: as it is in double, and as kernels have it in 16 bits.
+struct Summed {
+    double d, variance, level, gathered;
+};
+Summed summed(const Images& in, int x, int y)
+{
+    return { in.noisy.at(x, y) - in.filtered.at(x, y), squared(in.deviation.at(x, y)), in.filtered.at(x, y),
+        in.variance.at(x, y) };
+}
+Summed summed(const Shorts& found, int x, int y, bool gathered)
+{
+    return { found.at(x, y, 0), found.at(x, y, 1), found.at(x, y, 2), gathered ? found.at(x, y, 3) : 0.0 };
+}
 
 } // namespace
 
@@ -83,37 +117,58 @@ TEST_CASE("fallback: shrinks samples towards what is filtered by the noise and d
         for (const auto& [width, height, gathered, others] :
             { std::tuple(1, 1, false, false), { 1, 9, false, false }, { 41, 23, false, false }, { 41, 23, true, false },
                 { 1, 1, false, true }, { 41, 23, false, true }, { 41, 23, true, true } })
-            for (const auto& [bias, noise] :
-                { std::pair(0.0, 0.1), { 0.1, 0.1 }, { 0.3, 0.1 }, { 0.2, 0.0 }, { 0.0, 0.0 } }) {
+            for (const auto& [bias, noise, uneven] :
+                { std::tuple(0.0, 0.1, false), { 0.1, 0.1, false }, { 0.3, 0.1, false }, { 0.2, 0.0, false },
+                    { 0.0, 0.0, false }, { 0.1, 0.1, true }, { 0.3, 0.1, true }, { 0.2, 0.0, true } }) {
                 const render::PlaneLayout layout(width, height);
                 std::mt19937 random(7);
-                const Images in(layout, random, bias, noise);
-                const Planes<float> found = fallBack(bench, paramsOf(layout), in, gathered, others);
-                int kept = 0, replaced = 0, between = 0;
+                const Images in(layout, random, bias, noise, uneven);
+                Shorts differences { {}, layout };
+                const Planes<float> found = fallBack(bench, paramsOf(layout), in, gathered, others, &differences);
+                int kept = 0, scaled = 0, replaced = 0, between = 0;
                 for (int y = 0; y < height; ++y)
                     for (int x = 0; x < width; ++x) {
                         if (in.objectId.at(x, y) == 0)
                             continue;
-                        double variance = 0, difference = 0, around = 0;
+                        const Summed exact = summed(in, x, y), kept16 = summed(differences, x, y, gathered);
+                        REQUIRE(std::fabs(kept16.d - exact.d) <= 0.004 * std::fabs(exact.d) + 1e-6);
+                        REQUIRE(std::fabs(kept16.variance - exact.variance) <= 0.004 * exact.variance);
+                        REQUIRE(std::fabs(kept16.level - exact.level) <= 0.004 * std::fabs(exact.level));
+                        if (gathered)
+                            REQUIRE(std::fabs(kept16.gathered - exact.gathered) <= 0.004 * exact.gathered);
+                        double variance = 0, around = 0, d = 0, f1 = 0, dd = 0, df = 0, ff = 0;
                         const auto add = [&](int px, int py) {
-                            variance += squared(in.deviation.at(px, py));
-                            around += in.variance.at(px, py);
-                            difference += squared(in.noisy.at(px, py) - in.filtered.at(px, py));
+                            const Summed there = summed(differences, px, py, gathered);
+                            const double level = there.level, off = there.d;
+                            variance += there.variance;
+                            around += there.gathered;
+                            d += off;
+                            f1 += level;
+                            dd += off * off;
+                            df += off * level;
+                            ff += level * level;
                         };
                         for (int py = std::max(0, y - 3); py <= std::min(height - 1, y + 3); ++py)
                             for (int px = std::max(0, x - 3); px <= std::min(width - 1, x + 3); ++px)
                                 if (in.objectId.at(px, py) == in.objectId.at(x, y) && !(others && px == x && py == y))
                                     add(px, py);
-                        if (difference == 0) {
-                            variance = around = 0;
+                        if (others && dd == 0)
                             add(x, y);
-                        }
                         if (gathered)
                             variance = std::max(variance, around);
-                        const double share = difference > 0 ? std::max(0.0, 1 - 2 * variance / difference) : 0;
+                        const double ratio = d != 0 ? std::max(0.0, 1 - 6 * variance / (d * d)) * d / f1 : 0;
+                        const double left = dd - 2 * ratio * df + ratio * ratio * ff;
+                        // Where the ratio explains all of it the rest is rounding, and the share anything.
+                        const bool explained = left <= 1e-5 * dd;
+                        const double share = !explained ? std::max(0.0, 1 - 2 * variance / left) : 0;
+                        scaled += ratio != 0 ? 1 : 0;
                         const double f = in.filtered.at(x, y), u = in.noisy.at(x, y);
+                        const double scaledUp = f + ratio * f, more = share * (u - scaledUp);
+                        // Shares of terms have 16 bits.
+                        const double rounding = others ? 0.004 * (std::fabs(ratio * f) + std::fabs(more)) : 0.0;
+                        const double rest = explained ? std::fabs(u - scaledUp) : 0.0;
                         for (std::size_t c = 0; c < 3; ++c)
-                            REQUIRE(std::fabs(found.at(x, y, c) - (f + share * (u - f))) < 1e-5);
+                            REQUIRE(std::fabs(found.at(x, y, c) - (scaledUp + more)) < 1e-5 + rounding + rest);
                         (share == 0 ? kept : share == 1 ? replaced : between) += 1;
                     }
                 if (width > 1) {
@@ -121,12 +176,16 @@ TEST_CASE("fallback: shrinks samples towards what is filtered by the noise and d
                     const double off = bias, spread = noise;
                     CAPTURE(off);
                     CAPTURE(spread);
-                    // Noise alone is hardly ever taken for bias, bias without noise always for what it is.
+                    // Noise alone is seldom taken for bias, bias of all pixels always for what it is.
                     if (bias == 0)
                         CHECK(kept > 10 * (between + replaced));
-                    if (noise == 0 && bias > 0)
+                    if (bias == 0 && noise > 0)
+                        CHECK(scaled < 250);
+                    if (bias > 0 && !uneven)
+                        CHECK(scaled > 700);
+                    if (uneven && noise == 0)
                         CHECK(replaced > 400);
-                    if (bias == 0.3)
+                    if (uneven && bias == 0.3)
                         CHECK(between > 400);
                 }
             }
@@ -153,5 +212,36 @@ TEST_CASE("fallback: pixels of a rectangle are those of the whole image")
                 if (in.objectId.at(x, y) != 0)
                     REQUIRE(found.at(x, y) == (inside ? whole : in.filtered).at(x, y));
             }
+    });
+}
+
+TEST_CASE("fallback: numbers that are none stay where they are")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        const render::PlaneLayout layout(41, 23);
+        for (const bool others : { false, true })
+            for (const bool gathered : { false, true })
+                for (const int where : { 0, 1, 2 })
+                    for (const float wrong : { std::numeric_limits<float>::infinity(), std::nanf("") }) {
+                        CAPTURE(others);
+                        CAPTURE(gathered);
+                        CAPTURE(where);
+                        CAPTURE(wrong);
+                        std::mt19937 random(7);
+                        Images in(layout, random, 0.3, 0.1);
+                        everyPixel(layout, [&](int x, int y) { in.objectId.at(x, y) = 1; });
+                        everyPixel(layout, [&](int x, int y) { in.filtered.setVector(x, y, glm::dvec3(1.3)); });
+                        const int badX = 20, badY = 11;
+                        if (where == 2)
+                            in.deviation.at(badX, badY) = wrong;
+                        else
+                            (where == 0 ? in.filtered : in.noisy).setVector(badX, badY, glm::dvec3(wrong));
+                        const Planes<float> found = fallBack(bench, paramsOf(layout), in, gathered, others);
+                        everyPixel(layout, [&](int x, int y) {
+                            if (x != badX || y != badY)
+                                REQUIRE(std::isfinite(found.at(x, y)));
+                        });
+                    }
     });
 }

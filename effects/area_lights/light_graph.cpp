@@ -93,7 +93,7 @@ private:
     void narrowForLobes();
     void countsFromVariance();
     void widened();
-    void shade(const graph::Handle<Value>& value, const std::function<bool(const Run&)>& condition);
+    void shade(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition);
 
     shared::AnalysisParams analysisParams() const { return lightParams(f_.analysisParams(), s_, light_); }
     graph::Argument sampleParams() const { return value("params", lightSampleParams(s_, index_)); }

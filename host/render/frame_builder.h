@@ -41,6 +41,8 @@ struct Listed { }; ///< of waves' lists, see waves.cl
 // Formats of packed planes, see kernels/core/packed_planes.h.
 inline constexpr graph::Format shortFloats { "short1", 2, "float", "", "", "" };
 inline constexpr graph::Format shortPairs { "short2", 4, "float", "", "", "" };
+inline constexpr graph::Format shortTriples { "short3", 6, "float", "", "", "" };
+inline constexpr graph::Format shortQuadruples { "short4", 8, "float", "", "", "" };
 inline constexpr graph::Format shortCounts { "ushort1", 2, "uint", "", "", "" };
 inline constexpr graph::Format shortGloss { "gloss16", 2, "uint", "", "", "" };
 inline constexpr graph::Format packedNormals { "normal32", 4, "float", "", "", "" };

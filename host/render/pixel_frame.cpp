@@ -136,14 +136,15 @@ void PixelFrame::fallBack(Sum& sum)
         "fallback", [](const Run& run) { return !run.cut(); },
         [&] {
             const bool gathered = sum.variance.graph != 0;
-            auto squares = graph_.plane<Share>("squares of what filters are off", graph::floatPlanes(gathered ? 3 : 2));
+            auto differences = graph_.plane<Share>("what filters are off", gathered ? shortQuadruples : shortTriples);
             const auto flag = value("gathered", gathered ? 1u : 0u);
-            f_.blocks("fallback", PassKind::Filter, { "analysis/fallback.cl", "fallbackSquares" },
+            f_.blocks("fallback", PassKind::Filter, { "analysis/fallback.cl", "fallbackDifferences" },
                 { p, flag, reads("filtered", sum.filtered), reads("noisy", sum.noisy),
                     reads("deviation", sum.deviation),
-                    gathered ? reads("variance", sum.variance) : f_.nothing("variance"), writes("squares", squares) });
+                    gathered ? reads("variance", sum.variance) : f_.nothing("variance"),
+                    writes("differences", differences) });
             f_.blocks("fallback", PassKind::Filter, { "analysis/fallback.cl", "fallBack" },
-                { p, flag, reads("squares", squares, near), reads("objectId", f_.surfaces.objectId, near),
+                { p, flag, reads("differences", differences, near), reads("objectId", f_.surfaces.objectId, near),
                     reads("noisy", sum.noisy), updates("filtered", sum.filtered) });
         });
 }

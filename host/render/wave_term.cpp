@@ -116,16 +116,16 @@ void WaveTerm::fallBack(
         const FilterRun run { pass, PassKind::Filter, "filter/filter_variance.cl" };
         variance = gaussianFilter(f_, run, 1, *filter, squared, means.beta).value;
     }
-    auto squares = f_.graph.plane<Share>("squares of what filters are off", graph::floatPlanes(gathered ? 3 : 2));
-    f_.pixels(pass, PassKind::Filter, { "waves/distributed.cl", "termSquares" },
+    auto differences = f_.graph.plane<Share>("what filters are off", gathered ? shortQuadruples : shortTriples);
+    f_.pixels(pass, PassKind::Filter, { "waves/distributed.cl", "termDifferences" },
         { f_.rectangle(of(params)), flag, reads("texture", means.texture), reads("value", means.value),
             reads("filtered", filtered), reads("deviation", means.deviation),
             gathered ? reads("variance", variance) : f_.nothing("variance"), reads("beta", means.beta),
-            writes("squares", squares) });
+            writes("differences", differences) });
     const graph::Reach near = graph::around(WEDGE_SHRINK_REACH);
-    auto shares = f_.graph.plane<Share>("share of own samples", graph::floats);
+    auto shares = f_.graph.plane<Share>("share of own samples", shortPairs);
     f_.blocks(pass, PassKind::Filter, { "analysis/fallback.cl", "ownShares" },
-        { p, flag, reads("squares", squares, near), reads("objectId", f_.surfaces.objectId, near),
+        { p, flag, reads("differences", differences, near), reads("objectId", f_.surfaces.objectId, near),
             writes("shares", shares) });
     f_.pixels(pass, PassKind::Filter, { "waves/distributed.cl", "fallBackTerm" },
         { f_.rectangle(of(params)), reads("texture", means.texture), reads("value", means.value),

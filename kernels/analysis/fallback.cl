@@ -1,35 +1,45 @@
 // Where filtering is not to be trusted, pixels fall back to their own samples.
 //
-// u is a pixel's plain mean, f what filters made of it, V the variance of u and D the mean of (u - f)^2, both over the
-// pixels of the object around. What is shown is
+// u is a pixel's plain mean, f what filters made of it, d = u - f, V the variance of u, and sums are over the pixels of
+// the object around. First f is scaled so that sums agree where they differ by more than noise makes them,
 //
-//     f + max(0, 1 - c V / D) (u - f)
+//     f' = f + r f,   r = max(0, 1 - c1 sum V / (sum d)^2) sum d / sum f
 //
-// (shrink.h): where u and f differ by no more than noise does it is f, where the filter is off by more it is u, and
-// whatever f is, its error is no larger than u's (c up to 2, many pixels). As samples become more V goes to 0 and with
-// it what f is off by.
+// which is what highlights need that a filter spreads: all pixels there are off by less than their noise, and by more
+// together. Then what is shown is
+//
+//     f' + max(0, 1 - c2 sum V / sum d'^2) (u - f'),   d' = u - f'
+//
+// (the positive-part estimator of W. James and C. Stein, 1961, which shrinks u towards f'): where u and f' differ by no
+// more than noise does it is f', where the filter is off by more it is u, and whatever f' is, its error is no larger
+// than u's (c2 up to 2, many pixels). As samples become more V goes to 0 and with it what f is off by.
 //
 // Where light comes from something small that few paths meet, pixels that all missed it seem to have no noise, and f
 // differs from them by what it brings from those that did not. Did each fall back to its own samples while what the
 // others found is spread, pictures would become too dark. So V is what the filter makes of the variances of the pixels
 // that it gathers, as those of f's pixels are alike if f is right, where that is more.
 //
-// Where pixels have several receivers u and f are a term's values, before they are multiplied by its texture, and
-// squares are times that of the texture's luminance.
-#include "analysis/shrink.h"
+// Where pixels have several receivers u and f are a term's values, and d and f in the sums are luminances of what they
+// make with its texture.
 #include "core/packed_planes.h"
+#include "core/vector16.h"
+#include "shared/filter_params.h"
 
-/// c: an error of f of up to c - 1 times the noise's variance counts as none. 1 would be best were V and D known; but
-/// they are estimates, and what is taken for bias by mistake brings noise back.
+/// c1: sums count as different where the square of their difference is more than this times its variance. Where few
+/// paths meet a small light, sums that are too bright by chance stand out, and those that are too dark do not: with
+/// less pictures become brighter.
+#define WEDGE_FALLBACK_CHANCE 6.0f
+/// c2: an error of f' of up to c2 - 1 times the noise's variance counts as none. 1 would be best were V and d' known;
+/// but they are estimates, and what is taken for bias by mistake brings noise back.
 #define WEDGE_FALLBACK_NOISE 2.0f
 
-/// What is averaged.
+/// What is summed, of luminances.
 /// in   filtered, noisy: 3 planes each; deviation: of noisy's luminance (composite.cl); variance: gathered as filtered
 ///      was, where `gathered`
-/// out  squares: planes of (u - f)^2 and of the deviation's, of luminances, and, where `gathered`, of that variance
-__kernel void fallbackSquares(AnalysisParams p, uint gathered, __global const float* restrict filtered,
+/// out  differences: d, V, f, and, where `gathered`, that variance, in 16 bits each
+__kernel void fallbackDifferences(AnalysisParams p, uint gathered, __global const float* restrict filtered,
     __global const float* restrict noisy, __global const float* restrict deviation,
-    __global const float* restrict variance, __global float* restrict squares)
+    __global const float* restrict variance, __global float* restrict differences)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -37,12 +47,13 @@ __kernel void fallbackSquares(AnalysisParams p, uint gathered, __global const fl
         return;
     }
     const int i = (int)pixelIndex(x, y, p.stride);
-    const float16 d = luminance16(sub16(loadVecBlock(noisy, p.planeSize, i), loadVecBlock(filtered, p.planeSize, i)));
+    const Vec3x16 f = loadVecBlock(filtered, p.planeSize, i);
     const float16 v = loadBlock(deviation, i);
-    vstore16(d * d, 0, squares + i);
-    vstore16(v * v, 0, squares + p.planeSize + i);
+    storeShortsBlock(differences, p.planeSize, i, 0u, luminance16(sub16(loadVecBlock(noisy, p.planeSize, i), f)));
+    storeShortsBlock(differences, p.planeSize, i, 1u, v * v);
+    storeShortsBlock(differences, p.planeSize, i, 2u, luminance16(f));
     if (gathered != 0u) {
-        vstore16(loadBlock(variance, i), 0, squares + 2u * p.planeSize + i);
+        storeShortsBlock(differences, p.planeSize, i, 3u, loadBlock(variance, i));
     }
 }
 
@@ -60,44 +71,110 @@ __kernel void termVariance(
     vstore16(d * d, 0, variance + i);
 }
 
-/// Sums over the pixels around; where there are none that differ those of the pixel itself.
-WEDGE_FN SquaresAround squaresOfOthers(AnalysisParams p, uint y, int i, __global const uint* objectId,
-    __global const float* difference, __global const float* variance)
+/// Sums over pixels.
+typedef struct {
+    float16 d, f, dd, df, ff; ///< of d, f and their products
+    float16 variance, gathered;
+} Differences;
+
+/// Of pixels i that count; others may hold anything.
+WEDGE_INLINE void addDifferences(
+    Differences* sum, AnalysisParams p, uint gathered, int16 counts, __global const float* differences, int i)
 {
-    SquaresAround around = squaresAround(p, y, i, objectId, difference, variance, true);
-    const int16 alone = !(around.difference > 0.0f);
-    around.variance = alone ? loadBlock(variance, i) : around.variance;
-    around.difference = alone ? loadBlock(difference, i) : around.difference;
-    return around;
+    const float16 none = (float16)(0.0f);
+    const float16 d = counts ? loadShortsBlock(differences, p.planeSize, i, 0u) : none;
+    const float16 f = counts ? loadShortsBlock(differences, p.planeSize, i, 2u) : none;
+    sum->d += d;
+    sum->f += f;
+    sum->dd += d * d;
+    sum->df += d * f;
+    sum->ff += f * f;
+    sum->variance += counts ? loadShortsBlock(differences, p.planeSize, i, 1u) : none;
+    if (gathered != 0u) {
+        sum->gathered += counts ? loadShortsBlock(differences, p.planeSize, i, 3u) : none;
+    }
 }
 
-/// The share of their own samples that pixels differing from their filtered values show. others: squaresOfOthers()
-WEDGE_FN float16 ownShare16(AnalysisParams p, uint y, int i, uint gathered, bool others, int16 differs,
-    __global const float* squares, __global const uint* objectId)
+WEDGE_INLINE Differences noDifferences(void)
 {
-    const uint size = p.planeSize;
-    const SquaresAround around = others ? squaresOfOthers(p, y, i, objectId, squares, squares + size)
-                                        : squaresAround(p, y, i, objectId, squares, squares + size, false);
-    float16 variance = around.variance;
-    if (gathered != 0u) {
-        const SquaresAround all = others ? squaresOfOthers(p, y, i, objectId, squares, squares + 2u * size)
-                                         : squaresAround(p, y, i, objectId, squares, squares + 2u * size, false);
-        variance = max16(variance, all.variance);
+    Differences sum;
+    sum.d = sum.f = sum.dd = sum.df = sum.ff = sum.variance = sum.gathered = (float16)(0.0f);
+    return sum;
+}
+
+/// Over the pixels of the object within WEDGE_SHRINK_REACH. others: without the pixel's own, unless none of them
+/// differs
+WEDGE_FN Differences differencesAround(AnalysisParams p, uint gathered, bool others, uint y, int i,
+    __global const float* differences, __global const uint* objectId)
+{
+    const uint16 object = loadIdBlock(objectId, i);
+    Differences sum = noDifferences();
+    const int reach = (int)WEDGE_SHRINK_REACH;
+    for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
+        for (int dx = -reach; dx <= reach; ++dx) {
+            if (others && dy == 0 && dx == 0) {
+                continue;
+            }
+            const int j = i + dy * (int)p.stride + dx;
+            addDifferences(&sum, p, gathered, loadIdBlock(objectId, j) == object, differences, j);
+        }
     }
-    const float16 least = max16(around.difference, (float16)(1e-37f));
-    const float16 own = max16(1.0f - WEDGE_FALLBACK_NOISE * variance / least, (float16)(0.0f));
-    const int16 known = differs & (around.difference > 0.0f);
-    return known ? own : (float16)(0.0f);
+    if (others) {
+        const int16 alone = !(sum.dd > 0.0f);
+        Differences own = noDifferences();
+        addDifferences(&own, p, gathered, alone, differences, i);
+        sum.d = alone ? own.d : sum.d;
+        sum.f = alone ? own.f : sum.f;
+        sum.dd = alone ? own.dd : sum.dd;
+        sum.df = alone ? own.df : sum.df;
+        sum.ff = alone ? own.ff : sum.ff;
+        sum.variance = alone ? own.variance : sum.variance;
+        sum.gathered = alone ? own.gathered : sum.gathered;
+    }
+    return sum;
+}
+
+/// How far pixels fall back.
+typedef struct {
+    float16 ratio; ///< r
+    float16 own; ///< share of their own samples
+} Fallback;
+
+/// differs: pixels whose filtered value is not their own; the others do not fall back.
+WEDGE_FN Fallback fallbackOf(AnalysisParams p, uint gathered, bool others, uint y, int i, int16 differs,
+    __global const float* differences, __global const uint* objectId)
+{
+    const Differences sum = differencesAround(p, gathered, others, y, i, differences, objectId);
+    const float16 none = (float16)(0.0f), least = (float16)(1e-37f);
+    // The second where the first is no number, which makes nothing sure.
+    const float16 variance = max16(sum.gathered, sum.variance);
+    const float16 sure = max16(1.0f - WEDGE_FALLBACK_CHANCE * variance / max16(sum.d * sum.d, least), none);
+    const float16 ratio = max16(sure * sum.d / max16(sum.f, least), (float16)(-1.0f));
+    Fallback out;
+    // Of sums that are no numbers nothing follows.
+    const int16 known = differs & isfinite(sum.d) & isfinite(ratio);
+    out.ratio = (known & (sure > 0.0f) & (sum.f > 0.0f)) ? ratio : none;
+    const float16 left = sum.dd + out.ratio * (out.ratio * sum.ff - 2.0f * sum.df);
+    const float16 own = max16(1.0f - WEDGE_FALLBACK_NOISE * variance / max16(left, least), none);
+    out.own = (differs & (left > 0.0f)) ? own : none;
+    return out;
 }
 
 /// Pixels with a surface whose filtered value is not their own.
-WEDGE_FN int16 differing(__global const float* squares, __global const uint* objectId, int i)
+WEDGE_FN int16 differing(__global const float* differences, __global const uint* objectId, int i)
 {
-    return (loadIdBlock(objectId, i) != 0u) & (loadBlock(squares, i) > 0.0f);
+    return (loadIdBlock(objectId, i) != 0u) & (loadShortBlock(differences, i) != 0.0f);
+}
+
+/// What is shown of one channel: f where nothing is shared, whatever the other holds.
+WEDGE_INLINE float16 fallenBack(Fallback fallback, float16 f, float16 u)
+{
+    const float16 scaled = fallback.ratio != 0.0f ? f + fallback.ratio * f : f;
+    return fallback.own > 0.0f ? scaled + fallback.own * (u - scaled) : scaled;
 }
 
 /// in out  filtered
-__kernel void fallBack(AnalysisParams p, uint gathered, __global const float* restrict squares,
+__kernel void fallBack(AnalysisParams p, uint gathered, __global const float* restrict differences,
     __global const uint* restrict objectId, __global const float* restrict noisy, __global float* restrict filtered)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
@@ -106,26 +183,24 @@ __kernel void fallBack(AnalysisParams p, uint gathered, __global const float* re
         return;
     }
     const int i = (int)pixelIndex(x, y, p.stride);
-    const int16 differs = differing(squares, objectId, i);
+    const int16 differs = differing(differences, objectId, i);
     if (!any(differs)) {
         return;
     }
-    const float16 share = ownShare16(p, y, i, gathered, false, differs, squares, objectId);
+    const Fallback fallback = fallbackOf(p, gathered, false, y, i, differs, differences, objectId);
     const Vec3x16 f = loadVecBlock(filtered, p.planeSize, i), u = loadVecBlock(noisy, p.planeSize, i);
-    // Where nothing is shared what the other holds is not looked at.
-    const int16 shares = share > 0.0f;
-    vstore16(shares ? f.x + share * (u.x - f.x) : f.x, 0, filtered + i);
-    vstore16(shares ? f.y + share * (u.y - f.y) : f.y, 0, filtered + p.planeSize + i);
-    vstore16(shares ? f.z + share * (u.z - f.z) : f.z, 0, filtered + 2u * p.planeSize + i);
+    vstore16(fallenBack(fallback, f.x, u.x), 0, filtered + i);
+    vstore16(fallenBack(fallback, f.y, u.y), 0, filtered + p.planeSize + i);
+    vstore16(fallenBack(fallback, f.z, u.z), 0, filtered + 2u * p.planeSize + i);
 }
 
-/// The shares of terms, of D and V without the pixel's own: two bright paths in one pixel, one in each half of its
-/// samples, leave no trace in V, and would be all of D. (They are in the filtered values of the pixels around, too,
-/// where others' noise is to outweigh them.) Where none around differs, as where none is of the
-/// object, twigs and grains, it is the pixel's own that count.
+/// How far terms fall back, from sums without the pixel's own: two bright paths in one pixel, one in each half of its
+/// samples, leave no trace in V, and would be all of d. (They are in the filtered values of the pixels around, too,
+/// where others' noise is to outweigh them.) Where none around differs, as where none is of the object, twigs and
+/// grains, it is the pixel's own that count.
 ///
-/// out  shares
-__kernel void ownShares(AnalysisParams p, uint gathered, __global const float* restrict squares,
+/// out  shares: the share of own samples, and r, in 16 bits each
+__kernel void ownShares(AnalysisParams p, uint gathered, __global const float* restrict differences,
     __global const uint* restrict objectId, __global float* restrict shares)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
@@ -134,10 +209,12 @@ __kernel void ownShares(AnalysisParams p, uint gathered, __global const float* r
         return;
     }
     const int i = (int)pixelIndex(x, y, p.stride);
-    const int16 differs = differing(squares, objectId, i);
-    float16 share = (float16)(0.0f);
+    const int16 differs = differing(differences, objectId, i);
+    Fallback fallback;
+    fallback.ratio = fallback.own = (float16)(0.0f);
     if (any(differs)) {
-        share = ownShare16(p, y, i, gathered, true, differs, squares, objectId);
+        fallback = fallbackOf(p, gathered, true, y, i, differs, differences, objectId);
     }
-    vstore16(share, 0, shares + i);
+    storeShortsBlock(shares, p.planeSize, i, 0u, fallback.own);
+    storeShortsBlock(shares, p.planeSize, i, 1u, fallback.ratio);
 }

@@ -12,9 +12,9 @@ typedef struct {
     float16 difference, variance;
 } SquaresAround;
 
-/// Of pixels i of row y, over those of the same object within WEDGE_SHRINK_REACH. others: without themselves
+/// Of pixels i of row y, over those of the same object within WEDGE_SHRINK_REACH.
 WEDGE_FN SquaresAround squaresAround(AnalysisParams p, uint y, int i, __global const uint* objectId,
-    __global const float* difference, __global const float* variance, bool others)
+    __global const float* difference, __global const float* variance)
 {
     const uint16 object = loadIdBlock(objectId, i);
     SquaresAround sum;
@@ -22,9 +22,6 @@ WEDGE_FN SquaresAround squaresAround(AnalysisParams p, uint y, int i, __global c
     const int reach = (int)WEDGE_SHRINK_REACH;
     for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
         for (int dx = -reach; dx <= reach; ++dx) {
-            if (others && dy == 0 && dx == 0) {
-                continue;
-            }
             const int j = i + dy * (int)p.stride + dx;
             const int16 same = loadIdBlock(objectId, j) == object;
             sum.difference += same ? loadBlock(difference, j) : (float16)(0.0f);

@@ -192,7 +192,7 @@ __kernel void wideShares(AnalysisParams p, FrameParams frame, float pixels, floa
     if (!any(differs)) {
         return;
     }
-    const SquaresAround around = squaresAround(p, y, i, objectId, difference, variance, false);
+    const SquaresAround around = squaresAround(p, y, i, objectId, difference, variance);
     const float16 wide = comparedWidth16(p, frame, pixels, position, normal, i), own = loadBlock(beta, i);
     const float16 ratio = own * own / max16(wide * wide, (float16)(1e-30f));
     const float16 share = wideShare(around.difference, noise * around.variance, ratio);

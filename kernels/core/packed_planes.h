@@ -69,16 +69,26 @@ WEDGE_FN void storeNormal(__global float* planes, uint planeSize, uint i, uint p
     }
 }
 
-/// One of two numbers in a plane: the first (which: 0) or the second of all pixels.
+/// One of several numbers of 16 bits: the first (which: 0), the second and so on of all pixels.
 WEDGE_FN float loadShort(__global const float* plane, uint planeSize, uint i, uint which)
 {
     return unpackShort(((__global const ushort*)plane)[which * planeSize + i]);
 }
 
-/// Sixteen first ones.
-WEDGE_FN float16 loadShortBlock(__global const float* plane, int i)
+/// Sixteen of them.
+WEDGE_FN float16 loadShortsBlock(__global const float* plane, uint planeSize, int i, uint which)
 {
-    return as_float16(convert_uint16(vload16(0, (__global const ushort*)plane + i)) << 16);
+    return as_float16(convert_uint16(vload16(0, (__global const ushort*)plane + which * planeSize + i)) << 16);
+}
+
+WEDGE_FN float16 loadShortBlock(__global const float* plane, int i) { return loadShortsBlock(plane, 0u, i, 0u); }
+
+/// packShort() of sixteen, where they are numbers.
+WEDGE_FN void storeShortsBlock(__global float* plane, uint planeSize, int i, uint which, float16 value)
+{
+    const uint16 bits = as_uint16(value);
+    vstore16(convert_ushort16((bits + 0x7fffu + (bits >> 16 & 1u)) >> 16), 0,
+        (__global ushort*)plane + which * planeSize + i);
 }
 
 /// Sixteen deviations, which have 16 bits where they are packed.

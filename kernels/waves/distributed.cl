@@ -263,13 +263,13 @@ __kernel void visibilityOf(DistributedParams p, __global const float* restrict t
     visibility[i] = p.published != 0u ? value[i] : t > 0.0f ? luminance(vecMul(k, loadValue(p, value, i))) / t : 0.0f;
 }
 
-/// fallbackSquares() of fallback.cl for a term: what filters are off by and noise, of the luminance that is seen.
+/// fallbackDifferences() of fallback.cl for a term, of the luminance that is seen.
 /// in   filtered: p.values planes; deviation: of the value; variance: gathered as filtered was, where `gathered`; beta:
 ///      pixels below 0 keep their own, and nothing is averaged of them
-__kernel void termSquares(DistributedParams p, uint gathered, __global const float* restrict texture,
+__kernel void termDifferences(DistributedParams p, uint gathered, __global const float* restrict texture,
     __global const float* restrict value, __global const float* restrict filtered,
     __global const float* restrict deviation, __global const float* restrict variance,
-    __global const float* restrict beta, __global float* restrict squares)
+    __global const float* restrict beta, __global float* restrict differences)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -282,31 +282,37 @@ __kernel void termSquares(DistributedParams p, uint gathered, __global const flo
     const float t = luminance(k);
     const float d = luminance(vecMul(k, vecSub(loadValue(p, value, i), f)));
     const float v = t * loadNumber(deviation, n, i, p.packed, 0u);
-    squares[i] = counts ? d * d : 0.0f;
-    squares[n + i] = counts ? v * v : 0.0f;
+    storeShort(differences, n, i, 0u, counts ? d : 0.0f);
+    storeShort(differences, n, i, 1u, counts ? v * v : 0.0f);
+    storeShort(differences, n, i, 2u, counts ? luminance(vecMul(k, f)) : 0.0f);
     if (gathered != 0u) {
-        squares[2u * n + i] = counts ? t * t * variance[i] : 0.0f;
+        storeShort(differences, n, i, 3u, counts ? t * t * variance[i] : 0.0f);
     }
 }
 
-/// A term's filtered value falls back to its own, of which shares say how much counts.
+/// A term's filtered value falls back to its own. shares: as of ownShares().
 __kernel void fallBackTerm(DistributedParams p, __global const float* restrict texture,
     __global const float* restrict value, __global const float* restrict shares, __global float* restrict filtered)
 {
     uint x, y, i;
-    // Where nothing is shared what is not filtered is not looked at.
-    if (!pixelOf(p, &x, &y, &i) || !(shares[i] > 0.0f)) {
+    if (!pixelOf(p, &x, &y, &i)) {
         return;
     }
     const uint n = p.planeSize;
+    const float own = loadShort(shares, n, i, 0u), ratio = loadShort(shares, n, i, 1u);
+    // Where nothing is shared what is not filtered is not looked at.
+    if (!(own > 0.0f) && ratio == 0.0f) {
+        return;
+    }
     const Vec3 u = loadValue(p, value, i);
     if (p.values == 3u) {
-        const Vec3 f = loadVec(filtered, n, i);
-        storeVec(filtered, n, i, vecMad(f, vecSub(u, f), shares[i]));
+        const Vec3 f = vecScale(loadVec(filtered, n, i), 1.0f + ratio);
+        storeVec(filtered, n, i, own > 0.0f ? vecMad(f, vecSub(u, f), own) : f);
         return;
     }
     const Vec3 k = loadTexture(p, texture, i);
-    filtered[i] += shares[i] * (luminance(vecMul(k, u)) / fmax(luminance(k), 1e-30f) - filtered[i]);
+    const float f = filtered[i] * (1.0f + ratio);
+    filtered[i] = own > 0.0f ? f + own * (luminance(vecMul(k, u)) / fmax(luminance(k), 1e-30f) - f) : f;
 }
 
 /// A term's own radiance, k E; as published L, termRadiance.
