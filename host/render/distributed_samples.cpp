@@ -1,5 +1,7 @@
 #include "host/render/distributed_samples.h"
 
+#include "host/render/seen_lights.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -191,6 +193,9 @@ shared::DistributedParams DistributedSamples::params() const
 
 void DistributedSamples::take(const DistributedSamples* guide)
 {
+    if (shape_.analysed && !shape_.published && lit_) {
+        seenLights_ = seenLights(f_, camera_);
+    }
     if (shape_.analysed) {
         adaptive(guide);
     } else {
@@ -300,6 +305,7 @@ void DistributedSamples::sample(bool first, PrimaryCounts& counts, Waves::Sampli
     settings.packed = f_.packed ? 1 : 0;
     settings.oneVelocity = f_.settings.distributed.oneVelocity;
     sampling.terms = terms_.size();
+    sampling.seenLights = seenLights_;
     Waves waves(f_, settings, camera_, counts, std::move(sampling));
     waves.declare(lit_, [&] {
         for (std::size_t i = 0; i < direct_; ++i) {

@@ -8,6 +8,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace wedge::render {
@@ -136,6 +137,7 @@ private:
     std::vector<Added> added_;
     graph::Handle<Demand> demand_; ///< of primary samples
     graph::Handle<Radiance> emission_;
+    std::optional<graph::Handle<Radiance>> seenLights_;
     graph::Handle<Pixels> lens_, along_;
 };
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,7 @@ public:
         double workUnits = 0; ///< of all rounds together
         std::size_t terms = 0; ///< of the frame, among which the work is shared out with the camera's rays
         bool everywhere = false; ///< all of the image, whatever is wanted
+        std::optional<graph::Handle<Radiance>> seenLights = {}; ///< of pixels, see seenLights()
     };
 
     /// settings: of the waves, as far as they are known. counts: of the frame.

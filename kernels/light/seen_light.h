@@ -27,4 +27,27 @@ WEDGE_FN void endAtLights(__global const AreaLight* lights, uint count, RayPacke
     }
 }
 
+/// What arrives from all visible area lights that a lane's ray meets, whatever else it meets before. met: how many
+/// those are.
+WEDGE_FN void lightsMet(
+    __global const AreaLight* lights, uint count, const RayPacket* rays, VecLanes* radiance, uint* restrict met)
+{
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        setLaneVec(radiance, lane, vec3(0.0f, 0.0f, 0.0f));
+        met[lane] = 0u;
+    }
+    for (uint i = 0; i < count; ++i) {
+        const AreaLight light = lights[i];
+        if (light.visible == 0u) {
+            continue;
+        }
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const LightMeeting m = meetLight(light, rayStart(rays, lane), rayDirection(rays, lane));
+            const Vec3 more = vecAdd(laneVec(radiance, lane), vecScale(light.radiance, metProfile(light, m)));
+            setLaneVecIf(radiance, lane, m.t < INFINITY, more);
+            met[lane] += m.t < INFINITY ? 1u : 0u;
+        }
+    }
+}
+
 #endif

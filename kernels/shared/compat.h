@@ -37,6 +37,7 @@ WEDGE_SHARED_BEGIN
 
 using uint = std::uint32_t;
 using std::acos;
+using std::asin;
 using std::cos;
 using std::exp;
 using std::fabs;

@@ -1,13 +1,14 @@
 // The primary pass of a wave: each receiver's ray through its pixel, the lens and the shutter, and what it hits.
 //
 // in   frame, camera, wave, BVH, surfaces, area lights (the camera sees those that are visible); pixelOf, sampleOf,
-//      wanted: primary samples of each pixel
+//      wanted: primary samples of each pixel; known, if hasKnown: what pixels see of lights (seen_lights.cl)
 // out  planes of the wave: position, normal, origin (3 each), geometric (normal, packed), objectId (0: nothing to
 // shade),
 //      gloss (packed), view (packed direction back along the ray), time, diffuse, specular, emission
 //      (3 each; emission holds background and light radiance where nothing is shaded), pixelSize (metres), depth
 //      (along the view axis; +inf on a miss), motion (2 planes: pixels that the point moves in the image from shutter
 //      open to close), rays and pathRays (0: for the effects to count in)
+#include "core/packed_planes.h"
 #include "core/receivers.h"
 #include "light/seen_light.h"
 #include "shared/camera.h"
@@ -118,12 +119,13 @@ __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wav
     __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
     WEDGE_SURFACE_PARAMETERS, __global const uint* restrict objectIds, __global const AreaLight* restrict lights,
     uint lightCount, __global const uint* restrict pixelOf, __global const uint* restrict sampleOf,
-    __global const uint* restrict wanted, __global float* restrict position, __global float* restrict normal,
-    __global float* restrict origin, __global uint* restrict geometric, __global uint* restrict objectId,
-    __global uint* restrict gloss, __global uint* restrict view, __global float* restrict time,
-    __global float* restrict diffuse, __global float* restrict specular, __global float* restrict emission,
-    __global float* restrict pixelSize, __global float* restrict depth, __global float* restrict motion,
-    __global uint* restrict rays, __global uint* restrict pathRays, uint firstGroup)
+    __global const uint* restrict wanted, uint hasKnown, __global const float* restrict known,
+    __global float* restrict position, __global float* restrict normal, __global float* restrict origin,
+    __global uint* restrict geometric, __global uint* restrict objectId, __global uint* restrict gloss,
+    __global uint* restrict view, __global float* restrict time, __global float* restrict diffuse,
+    __global float* restrict specular, __global float* restrict emission, __global float* restrict pixelSize,
+    __global float* restrict depth, __global float* restrict motion, __global uint* restrict rays,
+    __global uint* restrict pathRays, uint firstGroup)
 {
     const SurfaceData data = WEDGE_SURFACE_ARGUMENTS;
     const uint size = wave.planeSize;
@@ -145,6 +147,19 @@ __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wav
     float times[WEDGE_PACKET_SIZE];
     VecLanes emitted;
     sendRays(frame, camera, wave, &samples, &packet, times);
+    VecLanes light, met;
+    uint lit = 0u, metCount[WEDGE_PACKET_SIZE];
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const uint pixel = pixelIndex(samples.x[lane], samples.y[lane], frame.stride);
+        const Vec3 k =
+            hasKnown != 0u ? loadColour(known, frame.planeSize, pixel, WEDGE_COLOUR_BITS) : vec3(0.0f, 0.0f, 0.0f);
+        setLaneVec(&light, lane, k);
+        setLaneVec(&met, lane, k);
+        lit |= luminance(k) > 0.0f ? 1u : 0u;
+    }
+    if (lit != 0u) {
+        lightsMet(lights, lightCount, &packet, &met, metCount);
+    }
     endAtLights(lights, lightCount, &packet, &emitted);
     for (uint lane = count; lane < WEDGE_PACKET_SIZE; ++lane) {
         packet.tMax[lane] = 0.0f;
@@ -168,6 +183,10 @@ __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wav
             const Vec3 direction = vecNormalize(rayDirection(&packet, lane));
             setLaneVec(&emitted, lane, vecAdd(frame.background, environmentRadiance(direction)));
         }
+        // The difference's mean is what lights do not send for things before them.
+        const Vec3 l = laneVec(&light, lane);
+        const Vec3 besides = vecSub(laneVec(&emitted, lane), laneVec(&met, lane));
+        setLaneVecIf(&emitted, lane, luminance(l) > 0.0f, vecAdd(besides, l));
         setLaneVec(&moved, lane, motionOfHit);
         if (lane < count) {
             objectId[first + lane] = object;

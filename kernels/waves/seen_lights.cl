@@ -1,0 +1,379 @@
+// The radiance that pixels receive from the lights that they see, where that is known without sampling: where nothing
+// is before a light, and the lens blurs it little, it is that of the light times the share of the pixel that it covers.
+// Primary samples then add what they see besides (wave_primary.cl): the edge of a bright light has no noise.
+#include "core/packed_planes.h"
+#include "core/pixel.h"
+#include "light/seen_light.h"
+#include "shared/coverage.h"
+
+/// Primary rays that try whether anything is before the lights of a pixel.
+#define WEDGE_TRIED_RAYS 64u
+#define WEDGE_TRIED_SEED 0x74727972u
+
+/// How the share of pixels that a light covers is known.
+#define WEDGE_SHARE_UNKNOWN 0u
+#define WEDGE_SHARE_OF_PIXEL 1u ///< of points of the lens: coverage()
+#define WEDGE_SHARE_OF_LENS 2u ///< of points of the pixel: discCoverage()
+/// Points of which it is the mean.
+#define WEDGE_LENS_POINTS 256u
+#define WEDGE_PIXEL_POINTS 16u
+#define WEDGE_CELL_POINTS 16u ///< of cells that are a fraction of the pixel or of the lens
+/// Radii of circles of confusion in pixels, between which both are near enough, and beyond which edges have little
+/// noise.
+#define WEDGE_LEAST_CONFUSION 1.0f
+#define WEDGE_FEW_CONFUSION 3.0f
+#define WEDGE_MOST_CONFUSION 16.0f
+/// Width in pixels from which on a light's profile is much the same in all of a pixel.
+#define WEDGE_EVEN_PIXELS 32.0f
+/// Cells an axis of a light whose profile is not one number.
+#define WEDGE_LIGHT_CELLS 24u
+/// Lights near a pixel, at most.
+#define WEDGE_MOST_SEEN 4u
+
+/// A point of a light in the image: where the lens' centre sees it, pixels from the middle, and by how much the lens'
+/// points move it, pixels for the lens' radius.
+typedef struct {
+    Vec2 at;
+    float shift;
+} SeenPoint;
+
+WEDGE_FN SeenPoint seenPoint(CameraParams camera, Vec3 point)
+{
+    SeenPoint p;
+    p.at = projectPoint(camera, point, 0.0f);
+    const float depth = fmax(vecDot(vecSub(point, camera.eye), camera.forward), WEDGE_LEAST_DEPTH);
+    p.shift = camera.apertureRadius * (1.0f / camera.focusDistance - 1.0f / depth) / camera.pixelStep;
+    return p;
+}
+
+/// Corner k, around it, of the light, or of a part of it: of local coordinates from low to high.
+WEDGE_FN Vec3 lightCorner(AreaLight light, uint k, Vec2 low, Vec2 high)
+{
+    return lightPoint(
+        light.centre, light.halfU, light.halfV, k == 1u || k == 2u ? high.x : low.x, k >= 2u ? high.y : low.y);
+}
+
+/// Whether all of a light is behind the camera, or beyond one side of what it sees.
+WEDGE_FN bool outOfView(FrameParams frame, CameraParams camera, AreaLight light)
+{
+    uint beyond[5] = { 0u, 0u, 0u, 0u, 0u };
+    for (uint k = 0u; k < 4u; ++k) {
+        const Vec3 d = vecSub(lightCorner(light, k, vec2(-1.0f, -1.0f), vec2(1.0f, 1.0f)), camera.eye);
+        const float x = vecDot(d, camera.right) / vecDot(camera.right, camera.right);
+        const float y = vecDot(d, camera.down) / vecDot(camera.down, camera.down);
+        const float z = vecDot(d, camera.forward);
+        // Of pixels at distance 1, with the filter's reach, and how far the lens' points lie apart there.
+        const float lens = camera.apertureRadius / camera.pixelStep * (1.0f + fabs(z) / camera.focusDistance);
+        const float halfX = z * (0.5f * (float)frame.width + 2.0f), halfY = z * (0.5f * (float)frame.height + 2.0f);
+        beyond[0] += x > halfX + lens ? 1u : 0u;
+        beyond[1] += -x > halfX + lens ? 1u : 0u;
+        beyond[2] += y > halfY + lens ? 1u : 0u;
+        beyond[3] += -y > halfY + lens ? 1u : 0u;
+        beyond[4] += z <= 0.0f ? 1u : 0u;
+    }
+    return beyond[0] == 4u || beyond[1] == 4u || beyond[2] == 4u || beyond[3] == 4u || beyond[4] == 4u;
+}
+
+/// in   frame, camera, lights
+/// out  windows: of each light, 6 numbers: the rectangle x0, y0, x1, y1 of the image that rays which meet it go
+///      through, pixels from the image's corner, empty if the camera does not see it; WEDGE_SHARE_*; the radius of the
+///      largest circle of confusion, pixels
+__kernel void windowsOfLights(FrameParams frame, CameraParams camera, __global const AreaLight* restrict lights,
+    uint lightCount, __global float* restrict windows)
+{
+    const uint i = get_global_id(0);
+    if (i >= lightCount) {
+        return;
+    }
+    const AreaLight light = lights[i];
+    Vec2 low = vec2(INFINITY, INFINITY), high = vec2(-INFINITY, -INFINITY);
+    bool before = true;
+    float leastShift = INFINITY, mostShift = -INFINITY;
+    for (uint k = 0u; k < 4u; ++k) {
+        const Vec3 corner = lightCorner(light, k, vec2(-1.0f, -1.0f), vec2(1.0f, 1.0f));
+        const Vec3 way = vecSub(corner, camera.eye);
+        const SeenPoint p = seenPoint(camera, corner);
+        const float x = p.at.x + 0.5f * (float)frame.width, y = p.at.y + 0.5f * (float)frame.height;
+        const float reach = fabs(p.shift);
+        before = before && vecDot(way, camera.forward) > 1e-3f * vecLength(way);
+        leastShift = fmin(leastShift, p.shift);
+        mostShift = fmax(mostShift, p.shift);
+        low = vec2(fmin(low.x, x - reach), fmin(low.y, y - reach));
+        high = vec2(fmax(high.x, x + reach), fmax(high.y, y + reach));
+    }
+    const bool centre = camera.pixelFilter == WEDGE_PIXEL_CENTRE;
+    const float least = fmax(leastShift, -mostShift),
+                most = fmax(-leastShift, mostShift); // least < 0: in focus somewhere
+    const bool ofLens = camera.gaussianAperture == 0u && most <= WEDGE_MOST_CONFUSION
+        && least > (centre ? 1e-3f : WEDGE_LEAST_CONFUSION);
+    const uint share = ofLens                    ? WEDGE_SHARE_OF_LENS
+        : !centre && most <= WEDGE_FEW_CONFUSION ? WEDGE_SHARE_OF_PIXEL
+                                                 : WEDGE_SHARE_UNKNOWN;
+    // In part beside or behind the camera it may be seen anywhere.
+    __global float* w = windows + 6u * i;
+    w[0] = light.visible == 0u || outOfView(frame, camera, light) ? INFINITY : before ? low.x : -INFINITY;
+    w[1] = before ? low.y : -INFINITY;
+    w[2] = before ? high.x : INFINITY;
+    w[3] = before ? high.y : INFINITY;
+    w[4] = (float)(before ? share : WEDGE_SHARE_UNKNOWN);
+    w[5] = most;
+}
+
+/// The camera and one of its pixels.
+typedef struct {
+    CameraParams camera;
+    float width, height; ///< of the image
+    float x, y; ///< of the pixel's centre
+    uint seed;
+} SeeingPixel;
+
+/// A part of a light in the image, of which the lens' point moves each corner.
+WEDGE_FN ImageQuad partInImage(SeeingPixel from, AreaLight light, Vec2 low, Vec2 high, Vec2 lens)
+{
+    ImageQuad quad;
+    for (uint k = 0u; k < 4u; ++k) {
+        const SeenPoint p = seenPoint(from.camera, lightCorner(light, k, low, high));
+        quad.corners[k] = vec2(p.at.x + p.shift * lens.x + 0.5f * from.width - from.x,
+            p.at.y + p.shift * lens.y + 0.5f * from.height - from.y);
+    }
+    return quad;
+}
+
+/// The same in units of the lens' radius: which points of it see that part through the pixel's point, and that at an
+/// offset from its centre. The rays of one point of the image all go through one of the plane in focus.
+WEDGE_FN ImageQuad partInLens(SeeingPixel from, AreaLight light, Vec2 low, Vec2 high, Vec2 offset)
+{
+    ImageQuad quad;
+    for (uint k = 0u; k < 4u; ++k) {
+        const SeenPoint p = seenPoint(from.camera, lightCorner(light, k, low, high));
+        quad.corners[k] = vec2((from.x + offset.x - 0.5f * from.width - p.at.x) / p.shift,
+            (from.y + offset.y - 0.5f * from.height - p.at.y) / p.shift);
+    }
+    return quad;
+}
+
+/// The share of a pixel that part of a light covers. share: WEDGE_SHARE_*.
+WEDGE_FN float shareOfPart(SeeingPixel from, AreaLight light, Vec2 low, Vec2 high, uint share)
+{
+    const CameraParams camera = from.camera;
+    const bool whole = light.profile == WEDGE_PROFILE_UNIFORM;
+    const uint steps = whole ? WEDGE_EDGE_STEPS : WEDGE_CELL_STEPS;
+    const bool ofLens = share == WEDGE_SHARE_OF_LENS;
+    const bool one = ofLens ? camera.pixelFilter == WEDGE_PIXEL_CENTRE : !(camera.apertureRadius > 0.0f);
+    const uint points = one ? 1u : whole ? (ofLens ? WEDGE_PIXEL_POINTS : WEDGE_LENS_POINTS) : WEDGE_CELL_POINTS;
+    float sum = 0.0f;
+    for (uint k = 0u; k < points; ++k) {
+        const Vec2 u = sobolOwen(k, hashUint(from.seed ^ 0x33333333u));
+        if (ofLens) {
+            const Vec2 offset = one ? vec2(0.0f, 0.0f)
+                                    : vec2(pixelOffset(camera.pixelFilter, u.x), pixelOffset(camera.pixelFilter, u.y));
+            sum += discCoverage(steps, partInLens(from, light, low, high, offset));
+        } else {
+            const Vec2 lens = one ? vec2(0.0f, 0.0f) : aperturePoint(camera.gaussianAperture, u);
+            sum += coverage(camera.pixelFilter, steps, partInImage(from, light, low, high, lens));
+        }
+    }
+    return sum / (float)points;
+}
+
+/// How far from a pixel's centre, in pixels, rays go through the plane of a light, at most.
+WEDGE_FN float reachOf(SeeingPixel from, float confusion)
+{
+    const uint filter = from.camera.pixelFilter;
+    return (filter == WEDGE_PIXEL_CENTRE ? 0.0f : pixelReach(filter)) + confusion;
+}
+
+/// Mean of one axis' part of a light's profile from one local coordinate to another.
+WEDGE_FN float meanProfile(AreaLight light, float low, float high)
+{
+    const float scale = 0.70710678f * light.cut;
+    const float mass = errorFunction(scale * high) - errorFunction(scale * low);
+    return light.profile == WEDGE_PROFILE_UNIFORM ? 1.0f : 0.886226925f * mass / (scale * (high - low));
+}
+
+/// Part of a light, in local coordinates.
+typedef struct {
+    Vec2 low, high;
+} LightArea;
+
+/// A part of the light beside which rays through the pixel do not meet it.
+WEDGE_FN LightArea seenArea(SeeingPixel from, AreaLight light, float confusion)
+{
+    const CameraParams camera = from.camera;
+    const float reach = reachOf(from, confusion);
+    LightArea area;
+    area.low = vec2(1.0f, 1.0f);
+    area.high = vec2(-1.0f, -1.0f);
+    bool before = true;
+    for (uint k = 0u; k < 4u; ++k) {
+        const CameraRay ray = cameraRay(camera, from.width, from.height, from.x + (k % 2u == 0u ? -reach : reach),
+            from.y + (k / 2u == 0u ? -reach : reach), vec2(0.0f, 0.0f), 0.0f);
+        const LightMeeting m = meetLight(light, ray.origin, ray.direction);
+        before = before && vecDot(light.normal, vecSub(light.centre, ray.origin)) / m.facing > 0.0f;
+        area.low = vec2(fmin(area.low.x, m.a), fmin(area.low.y, m.b));
+        area.high = vec2(fmax(area.high.x, m.a), fmax(area.high.y, m.b));
+    }
+    // Through the pixel's corners the light's plane may lie behind the camera.
+    area.low = vec2(before ? fmax(area.low.x, -1.0f) : -1.0f, before ? fmax(area.low.y, -1.0f) : -1.0f);
+    area.high = vec2(before ? fmin(area.high.x, 1.0f) : 1.0f, before ? fmin(area.high.y, 1.0f) : 1.0f);
+    return area;
+}
+
+/// The mean over a pixel of the profile of a light, 0 beside it. share: WEDGE_SHARE_*; area: seenArea().
+WEDGE_FN float shareOfLight(SeeingPixel from, AreaLight light, uint share, LightArea area)
+{
+    if (light.profile == WEDGE_PROFILE_UNIFORM) {
+        return shareOfPart(from, light, vec2(-1.0f, -1.0f), vec2(1.0f, 1.0f), share);
+    }
+    // In cells of one brightness each.
+    const float stepA = (area.high.x - area.low.x) / (float)WEDGE_LIGHT_CELLS;
+    const float stepB = (area.high.y - area.low.y) / (float)WEDGE_LIGHT_CELLS;
+    float sum = 0.0f;
+    for (uint j = 0u; stepA > 0.0f && stepB > 0.0f && j < WEDGE_LIGHT_CELLS * WEDGE_LIGHT_CELLS; ++j) {
+        const Vec2 low = vec2(
+            area.low.x + (float)(j % WEDGE_LIGHT_CELLS) * stepA, area.low.y + (float)(j / WEDGE_LIGHT_CELLS) * stepB);
+        const Vec2 high = vec2(low.x + stepA, low.y + stepB);
+        sum += shareOfPart(from, light, low, high, share) * meanProfile(light, low.x, high.x)
+            * meanProfile(light, low.y, high.y);
+    }
+    return sum;
+}
+
+/// Lights that are near a pixel in the image.
+typedef struct {
+    uint count, index[WEDGE_MOST_SEEN];
+    LightArea area[WEDGE_MOST_SEEN]; ///< of which rays through the pixel may come
+} NearLights;
+
+/// A primary ray's way: image position in pixels from the pixel's centre, and point of the lens.
+typedef struct {
+    Vec2 offset, lens;
+} PrimaryWay;
+
+/// One of WEDGE_TRIED_RAYS: any one, or one to a random point of a light near by, if that is a way.
+WEDGE_FN PrimaryWay triedWay(
+    SeeingPixel from, __global const AreaLight* restrict lights, const NearLights* near, uint index)
+{
+    const CameraParams camera = from.camera;
+    const uint filter = camera.pixelFilter;
+    const Vec2 u = sobolOwen(index, from.seed);
+    PrimaryWay way;
+    way.offset = way.lens = vec2(0.0f, 0.0f);
+    if (filter != WEDGE_PIXEL_CENTRE) {
+        way.offset = vec2(pixelOffset(filter, u.x), pixelOffset(filter, u.y));
+    }
+    if (camera.apertureRadius > 0.0f) {
+        way.lens = aperturePoint(camera.gaussianAperture, sobolOwen(index, hashUint(from.seed)));
+    }
+    if (index % 2u == 0u) {
+        return way;
+    }
+    const uint which = index / 2u % near->count;
+    const AreaLight light = lights[near->index[which]];
+    const LightArea area = near->area[which];
+    const float a = area.low.x + u.x * (area.high.x - area.low.x), b = area.low.y + u.y * (area.high.y - area.low.y);
+    const SeenPoint p = seenPoint(camera, lightPoint(light.centre, light.halfU, light.halfV, a, b));
+    const float x = p.at.x + 0.5f * from.width - from.x, y = p.at.y + 0.5f * from.height - from.y;
+    if (filter == WEDGE_PIXEL_CENTRE) {
+        const Vec2 lens = vec2(-x / p.shift, -y / p.shift);
+        way.lens = lens.x * lens.x + lens.y * lens.y <= 1.0f ? lens : way.lens;
+    } else {
+        const Vec2 offset = vec2(x + p.shift * way.lens.x, y + p.shift * way.lens.y);
+        way.offset = fmax(fabs(offset.x), fabs(offset.y)) <= pixelReach(filter) ? offset : way.offset;
+    }
+    return way;
+}
+
+/// Whether rays through a pixel meet a light, and none of them anything before it.
+WEDGE_FN bool seesLights(SeeingPixel from, __global const TraversalNode* restrict nodes,
+    __global const TriangleBlock* restrict blocks, __global const AreaLight* restrict lights, uint lightCount,
+    const NearLights* near)
+{
+    const CameraParams camera = from.camera;
+    bool any = false;
+    for (uint first = 0u; first < WEDGE_TRIED_RAYS; first += WEDGE_PACKET_SIZE) {
+        RayPacket rays;
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const PrimaryWay way = triedWay(from, lights, near, first + lane);
+            const CameraRay ray = cameraRay(
+                camera, from.width, from.height, from.x + way.offset.x, from.y + way.offset.y, way.lens, 0.0f);
+            setRay(&rays, lane, ray.origin, ray.direction, 0.0f, INFINITY);
+            setTime(&rays, lane, shutterTime(camera, sobolOwen(first + lane, hashUint(from.seed ^ 0x55555555u)).x));
+        }
+        VecLanes sent, nearest;
+        uint met[WEDGE_PACKET_SIZE], occluded[WEDGE_PACKET_SIZE];
+        lightsMet(lights, lightCount, &rays, &sent, met);
+        endAtLights(lights, lightCount, &rays, &nearest);
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            rays.tMax[lane] = met[lane] > 0u ? rays.tMax[lane] : 0.0f;
+        }
+        anyHits(nodes, blocks, &rays, occluded);
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            if (met[lane] > 1u || (met[lane] == 1u && occluded[lane] != 0u)) {
+                return false;
+            }
+            any = any || met[lane] > 0u;
+        }
+    }
+    return any;
+}
+
+/// in   frame, camera, BVH, lights; windows: of windowsOfLights
+/// out  known: radiance of the lights that the pixel sees (colours in 48 bits, 1e-4 exact); 0: it is not known, or
+/// there
+///      are none
+__kernel void seenLights(FrameParams frame, CameraParams camera, __global const TraversalNode* restrict nodes,
+    __global const TriangleBlock* restrict blocks, __global const AreaLight* restrict lights, uint lightCount,
+    __global const float* restrict windows, __global float* restrict known)
+{
+    const uint x = frame.x0 + get_global_id(0), y = frame.y0 + get_global_id(1);
+    if (x >= frame.x1 || y >= frame.y1) {
+        return;
+    }
+    const uint i = pixelIndex(x, y, frame.stride);
+    storeColour(known, frame.planeSize, i, WEDGE_COLOUR_BITS, vec3(0.0f, 0.0f, 0.0f));
+    SeeingPixel from;
+    from.camera = camera;
+    from.width = (float)frame.width;
+    from.height = (float)frame.height;
+    from.x = (float)x + 0.5f;
+    from.y = (float)y + 0.5f;
+    // Of numbers that no primary sample has: what is concluded from them has no part in the samples' mean.
+    from.seed = hashCombine(hashCombine(frame.seed, WEDGE_TRIED_SEED), y * frame.width + x);
+    const float reach = reachOf(from, 0.0f);
+    NearLights near;
+    near.count = 0u;
+    bool edge = false;
+    for (uint k = 0u; k < lightCount; ++k) {
+        __global const float* w = windows + 6u * k;
+        if (w[0] - from.x > reach || w[1] - from.y > reach || w[2] - from.x < -reach || w[3] - from.y < -reach) {
+            continue;
+        }
+        if (w[4] == (float)WEDGE_SHARE_UNKNOWN || near.count == WEDGE_MOST_SEEN) {
+            return;
+        }
+        const ImageQuad quad = partInImage(from, lights[k], vec2(-1.0f, -1.0f), vec2(1.0f, 1.0f), vec2(0.0f, 0.0f));
+        const int where = squareInQuad(quad, reachOf(from, w[5]));
+        if (where >= 0) {
+            near.index[near.count] = k;
+            near.area[near.count] = seenArea(from, lights[k], w[5]);
+            ++near.count;
+            const bool even =
+                lights[k].profile == WEDGE_PROFILE_UNIFORM || fmax(w[2] - w[0], w[3] - w[1]) > WEDGE_EVEN_PIXELS;
+            edge = edge || where == 0 || !even;
+        }
+    }
+    // Inside one light all samples see much the same.
+    if (!edge || !seesLights(from, nodes, blocks, lights, lightCount, &near)) {
+        return;
+    }
+    Vec3 radiance = vec3(0.0f, 0.0f, 0.0f);
+    for (uint k = 0u; k < near.count; ++k) {
+        const AreaLight light = lights[near.index[k]];
+        if (light.twoSided != 0u || vecDot(light.normal, vecSub(camera.eye, light.centre)) > 0.0f) {
+            const uint share = (uint)windows[6u * near.index[k] + 4u];
+            radiance = vecMad(radiance, light.radiance, shareOfLight(from, light, share, near.area[k]));
+        }
+    }
+    storeColour(known, frame.planeSize, i, WEDGE_COLOUR_BITS, radiance);
+}
