@@ -49,6 +49,17 @@ public:
         return result(image, out, effective);
     }
 
+    /// What the program of counts alone makes of it.
+    Planes<float> counts(const FilterImage& image)
+    {
+        const auto effective = bench_.filled(image.value.layout.size, -7.0f);
+        bench_.passes.rows("counts", device::PassKind::Analysis, "filter/filter_counts.cl", "gatherCounts",
+            image.params, WEDGE_BLOCK_PIXELS, bench_.buffer(image.beta.values), bench_.buffer(image.position.values),
+            bench_.buffer(image.normal.values), bench_.buffer(image.pixelSize.values),
+            bench_.buffer(image.objectId.values), effective);
+        return planesOf(image.value.layout, bench_.read(effective));
+    }
+
 private:
     template <class... Args>
     void launch(const std::string& kernel, const shared::FilterParams& p, const Args&... args)

@@ -10,6 +10,9 @@ using namespace wedge::test;
 
 namespace {
 
+/// To what 16 bits hold, as kernels have it.
+float rounded(double x) { return shared::unpackShort(shared::packShort(static_cast<float>(x))); }
+
 struct Images {
     Planes<float> filtered, noisy, deviation, variance; ///< no variance: none was gathered
     Planes<std::uint32_t> objectId;
@@ -30,8 +33,8 @@ struct Images {
                 const double off = noise * gauss(random);
                 filtered.setVector(x, y, glm::dvec3(1 + (uneven && (x + y) % 2 == 0 ? -bias : bias)));
                 noisy.setVector(x, y, glm::dvec3(1 + off));
-                deviation.at(x, y) = static_cast<float>(noise * gauss(random));
-                variance.at(x, y) = static_cast<float>(noise * noise * uniform(random, 0, 3));
+                deviation.at(x, y) = rounded(noise * gauss(random));
+                variance.at(x, y) = rounded(noise * noise * uniform(random, 0, 3));
                 if (objectId.at(x, y) == 0)
                     filtered.setVector(x, y, glm::dvec3(std::nan("")));
             }
@@ -69,8 +72,8 @@ Planes<float> fallBack(KernelBench& bench, const shared::AnalysisParams& rectang
     const auto differences = bench.filled(2 * in.filtered.layout.size, 0.0f);
     const std::uint32_t flag = gathered ? 1 : 0;
     bench.passes.rows("fallback", device::PassKind::Filter, "analysis/fallback.cl", "fallbackDifferences",
-        paramsOf(in.filtered.layout), WEDGE_BLOCK_PIXELS, flag, filtered, noisy, bench.buffer(in.deviation.values),
-        bench.buffer(in.variance.values), differences);
+        paramsOf(in.filtered.layout), WEDGE_BLOCK_PIXELS, flag, filtered, noisy, bench.buffer(inShorts(in.deviation)),
+        bench.buffer(inShorts(in.variance)), differences);
     if (found != nullptr)
         *found = { bench.read(differences), in.filtered.layout };
     if (others) {

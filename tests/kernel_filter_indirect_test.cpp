@@ -257,3 +257,21 @@ TEST_CASE("packed programs: what the others make of the same normals, without co
         }
     });
 }
+
+TEST_CASE("the counts alone are those of the filter")
+{
+    onEveryDevice([](const device::Device& device) {
+        FilterRun filter(device, {}, "filter/filter_variance.cl");
+        for (const auto& [width, height] : { std::pair(1, 1), { 1, 40 }, { 67, 33 } })
+            for (const Shape shape : { Shape::Flat, Shape::Rough }) {
+                const FilterImage image = unlit(width, height, shape, 4, 1);
+                const Planes<float> expected = filter(image).effective, found = filter.counts(image);
+                int gathered = 0;
+                everyPixel(image, [&](int x, int y) {
+                    REQUIRE(found.at(x, y) == doctest::Approx(expected.at(x, y)).epsilon(1e-5));
+                    gathered += found.at(x, y) > 1.5f ? 1 : 0;
+                });
+                CHECK(gathered > width * height / 4 - 1);
+            }
+    });
+}

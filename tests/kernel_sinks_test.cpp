@@ -430,11 +430,11 @@ TEST_CASE("kernels alone have the sinks of first passes over pixels")
         return std::string();
     };
     CHECK(embedded("light/sink.h")
-        == withoutSpace(
-            sinkOf({ sinks::sums(), sinks::means(), sinks::parts(), sinks::slopes() }, { "sums", "value", "slopes" })));
+        == withoutSpace(sinkOf({ sinks::sums(), sinks::means(), sinks::parts(), sinks::slopes() },
+            { "sums", "value", "parts", "slopes" })));
     CHECK(embedded("paths/sink.h")
-        == withoutSpace(sinkOf(
-            { sinks::sums(), sinks::means(), sinks::parts(), sinks::distances() }, { "sums", "value", "reflectors" })));
+        == withoutSpace(sinkOf({ sinks::sums(), sinks::means(), sinks::parts(), sinks::distances() },
+            { "sums", "value", "parts", "reflectors" })));
 }
 
 TEST_CASE("what sinks are handed are the pass's last arguments")

@@ -354,13 +354,16 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
             const render::PlaneLayout layout(37, 11);
             const std::size_t channels = specular ? 2 : 1;
             std::mt19937 random(5);
-            Planes<float> value(layout, 6, 0.0f), sums(layout, 4, 0.0f), kd(layout, 3, 0.0f), ks(layout, 3, 0.0f);
+            Planes<float> value(layout, 2, 0.0f), parts(layout, 2, 0.0f), sums(layout, 4, 0.0f), kd(layout, 3, 0.0f),
+                ks(layout, 3, 0.0f);
             Planes<std::uint32_t> taken(layout, 1, 0u);
             everyPixel(layout, [&](int x, int y) {
                 taken.at(x, y) =
                     random() % 8 == 0 ? 0 : WEDGE_INDIRECT_FIRST_RAYS + static_cast<std::uint32_t>(random() % 60);
-                for (std::size_t plane = 0; plane < 6; ++plane)
+                for (std::size_t plane = 0; plane < 2; ++plane) {
                     value.at(x, y, plane) = static_cast<float>(uniform(random));
+                    parts.at(x, y, plane) = shared::unpackShort(shared::packShort(static_cast<float>(uniform(random))));
+                }
                 for (std::size_t plane = 0; plane < 4; ++plane)
                     sums.at(x, y, plane) = static_cast<float>(taken.at(x, y) * uniform(random, 0.1, 2));
                 if (random() % 5 != 0)
@@ -390,8 +393,9 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
                 CHECK(noisy > 100);
             };
             bench.passes.rows("widen", device::PassKind::Filter, "analysis/widen.cl", "oneOfLight", paramsOf(layout),
-                WEDGE_BLOCK_PIXELS, WEDGE_FIRST_PASS_RAYS, bench.buffer(value.values), bench.buffer(taken.values),
-                bench.buffer(sums.values), bench.buffer(kd.values), bench.buffer(ks.values), seen, deviation, weights);
+                WEDGE_BLOCK_PIXELS, WEDGE_FIRST_PASS_RAYS, bench.buffer(value.values), bench.buffer(inShorts(parts)),
+                bench.buffer(taken.values), bench.buffer(sums.values), bench.buffer(kd.values), bench.buffer(ks.values),
+                seen, deviation, weights);
             const auto reflected = [&](int x, int y, std::size_t c) {
                 const double n = std::max(1u, taken.at(x, y));
                 const auto luminance = [](glm::dvec3 k) { return 0.2126 * k.x + 0.7152 * k.y + 0.0722 * k.z; };
@@ -404,13 +408,27 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
                 [&](int x, int y, std::size_t part) {
                     double sum = 0;
                     for (std::size_t c = 0; c < channels; ++c)
-                        sum += reflected(x, y, c) * value.at(x, y, part * channels + c);
+                        sum += reflected(x, y, c) * (part == 0 ? value : parts).at(x, y, c);
                     return sum;
                 });
-            const auto paths = bench.buffer(value.values);
+            // Colours in 48 bits: two planes' worth of floats.
+            Planes<float> ofPart(layout, 3, 0.0f);
+            std::vector<float> packedParts(2 * layout.size);
+            const auto bytes = reinterpret_cast<char*>(packedParts.data());
+            everyPixel(layout, [&](int x, int y) {
+                const shared::PackedColour packed = shared::packColour(shared::vec3(static_cast<float>(uniform(random)),
+                    static_cast<float>(uniform(random)), static_cast<float>(uniform(random))));
+                const shared::Vec3 colour = shared::unpackColour(packed);
+                ofPart.setVector(x, y, { colour.x, colour.y, colour.z });
+                const std::size_t i = ofPart.index(x, y);
+                const auto high = static_cast<std::uint16_t>(packed.high);
+                std::memcpy(bytes + 4 * i, &packed.low, 4);
+                std::memcpy(bytes + 4 * layout.size + 2 * i, &high, 2);
+            });
+            const auto paths = bench.buffer(sums.values);
             bench.passes.rows("widen", device::PassKind::Filter, "analysis/widen.cl", "oneOfPaths", paramsOf(layout),
                 WEDGE_BLOCK_PIXELS, WEDGE_COMPONENT_DIFFUSE, WEDGE_INDIRECT_FIRST_RAYS, bench.buffer(kd.values), paths,
-                bench.buffer(taken.values), seen, deviation, weights);
+                bench.buffer(packedParts), bench.buffer(taken.values), seen, deviation, weights);
             constexpr double luminances[] = { 0.2126, 0.7152, 0.0722 };
             check(
                 WEDGE_INDIRECT_FIRST_RAYS,
@@ -423,17 +441,21 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
                 [&](int x, int y, std::size_t part) {
                     double sum = 0;
                     for (std::size_t c = 0; c < 3; ++c)
-                        sum += luminances[c] * kd.at(x, y, c) * value.at(x, y, 3 * part + c);
+                        sum += luminances[c] * kd.at(x, y, c)
+                            * (part == 0 ? sums.at(x, y, c) / std::max(1.0, static_cast<double>(taken.at(x, y)))
+                                         : ofPart.at(x, y, c));
                     return sum;
                 });
-            // Of the samples' two parts the first plane of the first becomes the variance; what is read else stays.
+            // Sums become means, and their fourth plane the variance.
             const Planes<float> after = planesOf(layout, bench.read(paths)),
                                 ofPaths = planesOf(layout, bench.read(deviation));
             for (int y = 0; y < static_cast<int>(layout.height); ++y)
                 for (int x = 0; x < static_cast<int>(layout.width); ++x) {
                     REQUIRE(after.at(x, y, 3) == ofPaths.at(x, y) * ofPaths.at(x, y));
                     for (std::size_t c = 0; c < 3; ++c)
-                        REQUIRE(after.at(x, y, c) == value.at(x, y, c));
+                        REQUIRE(after.at(x, y, c)
+                            == doctest::Approx(sums.at(x, y, c) / std::max(1.0, static_cast<double>(taken.at(x, y))))
+                                   .epsilon(1e-6));
                 }
         }
     });

@@ -158,11 +158,11 @@ TEST_CASE("a frame that is stopped anywhere has no pixel that is no number")
                 CHECK((!complete || image == finished));
                 CHECK(std::ranges::all_of(image, [](float x) { return std::isfinite(x); }));
                 // What was sampled is shown.
-                const auto sum = [&](const device::Buffer<std::uint32_t>& counts) {
-                    const std::vector<std::uint32_t> each = counts.downloadAll(renderer.queue());
+                const auto sum = [&](const device::Buffer<std::uint64_t>& counts) {
+                    const std::vector<std::uint64_t> each = counts.downloadAll(renderer.queue());
                     return std::accumulate(each.begin(), each.end(), std::uint64_t { 0 });
                 };
-                CHECK((sum(renderer.frame().rays) > 0) == (sum(renderer.frame().samples) > 0));
+                CHECK((sum(renderer.frame().raysTally) > 0) == (sum(renderer.frame().samplesTally) > 0));
             }
             // Who asks when all has been sampled has the whole image. In batches whose number does not depend on time:
             renderer.queue().setTargetMilliseconds(1e9);
@@ -337,5 +337,46 @@ TEST_CASE("a pixel without a kernel keeps its own Monte Carlo value")
             CHECK(without > 50);
             CHECK(changed > 200);
         }
+    });
+}
+
+TEST_CASE("what a frame counts is the same with layers and without, and is what its layers say")
+{
+    onEveryDevice([](const device::Device& device) {
+        scene::Scene scene = smallScene();
+        scene.materials[0].specular = glm::vec3(0.2f);
+        scene.materials[0].exponent = 8;
+        scene.pointLights.push_back({ .position = { 0, 2, 1 }, .intensity = glm::vec3(3) });
+        render::Renderer renderer(scene, device, renderOptions());
+        render::Settings settings = sized(render::axisAligned(28), 48, 32);
+        settings.crop = { 5, 3, 31, 27 };
+        for (const render::Method method : { render::Method::AxisAligned, render::Method::MonteCarlo })
+            for (const int bounces : { 0, 2 }) {
+                CAPTURE(bounces);
+                settings.method = method;
+                settings.bounces = bounces;
+                const render::FrameStatistics image = renderer.render(settings, {}, false);
+                const render::FrameStatistics layers = renderer.render(settings, {}, true);
+                CHECK(image.shadowRays == layers.shadowRays);
+                CHECK(image.indirectRays == layers.indirectRays);
+                CHECK(image.sppMean == layers.sppMean);
+                CHECK(image.directSpp == layers.directSpp);
+                CHECK(image.indirectSpp == layers.indirectSpp);
+                CHECK((image.indirectRays > 0) == (bounces > 0));
+                CHECK(image.directSpp > 20);
+                const render::Frame& frame = renderer.frame();
+                const auto sum = [&](const auto& counts) {
+                    const auto each = counts.downloadAll(renderer.queue());
+                    return std::accumulate(each.begin(), each.end(), std::uint64_t { 0 });
+                };
+                std::uint64_t samples = 0;
+                const std::vector<std::uint32_t> each = frame.samples.downloadAll(renderer.queue());
+                for (int y = settings.crop.y0; y < settings.crop.y1; ++y)
+                    for (int x = settings.crop.x0; x < settings.crop.x1; ++x)
+                        samples += each[shared::pixelIndex(
+                            static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), frame.layout.stride)];
+                CHECK(samples == sum(frame.samplesTally));
+                CHECK(image.shadowRays + image.indirectRays == sum(frame.raysTally));
+            }
     });
 }

@@ -8,12 +8,14 @@
 #include "host/render/hierarchy.h"
 #include "host/render/renderer.h"
 #include "host/scene/scene.h"
+#include "kernels/shared/packed.h"
 #include "tests/device_testing.h"
 #include "tests/passes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <random>
 #include <span>
 #include <string>
@@ -128,6 +130,28 @@ Planes<T> planesOf(const render::PlaneLayout& layout, std::vector<T> values)
 {
     Planes<T> out(layout, 0, T {});
     out.values = std::move(values);
+    return out;
+}
+
+/// Planes as kernels keep them in 16 bits each (kernels/core/packed_planes.h), in as many floats.
+inline std::vector<float> inShorts(const Planes<float>& planes)
+{
+    std::vector<std::uint16_t> shorts(planes.values.size() + planes.values.size() % 2);
+    std::ranges::transform(
+        planes.values, shorts.begin(), [](float v) { return static_cast<std::uint16_t>(shared::packShort(v)); });
+    std::vector<float> out(shorts.size() / 2);
+    std::memcpy(out.data(), shorts.data(), shorts.size() * sizeof(std::uint16_t));
+    return out;
+}
+
+/// And back.
+inline Planes<float> ofShorts(const render::PlaneLayout& layout, std::size_t count, const std::vector<float>& buffer)
+{
+    std::vector<std::uint16_t> shorts(2 * buffer.size());
+    std::memcpy(shorts.data(), buffer.data(), buffer.size() * sizeof(float));
+    Planes<float> out(layout, count, 0.0f);
+    std::transform(shorts.begin(), shorts.begin() + static_cast<std::ptrdiff_t>(out.values.size()), out.values.begin(),
+        [](std::uint16_t v) { return shared::unpackShort(v); });
     return out;
 }
 

@@ -89,13 +89,14 @@ public:
         , params(render::frameParams(scene, layout, { 0, 0, width, height }, 5))
         , specular(isDefined(defines, "WEDGE_SPECULAR"))
         , sums(device, layout.size * (specular ? 4 : 2), "sums")
-        , value(device, layout.size * (specular ? 4 : 2), "value")
+        , value(device, layout.size * (specular ? 2 : 1), "value")
+        , parts(device, layout.size, "parts")
         , slopes(device, layout.size * 2, "slopes")
         , taken(device, layout.size, "taken")
         , wanted(device, layout.size, "wanted")
         , firstWanted(device, layout.size, "wanted of a first pass")
     {
-        for (device::Buffer<float>* b : { &sums, &value, &slopes })
+        for (device::Buffer<float>* b : { &sums, &value, &parts, &slopes })
             b->fill(bench.queue, 0.0f);
         taken.fill(bench.queue, 0u);
         wanted.fill(bench.queue, 0u);
@@ -118,16 +119,17 @@ public:
         firstWanted.fill(bench.queue, p.firstPass);
         bench.passes.tiles("first", device::PassKind::Trace, "light/area_light.cl", "sampleShadows", params, 1.0, p,
             onDevice.areaLightList[p.light], onDevice.nodes, onDevice.blocks, frame.receivers(), firstWanted,
-            p.firstPass, taken, frame.rays, sums, value, slopes);
+            p.firstPass, taken, frame.rays, sums, value, parts, slopes);
     }
     void secondPass(const shared::SampleParams& p, std::uint32_t last)
     {
         namespace sinks = render::sinks;
-        const std::string sink = sinkOf({ sinks::sums(), sinks::means(), sinks::parts() }, { "sums", "value" });
+        const std::string sink =
+            sinkOf({ sinks::sums(), sinks::means(), sinks::parts() }, { "sums", "value", "parts" });
         bench.passes.tiles("second", device::PassKind::Trace,
             bench.passes.find("light/area_light.cl", "sampleShadows", sink), params, 1.0, p,
             onDevice.areaLightList[p.light], onDevice.nodes, onDevice.blocks, frame.receivers(), wanted, last, taken,
-            frame.rays, sums, value);
+            frame.rays, sums, value, parts);
     }
     template <class T>
     Planes<T> read(const device::Buffer<T>& buffer)
@@ -161,7 +163,7 @@ public:
     SurfaceBuffers frame;
     shared::FrameParams params;
     bool specular;
-    device::Buffer<float> sums, value, slopes;
+    device::Buffer<float> sums, value, parts, slopes; ///< parts: two numbers of 16 bits
     device::Buffer<std::uint32_t> taken, wanted, firstWanted;
 };
 

@@ -42,51 +42,72 @@ public:
         , state_(state)
         , beta_(beta)
         , sums_(g_.plane<Sums>("sums", graph::floatPlanes(2 * channels_)))
-        , value_(g_.plane<Value>("value", graph::floatPlanes(channels_ * (frame.analysed() ? 2 : 1))))
+        , value_(g_.plane<Value>("value", graph::floatPlanes(channels_)))
+        , parts_(g_.plane<Value>("value of part", frame.specular ? shortPairs : shortFloats))
         , extremes_(g_.plane<Extremes>("slopes", graph::floatPlanes(2)))
         , taken_(g_.plane<Count>("samples taken", graph::counts))
+        , rays_(g_.plane<Count>("rays of light", graph::counts))
         , wanted_(g_.plane<Count>("samples wanted", graph::counts))
     {
     }
 
     void declare()
     {
-        f_.zero(sums_, value_, taken_);
+        f_.zero(sums_, value_, taken_, rays_);
         const auto spp = static_cast<std::uint32_t>(s_.spp);
         if (!f_.analysed()) {
             uniformCounts(f_, spp, f_.surfaces.objectId, wanted_);
             samples("shadow rays", 0, monteCarloSlice, { sinks::sums(), sinks::means() });
+            count();
             shade(value_, {});
             return;
         }
-        f_.zero(extremes_);
+        f_.zero(extremes_, parts_);
         uniformCounts(f_, WEDGE_FIRST_PASS_RAYS, f_.surfaces.objectId, wanted_);
         firstPass();
+        countRays();
         const auto analysed = [state = state_](const Run&) { return state->analysed; };
+        wanted_ = g_.plane<Count>("samples wanted", graph::counts); // no version of the first: that ends here
         g_.only("analysis of light", analysed, [&] { widthsAndCounts(); });
-        samples(
-            "second pass", WEDGE_FIRST_PASS_RAYS, secondPassSlice, { sinks::sums(), sinks::means(), sinks::parts() });
+        g_.only("rest of light", analysed, [&] {
+            samples("second pass", WEDGE_FIRST_PASS_RAYS, secondPassSlice,
+                { sinks::sums(), sinks::means(), sinks::parts() });
+        });
+        count();
         if (s_.filtering == Filtering::None) {
             shade(value_, {});
             return;
         }
+        Gathered filtered = filteredPlanes(f_, channels_);
         g_.only("filter of light", analysed, [&] {
             // What was stopped early has not the counts that the parts of samples were made for.
             if (widens(s_)) {
                 g_.only(
                     "widening", [](const Run& run) { return !run.cut(); }, [&] { widened(); });
             }
-            shade(gaussianFilter(
-                      f_, { "filter", PassKind::Filter, "filter/filter.cl" }, channels_, filterParams(), value_, beta_)
-                      .value,
-                {});
+            gaussianFilter(f_, { "filter", PassKind::Filter, "filter/filter.cl" }, channels_, filterParams(), value_,
+                beta_, filtered);
         });
+        // Not in that group: what is added up need not be there before it.
+        shade(filtered.value, analysed);
         shade(value_, [analysed](const Run& run) { return !analysed(run); });
     }
 
 private:
     shared::FilterParams filterParams() const { return render::filterParams(s_, f_.wholeFrame(), light_, g_.image()); }
 
+    void count()
+    {
+        f_.count(taken_, false, f_.totals.tallies.samples, &f_.totals.samples);
+        countRays();
+    }
+    /// And begins anew, so that nothing of it takes memory until there are more.
+    void countRays()
+    {
+        f_.count(rays_, true, f_.totals.tallies.rays, &f_.totals.rays);
+        rays_ = g_.plane<Count>("rays of light", graph::counts);
+        f_.zero(rays_);
+    }
     void firstPass();
     void samples(const char* pass, std::uint32_t from, std::uint32_t slice, std::vector<graph::Sink> becoming);
     void widthsAndCounts();
@@ -112,9 +133,9 @@ private:
     std::shared_ptr<TermState> state_;
     graph::Handle<Metres>& beta_;
     graph::Handle<Sums> sums_;
-    graph::Handle<Value> value_;
+    graph::Handle<Value> value_, parts_;
     graph::Handle<Extremes> extremes_;
-    graph::Handle<Count> taken_, wanted_;
+    graph::Handle<Count> taken_, rays_, wanted_;
 };
 
 void LightGraph::firstPass()
@@ -123,7 +144,7 @@ void LightGraph::firstPass()
         { "light/area_light.cl", "sampleShadows", { sinks::sums(), sinks::means(), sinks::parts(), sinks::slopes() } },
         joined({ f_.frame(), sampleParams(), light() }, f_.hierarchy(), f_.receivers(),
             Arguments { reads("wanted", wanted_), value("lastSample", WEDGE_FIRST_PASS_RAYS), updates("taken", taken_),
-                tallies("rays", f_.totals.rays), updates("sums", sums_), updates("value", value_),
+                tallies("rays", rays_), updates("sums", sums_), updates("value", value_), updates("parts", parts_),
                 updates("slopes", extremes_) }),
         true, [](const graph::Launch&) { return WEDGE_FIRST_PASS_RAYS; });
     f_.host("analysable", [state = state_](Run& run) { state->analysed = !run.cut(); });
@@ -133,11 +154,15 @@ void LightGraph::samples(const char* pass, std::uint32_t from, std::uint32_t sli
 {
     const int most = s_.sampling == Sampling::Uniform ? s_.spp : std::max(s_.maxSpp, s_.spp);
     const SampleSlices slices(from, static_cast<std::uint32_t>(most), slice, s_.spp);
+    Arguments sunk { updates("sums", sums_), updates("value", value_) };
+    if (f_.analysed()) {
+        sunk.push_back(updates("parts", parts_));
+    }
     g_.loop("slices", slices.counter(), [&] {
         f_.trace(pass, { "light/area_light.cl", "sampleShadows", std::move(becoming) },
             joined({ f_.frame(), sampleParams(), light() }, f_.hierarchy(), f_.receivers(),
-                Arguments { reads("wanted", wanted_), slices.last(), updates("taken", taken_),
-                    tallies("rays", f_.totals.rays), updates("sums", sums_), updates("value", value_) }),
+                Arguments { reads("wanted", wanted_), slices.last(), updates("taken", taken_), tallies("rays", rays_) },
+                sunk),
             false, slices.workUnits(std::max(1.0, static_cast<double>(s_.spp) - from)));
     });
 }
@@ -201,7 +226,7 @@ void LightGraph::widened()
     auto weights = g_.plane<Share>("weights", graph::floats);
     f_.blocks("filter", PassKind::Filter, { "analysis/widen.cl", "oneOfLight" },
         { f_.rectangle(analysisParams()), value("firstPass", WEDGE_FIRST_PASS_RAYS), reads("value", value_),
-            reads("taken", taken_), reads("sums", sums_), reads("diffuse", f_.surfaces.diffuse),
+            reads("parts", parts_), reads("taken", taken_), reads("sums", sums_), reads("diffuse", f_.surfaces.diffuse),
             reads("specular", f_.surfaces.specular), writes("visibility", visibility), writes("deviation", deviation),
             writes("weights", weights) });
     widen(f_, "filter", filterParams(), s_.widening, pinholeNoise, { visibility, deviation, weights }, beta_);
@@ -215,15 +240,17 @@ void LightGraph::shade(const graph::Handle<Value>& shown, const std::function<bo
     f_.blocks("composite", PassKind::Composite, { "frame/composite.cl", "addDiffuse" },
         { p, sampleParams(), light(), quadrature(), reads("position", s.position), reads("normal", s.normal),
             reads("objectId", s.objectId), reads("diffuse", s.diffuse), reads("value", shown), reads("noisy", value_),
-            reads("taken", taken_), updates("direct", direct.filtered), updates("directNoisy", direct.noisy),
-            updates("deviation", direct.deviation), updates("samples", f_.totals.samples) },
+            f_.analysed() ? reads("parts", parts_) : f_.nothing("parts"), reads("taken", taken_),
+            updates("direct", direct.filtered), updates("directNoisy", direct.noisy),
+            updates("deviation", direct.deviation) },
         condition);
     if (f_.specular) {
         f_.blocks("composite", PassKind::Composite, { "frame/composite.cl", "addSpecular" },
             { p, sampleParams(), light(), value("frame", f_.wholeFrame()), value("directions", lobeDirections(s_.spp)),
                 quadrature(), reads("position", s.position), reads("normal", s.normal), reads("objectId", s.objectId),
                 reads("gloss", s.gloss), reads("specular", s.specular), reads("value", shown), reads("noisy", value_),
-                reads("taken", taken_), updates("direct", direct.filtered), updates("directNoisy", direct.noisy),
+                f_.analysed() ? reads("parts", parts_) : f_.nothing("parts"), reads("taken", taken_),
+                updates("direct", direct.filtered), updates("directNoisy", direct.noisy),
                 updates("deviation", direct.deviation) },
             condition);
     }

@@ -23,12 +23,14 @@ std::vector<graph::Argument> lights(const FrameBuilder& f)
 void ofPixels(FrameBuilder& f, graph::Handle<Radiance>* /*own*/)
 {
     Totals& t = f.totals;
+    auto rays = f.graph.plane<Count>("rays of light", graph::counts);
+    f.zero(rays);
     f.trace("point lights", { program, "deltaLights" },
         joined({ f.frame() }, lights(f), f.hierarchy(), f.receivers(),
             Arguments { reads("diffuse", f.surfaces.diffuse), reads("specular", f.surfaces.specular),
-                updates("direct", t.direct.filtered), updates("directNoisy", t.direct.noisy),
-                tallies("rays", t.rays) }),
+                updates("direct", t.direct.filtered), updates("directNoisy", t.direct.noisy), tallies("rays", rays) }),
         false, [](const graph::Launch&) { return 1.0; });
+    f.count(rays, true, t.tallies.rays, &t.rays);
 }
 
 void ofWaves(FrameBuilder& f, Waves& waves, graph::Handle<Radiance>& radiance)

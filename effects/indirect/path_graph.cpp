@@ -40,9 +40,12 @@ public:
         , state_(state)
         , beta_(beta)
         , sums_(g_.plane<Sums>("sums", graph::floatPlanes(4)))
-        , value_(g_.plane<Value>("value", graph::floatPlanes(channels * (frame.analysed() ? 2 : 1))))
+        , value_(g_.plane<Value>("value", graph::floatPlanes(channels)))
+        , parts_(g_.plane<Value>("value of part", packedColours))
         , extremes_(g_.plane<Extremes>("distances", graph::floatPlanes(3)))
         , taken_(g_.plane<Count>("samples taken", graph::counts))
+        , rays_(g_.plane<Count>("rays of light", graph::counts))
+        , pathRays_(g_.plane<Count>("rays of paths", graph::counts))
         , wanted_(g_.plane<Count>("samples wanted", graph::counts))
         , irradiance_(g_.plane<Value>("irradiance", graph::floats))
         , deviation_(g_.plane<Deviation>("deviation", graph::floats))
@@ -52,30 +55,41 @@ public:
 
     void declare()
     {
-        f_.zero(sums_, value_, taken_);
+        f_.zero(sums_, taken_, rays_, pathRays_);
+        if (!f_.analysed() || !varies()) {
+            f_.zero(value_);
+        }
         const auto spp = static_cast<std::uint32_t>(s_.spp);
         if (!f_.analysed()) {
             uniformCounts(f_, spp, f_.surfaces.objectId, wanted_);
             paths("paths", 0, spp, s_.spp, false);
+            count();
             addSamples();
             addFiltered(value_);
             return;
         }
         f_.zero(extremes_);
+        if (varies()) {
+            f_.zero(parts_);
+        }
         constexpr std::uint32_t first = WEDGE_INDIRECT_FIRST_RAYS;
         uniformCounts(f_, first, f_.surfaces.objectId, wanted_);
         paths("first paths", 0, first, first, true);
+        countRays();
         f_.host("analysable", [state = state_](Run& run) { state->analysed = !run.cut(); });
         f_.zero(beta_); // which filters nothing
-        g_.only(
-            "analysis of paths", [state = state_](const Run&) { return state->analysed; }, [&] { widthsAndCounts(); });
+        wanted_ = g_.plane<Count>("samples wanted", graph::counts); // no version of the first: that ends here
+        const auto analysed = [state = state_](const Run&) { return state->analysed; };
+        g_.only("analysis of paths", analysed, [&] { widthsAndCounts(); });
         const int most = isUniform() ? s_.spp : std::max(s_.indirect.maxSpp, s_.spp);
-        paths("second paths", first, static_cast<std::uint32_t>(most), s_.spp, false);
+        g_.only("rest of paths", analysed,
+            [&] { paths("second paths", first, static_cast<std::uint32_t>(most), s_.spp, false); });
+        count();
         if (varies()) {
             deviations();
         }
-        addSamples();
         if (s_.filtering == Filtering::None) {
+            addSamples();
             addFiltered(value_);
             return;
         }
@@ -88,6 +102,7 @@ public:
                         { irradiance_, deviation_, weights_ }, beta_);
                 });
         }
+        addSamples(); // not before: widening takes the most memory
         const char* program = varies() ? "filter/filter_paths.cl" : "filter/filter_indirect.cl";
         addFiltered(gaussianFilter(f_, { "filter of indirect", PassKind::Filter, program },
             varies() ? channels + 1 : channels, filterParams(), value_, beta_)
@@ -102,6 +117,24 @@ private:
     shared::AnalysisParams countParams() const { return pathCountParams(f_.analysisParams(), s_); }
     shared::ReflectorParams reflectorParams() const { return render::reflectorParams(f_, component_); }
 
+    void count()
+    {
+        Totals& t = f_.totals;
+        f_.count(taken_, false, t.tallies.samples, &t.samples);
+        if (!isOfEmitters(component_)) {
+            f_.count(taken_, false, t.tallies.indirectSamples);
+        }
+        countRays();
+    }
+    /// And begins anew, so that nothing of it takes memory until there are more.
+    void countRays()
+    {
+        f_.count(rays_, true, f_.totals.tallies.rays, &f_.totals.rays);
+        f_.count(pathRays_, true, f_.totals.tallies.pathRays);
+        rays_ = g_.plane<Count>("rays of light", graph::counts);
+        pathRays_ = g_.plane<Count>("rays of paths", graph::counts);
+        f_.zero(rays_, pathRays_);
+    }
     void paths(const char* pass, std::uint32_t from, std::uint32_t most, double mean, bool everywhere);
     void widthsAndCounts();
     void countsFromVariance();
@@ -119,9 +152,9 @@ private:
     std::shared_ptr<TermState> state_;
     graph::Handle<Metres>& beta_;
     graph::Handle<Sums> sums_;
-    graph::Handle<Value> value_;
+    graph::Handle<Value> value_, parts_;
     graph::Handle<Extremes> extremes_;
-    graph::Handle<Count> taken_, wanted_;
+    graph::Handle<Count> taken_, rays_, pathRays_, wanted_;
     graph::Handle<Value> irradiance_;
     graph::Handle<Deviation> deviation_;
     graph::Handle<Share> weights_;
@@ -131,10 +164,14 @@ void PathGraph::paths(const char* pass, std::uint32_t from, std::uint32_t most, 
 {
     const auto slice = static_cast<std::uint32_t>(std::max(1, sliceVertices / vertices_));
     const SampleSlices slices(from, most, slice, mean);
-    std::vector<graph::Sink> becoming { sinks::sums(), sinks::means() };
-    Arguments sunk { updates("sums", sums_), updates("value", value_) };
-    if (f_.analysed()) {
-        becoming.push_back(sinks::parts());
+    std::vector<graph::Sink> becoming { sinks::sums() };
+    Arguments sunk { updates("sums", sums_) };
+    if (f_.analysed() && varies()) {
+        becoming.push_back(sinks::parts()); // means come of the sums in the end: deviations()
+        sunk.push_back(updates("parts", parts_));
+    } else {
+        becoming.push_back(sinks::means());
+        sunk.push_back(updates("value", value_));
     }
     if (f_.analysed() && from == 0) { // distances are for the analysis
         becoming.push_back(sinks::distances());
@@ -149,8 +186,7 @@ void PathGraph::paths(const char* pass, std::uint32_t from, std::uint32_t most, 
                     f_.ofScene("emitterPicks", "float", &DeviceScene::emitterPicks) },
                 f_.receivers(),
                 Arguments { reads("specular", f_.surfaces.specular), reads("wanted", wanted_), slices.last(),
-                    updates("taken", taken_), tallies("rays", f_.totals.rays),
-                    tallies("pathRays", f_.totals.pathRays) },
+                    updates("taken", taken_), tallies("rays", rays_), tallies("pathRays", pathRays_) },
                 sunk),
             everywhere, slices.workUnits(std::max(1.0, mean - from) * vertices_));
     });
@@ -177,10 +213,7 @@ void PathGraph::countsFromVariance()
             writes("variance", variance) });
     auto effective = g_.plane<Count>("effective count of variance", graph::floats);
     if (s_.filtering != Filtering::None) {
-        // For the effective counts alone.
-        effective = gaussianFilter(f_, { "pixels gathered", PassKind::Analysis, "filter/filter_variance.cl" }, 1,
-            filterParams(), variance, beta_)
-                        .effective;
+        effective = gatheredCounts(f_, "pixels gathered", PassKind::Analysis, filterParams(), beta_);
     } else {
         f_.fill("ones", effective, 1.0f);
     }
@@ -197,9 +230,10 @@ void PathGraph::deviations()
 {
     f_.blocks("filter of indirect", PassKind::Filter, { "analysis/widen.cl", "oneOfPaths" },
         { f_.rectangle(countParams()), value("component", static_cast<std::uint32_t>(component_)),
-            value("firstPass", WEDGE_INDIRECT_FIRST_RAYS), reads("reflectance", reflectance_), updates("value", value_),
-            reads("taken", taken_), writes("irradiance", irradiance_), writes("deviation", deviation_),
-            writes("weights", weights_) });
+            value("firstPass", WEDGE_INDIRECT_FIRST_RAYS), reads("reflectance", reflectance_), updates("value", sums_),
+            reads("parts", parts_), reads("taken", taken_), writes("irradiance", irradiance_),
+            writes("deviation", deviation_), writes("weights", weights_) });
+    value_ = graph::Handle<Value> { static_cast<const graph::Version&>(sums_) };
 }
 
 void PathGraph::addSamples()
@@ -208,8 +242,7 @@ void PathGraph::addSamples()
         { f_.rectangle(countParams()), value("component", static_cast<std::uint32_t>(component_)),
             value("varies", varies() ? 1u : 0u), reads("reflectance", reflectance_), reads("value", value_),
             varies() ? reads("deviations", deviation_) : f_.nothing("deviations"), reads("taken", taken_),
-            updates("noisy", sum_.noisy), updates("deviation", sum_.deviation), updates("samples", f_.totals.samples),
-            updates("indirectSamples", f_.totals.indirectSamples) });
+            updates("noisy", sum_.noisy), updates("deviation", sum_.deviation) });
 }
 
 void PathGraph::addFiltered(const graph::Handle<Value>& filtered)

@@ -133,10 +133,9 @@ void DistributedSamples::demandOfTerm(WaveTerm& term, const Blurs& blurs, graph:
             writes("ofTexture", ofTexture), writes("ofIrradiance", ofIrradiance) });
     f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "addPlane" },
         { p, reads("part", ofTexture), updates("sum", ofTextures) });
-    // For the effective counts alone.
-    const Gathered gathered = gaussianFilter(f_, { "pixels gathered", PassKind::Analysis, "filter/filter_variance.cl" },
-        1, filterParams(f_.settings, f_.wholeFrame(), f_.graph.image()), ofIrradiance, m.beta);
-    demandOfRays(p, ofIrradiance, gathered.effective, m.beta, blurs, m.demand);
+    const auto effective = gatheredCounts(f_, "pixels gathered", PassKind::Analysis,
+        filterParams(f_.settings, f_.wholeFrame(), f_.graph.image()), m.beta);
+    demandOfRays(p, ofIrradiance, effective, m.beta, blurs, m.demand);
 }
 
 void DistributedSamples::demandOfRays(const graph::Argument& p, const graph::Version& variance,

@@ -51,6 +51,11 @@ struct Frame {
     device::Buffer<std::uint32_t> samples = none<std::uint32_t>(); ///< of all terms
     device::Buffer<std::uint32_t> indirectSamples = none<std::uint32_t>(); ///< of the indirect terms
 
+    /// What these add up to, where the pixels are the receivers, see kernels/frame/tally.cl: of samples within
+    /// the output.
+    device::Buffer<std::uint64_t> samplesTally = none<std::uint64_t>(), indirectTally = none<std::uint64_t>();
+    device::Buffer<std::uint64_t> raysTally = none<std::uint64_t>(), pathRaysTally = none<std::uint64_t>();
+
     // Of distributed frames.
     device::Buffer<std::uint32_t> primaryTaken = none<std::uint32_t>(); ///< primary samples
     device::Buffer<float> motion = none<float>(); ///< planes: pixels that the surface moves while the shutter is open

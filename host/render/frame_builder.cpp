@@ -114,6 +114,22 @@ void FrameBuilder::items(std::string_view name, PassKind kind, graph::KernelName
         .mostOfGroup = 1 }); // each item has much to do
 }
 
+void FrameBuilder::count(
+    const graph::Handle<Count>& counted, bool everywhere, graph::Handle<Tally>& tally, graph::Handle<Count>* plane)
+{
+    shared::AnalysisParams p = analysisParams();
+    setRectangle(p, everywhere ? graph.image() : outputWindow(settings));
+    items("composite", PassKind::Composite, { "frame/tally.cl", "addToTally" }, WEDGE_TALLY_STRIPES,
+        { graph::value("p", p), graph::readsAsIs("counts", counted), graph::updates("tally", tally) });
+    if (plane != nullptr) {
+        auto sum = graph.plane<Count>("counts", graph::counts);
+        blocks("composite", PassKind::Composite, { "frame/tally.cl", "addCounts" },
+            { rectangle(analysisParams()), graph::readsAsIs("counts", counted), reads("before", *plane),
+                graph::writes("sum", sum) });
+        *plane = sum;
+    }
+}
+
 void FrameBuilder::host(std::string name, const std::function<void(Run&)>& step, std::vector<graph::Argument> uses)
 {
     graph.add({ .name = std::move(name),

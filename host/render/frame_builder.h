@@ -25,6 +25,7 @@ struct Gloss { }; ///< kind and exponent of what is reflected, packGloss()
 struct Radiance { };
 struct Deviation { }; ///< numbers whose squares are variances in the mean
 struct Count { };
+struct Tally { }; ///< sums of counts, WEDGE_TALLY_STRIPES of them
 struct Sums { }; ///< of a term's samples, see light_sampling.h and path_sampling.h
 struct Value { }; ///< of a term, what is filtered: visibility or irradiance
 struct Extremes { }; ///< least and largest slopes of occluders, or distances of reflectors
@@ -45,6 +46,7 @@ inline constexpr graph::Format shortTriples { "short3", 6, "float", "", "", "" }
 inline constexpr graph::Format shortQuadruples { "short4", 8, "float", "", "", "" };
 inline constexpr graph::Format shortCounts { "ushort1", 2, "uint", "", "", "" };
 inline constexpr graph::Format shortGloss { "gloss16", 2, "uint", "", "", "" };
+inline constexpr graph::Format tallySums { "ulong1", 8, "ulong", "", "", "" };
 inline constexpr graph::Format packedNormals { "normal32", 4, "float", "", "", "" };
 inline constexpr graph::Format packedColours { "colour48", 6, "float", "", "", "" };
 inline constexpr graph::Format packedFractions { "fraction32", 4, "float", "", "", "" };
@@ -68,9 +70,14 @@ struct Sum {
     graph::Handle<Deviation> deviation;
     graph::Handle<Value> variance; ///< gathered, of terms that do; where there are any
 };
-struct Totals {
+/// What a frame counts: of all terms, of indirect light, of all rays but the camera's, and of those of paths.
+template <class Kind>
+struct Counted {
+    graph::Handle<Kind> samples, indirectSamples, rays, pathRays;
+};
+struct Totals : Counted<Count> {
     Sum direct, indirect;
-    graph::Handle<Count> samples, indirectSamples, rays, pathRays;
+    Counted<Tally> tallies; ///< where the pixels are the receivers
     graph::Handle<Radiance> beauty;
 };
 
@@ -145,6 +152,10 @@ struct FrameBuilder {
     /// A pass of that many items.
     void items(std::string_view name, device::PassKind kind, graph::KernelName kernel, std::size_t count,
         std::vector<graph::Argument> arguments);
+    /// Adds what pixels counted to the frame's tally of it, within the output or in the whole image, and to its plane
+    /// of it, where that is wanted; null: there is none.
+    void count(const graph::Handle<Count>& counted, bool everywhere, graph::Handle<Tally>& tally,
+        graph::Handle<Count>* plane = nullptr);
     /// A step on the host, whatever is wanted.
     void host(std::string name, const std::function<void(graph::Run&)>& step, std::vector<graph::Argument> uses = {});
     /// Fills planes with zeros.

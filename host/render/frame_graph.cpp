@@ -32,6 +32,10 @@ void eachShown(const Shown& shown, Frame& frame, const Visit& visit)
     one(frame.indirectSamples, t.indirectSamples);
     one(frame.rays, t.rays);
     one(frame.pathRays, t.pathRays);
+    one(frame.samplesTally, t.tallies.samples);
+    one(frame.indirectTally, t.tallies.indirectSamples);
+    one(frame.raysTally, t.tallies.rays);
+    one(frame.pathRaysTally, t.tallies.pathRays);
     one(frame.primaryTaken, shown.primaryTaken);
     one(frame.lensWidth, shown.lensWidth);
     one(frame.motionWidth, shown.motionWidth);
@@ -47,10 +51,10 @@ Totals imageOf(const Totals& totals)
 {
     Totals image;
     image.beauty = totals.beauty;
-    image.samples = totals.samples;
-    image.indirectSamples = totals.indirectSamples;
-    image.rays = totals.rays;
-    image.pathRays = totals.pathRays;
+    image.tallies = totals.tallies;
+    if (totals.tallies.samples.graph == 0) {
+        static_cast<Counted<Count>&>(image) = totals;
+    }
     return image;
 }
 

@@ -83,15 +83,16 @@ void PixelFrame::primary(bool lit)
         const std::string name = sum == &t.direct ? "direct" : "indirect";
         sum->filtered = graph_.plane<Radiance>(name, graph::vectors);
         sum->noisy = graph_.plane<Radiance>(name + " noisy", graph::vectors);
-        sum->deviation = graph_.plane<Deviation>(name + " deviation", graph::floats);
+        sum->deviation = graph_.plane<Deviation>(name + " deviation", shortFloats);
         f_.zero(sum->filtered, sum->noisy, sum->deviation);
     }
     t.samples = graph_.plane<Count>("samples", graph::counts);
-    t.indirectSamples = graph_.plane<Count>("indirect samples", graph::counts);
     t.rays = graph_.plane<Count>("rays", graph::counts);
-    t.pathRays = graph_.plane<Count>("path rays", graph::counts);
+    const auto tally = [this](const char* name) { return graph_.list<Tally>(name, tallySums, WEDGE_TALLY_STRIPES); };
+    t.tallies = { tally("tally of samples"), tally("tally of indirect samples"), tally("tally of rays"),
+        tally("tally of path rays") };
     t.beauty = graph_.plane<Radiance>("beauty", graph::vectors);
-    f_.zero(t.samples, t.indirectSamples, t.rays, t.pathRays);
+    f_.zero(t.samples, t.rays, t.tallies.samples, t.tallies.indirectSamples, t.tallies.rays, t.tallies.pathRays);
     // Gathers read the padding, which is of no object; and what is not hit, or not seen before a frame is stopped, is
     // 0.
     f_.zero(s.position, s.normal, s.origin, s.geometric, s.objectId, s.depth, s.pixelSize, s.diffuse, s.specular,
@@ -115,7 +116,7 @@ void PixelFrame::addTerms(Part part, const std::vector<Term>& terms)
 {
     Sum& sum = part == Part::Direct ? f_.totals.direct : f_.totals.indirect;
     if (std::ranges::any_of(terms, [&](const Term& t) { return t.part == part && t.gathersVariance; })) {
-        sum.variance = graph_.plane<Value>("gathered variance", graph::floats);
+        sum.variance = graph_.plane<Value>("gathered variance", shortFloats);
         f_.zero(sum.variance);
     }
     for (const Term& term : terms) {

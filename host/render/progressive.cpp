@@ -101,7 +101,7 @@ FrameStatistics Renderer::renderProgressively(const Settings& wanted, const Cont
         const auto [error, whole] =
             runStep(settings, keepLayers, { i == 0 ? 0 : counts[i - 1], step.spp }, &stop, false);
         step.error = error;
-        const bool good = step.error.rmse() <= control.targetError;
+        const bool good = control.targetError > 0 && step.error.rmse() <= control.targetError;
         queue_.finish();
         FrameStatistics statistics;
         statistics.passes = std::move(step.statistics.passes);

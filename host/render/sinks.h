@@ -18,10 +18,10 @@ inline graph::Sink means()
     return { .file = "sinks/means.h", .name = "Means", .finish = { "sums", "value" }, .onlyFinishes = true };
 }
 
-/// The same of the first of two parts, in planes of "value" after those of means(). After sums().
+/// The same of the first of two parts: "parts". After sums().
 inline graph::Sink parts()
 {
-    return { .file = "sinks/parts.h", .name = "Parts", .begin = { "sums" }, .finish = { "value" } };
+    return { .file = "sinks/parts.h", .name = "Parts", .begin = { "sums" }, .finish = { "parts" } };
 }
 
 /// Of what occludes a light: "slopes".

@@ -31,8 +31,14 @@ double FrameStatistics::overheadFraction() const
 void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
 {
     const auto planeOf = [&](const device::Buffer<std::uint32_t>& b) { return b.downloadAll(queue_); };
-    const std::vector<std::uint32_t> samples = planeOf(frame_->samples), indirect = planeOf(frame_->indirectSamples);
-    const std::vector<std::uint32_t> rays = planeOf(frame_->rays), pathRays = planeOf(frame_->pathRays);
+    const auto sumOf = [&](const auto& counts) {
+        const auto all = counts.downloadAll(queue_);
+        return std::accumulate(all.begin(), all.end(), std::uint64_t { 0 });
+    };
+    const bool pixels = !frame_->distributed; // which have tallies
+    const std::vector<std::uint32_t> none;
+    const std::vector<std::uint32_t> samples = pixels ? none : planeOf(frame_->samples);
+    const std::vector<std::uint32_t> indirect = pixels ? none : planeOf(frame_->indirectSamples);
     const std::vector<std::uint32_t> objects = planeOf(frame_->objectId);
     const image::Window output = outputWindow(settings);
     const std::vector<Term> terms = frameTerms(settings, scene_);
@@ -46,7 +52,9 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
     const bool apart = !frame_->distributed && directLobes + reflectedLobes > 0;
     const std::vector<float> specular = apart ? frame_->specular.downloadAll(queue_) : std::vector<float> {};
     const std::size_t size = frame_->layout.size;
-    std::uint64_t total = 0, indirectTotal = 0, directPixels = 0, indirectPixels = 0;
+    std::uint64_t total = pixels ? sumOf(frame_->samplesTally) : 0;
+    std::uint64_t indirectTotal = pixels ? sumOf(frame_->indirectTally) : 0;
+    std::uint64_t directPixels = 0, indirectPixels = 0;
     for (int y = output.y0; y < output.y1; ++y) {
         for (int x = output.x0; x < output.x1; ++x) {
             const std::size_t i =
@@ -55,8 +63,10 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
                 continue;
             }
             ++statistics.shadedPixels;
-            total += samples[i];
-            indirectTotal += indirect[i];
+            if (!pixels) {
+                total += samples[i];
+                indirectTotal += indirect[i];
+            }
             const bool matte = apart && !(specular[i] + specular[size + i] + specular[2 * size + i] > 0);
             directPixels += matte ? direct - directLobes : direct;
             indirectPixels += matte ? reflected - reflectedLobes : reflected;
@@ -77,8 +87,8 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
         }
         statistics.primarySpp = static_cast<double>(shown) / (static_cast<double>(output.width()) * output.height());
     }
-    statistics.indirectRays = std::accumulate(pathRays.begin(), pathRays.end(), std::uint64_t { 0 });
-    statistics.shadowRays = std::accumulate(rays.begin(), rays.end(), std::uint64_t { 0 }) - statistics.indirectRays;
+    statistics.indirectRays = pixels ? sumOf(frame_->pathRaysTally) : sumOf(frame_->pathRays);
+    statistics.shadowRays = (pixels ? sumOf(frame_->raysTally) : sumOf(frame_->rays)) - statistics.indirectRays;
     const auto mean = [](std::uint64_t sum, std::uint64_t count) {
         return count > 0 ? static_cast<double>(sum) / static_cast<double>(count) : 0.0;
     };

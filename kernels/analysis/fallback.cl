@@ -48,12 +48,12 @@ __kernel void fallbackDifferences(AnalysisParams p, uint gathered, __global cons
     }
     const int i = (int)pixelIndex(x, y, p.stride);
     const Vec3x16 f = loadVecBlock(filtered, p.planeSize, i);
-    const float16 v = loadBlock(deviation, i);
+    const float16 v = loadShortsBlock(deviation, p.planeSize, i, 0u);
     storeShortsBlock(differences, p.planeSize, i, 0u, luminance16(sub16(loadVecBlock(noisy, p.planeSize, i), f)));
     storeShortsBlock(differences, p.planeSize, i, 1u, v * v);
     storeShortsBlock(differences, p.planeSize, i, 2u, luminance16(f));
     if (gathered != 0u) {
-        storeShortsBlock(differences, p.planeSize, i, 3u, loadBlock(variance, i));
+        storeShortsBlock(differences, p.planeSize, i, 3u, loadShortsBlock(variance, p.planeSize, i, 0u));
     }
 }
 

@@ -94,9 +94,9 @@ WEDGE_FN void storeOne(float16 weights, float16 seen, float16 ofPart, uint16 tak
 /// out  visibility; deviation, as deviation16() has it; weights: the luminance that is reflected where all is visible,
 ///      1/m^2
 __kernel void oneOfLight(AnalysisParams p, uint firstPass, __global const float* restrict value,
-    __global const uint* restrict taken, __global const float* restrict sums, __global const float* restrict diffuse,
-    __global const float* restrict specular, __global float* restrict visibility, __global float* restrict deviation,
-    __global float* restrict weights)
+    __global const float* restrict parts, __global const uint* restrict taken, __global const float* restrict sums,
+    __global const float* restrict diffuse, __global const float* restrict specular,
+    __global float* restrict visibility, __global float* restrict deviation, __global float* restrict weights)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -111,22 +111,23 @@ __kernel void oneOfLight(AnalysisParams p, uint firstPass, __global const float*
 #ifdef WEDGE_SPECULAR
     const float16 mirrored = luminance16(loadVecBlock(specular, size, i)) * loadBlock(sums + 2u * size, i) * scale;
     const float16 seen = weight * loadBlock(value, i) + mirrored * loadBlock(value + size, i);
-    const float16 first = weight * loadBlock(value + 2u * size, i) + mirrored * loadBlock(value + 3u * size, i);
+    const float16 first = weight * loadShortsBlock(parts, size, i, 0u) + mirrored * loadShortsBlock(parts, size, i, 1u);
     weight += mirrored;
 #else
     (void)specular;
-    const float16 seen = weight * loadBlock(value, i), first = weight * loadBlock(value + size, i);
+    const float16 seen = weight * loadBlock(value, i), first = weight * loadShortsBlock(parts, size, i, 0u);
 #endif
     storeOne(weight, seen, first, count, firstPass, i, visibility, deviation, weights);
 }
 
 /// The same of indirect light: the irradiance that is reflected.
 /// in       reflectance: 3 planes; component: WEDGE_COMPONENT_*; of ambient occlusion all is reflected
-/// in out   value: 3 planes, and 3 of the first part, in the place of whose first comes the square of the deviation: a
-///          fourth plane for filters (fallback.cl)
+///          parts: of the first part, colours in 48 bits; taken: samples
+/// in out   value: sums of the samples, 3 planes, of which the means are made, and one in whose place comes the square
+///          of the deviation, for filters (fallback.cl)
 __kernel void oneOfPaths(AnalysisParams p, uint component, uint firstPass, __global const float* restrict reflectance,
-    __global float* restrict value, __global const uint* restrict taken, __global float* restrict irradiance,
-    __global float* restrict deviation, __global float* restrict weights)
+    __global float* restrict value, __global const float* restrict parts, __global const uint* restrict taken,
+    __global float* restrict irradiance, __global float* restrict deviation, __global float* restrict weights)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -137,10 +138,18 @@ __kernel void oneOfPaths(AnalysisParams p, uint component, uint firstPass, __glo
     const int i = (int)pixelIndex(x, y, p.stride);
     const Vec3x16 k =
         component == WEDGE_COMPONENT_AMBIENT ? splat3(vec3(1.0f, 1.0f, 1.0f)) : loadVecBlock(reflectance, size, i);
-    const Vec3x16 all = loadVecBlock(value, size, i), part = loadVecBlock(value + 3u * size, size, i);
-    storeOne(luminance16(k), luminance16(mul16(k, all)), luminance16(mul16(k, part)), loadIdBlock(taken, i), firstPass,
-        i, irradiance, deviation, weights);
+    const uint16 count = loadIdBlock(taken, i);
+    const float16 scale = 1.0f / max16(convert_float16(count), (float16)(1.0f));
+    Vec3x16 all = loadVecBlock(value, size, i);
+    all.x *= scale;
+    all.y *= scale;
+    all.z *= scale;
+    storeOne(luminance16(k), luminance16(mul16(k, all)), luminance16(mul16(k, loadColours16(parts, size, i))), count,
+        firstPass, i, irradiance, deviation, weights);
     const float16 d = loadBlock(deviation, i);
+    vstore16(all.x, 0, value + i);
+    vstore16(all.y, 0, value + size + i);
+    vstore16(all.z, 0, value + 2u * size + i);
     vstore16(d * d, 0, value + 3u * size + i);
 }
 

@@ -43,6 +43,23 @@ WEDGE_FN Vec3 loadNormal(__global const float* planes, uint planeSize, uint i, u
     return packed != 0u ? unpackNormal(((__global const uint*)planes)[i]) : loadVec(planes, planeSize, i);
 }
 
+/// Sixteen colours in 48 bits.
+WEDGE_FN Vec3x16 loadColours16(__global const float* planes, uint planeSize, int i)
+{
+    float x[16], y[16], z[16];
+    for (int k = 0; k < 16; ++k) {
+        const Vec3 c = loadColour(planes, planeSize, (uint)(i + k), WEDGE_COLOUR_BITS);
+        x[k] = c.x;
+        y[k] = c.y;
+        z[k] = c.z;
+    }
+    Vec3x16 v;
+    v.x = vload16(0, x);
+    v.y = vload16(0, y);
+    v.z = vload16(0, z);
+    return v;
+}
+
 /// Sixteen vectors of one plane.
 WEDGE_FN Vec3x16 unpackNormals16(__global const float* plane, int i)
 {

@@ -3,7 +3,7 @@
 // object or with another normal are left out. Distances are those in the plane parallel to a light, or, where the term
 // is of no light, plain ones. Each pixel counts for the surface that it sees: the convolutions (3.10) and (4.16) are
 // integrals over the surface, and pixels are not alike in what they see of it. Here is what neighbours weigh;
-// gather_lines.h has the passes. Each program that includes this sets WEDGE_GATHER_CHANNELS, the planes of value. Those
+// gather_lines.h has the passes. Each program that filters sets WEDGE_GATHER_CHANNELS, the planes of value. Those
 // of packed frames set WEDGE_GATHER_PACKED, too: normals are packed, and pixels' sizes have 16 bits (packed_planes.h).
 // They are programs of their own since a test of a parameter in each tap takes several times as long. And all is
 // inlined by order: compilers leave calls, with vectors in memory, to functions of this size, and gathers took twice as
@@ -173,6 +173,7 @@ WEDGE_INLINE float16 neighbourWeights(FilterParams p, GatherWidth width, Neighbo
     return taken ? n.area * exp2Block(n.squared * scale) : (float16)(0.0f);
 }
 
+#ifdef WEDGE_GATHER_CHANNELS
 typedef struct {
     float16 weight, squared;
     float16 channel[WEDGE_GATHER_CHANNELS];
@@ -189,5 +190,6 @@ WEDGE_INLINE void addValue(GatherSum* sum, uint channel, float16 w, float16 valu
 {
     sum->channel[channel] += w > 0.0f ? w * value : (float16)(0.0f);
 }
+#endif
 
 #endif

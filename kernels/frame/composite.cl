@@ -1,6 +1,7 @@
 // From filtered terms to radiance: each light's value times its unshadowed shading and the surface's reflectance,
 // added up over lights, then with what surfaces and background emit.
 #include "analysis/deviation.h"
+#include "core/packed_planes.h"
 #include "light/light_sample.h"
 #include "light/unshadowed.h"
 #include "shared/filter_params.h"
@@ -14,32 +15,31 @@ WEDGE_FN void addBlock(__global float* planes, uint size, int i, float16 value, 
     vstore16(loadBlock(planes + 2u * size, i) + value * shading.z, 0, planes + 2u * size + i);
 }
 
-/// Planes of a light's values.
-#ifdef WEDGE_SPECULAR
-#define WEDGE_LIGHT_VALUES 2u
-#else
-#define WEDGE_LIGHT_VALUES 1u
-#endif
+/// Adds to a plane of 16 bits.
+WEDGE_FN void addShorts(__global float* plane, uint size, int i, float16 more)
+{
+    storeShortsBlock(plane, size, i, 0u, loadShortsBlock(plane, size, i, 0u) + more);
+}
 
 /// Adds deviations of one term, times what it is shaded with, to those of the luminance.
-WEDGE_FN void addDeviation(__global float* plane, int i, float16 deviation, Vec3x16 shading)
+WEDGE_FN void addDeviation(__global float* plane, uint size, int i, float16 deviation, Vec3x16 shading)
 {
     const float16 shown = 0.2126f * shading.x + 0.7152f * shading.y + 0.0722f * shading.z;
-    vstore16(loadBlock(plane, i) + deviation * shown, 0, plane + i);
+    addShorts(plane, size, i, deviation * shown);
 }
 
 /// One light's diffuse reflection.
-/// in      value: filtered; noisy: not filtered, and of frames with a first pass (params.firstPass) the same of the
-///         first of two parts of the samples; nodes: of the quadratures, (coordinate, weight) pairs; taken: the samples
-///         of value
-/// in out  direct, directNoisy (3 planes each), deviation (of directNoisy's luminance, as deviation16() has it),
-///         samples (of all lights)
+/// in      value: filtered; noisy: not filtered; parts: of frames with a first pass (params.firstPass) the same of the
+///         first of two parts of the samples, in 16 bits each; nodes: of the quadratures, (coordinate, weight) pairs;
+///         taken: the samples of value
+/// in out  direct, directNoisy (3 planes each), deviation (of directNoisy's luminance, as deviation16() has it, in 16
+/// bits)
 __kernel void addDiffuse(AnalysisParams p, SampleParams params, AreaLight light, __global const float* restrict nodes,
     __global const float* restrict position, __global const float* restrict normal,
     __global const uint* restrict objectId, __global const float* restrict diffuse,
-    __global const float* restrict value, __global const float* restrict noisy, __global const uint* restrict taken,
-    __global float* restrict direct, __global float* restrict directNoisy, __global float* restrict deviation,
-    __global uint* restrict samples)
+    __global const float* restrict value, __global const float* restrict noisy, __global const float* restrict parts,
+    __global const uint* restrict taken, __global float* restrict direct, __global float* restrict directNoisy,
+    __global float* restrict deviation)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -52,7 +52,6 @@ __kernel void addDiffuse(AnalysisParams p, SampleParams params, AreaLight light,
     if (!any(surface)) {
         return;
     }
-    vstore16(loadIdBlock(samples, i) + loadIdBlock(taken, i), 0, samples + i);
     const Vec3x16 at = loadVecBlock(position, size, i);
     const Vec3x16 facing = loadVecBlock(normal, size, i);
     float16 shading = (float16)(1.0f);
@@ -71,8 +70,8 @@ __kernel void addDiffuse(AnalysisParams p, SampleParams params, AreaLight light,
     const float16 mean = loadBlock(noisy, i);
     addBlock(directNoisy, size, i, mean, reflected);
     if (params.firstPass > 0u) {
-        const float16 ofPart = loadBlock(noisy + WEDGE_LIGHT_VALUES * size, i);
-        addDeviation(deviation, i, deviation16(mean, ofPart, loadIdBlock(taken, i), params.firstPass), reflected);
+        const float16 ofPart = loadShortsBlock(parts, size, i, 0u);
+        addDeviation(deviation, size, i, deviation16(mean, ofPart, loadIdBlock(taken, i), params.firstPass), reflected);
     }
 }
 
@@ -89,14 +88,14 @@ WEDGE_FN float16 specularShading(SampleParams params, AreaLight light, Receivers
     return arrivesFrom(light, r, splat3(light.centre), true) * normalization16(r);
 }
 
-/// One light's specular reflection; value and noisy hold the specular term in their second plane, that of the first
-/// part of the samples is in the fourth. directions: of each lobe that is too sharp for a rule
+/// One light's specular reflection; value, noisy and parts hold the specular term in their second planes. directions:
+/// of each lobe that is too sharp for a rule
 __kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light, FrameParams frame, uint directions,
     __global const float* restrict nodes, __global const float* restrict position,
     __global const float* restrict normal, __global const uint* restrict objectId, __global const uint* restrict gloss,
     __global const float* restrict specular, __global const float* restrict value, __global const float* restrict noisy,
-    __global const uint* restrict taken, __global float* restrict direct, __global float* restrict directNoisy,
-    __global float* restrict deviation)
+    __global const float* restrict parts, __global const uint* restrict taken, __global float* restrict direct,
+    __global float* restrict directNoisy, __global float* restrict deviation)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -128,8 +127,8 @@ __kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light
     const float16 mean = mirrors ? loadBlock(noisy + size, i) : (float16)(0.0f);
     addBlock(directNoisy, size, i, mean, reflected);
     if (params.firstPass > 0u) {
-        const float16 ofPart = mirrors ? loadBlock(noisy + 3u * size, i) : (float16)(0.0f);
-        addDeviation(deviation, i, deviation16(mean, ofPart, loadIdBlock(taken, i), params.firstPass), reflected);
+        const float16 ofPart = mirrors ? loadShortsBlock(parts, size, i, 1u) : (float16)(0.0f);
+        addDeviation(deviation, size, i, deviation16(mean, ofPart, loadIdBlock(taken, i), params.firstPass), reflected);
     }
 }
 
@@ -161,11 +160,10 @@ WEDGE_FN void addTerm(AnalysisParams p, uint component, Vec3x16 k, int16 has, __
 /// The samples of one term of indirect light, as they are.
 /// in      value: 3 planes; deviations: where they vary, as deviation16() has them, in luminance over that of the
 ///         reflectance; taken: the samples of value
-/// in out  indirectNoisy (3 planes), deviation (as of lights), samples (of all terms), indirectSamples
+/// in out  indirectNoisy (3 planes), deviation (as of lights)
 __kernel void addPathSamples(AnalysisParams p, uint component, uint varies, __global const float* restrict reflectance,
     __global const float* restrict value, __global const float* restrict deviations,
-    __global const uint* restrict taken, __global float* restrict indirectNoisy, __global float* restrict deviation,
-    __global uint* restrict samples, __global uint* restrict indirectSamples)
+    __global const uint* restrict taken, __global float* restrict indirectNoisy, __global float* restrict deviation)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -173,23 +171,18 @@ __kernel void addPathSamples(AnalysisParams p, uint component, uint varies, __gl
         return;
     }
     const int i = (int)pixelIndex(x, y, p.stride);
-    const uint16 count = loadIdBlock(taken, i);
-    const int16 has = count != 0u;
+    const int16 has = loadIdBlock(taken, i) != 0u;
     const Vec3x16 k = reflectanceOf(p, component, reflectance, i);
-    vstore16(loadIdBlock(samples, i) + count, 0, samples + i);
-    if (!WEDGE_IS_OF_EMITTERS(component)) {
-        vstore16(loadIdBlock(indirectSamples, i) + count, 0, indirectSamples + i);
-    }
     addTerm(p, component, k, has, value, i, indirectNoisy);
     if (varies != 0u) {
         const float16 off = luminance16(k) * loadBlock(deviations, i);
-        vstore16(loadBlock(deviation, i) + (has ? off : (float16)(0.0f)), 0, deviation + i);
+        addShorts(deviation, p.planeSize, i, has ? off : (float16)(0.0f));
     }
 }
 
 /// One term of indirect light, filtered.
 /// in      value: 3 planes, and, where they vary, the variance of a pixel's samples; taken
-/// in out  indirect (3 planes), variance (in the luminance that is shown)
+/// in out  indirect (3 planes), variance (in the luminance that is shown, in 16 bits)
 __kernel void addIndirect(AnalysisParams p, uint component, uint varies, __global const float* restrict reflectance,
     __global const float* restrict value, __global const uint* restrict taken, __global float* restrict indirect,
     __global float* restrict variance)
@@ -205,7 +198,7 @@ __kernel void addIndirect(AnalysisParams p, uint component, uint varies, __globa
     addTerm(p, component, k, has, value, i, indirect);
     if (varies != 0u) {
         const float16 l = luminance16(k), gathered = l * l * loadBlock(value + 3u * p.planeSize, i);
-        vstore16(loadBlock(variance, i) + (has ? gathered : (float16)(0.0f)), 0, variance + i);
+        addShorts(variance, p.planeSize, i, has ? gathered : (float16)(0.0f));
     }
 }
 

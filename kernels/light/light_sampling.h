@@ -2,6 +2,7 @@
 #ifndef WEDGE_LIGHT_SAMPLING_H
 #define WEDGE_LIGHT_SAMPLING_H
 
+#include "core/packed_planes.h"
 #include "light/light_packet.h"
 
 /// Numbers of a sample: in the diffuse term what it weighs, and what of that arrives; then the same in the specular
@@ -42,6 +43,17 @@ WEDGE_INLINE void storeValue(const Sampling* at, uint i, const float* sums, uint
     // darken its highlight, and those of neighbours that gather it.
     const bool reached = sums[2] > 0.0f || at->shading == WEDGE_SHADING_INSIDE;
     value[at->size + i] = reached ? termValue(at->shading, sums[2], sums[3], n) : diffuse;
+#endif
+}
+
+/// The same of a part of the samples, in 16 bits each (packed_planes.h): it is compared with the whole, for its noise.
+WEDGE_INLINE void storePart(const Sampling* at, uint i, const float* sums, uint n, __global float* part)
+{
+    const float diffuse = termValue(at->shading, sums[0], sums[1], n);
+    storeShort(part, at->size, i, 0u, diffuse);
+#ifdef WEDGE_SPECULAR
+    const bool reached = sums[2] > 0.0f || at->shading == WEDGE_SHADING_INSIDE;
+    storeShort(part, at->size, i, 1u, reached ? termValue(at->shading, sums[2], sums[3], n) : diffuse);
 #endif
 }
 

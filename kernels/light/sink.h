@@ -7,8 +7,9 @@
 #include "sinks/sums.h"
 
 #define WEDGE_SINK_PARAMETERS                                                                                          \
-    __global float* restrict sums, __global float* restrict value, __global float* restrict slopes
-#define WEDGE_SINK_ARGUMENTS sums, value, slopes
+    __global float* restrict sums, __global float* restrict value, __global float* restrict parts,                     \
+        __global float* restrict slopes
+#define WEDGE_SINK_ARGUMENTS sums, value, parts, slopes
 typedef struct {
     Sums ofSums;
     Parts ofParts;
@@ -19,6 +20,7 @@ WEDGE_INLINE void beginReceivers(const Sampling* at, Sink* sink, WEDGE_SINK_PARA
     (void)sink;
     (void)sums;
     (void)value;
+    (void)parts;
     (void)slopes;
     beginSums(at, &sink->ofSums, sums);
     beginParts(at, &sink->ofParts, sums);
@@ -29,6 +31,7 @@ WEDGE_INLINE void takeSamples(const Sampling* at, const Samples* s, Sink* sink, 
     (void)sink;
     (void)sums;
     (void)value;
+    (void)parts;
     (void)slopes;
     takeSums(at, s, &sink->ofSums);
     takeParts(at, s, &sink->ofParts);
@@ -39,9 +42,10 @@ WEDGE_INLINE void finishReceivers(const Sampling* at, Sink* sink, WEDGE_SINK_PAR
     (void)sink;
     (void)sums;
     (void)value;
+    (void)parts;
     (void)slopes;
     finishSums(at, &sink->ofSums, sums);
     finishMeans(at, sums, value);
-    finishParts(at, &sink->ofParts, value);
+    finishParts(at, &sink->ofParts, parts);
     finishSlopes(at, &sink->ofSlopes, slopes);
 }

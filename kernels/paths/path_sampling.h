@@ -2,6 +2,7 @@
 #ifndef WEDGE_PATH_SAMPLING_H
 #define WEDGE_PATH_SAMPLING_H
 
+#include "core/packed_planes.h"
 #include "light/light_packet.h"
 
 #define WEDGE_SUMS 4u ///< numbers of a sample: R, G, B, squared luminance
@@ -27,6 +28,12 @@ typedef struct {
 WEDGE_INLINE void storeValue(const Sampling* at, uint i, const float* sums, uint n, __global float* value)
 {
     storeVec(value, at->size, i, vecScale(vec3(sums[0], sums[1], sums[2]), 1.0f / (float)n));
+}
+
+/// The same of a part of the samples, in 48 bits (packed_planes.h).
+WEDGE_INLINE void storePart(const Sampling* at, uint i, const float* sums, uint n, __global float* part)
+{
+    storeColour(part, at->size, i, WEDGE_COLOUR_BITS, vecScale(vec3(sums[0], sums[1], sums[2]), 1.0f / (float)n));
 }
 
 #endif

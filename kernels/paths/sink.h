@@ -7,8 +7,9 @@
 #include "sinks/sums.h"
 
 #define WEDGE_SINK_PARAMETERS                                                                                          \
-    __global float* restrict sums, __global float* restrict value, __global float* restrict reflectors
-#define WEDGE_SINK_ARGUMENTS sums, value, reflectors
+    __global float* restrict sums, __global float* restrict value, __global float* restrict parts,                     \
+        __global float* restrict reflectors
+#define WEDGE_SINK_ARGUMENTS sums, value, parts, reflectors
 typedef struct {
     Sums ofSums;
     Parts ofParts;
@@ -19,6 +20,7 @@ WEDGE_INLINE void beginReceivers(const Sampling* at, Sink* sink, WEDGE_SINK_PARA
     (void)sink;
     (void)sums;
     (void)value;
+    (void)parts;
     (void)reflectors;
     beginSums(at, &sink->ofSums, sums);
     beginParts(at, &sink->ofParts, sums);
@@ -29,6 +31,7 @@ WEDGE_INLINE void takeSamples(const Sampling* at, const Samples* s, Sink* sink, 
     (void)sink;
     (void)sums;
     (void)value;
+    (void)parts;
     (void)reflectors;
     takeSums(at, s, &sink->ofSums);
     takeParts(at, s, &sink->ofParts);
@@ -39,9 +42,10 @@ WEDGE_INLINE void finishReceivers(const Sampling* at, Sink* sink, WEDGE_SINK_PAR
     (void)sink;
     (void)sums;
     (void)value;
+    (void)parts;
     (void)reflectors;
     finishSums(at, &sink->ofSums, sums);
     finishMeans(at, sums, value);
-    finishParts(at, &sink->ofParts, value);
+    finishParts(at, &sink->ofParts, parts);
     finishDistances(at, &sink->ofDistances, reflectors);
 }

@@ -68,25 +68,6 @@ WEDGE_FN float pixelOffset(uint filter, float u)
     return WEDGE_PIXEL_REACH * clamp(t, -1.0f, 1.0f);
 }
 
-/// How far the filter reaches from the pixel's centre, pixels.
-WEDGE_FN float pixelReach(uint filter) { return filter == WEDGE_PIXEL_BOX ? 0.5f : WEDGE_PIXEL_REACH; }
-
-/// The number whose pixelOffset() is x: the filter's weight of all that lies before x. 0 or 1 beyond its ends.
-WEDGE_FN float pixelNumber(uint filter, float x)
-{
-    if (filter == WEDGE_PIXEL_BOX) {
-        return clamp(x + 0.5f, 0.0f, 1.0f);
-    }
-    float low = 0.0f, high = 1.0f;
-    for (uint halvings = 0u; halvings < 24u; ++halvings) {
-        const float middle = 0.5f * (low + high);
-        const bool before = pixelOffset(filter, middle) < x;
-        low = before ? middle : low;
-        high = before ? high : middle;
-    }
-    return x <= -WEDGE_PIXEL_REACH ? 0.0f : x >= WEDGE_PIXEL_REACH ? 1.0f : 0.5f * (low + high);
-}
-
 /// A point of the unit disc that is the lens, distributed as it transmits, of two uniform numbers.
 WEDGE_FN Vec2 aperturePoint(uint gaussian, Vec2 u)
 {

@@ -37,7 +37,7 @@ WEDGE_SHARED_BEGIN
 
 using uint = std::uint32_t;
 using std::acos;
-using std::asin;
+using std::atan2;
 using std::cos;
 using std::exp;
 using std::fabs;

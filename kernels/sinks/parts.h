@@ -32,10 +32,9 @@ WEDGE_INLINE void takeParts(const Sampling* at, const Samples* s, Parts* state)
     }
 }
 
-/// out  value: WEDGE_VALUES planes, after those of the sink of means, of parts that are complete. If one was before
-/// this
-///      launch, it is there.
-WEDGE_INLINE void finishParts(const Sampling* at, const Parts* state, __global float* value)
+/// out  parts: as the effect's storePart() stores them, of parts that are complete. If one was before this launch, it
+/// is there.
+WEDGE_INLINE void finishParts(const Sampling* at, const Parts* state, __global float* parts)
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const uint n = state->samples[lane];
@@ -46,7 +45,7 @@ WEDGE_INLINE void finishParts(const Sampling* at, const Parts* state, __global f
         for (uint k = 0u; k < WEDGE_SUMS; ++k) {
             total[k] = state->sum[k][lane];
         }
-        storeValue(at, at->pixel[lane], total, n, value + WEDGE_VALUES * at->size);
+        storePart(at, at->pixel[lane], total, n, parts);
     }
 }
 

@@ -1,32 +1,35 @@
 // The radiance that pixels receive from the lights that they see, where that is known without sampling: where nothing
-// is before a light, and the lens blurs it little, it is that of the light times the share of the pixel that it covers.
-// Primary samples then add what they see besides (wave_primary.cl): the edge of a bright light has no noise.
+// is before a light, it is that of the light times the share of the pixel, and of the lens, that it covers. Primary
+// samples then add what they see besides (wave_primary.cl): the edge of a bright light has no noise.
 #include "core/packed_planes.h"
 #include "core/pixel.h"
 #include "light/seen_light.h"
+#include "shared/camera.h"
 #include "shared/coverage.h"
 
 /// Primary rays that try whether anything is before the lights of a pixel.
-#define WEDGE_TRIED_RAYS 64u
+#define WEDGE_TRIED_RAYS 32u
 #define WEDGE_TRIED_SEED 0x74727972u
 
-/// How the share of pixels that a light covers is known.
+/// How the share that a light covers is known: not at all; as a mean of pixelCoverage() over points of the lens; as one
+/// of discCoverage() over points of the pixel. Without a lens, or with rays through the pixels' centres alone, it is
+/// that of one point, which is exact, and else of so many.
 #define WEDGE_SHARE_UNKNOWN 0u
-#define WEDGE_SHARE_OF_PIXEL 1u ///< of points of the lens: coverage()
-#define WEDGE_SHARE_OF_LENS 2u ///< of points of the pixel: discCoverage()
-/// Points of which it is the mean.
+#define WEDGE_SHARE_OF_PIXEL 1u
+#define WEDGE_SHARE_OF_LENS 2u
 #define WEDGE_LENS_POINTS 256u
 #define WEDGE_PIXEL_POINTS 16u
-#define WEDGE_CELL_POINTS 16u ///< of cells that are a fraction of the pixel or of the lens
-/// Radii of circles of confusion in pixels, between which both are near enough, and beyond which edges have little
-/// noise.
+/// Radii of circles of confusion in pixels, from which on the latter is the better one, up to which the former will do,
+/// and beyond which edges have little noise.
 #define WEDGE_LEAST_CONFUSION 1.0f
 #define WEDGE_FEW_CONFUSION 3.0f
 #define WEDGE_MOST_CONFUSION 16.0f
-/// Width in pixels from which on a light's profile is much the same in all of a pixel.
-#define WEDGE_EVEN_PIXELS 32.0f
-/// Cells an axis of a light whose profile is not one number.
+/// Widest light in pixels of a profile that is not uniform, and its cells an axis and points of each.
+#define WEDGE_SMALL_LIGHT 8.0f
 #define WEDGE_LIGHT_CELLS 24u
+#define WEDGE_CELL_POINTS 16u
+/// Pixels from the image's middle within which corners are known well enough.
+#define WEDGE_FAR_CORNER 1e4f
 /// Lights near a pixel, at most.
 #define WEDGE_MOST_SEEN 4u
 
@@ -74,12 +77,12 @@ WEDGE_FN bool outOfView(FrameParams frame, CameraParams camera, AreaLight light)
     return beyond[0] == 4u || beyond[1] == 4u || beyond[2] == 4u || beyond[3] == 4u || beyond[4] == 4u;
 }
 
-/// in   frame, camera, lights
+/// in   frame, camera, lights; approximate: 1: shares that are known to 1e-3 will do
 /// out  windows: of each light, 6 numbers: the rectangle x0, y0, x1, y1 of the image that rays which meet it go
 ///      through, pixels from the image's corner, empty if the camera does not see it; WEDGE_SHARE_*; the radius of the
 ///      largest circle of confusion, pixels
-__kernel void windowsOfLights(FrameParams frame, CameraParams camera, __global const AreaLight* restrict lights,
-    uint lightCount, __global float* restrict windows)
+__kernel void windowsOfLights(FrameParams frame, CameraParams camera, uint approximate,
+    __global const AreaLight* restrict lights, uint lightCount, __global float* restrict windows)
 {
     const uint i = get_global_id(0);
     if (i >= lightCount) {
@@ -91,31 +94,38 @@ __kernel void windowsOfLights(FrameParams frame, CameraParams camera, __global c
     float leastShift = INFINITY, mostShift = -INFINITY;
     for (uint k = 0u; k < 4u; ++k) {
         const Vec3 corner = lightCorner(light, k, vec2(-1.0f, -1.0f), vec2(1.0f, 1.0f));
-        const Vec3 way = vecSub(corner, camera.eye);
         const SeenPoint p = seenPoint(camera, corner);
         const float x = p.at.x + 0.5f * (float)frame.width, y = p.at.y + 0.5f * (float)frame.height;
         const float reach = fabs(p.shift);
-        before = before && vecDot(way, camera.forward) > 1e-3f * vecLength(way);
+        before = before && vecDot(vecSub(corner, camera.eye), camera.forward) > WEDGE_LEAST_DEPTH
+            && fmax(fabs(p.at.x), fabs(p.at.y)) <= WEDGE_FAR_CORNER;
         leastShift = fmin(leastShift, p.shift);
         mostShift = fmax(mostShift, p.shift);
         low = vec2(fmin(low.x, x - reach), fmin(low.y, y - reach));
         high = vec2(fmax(high.x, x + reach), fmax(high.y, y + reach));
     }
-    const bool centre = camera.pixelFilter == WEDGE_PIXEL_CENTRE;
-    const float least = fmax(leastShift, -mostShift),
-                most = fmax(-leastShift, mostShift); // least < 0: in focus somewhere
+    const bool centre = camera.pixelFilter == WEDGE_PIXEL_CENTRE, pinhole = !(camera.apertureRadius > 0.0f);
+    // least < 0: it is in focus somewhere.
+    const float least = fmax(leastShift, -mostShift), most = fmax(-leastShift, mostShift);
     const bool ofLens = camera.gaussianAperture == 0u && most <= WEDGE_MOST_CONFUSION
         && least > (centre ? 1e-3f : WEDGE_LEAST_CONFUSION);
-    const uint share = ofLens                    ? WEDGE_SHARE_OF_LENS
-        : !centre && most <= WEDGE_FEW_CONFUSION ? WEDGE_SHARE_OF_PIXEL
-                                                 : WEDGE_SHARE_UNKNOWN;
-    // In part beside or behind the camera it may be seen anywhere.
+    const bool ofPixel = !centre && most <= WEDGE_FEW_CONFUSION;
+    const bool uniform = light.profile == WEDGE_PROFILE_UNIFORM;
+    const bool small =
+        most <= WEDGE_FEW_CONFUSION && fmax(high.x - low.x, high.y - low.y) <= WEDGE_SMALL_LIGHT + 2.0f * most;
+    // Of lights with two sides, or one that all of the lens, or none of it, sees.
+    const bool oneSide =
+        light.twoSided != 0u || fabs(vecDot(light.normal, vecSub(camera.eye, light.centre))) > camera.apertureRadius;
+    const bool exact = uniform && (pinhole || centre);
+    const bool known = before && oneSide && (exact || (approximate != 0u && (uniform || small)));
+    const uint way = ofLens ? WEDGE_SHARE_OF_LENS : ofPixel ? WEDGE_SHARE_OF_PIXEL : WEDGE_SHARE_UNKNOWN;
+    // In part beside or behind the camera, or far beyond the image, it may be seen anywhere.
     __global float* w = windows + 6u * i;
     w[0] = light.visible == 0u || outOfView(frame, camera, light) ? INFINITY : before ? low.x : -INFINITY;
     w[1] = before ? low.y : -INFINITY;
     w[2] = before ? high.x : INFINITY;
     w[3] = before ? high.y : INFINITY;
-    w[4] = (float)(before ? share : WEDGE_SHARE_UNKNOWN);
+    w[4] = (float)(known ? way : WEDGE_SHARE_UNKNOWN);
     w[5] = most;
 }
 
@@ -152,25 +162,22 @@ WEDGE_FN ImageQuad partInLens(SeeingPixel from, AreaLight light, Vec2 low, Vec2 
     return quad;
 }
 
-/// The share of a pixel that part of a light covers. share: WEDGE_SHARE_*.
+/// The share of a pixel, and of the lens, that part of a light covers. share: WEDGE_SHARE_*.
 WEDGE_FN float shareOfPart(SeeingPixel from, AreaLight light, Vec2 low, Vec2 high, uint share)
 {
     const CameraParams camera = from.camera;
-    const bool whole = light.profile == WEDGE_PROFILE_UNIFORM;
-    const uint steps = whole ? WEDGE_EDGE_STEPS : WEDGE_CELL_STEPS;
     const bool ofLens = share == WEDGE_SHARE_OF_LENS;
     const bool one = ofLens ? camera.pixelFilter == WEDGE_PIXEL_CENTRE : !(camera.apertureRadius > 0.0f);
-    const uint points = one ? 1u : whole ? (ofLens ? WEDGE_PIXEL_POINTS : WEDGE_LENS_POINTS) : WEDGE_CELL_POINTS;
+    const bool cell = light.profile != WEDGE_PROFILE_UNIFORM;
+    const uint points = one ? 1u : cell ? WEDGE_CELL_POINTS : ofLens ? WEDGE_PIXEL_POINTS : WEDGE_LENS_POINTS;
     float sum = 0.0f;
     for (uint k = 0u; k < points; ++k) {
-        const Vec2 u = sobolOwen(k, hashUint(from.seed ^ 0x33333333u));
+        const Vec2 u = one ? vec2(0.5f, 0.5f) : sobolOwen(k, hashUint(from.seed ^ 0x33333333u));
         if (ofLens) {
-            const Vec2 offset = one ? vec2(0.0f, 0.0f)
-                                    : vec2(pixelOffset(camera.pixelFilter, u.x), pixelOffset(camera.pixelFilter, u.y));
-            sum += discCoverage(steps, partInLens(from, light, low, high, offset));
+            sum += discCoverage(partInLens(from, light, low, high, vec2(u.x - 0.5f, u.y - 0.5f)));
         } else {
             const Vec2 lens = one ? vec2(0.0f, 0.0f) : aperturePoint(camera.gaussianAperture, u);
-            sum += coverage(camera.pixelFilter, steps, partInImage(from, light, low, high, lens));
+            sum += pixelCoverage(partInImage(from, light, low, high, lens));
         }
     }
     return sum / (float)points;
@@ -179,16 +186,18 @@ WEDGE_FN float shareOfPart(SeeingPixel from, AreaLight light, Vec2 low, Vec2 hig
 /// How far from a pixel's centre, in pixels, rays go through the plane of a light, at most.
 WEDGE_FN float reachOf(SeeingPixel from, float confusion)
 {
-    const uint filter = from.camera.pixelFilter;
-    return (filter == WEDGE_PIXEL_CENTRE ? 0.0f : pixelReach(filter)) + confusion;
+    return (from.camera.pixelFilter == WEDGE_PIXEL_CENTRE ? 0.0f : 0.5f) + confusion;
 }
 
 /// Mean of one axis' part of a light's profile from one local coordinate to another.
 WEDGE_FN float meanProfile(AreaLight light, float low, float high)
 {
-    const float scale = 0.70710678f * light.cut;
-    const float mass = errorFunction(scale * high) - errorFunction(scale * low);
-    return light.profile == WEDGE_PROFILE_UNIFORM ? 1.0f : 0.886226925f * mass / (scale * (high - low));
+    const float scale = 0.70710678f * light.cut, wide = scale * (high - low);
+    // Of a narrow part the difference of error functions is mostly rounding.
+    if (wide < 0.02f) {
+        return lightProfile(0.5f * (low + high), 0.0f, light.profile, light.cut);
+    }
+    return 0.886226925f * (errorFunction(scale * high) - errorFunction(scale * low)) / wide;
 }
 
 /// Part of a light, in local coordinates.
@@ -260,7 +269,7 @@ WEDGE_FN PrimaryWay triedWay(
     PrimaryWay way;
     way.offset = way.lens = vec2(0.0f, 0.0f);
     if (filter != WEDGE_PIXEL_CENTRE) {
-        way.offset = vec2(pixelOffset(filter, u.x), pixelOffset(filter, u.y));
+        way.offset = vec2(u.x - 0.5f, u.y - 0.5f);
     }
     if (camera.apertureRadius > 0.0f) {
         way.lens = aperturePoint(camera.gaussianAperture, sobolOwen(index, hashUint(from.seed)));
@@ -279,7 +288,7 @@ WEDGE_FN PrimaryWay triedWay(
         way.lens = lens.x * lens.x + lens.y * lens.y <= 1.0f ? lens : way.lens;
     } else {
         const Vec2 offset = vec2(x + p.shift * way.lens.x, y + p.shift * way.lens.y);
-        way.offset = fmax(fabs(offset.x), fabs(offset.y)) <= pixelReach(filter) ? offset : way.offset;
+        way.offset = fmax(fabs(offset.x), fabs(offset.y)) <= 0.5f ? offset : way.offset;
     }
     return way;
 }
@@ -319,9 +328,7 @@ WEDGE_FN bool seesLights(SeeingPixel from, __global const TraversalNode* restric
 }
 
 /// in   frame, camera, BVH, lights; windows: of windowsOfLights
-/// out  known: radiance of the lights that the pixel sees (colours in 48 bits, 1e-4 exact); 0: it is not known, or
-/// there
-///      are none
+/// out  known: radiance of the lights that the pixel sees, colours in 47 bits, 1e-4 exact; 0: not known, or none
 __kernel void seenLights(FrameParams frame, CameraParams camera, __global const TraversalNode* restrict nodes,
     __global const TriangleBlock* restrict blocks, __global const AreaLight* restrict lights, uint lightCount,
     __global const float* restrict windows, __global float* restrict known)
@@ -358,12 +365,10 @@ __kernel void seenLights(FrameParams frame, CameraParams camera, __global const 
             near.index[near.count] = k;
             near.area[near.count] = seenArea(from, lights[k], w[5]);
             ++near.count;
-            const bool even =
-                lights[k].profile == WEDGE_PROFILE_UNIFORM || fmax(w[2] - w[0], w[3] - w[1]) > WEDGE_EVEN_PIXELS;
-            edge = edge || where == 0 || !even;
+            edge = edge || where == 0 || lights[k].profile != WEDGE_PROFILE_UNIFORM;
         }
     }
-    // Inside one light all samples see much the same.
+    // Inside a uniform light all samples see the same.
     if (!edge || !seesLights(from, nodes, blocks, lights, lightCount, &near)) {
         return;
     }

@@ -34,15 +34,28 @@ std::vector<graph::Argument> gathered(const FrameBuilder& frame, const shared::F
 
 } // namespace
 
+Gathered filteredPlanes(FrameBuilder& frame, std::uint32_t channels)
+{
+    return { frame.graph.plane<Value>("filtered", graph::floatPlanes(channels)),
+        frame.graph.plane<Count>("effective count", graph::floats) };
+}
+
 Gathered gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels,
-    const shared::FilterParams& params, const graph::Handle<Value>& filtered, const graph::Handle<Metres>& beta)
+    const shared::FilterParams& params, const graph::Handle<Value>& value, const graph::Handle<Metres>& beta)
+{
+    Gathered out = filteredPlanes(frame, channels);
+    gaussianFilter(frame, run, channels, params, value, beta, out);
+    return out;
+}
+
+void gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels,
+    const shared::FilterParams& params, const graph::Handle<Value>& filtered, const graph::Handle<Metres>& beta,
+    Gathered& out)
 {
     const int pixels = static_cast<int>(params.maxRadius);
     const graph::Reach along { .x = pixels }, across { .y = pixels };
     auto rows = frame.graph.plane<Value>("rows filtered", graph::floatPlanes(channels));
     auto rowCounts = frame.graph.plane<Count>("effective count of rows", graph::floats);
-    Gathered out { frame.graph.plane<Value>("filtered", graph::floatPlanes(channels)),
-        frame.graph.plane<Count>("effective count", graph::floats) };
     frame.blocks(run.pass, run.kind, { frame.program(run.program), "filterRows" },
         joined({ frame.rectangle(params), reads("value", filtered, along), reads("beta", beta, along) },
             gathered(frame, params, along), Arguments { writes("filtered", rows), writes("effective", rowCounts) }));
@@ -51,7 +64,18 @@ Gathered gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t
             gathered(frame, params, across),
             Arguments { reads("effectiveRows", rowCounts), writes("filtered", out.value),
                 writes("effective", out.effective) }));
-    return out;
+}
+
+graph::Handle<Count> gatheredCounts(FrameBuilder& frame, std::string_view pass, device::PassKind kind,
+    const shared::FilterParams& params, const graph::Handle<Metres>& beta)
+{
+    const int pixels = static_cast<int>(params.maxRadius);
+    const graph::Reach across { .x = pixels, .y = pixels };
+    auto effective = frame.graph.plane<Count>("effective count", graph::floats);
+    frame.blocks(pass, kind, { frame.program("filter/filter_counts.cl"), "gatherCounts" },
+        joined({ frame.rectangle(params), reads("beta", beta, across) }, gathered(frame, params, across),
+            Arguments { writes("effective", effective) }));
+    return effective;
 }
 
 void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams params, float pixels, float noise,

@@ -19,6 +19,16 @@ struct Gathered {
 Gathered gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels,
     const shared::FilterParams& params, const graph::Handle<Value>& value, const graph::Handle<Metres>& beta);
 
+/// The same into planes that were there before, so that they may be read after the group of passes in hand.
+Gathered filteredPlanes(FrameBuilder& frame, std::uint32_t channels);
+void gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels,
+    const shared::FilterParams& params, const graph::Handle<Value>& value, const graph::Handle<Metres>& beta,
+    Gathered& out);
+
+/// The equal samples alone that it amounts to, of whatever value.
+graph::Handle<Count> gatheredCounts(FrameBuilder& frame, std::string_view pass, device::PassKind kind,
+    const shared::FilterParams& params, const graph::Handle<Metres>& beta);
+
 /// What widening takes of a term: one value of all pixels, numbers whose squares are its variances in the mean, and
 /// what values are multiplied by in the image.
 struct Compared {

@@ -1,0 +1,67 @@
+// How many equal samples the filter of gather_lines.h gathers at each pixel, of whatever value: (sum w)^2 / sum w^2
+// along its row times that along its column.
+//
+// in   as for gather_lines.h, without values
+// out  effective
+#include "filter/gather.h"
+
+/// Weights of a line's neighbours.
+typedef struct {
+    float16 sum, squared;
+} LineWeights;
+
+WEDGE_INLINE void addNeighbour(FilterParams p, GatherBlock b, GatherWidth width, int j, float steps,
+    __global const float* beta, __global const float* position, __global const float* normal,
+    __global const float* pixelSize, __global const uint* objectId, LineWeights* weights)
+{
+    const float16 betaThere = loadBlock(beta, j);
+    const Neighbours n = neighboursAt(p, b, j, betaThere, position, normal, pixelSize, objectId);
+    const float16 w = neighbourWeights(p, width, n, betaThere, steps);
+    weights->sum += w;
+    weights->squared += w * w;
+}
+
+/// Along image step `step`, whose pixels lie `element` apart; before, after: pixels that the line goes on to.
+WEDGE_INLINE float16 countOfLine(FilterParams p, GatherBlock b, int i, int element, Vec3 step, int before, int after,
+    int16 gathers, float16 betaHere, __global const float* beta, __global const float* position,
+    __global const float* normal, __global const float* pixelSize, __global const uint* objectId)
+{
+    const GatherWidth width = gatherWidth(p, b, step, gathers, betaHere);
+    LineWeights weights;
+    weights.sum = weights.squared = (float16)(1.0f);
+    const int radius = (int)largestOf(width.radius);
+    for (int k = 1; k <= radius; ++k) {
+        if (k <= before) {
+            addNeighbour(p, b, width, i - k * element, (float)k, beta, position, normal, pixelSize, objectId, &weights);
+        }
+        if (k <= after) {
+            addNeighbour(p, b, width, i + k * element, (float)k, beta, position, normal, pixelSize, objectId, &weights);
+        }
+    }
+    return gathers ? weights.sum * weights.sum / weights.squared : (float16)(1.0f);
+}
+
+__kernel void gatherCounts(FilterParams p, __global const float* restrict beta, __global const float* restrict position,
+    __global const float* restrict normal, __global const float* restrict pixelSize,
+    __global const uint* restrict objectId, __global float* restrict effective)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const float16 betaHere = loadBlock(beta, i);
+    const uint16 object = loadIdBlock(objectId, i);
+    const int16 gathers = (betaHere > 0.0f) & (object != 0u);
+    float16 count = (float16)(1.0f);
+    if (any(gathers)) {
+        const GatherBlock b = gatherBlock(p, i, object, position, normal, pixelSize);
+        // The padding of the rows holds objectId 0, so no tap has to ask where the row ends.
+        count = countOfLine(p, b, i, 1, p.right, WEDGE_MAX_RADIUS, WEDGE_MAX_RADIUS, gathers, betaHere, beta, position,
+            normal, pixelSize, objectId);
+        count *= countOfLine(p, b, i, (int)p.stride, p.down, (int)y, (int)(p.height - 1u - y), gathers, betaHere, beta,
+            position, normal, pixelSize, objectId);
+    }
+    vstore16(count, 0, effective + i);
+}

@@ -1,0 +1,34 @@
+// What a frame counts.
+#include "core/vector16.h"
+#include "shared/filter_params.h"
+#include "shared/frame.h"
+
+/// Adds up a plane's numbers within the rectangle.
+/// in      counts: a plane
+/// in out  tally: one sum of each work-item, which takes every so manieth row
+__kernel void addToTally(AnalysisParams p, __global const uint* restrict counts, __global ulong* restrict tally)
+{
+    const uint item = get_global_id(0);
+    if (item >= WEDGE_TALLY_STRIPES) {
+        return;
+    }
+    ulong sum = 0u;
+    for (uint y = p.y0 + item; y < p.y1; y += WEDGE_TALLY_STRIPES) {
+        for (uint x = p.x0; x < p.x1; ++x) {
+            sum += counts[pixelIndex(x, y, p.stride)];
+        }
+    }
+    tally[item] += sum;
+}
+
+/// sum = before + counts.
+__kernel void addCounts(AnalysisParams p, __global const uint* restrict counts, __global const uint* restrict before,
+    __global uint* restrict sum)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x < p.x1 && y < p.y1) {
+        const int i = (int)pixelIndex(x, y, p.stride);
+        vstore16(loadIdBlock(before, i) + loadIdBlock(counts, i), 0, sum + i);
+    }
+}
