@@ -98,6 +98,21 @@ TEST_CASE("coverage of the lens is that of a fine grid")
         });
         CHECK(std::fabs(discCoverage(quad) - expected) < 4e-3);
     }
+    // Edges of quads that are thousands of radii long.
+    for (const float far : { 300.0f, 1000.0f, 10000.0f }) {
+        CAPTURE(far);
+        for (int k = 0; k < 100; ++k) {
+            const double angle = uniform(random, 0, 2 * std::numbers::pi), from = uniform(random, -1, 1);
+            const auto x = static_cast<float>(std::cos(angle)), y = static_cast<float>(std::sin(angle));
+            const auto at = [&](float along, float across) {
+                return vec2(across * x - along * y, across * y + along * x);
+            };
+            const auto first = static_cast<float>(from);
+            const ImageQuad quad { { at(-0.7f * far, first), at(far, first), at(far, far), at(-0.7f * far, far) } };
+            const double beyond = (std::acos(from) - from * std::sqrt(1 - from * from)) / std::numbers::pi;
+            CHECK(std::fabs(discCoverage(quad) - beyond) < 3e-7 * far + 1e-5);
+        }
+    }
     const auto half = [](float from) {
         return discCoverage({ { vec2(from, -9), vec2(9, -9), vec2(9, 9), vec2(from, 9) } });
     };

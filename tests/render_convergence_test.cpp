@@ -154,7 +154,7 @@ TEST_CASE("pixels alone in a small penumbra take the samples that they need")
         b.camera({ 0, 6, 0.5f }, { 0, 0, 0 });
         render::Renderer renderer(b.scene, device, renderOptions());
         const std::vector<float> reference = renderPixels(renderer, sized(render::monteCarlo(4096), width, height));
-        renderPixels(renderer, sized(render::axisAligned(28), width, height));
+        renderPixels(renderer, sized(render::axisAligned(28), width, height), true);
         const render::PlaneLayout layout(width, height);
         const std::vector<std::uint32_t> samples = renderer.frame().samples.downloadAll(renderer.queue());
         double lit = 0, darker = 0;

@@ -364,19 +364,26 @@ TEST_CASE("what a frame counts is the same with layers and without, and is what 
                 CHECK(image.indirectSpp == layers.indirectSpp);
                 CHECK((image.indirectRays > 0) == (bounces > 0));
                 CHECK(image.directSpp > 20);
-                const render::Frame& frame = renderer.frame();
+                const std::uint32_t stride = renderer.frame().layout.stride;
                 const auto sum = [&](const auto& counts) {
                     const auto each = counts.downloadAll(renderer.queue());
                     return std::accumulate(each.begin(), each.end(), std::uint64_t { 0 });
                 };
-                std::uint64_t samples = 0;
-                const std::vector<std::uint32_t> each = frame.samples.downloadAll(renderer.queue());
-                for (int y = settings.crop.y0; y < settings.crop.y1; ++y)
-                    for (int x = settings.crop.x0; x < settings.crop.x1; ++x)
-                        samples += each[shared::pixelIndex(
-                            static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), frame.layout.stride)];
-                CHECK(samples == sum(frame.samplesTally));
-                CHECK(image.shadowRays + image.indirectRays == sum(frame.raysTally));
+                const auto within = [&](const device::Buffer<std::uint32_t>& counts, const image::Window& window) {
+                    const std::vector<std::uint32_t> each = counts.downloadAll(renderer.queue());
+                    std::uint64_t all = 0;
+                    for (int y = window.y0; y < window.y1; ++y)
+                        for (int x = window.x0; x < window.x1; ++x)
+                            all += each[shared::pixelIndex(
+                                static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), stride)];
+                    return all;
+                };
+                CHECK(within(renderer.frame().samples, settings.crop) == sum(renderer.frame().samplesTally));
+                // The whole image's rays, of which a crop has not all.
+                render::Settings whole = settings;
+                whole.crop = {};
+                renderer.render(whole, {}, true);
+                CHECK(within(renderer.frame().rays, { 0, 0, 48, 32 }) == sum(renderer.frame().raysTally));
             }
     });
 }

@@ -85,7 +85,6 @@ TEST_CASE("edges of lights that the camera sees have next to no noise")
             CAPTURE(off);
             CAPTURE(plain);
             CAPTURE(ofReference);
-            MESSAGE(off, " ", plain, " ", ofReference);
             CHECK(off < kind.noise * plain + 2 * ofReference);
         }
     });
@@ -127,7 +126,6 @@ TEST_CASE("images of lights become right with many samples, whatever was known o
             const double ofPlain = rmse(renderPixels(renderer, plain), reference);
             CAPTURE(off);
             CAPTURE(ofPlain);
-            MESSAGE(off, " ", ofPlain);
             // Halves have half the samples each of a sequence: less even than strata of all.
             CHECK(off < (kind.progressive ? 1.4 : 1.0) * ofPlain);
         }
@@ -153,7 +151,6 @@ TEST_CASE("a light that half of the lens sees from behind is as bright as plain 
         CAPTURE(error);
         CAPTURE(ours);
         CAPTURE(ownError);
-        MESSAGE(mean, " ", error, " ", ours, " ", ownError);
         REQUIRE(mean > 50);
         CHECK(std::fabs(ours - mean) < 3.5 * std::hypot(error, ownError));
     });
@@ -217,7 +214,6 @@ TEST_CASE("what is concluded wrongly about lights costs samples and no light")
         CAPTURE(error);
         CAPTURE(ours);
         CAPTURE(ownError);
-        MESSAGE(mean, " ", error, " ", ours, " ", ownError);
         CHECK(std::fabs(ours - mean) < 3.5 * std::hypot(error, ownError));
         CHECK(ownError < 0.01 * mean); // or it would show nothing
     });

@@ -40,7 +40,7 @@ struct Frame {
     device::Buffer<float> diffuse = none<float>(), specular = none<float>(), emission = none<float>();
     device::Buffer<std::uint32_t> objectId = none<std::uint32_t>();
     /// Rays traced for each pixel, without the camera's, and those of them that looked for the nearest surface of a
-    /// path. Of distributed frames without layers only their sums mean something.
+    /// path. Without layers there are none, and of distributed frames only their sums mean something.
     device::Buffer<std::uint32_t> rays = none<std::uint32_t>(), pathRays = none<std::uint32_t>();
     device::Buffer<float> beauty = none<float>(); ///< emission and all that is reflected
     device::Buffer<float> direct = none<float>(), directNoisy = none<float>(); ///< radiance, filtered and not
@@ -48,7 +48,8 @@ struct Frame {
                           indirectNoisy = none<float>(); ///< radiance, or how open the hemisphere is
     std::map<std::string, device::Buffer<float>>
         unfiltered = {}; ///< direct light that no filter had, by effects' layers
-    device::Buffer<std::uint32_t> samples = none<std::uint32_t>(); ///< of all terms
+    device::Buffer<std::uint32_t> samples =
+        none<std::uint32_t>(); ///< of all terms; without layers of distributed frames alone
     device::Buffer<std::uint32_t> indirectSamples = none<std::uint32_t>(); ///< of the indirect terms
 
     /// What these add up to, where the pixels are the receivers, see kernels/frame/tally.cl: of samples within

@@ -54,7 +54,8 @@ WEDGE_FN float edgeInDisc(Vec2 from, Vec2 to)
 {
     const Vec2 d = vec2(to.x - from.x, to.y - from.y);
     const float a = d.x * d.x + d.y * d.y, b = from.x * d.x + from.y * d.y;
-    const float root = b * b - a * (from.x * from.x + from.y * from.y - 1.0f);
+    // Not b^2 - a (from^2 - 1), whose digits cancel where corners are far from the disc.
+    const float c = crossOf(from, d), root = a - c * c;
     if (!(a > 0.0f)) {
         return 0.0f;
     }

@@ -21,6 +21,7 @@
 #define WEDGE_PIXEL_POINTS 16u
 /// Radii of circles of confusion in pixels, from which on the latter is the better one, up to which the former will do,
 /// and beyond which edges have little noise.
+#define WEDGE_TINY_CONFUSION 0.1f ///< below which corners are too many radii of the lens away
 #define WEDGE_LEAST_CONFUSION 1.0f
 #define WEDGE_FEW_CONFUSION 3.0f
 #define WEDGE_MOST_CONFUSION 16.0f
@@ -108,7 +109,7 @@ __kernel void windowsOfLights(FrameParams frame, CameraParams camera, uint appro
     // least < 0: it is in focus somewhere.
     const float least = fmax(leastShift, -mostShift), most = fmax(-leastShift, mostShift);
     const bool ofLens = camera.gaussianAperture == 0u && most <= WEDGE_MOST_CONFUSION
-        && least > (centre ? 1e-3f : WEDGE_LEAST_CONFUSION);
+        && least > (centre ? WEDGE_TINY_CONFUSION : WEDGE_LEAST_CONFUSION);
     const bool ofPixel = !centre && most <= WEDGE_FEW_CONFUSION;
     const bool uniform = light.profile == WEDGE_PROFILE_UNIFORM;
     const bool small =
