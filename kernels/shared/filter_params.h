@@ -9,7 +9,7 @@
 #define WEDGE_DEMAND_STRIPES 32u
 
 /// Sums that a plane of counts is added up to (tally.cl), each of so manieth rows.
-#define WEDGE_TALLY_STRIPES 64u
+#define WEDGE_TALLY_STRIPES 1024u
 
 /// Pixels around one whose uncertainties make its demand, either way (demand.cl).
 #define WEDGE_DEMAND_REACH 2
