@@ -15,7 +15,6 @@ using graph::Launch;
 using graph::made;
 using graph::reads;
 using graph::Run;
-using graph::tallies;
 using graph::updates;
 using graph::value;
 using graph::writes;

@@ -49,7 +49,7 @@ Gathered gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t
 }
 
 void gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels,
-    const shared::FilterParams& params, const graph::Handle<Value>& filtered, const graph::Handle<Metres>& beta,
+    const shared::FilterParams& params, const graph::Handle<Value>& value, const graph::Handle<Metres>& beta,
     Gathered& out)
 {
     const int pixels = static_cast<int>(params.maxRadius);
@@ -57,7 +57,7 @@ void gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t cha
     auto rows = frame.graph.plane<Value>("rows filtered", graph::floatPlanes(channels));
     auto rowCounts = frame.graph.plane<Count>("effective count of rows", graph::floats);
     frame.blocks(run.pass, run.kind, { frame.program(run.program), "filterRows" },
-        joined({ frame.rectangle(params), reads("value", filtered, along), reads("beta", beta, along) },
+        joined({ frame.rectangle(params), reads("value", value, along), reads("beta", beta, along) },
             gathered(frame, params, along), Arguments { writes("filtered", rows), writes("effective", rowCounts) }));
     frame.blocks(run.pass, run.kind, { frame.program(run.program), "filterColumns" },
         joined({ frame.rectangle(params), reads("value", rows, across), reads("beta", beta, across) },
