@@ -290,8 +290,18 @@ TEST_CASE("light of an emitting quad converges to its form factor times the emis
         b.newObject();
         b.quad({ 0.2f, 0.8f, -0.3f }, { 0.7f, 0, 0 }, { 0, 0, 0.5f }, 1);
         b.camera({ 0, 0.6f, 3.0f }, { 0, 0, 0 });
-        for (const std::uint32_t ways : { WEDGE_LIGHTS_BOTH, WEDGE_LIGHTS_SAMPLED, WEDGE_LIGHTS_MET }) {
+        struct Way {
+            std::uint32_t ways;
+            float directedWithin;
+        };
+        for (const auto& [ways, within] : { Way { WEDGE_LIGHTS_BOTH, infinity }, Way { WEDGE_LIGHTS_BOTH, 1.2f },
+                 Way { WEDGE_LIGHTS_SAMPLED, infinity }, Way { WEDGE_LIGHTS_MET, 0 } }) {
+            CAPTURE(ways);
+            CAPTURE(within);
             PathRun run(b.scene, device, 15, 11);
+            run.params.emittersLow = shared::vec3(-0.5f, 0.8f, -0.8f);
+            run.params.emittersHigh = shared::vec3(0.9f, 0.8f, 0.2f);
+            run.params.directedWithin = within;
             run.params.component = WEDGE_COMPONENT_EMITTERS;
             run.params.lightSampling = ways;
             run.params.emitters = run.traced.onDevice.emitterCount;
@@ -303,7 +313,7 @@ TEST_CASE("light of an emitting quad converges to its form factor times the emis
             const PathResult found = run.result();
             const auto id = run.traced.read(run.traced.frame.objectId);
             const auto position = run.traced.read(run.traced.frame.position);
-            unsigned floor = 0;
+            unsigned floor = 0, directed = 0;
             double sum = 0, expected = 0, worst = 0;
             run.traced.everyPixel([&](int x, int y) {
                 if (id.at(x, y) != 1)
@@ -325,10 +335,15 @@ TEST_CASE("light of an emitting quad converges to its form factor times the emis
                 worst = std::max(worst, std::fabs(found.value.at(x, y) - 2 * factor));
                 REQUIRE(found.value.at(x, y, 1) == doctest::Approx(0.5 * found.value.at(x, y)).epsilon(1e-4));
                 REQUIRE(found.value.at(x, y, 2) == doctest::Approx(0.25 * found.value.at(x, y)).epsilon(1e-4));
-                REQUIRE(found.pathRays.at(x, y) == count);
-                REQUIRE(found.rays.at(x, y) == (ways == WEDGE_LIGHTS_MET ? 1 : 2) * count);
+                const glm::dvec3 nearest = glm::clamp(at, glm::dvec3(-0.5, 0.8, -0.8), glm::dvec3(0.9, 0.8, 0.2));
+                const bool near = glm::length(at - nearest) < within;
+                const unsigned directions = ways == WEDGE_LIGHTS_MET || (ways == WEDGE_LIGHTS_BOTH && near) ? 1 : 0;
+                REQUIRE(found.pathRays.at(x, y) == directions * count);
+                REQUIRE(found.rays.at(x, y) == (directions + (ways == WEDGE_LIGHTS_MET ? 0 : 1)) * count);
+                directed += directions;
             });
             CHECK(floor > 60);
+            CHECK((within != 1.2f || (directed > 20 && directed < floor - 20)));
             CHECK(expected / floor > 0.05);
             // A reflected direction brings 0 or 2: independent ones would deviate by 0.03 in the worst case, those of
             // Sobol by far less; points vary smoothly.

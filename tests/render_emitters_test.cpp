@@ -62,7 +62,7 @@ render::Settings settingsOf(const render::Settings& method, int bounces)
 
 Moments lightOf(const SceneBuilder& b, const device::Device& device, render::Settings settings, int runs = 8)
 {
-    render::Renderer renderer(b.scene, device);
+    render::Renderer renderer(b.scene, device, renderOptions());
     return moments(renderer, settings, Part::Beauty, runs);
 }
 

@@ -2,6 +2,7 @@
 
 #include "effects/area_lights/light_graph.h"
 #include "effects/area_lights/light_waves.h"
+#include "host/render/direct_lights.h"
 
 namespace wedge::render {
 namespace {
@@ -13,15 +14,19 @@ public:
     std::vector<Term> terms(const Settings& settings, const scene::Scene& scene) const override
     {
         std::vector<Term> out;
-        const std::size_t count = settings.integrator == Integrator::Path ? scene.areaLights.size() : 0;
-        for (std::uint32_t i = 0; i < count; ++i) {
-            out.push_back({ .name = count == 1 ? "" : std::to_string(i + 1),
+        const std::vector<OwnLight> lights =
+            settings.integrator == Integrator::Path ? directLights(scene).own : std::vector<OwnLight> {};
+        for (std::uint32_t i = 0; i < lights.size(); ++i) {
+            const TermLight light { i, lights[i].onDevice() };
+            out.push_back({ .name = lights.size() == 1 ? "" : std::to_string(i + 1),
                 .part = Part::Direct,
                 .workUnits = static_cast<double>(settings.spp),
-                .ofPixels = [i](FrameBuilder& frame, const std::shared_ptr<TermState>& state,
-                                graph::Handle<Metres>& beta) { addAreaLight(frame, i, state, beta); },
-                .ofWaves = [i](FrameBuilder& frame,
-                               const SampleShape& shape) { return std::make_unique<LightWaves>(frame, shape, i); } });
+                .ofPixels = [light](FrameBuilder& frame, const std::shared_ptr<TermState>& state,
+                                graph::Handle<Metres>& beta) { addAreaLight(frame, light, state, beta); },
+                .ofWaves =
+                    [light](FrameBuilder& frame, const SampleShape& shape) {
+                        return std::make_unique<LightWaves>(frame, shape, light);
+                    } });
         }
         return out;
     }

@@ -31,13 +31,13 @@ constexpr std::uint32_t secondPassSlice = 256;
 /// One light of a frame that is being declared.
 class LightGraph {
 public:
-    LightGraph(
-        FrameBuilder& frame, std::uint32_t index, const std::shared_ptr<TermState>& state, graph::Handle<Metres>& beta)
+    LightGraph(FrameBuilder& frame, const TermLight& light, const std::shared_ptr<TermState>& state,
+        graph::Handle<Metres>& beta)
         : f_(frame)
         , g_(frame.graph)
         , s_(frame.settings)
-        , index_(index)
-        , light_(deviceLight(frame.description.areaLights[index]))
+        , index_(light.number)
+        , light_(light.light)
         , channels_(frame.specular ? 2 : 1)
         , state_(state)
         , beta_(beta)
@@ -259,9 +259,9 @@ void LightGraph::shade(const graph::Handle<Value>& shown, const std::function<bo
 } // namespace
 
 void addAreaLight(
-    FrameBuilder& frame, std::uint32_t index, const std::shared_ptr<TermState>& state, graph::Handle<Metres>& beta)
+    FrameBuilder& frame, const TermLight& light, const std::shared_ptr<TermState>& state, graph::Handle<Metres>& beta)
 {
-    LightGraph(frame, index, state, beta).declare();
+    LightGraph(frame, light, state, beta).declare();
 }
 
 } // namespace wedge::render

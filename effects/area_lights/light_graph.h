@@ -1,8 +1,8 @@
 #pragma once
 
+#include "effects/area_lights/soft_shadows.h"
 #include "host/render/frame_builder.h"
 
-#include <cstdint>
 #include <memory>
 
 namespace wedge::render {
@@ -11,6 +11,6 @@ namespace wedge::render {
 /// widths and counts, samples, filter, shading; adds it to totals.direct.
 /// state: filled in while the graph runs. beta: the filter's widths, metres, which are written where state says so.
 void addAreaLight(
-    FrameBuilder& frame, std::uint32_t index, const std::shared_ptr<TermState>& state, graph::Handle<Metres>& beta);
+    FrameBuilder& frame, const TermLight& light, const std::shared_ptr<TermState>& state, graph::Handle<Metres>& beta);
 
 } // namespace wedge::render

@@ -23,10 +23,10 @@ constexpr std::uint32_t allSamples = std::numeric_limits<std::uint32_t>::max();
 
 } // namespace
 
-LightWaves::LightWaves(FrameBuilder& frame, const SampleShape& shape, std::uint32_t index)
+LightWaves::LightWaves(FrameBuilder& frame, const SampleShape& shape, const TermLight& light)
     : WaveTerm(frame, shape, frame.totals.direct, 1, 1.0f)
-    , index_(index)
-    , light_(deviceLight(frame.description.areaLights[index]))
+    , index_(light.number)
+    , light_(light.light)
     , channels_(frame.specular ? 2 : 1)
 {
 }

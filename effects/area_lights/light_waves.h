@@ -1,5 +1,6 @@
 #pragma once
 
+#include "effects/area_lights/soft_shadows.h"
 #include "host/render/wave_term.h"
 #include "kernels/shared/light.h"
 
@@ -8,8 +9,7 @@ namespace wedge::render {
 /// Direct light of an area light where pixels have several receivers, thesis chapters 3 and 5.
 class LightWaves : public WaveTerm {
 public:
-    /// index: of the light.
-    LightWaves(FrameBuilder& frame, const SampleShape& shape, std::uint32_t index);
+    LightWaves(FrameBuilder& frame, const SampleShape& shape, const TermLight& light);
 
     void sample(
         Waves& waves, const Adding& adding, const PrimaryCounts& counts, const graph::Handle<Count>& hits) override;

@@ -8,6 +8,12 @@
 
 namespace wedge::render {
 
+/// A light that has a term of its own.
+struct TermLight {
+    std::uint32_t number = 0; ///< of DirectLights::own
+    shared::AreaLight light {};
+};
+
 /// What the analysis of a light needs besides where pixels lie.
 shared::AnalysisParams lightParams(
     shared::AnalysisParams params, const Settings& settings, const shared::AreaLight& light);

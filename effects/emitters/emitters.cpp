@@ -2,7 +2,7 @@
 
 #include "effects/indirect/path_graph.h"
 #include "effects/indirect/path_waves.h"
-#include "host/render/emitters.h"
+#include "host/render/direct_lights.h"
 
 namespace wedge::render {
 namespace {
@@ -27,7 +27,7 @@ public:
 
     std::vector<Term> terms(const Settings& settings, const scene::Scene& scene) const override
     {
-        if (settings.integrator != Integrator::Path || !hasEmitters(scene)) {
+        if (settings.integrator != Integrator::Path || !directLights(scene).share) {
             return {};
         }
         std::vector<Term> terms { termOf(Component::Emitters, "Emitters", settings) };

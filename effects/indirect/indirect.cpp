@@ -11,6 +11,15 @@ using device::PassKind;
 using graph::reads;
 using graph::writes;
 
+std::vector<graph::Argument> sceneLights(const FrameBuilder& frame, Component component)
+{
+    const bool other = isOfEmitters(component) && frame.scene != nullptr && !frame.scene->shareEmitters;
+    return { frame.ofScene("areaLights", "AreaLight", &DeviceScene::areaLights),
+        frame.ofScene("deltaLights", "DeltaLight", &DeviceScene::deltaLights),
+        frame.ofScene("emitters", "Emitter", other ? &DeviceScene::sharedLights : &DeviceScene::emitters),
+        frame.ofScene("emitterPicks", "float", other ? &DeviceScene::sharedPicks : &DeviceScene::emitterPicks) };
+}
+
 shared::PathParams pathParams(const FrameBuilder& frame, Component component)
 {
     const Settings& settings = frame.settings;
@@ -22,11 +31,18 @@ shared::PathParams pathParams(const FrameBuilder& frame, Component component)
     p.firstPass = settings.method == Method::AxisAligned ? WEDGE_INDIRECT_FIRST_RAYS : 0;
     p.ambientDistance = settings.indirect.ambientDistance > 0 ? settings.indirect.ambientDistance
                                                               : std::numeric_limits<float>::infinity();
-    p.areaLights = static_cast<std::uint32_t>(frame.description.areaLights.size());
-    p.deltaLights = frame.scene != nullptr ? frame.scene->deltaLightCount : 0;
-    p.emitters = frame.scene != nullptr ? frame.scene->emitterCount : 0;
+    const DeviceScene* scene = frame.scene;
+    const bool direct = isOfEmitters(component), quads = !direct || (scene != nullptr && scene->shareQuads);
+    p.areaLights = quads ? static_cast<std::uint32_t>(frame.description.areaLights.size()) : 0;
+    p.deltaLights = scene != nullptr ? scene->deltaLightCount : 0;
+    p.emitters = scene == nullptr ? 0 : direct ? scene->sharedCount : scene->emitterCount;
     p.emitterShare = frame.scene != nullptr ? frame.scene->emitterShare : 0.0f;
     p.sceneDiameter = frame.scene != nullptr ? frame.scene->diameter : 0.0f;
+    if (scene != nullptr) {
+        p.emittersLow = shared::vec3(scene->sharedLow.x, scene->sharedLow.y, scene->sharedLow.z);
+        p.emittersHigh = shared::vec3(scene->sharedHigh.x, scene->sharedHigh.y, scene->sharedHigh.z);
+        p.directedWithin = scene->sharedDirectedWithin;
+    }
     return p;
 }
 

@@ -25,6 +25,9 @@ constexpr bool isOfEmitters(Component c) { return c == Component::Emitters || c 
 /// What the analysis of a component needs besides the rectangle.
 shared::ReflectorParams reflectorParams(const FrameBuilder& frame, Component component);
 
+/// The lights that a component's samples see, kernels/paths/indirect.cl.
+std::vector<graph::Argument> sceneLights(const FrameBuilder& frame, Component component);
+
 /// How paths are traced where the pixels are the receivers.
 shared::PathParams pathParams(const FrameBuilder& frame, Component component);
 

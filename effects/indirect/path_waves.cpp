@@ -38,11 +38,7 @@ void PathWaves::sample(
     Shared own = share(waves, adding, counts, 4, 3);
     waves.tiles("paths", { "paths/indirect.cl", "samplePaths", { sinks::sums(), sinks::distances() } },
         joined({ waves.receiverParams(), value("params", pathParams()) }, f_.hierarchy(), f_.geometry(),
-            Arguments { f_.ofScene("areaLights", "AreaLight", &DeviceScene::areaLights),
-                f_.ofScene("deltaLights", "DeltaLight", &DeviceScene::deltaLights),
-                f_.ofScene("emitters", "Emitter", &DeviceScene::emitters),
-                f_.ofScene("emitterPicks", "float", &DeviceScene::emitterPicks) },
-            waves.receiverArguments(),
+            sceneLights(f_, component_), waves.receiverArguments(),
             Arguments { reads("specular", r.specular), reads("wanted", own.last),
                 value("lastSample", std::numeric_limits<std::uint32_t>::max()), updates("taken", own.first),
                 waves.tallyRays(), waves.tallyPathRays(), updates("sums", own.sums),

@@ -3,6 +3,7 @@
 #include "host/app/render_counts.h"
 #include "host/app/values.h"
 #include "host/error.h"
+#include "host/render/direct_lights.h"
 #include "host/render/distributed_frame.h"
 #include "host/render/emitters.h"
 
@@ -50,8 +51,8 @@ void refuseFilterOptions(const RenderOptions& o)
 /// else 2 (section 3.7, "Extensions", Fig. 3.11).
 float publishedMu(const RenderOptions& o, const scene::Scene& scene)
 {
-    const bool uniform = std::ranges::any_of(
-        scene.areaLights, [](const scene::AreaLight& light) { return light.profile == scene::LightProfile::Uniform; });
+    const bool uniform = std::ranges::any_of(render::directLights(scene).own,
+        [](const render::OwnLight& light) { return light.quad.profile == scene::LightProfile::Uniform; });
     return uniform || o.falloff == render::Shading::Inside ? 3.0f : 2.0f;
 }
 

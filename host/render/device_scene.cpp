@@ -164,9 +164,13 @@ void DeviceScene::plan(device::MemoryPlan& plan, const scene::Scene& scene, cons
     plan.addItems("object ids", g.objectIds.size(), sizeof(std::uint32_t));
     plan.addItems("materials", scene.materials.size(), sizeof(shared::MaterialData));
     plan.addItems("texels", texelCount(scene), sizeof(std::uint32_t));
-    if (const std::size_t emitters = emitterList(scene).list.size(); emitters > 0) {
-        plan.addItems("emitters", emitters, sizeof(shared::Emitter));
-        plan.addItems("emitters' probabilities", g.materialIds.size(), sizeof(float));
+    if (const EmitterList list = emitterList(scene); !list.list.empty()) {
+        plan.addItems("emitters", list.list.size(), sizeof(shared::Emitter));
+        plan.addItems("emitters' probabilities", list.picks.size(), sizeof(float));
+    }
+    if (const EmitterList list = render::sharedLights(scene, directLights(scene)); !list.list.empty()) {
+        plan.addItems("shared lights", list.list.size(), sizeof(shared::Emitter));
+        plan.addItems("shared lights' probabilities", list.picks.size(), sizeof(float));
     }
     if (scene::geometryMoves(scene)) {
         plan.addItems("positions at closing", g.positionsAtClose.size(), sizeof(float));
@@ -176,12 +180,18 @@ void DeviceScene::plan(device::MemoryPlan& plan, const scene::Scene& scene, cons
 
 DeviceScene::DeviceScene(
     const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device, device::TimedQueue& queue)
-    : DeviceScene(scene, hierarchy, device, queue, emitterList(scene))
+    : DeviceScene(scene, hierarchy, device, queue, directLights(scene))
 {
 }
 
 DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device,
-    device::TimedQueue& queue, const EmitterList& list)
+    device::TimedQueue& queue, const DirectLights& direct)
+    : DeviceScene(scene, hierarchy, device, queue, direct, emitterList(scene), render::sharedLights(scene, direct))
+{
+}
+
+DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device,
+    device::TimedQueue& queue, const DirectLights& direct, const EmitterList& list, const EmitterList& sharedList)
     : nodes(device::Buffer<std::byte>::readOnly(device, queue, hierarchy.nodes(), "BVH nodes"))
     , blocks(device::Buffer<std::byte>::readOnly(device, queue, hierarchy.blocks(), "triangle blocks"))
     , positions(device::Buffer<float>::readOnly(device, queue, scene.geometry.positions, "positions"))
@@ -202,6 +212,8 @@ DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, 
     , deltaLights(device, scene.pointLights.size() + scene.directionalLights.size(), "point and directional lights")
     , emitters(device, list.list.size(), "emitters")
     , emitterPicks(device, list.picks.size(), "emitters' probabilities")
+    , sharedLights(device, sharedList.list.size(), "shared lights")
+    , sharedPicks(device, sharedList.picks.size(), "shared lights' probabilities")
 {
     materials.upload(queue, materialData(scene));
     std::vector<shared::TextureData> infos;
@@ -216,7 +228,12 @@ DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, 
     srgbToLinear.upload(queue, texelTable());
     for (const scene::AreaLight& light : scene.areaLights) {
         areaLightList.push_back(deviceLight(light));
-        const std::vector<float> rule = lightNodes(light);
+    }
+    for (std::size_t i = 0; i < sharedList.quadPicks.size(); ++i) {
+        areaLightList[i].sharedPick = sharedList.quadPicks[i];
+    }
+    for (const OwnLight& light : direct.own) {
+        const std::vector<float> rule = lightNodes(light.quad);
         quadratures.emplace_back(device, rule.size(), "light quadrature");
         quadratures.back().upload(queue, rule);
     }
@@ -229,6 +246,15 @@ DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, 
     emitters.upload(queue, list.list);
     emitterPicks.upload(queue, list.picks);
     emitterCount = static_cast<std::uint32_t>(list.list.size());
+    sharedLights.upload(queue, sharedList.list);
+    sharedPicks.upload(queue, sharedList.picks);
+    shareEmitters = direct.shareEmitters();
+    shareQuads = !direct.sharedQuads.empty();
+    const EmitterList& ofTerm = shareEmitters ? list : sharedList;
+    sharedLow = ofTerm.low;
+    sharedHigh = ofTerm.high;
+    sharedDirectedWithin = ofTerm.directedWithin;
+    sharedCount = static_cast<std::uint32_t>(ofTerm.list.size());
     areaLights.upload(queue, areaLightList);
     deltaLights.upload(queue, delta);
     deltaLightCount = static_cast<std::uint32_t>(delta.size());

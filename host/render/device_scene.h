@@ -2,6 +2,7 @@
 
 #include "host/device/buffer.h"
 #include "host/device/memory_plan.h"
+#include "host/render/direct_lights.h"
 #include "host/render/emitters.h"
 #include "host/render/hierarchy.h"
 #include "host/scene/scene.h"
@@ -36,7 +37,9 @@ public:
 
 private:
     DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device,
-        device::TimedQueue& queue, const EmitterList& list);
+        device::TimedQueue& queue, const DirectLights& direct);
+    DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device,
+        device::TimedQueue& queue, const DirectLights& direct, const EmitterList& list, const EmitterList& sharedList);
 
 public:
     device::Buffer<std::byte> nodes; ///< of the hierarchy's family of traversals
@@ -52,10 +55,16 @@ public:
     device::Buffer<shared::DeltaLight> deltaLights;
     device::Buffer<shared::Emitter> emitters; ///< emitterList(); one element that nobody reads where nothing emits
     device::Buffer<float> emitterPicks;
+    device::Buffer<shared::Emitter> sharedLights; ///< of the term of direct light: emitters, if shareEmitters
+    device::Buffer<float> sharedPicks;
 
     std::vector<shared::AreaLight> areaLightList; ///< the same as areaLights, for kernels that take one by value
-    std::vector<device::Buffer<float>> quadratures; ///< one a light: the nodes of all rules, lightNodes()
-    std::uint32_t deltaLightCount = 0, emitterCount = 0;
+    std::vector<device::Buffer<float>>
+        quadratures; ///< one of DirectLights::own each: the nodes of all rules, lightNodes()
+    std::uint32_t deltaLightCount = 0, emitterCount = 0, sharedCount = 0;
+    glm::vec3 sharedLow { 0 }, sharedHigh { 0 }; ///< as of the EmitterList of that term
+    float sharedDirectedWithin = 0;
+    bool shareEmitters = true, shareQuads = false; ///< as of DirectLights; whether there are area lights among them
     float emitterShare = 0; ///< probability that a path's vertex samples them and no other light
     float diameter = 0; ///< metres, diagonal of the bounds
     float largestDimension = 0; ///< metres, of the bounds

@@ -3,6 +3,9 @@
 #include "host/scene/scene.h"
 #include "kernels/shared/emitter.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace wedge::render {
@@ -10,14 +13,33 @@ namespace wedge::render {
 /// Whether any triangle emits, when the shutter opens: one that has an area then.
 bool hasEmitters(const scene::Scene& scene);
 
-/// The scene's triangles that emit, as kernels choose among them (kernels/light/emitters.h): in proportion to their
-/// power, area times the mean luminance of what they emit.
+/// Triangles that emit, and area lights, as kernels choose among them (kernels/light/emitters.h): in proportion to
+/// their power, of triangles area times the mean luminance of what they emit.
 struct EmitterList {
-    std::vector<shared::Emitter> list; ///< in the order of the scene's triangles; empty where nothing emits
-    std::vector<float> picks; ///< of each triangle of the scene: the probability that a number chooses it
+    std::vector<shared::Emitter> list; ///< in the order of the scene's triangles, then lights; empty without any
+    std::vector<float> picks; ///< of each triangle of the scene: the probability that a number chooses it, or
+                              ///< WEDGE_PICK_ELSEWHERE; empty where no triangle emits
+    std::vector<float> quadPicks; ///< of each area light of the scene
     double power = 0; ///< W/sr, of both sides, as lights' are counted
+    glm::vec3 low { 0 }, high { 0 }; ///< the box that they are in, metres
+    float directedWithin = 0; ///< PathParams::directedWithin
 };
 
-EmitterList emitterList(const scene::Scene& scene);
+/// elsewhere: triangles that are part of another term, ascending. quads: area lights among the list, ascending.
+EmitterList emitterList(
+    const scene::Scene& scene, std::span<const std::size_t> elsewhere = {}, std::span<const std::uint32_t> quads = {});
+
+/// Corner k of a triangle when the shutter opens.
+glm::dvec3 cornerOf(const scene::Geometry& g, std::size_t triangle, std::size_t k);
+
+/// Whether a vertex is elsewhere when the shutter closes.
+bool movesAt(const scene::Geometry& g, std::size_t vertex);
+
+/// A triangle's power for one side, W/sr, from its material's emission without its texture: 0 if it is no light, having
+/// no area, emitting nothing, or more than numbers can hold.
+double plainPower(const scene::Scene& scene, std::size_t triangle);
+
+/// WEDGE_PAIR_* of a triangle and the next one as the halves of a quadrilateral.
+std::uint32_t pairAt(const scene::Geometry& g, std::size_t triangle);
 
 } // namespace wedge::render

@@ -72,16 +72,16 @@ WEDGE_FN void addDirections(SampleParams params, AreaLight light, __global const
 
 /// Takes the points on the light, with what `numbers` have of directions. Receivers that have all their samples wait
 /// for the others, and theirs are void.
-WEDGE_FN void takePoints(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
-    LightSamples* s, float (*numbers)[WEDGE_PACKET_SIZE], const Sampling* at, LightCounts* counts, Sink* sink,
-    WEDGE_SINK_PARAMETERS)
+WEDGE_FN void takePoints(AreaLight light, __global const TraversalNode* restrict nodes,
+    __global const TriangleBlock* restrict blocks, LightSamples* s, float (*numbers)[WEDGE_PACKET_SIZE],
+    const Sampling* at, LightCounts* counts, Sink* sink, WEDGE_SINK_PARAMETERS)
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         s->diffuse[lane] = takesSample(at, lane) ? s->diffuse[lane] : 0.0f;
         s->specular[lane] = takesSample(at, lane) ? s->specular[lane] : 0.0f;
     }
     RayPacket packet;
-    shadowRays(at->dealt, s, &packet);
+    shadowRays(light, at->dealt, s, &packet);
     uint occluded[WEDGE_PACKET_SIZE];
 #ifdef WEDGE_SINK_TAKES_HITS
     PacketHits nearest;
@@ -127,7 +127,7 @@ WEDGE_FN void takeStep(FrameParams frame, SampleParams params, AreaLight light,
             addDirections(params, light, nodes, blocks, part, lanes, counts, numbers);
         }
     }
-    takePoints(nodes, blocks, &s, numbers, at, counts, sink, WEDGE_SINK_ARGUMENTS);
+    takePoints(light, nodes, blocks, &s, numbers, at, counts, sink, WEDGE_SINK_ARGUMENTS);
 }
 
 /// The lanes of a deal that does not keep the receivers' own.

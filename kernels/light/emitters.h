@@ -1,15 +1,18 @@
-// Meshes that emit as lights: points on their triangles, chosen by power, and the density of those where a ray meets
-// them. Both sides of a triangle emit.
+// Meshes that emit as lights, and area lights that share a term: points on them, chosen by power, and the density of
+// those where a ray meets them. Both sides of a triangle emit.
 #ifndef WEDGE_EMITTERS_H
 #define WEDGE_EMITTERS_H
 
 #include "shared/emitter.h"
+#include "shared/light.h"
 #include "trace/surface.h"
 
 typedef struct {
     SurfaceData surfaces;
+    __global const AreaLight* quads; ///< which WEDGE_PAIR_QUAD numbers
     __global const Emitter* list;
-    __global const float* picks; ///< of each triangle of the scene: the probability that it is chosen
+    __global const float* picks; ///< of each triangle of the scene: the probability that it is chosen, or
+                                 ///< WEDGE_PICK_ELSEWHERE: it is part of another term
     uint count; ///< of the list
     float share; ///< probability that a path's vertex samples them and not other lights
 } EmitterData;
@@ -20,11 +23,13 @@ typedef struct {
 /// A point on one of them.
 typedef struct {
     Vec3 point; ///< metres
-    Vec3 normal; ///< unit, of the triangle, on either side
+    Vec3 normal; ///< unit, of the triangle, on either side; of a quad on the side that emits
     Vec3 radiance;
     float density; ///< of the point, 1/m^2
     float extent; ///< metres, of the emitter
     float error; ///< metres: rounding of the point and of tests of rays that end at it
+    float end; ///< of such rays, in their lengths
+    bool oneSided;
 } EmitterPoint;
 
 /// Twice the area of a triangle times its unit normal, at a time.
@@ -35,10 +40,11 @@ WEDGE_FN Vec3 triangleNormal(SurfaceData data, uint triangle, float time)
     return vecCross(ab, vecSub(positionAt(data, data.indices[3u * triangle + 2u], time), a));
 }
 
-/// The first of the list whose numbers reach beyond `number`.
+/// The first of the list whose numbers reach beyond `number`: between where its stripe of numbers begins and the next.
 WEDGE_FN uint findEmitter(EmitterData e, float number)
 {
-    uint low = 0u, high = e.count - 1u;
+    const uint last = e.count - 1u, stripe = min((uint)(number * (float)e.count), last);
+    uint low = e.list[stripe].guide, high = stripe < last ? e.list[stripe + 1u].guide : last;
     while (low < high) {
         const uint middle = (low + high) / 2u;
         const bool below = e.list[middle].upTo <= number;
@@ -64,6 +70,23 @@ WEDGE_FN Vec3 emittedAt(SurfaceData data, uint triangle, Vec2 weights)
         sampleTexture(data.textures, data.texels, data.srgbToLinear, material.emissionTexture, u, v));
 }
 
+/// The point of the numbers u of an area light that is chosen with the probability `pick`.
+WEDGE_FN EmitterPoint sampleQuad(AreaLight light, Vec2 u, float pick)
+{
+    const float a = lightCoordinate(u.x, light.profile, light.cut, light.erfCut);
+    const float b = lightCoordinate(u.y, light.profile, light.cut, light.erfCut);
+    const float profile = lightProfile(a, b, light.profile, light.cut);
+    EmitterPoint p;
+    p.point = lightPoint(light.centre, light.halfU, light.halfV, a, b);
+    p.normal = light.normal;
+    p.radiance = vecScale(light.radiance, profile);
+    p.density = pick * profile / light.profileArea;
+    p.error = 0.0f;
+    p.end = WEDGE_SHADOW_RAY_END;
+    p.oneSided = light.twoSided == 0u;
+    return p;
+}
+
 /// The point of the numbers u at a time. The first number chooses the triangle and goes on within it: what is
 /// stratified over the square is so over the list, too.
 WEDGE_FN EmitterPoint sampleEmitter(EmitterData e, Vec2 u, float time)
@@ -74,6 +97,11 @@ WEDGE_FN EmitterPoint sampleEmitter(EmitterData e, Vec2 u, float time)
     const float within = clamp((u.x - from) / fmax(emitter.upTo - from, 1e-30f), 0.0f, 1.0f);
     uint second = 0u;
     const Vec2 at = vec2(within, u.y);
+    if (emitter.pair == WEDGE_PAIR_QUAD) {
+        EmitterPoint p = sampleQuad(e.quads[emitter.triangle], at, emitter.upTo - from);
+        p.extent = emitter.extent;
+        return p;
+    }
     const Vec2 weights =
         emitter.pair != WEDGE_PAIR_NONE ? squareToPair(emitter.pair, at, &second) : squareToTriangle(at);
     const uint triangle = emitter.triangle + second;
@@ -92,8 +120,13 @@ WEDGE_FN EmitterPoint sampleEmitter(EmitterData e, Vec2 u, float time)
     const Vec3 far = vec3(
         fabs(a.x) + fabs(ab.x) + fabs(ac.x), fabs(a.y) + fabs(ab.y) + fabs(ac.y), fabs(a.z) + fabs(ab.z) + fabs(ac.z));
     p.error = WEDGE_ORIGIN_ULPS * WEDGE_ULP * (far.x + far.y + far.z);
+    p.end = 1.0f;
+    p.oneSided = false;
     return p;
 }
+
+/// Whether the point sends light against the direction l.
+WEDGE_INLINE bool emitsAgainst(const EmitterPoint* p, Vec3 l) { return !p->oneSided || vecDot(p->normal, l) < 0.0f; }
 
 /// From there to the point, lifted off the emitter: the ray meets what is before it, be it ever so near, but not the
 /// emitter itself.

@@ -201,8 +201,8 @@ WEDGE_FN void meetDirections(SampleParams params, AreaLight light, const Receive
             ? 1.0f
             : powerHeuristic(pdf, lightPdf(light, m.a, m.b, m.t, m.facing) / laneMass(light, r, lane, m.a, m.b));
         weight[lane] = meets ? w * reflections.reflected[lane] * metProfile(light, m) / light.profileArea : 0.0f;
-        end[lane] = weight[lane] > 0.0f ? WEDGE_SHADOW_RAY_END : 0.0f;
-        const Vec3 ray = vecSub(vecScale(l, meets ? m.t : 1.0f), laneLift(r, lane));
+        end[lane] = weight[lane] > 0.0f ? shadowRayEnd(light) : 0.0f;
+        const Vec3 ray = liftedRay(light, vecSub(vecScale(l, meets ? m.t : 1.0f), laneLift(r, lane)));
         x[lane] = ray.x;
         y[lane] = ray.y;
         z[lane] = ray.z;

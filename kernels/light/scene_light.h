@@ -71,11 +71,11 @@ WEDGE_FN LightChoice sampleEmitterLight(EmitterData emitters, Vec3 origin, Vec3 
     choice.direction = vecScale(choice.ray, 1.0f / fmax(distance, 1e-30f));
     const float cosine = vecDot(normal, choice.direction);
     const float pdf = emitters.share * densityOfDirection(p.density, p.normal, choice.direction, distance);
-    const bool found = cosine > 0.0f && pdf > 0.0f;
+    const bool found = cosine > 0.0f && pdf > 0.0f && emitsAgainst(&p, choice.direction);
     choice.pdf = found ? pdf : 0.0f;
     choice.irradiance = vecScale(p.radiance, found ? cosine / pdf : 0.0f);
     choice.ray = emitterShadowRay(&p, origin);
-    choice.end = 1.0f;
+    choice.end = p.end;
     return choice;
 }
 

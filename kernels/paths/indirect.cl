@@ -29,9 +29,9 @@ typedef struct {
 } PathLanes;
 
 /// First rays of one sample a lane, and in weight what their radiance counts. Directions below the horizon of either
-/// normal are not traced.
+/// normal are not traced, nor are those of lanes that follow none.
 WEDGE_FN void firstRays(FrameParams frame, PathParams params, SampleParams sampling, const PathLanes* lanes,
-    const PathPacket* paths, const uint* last, RayPacket* rays, float* weight)
+    const PathPacket* paths, const uint* last, const uint* follows, RayPacket* rays, float* weight)
 {
     const ReceiverPacket* r = &lanes->receivers;
     float u[WEDGE_PACKET_SIZE], v[WEDGE_PACKET_SIZE];
@@ -57,8 +57,8 @@ WEDGE_FN void firstRays(FrameParams frame, PathParams params, SampleParams sampl
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]), l = laneVec(&directions, lane);
         const bool wanted = r->pixel[lane] != WEDGE_NO_PIXEL && paths->index[lane] < last[lane];
-        const bool traced =
-            wanted && weight[lane] > 0.0f && vecDot(laneVec(&lanes->facing, lane), l) > 0.0f && vecDot(n, l) > 0.0f;
+        const bool traced = wanted && follows[lane] != 0u && weight[lane] > 0.0f
+            && vecDot(laneVec(&lanes->facing, lane), l) > 0.0f && vecDot(n, l) > 0.0f;
         setRay(rays, lane, vec3(r->originX[lane], r->originY[lane], r->originZ[lane]), l, 0.0f, traced ? end : 0.0f);
         setTime(rays, lane, receiverTime(r, lane));
     }
@@ -107,6 +107,7 @@ WEDGE_FN LightData lightData(PathParams params, __global const AreaLight* area, 
 {
     LightData lights;
     lights.emitters.surfaces = surfaces;
+    lights.emitters.quads = area;
     lights.emitters.list = emitters;
     lights.emitters.picks = emitterPicks;
     lights.emitters.count = params.emitters;
@@ -200,7 +201,9 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
             numberPaths(at.dealt, &counts.deal, &paths);
             RayPacket packet;
             float weight[WEDGE_PACKET_SIZE];
-            firstRays(frame, params, sampling, lanes, &paths, counts.deal.last, &packet, weight);
+            uint follows[WEDGE_PACKET_SIZE];
+            followDirections(params, at.dealt, follows);
+            firstRays(frame, params, sampling, lanes, &paths, counts.deal.last, follows, &packet, weight);
 #ifdef WEDGE_SINK_TAKES_RAYS
             const RayPacket first = packet; // paths go on in the packet
             const RayPacket* firstOnes = &first;
@@ -210,9 +213,8 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
             if (params.component == WEDGE_COMPONENT_AMBIENT) {
                 traceAmbient(nodes, blocks, &packet, &paths);
             } else if (WEDGE_IS_OF_EMITTERS(params.component)) {
-                traceEmitters(nodes, blocks, lights.emitters, sampling,
-                    params.component == WEDGE_COMPONENT_EMITTERS_GLOSSY, at.dealt, &lanes->facing, counts.deal.last,
-                    &packet, weight, &paths);
+                traceEmitters(nodes, blocks, lights, sampling, params.component == WEDGE_COMPONENT_EMITTERS_GLOSSY,
+                    at.dealt, &lanes->facing, counts.deal.last, follows, &packet, weight, &paths);
             } else {
                 tracePaths(nodes, blocks, surfaces, lights, sampling, params.bounces, &packet, &paths);
             }

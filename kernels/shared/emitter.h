@@ -5,20 +5,25 @@
 #include "rng.h"
 #include "vec.h"
 
+/// In the place of a triangle's probability: it emits, but is part of another term.
+#define WEDGE_PICK_ELSEWHERE (-1.0f)
+
 /// Whether a triangle and the next one are chosen together, and which corners of a quadrilateral a, b, c, d they have.
 #define WEDGE_PAIR_NONE 0u
 #define WEDGE_PAIR_FIRST 1u ///< a, b, c and a, c, d
 #define WEDGE_PAIR_SECOND 2u ///< a, b, d and b, c, d
+#define WEDGE_PAIR_QUAD 3u ///< no triangle, but the area light of that number
 
 WEDGE_SHARED_BEGIN
 
-/// One of the scene's emitting triangles, or two that have a side in common, in a list that is searched by a number in
-/// [0, 1).
+/// One of the scene's emitting triangles, or two that have a side in common, or an area light, in a list that is
+/// searched by a number in [0, 1).
 typedef struct {
     float upTo; ///< numbers below it, and not below that of the one before, choose this one
-    uint triangle; ///< the first
+    uint triangle; ///< the first; or the number of the light
     float extent; ///< metres: how far its object's light is from the middle of that, root of the mean square
     uint pair; ///< WEDGE_PAIR_*
+    uint guide; ///< of entry i of n: the entry that i/n chooses (Chen and Asau, On Generating Random Variates, 1974)
 } Emitter;
 
 /// Barycentric weights of a triangle's second and third corner for the numbers u, uniform over its area and with little

@@ -35,6 +35,9 @@ typedef struct {
     uint strata; ///< as of SampleParams
     uint emitters; ///< length of their list
     float emitterShare; ///< probability that a path's vertex samples one of them and no other light
+    Vec3 emittersLow, emittersHigh; ///< the box that they are in, metres
+    float directedWithin; ///< metres from it within which diffuse parts follow reflected directions, too
+    uint padding;
 } PathParams;
 
 /// Distances of reflectors to widths and counts.
