@@ -255,8 +255,8 @@ TEST_CASE("with a first pass, what the first part of the samples alone would be 
             packed.high = high;
             return shared::unpackColour(packed);
         };
-        for (const auto& [wanted, part] :
-            { std::pair(40u, 20u), { 90u, 45u }, { 33u, 16u }, { 25u, 8u }, { 16u, 8u } }) {
+        for (const auto& counts : { std::pair(40u, 20u), { 90u, 45u }, { 33u, 16u }, { 25u, 8u }, { 16u, 8u } }) {
+            const std::uint32_t wanted = counts.first, part = counts.second;
             CAPTURE(wanted);
             const PathResult found = means(wanted);
             run.params.firstPass = 0;
@@ -294,8 +294,10 @@ TEST_CASE("light of an emitting quad converges to its form factor times the emis
             std::uint32_t ways;
             float directedWithin;
         };
-        for (const auto& [ways, within] : { Way { WEDGE_LIGHTS_BOTH, infinity }, Way { WEDGE_LIGHTS_BOTH, 1.2f },
+        for (const Way& way : { Way { WEDGE_LIGHTS_BOTH, infinity }, Way { WEDGE_LIGHTS_BOTH, 1.2f },
                  Way { WEDGE_LIGHTS_SAMPLED, infinity }, Way { WEDGE_LIGHTS_MET, 0 } }) {
+            const std::uint32_t ways = way.ways;
+            const float within = way.directedWithin;
             CAPTURE(ways);
             CAPTURE(within);
             PathRun run(b.scene, device, 15, 11);

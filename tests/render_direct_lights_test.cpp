@@ -210,10 +210,94 @@ TEST_CASE("the sixteen strongest lights have terms of their own, in the scene's 
         CHECK(e.pair == WEDGE_PAIR_QUAD);
     CHECK(list.list[1].triangle == 16);
     CHECK(list.quadPicks[17] == doctest::Approx(0.2));
-    CHECK(list.quadPicks[4] == 0.0f);
+    CHECK(list.quadPicks[4] == WEDGE_PICK_ELSEWHERE);
     // The mean square of a uniform square of side 2 is 2/3.
     CHECK(list.list[0].extent == doctest::Approx(std::sqrt((0.25 * 0.25 + 0.3 * 0.3) / 3)));
     CHECK(list.picks[found.panelTriangles[0]] == WEDGE_PICK_ELSEWHERE);
+}
+
+TEST_CASE("far from the origin panels are told apart, and what is not surely a parallelogram is none")
+{
+    SceneBuilder b = room();
+    const glm::vec3 far { 20000, 0, 20000 };
+    b.quad(far + lampCentre, lampU, lampV, glowing);
+    b.quad(far + lampCentre + 2.5f * lampU, lampU, lampV, glowing);
+    CHECK(panelsOf(b) == 0); // rounding is a hundredth of a side
+    CHECK(render::directLights(b.scene).share);
+    SceneBuilder near = room();
+    near.quad(lampCentre, lampU, lampV, glowing);
+    near.quad(lampCentre + 2.5f * lampU, lampU, lampV, glowing);
+    CHECK(panelsOf(near) == 2);
+}
+
+TEST_CASE("lights that are switched off take no term beyond the sixteenth")
+{
+    SceneBuilder b = room();
+    for (int i = 0; i < 18; ++i)
+        b.light(lampCentre, lampU, lampV, scene::LightProfile::Uniform, i < 2 ? 1.0f : 0.0f);
+    const render::DirectLights found = render::directLights(b.scene);
+    CHECK(found.own.size() == 16);
+    CHECK(found.sharedQuads.empty());
+    CHECK_FALSE(found.share);
+}
+
+TEST_CASE("what no number chooses is looked for in all directions")
+{
+    SceneBuilder b = room();
+    SUBCASE("a quad that is too weak for its probability")
+    {
+        for (int i = 0; i < 17; ++i)
+            b.light(lampCentre, lampU, lampV, scene::LightProfile::Uniform, i == 16 ? 1e-9f : 1.0f);
+        b.sphere({ 0.5f, 0.3f, 0.4f }, 0.12f, 6, glowing);
+        const render::EmitterList list = render::sharedLights(b.scene, render::directLights(b.scene));
+        CHECK(list.quadPicks[16] == 0.0f);
+        CHECK(list.quadPicks[15] == WEDGE_PICK_ELSEWHERE);
+        CHECK(std::isinf(list.directedWithin));
+    }
+    SUBCASE("a triangle that has an area only later")
+    {
+        b.quad(lampCentre, lampU, lampV, glowing);
+        CHECK(panelsOf(b) == 1);
+        b.triangle(lampCentre, lampCentre, lampCentre, glowing);
+        b.scene.geometry.positionsAtClose = b.scene.geometry.positions;
+        b.scene.geometry.normalsAtClose = b.scene.geometry.normals;
+        CHECK(panelsOf(b) == 1);
+        b.scene.geometry.positionsAtClose.back() += 0.5f;
+        CHECK(panelsOf(b) == 0);
+        CHECK(std::isinf(render::emitterList(b.scene).directedWithin));
+    }
+}
+
+TEST_CASE("a panel that reflects does not light itself: matt and glossy, tilted, by any method")
+{
+    onEveryDevice([](const device::Device& device) {
+        for (const bool gloss : { false, true }) {
+            SceneBuilder b = room();
+            scene::Material& m = b.scene.materials[glowing];
+            m.diffuse = gloss ? glm::vec3(0) : glm::vec3(0.8f);
+            m.specular = gloss ? glm::vec3(0.5f) : glm::vec3(0);
+            m.exponent = 50;
+            b.quad({ 0.31f, 0.97f, 0.53f }, { 0.4f, 0.13f, 0.07f }, { 0.11f, -0.2f, 0.4f }, glowing);
+            REQUIRE(panelsOf(b) == 1);
+            for (const std::string kind : { "mc", "directions", "aaf", "antialiased" }) {
+                CAPTURE(gloss);
+                CAPTURE(kind);
+                const bool filtered = kind == "aaf" || kind == "antialiased";
+                render::Settings settings = settingsOf(filtered ? render::axisAligned(28) : render::monteCarlo(28));
+                settings.antialias = kind == "antialiased";
+                if (kind == "directions")
+                    settings.lightSampling = render::LightSampling::Directions;
+                render::Renderer renderer(b.scene, device, renderOptions());
+                const std::vector<float> seen = renderPixels(renderer, settings);
+                std::size_t shining = 0;
+                for (std::size_t i = 0; i < seen.size(); i += 3) {
+                    CHECK(seen[i] <= 8.001f);
+                    shining += seen[i] > 7.999f ? 1 : 0;
+                }
+                CHECK(shining > 20);
+            }
+        }
+    });
 }
 
 TEST_CASE("a list's guide leads to where each stripe of numbers begins")

@@ -83,6 +83,7 @@ int measureAll(const Arguments& a)
     const device::Device device = device::Device::open(a.device);
     std::vector<LampScene> sources = lampScenes();
     std::vector<Lit> scenes;
+    scenes.reserve(sources.size());
     for (LampScene& source : sources) {
         scenes.push_back({ source.name, std::make_unique<render::Renderer>(source.scene, device), {}, {}, {} });
     }

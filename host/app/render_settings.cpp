@@ -87,7 +87,8 @@ void applyPaths(const RenderOptions& o, const scene::Scene& scene, render::Setti
         fmt::format("--ao-distance {}", o.ambientDistance.value_or(0)), "add --integrator ao");
     const scene::Settings& file = scene.settings;
     s.bounces = o.bounces ? *o.bounces : file.bounces.value_or(0);
-    refuse(o.lightSampling && s.bounces == 0 && s.method == Method::AxisAligned && !render::hasEmitters(scene),
+    refuse(o.lightSampling && s.bounces == 0 && s.method == Method::AxisAligned && !render::hasEmitters(scene)
+            && !render::directLights(scene).share,
         "without bounces", "--light-sampling", "add --bounces 1");
     if (o.lightSampling) {
         s.lightSampling = *o.lightSampling;

@@ -140,6 +140,7 @@ shared::AreaLight deviceLight(const scene::AreaLight& light)
     d.profileArea = static_cast<float>(area * mean * mean);
     d.twoSided = light.twoSided ? 1 : 0;
     d.visible = light.visible ? 1 : 0;
+    d.sharedPick = WEDGE_PICK_ELSEWHERE;
     return d;
 }
 

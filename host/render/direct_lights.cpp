@@ -46,9 +46,14 @@ std::array<glm::dvec3, 4> cornersOfPair(const scene::Geometry& g, std::size_t tr
         : std::array<glm::dvec3, 4> { first(0), first(1), cornerOf(g, triangle + 1, 1), first(2) };
 }
 
+/// To what the corners' rounding allows, which must be far below the sides.
 bool isParallelogram(const std::array<glm::dvec3, 4>& c)
 {
-    return glm::length(c[0] + c[2] - c[1] - c[3]) <= roundingOf(c)
+    const double rounding = roundingOf(c), side = std::min(glm::length(c[1] - c[0]), glm::length(c[3] - c[0]));
+    if (rounding > 1e-2 * side) {
+        return false;
+    }
+    return glm::length(c[0] + c[2] - c[1] - c[3]) <= rounding / 16.0
         && glm::length(glm::cross(c[1] - c[0], c[3] - c[0])) > 0;
 }
 
@@ -83,15 +88,16 @@ std::vector<Candidate> candidates(const scene::Scene& scene, double least)
 void meet(const scene::Scene& scene, std::size_t triangle, Candidate& candidate)
 {
     const double near = roundingOf(candidate.corners);
-    std::size_t shared = 0;
+    std::size_t touching = 0, same = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const glm::dvec3 corner = cornerOf(scene.geometry, triangle, k);
         const auto isThere = [&](const glm::dvec3& c) { return glm::length(c - corner) <= near; };
-        shared += std::ranges::any_of(candidate.corners, isThere) ? 1 : 0;
+        touching += std::ranges::any_of(candidate.corners, isThere) ? 1 : 0;
+        same += std::ranges::count(candidate.corners, corner) > 0 ? 1 : 0;
     }
-    if (shared == 3 && scene.geometry.materialIds[triangle] == candidate.material && !moves(scene.geometry, triangle)) {
+    if (same == 3 && scene.geometry.materialIds[triangle] == candidate.material && !moves(scene.geometry, triangle)) {
         candidate.triangles.push_back(triangle);
-    } else if (shared > 0) {
+    } else if (touching > 0) {
         candidate.alone = false;
     }
 }
@@ -100,10 +106,13 @@ std::vector<Candidate> panels(const scene::Scene& scene)
 {
     const std::size_t count = scene.geometry.materialIds.size();
     double total = 0;
+    bool foundAlone = false;
     for (std::size_t t = 0; t < count; ++t) {
         total += plainPower(scene, t);
+        foundAlone |= isFoundAlone(scene, t);
     }
-    if (!(total > 0)) {
+    // What directions alone find needs a term that follows them.
+    if (!(total > 0) || foundAlone) {
         return {};
     }
     std::vector<Candidate> found = candidates(scene, leastPanelShare * total);
@@ -180,7 +189,7 @@ DirectLights directLights(const scene::Scene& scene)
     for (std::size_t i = 0; i < ranked.size(); ++i) {
         const std::size_t number = ranked[i].number;
         if (i >= mostOwnTerms) {
-            if (number < quads) {
+            if (number < quads && ranked[i].power > 0) {
                 out.sharedQuads.push_back(static_cast<std::uint32_t>(number));
             }
         } else if (number < quads) {

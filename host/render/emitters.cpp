@@ -41,9 +41,9 @@ glm::vec3 meanColour(const scene::Scene& scene, const scene::Texture& texture, s
     }();
     glm::dvec3 sum(0);
     for (int i = 0; i < textureSamples * textureSamples; ++i) {
-        const shared::Vec2 w =
-            shared::squareToTriangle(shared::vec2((static_cast<float>(i % textureSamples) + 0.5f) / textureSamples,
-                (static_cast<float>(i / textureSamples) + 0.5f) / textureSamples));
+        const int row = i / textureSamples, column = i % textureSamples;
+        const shared::Vec2 w = shared::squareToTriangle(shared::vec2(
+            (static_cast<float>(column) + 0.5f) / textureSamples, (static_cast<float>(row) + 0.5f) / textureSamples));
         const glm::dvec2 at = a + ab * static_cast<double>(w.x) + ac * static_cast<double>(w.y);
         const std::uint32_t rgba =
             texture.rgba[static_cast<std::size_t>(texel(at.y, texture.height)) * static_cast<std::size_t>(texture.width)
@@ -196,7 +196,7 @@ public:
         : total_(total)
     {
     }
-    /// Returns the probability after rounding: what is never chosen is found by reflected directions alone.
+    /// Returns the probability after rounding: what has 0 is found by reflected directions alone.
     float add(const Entry& e)
     {
         sum_ += e.power;
@@ -339,6 +339,16 @@ std::uint32_t pairAt(const scene::Geometry& g, std::size_t triangle)
     return same(1, 0) && same(2, 2) ? WEDGE_PAIR_SECOND : WEDGE_PAIR_NONE;
 }
 
+bool isFoundAlone(const scene::Scene& scene, std::size_t triangle)
+{
+    const scene::Geometry& g = scene.geometry;
+    if (!(luminanceOf(scene.materials[g.materialIds[triangle]].emission) > 0) || plainPower(scene, triangle) > 0) {
+        return false;
+    }
+    const std::uint32_t* corner = &g.indices[3 * triangle];
+    return areaOf(g, triangle) > 0 || std::any_of(corner, corner + 3, [&](std::uint32_t v) { return movesAt(g, v); });
+}
+
 bool hasEmitters(const scene::Scene& scene)
 {
     for (std::size_t t = 0; t < scene.geometry.materialIds.size(); ++t) {
@@ -367,9 +377,10 @@ EmitterList emitterList(
         return out;
     }
     out.power = 2.0 * total;
-    out.quadPicks.assign(scene.areaLights.size(), 0.0f);
+    out.quadPicks.assign(scene.areaLights.size(), WEDGE_PICK_ELSEWHERE);
     std::vector<float>& picks = out.picks;
-    if (!triangles.empty() || !elsewhere.empty()) {
+    if (std::ranges::any_of(scene.geometry.materialIds,
+            [&](std::uint32_t id) { return luminanceOf(scene.materials[id].emission) > 0; })) {
         picks.assign(scene.geometry.materialIds.size(), 0.0f);
     }
     std::vector<Entry> entries = entriesOf(scene, triangles, quads, objects);
@@ -387,6 +398,11 @@ EmitterList emitterList(
         for (std::size_t t = e.number; t < e.number + count; ++t) {
             picks[t] = pick / static_cast<float>(count);
             around.add(scene.geometry, t, picks[t]);
+        }
+    }
+    for (std::size_t t = 0; t < picks.size(); ++t) {
+        if (isFoundAlone(scene, t)) {
+            around.sparsest = std::numeric_limits<double>::infinity();
         }
     }
     out.low = around.low;

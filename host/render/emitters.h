@@ -16,14 +16,19 @@ bool hasEmitters(const scene::Scene& scene);
 /// Triangles that emit, and area lights, as kernels choose among them (kernels/light/emitters.h): in proportion to
 /// their power, of triangles area times the mean luminance of what they emit.
 struct EmitterList {
-    std::vector<shared::Emitter> list; ///< in the order of the scene's triangles, then lights; empty without any
-    std::vector<float> picks; ///< of each triangle of the scene: the probability that a number chooses it, or
-                              ///< WEDGE_PICK_ELSEWHERE; empty where no triangle emits
-    std::vector<float> quadPicks; ///< of each area light of the scene
+    std::vector<shared::Emitter> list; ///< mostly in the order of where they are; empty without any
+    /// Of each triangle of the scene: the probability that a number chooses it, or WEDGE_PICK_ELSEWHERE; empty where no
+    /// material in use emits.
+    std::vector<float> picks;
+    std::vector<float> quadPicks; ///< of each area light of the scene, likewise; empty where the list is
     double power = 0; ///< W/sr, of both sides, as lights' are counted
     glm::vec3 low { 0 }, high { 0 }; ///< the box that they are in, metres
     float directedWithin = 0; ///< PathParams::directedWithin
 };
+
+/// Whether a triangle has a material that emits, but is not chosen: it is too weak or too strong for numbers, or has no
+/// area when the shutter opens and has some later. Only reflected directions find it.
+bool isFoundAlone(const scene::Scene& scene, std::size_t triangle);
 
 /// elsewhere: triangles that are part of another term, ascending. quads: area lights among the list, ascending.
 EmitterList emitterList(

@@ -6,6 +6,7 @@
 #include "core/deal.h"
 #include "core/receivers.h"
 #include "light/light_sample.h"
+#include "light/scene_light.h"
 #include "trace/packet.h"
 
 /// What the samples are for. Lanes without a pixel to shade have pixel = WEDGE_NO_PIXEL and a zero normal.
@@ -295,7 +296,8 @@ WEDGE_FN void sampleLights(FrameParams frame, SampleParams params, AreaLight lig
         const Vec3 position = vec3(r->positionX[lane], r->positionY[lane], r->positionZ[lane]);
         const Vec3 normal = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
         const Vec3 d = vecSub(point, position);
-        const float geometry = mass[lane] * geometryTerm(normal, d, light.normal, light.twoSided);
+        const float own = isInLight(light, position) ? 0.0f : mass[lane];
+        const float geometry = own * geometryTerm(normal, d, light.normal, light.twoSided);
         s->rayX[lane] = point.x - r->originX[lane];
         s->rayY[lane] = point.y - r->originY[lane];
         s->rayZ[lane] = point.z - r->originZ[lane];

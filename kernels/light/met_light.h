@@ -196,7 +196,8 @@ WEDGE_FN void meetDirections(SampleParams params, AreaLight light, const Receive
         const Vec3 n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
         const LightMeeting m = meetLight(light, lanePosition(r, lane), l);
         const bool wanted = follow[lane] != 0u && index[lane] < last[lane];
-        const bool meets = wanted && m.t < INFINITY && vecDot(n, l) > 0.0f && pdf > 0.0f;
+        const bool meets =
+            wanted && m.t < INFINITY && vecDot(n, l) > 0.0f && pdf > 0.0f && !isInLight(light, lanePosition(r, lane));
         const float w = params.lightSampling == WEDGE_LIGHTS_MET
             ? 1.0f
             : powerHeuristic(pdf, lightPdf(light, m.a, m.b, m.t, m.facing) / laneMass(light, r, lane, m.a, m.b));

@@ -101,6 +101,13 @@ WEDGE_FN uint pickLight(LightData lights, float pick)
     return lights.emitters.count > 0u ? lights.areaCount + lights.deltaCount : WEDGE_NO_LIGHT;
 }
 
+/// Whether a point is in the surface that the light is in, which does not light itself: by rounding it may be on either
+/// side of it.
+WEDGE_INLINE bool isInLight(AreaLight light, Vec3 position)
+{
+    return fabs(vecDot(light.normal, vecSub(light.centre, position))) < light.lift;
+}
+
 /// Where a ray meets a light's quad.
 typedef struct {
     float t; ///< along the direction; +inf where it does not

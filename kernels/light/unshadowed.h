@@ -362,7 +362,10 @@ WEDGE_FN float16 unshadowedMean(
     const int16 medium = !(horizon | at | fine)
         & ((across >= WEDGE_COARSE_LOBE) | (squared < extent * WEDGE_NEAR_LIGHT * WEDGE_NEAR_LIGHT));
     *sampled = (across > WEDGE_SHARP_LOBE) | (fitted & (across > WEDGE_SHARP_FITTED_LOBE));
-    const int16 ruled = wanted & !*sampled;
+    // The surface that the light is in does not light itself: isInLight().
+    const int16 apart = fabs(dot16(toLight, splat3(light.normal))) >= light.lift;
+    *sampled &= apart;
+    const int16 ruled = wanted & apart & !*sampled;
     float16 mean = (float16)(0.0f);
     if (any(ruled & few)) {
         mean = meanOverNodes(light, r, nodes + WEDGE_FEW_OFFSET, WEDGE_FEW_NODES, lobes);

@@ -96,7 +96,7 @@ WEDGE_FN void meetQuads(LightData lights, bool glossy, const ReceiverPacket* r, 
     for (uint i = 0u; i < lights.areaCount; ++i) {
         AreaLight light = lights.area[i];
         light.pick = light.sharedPick;
-        if (!(light.pick > 0.0f)) {
+        if (light.pick < 0.0f) {
             continue;
         }
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {

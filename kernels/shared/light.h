@@ -58,8 +58,8 @@ typedef struct {
     uint visible; ///< 1: the camera sees it
     float profileArea; ///< m^2: the profile's integral over the quad
     float pick; ///< probability that a path's vertex samples this light
-    float sharedPick; ///< probability that a sample of the term that lights share is of this one; 0: it has one of its
-                      ///< own
+    float sharedPick; ///< probability that a sample of the term that lights share is of this one; less than 0: it has a
+                      ///< term of its own
     float lift; ///< metres: how far from the quad shadow rays end that lies in a surface; 0: it lies in none
 } AreaLight;
 
