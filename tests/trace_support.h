@@ -83,7 +83,7 @@ public:
         , bench(device, defines)
         , tree(bvh::build({ scene.geometry.positions, scene.geometry.indices }), familyOf(defines))
         , hierarchy(tree.bvh)
-        , onDevice(scene, tree, device, bench.queue)
+        , onDevice(scene, tree, render::SceneLights(scene), device, bench.queue)
         , layout(width, height)
         , frame(bench, layout)
         , params(render::frameParams(scene, layout, { 0, 0, width, height }, 5))

@@ -13,8 +13,9 @@ std::uint64_t frameBytes(
     const render::Hierarchy hierarchy =
         render::buildHierarchy(scene, options.bvh, render::resolveTraversal(options.traversal, device));
     device::MemoryPlan ofScene;
-    render::DeviceScene::plan(ofScene, scene, hierarchy);
-    return render::Renderer::plan(scene, hierarchy, settings, keepLayers).total() - ofScene.total();
+    const render::SceneLights lights(scene);
+    render::DeviceScene::plan(ofScene, scene, hierarchy, lights);
+    return render::Renderer::plan(scene, hierarchy, lights, settings, keepLayers).total() - ofScene.total();
 }
 
 } // namespace wedge::benchmark

@@ -13,7 +13,7 @@ using graph::writes;
 
 std::vector<graph::Argument> sceneLights(const FrameBuilder& frame, Component component)
 {
-    const bool other = isOfEmitters(component) && frame.scene != nullptr && !frame.scene->shareEmitters;
+    const bool other = isOfEmitters(component) && frame.scene != nullptr && !frame.scene->sharedTerm.ofEmitters;
     return { frame.ofScene("areaLights", "AreaLight", &DeviceScene::areaLights),
         frame.ofScene("deltaLights", "DeltaLight", &DeviceScene::deltaLights),
         frame.ofScene("emitters", "Emitter", other ? &DeviceScene::sharedLights : &DeviceScene::emitters),
@@ -32,16 +32,17 @@ shared::PathParams pathParams(const FrameBuilder& frame, Component component)
     p.ambientDistance = settings.indirect.ambientDistance > 0 ? settings.indirect.ambientDistance
                                                               : std::numeric_limits<float>::infinity();
     const DeviceScene* scene = frame.scene;
-    const bool direct = isOfEmitters(component), quads = !direct || (scene != nullptr && scene->shareQuads);
+    const bool direct = isOfEmitters(component), quads = !direct || (scene != nullptr && scene->sharedTerm.quads);
     p.areaLights = quads ? static_cast<std::uint32_t>(frame.description.areaLights.size()) : 0;
     p.deltaLights = scene != nullptr ? scene->deltaLightCount : 0;
-    p.emitters = scene == nullptr ? 0 : direct ? scene->sharedCount : scene->emitterCount;
+    p.emitters = scene == nullptr ? 0 : direct ? scene->sharedTerm.count : scene->emitterCount;
     p.emitterShare = frame.scene != nullptr ? frame.scene->emitterShare : 0.0f;
     p.sceneDiameter = frame.scene != nullptr ? frame.scene->diameter : 0.0f;
     if (scene != nullptr) {
-        p.emittersLow = shared::vec3(scene->sharedLow.x, scene->sharedLow.y, scene->sharedLow.z);
-        p.emittersHigh = shared::vec3(scene->sharedHigh.x, scene->sharedHigh.y, scene->sharedHigh.z);
-        p.directedWithin = scene->sharedDirectedWithin;
+        const glm::vec3 &low = scene->sharedTerm.low, &high = scene->sharedTerm.high;
+        p.emittersLow = shared::vec3(low.x, low.y, low.z);
+        p.emittersHigh = shared::vec3(high.x, high.y, high.z);
+        p.directedWithin = scene->sharedTerm.directedWithin;
     }
     return p;
 }

@@ -39,7 +39,7 @@ Facts gather(const std::string& path, bvh::Mode mode, const scene::LoadOptions& 
     const render::Hierarchy hierarchy = render::buildHierarchy(facts.scene, mode);
     facts.bvh = hierarchy.bvh.statistics;
     facts.settings = resolveSettings(RenderOptions(), facts.scene);
-    facts.memory = render::Renderer::plan(facts.scene, hierarchy, facts.settings);
+    facts.memory = render::Renderer::plan(facts.scene, hierarchy, render::SceneLights(facts.scene), facts.settings);
     return facts;
 }
 

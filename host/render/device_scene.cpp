@@ -117,13 +117,18 @@ std::array<float, 512> texelTable()
 
 } // namespace
 
+double profileArea(const scene::AreaLight& light)
+{
+    const double mean = profileMean(light);
+    return 4.0 * glm::length(glm::cross(light.halfU, light.halfV)) * mean * mean;
+}
+
 shared::AreaLight deviceLight(const scene::AreaLight& light)
 {
     const double halfU = glm::length(light.halfU);
     const double halfV = glm::length(light.halfV);
     const glm::vec3 normal = glm::cross(light.halfU, light.halfV);
-    const double area = 4.0 * glm::length(normal);
-    const double mean = profileMean(light);
+    const double area = profileArea(light);
     const bool gaussian = light.profile == scene::LightProfile::Gaussian;
     shared::AreaLight d {};
     d.centre = toVec3(light.centre);
@@ -135,9 +140,9 @@ shared::AreaLight deviceLight(const scene::AreaLight& light)
     // A uniform light counts as a Gaussian cut at one standard deviation, side 2 sigma as in A_l = (2 sigma)^2.
     d.sigma = static_cast<float>(std::sqrt(halfU * halfV) / d.cut);
     d.profile = gaussian ? WEDGE_PROFILE_GAUSSIAN : WEDGE_PROFILE_UNIFORM;
-    d.power = toVec3(light.radiance * static_cast<float>(area * mean * mean));
+    d.power = toVec3(light.radiance * static_cast<float>(area));
     d.radiance = toVec3(light.radiance);
-    d.profileArea = static_cast<float>(area * mean * mean);
+    d.profileArea = static_cast<float>(area);
     d.twoSided = light.twoSided ? 1 : 0;
     d.visible = light.visible ? 1 : 0;
     d.sharedPick = WEDGE_PICK_ELSEWHERE;
@@ -152,7 +157,8 @@ bool hasSpecular(const scene::Scene& scene)
     });
 }
 
-void DeviceScene::plan(device::MemoryPlan& plan, const scene::Scene& scene, const Hierarchy& hierarchy)
+void DeviceScene::plan(
+    device::MemoryPlan& plan, const scene::Scene& scene, const Hierarchy& hierarchy, const SceneLights& lights)
 {
     const scene::Geometry& g = scene.geometry;
     plan.addItems("BVH nodes", hierarchy.nodes().size(), 1);
@@ -165,11 +171,11 @@ void DeviceScene::plan(device::MemoryPlan& plan, const scene::Scene& scene, cons
     plan.addItems("object ids", g.objectIds.size(), sizeof(std::uint32_t));
     plan.addItems("materials", scene.materials.size(), sizeof(shared::MaterialData));
     plan.addItems("texels", texelCount(scene), sizeof(std::uint32_t));
-    if (const EmitterList list = emitterList(scene); !list.list.empty()) {
+    if (const EmitterList& list = lights.emitters; !list.list.empty()) {
         plan.addItems("emitters", list.list.size(), sizeof(shared::Emitter));
         plan.addItems("emitters' probabilities", list.picks.size(), sizeof(float));
     }
-    if (const EmitterList list = render::sharedLights(scene, directLights(scene)); !list.list.empty()) {
+    if (const EmitterList& list = lights.shared; !list.list.empty()) {
         plan.addItems("shared lights", list.list.size(), sizeof(shared::Emitter));
         plan.addItems("shared lights' probabilities", list.picks.size(), sizeof(float));
     }
@@ -179,20 +185,8 @@ void DeviceScene::plan(device::MemoryPlan& plan, const scene::Scene& scene, cons
     }
 }
 
-DeviceScene::DeviceScene(
-    const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device, device::TimedQueue& queue)
-    : DeviceScene(scene, hierarchy, device, queue, directLights(scene))
-{
-}
-
-DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device,
-    device::TimedQueue& queue, const DirectLights& direct)
-    : DeviceScene(scene, hierarchy, device, queue, direct, emitterList(scene), render::sharedLights(scene, direct))
-{
-}
-
-DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device,
-    device::TimedQueue& queue, const DirectLights& direct, const EmitterList& list, const EmitterList& sharedList)
+DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, const SceneLights& lights,
+    const device::Device& device, device::TimedQueue& queue)
     : nodes(device::Buffer<std::byte>::readOnly(device, queue, hierarchy.nodes(), "BVH nodes"))
     , blocks(device::Buffer<std::byte>::readOnly(device, queue, hierarchy.blocks(), "triangle blocks"))
     , positions(device::Buffer<float>::readOnly(device, queue, scene.geometry.positions, "positions"))
@@ -211,10 +205,10 @@ DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, 
     , srgbToLinear(device, 512, "sRGB table")
     , areaLights(device, scene.areaLights.size(), "area lights")
     , deltaLights(device, scene.pointLights.size() + scene.directionalLights.size(), "point and directional lights")
-    , emitters(device, list.list.size(), "emitters")
-    , emitterPicks(device, list.picks.size(), "emitters' probabilities")
-    , sharedLights(device, sharedList.list.size(), "shared lights")
-    , sharedPicks(device, sharedList.picks.size(), "shared lights' probabilities")
+    , emitters(device, lights.emitters.list.size(), "emitters")
+    , sharedLights(device, lights.shared.list.size(), "shared lights")
+    , emitterPicks(device, lights.emitters.picks.size(), "emitters' probabilities")
+    , sharedPicks(device, lights.shared.picks.size(), "shared lights' probabilities")
 {
     materials.upload(queue, materialData(scene));
     std::vector<shared::TextureData> infos;
@@ -230,10 +224,10 @@ DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, 
     for (const scene::AreaLight& light : scene.areaLights) {
         areaLightList.push_back(deviceLight(light));
     }
-    for (std::size_t i = 0; i < sharedList.quadPicks.size(); ++i) {
-        areaLightList[i].sharedPick = sharedList.quadPicks[i];
+    for (std::size_t i = 0; i < lights.shared.quadPicks.size(); ++i) {
+        areaLightList[i].sharedPick = lights.shared.quadPicks[i];
     }
-    for (const OwnLight& light : direct.own) {
+    for (const OwnLight& light : lights.direct.own) {
         const std::vector<float> rule = lightNodes(light.quad);
         quadratures.emplace_back(device, rule.size(), "light quadrature");
         quadratures.back().upload(queue, rule);
@@ -243,19 +237,19 @@ DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, 
     const glm::vec3 extent = bounds.empty() ? glm::vec3(1.0f) : bounds.hi - bounds.lo;
     diameter = bounds.empty() ? 1.0f : glm::length(extent);
     largestDimension = std::max({ extent.x, extent.y, extent.z });
-    emitterShare = setPicks(areaLightList, delta, list.power, diameter);
-    emitters.upload(queue, list.list);
-    emitterPicks.upload(queue, list.picks);
-    emitterCount = static_cast<std::uint32_t>(list.list.size());
-    sharedLights.upload(queue, sharedList.list);
-    sharedPicks.upload(queue, sharedList.picks);
-    shareEmitters = direct.shareEmitters();
-    shareQuads = !direct.sharedQuads.empty();
-    const EmitterList& ofTerm = shareEmitters ? list : sharedList;
-    sharedLow = ofTerm.low;
-    sharedHigh = ofTerm.high;
-    sharedDirectedWithin = ofTerm.directedWithin;
-    sharedCount = static_cast<std::uint32_t>(ofTerm.list.size());
+    emitterShare = setPicks(areaLightList, delta, lights.emitters.power, diameter);
+    emitters.upload(queue, lights.emitters.list);
+    emitterPicks.upload(queue, lights.emitters.picks);
+    emitterCount = static_cast<std::uint32_t>(lights.emitters.list.size());
+    sharedLights.upload(queue, lights.shared.list);
+    sharedPicks.upload(queue, lights.shared.picks);
+    const EmitterList& ofTerm = lights.ofSharedTerm();
+    sharedTerm = { .ofEmitters = lights.direct.shareEmitters(),
+        .quads = !lights.direct.sharedQuads.empty(),
+        .count = static_cast<std::uint32_t>(ofTerm.list.size()),
+        .low = ofTerm.low,
+        .high = ofTerm.high,
+        .directedWithin = ofTerm.directedWithin };
     areaLights.upload(queue, areaLightList);
     deltaLights.upload(queue, delta);
     deltaLightCount = static_cast<std::uint32_t>(delta.size());

@@ -18,6 +18,9 @@ namespace wedge::render {
 /// The light as kernels take it: profile integrated, axes, standard deviations.
 shared::AreaLight deviceLight(const scene::AreaLight& light);
 
+/// Area of a light, m^2, each point as much as it has of the radiance in the middle.
+double profileArea(const scene::AreaLight& light);
+
 /// Whether any triangle has a material that reflects specularly. What lies unused in a mesh's library does not count:
 /// lobes cost more than all else of a shadow ray.
 bool hasSpecular(const scene::Scene& scene);
@@ -26,22 +29,17 @@ bool hasSpecular(const scene::Scene& scene);
 class DeviceScene {
 public:
     /// Adds what the scene will take to the plan.
-    static void plan(device::MemoryPlan& plan, const scene::Scene& scene, const Hierarchy& hierarchy);
+    static void plan(
+        device::MemoryPlan& plan, const scene::Scene& scene, const Hierarchy& hierarchy, const SceneLights& lights);
 
     /// Uploads everything; scene and hierarchy must outlive this, since a CPU device works on their memory. Throws
     /// Error from the device.
+    DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, const SceneLights& lights,
+        const device::Device& device, device::TimedQueue& queue);
+
     DeviceScene(
-        const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device, device::TimedQueue& queue);
+        const scene::Scene&, Hierarchy&&, const SceneLights&, const device::Device&, device::TimedQueue&) = delete;
 
-    DeviceScene(const scene::Scene&, Hierarchy&&, const device::Device&, device::TimedQueue&) = delete;
-
-private:
-    DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device,
-        device::TimedQueue& queue, const DirectLights& direct);
-    DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, const device::Device& device,
-        device::TimedQueue& queue, const DirectLights& direct, const EmitterList& list, const EmitterList& sharedList);
-
-public:
     device::Buffer<std::byte> nodes; ///< of the hierarchy's family of traversals
     device::Buffer<std::byte> blocks;
     device::Buffer<float> positions, normals, texcoords;
@@ -53,18 +51,22 @@ public:
     device::Buffer<float> srgbToLinear;
     device::Buffer<shared::AreaLight> areaLights;
     device::Buffer<shared::DeltaLight> deltaLights;
-    device::Buffer<shared::Emitter> emitters; ///< emitterList(); one element that nobody reads where nothing emits
-    device::Buffer<float> emitterPicks;
-    device::Buffer<shared::Emitter> sharedLights; ///< of the term of direct light: emitters, if shareEmitters
-    device::Buffer<float> sharedPicks;
+    /// SceneLights::emitters and shared; one element that nobody reads where there are none.
+    device::Buffer<shared::Emitter> emitters, sharedLights;
+    device::Buffer<float> emitterPicks, sharedPicks;
 
     std::vector<shared::AreaLight> areaLightList; ///< the same as areaLights, for kernels that take one by value
     std::vector<device::Buffer<float>>
         quadratures; ///< one of DirectLights::own each: the nodes of all rules, lightNodes()
-    std::uint32_t deltaLightCount = 0, emitterCount = 0, sharedCount = 0;
-    glm::vec3 sharedLow { 0 }, sharedHigh { 0 }; ///< as of the EmitterList of that term
-    float sharedDirectedWithin = 0;
-    bool shareEmitters = true, shareQuads = false; ///< as of DirectLights; whether there are area lights among them
+    std::uint32_t deltaLightCount = 0, emitterCount = 0;
+    /// The term of direct light that lights share.
+    struct SharedTerm {
+        bool ofEmitters = true; ///< it chooses among emitters; else among sharedLights
+        bool quads = false; ///< there are area lights among them
+        std::uint32_t count = 0;
+        glm::vec3 low { 0 }, high { 0 }; ///< as of the EmitterList
+        float directedWithin = 0;
+    } sharedTerm;
     float emitterShare = 0; ///< probability that a path's vertex samples them and no other light
     float diameter = 0; ///< metres, diagonal of the bounds
     float largestDimension = 0; ///< metres, of the bounds

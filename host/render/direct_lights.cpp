@@ -209,10 +209,13 @@ DirectLights directLights(const scene::Scene& scene)
     return out;
 }
 
-EmitterList sharedLights(const scene::Scene& scene, const DirectLights& lights)
+SceneLights::SceneLights(const scene::Scene& scene)
+    : direct(directLights(scene))
+    , emitters(emitterList(scene))
 {
-    return lights.shareEmitters() || !lights.share ? EmitterList {}
-                                                   : emitterList(scene, lights.panelTriangles, lights.sharedQuads);
+    if (direct.share && !direct.shareEmitters()) {
+        shared = emitterList(scene, direct.panelTriangles, direct.sharedQuads);
+    }
 }
 
 } // namespace wedge::render

@@ -38,7 +38,16 @@ struct DirectLights {
 /// good a light as a quad of the scene file. Takes time in proportion to the scene's triangles.
 DirectLights directLights(const scene::Scene& scene);
 
-/// What the term that lights share chooses among, where that is not emitterList(): empty where it is.
-EmitterList sharedLights(const scene::Scene& scene, const DirectLights& lights);
+/// A scene's lights as kernels choose among them. Takes time in proportion to its triangles, with each that emits kept
+/// in memory meanwhile: a renderer makes it once.
+struct SceneLights {
+    explicit SceneLights(const scene::Scene& scene);
+
+    DirectLights direct;
+    EmitterList emitters; ///< what paths' vertices choose among
+    EmitterList shared; ///< what the term that lights share does, where that is something else; else empty
+
+    const EmitterList& ofSharedTerm() const { return direct.shareEmitters() ? emitters : shared; }
+};
 
 } // namespace wedge::render

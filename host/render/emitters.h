@@ -40,9 +40,21 @@ glm::dvec3 cornerOf(const scene::Geometry& g, std::size_t triangle, std::size_t 
 /// Whether a vertex is elsewhere when the shutter closes.
 bool movesAt(const scene::Geometry& g, std::size_t vertex);
 
+/// Whether a triangle's material emits, textures apart.
+bool mayEmit(const scene::Scene& scene, std::size_t triangle);
+
+/// Area of a triangle when the shutter opens, m^2.
+double areaOf(const scene::Geometry& g, std::size_t triangle);
+
+/// Area, m^2, times the luminance of radiance, W/(sr m^2): 0 of what has no area, or more than numbers can hold.
+double powerOf(double area, glm::vec3 radiance);
+
 /// A triangle's power for one side, W/sr, from its material's emission without its texture: 0 if it is no light, having
 /// no area, emitting nothing, or more than numbers can hold.
 double plainPower(const scene::Scene& scene, std::size_t triangle);
+
+/// The same with the mean of its texture, at 64 of its points.
+double texturedPower(const scene::Scene& scene, std::size_t triangle);
 
 /// WEDGE_PAIR_* of a triangle and the next one as the halves of a quadrilateral.
 std::uint32_t pairAt(const scene::Geometry& g, std::size_t triangle);

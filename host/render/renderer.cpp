@@ -74,6 +74,7 @@ Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Opti
     , device_(device)
     , options_(std::move(options))
     , hierarchy_(buildHierarchy(scene, options_.bvh, resolveTraversal(options_.traversal, device.info())))
+    , lights_(scene)
     , queue_(device, options_.checkLaunches)
     , programs_(std::make_unique<device::ProgramLibrary>(device, programOptions(scene, options_, hierarchy_.traversal)))
     , kernels_(*programs_)
@@ -93,12 +94,12 @@ std::unique_ptr<FrameGraph> Renderer::declare(const scene::Scene& scene, const D
     return std::make_unique<PixelFrame>(scene, deviceScene, settings, packet, unused, keepLayers);
 }
 
-device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings,
-    bool keepLayers, std::uint64_t mostSlabBytes)
+device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hierarchy, const SceneLights& lights,
+    const Settings& settings, bool keepLayers, std::uint64_t mostSlabBytes)
 {
     const auto planned = [&](const StepRange& step) {
         device::MemoryPlan plan;
-        DeviceScene::plan(plan, scene, hierarchy);
+        DeviceScene::plan(plan, scene, hierarchy, lights);
         HalfMemories memories { SampleMemory(nullptr), SampleMemory(nullptr) };
         const std::unique_ptr<FrameGraph> frame =
             declareUnbacked(scene, hierarchy, settings, keepLayers, memories, step);
@@ -145,7 +146,7 @@ void Renderer::prepare(const Settings& settings, bool keepLayers)
     validate(settings, isDistributed(settings, scene_));
     plan(settings, keepLayers).check(device_.info(), options_.memoryLimit);
     if (!deviceScene_) {
-        deviceScene_ = std::make_unique<DeviceScene>(scene_, hierarchy_, device_, queue_);
+        deviceScene_ = std::make_unique<DeviceScene>(scene_, hierarchy_, lights_, device_, queue_);
     }
     frame_.reset(); // it has parts of the memory
     halfMemories_.reset();

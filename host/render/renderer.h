@@ -92,11 +92,12 @@ public:
     /// step that takes most.
     /// keepLayers: as render() has it.
     /// mostSlabBytes: as graph::place() has it.
-    static device::MemoryPlan plan(const scene::Scene& scene, const Hierarchy& hierarchy, const Settings& settings,
-        bool keepLayers = false, std::uint64_t mostSlabBytes = std::numeric_limits<std::uint64_t>::max());
+    static device::MemoryPlan plan(const scene::Scene& scene, const Hierarchy& hierarchy, const SceneLights& lights,
+        const Settings& settings, bool keepLayers = false,
+        std::uint64_t mostSlabBytes = std::numeric_limits<std::uint64_t>::max());
     device::MemoryPlan plan(const Settings& settings, bool keepLayers = false) const
     {
-        return plan(scene_, hierarchy_, settings, keepLayers, mostSlabBytes());
+        return plan(scene_, hierarchy_, lights_, settings, keepLayers, mostSlabBytes());
     }
 
     /// The passes of a frame, or of the first step of a progressive one, what they use, and the planes' memory.
@@ -162,6 +163,7 @@ private:
     device::Device device_;
     Options options_;
     Hierarchy hierarchy_;
+    SceneLights lights_;
     device::TimedQueue queue_;
     std::unique_ptr<device::ProgramLibrary> programs_;
     std::unique_ptr<DeviceScene> deviceScene_;
