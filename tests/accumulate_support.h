@@ -222,7 +222,7 @@ public:
     void pack()
     {
         packed = 1;
-        omits = WEDGE_OMITS_LAYERS | WEDGE_OMITS_EXTREMES;
+        omits = WEDGE_OMITS_LAYERS | WEDGE_OMITS_EXTREMES | WEDGE_OMITS_TAKEN;
     }
 
     std::uint32_t published = 0, packed = 0, omits = 0; ///< as of WaveParams

@@ -24,8 +24,12 @@ TEST_CASE("memory of five kinds of frames, beside what it may be")
     CHECK(of("lens.mebibytes")["value"] < 150);
     CHECK(of("layers.mebibytes")["value"] < 400);
     CHECK(of("pinhole.mebibytes")["value"] < 165);
-    CHECK(of("progressive.mebibytes")["value"] < 760);
+    CHECK(of("progressive.mebibytes")["value"] < 620);
     CHECK(of("direct_4k.bytes_per_pixel")["value"] < 150);
+    CHECK(of("pinhole.further_light_mebibytes")["value"] < 24);
+    CHECK(of("lens.further_light_mebibytes")["value"] < 26);
+    CHECK(of("lens.further_light_mebibytes")["goal"] == 24);
+    CHECK(of("layers.further_light_mebibytes")["goal"].is_null());
 }
 
 TEST_CASE("what is planned is what is allocated")

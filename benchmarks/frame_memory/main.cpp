@@ -74,6 +74,29 @@ double plannedVsAllocated(const scene::Scene& scene, const device::Device& devic
     return planned / static_cast<double>(Allocations::largest() - before);
 }
 
+/// What frames take more with one light more, the first one's like.
+std::vector<Claim> furtherLights(const scene::Scene& scene, const device::DeviceInfo& device, int side)
+{
+    scene::Scene more = scene;
+    more.areaLights.push_back(more.areaLights.front());
+    std::vector<Claim> out;
+    for (const Kind& kind : kindsOf(side)) {
+        if (kind.settings.width != side) {
+            continue;
+        }
+        const auto bytes = [&](const scene::Scene& s) {
+            return static_cast<double>(frameBytes(s, device, kind.settings, kind.layers));
+        };
+        ClaimList claims("frame_memory", kind.name);
+        const double mebibytes = (bytes(more) - bytes(scene)) / (1 << 20);
+        const bool hasGoal = side == 1024 && !kind.layers;
+        claims.add("further_light_mebibytes", mebibytes, "MiB", {}, hasGoal ? std::optional(24.0) : std::nullopt);
+        fmt::print("{:<12} {:>5}x{:<5} {:>10.1f} a further light\n", kind.name, side, side, mebibytes);
+        out.push_back(claims.claims.front());
+    }
+    return out;
+}
+
 int measureAll(const Arguments& a)
 {
     const device::Device device = device::Device::open(a.device);
@@ -101,6 +124,9 @@ int measureAll(const Arguments& a)
         for (const Claim& claim : claims.claims) {
             all["claims"].push_back(json(claim));
         }
+    }
+    for (const Claim& claim : furtherLights(scene, device.info(), a.side)) {
+        all["claims"].push_back(json(claim));
     }
     if (!a.json.empty()) {
         writeJson(a.json, all);

@@ -34,8 +34,8 @@ LightWaves::LightWaves(FrameBuilder& frame, const SampleShape& shape, const Term
 std::uint32_t LightWaves::extremePlanes() const
 {
     // Slopes, and where things move what their shadows' motions add up to; packed, the motions alone.
-    if (shape_.all) {
-        return shape_.geometryMoves ? 6 : 2;
+    if (shape_.full) {
+        return !shape_.measures() ? 0 : shape_.geometryMoves ? 6 : 2;
     }
     return shape_.analysed && shape_.geometryMoves ? 1 : 0;
 }
@@ -164,7 +164,7 @@ graph::Handle<Value> LightWaves::alongShadows(
         f_.graph.plane<Pixels>("direction of shadows' motion", f_.packed ? shortPairs : graph::floatPlanes(2));
     auto out = f_.graph.plane<Value>("filtered along shadows' motion", graph::floats);
     f_.pixels(pass, PassKind::Filter, { "waves/distributed.cl", "shadowBlurs" },
-        { p, reads("shadows", means.extremes), reads("taken", shape_.all ? means.taken : means.wanted),
+        { p, reads("shadows", means.extremes), reads("taken", shape_.full ? means.taken : means.wanted),
             reads("beta", means.beta), writes("along", along), writes("directions", directions) });
     f_.pixels(pass, PassKind::Filter, { "filter/blur.cl", "blurMotion" },
         { p, value("channels", 1u), reads("along", along, far), reads("directions", directions, far),

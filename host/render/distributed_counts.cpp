@@ -233,7 +233,7 @@ void DistributedSamples::counts(const DistributedSamples& guide)
     for (const Kind& kind : kinds) {
         uses.push_back(reads("demand", kind.demand));
         // Of frames that keep no counts of terms it is one plane for all.
-        if (shape_.all || &kind == kinds.data()) {
+        if (shape_.full || &kind == kinds.data()) {
             uses.push_back(reads("taken", kind.taken));
         }
     }

@@ -10,7 +10,7 @@ DistributedFrame::DistributedFrame(const scene::Scene& scene, const DeviceScene*
     , samples_(f_, sampleShape(settings, scene, keepLayers), {})
 {
     samples_.take(nullptr);
-    samples_.compose(keepLayers);
+    samples_.compose();
     for (const std::unique_ptr<WaveTerm>& term : samples_.terms()) {
         terms_.push_back({ samples_.state(), term->means.beta });
     }

@@ -39,7 +39,8 @@ SampleShape sampleShape(const Settings& settings, const scene::Scene& scene, boo
     const bool usual = !settings.distributed.published && settings.slopes == Slopes::Smoothed
         && !(settings.sampling == Sampling::Adaptive && settings.counts == Counts::Spectrum)
         && settings.indirect.meanFraction > 0;
-    shape.all = keepLayers || settings.progressive || (shape.analysed && !usual);
+    shape.layers = keepLayers;
+    shape.full = keepLayers || settings.progressive || (shape.analysed && !usual);
     shape.moves = somethingMoves(scene);
     shape.geometryMoves = scene::geometryMoves(scene);
     return shape;
@@ -52,7 +53,7 @@ DistributedSamples::DistributedSamples(FrameBuilder& frame, const SampleShape& s
     , camera_(cameraParams(frame.description, frame.layout.height, pixelFilterOf(frame.settings)))
     , lit_(frame.settings.integrator == Integrator::Path)
 {
-    f_.packed = shape.analysed && !shape.all;
+    f_.packed = shape.analysed && !shape.full;
     state_->analysed = shape.analysed && before.taken > 0;
     state_->complete = before.taken > 0;
     keepPixels();
@@ -72,14 +73,17 @@ DistributedSamples::DistributedSamples(FrameBuilder& frame, const SampleShape& s
 }
 
 template <class Quantity>
-graph::Handle<Quantity> DistributedSamples::kept(const std::string& name, const graph::Format& format)
+graph::Handle<Quantity> DistributedSamples::kept(
+    const std::string& name, const graph::Format& format, std::uint64_t elements)
 {
     if (before_.memory == nullptr) {
-        auto plane = f_.graph.plane<Quantity>(name, format);
+        auto plane =
+            elements == 0 ? f_.graph.plane<Quantity>(name, format) : f_.graph.list<Quantity>(name, format, elements);
         f_.zero(plane);
         return plane;
     }
-    auto plane = f_.graph.imported<Quantity>(name, format, before_.memory->next(name, f_.layout.size * format.bytes));
+    const std::uint64_t bytes = (elements == 0 ? f_.layout.size : elements) * format.bytes;
+    auto plane = f_.graph.imported<Quantity>(name, format, before_.memory->next(name, bytes), elements);
     if (before_.taken == 0) {
         f_.zero(plane);
     }
@@ -110,7 +114,7 @@ void DistributedSamples::keepPixels()
         added_.push_back({ std::move(of), radiance, squares });
     }
     Totals& t = f_.totals;
-    if (shape_.all) {
+    if (shape_.layers) {
         s.depth = kept<Metres>("depth", graph::floats);
         s.diffuse = kept<Reflectance>("diffuse", graph::vectors);
         s.specular = kept<Reflectance>("specular", graph::vectors);
@@ -122,9 +126,8 @@ void DistributedSamples::keepPixels()
         // Sums are all that is of interest.
         const std::uint64_t pixels = std::min<std::uint64_t>(
             WaveSchedule::capacity, std::uint64_t { WEDGE_TILE_PIXELS } * f_.wholeFrame().tileCount);
-        t.rays = f_.graph.list<Count>("rays", graph::counts, pixels);
-        t.pathRays = f_.graph.list<Count>("path rays", graph::counts, pixels);
-        f_.zero(t.rays, t.pathRays);
+        t.rays = kept<Count>("rays", graph::counts, pixels);
+        t.pathRays = kept<Count>("path rays", graph::counts, pixels);
     }
 }
 
@@ -151,7 +154,7 @@ void DistributedSamples::keepTerm(WaveTerm& term)
     if (shape_.published) {
         m.radiance = kept<Radiance>("radiance of the term", graph::vectors);
     }
-    if (shape_.all) {
+    if (shape_.full) {
         m.taken = kept<Count>("samples taken", graph::counts);
     }
 }
@@ -258,7 +261,7 @@ void DistributedSamples::adaptive(const DistributedSamples* guide)
         TermMeans& m = term->means;
         m.wanted = f_.graph.plane<Count>("samples wanted", graph::counts);
         m.beta = f_.graph.plane<Metres>("filter width", graph::floats);
-        if (!shape_.all) {
+        if (!shape_.full) {
             m.taken = counts_.taken;
         }
     }
@@ -293,11 +296,11 @@ double DistributedSamples::raysOfPath() const
 
 void DistributedSamples::sample(bool first, PrimaryCounts& counts, Waves::Sampling sampling)
 {
-    Adding adding { first, 0 };
-    if (!shape_.all) {
-        adding.omits = WEDGE_OMITS_LAYERS | (keepsMotion() ? 0u : WEDGE_OMITS_MOTION)
-            | (first ? 0u : WEDGE_OMITS_ANALYSIS) | (first && f_.packed ? WEDGE_OMITS_COUNTS : 0u);
-    }
+    const bool measures = shape_.full ? shape_.measures() : first;
+    const Adding adding { first,
+        (shape_.layers ? 0u : WEDGE_OMITS_LAYERS) | (keepsMotion() ? 0u : WEDGE_OMITS_MOTION)
+            | (measures ? 0u : WEDGE_OMITS_ANALYSIS) | (shape_.full ? 0u : WEDGE_OMITS_TAKEN)
+            | (first && f_.packed ? WEDGE_OMITS_COUNTS : 0u) };
     shared::WaveParams settings {};
     settings.sampler = waveSampler(f_.settings);
     settings.published = shape_.published ? 1 : 0;
@@ -348,7 +351,7 @@ void DistributedSamples::accumulateSurfaces(Waves& waves, const Adding& adding)
 {
     const Receivers& r = waves.receivers();
     Surfaces& s = f_.surfaces;
-    const bool measures = (adding.omits & WEDGE_OMITS_ANALYSIS) == 0, all = shape_.all;
+    const bool measures = (adding.omits & WEDGE_OMITS_ANALYSIS) == 0, layers = shape_.layers;
     const auto keeps = [&](bool keep, const char* name, graph::Version& plane) {
         return keep ? updates(name, plane) : f_.nothing(name);
     };
@@ -360,9 +363,9 @@ void DistributedSamples::accumulateSurfaces(Waves& waves, const Adding& adding)
                 reads("motion", r.motion), reads("rays", r.rays), reads("pathRays", r.pathRays),
                 updates("taken", waves.counts().taken), updates("hits", hits_), updates("objectIds", s.objectId),
                 updates("positions", s.position), updates("normals", s.normal), keeps(measures, "glosses", s.gloss),
-                keeps(all, "diffuses", s.diffuse), keeps(all, "speculars", s.specular),
+                keeps(layers, "diffuses", s.diffuse), keeps(layers, "speculars", s.specular),
                 updates("emissions", s.emission), keeps(measures, "emissionSquares", emissionSquares_),
-                keeps(measures, "pixelSizes", s.pixelSize), keeps(all, "distances", s.depth),
+                keeps(measures, "pixelSizes", s.pixelSize), keeps(layers, "distances", s.depth),
                 updates("confusion", confusion_), keeps(keepsMotion(), "motions", motion_),
                 updates("raysOf", f_.totals.rays), updates("pathRaysOf", f_.totals.pathRays) }));
 }
@@ -371,7 +374,7 @@ void DistributedSamples::blurs(float samples, Blurs& out)
 {
     shared::DistributedParams p = params();
     p.samples = samples;
-    const auto sets = samples > 0 || !shape_.all ? writes : updates; // what is shown without motion is 0
+    const auto sets = samples > 0 || !shape_.layers ? writes : updates; // what is shown without motion is 0
     f_.pixels("widths", PassKind::Analysis, { "waves/distributed.cl", "blurs" },
         { f_.rectangle(p), reads("confusion", confusion_),
             keepsMotion() ? reads("motion", motion_) : f_.nothing("motion"), reads("taken", counts_.taken),
@@ -381,10 +384,10 @@ void DistributedSamples::blurs(float samples, Blurs& out)
 
 graph::Handle<Radiance>& DistributedSamples::sumOf(WaveTerm& term)
 {
-    return shape_.all ? term.sum().filtered : f_.totals.beauty;
+    return shape_.layers ? term.sum().filtered : f_.totals.beauty;
 }
 
-void DistributedSamples::settle()
+void DistributedSamples::countSamples()
 {
     const std::uint32_t first = shape_.analysed ? firstPaths() : allSamples;
     Totals& t = f_.totals;
@@ -399,12 +402,15 @@ void DistributedSamples::settle()
         sum = both;
     };
     for (const std::unique_ptr<WaveTerm>& term : terms_) {
-        f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "settleCounts" },
-            { pixels(), value("first", first), reads("primaryTaken", counts_.taken),
-                updates("counts", term->means.wanted) });
-        add(t.samples, term->means.wanted);
+        if (!shape_.full) {
+            f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "settleCounts" },
+                { pixels(), value("first", first), reads("primaryTaken", counts_.taken),
+                    updates("counts", term->means.wanted) });
+        }
+        const graph::Handle<Count>& counted = shape_.full ? term->means.taken : term->means.wanted;
+        add(t.samples, counted);
         if (&term->sum() == &t.indirect) {
-            add(t.indirectSamples, term->means.wanted);
+            add(t.indirectSamples, counted);
         }
     }
     for (graph::Handle<Count>* none : { &t.samples, &t.indirectSamples }) {
@@ -415,36 +421,70 @@ void DistributedSamples::settle()
     }
 }
 
+graph::Handle<Radiance> DistributedSamples::copyOf(const std::string& name, const graph::Handle<Radiance>& image)
+{
+    auto copy = f_.graph.plane<Radiance>(name, graph::vectors);
+    f_.pixels("composite", PassKind::Composite, { "frame/progressive.cl", "copyImage" },
+        { pixels(), reads("in", image), writes("out", copy) });
+    return copy;
+}
+
+void DistributedSamples::addImage(const graph::Handle<Radiance>& image, graph::Handle<Radiance>& sum)
+{
+    f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "addImage" },
+        { pixels(), reads("image", image), updates("sum", sum) });
+}
+
 void DistributedSamples::startSums()
 {
-    Totals& t = f_.totals;
-    if (!shape_.all) {
-        // All that is reflected is added to what is emitted.
-        t.beauty = f_.surfaces.emission;
-        for (const Added& added : added_) {
-            f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "addImage" },
-                { pixels(), reads("image", added.radiance), updates("sum", t.beauty) });
-        }
-        return;
+    // All that is reflected is added to what is emitted, which is not changed where it stays.
+    graph::Handle<Radiance>& beauty = f_.totals.beauty;
+    beauty = before_.memory != nullptr ? copyOf("beauty", f_.surfaces.emission) : f_.surfaces.emission;
+    for (const Added& added : added_) {
+        addImage(added.radiance, beauty);
     }
-    const auto start = [&](graph::Handle<Radiance>& direct, graph::Handle<Radiance>& indirect) {
-        direct = f_.graph.plane<Radiance>("direct", graph::vectors);
-        indirect = f_.graph.plane<Radiance>("indirect", graph::vectors);
-        f_.zero(direct);
-        for (const Added& added : added_) {
-            const bool first = &added == added_.data();
-            f_.pixels("composite", PassKind::Composite,
-                { first ? "frame/progressive.cl" : "waves/distributed.cl", first ? "copyImage" : "addImage" },
-                { pixels(), reads(first ? "in" : "image", added.radiance),
-                    first ? writes("out", direct) : updates("sum", direct) });
+    if (before_.memory != nullptr) {
+        plain_ = copyOf("image before filters", beauty);
+        for (const std::unique_ptr<WaveTerm>& term : terms_) {
+            addOwn(*term, plain_, false);
         }
-        f_.zero(indirect);
-    };
-    start(t.direct.filtered, t.indirect.filtered);
-    start(t.direct.noisy, t.indirect.noisy);
+    }
+}
+
+void DistributedSamples::startLayers()
+{
+    Totals& t = f_.totals;
+    for (Sum* sum : { &t.direct, &t.indirect }) {
+        const bool lights = sum == &t.direct && !added_.empty();
+        for (graph::Handle<Radiance>* radiance : { &sum->filtered, &sum->noisy }) {
+            const std::string name = sum == &t.direct ? "direct" : "indirect";
+            if (lights) {
+                *radiance = copyOf(name, added_.front().radiance);
+            } else {
+                *radiance = f_.graph.plane<Radiance>(name, graph::vectors);
+                f_.zero(*radiance);
+            }
+            for (std::size_t i = 1; lights && i < added_.size(); ++i) {
+                addImage(added_[i].radiance, *radiance);
+            }
+        }
+    }
     for (const std::unique_ptr<WaveTerm>& term : terms_) {
         addOwn(*term, term->sum().noisy, false);
     }
+    if (before_.memory != nullptr) {
+        plain_ = sumOfAll("image before filters", t.direct.noisy, t.indirect.noisy);
+    }
+}
+
+graph::Handle<Radiance> DistributedSamples::sumOfAll(
+    const char* name, const graph::Handle<Radiance>& direct, const graph::Handle<Radiance>& indirect)
+{
+    auto sum = f_.graph.plane<Radiance>(name, graph::vectors);
+    f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "addAll" },
+        { pixels(), reads("emission", f_.surfaces.emission), reads("direct", direct), reads("indirect", indirect),
+            writes("beauty", sum) });
+    return sum;
 }
 
 void DistributedSamples::addOwn(WaveTerm& term, graph::Handle<Radiance>& radiance, bool unlessAnalysed)
@@ -489,21 +529,23 @@ void DistributedSamples::blur(graph::Handle<Radiance>& image)
         { pixels(), reads("lens", lens_, across), reads("in", rows, across), updates("out", image) });
 }
 
-void DistributedSamples::compose(bool layers)
+void DistributedSamples::compose()
 {
     Totals& t = f_.totals;
     if (!lit_) {
         f_.zero(f_.surfaces.emission);
     }
-    if (!shape_.all) {
-        settle();
+    if (shape_.layers) {
+        startLayers();
+    } else {
+        countSamples();
+        startSums();
     }
-    startSums();
     const bool filters = shape_.analysed && f_.settings.filtering != Filtering::None;
     Blurs own { f_.graph.plane<Pixels>("lens filter width", graph::floats),
         f_.graph.plane<Pixels>("motion filter width", graph::floats),
         f_.graph.plane<Pixels>("direction of motion", f_.packed ? shortPairs : graph::floatPlanes(2)) };
-    if (shape_.all) {
+    if (shape_.layers) {
         f_.zero(own.lens, own.along); // they are shown, filtered or not
     }
     if (filters) {
@@ -525,25 +567,18 @@ void DistributedSamples::compose(bool layers)
     }
     lens_ = own.lens;
     along_ = own.along;
-    emission_ = f_.surfaces.emission;
-    if (shape_.all) {
-        t.beauty = f_.graph.plane<Radiance>("beauty", graph::vectors);
-        f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "addAll" },
-            { pixels(), reads("emission", emission_), reads("direct", t.direct.filtered),
-                reads("indirect", t.indirect.filtered), writes("beauty", t.beauty) });
-    }
-    if (before_.memory != nullptr) {
+    if (shape_.layers) {
+        t.beauty = sumOfAll("beauty", t.direct.filtered, t.indirect.filtered);
         // What is kept is not filtered.
-        emission_ = f_.graph.plane<Radiance>("emission, filtered", graph::vectors);
-        f_.pixels("composite", PassKind::Composite, { "frame/progressive.cl", "copyImage" },
-            { pixels(), reads("in", f_.surfaces.emission), writes("out", emission_) });
+        emission_ =
+            before_.memory != nullptr ? copyOf("emission, filtered", f_.surfaces.emission) : f_.surfaces.emission;
     }
     if (!filters || !f_.settings.distributed.blur || camera_.apertureRadius <= 0) {
         return;
     }
     f_.graph.only("filter of the image", analysed(), [&] {
         blur(t.beauty);
-        if (layers) {
+        if (shape_.layers) {
             blur(emission_);
             blur(t.direct.filtered);
             blur(t.indirect.filtered);

@@ -42,14 +42,16 @@ public:
     /// for leave means unbiased. null: their own.
     void take(const DistributedSamples* guide);
 
-    /// Makes the image: surfaces.emission, totals, lensWidth(), motionWidth(). layers: filters emission, direct and
-    /// indirect apart, too, so that they sum to the beauty.
-    void compose(bool layers);
+    /// Makes the image: surfaces.emission, totals, lensWidth(), motionWidth(). Of layers emission, direct and indirect
+    /// are filtered, too, so that they sum to the beauty.
+    void compose();
 
     const std::vector<std::unique_ptr<WaveTerm>>& terms() const { return terms_; }
     const FrameBuilder& frame() const { return f_; }
-    /// Once composed: what is seen to emit, as the image has it.
+    /// Once composed: what is seen to emit, as the image has it. Of layers alone.
     const graph::Handle<Radiance>& emission() const { return emission_; }
+    /// Once composed, of samples that stay: the image before any filter.
+    const graph::Handle<Radiance>& plainImage() const { return plain_; }
     /// Means of direct light that is not filtered, by effects' layers.
     std::map<std::string, graph::Handle<Radiance>> unfiltered() const;
     const graph::Handle<Count>& taken() const { return counts_.taken; }
@@ -70,12 +72,12 @@ public:
 
 private:
     template <class Quantity>
-    graph::Handle<Quantity> kept(const std::string& name, const graph::Format& format);
+    graph::Handle<Quantity> kept(const std::string& name, const graph::Format& format, std::uint64_t elements = 0);
     void keepPixels();
     void keepTerm(WaveTerm& term);
     std::uint32_t firstPaths() const; ///< samples of the first pass
     /// Motions are.
-    bool keepsMotion() const { return shape_.all || (shape_.moves && shape_.analysed); }
+    bool keepsMotion() const { return shape_.layers || shape_.published || (shape_.moves && shape_.analysed); }
 
     void monteCarlo();
     void adaptive(const DistributedSamples* guide);
@@ -98,8 +100,14 @@ private:
     void demandOfRays(const graph::Argument& p, const graph::Version& variance, const graph::Version& effective,
         const graph::Handle<Metres>& beta, const Blurs& blurs, graph::Handle<Demand>& demand);
     void demandOfTerm(WaveTerm& term, const Blurs& blurs, graph::Handle<Squares>& ofTextures);
-    void settle();
+    void countSamples();
     void startSums();
+    void startLayers();
+    graph::Handle<Radiance> copyOf(const std::string& name, const graph::Handle<Radiance>& image);
+    void addImage(const graph::Handle<Radiance>& image, graph::Handle<Radiance>& sum);
+    /// Emission, direct and indirect light.
+    graph::Handle<Radiance> sumOfAll(
+        const char* name, const graph::Handle<Radiance>& direct, const graph::Handle<Radiance>& indirect);
     void addOwn(WaveTerm& term, graph::Handle<Radiance>& radiance, bool unlessAnalysed);
     /// value: the term's, filtered. own: of the pixels.
     void addFiltered(
@@ -136,7 +144,7 @@ private:
     };
     std::vector<Added> added_;
     graph::Handle<Demand> demand_; ///< of primary samples
-    graph::Handle<Radiance> emission_;
+    graph::Handle<Radiance> emission_, plain_;
     std::optional<graph::Handle<Radiance>> seenLights_;
     graph::Handle<Pixels> lens_, along_;
 };

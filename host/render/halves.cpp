@@ -43,7 +43,7 @@ HalvesFrame::HalvesFrame(const scene::Scene& scene, const DeviceScene* deviceSce
     halves_[0].samples->take(taken > 0 ? halves_[1].samples.get() : nullptr);
     halves_[1].samples->take(halves_[0].samples.get());
     for (const Half& half : halves_) {
-        half.samples->compose(keepLayers);
+        half.samples->compose();
     }
     const bool analysed = shape.analysed && settings.filtering != Filtering::None;
     for (const std::unique_ptr<WaveTerm>& term : halves_[0].samples->terms()) {
@@ -79,49 +79,66 @@ void HalvesFrame::join(bool analysed)
             .everywhere = true });
         return out;
     };
+    // Of samples of terms those of the pixels that are shown.
+    const auto sumOfTerms = [&](const graph::Handle<Count>& one, const graph::Handle<Count>& other) {
+        auto out = graph_.plane<Count>("sum of halves", graph::counts);
+        f.pixels(pass, PassKind::Composite, { file, "sumOfHalves" },
+            { p, reads("a", one), reads("b", other), writes("sum", out) });
+        return out;
+    };
+    // Of rays that are counted apart, all pixels' together.
+    const auto sumOfLists = [&](const graph::Handle<Count>& one, const graph::Handle<Count>& other) {
+        const std::uint64_t count = graph_.resources()[one.resource].elements;
+        auto out = graph_.list<Count>("sum of halves", graph::counts, count);
+        f.items(pass, PassKind::Composite, { file, "sumOfLists" }, count,
+            { value("count", static_cast<std::uint32_t>(count)), graph::readsAsIs("a", one),
+                graph::readsAsIs("b", other), writes("sum", out) });
+        return out;
+    };
     Shown shown;
     Surfaces& s = shown.surfaces;
+    s.objectId = graph_.plane<ObjectId>("object id", graph::counts);
+    f.pixels(pass, PassKind::Composite, { file, "joinObjects" },
+        { p, reads("objectA", a.surfaces.objectId), reads("objectB", b.surfaces.objectId),
+            writes("object", s.objectId) });
+    Totals& t = shown.totals;
+    t.beauty = mean(a.totals.beauty, b.totals.beauty);
+    t.samples = sumOfTerms(a.totals.samples, b.totals.samples);
+    t.indirectSamples = sumOfTerms(a.totals.indirectSamples, b.totals.indirectSamples);
+    shown.primaryTaken = sum(first.taken(), second.taken());
+    if (!keepsLayers_) {
+        t.rays = sumOfLists(a.totals.rays, b.totals.rays);
+        t.pathRays = sumOfLists(a.totals.pathRays, b.totals.pathRays);
+        show(shown, true, analysed);
+        return;
+    }
+    t.rays = sum(a.totals.rays, b.totals.rays);
+    t.pathRays = sum(a.totals.pathRays, b.totals.pathRays);
     s.position = graph_.plane<Position>("position", graph::vectors);
     s.normal = graph_.plane<Normal>("normal", graph::vectors);
     s.pixelSize = graph_.plane<Metres>("pixel size", graph::floats);
     s.depth = graph_.plane<Metres>("depth", graph::floats);
-    s.objectId = graph_.plane<ObjectId>("object id", graph::counts);
     f.pixels(pass, PassKind::Composite, { file, "joinSurfaces" },
         { p, reads("hitsA", first.hits()), reads("hitsB", second.hits()), reads("positionA", a.surfaces.position),
             reads("positionB", b.surfaces.position), reads("normalA", a.surfaces.normal),
             reads("normalB", b.surfaces.normal), reads("pixelSizeA", a.surfaces.pixelSize),
             reads("pixelSizeB", b.surfaces.pixelSize), reads("depthA", a.surfaces.depth),
-            reads("depthB", b.surfaces.depth), reads("objectA", a.surfaces.objectId),
-            reads("objectB", b.surfaces.objectId), writes("position", s.position), writes("normal", s.normal),
-            writes("pixelSize", s.pixelSize), writes("depth", s.depth), writes("object", s.objectId) });
-    Totals& t = shown.totals;
-    t.beauty = mean(a.totals.beauty, b.totals.beauty);
-    if (keepsLayers_) {
-        s.diffuse = mean(a.surfaces.diffuse, b.surfaces.diffuse);
-        s.specular = mean(a.surfaces.specular, b.surfaces.specular);
-        s.emission = mean(first.emission(), second.emission());
-        t.direct.filtered = mean(a.totals.direct.filtered, b.totals.direct.filtered);
-        t.direct.noisy = mean(a.totals.direct.noisy, b.totals.direct.noisy);
-        t.indirect.filtered = mean(a.totals.indirect.filtered, b.totals.indirect.filtered);
-        t.indirect.noisy = mean(a.totals.indirect.noisy, b.totals.indirect.noisy);
-        const auto ofSecond = second.unfiltered();
-        for (const auto& [layer, radiance] : first.unfiltered()) {
-            shown.unfiltered.emplace(layer, mean(radiance, ofSecond.at(layer)));
-        }
-        shown.lensWidth = first.lensWidth();
-        shown.motionWidth = first.motionWidth();
-        shown.motion = first.motion();
-    } else {
-        s.position = {};
-        s.normal = {};
-        s.pixelSize = {};
-        s.depth = {};
+            reads("depthB", b.surfaces.depth), writes("position", s.position), writes("normal", s.normal),
+            writes("pixelSize", s.pixelSize), writes("depth", s.depth) });
+    s.diffuse = mean(a.surfaces.diffuse, b.surfaces.diffuse);
+    s.specular = mean(a.surfaces.specular, b.surfaces.specular);
+    s.emission = mean(first.emission(), second.emission());
+    t.direct.filtered = mean(a.totals.direct.filtered, b.totals.direct.filtered);
+    t.direct.noisy = mean(a.totals.direct.noisy, b.totals.direct.noisy);
+    t.indirect.filtered = mean(a.totals.indirect.filtered, b.totals.indirect.filtered);
+    t.indirect.noisy = mean(a.totals.indirect.noisy, b.totals.indirect.noisy);
+    const auto ofSecond = second.unfiltered();
+    for (const auto& [layer, radiance] : first.unfiltered()) {
+        shown.unfiltered.emplace(layer, mean(radiance, ofSecond.at(layer)));
     }
-    t.samples = sum(a.totals.samples, b.totals.samples);
-    t.indirectSamples = sum(a.totals.indirectSamples, b.totals.indirectSamples);
-    t.rays = sum(a.totals.rays, b.totals.rays);
-    t.pathRays = sum(a.totals.pathRays, b.totals.pathRays);
-    shown.primaryTaken = sum(first.taken(), second.taken());
+    shown.lensWidth = first.lensWidth();
+    shown.motionWidth = first.motionWidth();
+    shown.motion = first.motion();
     show(shown, true, analysed);
 }
 
@@ -134,11 +151,8 @@ void HalvesFrame::estimateError(bool analysed)
                               const graph::Launch&) -> std::uint32_t { return analysed && state->analysed ? 1 : 0; };
     std::vector<graph::Argument> arguments { f.rectangle(halves_[0].samples->params()), made("filtered", filtered) };
     for (const Half& half : halves_) {
-        const Totals& t = half.frame->totals;
-        for (const graph::Version& image : std::initializer_list<graph::Version> {
-                 t.beauty, half.frame->surfaces.emission, t.direct.noisy, t.indirect.noisy }) {
-            arguments.push_back(reads("image", image));
-        }
+        arguments.push_back(reads("beauty", half.frame->totals.beauty));
+        arguments.push_back(reads("plain", half.samples->plainImage()));
     }
     arguments.push_back(writes("noise", noise_));
     arguments.push_back(writes("bias", bias_));

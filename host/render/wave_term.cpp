@@ -34,7 +34,7 @@ WaveTerm::Shared WaveTerm::share(
     const Receivers& r = waves.receivers();
     waves.list("lists", { "waves/waves.cl", "shareSamples" }, 1,
         { waves.pixelParams(), waves.params(), reads("pixelOf", r.pixelOf), reads("shareOf", r.shareOf),
-            reads("taken", shape_.all ? means.taken : counts.taken),
+            reads("taken", shape_.full ? means.taken : counts.taken),
             reads("wanted", (adding.omits & WEDGE_OMITS_COUNTS) != 0 ? counts.taken : means.wanted),
             value("sumPlanes", sums), value("extremePlanes", extremes), writes("first", out.first),
             writes("last", out.last), writes("sums", out.sums), writes("extremes", out.extremes) });
@@ -49,7 +49,7 @@ std::vector<graph::Argument> WaveTerm::accumulated(const Adding& adding, const P
     };
     const bool counted = (adding.omits & WEDGE_OMITS_COUNTS) == 0;
     return { counted ? reads("termWanted", means.wanted) : f_.nothing("termWanted"),
-        shape_.all ? updates("termTaken", means.taken) : reads("termTaken", counts.taken),
+        shape_.full ? updates("termTaken", means.taken) : reads("termTaken", counts.taken),
         updates("texture", means.texture), updates("value", means.value), kept("plain", means.plain, measures),
         kept("squares", means.squares, measures), kept("textureSquares", means.textureSquares, measures),
         kept("termRadiance", means.radiance, true), kept("deviation", means.deviation, true),
@@ -58,7 +58,7 @@ std::vector<graph::Argument> WaveTerm::accumulated(const Adding& adding, const P
 
 graph::Argument WaveTerm::samplesOf(std::string name, graph::Handle<Count>& total) const
 {
-    return shape_.all ? updates(std::move(name), total) : f_.nothing(std::move(name));
+    return shape_.layers ? updates(std::move(name), total) : f_.nothing(std::move(name));
 }
 
 graph::Handle<Extremes> WaveTerm::leastExtreme() const

@@ -31,13 +31,14 @@ struct TermMeans {
 struct SampleShape {
     bool analysed = false; ///< filters and counts of their own
     bool published = false; ///< as thesis chapter 5 has them
-    /// Of all that layers show and that steps of a progressive frame go on with; else pixels keep what one image is
-    /// made of.
-    bool all = false;
+    bool layers = false; ///< what only they show, too, and direct and indirect light apart
+    /// All samples' sums, which steps of a progressive frame go on with and other than the default analysis asks for;
+    /// else pixels keep what one image is made of.
+    bool full = false;
     bool moves = false; ///< something moves while the shutter is open
     bool geometryMoves = false;
 
-    bool measures() const { return all || analysed; } ///< what the analysis is made of
+    bool measures() const { return layers || analysed; } ///< what the analysis is made of
 };
 
 /// How one sampling adds to what there is.

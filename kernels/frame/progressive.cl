@@ -33,16 +33,26 @@ __kernel void meanOfHalves(DistributedParams p, uint planes, __global const uint
     }
 }
 
-/// What is known of surfaces alone, of both halves' hits: positions, normals (3 planes each), sizes of pixels,
-/// distances (that of one half where the other missed) and objects (WEDGE_MIXED where they differ).
+/// Objects: WEDGE_MIXED where the halves' differ.
+__kernel void joinObjects(DistributedParams p, __global const uint* restrict objectA,
+    __global const uint* restrict objectB, __global uint* restrict object)
+{
+    uint x, y, i;
+    if (pixelOf(p, &x, &y, &i)) {
+        const uint a = objectA[i], b = objectB[i];
+        object[i] = a == 0u || a == b ? b : b == 0u ? a : WEDGE_MIXED;
+    }
+}
+
+/// What is known of surfaces alone, of both halves' hits: positions, normals (3 planes each), sizes of pixels, and
+/// distances (that of one half where the other missed).
 __kernel void joinSurfaces(DistributedParams p, __global const uint* restrict hitsA,
     __global const uint* restrict hitsB, __global const float* restrict positionA,
     __global const float* restrict positionB, __global const float* restrict normalA,
     __global const float* restrict normalB, __global const float* restrict pixelSizeA,
     __global const float* restrict pixelSizeB, __global const float* restrict depthA,
-    __global const float* restrict depthB, __global const uint* restrict objectA, __global const uint* restrict objectB,
-    __global float* restrict position, __global float* restrict normal, __global float* restrict pixelSize,
-    __global float* restrict depth, __global uint* restrict object)
+    __global const float* restrict depthB, __global float* restrict position, __global float* restrict normal,
+    __global float* restrict pixelSize, __global float* restrict depth)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -56,7 +66,6 @@ __kernel void joinSurfaces(DistributedParams p, __global const uint* restrict hi
     pixelSize[i] = share * pixelSizeA[i] + rest * pixelSizeB[i];
     // Not a weighted sum: either may be infinite.
     depth[i] = a == 0u && b > 0u ? depthB[i] : b == 0u ? depthA[i] : share * depthA[i] + rest * depthB[i];
-    object[i] = objectA[i] == 0u || objectA[i] == objectB[i] ? objectB[i] : objectB[i] == 0u ? objectA[i] : WEDGE_MIXED;
 }
 
 /// sum = a + b.
@@ -69,22 +78,24 @@ __kernel void sumOfHalves(
     }
 }
 
-WEDGE_FN Vec3 unfiltered(
-    uint n, uint i, __global const float* emission, __global const float* direct, __global const float* indirect)
+/// The same of lists of `count` numbers.
+__kernel void sumOfLists(
+    uint count, __global const uint* restrict a, __global const uint* restrict b, __global uint* restrict sum)
 {
-    return vecAdd(vecAdd(loadVec(emission, n, i), loadVec(direct, n, i)), loadVec(indirect, n, i));
+    const uint i = get_global_id(0);
+    if (i < count) {
+        sum[i] = a[i] + b[i];
+    }
 }
 
 /// The squared error of the mean of the halves F_A and F_B, in two parts, each the mean over the channels.
-/// in   beauty: F; emission, direct, indirect: what sums to N, the same before any filter, whose mean is the truth
+/// in   beauty: F; plain: N, the same before any filter, whose mean is the truth
 /// out  noise: ((F_A - F_B) / 2)^2, on average the variance of the mean
 ///      bias: (F_A - N_A) (F_B - N_B), on average the squared bias, as the halves know nothing of each other; 0 without
 ///      a filter (filtered: 0)
 __kernel void errorOfHalves(DistributedParams p, uint filtered, __global const float* restrict beautyA,
-    __global const float* restrict emissionA, __global const float* restrict directA,
-    __global const float* restrict indirectA, __global const float* restrict beautyB,
-    __global const float* restrict emissionB, __global const float* restrict directB,
-    __global const float* restrict indirectB, __global float* restrict noise, __global float* restrict bias)
+    __global const float* restrict plainA, __global const float* restrict beautyB,
+    __global const float* restrict plainB, __global float* restrict noise, __global float* restrict bias)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -92,8 +103,7 @@ __kernel void errorOfHalves(DistributedParams p, uint filtered, __global const f
     }
     const uint n = p.planeSize;
     const Vec3 a = loadVec(beautyA, n, i), b = loadVec(beautyB, n, i), d = vecSub(a, b);
-    const Vec3 changeA = vecSub(a, unfiltered(n, i, emissionA, directA, indirectA));
-    const Vec3 changeB = vecSub(b, unfiltered(n, i, emissionB, directB, indirectB));
+    const Vec3 changeA = vecSub(a, loadVec(plainA, n, i)), changeB = vecSub(b, loadVec(plainB, n, i));
     noise[i] = vecDot(d, d) / 12.0f;
     bias[i] = filtered != 0u ? vecDot(changeA, changeB) / 3.0f : 0.0f;
 }

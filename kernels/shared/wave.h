@@ -10,16 +10,17 @@
 /// Receivers of a wave at most: enough to fill a large device, few enough to stay in a CPU's caches.
 #define WEDGE_WAVE_RECEIVERS (1u << 17)
 
-/// What a wave is not to add to its pixels, which have no planes of it, or have other things in them: what layers show
-/// and counts of samples that follow from others, with rays counted for the wave's pixels in place of the image's;
-/// motion; all that the analysis is made of; of that, slopes and distances but for one plane; the pixels' wanted
-/// samples, which are then as many as the last of the wave.
+/// What a wave is not to add to its pixels, which have no planes of it, or have other things in them: what layers show,
+/// with rays counted for the wave's pixels in place of the image's; motion; all that the analysis is made of; of that,
+/// slopes and distances but for one plane; the pixels' wanted samples, which are then as many as the last of the wave;
+/// samples taken of a term, which then follow from others.
 #define WEDGE_OMITS_LAYERS 1u
 #define WEDGE_OMITS_MOTION 2u
 #define WEDGE_OMITS_ANALYSIS 4u
 #define WEDGE_OMITS_EXTREMES 8u
 #define WEDGE_OMITS_COUNTS 16u
 #define WEDGE_OMITS_DEVIATION 32u
+#define WEDGE_OMITS_TAKEN 128u
 #define WEDGE_OMITS_INDIRECT 64u ///< a term's samples are of direct light
 
 WEDGE_SHARED_BEGIN

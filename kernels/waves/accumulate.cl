@@ -131,8 +131,8 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
 #endif
     if ((wave.omits & WEDGE_OMITS_LAYERS) == 0u) {
         samples[p.i] += total;
-        termTaken[p.i] += total;
     }
+    countTaken(wave, p.i, total, termTaken);
 }
 
 /// Point and directional lights: `lit`, the receivers' radiance from them. deltaSquares: mean squared luminance of a
@@ -222,8 +222,8 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient,
     if ((wave.omits & WEDGE_OMITS_LAYERS) == 0u) {
         samples[p.i] += total;
         indirectSamples[p.i] += (wave.omits & WEDGE_OMITS_INDIRECT) == 0u ? total : 0u;
-        termTaken[p.i] += total;
     }
+    countTaken(wave, p.i, total, termTaken);
 }
 
 /// Exponents of those receivers of a pixel that have a lobe, as of the first one's kind; 0 at first.

@@ -210,6 +210,14 @@ WEDGE_FN uint newTermSamples(WaveParams wave, uint i, __global const uint* taken
     return max(after, before) - before;
 }
 
+/// The wave's samples of a term are taken.
+WEDGE_FN void countTaken(WaveParams wave, uint i, uint total, __global uint* taken)
+{
+    if ((wave.omits & WEDGE_OMITS_TAKEN) == 0u) {
+        taken[i] += total;
+    }
+}
+
 /// Parameters of the kernels that add to a term, and its planes made of them.
 #define WEDGE_TERM_PARAMETERS                                                                                          \
     __global const uint *restrict termWanted, __global uint *restrict termTaken, __global float *restrict texture,     \
