@@ -93,6 +93,57 @@ TEST_CASE("scenes of the lottery are frozen")
     }
 }
 
+TEST_CASE("version 2 is version 1 but for lamps, in a quarter of the scenes or more, of three kinds")
+{
+    for (const std::uint32_t first : { 1u, 2001u }) {
+        std::map<generator::Lamps, int> kinds;
+        int alone = 0;
+        for (std::uint32_t seed = first; seed < first + 100; ++seed) {
+            const generator::LotteryTraits before = generator::lotteryTraits(seed),
+                                           t = generator::lotteryTraits(seed, 2);
+            CHECK(before.lamps == generator::Lamps::None);
+            CHECK(t.things == before.things);
+            CHECK(t.lights == before.lights);
+            CHECK(hardCases(t).size() == hardCases(before).size() + (t.lamps != generator::Lamps::None ? 1 : 0));
+            ++kinds[t.lamps];
+            alone += t.quads ? 0 : 1;
+        }
+        CHECK(kinds[generator::Lamps::None] <= 75);
+        for (const auto kind : { generator::Lamps::Large, generator::Lamps::Small, generator::Lamps::Textured })
+            CHECK(kinds[kind] >= 5);
+        CHECK(alone >= 10);
+    }
+}
+
+TEST_CASE("lamps of version 2 emit, and are frozen")
+{
+    struct Known {
+        std::uint32_t seed;
+        generator::Lamps lamps;
+        bool quads;
+        std::size_t emitting;
+        double emission;
+    };
+    for (const Known& known : { Known { 2001, generator::Lamps::Large, false, 1, 3053.92 },
+             { 2003, generator::Lamps::Small, true, 1, 4667.74 },
+             { 2018, generator::Lamps::Textured, false, 2, 1893.92 }, { 2002, generator::Lamps::None, true, 0, 0 } }) {
+        CAPTURE(known.seed);
+        const generator::GeneratedScene scene = generator::makeLottery(known.seed, 2);
+        const generator::LotteryTraits t = generator::lotteryTraits(known.seed, 2);
+        CHECK(t.lamps == known.lamps);
+        CHECK(scene.hasLight == known.quads);
+        std::size_t emitting = 0;
+        double emission = 0;
+        for (const scene::Material& m : scene.materials) {
+            emitting += m.emission != glm::vec3(0) ? 1 : 0;
+            emission += m.emission.x + 2 * m.emission.y + 3 * m.emission.z;
+        }
+        CHECK(emitting == known.emitting);
+        CHECK(emission == doctest::Approx(known.emission).epsilon(1e-5));
+        CHECK(scene.name == "lottery2_" + std::to_string(known.seed));
+    }
+}
+
 TEST_CASE("of the seeds to tune on and of those to report on, a quarter or more are of each hard case")
 {
     for (const std::uint32_t first : { 1u, 1001u }) {

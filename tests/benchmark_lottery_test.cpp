@@ -67,6 +67,23 @@ TEST_CASE("pictures and scene files where they are asked for")
     CHECK(place.has("scenes/lottery_1002.obj"));
 }
 
+TEST_CASE("version 2 is another lottery, whose results are not mixed with the first one's")
+{
+    const Workplace place;
+    std::vector<std::string> call = tiny("2022");
+    call.insert(call.end(), { "--lottery-version", "2" });
+    const Outcome outcome = place.run(call);
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    const Json results = Json::parse(place.text("results.json"));
+    CHECK(results["plan"]["version"] == 2);
+    CHECK(contains(results["scenes"][0]["hard_cases"].dump(), "textured_lamp"));
+    CHECK(place.run(tiny("2022")).status == 1);
+    const Outcome scenes = place.run({ "--seeds", "2022", "--lottery-version", "2", "--write-scenes", "scenes" });
+    REQUIRE_MESSAGE(scenes.status == 0, scenes.err);
+    CHECK(place.has("scenes/lottery2_2022.toml"));
+    CHECK(contains(place.text("scenes/lottery2_2022.mtl"), "map_Ke lottery2_2022_screen.png"));
+}
+
 TEST_CASE("wrong calls end in one line")
 {
     const Workplace place;
@@ -78,6 +95,7 @@ TEST_CASE("wrong calls end in one line")
             { { "--seeds", "x" }, 2, "whole numbers" },
             { { "--seeds", "1:99999999" }, 2, "at most" },
             { { "--size", "16" }, 2, "--size" },
+            { { "--lottery-version", "3" }, 2, "--lottery-version" },
             { { "--seeds", "1", "--json", "other.json" }, 1, "other.json" },
             { { "--seeds", "1", "--json", "broken.json" }, 1, "broken.json" },
             { { "--seeds", "1", "--json", "gone/r.json" }, 1, "gone/r.json" },

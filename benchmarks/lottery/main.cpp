@@ -21,7 +21,7 @@ constexpr std::uint32_t mostSeeds = 100000;
 struct LotteryArguments {
     std::string seeds, json, device, references = defaultReferenceFolder(), images, scenes, size;
     bool quick = false;
-    int referenceSpp = 0;
+    int referenceSpp = 0, version = 1;
 };
 
 /// "A:B", both included, or "A".
@@ -68,13 +68,14 @@ LotteryPlan planOf(const LotteryArguments& a)
     }
     plan.referenceFolder = a.references;
     plan.imageFolder = a.images;
+    plan.version = a.version;
     return plan;
 }
 
 int writeScenes(const LotteryArguments& a, const std::vector<std::uint32_t>& seeds)
 {
     for (const std::uint32_t seed : seeds) {
-        lotteryScene(seed, a.scenes);
+        lotteryScene(seed, a.version, a.scenes);
     }
     return 0;
 }
@@ -119,6 +120,10 @@ int main(int argc, char** argv)
     CLI::App parser("Measures filtered against plain images of random scenes.", "lottery");
     LotteryArguments a;
     parser.add_option("--seeds", a.seeds, "scenes, A:B or one (1:200)");
+    parser
+        .add_option("--lottery-version", a.version,
+            "1: as seeds were frozen first; 2: with meshes that emit in a quarter of the scenes (1)")
+        ->check(CLI::Range(1, 2));
     parser.add_flag("--quick", a.quick, "seeds 1:10, references of 2048 samples: to see that it works, not to report");
     parser.add_option(
         "--json", a.json, "results, rewritten after each scene; a call that was interrupted goes on from there");

@@ -140,9 +140,9 @@ private:
 
 std::string lotterySceneFolder() { return WEDGE_BENCHMARK_DATA "/lottery"; }
 
-scene::Scene lotteryScene(std::uint32_t seed, const std::string& folder)
+scene::Scene lotteryScene(std::uint32_t seed, int version, const std::string& folder)
 {
-    const generator::GeneratedScene made = generator::makeLottery(seed);
+    const generator::GeneratedScene made = generator::makeLottery(seed, version);
     generator::writeScene(made, folder);
     scene::Scene scene = scene::loadScene((std::filesystem::path(folder) / (made.name + ".toml")).string());
     for (scene::Material& material : scene.materials) {
@@ -158,10 +158,12 @@ LotteryResult measureSeed(std::uint32_t seed, const device::Device& device, cons
     const auto start = std::chrono::steady_clock::now();
     LotteryResult out;
     out.seed = seed;
-    out.traits = generator::lotteryTraits(seed);
-    const scene::Scene scene = lotteryScene(seed, lotterySceneFolder());
+    out.traits = generator::lotteryTraits(seed, plan.version);
+    const scene::Scene scene = lotteryScene(seed, plan.version, lotterySceneFolder());
     out.triangles = scene.geometry.indices.size() / 3;
-    SeedLab(scene, device, plan, fmt::format("lottery_{}", seed)).measureBudgets(out);
+    SeedLab(
+        scene, device, plan, fmt::format("lottery{}_{}", plan.version == 1 ? "" : std::to_string(plan.version), seed))
+        .measureBudgets(out);
     out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return out;
 }

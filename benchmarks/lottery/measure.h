@@ -22,6 +22,7 @@ struct LotteryPlan {
     std::vector<double> imageBlurs { 0.4, 0.6, 0.85, 1.2, 1.7, 2.4 }; ///< pixels: Gaussians over a plain image
     std::vector<float> termBlurs { 0.75f, 1.5f, 3.0f }; ///< pixels: of each term, with the tests of normals and objects
     std::string referenceFolder, imageFolder; ///< imageFolder: "" for no pictures
+    int version = 1; ///< of the generator: 1 or 2
 };
 
 /// One method at one budget.
@@ -43,8 +44,8 @@ struct LotteryResult {
     std::string fixedBlurName;
 };
 
-/// The scene of a seed, whose files go to the folder. Throws Error.
-scene::Scene lotteryScene(std::uint32_t seed, const std::string& folder);
+/// The scene of a seed and a version, whose files go to the folder. Throws Error.
+scene::Scene lotteryScene(std::uint32_t seed, int version, const std::string& folder);
 
 /// Where scene files are kept unless another folder is named.
 std::string lotterySceneFolder();

@@ -74,11 +74,11 @@ Json dataOf(const LotteryResult& r, int compared)
         { "fixed_blur", dataOf(r.fixedBlur) }, { "fixed_blur_name", r.fixedBlurName } };
 }
 
-LotteryResult resultOf(const Json& j)
+LotteryResult resultOf(const Json& j, int version)
 {
     LotteryResult r;
     r.seed = j.at("seed");
-    r.traits = generator::lotteryTraits(r.seed);
+    r.traits = generator::lotteryTraits(r.seed, version);
     r.triangles = j.at("triangles");
     r.seconds = j.at("seconds");
     r.referenceNoise = j.at("reference_noise");
@@ -91,9 +91,13 @@ LotteryResult resultOf(const Json& j)
 
 Json dataOf(const LotteryPlan& plan)
 {
-    return { { "width", plan.width }, { "height", plan.height }, { "budgets", plan.budgets },
+    Json out { { "width", plan.width }, { "height", plan.height }, { "budgets", plan.budgets },
         { "compared", plan.compared }, { "pooled_up_to", plan.pooledUpTo }, { "seeds", plan.seeds },
         { "reference_spp", plan.referenceSpp }, { "kernels", methodFingerprint() } };
+    if (plan.version != 1) { // files from before there was another do not say it
+        out["version"] = plan.version;
+    }
+    return out;
 }
 
 } // namespace
@@ -130,7 +134,7 @@ std::vector<LotteryResult> resumeLottery(
             }
         }
         for (const Json& scene : found.at("scenes")) {
-            out.push_back(resultOf(scene));
+            out.push_back(resultOf(scene, plan.version));
         }
     } catch (const Json::exception&) {
         throw Error("results " + path, "were not written by this program", "name another file");

@@ -25,6 +25,8 @@ std::string mtlText(const GeneratedScene& scene)
             text += fmt::format("Ke {:.6g} {:.6g} {:.6g}\n", m.emission.x, m.emission.y, m.emission.z);
         if (m.diffuseTexture >= 0)
             text += fmt::format("map_Kd {}\n", textureFile(scene, static_cast<std::size_t>(m.diffuseTexture)));
+        if (m.emissionTexture >= 0)
+            text += fmt::format("map_Ke {}\n", textureFile(scene, static_cast<std::size_t>(m.emissionTexture)));
         text += '\n';
     }
     return text;
@@ -93,6 +95,8 @@ std::string tomlText(const GeneratedScene& scene)
     text += fmt::format("[[mesh]]\nfile = \"{}.obj\"\n\n", scene.name);
     for (const MovingPart& part : scene.parts)
         text += partText(scene, part);
+    if (!scene.hasLight)
+        return text;
     text += lightText(scene.light);
     for (const scene::AreaLight& light : scene.furtherLights)
         text += '\n' + lightText(light);

@@ -41,13 +41,14 @@ struct MovingPart {
 struct GeneratedScene {
     std::string name, comment;
     ObjWriter mesh;
-    std::vector<scene::Material> materials; ///< a diffuseTexture is an index into `textures`
+    std::vector<scene::Material> materials; ///< diffuseTexture and emissionTexture are indices into `textures`
     std::vector<GeneratedTexture> textures;
     std::vector<MovingPart> parts;
     double shutterClose = 0.0; ///< it opens at 0
     scene::Camera camera;
     scene::AreaLight light;
     std::vector<scene::AreaLight> furtherLights;
+    bool hasLight = true; ///< false: meshes that emit, and neither `light` nor the others
     glm::vec3 background { 0.35f, 0.42f, 0.5f };
     int bounces = 0;
     bool antialias = false;

@@ -22,11 +22,11 @@ const std::string& oneOf(Random& random, const std::vector<std::string>& list)
     return list[static_cast<std::size_t>(whole(random, 0, static_cast<int>(list.size()) - 1))];
 }
 
-GeneratedScene makeLottery(std::uint32_t seed)
+GeneratedScene makeLottery(std::uint32_t seed, int version)
 {
     LotteryScene s;
-    s.traits = lotteryTraits(seed);
-    s.scene.name = fmt::format("lottery_{}", seed);
+    s.traits = lotteryTraits(seed, version);
+    s.scene.name = fmt::format("lottery{}_{}", version == 1 ? "" : std::to_string(version), seed);
     s.scene.comment = fmt::format("Seed {} of the lottery: {}", seed, fmt::join(hardCases(s.traits), ", "));
     s.scene.bounces = s.traits.bounces;
     s.scene.antialias = s.traits.antialias;
@@ -36,6 +36,8 @@ GeneratedScene makeLottery(std::uint32_t seed)
     placeThings(s, stream(seed, Stream::Things), stream(seed, Stream::Motion));
     placeLights(s, stream(seed, Stream::Lights));
     placeEmitters(s, stream(seed, Stream::Emitters));
+    s.scene.hasLight = s.traits.quads;
+    placeLamps(s, stream(seed, Stream::Lamps));
     return std::move(s.scene);
 }
 

@@ -15,6 +15,27 @@ glm::vec3 colour(Random& random, double lo, double hi)
     return glm::vec3(glm::clamp(level * (1.0 + hue), 0.02, 0.9));
 }
 
+/// Lambert, or with a highlight beside the diffuse part; sharp: of an exponent that the hard case asks for.
+void addMaterial(LotteryScene& s, Random& random, const std::string& name, bool sharp, std::vector<std::string>& list)
+{
+    scene::Material m = matt(name, colour(random, 0.2, 0.9));
+    const bool glossy = sharp || chance(random, 0.4), phong = chance(random, 0.4);
+    const double exponent = sharp ? logarithmic(random, 201, 2000) : logarithmic(random, 3, 200);
+    const float strength = static_cast<float>(random.uniform(0.05, 0.5));
+    if (s.traits.textures && chance(random, 0.4))
+        m = textured(s.scene, name, pattern(random), glm::vec3(static_cast<float>(random.uniform(0.5, 1))));
+    if (glossy) {
+        m.specular = glm::vec3(strength);
+        m.diffuse *= 1.0f - strength;
+        m.exponent = static_cast<float>(exponent);
+        m.name = fmt::format("{}_{}", phong ? "phong" : "blinn", name);
+    }
+    list.push_back(m.name);
+    s.scene.materials.push_back(std::move(m));
+}
+
+} // namespace
+
 image::RgbImage pattern(Random& random)
 {
     const glm::dvec3 light = colour(random, 0.5, 0.9), dark = colour(random, 0.05, 0.3),
@@ -36,27 +57,6 @@ image::RgbImage pattern(Random& random)
         return speckled(light, dark, 4 * count, seed);
     }
 }
-
-/// Lambert, or with a highlight beside the diffuse part; sharp: of an exponent that the hard case asks for.
-void addMaterial(LotteryScene& s, Random& random, const std::string& name, bool sharp, std::vector<std::string>& list)
-{
-    scene::Material m = matt(name, colour(random, 0.2, 0.9));
-    const bool glossy = sharp || chance(random, 0.4), phong = chance(random, 0.4);
-    const double exponent = sharp ? logarithmic(random, 201, 2000) : logarithmic(random, 3, 200);
-    const float strength = static_cast<float>(random.uniform(0.05, 0.5));
-    if (s.traits.textures && chance(random, 0.4))
-        m = textured(s.scene, name, pattern(random), glm::vec3(static_cast<float>(random.uniform(0.5, 1))));
-    if (glossy) {
-        m.specular = glm::vec3(strength);
-        m.diffuse *= 1.0f - strength;
-        m.exponent = static_cast<float>(exponent);
-        m.name = fmt::format("{}_{}", phong ? "phong" : "blinn", name);
-    }
-    list.push_back(m.name);
-    s.scene.materials.push_back(std::move(m));
-}
-
-} // namespace
 
 void makeMaterials(LotteryScene& s, Random random)
 {

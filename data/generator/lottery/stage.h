@@ -39,5 +39,9 @@ void placeCamera(LotteryScene& s, Random random);
 void placeThings(LotteryScene& s, Random random, Random motion);
 void placeLights(LotteryScene& s, Random random);
 void placeEmitters(LotteryScene& s, Random random);
+void placeLamps(LotteryScene& s, Random random);
+
+/// A texture of colours, any of six kinds.
+image::RgbImage pattern(Random& random);
 
 } // namespace wedge::generator

@@ -4,7 +4,7 @@
 
 namespace wedge::generator {
 
-LotteryTraits lotteryTraits(std::uint32_t seed)
+LotteryTraits lotteryTraits(std::uint32_t seed, int version)
 {
     Random random = stream(seed, Stream::Traits);
     LotteryTraits t;
@@ -25,6 +25,11 @@ LotteryTraits lotteryTraits(std::uint32_t seed)
         : many < 0.9      ? whole(random, 4, 8)
                           : whole(random, 9, 16);
     t.things = static_cast<int>(logarithmic(random, 5, 50));
+    Random ofLamps = stream(seed, Stream::Lamps);
+    if (version >= 2 && chance(ofLamps, 0.35)) {
+        t.lamps = static_cast<Lamps>(whole(ofLamps, 1, 3));
+        t.quads = chance(ofLamps, 0.5);
+    }
     return t;
 }
 
@@ -40,6 +45,9 @@ std::vector<std::string> hardCases(const LotteryTraits& t)
     add(t.open, "open");
     add(t.smallEmitters, "small_emitters");
     add(t.oneGroup, "one_group");
+    add(t.lamps == Lamps::Large, "large_lamps");
+    add(t.lamps == Lamps::Small, "small_lamps");
+    add(t.lamps == Lamps::Textured, "textured_lamp");
     return out;
 }
 

@@ -6,6 +6,9 @@
 
 namespace wedge::generator {
 
+/// Meshes that light a scene of version 2, beside its area lights or in their place.
+enum class Lamps { None, Large, Small, Textured };
+
 /// What a seed of the lottery decides before anything is built. The first five are the hard cases.
 struct LotteryTraits {
     bool lowLights = false; ///< lights cut by the horizon of what they light, or touching it
@@ -17,12 +20,15 @@ struct LotteryTraits {
     int bounces = 0; ///< 0 or 1
     int lights = 1; ///< 1 to 16
     int things = 1; ///< besides the ground or the room
+    Lamps lamps = Lamps::None;
+    bool quads = true; ///< false: lamps alone
 };
 
-/// The same for a seed, always.
-LotteryTraits lotteryTraits(std::uint32_t seed);
+/// Of a seed and a version, 1 or 2, always the same. Version 2 is version 1 with lamps in a quarter of its scenes or
+/// more.
+LotteryTraits lotteryTraits(std::uint32_t seed, int version = 1);
 
-/// Names of the hard cases that are among them.
+/// Names of the hard cases that are among them, and of the kind of lamps.
 std::vector<std::string> hardCases(const LotteryTraits& traits);
 
 } // namespace wedge::generator
