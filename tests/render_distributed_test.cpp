@@ -244,7 +244,7 @@ TEST_CASE("a crop of a filtered frame has the bits of the whole one, with layers
             bool published, keepLayers;
             int bounces;
         };
-        for (const Case& c : { Case { false, false, 1 }, { false, true, 0 }, { true, true, 0 } }) {
+        for (const Case& c : { Case { false, false, 1 }, { false, true, 0 }, { true, true, 0 }, { true, false, 0 } }) {
             CAPTURE(c.published);
             CAPTURE(c.keepLayers);
             render::Settings settings =

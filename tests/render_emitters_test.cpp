@@ -221,6 +221,17 @@ TEST_CASE("faces that are there twice count once, and thin plates hide what is b
     });
 }
 
+TEST_CASE("faces that are there twice are one whatever the signs of their zeros")
+{
+    SceneBuilder b = room();
+    const std::uint32_t glow = addGlow(b, glm::vec3(5));
+    b.triangle({ 0, 1, 0 }, { 1, 1, 0 }, { 0, 1, 1 }, glow);
+    b.triangle({ -0.0f, 1, 0 }, { -0.0f, 1, 1 }, { 1, 1, -0.0f }, glow);
+    const render::EmitterList list = render::emitterList(b.scene);
+    CHECK(list.list.size() == 1);
+    CHECK(list.picks[list.list[0].triangle + 1] == 1);
+}
+
 TEST_CASE("what emits and has no area is no light")
 {
     onEveryDevice([](const device::Device& device) {

@@ -46,13 +46,16 @@ struct Step {
 };
 
 /// All steps of a render with their images.
-std::vector<Step> steps(
-    render::Renderer& renderer, const render::Settings& settings, const render::Control& control = {})
+std::vector<Step> steps(render::Renderer& renderer, const render::Settings& settings,
+    const render::Control& control = {}, bool keepLayers = false)
 {
     std::vector<Step> out;
-    renderer.renderProgressively(settings, control, [&](const render::ProgressiveStep& step) {
-        out.push_back({ step, pixels(renderer, renderer.frame().beauty, whole) });
-    });
+    renderer.renderProgressively(
+        settings, control,
+        [&](const render::ProgressiveStep& step) {
+            out.push_back({ step, pixels(renderer, renderer.frame().beauty, render::outputWindow(settings)) });
+        },
+        keepLayers);
     return out;
 }
 
@@ -132,6 +135,41 @@ TEST_CASE("steps double their samples, up to the number asked for")
     CHECK(render::stepCounts(28) == std::vector<int> { 16, 28 });
     CHECK(render::stepCounts(128) == std::vector<int> { 16, 32, 64, 128 });
     CHECK(render::stepCounts(131) == std::vector<int> { 16, 32, 64, 128, 130 });
+}
+
+TEST_CASE("without layers a progressive render keeps less, and has the same image, error and counts")
+{
+    onEveryDevice([](const device::Device& device) {
+        scene::Scene scene = lensScene();
+        scene.pointLights.push_back({ { 1, 3, 2 }, { 2, 2, 2 } });
+        render::Renderer renderer(scene, device, renderOptions());
+        for (render::Settings settings : { filtered(64), plain(64) })
+            for (const bool crop : { false, true }) {
+                const std::string method = render::methodName(settings.method);
+                CAPTURE(method);
+                CAPTURE(crop);
+                settings.bounces = 1;
+                if (crop)
+                    settings.crop = { 9, 5, 41, 30 };
+                const std::vector<Step> less = steps(renderer, settings), all = steps(renderer, settings, {}, true);
+                REQUIRE(less.size() == 3);
+                REQUIRE(all.size() == 3);
+                for (std::size_t i = 0; i < less.size(); ++i) {
+                    REQUIRE(less[i].image.size() == all[i].image.size());
+                    for (std::size_t k = 0; k < less[i].image.size(); ++k)
+                        REQUIRE(less[i].image[k] == doctest::Approx(all[i].image[k]).epsilon(1e-5));
+                    const render::FrameStatistics &a = less[i].step.statistics, &b = all[i].step.statistics;
+                    CHECK(less[i].step.error.rmse() == doctest::Approx(all[i].step.error.rmse()).epsilon(1e-4));
+                    CHECK(a.primaryRays == b.primaryRays);
+                    CHECK(a.shadowRays == b.shadowRays);
+                    CHECK(a.indirectRays == b.indirectRays);
+                    CHECK(a.directSpp == b.directSpp);
+                    CHECK(a.indirectSpp == b.indirectSpp);
+                    CHECK(a.memoryBytes < b.memoryBytes);
+                    CHECK(a.indirectSpp > 1);
+                }
+            }
+    });
 }
 
 TEST_CASE("an estimate whose bias comes out below 0 is that of the noise, and one of nothing is no number")

@@ -29,10 +29,12 @@ struct Arguments {
 // Compiled kernels of any picture take more.
 constexpr std::uint64_t leastCompiled = 1 << 16;
 
+/// 0 where there is no such folder.
 std::uint64_t bytesIn(const std::filesystem::path& folder)
 {
     std::uint64_t sum = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    std::error_code none;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, none)) {
         sum += entry.is_regular_file() ? entry.file_size() : 0;
     }
     return sum;
@@ -79,10 +81,10 @@ int measureAll(const Arguments& a)
             }
             const std::filesystem::path cache = folder.path() / "cache";
             cold.push_back(secondsOf(WEDGE_PROGRAM, call, cache));
-            if (bytesIn(cache) < leastCompiled) {
+            if (bytesIn(cache / "wedge-pocl") < leastCompiled) {
                 throw Error("cache of kernels", cache.string(),
-                    "the driver keeps its kernels elsewhere, so that no start is known to be cold: choose another "
-                    "device");
+                    "the driver keeps its kernels elsewhere, so that no start is known to be cold: choose a "
+                    "device of PoCL");
             }
             warm.push_back(secondsOf(WEDGE_PROGRAM, call, cache));
         }

@@ -2,6 +2,8 @@
 
 #include "host/error.h"
 
+#include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -69,12 +71,15 @@ double secondsOf(
         &process, program.c_str(), &actions, nullptr, pointersTo(words).data(), pointersTo(variables).data());
     ::posix_spawn_file_actions_destroy(&actions);
     int status = 0;
-    if (failed != 0 || ::waitpid(process, &status, 0) != process) {
-        throw Error("program", program, "it cannot be started: build the target wedge");
+    if (failed != 0) {
+        throw Error("program cannot be started", program, "build the target wedge");
     }
+    while (::waitpid(process, &status, 0) < 0 && errno == EINTR) { }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-        throw Error("program", fmt::format("{}", fmt::join(words, " ")), "it failed: " + textOf(said));
+        std::string why = textOf(said);
+        std::ranges::replace(why, '\n', ' ');
+        throw Error("program failed", fmt::format("{}", fmt::join(words, " ")), "mend what it said: " + why);
     }
     return seconds.count();
 }

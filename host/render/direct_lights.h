@@ -38,8 +38,8 @@ struct DirectLights {
 /// good a light as a quad of the scene file. Takes time in proportion to the scene's triangles.
 DirectLights directLights(const scene::Scene& scene);
 
-/// A scene's lights as kernels choose among them. Takes time in proportion to its triangles, with each that emits kept
-/// in memory meanwhile: a renderer makes it once.
+/// A scene's lights as kernels choose among them. Takes time in proportion to its triangles, and memory likewise where
+/// anything emits: a renderer makes it once.
 struct SceneLights {
     explicit SceneLights(const scene::Scene& scene);
 

@@ -63,7 +63,8 @@ DistributedSamples::DistributedSamples(FrameBuilder& frame, const SampleShape& s
     }
     direct_ = countOf(Part::Direct, terms);
     const auto demand = [&](const char* name) {
-        return before.guides ? kept<Demand>(name, graph::floats) : f_.graph.plane<Demand>(name, graph::floats);
+        return before.guides && shape.analysed ? kept<Demand>(name, graph::floats)
+                                               : f_.graph.plane<Demand>(name, graph::floats);
     };
     demand_ = demand("primary demand");
     for (const std::unique_ptr<WaveTerm>& term : terms_) {

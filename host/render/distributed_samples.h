@@ -71,6 +71,7 @@ public:
     shared::DistributedParams params() const;
 
 private:
+    /// What is added up: a plane, or a list of so many elements; from step to step where there is memory for it.
     template <class Quantity>
     graph::Handle<Quantity> kept(const std::string& name, const graph::Format& format, std::uint64_t elements = 0);
     void keepPixels();

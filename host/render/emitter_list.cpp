@@ -38,7 +38,7 @@ struct CornersHash {
     {
         std::size_t hash = 0;
         for (const float c : corners) {
-            hash = (hash ^ std::bit_cast<std::uint32_t>(c)) * 0x9e3779b97f4a7c15u;
+            hash = (hash ^ std::bit_cast<std::uint32_t>(c + 0.0f)) * 0x9e3779b97f4a7c15u; // + 0: -0 is 0
             hash ^= hash >> 32;
         }
         return hash;

@@ -6,9 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <map>
-#include <utility>
 
 namespace wedge::render {
 namespace {

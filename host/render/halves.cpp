@@ -90,9 +90,18 @@ void HalvesFrame::join(bool analysed)
     const auto sumOfLists = [&](const graph::Handle<Count>& one, const graph::Handle<Count>& other) {
         const std::uint64_t count = graph_.resources()[one.resource].elements;
         auto out = graph_.list<Count>("sum of halves", graph::counts, count);
-        f.items(pass, PassKind::Composite, { file, "sumOfLists" }, count,
-            { value("count", static_cast<std::uint32_t>(count)), graph::readsAsIs("a", one),
-                graph::readsAsIs("b", other), writes("sum", out) });
+        const auto items = static_cast<std::size_t>(count);
+        graph_.add({ .name = pass,
+            .kind = PassKind::Composite,
+            .kernel = { file, "sumOfLists" },
+            .arguments = { graph::made("count",
+                               [count](const graph::Launch& launch) {
+                                   return launch.run.rehearsal() ? 0u : static_cast<std::uint32_t>(count);
+                               }),
+                graph::readsAsIs("a", one), graph::readsAsIs("b", other), writes("sum", out) },
+            .domain = graph::Domain::Items,
+            .count = [items](const graph::Launch&) { return items; },
+            .mostItems = items });
         return out;
     };
     Shown shown;

@@ -32,13 +32,13 @@ struct SampleShape {
     bool analysed = false; ///< filters and counts of their own
     bool published = false; ///< as thesis chapter 5 has them
     bool layers = false; ///< what only they show, too, and direct and indirect light apart
-    /// All samples' sums, which steps of a progressive frame go on with and other than the default analysis asks for;
-    /// else pixels keep what one image is made of.
+    /// All samples' sums in planes of floats, which layers show, steps of a progressive frame go on with, and other
+    /// than the default analysis asks for; else pixels keep what one image is made of, packed where it is analysed.
     bool full = false;
     bool moves = false; ///< something moves while the shutter is open
     bool geometryMoves = false;
 
-    bool measures() const { return layers || analysed; } ///< what the analysis is made of
+    bool measures() const { return layers || analysed; } ///< what the analysis is made of, and layers of pixels' sizes
 };
 
 /// How one sampling adds to what there is.

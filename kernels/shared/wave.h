@@ -20,8 +20,8 @@
 #define WEDGE_OMITS_EXTREMES 8u
 #define WEDGE_OMITS_COUNTS 16u
 #define WEDGE_OMITS_DEVIATION 32u
-#define WEDGE_OMITS_TAKEN 128u
 #define WEDGE_OMITS_INDIRECT 64u ///< a term's samples are of direct light
+#define WEDGE_OMITS_TAKEN 128u
 
 WEDGE_SHARED_BEGIN
 

@@ -84,6 +84,9 @@ check plain_image "$scenes/motion.toml" --traversal wide --size 9x7 --method mc 
 check moving_scalar "$scenes/motion.toml" --traversal scalar --size 9x5 --method aaf --spp 10
 check moving_published "$scenes/motion.toml" --traversal wide --size 9x5 --method aaf --as-published --bounces 1 --max-spp 24
 check moving_steps "$scenes/motion.toml" --traversal wide --size 9x5 --method aaf --progressive --spp 32 --bounces 1
+check moving_steps_image "$scenes/motion.toml" --traversal wide --size 9x5 --method aaf --progressive --spp 32 --bounces 1
+check plain_steps_image "$scenes/motion.toml" --traversal wide --size 9x5 --method mc --progressive --spp 32
+check published_image "$scenes/motion.toml" --traversal wide --size 9x5 --method aaf --as-published
 # The rest by the wide family, whose vectors reach farther over the ends of things.
 check cropped "$scenes/penumbra.toml" --traversal wide --size 33x17 --crop 5,3,22,12 --method aaf --counts variance --spp 10
 check published "$scenes/penumbra.toml" --traversal wide --size 9x7 --method aaf --as-published
