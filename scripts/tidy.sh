@@ -98,7 +98,10 @@ if [ ${#files[@]} -eq 0 ]; then
 fi
 
 later=$(mktemp)
-trap 'rm -f "$later"' EXIT
+# The compiler's headers that were compiled ahead are nothing that clang can read.
+commands=$(mktemp -d)
+sed -E 's| -Winvalid-pch||; s| -include [^ ]*/cmake_pch\.hxx||' "$build/compile_commands.json" >"$commands/compile_commands.json"
+trap 'rm -rf "$later" "$commands"' EXIT
 deadline=${seconds:+$((EPOCHSECONDS + seconds))}
 
 # One file's findings at once, so that those of several do not mix.
@@ -108,13 +111,13 @@ look() { # FILE
         return
     fi
     local said
-    if ! said=$(clang-tidy-14 -quiet -p "$build" --warnings-as-errors='*' "$1" 2>&1); then
+    if ! said=$(clang-tidy-14 -quiet -p "$commands" --warnings-as-errors='*' "$1" 2>&1); then
         printf '%s\n' "$1:" "$(grep -vE '^[0-9]+ warnings? (generated|treated as errors?)\.?$' <<<"$said")"
         return 1
     fi
 }
 export -f look
-export build deadline later
+export commands deadline later
 status=0
 printf '%s\0' "${files[@]}" | xargs -0 -n 1 -P "$(nproc)" bash -c 'look "$1"' look || status=1
 

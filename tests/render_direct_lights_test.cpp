@@ -1,6 +1,6 @@
 // Which lights have a term of direct light of their own, and the light of those that share one.
 #include "host/render/direct_lights.h"
-#include "tests/render_path_support.h"
+#include "tests/lamp_room.h"
 
 #include <functional>
 #include <string>
@@ -10,26 +10,10 @@ using namespace wedge::test;
 
 namespace {
 
-constexpr glm::vec3 lampCentre { 0.3f, 1.6f, -0.2f }, lampU { 0.25f, 0, 0 }, lampV { 0, 0, 0.3f };
-
-/// A floor and a glossy box on it.
 SceneBuilder room()
 {
-    SceneBuilder b;
-    scene::Material glossy;
-    glossy.diffuse = { 0.4f, 0.5f, 0.3f };
-    glossy.specular = glm::vec3(0.4f);
-    glossy.exponent = 20;
-    b.scene.materials.push_back(glossy);
-    scene::Material glow;
-    glow.diffuse = glm::vec3(0);
-    glow.emission = { 8, 7, 5 };
-    b.scene.materials.push_back(glow);
-    b.quad({ 0, 0, 0 }, { 0, 0, 2 }, { 2, 0, 0 });
-    b.newObject();
-    b.box({ -0.5f, 0, -0.4f }, { 0.1f, 0.6f, 0.2f }, 1);
-    b.newObject();
-    b.camera({ 0.6f, 1.2f, 2.4f }, { 0, 0.4f, -0.2f });
+    SceneBuilder b = lampRoom();
+    addGlow(b, { 8, 7, 5 });
     return b;
 }
 constexpr std::uint32_t glowing = 2;
@@ -45,20 +29,6 @@ render::Settings settingsOf(const render::Settings& method)
     render::Settings settings = sized(method, 24, 18);
     settings.bounces = 0;
     return settings;
-}
-
-Moments lightOf(const SceneBuilder& b, const device::Device& device, const render::Settings& settings, int runs = 8)
-{
-    render::Renderer renderer(b.scene, device, renderOptions());
-    return moments(renderer, settings, Part::Beauty, runs);
-}
-
-double errorOf(const Moments& m)
-{
-    double sum = 0;
-    for (const double v : m.variance)
-        sum += 8 * v;
-    return std::sqrt(sum / static_cast<double>(m.size()));
 }
 
 Moments sumOf(Moments a, const Moments& b)
@@ -335,8 +305,8 @@ TEST_CASE("a mesh lamp is filtered as well as a quad: pinhole, antialiased, thro
             }
             const Moments ofMesh = lightOf(mesh, device, settings), ofQuad = lightOf(quad, device, settings);
             CHECK(ofMesh.average() == doctest::Approx(ofQuad.average()).epsilon(0.002));
-            CAPTURE(errorOf(ofQuad));
-            CHECK(errorOf(ofMesh) < 1.3 * errorOf(ofQuad));
+            CAPTURE(rmsNoise(ofQuad));
+            CHECK(rmsNoise(ofMesh) < 1.3 * rmsNoise(ofQuad));
         }
     });
 }

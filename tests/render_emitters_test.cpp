@@ -1,7 +1,7 @@
 // Meshes that emit: how they are chosen, and their light against that of quads, of points against directions, and of
 // filtered frames against plain ones.
 #include "host/render/emitters.h"
-#include "tests/render_path_support.h"
+#include "tests/lamp_room.h"
 
 #include <functional>
 
@@ -12,36 +12,11 @@ namespace {
 
 constexpr int width = 24, height = 18;
 
-std::uint32_t addMaterial(SceneBuilder& b, const scene::Material& material)
-{
-    b.scene.materials.push_back(material);
-    return static_cast<std::uint32_t>(b.scene.materials.size() - 1);
-}
-
-std::uint32_t addGlow(SceneBuilder& b, glm::vec3 emission)
-{
-    scene::Material glow;
-    glow.diffuse = glm::vec3(0);
-    glow.emission = emission;
-    return addMaterial(b, glow);
-}
-
-constexpr glm::vec3 lampCentre { 0.3f, 1.6f, -0.2f }, lampU { 0.25f, 0, 0 }, lampV { 0, 0, 0.3f };
-
-/// A floor, a glossy box on it, a wall.
+/// With a wall.
 SceneBuilder room()
 {
-    SceneBuilder b;
-    scene::Material glossy;
-    glossy.diffuse = { 0.4f, 0.5f, 0.3f };
-    glossy.specular = glm::vec3(0.4f);
-    glossy.exponent = 20;
-    b.quad({ 0, 0, 0 }, { 0, 0, 2 }, { 2, 0, 0 });
-    b.newObject();
-    b.box({ -0.5f, 0, -0.4f }, { 0.1f, 0.6f, 0.2f }, addMaterial(b, glossy));
-    b.newObject();
+    SceneBuilder b = lampRoom();
     b.quad({ 0, 1, -1.5f }, { 2, 0, 0 }, { 0, 1, 0 });
-    b.camera({ 0.6f, 1.2f, 2.4f }, { 0, 0.4f, -0.2f });
     b.newObject();
     return b;
 }
@@ -60,12 +35,6 @@ render::Settings settingsOf(const render::Settings& method, int bounces)
     return settings;
 }
 
-Moments lightOf(const SceneBuilder& b, const device::Device& device, render::Settings settings, int runs = 8)
-{
-    render::Renderer renderer(b.scene, device, renderOptions());
-    return moments(renderer, settings, Part::Beauty, runs);
-}
-
 render::Settings found(render::LightSampling ways, int spp, int bounces)
 {
     render::Settings settings = settingsOf(render::monteCarlo(spp), bounces);
@@ -80,16 +49,6 @@ void checkWays(const SceneBuilder& b, const device::Device& device, int bounces)
     CHECK(points.average() > 1e-3);
     checkAgreement(lightOf(b, device, found(render::LightSampling::Both, 256, bounces)), points, 1e-3);
     checkAgreement(lightOf(b, device, found(render::LightSampling::Directions, 1024, bounces)), points, 1e-3);
-}
-
-/// RMS error of single runs, without the reference's own noise.
-double errorOf(const SceneBuilder& b, const device::Device& device, const render::Settings& settings)
-{
-    const Moments m = lightOf(b, device, settings);
-    double sum = 0;
-    for (const double v : m.variance)
-        sum += 8 * v;
-    return std::sqrt(sum / static_cast<double>(m.size()));
 }
 
 } // namespace
@@ -160,7 +119,7 @@ TEST_CASE("a mesh lamp brings the light of a quad of its size and power, and har
             checkAgreement(lightOf(mesh, device, plain), lightOf(quad, device, plain), 1e-3);
         }
         const render::Settings few = settingsOf(render::monteCarlo(16), 0);
-        const double ofMesh = errorOf(mesh, device, few), ofQuad = errorOf(quad, device, few);
+        const double ofMesh = rmsNoise(lightOf(mesh, device, few)), ofQuad = rmsNoise(lightOf(quad, device, few));
         CAPTURE(ofMesh);
         CAPTURE(ofQuad);
         CHECK(ofMesh < 1.3 * ofQuad);

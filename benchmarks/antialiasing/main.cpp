@@ -260,9 +260,7 @@ int measureAll(const Arguments& a)
             fmt::print("{:<16} plain sampling {:.2f} times the time of pixel centres, at equal error {}{:.2f}\n",
                 source.name, cost->ofPlain, cost->beyond ? "more than " : "", cost->atEqualError);
         }
-        for (const Claim& claim : claims.claims) {
-            all["claims"].push_back(json(claim));
-        }
+        addClaims(all, claims.claims);
         if (a.costs) {
             all["scenes"].push_back({ { "name", source.name }, { "beyond", beyond } });
             store(a, all);

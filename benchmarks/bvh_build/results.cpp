@@ -92,8 +92,7 @@ Json resultsOf(const BuildResults& results)
             sets.push_back({ { "threads", set.threads }, { "builders", builders } });
         }
         out["scenes"].push_back({ { "name", scene.name }, { "triangles", scene.triangles }, { "sets", sets } });
-        for (const Claim& claim : claimsOf(scene))
-            out["claims"].push_back(json(claim));
+        addClaims(out, claimsOf(scene));
     }
     return out;
 }

@@ -60,6 +60,13 @@ Json resultSkeleton(const std::string& benchmark, const device::DeviceInfo& devi
     return out;
 }
 
+void addClaims(Json& results, const std::vector<Claim>& claims)
+{
+    for (const Claim& claim : claims) {
+        results["claims"].push_back(json(claim));
+    }
+}
+
 void writeJson(const std::string& path, const Json& results)
 {
     image::AtomicFile file(path);

@@ -49,6 +49,9 @@ Json json(const Claim& claim);
 /// The skeleton of a benchmark's results: {"benchmark", "wedge", "device", "claims": []}.
 Json resultSkeleton(const std::string& benchmark, const device::DeviceInfo& device);
 
+/// Adds claims to results.
+void addClaims(Json& results, const std::vector<Claim>& claims);
+
 /// Writes results as text of several lines; the file appears whole or not at all. Throws Error.
 void writeJson(const std::string& path, const Json& results);
 

@@ -67,9 +67,7 @@ int run(const Call& call)
     }
     for (const SceneSource& source : available ? sources : std::vector<SceneSource> {}) {
         const DenoiserResult result = compareWithDenoiser(source, device, plan, oidn);
-        for (const Claim& claim : claimsOf(result)) {
-            all["claims"].push_back(json(claim));
-        }
+        addClaims(all, claimsOf(result));
         all["scenes"].push_back(dataOf(result));
         fmt::print("{}", tableOf(result));
         if (!call.json.empty()) {

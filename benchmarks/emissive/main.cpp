@@ -110,9 +110,7 @@ int measureAll(const Arguments& a)
                 const double goal = lit.name == "thousand" ? 3 : 64;
                 claims.add(kind + "time_vs_one", time.median / oneTime, "1", {}, goal);
             }
-            for (const Claim& claim : claims.claims) {
-                all["claims"].push_back(json(claim));
-            }
+            addClaims(all, claims.claims);
         }
     }
     if (!a.json.empty()) {

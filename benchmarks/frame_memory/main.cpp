@@ -125,13 +125,9 @@ int measureAll(const Arguments& a)
         fmt::print("{:<18} {:>5}x{:<5} {:>10.1f} {:>14.1f} {:>18}\n", kind.name, kind.settings.width,
             kind.settings.height, mebibytes, bytes / pixels, ratio);
         std::fflush(stdout);
-        for (const Claim& claim : claims.claims) {
-            all["claims"].push_back(json(claim));
-        }
+        addClaims(all, claims.claims);
     }
-    for (const Claim& claim : furtherLights(scene, device.info(), a.side)) {
-        all["claims"].push_back(json(claim));
-    }
+    addClaims(all, furtherLights(scene, device.info(), a.side));
     if (!a.json.empty()) {
         writeJson(a.json, all);
     }

@@ -78,9 +78,7 @@ Json resultsOf(const Benchmark& benchmark, const MeasurePlan& plan, const std::v
     out["skipped"] = skipped;
     out["scenes"] = Json::array();
     for (const SceneResult& result : results) {
-        for (const Claim& claim : claimsOf(benchmark, result)) {
-            out["claims"].push_back(json(claim));
-        }
+        addClaims(out, claimsOf(benchmark, result));
         out["scenes"].push_back(dataOf(benchmark, result));
     }
     return out;

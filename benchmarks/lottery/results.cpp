@@ -106,9 +106,7 @@ Json lotteryResults(
     const std::vector<LotteryResult>& results, const LotteryPlan& plan, const device::DeviceInfo& device)
 {
     Json out = resultSkeleton("lottery", device);
-    for (const Claim& claim : lotteryClaims(results, plan.compared)) {
-        out["claims"].push_back(json(claim));
-    }
+    addClaims(out, lotteryClaims(results, plan.compared));
     out["plan"] = dataOf(plan);
     out["scenes"] = Json::array();
     for (const LotteryResult& r : results) {

@@ -123,8 +123,7 @@ Json growthJson(const GrowthPoint& point)
 Json resultsOf(const RayResults& results, const device::DeviceInfo& device)
 {
     Json out = resultSkeleton("rays", device);
-    for (const Claim& claim : claimsOf(results))
-        out["claims"].push_back(json(claim));
+    addClaims(out, claimsOf(results));
     const RayPlan& plan = results.plan;
     out["plan"] = { { "quick", plan.quick }, { "width", plan.width }, { "height", plan.height },
         { "shadow_samples", plan.shadowSamples }, { "ambient_samples", plan.ambientSamples },

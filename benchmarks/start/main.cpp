@@ -91,9 +91,8 @@ int measureAll(const Arguments& a)
         ClaimList coldClaims("start", "cold"), warmClaims("start", "warm");
         coldClaims.add(scene.name + ".seconds", summarize(cold), "s", {}, scene.goal);
         warmClaims.add(scene.name + ".seconds", summarize(warm), "s");
-        for (const Claim& claim : { coldClaims.claims.front(), warmClaims.claims.front() }) {
-            all["claims"].push_back(json(claim));
-        }
+        addClaims(all, coldClaims.claims);
+        addClaims(all, warmClaims.claims);
         fmt::print("{:<10} {:>8.1f} {:>8.1f}\n", scene.name, summarize(cold).median, summarize(warm).median);
         std::fflush(stdout);
         if (!a.json.empty()) {
