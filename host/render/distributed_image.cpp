@@ -1,0 +1,231 @@
+// The image of a frame of several receivers a pixel, of what its pixels keep of their samples.
+#include "host/render/distributed_samples.h"
+
+#include <limits>
+
+namespace wedge::render {
+
+using device::PassKind;
+using graph::reads;
+using graph::Run;
+using graph::updates;
+using graph::value;
+using graph::writes;
+
+void DistributedSamples::blurs(float samples, Blurs& out)
+{
+    shared::DistributedParams p = params();
+    p.samples = samples;
+    const auto sets = samples > 0 || !shape_.layers ? writes : updates; // what is shown without motion is 0
+    f_.pixels("widths", PassKind::Analysis, { "waves/distributed.cl", "blurs" },
+        { f_.rectangle(p), reads("confusion", confusion_),
+            keepsMotion() ? reads("motion", motion_) : f_.nothing("motion"), reads("taken", counts_.taken),
+            sets("lens", out.lens), keepsMotion() ? sets("along", out.along) : f_.nothing("along"),
+            keepsMotion() ? writes("directions", out.directions) : f_.nothing("directions") });
+}
+
+graph::Handle<Radiance>& DistributedSamples::sumOf(WaveTerm& term)
+{
+    return shape_.layers ? term.sum().filtered : f_.totals.beauty;
+}
+
+void DistributedSamples::countSamples()
+{
+    const std::uint32_t first = shape_.analysed ? firstPaths() : std::numeric_limits<std::uint32_t>::max();
+    Totals& t = f_.totals;
+    const auto add = [&](graph::Handle<Count>& sum, const graph::Handle<Count>& part) {
+        if (sum.graph == 0) {
+            sum = part;
+            return;
+        }
+        auto both = f_.graph.plane<Count>("samples", graph::counts);
+        f_.pixels("composite", PassKind::Composite, { "frame/progressive.cl", "sumOfHalves" },
+            { pixels(), reads("a", sum), reads("b", part), writes("sum", both) });
+        sum = both;
+    };
+    for (const std::unique_ptr<WaveTerm>& term : terms_) {
+        if (!shape_.full) {
+            f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "settleCounts" },
+                { pixels(), value("first", first), reads("primaryTaken", counts_.taken),
+                    updates("counts", term->means.wanted) });
+        }
+        const graph::Handle<Count>& counted = shape_.full ? term->means.taken : term->means.wanted;
+        add(t.samples, counted);
+        if (&term->sum() == &t.indirect) {
+            add(t.indirectSamples, counted);
+        }
+    }
+    for (graph::Handle<Count>* none : { &t.samples, &t.indirectSamples }) {
+        if (none->graph == 0) {
+            *none = f_.graph.plane<Count>("no samples", graph::counts);
+            f_.zero(*none);
+        }
+    }
+}
+
+graph::Handle<Radiance> DistributedSamples::copyOf(const std::string& name, const graph::Handle<Radiance>& image)
+{
+    auto copy = f_.graph.plane<Radiance>(name, graph::vectors);
+    f_.pixels("composite", PassKind::Composite, { "frame/progressive.cl", "copyImage" },
+        { pixels(), reads("in", image), writes("out", copy) });
+    return copy;
+}
+
+void DistributedSamples::addImage(const graph::Handle<Radiance>& image, graph::Handle<Radiance>& sum)
+{
+    f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "addImage" },
+        { pixels(), reads("image", image), updates("sum", sum) });
+}
+
+void DistributedSamples::startSums()
+{
+    // All that is reflected is added to what is emitted, which is not changed where it stays.
+    graph::Handle<Radiance>& beauty = f_.totals.beauty;
+    beauty = before_.memory != nullptr ? copyOf("beauty", f_.surfaces.emission) : f_.surfaces.emission;
+    for (const Added& added : added_) {
+        addImage(added.radiance, beauty);
+    }
+    if (before_.memory != nullptr) {
+        plain_ = copyOf("image before filters", beauty);
+        for (const std::unique_ptr<WaveTerm>& term : terms_) {
+            addOwn(*term, plain_, false);
+        }
+    }
+}
+
+void DistributedSamples::startLayers()
+{
+    Totals& t = f_.totals;
+    for (Sum* sum : { &t.direct, &t.indirect }) {
+        const bool lights = sum == &t.direct && !added_.empty();
+        for (graph::Handle<Radiance>* radiance : { &sum->filtered, &sum->noisy }) {
+            const std::string name = sum == &t.direct ? "direct" : "indirect";
+            if (lights) {
+                *radiance = copyOf(name, added_.front().radiance);
+            } else {
+                *radiance = f_.graph.plane<Radiance>(name, graph::vectors);
+                f_.zero(*radiance);
+            }
+            for (std::size_t i = 1; lights && i < added_.size(); ++i) {
+                addImage(added_[i].radiance, *radiance);
+            }
+        }
+    }
+    for (const std::unique_ptr<WaveTerm>& term : terms_) {
+        addOwn(*term, term->sum().noisy, false);
+    }
+    if (before_.memory != nullptr) {
+        plain_ = sumOfAll("image before filters", t.direct.noisy, t.indirect.noisy);
+    }
+}
+
+graph::Handle<Radiance> DistributedSamples::sumOfAll(
+    const char* name, const graph::Handle<Radiance>& direct, const graph::Handle<Radiance>& indirect)
+{
+    auto sum = f_.graph.plane<Radiance>(name, graph::vectors);
+    f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "addAll" },
+        { pixels(), reads("emission", f_.surfaces.emission), reads("direct", direct), reads("indirect", indirect),
+            writes("beauty", sum) });
+    return sum;
+}
+
+void DistributedSamples::addOwn(WaveTerm& term, graph::Handle<Radiance>& radiance, bool unlessAnalysed)
+{
+    const auto condition = [state = state_](const Run&) { return !state->analysed; };
+    f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "addTerm" },
+        { f_.rectangle(term.of(params())), reads("texture", term.means.texture), reads("value", term.means.value),
+            shape_.published ? reads("termRadiance", term.means.radiance) : f_.nothing("termRadiance"),
+            updates("radiance", radiance) },
+        unlessAnalysed ? condition : std::function<bool(const Run&)>());
+}
+
+void DistributedSamples::addFiltered(
+    WaveTerm& term, const graph::Handle<Value>& value, const Blurs& own, graph::Handle<Radiance>& radiance)
+{
+    shared::DistributedParams p = term.of(params());
+    graph::Version texture = term.means.texture;
+    if (shape_.moves && f_.settings.distributed.blur) {
+        const graph::Reach far = graph::around(WEDGE_MOTION_REACH);
+        auto along = f_.graph.plane<Texture>("texture filtered along motion", graph::vectors);
+        f_.pixels("filter of motion", PassKind::Filter, { "filter/blur.cl", "blurMotion" },
+            { f_.rectangle(p), graph::value("channels", 3u), reads("along", own.along, far),
+                reads("directions", own.directions, far), reads("in", term.means.texture, far), writes("out", along) });
+        texture = along;
+        p.plainTexture = 1;
+    }
+    f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "addFilteredTerm" },
+        { f_.rectangle(p), reads("texture", term.means.texture), reads("filteredTexture", texture),
+            reads("value", term.means.value), reads("filtered", value), reads("beta", term.means.beta),
+            shape_.published ? reads("termRadiance", term.means.radiance) : f_.nothing("termRadiance"),
+            updates("radiance", radiance) });
+}
+
+void DistributedSamples::blur(graph::Handle<Radiance>& image)
+{
+    const char* pass = "filter of lens and shutter";
+    const graph::Reach along { .x = WEDGE_MAX_RADIUS }, across { .y = WEDGE_MAX_RADIUS };
+    auto rows = f_.graph.plane<Radiance>("rows of the image", graph::vectors);
+    f_.pixels(pass, PassKind::Filter, { "filter/blur.cl", "blurRows" },
+        { pixels(), reads("lens", lens_, along), reads("in", image, along), writes("out", rows) });
+    f_.pixels(pass, PassKind::Filter, { "filter/blur.cl", "blurColumns" },
+        { pixels(), reads("lens", lens_, across), reads("in", rows, across), updates("out", image) });
+}
+
+void DistributedSamples::compose()
+{
+    Totals& t = f_.totals;
+    if (!lit_) {
+        f_.zero(f_.surfaces.emission);
+    }
+    if (shape_.layers) {
+        startLayers();
+    } else {
+        countSamples();
+        startSums();
+    }
+    const bool filters = shape_.analysed && f_.settings.filtering != Filtering::None;
+    Blurs own { f_.graph.plane<Pixels>("lens filter width", graph::floats),
+        f_.graph.plane<Pixels>("motion filter width", graph::floats),
+        f_.graph.plane<Pixels>("direction of motion", f_.packed ? shortPairs : graph::floatPlanes(2)) };
+    if (shape_.layers) {
+        f_.zero(own.lens, own.along); // they are shown, filtered or not
+    }
+    if (filters) {
+        f_.graph.only("filters", analysed(), [&] {
+            for (const std::unique_ptr<WaveTerm>& term : terms_) {
+                const graph::Handle<Value> value = term->filtered(params());
+                if (term == terms_.front()) { // not before, for the memory's sake
+                    blurs(0.0f, own);
+                }
+                addFiltered(*term, value, own, sumOf(*term));
+            }
+            if (terms_.empty()) {
+                blurs(0.0f, own);
+            }
+        });
+    }
+    for (const std::unique_ptr<WaveTerm>& term : terms_) {
+        addOwn(*term, sumOf(*term), filters);
+    }
+    lens_ = own.lens;
+    along_ = own.along;
+    if (shape_.layers) {
+        t.beauty = sumOfAll("beauty", t.direct.filtered, t.indirect.filtered);
+        // What is kept is not filtered.
+        emission_ =
+            before_.memory != nullptr ? copyOf("emission, filtered", f_.surfaces.emission) : f_.surfaces.emission;
+    }
+    if (!filters || !f_.settings.distributed.blur || camera_.apertureRadius <= 0) {
+        return;
+    }
+    f_.graph.only("filter of the image", analysed(), [&] {
+        blur(t.beauty);
+        if (shape_.layers) {
+            blur(emission_);
+            blur(t.direct.filtered);
+            blur(t.indirect.filtered);
+        }
+    });
+}
+
+} // namespace wedge::render
