@@ -27,8 +27,8 @@ std::vector<Claim> claimsOf(const SceneBuilds& scene)
         const bool most = &set == &scene.sets.back();
         const std::string suffix = most ? "" : fmt::format("_{}_thread{}", set.threads, set.threads == 1 ? "" : "s");
         const auto ratio = [&](const char* quantity, const char* name, const char* by, std::optional<double> goal) {
-            addRatio(claims, prefix + quantity + suffix, set.ratio(name, by, false), goal);
-            addRatio(claims, prefix + quantity + "_cpu" + suffix, set.ratio(name, by, true), {});
+            addRatio(claims, fmt::format("{}{}{}", prefix, quantity, suffix), set.ratio(name, by, false), goal);
+            addRatio(claims, fmt::format("{}{}_cpu{}", prefix, quantity, suffix), set.ratio(name, by, true), {});
         };
         ratio("build_vs_embree", "default", "embree_default", 1.0);
         ratio("fast_build_vs_embree_low", "fast", "embree_low", {});
@@ -43,11 +43,11 @@ std::vector<Claim> claimsOf(const SceneBuilds& scene)
                 continue;
             const std::string of = times.name == "default" ? "" : "_" + times.name;
             const bool own = !times.peer.empty();
-            claims.push_back({ prefix + "bytes_per_triangle" + of, perTriangle(times.bytes, scene), "B", {}, {},
-                own ? std::optional(100.0) : std::nullopt });
+            claims.push_back({ fmt::format("{}bytes_per_triangle{}", prefix, of), perTriangle(times.bytes, scene), "B",
+                {}, {}, own ? std::optional(100.0) : std::nullopt });
             if (times.peakBytes)
-                claims.push_back(
-                    { prefix + "peak_bytes_per_triangle" + of, perTriangle(*times.peakBytes, scene), "B", {}, {}, {} });
+                claims.push_back({ fmt::format("{}peak_bytes_per_triangle{}", prefix, of),
+                    perTriangle(*times.peakBytes, scene), "B", {}, {}, {} });
         }
     }
     return claims;
