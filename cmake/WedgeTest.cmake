@@ -10,8 +10,7 @@ function(wedge_test name)
 endfunction()
 
 # wedge_precompile(OWNER HEADER...): what many tests read first is compiled once, with OWNER; others take it by
-# target_precompile_headers(TEST REUSE_FROM OWNER), which halves what each takes. They need OWNER's definitions, but for those that no
-# such header looks at.
+# target_precompile_headers(TEST REUSE_FROM OWNER), which halves what each takes. They need the same definitions.
 function(wedge_precompile owner)
     target_precompile_headers(${owner} PRIVATE <doctest/doctest.h> <algorithm> <array> <cmath> <cstring> <filesystem> <functional>
                                                <limits> <map> <memory> <random> <set> <string> <vector> ${ARGN})

@@ -159,13 +159,17 @@ TEST_CASE("more samples asked for are taken: where the first ones saw little, an
 TEST_CASE("a frame of the image alone, in fewer bits, is the one with all of its layers but for rounding")
 {
     onEveryDevice([](const device::Device& device) {
-        for (const auto& [moves, filtered] : { std::pair(Moves::Nothing, false), { Moves::Nothing, true },
-                 { Moves::Camera, true }, { Moves::Geometry, true } }) {
-            CAPTURE(static_cast<int>(moves));
-            CAPTURE(filtered);
-            const scene::Scene scene = movingWall(moves);
+        struct Case {
+            Moves moves;
+            bool filtered;
+        };
+        for (const Case& c : { Case { Moves::Nothing, false }, { Moves::Nothing, true }, { Moves::Camera, true },
+                 { Moves::Geometry, true } }) {
+            CAPTURE(static_cast<int>(c.moves));
+            CAPTURE(c.filtered);
+            const scene::Scene scene = movingWall(c.moves);
             render::Renderer renderer(scene, device, renderOptions());
-            render::Settings settings = sized(filtered ? render::axisAligned(16) : render::monteCarlo(16), 61, 43);
+            render::Settings settings = sized(c.filtered ? render::axisAligned(16) : render::monteCarlo(16), 61, 43);
             settings.bounces = 1;
             const image::Window all { 0, 0, 61, 43 };
             const render::FrameStatistics full = renderer.render(settings, {}, true);
@@ -180,7 +184,7 @@ TEST_CASE("a frame of the image alone, in fewer bits, is the one with all of its
             }
             const double count = static_cast<double>(alone.size());
             // Statistics of 8 bits change a few counts by one; sums are added up in another order.
-            CHECK(std::sqrt(squares / count) < (filtered ? 0.01 : 1e-5) * sum / count);
+            CHECK(std::sqrt(squares / count) < (c.filtered ? 0.01 : 1e-5) * sum / count);
             CHECK(sum / count > 0.05);
         }
     });
@@ -212,7 +216,7 @@ TEST_CASE("a stop within the first pass leaves the pixels that it has come to, u
             std::size_t wrong = 0;
             for (int y = 0; y < down; ++y)
                 for (int x = 0; x < across; ++x) {
-                    const std::size_t i = static_cast<std::size_t>(3 * (y * across + x));
+                    const std::size_t i = 3 * (static_cast<std::size_t>(y) * across + static_cast<std::size_t>(x));
                     const bool isSampled = taken.at(x, y) > 0;
                     wrong += isSampled == (found[i] > 0) && (!isSampled || taken.at(x, y) == first) ? 0 : 1;
                     sampled += isSampled ? 1 : 0;

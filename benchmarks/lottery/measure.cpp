@@ -97,6 +97,7 @@ private:
         };
         for (const double sigma : plan_.imageBlurs) {
             std::vector<image::RgbImage> images;
+            images.reserve(plain.size());
             for (const image::RgbImage& image : plain) {
                 images.push_back(blurred(image, sigma));
             }

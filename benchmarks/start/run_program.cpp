@@ -38,6 +38,7 @@ std::vector<std::string> environmentWith(const std::filesystem::path& cache)
 std::vector<char*> pointersTo(std::vector<std::string>& strings)
 {
     std::vector<char*> out;
+    out.reserve(strings.size() + 1);
     for (std::string& s : strings) {
         out.push_back(s.data());
     }

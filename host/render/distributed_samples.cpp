@@ -7,12 +7,10 @@
 
 namespace wedge::render {
 
-using device::PassKind;
 using graph::reads;
 using graph::Run;
 using graph::updates;
 using graph::value;
-using graph::writes;
 
 namespace {
 

@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <limits>
 #include <map>
-#include <ranges>
 #include <unordered_map>
 #include <utility>
 
@@ -277,8 +276,11 @@ EmitterList emitterList(
     out.quadPicks.assign(scene.areaLights.size(), WEDGE_PICK_ELSEWHERE);
     std::vector<float>& picks = out.picks;
     const std::size_t count = scene.geometry.materialIds.size();
-    if (std::ranges::any_of(
-            std::views::iota(std::size_t { 0 }, count), [&](std::size_t t) { return mayEmit(scene, t); })) {
+    std::size_t some = 0;
+    while (some < count && !mayEmit(scene, some)) {
+        ++some;
+    }
+    if (some < count) {
         picks.assign(count, 0.0f);
     }
     std::vector<Entry> entries = entriesOf(scene, triangles, quads, objects);
