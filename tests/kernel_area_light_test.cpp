@@ -260,8 +260,8 @@ TEST_CASE("what the first part of the samples alone would be is kept beside the 
                     traced.read(traced.value), ofShorts(traced.layout, 2, traced.bench.read(traced.parts)));
             };
             const std::size_t channels = glossy ? 2 : 1;
-            for (const auto& [wanted, part] :
-                { std::pair(40u, 20u), { 70u, 35u }, { 18u, 9u }, { 12u, 4u }, { 9u, 4u } }) {
+            for (const auto& counts : { std::pair(40u, 20u), { 70u, 35u }, { 18u, 9u }, { 12u, 4u }, { 9u, 4u } }) {
+                const std::uint32_t wanted = counts.first, part = counts.second;
                 CAPTURE(wanted);
                 const auto [found, parts] = values(wanted);
                 const Planes<float> expected = values(part).first;

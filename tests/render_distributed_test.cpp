@@ -45,6 +45,7 @@ scene::Scene racingWall(int height, float pixels)
 {
     SceneBuilder b;
     std::vector<std::uint32_t> stripes;
+    stripes.reserve(64);
     std::mt19937 random(1);
     for (int k = 0; k < 64; ++k)
         stripes.push_back(static_cast<std::uint32_t>(random()) & 0xffffffu);
