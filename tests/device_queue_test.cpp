@@ -174,13 +174,15 @@ TEST_CASE("progress rises to the work units of the launches")
         queue.setTargetMilliseconds(0.0);
         std::vector<double> reports;
         queue.setProgress([&](double done) { reports.push_back(done); });
-        Buffer<unsigned> visits(device, 400, "visits");
+        // More groups than a first batch has on any device.
+        const std::size_t groups = 64 * std::size_t { device.info().computeUnits };
+        Buffer<unsigned> visits(device, groups, "visits");
         kernel.setArgs(visits, 0u);
-        queue.launchTiled("first", PassKind::Trace, kernel, 400, 1, 1);
+        queue.launchTiled("first", PassKind::Trace, kernel, groups, 1, 1);
         REQUIRE(reports.size() >= 2);
         CHECK(reports.back() == doctest::Approx(1.0));
         queue.launchTiled("none", PassKind::Trace, kernel, 0, 1, 1, 4.0);
-        queue.launchTiled("second", PassKind::Trace, kernel, 400, 1, 1, 2.5);
+        queue.launchTiled("second", PassKind::Trace, kernel, groups, 1, 1, 2.5);
         CHECK(reports.back() == doctest::Approx(7.5));
         CHECK(std::is_sorted(reports.begin(), reports.end()));
         CHECK(reports.front() > 0.0);

@@ -41,6 +41,18 @@ TEST_CASE("which driver keeps kernels by itself")
     CHECK_FALSE(driverKeepsKernels(""));
 }
 
+TEST_CASE("which driver fails with parts of buffers")
+{
+    CHECK(driverFailsWithParts("OpenCL 3.0 CUDA 13.0.84"));
+    CHECK_FALSE(driverFailsWithParts("OpenCL 3.0 PoCL 6.0  Linux, LLVM 18.1.8"));
+    CHECK_FALSE(driverFailsWithParts(""));
+    DeviceInfo info;
+    info.type = DeviceType::Gpu;
+    const std::size_t before = applyQuirks(info).size();
+    info.failsWithParts = true;
+    CHECK(applyQuirks(info).size() == before + 1);
+}
+
 TEST_CASE("a quirk changes what it has to, and what the user chose stays")
 {
     DeviceInfo info;

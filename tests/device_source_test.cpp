@@ -5,6 +5,7 @@
 
 using wedge::device::FlatSource;
 using wedge::device::flattenKernel;
+using wedge::device::namePlaces;
 using wedge::test::contains;
 using wedge::test::errorOf;
 
@@ -51,6 +52,16 @@ TEST_CASE("a kernel folder overrides the embedded sources file by file")
 {
     const FlatSource flat = flattenKernel(WEDGE_TEST_KERNELS, "device_basic.cl");
     CHECK(flat.files == std::vector<std::string> { WEDGE_TEST_KERNELS "/device_basic.cl", "kernels/shared/compat.h" });
+}
+
+TEST_CASE("messages that count the lines of the flattened source name files all the same")
+{
+    const std::string flat = "#line 1 \"a.cl\"\n#line 1 \"b.h\"\nint b;\nwrong;\n#line 2 \"a.cl\"\nint a;\nbad;\n";
+    CHECK(namePlaces("<kernel>:4:1: error: wrong\n<kernel>:7:2: error: bad", flat)
+        == "b.h:2:1: error: wrong\na.cl:3:2: error: bad");
+    CHECK(namePlaces("<kernel>:99:1: error", flat) == "<kernel>:99:1: error");
+    CHECK(namePlaces("kernels/a.cl:4:1: error", flat) == "kernels/a.cl:4:1: error");
+    CHECK(namePlaces("", flat).empty());
 }
 
 TEST_CASE("missing files, missing folders and cycles are errors that say where")

@@ -258,7 +258,7 @@ TEST_CASE("random graphs: whoever reads finds what was written, on every pixel t
         CAPTURE(seed);
         const RandomGraph made(seed);
         const std::uint64_t limit = seed % 4 == 0 ? 24 * alignment : noLimit;
-        const Plan plan(made.graph, alignment, limit);
+        const Plan plan(made.graph, alignment, { limit });
         Simulation simulation(plan);
         std::mt19937 random(seed);
         simulation.run(0, plan.passes.size(), -1, random);
@@ -291,7 +291,7 @@ TEST_CASE("where nothing may be shared, whatever needs memory has a piece of exa
     for (unsigned seed = 0; seed < 100; ++seed) {
         CAPTURE(seed);
         const RandomGraph made(seed);
-        const Plan plan(made.graph, alignment, 0);
+        const Plan plan(made.graph, alignment, { 0, Sharing::Apart });
         std::set<std::uint32_t> taken;
         for (std::size_t i = 0; i < plan.lifetimes.size(); ++i) {
             if (plan.lifetimes[i] && !made.graph.resources()[i].imported) {
@@ -301,6 +301,31 @@ TEST_CASE("where nothing may be shared, whatever needs memory has a piece of exa
             }
         }
         CHECK(taken.size() == plan.slabs.size());
+    }
+}
+
+TEST_CASE("where parts fail, pieces of memory are used in turns, each from its start")
+{
+    for (unsigned seed = 0; seed < 1000; ++seed) {
+        CAPTURE(seed);
+        const RandomGraph made(seed);
+        const Plan plan(made.graph, alignment, { 0, Sharing::Turns });
+        Simulation simulation(plan);
+        std::mt19937 random(seed);
+        simulation.run(0, plan.passes.size(), -1, random);
+        REQUIRE(simulation.faults == 0);
+        for (std::size_t i = 0; i < plan.lifetimes.size(); ++i) {
+            if (!plan.lifetimes[i] || made.graph.resources()[i].imported) {
+                continue;
+            }
+            CHECK(plan.places[i].offset == 0);
+            CHECK(plan.slabs[plan.places[i].slab] >= made.graph.resources()[i].bytes());
+            for (std::size_t other = 0; other < i; ++other) {
+                const bool meet = plan.lifetimes[other] && !made.graph.resources()[other].imported
+                    && plan.lifetimes[other]->meets(*plan.lifetimes[i]);
+                CHECK_FALSE((meet && plan.places[other].slab == plan.places[i].slab));
+            }
+        }
     }
 }
 
@@ -326,7 +351,7 @@ TEST_CASE("what is constant is made right before it is used, and stays in its lo
         zeros(image); // of the next iteration
     });
     graph.want(sum, { 0, 0, width, height });
-    const Plan plan(graph, alignment, noLimit);
+    const Plan plan(graph, alignment);
     CHECK(namesOf(plan) == Names { "trace", "zeros", "zeros", "sample", "zeros", "gather", "add", "zeros" });
     CHECK(plan.lifetimes[sum.resource]->first == 2);
     Pass reading = passOf("reading", { reads("in", first), writes("out", image) });
@@ -357,7 +382,7 @@ TEST_CASE("what a body writes is what was there before where the body is left ou
         }
         const Window wanted { 3, 2, 40, 20 };
         graph.want(radiance, wanted);
-        const Plan plan(graph, alignment, noLimit);
+        const Plan plan(graph, alignment);
         // What the body has for itself is nobody else's, and its passes are run all or none.
         CHECK(namesOf(plan) == Names { "noisy", "own", "filtered" });
         CHECK(plan.passes.front().window == wanted);
@@ -382,15 +407,15 @@ TEST_CASE("what nobody wants is left out, and so is what only that needed")
     SUBCASE("one")
     {
         graph.want(radiance, { 0, 0, width, height });
-        CHECK(namesOf(Plan(graph, alignment, noLimit)) == Names { "trace", "shade", "report" });
+        CHECK(namesOf(Plan(graph, alignment)) == Names { "trace", "shade", "report" });
     }
     SUBCASE("all")
     {
         graph.want(layer, { 0, 0, 1, 1 });
         graph.want(radiance, { 0, 0, width, height });
-        CHECK(namesOf(Plan(graph, alignment, noLimit)) == Names { "trace", "prepare", "shade", "show", "report" });
+        CHECK(namesOf(Plan(graph, alignment)) == Names { "trace", "prepare", "shade", "show", "report" });
     }
-    SUBCASE("none") { CHECK(namesOf(Plan(graph, alignment, noLimit)) == Names { "trace", "report" }); }
+    SUBCASE("none") { CHECK(namesOf(Plan(graph, alignment)) == Names { "trace", "report" }); }
 }
 
 TEST_CASE("an older version's maker is not needed where the next writes all anew, and is where it updates")
@@ -405,7 +430,7 @@ TEST_CASE("an older version's maker is not needed where the next writes all anew
             add(graph, "second", { writes("out", plane) });
         }
         graph.want(plane, { 0, 0, width, height });
-        CHECK(namesOf(Plan(graph, alignment, noLimit)) == (inPlace ? Names { "first", "second" } : Names { "second" }));
+        CHECK(namesOf(Plan(graph, alignment)) == (inPlace ? Names { "first", "second" } : Names { "second" }));
     }
 }
 
@@ -418,7 +443,7 @@ TEST_CASE("what is made on a condition alone may be what was there before")
     second.condition = [](const Run&) { return false; };
     graph.add(std::move(second));
     graph.want(plane, { 0, 0, width, height });
-    CHECK(namesOf(Plan(graph, alignment, noLimit)) == Names { "first", "second" });
+    CHECK(namesOf(Plan(graph, alignment)) == Names { "first", "second" });
 }
 
 TEST_CASE("a loop keeps what it carries, and not what is its own")
@@ -439,7 +464,7 @@ TEST_CASE("a loop keeps what it carries, and not what is its own")
     });
     add(graph, "show", { reads("sums", sums), writes("image", image) });
     graph.want(image, { 0, 0, width, height });
-    const Plan plan(graph, alignment, noLimit);
+    const Plan plan(graph, alignment);
     // "next" is behind all its readers, and is there for the next iteration's.
     CHECK(namesOf(plan) == Names { "clear", "begin", "trace", "shade", "add", "next", "show" });
     const auto life = [&](const char* name) {
@@ -474,7 +499,7 @@ TEST_CASE("a crop's windows grow backwards by what filters reach, and analyses c
     add(graph, "rows", { reads("samples", samples, { .x = 20 }), writes("rows", rows) });
     add(graph, "columns", { reads("rows", rows, { .y = 4 }), writes("image", image) });
     graph.want(image, crop);
-    const Plan plan(graph, alignment, noLimit);
+    const Plan plan(graph, alignment);
     std::vector<Window> windows;
     for (const PlannedPass& planned : plan.passes) {
         windows.push_back(planned.window);
@@ -499,7 +524,7 @@ TEST_CASE("nothing is run for a tally's sake, and none is lost")
     add(graph, "scaled", { reads("scale", scale), updates("image", image) });
     graph.want(image, crop);
     graph.want(rays, { 0, 0, width, height });
-    const Plan plan(graph, alignment, noLimit);
+    const Plan plan(graph, alignment);
     CHECK(namesOf(plan) == Names { "clear", "traced", "analysed", "scaled" });
     CHECK(plan.passes[0].window == Window { 0, 0, width, height });
     CHECK(plan.passes[1].window == crop);
@@ -580,7 +605,7 @@ TEST_CASE("a plan explains itself, in words and as a drawing")
     add(graph, "idle", { writes("out", unused) });
     add(graph, "shade", { reads("in", position, around(3)), writes("out", image) });
     graph.want(image, { 16, 0, 32, 5 });
-    const Plan plan(graph, alignment, noLimit);
+    const Plan plan(graph, alignment);
     CHECK(explain(plan)
         == "passes\n"
            "   1  waves: trace [filter] trace, 13..35 x 0..8: writes position & more\n"
@@ -603,7 +628,7 @@ TEST_CASE("sizes beyond all numbers stay beyond, and are refused and not wrapped
     auto plane = graph.plane<Metres>("plane", vectors);
     add(graph, "first", { writes("out", plane) });
     graph.want(plane, { 0, 0, 1, 1 });
-    const Plan plan(graph, alignment, noLimit);
+    const Plan plan(graph, alignment);
     REQUIRE(plan.slabs.size() == 1);
     CHECK(plan.slabs[0] == ~std::uint64_t { 0 });
     device::MemoryPlan memory;

@@ -149,7 +149,7 @@ TEST_CASE("a crop has the bits of the whole image, whatever lay in the memory be
             smoothed(graph, colour, smooth);
             smoothed(graph, smooth, smoother);
             graph.want(smoother, wanted);
-            const Plan plan(graph, device::partAlignment, device.info().maxAllocation);
+            const Plan plan(graph, device::partAlignment, slabRulesOf(device.info()));
             device::MemoryPlan planned;
             plan.addTo(planned);
             CHECK(planned.total() == 2 * 12 * elements); // the first has ended when the last begins
@@ -190,7 +190,7 @@ TEST_CASE("a loop's body is run as often as the host finds, with what it carries
                 added(graph, colour, sum);
             });
         graph.want(sum, { 0, 0, width, height });
-        const Plan plan(graph, device::partAlignment, device.info().maxAllocation);
+        const Plan plan(graph, device::partAlignment, slabRulesOf(device.info()));
         Execution execution(plan, lab.memory, lab.kernels, lab.queue);
         CHECK(execution.run(nullptr, true));
         const std::vector<float> found = execution.output<float>(sum).downloadAll(lab.queue);
@@ -214,7 +214,7 @@ TEST_CASE("what is imported outlives the frames")
             auto visits = graph.imported<Sum>("visits", halves, history.cl());
             visited(graph, visits, 10);
             graph.want(visits, { 0, 0, width, height });
-            const Plan plan(graph, device::partAlignment, device.info().maxAllocation);
+            const Plan plan(graph, device::partAlignment, slabRulesOf(device.info()));
             CHECK(plan.slabs.empty());
             Execution execution(plan, lab.memory, lab.kernels, lab.queue);
             CHECK(execution.run(nullptr, true));
@@ -249,7 +249,7 @@ TEST_CASE("a rehearsal launches every kernel, and computes nothing")
         for (const Version& version : { Version(visits), Version(colour), Version(sum) }) {
             graph.want(version, { 0, 0, width, height });
         }
-        const Plan plan(graph, device::partAlignment, device.info().maxAllocation);
+        const Plan plan(graph, device::partAlignment, slabRulesOf(device.info()));
         Execution execution(plan, lab.memory, lab.kernels, lab.queue);
         lab.queue.takeRecords();
         execution.rehearse();
@@ -285,7 +285,7 @@ TEST_CASE("who is asked to stop ends loops, and does what is left")
         onHost(graph, "image", [&](Run& run) { after += run.cut(); });
         onHost(
             graph, "more", [&](Run&) { ++skipped; }, [](const Run& run) { return !run.cut(); });
-        const Plan plan(graph, device::partAlignment, device.info().maxAllocation);
+        const Plan plan(graph, device::partAlignment, slabRulesOf(device.info()));
         Execution execution(plan, lab.memory, lab.kernels, lab.queue);
         CHECK_FALSE(execution.run(&stop));
         CHECK(bodies == 2);
@@ -309,7 +309,7 @@ TEST_CASE("faults of who declares are found before anything is launched")
     graph.want(smooth, { 0, 0, width, height });
     SUBCASE("memory for two")
     {
-        Plan plan(graph, device::partAlignment, device.info().maxAllocation);
+        Plan plan(graph, device::partAlignment, slabRulesOf(device.info()));
         plan.places[1].offset = plan.places[0].offset + 12 * (elements - 1024);
         CHECK_THROWS_WITH_AS(Execution(plan, lab.memory, lab.kernels, lab.queue),
             "\"smooth\" and \"colour\" are needed at once, and lie in the same memory", std::logic_error);
@@ -317,7 +317,7 @@ TEST_CASE("faults of who declares are found before anything is launched")
     SUBCASE("a step that takes what is not its own")
     {
         onHost(graph, "thief", [&](Run& run) { run.buffer<float>(colour); });
-        const Plan plan(graph, device::partAlignment, device.info().maxAllocation);
+        const Plan plan(graph, device::partAlignment, slabRulesOf(device.info()));
         Execution execution(plan, lab.memory, lab.kernels, lab.queue);
         CHECK_THROWS_WITH_AS(
             execution.run(), "the step of pass \"thief\" asks for what it does not use", std::logic_error);
@@ -330,7 +330,7 @@ TEST_CASE("faults of who declares are found before anything is launched")
             .arguments = { made("p", rectangleOf), value("size", elements), writes("out", more) },
             .domain = Domain::Pixels });
         graph.want(more, { 0, 0, width, height });
-        const Plan plan(graph, device::partAlignment, device.info().maxAllocation);
+        const Plan plan(graph, device::partAlignment, slabRulesOf(device.info()));
         Execution execution(plan, lab.memory, lab.kernels, lab.queue);
         const std::string message = test::errorOf([&] { execution.run(); });
         CHECK(message.find("kernel numbered (graph.cl) takes 4 arguments: 3 given") != std::string::npos);

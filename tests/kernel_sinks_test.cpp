@@ -191,7 +191,7 @@ private:
         }
         for (const graph::Handle<Listed>* list : { &taken, &sums, &samples, &counts })
             graph.want(*list, graph.image());
-        const graph::Plan plan(graph, device::partAlignment, b.device.info().maxAllocation);
+        const graph::Plan plan(graph, device::partAlignment, graph::slabRulesOf(b.device.info()));
         graph::Execution execution(plan, memory_, kernels_, b.queue);
         REQUIRE(execution.run());
         const auto floats = [&](const graph::Version& list) {

@@ -102,6 +102,7 @@ DeviceInfo queryDevice(const cl::Platform& platform, const cl::Device& device, u
         info.localMemoryIsGlobal = device.getInfo<CL_DEVICE_LOCAL_MEM_TYPE>() != CL_LOCAL;
         info.maxTiledItems =
             info.type == DeviceType::Cpu ? smallGridItems : std::numeric_limits<cl_uint>::max() / std::size_t { 2 };
+        info.failsWithParts = driverFailsWithParts(info.platformVersion);
         info.quirks = applyQuirks(info);
         return info;
     });

@@ -50,6 +50,8 @@ struct DeviceInfo {
     /// Most items of one bounded launch. CPU drivers may compile a kernel once for grids below 65535 items and once
     /// more for larger ones; batches that stay below never pay the second compilation in the middle of a frame.
     std::size_t maxTiledItems = 0;
+    /// Parts of buffers that overlap, used one after the other, end the process (quirks.h).
+    bool failsWithParts = false;
     /// Those in force, a line each for the user (quirks.h).
     std::vector<std::string> quirks;
 };

@@ -163,7 +163,7 @@ cl::Program ProgramLibrary::compile(const std::string& file, const std::string& 
             if (error.err() != CL_BUILD_PROGRAM_FAILURE) {
                 throw;
             }
-            reportFailure(file, source, program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_.cl()));
+            reportFailure(file, source, namePlaces(program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_.cl()), source));
         }
         return program;
     });

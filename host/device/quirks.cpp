@@ -42,6 +42,11 @@ bool driverKeepsKernels(std::string_view platformVersion)
     return numberBehind(platformVersion, "PoCL ").has_value() && (setting == nullptr || *setting == '1');
 }
 
+bool driverFailsWithParts(std::string_view platformVersion)
+{
+    return platformVersion.find("CUDA") != std::string_view::npos;
+}
+
 std::vector<std::string> applyQuirks(const DeviceInfo& info)
 {
     std::vector<std::string> inForce;
@@ -59,6 +64,9 @@ std::vector<std::string> applyQuirks(const DeviceInfo& info)
     }
     if (driverKeepsKernels(info.platformVersion)) {
         inForce.emplace_back("programs come from the driver's own cache: binaries would be compiled anew for it");
+    }
+    if (info.failsWithParts) {
+        inForce.emplace_back("planes take turns in whole buffers: the driver ends the process over parts that overlap");
     }
     if (info.hostTimers) {
         inForce.emplace_back("passes are timed by the host's clock: the driver's times are none");

@@ -21,6 +21,10 @@ bool poclFailsToCompile(std::string_view platformVersion);
 /// work-groups of any size: what it has compiled and launched by then is for given sizes.
 bool driverKeepsKernels(std::string_view platformVersion);
 
+/// Whether a platform's driver ends the process when parts of one buffer are released that overlap in part: NVIDIA's
+/// (580.159 does, in clReleaseMemObject; parts that are the same, or lie apart, are fine).
+bool driverFailsWithParts(std::string_view platformVersion);
+
 /// Does what has to be done before the driver of this device compiles anything, and says which quirks are in force
 /// there, a line each. What the user has set in the environment stays as it is.
 std::vector<std::string> applyQuirks(const DeviceInfo& info);

@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <regex>
 #include <set>
+#include <sstream>
 #include <string_view>
 
 namespace wedge::device {
@@ -180,6 +182,31 @@ private:
 };
 
 } // namespace
+
+std::string namePlaces(const std::string& log, const std::string& flatSource)
+{
+    static const std::regex place("<kernel>:([0-9]{1,8}):"), directive("#line ([0-9]{1,8}) \"(.*)\"");
+    std::vector<std::string> places; // of each line
+    std::string file = "<kernel>";
+    std::size_t number = 1;
+    std::istringstream lines(flatSource);
+    for (std::string line; std::getline(lines, line); ++number) {
+        places.push_back(fmt::format("{}:{}", file, number));
+        if (std::smatch found; line.starts_with("#line") && std::regex_match(line, found, directive)) {
+            file = found[2];
+            number = std::stoul(found[1]) - 1;
+        }
+    }
+    std::string out;
+    auto from = log.cbegin();
+    for (std::sregex_iterator found(log.begin(), log.end(), place), end; found != end; ++found) {
+        const std::size_t line = std::stoul((*found)[1]);
+        out.append(from, (*found)[0].first);
+        out += line >= 1 && line <= places.size() ? places[line - 1] + ":" : (*found)[0].str();
+        from = (*found)[0].second;
+    }
+    return out.append(from, log.cend());
+}
 
 FlatSource flattenKernel(const std::string& kernelDir, const std::string& file, const GeneratedSources& generated)
 {

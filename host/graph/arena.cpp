@@ -34,7 +34,7 @@ std::uint64_t bestGap(const std::vector<Taken>& taken, std::uint64_t bytes)
 
 /// The tenants one after the other, each in the smallest gap that holds it.
 Placement placeInOrder(const std::vector<Tenant>& tenants, const std::vector<std::size_t>& order,
-    const std::function<std::uint64_t(std::uint64_t)>& aligned, std::uint64_t mostSlabBytes)
+    const std::function<std::uint64_t(std::uint64_t)>& aligned, const SlabRules& rules)
 {
     Placement out;
     out.places.resize(tenants.size());
@@ -54,8 +54,9 @@ Placement placeInOrder(const std::vector<Tenant>& tenants, const std::vector<std
             }
             std::sort(taken.begin(), taken.end(), [](const Taken& a, const Taken& b) { return a.begin < b.begin; });
             const std::uint64_t offset = bestGap(taken, bytes);
-            const bool fits =
-                mostSlabBytes == 0 ? out.slabs[slab] == 0 : offset == 0 || end(offset, bytes) <= mostSlabBytes;
+            const bool fits = rules.sharing == Sharing::Apart ? out.slabs[slab] == 0
+                : rules.sharing == Sharing::Turns             ? taken.empty()
+                                                              : offset == 0 || end(offset, bytes) <= rules.mostBytes;
             if (fits) {
                 out.places[i] = { slab, offset };
                 out.slabs[slab] = std::max(out.slabs[slab], end(offset, bytes));
@@ -89,7 +90,7 @@ std::uint64_t mostAtOnce(const std::vector<Tenant>& tenants, const std::function
 
 } // namespace
 
-Placement place(const std::vector<Tenant>& tenants, std::uint64_t alignment, std::uint64_t mostSlabBytes)
+Placement place(const std::vector<Tenant>& tenants, std::uint64_t alignment, const SlabRules& slabRules)
 {
     const auto aligned = [&](std::uint64_t bytes) {
         const std::uint64_t over = bytes % alignment;
@@ -115,11 +116,11 @@ Placement place(const std::vector<Tenant>& tenants, std::uint64_t alignment, std
         std::vector<std::size_t> order(tenants.size());
         std::iota(order.begin(), order.end(), 0u);
         std::stable_sort(order.begin(), order.end(), before);
-        Placement found = placeInOrder(tenants, order, aligned, mostSlabBytes);
+        Placement found = placeInOrder(tenants, order, aligned, slabRules);
         if (best.places.empty() || sum(found) < sum(best)) {
             best = std::move(found);
         }
-        if (mostSlabBytes == 0 || sum(best) <= least) {
+        if (slabRules.sharing == Sharing::Apart || sum(best) <= least) {
             break;
         }
     }

@@ -106,10 +106,10 @@ Execution::Execution(const Plan& plan, Memory& memory, Kernels& kernels, device:
             memory_[i] = *resource.imported;
         } else if (plan.lifetimes[i]) {
             const Place& place = plan.places[i];
-            memory_[i] =
-                memory.slab(place.slab)
-                    .part<std::uint8_t>(place.offset, static_cast<std::size_t>(resource.bytes()), resource.name)
-                    .cl();
+            const device::Buffer<std::uint8_t>& slab = memory.slab(place.slab);
+            memory_[i] = plan.sharing == Sharing::Turns
+                ? slab.cl()
+                : slab.part<std::uint8_t>(place.offset, static_cast<std::size_t>(resource.bytes()), resource.name).cl();
         }
     }
 }

@@ -216,8 +216,9 @@ private:
     bool grew_ = false;
 };
 
-Plan::Plan(const Graph& ofGraph, std::uint64_t alignment, std::uint64_t mostSlabBytes)
+Plan::Plan(const Graph& ofGraph, std::uint64_t alignment, const SlabRules& slabRules)
     : graph(ofGraph)
+    , sharing(slabRules.sharing)
     , passes(Compiler(ofGraph).passes())
     , lifetimes(ofGraph.resources().size())
     , places(ofGraph.resources().size())
@@ -257,11 +258,16 @@ Plan::Plan(const Graph& ofGraph, std::uint64_t alignment, std::uint64_t mostSlab
             resources.push_back(i);
         }
     }
-    Placement placement = place(tenants, alignment, mostSlabBytes);
+    Placement placement = place(tenants, alignment, slabRules);
     for (std::size_t i = 0; i < tenants.size(); ++i) {
         places[resources[i]] = placement.places[i];
     }
     slabs = std::move(placement.slabs);
+}
+
+SlabRules slabRulesOf(const device::DeviceInfo& info)
+{
+    return { info.maxAllocation, info.failsWithParts ? Sharing::Turns : Sharing::Parts };
 }
 
 void Plan::addTo(device::MemoryPlan& memory) const

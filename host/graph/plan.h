@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/device/limits.h"
 #include "host/device/memory_plan.h"
 #include "host/graph/arena.h"
 #include "host/graph/graph.h"
@@ -20,14 +21,15 @@ struct PlannedPass {
 /// graph.
 struct Plan {
     /// What the wanted versions need and nothing else, in the order of the graph, but for passes that are
-    /// constant. alignment and mostSlabBytes: as for
-    /// place(), bytes.
-    Plan(const Graph& graph, std::uint64_t alignment, std::uint64_t mostSlabBytes);
+    /// constant. alignment, bytes, and slabRules: as for
+    /// place().
+    Plan(const Graph& graph, std::uint64_t alignment, const SlabRules& slabRules = {});
 
     /// Adds the memory, a line a piece; the sum is what is allocated.
     void addTo(device::MemoryPlan& memory) const;
 
     const Graph& graph;
+    Sharing sharing; ///< of the memory
     std::vector<PlannedPass> passes;
     /// Of each resource of the graph: when it holds something, as indices into passes, one behind the last for what is
     /// wanted at the end; nothing where no pass uses it.
@@ -35,6 +37,9 @@ struct Plan {
     std::vector<Place> places; ///< of each resource that has a lifetime and is not imported
     std::vector<std::uint64_t> slabs; ///< bytes of each piece of memory to allocate
 };
+
+/// How planes may lie in a device's memory.
+SlabRules slabRulesOf(const device::DeviceInfo& info);
 
 /// A window inside the image, grown by `reach` pixels to each side and still inside.
 Window reached(const Window& window, Reach reach, const Window& image);

@@ -65,7 +65,7 @@ Renderer::Step Renderer::runStep(
         unused_, keepLayers, *halfMemories_, range.before, range.spp);
     const HalvesFrame& halves = *frame;
     frameGraph_ = std::move(frame);
-    const graph::Plan plan(halves.graph(), device::partAlignment, mostSlabBytes());
+    const graph::Plan plan(halves.graph(), device::partAlignment, slabRules());
     frame_.reset(); // it has parts of the memory
     graph::Execution execution(plan, memory_, kernels_, queue_);
     const bool whole = run(execution, stop, rehearsal);

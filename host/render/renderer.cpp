@@ -85,6 +85,13 @@ Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Opti
 
 Renderer::~Renderer() = default;
 
+graph::SlabRules Renderer::slabRules() const
+{
+    graph::SlabRules rules = graph::slabRulesOf(device_.info());
+    rules.sharing = options_.checkLaunches ? graph::Sharing::Apart : rules.sharing;
+    return rules;
+}
+
 std::unique_ptr<FrameGraph> Renderer::declare(const scene::Scene& scene, const DeviceScene* deviceScene,
     const Settings& settings, std::size_t packet, const cl::Buffer& unused, bool keepLayers)
 {
@@ -95,7 +102,7 @@ std::unique_ptr<FrameGraph> Renderer::declare(const scene::Scene& scene, const D
 }
 
 device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hierarchy, const SceneLights& lights,
-    const Settings& settings, bool keepLayers, std::uint64_t mostSlabBytes)
+    const Settings& settings, bool keepLayers, const graph::SlabRules& slabs)
 {
     const auto planned = [&](const StepRange& step) {
         device::MemoryPlan plan;
@@ -106,7 +113,7 @@ device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hi
         for (const SampleMemory& memory : memories) {
             memory.addTo(plan);
         }
-        graph::Plan(frame->graph(), device::partAlignment, mostSlabBytes).addTo(plan);
+        graph::Plan(frame->graph(), device::partAlignment, slabs).addTo(plan);
         return plan;
     };
     device::MemoryPlan most = planned(firstStep(settings));
@@ -137,7 +144,7 @@ Explanation Renderer::explain(const Settings& settings, bool keepLayers) const
     HalfMemories memories { SampleMemory(nullptr), SampleMemory(nullptr) };
     const std::unique_ptr<FrameGraph> frame =
         declareUnbacked(scene_, hierarchy_, settings, keepLayers, memories, firstStep(settings));
-    const graph::Plan plan(frame->graph(), device::partAlignment, mostSlabBytes());
+    const graph::Plan plan(frame->graph(), device::partAlignment, slabRules());
     return { graph::explain(plan), graph::drawing(plan) };
 }
 
@@ -229,7 +236,7 @@ FrameStatistics Renderer::completed(const Settings& settings, FrameStatistics st
 
 bool Renderer::run(const std::atomic<bool>* stop, bool rehearsal)
 {
-    const graph::Plan plan(frameGraph_->graph(), device::partAlignment, mostSlabBytes());
+    const graph::Plan plan(frameGraph_->graph(), device::partAlignment, slabRules());
     graph::Execution execution(plan, memory_, kernels_, queue_);
     return run(execution, stop, rehearsal);
 }

@@ -91,13 +91,12 @@ public:
     /// Device memory that a frame of these settings takes, before anything of it is allocated; of a progressive one the
     /// step that takes most.
     /// keepLayers: as render() has it.
-    /// mostSlabBytes: as graph::place() has it.
+    /// slabs: as graph::place() has them.
     static device::MemoryPlan plan(const scene::Scene& scene, const Hierarchy& hierarchy, const SceneLights& lights,
-        const Settings& settings, bool keepLayers = false,
-        std::uint64_t mostSlabBytes = std::numeric_limits<std::uint64_t>::max());
+        const Settings& settings, bool keepLayers = false, const graph::SlabRules& slabs = {});
     device::MemoryPlan plan(const Settings& settings, bool keepLayers = false) const
     {
-        return plan(scene_, hierarchy_, lights_, settings, keepLayers, mostSlabBytes());
+        return plan(scene_, hierarchy_, lights_, settings, keepLayers, slabRules());
     }
 
     /// The passes of a frame, or of the first step of a progressive one, what they use, and the planes' memory.
@@ -138,7 +137,7 @@ private:
     /// Of a frame that is only to be planned, or of a step of a progressive one.
     static std::unique_ptr<FrameGraph> declareUnbacked(const scene::Scene& scene, const Hierarchy& hierarchy,
         const Settings& settings, bool keepLayers, HalfMemories& memories, const StepRange& step);
-    std::uint64_t mostSlabBytes() const { return options_.checkLaunches ? 0 : device_.info().maxAllocation; }
+    graph::SlabRules slabRules() const;
     /// Tests the settings and whether memory suffices.
     void prepare(const Settings& settings, bool keepLayers);
     /// Runs frameGraph_, or rehearses it. Returns false if it was stopped before all samples were taken.

@@ -19,6 +19,8 @@
 #define WEDGE_INLINE static inline
 #endif
 // Identical bits on every device and on the host for + - *: no fused multiply-adds in shared maths.
+// A function that wants them has the pragma with ON in its body; its end ends that, and yet OFF is said again behind
+// it, for drivers that forget.
 #pragma OPENCL FP_CONTRACT OFF
 
 #else

@@ -46,6 +46,7 @@ WEDGE_FN LaneMask intersectBoxes(
     *tEnter = enter;
     return laneMask(enter <= leave);
 }
+#pragma OPENCL FP_CONTRACT OFF
 
 WEDGE_FN float smallestLane(float8 x)
 {

@@ -40,6 +40,7 @@ WEDGE_FN PacketAxis packetAxis(float16 origin, float16 direction)
     a.farOffset = offset * WEDGE_WIDEN_T + slack;
     return a;
 }
+#pragma OPENCL FP_CONTRACT OFF
 
 WEDGE_FN void loadPacket(const RayPacket* packet, float unit, TraversalPacket* p)
 {

@@ -91,6 +91,7 @@ WEDGE_FN ShaftAxis shaftAxis(const PacketExtent* extent, int axis, const PacketA
     s.farPlane = start + WEDGE_BVH_WIDTH;
     return s;
 }
+#pragma OPENCL FP_CONTRACT OFF
 
 /// Where a shaft meets the slabs of 8 boxes along one axis.
 typedef struct {
@@ -108,6 +109,7 @@ WEDGE_FN ShaftSlab intersectSlab(const ShaftAxis* a, float8 nearPlane, float8 fa
     slab.turned = farPlane * a->turnedScale + a->turnedOffset;
     return slab;
 }
+#pragma OPENCL FP_CONTRACT OFF
 
 WEDGE_FN LaneMask intersectSlabs(const Shaft* shaft, ShaftSlab x, ShaftSlab y, ShaftSlab z, float tCull, float8* tEnter)
 {
@@ -210,5 +212,6 @@ WEDGE_FN LaneMask16 raysMeetBox(
     const float16 farXY = WEDGE_MIN(bx, by), farZ0 = WEDGE_MIN(bz, p->tFar * WEDGE_WIDEN_T);
     return laneMask16(WEDGE_MAX(nearXY, nearZ0) <= WEDGE_MIN(farXY, farZ0));
 }
+#pragma OPENCL FP_CONTRACT OFF
 
 #endif

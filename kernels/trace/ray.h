@@ -111,5 +111,6 @@ WEDGE_FN bool prepareRay(TraversalRay* ray, float unit, Vec3 origin, Vec3 direct
     const float sum = origin.x + origin.y + origin.z + direction.x + direction.y + direction.z;
     return fabs(sum) < INFINITY && ray->tMin < tMax;
 }
+#pragma OPENCL FP_CONTRACT OFF
 
 #endif

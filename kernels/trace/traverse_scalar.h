@@ -45,6 +45,7 @@ WEDGE_FN uint4 enterChildren(__global const TraversalNode* node, const Traversal
     *tEnter = swapC ? t.xzyw : t;
     return swapC ? child.xzyw : child;
 }
+#pragma OPENCL FP_CONTRACT OFF
 
 /// One triangle of a block as intersectBlock of intersect.h tests it, operation by operation. Returns whether it
 /// replaced hit.
