@@ -309,7 +309,7 @@ TEST_CASE("faults of who declares are found before anything is launched")
     graph.want(smooth, { 0, 0, width, height });
     SUBCASE("memory for two")
     {
-        Plan plan(graph, device::partAlignment, slabRulesOf(device.info()));
+        Plan plan(graph, device::partAlignment);
         plan.places[1].offset = plan.places[0].offset + 12 * (elements - 1024);
         CHECK_THROWS_WITH_AS(Execution(plan, lab.memory, lab.kernels, lab.queue),
             "\"smooth\" and \"colour\" are needed at once, and lie in the same memory", std::logic_error);

@@ -326,7 +326,9 @@ TEST_CASE(
             settings.bounces = 1;
             const render::Renderer renderer(scene, device, renderOptions());
             // Motions and deviations together are above the goal of 150 MB (docs/multiple-effects.md).
-            CHECK(renderer.plan(settings).total() < (moves == Moves::Nothing ? 150'000'000u : 150u << 20));
+            const std::uint64_t goal = moves == Moves::Nothing ? 150'000'000u : 150u << 20;
+            const bool turns = device.info().failsWithParts; // whole buffers hold more than is in them
+            CHECK(renderer.plan(settings).total() < (turns ? goal + goal / 4 : goal));
             CHECK(renderer.plan(settings, true).total() > 300'000'000);
         }
     });

@@ -15,7 +15,8 @@ std::uint64_t frameBytes(
     device::MemoryPlan ofScene;
     const render::SceneLights lights(scene);
     render::DeviceScene::plan(ofScene, scene, hierarchy, lights);
-    return render::Renderer::plan(scene, hierarchy, lights, settings, keepLayers).total() - ofScene.total();
+    return render::Renderer::plan(scene, hierarchy, lights, settings, keepLayers, graph::slabRulesOf(device)).total()
+        - ofScene.total();
 }
 
 } // namespace wedge::benchmark
