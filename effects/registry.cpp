@@ -2,6 +2,7 @@
 #include "effects/area_lights/area_lights.h"
 #include "effects/delta_lights/delta_lights.h"
 #include "effects/emitters/emitters.h"
+#include "effects/environment/environment.h"
 #include "effects/indirect/indirect_light.h"
 
 namespace wedge::render {
@@ -10,6 +11,7 @@ namespace {
 const Registration ofAreaLights(areaLights());
 const Registration ofDeltaLights(deltaLights());
 const Registration ofEmitters(emitters());
+const Registration ofEnvironment(environment());
 const Registration ofIndirectLight(indirectLight());
 
 } // namespace

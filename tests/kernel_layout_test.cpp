@@ -2,6 +2,7 @@
 #include "kernels/shared/bvh_types.h"
 #include "kernels/shared/camera.h"
 #include "kernels/shared/distributed.h"
+#include "kernels/shared/environment.h"
 #include "kernels/shared/filter_params.h"
 #include "kernels/shared/frame.h"
 #include "kernels/shared/hit.h"

@@ -132,6 +132,8 @@ public:
         surfaces.push_back(graph::outside("", "", s.deltaLights.cl()));
         surfaces.push_back(graph::outside("", "", s.emitters.cl()));
         surfaces.push_back(graph::outside("", "", s.emitterPicks.cl()));
+        surfaces.push_back(graph::outside("", "", s.environment.cl()));
+        surfaces.push_back(graph::outside("", "", s.environmentTable.cl()));
         return run({ "paths/indirect.cl", "samplePaths", becoming },
             { graph::value("frame", points.frame), graph::value("params", params) }, surfaces, true, points);
     }

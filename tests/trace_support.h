@@ -106,9 +106,9 @@ public:
     {
         bench.passes.tiles("primary", device::PassKind::Trace, "frame/primary.cl", "primary", params, 1.0,
             onDevice.nodes, onDevice.blocks, surfaceArguments(onDevice), onDevice.objectIds, onDevice.areaLights,
-            static_cast<std::uint32_t>(onDevice.areaLightList.size()), frame.position, frame.normal, frame.origin,
-            frame.geometric, frame.objectId, frame.depth, frame.pixelSize, frame.diffuse, frame.specular,
-            frame.emission, frame.gloss);
+            static_cast<std::uint32_t>(onDevice.areaLightList.size()), onDevice.environment, onDevice.environmentTable,
+            frame.position, frame.normal, frame.origin, frame.geometric, frame.objectId, frame.depth, frame.pixelSize,
+            frame.diffuse, frame.specular, frame.emission, frame.gloss);
     }
     /// p.firstPass samples of each pixel, the first of their light. Their sinks are those that the kernel has alone.
     void firstPass(const shared::SampleParams& p)

@@ -14,10 +14,12 @@ using graph::writes;
 std::vector<graph::Argument> sceneLights(const FrameBuilder& frame, Component component)
 {
     const bool other = isOfEmitters(component) && frame.scene != nullptr && !frame.scene->sharedTerm.ofEmitters;
-    return { frame.ofScene("areaLights", "AreaLight", &DeviceScene::areaLights),
-        frame.ofScene("deltaLights", "DeltaLight", &DeviceScene::deltaLights),
-        frame.ofScene("emitters", "Emitter", other ? &DeviceScene::sharedLights : &DeviceScene::emitters),
-        frame.ofScene("emitterPicks", "float", other ? &DeviceScene::sharedPicks : &DeviceScene::emitterPicks) };
+    return joined(
+        { frame.ofScene("areaLights", "AreaLight", &DeviceScene::areaLights),
+            frame.ofScene("deltaLights", "DeltaLight", &DeviceScene::deltaLights),
+            frame.ofScene("emitters", "Emitter", other ? &DeviceScene::sharedLights : &DeviceScene::emitters),
+            frame.ofScene("emitterPicks", "float", other ? &DeviceScene::sharedPicks : &DeviceScene::emitterPicks) },
+        frame.beyond());
 }
 
 shared::PathParams pathParams(const FrameBuilder& frame, Component component)
@@ -37,6 +39,7 @@ shared::PathParams pathParams(const FrameBuilder& frame, Component component)
     p.deltaLights = scene != nullptr ? scene->deltaLightCount : 0;
     p.emitters = scene == nullptr ? 0 : direct ? scene->sharedTerm.count : scene->emitterCount;
     p.emitterShare = frame.scene != nullptr ? frame.scene->emitterShare : 0.0f;
+    p.environmentShare = frame.scene != nullptr ? frame.scene->environmentShare : 0.0f;
     p.sceneDiameter = frame.scene != nullptr ? frame.scene->diameter : 0.0f;
     if (scene != nullptr) {
         const glm::vec3 &low = scene->sharedTerm.low, &high = scene->sharedTerm.high;

@@ -15,12 +15,22 @@ enum class Component : std::uint32_t {
     Ambient = WEDGE_COMPONENT_AMBIENT,
     Emitters = WEDGE_COMPONENT_EMITTERS,
     EmittersGlossy = WEDGE_COMPONENT_EMITTERS_GLOSSY,
+    Environment = WEDGE_COMPONENT_ENVIRONMENT,
+    EnvironmentGlossy = WEDGE_COMPONENT_ENVIRONMENT_GLOSSY,
 };
 
 /// Whether a component is of the specular lobes.
-constexpr bool isGlossy(Component c) { return c == Component::Glossy || c == Component::EmittersGlossy; }
-/// Whether it is direct light.
+constexpr bool isGlossy(Component c)
+{
+    return c == Component::Glossy || c == Component::EmittersGlossy || c == Component::EnvironmentGlossy;
+}
+/// Whether it is direct light of what the list of lights has.
 constexpr bool isOfEmitters(Component c) { return c == Component::Emitters || c == Component::EmittersGlossy; }
+/// Whether it is direct light.
+constexpr bool isDirect(Component c)
+{
+    return isOfEmitters(c) || c == Component::Environment || c == Component::EnvironmentGlossy;
+}
 
 /// What the analysis of a component needs besides the rectangle.
 shared::ReflectorParams reflectorParams(const FrameBuilder& frame, Component component);

@@ -35,8 +35,8 @@ public:
         , s_(frame.settings)
         , component_(component)
         , reflectance_(isGlossy(component) ? frame.surfaces.specular : frame.surfaces.diffuse)
-        , sum_(isOfEmitters(component) ? frame.totals.direct : frame.totals.indirect)
-        , vertices_(isOfEmitters(component) ? 1 : std::max(1, frame.settings.bounces))
+        , sum_(isDirect(component) ? frame.totals.direct : frame.totals.indirect)
+        , vertices_(isDirect(component) ? 1 : std::max(1, frame.settings.bounces))
         , state_(state)
         , beta_(beta)
         , sums_(g_.plane<Sums>("sums", graph::floatPlanes(4)))
@@ -121,7 +121,7 @@ private:
     {
         Totals& t = f_.totals;
         f_.count(taken_, false, t.tallies.samples, &t.samples);
-        if (!isOfEmitters(component_)) {
+        if (!isDirect(component_)) {
             f_.count(taken_, false, t.tallies.indirectSamples);
         }
         countRays();

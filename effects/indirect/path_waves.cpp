@@ -16,8 +16,8 @@ using graph::value;
 using graph::writes;
 
 PathWaves::PathWaves(FrameBuilder& frame, const SampleShape& shape, Component component)
-    : WaveTerm(frame, shape, isOfEmitters(component) ? frame.totals.direct : frame.totals.indirect, 3,
-        isOfEmitters(component) ? 2.0f : 2.0f * static_cast<float>(std::max(1, frame.settings.bounces)))
+    : WaveTerm(frame, shape, isDirect(component) ? frame.totals.direct : frame.totals.indirect, 3,
+        isDirect(component) ? 2.0f : 2.0f * static_cast<float>(std::max(1, frame.settings.bounces)))
     , component_(component)
 {
 }
@@ -45,7 +45,7 @@ void PathWaves::sample(
                 updates("reflectors", own.extremes) }));
     const graph::Handle<Reflectance>& reflectance = isGlossy(component_) ? r.specular : r.diffuse;
     waves.pixels("accumulatePaths",
-        joined({ waves.pixelParams(), waves.params(omits() | (isOfEmitters(component_) ? WEDGE_OMITS_INDIRECT : 0u)),
+        joined({ waves.pixelParams(), waves.params(omits() | (isDirect(component_) ? WEDGE_OMITS_INDIRECT : 0u)),
                    value("ambient", component_ == Component::Ambient ? 1u : 0u) },
             waves.pixelLists(),
             Arguments { reads("taken", counts.taken), reads("hits", hits), reads("objectId", r.objectId),

@@ -4,6 +4,7 @@
 #include "host/app/render_settings.h"
 #include "host/app/values.h"
 #include "host/device/memory_plan.h"
+#include "host/render/effect.h"
 #include "host/render/renderer.h"
 #include "host/render/report.h"
 #include "host/scene/scene.h"
@@ -74,6 +75,9 @@ void printJson(const Facts& f)
         json["bounds"] = { { s.bounds.lo.x, s.bounds.lo.y, s.bounds.lo.z },
             { s.bounds.hi.x, s.bounds.hi.y, s.bounds.hi.z } };
     }
+    if (const auto picture = render::pictureOf(f.scene)) {
+        json["environment"] = { { "width", picture->width }, { "height", picture->height } };
+    }
     addCamera(f, json);
     json["width"] = f.settings.width;
     json["height"] = f.settings.height;
@@ -98,6 +102,9 @@ void printText(const Facts& f)
     }
     say("materials  {}, textures {} ({})\n", s.materials, s.textures, device::mebibytes(s.textureBytes));
     say("lights     {} area, {} point, {} directional\n", s.areaLights, s.pointLights, s.directionalLights);
+    if (const auto picture = render::pictureOf(f.scene)) {
+        say("           environment, a map of {}x{}\n", picture->width, picture->height);
+    }
     printCamera(f);
     if (!s.bounds.empty()) {
         say("bounds     [{:g}, {:g}, {:g}] to [{:g}, {:g}, {:g}] m\n", s.bounds.lo.x, s.bounds.lo.y, s.bounds.lo.z,

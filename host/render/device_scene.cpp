@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <span>
 
 namespace wedge::render {
 namespace {
@@ -74,19 +75,25 @@ std::vector<shared::DeltaLight> deltaLightData(const scene::Scene& scene)
     return out;
 }
 
+/// Probabilities of what is not in a list of lights.
+struct Shares {
+    float emitters, environment;
+};
+
 /// Probabilities with which path vertices choose each light: by what it sends out, so that strong ones are sampled
-/// more. A directional light counts with what falls on the scene. emitters: power of the meshes that emit, whose
-/// probability is returned.
-float setPicks(
-    std::vector<shared::AreaLight>& area, std::vector<shared::DeltaLight>& delta, double emitters, float diameter)
+/// more. A directional light counts with what falls on the scene, and so does what is beyond it. emitters: power of the
+/// meshes that emit. environment: luminance over all directions.
+Shares setPicks(std::vector<shared::AreaLight>& area, std::vector<shared::DeltaLight>& delta, double emitters,
+    double environment, float diameter)
 {
+    const double beyond = environment * diameter * diameter;
     const auto powerOf = [&](const shared::AreaLight& l) {
         return shared::luminance(l.power) * (l.twoSided != 0 ? 2.0f : 1.0f);
     };
     const auto fluxOf = [&](const shared::DeltaLight& l) {
         return shared::luminance(l.colour) * (l.directional != 0 ? diameter * diameter : 4.0f);
     };
-    double total = emitters;
+    double total = emitters + beyond;
     for (const shared::AreaLight& l : area) {
         total += powerOf(l);
     }
@@ -100,7 +107,7 @@ float setPicks(
     for (shared::DeltaLight& l : delta) {
         l.pick = static_cast<float>(fluxOf(l) * scale);
     }
-    return static_cast<float>(emitters * scale);
+    return { static_cast<float>(emitters * scale), static_cast<float>(beyond * scale) };
 }
 
 /// What the bytes of textures mean: those of colours, which are sRGB-encoded, then those of plain numbers.
@@ -179,6 +186,9 @@ void DeviceScene::plan(
         plan.addItems("shared lights", list.list.size(), sizeof(shared::Emitter));
         plan.addItems("shared lights' probabilities", list.picks.size(), sizeof(float));
     }
+    if (!lights.beyond.numbers.empty()) {
+        plan.addItems("environment's table", lights.beyond.numbers.size(), sizeof(float));
+    }
     if (scene::geometryMoves(scene)) {
         plan.addItems("positions at closing", g.positionsAtClose.size(), sizeof(float));
         plan.addItems("normals at closing", g.normalsAtClose.size(), sizeof(float));
@@ -209,6 +219,8 @@ DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, 
     , sharedLights(device, lights.shared.list.size(), "shared lights")
     , emitterPicks(device, lights.emitters.picks.size(), "emitters' probabilities")
     , sharedPicks(device, lights.shared.picks.size(), "shared lights' probabilities")
+    , environment(device, 1, "environment")
+    , environmentTable(device, lights.beyond.numbers.size(), "environment's table")
 {
     materials.upload(queue, materialData(scene));
     std::vector<shared::TextureData> infos;
@@ -237,7 +249,11 @@ DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, 
     const glm::vec3 extent = bounds.empty() ? glm::vec3(1.0f) : bounds.hi - bounds.lo;
     diameter = bounds.empty() ? 1.0f : glm::length(extent);
     largestDimension = std::max({ extent.x, extent.y, extent.z });
-    emitterShare = setPicks(areaLightList, delta, lights.emitters.power, diameter);
+    const Shares shares = setPicks(areaLightList, delta, lights.emitters.power, lights.beyond.irradiance, diameter);
+    emitterShare = shares.emitters;
+    environmentShare = shares.environment;
+    environment.upload(queue, std::span(&lights.beyond.map, 1));
+    environmentTable.upload(queue, lights.beyond.numbers);
     emitters.upload(queue, lights.emitters.list);
     emitterPicks.upload(queue, lights.emitters.picks);
     emitterCount = static_cast<std::uint32_t>(lights.emitters.list.size());

@@ -8,6 +8,7 @@
 #include "host/scene/scene.h"
 #include "kernels/shared/bvh_types.h"
 #include "kernels/shared/emitter.h"
+#include "kernels/shared/environment.h"
 #include "kernels/shared/light.h"
 #include "kernels/shared/material.h"
 
@@ -54,6 +55,8 @@ public:
     /// SceneLights::emitters and shared; one element that nobody reads where there are none.
     device::Buffer<shared::Emitter> emitters, sharedLights;
     device::Buffer<float> emitterPicks, sharedPicks;
+    device::Buffer<shared::EnvironmentMap> environment; ///< SceneLights::beyond; of no texels without a picture
+    device::Buffer<float> environmentTable;
 
     std::vector<shared::AreaLight> areaLightList; ///< the same as areaLights, for kernels that take one by value
     std::vector<device::Buffer<float>>
@@ -68,6 +71,7 @@ public:
         float directedWithin = 0;
     } sharedTerm;
     float emitterShare = 0; ///< probability that a path's vertex samples them and no other light
+    float environmentShare = 0; ///< the same of what is beyond the scene
     float diameter = 0; ///< metres, diagonal of the bounds
     float largestDimension = 0; ///< metres, of the bounds
     bool specular = false; ///< hasSpecular()

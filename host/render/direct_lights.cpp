@@ -1,5 +1,7 @@
 #include "host/render/direct_lights.h"
 
+#include "host/render/effect.h"
+
 #include "host/render/device_scene.h"
 #include "kernels/shared/bsdf.h"
 
@@ -212,6 +214,7 @@ DirectLights directLights(const scene::Scene& scene)
 SceneLights::SceneLights(const scene::Scene& scene)
     : direct(directLights(scene))
     , emitters(emitterList(scene))
+    , beyond(environmentTable(pictureOf(scene).get()))
 {
     if (direct.share && !direct.shareEmitters()) {
         shared = emitterList(scene, direct.panelTriangles, direct.sharedQuads);

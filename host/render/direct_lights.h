@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/render/emitters.h"
+#include "host/render/environment_table.h"
 #include "host/scene/scene.h"
 #include "kernels/shared/light.h"
 
@@ -46,6 +47,7 @@ struct SceneLights {
     DirectLights direct;
     EmitterList emitters; ///< what paths' vertices choose among
     EmitterList shared; ///< what the term that lights share does, where that is something else; else empty
+    EnvironmentTable beyond; ///< directions to what is beyond the scene
 
     const EmitterList& ofSharedTerm() const { return direct.shareEmitters() ? emitters : shared; }
 };

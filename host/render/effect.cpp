@@ -75,6 +75,16 @@ device::GeneratedSources programSources(const scene::Scene& scene)
     return out;
 }
 
+std::shared_ptr<const EnvironmentPicture> pictureOf(const scene::Scene& scene)
+{
+    for (const auto& effect : effects()) {
+        if (auto picture = effect->picture(scene)) {
+            return picture;
+        }
+    }
+    return nullptr;
+}
+
 std::string absenceOf(Part part)
 {
     for (const auto& effect : effects()) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/device/source.h"
+#include "host/render/environment_table.h"
 #include "host/render/frame_builder.h"
 #include "host/render/wave_term.h"
 
@@ -80,6 +81,8 @@ public:
     /// Kernels of its own and what they include, by the paths that passes and includes name.
     virtual device::GeneratedSources sources() const { return {}; }
     virtual std::optional<Environment> environment(const scene::Scene&) const { return std::nullopt; }
+    /// A picture around the scene, which lights it and is seen in it; null without. One effect may have one.
+    virtual std::shared_ptr<const EnvironmentPicture> picture(const scene::Scene&) const { return nullptr; }
     /// Its table in scene files is registered with host/scene/sections.h.
     virtual std::vector<EffectOption> options() const { return {}; }
 };
@@ -108,6 +111,9 @@ std::vector<UnfilteredOf> frameUnfiltered(const Settings& settings, const scene:
 
 /// What effects have programs made of.
 device::GeneratedSources programSources(const scene::Scene& scene);
+
+/// The picture around a scene; null without.
+std::shared_ptr<const EnvironmentPicture> pictureOf(const scene::Scene& scene);
 
 /// Why a frame has no terms of this part.
 std::string absenceOf(Part part);

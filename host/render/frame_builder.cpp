@@ -54,6 +54,12 @@ std::vector<graph::Argument> FrameBuilder::geometry() const
         ofScene("normalsAtClose", "float", &S::normalsAtClose) };
 }
 
+std::vector<graph::Argument> FrameBuilder::beyond() const
+{
+    return { ofScene("environment", "EnvironmentMap", &DeviceScene::environment),
+        ofScene("environmentTable", "float", &DeviceScene::environmentTable) };
+}
+
 std::vector<graph::Argument> FrameBuilder::receivers() const
 {
     const Surfaces& s = surfaces;

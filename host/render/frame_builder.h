@@ -128,6 +128,8 @@ struct FrameBuilder {
     std::vector<graph::Argument> hierarchy() const;
     /// WEDGE_SURFACE_PARAMETERS.
     std::vector<graph::Argument> geometry() const;
+    /// WEDGE_BEYOND_PARAMETERS.
+    std::vector<graph::Argument> beyond() const;
     /// WEDGE_RECEIVER_PARAMETERS, the pixels being the receivers.
     std::vector<graph::Argument> receivers() const;
     /// A buffer that outlives the frame; null: none, and nothing reads it.

@@ -55,6 +55,9 @@ device::BuildOptions programOptions(const scene::Scene& scene, const Options& op
     if (hasSpecular(scene)) {
         out.defines.emplace_back("WEDGE_SPECULAR", "1");
     }
+    if (pictureOf(scene) != nullptr) {
+        out.defines.emplace_back("WEDGE_ENVIRONMENT_MAP", "1");
+    }
     if (traversal == Traversal::Scalar) {
         out.defines.emplace_back("WEDGE_TRAVERSAL_SCALAR", "1");
     }

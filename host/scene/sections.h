@@ -14,6 +14,7 @@ class TableReader;
 struct Section {
     std::string key;
     std::function<std::any(TableReader&)> read; ///< throws Error for what is wrong in it
+    bool lights = false; ///< what is read lights the scene
 };
 
 /// Adds one. Not while anybody reads scenes.

@@ -1,5 +1,7 @@
 #include "host/scene/validate.h"
 
+#include "host/scene/sections.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -86,7 +88,9 @@ void checkScene(const Scene& scene, Warnings& warnings)
         warnings.add("meshes", fmt::format("scene {}: no mesh, only lights and background are seen", scene.path));
     const bool emits = std::ranges::any_of(
         scene.geometry.materialIds, [&](std::uint32_t id) { return scene.materials[id].emission != glm::vec3(0.0f); });
-    if (scene.areaLights.empty() && scene.pointLights.empty() && scene.directionalLights.empty() && !emits)
+    const bool lit = std::ranges::any_of(
+        sections(), [&](const Section& section) { return section.lights && scene.extensions.contains(section.key); });
+    if (scene.areaLights.empty() && scene.pointLights.empty() && scene.directionalLights.empty() && !emits && !lit)
         warnings.add("lights", fmt::format("scene {}: no light, surfaces stay black", scene.path));
 }
 

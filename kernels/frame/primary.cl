@@ -6,8 +6,8 @@
 //      emission (3 each; emission holds background and light radiance where nothing is shaded), gloss (packed;
 //      negative: Phong)
 #include "core/pixel.h"
+#include "light/environment_map.h"
 #include "light/seen_light.h"
-#include "trace/environment.h"
 #include "trace/packet.h"
 #include "trace/surface_lanes.h"
 
@@ -20,11 +20,11 @@ WEDGE_FN Vec3 pixelDirection(FrameParams frame, uint x, uint y)
 
 __kernel void primary(FrameParams frame, __global const TraversalNode* restrict nodes,
     __global const TriangleBlock* restrict blocks, WEDGE_SURFACE_PARAMETERS, __global const uint* restrict objectIds,
-    __global const AreaLight* restrict lights, uint lightCount, __global float* restrict position,
-    __global float* restrict normal, __global float* restrict origin, __global uint* restrict geometric,
-    __global uint* restrict objectId, __global float* restrict depth, __global float* restrict pixelSize,
-    __global float* restrict diffuse, __global float* restrict specular, __global float* restrict emission,
-    __global uint* restrict gloss, uint firstGroup)
+    __global const AreaLight* restrict lights, uint lightCount, WEDGE_BEYOND_PARAMETERS,
+    __global float* restrict position, __global float* restrict normal, __global float* restrict origin,
+    __global uint* restrict geometric, __global uint* restrict objectId, __global float* restrict depth,
+    __global float* restrict pixelSize, __global float* restrict diffuse, __global float* restrict specular,
+    __global float* restrict emission, __global uint* restrict gloss, uint firstGroup)
 {
     const SurfaceData data = WEDGE_SURFACE_ARGUMENTS;
     const uint size = frame.planeSize;
@@ -53,7 +53,8 @@ __kernel void primary(FrameParams frame, __global const TraversalNode* restrict 
         depth[i] = hit.t * vecLength(direction);
         if (at.live[lane] == 0u) {
             objectId[i] = 0u;
-            const Vec3 behind = vecAdd(frame.background, environmentRadiance(vecNormalize(direction)));
+            const Vec3 behind =
+                vecAdd(frame.background, cameraBeyond(environment, environmentTable, vecNormalize(direction)));
             storeVec(emission, size, i, vecChoose(hit.t < INFINITY, laneVec(&emitted, lane), behind));
             continue;
         }

@@ -3,6 +3,7 @@
 #define WEDGE_SCENE_LIGHT_H
 
 #include "light/emitters.h"
+#include "light/environment_map.h"
 #include "shared/bsdf.h"
 #include "shared/light.h"
 #include "shared/path.h"
@@ -11,6 +12,7 @@ typedef struct {
     __global const AreaLight* area;
     __global const DeltaLight* delta;
     EmitterData emitters;
+    BeyondData beyond;
     uint areaCount, deltaCount;
     float sceneDiameter;
     uint sampling; ///< WEDGE_LIGHTS_*
@@ -79,10 +81,25 @@ WEDGE_FN LightChoice sampleEmitterLight(EmitterData emitters, Vec3 origin, Vec3 
     return choice;
 }
 
+/// A direction to what is beyond the scene.
+WEDGE_FN LightChoice sampleBeyond(BeyondData beyond, Vec3 normal, Vec2 u)
+{
+    const BeyondSample sample = sampleMap(beyond, u);
+    const float cosine = vecDot(normal, sample.direction), pdf = beyond.share * sample.pdf;
+    const bool found = cosine > 0.0f && pdf > 0.0f;
+    LightChoice choice;
+    choice.ray = choice.direction = sample.direction;
+    choice.irradiance = vecScale(sample.radiance, found ? cosine / pdf : 0.0f);
+    choice.pdf = found ? pdf : 0.0f;
+    choice.end = INFINITY;
+    return choice;
+}
+
 /// No light: see pickLight().
 #define WEDGE_NO_LIGHT 0xffffffffu
 
-/// Chooses a light by `pick` in [0, 1): a number of the area lights, then of the others, then one for all emitters.
+/// Chooses a light by `pick` in [0, 1): a number of the area lights, then of the others, then one for all emitters, and
+/// one for what is beyond the scene.
 WEDGE_FN uint pickLight(LightData lights, float pick)
 {
     float below = 0.0f;
@@ -98,7 +115,11 @@ WEDGE_FN uint pickLight(LightData lights, float pick)
             return lights.areaCount + i;
         }
     }
-    return lights.emitters.count > 0u ? lights.areaCount + lights.deltaCount : WEDGE_NO_LIGHT;
+    const uint others = lights.areaCount + lights.deltaCount;
+    if (WEDGE_ENVIRONMENT_MAP != 0 && pick >= below + (lights.emitters.count > 0u ? lights.emitters.share : 0.0f)) {
+        return others + 1u;
+    }
+    return lights.emitters.count > 0u ? others : WEDGE_NO_LIGHT;
 }
 
 /// Whether a point is in the surface that the light is in, which does not light itself: by rounding it may be on either

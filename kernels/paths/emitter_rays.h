@@ -12,7 +12,7 @@
 WEDGE_FN void followDirections(PathParams params, const ReceiverPacket* r, uint* follows)
 {
     const bool both = params.component == WEDGE_COMPONENT_EMITTERS && params.lightSampling == WEDGE_LIGHTS_BOTH;
-    const bool none = WEDGE_IS_OF_EMITTERS(params.component) && params.lightSampling == WEDGE_LIGHTS_SAMPLED;
+    const bool none = params.component >= WEDGE_COMPONENT_EMITTERS && params.lightSampling == WEDGE_LIGHTS_SAMPLED;
     const Vec3 low = params.emittersLow, high = params.emittersHigh;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const Vec3 p = vec3(r->positionX[lane], r->positionY[lane], r->positionZ[lane]);

@@ -11,6 +11,7 @@
 
 // After the sinks, of which it asks whether they take distances.
 #include "paths/emitter_rays.h"
+#include "paths/environment_rays.h"
 
 #define WEDGE_PATH_SEED 0x70617468u
 
@@ -103,7 +104,8 @@ WEDGE_FN void takePaths(const PathPacket* paths, const float* weight, const RayP
 }
 
 WEDGE_FN LightData lightData(PathParams params, __global const AreaLight* area, __global const DeltaLight* delta,
-    SurfaceData surfaces, __global const Emitter* emitters, __global const float* emitterPicks)
+    SurfaceData surfaces, __global const Emitter* emitters, __global const float* emitterPicks,
+    __global const EnvironmentMap* environment, __global const float* environmentTable)
 {
     LightData lights;
     lights.emitters.surfaces = surfaces;
@@ -112,6 +114,7 @@ WEDGE_FN LightData lightData(PathParams params, __global const AreaLight* area, 
     lights.emitters.picks = emitterPicks;
     lights.emitters.count = params.emitters;
     lights.emitters.share = params.emitterShare;
+    lights.beyond = beyondData(environment, environmentTable, params.environmentShare);
     lights.area = area;
     lights.delta = delta;
     lights.areaCount = params.areaLights;
@@ -175,12 +178,14 @@ WEDGE_FN void numberPaths(const ReceiverPacket* receivers, const Deal* deal, Pat
 __kernel void samplePaths(FrameParams frame, PathParams params, __global const TraversalNode* restrict nodes,
     __global const TriangleBlock* restrict blocks, WEDGE_SURFACE_PARAMETERS,
     __global const AreaLight* restrict areaLights, __global const DeltaLight* restrict deltaLights,
-    WEDGE_EMITTER_PARAMETERS, WEDGE_RECEIVER_PARAMETERS, __global const float* restrict specular,
-    __global const uint* restrict wanted, uint lastSample, __global uint* restrict taken, __global uint* restrict rays,
-    __global uint* restrict pathRays, WEDGE_SINK_PARAMETERS, uint firstGroup)
+    WEDGE_EMITTER_PARAMETERS, WEDGE_BEYOND_PARAMETERS, WEDGE_RECEIVER_PARAMETERS,
+    __global const float* restrict specular, __global const uint* restrict wanted, uint lastSample,
+    __global uint* restrict taken, __global uint* restrict rays, __global uint* restrict pathRays,
+    WEDGE_SINK_PARAMETERS, uint firstGroup)
 {
     const SurfaceData surfaces = WEDGE_SURFACE_ARGUMENTS;
-    const LightData lights = lightData(params, areaLights, deltaLights, surfaces, emitters, emitterPicks);
+    const LightData lights =
+        lightData(params, areaLights, deltaLights, surfaces, emitters, emitterPicks, environment, environmentTable);
     const SampleParams sampling = samplingOf(params);
     PathLanes own, dealt;
     loadReceivers(frame, sampling.light, firstGroup, WEDGE_RECEIVER_ARGUMENTS, &own.receivers);
@@ -215,6 +220,10 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
             } else if (WEDGE_IS_OF_EMITTERS(params.component)) {
                 traceEmitters(nodes, blocks, lights, sampling, params.component == WEDGE_COMPONENT_EMITTERS_GLOSSY,
                     at.dealt, &lanes->facing, counts.deal.last, follows, &packet, weight, &paths);
+            } else if (WEDGE_ENVIRONMENT_MAP != 0 && WEDGE_IS_OF_ENVIRONMENT(params.component)) {
+                traceEnvironment(nodes, blocks, lights.beyond, sampling,
+                    params.component == WEDGE_COMPONENT_ENVIRONMENT_GLOSSY, at.dealt, &lanes->facing, counts.deal.last,
+                    &packet, weight, &paths);
             } else {
                 tracePaths(nodes, blocks, surfaces, lights, sampling, params.bounces, &packet, &paths);
             }

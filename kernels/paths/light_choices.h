@@ -89,6 +89,8 @@ WEDGE_FN void sampleOtherLights(LightData lights, const uint* chosen, const Vert
         const Vec3 origin = laneVec(&at->origin, lane), normal = laneVec(&at->normal, lane);
         if (i < lights.deltaCount) {
             keepChoice(out, lane, sampleDeltaLight(lights.delta + i, lights.sceneDiameter, origin, normal));
+        } else if (WEDGE_ENVIRONMENT_MAP != 0 && i > lights.deltaCount) {
+            keepChoice(out, lane, sampleBeyond(lights.beyond, normal, vec2(u[lane], v[lane])));
         } else {
             keepChoice(out, lane,
                 sampleEmitterLight(lights.emitters, origin, normal, vec2(u[lane], v[lane]), timeOf(rays, lane)));
@@ -116,7 +118,7 @@ WEDGE_FN void chooseLights(LightData lights, SampleParams params, const PathPack
             keepChoice(out, lane, none);
         }
     }
-    if (lights.deltaCount + lights.emitters.count > 0u) {
+    if (WEDGE_ENVIRONMENT_MAP != 0 || lights.deltaCount + lights.emitters.count > 0u) {
         sampleOtherLights(lights, chosen, at, rays, u, v, out);
     }
 }

@@ -87,7 +87,7 @@ WEDGE_FN bool goOn(LightData lights, SampleParams params, PathPacket* paths, uin
         end[lane] = INFINITY;
     }
     // What emits may be anywhere, and so is what lies beyond the scene.
-    if (last && WEDGE_ENVIRONMENT == 0 && lights.emitters.count == 0u) {
+    if (last && lights.emitters.count + WEDGE_OPEN == 0u) {
         farthestMeetings(lights, at, &l, end);
     }
     uint any = 0u;
@@ -151,15 +151,22 @@ WEDGE_FN void addEmittedMet(LightData lights, const RayPacket* rays, const Packe
     addCarried(paths, &sum);
 }
 
-/// What rays that hit nothing see beyond the scene.
-WEDGE_FN void addBeyond(const RayPacket* rays, const PacketHits* hits, PathPacket* paths)
+/// What rays that hit nothing see beyond the scene; of a map, what counts for the technique of reflected directions.
+WEDGE_FN void addBeyond(LightData lights, const RayPacket* rays, const PacketHits* hits, PathPacket* paths)
 {
     VecLanes sum;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const bool beyond = rays->tMax[lane] > 0.0f && hits->triangle[lane] == WEDGE_NO_TRIANGLE;
         // Rays that there are not need not be of length 1.
         const Vec3 direction = vecChoose(beyond, rayDirection(rays, lane), vec3(0.0f, 0.0f, 1.0f));
-        const Vec3 radiance = environmentRadiance(direction);
+        Vec3 radiance = environmentRadiance(direction);
+        if (WEDGE_ENVIRONMENT_MAP != 0 && beyond && lights.sampling != WEDGE_LIGHTS_SAMPLED) {
+            const BeyondSample seen = seenBeyond(lights.beyond, direction);
+            const float w = lights.sampling == WEDGE_LIGHTS_MET
+                ? 1.0f
+                : powerHeuristic(paths->pdf[lane], lights.beyond.share * seen.pdf);
+            radiance = vecMad(radiance, seen.radiance, w);
+        }
         setLaneVec(&sum, lane, vec3(0.0f, 0.0f, 0.0f));
         setLaneVecIf(&sum, lane, beyond, radiance);
     }
@@ -175,8 +182,8 @@ WEDGE_FN void addMet(LightData lights, const RayPacket* rays, const PacketHits* 
             addEmittedMet(lights, rays, hits, paths);
         }
     }
-    if (WEDGE_ENVIRONMENT != 0) {
-        addBeyond(rays, hits, paths);
+    if (WEDGE_OPEN != 0u) {
+        addBeyond(lights, rays, hits, paths);
     }
 }
 
@@ -198,7 +205,8 @@ WEDGE_FN void tracePaths(__global const TraversalNode* restrict nodes, __global 
     SurfaceData surfaces, LightData lights, SampleParams params, uint bounces, RayPacket* rays, PathPacket* paths)
 {
     beginPaths(rays, paths);
-    const bool meets = lights.sampling != WEDGE_LIGHTS_SAMPLED && lights.areaCount + lights.emitters.count > 0u;
+    const bool meets = lights.sampling != WEDGE_LIGHTS_SAMPLED
+        && lights.areaCount + lights.emitters.count + WEDGE_ENVIRONMENT_MAP > 0u;
     for (uint vertex = 1u;; ++vertex) {
         PacketHits hits;
         closestHits(nodes, blocks, rays, &hits);
@@ -226,7 +234,7 @@ WEDGE_FN void tracePaths(__global const TraversalNode* restrict nodes, __global 
             const bool lit = shadow.tMax[lane] > 0.0f && occluded[lane] == 0u;
             setLaneVecIf(&paths->radiance, lane, lit, vecAdd(laneVec(&paths->radiance, lane), laneVec(&light, lane)));
         }
-        const bool last = vertex == bounces, open = WEDGE_ENVIRONMENT != 0;
+        const bool last = vertex == bounces, open = WEDGE_OPEN != 0u;
         if ((last && !open && !meets) || !goOn(lights, params, paths, vertex, last, &at, rays)) {
             return;
         }

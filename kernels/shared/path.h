@@ -11,9 +11,15 @@
 #define WEDGE_COMPONENT_EMITTERS 3u ///< as diffuse, of meshes that emit alone
 #define WEDGE_COMPONENT_EMITTERS_GLOSSY 4u ///< as glossy
 
+#define WEDGE_COMPONENT_ENVIRONMENT 5u ///< as diffuse, of what is beyond the scene alone
+#define WEDGE_COMPONENT_ENVIRONMENT_GLOSSY 6u ///< as glossy
+
 #define WEDGE_IS_GLOSSY(component)                                                                                     \
-    ((component) == WEDGE_COMPONENT_GLOSSY || (component) == WEDGE_COMPONENT_EMITTERS_GLOSSY)
-#define WEDGE_IS_OF_EMITTERS(component) ((component) >= WEDGE_COMPONENT_EMITTERS)
+    ((component) == WEDGE_COMPONENT_GLOSSY || (component) == WEDGE_COMPONENT_EMITTERS_GLOSSY                           \
+        || (component) == WEDGE_COMPONENT_ENVIRONMENT_GLOSSY)
+#define WEDGE_IS_OF_EMITTERS(component)                                                                                \
+    ((component) == WEDGE_COMPONENT_EMITTERS || (component) == WEDGE_COMPONENT_EMITTERS_GLOSSY)
+#define WEDGE_IS_OF_ENVIRONMENT(component) ((component) >= WEDGE_COMPONENT_ENVIRONMENT)
 
 /// Pixels around one, either way, whose rays tell how near what surrounds it is.
 #define WEDGE_NEARNESS_REACH 2
@@ -37,7 +43,7 @@ typedef struct {
     float emitterShare; ///< probability that a path's vertex samples one of them and no other light
     Vec3 emittersLow, emittersHigh; ///< the box that they are in, metres
     float directedWithin; ///< metres from it within which diffuse parts follow reflected directions, too
-    uint padding;
+    float environmentShare; ///< as emitterShare, of what is beyond the scene
 } PathParams;
 
 /// Distances of reflectors to widths and counts.

@@ -5,7 +5,7 @@
 
 #include "shared/vec.h"
 
-/// 1: there is something to see.
+/// 1: there is something to see, besides a map.
 #define WEDGE_ENVIRONMENT 0
 
 /// Radiance that arrives against a unit direction.

@@ -10,10 +10,10 @@
 //      open to close), rays and pathRays (0: for the effects to count in)
 #include "core/packed_planes.h"
 #include "core/receivers.h"
+#include "light/environment_map.h"
 #include "light/seen_light.h"
 #include "shared/camera.h"
 #include "shared/wave.h"
-#include "trace/environment.h"
 #include "trace/packet.h"
 #include "trace/surface_lanes.h"
 
@@ -118,14 +118,14 @@ WEDGE_INLINE void storeVecLanes(__global float* restrict planes, uint planeSize,
 __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wave,
     __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
     WEDGE_SURFACE_PARAMETERS, __global const uint* restrict objectIds, __global const AreaLight* restrict lights,
-    uint lightCount, __global const uint* restrict pixelOf, __global const uint* restrict sampleOf,
-    __global const uint* restrict wanted, uint hasKnown, __global const float* restrict known,
-    __global float* restrict position, __global float* restrict normal, __global float* restrict origin,
-    __global uint* restrict geometric, __global uint* restrict objectId, __global uint* restrict gloss,
-    __global uint* restrict view, __global float* restrict time, __global float* restrict diffuse,
-    __global float* restrict specular, __global float* restrict emission, __global float* restrict pixelSize,
-    __global float* restrict depth, __global float* restrict motion, __global uint* restrict rays,
-    __global uint* restrict pathRays, uint firstGroup)
+    uint lightCount, WEDGE_BEYOND_PARAMETERS, __global const uint* restrict pixelOf,
+    __global const uint* restrict sampleOf, __global const uint* restrict wanted, uint hasKnown,
+    __global const float* restrict known, __global float* restrict position, __global float* restrict normal,
+    __global float* restrict origin, __global uint* restrict geometric, __global uint* restrict objectId,
+    __global uint* restrict gloss, __global uint* restrict view, __global float* restrict time,
+    __global float* restrict diffuse, __global float* restrict specular, __global float* restrict emission,
+    __global float* restrict pixelSize, __global float* restrict depth, __global float* restrict motion,
+    __global uint* restrict rays, __global uint* restrict pathRays, uint firstGroup)
 {
     const SurfaceData data = WEDGE_SURFACE_ARGUMENTS;
     const uint size = wave.planeSize;
@@ -181,7 +181,8 @@ __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wav
             setLaneVec(&emitted, lane, laneVec(&at.emission, lane));
         } else if (!(hit.t < INFINITY)) {
             const Vec3 direction = vecNormalize(rayDirection(&packet, lane));
-            setLaneVec(&emitted, lane, vecAdd(frame.background, environmentRadiance(direction)));
+            setLaneVec(
+                &emitted, lane, vecAdd(frame.background, cameraBeyond(environment, environmentTable, direction)));
         }
         // The difference's mean is what lights do not send for things before them.
         const Vec3 l = laneVec(&light, lane);

@@ -2,6 +2,7 @@
 #include "shared/bvh_types.h"
 #include "shared/camera.h"
 #include "shared/distributed.h"
+#include "shared/environment.h"
 #include "shared/filter_params.h"
 #include "shared/frame.h"
 #include "shared/hit.h"

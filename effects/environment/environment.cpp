@@ -1,0 +1,59 @@
+#include "effects/environment/environment.h"
+
+#include "effects/environment/environment_section.h"
+#include "effects/indirect/path_term.h"
+#include "host/scene/sections.h"
+
+#include <algorithm>
+
+namespace wedge::render {
+namespace {
+
+constexpr const char* key = "environment";
+
+class EnvironmentLight : public Effect {
+public:
+    EnvironmentLight() { scene::registerSection({ key, readEnvironment, true }); }
+
+    std::string name() const override { return key; }
+
+    std::vector<Term> terms(const Settings& settings, const scene::Scene& scene) const override
+    {
+        if (settings.integrator != Integrator::Path || picture(scene) == nullptr) {
+            return {};
+        }
+        std::vector<Term> terms { directPathTerm(Component::Environment, "Environment", settings) };
+        if (hasSpecular(scene)) {
+            terms.push_back(directPathTerm(Component::EnvironmentGlossy, "EnvironmentGlossy", settings));
+        }
+        return terms;
+    }
+
+    std::string widthLayers() const override
+    {
+        return "of the environment filterWidthEnvironment, filterWidthEnvironmentGlossy";
+    }
+
+    std::shared_ptr<const EnvironmentPicture> picture(const scene::Scene& scene) const override
+    {
+        const auto found = scene.extensions.find(key);
+        return found == scene.extensions.end()
+            ? nullptr
+            : std::any_cast<std::shared_ptr<const EnvironmentPicture>>(found->second);
+    }
+};
+
+} // namespace
+
+std::unique_ptr<const Effect> environment() { return std::make_unique<EnvironmentLight>(); }
+
+void setEnvironment(scene::Scene& scene, std::shared_ptr<const EnvironmentPicture> picture)
+{
+    if (picture == nullptr) {
+        scene.extensions.erase(key);
+    } else {
+        scene.extensions[key] = std::move(picture);
+    }
+}
+
+} // namespace wedge::render

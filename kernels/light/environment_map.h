@@ -1,0 +1,160 @@
+// Directions to what is beyond the scene, chosen by how bright it is there, and what is seen in a direction.
+#ifndef WEDGE_LIGHT_ENVIRONMENT_MAP_H
+#define WEDGE_LIGHT_ENVIRONMENT_MAP_H
+
+#include "shared/environment.h"
+#include "trace/environment.h"
+
+/// 1: the scene has a map.
+#ifndef WEDGE_ENVIRONMENT_MAP
+#define WEDGE_ENVIRONMENT_MAP 0
+#endif
+/// 0: rays that leave the scene see nothing.
+#define WEDGE_OPEN ((uint)WEDGE_ENVIRONMENT + (uint)WEDGE_ENVIRONMENT_MAP)
+
+typedef struct {
+    EnvironmentMap map;
+    __global const float* table;
+    float share; ///< probability that a path's vertex samples it and not other lights
+} BeyondData;
+
+/// The scene's map among a kernel's parameters.
+#define WEDGE_BEYOND_PARAMETERS                                                                                        \
+    __global const EnvironmentMap *restrict environment, __global const float *restrict environmentTable
+
+WEDGE_FN BeyondData beyondData(
+    __global const EnvironmentMap* environment, __global const float* environmentTable, float share)
+{
+    BeyondData beyond;
+#if WEDGE_ENVIRONMENT_MAP
+    beyond.map = environment[0];
+#else
+    (void)environment;
+    beyond.map.width = beyond.map.height = 0u;
+#endif
+    beyond.table = environmentTable;
+    beyond.share = share;
+    return beyond;
+}
+
+/// A direction, unit.
+typedef struct {
+    Vec3 direction;
+    Vec3 radiance;
+    float pdf; ///< 1/sr
+} BeyondSample;
+
+WEDGE_FN Vec3 texelRadiance(BeyondData beyond, uint x, uint y)
+{
+    __global const float* texel = beyond.table + 3u * (y * beyond.map.width + x);
+    return vec3(texel[0], texel[1], texel[2]);
+}
+
+/// Between the four texels around; the first column is beside the last one.
+WEDGE_FN Vec3 mapRadiance(BeyondData beyond, Vec2 at)
+{
+    const int w = (int)beyond.map.width, h = (int)beyond.map.height;
+    const float fx = at.x * (float)w - 0.5f, fy = at.y * (float)h - 0.5f;
+    const int x = (int)floor(fx), y = (int)floor(fy);
+    const float tx = fx - (float)x, ty = fy - (float)y;
+    const uint x0 = (uint)((x + w) % w), x1 = (uint)((x + 1 + w) % w);
+    const uint y0 = (uint)clamp(y, 0, h - 1), y1 = (uint)clamp(y + 1, 0, h - 1);
+    const Vec3 above = vecMad(vecScale(texelRadiance(beyond, x0, y0), 1.0f - tx), texelRadiance(beyond, x1, y0), tx);
+    const Vec3 below = vecMad(vecScale(texelRadiance(beyond, x0, y1), 1.0f - tx), texelRadiance(beyond, x1, y1), tx);
+    return vecMad(vecScale(above, 1.0f - ty), below, ty);
+}
+
+/// The first of `count` numbers in the table at `upTo` that reaches beyond `number`.
+WEDGE_FN uint findNumber(__global const float* upTo, __global const float* guide, uint count, float number)
+{
+    const uint last = count - 1u, stripe = min((uint)(number * (float)count), last);
+    uint low = as_uint(guide[stripe]), high = stripe < last ? as_uint(guide[stripe + 1u]) : last;
+    while (low < high) {
+        const uint middle = (low + high) / 2u;
+        const bool below = upTo[middle] <= number;
+        low = below ? middle + 1u : low;
+        high = below ? high : middle;
+    }
+    return low;
+}
+
+/// Where the parts of the table are.
+typedef struct {
+    __global const float *rows, *columns, *rowGuide, *columnGuide, *cosines;
+} BeyondParts;
+
+WEDGE_FN BeyondParts partsOf(BeyondData beyond)
+{
+    const uint w = beyond.map.width, h = beyond.map.height;
+    BeyondParts parts;
+    parts.rows = beyond.table + 3u * w * h;
+    parts.columns = parts.rows + h;
+    parts.rowGuide = parts.columns + w * h;
+    parts.columnGuide = parts.rowGuide + h;
+    parts.cosines = parts.columnGuide + w * h;
+    return parts;
+}
+
+/// Probability of the entry i of sums.
+WEDGE_FN float probabilityAt(__global const float* upTo, uint i) { return upTo[i] - (i > 0u ? upTo[i - 1u] : 0.0f); }
+
+/// Density within a texel, 1/sr.
+WEDGE_FN float texelPdf(BeyondData beyond, BeyondParts parts, uint x, uint y)
+{
+    const float chosen = probabilityAt(parts.rows, y) * probabilityAt(parts.columns + y * beyond.map.width, x);
+    const float solidAngle = 6.28318531f / (float)beyond.map.width * (parts.cosines[y] - parts.cosines[y + 1u]);
+    return chosen / fmax(solidAngle, 1e-30f);
+}
+
+/// How far a number is between where the entry i of sums begins and ends.
+WEDGE_FN float placeWithin(__global const float* upTo, uint i, float number)
+{
+    const float from = i > 0u ? upTo[i - 1u] : 0.0f;
+    return clamp((number - from) / fmax(upTo[i] - from, 1e-30f), 0.0f, 1.0f);
+}
+
+/// The direction of the numbers u, by its brightness: what is stratified over the square is so over rows and columns.
+WEDGE_FN BeyondSample sampleMap(BeyondData beyond, Vec2 u)
+{
+    const BeyondParts parts = partsOf(beyond);
+    const uint w = beyond.map.width;
+    const uint y = findNumber(parts.rows, parts.rowGuide, beyond.map.height, u.y);
+    __global const float* columns = parts.columns + y * w;
+    const uint x = findNumber(columns, parts.columnGuide + y * w, w, u.x);
+    const float across = ((float)x + placeWithin(columns, x, u.x)) / (float)w;
+    const float top = parts.cosines[y], bottom = parts.cosines[y + 1u];
+    const float cosine = top + (bottom - top) * placeWithin(parts.rows, y, u.y);
+    BeyondSample sample;
+    sample.direction = environmentDirection(beyond.map, across, cosine);
+    sample.radiance =
+        mapRadiance(beyond, vec2(across, 0.318309886f * atan2(sqrt(fmax(0.0f, 1.0f - cosine * cosine)), cosine)));
+    sample.pdf = texelPdf(beyond, parts, x, y);
+    return sample;
+}
+
+/// What is seen in a unit direction, and the density at which sampleMap() finds it.
+WEDGE_FN BeyondSample seenBeyond(BeyondData beyond, Vec3 direction)
+{
+    const Vec2 at = environmentCoordinates(beyond.map, direction);
+    const uint w = beyond.map.width, h = beyond.map.height;
+    BeyondSample seen;
+    seen.direction = direction;
+    seen.radiance = mapRadiance(beyond, at);
+    seen.pdf =
+        texelPdf(beyond, partsOf(beyond), min((uint)(at.x * (float)w), w - 1u), min((uint)(at.y * (float)h), h - 1u));
+    return seen;
+}
+
+/// What the camera sees in a unit direction that meets nothing.
+WEDGE_FN Vec3 cameraBeyond(
+    __global const EnvironmentMap* environment, __global const float* environmentTable, Vec3 direction)
+{
+    const Vec3 others = environmentRadiance(direction);
+    if (WEDGE_ENVIRONMENT_MAP == 0 || environment[0].seen == 0u) {
+        return others;
+    }
+    const BeyondData beyond = beyondData(environment, environmentTable, 0.0f);
+    return vecAdd(others, mapRadiance(beyond, environmentCoordinates(beyond.map, direction)));
+}
+
+#endif

@@ -1,0 +1,100 @@
+// Direct light from beyond the scene: a direction of the map and a reflected one a sample, both weighted by the power
+// heuristic.
+#ifndef WEDGE_ENVIRONMENT_RAYS_H
+#define WEDGE_ENVIRONMENT_RAYS_H
+
+#include "light/environment_map.h"
+#include "paths/emitter_rays.h"
+
+/// Of what hides a direction, `hidden` metres away: how far a reflector would be whose light varies as what the
+/// occluder lets through does. What the map has around the direction is as wide as a disk of even density: the penumbra
+/// of a small sun is narrow, that of an even sky as wide as the occluder is far (B_e of (6.13), by direction). Infinite
+/// where the map is dark.
+WEDGE_FN float penumbraOf(BeyondData beyond, BeyondSample seen, float hidden)
+{
+    const float extent = fmin(1.0f, rsqrt(fmax(6.28318531f * seen.pdf, 1e-20f)));
+    return luminance(seen.radiance) > beyond.map.dark ? fmax(extent * hidden, 1e-20f) : INFINITY;
+}
+
+/// One sample a lane, whose reflected direction is that of `rays` and counts `weight`, which becomes 1: fills
+/// paths->radiance, counts of rays, and in paths->distance, where sinks take distances, what widths follow from.
+WEDGE_FN void traceEnvironment(__global const TraversalNode* restrict nodes,
+    __global const TriangleBlock* restrict blocks, BeyondData beyond, SampleParams sampling, bool glossy,
+    const ReceiverPacket* r, const VecLanes* facing, const uint* last, const RayPacket* rays, float* weight,
+    PathPacket* paths)
+{
+    const bool both = sampling.lightSampling == WEDGE_LIGHTS_BOTH;
+    PacketHits hits;
+    closestHits(nodes, blocks, rays, &hits);
+    RayPacket shadow;
+    VecLanes light;
+    float u[WEDGE_PACKET_SIZE], v[WEDGE_PACKET_SIZE], extent[WEDGE_PACKET_SIZE];
+    uint live[WEDGE_PACKET_SIZE];
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        live[lane] = r->pixel[lane] != WEDGE_NO_PIXEL && paths->index[lane] < last[lane] ? 1u : 0u;
+    }
+    pathPairs(sampling, paths, live, 0u, WEDGE_DIMENSION_LIGHT, u, v);
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const Vec3 black = vec3(0.0f, 0.0f, 0.0f), direction = rayDirection(rays, lane);
+        setLaneVec(&paths->radiance, lane, black);
+        setLaneVec(&light, lane, black);
+        paths->distance[lane] = INFINITY;
+        paths->rays[lane] = rays->tMax[lane] > 0.0f ? 1u : 0u;
+        paths->shadowRays[lane] = 0u;
+        extent[lane] = INFINITY;
+        const Vec3 origin = vec3(r->originX[lane], r->originY[lane], r->originZ[lane]);
+        setRay(&shadow, lane, origin, direction, 0.0f, 0.0f);
+        setTime(&shadow, lane, receiverTime(r, lane));
+        if (live[lane] == 0u) {
+            continue;
+        }
+        if (rays->tMax[lane] > 0.0f) {
+            const BeyondSample seen = seenBeyond(beyond, direction);
+            if (hits.triangle[lane] == WEDGE_NO_TRIANGLE) {
+                const float own = reflectedTo(r, lane, glossy, direction).pdf;
+                const float w = both ? powerHeuristic(own, seen.pdf) : 1.0f;
+                setLaneVec(&paths->radiance, lane, vecScale(seen.radiance, w * weight[lane]));
+            } else {
+                paths->distance[lane] = penumbraOf(beyond, seen, hits.t[lane]);
+            }
+        }
+        weight[lane] = 1.0f;
+        if (sampling.lightSampling == WEDGE_LIGHTS_MET) {
+            continue;
+        }
+        const BeyondSample chosen = sampleMap(beyond, vec2(u[lane], v[lane]));
+        const Vec3 l = chosen.direction, n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
+        if (vecDot(n, l) > 0.0f && vecDot(laneVec(facing, lane), l) > 0.0f && chosen.pdf > 0.0f) {
+            const Reflected reflected = reflectedTo(r, lane, glossy, l);
+            const float w = both ? powerHeuristic(chosen.pdf, reflected.pdf) : 1.0f;
+            const Vec3 brought = vecScale(chosen.radiance, w * reflected.value / chosen.pdf);
+            if (luminance(brought) > 0.0f) {
+                setLaneVec(&light, lane, brought);
+                setRay(&shadow, lane, origin, l, 0.0f, INFINITY);
+                extent[lane] = penumbraOf(beyond, chosen, 1.0f);
+                paths->shadowRays[lane] = 1u;
+            }
+        }
+    }
+#ifdef WEDGE_SINK_TAKES_DISTANCES
+    closestHits(nodes, blocks, &shadow, &hits);
+#else
+    uint occluded[WEDGE_PACKET_SIZE];
+    anyHits(nodes, blocks, &shadow, occluded);
+#endif
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        if (!(shadow.tMax[lane] > 0.0f)) {
+            continue;
+        }
+#ifdef WEDGE_SINK_TAKES_DISTANCES
+        const bool hidden = hits.triangle[lane] != WEDGE_NO_TRIANGLE;
+        paths->distance[lane] =
+            hidden ? fmin(paths->distance[lane], fmax(extent[lane] * hits.t[lane], 1e-20f)) : paths->distance[lane];
+#else
+        const bool hidden = occluded[lane] != 0u;
+#endif
+        setLaneVecIf(&paths->radiance, lane, !hidden, vecAdd(laneVec(&paths->radiance, lane), laneVec(&light, lane)));
+    }
+}
+
+#endif

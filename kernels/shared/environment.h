@@ -1,0 +1,48 @@
+// Light from beyond the scene by direction, a picture of the whole sphere, as the kernels look it up and choose among
+// its directions.
+#ifndef WEDGE_SHARED_ENVIRONMENT_H
+#define WEDGE_SHARED_ENVIRONMENT_H
+
+#include "rng.h"
+#include "vec.h"
+
+WEDGE_SHARED_BEGIN
+
+/// A map's columns are angles around `up`, evenly, its rows such from there. Its table has, one after the other, for
+/// `texels` = width * height:
+///   3 texels  radiance, R G B, W/(sr m^2), rows from above
+///   height    numbers below it, and not below that of the row above, choose this row
+///   texels    likewise of the columns of each row
+///   height    bits of a whole number: of row i of n, the row that i/n chooses (as Emitter::guide)
+///   texels    likewise of columns
+///   height+1  cosines of the angles from `up` at which rows begin and end
+typedef struct {
+    uint width, height; ///< texels; 0: there is no map
+    Vec3 right, up, back; ///< unit, in the world: what 3/4 of the width shows in the middle of the height, the upper
+                          ///< edge, and both ends of the width there
+    float dark; ///< luminance below which what hides a direction does not count, W/(sr m^2)
+    uint seen; ///< 1: the camera sees it
+    uint padding;
+} EnvironmentMap;
+
+/// Floats of the table.
+WEDGE_INLINE uint environmentTableSize(uint width, uint height) { return 5u * width * height + 3u * height + 1u; }
+
+/// Where the map shows a direction, in widths and heights from its upper left corner.
+WEDGE_FN Vec2 environmentCoordinates(EnvironmentMap m, Vec3 direction)
+{
+    const float x = vecDot(m.right, direction), y = vecDot(m.up, direction), z = vecDot(m.back, direction);
+    return vec2(0.5f + 0.159154943f * atan2(x, -z), 0.318309886f * atan2(sqrt(x * x + z * z), y));
+}
+
+/// The unit direction at u widths, `cosine` that of the angle from `up`.
+WEDGE_FN Vec3 environmentDirection(EnvironmentMap m, float u, float cosine)
+{
+    const float angle = 6.28318531f * (u - 0.5f);
+    const float sine = sqrt(fmax(0.0f, 1.0f - cosine * cosine));
+    return vecMad(vecMad(vecScale(m.up, cosine), m.right, sine * sin(angle)), m.back, -sine * cos(angle));
+}
+
+WEDGE_SHARED_END
+
+#endif

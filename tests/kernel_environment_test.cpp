@@ -1,0 +1,166 @@
+// Directions of an environment's map: how often each is chosen, the densities that are told, and what is seen there.
+#include "host/render/environment_table.h"
+#include "tests/render_support.h"
+
+#include <algorithm>
+#include <array>
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+constexpr int width = 16, height = 8;
+constexpr std::uint32_t count = 1u << 18;
+
+/// Of all brightnesses, one texel far beyond the others, and black ones; turned in the world.
+render::EnvironmentPicture picture()
+{
+    render::EnvironmentPicture p;
+    p.width = width;
+    p.height = height;
+    std::mt19937 random(3);
+    for (int i = 0; i < width * height; ++i)
+        for (int c = 0; c < 3; ++c)
+            p.radiance.push_back(i % 5 == 0 ? 0.0f : static_cast<float>(std::pow(10.0, uniform(random, -2, 1))));
+    std::fill_n(p.radiance.begin() + 3 * (2 * width + 5), 3, 400.0f);
+    p.up = glm::normalize(glm::vec3(0.2f, 1.0f, -0.3f));
+    p.right = glm::normalize(glm::cross(p.up, glm::vec3(0, 0, 1)));
+    p.back = glm::cross(p.right, p.up);
+    return p;
+}
+
+struct Sample {
+    glm::dvec3 direction, radiance;
+    double pdf;
+    glm::dvec3 seen;
+    double seenPdf;
+};
+
+std::vector<Sample> samples(const device::Device& device, const render::EnvironmentTable& table)
+{
+    KernelBench bench(device, {}, kernelDir().empty() ? WEDGE_TEST_KERNELS : kernelDir());
+    std::mt19937 random(7);
+    std::vector<float> numbers(2 * std::size_t { count });
+    for (float& u : numbers)
+        u = static_cast<float>(random() >> 8) * (1.0f / 16777216.0f);
+    const auto out = bench.filled(11 * std::size_t { count }, 0.0f);
+    const auto map = bench.buffer(std::vector { table.map });
+    const auto tableBuffer = bench.buffer(table.numbers), numberBuffer = bench.buffer(numbers);
+    device::Kernel kernel = bench.library.kernel("environment_map.cl", "sampleDirections");
+    kernel.setArgs(map, tableBuffer, numberBuffer, count, out);
+    bench.queue.launch("directions", device::PassKind::Trace, kernel, count, 16);
+    const std::vector<float> read = bench.read(out);
+    std::vector<Sample> all;
+    for (std::size_t i = 0; i < count; ++i) {
+        const float* s = &read[11 * i];
+        all.push_back({ { s[0], s[1], s[2] }, { s[3], s[4], s[5] }, s[6], { s[7], s[8], s[9] }, s[10] });
+    }
+    return all;
+}
+
+/// The texel that a direction lies in, and the direction's place in texels.
+struct Texel {
+    int x, y;
+    double fx, fy;
+};
+
+Texel texelOf(const render::EnvironmentPicture& p, glm::dvec3 d)
+{
+    const double pi = std::acos(-1.0);
+    const double x = glm::dot(glm::dvec3(p.right), d), y = glm::dot(glm::dvec3(p.up), d),
+                 z = glm::dot(glm::dvec3(p.back), d);
+    const double fx = (0.5 + std::atan2(x, -z) / (2 * pi)) * width,
+                 fy = std::acos(std::clamp(y, -1.0, 1.0)) / pi * height;
+    return { std::clamp(static_cast<int>(fx), 0, width - 1), std::clamp(static_cast<int>(fy), 0, height - 1), fx, fy };
+}
+
+/// Between four texels, columns around.
+glm::dvec3 lookup(const render::EnvironmentPicture& p, Texel at)
+{
+    const double x = std::floor(at.fx - 0.5), y = std::floor(at.fy - 0.5);
+    glm::dvec3 sum(0);
+    for (int corner = 0; corner < 4; ++corner) {
+        const int dx = corner % 2, dy = corner / 2;
+        const int column = (static_cast<int>(x) + dx + width) % width,
+                  row = std::clamp(static_cast<int>(y) + dy, 0, height - 1);
+        const double weight =
+            (dx != 0 ? at.fx - 0.5 - x : 1 - (at.fx - 0.5 - x)) * (dy != 0 ? at.fy - 0.5 - y : 1 - (at.fy - 0.5 - y));
+        for (int c = 0; c < 3; ++c)
+            sum[c] += weight * p.radiance[static_cast<std::size_t>(3 * (row * width + column) + c)];
+    }
+    return sum;
+}
+
+double solidAngle(int y)
+{
+    const double pi = std::acos(-1.0);
+    return 2 * pi / width * (std::cos(pi * y / height) - std::cos(pi * (y + 1) / height));
+}
+
+} // namespace
+
+TEST_CASE("directions are chosen as often as their densities say, evenly within texels")
+{
+    const render::EnvironmentPicture p = picture();
+    onEveryDevice([&](const device::Device& device) {
+        const std::vector<Sample> all = samples(device, render::environmentTable(&p));
+        std::array<std::size_t, std::size_t { width } * height> found {}, left {}, above {};
+        std::array<double, std::size_t { width } * height> pdf {};
+        std::size_t beside = 0;
+        for (const Sample& s : all) {
+            CHECK(glm::length(s.direction) == doctest::Approx(1).epsilon(1e-5));
+            const Texel t = texelOf(p, s.direction);
+            const auto i = static_cast<std::size_t>(t.y * width + t.x);
+            // Directions by a side of their texel may be rounded to the other side of it.
+            const double nearest = std::min({ t.fx - t.x, t.x + 1 - t.fx, t.fy - t.y, t.y + 1 - t.fy });
+            if (nearest < 1e-4) {
+                ++beside;
+                continue;
+            }
+            ++found[i];
+            pdf[i] = s.pdf;
+            const double middle =
+                std::cos(std::acos(-1.0) * t.y / height) - 0.5 * solidAngle(t.y) * width / (2 * std::acos(-1.0));
+            left[i] += t.fx - t.x < 0.5 ? 1 : 0;
+            above[i] += glm::dot(glm::dvec3(p.up), s.direction) > middle ? 1 : 0;
+            REQUIRE(s.seenPdf == doctest::Approx(s.pdf).epsilon(1e-6));
+        }
+        CHECK(beside < count / 1000);
+        double square = 0, total = 0, halves = 0, cells = 0;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const auto i = static_cast<std::size_t>(y * width + x);
+                const double expected = count * pdf[i] * solidAngle(y);
+                total += expected / count;
+                if (expected < 10)
+                    continue;
+                const auto n = static_cast<double>(found[i]);
+                square += (n - expected) * (n - expected) / expected;
+                halves += (2.0 * static_cast<double>(left[i]) - n) * (2.0 * static_cast<double>(left[i]) - n) / n;
+                halves += (2.0 * static_cast<double>(above[i]) - n) * (2.0 * static_cast<double>(above[i]) - n) / n;
+                ++cells;
+            }
+        CHECK(total == doctest::Approx(1).epsilon(1e-3)); // what was never chosen has next to nothing
+        CHECK(cells > 100);
+        // Chi-square: mean `cells`, standard deviation sqrt(2 cells).
+        CHECK(square < cells + 5 * std::sqrt(2 * cells));
+        CHECK(halves < 2 * cells + 5 * std::sqrt(4 * cells));
+        // The bright texel's excess over the mean is most of all.
+        CHECK(pdf[2 * width + 5] * solidAngle(2) > 0.4);
+    });
+}
+
+TEST_CASE("what is seen lies between the four texels around, and the columns meet behind")
+{
+    const render::EnvironmentPicture p = picture();
+    onEveryDevice([&](const device::Device& device) {
+        for (const Sample& s : samples(device, render::environmentTable(&p))) {
+            const glm::dvec3 expected = lookup(p, texelOf(p, s.direction));
+            for (int c = 0; c < 3; ++c) {
+                REQUIRE(std::abs(s.seen[c] - expected[c]) < 1e-3 * expected[c] + 5e-3);
+                REQUIRE(std::abs(s.radiance[c] - expected[c]) < 1e-3 * expected[c] + 5e-3);
+            }
+        }
+    });
+}
