@@ -55,7 +55,8 @@ image::LayeredImage render(Workplace& place, const std::vector<std::string>& mor
 
 Texel middle(const image::LayeredImage& image)
 {
-    const std::size_t i = static_cast<std::size_t>(image.height / 2 * image.width + image.width / 2);
+    const std::size_t i = static_cast<std::size_t>(image.height / 2) * static_cast<std::size_t>(image.width)
+        + static_cast<std::size_t>(image.width / 2);
     return { image.find("R")->values[i], image.find("G")->values[i], image.find("B")->values[i] };
 }
 

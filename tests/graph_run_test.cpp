@@ -159,7 +159,7 @@ TEST_CASE("a crop has the bits of the whole image, whatever lay in the memory be
             images.push_back(execution.output<float>(smoother).downloadAll(lab.queue));
         }
         const auto at = [](const std::vector<float>& image, int x, int y) {
-            return image[static_cast<std::size_t>(y * width + x)];
+            return image[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
         };
         for (int y = crop.y0; y < crop.y1; ++y) {
             for (int x = crop.x0; x < crop.x1; ++x) {

@@ -13,6 +13,8 @@ namespace {
 constexpr int width = 16, height = 8;
 constexpr std::uint32_t count = 1u << 18;
 
+std::size_t indexOf(int x, int y) { return static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x); }
+
 /// Of all brightnesses, one texel far beyond the others, and black ones; turned in the world.
 render::EnvironmentPicture picture()
 {
@@ -87,7 +89,7 @@ glm::dvec3 lookup(const render::EnvironmentPicture& p, Texel at)
         const double weight =
             (dx != 0 ? at.fx - 0.5 - x : 1 - (at.fx - 0.5 - x)) * (dy != 0 ? at.fy - 0.5 - y : 1 - (at.fy - 0.5 - y));
         for (int c = 0; c < 3; ++c)
-            sum[c] += weight * p.radiance[static_cast<std::size_t>(3 * (row * width + column) + c)];
+            sum[c] += weight * p.radiance[3 * indexOf(column, row) + static_cast<std::size_t>(c)];
     }
     return sum;
 }
@@ -111,7 +113,7 @@ TEST_CASE("directions are chosen as often as their densities say, evenly within 
         for (const Sample& s : all) {
             CHECK(glm::length(s.direction) == doctest::Approx(1).epsilon(1e-5));
             const Texel t = texelOf(p, s.direction);
-            const auto i = static_cast<std::size_t>(t.y * width + t.x);
+            const auto i = indexOf(t.x, t.y);
             // Directions by a side of their texel may be rounded to the other side of it.
             const double nearest = std::min({ t.fx - t.x, t.x + 1 - t.fx, t.fy - t.y, t.y + 1 - t.fy });
             if (nearest < 1e-4) {
@@ -130,7 +132,7 @@ TEST_CASE("directions are chosen as often as their densities say, evenly within 
         double square = 0, total = 0, halves = 0, cells = 0;
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
-                const auto i = static_cast<std::size_t>(y * width + x);
+                const auto i = indexOf(x, y);
                 const double expected = count * pdf[i] * solidAngle(y);
                 total += expected / count;
                 if (expected < 10)

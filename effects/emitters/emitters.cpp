@@ -15,9 +15,9 @@ public:
         if (settings.integrator != Integrator::Path || !directLights(scene).share) {
             return {};
         }
-        std::vector<Term> terms { directPathTerm(Component::Emitters, "Emitters", settings) };
+        std::vector<Term> terms { pathTerm(Component::Emitters, "Emitters", settings) };
         if (hasSpecular(scene)) {
-            terms.push_back(directPathTerm(Component::EmittersGlossy, "EmittersGlossy", settings));
+            terms.push_back(pathTerm(Component::EmittersGlossy, "EmittersGlossy", settings));
         }
         return terms;
     }

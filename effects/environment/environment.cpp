@@ -4,7 +4,7 @@
 #include "effects/indirect/path_term.h"
 #include "host/scene/sections.h"
 
-#include <algorithm>
+#include <utility>
 
 namespace wedge::render {
 namespace {
@@ -22,9 +22,9 @@ public:
         if (settings.integrator != Integrator::Path || picture(scene) == nullptr) {
             return {};
         }
-        std::vector<Term> terms { directPathTerm(Component::Environment, "Environment", settings) };
+        std::vector<Term> terms { pathTerm(Component::Environment, "Environment", settings) };
         if (hasSpecular(scene)) {
-            terms.push_back(directPathTerm(Component::EnvironmentGlossy, "EnvironmentGlossy", settings));
+            terms.push_back(pathTerm(Component::EnvironmentGlossy, "EnvironmentGlossy", settings));
         }
         return terms;
     }

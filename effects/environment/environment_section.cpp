@@ -36,11 +36,8 @@ image::RgbImage readMap(const std::string& path, float intensity)
     std::size_t wrong = 0;
     for (float& c : map.rgb) {
         c *= intensity;
-        // Resampling of lanczos' kind leaves small negative numbers beside suns.
-        if (std::isnan(c) || c < -1e30f) {
-            ++wrong;
-        }
-        c = std::clamp(c, 0.0f, mostRadiance);
+        wrong += std::isnan(c) ? 1 : 0;
+        c = std::clamp(c, 0.0f, mostRadiance); // resampling leaves small negative numbers beside suns
     }
     if (wrong > 0) {
         throw Error("environment map has numbers that are no radiance", fmt::format("{} in {}", wrong, path),

@@ -32,6 +32,10 @@ constexpr bool isDirect(Component c)
     return isOfEmitters(c) || c == Component::Environment || c == Component::EnvironmentGlossy;
 }
 
+/// Whether distances of what a component's rays meet tell how wide it may be filtered. What lobes see beyond the scene
+/// varies with the surface's direction and the eye's: pixels keep their own samples of it, but for fixed widths.
+constexpr bool hasWidths(Component c) { return c != Component::EnvironmentGlossy; }
+
 /// What the analysis of a component needs besides the rectangle.
 shared::ReflectorParams reflectorParams(const FrameBuilder& frame, Component component);
 

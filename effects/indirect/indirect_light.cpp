@@ -1,26 +1,9 @@
 #include "effects/indirect/indirect_light.h"
 
-#include "effects/indirect/path_graph.h"
-#include "effects/indirect/path_waves.h"
-
-#include <algorithm>
+#include "effects/indirect/path_term.h"
 
 namespace wedge::render {
 namespace {
-
-/// name: what the layer of its filter widths ends in.
-Term termOf(Component component, const char* name, const Settings& settings)
-{
-    return { .name = name,
-        .part = Part::Indirect,
-        .workUnits = static_cast<double>(settings.spp) * std::max(1, settings.bounces),
-        .gathersVariance = true,
-        .ofLobes = isGlossy(component),
-        .ofPixels = [component](FrameBuilder& frame, const std::shared_ptr<TermState>& state,
-                        graph::Handle<Metres>& beta) { addPaths(frame, component, state, beta); },
-        .ofWaves = [component](FrameBuilder& frame,
-                       const SampleShape& shape) { return std::make_unique<PathWaves>(frame, shape, component); } };
-}
 
 class IndirectLight : public Effect {
 public:
@@ -29,14 +12,14 @@ public:
     std::vector<Term> terms(const Settings& settings, const scene::Scene& scene) const override
     {
         if (settings.integrator == Integrator::AmbientOcclusion) {
-            return { termOf(Component::Ambient, "Ambient", settings) };
+            return { pathTerm(Component::Ambient, "Ambient", settings) };
         }
         if (settings.bounces == 0) {
             return {};
         }
-        std::vector<Term> terms { termOf(Component::Diffuse, "Indirect", settings) };
+        std::vector<Term> terms { pathTerm(Component::Diffuse, "Indirect", settings) };
         if (hasSpecular(scene)) {
-            terms.push_back(termOf(Component::Glossy, "Glossy", settings));
+            terms.push_back(pathTerm(Component::Glossy, "Glossy", settings));
         }
         return terms;
     }

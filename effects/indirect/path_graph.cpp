@@ -94,7 +94,7 @@ public:
             return;
         }
         // What was stopped early has not the counts that the parts of samples were made for.
-        if (widens(s_)) {
+        if (widens(s_) && hasWidths(component_)) {
             g_.only(
                 "widening", [state = state_](const Run& run) { return state->analysed && !run.cut(); },
                 [&] {

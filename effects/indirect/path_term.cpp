@@ -3,13 +3,16 @@
 #include "effects/indirect/path_graph.h"
 #include "effects/indirect/path_waves.h"
 
+#include <algorithm>
+
 namespace wedge::render {
 
-Term directPathTerm(Component component, const char* name, const Settings& settings)
+Term pathTerm(Component component, const char* name, const Settings& settings)
 {
+    const bool direct = isDirect(component);
     return { .name = name,
-        .part = Part::Direct,
-        .workUnits = static_cast<double>(settings.spp),
+        .part = direct ? Part::Direct : Part::Indirect,
+        .workUnits = static_cast<double>(settings.spp) * (direct ? 1 : std::max(1, settings.bounces)),
         .gathersVariance = true,
         .ofLobes = isGlossy(component),
         .ofPixels = [component](FrameBuilder& frame, const std::shared_ptr<TermState>& state,

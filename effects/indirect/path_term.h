@@ -5,8 +5,8 @@
 
 namespace wedge::render {
 
-/// A term of direct light that is sampled, analysed and filtered as paths of no bounce. name: what the layer of its
-/// filter widths ends in.
-Term directPathTerm(Component component, const char* name, const Settings& settings);
+/// A component as a term: sampled, analysed and filtered as paths, of no bounce where it is direct light. name: what
+/// the layer of its filter widths ends in.
+Term pathTerm(Component component, const char* name, const Settings& settings);
 
 } // namespace wedge::render

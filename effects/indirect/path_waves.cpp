@@ -78,7 +78,7 @@ graph::Handle<Value> PathWaves::filtered(const shared::DistributedParams& params
     const shared::FilterParams filter = shape_.published
         ? publishedParams(settings(), f_.wholeFrame(), f_.graph.image())
         : filterParams(settings(), f_.wholeFrame(), f_.graph.image());
-    if (widens(settings())) {
+    if (widens(settings()) && hasWidths(component_)) {
         widen("filter of indirect", params, filter, settings().indirect.widening);
     }
     graph::Handle<Value> plain = means.value;

@@ -113,6 +113,25 @@ WEDGE_FN void meetQuads(LightData lights, bool glossy, const ReceiverPacket* r, 
     }
 }
 
+/// The random numbers of one sample a lane, and what it brings before anything is known of it: no light, no shadow ray.
+WEDGE_FN void beginDirect(SampleParams sampling, const ReceiverPacket* r, const uint* last, const RayPacket* rays,
+    PathPacket* paths, uint* live, float* u, float* v, RayPacket* shadow, VecLanes* light)
+{
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        live[lane] = r->pixel[lane] != WEDGE_NO_PIXEL && paths->index[lane] < last[lane] ? 1u : 0u;
+    }
+    pathPairs(sampling, paths, live, 0u, WEDGE_DIMENSION_LIGHT, u, v);
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        setLaneVec(&paths->radiance, lane, vec3(0.0f, 0.0f, 0.0f));
+        setLaneVec(light, lane, vec3(0.0f, 0.0f, 0.0f));
+        paths->distance[lane] = INFINITY;
+        paths->rays[lane] = rays->tMax[lane] > 0.0f ? 1u : 0u;
+        paths->shadowRays[lane] = 0u;
+        setRay(shadow, lane, rayStart(rays, lane), rayDirection(rays, lane), 0.0f, 0.0f);
+        setTime(shadow, lane, receiverTime(r, lane));
+    }
+}
+
 /// One sample a lane, whose reflected direction, if it follows one, is that of `rays` and counts `weight`, which
 /// becomes 1: fills paths->radiance and counts of rays, and, where sinks take distances, in paths->distance what widths
 /// follow from: how far it is to what emits; or, where something is in between, how far from there a reflector would be
@@ -130,21 +149,11 @@ WEDGE_FN void traceEmitters(__global const TraversalNode* restrict nodes, __glob
     VecLanes light;
     float extent[WEDGE_PACKET_SIZE], u[WEDGE_PACKET_SIZE], v[WEDGE_PACKET_SIZE];
     uint live[WEDGE_PACKET_SIZE];
+    beginDirect(sampling, r, last, rays, paths, live, u, v, &shadow, &light);
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        live[lane] = r->pixel[lane] != WEDGE_NO_PIXEL && paths->index[lane] < last[lane] ? 1u : 0u;
-    }
-    pathPairs(sampling, paths, live, 0u, WEDGE_DIMENSION_LIGHT, u, v);
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        setLaneVec(&paths->radiance, lane, vec3(0.0f, 0.0f, 0.0f));
         Vec3 brought = vec3(0.0f, 0.0f, 0.0f);
-        setLaneVec(&light, lane, brought);
-        paths->distance[lane] = INFINITY;
-        paths->rays[lane] = rays->tMax[lane] > 0.0f ? 1u : 0u;
-        paths->shadowRays[lane] = 0u;
         extent[lane] = 0.0f;
         const Vec3 direction = rayDirection(rays, lane);
-        setRay(&shadow, lane, rayStart(rays, lane), direction, 0.0f, 0.0f);
-        setTime(&shadow, lane, receiverTime(r, lane));
         if (live[lane] == 0u) {
             continue;
         }

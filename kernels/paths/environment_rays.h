@@ -30,34 +30,25 @@ WEDGE_FN void traceEnvironment(__global const TraversalNode* restrict nodes,
     VecLanes light;
     float u[WEDGE_PACKET_SIZE], v[WEDGE_PACKET_SIZE], extent[WEDGE_PACKET_SIZE];
     uint live[WEDGE_PACKET_SIZE];
+    beginDirect(sampling, r, last, rays, paths, live, u, v, &shadow, &light);
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        live[lane] = r->pixel[lane] != WEDGE_NO_PIXEL && paths->index[lane] < last[lane] ? 1u : 0u;
-    }
-    pathPairs(sampling, paths, live, 0u, WEDGE_DIMENSION_LIGHT, u, v);
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const Vec3 black = vec3(0.0f, 0.0f, 0.0f), direction = rayDirection(rays, lane);
-        setLaneVec(&paths->radiance, lane, black);
-        setLaneVec(&light, lane, black);
-        paths->distance[lane] = INFINITY;
-        paths->rays[lane] = rays->tMax[lane] > 0.0f ? 1u : 0u;
-        paths->shadowRays[lane] = 0u;
         extent[lane] = INFINITY;
-        const Vec3 origin = vec3(r->originX[lane], r->originY[lane], r->originZ[lane]);
-        setRay(&shadow, lane, origin, direction, 0.0f, 0.0f);
-        setTime(&shadow, lane, receiverTime(r, lane));
         if (live[lane] == 0u) {
             continue;
         }
-        if (rays->tMax[lane] > 0.0f) {
+        const Vec3 direction = rayDirection(rays, lane);
+        const bool follows = rays->tMax[lane] > 0.0f, open = hits.triangle[lane] == WEDGE_NO_TRIANGLE;
+        if (follows && open) {
             const BeyondSample seen = seenBeyond(beyond, direction);
-            if (hits.triangle[lane] == WEDGE_NO_TRIANGLE) {
-                const float own = reflectedTo(r, lane, glossy, direction).pdf;
-                const float w = both ? powerHeuristic(own, seen.pdf) : 1.0f;
-                setLaneVec(&paths->radiance, lane, vecScale(seen.radiance, w * weight[lane]));
-            } else {
-                paths->distance[lane] = penumbraOf(beyond, seen, hits.t[lane]);
-            }
+            const float own = reflectedTo(r, lane, glossy, direction).pdf;
+            const float w = both ? powerHeuristic(own, seen.pdf) : 1.0f;
+            setLaneVec(&paths->radiance, lane, vecScale(seen.radiance, w * weight[lane]));
         }
+#ifdef WEDGE_SINK_TAKES_DISTANCES
+        if (follows && !open) {
+            paths->distance[lane] = penumbraOf(beyond, seenBeyond(beyond, direction), hits.t[lane]);
+        }
+#endif
         weight[lane] = 1.0f;
         if (sampling.lightSampling == WEDGE_LIGHTS_MET) {
             continue;
@@ -70,6 +61,7 @@ WEDGE_FN void traceEnvironment(__global const TraversalNode* restrict nodes,
             const Vec3 brought = vecScale(chosen.radiance, w * reflected.value / chosen.pdf);
             if (luminance(brought) > 0.0f) {
                 setLaneVec(&light, lane, brought);
+                const Vec3 origin = vec3(r->originX[lane], r->originY[lane], r->originZ[lane]);
                 setRay(&shadow, lane, origin, l, 0.0f, INFINITY);
                 extent[lane] = penumbraOf(beyond, chosen, 1.0f);
                 paths->shadowRays[lane] = 1u;

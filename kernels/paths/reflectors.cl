@@ -132,7 +132,8 @@ WEDGE_FN void nearestReflectors(ReflectorParams p, uint y, int i, __global const
     vstore16(max16(near, (float16)(leastDistance(p, extent))), 0, nearest);
 }
 
-/// Widths in metres (4.15), (4.16), -1 where the pixel has no such term. fixedWidth replaces the analysis. meanOnly:
+/// Widths in metres (4.15), (4.16), -1 where the pixel has no such term, 0, which filters nothing, of
+/// what lobes see beyond the scene. fixedWidth replaces the analysis. meanOnly:
 /// reflectors have but one plane, the sum of inverse distances, or what stands for it (WEDGE_NEAREST_FRACTION).
 __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict reflectors,
     __global const uint* restrict objectId, __global const float* restrict extent,
@@ -151,7 +152,8 @@ __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict 
     for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
         const float bandlimit = bandlimitOf(p.component, loadGloss(gloss, (uint)i + lane, p.meanOnly));
         const float bandwidth = indirectBandwidth(zMin[lane], bandlimit, size[lane], p.mu, p.alpha);
-        width[lane] = p.fixedWidth > 0.0f ? p.fixedWidth * size[lane] : p.widthScale / bandwidth;
+        const float adaptive = p.component == WEDGE_COMPONENT_ENVIRONMENT_GLOSSY ? 0.0f : p.widthScale / bandwidth;
+        width[lane] = p.fixedWidth > 0.0f ? p.fixedWidth * size[lane] : adaptive;
     }
     vstore16(loadIdBlock(taken, i) > 0u ? vload16(0, width) : (float16)(-1.0f), 0, beta + i);
 }
