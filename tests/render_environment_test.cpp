@@ -287,6 +287,17 @@ TEST_CASE("with as many samples, filters are ahead of none over matt and curved 
                      plain = error(sized(render::monteCarlo(16), 64, 64));
         MESSAGE("RMSE: ", filtered, ", without filter: ", plain);
         CHECK(filtered < plain);
+        // What lobes see keeps its own samples, but for who asks for one width.
+        render::Settings fixed = sized(render::axisAligned(16), 64, 64);
+        fixed.filtering = render::Filtering::Fixed;
+        for (const render::Settings& s : { sized(render::axisAligned(16), 64, 64), fixed }) {
+            renderPixels(renderer, s, true);
+            REQUIRE(renderer.termPlanes().size() == 2);
+            CHECK(renderer.termPlanes()[1].name == "EnvironmentGlossy");
+            const float widest = *std::ranges::max_element(renderer.termPlanes()[1].beta);
+            CHECK((widest > 0) == (s.filtering == render::Filtering::Fixed));
+            CHECK(*std::ranges::max_element(renderer.termPlanes()[0].beta) > 0);
+        }
     });
 }
 
