@@ -101,7 +101,7 @@ public:
         eachUnit(resource, [&](int& owner) { faults += owner != static_cast<int>(resource); });
         for (int y = window.y0; r.plane && y < window.y1; ++y) {
             for (int x = window.x0; x < window.x1; ++x) {
-                faults += !valid_[resource][static_cast<std::size_t>(y * width + x)];
+                faults += !valid_[resource][static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
             }
         }
     }
@@ -141,7 +141,7 @@ private:
             eachUnit(resource, [&](int& owner) { owner = static_cast<int>(resource); });
             for (int y = 0; y < height; ++y) {
                 for (int x = 0; x < width; ++x) {
-                    valid_[resource][static_cast<std::size_t>(y * width + x)] =
+                    valid_[resource][static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
                         x >= w.x0 && x < w.x1 && y >= w.y0 && y < w.y1;
                 }
             }

@@ -107,12 +107,12 @@ public:
     /// and in distributed frames, which else keep little but the beauty, fills and filters all that layers show.
     FrameStatistics render(const Settings& settings, const Control& control = {}, bool keepLayers = false);
 
-    /// Renders in steps of ever more samples, which all stay and count, up to settings.spp (see stepCounts() in
+    /// Renders in steps of ever more samples, which all stay and count, up to wanted.spp (see stepCounts() in
     /// progressive.h). After each the image so far is on the device, as render() leaves it, and onStep is called. A
     /// cancelled or late render ends between two waves of samples, or before the next step; the last image has them
     /// all. Returns the statistics of all steps. Needs settings without published counts; always samples by the
     /// sequence. Throws as render().
-    FrameStatistics renderProgressively(const Settings& settings, const Control& control,
+    FrameStatistics renderProgressively(const Settings& wanted, const Control& control,
         const std::function<void(const ProgressiveStep&)>& onStep, bool keepLayers = false);
 
     /// Launches all kernels of these settings at full size over nothing, so that no compilation falls into render().
