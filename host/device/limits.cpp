@@ -95,6 +95,7 @@ DeviceInfo queryDevice(const cl::Platform& platform, const cl::Device& device, u
         info.localMemory = device.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>();
         info.maxWorkGroup = device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
         info.doubles = device.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>() != 0;
+        info.exactDivision = (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
         info.unusable = whyUnusable(device, info.deviceVersion);
         info.defaultWorkGroup = std::min(usualWorkGroup, info.maxWorkGroup);
         info.hostTimers = device.getInfo<CL_DEVICE_PROFILING_TIMER_RESOLUTION>() == 0;

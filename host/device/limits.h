@@ -33,6 +33,7 @@ struct DeviceInfo {
     std::uint64_t localMemory = 0; ///< of one work-group
     std::size_t maxWorkGroup = 1; ///< items; a kernel may allow fewer
     bool doubles = false; ///< 64-bit floats in kernels
+    bool exactDivision = false; ///< can round quotients and square roots correctly, if told to
     std::string unusable; ///< why wedge cannot run here ("no compiler"), empty if it can
 
     /// 64 where the device allows it: fills a wavefront of every GPU and a vector of every CPU.
