@@ -76,7 +76,7 @@ Timing timeFrames(
     settings.height = timedHeight(lab.plan());
     settings.seed = 1;
     lab.renderer().rehearse(settings);
-    lab.renderer().render(settings);
+    const FrameStatistics first = lab.renderer().render(settings);
     std::vector<FrameStatistics> frames;
     for (int i = 0; i < lab.plan().frames; ++i) {
         frames.push_back(lab.renderer().render(settings));
@@ -95,6 +95,7 @@ Timing timeFrames(
         }
         out.columns.emplace_back(name, summarize(values));
     }
+    out.firstFrame = first.wallMilliseconds / out["wall"].median;
     lab.say(fmt::format("{} frames of the {} setting, {:.1f} ms each", frames.size(), label, out["total"].median));
     return out;
 }

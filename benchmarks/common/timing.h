@@ -13,6 +13,7 @@ namespace wedge::benchmark {
 /// Times of one setting's frames. Milliseconds unless the name says otherwise; docs/benchmarks.md explains each column.
 struct Timing {
     double spp = 0, megaraysPerSecond = 0;
+    double firstFrame = 0; ///< wall clock of the first frame after the rehearsal, over the median of those after it
     std::vector<std::pair<std::string, Summary>> columns;
 
     /// Throws std::out_of_range for an unknown name.

@@ -57,6 +57,7 @@ void addTimes(SceneClaims& out, const Benchmark& benchmark, const CaseSetting& s
     for (const TimeClaim& row : benchmark.timeClaims) {
         out.add(row.quantity, t[row.column], row.unit, &setting);
     }
+    out.add("first_frame", t.firstFrame, "1", &setting);
     out.add("mrays_s", t.megaraysPerSecond, "Mrays/s", &setting);
 }
 

@@ -145,12 +145,14 @@ std::string biasLines(const SceneResult& result)
 
 bool met(const Claim& claim)
 {
-    const bool upperBound = std::ranges::any_of(std::array { ".overhead", ".wall_gap", ".memory_bytes" },
-        [&](const char* quantity) { return claim.id.find(quantity) != std::string::npos; });
+    const bool upperBound =
+        std::ranges::any_of(std::array { ".overhead", ".wall_gap", ".first_frame", ".memory_bytes" },
+            [&](const char* quantity) { return claim.id.find(quantity) != std::string::npos; });
     return upperBound ? claim.value <= *claim.goal : claim.value >= *claim.goal;
 }
 
-/// Claims that have a goal, and whether each is met. Goals of overhead, wall_gap and memory_bytes are upper bounds.
+/// Claims that have a goal, and whether each is met. Goals of overhead, wall_gap, first_frame and memory_bytes are
+/// upper bounds.
 std::string goalLines(const std::vector<Claim>& claims)
 {
     std::string out;

@@ -166,7 +166,7 @@ int main(int argc, char** argv)
             },
             .scenes = scenes(),
             .fileScene = { {}, { paths(1) }, {}, false, false, {} },
-            .goals = { { "wall_gap*", 0.05 } },
+            .goals = { { "wall_gap*", 0.05 }, { "first_frame*", 1.1 } },
             .baselines = { { "stratified", "path tracing, stratified", Sampler::Stratified },
                 { "sobol", "path tracing, Owen-scrambled Sobol", Sampler::Sobol } },
             .fixedWidth =

@@ -157,7 +157,7 @@ int main(int argc, char** argv)
             },
             .scenes = scenes(),
             .fileScene = shadowScene({}, {}, {}, true),
-            .goals = { { "wall_gap*", 0.05 }, { "mu_monotonic*", 1 } },
+            .goals = { { "wall_gap*", 0.05 }, { "first_frame*", 1.1 }, { "mu_monotonic*", 1 } },
             .needsAreaLight = true,
             .usualSpp = usualSpp,
             .usualMu = usualMu,
