@@ -13,6 +13,7 @@ add_test(NAME installed COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/install
 set_tests_properties(bare_root tidy_changed format_check PROPERTIES SKIP_RETURN_CODE 77)
 # Simulated devices are slow, and slower still beside other tests.
 set_tests_properties(kernel_lint oclgrind_frame second_driver PROPERTIES TIMEOUT 1200)
+set_tests_properties(oclgrind_frame PROPERTIES LABELS long) # test.sh
 # What the system has no package for cannot be run, and its test says so.
 set_tests_properties(oclgrind_frame second_driver PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: this system has no ")
 
