@@ -4,12 +4,16 @@
 #include "benchmarks/common/fingerprint.h"
 #include "benchmarks/common/image_bias.h"
 #include "benchmarks/common/savings.h"
+#include "benchmarks/common/smooth_region.h"
 #include "benchmarks/common/statistics.h"
+#include "effects/environment/environment.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <random>
 #include <stdexcept>
 
@@ -146,6 +150,100 @@ TEST_CASE("a fingerprint tells scenes apart by their contents, not by their name
     CHECK(of(panned) != original);
 }
 
+TEST_CASE("a fingerprint tells environments apart by their radiance and how they lie")
+{
+    const auto of = [](const std::shared_ptr<render::EnvironmentPicture>& picture) {
+        scene::Scene scene;
+        render::setEnvironment(scene, picture);
+        Fingerprint f;
+        add(f, scene);
+        return f.text();
+    };
+    const auto sky = [] {
+        auto out = std::make_shared<render::EnvironmentPicture>();
+        out->width = 2;
+        out->height = 1;
+        out->radiance = { 1, 2, 3, 4, 5, 6 };
+        return out;
+    };
+    const std::string original = of(sky());
+    CHECK(of(sky()) == original);
+    CHECK(of(nullptr) != original);
+    const auto brighter = sky(), turned = sky(), hidden = sky(), upright = sky();
+    brighter->radiance[5] = 6.000001f;
+    std::swap(turned->right, turned->back);
+    hidden->seen = false;
+    std::swap(upright->width, upright->height);
+    for (const auto& other : { brighter, turned, hidden, upright }) {
+        CHECK(of(other) != original);
+    }
+}
+
+/// A grey reference of that luminance and noise a pixel.
+Reference greyReference(int side, const std::function<float(int x, int y)>& grey, float noise)
+{
+    Reference out;
+    out.image = { side, side, {} };
+    out.deviation = out.image;
+    for (int y = 0; y < side; ++y) {
+        for (int x = 0; x < side; ++x) {
+            const float off = (x + y) % 2 == 0 ? noise : -noise;
+            for (int c = 0; c < 3; ++c) {
+                out.image.rgb.push_back(grey(x, y) + off);
+                out.deviation.rgb.push_back(off);
+            }
+        }
+    }
+    return out;
+}
+
+TEST_CASE("smooth regions end before edges, what is seen without noise, and the image's border")
+{
+    constexpr int side = 24;
+    const auto at = [](int x, int y) { return static_cast<std::size_t>(y * side + x); };
+    const Reference edge = greyReference(
+        side, [](int x, int) { return x < 12 ? 1.0f : 1.5f; }, 0.01f);
+    const std::vector<bool> beside = smoothRegion(edge);
+    REQUIRE(beside.size() == side * side);
+    for (int x = 0; x < side; ++x) {
+        CHECK(beside[at(x, 12)] == ((x >= 3 && x + 3 < 12) || (x - 3 >= 12 && x + 3 < side)));
+    }
+    CHECK_FALSE(beside[at(6, 2)]);
+    CHECK(beside[at(6, 3)]);
+
+    // A ramp across 7 pixels deviates by twice what it grows by a pixel.
+    const auto ramp = [](float slope) {
+        return [slope](int x, int) { return 10.0f + slope * static_cast<float>(x - 12); };
+    };
+    CHECK(smoothRegion(greyReference(side, ramp(0.24f), 0.01f))[at(12, 12)]);
+    CHECK_FALSE(smoothRegion(greyReference(side, ramp(0.26f), 0.01f))[at(12, 12)]);
+
+    // The reference's own noise is no edge, what has none is not sampled, and nowhere is nowhere.
+    const auto even = [](int, int) { return 1.0f; };
+    CHECK(smoothRegion(greyReference(side, even, 0.2f))[at(12, 12)]);
+    CHECK(smoothRegion(greyReference(side, even, 0.0f)).empty());
+    Reference seen = greyReference(side, even, 0.01f);
+    for (std::size_t c = 0; c < 3; ++c) {
+        seen.deviation.rgb[3 * at(12, 12) + c] = 0;
+    }
+    CHECK_FALSE(smoothRegion(seen)[at(15, 12)]);
+    CHECK(smoothRegion(seen)[at(16, 12)]);
+}
+
+TEST_CASE("an error over a part of an image counts nothing beside it")
+{
+    const Reference reference = greyReference(
+        8, [](int, int) { return 1.0f; }, 0.5f);
+    image::RgbImage image = reference.image;
+    std::vector<bool> part(64, false);
+    part[9] = part[10] = true;
+    image.rgb[27] += 3.0f; // of pixel 9
+    image.rgb[33] += 100.0f; // of pixel 11
+    const RegionError error = regionError(image, reference, part);
+    CHECK(error.rmse == doctest::Approx(std::sqrt(9.0 / 6)));
+    CHECK(error.noise == doctest::Approx(0.5));
+}
+
 TEST_CASE("claims without a goal or a finite value have nulls")
 {
     const Json claim = json(Claim { "a.b.c", std::numeric_limits<double>::infinity(), "1", {}, {}, {} });
@@ -187,7 +285,7 @@ TEST_CASE("the bias of images is found beneath their noise and the reference's")
 
 TEST_CASE("savings are the baseline's samples and rays at the method's error, over the method's")
 {
-    Baseline baseline { "plain", "error = 1 / sqrt samples, two rays a sample", {}, {}, {} };
+    Baseline baseline { "plain", "error = 1 / sqrt samples, two rays a sample", {}, {}, {}, {} };
     for (const double spp : { 16.0, 64.0, 256.0 }) {
         baseline.samples.push_back({ spp, 1 / std::sqrt(spp) });
         baseline.rays.push_back({ 2 * spp, 1 / std::sqrt(spp) });

@@ -1,5 +1,7 @@
 #include "benchmarks/common/fingerprint.h"
 
+#include "host/render/effect.h"
+
 #include <fmt/format.h>
 
 namespace wedge::benchmark {
@@ -61,6 +63,18 @@ void addLights(Fingerprint& f, const scene::Scene& scene)
     }
 }
 
+/// Radiance, axes, and whether the camera sees it.
+void add(Fingerprint& f, const render::EnvironmentPicture& picture)
+{
+    f.add(picture.width);
+    f.add(picture.height);
+    f.add(std::span<const float>(picture.radiance));
+    for (const glm::vec3& axis : { picture.right, picture.up, picture.back }) {
+        add(f, axis);
+    }
+    f.add(picture.seen);
+}
+
 } // namespace
 
 void Fingerprint::bytes(const void* data, std::size_t count)
@@ -101,6 +115,9 @@ void add(Fingerprint& f, const scene::Scene& scene)
     f.add(scene.pointLights.size());
     addLights(f, scene);
     add(f, scene.background);
+    if (const auto picture = render::pictureOf(scene)) {
+        add(f, *picture);
+    }
     add(f, scene.camera);
     if (scene.cameraAtClose) {
         add(f, *scene.cameraAtClose);

@@ -1,6 +1,7 @@
 #include "benchmarks/common/lab.h"
 
 #include "benchmarks/common/image_bias.h"
+#include "benchmarks/common/smooth_region.h"
 #include "host/image/metrics.h"
 
 #include <algorithm>
@@ -81,7 +82,12 @@ Measured Lab::measure(render::Settings settings, std::uint32_t seed)
     Measured out;
     out.spp = subject_.sppOf(frame);
     out.rays = subject_.raysOf(frame) / std::max(1.0, subject_.pixelsOf(frame));
-    out.rmse = image::rmse(imageOf(renderer_, settings, frame, subject_.layer()), truth.image);
+    const image::RgbImage image = imageOf(renderer_, settings, frame, subject_.layer());
+    out.rmse = image::rmse(image, truth.image);
+    if (const std::vector<bool>& part = region(settings); !part.empty()) {
+        const RegionError error = regionError(image, truth, part);
+        out.regionError = withoutNoiseOf(error.rmse, error.noise);
+    }
     out.error = compared(out.rmse, settings);
     out.mu = subject_.muOf(settings);
     out.seed = seed;
@@ -94,7 +100,20 @@ Measured Lab::measure(render::Settings settings, std::uint32_t seed)
 
 double Lab::compared(double rmse, const render::Settings& settings)
 {
-    return plan_.subtractNoise ? std::max(withoutNoise(rmse, reference(settings).noise), leastOwnError * rmse) : rmse;
+    return withoutNoiseOf(rmse, reference(settings).noise);
+}
+
+double Lab::withoutNoiseOf(double rmse, double noise) const
+{
+    return plan_.subtractNoise ? std::max(withoutNoise(rmse, noise), leastOwnError * rmse) : rmse;
+}
+
+const std::vector<bool>& Lab::region(const render::Settings& settings)
+{
+    const std::string integrand = subject_.integrandOf(settings).name;
+    const auto found = regions_.find(integrand);
+    return found != regions_.end() ? found->second
+                                   : regions_.emplace(integrand, subject_.regionOf(reference(settings))).first->second;
 }
 
 const Reference& Lab::reference(const render::Settings& settings)

@@ -6,6 +6,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace wedge::benchmark {
 
@@ -18,6 +19,7 @@ struct Measured {
     float mu = 0;
     std::uint32_t seed = 0;
     double corrected = 0; ///< the RMS error with the reference's noise taken out in quadrature
+    double regionError = 0; ///< as `error`, over Subject::regionOf() alone; 0 where there is none
 };
 
 /// What images converge to: its name, and the settings of its reference, size and seed left open.
@@ -42,6 +44,8 @@ public:
         return static_cast<double>(frame.shadedPixels);
     }
     virtual float muOf(const render::Settings& settings) const = 0;
+    /// Pixels whose error is told apart as well, by what the reference has in them; empty: none.
+    virtual std::vector<bool> regionOf(const Reference&) const { return {}; }
     virtual std::string describe(const render::Settings& settings) const = 0; ///< a few words
 };
 
@@ -64,6 +68,9 @@ public:
     /// An RMS error as it is compared, where that of `settings`' reference is in it.
     double compared(double rmse, const render::Settings& settings);
 
+    /// Subject::regionOf() of the reference of `settings`.
+    const std::vector<bool>& region(const render::Settings& settings);
+
     /// What is measured of one image, as it comes out of the renderer.
     image::RgbImage render(render::Settings settings, std::uint32_t seed);
 
@@ -82,12 +89,14 @@ public:
 
 private:
     render::FrameStatistics renderFrame(render::Settings& settings, std::uint32_t seed);
+    double withoutNoiseOf(double rmse, double noise) const;
 
     const Subject& subject_;
     const MeasurePlan& plan_;
     std::string name_;
     render::Renderer renderer_;
     std::map<std::string, Reference> references_;
+    std::map<std::string, std::vector<bool>> regions_; ///< by their integrands' names, as references
     std::map<std::string, Measured> measured_;
 };
 

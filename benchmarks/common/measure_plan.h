@@ -17,6 +17,9 @@ struct MeasurePlan {
     int largestBaseline = 1600; ///< samples of the unfiltered curves; beyond, they are extrapolated
     bool subtractNoise = false; ///< compare errors without the reference's noise, where it is not far below them
     std::vector<int> baselineSpp = {}; ///< where the unfiltered curves start
+    /// Further points of unfiltered curves are at four times the samples, in place of squares that are just enough:
+    /// squares for strata that are powers of two for Sobol points as well.
+    bool powersOfFour = false;
     std::vector<int> budgets = {}; ///< samples of curves, default setting
     std::vector<float> publishedMu = {}; ///< of curves, published setting
     double largestBudget = std::numeric_limits<double>::infinity(); ///< no further ones after the first of more samples

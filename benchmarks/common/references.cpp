@@ -6,6 +6,7 @@
 #include "host/image/exr.h"
 #include "host/image/metrics.h"
 #include "host/render/distributed_frame.h"
+#include "host/render/effect.h"
 #include "host/render/layers.h"
 #include "host/render/metadata.h"
 
@@ -37,7 +38,7 @@ std::string kernelFingerprint(
     if (layer != "indirect") {
         files.insert(files.end(), { "light/area_light.cl", "light/delta_lights.cl" });
     }
-    if (render::tracesPaths(settings)) {
+    if (render::tracesPaths(settings) || render::pictureOf(renderer.scene()) != nullptr) {
         files.push_back("paths/indirect.cl");
     }
     Fingerprint f;

@@ -15,6 +15,7 @@ struct Baseline {
     std::string meaning; ///< one line
     std::vector<Measured> points;
     Curve samples, rays;
+    Curve region; ///< samples against the error of Subject::regionOf(); empty where there is none
 };
 
 /// The method at one budget, once a seed.
@@ -23,13 +24,15 @@ struct Method {
     std::vector<Measured> runs;
 
     double leastError() const;
+    double leastRegionError() const;
     std::vector<double> errors() const;
 };
 
 /// How many times the method's samples (or rays) a baseline needs for the same error, once a seed.
 struct Savings {
     std::vector<double> samples, rays;
-    bool extrapolated = false;
+    std::vector<double> region; ///< samples at equal error of Subject::regionOf(), which the means are not of
+    bool extrapolated = false, regionExtrapolated = false;
 };
 
 /// A baseline, and what the method saves against it.
@@ -44,7 +47,7 @@ Method measureMethod(Lab& lab, const std::string& name, const render::Settings& 
 /// What a baseline renders with that many samples.
 using BaselineSettings = std::function<render::Settings(int spp)>;
 
-/// Measures a baseline with curves that reach the method's least error if they can, within the plan's limits, and what
+/// Measures a baseline with curves that reach the method's least errors if they can, within the plan's limits, and what
 /// the method saves against it. Throws Error where the method has no error.
 Comparison compareWith(Lab& lab, const Method& method, const std::string& name, const std::string& meaning,
     const BaselineSettings& settings);

@@ -20,10 +20,17 @@ SceneSource generatedScene(const std::string& name, generator::GeneratedScene (*
     return { name, "generated", file, "" };
 }
 
-SceneSource externalScene(const std::string& name, const std::string& origin, const std::string& mesh)
+SceneSource externalScene(
+    const std::string& name, const std::string& origin, const std::string& mesh, const std::string& map)
 {
     const auto file = [name] { return (fs::path(WEDGE_SOURCE_DATA) / "external" / (name + ".toml")).string(); };
-    return { name, origin, file, mesh };
+    return { name, origin, file, mesh, map };
+}
+
+SceneSource shippedScene(const std::string& name, const std::string& origin)
+{
+    const auto file = [name] { return (fs::path(WEDGE_SOURCE_DATA) / "scenes" / (name + ".toml")).string(); };
+    return { name, origin, file, "" };
 }
 
 SceneSource sceneOfFile(const std::string& path, const std::vector<std::string>& known)
@@ -34,11 +41,16 @@ SceneSource sceneOfFile(const std::string& path, const std::vector<std::string>&
     return { fs::path(path).stem().string(), "scene file", [path] { return path; }, "" };
 }
 
-bool available(const SceneSource& source)
+std::string missing(const SceneSource& source)
 {
     const char* folder = std::getenv("WEDGE_DATA");
     std::error_code ignored;
-    return source.mesh.empty() || (folder != nullptr && fs::is_regular_file(fs::path(folder) / source.mesh, ignored));
+    for (const std::string& file : { source.mesh, source.map }) {
+        if (!file.empty() && (folder == nullptr || !fs::is_regular_file(fs::path(folder) / file, ignored))) {
+            return file;
+        }
+    }
+    return "";
 }
 
 std::string defaultReferenceFolder() { return WEDGE_BENCHMARK_DATA "/references"; }

@@ -15,20 +15,25 @@ struct SceneSource {
     std::string origin; ///< one line
     std::function<std::string()> file; ///< makes the scene file where that is needed, and returns its path
     std::string mesh; ///< what it needs below WEDGE_DATA, "" for nothing
+    std::string map = {}; ///< of its environment, likewise
 };
 
 /// A scene that is generated when it is used.
 SceneSource generatedScene(const std::string& name, generator::GeneratedScene (*make)());
 
-/// One of data/external, which has a mesh of others.
-SceneSource externalScene(const std::string& name, const std::string& origin, const std::string& mesh);
+/// One of data/external, which has a mesh of others, and maybe a map of its environment.
+SceneSource externalScene(
+    const std::string& name, const std::string& origin, const std::string& mesh, const std::string& map = "");
+
+/// One of data/scenes.
+SceneSource shippedScene(const std::string& name, const std::string& origin);
 
 /// A scene file, called by its file name. Throws UsageError, which lists the names of known scenes, where there is
 /// none.
 SceneSource sceneOfFile(const std::string& path, const std::vector<std::string>& known);
 
-/// True if the scene needs no mesh of others, or WEDGE_DATA points to where it is.
-bool available(const SceneSource& source);
+/// What the scene needs that is not below WEDGE_DATA; empty if all is there.
+std::string missing(const SceneSource& source);
 
 /// Where references are kept unless another folder is named.
 std::string defaultReferenceFolder();
@@ -49,7 +54,7 @@ Source findScene(const std::vector<Source>& scenes, const std::string& nameOrPat
     return out;
 }
 
-/// The scenes asked for, all where none is; those that need meshes which are not there go to `skipped`, unless named.
+/// The scenes asked for, all where none is; those that need files which are not there go to `skipped`, unless named.
 /// Throws Error.
 template <class Source>
 std::vector<Source> chooseScenes(
@@ -58,15 +63,15 @@ std::vector<Source> chooseScenes(
     std::vector<Source> chosen;
     for (const std::string& name : wanted) {
         chosen.push_back(findScene(scenes, name));
-        if (!available(chosen.back())) {
-            throw Error("scene", name, "set WEDGE_DATA to the folder that holds " + chosen.back().mesh);
+        if (const std::string file = missing(chosen.back()); !file.empty()) {
+            throw Error("scene", name, "set WEDGE_DATA to the folder that holds " + file);
         }
     }
     if (!wanted.empty()) {
         return chosen;
     }
     for (const Source& source : scenes) {
-        if (!available(source)) {
+        if (!missing(source).empty()) {
             skipped.push_back(source.name);
         } else {
             chosen.push_back(source);

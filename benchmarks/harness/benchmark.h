@@ -116,6 +116,8 @@ struct Benchmark {
     std::optional<float> usualMu = {}; ///< of the published setting; its own if none
     std::vector<BaselineRow> baselines = {};
     std::optional<FixedWidthRule> fixedWidth = {};
+    std::optional<float> blurWidth = {}; ///< pixels: the default is held against one fixed width as well
+    const char* region = nullptr; ///< what claims call Subject::regionOf(); null where it has none
     std::vector<AblationRow> ablations = {};
     std::vector<VariantRow> variants = {}; ///< of all scenes
     std::optional<int> memorySide = {}; ///< pixels a side of the frame whose memory is told

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -73,6 +74,9 @@ void addErrors(SceneClaims& out, const Benchmark& benchmark, const CaseSetting& 
         if (!benchmark.byRays) {
             out.add("samples_saved" + versus, summarize(saved.samples), "1", &setting);
         }
+        if (!saved.region.empty()) {
+            out.add(benchmark.region + ("_saved" + versus), summarize(saved.region), "1", &setting);
+        }
         if (benchmark.byRays || main) {
             out.add("rays_saved" + versus, summarize(saved.rays), "1", &setting);
         }
@@ -80,6 +84,12 @@ void addErrors(SceneClaims& out, const Benchmark& benchmark, const CaseSetting& 
     out.add("rmse", summarize(setting.method.errors()), "radiance", &setting);
     if (!setting.convergence.empty()) {
         out.add("mu_monotonic", falls(setting.convergence) ? 1 : 0, "1", &setting);
+    }
+    if (setting.blur) {
+        std::vector<double> ratios;
+        std::ranges::transform(setting.method.runs, setting.blur->runs, std::back_inserter(ratios),
+            [](const Measured& ours, const Measured& blurred) { return ours.error / blurred.error; });
+        out.add("vs_fixed_blur", summarize(ratios), "1", &setting);
     }
     if (setting.fixedWidth) {
         out.add("rmse_ratio_fixed_blur", setting.fixedWidth->measured.error / setting.method.runs.front().error, "1",

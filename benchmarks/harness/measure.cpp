@@ -1,9 +1,11 @@
 #include "benchmarks/harness/measure.h"
 
+#include "benchmarks/common/variants.h"
 #include "benchmarks/frame_memory/frame_bytes.h"
 #include "benchmarks/harness/curves.h"
 #include "host/error.h"
 
+#include <algorithm>
 #include <chrono>
 #include <iterator>
 
@@ -36,6 +38,13 @@ void measureErrors(const Benchmark& benchmark, Lab& lab, CaseSetting& out)
     if (benchmark.fixedWidth && !out.published) {
         out.fixedWidth = bestFixedWidth(lab, *benchmark.fixedWidth, settings);
     }
+    if (benchmark.blurWidth && !out.published) {
+        out.blur = measureMethod(lab, "blur", fixed(settings, *benchmark.blurWidth));
+    }
+    const std::vector<bool>& region = lab.region(settings);
+    out.regionFraction = region.empty()
+        ? 0.0
+        : static_cast<double>(std::ranges::count(region, true)) / static_cast<double>(region.size());
     if (out.timing.columns.empty()) {
         out.raysPerPixel = out.method.runs.front().rays;
     }

@@ -5,8 +5,12 @@ namespace {
 
 Json dataOf(const Measured& m, const char* raysKey)
 {
-    return { { "spp", number(m.spp) }, { raysKey, number(m.rays) }, { "rmse", number(m.rmse) },
+    Json out { { "spp", number(m.spp) }, { raysKey, number(m.rays) }, { "rmse", number(m.rmse) },
         { "rmse_corrected", number(m.corrected) }, { "mu", m.mu }, { "seed", m.seed } };
+    if (m.regionError > 0) {
+        out["rmse_region"] = number(m.regionError);
+    }
+    return out;
 }
 
 Json dataOf(const Comparison& c, const char* raysKey);
@@ -28,9 +32,14 @@ Json listOf(const std::vector<Item>& items, const More&... more)
 
 Json dataOf(const Comparison& c, const char* raysKey)
 {
-    return { { "name", c.baseline.name }, { "meaning", c.baseline.meaning },
+    Json out { { "name", c.baseline.name }, { "meaning", c.baseline.meaning },
         { "points", listOf(c.baseline.points, raysKey) }, { "samples_saved", json(summarize(c.saved.samples)) },
         { "rays_saved", json(summarize(c.saved.rays)) }, { "extrapolated", c.saved.extrapolated } };
+    if (!c.saved.region.empty()) {
+        out["region_saved"] = json(summarize(c.saved.region));
+        out["region_extrapolated"] = c.saved.regionExtrapolated;
+    }
+    return out;
 }
 
 Json dataOf(const CurveResult& curve, const char* raysKey)
@@ -87,6 +96,13 @@ Json dataOf(const CaseSetting& setting, const Benchmark& benchmark)
     out["baselines"] = listOf(setting.baselines, benchmark.raysKey);
     if (!setting.convergence.empty()) {
         out["convergence"] = listOf(setting.convergence, benchmark.raysKey);
+    }
+    if (benchmark.region != nullptr) {
+        out["region_fraction"] = number(setting.regionFraction);
+    }
+    if (setting.blur) {
+        out["blur"] = { { "width_pixels", *benchmark.blurWidth },
+            { "points", listOf(setting.blur->runs, benchmark.raysKey) } };
     }
     if (setting.fixedWidth && !benchmark.settingsByName) {
         out["fixed_blur"] = dataOf(*setting.fixedWidth, benchmark.raysKey);

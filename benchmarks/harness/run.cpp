@@ -99,7 +99,7 @@ int measure(const Benchmark& benchmark, const Call& call)
     const std::vector<BenchmarkScene> sources = chooseScenes(benchmark.scenes, call.scenes, skipped);
     if (!skipped.empty()) {
         progress(benchmark.program,
-            fmt::format("skipped {}: their meshes are not below WEDGE_DATA", fmt::join(skipped, ", ")));
+            fmt::format("skipped {}: what they need is not below WEDGE_DATA", fmt::join(skipped, ", ")));
     }
     if (!call.json.empty()) {
         image::checkWritable(call.json);

@@ -31,6 +31,8 @@ struct CaseSetting {
     std::vector<Comparison> baselines;
     std::vector<Measured> convergence; ///< by mu
     std::optional<FixedWidth> fixedWidth;
+    std::optional<Method> blur; ///< with Benchmark::blurWidth everywhere, by the method's seeds
+    double regionFraction = 0; ///< of the image, Subject::regionOf()
 
     /// Appended to quantities of claims.
     std::string suffix() const { return (published ? "_published" : "") + of.suffix; }
