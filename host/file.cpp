@@ -18,7 +18,17 @@ namespace {
     throw Error(kind + " cannot be read (" + std::strerror(code) + ")", path.string(), "check its permissions");
 }
 
+thread_local FilesOpened* innermost = nullptr;
+
 } // namespace
+
+FilesOpened::FilesOpened()
+    : outer_(innermost)
+{
+    innermost = this;
+}
+
+FilesOpened::~FilesOpened() { innermost = outer_; }
 
 OpenFile openFile(const std::filesystem::path& path, const std::string& kind)
 {
@@ -44,6 +54,8 @@ OpenFile openFile(const std::filesystem::path& path, const std::string& kind)
     if (!S_ISREG(status.st_mode))
         throw Error(kind + " is not a regular file", path.string(), "copy it to a regular file first");
     file.bytes = static_cast<std::uintmax_t>(status.st_size);
+    for (FilesOpened* notes = innermost; notes != nullptr; notes = notes->outer_)
+        notes->paths_.push_back(path);
     return file;
 }
 

@@ -140,7 +140,9 @@ void writeImage(const Output& output, const image::LayeredImage& image, const im
     if (output.format == ImageFormat::Exr) {
         image::writeExr(output.path, image);
     } else {
-        image::writePng(output.path, image::beauty(image), look);
+        const auto inputs = image.metadata.find("inputs");
+        const std::string* text = inputs != image.metadata.end() ? std::get_if<std::string>(&inputs->second) : nullptr;
+        image::writePng(output.path, image::beauty(image), look, text != nullptr ? *text : "");
     }
 }
 

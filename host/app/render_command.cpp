@@ -1,5 +1,7 @@
 #include "host/app/commands.h"
 #include "host/app/console.h"
+#include "host/app/finished_frames.h"
+#include "host/app/frame_names.h"
 #include "host/app/image_writer.h"
 #include "host/app/interrupt.h"
 #include "host/app/outputs.h"
@@ -10,8 +12,10 @@
 #include "host/app/render_settings.h"
 #include "host/device/driver_cache.h"
 #include "host/error.h"
+#include "host/render/distributed_frame.h"
 #include "host/render/layers.h"
 #include "host/render/report.h"
+#include "host/scene/sequence.h"
 
 #include <algorithm>
 #include <chrono>
@@ -19,6 +23,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -53,6 +58,12 @@ public:
 
 private:
     void checkCall() const;
+    void checkFrames() const;
+    void findUnfinished();
+    void moveTo(std::uint32_t frame);
+    int runFrames();
+    /// Returns false if it was stopped.
+    bool renderFrame(std::uint32_t frame, std::size_t number, Clock::time_point start);
     void warnOfPicture() const;
     void load();
     void build();
@@ -88,6 +99,12 @@ private:
     std::optional<image::RgbImage> reference_;
     std::unique_ptr<render::Renderer> renderer_;
     render::FrameStatistics statistics_;
+    // Of a sequence.
+    std::optional<scene::Sequence> sequence_;
+    std::string inputs_;
+    std::vector<std::uint32_t> unfinished_;
+    std::vector<render::FrameStatistics> rendered_;
+    std::optional<bool> rehearsed_; // for distributed frames, or not
     bool interrupted_ = false, reported_ = false;
     double fraction_ = 0;
 };
@@ -96,6 +113,9 @@ int RenderJob::run()
 {
     checkCall();
     load();
+    if (options_.frames) {
+        return runFrames();
+    }
     build();
     if (!options_.explain.empty()) {
         explain();
@@ -150,7 +170,42 @@ void RenderJob::checkCall() const
     std::vector<std::string> written = { options_.report, options_.explain };
     std::ranges::transform(outputs, std::back_inserter(written), &Output::path);
     refuseOverwriting(written, { options_.scene, options_.reference });
-    requireWritable(outputs, options_.explain.empty() ? options_.report : options_.explain);
+    checkFrames();
+    requireWritable(options_.frames ? frameOutputs(outputs, options_.frames->first) : outputs,
+        options_.explain.empty() ? options_.report : options_.explain);
+}
+
+/// Of a sequence: what does not go with it, and that every frame has files of its own.
+void RenderJob::checkFrames() const
+{
+    if (!options_.frames) {
+        if (options_.fps) {
+            throw UsageError("option has no effect without --frames", "--fps", "leave it out, or add --frames");
+        }
+        return;
+    }
+    const std::pair<const char*, bool> others[] = { { "--progressive", options_.progressive },
+        { "--reference", !options_.reference.empty() }, { "--explain", !options_.explain.empty() } };
+    for (const auto& [name, given] : others) {
+        if (given) {
+            throw UsageError("option does not go with --frames", name, "leave one of them out");
+        }
+    }
+    if (options_.outputs.empty()) {
+        throw UsageError("a sequence needs a name for its frames", "--frames", "add -o name.%04d.exr");
+    }
+    std::set<std::filesystem::path> names;
+    for (std::uint32_t i = 0; i < options_.frames->count(); ++i) {
+        const std::vector<Output> outputs = frameOutputs(images_.outputs(), options_.frames->first + i);
+        std::vector<std::string> written = { options_.report };
+        for (const Output& output : outputs) {
+            if (!names.insert(std::filesystem::path(output.path).lexically_normal()).second) {
+                throw UsageError("output is named twice", output.path, "give each frame a file of its own");
+            }
+            written.push_back(output.path);
+        }
+        refuseOverwriting(written, { options_.scene });
+    }
 }
 
 /// A call that names no outputs takes no picture that is not its own.
@@ -167,7 +222,13 @@ void RenderJob::load()
 {
     const Clock::time_point start = Clock::now();
     progress_.show("reading " + options_.scene);
-    scene_ = scene::loadScene(options_.scene, options_.load);
+    if (options_.frames) {
+        sequence_.emplace(options_.scene, options_.load);
+        scene_ = sequence_->takeScene();
+        scene_.framesPerUnit = options_.fps.value_or(scene_.framesPerUnit);
+    } else {
+        scene_ = scene::loadScene(options_.scene, options_.load);
+    }
     extras_.loadMilliseconds = millisecondsSince(start);
     progress_.clear();
     if (!options_.quiet) {
@@ -206,6 +267,117 @@ void RenderJob::build()
     progress_.show("building the hierarchy");
     renderer_ = std::make_unique<render::Renderer>(scene_, device, options);
     progress_.clear();
+}
+
+/// The frames that are not there yet.
+void RenderJob::findUnfinished()
+{
+    const FrameRange range = *options_.frames;
+    inputs_ = sequenceInputs(options_, settings_, scene_.framesPerUnit, sequence_->contents());
+    extras_.sequence = { range.first, range.last, scene_.framesPerUnit, {}, "frames" };
+    for (std::uint32_t i = 0; i < range.count(); ++i) {
+        const std::uint32_t frame = range.first + i;
+        const std::vector<Output> outputs = frameOutputs(images_.outputs(), frame);
+        // Kernels of one's own may have changed since.
+        const bool there = options_.kernelDir.empty() && std::ranges::all_of(outputs, [&](const Output& o) {
+            return isFinished(o, frameInputs(inputs_, frame));
+        });
+        (there ? extras_.sequence->skipped : unfinished_).push_back(frame);
+    }
+}
+
+/// The scene and the settings of a frame.
+void RenderJob::moveTo(std::uint32_t frame)
+{
+    scene::Moment moment = sequence_->at(frame / scene_.framesPerUnit);
+    scene::Change change = scene::changeTo(moment, scene_);
+    const auto alter = [&] {
+        scene::apply(std::move(moment), change, scene_);
+        applyLens(options_, scene_);
+    };
+    if (renderer_) {
+        renderer_->changeScene(change, alter);
+    } else {
+        alter();
+    }
+    settings_ = resolveSettings(options_, scene_);
+    settings_.frame = frame;
+}
+
+int RenderJob::runFrames()
+{
+    findUnfinished();
+    const std::size_t skipped = extras_.sequence->skipped.size();
+    if (skipped > 0) {
+        tell("{} of {} frames are there and left as they are\n", skipped, options_.frames->count());
+    }
+    if (unfinished_.empty() && options_.report.empty()) {
+        return 0;
+    }
+    moveTo(unfinished_.empty() ? options_.frames->first : unfinished_.front());
+    build();
+    const std::vector<Output> patterns = images_.outputs();
+    Clock::time_point start {};
+    for (std::size_t i = 0; i < unfinished_.size(); ++i) {
+        const std::uint32_t frame = unfinished_[i];
+        if (i > 0) {
+            moveTo(frame);
+        }
+        if (const bool distributed = render::isDistributed(settings_, scene_); rehearsed_ != distributed) {
+            if (i == 0) {
+                prepare();
+                guard_.emplace(); // before this, an interrupt simply ends the program
+                start = Clock::now();
+            } else {
+                renderer_->rehearse(settings_, !layers_.empty());
+            }
+            rehearsed_ = distributed;
+        }
+        images_ = ImageWriter(
+            frameOutputs(patterns, frame), { options_.exposureStops, options_.view.value_or(image::View::Srgb) });
+        if (!renderFrame(frame, i, start)) {
+            interrupted_ = guard_->flag();
+            extras_.sequence->ended = interrupted_ ? "interrupt" : "time limit";
+            put(stderr,
+                fmt::format("wedge: {} in frame {}, which is not written: call again to go on from there\n",
+                    interrupted_ ? "interrupted" : "time limit reached", frame));
+            break;
+        }
+    }
+    writeReport();
+    if (!failures_.empty()) {
+        throw Errors(failures_);
+    }
+    return interrupted_ ? statusInterrupted : 0;
+}
+
+bool RenderJob::renderFrame(std::uint32_t frame, std::size_t number, Clock::time_point start)
+{
+    const double left = options_.timeLimitSeconds - 1e-3 * millisecondsSince(start);
+    if (guard_->flag() || (options_.timeLimitSeconds > 0 && left <= 0)) {
+        return false;
+    }
+    render::Control control;
+    control.cancel = &guard_->flag();
+    control.timeLimitSeconds = options_.timeLimitSeconds > 0 ? left : 0;
+    control.progress = [&](double fraction) {
+        progress_.update((static_cast<double>(number) + fraction) / static_cast<double>(unfinished_.size()));
+    };
+    statistics_ = renderer_->render(settings_, control, !layers_.empty());
+    progress_.clear();
+    if (!statistics_.complete) {
+        return false;
+    }
+    write();
+    finishImages();
+    if (!failures_.empty()) {
+        throw Errors(failures_); // the next ones would fail, too
+    }
+    rendered_.push_back(statistics_);
+    tell("frame {}: {:.1f} rays a pixel, {:.2f} s, wrote {}\n", frame, render::raysPerPixel(statistics_, settings_),
+        1e-3 * statistics_.wallMilliseconds, printable(fmt::format("{}", images_.written().front())));
+    std::fflush(stdout);
+    return true;
 }
 
 void RenderJob::explain() const
@@ -309,8 +481,11 @@ std::string RenderJob::endOfSteps() const
 /// The image that the renderer has now.
 void RenderJob::write()
 {
-    const auto image =
-        std::make_shared<const image::LayeredImage>(render::readLayers(*renderer_, settings_, statistics_, layers_));
+    auto read = render::readLayers(*renderer_, settings_, statistics_, layers_);
+    if (settings_.frame) {
+        read.metadata["inputs"] = frameInputs(inputs_, *settings_.frame);
+    }
+    const auto image = std::make_shared<const image::LayeredImage>(std::move(read));
     const std::vector<std::string> errors = images_.write(image);
     if (settings_.progressive && !options_.quiet) {
         for (const std::string& error : errors) {
@@ -337,7 +512,9 @@ void RenderJob::writeReport()
         return;
     }
     try {
-        writeText(options_.report, render::jsonReport(*renderer_, settings_, { statistics_ }, extras_));
+        writeText(options_.report,
+            render::jsonReport(
+                *renderer_, settings_, options_.frames ? rendered_ : std::vector { statistics_ }, extras_));
         reported_ = true;
     } catch (const Error& error) {
         failures_.emplace_back(error.what());

@@ -60,6 +60,14 @@ void addFrameOptions(CLI::App& parser, RenderOptions& o)
         [&o](const std::string& text) { o.size = imageSize("--size", text); });
     addValue(parser, whatGroup, "--crop", "x0,y0,x1,y1", "Render these pixels only, x1 and y1 excluded",
         [&o](const std::string& text) { o.crop = cropWindow("--crop", text); });
+    addValue(parser, whatGroup, "--frames", "A:B",
+        "Render frames A to B of a sequence, with -o name.%04d.exr; those that are there, whole and of the same "
+        "settings, "
+        "are left",
+        [&o](const std::string& text) { o.frames = frameRange("--frames", text); });
+    addValue(parser, whatGroup, "--fps", "N",
+        "With --frames: frame n is n / N later, in the time of the scene's keys. Default: the scene's, 24",
+        [&o](const std::string& text) { o.fps = finiteNumber("--fps", text, scene::leastFps, scene::mostFps); });
     addValue(parser, whatGroup, "--layers", "LIST",
         "Layers to add to the EXR: all, or names separated by commas, listed below",
         [&o](const std::string& text) { o.layers = text; });
@@ -210,7 +218,10 @@ void addEffectOptions(CLI::App& parser, RenderOptions& o)
     for (const auto& effect : render::effects()) {
         for (const render::EffectOption& option : effect->options()) {
             addValue(parser, whatGroup, option.name, option.type, option.help,
-                [&o, parse = option.parse](const std::string& text) { o.changes.push_back(parse(text)); });
+                [&o, name = option.name, parse = option.parse](const std::string& text) {
+                    o.changes.push_back(parse(text));
+                    o.changeTexts.push_back(name + " " + text);
+                });
         }
     }
 }

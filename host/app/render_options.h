@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/app/frame_names.h"
 #include "host/image/image.h"
 #include "host/image/view.h"
 #include "host/render/effect.h"
@@ -54,6 +55,9 @@ struct RenderOptions {
     float exposureStops = 0; ///< of PNGs
     std::optional<image::View> view; ///< of PNGs
     std::vector<render::SceneChange> changes; ///< by options of effects
+    std::vector<std::string> changeTexts; ///< the same as they were given
+    std::optional<FrameRange> frames; ///< of a sequence
+    std::optional<double> fps; ///< frames in one unit of the keys' time
 
     // Ablations.
     std::optional<render::Sampling> sampling;

@@ -9,9 +9,12 @@ namespace wedge::image {
 
 /// Writes an 8-bit sRGB PNG. Values are multiplied and mapped to 0 .. 1 as the look has it (by default clipped, NaN to
 /// 0), encoded with the sRGB curve and rounded. The file names this program as its software, and appears whole or not
-/// at all. Throws Error where it cannot be written, and std::logic_error where the image is empty or contradicts
-/// itself.
-void writePng(const std::string& path, const RgbImage& image, const Look& look = {});
+/// at all. inputs: kept beside it, for pngInputs(), printable ASCII. Throws Error where it cannot be written, and
+/// std::logic_error where the image is empty or contradicts itself.
+void writePng(const std::string& path, const RgbImage& image, const Look& look = {}, const std::string& inputs = "");
+
+/// What writePng() was told of a file's inputs; "" of others, and where there is no such file.
+std::string pngInputs(const std::string& path);
 
 /// Whether a path leads to a file that writePng() wrote.
 bool isOwnPng(const std::string& path);

@@ -11,7 +11,7 @@ using graph::Run;
 
 shared::FrameParams FrameBuilder::wholeFrame() const
 {
-    return frameParams(description, layout, graph.image(), settings.seed);
+    return frameParams(description, layout, graph.image(), frameSeed(settings));
 }
 
 shared::AnalysisParams FrameBuilder::analysisParams() const
@@ -27,9 +27,10 @@ shared::AnalysisParams FrameBuilder::analysisParams() const
 
 graph::Argument FrameBuilder::frame() const
 {
-    return graph::made("frame", [&scene = description, layout = layout, seed = settings.seed](const Launch& launch) {
-        return frameParams(scene, layout, launch.window, seed);
-    });
+    return graph::made(
+        "frame", [&scene = description, layout = layout, seed = frameSeed(settings)](const Launch& launch) {
+            return frameParams(scene, layout, launch.window, seed);
+        });
 }
 
 graph::Argument FrameBuilder::outside(std::string name, std::string_view type, const cl::Buffer* memory) const

@@ -62,6 +62,9 @@ std::map<std::string, image::MetadataValue> frameMetadata(
     out["samplesPerPixel"] = static_cast<float>(statistics.sppMean);
     // As text: an int attribute is signed, and a seed has all 32 bits.
     out["seed"] = std::to_string(settings.seed);
+    if (settings.frame) {
+        out["frame"] = static_cast<int>(*settings.frame);
+    }
     out["complete"] = statistics.complete ? 1 : 0;
     out["device"] = device.name;
     out["driver"] = device.platform + " " + device.driver;

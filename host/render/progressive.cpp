@@ -67,7 +67,7 @@ Renderer::Step Renderer::runStep(
     frameGraph_ = std::move(frame);
     const graph::Plan plan(halves.graph(), device::partAlignment, slabRules());
     frame_.reset(); // it has parts of the memory
-    graph::Execution execution(plan, memory_, kernels_, queue_);
+    graph::Execution execution(plan, memory_, *kernels_, queue_);
     const bool whole = run(execution, stop, rehearsal);
     return { rehearsal ? ErrorEstimate { 0, 0 } : halves.error(execution, queue_), whole };
 }

@@ -79,14 +79,43 @@ Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Opti
     , hierarchy_(buildHierarchy(scene, options_.bvh, resolveTraversal(options_.traversal, device.info())))
     , lights_(scene)
     , queue_(device, options_.checkLaunches)
-    , programs_(std::make_unique<device::ProgramLibrary>(device, programOptions(scene, options_, hierarchy_.traversal)))
-    , kernels_(*programs_)
     , memory_(device_)
     , unused_(device::Buffer<std::uint32_t>(device_, 0, "nothing").cl())
 {
+    buildPrograms();
 }
 
 Renderer::~Renderer() = default;
+
+void Renderer::buildPrograms()
+{
+    device::BuildOptions options = programOptions(scene_, options_, hierarchy_.traversal);
+    if (programs_ && options.defines == programOptions_.defines && options.generated == programOptions_.generated) {
+        return;
+    }
+    kernels_.reset();
+    programs_ = std::make_unique<device::ProgramLibrary>(device_, options);
+    kernels_.emplace(*programs_);
+    programOptions_ = std::move(options);
+}
+
+void Renderer::changeScene(const scene::Change& change, const std::function<void()>& alter)
+{
+    queue_.finish();
+    frame_.reset();
+    frameGraph_.reset(); // it refers to the scene
+    if (change.lights || change.geometry) {
+        deviceScene_.reset(); // devices may work in the scene's memory
+    }
+    alter();
+    if (change.geometry) {
+        hierarchy_ = buildHierarchy(scene_, options_.bvh, hierarchy_.traversal);
+    }
+    if (change.lights || change.geometry) {
+        lights_ = SceneLights(scene_); // triangles that emit are among them
+    }
+    buildPrograms();
+}
 
 graph::SlabRules Renderer::slabRules() const
 {
@@ -232,6 +261,7 @@ FrameStatistics Renderer::completed(const Settings& settings, FrameStatistics st
     for (const device::PassRecord& record : statistics.passes) {
         statistics.deviceMilliseconds += record.milliseconds;
     }
+    statistics.frame = settings.frame;
     statistics.memoryBytes = plan(settings, frameGraph_->keepsLayers()).total();
     countWork(settings, statistics);
     return statistics;
@@ -240,7 +270,7 @@ FrameStatistics Renderer::completed(const Settings& settings, FrameStatistics st
 bool Renderer::run(const std::atomic<bool>* stop, bool rehearsal)
 {
     const graph::Plan plan(frameGraph_->graph(), device::partAlignment, slabRules());
-    graph::Execution execution(plan, memory_, kernels_, queue_);
+    graph::Execution execution(plan, memory_, *kernels_, queue_);
     return run(execution, stop, rehearsal);
 }
 
@@ -266,10 +296,9 @@ void Renderer::rehearse(graph::Execution& execution)
         execution.rehearse();
         return;
     }
-    const device::BuildOptions options = programOptions(scene_, options_, hierarchy_.traversal);
-    const KnownKernels kernels(device_, programs_->optionsString(), options, plan);
+    const KnownKernels kernels(device_, programs_->optionsString(), programOptions_, plan);
     if (!kernels.areKnown()) {
-        const CompileWork work = compileWork(device_, options, plan, execution.trials());
+        const CompileWork work = compileWork(device_, programOptions_, plan, execution.trials());
         if (options_.onCompile) {
             options_.onCompile(work.kernels());
         }
@@ -277,7 +306,7 @@ void Renderer::rehearse(graph::Execution& execution)
             std::min({ std::size_t { std::max(info.computeUnits, 1u) - 1 }, mostCompilers, compilersThatFit() });
         // Who edits kernels wants one message, and all warnings.
         if (!options_.compiler.empty() && options_.kernelDir.empty() && others > 0) {
-            compileSideBySide(options_.compiler, others, work, queue_, kernels_);
+            compileSideBySide(options_.compiler, others, work, queue_, *kernels_);
         }
     }
     execution.rehearse();

@@ -9,6 +9,7 @@
 #include "host/render/halves.h"
 #include "host/render/hierarchy.h"
 #include "host/render/settings.h"
+#include "host/scene/sequence.h"
 
 #include <atomic>
 #include <functional>
@@ -53,6 +54,7 @@ struct TermPlanes {
 
 /// What a frame cost and took.
 struct FrameStatistics {
+    std::optional<std::uint32_t> frame; ///< its number in a sequence
     bool complete = true; ///< false: stopped early; the image is made of what was sampled until then
     double wallMilliseconds = 0; ///< from the first launch to the last result, on the host's clock
     double deviceMilliseconds = 0; ///< sum of the passes
@@ -118,6 +120,10 @@ public:
     /// Launches all kernels of these settings at full size over nothing, so that no compilation falls into render().
     void rehearse(const Settings& settings, bool keepLayers = false);
 
+    /// Lets `alter` change the scene in the parts that `change` names, and in its camera. What was made of those is
+    /// given up before and made anew after it.
+    void changeScene(const scene::Change& change, const std::function<void()>& alter);
+
     const scene::Scene& scene() const { return scene_; }
     bvh::Mode bvhMode() const { return options_.bvh; }
     const bvh::Bvh& hierarchy() const { return hierarchy_.bvh; }
@@ -156,6 +162,8 @@ private:
     /// With the sums of the passes, memory, and what the frame counted.
     FrameStatistics completed(const Settings& settings, FrameStatistics statistics);
     void countWork(const Settings& settings, FrameStatistics& statistics);
+    /// The programs that the scene needs, where they are not there.
+    void buildPrograms();
     double workUnits(const Settings& settings) const;
 
     const scene::Scene& scene_;
@@ -164,9 +172,10 @@ private:
     Hierarchy hierarchy_;
     SceneLights lights_;
     device::TimedQueue queue_;
+    device::BuildOptions programOptions_;
     std::unique_ptr<device::ProgramLibrary> programs_;
     std::unique_ptr<DeviceScene> deviceScene_;
-    graph::Kernels kernels_;
+    std::optional<graph::Kernels> kernels_; ///< of the programs
     graph::Memory memory_; ///< of the frame
     cl::Buffer unused_; ///< for parameters that nothing is read from
     std::unique_ptr<HalfMemories> halfMemories_; ///< of progressive frames

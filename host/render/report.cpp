@@ -77,14 +77,16 @@ Json frameSection(const FrameStatistics& frame, const Settings& settings)
             { { "name", pass.name }, { "kind", device::passKindName(pass.kind) }, { "ms", pass.milliseconds },
                 { "bytes", pass.bytes }, { "launches", pass.launches }, { "kernels", pass.kernels } });
     }
-    return { { "complete", frame.complete }, { "total_ms", frame.deviceMilliseconds },
+    Json out = frame.frame ? Json { { "frame", *frame.frame } } : Json::object();
+    out.update(Json { { "complete", frame.complete }, { "total_ms", frame.deviceMilliseconds },
         { "wall_ms", frame.wallMilliseconds }, { "overhead_fraction", frame.overheadFraction() },
         { "spp_mean", frame.sppMean }, { "spp_primary", frame.primarySpp }, { "spp_direct", frame.directSpp },
         { "spp_indirect", frame.indirectSpp }, { "shaded_pixels", frame.shadedPixels },
         { "rays_per_pixel", raysPerPixel(frame, settings) }, { "mrays_s", megaraysPerSecond(frame) },
         { "rays",
             { { "primary", frame.primaryRays }, { "shadow", frame.shadowRays }, { "indirect", frame.indirectRays } } },
-        { "passes", passes }, { "memory_bytes", frame.memoryBytes } };
+        { "passes", passes }, { "memory_bytes", frame.memoryBytes } });
+    return out;
 }
 
 /// files: written after each step.
@@ -146,6 +148,11 @@ std::string jsonReport(const Renderer& renderer, const Settings& settings, const
     report["frames"] = Json::array();
     for (const FrameStatistics& frame : frames) {
         report["frames"].push_back(frameSection(frame, settings));
+    }
+    if (extras.sequence) {
+        const ReportExtras::Sequence& s = *extras.sequence;
+        report["sequence"] = { { "first", s.first }, { "last", s.last }, { "fps", s.fps }, { "skipped", s.skipped },
+            { "ended_by", s.ended } };
     }
     if (!extras.steps.empty()) {
         report["progressive"] = progressiveSection(extras, settings);

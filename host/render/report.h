@@ -22,6 +22,14 @@ struct ReportExtras {
     std::optional<double> targetError; ///< likewise
     std::string ended; ///< likewise: by what
     std::vector<std::string> files; ///< likewise: what the last image was written to
+    /// Of a sequence.
+    struct Sequence {
+        std::uint32_t first = 0, last = 0;
+        double fps = 0; ///< frames in one unit of the keys' time
+        std::vector<std::uint32_t> skipped; ///< frames that were there
+        std::string ended; ///< by what
+    };
+    std::optional<Sequence> sequence;
 };
 
 /// All rays of the frame, by the pixels that it shows.

@@ -4,6 +4,7 @@
 #include "kernels/shared/camera.h"
 #include "kernels/shared/frame.h"
 #include "kernels/shared/indirect.h"
+#include "kernels/shared/rng.h"
 #include "kernels/shared/wedge.h"
 
 #include <algorithm>
@@ -292,6 +293,12 @@ Settings halfAt(const Settings& settings, int spp)
 std::uint32_t pixelFilterOf(const Settings& s)
 {
     return s.antialias ? WEDGE_PIXEL_BOX + static_cast<std::uint32_t>(s.pixelFilter) : WEDGE_PIXEL_CENTRE;
+}
+
+std::uint32_t frameSeed(const Settings& settings)
+{
+    const std::uint32_t frame = settings.frame.value_or(0);
+    return frame == 0 ? settings.seed : shared::hashCombine(settings.seed, frame);
 }
 
 image::Window outputWindow(const Settings& s)

@@ -143,6 +143,7 @@ struct Settings {
     int width = 640, height = 480;
     image::Window crop; ///< pixels to render; empty: all
     std::uint32_t seed = 0;
+    std::optional<std::uint32_t> frame; ///< its number in a sequence, which enters the random numbers
 
     Integrator integrator = Integrator::Path;
     int bounces = 0; ///< of indirect light: 0 is direct light alone
@@ -204,6 +205,9 @@ Settings asPublished(std::optional<float> mu = {});
 /// with the samples of both, as axisAligned() has it, since their mean is as little noisy as one frame with all of
 /// them.
 Settings halfAt(const Settings& settings, int spp);
+
+/// The seed of a frame's random numbers: of frame 0, and of a frame of no sequence, the settings' own.
+std::uint32_t frameSeed(const Settings& settings);
 
 /// The pixels that a frame of these settings produces: the crop, or all.
 image::Window outputWindow(const Settings& settings);

@@ -97,7 +97,8 @@ graph::Argument Waves::pixelParams() const { return f_.frame(); }
 graph::Argument Waves::receiverParams() const
 {
     return made("frame",
-        [state = state_, &scene = f_.description, layout = f_.layout, seed = f_.settings.seed](const Launch& launch) {
+        [state = state_, &scene = f_.description, layout = f_.layout, seed = frameSeed(f_.settings)](
+            const Launch& launch) {
             const shared::WaveParams& wave = state->wave(launch.run);
             shared::FrameParams p = frameParams(scene, layout, launch.window, seed);
             p.planeSize = wave.planeSize;
@@ -252,7 +253,8 @@ void Waves::trace(bool lit)
     r_.rays = list<Count>("rays", graph::counts);
     r_.pathRays = list<Count>("path rays", graph::counts);
     const auto traced = made("frame",
-        [state = state_, &scene = f_.description, layout = f_.layout, seed = f_.settings.seed](const Launch& launch) {
+        [state = state_, &scene = f_.description, layout = f_.layout, seed = frameSeed(f_.settings)](
+            const Launch& launch) {
             shared::FrameParams p = frameParams(scene, layout, launch.window, seed);
             p.tileCount = tilesOf(state->wave(launch.run).receivers);
             return p;

@@ -9,10 +9,11 @@
 
 namespace wedge::scene {
 
-/// How the keyframes of a mesh, [[mesh.key]], place it over time: scaled, then turned, then moved.
+/// How the keyframes of a mesh or a light, [[mesh.key]], place it over time: scaled, then turned, then moved.
 class MeshKeys {
 public:
-    /// Reads them from a [[mesh]]. Throws Error for times out of order and for a scale that passes through 0.
+    /// Reads them from a [[mesh]] or [[light]]. Throws Error for times out of order and for a scale that passes through
+    /// 0.
     explicit MeshKeys(TableReader& mesh);
 
     /// Between two keys translation and scale are linear, and the rotation goes the shorter way at an even speed

@@ -113,12 +113,6 @@ IndexedMesh readVertices(TableReader& table, const MeshFiles::Entry& entry, Mesh
     return indexMesh(shapes.at(scene.shutterOpen, mesh), entry.materialBase, &atClose);
 }
 
-/// A [[mesh]] whose file is read.
-struct MeshTable {
-    TableReader table;
-    const MeshFiles::Entry& entry;
-};
-
 /// Of what the copies of a [[mesh]] put before the names of its objects.
 std::size_t nameBytes(TableReader& table, std::size_t copies)
 {
@@ -128,25 +122,6 @@ std::size_t nameBytes(TableReader& table, std::size_t copies)
             bytes += instance.text("name").value_or("").size();
     }
     return bytes;
-}
-
-/// Reads the files of all meshes and counts what they will take.
-std::vector<MeshTable> readFiles(TableReader& root, MeshFiles& files, Warnings& warnings)
-{
-    std::vector<MeshTable> meshes;
-    GeometryLimit limit;
-    for (TableReader& table : root.tables("mesh")) {
-        const std::filesystem::path path = readMeshPath(table);
-        const MeshFiles::Entry& entry = files.get(path, table.path("mtl").value_or(std::filesystem::path()));
-        const std::string where = table.where("file");
-        if (entry.mesh.flat == entry.mesh.triangles())
-            warnings.add("meshes without area", where + ": mesh has no triangle with an area, nothing of it is seen");
-        const std::size_t instances = table.count("instances") + table.count("instance");
-        const std::size_t copies = std::max<std::size_t>(instances + table.count("shape"), 1);
-        limit.add(entry.mesh, copies, nameBytes(table, copies), where);
-        meshes.push_back({ table, entry });
-    }
-    return meshes;
 }
 
 /// Motion that goes nowhere is none.
@@ -160,16 +135,45 @@ void forgetRest(Geometry& geometry)
 
 } // namespace
 
-void readMeshes(TableReader& root, Scene& scene, TextureSet& textures, Warnings& warnings)
+SceneMeshes::SceneMeshes(TableReader& root, Scene& scene, TextureSet& textures, Warnings& warnings)
+    : files_(scene, textures, warnings)
+    , named_(scene.materials)
 {
-    const NamedMaterials named(scene.materials);
-    MeshFiles files(scene, textures, warnings);
-    for (auto& [table, entry] : readFiles(root, files, warnings)) {
-        const IndexedMesh indexed = readVertices(table, entry, files, scene);
+    readFiles(root, warnings);
+}
+
+/// Counts also what they will take.
+void SceneMeshes::readFiles(TableReader& root, Warnings& warnings)
+{
+    GeometryLimit limit;
+    for (TableReader& table : root.tables("mesh")) {
+        const std::filesystem::path path = readMeshPath(table);
+        const MeshFiles::Entry& entry = files_.get(path, table.path("mtl").value_or(std::filesystem::path()));
+        const std::string where = table.where("file");
+        if (entry.mesh.flat == entry.mesh.triangles())
+            warnings.add("meshes without area", where + ": mesh has no triangle with an area, nothing of it is seen");
+        const std::size_t instances = table.count("instances") + table.count("instance");
+        const std::size_t copies = std::max<std::size_t>(instances + table.count("shape"), 1);
+        limit.add(entry.mesh, copies, nameBytes(table, copies), where);
+        meshes_.push_back({ table, entry });
+    }
+}
+
+void SceneMeshes::place(Scene& scene, Warnings& warnings)
+{
+    const NamedMaterials named(named_);
+    for (auto& [table, entry] : meshes_) {
+        const IndexedMesh indexed = readVertices(table, entry, files_, scene);
         addInstances(table, { indexed, entry.mesh.hasNameless, named }, scene, warnings);
         table.finish();
     }
     forgetRest(scene.geometry);
+}
+
+bool SceneMeshes::mayMove()
+{
+    return std::ranges::any_of(
+        meshes_, [](MeshTable& mesh) { return mesh.table.has("key") || mesh.table.has("shape"); });
 }
 
 } // namespace wedge::scene

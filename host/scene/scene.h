@@ -114,6 +114,7 @@ struct Scene {
     std::optional<Camera> cameraAtClose; ///< when it closes, if it moves; lens and field of view are those of camera
     ShutterProfile shutterProfile = ShutterProfile::Box;
     double shutterOpen = 0.0, shutterClose = 0.0; ///< in the time of the scene file's keys; all above is as of these
+    double framesPerUnit = 24.0; ///< of sequences: frames in one unit of the keys' time, leastFps to mostFps
     Settings settings;
     std::map<std::string, std::any> extensions; ///< of the tables of sections.h, by their keys
     std::vector<std::string> warnings; ///< one line each, for the user
@@ -141,6 +142,8 @@ constexpr int maxSamples = 1 << 20;
 constexpr double leastMu = 0.01, mostMu = 1000.0;
 constexpr int maxBounces = 1024;
 constexpr double leastAmbientDistance = 1e-12, mostAmbientDistance = 1e12;
+/// Frames of a sequence in one unit of the keys' time.
+constexpr double leastFps = 1e-6, mostFps = 1e6;
 /// Metres: a lens has a radius of at most this, and a distance in focus from least to most.
 constexpr double mostAperture = 1e12, leastFocus = 1e-12, mostFocus = 1e12;
 

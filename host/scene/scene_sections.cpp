@@ -6,11 +6,43 @@
 
 #include <fmt/format.h>
 
+#include "host/scene/mesh_keys.h"
 #include "host/scene/sections.h"
 #include "host/scene/validate.h"
 
 namespace wedge::scene {
 namespace {
+
+/// Where a light's keys, [[light.key]], put it at a time: as a mesh's do.
+class LightPose {
+public:
+    LightPose(TableReader& table, double time)
+        : moves_(table.has("key"))
+        , table_(table)
+        , pose_(MeshKeys(table).at(time))
+    {
+    }
+
+    glm::vec3 point(const glm::vec3& p) const
+    {
+        if (!moves_)
+            return p;
+        const glm::dvec3 moved(pose_ * glm::dvec4(p, 1.0));
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!(std::abs(moved[axis]) <= maxCoordinate))
+                table_.fail("key", "puts a light at a coordinate beyond 1e12", fmt::format("{:g}", moved[axis]),
+                    "scale the scene down");
+        }
+        return glm::vec3(moved);
+    }
+    glm::dvec3 vector(const glm::dvec3& v) const { return moves_ ? glm::dmat3(pose_) * v : v; }
+    bool mirrors() const { return glm::determinant(glm::dmat3(pose_)) < 0.0; }
+
+private:
+    bool moves_;
+    TableReader& table_;
+    glm::dmat4 pose_;
+};
 
 /// A quad is a corner and two edges, or a centre and two half edges.
 void readQuadShape(TableReader& table, AreaLight& light)
@@ -29,7 +61,7 @@ void readQuadShape(TableReader& table, AreaLight& light)
     }
 }
 
-void readQuad(TableReader& table, Scene& scene, Warnings& warnings)
+void readQuad(TableReader& table, const LightPose& pose, Scene& scene, Warnings& warnings)
 {
     AreaLight light;
     light.name = table.text("name").value_or("");
@@ -40,27 +72,32 @@ void readQuad(TableReader& table, Scene& scene, Warnings& warnings)
     light.cut = static_cast<float>(table.number("cut").value_or(double { light.cut }));
     if (table.boolean("flip").value_or(false))
         std::swap(light.halfU, light.halfV);
+    light.centre = pose.point(light.centre);
+    light.halfU = glm::vec3(pose.vector(light.halfU));
+    light.halfV = glm::vec3(pose.vector(light.halfV));
+    if (pose.mirrors())
+        std::swap(light.halfU, light.halfV); // so that it emits to the side that is mirrored, too
     light.twoSided = table.boolean("two_sided").value_or(light.twoSided);
     light.visible = table.boolean("visible").value_or(light.visible);
     checkAreaLight(light, table.where("type"), warnings);
     scene.areaLights.push_back(light);
 }
 
-void readPoint(TableReader& table, Scene& scene)
+void readPoint(TableReader& table, const LightPose& pose, Scene& scene)
 {
     PointLight light;
-    light.position = table.require("position", table.point("position"));
+    light.position = pose.point(table.require("position", table.point("position")));
     light.intensity = table.require("intensity", table.colour("intensity"));
     scene.pointLights.push_back(light);
 }
 
-void readDirectional(TableReader& table, Scene& scene)
+void readDirectional(TableReader& table, const LightPose& pose, Scene& scene)
 {
     DirectionalLight light;
     const glm::dvec3 direction(table.require("direction", table.vector("direction")));
     if (!(glm::length(direction) > 0.0))
         table.fail("direction", "is zero", "[0, 0, 0]", "give the way the light travels");
-    light.direction = glm::vec3(glm::normalize(direction));
+    light.direction = glm::vec3(glm::normalize(pose.vector(direction)));
     light.irradiance = table.require("irradiance", table.colour("irradiance"));
     scene.directionalLights.push_back(light);
 }
@@ -126,6 +163,15 @@ void readIntegrator(TableReader& root, Scene& scene)
     table->finish();
 }
 
+void readSequence(TableReader& root, Scene& scene)
+{
+    auto table = root.table("sequence");
+    if (!table)
+        return;
+    scene.framesPerUnit = table->require("fps", table->number("fps", leastFps, mostFps));
+    table->finish();
+}
+
 void readBackground(TableReader& root, Scene& scene)
 {
     auto table = root.table("background");
@@ -139,12 +185,13 @@ void readLights(TableReader& root, Scene& scene, Warnings& warnings)
 {
     for (TableReader& table : root.tables("light")) {
         const std::string type = table.require("type", table.choice("type", { "quad", "point", "directional" }));
+        const LightPose pose(table, scene.shutterOpen);
         if (type == "quad")
-            readQuad(table, scene, warnings);
+            readQuad(table, pose, scene, warnings);
         else if (type == "point")
-            readPoint(table, scene);
+            readPoint(table, pose, scene);
         else
-            readDirectional(table, scene);
+            readDirectional(table, pose, scene);
         table.finish();
     }
 }

@@ -10,7 +10,10 @@ namespace wedge::scene {
 
 void readImage(TableReader& root, Scene& scene);
 void readIntegrator(TableReader& root, Scene& scene);
+/// [sequence]: frames a unit of time.
+void readSequence(TableReader& root, Scene& scene);
 void readBackground(TableReader& root, Scene& scene);
+/// Lights as they are when the shutter opens, which is known.
 void readLights(TableReader& root, Scene& scene, Warnings& warnings);
 /// Those of sections.h.
 void readExtensions(TableReader& root, Scene& scene);
