@@ -42,6 +42,37 @@ TEST_CASE("frames that are whole and of the same settings are left, all others r
     CHECK_FALSE(contains(frames(place, box, "0:2", { "-o", "s.%d.exr", "--seed", "1" }).out, "are there"));
 }
 
+TEST_CASE("the frame's number enters the random numbers")
+{
+    const Workplace place;
+    REQUIRE(frames(place, box, "0:1", { "-o", "s.%d.exr" }).status == 0); // nothing moves
+    CHECK(values(place.exr("s.0.exr"), "R") != values(place.exr("s.1.exr"), "R"));
+}
+
+TEST_CASE("an interrupt or a time limit leaves whole frames alone, and the next call goes on")
+{
+    const Workplace place;
+    const Arguments call = { "render", box, "--size", "160x120", "--spp", "2048", "--method", "mc", "--verbose",
+        "--frames", "0:999", "-o", "s.%d.exr" };
+    const Outcome stopped = place.run(call, [&](pid_t process) {
+        waitUntilRendering(place, process);
+        kill(process, SIGTERM);
+    });
+    CHECK(stopped.status == 130);
+    CHECK(contains(stopped.err, "interrupted in frame"));
+    for (const std::string& name : place.files()) {
+        CHECK(std::get<int>(place.exr(name).metadata.at("complete")) == 1);
+    }
+    CHECK(place.files().size() < 1000);
+    Arguments limited = call;
+    limited.insert(limited.end(), { "--time-limit", "0.001" });
+    const std::vector<std::string> before = place.files();
+    const Outcome late = place.run(limited);
+    CHECK(late.status == 0);
+    CHECK(contains(late.err, "time limit reached in frame"));
+    CHECK(place.files() == before);
+}
+
 TEST_CASE("calls of sequences that are wrong are refused in one line")
 {
     const Workplace place;

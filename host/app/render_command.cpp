@@ -328,6 +328,10 @@ int RenderJob::runFrames()
                 prepare();
                 guard_.emplace(); // before this, an interrupt simply ends the program
                 start = Clock::now();
+                if (options_.verbose) {
+                    tell("kernels ready after {:.1f} s\n", renderer_->setupSeconds());
+                    std::fflush(stdout);
+                }
             } else {
                 renderer_->rehearse(settings_, !layers_.empty());
             }

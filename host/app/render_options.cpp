@@ -220,7 +220,7 @@ void addEffectOptions(CLI::App& parser, RenderOptions& o)
             addValue(parser, whatGroup, option.name, option.type, option.help,
                 [&o, name = option.name, parse = option.parse](const std::string& text) {
                     o.changes.push_back(parse(text));
-                    o.changeTexts.push_back(name + " " + text);
+                    o.changeTexts.push_back(fmt::format("{} {}", name, text));
                 });
         }
     }

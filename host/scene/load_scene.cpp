@@ -57,7 +57,7 @@ Scene parseScene(const std::string& text, const std::filesystem::path& path)
     Scene scene;
     Warnings warnings;
     scene.path = path.string();
-    SceneFile(text, path, LoadOptions(), scene, warnings);
+    const SceneFile file(text, path, LoadOptions(), scene, warnings);
     checkScene(scene, warnings);
     scene.warnings = warnings.lines();
     return scene;
