@@ -200,7 +200,7 @@ Reference greyReference(int side, const std::function<float(int x, int y)>& grey
 TEST_CASE("smooth regions end before edges, what is seen without noise, and the image's border")
 {
     constexpr int side = 24;
-    const auto at = [](int x, int y) { return static_cast<std::size_t>(y * side + x); };
+    const auto at = [](int x, int y) { return static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x); };
     const Reference edge = greyReference(
         side, [](int x, int) { return x < 12 ? 1.0f : 1.5f; }, 0.01f);
     const std::vector<bool> beside = smoothRegion(edge);

@@ -2,7 +2,9 @@
 
 #include "host/render/report.h"
 
+#include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -78,22 +80,20 @@ Timing timeFrames(
     lab.renderer().rehearse(settings);
     const FrameStatistics first = lab.renderer().render(settings);
     std::vector<FrameStatistics> frames;
+    frames.reserve(static_cast<std::size_t>(lab.plan().frames));
     for (int i = 0; i < lab.plan().frames; ++i) {
         frames.push_back(lab.renderer().render(settings));
     }
     Timing out;
     out.spp = lab.subject().sppOf(frames.front());
-    std::vector<double> rates;
-    for (const FrameStatistics& frame : frames) {
-        rates.push_back(render::megaraysPerSecond(frame));
-    }
-    out.megaraysPerSecond = summarize(rates).median;
+    const auto summaryOf = [&](const auto& value) {
+        std::vector<double> values(frames.size());
+        std::ranges::transform(frames, values.begin(), value);
+        return summarize(std::move(values));
+    };
+    out.megaraysPerSecond = summaryOf(render::megaraysPerSecond).median;
     for (const auto& [name, value] : columns) {
-        std::vector<double> values;
-        for (const FrameStatistics& frame : frames) {
-            values.push_back(value(frame));
-        }
-        out.columns.emplace_back(name, summarize(values));
+        out.columns.emplace_back(name, summaryOf(value));
     }
     out.firstFrame = first.wallMilliseconds / out["wall"].median;
     lab.say(fmt::format("{} frames of the {} setting, {:.1f} ms each", frames.size(), label, out["total"].median));

@@ -44,6 +44,6 @@ struct PaperFrame {
     std::optional<double> raysSaved = {}; ///< at equal RMS error
 };
 
-Paper paperOf(const PaperFrame& frame);
+Paper paperOf(const PaperFrame& p);
 
 } // namespace wedge::benchmark
