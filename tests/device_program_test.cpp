@@ -310,7 +310,8 @@ TEST_CASE("the cache can be off, and a folder that cannot be written costs nothi
 
 TEST_CASE("the cache folder: WEDGE_CACHE_DIR before XDG_CACHE_HOME before HOME")
 {
-    const std::string home = std::getenv("HOME") != nullptr ? std::getenv("HOME") : "";
+    const char* user = std::getenv("HOME");
+    const std::string home = user != nullptr ? user : "";
     ::setenv("HOME", "/h", 1);
     ::setenv("XDG_CACHE_HOME", "/x", 1);
     ::setenv("WEDGE_CACHE_DIR", "/w", 1);
