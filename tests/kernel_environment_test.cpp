@@ -166,3 +166,71 @@ TEST_CASE("what is seen lies between the four texels around, and the columns mee
         }
     });
 }
+
+TEST_CASE("unshadowed light is the irradiance by normal, over the largest")
+{
+    const render::EnvironmentPicture p = picture();
+    constexpr std::uint32_t normals = 256;
+    std::mt19937 random(11);
+    std::vector<glm::dvec3> directions;
+    std::vector<float> planes(3 * std::size_t { normals });
+    for (std::size_t i = 0; i < normals; ++i) {
+        const double z = uniform(random, -1, 1), turn = uniform(random, 0, 6.2831853), r = std::sqrt(1 - z * z);
+        directions.emplace_back(r * std::cos(turn), r * std::sin(turn), z);
+        for (std::size_t c = 0; c < 3; ++c)
+            planes[c * normals + i] = static_cast<float>(directions[i][static_cast<int>(c)]);
+    }
+    // By quadrature over the texels' middles and quarters; the lookup goes from one texel to the next.
+    std::vector<glm::dvec3> expected(normals, glm::dvec3(0));
+    constexpr int parts = 4;
+    for (int y = 0; y < height * parts; ++y)
+        for (int x = 0; x < width * parts; ++x) {
+            const double fx = (x + 0.5) / parts, fy = (y + 0.5) / parts, pi = std::acos(-1.0);
+            const double polar = pi * fy / height, turn = 2 * pi * (fx / width - 0.5);
+            const glm::dvec3 d = std::cos(polar) * glm::dvec3(p.up)
+                + std::sin(polar) * (std::sin(turn) * glm::dvec3(p.right) - std::cos(turn) * glm::dvec3(p.back));
+            const double weight = 2 * pi * pi / (height * width * parts * parts) * std::sin(polar);
+            const glm::dvec3 radiance = lookup(p, { static_cast<int>(fx), static_cast<int>(fy), fx, fy });
+            for (std::size_t i = 0; i < normals; ++i)
+                expected[i] += weight * std::max(0.0, glm::dot(directions[i], d)) * radiance;
+        }
+    glm::dvec3 most(0);
+    for (const glm::dvec3& e : expected)
+        most = glm::max(most, e);
+    onEveryDevice([&](const device::Device& device) {
+        const auto unshadowed = [&](const render::EnvironmentPicture& of) {
+            const render::EnvironmentTable table = render::environmentTable(&of);
+            KernelBench bench(device, { { "WEDGE_ENVIRONMENT_MAP", "1" } });
+            shared::FrameParams frame {};
+            frame.tileCount = 1;
+            shared::WaveParams wave {};
+            wave.receivers = wave.planeSize = normals;
+            const auto out = bench.filled(planes.size(), -1.0f);
+            device::Kernel kernel = bench.library.kernel("light/unshadowed_environment.cl", "environmentOfReceivers");
+            const auto map = bench.buffer(std::vector { table.map });
+            const auto numbers = bench.buffer(table.numbers), normal = bench.buffer(planes),
+                       white = bench.filled(planes.size(), 0.5f);
+            kernel.setArgs(frame, wave, map, numbers, normal, white, out);
+            bench.queue.launch("unshadowed", device::PassKind::Trace, kernel, normals / WEDGE_BLOCK_PIXELS, 1);
+            return bench.read(out);
+        };
+        const std::vector<float> all = unshadowed(p);
+        double off = 0;
+        for (std::size_t i = 0; i < normals; ++i)
+            for (std::size_t c = 0; c < 3; ++c) {
+                const int channel = static_cast<int>(c);
+                const double share = std::max(expected[i][channel] / most[channel], 0.0625);
+                // What harmonics of the second order leave out of a single direction's light is up to 9 % of its most.
+                REQUIRE(std::abs(2 * all[c * normals + i] - share) < 0.1);
+                off += std::abs(2 * all[c * normals + i] - share) / (3 * normals);
+            }
+        CHECK(off < 0.04);
+        render::EnvironmentPicture grey;
+        grey.radiance.assign(3, 0.25f);
+        for (const float value : unshadowed(grey))
+            REQUIRE(value == doctest::Approx(0.5).epsilon(0.01));
+        grey.radiance.assign(3, 0.0f);
+        for (const float value : unshadowed(grey))
+            REQUIRE(value == 0.5f);
+    });
+}

@@ -1,9 +1,13 @@
 #include "effects/indirect/indirect.h"
 
+#include "host/render/filters/gaussian.h"
 #include "kernels/shared/indirect.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include <glm/glm.hpp>
 
 namespace wedge::render {
 
@@ -40,6 +44,7 @@ shared::PathParams pathParams(const FrameBuilder& frame, Component component)
     p.emitters = scene == nullptr ? 0 : direct ? scene->sharedTerm.count : scene->emitterCount;
     p.emitterShare = frame.scene != nullptr ? frame.scene->emitterShare : 0.0f;
     p.environmentShare = frame.scene != nullptr ? frame.scene->environmentShare : 0.0f;
+    p.relative = isRelative(component, settings) ? 1 : 0;
     p.sceneDiameter = frame.scene != nullptr ? frame.scene->diameter : 0.0f;
     if (scene != nullptr) {
         const glm::vec3 &low = scene->sharedTerm.low, &high = scene->sharedTerm.high;
@@ -68,6 +73,15 @@ shared::ReflectorParams reflectorParams(const FrameBuilder& frame, Component com
     p.stride = frame.layout.stride;
     p.planeSize = static_cast<std::uint32_t>(frame.layout.size);
     p.extent = in.extent == ReflectorExtent::Scene && frame.scene != nullptr ? frame.scene->largestDimension : 0.0f;
+    return p;
+}
+
+shared::FilterParams pathFilterParams(const FrameBuilder& frame, Component component)
+{
+    shared::FilterParams p = filterParams(frame.settings, frame.wholeFrame(), frame.graph.image());
+    if (component == Component::Environment) {
+        p.normalCosine = std::cos(glm::radians(frame.settings.environment.normalDegrees));
+    }
     return p;
 }
 

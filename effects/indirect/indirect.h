@@ -36,6 +36,16 @@ constexpr bool isDirect(Component c)
 /// varies with the surface's direction and the eye's: pixels keep their own samples of it, but for fixed widths.
 constexpr bool hasWidths(Component c) { return c != Component::EnvironmentGlossy; }
 
+/// Whether a component's samples are fractions of what would arrive if nothing were hidden, and its reflectance is
+/// multiplied by that.
+inline bool isRelative(Component c, const Settings& settings)
+{
+    return c == Component::Environment && settings.method == Method::AxisAligned && settings.environment.relative;
+}
+
+/// The filter of a component where the pixels are the receivers, or their means.
+shared::FilterParams pathFilterParams(const FrameBuilder& frame, Component component);
+
 /// What the analysis of a component needs besides the rectangle.
 shared::ReflectorParams reflectorParams(const FrameBuilder& frame, Component component);
 

@@ -72,6 +72,7 @@ public:
         if (varies()) {
             f_.zero(parts_);
         }
+        unshadowed();
         constexpr std::uint32_t first = WEDGE_INDIRECT_FIRST_RAYS;
         uniformCounts(f_, first, f_.surfaces.objectId, wanted_);
         paths("first paths", 0, first, first, true);
@@ -113,7 +114,7 @@ private:
     bool isUniform() const { return s_.sampling == Sampling::Uniform || s_.indirect.counts == IndirectCounts::Uniform; }
     /// Whether a pixel's samples are asked how much they vary, for what filters do.
     bool varies() const { return widens(s_) || usesFallback(s_); }
-    shared::FilterParams filterParams() const { return render::filterParams(s_, f_.wholeFrame(), g_.image()); }
+    shared::FilterParams filterParams() const { return pathFilterParams(f_, component_); }
     shared::AnalysisParams countParams() const { return pathCountParams(f_.analysisParams(), s_); }
     shared::ReflectorParams reflectorParams() const { return render::reflectorParams(f_, component_); }
 
@@ -135,6 +136,7 @@ private:
         pathRays_ = g_.plane<Count>("rays of paths", graph::counts);
         f_.zero(rays_, pathRays_);
     }
+    void unshadowed();
     void paths(const char* pass, std::uint32_t from, std::uint32_t most, double mean, bool everywhere);
     void widthsAndCounts();
     void countsFromVariance();
@@ -159,6 +161,20 @@ private:
     graph::Handle<Deviation> deviation_;
     graph::Handle<Share> weights_;
 };
+
+/// Makes fractions of samples, and what they are fractions of a part of the reflectance.
+void PathGraph::unshadowed()
+{
+    if (!isRelative(component_, s_)) {
+        return;
+    }
+    auto reflectance = g_.plane<Reflectance>("reflectance times unshadowed light", graph::vectors);
+    f_.blocks("composite", PassKind::Composite, { "light/unshadowed_environment.cl", "environmentOfPixels" },
+        joined({ f_.rectangle(countParams()) }, f_.beyond(),
+            Arguments { reads("normal", f_.surfaces.normal), reads("diffuse", f_.surfaces.diffuse),
+                writes("unshadowed", reflectance) }));
+    reflectance_ = reflectance;
+}
 
 void PathGraph::paths(const char* pass, std::uint32_t from, std::uint32_t most, double mean, bool everywhere)
 {

@@ -43,7 +43,14 @@ void PathWaves::sample(
                 value("lastSample", std::numeric_limits<std::uint32_t>::max()), updates("taken", own.first),
                 waves.tallyRays(), waves.tallyPathRays(), updates("sums", own.sums),
                 updates("reflectors", own.extremes) }));
-    const graph::Handle<Reflectance>& reflectance = isGlossy(component_) ? r.specular : r.diffuse;
+    graph::Handle<Reflectance> reflectance = isGlossy(component_) ? r.specular : r.diffuse;
+    if (isRelative(component_, settings())) {
+        reflectance = waves.list<Reflectance>("reflectance times unshadowed light", graph::vectors);
+        waves.list("paths", { "light/unshadowed_environment.cl", "environmentOfReceivers" }, WEDGE_BLOCK_PIXELS,
+            joined({ waves.receiverParams(), waves.params() }, f_.beyond(),
+                Arguments {
+                    reads("normal", r.normal), reads("diffuse", r.diffuse), writes("unshadowed", reflectance) }));
+    }
     waves.pixels("accumulatePaths",
         joined({ waves.pixelParams(), waves.params(omits() | (isDirect(component_) ? WEDGE_OMITS_INDIRECT : 0u)),
                    value("ambient", component_ == Component::Ambient ? 1u : 0u) },
@@ -77,7 +84,7 @@ graph::Handle<Value> PathWaves::filtered(const shared::DistributedParams& params
 {
     const shared::FilterParams filter = shape_.published
         ? publishedParams(settings(), f_.wholeFrame(), f_.graph.image())
-        : filterParams(settings(), f_.wholeFrame(), f_.graph.image());
+        : pathFilterParams(f_, component_);
     if (widens(settings()) && hasWidths(component_)) {
         widen("filter of indirect", params, filter, settings().indirect.widening);
     }

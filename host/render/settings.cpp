@@ -206,6 +206,7 @@ Settings asPublished(std::optional<float> mu)
     in.meanFraction = 0.0f;
     in.counts = IndirectCounts::Spectrum;
     in.maxSpp = static_cast<int>(std::lround(std::clamp(100.0f * in.mu, 100.0f, 1e5f)));
+    s.environment = { .relative = false, .normalDegrees = s.normalDegrees };
     DistributedSettings& d = s.distributed;
     d.published = true;
     d.firstPaths = 16;
@@ -353,6 +354,9 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
     }
     if (s.method == Method::AxisAligned && tracesPaths(s)) {
         describeIndirect(s.indirect, out);
+        out.insert(out.end(),
+            { { "environmentRelative", number(s.environment.relative) },
+                { "environmentNormalDegrees", number(s.environment.normalDegrees) } });
     }
     if (s.method == Method::AxisAligned) {
         describeDistributed(s.distributed, out);

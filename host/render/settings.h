@@ -100,6 +100,14 @@ struct IndirectSettings {
     float ambientDistance = 0.0f; ///< metres: farther surfaces do not occlude; 0: any distance does
 };
 
+/// The filter of what diffuse surfaces receive from beyond the scene, besides IndirectSettings.
+struct EnvironmentSettings {
+    /// Samples are filtered as fractions of what would arrive if nothing were hidden, which is known (kernels/light/
+    /// unshadowed_environment.h).
+    bool relative = true;
+    float normalDegrees = 20.0f; ///< as Settings::normalDegrees
+};
+
 /// Where texture and irradiance are taken apart in pixels of several receivers.
 enum class Factoring {
     Never, ///< the image alone is filtered
@@ -149,6 +157,7 @@ struct Settings {
     int bounces = 0; ///< of indirect light: 0 is direct light alone
     LightSampling lightSampling = LightSampling::Both;
     IndirectSettings indirect;
+    EnvironmentSettings environment;
     bool progressive = false; ///< for Renderer::renderProgressively(); spp: of the last image
     bool antialias = false; ///< pixels are what pixelFilter makes of their surroundings, not their centres
     PixelFilter pixelFilter = PixelFilter::Box;

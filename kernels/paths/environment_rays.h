@@ -3,7 +3,7 @@
 #ifndef WEDGE_ENVIRONMENT_RAYS_H
 #define WEDGE_ENVIRONMENT_RAYS_H
 
-#include "light/environment_map.h"
+#include "light/unshadowed_environment.h"
 #include "paths/emitter_rays.h"
 
 /// Of what hides a direction, `hidden` metres away: how far a reflector would be whose light varies as what the
@@ -14,6 +14,25 @@ WEDGE_FN float penumbraOf(BeyondData beyond, BeyondSample seen, float hidden)
 {
     const float extent = fmin(1.0f, rsqrt(fmax(6.28318531f * seen.pdf, 1e-20f)));
     return luminance(seen.radiance) > beyond.map.dark ? fmax(extent * hidden, 1e-20f) : INFINITY;
+}
+
+/// Divides what lanes' samples bring by what would come to their receivers if nothing were hidden.
+WEDGE_FN void divideByUnshadowed(
+    __global const EnvironmentMap* environment, BeyondData beyond, const ReceiverPacket* r, PathPacket* paths)
+{
+    Vec3x16 n;
+    n.x = vload16(0, r->normalX);
+    n.y = vload16(0, r->normalY);
+    n.z = vload16(0, r->normalZ);
+    const Vec3x16 whole = unshadowedLight(environment, beyond.table, n);
+    float x[WEDGE_PACKET_SIZE], y[WEDGE_PACKET_SIZE], z[WEDGE_PACKET_SIZE];
+    vstore16(1.0f / whole.x, 0, x);
+    vstore16(1.0f / whole.y, 0, y);
+    vstore16(1.0f / whole.z, 0, z);
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const Vec3 share = vec3(x[lane], y[lane], z[lane]);
+        setLaneVec(&paths->radiance, lane, vecMul(laneVec(&paths->radiance, lane), share));
+    }
 }
 
 /// One sample a lane, whose reflected direction is that of `rays` and counts `weight`, which becomes 1: fills

@@ -224,6 +224,9 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
                 traceEnvironment(nodes, blocks, lights.beyond, sampling,
                     params.component == WEDGE_COMPONENT_ENVIRONMENT_GLOSSY, at.dealt, &lanes->facing, counts.deal.last,
                     &packet, weight, &paths);
+                if (params.relative != 0u) {
+                    divideByUnshadowed(environment, lights.beyond, at.dealt, &paths);
+                }
             } else {
                 tracePaths(nodes, blocks, surfaces, lights, sampling, params.bounces, &packet, &paths);
             }

@@ -16,6 +16,7 @@ WEDGE_SHARED_BEGIN
 ///   height    bits of a whole number: of row i of n, the row that i/n chooses (as Emitter::guide)
 ///   texels    likewise of columns
 ///   height+1  cosines of the angles from `up` at which rows begin and end
+///   27        of red, green and blue each the coefficients of unshadowedLight()
 typedef struct {
     uint width, height; ///< texels; 0: there is no map
     Vec3 right, up, back; ///< unit, in the world: what 3/4 of the width shows in the middle of the height, the upper
@@ -25,8 +26,17 @@ typedef struct {
     uint padding;
 } EnvironmentMap;
 
+/// Spherical harmonics of a channel.
+#define WEDGE_HARMONICS 9u
+
+/// Where the coefficients of unshadowedLight() begin in the table.
+WEDGE_INLINE uint environmentHarmonics(uint width, uint height) { return 5u * width * height + 3u * height + 1u; }
+
 /// Floats of the table.
-WEDGE_INLINE uint environmentTableSize(uint width, uint height) { return 5u * width * height + 3u * height + 1u; }
+WEDGE_INLINE uint environmentTableSize(uint width, uint height)
+{
+    return environmentHarmonics(width, height) + 3u * WEDGE_HARMONICS;
+}
 
 /// Where the map shows a direction, in widths and heights from its upper left corner.
 WEDGE_FN Vec2 environmentCoordinates(EnvironmentMap m, Vec3 direction)

@@ -44,6 +44,7 @@ typedef struct {
     Vec3 emittersLow, emittersHigh; ///< the box that they are in, metres
     float directedWithin; ///< metres from it within which diffuse parts follow reflected directions, too
     float environmentShare; ///< as emitterShare, of what is beyond the scene
+    uint relative; ///< 1: samples of the environment are divided by unshadowedLight()
 } PathParams;
 
 /// Distances of reflectors to widths and counts.

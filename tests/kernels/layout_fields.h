@@ -81,6 +81,7 @@ FIELD(PathParams, firstPass) FIELD(PathParams, areaLights) FIELD(PathParams, del
 FIELD(PathParams, sceneDiameter) FIELD(PathParams, ambientDistance) FIELD(PathParams, strata)
 FIELD(PathParams, emitters) FIELD(PathParams, emitterShare) FIELD(PathParams, emittersLow)
 FIELD(PathParams, emittersHigh) FIELD(PathParams, directedWithin) FIELD(PathParams, environmentShare)
+FIELD(PathParams, relative)
 END(PathParams)
 STRUCT(EnvironmentMap)
 FIELD(EnvironmentMap, width) FIELD(EnvironmentMap, height) FIELD(EnvironmentMap, right) FIELD(EnvironmentMap, up)
