@@ -37,8 +37,8 @@ struct KeptPlane {
 };
 constexpr KeptPlane keptPlanes[] = { { "kept depth", graph::floats }, { "kept normal", graph::counts },
     { "kept object", graph::counts }, { "kept direct light", render::packedColours },
-    { "kept light before the filter", render::shortFloats }, { "kept indirect light", render::packedColours } };
-enum KeptIndex : std::size_t { Depth, Facing, Object, Direct, Before, Indirect, keptCount };
+    { "kept light before the filter", render::shortFloats }, { "kept variation", render::shortFloats }, { "kept indirect light", render::packedColours } };
+enum KeptIndex : std::size_t { Depth, Facing, Object, Direct, Before, Variation, Indirect, keptCount };
 
 bool hasIndirect(const Settings& settings, const scene::Scene& scene)
 {
@@ -83,6 +83,7 @@ struct TemporalFilter::Declaration {
         graph::Handle<render::ObjectId> object;
         graph::Handle<render::Value> direct, indirect;
         graph::Handle<Noisy> before;
+        graph::Handle<render::Squares> variation;
     };
 
     Declaration(render::Renderer& theRenderer, const Settings& theSettings, const cl::Buffer& unused)
@@ -143,6 +144,7 @@ struct TemporalFilter::Declaration {
         one(out.object, Object);
         one(out.direct, Direct);
         one(out.before, Before);
+        one(out.variation, Variation);
         if (indirect) {
             one(out.indirect, Indirect);
         }
@@ -174,7 +176,10 @@ struct TemporalFilter::Declaration {
                 updates("depth", own.depth), updates("facing", own.facing), updates("object", own.object),
                 updates("directLight", own.direct), changesIndirect("indirectLight", own.indirect),
                 updates("noisy", own.before) });
-        want(own.depth, own.facing, own.object, own.direct, own.before);
+        f.pixels(pass, PassKind::Filter, { file, "findVariation" },
+            { f.rectangle(params), reads("noisy", own.before, graph::around(1)),
+                reads("object", own.object, graph::around(1)), updates("variation", own.variation) });
+        want(own.depth, own.facing, own.object, own.direct, own.before, own.variation);
         if (indirect) {
             want(own.indirect);
         }
@@ -221,23 +226,25 @@ struct TemporalFilter::Declaration {
         params.objects = static_cast<std::uint32_t>(renderer.scene().geometry.objectNames.size());
         auto difference = graph.plane<render::Value>("difference of frames", graph::floatPlanes(indirect ? 6 : 3));
         auto noise = graph.plane<Noisy>("difference before the filter", graph::floats);
+        auto variations = graph.plane<render::Squares>("variation of both", graph::floats);
         auto share = graph.plane<render::Share>("whether the surface was seen", graph::floats);
-        auto sums = graph.list<Blocks>("sums of blocks", graph::floatPlanes(3), all);
+        auto sums = graph.list<Blocks>("sums of blocks", graph::floatPlanes(4), all);
         auto weights = graph.list<Blocks>("weights of blocks", graph::floats, all);
         const graph::Argument p = f.rectangle(params);
         f.pixels(pass, PassKind::Filter, { file, "differFromFrame" },
             { p, f.outside("motions", "float", &motionMemory), reads("position", f.surfaces.position),
                 reads("normal", f.surfaces.normal), reads("object", own.object), reads("directLight", own.direct),
-                readsIndirect("indirectLight", own.indirect), reads("noisy", own.before),
+                readsIndirect("indirectLight", own.indirect), reads("noisy", own.before), reads("variation", own.variation),
                 reads("earlierDepth", earlier.depth, graph::wholeImage),
                 reads("earlierFacing", earlier.facing, graph::wholeImage),
                 reads("earlierObject", earlier.object, graph::wholeImage),
                 reads("earlierDirect", earlier.direct, graph::wholeImage),
                 indirect ? reads("earlierIndirect", earlier.indirect, graph::wholeImage)
                          : f.nothing("earlierIndirect"),
-                reads("earlierNoisy", earlier.before, graph::wholeImage), writes("difference", difference),
-                writes("noise", noise), writes("share", share) });
-        blocks("sumBlocks", { reads("noise", noise), reads("share", share), writes("sums", sums) });
+                reads("earlierNoisy", earlier.before, graph::wholeImage),
+                reads("earlierVariation", earlier.variation, graph::wholeImage), writes("difference", difference),
+                writes("noise", noise), writes("variations", variations), writes("share", share) });
+        blocks("sumBlocks", { reads("noise", noise), reads("variations", variations), reads("share", share), writes("sums", sums) });
         blocks("weighBlocks", { reads("sums", sums), writes("weights", weights) });
         f.pixels(pass, PassKind::Filter, { file, "addFrame" },
             { p, reads("difference", difference), reads("share", share), reads("weights", weights),
@@ -290,9 +297,9 @@ void TemporalFilter::addTo(device::MemoryPlan& plan, const Settings& settings, c
         }
     }
     const std::uint64_t planes = hasIndirect(settings, scene) ? 12 : 6;
-    plan.addItems("sums of the filter over time", layout.size, (planes + 3) * sizeof(float));
+    plan.addItems("sums of the filter over time", layout.size, (planes + 4) * sizeof(float));
     plan.addItems("weights of the filter over time", layout.size / (WEDGE_TEMPORAL_BLOCK * WEDGE_TEMPORAL_BLOCK),
-        4 * sizeof(float));
+        5 * sizeof(float));
     plan.addItems("motions", std::uint64_t { temporalWindow } * scene.geometry.objectNames.size(),
         WEDGE_TEMPORAL_MOTION * sizeof(float));
 }

@@ -8,6 +8,8 @@
 // whether the light is the same: Student's t of the differences of *unfiltered* samples over the pixels around, which
 // are independent of each other. With w = 1 this is the plain mean. What w takes away goes to the pixel itself, and w
 // does not tell E_k from E_t: so where frames differ by noise alone, E' has the mean of E_t, whatever w is.
+// Where light moves by less than a block is large the differences' mean may be 0: so their squares are held against
+// what pixels differ by from those beside them in the same frame, too.
 //
 // Light is kept in 47 bits, and differences are between what was kept: frames that are equal change nothing, to the
 // bit.
@@ -70,6 +72,38 @@ __kernel void keepFrame(TemporalParams p, __global const float* restrict positio
     storeShort(noisy, n, i, 0u, reflects ? luminanceOf(over(unfiltered, k)) : 0.0f);
 }
 
+/// The square by which a pixel's samples differ from those beside it beyond a slope, and what half a pixel's shift of a
+/// slope makes: of three numbers in a row.
+WEDGE_FN float roughness(float before, float own, float after)
+{
+    const float bend = 2.0f * own - before - after, slope = after - before;
+    return bend * bend * (1.0f / 6.0f) + slope * slope * (1.0f / 96.0f);
+}
+
+/// How much the light of unfiltered samples varies around each pixel: their variance, where light is even.
+/// in   noisy, object: of keepFrame()
+/// out  variation: 16 bits
+__kernel void findVariation(TemporalParams p, __global const float* restrict noisy,
+    __global const uint* restrict object, __global float* restrict variation)
+{
+    uint x, y, i;
+    if (!temporalPixel(p, &x, &y, &i)) {
+        return;
+    }
+    const uint n = p.planeSize, id = object[i];
+    const float own = loadShort(noisy, n, i, 0u);
+    float sum = 0.0f, count = 0.0f;
+    if (x > 0u && x + 1u < p.width && object[i - 1u] == id && object[i + 1u] == id) {
+        sum += roughness(loadShort(noisy, n, i - 1u, 0u), own, loadShort(noisy, n, i + 1u, 0u));
+        count += 1.0f;
+    }
+    if (y > 0u && y + 1u < p.height && object[i - p.stride] == id && object[i + p.stride] == id) {
+        sum += roughness(loadShort(noisy, n, i - p.stride, 0u), own, loadShort(noisy, n, i + p.stride, 0u));
+        count += 1.0f;
+    }
+    storeShort(variation, n, i, 0u, count > 0.0f ? sum / count : own * own);
+}
+
 /// A surface point as the earlier frame's camera looks for it.
 typedef struct {
     Vec3 position, normal;
@@ -109,42 +143,58 @@ WEDGE_FN bool movedBack(TemporalParams p, __global const float* motions, SoughtP
     return true;
 }
 
+/// A sought point's plane as pixels of the earlier frame are held against it.
+typedef struct {
+    float forward, right, down; ///< parts of the camera's vectors along the normal
+    float offset; ///< of the eye
+    float tolerance; ///< how far off the plane a surface may be, of its depth
+} SoughtPlane;
+
+WEDGE_FN SoughtPlane planeOf(TemporalParams p, SoughtPoint point)
+{
+    SoughtPlane plane;
+    plane.right = vecDot(p.right, point.normal);
+    plane.down = vecDot(p.down, point.normal);
+    // Through the image's corner.
+    plane.forward = vecDot(p.forward, point.normal) + (0.5f - 0.5f * (float)p.width) * plane.right
+        + (0.5f - 0.5f * (float)p.height) * plane.down;
+    plane.offset = vecDot(vecSub(p.eye, point.position), point.normal);
+    plane.tolerance = vecLength(p.right);
+    return plane;
+}
+
 /// Whether the earlier frame's pixel sees the point's surface, no farther from its plane than a pixel is large.
-WEDGE_FN bool seesSurface(TemporalParams p, SoughtPoint point, int x, int y, __global const float* depth,
-    __global const uint* facing, __global const uint* object)
+WEDGE_FN bool seesSurface(TemporalParams p, SoughtPoint point, SoughtPlane plane, int x, int y,
+    __global const float* depth, __global const uint* facing, __global const uint* object)
 {
     if (x < 0 || y < 0 || x >= (int)p.width || y >= (int)p.height) {
         return false;
     }
     const uint i = pixelIndex((uint)x, (uint)y, p.stride);
-    if (object[i] != point.object) {
+    const float along = plane.forward + (float)x * plane.right + (float)y * plane.down;
+    if (object[i] != point.object || !(fabs(plane.offset + depth[i] * along) <= plane.tolerance * depth[i])) {
         return false;
     }
     const Vec3 normal = unpackNormal(facing[i]);
     const float cosine = vecDot(normal, point.normal);
-    if (!(cosine > 0.0f && cosine * cosine >= p.normalCosine * p.normalCosine * vecDot(normal, normal))) {
-        return false;
-    }
-    const Vec3 through =
-        cameraDirection(p.forward, p.right, p.down, (float)p.width, (float)p.height, (float)x + 0.5f, (float)y + 0.5f);
-    const Vec3 off = vecSub(vecMad(p.eye, through, depth[i]), point.position);
-    return fabs(vecDot(off, point.normal)) <= depth[i] * vecLength(p.right);
+    return cosine > 0.0f && cosine * cosine >= p.normalCosine * p.normalCosine * vecDot(normal, normal);
 }
 
 /// One earlier frame, as far as a pixel's surface is seen in it.
 /// in   position, normal: of this frame; object, directLight, indirectLight, noisy: as keepFrame() made them of it;
-///      earlierX: likewise of the earlier one; motions: of objects, from this frame to that
+///      earlierX: likewise of the earlier one; variation: findVariation(); motions: of objects, from this frame to that
 /// out  difference: of directLight, 3 planes, and with p.indirect of indirectLight, 3 more; noise: of the luminance
-/// before
-///      the filter, of the nearest pixel; share: g, 1 or 0
+///      before the filter, of the nearest pixel; variations: the sum of both pixels' own; share: g, 1 or 0
 __kernel void differFromFrame(TemporalParams p, __global const float* restrict motions,
     __global const float* restrict position, __global const float* restrict normal,
     __global const uint* restrict object, __global const float* restrict directLight,
     __global const float* restrict indirectLight, __global const float* restrict noisy,
-    __global const float* restrict earlierDepth, __global const uint* restrict earlierFacing,
-    __global const uint* restrict earlierObject, __global const float* restrict earlierDirect,
-    __global const float* restrict earlierIndirect, __global const float* restrict earlierNoisy,
-    __global float* restrict difference, __global float* restrict noise, __global float* restrict share)
+    __global const float* restrict variation, __global const float* restrict earlierDepth,
+    __global const uint* restrict earlierFacing, __global const uint* restrict earlierObject,
+    __global const float* restrict earlierDirect, __global const float* restrict earlierIndirect,
+    __global const float* restrict earlierNoisy, __global const float* restrict earlierVariation,
+    __global float* restrict difference, __global float* restrict noise, __global float* restrict variations,
+    __global float* restrict share)
 {
     uint x, y, i;
     if (!temporalPixel(p, &x, &y, &i)) {
@@ -160,31 +210,37 @@ __kernel void differFromFrame(TemporalParams p, __global const float* restrict m
     float depth;
     const Vec3 black = vec3(0.0f, 0.0f, 0.0f);
     Vec3 direct = black, indirect = black;
-    float weight = 0.0f, nearest = 0.0f, unfiltered = 0.0f;
+    float weight = 0.0f, nearest = 0.0f, unfiltered = 0.0f, varies = 0.0f;
     if (movedBack(p, motions, &point, &still)) {
         if (still) {
             if (p.objectsStill != 0u
-                || seesSurface(p, point, (int)x, (int)y, earlierDepth, earlierFacing, earlierObject)) {
+                || seesSurface(
+                    p, point, planeOf(p, point), (int)x, (int)y, earlierDepth, earlierFacing, earlierObject)) {
                 weight = 1.0f;
                 direct = loadColour(earlierDirect, n, i, WEDGE_COLOUR_BITS);
                 indirect = p.indirect != 0u ? loadColour(earlierIndirect, n, i, WEDGE_COLOUR_BITS) : black;
                 unfiltered = loadShort(earlierNoisy, n, i, 0u);
+                varies = loadShort(earlierVariation, n, i, 0u);
             }
         } else if (temporalProject(p, point.position, &at, &depth)) {
+            const SoughtPlane plane = planeOf(p, point);
             // Of the four pixels around it those that see the surface.
             const float left = floor(at.x - 0.5f), top = floor(at.y - 0.5f);
             const float fx = at.x - 0.5f - left, fy = at.y - 0.5f - top;
             for (int tap = 0; tap < 4; ++tap) {
                 const int tx = (int)left + (tap & 1), ty = (int)top + (tap >> 1);
                 const float w = ((tap & 1) != 0 ? fx : 1.0f - fx) * ((tap >> 1) != 0 ? fy : 1.0f - fy);
-                if (w > 0.0f && seesSurface(p, point, tx, ty, earlierDepth, earlierFacing, earlierObject)) {
+                if (w > 0.0f && seesSurface(p, point, plane, tx, ty, earlierDepth, earlierFacing, earlierObject)) {
                     const uint j = pixelIndex((uint)tx, (uint)ty, p.stride);
                     weight += w;
                     direct = vecMad(direct, loadColour(earlierDirect, n, j, WEDGE_COLOUR_BITS), w);
                     if (p.indirect != 0u) {
                         indirect = vecMad(indirect, loadColour(earlierIndirect, n, j, WEDGE_COLOUR_BITS), w);
                     }
-                    unfiltered = w > nearest ? loadShort(earlierNoisy, n, j, 0u) : unfiltered;
+                    if (w > nearest) {
+                        unfiltered = loadShort(earlierNoisy, n, j, 0u);
+                        varies = loadShort(earlierVariation, n, j, 0u);
+                    }
                     nearest = fmax(nearest, w);
                 }
             }
@@ -194,6 +250,7 @@ __kernel void differFromFrame(TemporalParams p, __global const float* restrict m
     const float scale = seen ? 1.0f / weight : 0.0f;
     share[i] = seen ? 1.0f : 0.0f;
     noise[i] = seen ? unfiltered - loadShort(noisy, n, i, 0u) : 0.0f;
+    variations[i] = seen ? varies + loadShort(variation, n, i, 0u) : 0.0f;
     const Vec3 own = loadColour(directLight, n, i, WEDGE_COLOUR_BITS);
     storeVec(difference, n, i, seen ? vecMad(vecScale(own, -1.0f), direct, scale) : black);
     if (p.indirect != 0u) {
@@ -205,25 +262,27 @@ __kernel void differFromFrame(TemporalParams p, __global const float* restrict m
 /// Sums over the pixels of a block: how many are seen in the earlier frame, their differences, and the squares of
 /// those. out  sums: 3 numbers a block
 __kernel void sumBlocks(TemporalParams p, uint blocks, __global const float* restrict noise,
-    __global const float* restrict share, __global float* restrict sums)
+    __global const float* restrict variations, __global const float* restrict share, __global float* restrict sums)
 {
     const uint block = (uint)get_global_id(0);
     if (block >= blocks) {
         return;
     }
     const uint x0 = block % p.blocksX * WEDGE_TEMPORAL_BLOCK, y0 = block / p.blocksX * WEDGE_TEMPORAL_BLOCK;
-    float count = 0.0f, sum = 0.0f, squares = 0.0f;
+    float count = 0.0f, sum = 0.0f, squares = 0.0f, expected = 0.0f;
     for (uint y = y0; y < min(y0 + WEDGE_TEMPORAL_BLOCK, p.height); ++y) {
         for (uint x = x0; x < min(x0 + WEDGE_TEMPORAL_BLOCK, p.width); ++x) {
             const uint i = pixelIndex(x, y, p.stride);
             count += share[i];
             sum += noise[i];
             squares += noise[i] * noise[i];
+            expected += variations[i];
         }
     }
-    sums[3u * block] = count;
-    sums[3u * block + 1u] = sum;
-    sums[3u * block + 2u] = squares;
+    sums[4u * block] = count;
+    sums[4u * block + 1u] = sum;
+    sums[4u * block + 2u] = squares;
+    sums[4u * block + 3u] = expected;
 }
 
 /// Student's t, squared, of differences whose mean is to be 0.
@@ -238,9 +297,9 @@ WEDGE_FN float squaredT(float count, float sum, float squares)
     return square > 0.0f ? fmin(square / fmax(variance, 1e-30f), 1e6f) : 0.0f;
 }
 
-/// Whether the light of a block is that of the earlier frame: the less of what its own pixels say and of what those
-/// around say, too, which find less, later at edges.
-/// out  weights: w of each block
+/// Whether the light of a block is that of the earlier frame: where neither its own pixels nor those around differ in
+/// the mean, and its own by no more than by noise. The latter finds what is brighter here and darker there. out
+/// weights: w of each block
 __kernel void weighBlocks(
     TemporalParams p, uint blocks, __global const float* restrict sums, __global float* restrict weights)
 {
@@ -249,18 +308,21 @@ __kernel void weighBlocks(
         return;
     }
     const int bx = (int)(block % p.blocksX), by = (int)(block / p.blocksX);
-    float count = 0.0f, sum = 0.0f, squares = 0.0f;
+    float count = 0.0f, sum = 0.0f, squares = 0.0f, ratio = 0.0f;
     for (int y = max(by - WEDGE_TEMPORAL_REACH, 0); y <= min(by + WEDGE_TEMPORAL_REACH, (int)p.blocksY - 1); ++y) {
         for (int x = max(bx - WEDGE_TEMPORAL_REACH, 0); x <= min(bx + WEDGE_TEMPORAL_REACH, (int)p.blocksX - 1); ++x) {
-            const uint at = 3u * ((uint)y * p.blocksX + (uint)x);
+            const uint at = 4u * ((uint)y * p.blocksX + (uint)x);
             count += sums[at];
             sum += sums[at + 1u];
             squares += sums[at + 2u];
+            if (abs(x - bx) <= 1 && abs(y - by) <= 1 && sums[at + 2u] > 0.0f) {
+                ratio = fmax(ratio, sums[at + 2u] / fmax(sums[at + 3u], 1e-30f));
+            }
         }
     }
-    const uint own = 3u * block;
-    weights[block] =
-        temporalTrust(fmax(squaredT(count, sum, squares), squaredT(sums[own], sums[own + 1u], sums[own + 2u])));
+    const uint own = 4u * block;
+    const float t = fmax(squaredT(count, sum, squares), squaredT(sums[own], sums[own + 1u], sums[own + 2u]));
+    weights[block] = temporalTrust(t, ratio);
 }
 
 /// Adds an earlier frame.

@@ -48,12 +48,18 @@ WEDGE_FN bool temporalProject(TemporalParams p, Vec3 point, Vec2* at, float* dep
     return at->x > -1.0f && at->y > -1.0f && at->x < (float)p.width + 1.0f && at->y < (float)p.height + 1.0f;
 }
 
-/// Weight of an earlier frame's pixel from Student's t of the differences around it, squared: 1 up to 3 deviations, 0
-/// from 4 on.
-WEDGE_FN float temporalTrust(float tSquared)
+/// 1 up to `from`, 0 from `to` on.
+WEDGE_FN float temporalFall(float x, float from, float to)
 {
-    const float over = clamp(sqrt(tSquared) - 3.0f, 0.0f, 1.0f);
-    return tSquared <= 9.0f ? 1.0f : 1.0f - over * over * (3.0f - 2.0f * over);
+    const float over = clamp((x - from) / (to - from), 0.0f, 1.0f);
+    return 1.0f - over * over * (3.0f - 2.0f * over);
+}
+
+/// Weight of an earlier frame's light from Student's t of the differences, squared, and from the ratio of their squares
+/// to what noise makes of them: 1 up to 3 deviations and a ratio of 4, 0 from 4 deviations or a ratio of 8 on.
+WEDGE_FN float temporalTrust(float tSquared, float ratio)
+{
+    return temporalFall(sqrt(tSquared), 3.0f, 4.0f) * temporalFall(ratio, 4.0f, 8.0f);
 }
 
 WEDGE_SHARED_END
