@@ -103,6 +103,66 @@ TEST_CASE("temporal: with a still camera a frame is the mean of the last eight, 
     CHECK(std::sqrt(off / noise) < 0.1);
 }
 
+/// RMS difference of two frames' green, and the mean of the second.
+std::pair<double, double> difference(const Workplace& place, const std::string& one, const std::string& other)
+{
+    const std::vector<float> a = values(place.exr(one), "G"), b = values(place.exr(other), "G");
+    double sum = 0, mean = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        sum += (a[i] - b[i]) * (a[i] - b[i]);
+        mean += b[i];
+    }
+    const auto count = static_cast<double>(a.size());
+    return { std::sqrt(sum / count), mean / count };
+}
+
+TEST_CASE("temporal: nothing is left of what has moved: objects, what they hid, their shadows, highlights and lights")
+{
+    const Workplace place;
+    const std::string shiny = "[[material]]\nname = \"shiny\"\nmodel = \"phong\"\ndiffuse = [0.3, 0.3, 0.3]\n"
+                              "specular = 0.6\nexponent = 60\n";
+    const std::string floor = quad + "material = \"shiny\"\ntransform = { scale = 4 }\n";
+    const std::string lamp = "[[light]]\ntype = \"point\"\nposition = [1, 3, 1]\nintensity = [20, 15, 10]\n";
+    const std::string glides = "key = [{ time = 0 }, { time = 1, translate = [2, 0, 0] }]\n";
+    place.write("ball.toml", camera + shiny + floor + ball + "material = \"shiny\"\n" + glides + lamp);
+    place.write("camera.toml", camera + passesBy + shiny + floor + ball + lamp);
+    place.write("lamp.toml", camera + shiny + floor + ball + "material = \"shiny\"\n" + lamp + glides);
+    for (const std::string scene : { "ball", "camera", "lamp" }) {
+        CAPTURE(scene);
+        // Without noise, all that differs are traces.
+        for (const std::string temporal : { "on", "off" }) {
+            REQUIRE(frames(place, scene + ".toml", "7",
+                        { "--size", "160x120", "-o", scene + temporal + "%d.exr", "--temporal", temporal })
+                        .status
+                == 0);
+        }
+        const auto [rms, mean] = difference(place, scene + "on7.exr", scene + "off7.exr");
+        CHECK(mean > 0.01);
+        CHECK(rms < 0.01 * mean);
+    }
+}
+
+TEST_CASE("temporal: a scene that moves as the camera does has the history of one at rest")
+{
+    const Workplace place;
+    const std::string along = "translate = [0.4, 0.3, -0.2] }]\n", keys = "key = [{ time = 0 }, { time = 1, " + along;
+    const std::string follows =
+        "key = [{ time = 0 }, { time = 1, eye = [0.4, 1.3, 2.8], look_at = [0.4, 0.3, -0.2] }]\n";
+    place.write("moves.toml", camera + follows + quad + keys + light + keys + ball + keys);
+    place.write("still.toml", camera + quad + light + ball);
+    for (const std::string scene : { "moves", "still" }) {
+        REQUIRE(frames(place, scene + ".toml", "7", { "-o", scene + "%d.exr", "--spp", "9" }).status == 0);
+        REQUIRE(frames(place, scene + ".toml", "7", { "-o", scene + ".off%d.exr", "--spp", "9", "--temporal", "off" })
+                    .status
+            == 0);
+    }
+    const double noise = difference(place, "still.off7.exr", "still7.exr").first;
+    REQUIRE(noise > 0);
+    // Rounding of coordinates is most of what is left: counts, and pixels at edges.
+    CHECK(difference(place, "moves.off7.exr", "still.off7.exr").first < 0.5 * noise);
+    CHECK(difference(place, "moves7.exr", "still7.exr").first < 0.3 * noise);
+}
+
 TEST_CASE("temporal: whether there is a filter is part of what a frame is made from, and of the report")
 {
     const Workplace place;

@@ -103,6 +103,7 @@ struct TemporalFilter::Declaration {
         params.indirect = indirect ? 1 : 0;
         params.open = settings.integrator == render::Integrator::AmbientOcclusion ? 1 : 0;
         params.mixed = frame.distributed ? 1 : 0;
+        params.measured = frame.directDeviation.size() > 0 ? 1 : 0;
         params.normalCosine = std::cos(glm::radians(normalDegrees));
         importFrame();
     }
@@ -130,6 +131,16 @@ struct TemporalFilter::Declaration {
             vectors("indirect", frame.indirect, f.totals.indirect.filtered);
             vectors("indirect noisy", frame.indirectNoisy, f.totals.indirect.noisy);
         }
+        const auto shorts = [&](const char* name, const device::Buffer<float>& memory,
+                                graph::Handle<render::Deviation>& handle) {
+            handle = import<render::Deviation>(name, render::shortFloats, memory.cl());
+        };
+        if (params.measured != 0) {
+            shorts("direct deviation", frame.directDeviation, f.totals.direct.deviation);
+        }
+        if (params.measured != 0 && indirect) {
+            shorts("indirect deviation", frame.indirectDeviation, f.totals.indirect.deviation);
+        }
         f.surfaces.objectId = import<render::ObjectId>("object id", graph::counts, frame.objectId.cl());
     }
 
@@ -154,7 +165,12 @@ struct TemporalFilter::Declaration {
     template <class Quantity>
     graph::Argument readsIndirect(const char* name, const graph::Handle<Quantity>& handle) const
     {
-        return indirect ? reads(name, handle) : f.nothing(name);
+        return readsIf(indirect, name, handle);
+    }
+    template <class Quantity>
+    graph::Argument readsIf(bool there, const char* name, const graph::Handle<Quantity>& handle) const
+    {
+        return there ? reads(name, handle) : f.nothing(name);
     }
     template <class Quantity>
     graph::Argument changesIndirect(const char* name, graph::Handle<Quantity>& handle) const
@@ -173,9 +189,11 @@ struct TemporalFilter::Declaration {
                 reads("objectId", s.objectId), reads("diffuse", s.diffuse), reads("specular", s.specular),
                 reads("direct", t.direct.filtered), reads("directNoisy", t.direct.noisy),
                 readsIndirect("indirect", t.indirect.filtered), readsIndirect("indirectNoisy", t.indirect.noisy),
+                readsIf(params.measured != 0, "directDeviation", t.direct.deviation),
+                readsIf(params.measured != 0 && indirect, "indirectDeviation", t.indirect.deviation),
                 updates("depth", own.depth), updates("facing", own.facing), updates("object", own.object),
                 updates("directLight", own.direct), changesIndirect("indirectLight", own.indirect),
-                updates("noisy", own.before) });
+                updates("noisy", own.before), updates("variation", own.variation) });
         f.pixels(pass, PassKind::Filter, { file, "findVariation" },
             { f.rectangle(params), reads("noisy", own.before, graph::around(1)),
                 reads("object", own.object, graph::around(1)), updates("variation", own.variation) });

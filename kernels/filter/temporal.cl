@@ -8,8 +8,8 @@
 // whether the light is the same: Student's t of the differences of *unfiltered* samples over the pixels around, which
 // are independent of each other. With w = 1 this is the plain mean. What w takes away goes to the pixel itself, and w
 // does not tell E_k from E_t: so where frames differ by noise alone, E' has the mean of E_t, whatever w is.
-// Where light moves by less than a block is large the differences' mean may be 0: so their squares are held against
-// what pixels differ by from those beside them in the same frame, too.
+// Where light moves by less than a block is large the differences' mean may be 0: so their squares are held against the
+// noise's, too: that of two parts of the samples, or what pixels differ by from those beside them in the same frame.
 //
 // Light is kept in 47 bits, and differences are between what was kept: frames that are equal change nothing, to the
 // bit.
@@ -43,14 +43,17 @@ WEDGE_FN float luminanceOf(Vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.07
 /// in   planes of the frame; indirect, indirectNoisy: not read unless p.indirect
 /// out  depth: along the camera's axis; facing: packNormal(); object; E of direct and of indirect light, 47 bits each;
 /// and
-///      its luminance before the filter, 16 bits
+///      its luminance before the filter, 16 bits;
+///      variation: the variance of that where p.measured, or 0
 __kernel void keepFrame(TemporalParams p, __global const float* restrict position,
     __global const float* restrict normal, __global const uint* restrict objectId,
     __global const float* restrict diffuse, __global const float* restrict specular,
     __global const float* restrict direct, __global const float* restrict directNoisy,
     __global const float* restrict indirect, __global const float* restrict indirectNoisy,
+    __global const float* restrict directDeviation, __global const float* restrict indirectDeviation,
     __global float* restrict depth, __global uint* restrict facing, __global uint* restrict object,
-    __global float* restrict directLight, __global float* restrict indirectLight, __global float* restrict noisy)
+    __global float* restrict directLight, __global float* restrict indirectLight, __global float* restrict noisy,
+    __global float* restrict variation)
 {
     uint x, y, i;
     if (!temporalPixel(p, &x, &y, &i)) {
@@ -70,19 +73,27 @@ __kernel void keepFrame(TemporalParams p, __global const float* restrict positio
         unfiltered = vecAdd(unfiltered, loadVec(indirectNoisy, n, i));
     }
     storeShort(noisy, n, i, 0u, reflects ? luminanceOf(over(unfiltered, k)) : 0.0f);
+    float deviation = 0.0f;
+    if (p.measured != 0u && reflects) {
+        // Of light of one colour.
+        deviation = loadShort(directDeviation, n, i, 0u) / luminanceOf(k);
+        deviation += p.indirect != 0u ? loadShort(indirectDeviation, n, i, 0u) / luminanceOf(k) : 0.0f;
+    }
+    storeShort(variation, n, i, 0u, deviation * deviation);
 }
 
-/// The square by which a pixel's samples differ from those beside it beyond a slope, and what half a pixel's shift of a
-/// slope makes: of three numbers in a row.
-WEDGE_FN float roughness(float before, float own, float after)
+/// What a pixel's light may differ by from that of the same surface in another frame, squared: of three pixels in a
+/// row, what half a pixel's shift of their slope makes; and, where noise is not `measured`, by how much the middle one
+/// is off the slope, whose mean is the variance where light is even.
+WEDGE_FN float roughness(float before, float own, float after, uint measured)
 {
-    const float bend = 2.0f * own - before - after, slope = after - before;
+    const float bend = measured != 0u ? 0.0f : 2.0f * own - before - after, slope = after - before;
     return bend * bend * (1.0f / 6.0f) + slope * slope * (1.0f / 96.0f);
 }
 
-/// How much the light of unfiltered samples varies around each pixel: their variance, where light is even.
-/// in   noisy, object: of keepFrame()
-/// out  variation: 16 bits
+/// How much the light of unfiltered samples varies around each pixel.
+/// in      noisy, object: of keepFrame()
+/// in out  variation: of it, 16 bits
 __kernel void findVariation(TemporalParams p, __global const float* restrict noisy,
     __global const uint* restrict object, __global float* restrict variation)
 {
@@ -92,16 +103,20 @@ __kernel void findVariation(TemporalParams p, __global const float* restrict noi
     }
     const uint n = p.planeSize, id = object[i];
     const float own = loadShort(noisy, n, i, 0u);
-    float sum = 0.0f, count = 0.0f;
+    float across = 0.0f, down = 0.0f, count = 0.0f;
     if (x > 0u && x + 1u < p.width && object[i - 1u] == id && object[i + 1u] == id) {
-        sum += roughness(loadShort(noisy, n, i - 1u, 0u), own, loadShort(noisy, n, i + 1u, 0u));
+        across = roughness(loadShort(noisy, n, i - 1u, 0u), own, loadShort(noisy, n, i + 1u, 0u), p.measured);
         count += 1.0f;
     }
     if (y > 0u && y + 1u < p.height && object[i - p.stride] == id && object[i + p.stride] == id) {
-        sum += roughness(loadShort(noisy, n, i - p.stride, 0u), own, loadShort(noisy, n, i + p.stride, 0u));
+        down = roughness(loadShort(noisy, n, i - p.stride, 0u), own, loadShort(noisy, n, i + p.stride, 0u), p.measured);
         count += 1.0f;
     }
-    storeShort(variation, n, i, 0u, count > 0.0f ? sum / count : own * own);
+    float sum = across + down;
+    if (p.measured == 0u) {
+        sum = count > 0.0f ? sum / count : own * own; // nothing is known of pixels by themselves
+    }
+    storeShort(variation, n, i, 0u, loadShort(variation, n, i, 0u) + sum);
 }
 
 /// A surface point as the earlier frame's camera looks for it.

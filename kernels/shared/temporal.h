@@ -31,6 +31,7 @@ typedef struct {
     uint mixed; ///< 1: pixels have several receivers, and those of none reflect, too
     uint indirect; ///< 1: there is indirect light
     uint open; ///< 1: what is shown is how open surfaces' surroundings are, and no reflectance
+    uint measured; ///< 1: the noise of unfiltered light is known
     float normalCosine; ///< the least between both normals of what is one surface
     Vec3 eye, forward, right, down; ///< of the frame that is read, or, kept, of this one: as FrameParams has them
 } TemporalParams;
