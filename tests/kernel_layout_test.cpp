@@ -9,6 +9,7 @@
 #include "kernels/shared/light.h"
 #include "kernels/shared/material.h"
 #include "kernels/shared/path.h"
+#include "kernels/shared/temporal.h"
 #include "kernels/shared/wave.h"
 #include "tests/render_support.h"
 

@@ -1,21 +1,15 @@
 #include "host/app/commands.h"
 #include "host/app/console.h"
 #include "host/app/finished_frames.h"
-#include "host/app/frame_names.h"
-#include "host/app/image_writer.h"
-#include "host/app/interrupt.h"
 #include "host/app/outputs.h"
 #include "host/app/pass_table.h"
-#include "host/app/progress_line.h"
 #include "host/app/reference.h"
-#include "host/app/render_options.h"
+#include "host/app/render_job.h"
 #include "host/app/render_settings.h"
 #include "host/device/driver_cache.h"
 #include "host/error.h"
 #include "host/render/distributed_frame.h"
 #include "host/render/layers.h"
-#include "host/render/report.h"
-#include "host/scene/sequence.h"
 
 #include <algorithm>
 #include <chrono>
@@ -23,7 +17,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <set>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -44,70 +37,14 @@ std::vector<Output> outputsOf(const RenderOptions& options)
                                    : planOutputs(options.outputs);
 }
 
-/// One call of `wedge render`, step by step.
-class RenderJob {
-public:
-    explicit RenderJob(const RenderOptions& options)
-        : options_(options)
-        , images_(outputsOf(options), { options.exposureStops, options.view.value_or(image::View::Srgb) })
-        , progress_(!options.quiet)
-    {
-    }
+} // namespace
 
-    int run();
-
-private:
-    void checkCall() const;
-    void checkFrames() const;
-    void findUnfinished();
-    void moveTo(std::uint32_t frame);
-    int runFrames();
-    /// Returns false if it was stopped.
-    bool renderFrame(std::uint32_t frame, std::size_t number, Clock::time_point start);
-    void warnOfPicture() const;
-    void load();
-    void build();
-    void explain() const;
-    void prepare();
-    void render();
-    void renderSteps(const render::Control& control);
-    void showStep(const render::ProgressiveStep& step);
-    std::string endOfSteps() const;
-    void write();
-    void finishImages();
-    void writeReport();
-    void finish();
-
-    template <class... Args>
-    void tell(fmt::format_string<Args...> format, Args&&... args) const
-    {
-        if (!options_.quiet) {
-            say(format, std::forward<Args>(args)...);
-        }
-    }
-
-    const RenderOptions& options_;
-    std::optional<InterruptGuard>
-        guard_; // goes last, so that no late signal ends the program before it says how it went
-    ImageWriter images_;
-    std::vector<std::string> failures_; // lines about outputs
-    ProgressLine progress_;
-    scene::Scene scene_;
-    render::ReportExtras extras_;
-    render::Settings settings_;
-    std::vector<std::string> layers_;
-    std::optional<image::RgbImage> reference_;
-    std::unique_ptr<render::Renderer> renderer_;
-    render::FrameStatistics statistics_;
-    // Of a sequence.
-    std::optional<scene::Sequence> sequence_;
-    std::string inputs_;
-    std::vector<std::uint32_t> unfinished_;
-    std::vector<render::FrameStatistics> rendered_;
-    std::optional<bool> rehearsed_; // for distributed frames, or not
-    bool interrupted_ = false, reported_ = false;
-    double fraction_ = 0;
-};
+RenderJob::RenderJob(const RenderOptions& options)
+    : options_(options)
+    , images_(outputsOf(options), { options.exposureStops, options.view.value_or(image::View::Srgb) })
+    , progress_(!options.quiet)
+{
+}
 
 int RenderJob::run()
 {
@@ -175,39 +112,6 @@ void RenderJob::checkCall() const
         options_.explain.empty() ? options_.report : options_.explain);
 }
 
-/// Of a sequence: what does not go with it, and that every frame has files of its own.
-void RenderJob::checkFrames() const
-{
-    if (!options_.frames) {
-        if (options_.fps) {
-            throw UsageError("option has no effect without --frames", "--fps", "leave it out, or add --frames");
-        }
-        return;
-    }
-    const std::pair<const char*, bool> others[] = { { "--progressive", options_.progressive },
-        { "--reference", !options_.reference.empty() }, { "--explain", !options_.explain.empty() } };
-    for (const auto& [name, given] : others) {
-        if (given) {
-            throw UsageError("option does not go with --frames", name, "leave one of them out");
-        }
-    }
-    if (options_.outputs.empty()) {
-        throw UsageError("a sequence needs a name for its frames", "--frames", "add -o name.%04d.exr");
-    }
-    std::set<std::filesystem::path> names;
-    for (std::uint32_t i = 0; i < options_.frames->count(); ++i) {
-        const std::vector<Output> outputs = frameOutputs(images_.outputs(), options_.frames->first + i);
-        std::vector<std::string> written = { options_.report };
-        for (const Output& output : outputs) {
-            if (!names.insert(std::filesystem::path(output.path).lexically_normal()).second) {
-                throw UsageError("output is named twice", output.path, "give each frame a file of its own");
-            }
-            written.push_back(output.path);
-        }
-        refuseOverwriting(written, { options_.scene });
-    }
-}
-
 /// A call that names no outputs takes no picture that is not its own.
 void RenderJob::warnOfPicture() const
 {
@@ -269,121 +173,6 @@ void RenderJob::build()
     progress_.clear();
 }
 
-/// The frames that are not there yet.
-void RenderJob::findUnfinished()
-{
-    const FrameRange range = *options_.frames;
-    inputs_ = sequenceInputs(options_, settings_, scene_.framesPerUnit, sequence_->contents());
-    extras_.sequence = { range.first, range.last, scene_.framesPerUnit, {}, "frames" };
-    for (std::uint32_t i = 0; i < range.count(); ++i) {
-        const std::uint32_t frame = range.first + i;
-        const std::vector<Output> outputs = frameOutputs(images_.outputs(), frame);
-        // Kernels of one's own may have changed since.
-        const bool there = options_.kernelDir.empty() && std::ranges::all_of(outputs, [&](const Output& o) {
-            return isFinished(o, frameInputs(inputs_, frame));
-        });
-        (there ? extras_.sequence->skipped : unfinished_).push_back(frame);
-    }
-}
-
-/// The scene and the settings of a frame.
-void RenderJob::moveTo(std::uint32_t frame)
-{
-    scene::Moment moment = sequence_->at(frame / scene_.framesPerUnit);
-    scene::Change change = scene::changeTo(moment, scene_);
-    const auto alter = [&] {
-        scene::apply(std::move(moment), change, scene_);
-        applyLens(options_, scene_);
-    };
-    if (renderer_) {
-        renderer_->changeScene(change, alter);
-    } else {
-        alter();
-    }
-    settings_ = resolveSettings(options_, scene_);
-    settings_.frame = frame;
-}
-
-int RenderJob::runFrames()
-{
-    findUnfinished();
-    const std::size_t skipped = extras_.sequence->skipped.size();
-    if (skipped > 0) {
-        tell("{} of {} frames are there and left as they are\n", skipped, options_.frames->count());
-    }
-    if (unfinished_.empty() && options_.report.empty()) {
-        return 0;
-    }
-    moveTo(unfinished_.empty() ? options_.frames->first : unfinished_.front());
-    build();
-    const std::vector<Output> patterns = images_.outputs();
-    Clock::time_point start {};
-    for (std::size_t i = 0; i < unfinished_.size(); ++i) {
-        const std::uint32_t frame = unfinished_[i];
-        if (i > 0) {
-            moveTo(frame);
-        }
-        if (const bool distributed = render::isDistributed(settings_, scene_); rehearsed_ != distributed) {
-            if (i == 0) {
-                prepare();
-                guard_.emplace(); // before this, an interrupt simply ends the program
-                start = Clock::now();
-                if (options_.verbose) {
-                    tell("kernels ready after {:.1f} s\n", renderer_->setupSeconds());
-                    std::fflush(stdout);
-                }
-            } else {
-                renderer_->rehearse(settings_, !layers_.empty());
-            }
-            rehearsed_ = distributed;
-        }
-        images_ = ImageWriter(
-            frameOutputs(patterns, frame), { options_.exposureStops, options_.view.value_or(image::View::Srgb) });
-        if (!renderFrame(frame, i, start)) {
-            interrupted_ = guard_->flag();
-            extras_.sequence->ended = interrupted_ ? "interrupt" : "time limit";
-            put(stderr,
-                fmt::format("wedge: {} in frame {}, which is not written: call again to go on from there\n",
-                    interrupted_ ? "interrupted" : "time limit reached", frame));
-            break;
-        }
-    }
-    writeReport();
-    if (!failures_.empty()) {
-        throw Errors(failures_);
-    }
-    return interrupted_ ? statusInterrupted : 0;
-}
-
-bool RenderJob::renderFrame(std::uint32_t frame, std::size_t number, Clock::time_point start)
-{
-    const double left = options_.timeLimitSeconds - 1e-3 * millisecondsSince(start);
-    if (guard_->flag() || (options_.timeLimitSeconds > 0 && left <= 0)) {
-        return false;
-    }
-    render::Control control;
-    control.cancel = &guard_->flag();
-    control.timeLimitSeconds = options_.timeLimitSeconds > 0 ? left : 0;
-    control.progress = [&](double fraction) {
-        progress_.update((static_cast<double>(number) + fraction) / static_cast<double>(unfinished_.size()));
-    };
-    statistics_ = renderer_->render(settings_, control, !layers_.empty());
-    progress_.clear();
-    if (!statistics_.complete) {
-        return false;
-    }
-    write();
-    finishImages();
-    if (!failures_.empty()) {
-        throw Errors(failures_); // the next ones would fail, too
-    }
-    rendered_.push_back(statistics_);
-    tell("frame {}: {:.1f} rays a pixel, {:.2f} s, wrote {}\n", frame, render::raysPerPixel(statistics_, settings_),
-        1e-3 * statistics_.wallMilliseconds, printable(fmt::format("{}", images_.written().front())));
-    std::fflush(stdout);
-    return true;
-}
-
 void RenderJob::explain() const
 {
     const render::Explanation explanation = renderer_->explain(settings_, !layers_.empty());
@@ -396,7 +185,11 @@ void RenderJob::explain() const
 void RenderJob::prepare()
 {
     const device::DeviceInfo& device = renderer_->device().info();
-    const device::MemoryPlan plan = renderer_->plan(settings_, !layers_.empty());
+    device::MemoryPlan plan = renderer_->plan(renderedSettings(), keepsLayers());
+    if (filtersOverTime()) {
+        filters::TemporalFilter::addTo(plan, settings_, scene_);
+        plan.check(device, options_.memoryLimitBytes);
+    }
     tell("scene {}: {} triangles\n", printable(scene_.path), scene_.geometry.indices.size() / 3);
     tell("device {} ({})\n", device.name, device.platform);
     if (options_.verbose) {
@@ -411,7 +204,7 @@ void RenderJob::prepare()
     }
     std::fflush(stdout);
     progress_.show("building kernels");
-    renderer_->rehearse(settings_, !layers_.empty());
+    renderer_->rehearse(renderedSettings(), keepsLayers());
     progress_.clear();
 }
 
@@ -518,7 +311,7 @@ void RenderJob::writeReport()
     try {
         writeText(options_.report,
             render::jsonReport(
-                *renderer_, settings_, options_.frames ? rendered_ : std::vector { statistics_ }, extras_));
+                *renderer_, renderedSettings(), options_.frames ? rendered_ : std::vector { statistics_ }, extras_));
         reported_ = true;
     } catch (const Error& error) {
         failures_.emplace_back(error.what());
@@ -542,8 +335,6 @@ void RenderJob::finish()
     }
     std::fflush(stdout);
 }
-
-} // namespace
 
 void addRenderCommand(CLI::App& parser, Action& action)
 {

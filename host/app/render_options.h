@@ -58,6 +58,7 @@ struct RenderOptions {
     std::vector<std::string> changeTexts; ///< the same as they were given
     std::optional<FrameRange> frames; ///< of a sequence
     std::optional<double> fps; ///< frames in one unit of the keys' time
+    std::optional<render::Temporal> temporal; ///< likewise
 
     // Ablations.
     std::optional<render::Sampling> sampling;

@@ -39,7 +39,8 @@ void refuseFilterOptions(const RenderOptions& o)
     const std::pair<const char*, bool> given[] = { { "--as-published", o.asPublished }, { "--mu", o.mu.has_value() },
         { "--max-spp", o.maxSpp.has_value() }, { "--sampling", o.sampling.has_value() },
         { "--filter", o.filter.has_value() }, { "--filter-width", o.filterWidth.has_value() },
-        { "--falloff", o.falloff.has_value() }, { "--counts", o.counts.has_value() } };
+        { "--falloff", o.falloff.has_value() }, { "--counts", o.counts.has_value() },
+        { "--temporal", o.temporal.value_or(render::Temporal::Off) != render::Temporal::Off } };
     for (const auto& [name, isGiven] : given) {
         if (isGiven) {
             throw UsageError("option has no effect with method mc", name, "leave it out, or choose --method aaf");
@@ -219,6 +220,7 @@ render::Settings resolveSettings(const RenderOptions& o, const scene::Scene& sce
     s.seed = o.seed.value_or(file.seed);
     s.sampler = o.sampler.value_or(s.sampler);
     s.progressive = o.progressive;
+    s.temporal = o.temporal.value_or(render::Temporal::Off);
     applyIntegrator(o, scene, s);
     s.antialias = o.antialias.value_or(file.antialias);
     refuse(o.pixelFilter && !s.antialias, "without antialiasing", "--pixel-filter", "add --antialias");

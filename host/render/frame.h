@@ -46,6 +46,8 @@ struct Frame {
     device::Buffer<float> direct = none<float>(), directNoisy = none<float>(); ///< radiance, filtered and not
     device::Buffer<float> indirect = none<float>(),
                           indirectNoisy = none<float>(); ///< radiance, or how open the hemisphere is
+    /// Of the noisy ones' luminances, in 16 bits; of frames that are filtered over time and measure it.
+    device::Buffer<float> directDeviation = none<float>(), indirectDeviation = none<float>();
     std::map<std::string, device::Buffer<float>>
         unfiltered = {}; ///< direct light that no filter had, by effects' layers
     device::Buffer<std::uint32_t> samples =

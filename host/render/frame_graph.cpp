@@ -26,6 +26,8 @@ void eachShown(const Shown& shown, Frame& frame, const Visit& visit)
     one(frame.beauty, t.beauty);
     one(frame.direct, t.direct.filtered);
     one(frame.directNoisy, t.direct.noisy);
+    one(frame.directDeviation, t.direct.deviation);
+    one(frame.indirectDeviation, t.indirect.deviation);
     one(frame.indirect, t.indirect.filtered);
     one(frame.indirectNoisy, t.indirect.noisy);
     one(frame.samples, t.samples);

@@ -56,6 +56,9 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
     Shown shown { {}, imageOf(f_.totals), {}, {}, {}, {}, {} };
     if (keepLayers) {
         shown = { f_.surfaces, f_.totals, {}, {}, {}, {}, unfiltered };
+        if (settings.temporal == Temporal::Off || !fallsBack) {
+            shown.totals.direct.deviation = shown.totals.indirect.deviation = {};
+        }
     }
     shown.surfaces.objectId = f_.surfaces.objectId;
     if (std::ranges::any_of(terms, &Term::ofLobes)) {

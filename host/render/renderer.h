@@ -136,6 +136,9 @@ public:
     const Frame& frame() const { return *frame_; }
     const std::vector<TermPlanes>& termPlanes() const { return termPlanes_; }
     device::TimedQueue& queue() { return queue_; }
+    /// Of the programs, until the scene changes: for filters over whole frames.
+    graph::Kernels& kernels() { return *kernels_; }
+    graph::SlabRules slabRules() const;
 
 private:
     static std::unique_ptr<FrameGraph> declare(const scene::Scene& scene, const DeviceScene* deviceScene,
@@ -143,7 +146,6 @@ private:
     /// Of a frame that is only to be planned, or of a step of a progressive one.
     static std::unique_ptr<FrameGraph> declareUnbacked(const scene::Scene& scene, const Hierarchy& hierarchy,
         const Settings& settings, bool keepLayers, HalfMemories& memories, const StepRange& step);
-    graph::SlabRules slabRules() const;
     /// Tests the settings and whether memory suffices.
     void prepare(const Settings& settings, bool keepLayers);
     /// Runs frameGraph_, or rehearses it. Returns false if it was stopped before all samples were taken.

@@ -337,6 +337,9 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
         { "lightSampling", lightSamplings[static_cast<int>(s.lightSampling)] },
         { "progressive", s.progressive ? "true" : "false" },
     };
+    if (s.temporal != Temporal::Off) {
+        out.emplace_back("temporal", "on");
+    }
     if (tracesPaths(s) && s.integrator == Integrator::AmbientOcclusion) {
         out.emplace_back("ambientDistance", number(s.indirect.ambientDistance));
     }

@@ -83,6 +83,12 @@ enum class IndirectCounts {
     Variance, ///< variance of the neighbours' first paths
 };
 
+/// What frames of a sequence have of those before them; docs/temporal.md has the equations.
+enum class Temporal {
+    Off,
+    On, ///< a mean over a window of frames
+};
+
 /// Indirect light and ambient occlusion; docs/indirect.md has the equations.
 struct IndirectSettings {
     float mu = 1.0f; ///< sampling beyond the critical rate, (4.15), (4.21)
@@ -152,6 +158,7 @@ struct Settings {
     image::Window crop; ///< pixels to render; empty: all
     std::uint32_t seed = 0;
     std::optional<std::uint32_t> frame; ///< its number in a sequence, which enters the random numbers
+    Temporal temporal = Temporal::Off; ///< of sequences: whose filter is run after each frame (filters/temporal)
 
     Integrator integrator = Integrator::Path;
     int bounces = 0; ///< of indirect light: 0 is direct light alone

@@ -9,6 +9,7 @@
 #include "shared/light.h"
 #include "shared/material.h"
 #include "shared/path.h"
+#include "shared/temporal.h"
 #include "shared/wave.h"
 
 #define STRUCT(S)                                                                                                      \

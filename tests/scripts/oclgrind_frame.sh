@@ -24,7 +24,7 @@ trap 'rm -rf "$work"' EXIT
 export WEDGE_CACHE_DIR=
 
 # Renders one frame; its name, then the arguments of wedge render. Leaves NAME.log and NAME.out. Frames called ..._image have
-# no layers, and so keep less.
+# no layers, and so keep less; ..._%d are two frames of a sequence.
 simulate() {
     local name=$1 layers=(--layers all)
     shift
@@ -35,7 +35,7 @@ simulate() {
 }
 
 check() {
-    if ! simulate "$@" || ! grep -q "Oclgrind" "$work/$1.out" || [ ! -s "$work/$1.exr" ] || [ -s "$work/$1.log" ]; then
+    if ! simulate "$@" || ! grep -q "Oclgrind" "$work/$1.out" || [ ! -s "$work/${1/\%d/1}.exr" ] || [ -s "$work/$1.log" ]; then
         echo "oclgrind_frame: failed: $*" >&2
         cat "$work/$1.log" >&2
         cat "$work/$1.out" >&2
@@ -94,5 +94,7 @@ check fixed "$scenes/penumbra.toml" --traversal wide --size 9x7 --method aaf --s
 check ambient "$scenes/materials.toml" --traversal wide --size 17x3 --method aaf --spp 17 --integrator ao
 check published_bounce "$scenes/penumbra.toml" --traversal wide --size 9x3 --method aaf --as-published --bounces 1 --max-spp 24
 check one_pixel "$scenes/penumbra.toml" --traversal wide --size 1x1 --method aaf --spp 16 --bounces 1
+check over_time_%d "$scenes/motion.toml" --traversal wide --size 9x5 --method aaf --spp 10 --frames 0:1 --temporal on
+check bounced_over_time_%d "$scenes/penumbra.toml" --traversal wide --size 9x5 --method aaf --spp 16 --bounces 1 --frames 0:1 --temporal on
 checkSabotaged
 checkAllKernelsRan

@@ -1,0 +1,407 @@
+#include "filters/temporal/temporal.h"
+
+#include "host/graph/plan.h"
+#include "host/render/effect.h"
+#include "host/render/frame_builder.h"
+#include "kernels/shared/temporal.h"
+
+#include <chrono>
+#include <cmath>
+#include <span>
+
+#include <glm/trigonometric.hpp>
+
+namespace wedge::filters {
+
+using device::PassKind;
+using graph::reads;
+using graph::updates;
+using graph::value;
+using graph::writes;
+using render::Settings;
+
+namespace {
+
+constexpr const char* pass = "filter over time";
+constexpr const char* file = "filter/temporal.cl";
+/// Normals of one surface, whose curvature is between two pixels, differ by no more.
+constexpr float normalDegrees = 25.0f;
+
+struct Noisy { }; ///< luminance before the filter
+struct Blocks { }; ///< numbers of blocks of pixels
+
+/// What a frame keeps in a plane.
+struct KeptPlane {
+    const char* name;
+    const graph::Format& format;
+};
+constexpr KeptPlane keptPlanes[] = { { "kept depth", graph::floats }, { "kept normal", graph::counts },
+    { "kept object", graph::counts }, { "kept direct light", render::packedColours },
+    { "kept light before the filter", render::shortFloats }, { "kept variation", render::shortFloats }, { "kept indirect light", render::packedColours } };
+enum KeptIndex : std::size_t { Depth, Facing, Object, Direct, Before, Variation, Indirect, keptCount };
+
+bool hasIndirect(const Settings& settings, const scene::Scene& scene)
+{
+    return render::countOf(render::Part::Indirect, render::frameTerms(settings, scene)) > 0;
+}
+
+std::size_t keptOf(const Settings& settings, const scene::Scene& scene)
+{
+    return hasIndirect(settings, scene) ? keptCount : std::size_t { Indirect };
+}
+
+bool equal(shared::Vec3 a, shared::Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+bool equalCameras(const shared::FrameParams& a, const shared::FrameParams& b)
+{
+    return equal(a.eye, b.eye) && equal(a.forward, b.forward) && equal(a.right, b.right) && equal(a.down, b.down);
+}
+
+void setCamera(shared::TemporalParams& p, const shared::FrameParams& camera)
+{
+    p.eye = camera.eye;
+    p.forward = camera.forward;
+    p.right = camera.right;
+    p.down = camera.down;
+}
+
+} // namespace
+
+struct TemporalFilter::Kept {
+    std::optional<std::uint32_t> frame; ///< which it is; none: nothing yet
+    shared::FrameParams camera {};
+    std::shared_ptr<const ObjectPlaces> places;
+    std::vector<device::Buffer<std::uint8_t>> planes; ///< keptPlanes
+};
+
+/// The graph of one frame.
+struct TemporalFilter::Declaration {
+    /// A frame's planes in the graph.
+    struct Handles {
+        graph::Handle<render::Metres> depth;
+        graph::Handle<render::Packed> facing;
+        graph::Handle<render::ObjectId> object;
+        graph::Handle<render::Value> direct, indirect;
+        graph::Handle<Noisy> before;
+        graph::Handle<render::Squares> variation;
+    };
+
+    Declaration(render::Renderer& theRenderer, const Settings& theSettings, const cl::Buffer& unused)
+        : renderer(theRenderer)
+        , settings(theSettings)
+        , frame(theRenderer.frame())
+        , graph(settings.width, settings.height, frame.layout.size)
+        , f { graph, theRenderer.scene(), nullptr, settings, frame.layout, 1, false, unused }
+        , indirect(hasIndirect(settings, theRenderer.scene()))
+    {
+        params.width = frame.layout.width;
+        params.height = frame.layout.height;
+        params.stride = frame.layout.stride;
+        params.planeSize = static_cast<std::uint32_t>(frame.layout.size);
+        params.blocksX = (params.width + WEDGE_TEMPORAL_BLOCK - 1) / WEDGE_TEMPORAL_BLOCK;
+        params.blocksY = (params.height + WEDGE_TEMPORAL_BLOCK - 1) / WEDGE_TEMPORAL_BLOCK;
+        params.indirect = indirect ? 1 : 0;
+        params.open = settings.integrator == render::Integrator::AmbientOcclusion ? 1 : 0;
+        params.mixed = frame.distributed ? 1 : 0;
+        params.measured = frame.directDeviation.size() > 0 ? 1 : 0;
+        params.normalCosine = std::cos(glm::radians(normalDegrees));
+        importFrame();
+    }
+
+    template <class Quantity>
+    graph::Handle<Quantity> import(const char* name, const graph::Format& format, const cl::Buffer& memory)
+    {
+        return graph.imported<Quantity>(name, format, memory);
+    }
+
+    void importFrame()
+    {
+        const auto vectors = [&]<class Quantity>(const char* name, const device::Buffer<float>& memory,
+                                 graph::Handle<Quantity>& handle) {
+            handle = import<Quantity>(name, graph::vectors, memory.cl());
+        };
+        vectors("position", frame.position, f.surfaces.position);
+        vectors("normal", frame.normal, f.surfaces.normal);
+        vectors("diffuse", frame.diffuse, f.surfaces.diffuse);
+        vectors("specular", frame.specular, f.surfaces.specular);
+        vectors("direct", frame.direct, f.totals.direct.filtered);
+        vectors("direct noisy", frame.directNoisy, f.totals.direct.noisy);
+        vectors("beauty", frame.beauty, f.totals.beauty);
+        if (indirect) {
+            vectors("indirect", frame.indirect, f.totals.indirect.filtered);
+            vectors("indirect noisy", frame.indirectNoisy, f.totals.indirect.noisy);
+        }
+        const auto shorts = [&](const char* name, const device::Buffer<float>& memory,
+                                graph::Handle<render::Deviation>& handle) {
+            handle = import<render::Deviation>(name, render::shortFloats, memory.cl());
+        };
+        if (params.measured != 0) {
+            shorts("direct deviation", frame.directDeviation, f.totals.direct.deviation);
+        }
+        if (params.measured != 0 && indirect) {
+            shorts("indirect deviation", frame.indirectDeviation, f.totals.indirect.deviation);
+        }
+        f.surfaces.objectId = import<render::ObjectId>("object id", graph::counts, frame.objectId.cl());
+    }
+
+    Handles handlesOf(const Kept& kept)
+    {
+        const auto one = [&]<class Quantity>(graph::Handle<Quantity>& handle, KeptIndex index) {
+            handle = import<Quantity>(keptPlanes[index].name, keptPlanes[index].format, kept.planes[index].cl());
+        };
+        Handles out;
+        one(out.depth, Depth);
+        one(out.facing, Facing);
+        one(out.object, Object);
+        one(out.direct, Direct);
+        one(out.before, Before);
+        one(out.variation, Variation);
+        if (indirect) {
+            one(out.indirect, Indirect);
+        }
+        return out;
+    }
+
+    template <class Quantity>
+    graph::Argument readsIndirect(const char* name, const graph::Handle<Quantity>& handle) const
+    {
+        return readsIf(indirect, name, handle);
+    }
+    template <class Quantity>
+    graph::Argument readsIf(bool there, const char* name, const graph::Handle<Quantity>& handle) const
+    {
+        return there ? reads(name, handle) : f.nothing(name);
+    }
+    template <class Quantity>
+    graph::Argument changesIndirect(const char* name, graph::Handle<Quantity>& handle) const
+    {
+        return indirect ? updates(name, handle) : f.nothing(name);
+    }
+
+    /// Keeps the frame in `own`.
+    void keep(Handles& own, const shared::FrameParams& camera)
+    {
+        const render::Surfaces& s = f.surfaces;
+        const render::Totals& t = f.totals;
+        setCamera(params, camera);
+        f.pixels(pass, PassKind::Filter, { file, "keepFrame" },
+            { f.rectangle(params), reads("position", s.position), reads("normal", s.normal),
+                reads("objectId", s.objectId), reads("diffuse", s.diffuse), reads("specular", s.specular),
+                reads("direct", t.direct.filtered), reads("directNoisy", t.direct.noisy),
+                readsIndirect("indirect", t.indirect.filtered), readsIndirect("indirectNoisy", t.indirect.noisy),
+                readsIf(params.measured != 0, "directDeviation", t.direct.deviation),
+                readsIf(params.measured != 0 && indirect, "indirectDeviation", t.indirect.deviation),
+                updates("depth", own.depth), updates("facing", own.facing), updates("object", own.object),
+                updates("directLight", own.direct), changesIndirect("indirectLight", own.indirect),
+                updates("noisy", own.before), updates("variation", own.variation) });
+        f.pixels(pass, PassKind::Filter, { file, "findVariation" },
+            { f.rectangle(params), reads("noisy", own.before, graph::around(1)),
+                reads("object", own.object, graph::around(1)), updates("variation", own.variation) });
+        want(own.depth, own.facing, own.object, own.direct, own.before, own.variation);
+        if (indirect) {
+            want(own.indirect);
+        }
+    }
+
+    template <class... Quantities>
+    void want(const graph::Handle<Quantities>&... handles)
+    {
+        (graph.want(handles, graph.image()), ...);
+    }
+
+    /// A pass over blocks of pixels; `blocks` is its kernel's second parameter.
+    void blocks(const char* kernel, std::vector<graph::Argument> uses)
+    {
+        const std::uint32_t count = params.blocksX * params.blocksY;
+        std::vector<graph::Argument> arguments = { f.rectangle(params),
+            graph::made("blocks", [count](const graph::Launch& l) { return l.run.rehearsal() ? 0u : count; }) };
+        arguments.insert(arguments.end(), uses.begin(), uses.end());
+        graph.add({ .name = pass,
+            .kind = PassKind::Filter,
+            .kernel = { file, kernel },
+            .arguments = std::move(arguments),
+            .domain = graph::Domain::Items,
+            .count = [count](const graph::Launch&) { return std::size_t { count }; },
+            .mostItems = count });
+    }
+
+    void startSums()
+    {
+        sum = graph.plane<render::Value>("sum of differences", graph::floatPlanes(indirect ? 6 : 3));
+        counts = graph.plane<render::Share>("frames that see the surface", graph::floats);
+        f.zero(sum, counts);
+    }
+
+    /// Adds a frame that was kept. motions: from this frame to that, empty: no object has moved.
+    void add(const Handles& own, const Kept& kept, bool cameraStill, const std::vector<float>& motions,
+        const cl::Buffer& motionMemory)
+    {
+        const std::uint64_t all = std::uint64_t { params.blocksX } * params.blocksY;
+        const Handles earlier = handlesOf(kept);
+        setCamera(params, kept.camera);
+        params.cameraStill = cameraStill ? 1 : 0;
+        params.objectsStill = motions.empty() ? 1 : 0;
+        params.objects = static_cast<std::uint32_t>(renderer.scene().geometry.objectNames.size());
+        auto difference = graph.plane<render::Value>("difference of frames", graph::floatPlanes(indirect ? 6 : 3));
+        auto noise = graph.plane<Noisy>("difference before the filter", graph::floats);
+        auto variations = graph.plane<render::Squares>("variation of both", graph::floats);
+        auto share = graph.plane<render::Share>("whether the surface was seen", graph::floats);
+        auto sums = graph.list<Blocks>("sums of blocks", graph::floatPlanes(4), all);
+        auto weights = graph.list<Blocks>("weights of blocks", graph::floats, all);
+        const graph::Argument p = f.rectangle(params);
+        f.pixels(pass, PassKind::Filter, { file, "differFromFrame" },
+            { p, f.outside("motions", "float", &motionMemory), reads("position", f.surfaces.position),
+                reads("normal", f.surfaces.normal), reads("object", own.object), reads("directLight", own.direct),
+                readsIndirect("indirectLight", own.indirect), reads("noisy", own.before), reads("variation", own.variation),
+                reads("earlierDepth", earlier.depth, graph::wholeImage),
+                reads("earlierFacing", earlier.facing, graph::wholeImage),
+                reads("earlierObject", earlier.object, graph::wholeImage),
+                reads("earlierDirect", earlier.direct, graph::wholeImage),
+                indirect ? reads("earlierIndirect", earlier.indirect, graph::wholeImage)
+                         : f.nothing("earlierIndirect"),
+                reads("earlierNoisy", earlier.before, graph::wholeImage),
+                reads("earlierVariation", earlier.variation, graph::wholeImage), writes("difference", difference),
+                writes("noise", noise), writes("variations", variations), writes("share", share) });
+        blocks("sumBlocks", { reads("noise", noise), reads("variations", variations), reads("share", share), writes("sums", sums) });
+        blocks("weighBlocks", { reads("sums", sums), writes("weights", weights) });
+        f.pixels(pass, PassKind::Filter, { file, "addFrame" },
+            { p, reads("difference", difference), reads("share", share), reads("weights", weights),
+                updates("sum", sum), updates("counts", counts) });
+    }
+
+    void finish()
+    {
+        render::Totals& t = f.totals;
+        f.pixels(pass, PassKind::Filter, { file, "finishTemporal" },
+            { f.rectangle(params), reads("diffuse", f.surfaces.diffuse), reads("specular", f.surfaces.specular),
+                reads("sum", sum), reads("counts", counts), updates("direct", t.direct.filtered),
+                changesIndirect("indirect", t.indirect.filtered), updates("beauty", t.beauty) });
+        want(t.direct.filtered, t.beauty);
+        if (indirect) {
+            want(t.indirect.filtered);
+        }
+    }
+
+    render::Renderer& renderer;
+    const Settings& settings;
+    const render::Frame& frame;
+    graph::Graph graph;
+    render::FrameBuilder f;
+    bool indirect;
+    shared::TemporalParams params {};
+    graph::Handle<render::Value> sum;
+    graph::Handle<render::Share> counts;
+};
+
+TemporalFilter::TemporalFilter(const device::Device& device)
+    : device_(device)
+    , kept_(temporalWindow)
+    , memory_(device_)
+    , unused_(device::Buffer<std::uint32_t>(device_, 0, "nothing").cl())
+{
+}
+
+TemporalFilter::~TemporalFilter() = default;
+
+TemporalFilter::Kept& TemporalFilter::slotOf(std::uint32_t frame) { return kept_.at(frame % temporalWindow); }
+
+void TemporalFilter::addTo(device::MemoryPlan& plan, const Settings& settings, const scene::Scene& scene)
+{
+    const render::PlaneLayout layout(settings.width, settings.height);
+    for (std::size_t i = 0; i < keptOf(settings, scene); ++i) {
+        // Allocated one by one.
+        for (std::uint32_t k = 0; k < temporalWindow; ++k) {
+            plan.addItems(keptPlanes[i].name, layout.size, keptPlanes[i].format.bytes);
+        }
+    }
+    const std::uint64_t planes = hasIndirect(settings, scene) ? 12 : 6;
+    plan.addItems("sums of the filter over time", layout.size, (planes + 4) * sizeof(float));
+    plan.addItems("weights of the filter over time", layout.size / (WEDGE_TEMPORAL_BLOCK * WEDGE_TEMPORAL_BLOCK),
+        5 * sizeof(float));
+    plan.addItems("motions", std::uint64_t { temporalWindow } * scene.geometry.objectNames.size(),
+        WEDGE_TEMPORAL_MOTION * sizeof(float));
+}
+
+void TemporalFilter::keep(render::Renderer& renderer, const Settings& settings,
+    std::shared_ptr<const ObjectPlaces> places, render::FrameStatistics& statistics)
+{
+    run(renderer, settings, std::move(places), false, &statistics);
+}
+
+void TemporalFilter::filter(render::Renderer& renderer, const Settings& settings,
+    std::shared_ptr<const ObjectPlaces> places, render::FrameStatistics& statistics)
+{
+    run(renderer, settings, std::move(places), true, &statistics);
+}
+
+void TemporalFilter::rehearse(render::Renderer& renderer, const Settings& settings)
+{
+    run(renderer, settings, nullptr, true, nullptr);
+}
+
+void TemporalFilter::run(render::Renderer& renderer, const Settings& settings,
+    std::shared_ptr<const ObjectPlaces> places, bool filters, render::FrameStatistics* statistics)
+{
+    const auto start = std::chrono::steady_clock::now();
+    const bool rehearsal = statistics == nullptr;
+    const std::uint32_t number = settings.frame.value_or(0);
+    device::TimedQueue& queue = renderer.queue();
+    Declaration d(renderer, settings, unused_);
+    Kept& own = slotOf(number);
+    const auto allocate = [&](Kept& kept) {
+        for (std::size_t i = kept.planes.size(); i < keptOf(settings, renderer.scene()); ++i) {
+            kept.planes.emplace_back(device_, d.frame.layout.size * keptPlanes[i].format.bytes, keptPlanes[i].name);
+        }
+    };
+    allocate(own);
+    own.frame = rehearsal ? std::nullopt : std::optional(number);
+    own.camera = render::frameParams(renderer.scene(), d.frame.layout, d.graph.image(), 0);
+    own.places = std::move(places);
+    Declaration::Handles handles = d.handlesOf(own);
+    d.keep(handles, own.camera);
+    std::vector<device::Buffer<float>> motions;
+    const auto add = [&](const Kept& kept) {
+        const bool moved = own.places && kept.places && own.places != kept.places && !areStill(*own.places, *kept.places);
+        const std::vector<float> motion = moved ? motionsBetween(*own.places, *kept.places) : std::vector<float>();
+        device::Buffer<float>& memory = motions.emplace_back(device_, motion.size(), "motions");
+        if (moved) {
+            memory.upload(queue, std::span<const float>(motion));
+        }
+        d.add(handles, kept, equalCameras(own.camera, kept.camera), motion, memory.cl());
+    };
+    if (filters) {
+        d.startSums();
+        for (std::uint32_t frame = number; frame-- > firstOfWindow(number);) {
+            if (slotOf(frame).frame == frame) {
+                add(slotOf(frame));
+            }
+        }
+        if (rehearsal) {
+            allocate(slotOf(number + 1));
+            add(slotOf(number + 1));
+        }
+        d.finish();
+    }
+    const graph::Plan plan(d.graph, device::partAlignment, renderer.slabRules());
+    graph::Execution execution(plan, memory_, renderer.kernels(), queue);
+    if (rehearsal) {
+        execution.rehearse();
+        queue.finish();
+        queue.takeRecords();
+        queue.forgetCosts();
+        return;
+    }
+    execution.run();
+    queue.finish();
+    for (device::PassRecord& record : queue.takeRecords()) {
+        statistics->deviceMilliseconds += record.milliseconds;
+        statistics->passes.push_back(std::move(record));
+    }
+    device::MemoryPlan memory;
+    addTo(memory, settings, renderer.scene());
+    statistics->memoryBytes += memory.total();
+    statistics->wallMilliseconds
+        += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+} // namespace wedge::filters

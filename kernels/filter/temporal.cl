@@ -1,0 +1,392 @@
+// The filter over time: means of light over a window of frames, each looked up where the surface was in it.
+//
+// E is what a pixel reflects by its reflectance. Of frame t and the n frames before it that exist
+//
+//     E' = E_t + 1/G sum_k g_k w_k (E_k - E_t),   G = 1 + sum_k g_k,   k = 1..n frames back
+//
+// g_k: 1 where frame k sees the pixel's surface point, which is where the camera and the object were then; else 0. w_k:
+// whether the light is the same: Student's t of the differences of *unfiltered* samples over the pixels around, which
+// are independent of each other. With w = 1 this is the plain mean. What w takes away goes to the pixel itself, and w
+// does not tell E_k from E_t: so where frames differ by noise alone, E' has the mean of E_t, whatever w is.
+// Where light moves by less than a block is large the differences' mean may be 0: so their squares are held against the
+// noise's, too: that of two parts of the samples, or what pixels differ by from those beside them in the same frame.
+//
+// Light is kept in 47 bits, and differences are between what was kept: frames that are equal change nothing, to the
+// bit.
+#include "core/packed_planes.h"
+#include "core/pixel.h"
+#include "shared/temporal.h"
+
+/// The pixel of this work-item; false beyond the rectangle.
+WEDGE_FN bool temporalPixel(TemporalParams p, uint* x, uint* y, uint* i)
+{
+    *x = p.x0 + (uint)get_global_id(0);
+    *y = p.y0 + (uint)get_global_id(1);
+    *i = pixelIndex(*x, *y, p.stride);
+    return *x < p.x1 && *y < p.y1;
+}
+
+/// What light is divided by to make E of it, never 0.
+WEDGE_FN Vec3 shownBy(TemporalParams p, __global const float* diffuse, __global const float* specular, uint i)
+{
+    if (p.open != 0u) {
+        return vec3(1.0f, 1.0f, 1.0f);
+    }
+    const Vec3 k = vecAdd(loadVec(diffuse, p.planeSize, i), loadVec(specular, p.planeSize, i));
+    return vecAdd(k, vec3(WEDGE_TEMPORAL_DARK, WEDGE_TEMPORAL_DARK, WEDGE_TEMPORAL_DARK));
+}
+
+WEDGE_FN Vec3 over(Vec3 a, Vec3 b) { return vec3(a.x / b.x, a.y / b.y, a.z / b.z); }
+WEDGE_FN float luminanceOf(Vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+
+/// What of a frame is kept for those after it.
+/// in   planes of the frame; indirect, indirectNoisy: not read unless p.indirect
+/// out  depth: along the camera's axis; facing: packNormal(); object; E of direct and of indirect light, 47 bits each;
+/// and
+///      its luminance before the filter, 16 bits;
+///      variation: the variance of that where p.measured, or 0
+__kernel void keepFrame(TemporalParams p, __global const float* restrict position,
+    __global const float* restrict normal, __global const uint* restrict objectId,
+    __global const float* restrict diffuse, __global const float* restrict specular,
+    __global const float* restrict direct, __global const float* restrict directNoisy,
+    __global const float* restrict indirect, __global const float* restrict indirectNoisy,
+    __global const float* restrict directDeviation, __global const float* restrict indirectDeviation,
+    __global float* restrict depth, __global uint* restrict facing, __global uint* restrict object,
+    __global float* restrict directLight, __global float* restrict indirectLight, __global float* restrict noisy,
+    __global float* restrict variation)
+{
+    uint x, y, i;
+    if (!temporalPixel(p, &x, &y, &i)) {
+        return;
+    }
+    const uint n = p.planeSize;
+    const bool reflects = p.mixed != 0u || objectId[i] != 0u;
+    const Vec3 black = vec3(0.0f, 0.0f, 0.0f), k = shownBy(p, diffuse, specular, i);
+    depth[i] = vecDot(vecSub(loadVec(position, n, i), p.eye), p.forward);
+    facing[i] = packNormal(loadVec(normal, n, i));
+    object[i] = objectId[i];
+    storeColour(directLight, n, i, WEDGE_COLOUR_BITS, vecChoose(reflects, over(loadVec(direct, n, i), k), black));
+    Vec3 unfiltered = loadVec(directNoisy, n, i);
+    if (p.indirect != 0u) {
+        storeColour(
+            indirectLight, n, i, WEDGE_COLOUR_BITS, vecChoose(reflects, over(loadVec(indirect, n, i), k), black));
+        unfiltered = vecAdd(unfiltered, loadVec(indirectNoisy, n, i));
+    }
+    storeShort(noisy, n, i, 0u, reflects ? luminanceOf(over(unfiltered, k)) : 0.0f);
+    float deviation = 0.0f;
+    if (p.measured != 0u && reflects) {
+        // Of light of one colour.
+        deviation = loadShort(directDeviation, n, i, 0u) / luminanceOf(k);
+        deviation += p.indirect != 0u ? loadShort(indirectDeviation, n, i, 0u) / luminanceOf(k) : 0.0f;
+    }
+    storeShort(variation, n, i, 0u, deviation * deviation);
+}
+
+/// What a pixel's light may differ by from that of the same surface in another frame, squared: of three pixels in a
+/// row, what half a pixel's shift of their slope makes; and, where noise is not `measured`, by how much the middle one
+/// is off the slope, whose mean is the variance where light is even.
+WEDGE_FN float roughness(float before, float own, float after, uint measured)
+{
+    const float bend = measured != 0u ? 0.0f : 2.0f * own - before - after, slope = after - before;
+    return bend * bend * (1.0f / 6.0f) + slope * slope * (1.0f / 96.0f);
+}
+
+/// How much the light of unfiltered samples varies around each pixel.
+/// in      noisy, object: of keepFrame()
+/// in out  variation: of it, 16 bits
+__kernel void findVariation(TemporalParams p, __global const float* restrict noisy,
+    __global const uint* restrict object, __global float* restrict variation)
+{
+    uint x, y, i;
+    if (!temporalPixel(p, &x, &y, &i)) {
+        return;
+    }
+    const uint n = p.planeSize, id = object[i];
+    const float own = loadShort(noisy, n, i, 0u);
+    float across = 0.0f, down = 0.0f, count = 0.0f;
+    if (x > 0u && x + 1u < p.width && object[i - 1u] == id && object[i + 1u] == id) {
+        across = roughness(loadShort(noisy, n, i - 1u, 0u), own, loadShort(noisy, n, i + 1u, 0u), p.measured);
+        count += 1.0f;
+    }
+    if (y > 0u && y + 1u < p.height && object[i - p.stride] == id && object[i + p.stride] == id) {
+        down = roughness(loadShort(noisy, n, i - p.stride, 0u), own, loadShort(noisy, n, i + p.stride, 0u), p.measured);
+        count += 1.0f;
+    }
+    float sum = across + down;
+    if (p.measured == 0u) {
+        sum = count > 0.0f ? sum / count : own * own; // nothing is known of pixels by themselves
+    }
+    storeShort(variation, n, i, 0u, loadShort(variation, n, i, 0u) + sum);
+}
+
+/// A surface point as the earlier frame's camera looks for it.
+typedef struct {
+    Vec3 position, normal;
+    uint object;
+} SoughtPoint;
+
+/// Where a point of the object was: false where that is not known.
+WEDGE_FN bool movedBack(TemporalParams p, __global const float* motions, SoughtPoint* point, bool* still)
+{
+    *still = p.cameraStill != 0u && p.objectsStill != 0u;
+    if (*still) {
+        return true;
+    }
+    if (point->object == 0u || point->object > p.objects) {
+        return false; // it sees nothing, or several objects
+    }
+    if (p.objectsStill != 0u) {
+        return true;
+    }
+    __global const float* m = motions + (point->object - 1u) * WEDGE_TEMPORAL_MOTION;
+    const float kind = m[12];
+    *still = kind == WEDGE_TEMPORAL_STILL && p.cameraStill != 0u;
+    if (kind != WEDGE_TEMPORAL_MOVED) {
+        return kind == WEDGE_TEMPORAL_STILL;
+    }
+    const Vec3 a = vec3(m[0], m[1], m[2]), b = vec3(m[4], m[5], m[6]), c = vec3(m[8], m[9], m[10]);
+    const Vec3 at = point->position;
+    point->position = vec3(vecDot(a, at) + m[3], vecDot(b, at) + m[7], vecDot(c, at) + m[11]);
+    // Normals as what is across both of two tangents.
+    const Vec3 n = point->normal;
+    const Vec3 axis = fabs(n.x) < 0.6f ? vec3(1.0f, 0.0f, 0.0f) : vec3(0.0f, 1.0f, 0.0f);
+    const Vec3 u = vecCross(n, axis), v = vecCross(n, u);
+    const Vec3 mu = vec3(vecDot(a, u), vecDot(b, u), vecDot(c, u)), mv = vec3(vecDot(a, v), vecDot(b, v), vecDot(c, v));
+    const Vec3 across = vecCross(mu, mv);
+    const float length = vecLength(across);
+    point->normal = length > 0.0f ? vecScale(across, 1.0f / length) : n;
+    return true;
+}
+
+/// A sought point's plane as pixels of the earlier frame are held against it.
+typedef struct {
+    float forward, right, down; ///< parts of the camera's vectors along the normal
+    float offset; ///< of the eye
+    float tolerance; ///< how far off the plane a surface may be, of its depth
+} SoughtPlane;
+
+WEDGE_FN SoughtPlane planeOf(TemporalParams p, SoughtPoint point)
+{
+    SoughtPlane plane;
+    plane.right = vecDot(p.right, point.normal);
+    plane.down = vecDot(p.down, point.normal);
+    // Through the image's corner.
+    plane.forward = vecDot(p.forward, point.normal) + (0.5f - 0.5f * (float)p.width) * plane.right
+        + (0.5f - 0.5f * (float)p.height) * plane.down;
+    plane.offset = vecDot(vecSub(p.eye, point.position), point.normal);
+    plane.tolerance = vecLength(p.right);
+    return plane;
+}
+
+/// Whether the earlier frame's pixel sees the point's surface, no farther from its plane than a pixel is large.
+WEDGE_FN bool seesSurface(TemporalParams p, SoughtPoint point, SoughtPlane plane, int x, int y,
+    __global const float* depth, __global const uint* facing, __global const uint* object)
+{
+    if (x < 0 || y < 0 || x >= (int)p.width || y >= (int)p.height) {
+        return false;
+    }
+    const uint i = pixelIndex((uint)x, (uint)y, p.stride);
+    const float along = plane.forward + (float)x * plane.right + (float)y * plane.down;
+    if (object[i] != point.object || !(fabs(plane.offset + depth[i] * along) <= plane.tolerance * depth[i])) {
+        return false;
+    }
+    const Vec3 normal = unpackNormal(facing[i]);
+    const float cosine = vecDot(normal, point.normal);
+    return cosine > 0.0f && cosine * cosine >= p.normalCosine * p.normalCosine * vecDot(normal, normal);
+}
+
+/// One earlier frame, as far as a pixel's surface is seen in it.
+/// in   position, normal: of this frame; object, directLight, indirectLight, noisy: as keepFrame() made them of it;
+///      earlierX: likewise of the earlier one; variation: findVariation(); motions: of objects, from this frame to that
+/// out  difference: of directLight, 3 planes, and with p.indirect of indirectLight, 3 more; noise: of the luminance
+///      before the filter, of the nearest pixel; variations: the sum of both pixels' own; share: g, 1 or 0
+__kernel void differFromFrame(TemporalParams p, __global const float* restrict motions,
+    __global const float* restrict position, __global const float* restrict normal,
+    __global const uint* restrict object, __global const float* restrict directLight,
+    __global const float* restrict indirectLight, __global const float* restrict noisy,
+    __global const float* restrict variation, __global const float* restrict earlierDepth,
+    __global const uint* restrict earlierFacing, __global const uint* restrict earlierObject,
+    __global const float* restrict earlierDirect, __global const float* restrict earlierIndirect,
+    __global const float* restrict earlierNoisy, __global const float* restrict earlierVariation,
+    __global float* restrict difference, __global float* restrict noise, __global float* restrict variations,
+    __global float* restrict share)
+{
+    uint x, y, i;
+    if (!temporalPixel(p, &x, &y, &i)) {
+        return;
+    }
+    const uint n = p.planeSize;
+    SoughtPoint point;
+    point.object = object[i];
+    point.position = loadVec(position, n, i);
+    point.normal = loadVec(normal, n, i);
+    bool still;
+    Vec2 at = vec2(0.0f, 0.0f);
+    float depth;
+    const Vec3 black = vec3(0.0f, 0.0f, 0.0f);
+    Vec3 direct = black, indirect = black;
+    float weight = 0.0f, nearest = 0.0f, unfiltered = 0.0f, varies = 0.0f;
+    if (movedBack(p, motions, &point, &still)) {
+        if (still) {
+            if (p.objectsStill != 0u
+                || seesSurface(
+                    p, point, planeOf(p, point), (int)x, (int)y, earlierDepth, earlierFacing, earlierObject)) {
+                weight = 1.0f;
+                direct = loadColour(earlierDirect, n, i, WEDGE_COLOUR_BITS);
+                indirect = p.indirect != 0u ? loadColour(earlierIndirect, n, i, WEDGE_COLOUR_BITS) : black;
+                unfiltered = loadShort(earlierNoisy, n, i, 0u);
+                varies = loadShort(earlierVariation, n, i, 0u);
+            }
+        } else if (temporalProject(p, point.position, &at, &depth)) {
+            const SoughtPlane plane = planeOf(p, point);
+            // Of the four pixels around it those that see the surface.
+            const float left = floor(at.x - 0.5f), top = floor(at.y - 0.5f);
+            const float fx = at.x - 0.5f - left, fy = at.y - 0.5f - top;
+            for (int tap = 0; tap < 4; ++tap) {
+                const int tx = (int)left + (tap & 1), ty = (int)top + (tap >> 1);
+                const float w = ((tap & 1) != 0 ? fx : 1.0f - fx) * ((tap >> 1) != 0 ? fy : 1.0f - fy);
+                if (w > 0.0f && seesSurface(p, point, plane, tx, ty, earlierDepth, earlierFacing, earlierObject)) {
+                    const uint j = pixelIndex((uint)tx, (uint)ty, p.stride);
+                    weight += w;
+                    direct = vecMad(direct, loadColour(earlierDirect, n, j, WEDGE_COLOUR_BITS), w);
+                    if (p.indirect != 0u) {
+                        indirect = vecMad(indirect, loadColour(earlierIndirect, n, j, WEDGE_COLOUR_BITS), w);
+                    }
+                    if (w > nearest) {
+                        unfiltered = loadShort(earlierNoisy, n, j, 0u);
+                        varies = loadShort(earlierVariation, n, j, 0u);
+                    }
+                    nearest = fmax(nearest, w);
+                }
+            }
+        }
+    }
+    const bool seen = weight > 0.05f;
+    const float scale = seen ? 1.0f / weight : 0.0f;
+    share[i] = seen ? 1.0f : 0.0f;
+    noise[i] = seen ? unfiltered - loadShort(noisy, n, i, 0u) : 0.0f;
+    variations[i] = seen ? varies + loadShort(variation, n, i, 0u) : 0.0f;
+    const Vec3 own = loadColour(directLight, n, i, WEDGE_COLOUR_BITS);
+    storeVec(difference, n, i, seen ? vecMad(vecScale(own, -1.0f), direct, scale) : black);
+    if (p.indirect != 0u) {
+        const Vec3 ownIndirect = loadColour(indirectLight, n, i, WEDGE_COLOUR_BITS);
+        storeVec(difference + 3u * n, n, i, seen ? vecMad(vecScale(ownIndirect, -1.0f), indirect, scale) : black);
+    }
+}
+
+/// Sums over the pixels of a block: how many are seen in the earlier frame, their differences, and the squares of
+/// those. out  sums: 3 numbers a block
+__kernel void sumBlocks(TemporalParams p, uint blocks, __global const float* restrict noise,
+    __global const float* restrict variations, __global const float* restrict share, __global float* restrict sums)
+{
+    const uint block = (uint)get_global_id(0);
+    if (block >= blocks) {
+        return;
+    }
+    const uint x0 = block % p.blocksX * WEDGE_TEMPORAL_BLOCK, y0 = block / p.blocksX * WEDGE_TEMPORAL_BLOCK;
+    float count = 0.0f, sum = 0.0f, squares = 0.0f, expected = 0.0f;
+    for (uint y = y0; y < min(y0 + WEDGE_TEMPORAL_BLOCK, p.height); ++y) {
+        for (uint x = x0; x < min(x0 + WEDGE_TEMPORAL_BLOCK, p.width); ++x) {
+            const uint i = pixelIndex(x, y, p.stride);
+            count += share[i];
+            sum += noise[i];
+            squares += noise[i] * noise[i];
+            expected += variations[i];
+        }
+    }
+    sums[4u * block] = count;
+    sums[4u * block + 1u] = sum;
+    sums[4u * block + 2u] = squares;
+    sums[4u * block + 3u] = expected;
+}
+
+/// Student's t, squared, of differences whose mean is to be 0.
+WEDGE_FN float squaredT(float count, float sum, float squares)
+{
+    if (count < 2.0f) {
+        return 0.0f;
+    }
+    const float mean = sum / count;
+    const float variance = fmax(squares - sum * mean, 0.0f) / ((count - 1.0f) * count);
+    const float square = mean * mean;
+    return square > 0.0f ? fmin(square / fmax(variance, 1e-30f), 1e6f) : 0.0f;
+}
+
+/// Whether the light of a block is that of the earlier frame: where neither its own pixels nor those around differ in
+/// the mean, and its own by no more than by noise. The latter finds what is brighter here and darker there. out
+/// weights: w of each block
+__kernel void weighBlocks(
+    TemporalParams p, uint blocks, __global const float* restrict sums, __global float* restrict weights)
+{
+    const uint block = (uint)get_global_id(0);
+    if (block >= blocks) {
+        return;
+    }
+    const int bx = (int)(block % p.blocksX), by = (int)(block / p.blocksX);
+    float count = 0.0f, sum = 0.0f, squares = 0.0f, ratio = 0.0f;
+    for (int y = max(by - WEDGE_TEMPORAL_REACH, 0); y <= min(by + WEDGE_TEMPORAL_REACH, (int)p.blocksY - 1); ++y) {
+        for (int x = max(bx - WEDGE_TEMPORAL_REACH, 0); x <= min(bx + WEDGE_TEMPORAL_REACH, (int)p.blocksX - 1); ++x) {
+            const uint at = 4u * ((uint)y * p.blocksX + (uint)x);
+            count += sums[at];
+            sum += sums[at + 1u];
+            squares += sums[at + 2u];
+            if (abs(x - bx) <= 1 && abs(y - by) <= 1 && sums[at + 2u] > 0.0f) {
+                ratio = fmax(ratio, sums[at + 2u] / fmax(sums[at + 3u], 1e-30f));
+            }
+        }
+    }
+    const uint own = 4u * block;
+    const float t = fmax(squaredT(count, sum, squares), squaredT(sums[own], sums[own + 1u], sums[own + 2u]));
+    weights[block] = temporalTrust(t, ratio);
+}
+
+/// Adds an earlier frame.
+/// in      difference, share; weights of blocks, between whose centres they are interpolated
+/// in out  sum: of g w times the difference, as many planes; counts: of g
+__kernel void addFrame(TemporalParams p, __global const float* restrict difference,
+    __global const float* restrict share, __global const float* restrict weights, __global float* restrict sum,
+    __global float* restrict counts)
+{
+    uint x, y, i;
+    if (!temporalPixel(p, &x, &y, &i) || share[i] == 0.0f) {
+        return;
+    }
+    const float scale = 1.0f / (float)WEDGE_TEMPORAL_BLOCK;
+    const float bx = clamp(((float)x + 0.5f) * scale - 0.5f, 0.0f, (float)(p.blocksX - 1u));
+    const float by = clamp(((float)y + 0.5f) * scale - 0.5f, 0.0f, (float)(p.blocksY - 1u));
+    const uint left = (uint)bx, top = (uint)by;
+    const uint right = min(left + 1u, p.blocksX - 1u), below = min(top + 1u, p.blocksY - 1u);
+    const float fx = bx - (float)left, fy = by - (float)top;
+    const float above = mix(weights[top * p.blocksX + left], weights[top * p.blocksX + right], fx);
+    const float under = mix(weights[below * p.blocksX + left], weights[below * p.blocksX + right], fx);
+    const float w = mix(above, under, fy);
+    const uint planes = p.indirect != 0u ? 6u : 3u;
+    for (uint plane = 0u; plane < planes; ++plane) {
+        const uint at = plane * p.planeSize + i;
+        sum[at] += w * difference[at];
+    }
+    counts[i] += 1.0f;
+}
+
+/// Puts the mean in the frame's place.
+/// in      sum, counts: of all earlier frames
+/// in out  direct, indirect (where p.indirect), beauty
+__kernel void finishTemporal(TemporalParams p, __global const float* restrict diffuse,
+    __global const float* restrict specular, __global const float* restrict sum, __global const float* restrict counts,
+    __global float* restrict direct, __global float* restrict indirect, __global float* restrict beauty)
+{
+    uint x, y, i;
+    if (!temporalPixel(p, &x, &y, &i)) {
+        return;
+    }
+    const uint n = p.planeSize;
+    const Vec3 k = vecScale(shownBy(p, diffuse, specular, i), 1.0f / (1.0f + counts[i]));
+    Vec3 more = vecMul(k, loadVec(sum, n, i));
+    storeVec(direct, n, i, vecAdd(loadVec(direct, n, i), more));
+    if (p.indirect != 0u) {
+        const Vec3 other = vecMul(k, loadVec(sum + 3u * n, n, i));
+        storeVec(indirect, n, i, vecAdd(loadVec(indirect, n, i), other));
+        more = vecAdd(more, other);
+    }
+    storeVec(beauty, n, i, vecAdd(loadVec(beauty, n, i), more));
+}
