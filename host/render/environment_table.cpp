@@ -120,6 +120,10 @@ EnvironmentTable environmentTable(const EnvironmentPicture* picture)
         choices(ofColumns, columns.subspan(y * w, w), columnGuide.subspan(y * w, w));
     }
     choices(ofRows, rows, rowGuide);
+    if (!picture->shown.empty()) { // no span is used from here on
+        out.map.shown = static_cast<std::uint32_t>(out.numbers.size());
+        out.numbers.insert(out.numbers.end(), picture->shown.begin(), picture->shown.end());
+    }
     return out;
 }
 

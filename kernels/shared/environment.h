@@ -16,16 +16,17 @@ WEDGE_SHARED_BEGIN
 ///   height    bits of a whole number: of row i of n, the row that i/n chooses (as Emitter::guide)
 ///   texels    likewise of columns
 ///   height+1  cosines of the angles from `up` at which rows begin and end
+///   3 texels  where suns were taken out: radiance with them
 typedef struct {
     uint width, height; ///< texels; 0: there is no map
     Vec3 right, up, back; ///< unit, in the world: what 3/4 of the width shows in the middle of the height, the upper
                           ///< edge, and both ends of the width there
     float dark; ///< luminance below which what hides a direction does not count, W/(sr m^2)
     uint seen; ///< 1: the camera sees it
-    uint padding;
+    uint shown; ///< where in the table radiance is as the camera sees it, with suns; 0: as at its beginning
 } EnvironmentMap;
 
-/// Floats of the table.
+/// Floats of the table, without what the camera sees.
 WEDGE_INLINE uint environmentTableSize(uint width, uint height) { return 5u * width * height + 3u * height + 1u; }
 
 /// Where the map shows a direction, in widths and heights from its upper left corner.

@@ -84,7 +84,7 @@ FIELD(PathParams, emittersHigh) FIELD(PathParams, directedWithin) FIELD(PathPara
 END(PathParams)
 STRUCT(EnvironmentMap)
 FIELD(EnvironmentMap, width) FIELD(EnvironmentMap, height) FIELD(EnvironmentMap, right) FIELD(EnvironmentMap, up)
-FIELD(EnvironmentMap, back) FIELD(EnvironmentMap, dark) FIELD(EnvironmentMap, seen) FIELD(EnvironmentMap, padding)
+FIELD(EnvironmentMap, back) FIELD(EnvironmentMap, dark) FIELD(EnvironmentMap, seen) FIELD(EnvironmentMap, shown)
 END(EnvironmentMap)
 STRUCT(ReflectorParams)
 FIELD(ReflectorParams, x0) FIELD(ReflectorParams, y0) FIELD(ReflectorParams, x1) FIELD(ReflectorParams, y1)
