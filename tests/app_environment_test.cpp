@@ -145,6 +145,37 @@ TEST_CASE("an environment lights what there is, by every method, and is told of"
     CHECK(contains(place.run({ "info", "--json", "s.toml" }).out, "\"environment\""));
 }
 
+TEST_CASE("a map's sun is told of, is seen as the map has it, stays in sequences, and can be left in the map")
+{
+    Workplace place;
+    std::vector<Texel> texels(64 * 32, Texel { 1, 1, 1 });
+    texels[10 * 64 + 32] = { 40000, 30000, 20000 };
+    writeMap(place.path() / "m.exr", 64, 32, texels);
+    const std::string keys = "[environment]\nmap = \"m.exr\"\n";
+    writeFloor(place, keys);
+    CHECK(contains(place.run({ "info", "s.toml" }).out, "a sun of it is an area light"));
+    CHECK(contains(place.run({ "info", "--json", "s.toml" }).out, "\"share\""));
+    const image::LayeredImage apart = render(place, { "--report", "r.json" });
+    CHECK(contains(readAll(place.path() / "r.json"), "\"share\""));
+    // A later frame has it, too: nothing moves, so that its floor is as bright.
+    CHECK(place
+              .run({ "render", "s.toml", "--quiet", "--frames", "3:3", "--method", "mc", "--spp", "16", "-o",
+                  "f.%d.exr" })
+              .status
+        == 0);
+    const Texel floor = middle(apart), later = middle(image::readExr((place.path() / "f.3.exr").string()));
+    CHECK(later.g == doctest::Approx(floor.g).epsilon(0.1));
+    writeFloor(place, keys + "suns = false\n");
+    CHECK_FALSE(contains(place.run({ "info", "s.toml" }).out, "a sun of it"));
+    CHECK(middle(render(place, { "--spp", "1024" })).g == doctest::Approx(floor.g).epsilon(0.1));
+    const std::string view = "[camera]\neye = [0, 0, 0]\nlook_at = [0.05, 0.53, -1]\nfov = 1\n";
+    place.write("s.toml", view + keys + "suns = false\n");
+    const Texel whole = middle(render(place));
+    place.write("s.toml", view + keys);
+    CHECK(middle(render(place)).g == whole.g);
+    CHECK(whole.g > 10000);
+}
+
 TEST_CASE("what is wrong with an environment is told in a line")
 {
     Workplace place;
@@ -162,6 +193,7 @@ TEST_CASE("what is wrong with an environment is told in a line")
     refused("radiance = 1\nmap = \"m.exr\"\n", "both a radiance and a map");
     refused("radiance = -1\n", "is negative");
     refused("radiance = 1\nrotation = 3\n", "has no effect without a map");
+    refused("radiance = 1\nsuns = false\n", "has no effect without a map");
     refused("radiance = 1\nlayout = \"angular\"\n", "has no effect without a map");
     refused("map = \"m.exr\"\nlayout = \"angular\"\n", "4x2");
     refused("map = \"m.exr\"\nlayout = \"cube\"\n", "cube");

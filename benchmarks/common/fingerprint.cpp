@@ -73,6 +73,9 @@ void add(Fingerprint& f, const render::EnvironmentPicture& picture)
         add(f, axis);
     }
     f.add(picture.seen);
+    if (!picture.shown.empty()) {
+        f.add(std::span<const float>(picture.shown));
+    }
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "effects/environment/environment.h"
 
 #include "effects/environment/environment_section.h"
+#include "effects/environment/suns.h"
 #include "effects/indirect/path_term.h"
 #include "host/scene/sections.h"
 
@@ -13,7 +14,13 @@ constexpr const char* key = "environment";
 
 class EnvironmentLight : public Effect {
 public:
-    EnvironmentLight() { scene::registerSection({ key, readEnvironment, true }); }
+    EnvironmentLight()
+    {
+        scene::registerSection({ key, readEnvironment, true, [](const std::any& read, const scene::Bounds& bounds) {
+                                    return sunLights(
+                                        *std::any_cast<std::shared_ptr<const EnvironmentPicture>>(read), bounds);
+                                } });
+    }
 
     std::string name() const override { return key; }
 

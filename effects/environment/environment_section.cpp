@@ -1,6 +1,7 @@
 #include "effects/environment/environment_section.h"
 
 #include "effects/environment/angular_map.h"
+#include "effects/environment/suns.h"
 #include "host/decode/limits.h"
 #include "host/error.h"
 #include "host/image/read_image.h"
@@ -71,8 +72,10 @@ std::any readEnvironment(scene::TableReader& table)
     const auto intensity = table.number("intensity", 0.0, mostIntensity);
     const auto rotation = table.number("rotation", -1e6, 1e6);
     const auto up = table.choice("up", { "y", "z" });
-    for (const auto& [name, given] : { std::pair("layout", layout.has_value()),
-             std::pair("rotation", rotation.has_value()), std::pair("up", up.has_value()) }) {
+    const auto suns = table.boolean("suns");
+    for (const auto& [name, given] :
+        { std::pair("layout", layout.has_value()), std::pair("rotation", rotation.has_value()),
+            std::pair("up", up.has_value()), std::pair("suns", suns.has_value()) }) {
         if (given && !map) {
             table.fail(name, "has no effect without a map", "radiance", "leave it out or name a map");
         }
@@ -95,6 +98,9 @@ std::any readEnvironment(scene::TableReader& table)
         picture->radiance = std::move(pixels.rgb);
     }
     orient(*picture, up == "z", rotation.value_or(0.0));
+    if (map && suns.value_or(true)) {
+        separateSuns(*picture);
+    }
     picture->seen = table.boolean("visible").value_or(true);
     return std::shared_ptr<const EnvironmentPicture>(std::move(picture));
 }

@@ -76,7 +76,7 @@ void printJson(const Facts& f)
             { s.bounds.hi.x, s.bounds.hi.y, s.bounds.hi.z } };
     }
     if (const auto picture = render::pictureOf(f.scene)) {
-        json["environment"] = { { "width", picture->width }, { "height", picture->height } };
+        json["environment"] = render::environmentReport(*picture);
     }
     addCamera(f, json);
     json["width"] = f.settings.width;
@@ -104,6 +104,12 @@ void printText(const Facts& f)
     say("lights     {} area, {} point, {} directional\n", s.areaLights, s.pointLights, s.directionalLights);
     if (const auto picture = render::pictureOf(f.scene)) {
         say("           environment, a map of {}x{}\n", picture->width, picture->height);
+        for (const render::Sun& sun : picture->suns) {
+            say("           a sun of it is an area light: {:.1f} % of its light, towards [{:.3f}, {:.3f}, {:.3f}], "
+                "{:.2f} by {:.2f} degrees\n",
+                100.0 * sun.share, sun.towards.x, sun.towards.y, sun.towards.z, render::degreesAcross(sun.halfU),
+                render::degreesAcross(sun.halfV));
+        }
     }
     printCamera(f);
     if (!s.bounds.empty()) {

@@ -75,20 +75,26 @@ std::vector<shared::DeltaLight> deltaLightData(const scene::Scene& scene)
     return out;
 }
 
+constexpr double farDiameters = 16.0;
+
 /// Probabilities of what is not in a list of lights.
 struct Shares {
     float emitters, environment;
 };
 
 /// Probabilities with which path vertices choose each light: by what it sends out, so that strong ones are sampled
-/// more. A directional light counts with what falls on the scene, and so does what is beyond it. emitters: power of the
-/// meshes that emit. environment: luminance over all directions.
+/// more. A directional light counts with what falls on the scene, and so does what is beyond it, and what is farther
+/// away than `farDiameters` of the scene. emitters: power of the meshes that emit. environment: luminance over all
+/// directions.
 Shares setPicks(std::vector<shared::AreaLight>& area, std::vector<shared::DeltaLight>& delta, double emitters,
-    double environment, float diameter)
+    double environment, const scene::Bounds& bounds, float diameter)
 {
     const double beyond = environment * diameter * diameter;
+    const glm::vec3 middle = bounds.empty() ? glm::vec3(0.0f) : 0.5f * (bounds.lo + bounds.hi);
     const auto powerOf = [&](const shared::AreaLight& l) {
-        return shared::luminance(l.power) * (l.twoSided != 0 ? 2.0f : 1.0f);
+        const double power = double { shared::luminance(l.power) } * (l.twoSided != 0 ? 2.0 : 1.0);
+        const double away = glm::length(glm::vec3(l.centre.x, l.centre.y, l.centre.z) - middle) / diameter;
+        return away > farDiameters ? power / (away * away) : power;
     };
     const auto fluxOf = [&](const shared::DeltaLight& l) {
         return shared::luminance(l.colour) * (l.directional != 0 ? diameter * diameter : 4.0f);
@@ -249,7 +255,8 @@ DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, 
     const glm::vec3 extent = bounds.empty() ? glm::vec3(1.0f) : bounds.hi - bounds.lo;
     diameter = bounds.empty() ? 1.0f : glm::length(extent);
     largestDimension = std::max({ extent.x, extent.y, extent.z });
-    const Shares shares = setPicks(areaLightList, delta, lights.emitters.power, lights.beyond.irradiance, diameter);
+    const Shares shares =
+        setPicks(areaLightList, delta, lights.emitters.power, lights.beyond.irradiance, bounds, diameter);
     emitterShare = shares.emitters;
     environmentShare = shares.environment;
     environment.upload(queue, std::span(&lights.beyond.map, 1));

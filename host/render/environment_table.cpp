@@ -187,6 +187,10 @@ EnvironmentTable environmentTable(const EnvironmentPicture* picture)
             shared::environmentHarmonics(out.map.width, out.map.height) + WEDGE_HARMONICS * channel, WEDGE_HARMONICS);
         std::ranges::copy(unshadowedHarmonics(*picture, out.map, channel), to.begin());
     }
+    if (!picture->shown.empty()) { // no span is used from here on
+        out.map.shown = static_cast<std::uint32_t>(out.numbers.size());
+        out.numbers.insert(out.numbers.end(), picture->shown.begin(), picture->shown.end());
+    }
     return out;
 }
 

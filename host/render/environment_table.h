@@ -8,6 +8,15 @@
 
 namespace wedge::render {
 
+/// A small bright source that was taken out of a picture: the rectangle of its direction, extent and energy.
+struct Sun {
+    glm::vec3 towards { 0, 1, 0 }; ///< unit, in the world
+    glm::vec3 halfU { 0 },
+        halfV { 0 }; ///< half extents at distance 1, across each other and `towards`; halfU is longer
+    glm::vec3 radiance { 0 }; ///< W/(sr m^2), mean over the rectangle
+    double share = 0; ///< of the luminance over all directions, what it has
+};
+
 /// A picture of what is beyond the scene, of the whole sphere: columns are angles around `up`, rows such from there.
 struct EnvironmentPicture {
     int width = 1, height = 1; ///< texels
@@ -16,6 +25,8 @@ struct EnvironmentPicture {
     /// the width there.
     glm::vec3 right { 1, 0, 0 }, up { 0, 1, 0 }, back { 0, 0, 1 };
     bool seen = true; ///< by the camera
+    std::vector<Sun> suns; ///< what was taken out of it, which area lights stand for; brightest first
+    std::vector<float> shown; ///< as radiance, with the suns, as the camera sees it; empty without suns
 };
 
 /// The picture as kernels look it up and choose among its directions (kernels/light/environment_map.h).

@@ -1,8 +1,10 @@
 #include "host/render/report.h"
 
+#include "host/render/effect.h"
 #include "host/render/metadata.h"
 
 #include <charconv>
+#include <cmath>
 
 #include <nlohmann/json.hpp>
 
@@ -49,6 +51,9 @@ Json sceneSection(const Renderer& renderer, std::uint64_t memoryBytes)
             { { "mode", bvh::modeName(renderer.bvhMode()) }, { "nodes", b.nodes }, { "blocks", b.blocks },
                 { "triangles", b.triangles }, { "degenerate", b.degenerate }, { "skipped", b.skipped },
                 { "depth", b.depth }, { "sah_cost", b.sahCost }, { "bytes", b.bytes } } } };
+    if (const auto picture = pictureOf(renderer.scene())) {
+        out["environment"] = environmentReport(*picture);
+    }
     out.update(cameraReport(renderer.scene()));
     return out;
 }
@@ -116,6 +121,19 @@ Json cameraReport(const scene::Scene& scene)
             { { "open", scene.shutterOpen }, { "close", scene.shutterClose },
                 { "profile", scene::profileName(scene.shutterProfile) } } },
         { "camera_moves", scene::cameraMoves(scene) }, { "moving_triangles", scene::summary(scene).movingTriangles } };
+}
+
+double degreesAcross(const glm::vec3& half) { return glm::degrees(2.0 * std::atan(double { glm::length(half) })); }
+
+Json environmentReport(const EnvironmentPicture& picture)
+{
+    Json suns = Json::array();
+    for (const Sun& sun : picture.suns) {
+        suns.push_back({ { "towards", { sun.towards.x, sun.towards.y, sun.towards.z } },
+            { "radiance", { sun.radiance.x, sun.radiance.y, sun.radiance.z } }, { "share", sun.share },
+            { "degrees", { degreesAcross(sun.halfU), degreesAcross(sun.halfV) } } });
+    }
+    return { { "width", picture.width }, { "height", picture.height }, { "suns", suns } };
 }
 
 double raysPerPixel(const FrameStatistics& statistics, const Settings& settings)

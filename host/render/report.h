@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/image/metrics.h"
+#include "host/render/environment_table.h"
 #include "host/render/progressive.h"
 #include "host/render/renderer.h"
 #include "host/render/settings.h"
@@ -40,6 +41,11 @@ double megaraysPerSecond(const FrameStatistics& statistics);
 
 /// What a report and `wedge info` say of a scene's lens, its shutter, and what moves.
 nlohmann::ordered_json cameraReport(const scene::Scene& scene);
+
+/// What a report and `wedge info` say of a picture around the scene.
+nlohmann::ordered_json environmentReport(const EnvironmentPicture& picture);
+/// The whole of an extent that is as half of it at distance 1.
+double degreesAcross(const glm::vec3& half);
 
 /// The report that docs/command-line.md describes, as JSON text of several lines. Quantities that are not finite are
 /// null.

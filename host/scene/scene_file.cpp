@@ -45,6 +45,8 @@ void SceneFile::read(Scene& scene, Warnings& warnings)
     meshes_.emplace(root_, scene, textures_, warnings);
     meshes_->place(scene, warnings);
     readCamera(root_, scene);
+    brought_ = lightsOfExtensions(scene);
+    scene.areaLights.insert(scene.areaLights.end(), brought_.begin(), brought_.end());
     scene.textures = textures_.take();
 }
 
@@ -56,6 +58,7 @@ Moment SceneFile::at(double later)
     scene.shutterOpen = start_.shutterOpen + later;
     scene.shutterClose = start_.shutterClose + later;
     readLights(root_, scene, told);
+    scene.areaLights.insert(scene.areaLights.end(), brought_.begin(), brought_.end());
     const bool moves = meshes_->mayMove();
     if (moves)
         meshes_->place(scene, told);

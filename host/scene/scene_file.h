@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace wedge::scene {
 
@@ -33,6 +34,7 @@ private:
     TableReader root_;
     std::optional<SceneMeshes> meshes_;
     Moment start_; ///< without geometry
+    std::vector<AreaLight> brought_; ///< by extensions, as of the scene's bounds at the start
     Settings settings_;
 };
 

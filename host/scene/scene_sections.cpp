@@ -206,4 +206,17 @@ void readExtensions(TableReader& root, Scene& scene)
     }
 }
 
+std::vector<AreaLight> lightsOfExtensions(const Scene& scene)
+{
+    std::vector<AreaLight> out;
+    for (const Section& section : sections()) {
+        if (const auto found = scene.extensions.find(section.key);
+            found != scene.extensions.end() && section.areaLights) {
+            const std::vector<AreaLight> more = section.areaLights(found->second, sceneBounds(scene));
+            out.insert(out.end(), more.begin(), more.end());
+        }
+    }
+    return out;
+}
+
 } // namespace wedge::scene

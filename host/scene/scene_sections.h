@@ -4,6 +4,8 @@
 #include "host/scene/toml_reader.h"
 #include "host/scene/warnings.h"
 
+#include <vector>
+
 namespace wedge::scene {
 
 // Each reads one kind of table of a scene file into the scene, and throws Error for what is wrong in it.
@@ -17,5 +19,7 @@ void readBackground(TableReader& root, Scene& scene);
 void readLights(TableReader& root, Scene& scene, Warnings& warnings);
 /// Those of sections.h.
 void readExtensions(TableReader& root, Scene& scene);
+/// The area lights that they bring into the scene, which has its geometry.
+std::vector<AreaLight> lightsOfExtensions(const Scene& scene);
 
 } // namespace wedge::scene

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "host/scene/scene.h"
+
 #include <any>
 #include <functional>
 #include <string>
@@ -15,6 +17,8 @@ struct Section {
     std::string key;
     std::function<std::any(TableReader&)> read; ///< throws Error for what is wrong in it
     bool lights = false; ///< what is read lights the scene
+    /// Area lights that what was read brings into a scene of these bounds; may be null.
+    std::function<std::vector<AreaLight>(const std::any&, const Bounds&)> areaLights {};
 };
 
 /// Adds one. Not while anybody reads scenes.

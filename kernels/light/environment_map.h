@@ -153,7 +153,7 @@ WEDGE_FN Vec3 cameraBeyond(
     if (WEDGE_ENVIRONMENT_MAP == 0 || environment[0].seen == 0u) {
         return others;
     }
-    const BeyondData beyond = beyondData(environment, environmentTable, 0.0f);
+    const BeyondData beyond = beyondData(environment, environmentTable + environment[0].shown, 0.0f);
     return vecAdd(others, mapRadiance(beyond, environmentCoordinates(beyond.map, direction)));
 }
 

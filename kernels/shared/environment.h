@@ -17,13 +17,14 @@ WEDGE_SHARED_BEGIN
 ///   texels    likewise of columns
 ///   height+1  cosines of the angles from `up` at which rows begin and end
 ///   27        of red, green and blue each the coefficients of unshadowedLight()
+///   3 texels  where suns were taken out: radiance with them
 typedef struct {
     uint width, height; ///< texels; 0: there is no map
     Vec3 right, up, back; ///< unit, in the world: what 3/4 of the width shows in the middle of the height, the upper
                           ///< edge, and both ends of the width there
     float dark; ///< luminance below which what hides a direction does not count, W/(sr m^2)
     uint seen; ///< 1: the camera sees it
-    uint padding;
+    uint shown; ///< where in the table radiance is as the camera sees it, with suns; 0: as at its beginning
 } EnvironmentMap;
 
 /// Spherical harmonics of a channel.
@@ -32,7 +33,7 @@ typedef struct {
 /// Where the coefficients of unshadowedLight() begin in the table.
 WEDGE_INLINE uint environmentHarmonics(uint width, uint height) { return 5u * width * height + 3u * height + 1u; }
 
-/// Floats of the table.
+/// Floats of the table, without what the camera sees.
 WEDGE_INLINE uint environmentTableSize(uint width, uint height)
 {
     return environmentHarmonics(width, height) + 3u * WEDGE_HARMONICS;
