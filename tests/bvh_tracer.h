@@ -50,11 +50,13 @@ enum class Geometry { Still, Moving };
 /// Runs the kernels of trace_test.cl on one device, over a Tree or, with Geometry::Moving, a MovingTree.
 class Tracer {
 public:
-    explicit Tracer(const device::Device& device, Family family = Family::Wide, Geometry geometry = Geometry::Still)
+    /// cutouts: the trees have a table of cut-outs behind their blocks.
+    explicit Tracer(const device::Device& device, Family family = Family::Wide, Geometry geometry = Geometry::Still,
+        bool cutouts = false)
         : device_(device)
         , family_(family)
         , queue_(device)
-        , library_(device, options(family, geometry))
+        , library_(device, options(family, geometry, cutouts))
     {
     }
 
@@ -101,11 +103,13 @@ public:
     std::size_t packetSize() const { return family_ == Family::Wide ? WEDGE_WIDE_PACKET_SIZE : 1; }
 
 private:
-    static device::BuildOptions options(Family family, Geometry geometry)
+    static device::BuildOptions options(Family family, Geometry geometry, bool cutouts)
     {
         device::BuildOptions out;
         if (geometry == Geometry::Moving)
             out.defines.emplace_back("WEDGE_MOTION", "1");
+        if (cutouts)
+            out.defines.emplace_back("WEDGE_CUTOUTS", "1");
         if (family == Family::Scalar)
             out.defines.emplace_back("WEDGE_TRAVERSAL_SCALAR", "1");
         return out;

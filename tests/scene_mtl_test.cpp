@@ -80,17 +80,16 @@ TEST_CASE("values that make no sense")
 
 TEST_CASE("what would change the look is named once a library")
 {
-    const Library left = parse("newmtl a\nKd 0.5\nmap_d a.png\nmap_bump b.png\nbump b.png\nd 0.5\nillum 7\nTf 1 1 1\n"
+    const Library left = parse("newmtl a\nKd 0.5\nd -halo 0.5\nmap_bump b.png\nbump b.png\nillum 7\nTf 1 1 1\n"
                                "newmtl b\nTr 0.5\nnorm c.png\ndisp d.png\nrefl e.png\nPr 0.5\nPm 1\nTf 0.5 1 1\nd 0.1\n"
                                "newmtl c\nd 1\nTr 0\nillum 2\nNi 1.5\nKa 1 1 1\nmap_Ka f.png\n");
-    CHECK(left.warnings.size() == 9);
+    CHECK(left.warnings.size() == 8);
     const auto says = [&](const std::string& what, int materials, const std::string& first) {
         const std::string line = "material file m.mtl: " + what + " has no effect here; " + std::to_string(materials)
             + " material(s) have it, '" + first + "' is the first";
         return std::count(left.warnings.begin(), left.warnings.end(), line);
     };
-    CHECK(says("transparency (d, Tr)", 2, "a") == 1);
-    CHECK(says("a texture of transparency (map_d)", 1, "a") == 1);
+    CHECK(says("transparency by the angle of view (d -halo)", 1, "a") == 1);
     CHECK(says("a bump map (bump, map_bump)", 1, "a") == 1);
     CHECK(says("a normal map (norm)", 1, "b") == 1);
     CHECK(says("displacement (disp)", 1, "b") == 1);
@@ -102,6 +101,30 @@ TEST_CASE("what would change the look is named once a library")
     CHECK(parse("newmtl a\nillum 1\nKd 0.5\n").warnings.empty());
     CHECK(parse("newmtl a\nillum 1\nKd 0.5\nKs 0.5\n").warnings.size() == 1);
     CHECK(parse("newmtl a\nillum 0\n").warnings.size() == 1);
+}
+
+TEST_CASE("opacity: d, Tr where there is no d, and values that are none")
+{
+    const auto opacity = [](const std::string& statements) {
+        return parse("newmtl a\nKd 0.5\n" + statements).materials[0].opacity;
+    };
+    CHECK(opacity("") == 1.0f);
+    CHECK(opacity("d 0.25\n") == 0.25f);
+    CHECK(opacity("d 0\n") == 0.0f);
+    CHECK(opacity("Tr 0.25\n") == 0.75f);
+    CHECK(opacity("d 0.5\nTr 1\n") == 0.5f);
+    CHECK(opacity("Tr 1\nd 0.5\n") == 0.5f);
+    CHECK(opacity("d -halo 0.5\n") == 1.0f);
+    for (const char* wrong : { "d 2\n", "d -1\n", "d nan\n", "d\n", "Tr 1.5\n", "Tr x\n" }) {
+        CAPTURE(wrong);
+        CHECK(opacity(wrong) == 1.0f);
+        CHECK(parse(std::string("newmtl a\nKd 0.5\n") + wrong).warnings.size() == 1);
+    }
+    const Library missing = parse("newmtl a\nKd 0.5\nmap_d none.png\n");
+    CHECK(missing.materials[0].opacityTexture == -1);
+    REQUIRE(missing.warnings.size() == 1);
+    CHECK(missing.warnings[0].find("none.png") != std::string::npos);
+    CHECK(missing.warnings[0].find("the plain colour is used") != std::string::npos);
 }
 
 TEST_CASE("options of textures")

@@ -167,7 +167,7 @@ TEST_CASE("materials of a library")
     CHECK(warns(scene, "material 'nowhere' not found, grey is used"));
     CHECK(warns(scene, "material 'broken': Kd has the value -1, 0 is used"));
     CHECK(warns(scene, "material 'broken': Ns has the value -4, 1 is used"));
-    CHECK(warns(scene, "transparency (d, Tr) has no effect here; 1 material(s) have it, 'broken' is the first"));
+    CHECK(of(5).opacity == 0.5f);
 }
 
 TEST_CASE("material libraries: missing, several on a line, names with spaces")

@@ -24,6 +24,10 @@ void add(Fingerprint& f, const scene::Material& m)
     for (const int texture : { m.diffuseTexture, m.specularTexture, m.exponentTexture, m.emissionTexture }) {
         f.add(texture);
     }
+    if (m.opacity < 1.0f || m.opacityTexture >= 0) {
+        f.add(m.opacity);
+        f.add(m.opacityTexture);
+    }
 }
 
 void add(Fingerprint& f, const scene::AreaLight& l)

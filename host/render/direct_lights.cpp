@@ -1,5 +1,7 @@
 #include "host/render/direct_lights.h"
 
+#include "host/render/cutouts.h"
+
 #include "host/render/effect.h"
 
 #include "host/render/device_scene.h"
@@ -68,7 +70,8 @@ std::vector<Candidate> candidates(const scene::Scene& scene, double least)
         const std::uint32_t material = g.materialIds[t];
         const double power = plainPower(scene, t);
         if (!(power > 0) || 2.5 * power < least || scene.materials[material].emissionTexture >= 0
-            || g.materialIds[t + 1] != material || moves(g, t) || moves(g, t + 1)) {
+            || isCutout(scene.materials[material]) || g.materialIds[t + 1] != material || moves(g, t)
+            || moves(g, t + 1)) {
             continue;
         }
         const std::uint32_t pair = pairAt(g, t);

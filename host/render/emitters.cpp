@@ -1,5 +1,6 @@
 #include "host/render/emitters.h"
 
+#include "host/render/cutouts.h"
 #include "kernels/shared/bsdf.h"
 
 #include <algorithm>
@@ -20,8 +21,9 @@ const scene::Material& materialOf(const scene::Scene& scene, std::size_t triangl
     return scene.materials[scene.geometry.materialIds[triangle]];
 }
 
-/// Of the texture's colours over a triangle, nearest texels; never quite 0, where something bright may lie between.
-glm::vec3 meanColour(const scene::Scene& scene, const scene::Texture& texture, std::size_t triangle)
+/// Calls add(i) for texels i of a triangle's texture, the nearest to even points of it.
+template <typename Add>
+void forTexels(const scene::Scene& scene, const scene::Texture& texture, std::size_t triangle, const Add& add)
 {
     const scene::Geometry& g = scene.geometry;
     const auto coordinates = [&](int corner) {
@@ -33,6 +35,21 @@ glm::vec3 meanColour(const scene::Scene& scene, const scene::Texture& texture, s
         const double within = x - std::floor(x);
         return std::isfinite(within) ? std::min(static_cast<int>(within * size), size - 1) : 0;
     };
+    for (int i = 0; i < textureSamples * textureSamples; ++i) {
+        const int row = i / textureSamples, column = i % textureSamples;
+        const shared::Vec2 w = shared::squareToTriangle(shared::vec2(
+            (static_cast<float>(column) + 0.5f) / textureSamples, (static_cast<float>(row) + 0.5f) / textureSamples));
+        const glm::dvec2 at = a + ab * static_cast<double>(w.x) + ac * static_cast<double>(w.y);
+        add(static_cast<std::size_t>(texel(at.y, texture.height)) * static_cast<std::size_t>(texture.width)
+            + static_cast<std::size_t>(texel(at.x, texture.width)));
+    }
+}
+
+constexpr double textureShare = 1.0 / (textureSamples * textureSamples);
+
+/// Of the texture's colours over a triangle, nearest texels; never quite 0, where something bright may lie between.
+glm::vec3 meanColour(const scene::Scene& scene, const scene::Texture& texture, std::size_t triangle)
+{
     // 2.2 in the place of the sRGB curve: these are probabilities.
     static const std::array<double, 256> linear = [] {
         std::array<double, 256> out {};
@@ -42,19 +59,20 @@ glm::vec3 meanColour(const scene::Scene& scene, const scene::Texture& texture, s
         return out;
     }();
     glm::dvec3 sum(0);
-    for (int i = 0; i < textureSamples * textureSamples; ++i) {
-        const int row = i / textureSamples, column = i % textureSamples;
-        const shared::Vec2 w = shared::squareToTriangle(shared::vec2(
-            (static_cast<float>(column) + 0.5f) / textureSamples, (static_cast<float>(row) + 0.5f) / textureSamples));
-        const glm::dvec2 at = a + ab * static_cast<double>(w.x) + ac * static_cast<double>(w.y);
-        const std::uint32_t rgba =
-            texture.rgba[static_cast<std::size_t>(texel(at.y, texture.height)) * static_cast<std::size_t>(texture.width)
-                + static_cast<std::size_t>(texel(at.x, texture.width))];
+    forTexels(scene, texture, triangle, [&](std::size_t texel) {
         for (int channel = 0; channel < 3; ++channel) {
-            sum[channel] += linear[(rgba >> (8 * channel)) & 255u];
+            sum[channel] += linear[(texture.rgba[texel] >> (8 * channel)) & 255u];
         }
-    }
-    return glm::max(glm::vec3(sum / static_cast<double>(textureSamples * textureSamples)), glm::vec3(1e-3f));
+    });
+    return glm::max(glm::vec3(sum * textureShare), glm::vec3(1e-3f));
+}
+
+/// Of the texture's opacities likewise.
+float meanOpacity(const scene::Scene& scene, const scene::Texture& texture, std::size_t triangle)
+{
+    double sum = 0;
+    forTexels(scene, texture, triangle, [&](std::size_t texel) { sum += opacityOf(texture, texel) / 255.0; });
+    return std::max(static_cast<float>(sum * textureShare), 1e-3f);
 }
 
 } // namespace
@@ -80,7 +98,8 @@ double powerOf(double area, glm::vec3 radiance)
 double plainPower(const scene::Scene& scene, std::size_t triangle)
 {
     // Most do not emit, and what they measure is far away in memory.
-    return mayEmit(scene, triangle) ? powerOf(areaOf(scene.geometry, triangle), materialOf(scene, triangle).emission)
+    return mayEmit(scene, triangle) ? powerOf(areaOf(scene.geometry, triangle),
+               materialOf(scene, triangle).emission * materialOf(scene, triangle).opacity)
                                     : 0.0;
 }
 
@@ -90,12 +109,15 @@ double texturedPower(const scene::Scene& scene, std::size_t triangle)
     const glm::vec3 radiance = m.emissionTexture < 0
         ? m.emission
         : m.emission * meanColour(scene, scene.textures[static_cast<std::size_t>(m.emissionTexture)], triangle);
-    return powerOf(areaOf(scene.geometry, triangle), radiance);
+    const float opacity = m.opacityTexture < 0
+        ? 1.0f
+        : meanOpacity(scene, scene.textures[static_cast<std::size_t>(m.opacityTexture)], triangle);
+    return powerOf(areaOf(scene.geometry, triangle), radiance * (m.opacity * opacity));
 }
 
 bool mayEmit(const scene::Scene& scene, std::size_t triangle)
 {
-    return luminanceOf(materialOf(scene, triangle).emission) > 0;
+    return luminanceOf(materialOf(scene, triangle).emission) > 0 && materialOf(scene, triangle).opacity > 0;
 }
 
 bool movesAt(const scene::Geometry& g, std::size_t vertex)

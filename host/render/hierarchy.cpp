@@ -1,8 +1,10 @@
 #include "host/render/hierarchy.h"
 
 #include "bvh/narrow_tree.h"
+#include "host/render/cutouts.h"
 
 #include <cassert>
+#include <cstring>
 
 namespace wedge::render {
 
@@ -51,6 +53,29 @@ Hierarchy::Hierarchy(bvh::MovingBvh built, Traversal family)
     }
 }
 
+void Hierarchy::append(std::span<const std::uint32_t> cutouts)
+{
+    if (cutouts.empty()) {
+        return;
+    }
+    const auto appendTo = [&](auto& blocks) {
+        const std::size_t first = blocks.size(), size = sizeof(blocks[0]);
+        blocks.resize(first + (cutouts.size_bytes() + size - 1) / size);
+        std::memcpy(static_cast<void*>(&blocks[first]), cutouts.data(), cutouts.size_bytes());
+        return static_cast<std::uint32_t>(first);
+    };
+    const std::uint32_t first = moves ? appendTo(moving.blocks) : appendTo(bvh.blocks);
+    const auto tellRoot = [&](auto& nodes) {
+        if (!nodes.empty()) {
+            nodes[0].cutouts = first;
+        }
+    };
+    tellRoot(bvh.nodes);
+    tellRoot(narrow);
+    tellRoot(moving.nodes);
+    tellRoot(movingNarrow);
+}
+
 std::span<const std::byte> Hierarchy::blocks() const
 {
     return moves ? std::as_bytes(std::span(moving.blocks)) : std::as_bytes(std::span(bvh.blocks));
@@ -69,9 +94,11 @@ Hierarchy buildHierarchy(const scene::Scene& scene, bvh::Mode mode, Traversal fa
 {
     const scene::Geometry& g = scene.geometry;
     const bvh::Mesh mesh { g.positions, g.indices };
-    return scene::geometryMoves(scene)
+    Hierarchy out = scene::geometryMoves(scene)
         ? Hierarchy(bvh::buildMoving(mesh, g.positionsAtClose, bvh::config(mode)), family)
         : Hierarchy(bvh::build(mesh, bvh::config(mode)), family);
+    out.append(cutoutTable(scene));
+    return out;
 }
 
 } // namespace wedge::render

@@ -6,6 +6,7 @@
 #include "host/scene/scene.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,8 +39,11 @@ struct Hierarchy {
     /// The nodes as they go to the device: BvhNode for the wide family, BvhNode4 for the scalar one; MovingNode and
     /// MovingNode4 where geometry moves.
     std::span<const std::byte> nodes() const;
-    /// The blocks as they go to the device: TriangleBlock, or MovingTriangleBlock.
+    /// The blocks as they go to the device: TriangleBlock, or MovingTriangleBlock; behind them the table of cut-outs.
     std::span<const std::byte> blocks() const;
+
+    /// Puts a table of cut-outs (cutoutTable()) behind the blocks, for programs with WEDGE_CUTOUTS. Once at most.
+    void append(std::span<const std::uint32_t> cutouts);
 
     bool moves;
     Traversal traversal;
@@ -49,7 +53,7 @@ struct Hierarchy {
     std::vector<shared::MovingNode4> movingNarrow;
 };
 
-/// The hierarchy of a scene's geometry, over its motion where it moves.
+/// The hierarchy of a scene's geometry, over its motion where it moves, with its cut-outs.
 Hierarchy buildHierarchy(const scene::Scene& scene, bvh::Mode mode, Traversal family = Traversal::Wide);
 
 } // namespace wedge::render

@@ -1,5 +1,7 @@
 #include "host/render/renderer.h"
 
+#include "host/render/cutouts.h"
+
 #include "host/device/driver_cache.h"
 #include "host/device/quirks.h"
 #include "host/graph/explain.h"
@@ -63,6 +65,9 @@ device::BuildOptions programOptions(const scene::Scene& scene, const Options& op
     }
     if (scene::geometryMoves(scene)) {
         out.defines.emplace_back("WEDGE_MOTION", "1");
+    }
+    if (hasCutouts(scene)) {
+        out.defines.emplace_back("WEDGE_CUTOUTS", "1");
     }
     out.fastMath = options.fastMath;
     out.kernelDir = options.kernelDir;

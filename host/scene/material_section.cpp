@@ -32,6 +32,8 @@ Material readMaterial(TableReader& table, TextureSet& textures, Warnings& warnin
     m.specularTexture = readTextureKey(table, "specular_texture", textures);
     m.exponentTexture = readTextureKey(table, "exponent_texture", textures);
     m.emissionTexture = readTextureKey(table, "emission_texture", textures);
+    m.opacityTexture = readTextureKey(table, "opacity_texture", textures);
+    m.opacity = static_cast<float>(table.number("opacity", 0.0, 1.0).value_or(m.opacity));
     // A texture multiplies its colour, so it is seen as it is where no colour is given.
     m.diffuse = table.colour("diffuse").value_or(m.diffuseTexture >= 0 ? glm::vec3(1.0f) : m.diffuse);
     m.specular = table.colour("specular").value_or(m.specularTexture >= 0 ? glm::vec3(1.0f) : m.specular);

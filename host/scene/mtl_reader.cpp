@@ -20,13 +20,13 @@ constexpr std::uintmax_t maxMtlFile = std::uintmax_t { 256 } << 20;
 constexpr glm::vec3 diffuseOfTexture(0.6f);
 
 /// Statements that change the look in other programs, and what messages call them.
-const std::map<std::string_view, const char*> unsupported = { { "map_d", "a texture of transparency (map_d)" },
-    { "bump", "a bump map (bump, map_bump)" }, { "map_bump", "a bump map (bump, map_bump)" },
-    { "map_Bump", "a bump map (bump, map_bump)" }, { "norm", "a normal map (norm)" }, { "disp", "displacement (disp)" },
-    { "refl", "a reflection map (refl)" }, { "Pr", "roughness or metal (Pr, Pm, Ps, Pc)" },
-    { "Pm", "roughness or metal (Pr, Pm, Ps, Pc)" }, { "Ps", "roughness or metal (Pr, Pm, Ps, Pc)" },
-    { "Pc", "roughness or metal (Pr, Pm, Ps, Pc)" }, { "map_Pr", "roughness or metal (Pr, Pm, Ps, Pc)" },
-    { "map_Pm", "roughness or metal (Pr, Pm, Ps, Pc)" }, { "map_Ps", "roughness or metal (Pr, Pm, Ps, Pc)" } };
+const std::map<std::string_view, const char*> unsupported = { { "bump", "a bump map (bump, map_bump)" },
+    { "map_bump", "a bump map (bump, map_bump)" }, { "map_Bump", "a bump map (bump, map_bump)" },
+    { "norm", "a normal map (norm)" }, { "disp", "displacement (disp)" }, { "refl", "a reflection map (refl)" },
+    { "Pr", "roughness or metal (Pr, Pm, Ps, Pc)" }, { "Pm", "roughness or metal (Pr, Pm, Ps, Pc)" },
+    { "Ps", "roughness or metal (Pr, Pm, Ps, Pc)" }, { "Pc", "roughness or metal (Pr, Pm, Ps, Pc)" },
+    { "map_Pr", "roughness or metal (Pr, Pm, Ps, Pc)" }, { "map_Pm", "roughness or metal (Pr, Pm, Ps, Pc)" },
+    { "map_Ps", "roughness or metal (Pr, Pm, Ps, Pc)" } };
 
 /// Reads one library; a member reads one statement.
 class Library {
@@ -66,7 +66,8 @@ private:
     struct Extra {
         bool hasDiffuse = false;
         int illumination = 2;
-        MtlTexture diffuse, specular, exponent, emission;
+        bool hasDissolve = false; ///< d, which outdoes Tr
+        MtlTexture diffuse, specular, exponent, emission, opacity;
     };
     struct LeftOut {
         std::size_t materials = 0;
@@ -119,6 +120,10 @@ private:
             extra_.exponent = parseMtlTexture(in);
         else if (keyword == "map_Ke")
             extra_.emission = parseMtlTexture(in);
+        else if (keyword == "map_d")
+            extra_.opacity = parseMtlTexture(in);
+        else if (keyword == "d" || keyword == "Tr")
+            dissolve(keyword, in);
         else
             otherStatement(keyword, in);
     }
@@ -126,14 +131,7 @@ private:
     void otherStatement(std::string_view keyword, StatementReader& in)
     {
         float value = 0.0f;
-        if (keyword == "d" || keyword == "Tr") {
-            std::string_view word = in.word();
-            if (word == "-halo")
-                word = in.word();
-            const bool isNumber = parseNumber(word, value) == NumberKind::Good;
-            if (isNumber && (keyword == "d" ? value < 1.0f : value > 0.0f))
-                leaveOut("transparency (d, Tr)");
-        } else if (keyword == "illum") {
+        if (keyword == "illum") {
             const bool isNumber = parseNumber(in.word(), value) == NumberKind::Good;
             extra_.illumination = isNumber && value >= 0.0f && value < 100.0f ? static_cast<int>(value) : 2;
         } else if (keyword == "Tf") {
@@ -142,6 +140,25 @@ private:
         } else if (const auto known = unsupported.find(keyword); known != unsupported.end()) {
             leaveOut(known->second);
         }
+    }
+
+    /// d, or Tr = 1 - d where there is no d: some programs write Tr the other way round beside a d that is right.
+    void dissolve(std::string_view keyword, StatementReader& in)
+    {
+        if (in.ahead() == "-halo") {
+            leaveOut("transparency by the angle of view (d -halo)");
+            return;
+        }
+        const std::string_view word = in.word();
+        float value = 0.0f;
+        const bool isOpacity = keyword == "d";
+        if (parseNumber(word, value) != NumberKind::Good || value < 0.0f || value > 1.0f) {
+            value = isOpacity ? 1.0f : 0.0f;
+            warn("values of material files", fmt::format("{} has the value {}, {:g} is used", keyword, word, value));
+        }
+        if (isOpacity || !extra_.hasDissolve)
+            material_.opacity = isOpacity ? value : 1.0f - value;
+        extra_.hasDissolve = extra_.hasDissolve || isOpacity;
     }
 
     /// A value that makes no sense is told and replaced.
@@ -191,6 +208,7 @@ private:
         m.specularTexture = texture(extra_.specular);
         m.exponentTexture = texture(extra_.exponent);
         m.emissionTexture = texture(extra_.emission);
+        m.opacityTexture = texture(extra_.opacity);
         if (!extra_.hasDiffuse && !extra_.diffuse.name.empty())
             m.diffuse = diffuseOfTexture;
         if (m.diffuseTexture >= 0 && m.diffuse == glm::vec3(0.0f)) {

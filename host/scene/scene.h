@@ -18,6 +18,7 @@ struct Texture {
     std::string path;
     int width = 0, height = 0;
     std::vector<std::uint32_t> rgba; ///< width x height, sRGB-encoded, R in the low byte, row 0 = bottom (v = 0)
+    bool hasAlpha = false; ///< some texel is not opaque, and as an opacity the alphas count; else luminance
 };
 
 enum class SpecularModel { Phong, BlinnPhong };
@@ -27,8 +28,9 @@ struct Material {
     glm::vec3 diffuse { 0.5f }, specular { 0.0f }, emission { 0.0f };
     float exponent = 1.0f; ///< of the specular lobe, at least 0
     SpecularModel specularModel = SpecularModel::BlinnPhong;
+    float opacity = 1.0f; ///< 0 to 1: the share of rays that do not pass through
     /// Indices into Scene::textures; -1 = none.
-    int diffuseTexture = -1, specularTexture = -1, exponentTexture = -1, emissionTexture = -1;
+    int diffuseTexture = -1, specularTexture = -1, exponentTexture = -1, emissionTexture = -1, opacityTexture = -1;
 };
 
 enum class LightProfile { Uniform, Gaussian };

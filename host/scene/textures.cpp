@@ -31,7 +31,8 @@ Texture TextureSet::read(const std::filesystem::path& path)
     try {
         decode::Picture picture = decode::decodeTexture(decode::bytesOf(bytes), limits);
         bytes_ += fileBytes;
-        return { path.string(), picture.size.width, picture.size.height, std::move(picture.rgba) };
+        const bool hasAlpha = std::ranges::any_of(picture.rgba, [](std::uint32_t t) { return t >> 24 != 255; });
+        return { path.string(), picture.size.width, picture.size.height, std::move(picture.rgba), hasAlpha };
     } catch (const std::bad_alloc&) {
         throw Error("texture file cannot be decoded (host memory is exhausted)", path.string(), "scale the image down");
     } catch (const decode::Failure& failure) {

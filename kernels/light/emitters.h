@@ -5,6 +5,7 @@
 
 #include "shared/emitter.h"
 #include "shared/light.h"
+#include "trace/cutouts.h"
 #include "trace/surface.h"
 
 typedef struct {
@@ -15,6 +16,9 @@ typedef struct {
                                  ///< WEDGE_PICK_ELSEWHERE: it is part of another term
     uint count; ///< of the list
     float share; ///< probability that a path's vertex samples them and not other lights
+#ifdef WEDGE_CUTOUTS
+    __global const uint* cutouts; ///< as in TraversalRay
+#endif
 } EmitterData;
 
 /// The scene's emitters among a kernel's parameters.
@@ -115,6 +119,10 @@ WEDGE_FN EmitterPoint sampleEmitter(EmitterData e, Vec2 u, float time)
     p.point = vecMad(vecMad(a, ab, weights.x), ac, weights.y);
     p.normal = vecScale(normal, 1.0f / fmax(twice, 1e-30f));
     p.radiance = emittedAt(data, triangle, weights);
+#ifdef WEDGE_CUTOUTS
+    // Rays end before the emitter; as many as would pass through it find no light.
+    p.radiance = vecScale(p.radiance, opacityAt(e.cutouts, triangle, weights.x, weights.y) * (1.0f / 255.0f));
+#endif
     p.density = 2.0f * e.picks[triangle] / fmax(twice, 1e-30f);
     p.extent = emitter.extent;
     const Vec3 far = vec3(

@@ -184,8 +184,11 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
     WEDGE_SINK_PARAMETERS, uint firstGroup)
 {
     const SurfaceData surfaces = WEDGE_SURFACE_ARGUMENTS;
-    const LightData lights =
+    LightData lights =
         lightData(params, areaLights, deltaLights, surfaces, emitters, emitterPicks, environment, environmentTable);
+#ifdef WEDGE_CUTOUTS
+    lights.emitters.cutouts = WEDGE_CUTOUT_TABLE(nodes, blocks);
+#endif
     const SampleParams sampling = samplingOf(params);
     PathLanes own, dealt;
     loadReceivers(frame, sampling.light, firstGroup, WEDGE_RECEIVER_ARGUMENTS, &own.receivers);

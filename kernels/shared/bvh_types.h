@@ -32,7 +32,8 @@ typedef struct {
     float loZ[WEDGE_BVH_WIDTH], hiZ[WEDGE_BVH_WIDTH];
     uint child[WEDGE_BVH_WIDTH];
     float unit; ///< of the root: coordinates here are the mesh's times this power of two, and lie within +-1
-    uint padding[WEDGE_BVH_WIDTH - 1];
+    uint cutouts; ///< of the root: the block behind the triangles' where the table of cut-outs begins, if any
+    uint padding[WEDGE_BVH_WIDTH - 2];
 } BvhNode;
 
 /// A node of the narrow tree: half as wide, over the same blocks, with references and empty slots of the same form.
@@ -42,7 +43,8 @@ typedef struct {
     float loZ[WEDGE_BVH_NARROW_WIDTH], hiZ[WEDGE_BVH_NARROW_WIDTH];
     uint child[WEDGE_BVH_NARROW_WIDTH];
     float unit; ///< of the root, as in BvhNode
-    uint padding[WEDGE_BVH_NARROW_WIDTH - 1];
+    uint cutouts; ///< of the root, as in BvhNode
+    uint padding[WEDGE_BVH_NARROW_WIDTH - 2];
 } BvhNode4;
 
 /// Nodes over geometry that moves while the shutter is open: the node at its opening, and how far each plane moves from
@@ -54,7 +56,8 @@ typedef struct {
     float loZ[WEDGE_BVH_WIDTH], hiZ[WEDGE_BVH_WIDTH];
     uint child[WEDGE_BVH_WIDTH];
     float unit; ///< of the root, as in BvhNode; coordinates lie within +-1 at all times
-    uint padding[WEDGE_BVH_WIDTH - 1];
+    uint cutouts; ///< of the root, as in BvhNode
+    uint padding[WEDGE_BVH_WIDTH - 2];
     float moveLoX[WEDGE_BVH_WIDTH], moveHiX[WEDGE_BVH_WIDTH];
     float moveLoY[WEDGE_BVH_WIDTH], moveHiY[WEDGE_BVH_WIDTH];
     float moveLoZ[WEDGE_BVH_WIDTH], moveHiZ[WEDGE_BVH_WIDTH];
@@ -66,7 +69,8 @@ typedef struct {
     float loZ[WEDGE_BVH_NARROW_WIDTH], hiZ[WEDGE_BVH_NARROW_WIDTH];
     uint child[WEDGE_BVH_NARROW_WIDTH];
     float unit; ///< of the root, as in BvhNode
-    uint padding[WEDGE_BVH_NARROW_WIDTH - 1];
+    uint cutouts; ///< of the root, as in BvhNode
+    uint padding[WEDGE_BVH_NARROW_WIDTH - 2];
     float moveLoX[WEDGE_BVH_NARROW_WIDTH], moveHiX[WEDGE_BVH_NARROW_WIDTH];
     float moveLoY[WEDGE_BVH_NARROW_WIDTH], moveHiY[WEDGE_BVH_NARROW_WIDTH];
     float moveLoZ[WEDGE_BVH_NARROW_WIDTH], moveHiZ[WEDGE_BVH_NARROW_WIDTH];

@@ -79,6 +79,38 @@ WEDGE_FN float8 edge(uint axis, __global const float* from, __global const float
     return WEDGE_CORNERS8(to + axis, time) - WEDGE_CORNERS8(from + axis, time);
 }
 
+#ifdef WEDGE_CUTOUTS
+/// Replaces hit by the nearest of the triangles `in` that the ray does not pass through; they have t <= hit->t. Returns
+/// whether there was one. Each turn drops a lane, so that it ends after 8.
+WEDGE_FN bool nearestSolid(
+    __global const TriangleBlock* block, const TraversalRay* ray, int8 in, float8 t, float8 u, float8 v, Hit* hit)
+{
+    const int8 lanes = (int8)(0, 1, 2, 3, 4, 5, 6, 7);
+    float us[WEDGE_BLOCK_SIZE], vs[WEDGE_BLOCK_SIZE];
+    vstore8(u, 0, us);
+    vstore8(v, 0, vs);
+    do {
+        const float8 candidate = in ? t : (float8)(INFINITY);
+        const float nearest = smallestLane(candidate);
+        const uint lane = firstLane(laneMask(in & (candidate == nearest)));
+        const uint triangle = block->triangle[lane];
+        // Those that are left lie no nearer, and at this distance have larger indices.
+        if (nearest == hit->t && triangle > hit->triangle)
+            return false;
+        if (!isHole(
+                ray->cutouts, triangle, us[lane], vs[lane], ray->testOrigin, ray->testDirection, WEDGE_TIME_OF(ray))) {
+            hit->t = nearest;
+            hit->u = us[lane];
+            hit->v = vs[lane];
+            hit->triangle = triangle;
+            return true;
+        }
+        in &= lanes != (int8)((int)lane);
+    } while (laneMask(in) != 0);
+    return false;
+}
+#endif
+
 /// Intersects a block and replaces hit where one of its triangles is hit at tMin < t <= hit->t; of equal t the smaller
 /// index wins, so that the order of blocks does not show. Returns whether anything was hit.
 /// The test is watertight (Woop, Benthin and Wald, Watertight Ray/Triangle Intersection, JCGT 2013): the side on which
@@ -119,6 +151,9 @@ WEDGE_FN bool intersectBlock(__global const TriangleBlock* block, const Traversa
     if (laneMask(in) == 0)
         return false;
     const float8 inverse = 1.0f / sum;
+#ifdef WEDGE_CUTOUTS
+    return nearestSolid(block, ray, in, t, u * inverse, v * inverse, hit);
+#else
     const float8 candidate = in ? t : (float8)(INFINITY);
     const float nearest = smallestLane(candidate);
     const uint lane = firstLane(laneMask(candidate == nearest));
@@ -133,6 +168,7 @@ WEDGE_FN bool intersectBlock(__global const TriangleBlock* block, const Traversa
     hit->v = vs[lane];
     hit->triangle = triangle;
     return true;
+#endif
 }
 
 #endif

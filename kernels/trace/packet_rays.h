@@ -4,6 +4,9 @@
 
 #include "trace/packet_lanes.h"
 
+// Lanes by a variable index: compilers of OpenCL C let scalars alias the vectors they make up.
+#define WEDGE_LANE(vector, lane) (((const float*)&(vector))[lane])
+
 /// A coordinate of 16 rays, and what the box and triangle tests need of it. All in the units of the hierarchy.
 typedef struct {
     float16 origin, direction;
@@ -21,6 +24,9 @@ typedef struct {
     float16 testDirectionX, testDirectionY, testDirectionZ;
 #ifdef WEDGE_MOTION
     float16 time; ///< 0 to 1
+#endif
+#ifdef WEDGE_CUTOUTS
+    __global const uint* cutouts; ///< as in TraversalRay; tracePacket sets it
 #endif
 } TraversalPacket;
 

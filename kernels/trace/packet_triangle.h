@@ -78,6 +78,31 @@ WEDGE_FN int16 packetArea(__global const float* v0, __global const float* v1, __
 }
 #endif
 
+#ifdef WEDGE_CUTOUTS
+/// Those of the rays `hit`, which meet a triangle at the barycentrics (u, v), that do not pass through it.
+WEDGE_FN int16 solidLanes(uint triangle, int16 hit, float16 u, float16 v, const TraversalPacket* p)
+{
+    int solid[16];
+    vstore16((int16)(0), 0, solid);
+    for (LaneMask16 lanes = laneMask16(hit); lanes; lanes &= lanes - 1) {
+        const uint lane = firstLane16(lanes);
+        const Vec3 origin =
+            vec3(WEDGE_LANE(p->testOriginX, lane), WEDGE_LANE(p->testOriginY, lane), WEDGE_LANE(p->testOriginZ, lane));
+        const Vec3 direction = vec3(WEDGE_LANE(p->testDirectionX, lane), WEDGE_LANE(p->testDirectionY, lane),
+            WEDGE_LANE(p->testDirectionZ, lane));
+#ifdef WEDGE_MOTION
+        const float time = WEDGE_LANE(p->time, lane);
+#else
+        const float time = 0.0f;
+#endif
+        const bool hole =
+            isHole(p->cutouts, triangle, WEDGE_LANE(u, lane), WEDGE_LANE(v, lane), origin, direction, time);
+        solid[lane] = hole ? 0 : -1;
+    }
+    return vload16(0, solid);
+}
+#endif
+
 /// Intersects the triangle in one lane of a block with 16 rays: intersectBlock with the roles exchanged, operation by
 /// operation, so that both find the same hits to the last bit. entering: the rays that count. Returns whether any ray
 /// hit it.
@@ -108,12 +133,20 @@ WEDGE_FN bool intersectTriangle(__global const TriangleBlock* block, uint lane, 
     const uint triangle = block->triangle[lane];
     const int16 nearer = (t < p->tFar) | ((t == p->tFar) & (triangle < p->triangle));
 #ifdef WEDGE_MOTION
-    const int16 hit = inside & (t > p->tMin) & nearer & packetArea(v0, v1, v2, &n, p);
+    int16 hit = inside & (t > p->tMin) & nearer & packetArea(v0, v1, v2, &n, p);
 #else
-    const int16 hit = inside & (t > p->tMin) & nearer;
+    int16 hit = inside & (t > p->tMin) & nearer;
 #endif
     if (!anyLane(hit))
         return false;
+#ifdef WEDGE_CUTOUTS
+    if (p->cutouts[triangle] != WEDGE_NO_CUTOUT) {
+        const float16 reciprocal = 1.0f / sum;
+        hit = solidLanes(triangle, hit, u * reciprocal, v * reciprocal, p);
+        if (!anyLane(hit))
+            return false;
+    }
+#endif
     if (any) {
         p->tFar = hit ? (float16)(-1.0f) : p->tFar;
         return true;

@@ -12,9 +12,6 @@
 #define WEDGE_MIN_PACKET_RAYS 5
 #endif
 
-// Lanes by a variable index: compilers of OpenCL C let scalars alias the vectors they make up.
-#define WEDGE_LANE(vector, lane) (((const float*)&(vector))[lane])
-
 WEDGE_FN TraversalRay rayOfLane(const TraversalPacket* p, uint lane)
 {
     TraversalRay r;
@@ -38,6 +35,9 @@ WEDGE_FN TraversalRay rayOfLane(const TraversalPacket* p, uint lane)
     chooseAxes(&r, ((const int*)&p->axis)[lane]);
 #ifdef WEDGE_MOTION
     r.time = WEDGE_LANE(p->time, lane);
+#endif
+#ifdef WEDGE_CUTOUTS
+    r.cutouts = p->cutouts;
 #endif
     return r;
 }
@@ -144,6 +144,9 @@ WEDGE_FN void tracePacket(__global const TraversalNode* restrict nodes, __global
     const int16 live = p->tFar >= 0.0f;
     if (!anyLane(live))
         return;
+#ifdef WEDGE_CUTOUTS
+    p->cutouts = WEDGE_CUTOUT_TABLE(nodes, blocks);
+#endif
     const TestAxes axes = testAxes(p, live);
     const PacketExtent extent = packetExtent(p, live);
     Shaft shaft;

@@ -5,6 +5,7 @@
 #include "shared/bvh_types.h"
 #include "shared/compat.h"
 #include "shared/vec.h"
+#include "trace/cutouts.h"
 #include "trace/motion.h"
 
 /// Children of a node of the family of traversals that the program is built for.
@@ -38,6 +39,9 @@ typedef struct {
     uint axisX, axisY, axisZ; ///< where these coordinates start in a vertex of a block, in floats
 #ifdef WEDGE_MOTION
     float time; ///< 0 to 1
+#endif
+#ifdef WEDGE_CUTOUTS
+    __global const uint* cutouts; ///< the table; prepareRay leaves it to its caller
 #endif
 } TraversalRay;
 

@@ -32,6 +32,9 @@ WEDGE_FN Hit closestHit(__global const TraversalNode* restrict nodes, __global c
     if (!prepareRay(&ray, nodes->unit, origin, direction, tMin, tMax, time))
         return hit;
     hit.t = ray.tMax;
+#ifdef WEDGE_CUTOUTS
+    ray.cutouts = WEDGE_CUTOUT_TABLE(nodes, blocks);
+#endif
     traverse(nodes, blocks, 0, &ray, false, &hit);
     if (hit.triangle == WEDGE_NO_TRIANGLE)
         hit.t = tMax;
@@ -45,6 +48,9 @@ WEDGE_FN bool anyHit(__global const TraversalNode* restrict nodes, __global cons
     TraversalRay ray;
     if (!prepareRay(&ray, nodes->unit, origin, direction, tMin, tMax, time))
         return false;
+#ifdef WEDGE_CUTOUTS
+    ray.cutouts = WEDGE_CUTOUT_TABLE(nodes, blocks);
+#endif
     Hit hit;
     hit.t = ray.tMax;
     hit.triangle = WEDGE_NO_TRIANGLE;

@@ -83,6 +83,11 @@ WEDGE_FN bool intersectTriangle(__global const TriangleBlock* block, uint lane, 
     if (t == hit->t && triangle > hit->triangle)
         return false;
     const float inverse = 1.0f / sum;
+#ifdef WEDGE_CUTOUTS
+    if (isHole(
+            ray->cutouts, triangle, u * inverse, v * inverse, ray->testOrigin, ray->testDirection, WEDGE_TIME_OF(ray)))
+        return false;
+#endif
     hit->t = t;
     hit->u = u * inverse;
     hit->v = v * inverse;

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "host/scene/scene.h"
+#include "kernels/shared/cutout.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace wedge::render {
+
+/// Whether rays may pass through what is made of a material.
+bool isCutout(const scene::Material& m);
+
+/// Whether any triangle has a material that rays may pass through: programs are then built with WEDGE_CUTOUTS.
+bool hasCutouts(const scene::Scene& scene);
+
+/// What rays pass through, in the layout of kernels/shared/cutout.h; empty without any. Throws Error where it does not
+/// fit into 32-bit offsets.
+std::vector<std::uint32_t> cutoutTable(const scene::Scene& scene);
+
+/// Opacity of a texel, 0 to 255: its alpha where the texture has any that is not opaque, else its luminance, whose
+/// bytes are taken as plain numbers.
+std::uint8_t opacityOf(const scene::Texture& texture, std::size_t texel);
+
+} // namespace wedge::render

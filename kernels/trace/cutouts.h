@@ -1,0 +1,65 @@
+// Holes: the part of a triangle that rays pass through, in programs with WEDGE_CUTOUTS. The table of them lies behind
+// the blocks of triangles, from the block on that the root node names.
+#ifndef WEDGE_CUTOUTS_H
+#define WEDGE_CUTOUTS_H
+
+#ifdef WEDGE_CUTOUTS
+
+#include "shared/cutout.h"
+#include "shared/vec.h"
+
+/// The table of a hierarchy's root and blocks.
+#define WEDGE_CUTOUT_TABLE(nodes, blocks) ((__global const uint*)((blocks) + (nodes)->cutouts))
+
+/// i modulo n for -1 <= i <= n, n >= 1.
+WEDGE_FN uint wrapTexel(int i, uint n) { return i < 0 ? n - 1u : (uint)i < n ? (uint)i : 0u; }
+
+/// Opacity, 0 to 255, of a texture at (u, v): bilinear, v up, repeated outside [0, 1). Coordinates that are no numbers
+/// are opaque.
+WEDGE_FN float sampleAlphas(__global const uchar* alphas, uint width, uint height, float u, float v)
+{
+    const float x = (u - floor(u)) * (float)width - 0.5f;
+    const float y = (v - floor(v)) * (float)height - 0.5f;
+    if (!(fabs(x) < 1e9f) || !(fabs(y) < 1e9f))
+        return 255.0f;
+    const float fx = x - floor(x), fy = y - floor(y);
+    const uint x0 = wrapTexel((int)floor(x), width), y0 = wrapTexel((int)floor(y), height);
+    const uint x1 = wrapTexel((int)x0 + 1, width), y1 = wrapTexel((int)y0 + 1, height);
+    const float c00 = (float)alphas[y0 * width + x0], c10 = (float)alphas[y0 * width + x1];
+    const float c01 = (float)alphas[y1 * width + x0], c11 = (float)alphas[y1 * width + x1];
+    const float lower = c00 + (c10 - c00) * fx, upper = c01 + (c11 - c01) * fx;
+    return lower + (upper - lower) * fy;
+}
+
+/// Opacity of a triangle at the barycentrics (u, v), 0 to 255.
+WEDGE_FN float opacityAt(__global const uint* table, uint triangle, float u, float v)
+{
+    const uint at = table[triangle];
+    if (at == WEDGE_NO_CUTOUT)
+        return 255.0f;
+    __global const Cutout* c = (__global const Cutout*)(table + at);
+    if (c->alphas == WEDGE_NO_ALPHAS)
+        return 255.0f * c->opacity;
+    const float w = 1.0f - u - v;
+    return c->opacity
+        * sampleAlphas((__global const uchar*)(table + c->alphas), c->width, c->height,
+            c->u[0] * w + c->u[1] * u + c->u[2] * v, c->v[0] * w + c->v[1] * u + c->v[2] * v);
+}
+
+/// Whether a ray that meets a triangle at the barycentrics (u, v) goes on through it. origin, direction: the ray's, in
+/// the axes and units of its test.
+WEDGE_FN bool isHole(
+    __global const uint* table, uint triangle, float u, float v, Vec3 origin, Vec3 direction, float time)
+{
+    const float opacity = opacityAt(table, triangle, u, v);
+    if (opacity >= 255.0f)
+        return false;
+    if (!(opacity > 0.0f))
+        return true;
+    return 255.0f * cutoutNumber(triangle, origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, time)
+        >= opacity;
+}
+
+#endif
+
+#endif
