@@ -15,7 +15,7 @@ fi
 command -v clang-format-14 >/dev/null ||
     fail "clang-format 14: not installed: run scripts/install_dependencies.sh develop on Debian 12"
 
-sources=(find kernels bvh host effects tests benchmarks data/generator "(" -name "*.cpp" -o -name "*.h" -o -name "*.cl" ")")
+sources=(find kernels bvh host effects filters tests benchmarks data/generator "(" -name "*.cpp" -o -name "*.h" -o -name "*.cl" ")")
 if [ $# -eq 0 ]; then
     exec "${sources[@]}" -exec clang-format-14 -i {} +
 fi

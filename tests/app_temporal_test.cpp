@@ -1,6 +1,7 @@
 // The filter over time as users see it: any range and any crop give the same bits, and what does not change stays.
 #include "tests/app_testing.h"
 
+#include <array>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -185,10 +186,28 @@ TEST_CASE("temporal: calls that are wrong are refused in one line")
     checkRefused(place, { "render", box, "--frames", "0", "--temporal", "often", "-o", "a%d.exr" }, wrongCall, "often");
     checkRefused(place, { "render", box, "--frames", "0", "--temporal", "on", "--method", "mc", "-o", "a%d.exr" },
         wrongCall, "--temporal");
-    checkRefused(place,
-        { "render", box, "--frames", "0", "--temporal", "on", "--size", "2000x2000", "--memory-limit", "300", "-o",
-            "a%d.exr" },
-        failure, "memory");
+}
+
+TEST_CASE("temporal: what it keeps of frames counts as memory, and is refused where that is more than there may be")
+{
+    const Workplace place;
+    const Arguments call = { "render", box, "--frames", "0", "--size", "640x480", "--spp", "16", "--layers", "all" };
+    const auto with = [&](Arguments more) {
+        more.insert(more.begin(), call.begin(), call.end());
+        return more;
+    };
+    std::array<double, 2> bytes {};
+    for (const std::size_t on : { 0, 1 }) {
+        const std::string temporal = on != 0 ? "on" : "off";
+        REQUIRE(
+            place.run(with({ "--temporal", temporal, "-o", temporal + "%d.exr", "--report", "r.json" })).status == 0);
+        bytes[on] = nlohmann::json::parse(place.text("r.json"))["frames"][0]["memory_bytes"];
+    }
+    // Eight frames of at least 22 bytes a pixel.
+    CHECK(bytes[1] - bytes[0] > 8.0 * 22.0 * 640.0 * 480.0);
+    const std::string between = std::to_string(static_cast<int>(0.5 * (bytes[0] + bytes[1]) / (1 << 20)));
+    checkRefused(place, with({ "--temporal", "on", "--memory-limit", between, "-o", "a%d.exr" }), failure, "memory");
+    CHECK(place.run(with({ "--temporal", "off", "--memory-limit", between, "-o", "b%d.exr" })).status == 0);
 }
 
 } // namespace

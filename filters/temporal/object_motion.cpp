@@ -53,7 +53,7 @@ ObjectTracker::ObjectTracker(const scene::Geometry& reference)
     for (std::size_t i = 0; i < objects_.size(); ++i) {
         std::vector<std::uint32_t>& own = vertices[i];
         std::ranges::sort(own);
-        own.erase(std::ranges::unique(own).begin(), own.end());
+        own.erase(std::unique(own.begin(), own.end()), own.end());
         Object& object = objects_[i];
         object.first = members_.size();
         for (const std::uint32_t vertex : own) {
@@ -96,8 +96,8 @@ glm::dmat3 ObjectTracker::axesOf(const Object& object, const scene::Geometry& ge
     const glm::dvec3 u = middle(geometry, object.corners[1]) - origin, v = middle(geometry, object.corners[2]) - origin;
     const glm::dvec3 across = glm::cross(u, v);
     // As long as the first one, so that the axes are of one magnitude.
-    const glm::dvec3 w = object.flat ? across * (glm::length(u) / glm::length(across))
-                                     : middle(geometry, object.corners[3]) - origin;
+    const glm::dvec3 w =
+        object.flat ? across * (glm::length(u) / glm::length(across)) : middle(geometry, object.corners[3]) - origin;
     return { u, v, w };
 }
 
@@ -160,8 +160,7 @@ std::vector<float> motionsBetween(const ObjectPlaces& from, const ObjectPlaces& 
 
 bool areStill(const ObjectPlaces& from, const ObjectPlaces& to)
 {
-    return std::ranges::equal(
-        from.objects, to.objects, {}, &ObjectPlaces::Place::shape, &ObjectPlaces::Place::shape);
+    return std::ranges::equal(from.objects, to.objects, {}, &ObjectPlaces::Place::shape, &ObjectPlaces::Place::shape);
 }
 
 } // namespace wedge::filters

@@ -37,7 +37,8 @@ struct KeptPlane {
 };
 constexpr KeptPlane keptPlanes[] = { { "kept depth", graph::floats }, { "kept normal", graph::counts },
     { "kept object", graph::counts }, { "kept direct light", render::packedColours },
-    { "kept light before the filter", render::shortFloats }, { "kept variation", render::shortFloats }, { "kept indirect light", render::packedColours } };
+    { "kept light before the filter", render::shortFloats }, { "kept variation", render::shortFloats },
+    { "kept indirect light", render::packedColours } };
 enum KeptIndex : std::size_t { Depth, Facing, Object, Direct, Before, Variation, Indirect, keptCount };
 
 bool hasIndirect(const Settings& settings, const scene::Scene& scene)
@@ -118,7 +119,7 @@ struct TemporalFilter::Declaration {
     {
         const auto vectors = [&]<class Quantity>(const char* name, const device::Buffer<float>& memory,
                                  graph::Handle<Quantity>& handle) {
-            handle = import<Quantity>(name, graph::vectors, memory.cl());
+            handle = import <Quantity>(name, graph::vectors, memory.cl());
         };
         vectors("position", frame.position, f.surfaces.position);
         vectors("normal", frame.normal, f.surfaces.normal);
@@ -133,7 +134,7 @@ struct TemporalFilter::Declaration {
         }
         const auto shorts = [&](const char* name, const device::Buffer<float>& memory,
                                 graph::Handle<render::Deviation>& handle) {
-            handle = import<render::Deviation>(name, render::shortFloats, memory.cl());
+            handle = import <render::Deviation>(name, render::shortFloats, memory.cl());
         };
         if (params.measured != 0) {
             shorts("direct deviation", frame.directDeviation, f.totals.direct.deviation);
@@ -141,13 +142,13 @@ struct TemporalFilter::Declaration {
         if (params.measured != 0 && indirect) {
             shorts("indirect deviation", frame.indirectDeviation, f.totals.indirect.deviation);
         }
-        f.surfaces.objectId = import<render::ObjectId>("object id", graph::counts, frame.objectId.cl());
+        f.surfaces.objectId = import <render::ObjectId>("object id", graph::counts, frame.objectId.cl());
     }
 
     Handles handlesOf(const Kept& kept)
     {
         const auto one = [&]<class Quantity>(graph::Handle<Quantity>& handle, KeptIndex index) {
-            handle = import<Quantity>(keptPlanes[index].name, keptPlanes[index].format, kept.planes[index].cl());
+            handle = import <Quantity>(keptPlanes[index].name, keptPlanes[index].format, kept.planes[index].cl());
         };
         Handles out;
         one(out.depth, Depth);
@@ -252,21 +253,21 @@ struct TemporalFilter::Declaration {
         f.pixels(pass, PassKind::Filter, { file, "differFromFrame" },
             { p, f.outside("motions", "float", &motionMemory), reads("position", f.surfaces.position),
                 reads("normal", f.surfaces.normal), reads("object", own.object), reads("directLight", own.direct),
-                readsIndirect("indirectLight", own.indirect), reads("noisy", own.before), reads("variation", own.variation),
-                reads("earlierDepth", earlier.depth, graph::wholeImage),
+                readsIndirect("indirectLight", own.indirect), reads("noisy", own.before),
+                reads("variation", own.variation), reads("earlierDepth", earlier.depth, graph::wholeImage),
                 reads("earlierFacing", earlier.facing, graph::wholeImage),
                 reads("earlierObject", earlier.object, graph::wholeImage),
                 reads("earlierDirect", earlier.direct, graph::wholeImage),
-                indirect ? reads("earlierIndirect", earlier.indirect, graph::wholeImage)
-                         : f.nothing("earlierIndirect"),
+                indirect ? reads("earlierIndirect", earlier.indirect, graph::wholeImage) : f.nothing("earlierIndirect"),
                 reads("earlierNoisy", earlier.before, graph::wholeImage),
                 reads("earlierVariation", earlier.variation, graph::wholeImage), writes("difference", difference),
                 writes("noise", noise), writes("variations", variations), writes("share", share) });
-        blocks("sumBlocks", { reads("noise", noise), reads("variations", variations), reads("share", share), writes("sums", sums) });
+        blocks("sumBlocks",
+            { reads("noise", noise), reads("variations", variations), reads("share", share), writes("sums", sums) });
         blocks("weighBlocks", { reads("sums", sums), writes("weights", weights) });
         f.pixels(pass, PassKind::Filter, { file, "addFrame" },
-            { p, reads("difference", difference), reads("share", share), reads("weights", weights),
-                updates("sum", sum), updates("counts", counts) });
+            { p, reads("difference", difference), reads("share", share), reads("weights", weights), updates("sum", sum),
+                updates("counts", counts) });
     }
 
     void finish()
@@ -361,7 +362,8 @@ void TemporalFilter::run(render::Renderer& renderer, const Settings& settings,
     d.keep(handles, own.camera);
     std::vector<device::Buffer<float>> motions;
     const auto add = [&](const Kept& kept) {
-        const bool moved = own.places && kept.places && own.places != kept.places && !areStill(*own.places, *kept.places);
+        const bool moved =
+            own.places && kept.places && own.places != kept.places && !areStill(*own.places, *kept.places);
         const std::vector<float> motion = moved ? motionsBetween(*own.places, *kept.places) : std::vector<float>();
         device::Buffer<float>& memory = motions.emplace_back(device_, motion.size(), "motions");
         if (moved) {
@@ -400,8 +402,8 @@ void TemporalFilter::run(render::Renderer& renderer, const Settings& settings,
     device::MemoryPlan memory;
     addTo(memory, settings, renderer.scene());
     statistics->memoryBytes += memory.total();
-    statistics->wallMilliseconds
-        += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    statistics->wallMilliseconds +=
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 } // namespace wedge::filters

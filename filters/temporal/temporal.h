@@ -19,10 +19,7 @@ namespace wedge::filters {
 constexpr std::uint32_t temporalWindow = 8;
 
 /// The first frame that frame n is made of. There are none before 0.
-constexpr std::uint32_t firstOfWindow(std::uint32_t frame)
-{
-    return frame - std::min(frame, temporalWindow - 1);
-}
+constexpr std::uint32_t firstOfWindow(std::uint32_t frame) { return frame - std::min(frame, temporalWindow - 1); }
 
 /// The filter over time (docs/temporal.md): keeps what frames of a sequence found, and takes means over those that are
 /// still in the window, each looked up where surfaces were in it.
@@ -35,14 +32,14 @@ public:
     /// Device memory that it takes besides a frame's, before anything of it is allocated.
     static void addTo(device::MemoryPlan& plan, const render::Settings& settings, const scene::Scene& scene);
 
-    /// Keeps the renderer's frame, of which all layers and the whole image are there, for those after it. Frames come in
-    /// their order. places: of the scene's objects in this frame; null where none ever moves. statistics: of the frame,
-    /// to which this adds what it takes.
+    /// Keeps the renderer's frame, of which all layers and the whole image are there, for those after it. Frames come
+    /// in their order. places: of the scene's objects in this frame; null where none ever moves. statistics: of the
+    /// frame, to which this adds what it takes.
     void keep(render::Renderer& renderer, const render::Settings& settings, std::shared_ptr<const ObjectPlaces> places,
         render::FrameStatistics& statistics);
 
-    /// The same, and makes of beauty, direct and indirect light of the renderer's frame the means over the frames of the
-    /// window that were kept.
+    /// The same, and makes of beauty, direct and indirect light of the renderer's frame the means over the frames of
+    /// the window that were kept.
     void filter(render::Renderer& renderer, const render::Settings& settings,
         std::shared_ptr<const ObjectPlaces> places, render::FrameStatistics& statistics);
 

@@ -182,14 +182,20 @@ void RenderJob::explain() const
     std::fflush(stdout);
 }
 
-void RenderJob::prepare()
+device::MemoryPlan RenderJob::checkedPlan() const
 {
-    const device::DeviceInfo& device = renderer_->device().info();
     device::MemoryPlan plan = renderer_->plan(renderedSettings(), keepsLayers());
     if (filtersOverTime()) {
         filters::TemporalFilter::addTo(plan, settings_, scene_);
-        plan.check(device, options_.memoryLimitBytes);
+        plan.check(renderer_->device().info(), options_.memoryLimitBytes);
     }
+    return plan;
+}
+
+void RenderJob::prepare()
+{
+    const device::DeviceInfo& device = renderer_->device().info();
+    const device::MemoryPlan plan = checkedPlan();
     tell("scene {}: {} triangles\n", printable(scene_.path), scene_.geometry.indices.size() / 3);
     tell("device {} ({})\n", device.name, device.platform);
     if (options_.verbose) {
@@ -311,7 +317,7 @@ void RenderJob::writeReport()
     try {
         writeText(options_.report,
             render::jsonReport(
-                *renderer_, renderedSettings(), options_.frames ? rendered_ : std::vector { statistics_ }, extras_));
+                *renderer_, settings_, options_.frames ? rendered_ : std::vector { statistics_ }, extras_));
         reported_ = true;
     } catch (const Error& error) {
         failures_.emplace_back(error.what());

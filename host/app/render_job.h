@@ -59,6 +59,8 @@ private:
     void load();
     void build();
     void explain() const;
+    /// What a frame takes, with what filters it over time. Throws where that is more than there may be.
+    device::MemoryPlan checkedPlan() const;
     void prepare();
     void render();
     void renderSteps(const render::Control& control);

@@ -147,6 +147,7 @@ void RenderJob::prepareFrame(bool first)
     if (first) {
         prepare();
     } else {
+        checkedPlan();
         renderer_->rehearse(renderedSettings(), keepsLayers());
     }
     if (temporal_) {
@@ -216,7 +217,7 @@ bool RenderJob::renderFrame(const Visit& visit, std::size_t number, Clock::time_
     }
     rendered_.push_back(statistics_);
     tell("frame {}: {:.1f} rays a pixel, {:.2f} s, wrote {}\n", visit.frame,
-        render::raysPerPixel(statistics_, renderedSettings()), 1e-3 * statistics_.wallMilliseconds,
+        render::raysPerPixel(statistics_, settings_), 1e-3 * statistics_.wallMilliseconds,
         printable(fmt::format("{}", images_.written().front())));
     std::fflush(stdout);
     return true;

@@ -76,55 +76,61 @@ void choices(std::span<const double> weights, std::span<float> upTo, std::span<f
 using Harmonics = std::array<double, WEDGE_HARMONICS>;
 
 /// Real harmonics of a unit direction, without their constants.
-Harmonics harmonicsAt(shared::Vec3 d)
+Harmonics harmonicsAt(glm::dvec3 d)
 {
     const double x = d.x, y = d.y, z = d.z;
     return { 1.0, x, y, z, x * y, y * z, z * x, 3.0 * z * z - 1.0, x * x - y * y };
 }
 
-/// Irradiance of surfaces of each normal n is the sum of these numbers times harmonicsAt(n), over the largest that any
-/// has (Ramamoorthi and Hanrahan, 2001: what a clamped cosine leaves of each order is pi, 2 pi / 3 and pi / 4).
-/// Without light: 1.
-std::array<float, WEDGE_HARMONICS> unshadowedHarmonics(
-    const EnvironmentPicture& picture, const shared::EnvironmentMap& map, std::size_t channel)
+/// Of each channel the integral of its radiance times harmonicsAt().
+std::array<Harmonics, 3> projected(const EnvironmentPicture& picture)
 {
     // Few texels are looked at in several places each.
     const int across = picture.width * std::max(1, 64 / picture.width);
     const int down = picture.height * std::max(1, 32 / picture.height);
-    Harmonics sums {};
+    std::vector<glm::dvec3> horizon(
+        static_cast<std::size_t>(across)); // directions of columns, at a right angle to `up`
+    for (std::size_t x = 0; x < horizon.size(); ++x) {
+        const double angle = 2.0 * std::acos(-1.0) * ((static_cast<double>(x) + 0.5) / across - 0.5);
+        horizon[x] = std::sin(angle) * glm::dvec3(picture.right) - std::cos(angle) * glm::dvec3(picture.back);
+    }
+    std::array<Harmonics, 3> sums {};
     for (int y = 0; y < down; ++y) {
-        const double polar = std::acos(-1.0) * (y + 0.5) / down;
+        const double polar = std::acos(-1.0) * (y + 0.5) / down, sine = std::sin(polar);
+        const glm::dvec3 upwards = std::cos(polar) * glm::dvec3(picture.up);
         const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.height)
             / static_cast<std::size_t>(down) * static_cast<std::size_t>(picture.width);
-        for (int x = 0; x < across; ++x) {
-            const std::size_t texel = row
-                + static_cast<std::size_t>(x) * static_cast<std::size_t>(picture.width)
-                    / static_cast<std::size_t>(across);
-            const float u = (static_cast<float>(x) + 0.5f) / static_cast<float>(across);
-            const Harmonics at = harmonicsAt(shared::environmentDirection(map, u, static_cast<float>(std::cos(polar))));
-            const double radiance = std::sin(polar) * double { picture.radiance[3 * texel + channel] };
-            for (std::size_t i = 0; i < at.size(); ++i) {
-                sums[i] += radiance * at[i];
+        for (std::size_t x = 0; x < horizon.size(); ++x) {
+            const std::size_t texel = row + x * static_cast<std::size_t>(picture.width) / horizon.size();
+            const Harmonics at = harmonicsAt(upwards + sine * horizon[x]);
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                const double radiance = sine * double { picture.radiance[3 * texel + channel] };
+                for (std::size_t i = 0; i < at.size(); ++i) {
+                    sums[channel][i] += radiance * at[i];
+                }
             }
         }
     }
+    return sums;
+}
+
+/// Irradiance of surfaces of each normal n is the sum of these numbers times harmonicsAt(n), over the largest that any
+/// has (Ramamoorthi and Hanrahan, 2001: what a clamped cosine leaves of each order is pi, 2 pi / 3 and pi / 4).
+/// Without light: 1. sums: projected(), of a channel
+std::array<float, WEDGE_HARMONICS> unshadowedHarmonics(Harmonics sums)
+{
     // Squared constants of the harmonics times what the cosine leaves, over those of the first.
     constexpr Harmonics factors { 1.0, 2.0, 2.0, 2.0, 3.75, 3.75, 3.75, 0.3125, 0.9375 };
     for (std::size_t i = 0; i < sums.size(); ++i) {
         sums[i] *= factors[i];
     }
-    const auto at = [&](shared::Vec3 n) {
-        const Harmonics values = harmonicsAt(n);
-        return std::inner_product(values.begin(), values.end(), sums.begin(), 0.0);
-    };
     // They are smooth: directions along a spiral over the sphere find the largest.
     constexpr int directions = 1024;
     double most = 0;
     for (int i = 0; i < directions; ++i) {
         const double z = 1.0 - (2.0 * i + 1.0) / directions, r = std::sqrt(1.0 - z * z), turn = 2.399963229728653 * i;
-        most = std::max(most,
-            at(shared::vec3(static_cast<float>(r * std::cos(turn)), static_cast<float>(r * std::sin(turn)),
-                static_cast<float>(z))));
+        const Harmonics at = harmonicsAt({ r * std::cos(turn), r * std::sin(turn), z });
+        most = std::max(most, std::inner_product(at.begin(), at.end(), sums.begin(), 0.0));
     }
     std::array<float, WEDGE_HARMONICS> out { 1.0f };
     for (std::size_t i = 0; most > 0 && i < out.size(); ++i) {
@@ -182,10 +188,11 @@ EnvironmentTable environmentTable(const EnvironmentPicture* picture)
         choices(ofColumns, columns.subspan(y * w, w), columnGuide.subspan(y * w, w));
     }
     choices(ofRows, rows, rowGuide);
+    const std::array<Harmonics, 3> sums = projected(*picture);
     for (std::size_t channel = 0; channel < 3; ++channel) {
         const std::span<float> to = all.subspan(
             shared::environmentHarmonics(out.map.width, out.map.height) + WEDGE_HARMONICS * channel, WEDGE_HARMONICS);
-        std::ranges::copy(unshadowedHarmonics(*picture, out.map, channel), to.begin());
+        std::ranges::copy(unshadowedHarmonics(sums[channel]), to.begin());
     }
     if (!picture->shown.empty()) { // no span is used from here on
         out.map.shown = static_cast<std::uint32_t>(out.numbers.size());

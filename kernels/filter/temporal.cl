@@ -275,7 +275,7 @@ __kernel void differFromFrame(TemporalParams p, __global const float* restrict m
 }
 
 /// Sums over the pixels of a block: how many are seen in the earlier frame, their differences, and the squares of
-/// those. out  sums: 3 numbers a block
+/// those. out  sums: 4 numbers a block
 __kernel void sumBlocks(TemporalParams p, uint blocks, __global const float* restrict noise,
     __global const float* restrict variations, __global const float* restrict share, __global float* restrict sums)
 {
