@@ -16,7 +16,6 @@ namespace wedge::filters {
 using device::PassKind;
 using graph::reads;
 using graph::updates;
-using graph::value;
 using graph::writes;
 using render::Settings;
 
