@@ -143,7 +143,8 @@ TEST_CASE("single rays and packets of both families pass through what the oracle
         const Tree tree = treeOf(scene);
         std::vector<Ray> rays = randomRays(mesh, 3000, 3);
         for (int i = 0; i < 2048; ++i) { // that packets keep together
-            const float u = static_cast<float>(i % 64) / 31.5f - 1.0f, v = static_cast<float>(i / 64) / 15.5f - 1.0f;
+            const int column = i % 64, row = i / 64;
+            const float u = static_cast<float>(column) / 31.5f - 1.0f, v = static_cast<float>(row) / 15.5f - 1.0f;
             rays.push_back({ vec3(0, 3, 0), 0, vec3(0.3f * u, -1, 0.3f * v), infinity });
         }
         std::vector<Expected> expected;
@@ -208,9 +209,11 @@ TEST_CASE("families and packets pass through the same of what moves, and a veil 
     veil.geometry.materialIds = { 2, 2 };
     const Tree flat = treeOf(veil);
     std::vector<Ray> down;
-    for (int i = 0; i < 20000; ++i)
-        down.push_back({ vec3(0, 1, 0), 0,
-            vec3(0.007f * static_cast<float>(i % 200) - 0.7f, -1, 0.014f * static_cast<float>(i / 200) - 0.7f), 2 });
+    down.reserve(20000);
+    for (int row = 0; row < 100; ++row)
+        for (int column = 0; column < 200; ++column)
+            down.push_back({ vec3(0, 1, 0), 0,
+                vec3(0.007f * static_cast<float>(column) - 0.7f, -1, 0.014f * static_cast<float>(row) - 0.7f), 2 });
     onAllFamilies(Geometry::Still, [&](Tracer& tracer) {
         const std::vector<std::uint32_t> any = tracer.any(flat, down);
         const double share = static_cast<double>(std::count(any.begin(), any.end(), 1u)) / 20000.0;

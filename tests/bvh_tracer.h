@@ -9,6 +9,8 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+#include <bit>
 #include <cstring>
 #include <span>
 
@@ -203,7 +205,11 @@ void onEveryTracer(const Test& test)
     });
 }
 
-inline bool sameBits(const Hit& a, const Hit& b) { return std::memcmp(&a, &b, sizeof(Hit)) == 0; }
+inline bool sameBits(const Hit& a, const Hit& b)
+{
+    using Words = std::array<std::uint32_t, 4>;
+    return std::bit_cast<Words>(a) == std::bit_cast<Words>(b);
+}
 
 inline bool sameBits(const std::vector<Hit>& a, const std::vector<Hit>& b)
 {

@@ -37,10 +37,11 @@ scene::Scene checkered(bool cutouts, bool emitter, bool moving)
     const std::uint32_t board = addMasked(b, plain, cutouts);
     const std::size_t before = b.scene.geometry.positions.size();
     for (int i = 0; i < 16; ++i) {
-        const bool hole = (i % 4 + i / 4) % 2 == 1;
+        const int column = i % 4, row = i / 4;
+        const bool hole = (column + row) % 2 == 1;
         if (hole && !cutouts)
             continue;
-        const auto x = static_cast<float>(i % 4), z = static_cast<float>(i / 4);
+        const auto x = static_cast<float>(column), z = static_cast<float>(row);
         b.quad({ -0.45f + 0.3f * x, 0.8f, -0.45f + 0.3f * z }, { 0, 0, 0.15f }, { 0.15f, 0, 0 }, board);
         moveTexture(b, hole);
     }

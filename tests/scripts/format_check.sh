@@ -8,7 +8,7 @@ command -v clang-format-14 >/dev/null || exit 77
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
-mkdir -p scripts kernels/core bvh host effects tests benchmarks data/generator
+mkdir -p scripts kernels/core bvh host effects filters tests benchmarks data/generator
 cp "$source/scripts/format.sh" scripts
 cp "$source/.clang-format" .
 
