@@ -94,6 +94,8 @@ check fixed "$scenes/penumbra.toml" --traversal wide --size 9x7 --method aaf --s
 check ambient "$scenes/materials.toml" --traversal wide --size 17x3 --method aaf --spp 17 --integrator ao
 check published_bounce "$scenes/penumbra.toml" --traversal wide --size 9x3 --method aaf --as-published --bounces 1 --max-spp 24
 check one_pixel "$scenes/penumbra.toml" --traversal wide --size 1x1 --method aaf --spp 16 --bounces 1
+check sky "$scenes/sky.toml" --traversal wide --size 9x5 --method aaf --spp 16
+check sky_waves "$scenes/sky.toml" --traversal wide --size 7x3 --method aaf --spp 16 --antialias
 check over_time_%d "$scenes/motion.toml" --traversal wide --size 9x5 --method aaf --spp 10 --frames 0:1 --temporal on
 check bounced_over_time_%d "$scenes/penumbra.toml" --traversal wide --size 9x5 --method aaf --spp 16 --bounces 1 --frames 0:1 --temporal on
 checkSabotaged
