@@ -27,7 +27,7 @@ constexpr std::size_t partAlignment = 1024;
 ///
 /// CPU devices get no CL_MEM_ALLOC_HOST_PTR: transfers between a span and a buffer copy once there either way.
 template <class T>
-class Buffer {
+class Buffer { // NOLINT(bugprone-exception-escape): what cl::Buffer does when it is assigned to, a programming error
     static_assert(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> && !std::is_same_v<T, bool>);
 
 public:
