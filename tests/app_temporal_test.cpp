@@ -39,11 +39,16 @@ TEST_CASE("temporal: a frame has the same bits in any range, with any crop, and 
 {
     const Workplace place;
     place.write("s.toml", camera + passesBy + quad + light + ball + rolls);
-    for (const std::string& scene : { std::string("s.toml"), moving }) {
-        CAPTURE(scene);
-        const Arguments few = { "--spp", "16", "--bounces", "1" };
+    const std::string own = "s.toml";
+    const std::pair<std::string, Arguments> kinds[] = { { own, { "--spp", "16", "--bounces", "1" } },
+        { moving, { "--spp", "16", "--bounces", "1" } }, { own, { "--spp", "17", "--integrator", "ao" } },
+        { own, { "--spp", "16", "--bounces", "1", "--aperture", "0.1" } },
+        { own, { "--filter", "fixed", "--spp", "16", "--bounces", "1" } } };
+    for (std::size_t kind = 0; kind < std::size(kinds); ++kind) {
+        CAPTURE(kind);
+        const std::string& scene = kinds[kind].first;
         const auto with = [&](Arguments more) {
-            more.insert(more.end(), few.begin(), few.end());
+            more.insert(more.end(), kinds[kind].second.begin(), kinds[kind].second.end());
             return more;
         };
         REQUIRE(frames(place, scene, "1:9", with({ "-o", "a%d.exr" })).status == 0);

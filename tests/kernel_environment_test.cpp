@@ -212,6 +212,25 @@ TEST_CASE("unshadowed light is the irradiance by normal, over the largest")
                        white = bench.filled(planes.size(), 0.5f);
             kernel.setArgs(frame, wave, map, numbers, normal, white, out);
             bench.queue.launch("unshadowed", device::PassKind::Trace, kernel, normals / WEDGE_BLOCK_PIXELS, 1);
+            // The same as pixels of an image of one row.
+            const render::PlaneLayout layout(normals, 1);
+            Planes<float> facing(layout, 3, 0.0f), half(layout, 3, 0.5f);
+            for (std::size_t i = 0; i < normals; ++i)
+                facing.setVector(static_cast<int>(i), 0, directions[i]);
+            shared::AnalysisParams row {};
+            row.x1 = row.width = normals;
+            row.y1 = row.height = 1;
+            row.stride = layout.stride;
+            row.planeSize = static_cast<std::uint32_t>(layout.size);
+            const auto image = bench.filled(half.values.size(), -1.0f), normalPlanes = bench.buffer(facing.values),
+                       whitePlanes = bench.buffer(half.values);
+            device::Kernel pixels = bench.library.kernel("light/unshadowed_environment.cl", "environmentOfPixels");
+            pixels.setArgs(row, map, numbers, normalPlanes, whitePlanes, image);
+            bench.queue.launch("unshadowed", device::PassKind::Trace, pixels, normals / WEDGE_BLOCK_PIXELS, 1);
+            const Planes<float> read = planesOf(layout, bench.read(image));
+            const std::vector<float> ofReceivers = bench.read(out);
+            for (std::size_t i = 0; i < ofReceivers.size(); ++i)
+                REQUIRE(read.at(static_cast<int>(i % normals), 0, i / normals) == ofReceivers[i]);
             return bench.read(out);
         };
         const std::vector<float> all = unshadowed(p);

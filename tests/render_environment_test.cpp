@@ -301,6 +301,34 @@ TEST_CASE("with as many samples, filters are ahead of none over matt and curved 
     });
 }
 
+TEST_CASE("curved surfaces: fractions of the unshadowed light are shared with less error than light is")
+{
+    onEveryDevice([](const device::Device& device) {
+        SceneBuilder b;
+        b.scene.materials[0].diffuse = reflectance;
+        b.sphere({ 0, 0, 0 }, 0.5f, 48);
+        b.camera({ 0, 0, 3 }, { 0, 0, 0 }, { 0, 1, 0 }, 25);
+        auto halves = even(glm::vec3(0.05f), 32, 16);
+        for (int y = 0; y < 8; ++y)
+            for (int x = 0; x < 12; ++x)
+                set(*halves, x, y, sky * 3.0f);
+        render::setEnvironment(b.scene, halves);
+        render::Renderer renderer(b.scene, device, renderOptions());
+        const auto image = [&](const render::Settings& s) { return renderPixels(renderer, s); };
+        render::Settings reference = sized(render::monteCarlo(2048), 64, 64);
+        reference.seed = 99;
+        const std::vector<float> expected = image(reference);
+        render::Settings fractions = sized(render::axisAligned(16), 64, 64);
+        render::Settings whole = fractions;
+        whole.environment.relative = false;
+        const double error = rmse(image(fractions), expected), before = rmse(image(whole), expected);
+        MESSAGE("RMSE: ", error, ", of light itself: ", before);
+        CHECK(error < 0.8 * before);
+        // As published nothing is known of it, and that stays so.
+        CHECK_FALSE(render::asPublished().environment.relative);
+    });
+}
+
 TEST_CASE("an environment that the camera does not see lights all the same; ambient occlusion knows none")
 {
     onEveryDevice([](const device::Device& device) {

@@ -84,21 +84,13 @@ void add(Fingerprint& f, const render::EnvironmentPicture& picture)
 
 } // namespace
 
-void Fingerprint::bytes(const void* data, std::size_t count)
-{
-    const auto* byte = static_cast<const unsigned char*>(data);
-    for (std::size_t i = 0; i < count; ++i) {
-        state_ = (state_ ^ byte[i]) * 0x100000001b3u;
-    }
-}
-
 void Fingerprint::add(std::string_view text)
 {
     add(text.size());
-    bytes(text.data(), text.size());
+    hash_.addBytes(text.data(), text.size());
 }
 
-std::string Fingerprint::text() const { return fmt::format("{:016x}", state_); }
+std::string Fingerprint::text() const { return fmt::format("{:016x}", hash_.value()); }
 
 void add(Fingerprint& f, const scene::Scene& scene)
 {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/hash.h"
 #include "host/scene/scene.h"
 
 #include <cstdint>
@@ -17,22 +18,21 @@ public:
 
     template <class T>
     requires std::is_arithmetic_v<T>
-    void add(T value) { bytes(&value, sizeof value); }
+    void add(T value) { hash_.addBytes(&value, sizeof value); }
 
     template <class T>
     requires std::is_arithmetic_v<T>
     void add(std::span<const T> values)
     {
         add(values.size());
-        bytes(values.data(), values.size_bytes());
+        hash_.addBytes(values.data(), values.size_bytes());
     }
 
     /// 16 hexadecimal digits.
     std::string text() const;
 
 private:
-    void bytes(const void* data, std::size_t count);
-    std::uint64_t state_ = 0xcbf29ce484222325u;
+    Hash hash_;
 };
 
 /// All of a scene that decides what its image looks like; names and paths do not count.

@@ -8,6 +8,7 @@
 #include "host/device/device.h"
 #include "host/render/renderer.h"
 #include "host/scene/load_scene.h"
+#include "kernels/shared/bsdf.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -62,8 +63,8 @@ struct Moments {
         for (std::size_t i = 0; i < sum.size(); ++i) {
             const std::size_t at = shared::pixelIndex(static_cast<std::uint32_t>(i % frame.layout.width),
                 static_cast<std::uint32_t>(i / frame.layout.width), frame.layout.stride);
-            const double y = 0.2126 * planes[at] + 0.7152 * planes[frame.layout.size + at]
-                + 0.0722 * planes[2 * frame.layout.size + at];
+            const double y = shared::luminance(
+                shared::vec3(planes[at], planes[frame.layout.size + at], planes[2 * frame.layout.size + at]));
             sum[i] += y;
             squares[i] += y * y;
         }
@@ -82,8 +83,6 @@ struct Measured {
     Summary overhead, filterMilliseconds, frameMilliseconds;
     double memoryMebibytes = 0; ///< that the filter adds
 };
-
-double millisecondsOf(const render::FrameStatistics& frame) { return frame.milliseconds("filter over time"); }
 
 Measured measure(const Arguments& a, const scene::Scene& start, const Path& path, const device::Device& device,
     const render::Settings& base)
@@ -116,7 +115,7 @@ Measured measure(const Arguments& a, const scene::Scene& start, const Path& path
             temporal.filter(renderer, settings, nullptr, statistics);
             with.add(renderer);
             overhead.push_back(statistics.overheadFraction());
-            filter.push_back(millisecondsOf(statistics));
+            filter.push_back(statistics.milliseconds("filter over time"));
             frame.push_back(statistics.deviceMilliseconds);
             out.memoryMebibytes = static_cast<double>(statistics.memoryBytes - before) / (1 << 20);
         }

@@ -1,5 +1,6 @@
 #include "filters/temporal/object_motion.h"
 
+#include "host/hash.h"
 #include "kernels/shared/temporal.h"
 
 #include <algorithm>
@@ -27,10 +28,10 @@ glm::dvec3 middle(const scene::Geometry& geometry, std::uint32_t vertex)
     return geometry.positionsAtClose.empty() ? open : 0.5 * (open + vertexOf(geometry.positionsAtClose, vertex));
 }
 
-void addToHash(std::uint64_t& hash, const std::vector<float>& positions, std::uint32_t vertex)
+void addToHash(Hash& hash, const std::vector<float>& positions, std::uint32_t vertex)
 {
     for (std::size_t k = 0; k < 3; ++k) {
-        hash = (hash ^ std::bit_cast<std::uint32_t>(positions[std::size_t { 3 } * vertex + k])) * 0x100000001b3u;
+        hash.add(std::bit_cast<std::uint32_t>(positions[std::size_t { 3 } * vertex + k]));
     }
 }
 
@@ -108,13 +109,14 @@ ObjectPlaces ObjectTracker::placesIn(const scene::Geometry& geometry) const
     for (std::size_t i = 0; i < objects_.size(); ++i) {
         const Object& object = objects_[i];
         ObjectPlaces::Place& place = places.objects[i];
-        place.shape = 0xcbf29ce484222325u; // FNV-1a
+        Hash shape;
         for (std::size_t m = object.first; m < object.end; ++m) {
-            addToHash(place.shape, geometry.positions, members_[m].vertex);
+            addToHash(shape, geometry.positions, members_[m].vertex);
             if (!geometry.positionsAtClose.empty()) {
-                addToHash(place.shape, geometry.positionsAtClose, members_[m].vertex);
+                addToHash(shape, geometry.positionsAtClose, members_[m].vertex);
             }
         }
+        place.shape = shape.value();
         if (!object.spans) {
             continue;
         }

@@ -108,17 +108,11 @@ struct TemporalFilter::Declaration {
         importFrame();
     }
 
-    template <class Quantity>
-    graph::Handle<Quantity> import(const char* name, const graph::Format& format, const cl::Buffer& memory)
-    {
-        return graph.imported<Quantity>(name, format, memory);
-    }
-
     void importFrame()
     {
         const auto vectors = [&]<class Quantity>(const char* name, const device::Buffer<float>& memory,
                                  graph::Handle<Quantity>& handle) {
-            handle = import <Quantity>(name, graph::vectors, memory.cl());
+            handle = graph.imported<Quantity>(name, graph::vectors, memory.cl());
         };
         vectors("position", frame.position, f.surfaces.position);
         vectors("normal", frame.normal, f.surfaces.normal);
@@ -133,7 +127,7 @@ struct TemporalFilter::Declaration {
         }
         const auto shorts = [&](const char* name, const device::Buffer<float>& memory,
                                 graph::Handle<render::Deviation>& handle) {
-            handle = import <render::Deviation>(name, render::shortFloats, memory.cl());
+            handle = graph.imported<render::Deviation>(name, render::shortFloats, memory.cl());
         };
         if (params.measured != 0) {
             shorts("direct deviation", frame.directDeviation, f.totals.direct.deviation);
@@ -141,13 +135,14 @@ struct TemporalFilter::Declaration {
         if (params.measured != 0 && indirect) {
             shorts("indirect deviation", frame.indirectDeviation, f.totals.indirect.deviation);
         }
-        f.surfaces.objectId = import <render::ObjectId>("object id", graph::counts, frame.objectId.cl());
+        f.surfaces.objectId = graph.imported<render::ObjectId>("object id", graph::counts, frame.objectId.cl());
     }
 
     Handles handlesOf(const Kept& kept)
     {
         const auto one = [&]<class Quantity>(graph::Handle<Quantity>& handle, KeptIndex index) {
-            handle = import <Quantity>(keptPlanes[index].name, keptPlanes[index].format, kept.planes[index].cl());
+            handle =
+                graph.imported<Quantity>(keptPlanes[index].name, keptPlanes[index].format, kept.planes[index].cl());
         };
         Handles out;
         one(out.depth, Depth);
@@ -162,11 +157,6 @@ struct TemporalFilter::Declaration {
         return out;
     }
 
-    template <class Quantity>
-    graph::Argument readsIndirect(const char* name, const graph::Handle<Quantity>& handle) const
-    {
-        return readsIf(indirect, name, handle);
-    }
     template <class Quantity>
     graph::Argument readsIf(bool there, const char* name, const graph::Handle<Quantity>& handle) const
     {
@@ -188,7 +178,8 @@ struct TemporalFilter::Declaration {
             { f.rectangle(params), reads("position", s.position), reads("normal", s.normal),
                 reads("objectId", s.objectId), reads("diffuse", s.diffuse), reads("specular", s.specular),
                 reads("direct", t.direct.filtered), reads("directNoisy", t.direct.noisy),
-                readsIndirect("indirect", t.indirect.filtered), readsIndirect("indirectNoisy", t.indirect.noisy),
+                readsIf(indirect, "indirect", t.indirect.filtered),
+                readsIf(indirect, "indirectNoisy", t.indirect.noisy),
                 readsIf(params.measured != 0, "directDeviation", t.direct.deviation),
                 readsIf(params.measured != 0 && indirect, "indirectDeviation", t.indirect.deviation),
                 updates("depth", own.depth), updates("facing", own.facing), updates("object", own.object),
@@ -252,7 +243,7 @@ struct TemporalFilter::Declaration {
         f.pixels(pass, PassKind::Filter, { file, "differFromFrame" },
             { p, f.outside("motions", "float", &motionMemory), reads("position", f.surfaces.position),
                 reads("normal", f.surfaces.normal), reads("object", own.object), reads("directLight", own.direct),
-                readsIndirect("indirectLight", own.indirect), reads("noisy", own.before),
+                readsIf(indirect, "indirectLight", own.indirect), reads("noisy", own.before),
                 reads("variation", own.variation), reads("earlierDepth", earlier.depth, graph::wholeImage),
                 reads("earlierFacing", earlier.facing, graph::wholeImage),
                 reads("earlierObject", earlier.object, graph::wholeImage),

@@ -1,5 +1,6 @@
 #include "host/app/finished_frames.h"
 
+#include "host/hash.h"
 #include "host/image/exr.h"
 #include "host/image/png.h"
 #include "host/render/metadata.h"
@@ -11,15 +12,6 @@
 
 namespace wedge::app {
 namespace {
-
-std::uint64_t hashed(const std::string& text)
-{
-    std::uint64_t hash = 0xcbf29ce484222325u; // FNV-1a
-    for (const unsigned char c : text) {
-        hash = (hash ^ c) * 0x100000001b3u;
-    }
-    return hash;
-}
 
 template <class T>
 std::string given(const char* name, const std::optional<T>& value)
@@ -53,7 +45,7 @@ std::string sequenceInputs(
         text += change + "\n";
     }
     text += fmt::format("{} {}\n", o.exposureStops, static_cast<int>(o.view.value_or(image::View::Srgb)));
-    return fmt::format("{:016x}", hashed(text));
+    return fmt::format("{:016x}", hashOf(text));
 }
 
 std::string frameInputs(const std::string& sequence, std::uint32_t frame)

@@ -1,5 +1,7 @@
 #include "host/device/program_cache.h"
 
+#include "host/hash.h"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -26,17 +28,6 @@ struct Header {
     std::uint64_t binaryBytes = 0;
     std::uint64_t binaryHash = 0;
 };
-
-/// 64-bit FNV-1a (Fowler, Noll, Vo). It only names files and notices damage; the key itself is compared in full.
-template <class Bytes>
-std::uint64_t hash(const Bytes& bytes)
-{
-    std::uint64_t value = 0xcbf29ce484222325u;
-    for (const auto byte : bytes) {
-        value = (value ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
-    }
-    return value;
-}
 
 /// By its name, which is a hash: others of the folder are not ours to drop.
 bool isEntry(const fs::directory_entry& entry)
@@ -69,7 +60,7 @@ ProgramCache ProgramCache::fromEnvironment()
 
 fs::path ProgramCache::entry(std::string_view key) const
 {
-    return folder_.empty() ? fs::path() : folder_ / fmt::format("{:016x}{}", hash(key), extension);
+    return folder_.empty() ? fs::path() : folder_ / fmt::format("{:016x}{}", hashOf(key), extension);
 }
 
 std::optional<ProgramCache::Binary> ProgramCache::load(std::string_view key) const
@@ -91,7 +82,7 @@ std::optional<ProgramCache::Binary> ProgramCache::load(std::string_view key) con
         return std::nullopt;
     }
     const std::string_view binary = body.substr(key.size());
-    if (binary.empty() || hash(binary) != header.binaryHash) {
+    if (binary.empty() || hashOf(binary) != header.binaryHash) {
         return std::nullopt;
     }
     return Binary(binary.begin(), binary.end());
@@ -110,7 +101,7 @@ void ProgramCache::store(std::string_view key, const Binary& binary) const
     Header header;
     header.keyBytes = key.size();
     header.binaryBytes = binary.size();
-    header.binaryHash = hash(binary);
+    header.binaryHash = hashOf(binary);
     std::ofstream stream(aside, std::ios::binary);
     stream.write(reinterpret_cast<const char*>(&header), sizeof(header));
     stream.write(key.data(), static_cast<std::streamsize>(key.size()));

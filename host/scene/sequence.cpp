@@ -1,6 +1,7 @@
 #include "host/scene/sequence.h"
 
 #include "host/file.h"
+#include "host/hash.h"
 #include "host/scene/load_scene.h"
 #include "host/scene/scene_file.h"
 
@@ -9,26 +10,17 @@
 namespace wedge::scene {
 namespace {
 
-constexpr std::uint64_t hashStart = 0xcbf29ce484222325u, hashFactor = 0x100000001b3u; // FNV-1a
-
-std::uint64_t hashed(std::uint64_t hash, const char* bytes, std::size_t count)
-{
-    for (std::size_t i = 0; i < count; ++i)
-        hash = (hash ^ static_cast<unsigned char>(bytes[i])) * hashFactor;
-    return hash;
-}
-
 /// Of the bytes and of how many they are.
-std::uint64_t hashFile(std::uint64_t hash, const std::filesystem::path& path)
+void addFile(Hash& hash, const std::filesystem::path& path)
 {
     const OpenFile file = openFile(path, "scene's file");
     std::string part(std::size_t { 1 } << 16, '\0');
     std::uint64_t total = 0;
     while (const std::size_t count = std::fread(part.data(), 1, part.size(), file.stream.get())) {
-        hash = hashed(hash, part.data(), count);
+        hash.addBytes(part.data(), count);
         total += count;
     }
-    return (hash ^ total) * hashFactor;
+    hash.add(total);
 }
 
 bool equal(const Geometry& a, const Geometry& b)
@@ -113,10 +105,10 @@ Moment Sequence::at(double later)
 
 std::uint64_t Sequence::contents() const
 {
-    std::uint64_t hash = hashStart;
+    Hash hash;
     for (const std::filesystem::path& path : file_->paths)
-        hash = hashFile(hash, path);
-    return hash;
+        addFile(hash, path);
+    return hash.value();
 }
 
 } // namespace wedge::scene

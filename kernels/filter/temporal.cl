@@ -15,6 +15,7 @@
 // bit.
 #include "core/packed_planes.h"
 #include "core/pixel.h"
+#include "shared/bsdf.h"
 #include "shared/temporal.h"
 
 /// The pixel of this work-item; false beyond the rectangle.
@@ -37,7 +38,6 @@ WEDGE_FN Vec3 shownBy(TemporalParams p, __global const float* diffuse, __global 
 }
 
 WEDGE_FN Vec3 over(Vec3 a, Vec3 b) { return vec3(a.x / b.x, a.y / b.y, a.z / b.z); }
-WEDGE_FN float luminanceOf(Vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
 /// What of a frame is kept for those after it.
 /// in   planes of the frame; indirect, indirectNoisy: not read unless p.indirect
@@ -72,12 +72,12 @@ __kernel void keepFrame(TemporalParams p, __global const float* restrict positio
             indirectLight, n, i, WEDGE_COLOUR_BITS, vecChoose(reflects, over(loadVec(indirect, n, i), k), black));
         unfiltered = vecAdd(unfiltered, loadVec(indirectNoisy, n, i));
     }
-    storeShort(noisy, n, i, 0u, reflects ? luminanceOf(over(unfiltered, k)) : 0.0f);
+    storeShort(noisy, n, i, 0u, reflects ? luminance(over(unfiltered, k)) : 0.0f);
     float deviation = 0.0f;
     if (p.measured != 0u && reflects) {
         // Of light of one colour.
-        deviation = loadShort(directDeviation, n, i, 0u) / luminanceOf(k);
-        deviation += p.indirect != 0u ? loadShort(indirectDeviation, n, i, 0u) / luminanceOf(k) : 0.0f;
+        deviation = loadShort(directDeviation, n, i, 0u) / luminance(k);
+        deviation += p.indirect != 0u ? loadShort(indirectDeviation, n, i, 0u) / luminance(k) : 0.0f;
     }
     storeShort(variation, n, i, 0u, deviation * deviation);
 }

@@ -3,32 +3,27 @@
 #ifndef WEDGE_CUTOUTS_H
 #define WEDGE_CUTOUTS_H
 
-#ifdef WEDGE_CUTOUTS
-
 #include "shared/cutout.h"
 #include "shared/vec.h"
+#include "trace/bilinear.h"
+
+#ifdef WEDGE_CUTOUTS
 
 /// The table of a hierarchy's root and blocks.
 #define WEDGE_CUTOUT_TABLE(nodes, blocks) ((__global const uint*)((blocks) + (nodes)->cutouts))
-
-/// i modulo n for -1 <= i <= n, n >= 1.
-WEDGE_FN uint wrapTexel(int i, uint n) { return i < 0 ? n - 1u : (uint)i < n ? (uint)i : 0u; }
 
 /// Opacity, 0 to 255, of a texture at (u, v): bilinear, v up, repeated outside [0, 1). Coordinates that are no numbers
 /// are opaque.
 WEDGE_FN float sampleAlphas(__global const uchar* alphas, uint width, uint height, float u, float v)
 {
-    const float x = (u - floor(u)) * (float)width - 0.5f;
-    const float y = (v - floor(v)) * (float)height - 0.5f;
-    if (!(fabs(x) < 1e9f) || !(fabs(y) < 1e9f))
+    Bilinear b;
+    if (!bilinearAt(width, height, u, v, &b)) {
         return 255.0f;
-    const float fx = x - floor(x), fy = y - floor(y);
-    const uint x0 = wrapTexel((int)floor(x), width), y0 = wrapTexel((int)floor(y), height);
-    const uint x1 = wrapTexel((int)x0 + 1, width), y1 = wrapTexel((int)y0 + 1, height);
-    const float c00 = (float)alphas[y0 * width + x0], c10 = (float)alphas[y0 * width + x1];
-    const float c01 = (float)alphas[y1 * width + x0], c11 = (float)alphas[y1 * width + x1];
-    const float lower = c00 + (c10 - c00) * fx, upper = c01 + (c11 - c01) * fx;
-    return lower + (upper - lower) * fy;
+    }
+    const float c00 = (float)alphas[b.y0 * width + b.x0], c10 = (float)alphas[b.y0 * width + b.x1];
+    const float c01 = (float)alphas[b.y1 * width + b.x0], c11 = (float)alphas[b.y1 * width + b.x1];
+    const float lower = c00 + (c10 - c00) * b.fx, upper = c01 + (c11 - c01) * b.fx;
+    return lower + (upper - lower) * b.fy;
 }
 
 /// Opacity of a triangle at the barycentrics (u, v), 0 to 255.
