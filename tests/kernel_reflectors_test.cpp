@@ -101,8 +101,8 @@ struct Expected {
     double beta = -1, wanted = 0;
 };
 
-/// (4.15), (4.16), (4.21) of one pixel.
-Expected expectedOf(const shared::ReflectorParams& p, double extent, const Found& f)
+/// (4.15), (4.16), (4.21) of one pixel. side: the longer one of the image, pixels.
+Expected expectedOf(const shared::ReflectorParams& p, double extent, const Found& f, std::size_t side)
 {
     if (f.taken == 0)
         return {};
@@ -115,7 +115,9 @@ Expected expectedOf(const shared::ReflectorParams& p, double extent, const Found
     const double fraction =
         p.meanOnly != 0 ? p.meanFraction * harmonic : std::min<double>(p.meanFraction * harmonic, f.nearest);
     const double near = p.meanFraction > 0 ? fraction : f.nearest;
-    const double zMin = std::max({ f.nearest > 0 ? near : size, p.leastReflector * size, 1e-12 });
+    // Of what is seen far behind a pixel's surface only four widths of the image, as wide as they are at the surface.
+    const double seen = p.extent > 0 ? size : std::min(size, 4.0 * static_cast<double>(side) * f.pixelSize);
+    const double zMin = std::max({ f.nearest > 0 ? near : size, p.leastReflector * seen, 1e-12 });
     const double zMax = std::max<double>(f.farthest, zMin);
     double omega = bandlimit / zMin;
     if (p.alpha > 0)
@@ -209,7 +211,7 @@ void checkWidths(KernelBench& bench, const shared::ReflectorParams& p, float ext
 {
     const Widths found = widthsOf(bench, p, extent, pixels);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-        const Expected expected = expectedOf(p, extent, pixels[i]);
+        const Expected expected = expectedOf(p, extent, pixels[i], pixels.size());
         CAPTURE(pixels[i].nearest);
         CAPTURE(pixels[i].farthest);
         CAPTURE(pixels[i].exponent);
@@ -342,7 +344,7 @@ TEST_CASE("exponents outside of the fit's range give widths and counts within bo
             // Their bandlimit is the pixel's at most.
             CAPTURE(sharp[i].exponent);
             const double least = 0.5 * 0.01 / (0.9 * 0.3);
-            REQUIRE(close(found.beta[i], std::max(least, expectedOf(p, 4, sharp[i]).beta), 1e-4));
+            REQUIRE(close(found.beta[i], std::max(least, expectedOf(p, 4, sharp[i], sharp.size()).beta), 1e-4));
             REQUIRE(found.wanted[i] >= 16);
             REQUIRE(found.wanted[i] <= 256);
         }
@@ -370,7 +372,8 @@ TEST_CASE("widths go by what the object's other pixels around found, as publishe
             const Widths found = widthsOf(bench, p, 20, pixels, objects, width);
             int changed = 0;
             for (std::size_t i = 0; i < pixels.size(); ++i) {
-                const Expected own = expectedOf(p, 20, pixels[i]), around = expectedOf(p, 20, together[i]);
+                const Expected own = expectedOf(p, 20, pixels[i], width),
+                               around = expectedOf(p, 20, together[i], width);
                 CAPTURE(found.beta[i]);
                 CAPTURE(own.beta);
                 CAPTURE(around.beta);

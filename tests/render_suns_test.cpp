@@ -82,10 +82,10 @@ render::EnvironmentPicture sunny(int width = 256, int height = 128)
 }
 
 /// A floor with a board above it that shades a part.
-SceneBuilder shadedFloor()
+SceneBuilder shadedFloor(float half = 2.0f)
 {
     SceneBuilder b;
-    b.quad({ 0, 0, 0 }, { 0, 0, 2 }, { 2, 0, 0 });
+    b.quad({ 0, 0, 0 }, { 0, 0, half }, { half, 0, 0 });
     b.newObject();
     b.box({ -0.3f, 0.2f, -0.3f }, { 0.3f, 0.4f, 0.3f });
     b.camera({ 0, 2.5f, 2.5f }, { 0, 0, 0 });
@@ -249,5 +249,39 @@ TEST_CASE("a sun's shadow has the sun's own penumbra, and filters are ahead")
         CHECK(std::sqrt(std::max(0.0, shape * shape - noise * noise)) < 0.4 * plain); // at 16 samples, of 4096
         CHECK(filtered < 0.7 * plain);
         CHECK(filtered < 0.7 * together);
+    });
+}
+
+TEST_CASE("shadows keep their colour and their edges on a floor that is thousands of times as large")
+{
+    // The sun is yellow, the sky blue: what brings light into the shadow brings its colour.
+    render::EnvironmentPicture sky = sunny();
+    for (int y = 0; y < sky.height; ++y)
+        for (int x = 0; x < sky.width; ++x)
+            if (sky.radiance[at(sky, x, y)] < 1)
+                set(sky, x, y, glm::vec3(0.2f, 0.4f, 1.0f));
+    onEveryDevice([&](const device::Device& device) {
+        const scene::Scene scene = under(shadedFloor(4000.0f), sky, true);
+        render::Renderer renderer(scene, device, renderOptions());
+        render::Settings reference = sized(render::monteCarlo(2048), 64, 64);
+        reference.seed = 99;
+        const std::vector<float> expected = renderPixels(renderer, reference),
+                                 filtered = renderPixels(renderer, sized(render::axisAligned(16), 64, 64)),
+                                 plain = renderPixels(renderer, sized(render::monteCarlo(16), 64, 64));
+        const float lit = *std::ranges::max_element(expected);
+        glm::dvec3 is(0), shouldBe(0);
+        for (std::size_t i = 0; i < expected.size(); i += 3)
+            if (expected[i] < 0.25f * lit)
+                for (std::size_t c = 0; c < 3; ++c) {
+                    is[static_cast<int>(c)] += filtered[i + c];
+                    shouldBe[static_cast<int>(c)] += expected[i + c];
+                }
+        REQUIRE(shouldBe.z > 10);
+        for (int c = 0; c < 3; ++c) {
+            CAPTURE(c);
+            CHECK(is[c] == doctest::Approx(shouldBe[c]).epsilon(0.03));
+        }
+        MESSAGE("RMSE: ", rmse(filtered, expected), ", plain: ", rmse(plain, expected));
+        CHECK(rmse(filtered, expected) < 0.5 * rmse(plain, expected));
     });
 }

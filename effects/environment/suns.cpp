@@ -22,7 +22,7 @@ constexpr double leastShare = 0.05, mostDeviation = 0.05;
 /// Each source costs a shadow ray a sample.
 constexpr std::size_t mostSuns = 4;
 /// How far away they are, in diameters of the scene: at a scene's edge they are off by 1/200 of a radian. Slopes of
-/// what occludes them are resolved from a hundredth of a diameter on (WEDGE_SLOPE_MIN).
+/// what occludes them are resolved from a ten-thousandth of a diameter on (WEDGE_SLOPE_MIN).
 constexpr double distance = 100.0;
 
 /// Texels and the lookup between them make suns fall off towards their edges: as a Gaussian that ends so many standard

@@ -52,10 +52,17 @@ __kernel void visibleExtent(__global const float* restrict bounds, __global floa
     extent[0] = size;
 }
 
-/// The least distance that counts, metres.
-WEDGE_FN float leastDistance(ReflectorParams p, __global const float* extent)
+/// Image widths that what the camera sees counts as at most, as wide as they are where a pixel's surface is.
+#define WEDGE_MOST_VIEWS 4.0f
+
+/// The least distances that count, metres: a fraction of what the camera sees, but no more of what lies far beyond the
+/// pixel's surface than a few times what the image shows there, or floors that go on to the horizon would make all
+/// filters wide. size: of pixels
+WEDGE_FN float16 leastDistances(ReflectorParams p, __global const float* extent, float16 size)
 {
-    return fmax(p.leastReflector * (p.extent > 0.0f ? p.extent : extent[0]), 1e-12f);
+    const float16 view = WEDGE_MOST_VIEWS * (float)max(p.width, p.height) * size;
+    const float16 seen = p.extent > 0.0f ? (float16)(p.extent) : min16((float16)(extent[0]), view);
+    return max16(p.leastReflector * seen, (float16)(1e-12f));
 }
 
 /// Bandlimit of a pixel's transfer function.
@@ -115,7 +122,8 @@ WEDGE_FN Nearness nearness(ReflectorParams p, uint y, int i, __global const floa
 /// a fraction of their harmonic mean, in which rays that hit nothing count as infinitely far: an estimate of the same
 /// from all rays, with less noise.
 WEDGE_FN void nearestReflectors(ReflectorParams p, uint y, int i, __global const float* reflectors,
-    __global const uint* objectId, __global const float* extent, __global const uint* taken, float* nearest)
+    __global const uint* objectId, __global const float* extent, __global const uint* taken, float16 size,
+    float* nearest)
 {
     const float16 own = loadBlock(reflectors, i);
     float16 near = own > 0.0f ? own : (float16)(INFINITY);
@@ -129,7 +137,7 @@ WEDGE_FN void nearestReflectors(ReflectorParams p, uint y, int i, __global const
     // Where no ray hit anything, nothing is nearer than what there is is large.
     const float far = p.extent > 0.0f ? p.extent : extent[0];
     near = near < INFINITY ? near : (float16)(far);
-    vstore16(max16(near, (float16)(leastDistance(p, extent))), 0, nearest);
+    vstore16(max16(near, leastDistances(p, extent, size)), 0, nearest);
 }
 
 /// Widths in metres (4.15), (4.16), -1 where the pixel has no such term, 0, which filters nothing, of
@@ -147,8 +155,9 @@ __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict 
     }
     const int i = (int)pixelIndex(x, y, p.stride);
     float zMin[WEDGE_BLOCK_PIXELS], size[WEDGE_BLOCK_PIXELS], width[WEDGE_BLOCK_PIXELS];
-    nearestReflectors(p, y, i, reflectors, objectId, extent, taken, zMin);
-    vstore16(p.meanOnly != 0u ? loadShortBlock(pixelSize, i) : loadBlock(pixelSize, i), 0, size);
+    const float16 sizes = p.meanOnly != 0u ? loadShortBlock(pixelSize, i) : loadBlock(pixelSize, i);
+    nearestReflectors(p, y, i, reflectors, objectId, extent, taken, sizes, zMin);
+    vstore16(sizes, 0, size);
     for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
         const float bandlimit = bandlimitOf(p.component, loadGloss(gloss, (uint)i + lane, p.meanOnly));
         const float bandwidth = indirectBandwidth(zMin[lane], bandlimit, size[lane], p.mu, p.alpha);
@@ -171,7 +180,7 @@ __kernel void reflectorCounts(ReflectorParams p, __global const float* restrict 
     }
     const uint first = pixelIndex(x, y, p.stride);
     float zMin[WEDGE_BLOCK_PIXELS];
-    nearestReflectors(p, y, (int)first, reflectors, objectId, extent, taken, zMin);
+    nearestReflectors(p, y, (int)first, reflectors, objectId, extent, taken, loadBlock(pixelSize, (int)first), zMin);
     for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
         const uint i = first + lane;
         const Gloss lobe = unpackGloss(gloss[i]);

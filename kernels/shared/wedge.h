@@ -5,8 +5,9 @@
 
 #include "compat.h"
 
-/// Explicit bounds of measured slopes: contacts (an occluder at the receiver) and occluders at the light.
-#define WEDGE_SLOPE_MIN 1e-4f
+/// Explicit bounds of measured slopes: contacts (an occluder at the receiver), of suns that are far behind a large
+/// floor (effects/environment/suns.cpp), too; and occluders at the light.
+#define WEDGE_SLOPE_MIN 1e-6f
 #define WEDGE_SLOPE_MAX 1e3f
 /// Rays of the first pass, 3 x 3 strata (section 3.6).
 #define WEDGE_FIRST_PASS_RAYS 9u
