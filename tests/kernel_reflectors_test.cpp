@@ -186,11 +186,11 @@ std::vector<Found> pooled(
     std::vector<Found> out = pixels;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            const std::size_t i = static_cast<std::size_t>(y * width + x);
+            const std::size_t i = static_cast<std::size_t>(y) * width + x;
             double inverse = 0, rays = 0, leasts = 0, count = 0;
             for (int py = std::max(0, y - 2); py <= std::min(height - 1, y + 2); ++py)
                 for (int px = std::max(0, x - 2); px <= std::min(width - 1, x + 2); ++px) {
-                    const std::size_t k = static_cast<std::size_t>(py * width + px);
+                    const std::size_t k = static_cast<std::size_t>(py) * width + px;
                     if (k == i || objects[k] != objects[i] || pixels[k].taken == 0
                         || (glossy && !(pixels[k].inverse > 0)))
                         continue;
@@ -233,11 +233,10 @@ TEST_CASE("the visible extent is the largest side of what is seen; holes do not 
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);
         unsigned seed = 1;
-        for (const auto& [width, height] :
-            { std::pair(1, 1), { 1, 70 }, { 70, 1 }, { 16, 32 }, { 47, 29 }, { 33, 131 } })
+        for (const glm::ivec2 pixels : { glm::ivec2(1, 1), { 1, 70 }, { 70, 1 }, { 16, 32 }, { 47, 29 }, { 33, 131 } })
             for (const double holes : { 0.0, 0.3, 0.97, 1.0 }) {
                 std::mt19937 random(++seed);
-                const render::PlaneLayout layout(width, height);
+                const render::PlaneLayout layout(pixels.x, pixels.y);
                 Planes<float> position(layout, 3, 0.0f);
                 Planes<std::uint32_t> objectId(layout, 1, 0u);
                 glm::dvec3 least(1e30), largest(-1e30);
@@ -252,8 +251,8 @@ TEST_CASE("the visible extent is the largest side of what is seen; holes do not 
                     largest = glm::max(largest, position.vector(x, y));
                 });
                 const glm::dvec3 size = glm::max(largest - least, glm::dvec3(0));
-                CAPTURE(width);
-                CAPTURE(height);
+                CAPTURE(pixels.x);
+                CAPTURE(pixels.y);
                 CAPTURE(holes);
                 CHECK(extentOf(bench, position, objectId)
                     == doctest::Approx(std::max({ size.x, size.y, size.z })).epsilon(1e-6));
@@ -359,16 +358,23 @@ TEST_CASE("widths go by what the object's other pixels around found, as publishe
         const std::vector<Found> pixels = randomPixels(width * height, 2, 31);
         std::mt19937 random(32);
         std::vector<std::uint32_t> objects;
+        objects.reserve(width * height);
         for (int i = 0; i < width * height; ++i)
             objects.push_back(1 + static_cast<std::uint32_t>(i % width / 8 + random() % 2));
-        for (const auto& [meanOnly, meanFraction, component] :
-            { std::tuple(0u, 0.0f, WEDGE_COMPONENT_DIFFUSE), { 0u, 0.3f, WEDGE_COMPONENT_DIFFUSE },
-                { 1u, 0.3f, WEDGE_COMPONENT_DIFFUSE }, { 0u, 0.3f, WEDGE_COMPONENT_GLOSSY } }) {
-            const std::vector<Found> together = pooled(pixels, objects, width, component == WEDGE_COMPONENT_GLOSSY);
+        struct Setting {
+            std::uint32_t meanOnly;
+            float meanFraction;
+            std::uint32_t component;
+        };
+        for (const Setting& setting :
+            { Setting { 0, 0.0f, WEDGE_COMPONENT_DIFFUSE }, { 0, 0.3f, WEDGE_COMPONENT_DIFFUSE },
+                { 1, 0.3f, WEDGE_COMPONENT_DIFFUSE }, { 0, 0.3f, WEDGE_COMPONENT_GLOSSY } }) {
+            const std::vector<Found> together =
+                pooled(pixels, objects, width, setting.component == WEDGE_COMPONENT_GLOSSY);
             shared::ReflectorParams p = paramsFor(render::PlaneLayout(1, 1));
-            p.meanFraction = meanFraction;
-            p.meanOnly = meanOnly;
-            p.component = component;
+            p.meanFraction = setting.meanFraction;
+            p.meanOnly = setting.meanOnly;
+            p.component = setting.component;
             const Widths found = widthsOf(bench, p, 20, pixels, objects, width);
             int changed = 0;
             for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -377,9 +383,10 @@ TEST_CASE("widths go by what the object's other pixels around found, as publishe
                 CAPTURE(found.beta[i]);
                 CAPTURE(own.beta);
                 CAPTURE(around.beta);
-                CAPTURE(meanOnly);
-                CAPTURE(meanFraction);
-                REQUIRE(close(found.beta[i], meanFraction == 0 ? own.beta : around.beta, meanOnly != 0 ? 5e-3 : 1e-4));
+                CAPTURE(setting.meanOnly);
+                CAPTURE(setting.meanFraction);
+                const double wanted = setting.meanFraction == 0 ? own.beta : around.beta;
+                REQUIRE(close(found.beta[i], wanted, setting.meanOnly != 0 ? 5e-3 : 1e-4));
                 changed += close(own.beta, around.beta, 0.01) ? 0 : 1;
             }
             CHECK(changed > 20);
