@@ -21,6 +21,7 @@ struct ReceiverPoint {
     glm::dvec3 position, normal, view;
     double specular, exponent;
     bool phong;
+    double rise = -1; ///< at least 0: of microfacets
 };
 
 glm::dvec3 narrowed(glm::dvec3 v) { return glm::dvec3(glm::vec3(v)); }
@@ -72,6 +73,16 @@ double lobeOf(const ReceiverPoint& p, glm::dvec3 d)
 {
     const glm::dvec3 l = glm::normalize(d), v = p.view, n = p.normal;
     const double m = p.exponent, pi = 3.14159265358979;
+    if (!p.phong && p.rise >= 0) {
+        // From below the horizon it is seen as from just above.
+        const double below = std::max(WEDGE_LEAST_FACING - glm::dot(n, v), 0.0);
+        const glm::dvec3 facing = glm::normalize(v + below * n), h = glm::normalize(facing + l);
+        const double a = 4 / m, nh = glm::dot(n, h), nl = glm::dot(n, l), nv = glm::dot(n, facing);
+        const auto root = [&](double c) { return std::sqrt(a + (1 - a) * c * c); };
+        const double facets = a / (pi * std::pow((a - 1) * nh * nh + 1, 2));
+        const double fresnel = 1 + p.rise * std::pow(1 - glm::dot(facing, h), 5);
+        return 0.5 * facets * fresnel / (nl * root(nv) + nv * root(nl));
+    }
     const double c =
         p.phong ? 2 * glm::dot(n, v) * glm::dot(n, l) - glm::dot(v, l) : glm::dot(n, glm::normalize(v + l));
     const double scale = p.phong ? (m + 2) / (2 * pi) : (m + 2) * (m + 4) / (8 * pi * (std::pow(2, -m / 2) + m));
@@ -117,7 +128,13 @@ double lobesAcross(const scene::AreaLight& light, const ReceiverPoint& p)
 {
     const double near = extentOver(light, p);
     const glm::dvec3 half = p.view + glm::normalize(glm::dvec3(light.centre) - p.position);
-    return near * near * p.exponent / (p.phong ? 1 : glm::dot(half, half));
+    const double across = near * near * p.exponent / (p.phong ? 1 : glm::dot(half, half));
+    if (p.phong || p.rise < 0)
+        return across;
+    // Aside of their peak microfacets fall off slower.
+    const double sine = glm::length(glm::cross(glm::normalize(half), p.normal));
+    const double aside = std::max(0.0, sine - std::sqrt(2 * near * near / glm::dot(half, half)));
+    return across / (1 + p.exponent / 4 * aside * aside);
 }
 
 /// About the geometry term of a light that faces a receiver, 1/m^2: lamp()'s larger half extent is 0.6 m.
@@ -141,8 +158,13 @@ std::vector<float> unshadowed(
     for (std::size_t r = 0; r < points.size(); ++r) {
         objects[r] = points[r].surface ? 5 : 0;
         const glm::vec3 v(points[r].view);
-        glosses[r] = shared::packGloss(shared::makeGloss(
-            static_cast<float>(points[r].exponent), points[r].phong ? WEDGE_PHONG : WEDGE_BLINN_PHONG));
+        const bool microfacets = !points[r].phong && points[r].rise >= 0;
+        shared::Gloss gloss = shared::makeGloss(static_cast<float>(points[r].exponent),
+            points[r].phong   ? WEDGE_PHONG
+                : microfacets ? WEDGE_MICROFACETS
+                              : WEDGE_BLINN_PHONG);
+        gloss.rise = microfacets ? static_cast<float>(points[r].rise) : 0.0f;
+        glosses[r] = shared::packGloss(gloss);
         views[r] = shared::packDirection(shared::vec3(v.x, v.y, v.z));
     }
     shared::FrameParams frame {};
@@ -392,5 +414,64 @@ TEST_CASE("highlights of lights cut by the horizon: as good as their rule, whate
             }
             CHECK(ruled > 30);
         }
+    });
+}
+
+TEST_CASE("specular: the mean of a microfacet lobe times geometry term, by a rule or by directions of the lobe")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device, { { "WEDGE_SPECULAR", "1" }, { "WEDGE_GGX", "1" } });
+        unsigned seed = 40;
+        everyLight([&](const scene::AreaLight& light) {
+            std::mt19937 random(++seed);
+            std::vector<ReceiverPoint> points;
+            while (points.size() < receiverCount) {
+                points.push_back(
+                    points.size() % 2 == 0 ? randomReceiver(light, 20, random) : grazingReceiver(light, 20, random));
+                // The exponents of roughnesses from 0.2 to 1; some beside Phong's.
+                ReceiverPoint& p = points.back();
+                p.phong = points.size() % 9 == 0;
+                p.exponent = p.phong ? p.exponent : 4 / std::pow(uniform(random, 0.2, 1), 4);
+                p.rise = p.phong ? 0 : uniform(random, 0, 20);
+            }
+            const std::vector<float> found = unshadowed(bench, light, points, receiverCount);
+            int sharp = 0, bright = 0;
+            double error = 0, squares = 0, total = 0, worst = 0;
+            for (std::size_t r = 0; r < receiverCount; ++r) {
+                const ReceiverPoint& p = points[r];
+                if (!p.surface || p.specular == 0)
+                    continue;
+                const float value = found[planeSize + r];
+                const Shading expected = overLight(light, p);
+                const double near = extentOver(light, p), across = lobesAcross(light, p);
+                const double scale = peakOf(p) * (expected.horizon ? unclipped(near) : expected.diffuse);
+                const LobeRule rule = ruleOf(light, p, expected.horizon);
+                const bool ahead = glm::dot(p.normal, p.view) > 0.02; // the rule above is not of lifted views
+                CAPTURE(across);
+                CAPTURE(near);
+                CAPTURE(p.exponent);
+                CAPTURE(p.rise);
+                CAPTURE(expected.horizon);
+                CAPTURE(scale);
+                REQUIRE(value >= 0);
+                const bool sampled = rule.sampled || std::fabs(across - 40) < 0.1 || std::fabs(across - 10) < 0.1;
+                if (ahead && sampled) {
+                    ++sharp;
+                    error += value - expected.specular;
+                    squares += (value - expected.specular) * (value - expected.specular);
+                    total += expected.specular;
+                } else if (ahead) {
+                    worst = std::max(worst, std::fabs(value - expected.specular) / (expected.specular + 0.02 * scale));
+                    CHECK(std::fabs(value - expected.specular) <= 4e-3 * (expected.specular + 0.02 * scale) + 1e-9);
+                }
+                bright += ahead && !sampled && expected.specular > 0.1 * scale ? 1 : 0;
+            }
+            MESSAGE("largest error of a rule: " << worst);
+            CHECK(bright > 60);
+            CHECK(sharp > 15);
+            // Directions of lobes are random: 3 standard deviations of the sum, and that is of what there is.
+            CHECK(std::fabs(error) <= 3 * std::sqrt(squares) + 1e-3 * total);
+            CHECK(std::sqrt(squares) <= 0.1 * total);
+        });
     });
 }

@@ -185,6 +185,10 @@ TEST_CASE("wrong types and values are told with their place")
     CHECK(contains(error("[integrator]\nmethod = 'maaf'\n"), "s.toml:2:10: method of integrator is unknown: 'maaf'"));
     CHECK(contains(error("[integrator]\nseed = -1\n"), "seed of integrator is out of range"));
     CHECK(contains(error("[[material]]\nname='a'\nexponent=-1\n"), "exponent of material is out of range"));
+    CHECK(
+        contains(error("[[material]]\nname='a'\nroughness=2\nmodel='ggx'\n"), "roughness of material is out of range"));
+    CHECK(contains(error("[[material]]\nname='a'\nroughness=0.2\n"), "does nothing beside the model: 'blinn_phong'"));
+    CHECK(contains(error("[[material]]\nname='a'\nexponent=2\nmodel='ggx'\n"), "does nothing beside the model: 'ggx'"));
     CHECK(contains(error("[[material]]\nname='a'\n[[material]]\nname='a'\n"), "s.toml:4:6: name of material is taken"));
     CHECK(contains(error("[[material]]\ndiffuse=1\n"), "material lacks a key: name"));
     CHECK(

@@ -81,7 +81,7 @@ TEST_CASE("values that make no sense")
 TEST_CASE("what would change the look is named once a library")
 {
     const Library left = parse("newmtl a\nKd 0.5\nd -halo 0.5\nmap_bump b.png\nbump b.png\nillum 7\nTf 1 1 1\n"
-                               "newmtl b\nTr 0.5\nnorm c.png\ndisp d.png\nrefl e.png\nPr 0.5\nPm 1\nTf 0.5 1 1\nd 0.1\n"
+                               "newmtl b\nTr 0.5\nnorm c.png\ndisp d.png\nrefl e.png\nPs 0.5\nPc 1\nTf 0.5 1 1\nd 0.1\n"
                                "newmtl c\nd 1\nTr 0\nillum 2\nNi 1.5\nKa 1 1 1\nmap_Ka f.png\n");
     CHECK(left.warnings.size() == 8);
     const auto says = [&](const std::string& what, int materials, const std::string& first) {
@@ -94,13 +94,41 @@ TEST_CASE("what would change the look is named once a library")
     CHECK(says("a normal map (norm)", 1, "b") == 1);
     CHECK(says("displacement (disp)", 1, "b") == 1);
     CHECK(says("a reflection map (refl)", 1, "b") == 1);
-    CHECK(says("roughness or metal (Pr, Pm, Ps, Pc)", 1, "b") == 1);
+    CHECK(says("sheen or clear coat (Ps, Pc)", 1, "b") == 1);
     CHECK(says("a transmission filter (Tf)", 1, "b") == 1);
     CHECK(says("an illumination model other than diffuse and highlight (illum)", 1, "a") == 1);
     // Without a highlight 1 is the same as 2.
     CHECK(parse("newmtl a\nillum 1\nKd 0.5\n").warnings.empty());
     CHECK(parse("newmtl a\nillum 1\nKd 0.5\nKs 0.5\n").warnings.size() == 1);
     CHECK(parse("newmtl a\nillum 0\n").warnings.size() == 1);
+}
+
+TEST_CASE("roughness and metal make GGX of a base colour")
+{
+    const auto material = [](const std::string& statements) { return parse("newmtl a\n" + statements).materials[0]; };
+    CHECK(material("Kd 0.5\nKs 0.3\nNs 20\n").specularModel == wedge::scene::SpecularModel::BlinnPhong);
+    const Material plastic = material("Kd 0.5 0.25 1\nKs 0.9\nPr 0.3\n");
+    CHECK(plastic.specularModel == wedge::scene::SpecularModel::Ggx);
+    CHECK(plastic.roughness == 0.3f);
+    CHECK(plastic.specular.x == doctest::Approx(0.04));
+    CHECK(plastic.specular.z == doctest::Approx(0.04));
+    CHECK(plastic.diffuse.y == doctest::Approx(0.24));
+    const Material gold = material("Pm 1\nKd 1 0.7 0.3\nNi 3\n");
+    CHECK(gold.specular == glm::vec3(1, 0.7f, 0.3f));
+    CHECK(gold.diffuse == glm::vec3(0));
+    CHECK(gold.roughness == 0.5f);
+    const Material half = material("Pm 0.5\nPr 0\nKd 0.8\nNi 3\n");
+    CHECK(half.specular.x == doctest::Approx(0.5 * 0.25 + 0.5 * 0.8));
+    CHECK(half.diffuse.x == doctest::Approx(0.8 * 0.5 * 0.75));
+    CHECK(half.roughness == 0);
+    CHECK(material("Kd 1\nmap_Pr none.png\n").roughness == 1);
+    // Nothing reflects more than it gets.
+    CHECK(parse("newmtl a\nKd 1\nPr 0.5\n").warnings.empty());
+    const Library wrong = parse("newmtl a\nPr -1\nPm 1.5\nNi x\n");
+    CHECK(wrong.materials[0].roughness == 0.5f);
+    CHECK(wrong.materials[0].specular.x == doctest::Approx(0.04));
+    REQUIRE(wrong.warnings.size() == 3);
+    CHECK(wrong.warnings[0] == "material file m.mtl: material 'a': Pr has the value -1, 0.5 is used");
 }
 
 TEST_CASE("opacity: d, Tr where there is no d, and values that are none")

@@ -32,7 +32,15 @@ std::uint32_t kindOf(const scene::Material& m)
     if (m.specular == glm::vec3(0.0f)) {
         return WEDGE_LAMBERT;
     }
-    return m.specularModel == scene::SpecularModel::Phong ? WEDGE_PHONG : WEDGE_BLINN_PHONG;
+    switch (m.specularModel) {
+    case scene::SpecularModel::Phong:
+        return WEDGE_PHONG;
+    case scene::SpecularModel::BlinnPhong:
+        return WEDGE_BLINN_PHONG;
+    case scene::SpecularModel::Ggx:
+        return WEDGE_MICROFACETS;
+    }
+    return WEDGE_LAMBERT;
 }
 
 std::vector<shared::MaterialData> materialData(const scene::Scene& scene)
@@ -43,8 +51,8 @@ std::vector<shared::MaterialData> materialData(const scene::Scene& scene)
         d.diffuse = toVec3(m.diffuse);
         d.specular = toVec3(m.specular);
         d.emission = toVec3(m.emission);
-        d.exponent = m.exponent;
         d.kind = kindOf(m);
+        d.exponent = d.kind == WEDGE_MICROFACETS ? m.roughness : m.exponent;
         d.diffuseTexture = textureId(m.diffuseTexture);
         d.specularTexture = textureId(m.specularTexture);
         d.exponentTexture = textureId(m.exponentTexture);
@@ -168,6 +176,12 @@ bool hasSpecular(const scene::Scene& scene)
         const glm::vec3 s = scene.materials[id].specular;
         return s.r + s.g + s.b > 0.0f;
     });
+}
+
+bool hasMicrofacets(const scene::Scene& scene)
+{
+    return std::ranges::any_of(
+        scene.geometry.materialIds, [&](std::uint32_t id) { return kindOf(scene.materials[id]) == WEDGE_MICROFACETS; });
 }
 
 void DeviceScene::plan(

@@ -57,6 +57,9 @@ device::BuildOptions programOptions(const scene::Scene& scene, const Options& op
     if (hasSpecular(scene)) {
         out.defines.emplace_back("WEDGE_SPECULAR", "1");
     }
+    if (hasMicrofacets(scene)) {
+        out.defines.emplace_back("WEDGE_GGX", "1");
+    }
     if (pictureOf(scene) != nullptr) {
         out.defines.emplace_back("WEDGE_ENVIRONMENT_MAP", "1");
     }

@@ -24,13 +24,34 @@ int readTextureKey(TableReader& table, const std::string& key, TextureSet& textu
     }
 }
 
+/// The lobe's model and what is its own; a number of another model would do nothing, which is an error.
+void readModel(TableReader& table, TextureSet& textures, Material& m)
+{
+    const std::string model = table.choice("model", { "phong", "blinn_phong", "ggx" }).value_or("blinn_phong");
+    const bool isGgx = model == "ggx";
+    m.specularModel = isGgx ? SpecularModel::Ggx : model == "phong" ? SpecularModel::Phong : SpecularModel::BlinnPhong;
+    const auto exponent = table.number("exponent", 0.0, maxExponent);
+    const auto roughness = table.number("roughness", 0.0, 1.0);
+    const int exponentTexture = readTextureKey(table, "exponent_texture", textures);
+    const int roughnessTexture = readTextureKey(table, "roughness_texture", textures);
+    if (isGgx && (exponent || exponentTexture >= 0))
+        table.fail(exponent ? "exponent" : "exponent_texture", "does nothing beside the model", "'ggx'",
+            "give a roughness, or another model");
+    if (!isGgx && (roughness || roughnessTexture >= 0))
+        table.fail(roughness ? "roughness" : "roughness_texture", "does nothing beside the model",
+            fmt::format("'{}'", model), "add model = \"ggx\", or give an exponent");
+    m.exponent = static_cast<float>(exponent.value_or(m.exponent));
+    // A texture multiplies the number, so it is seen as it is where none is given.
+    m.roughness = static_cast<float>(roughness.value_or(roughnessTexture >= 0 ? 1.0 : m.roughness));
+    m.exponentTexture = isGgx ? roughnessTexture : exponentTexture;
+}
+
 Material readMaterial(TableReader& table, TextureSet& textures, Warnings& warnings)
 {
     Material m;
     m.name = table.require("name", table.text("name"));
     m.diffuseTexture = readTextureKey(table, "diffuse_texture", textures);
     m.specularTexture = readTextureKey(table, "specular_texture", textures);
-    m.exponentTexture = readTextureKey(table, "exponent_texture", textures);
     m.emissionTexture = readTextureKey(table, "emission_texture", textures);
     m.opacityTexture = readTextureKey(table, "opacity_texture", textures);
     m.opacity = static_cast<float>(table.number("opacity", 0.0, 1.0).value_or(m.opacity));
@@ -38,9 +59,7 @@ Material readMaterial(TableReader& table, TextureSet& textures, Warnings& warnin
     m.diffuse = table.colour("diffuse").value_or(m.diffuseTexture >= 0 ? glm::vec3(1.0f) : m.diffuse);
     m.specular = table.colour("specular").value_or(m.specularTexture >= 0 ? glm::vec3(1.0f) : m.specular);
     m.emission = table.colour("emission").value_or(m.emissionTexture >= 0 ? glm::vec3(1.0f) : m.emission);
-    m.exponent = static_cast<float>(table.number("exponent", 0.0, maxExponent).value_or(m.exponent));
-    if (table.choice("model", { "phong", "blinn_phong" }).value_or("blinn_phong") == "phong")
-        m.specularModel = SpecularModel::Phong;
+    readModel(table, textures, m);
     table.finish();
     warnOfEnergy({ m }, table.where("diffuse"), warnings);
     return m;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -18,15 +19,15 @@ constexpr std::uintmax_t maxMtlFile = std::uintmax_t { 256 } << 20;
 
 /// What is written beside a texture without a colour of its own is what other programs take.
 constexpr glm::vec3 diffuseOfTexture(0.6f);
+/// The refractive index of what is no metal where no Ni above 1 is given: 4 % are reflected head-on.
+constexpr float usualIndex = 1.5f;
 
 /// Statements that change the look in other programs, and what messages call them.
 const std::map<std::string_view, const char*> unsupported = { { "bump", "a bump map (bump, map_bump)" },
     { "map_bump", "a bump map (bump, map_bump)" }, { "map_Bump", "a bump map (bump, map_bump)" },
     { "norm", "a normal map (norm)" }, { "disp", "displacement (disp)" }, { "refl", "a reflection map (refl)" },
-    { "Pr", "roughness or metal (Pr, Pm, Ps, Pc)" }, { "Pm", "roughness or metal (Pr, Pm, Ps, Pc)" },
-    { "Ps", "roughness or metal (Pr, Pm, Ps, Pc)" }, { "Pc", "roughness or metal (Pr, Pm, Ps, Pc)" },
-    { "map_Pr", "roughness or metal (Pr, Pm, Ps, Pc)" }, { "map_Pm", "roughness or metal (Pr, Pm, Ps, Pc)" },
-    { "map_Ps", "roughness or metal (Pr, Pm, Ps, Pc)" } };
+    { "Ps", "sheen or clear coat (Ps, Pc)" }, { "Pc", "sheen or clear coat (Ps, Pc)" },
+    { "map_Ps", "sheen or clear coat (Ps, Pc)" }, { "map_Pm", "a texture of metal (map_Pm)" } };
 
 /// Reads one library; a member reads one statement.
 class Library {
@@ -67,7 +68,9 @@ private:
         bool hasDiffuse = false;
         int illumination = 2;
         bool hasDissolve = false; ///< d, which outdoes Tr
-        MtlTexture diffuse, specular, exponent, emission, opacity;
+        std::optional<float> roughness, metal; ///< Pr, Pm
+        float index = usualIndex; ///< Ni
+        MtlTexture diffuse, specular, exponent, emission, opacity, roughnessMap;
     };
     struct LeftOut {
         std::size_t materials = 0;
@@ -134,6 +137,15 @@ private:
         if (keyword == "illum") {
             const bool isNumber = parseNumber(in.word(), value) == NumberKind::Good;
             extra_.illumination = isNumber && value >= 0.0f && value < 100.0f ? static_cast<int>(value) : 2;
+        } else if (keyword == "Pr") {
+            extra_.roughness = share("Pr", in.word(), 0.5f);
+        } else if (keyword == "Pm") {
+            extra_.metal = share("Pm", in.word(), 0.0f);
+        } else if (keyword == "Ni") {
+            value = number("Ni", in.word(), usualIndex);
+            extra_.index = value > 1.0f ? value : usualIndex;
+        } else if (keyword == "map_Pr") {
+            extra_.roughnessMap = parseMtlTexture(in);
         } else if (keyword == "Tf") {
             if (colour("Tf", in) != glm::vec3(1.0f))
                 leaveOut("a transmission filter (Tf)");
@@ -159,6 +171,34 @@ private:
         if (isOpacity || !extra_.hasDissolve)
             material_.opacity = isOpacity ? value : 1.0f - value;
         extra_.hasDissolve = extra_.hasDissolve || isOpacity;
+    }
+
+    /// A number in [0, 1]; another is told and replaced.
+    float share(const char* key, std::string_view word, float replacement)
+    {
+        float value = 0.0f;
+        if (parseNumber(word, value) == NumberKind::Good && value >= 0.0f && value <= 1.0f)
+            return value;
+        warn("values of material files", fmt::format("{} has the value {}, {:g} is used", key, word, replacement));
+        return replacement;
+    }
+
+    /// Kd, Ni and Pm to what is reflected: a metal's colour is its reflection's, another's what is below it.
+    void makeMetallicRough()
+    {
+        Material& m = material_;
+        const bool textured = !extra_.roughnessMap.name.empty();
+        if (!extra_.roughness && !extra_.metal && !textured)
+            return;
+        m.specularModel = SpecularModel::Ggx;
+        m.roughness = extra_.roughness.value_or(textured ? 1.0f : m.roughness);
+        m.exponentTexture = texture(extra_.roughnessMap);
+        const float metal = extra_.metal.value_or(0.0f), ratio = (extra_.index - 1.0f) / (extra_.index + 1.0f);
+        const glm::vec3 base = m.diffuse;
+        m.specular = glm::mix(glm::vec3(ratio * ratio), base, metal);
+        m.diffuse = base * (1.0f - metal) * (1.0f - ratio * ratio);
+        // One texture multiplies each colour: a mixture counts as what there is more of.
+        m.specularTexture = metal >= 0.5f ? m.diffuseTexture : -1;
     }
 
     /// A value that makes no sense is told and replaced.
@@ -215,6 +255,7 @@ private:
             warn("black colours beside textures", "Kd is black and would hide its texture, white is used");
             m.diffuse = glm::vec3(1.0f);
         }
+        makeMetallicRough();
         const bool shines = m.specular != glm::vec3(0.0f);
         if (extra_.illumination != 2 && (extra_.illumination != 1 || shines))
             leaveOut("an illumination model other than diffuse and highlight (illum)");

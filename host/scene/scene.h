@@ -21,12 +21,13 @@ struct Texture {
     bool hasAlpha = false; ///< some texel is not opaque, and as an opacity the alphas count; else luminance
 };
 
-enum class SpecularModel { Phong, BlinnPhong };
+enum class SpecularModel { Phong, BlinnPhong, Ggx };
 
 struct Material {
     std::string name;
     glm::vec3 diffuse { 0.5f }, specular { 0.0f }, emission { 0.0f };
-    float exponent = 1.0f; ///< of the specular lobe, at least 0
+    float exponent = 1.0f; ///< of the specular lobe, at least 0; Ggx has none
+    float roughness = 0.5f; ///< of Ggx, 0 to 1; exponentTexture multiplies it. specular is what faces reflect head-on
     SpecularModel specularModel = SpecularModel::BlinnPhong;
     float opacity = 1.0f; ///< 0 to 1: the share of rays that do not pass through
     /// Indices into Scene::textures; -1 = none.

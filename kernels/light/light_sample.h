@@ -16,11 +16,7 @@ typedef struct {
 } Receiver;
 
 /// The lobe of a gloss plane's value.
-WEDGE_INLINE Lobe glossLobe(uint packed)
-{
-    const Gloss g = unpackGloss(packed);
-    return makeLobe(g.exponent, g.kind);
-}
+WEDGE_INLINE Lobe glossLobe(uint packed) { return lobeOf(unpackGloss(packed)); }
 
 /// Seed of the samples of a pixel and light.
 WEDGE_FN uint receiverSeed(FrameParams frame, uint light, uint x, uint y)

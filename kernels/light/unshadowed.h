@@ -87,6 +87,10 @@ typedef struct {
     float16 cosine; ///< of the view
     float16 exponent;
     int16 phong; ///< else Blinn-Phong
+#ifdef WEDGE_GGX
+    int16 microfacets; ///< else one of these; its view faces the surface
+    float16 rise;
+#endif
 } Receivers16;
 
 WEDGE_FN Receivers16 mattReceivers(Vec3x16 position, Vec3x16 normal)
@@ -97,8 +101,31 @@ WEDGE_FN Receivers16 mattReceivers(Vec3x16 position, Vec3x16 normal)
     r.view = normal;
     r.cosine = r.exponent = (float16)(1.0f);
     r.phong = (int16)(0);
+#ifdef WEDGE_GGX
+    r.microfacets = (int16)(0);
+    r.rise = (float16)(0.0f);
+#endif
     return r;
 }
+
+#ifdef WEDGE_GGX
+/// unpackMicrofacets() and facingView() of those that have them.
+WEDGE_FN void addMicrofacets(Receivers16* r, uint16 gloss)
+{
+    const uint kinds = (1u << WEDGE_KIND_BITS) - 1u;
+    r->microfacets = (gloss & kinds) == WEDGE_MICROFACETS;
+    const uint16 sharpness = gloss >> WEDGE_KIND_BITS & ((1u << 15) - 1u);
+    r->exponent = r->microfacets ? as_float16((sharpness << 13) + (117u << 23)) : r->exponent;
+    r->rise = as_float16((gloss >> 18 << 13) + (127u << 23)) - 1.0f;
+    const float16 below = WEDGE_LEAST_FACING - r->cosine;
+    const int16 lifted = r->microfacets & (below > 0.0f);
+    const Vec3x16 view = unit16(mad16(r->view, r->normal, max16(below, (float16)(0.0f))));
+    r->view.x = lifted ? view.x : r->view.x;
+    r->view.y = lifted ? view.y : r->view.y;
+    r->view.z = lifted ? view.z : r->view.z;
+    r->cosine = lifted ? max16(dot16(r->normal, r->view), (float16)(0.5f * WEDGE_LEAST_FACING)) : r->cosine;
+}
+#endif
 
 /// gloss: packGloss() of each.
 WEDGE_FN Receivers16 glossyReceivers(Vec3x16 position, Vec3x16 normal, Vec3x16 view, uint16 gloss)
@@ -109,6 +136,9 @@ WEDGE_FN Receivers16 glossyReceivers(Vec3x16 position, Vec3x16 normal, Vec3x16 v
     const uint kinds = (1u << WEDGE_KIND_BITS) - 1u;
     r.exponent = as_float16(gloss & ~kinds);
     r.phong = (gloss & kinds) == WEDGE_PHONG;
+#ifdef WEDGE_GGX
+    addMicrofacets(&r, gloss);
+#endif
     return r;
 }
 
@@ -123,6 +153,29 @@ WEDGE_FN float16 geometryTerm16(Vec3x16 normal, Vec3x16 d, Vec3 lightNormal, uin
     return lit ? receiver * facing / (squared * squared) : (float16)(0.0f);
 }
 
+#ifdef WEDGE_GGX
+/// microfacetLobeAt() of sixteen, in the unit directions l.
+WEDGE_FN float16 microfacetValue16(Receivers16 r, Vec3x16 l)
+{
+    const float16 one = (float16)(1.0f), zero = (float16)(0.0f);
+    const float16 a = 4.0f / max16(r.exponent, 4.0f * one);
+    Vec3x16 h;
+    h.x = r.view.x + l.x;
+    h.y = r.view.y + l.y;
+    h.z = r.view.z + l.z;
+    h = unit16(h);
+    const float16 nl = max16(dot16(r.normal, l), zero), nh = dot16(r.normal, h);
+    const Vec3x16 aside = mad16(h, r.normal, -nh);
+    const float16 spread = dot16(aside, aside) + a * nh * nh;
+    const float16 d = a * WEDGE_INV_PI / max16(spread * spread, 1e-30f * one);
+    const float16 nv = r.cosine;
+    const float16 crossed = nl * sqrt(a + (1.0f - a) * nv * nv) + nv * sqrt(a + (1.0f - a) * nl * nl);
+    const float16 away = max16(1.0f - dot16(r.view, h), zero), squared = away * away;
+    const float16 value = 0.5f * d * (1.0f + r.rise * squared * squared * away) / crossed;
+    return nh > 0.0f ? value : zero;
+}
+#endif
+
 /// lobeValue() without the lobe's normalization, in the direction of d.
 WEDGE_FN float16 lobePower16(Receivers16 r, Vec3x16 d)
 {
@@ -133,16 +186,27 @@ WEDGE_FN float16 lobePower16(Receivers16 r, Vec3x16 d)
     const float16 length = r.phong ? (float16)(1.0f) : max16(2.0f + 2.0f * inView, (float16)(1e-6f));
     const float16 squaredLobe = min16(c * c / length, (float16)(1.0f));
     const float16 lobe = exp2Block(0.5f * r.exponent * accurateLog2(max16(squaredLobe, (float16)(1e-30f))));
-    return c > 0.0f ? lobe : (float16)(0.0f);
+    const float16 power = c > 0.0f ? lobe : (float16)(0.0f);
+#ifdef WEDGE_GGX
+    if (any(r.microfacets)) {
+        return r.microfacets ? microfacetValue16(r, unit16(d)) : power;
+    }
+#endif
+    return power;
 }
 
-/// specularNormalization() of sixteen.
+/// specularNormalization() of sixteen; 1 of microfacets.
 WEDGE_FN float16 normalization16(Receivers16 r)
 {
     const float16 m = r.exponent;
     const float16 phong = (m + 2.0f) * (0.5f * WEDGE_INV_PI);
     const float16 blinn = (m + 2.0f) * (m + 4.0f) * (0.125f * WEDGE_INV_PI) / (exp2Block(-0.5f * m) + m);
-    return r.phong ? phong : blinn;
+    const float16 power = r.phong ? phong : blinn;
+#ifdef WEDGE_GGX
+    return r.microfacets ? (float16)(1.0f) : power;
+#else
+    return power;
+#endif
 }
 
 /// The integrand at points of the light.
@@ -316,6 +380,24 @@ WEDGE_FN float16 lobesAcross16(AreaLight light, Vec3x16 toLight, Receivers16 r)
     const float16 squared = dot16(toLight, toLight);
     const float16 widening = max16(2.0f + 2.0f * dot16(r.view, toLight) * rsqrt(squared), (float16)(1e-6f));
     const float16 across = squaredExtent(light) * max16(r.exponent, (float16)(1.0f)) / squared;
+#ifdef WEDGE_GGX
+    if (any(r.microfacets)) {
+        // Aside of its peak the lobe falls off far slower: as one of alpha^2 + tan^2, at the place of the light where
+        // the half vector is nearest to the normal.
+        const Vec3x16 l = unit16(toLight);
+        Vec3x16 h;
+        h.x = r.view.x + l.x;
+        h.y = r.view.y + l.y;
+        h.z = r.view.z + l.z;
+        h = unit16(h);
+        const float16 nh = dot16(r.normal, h);
+        const Vec3x16 off = mad16(h, r.normal, -nh);
+        const float16 reach = sqrt(2.0f * squaredExtent(light) / (squared * widening));
+        const float16 aside = max16(sqrt(dot16(off, off)) - reach, (float16)(0.0f));
+        const float16 slower = 1.0f / (1.0f + 0.25f * max16(r.exponent, (float16)(4.0f)) * aside * aside);
+        return (r.phong ? across : across / widening) * (r.microfacets ? slower : (float16)(1.0f));
+    }
+#endif
     return r.phong ? across : across / widening;
 }
 
@@ -422,7 +504,13 @@ WEDGE_FN ReceiverLanes lanesOf(Receivers16 r)
     vstore16(r.view.z, 0, lanes.viewZ);
     vstore16(r.exponent, 0, lanes.exponent);
     vstore16(normalization16(r), 0, lanes.normalization);
-    vstore16(r.phong ? (uint16)(WEDGE_PHONG) : (uint16)(WEDGE_BLINN_PHONG), 0, lanes.kind);
+    const uint16 kind = r.phong ? (uint16)(WEDGE_PHONG) : (uint16)(WEDGE_BLINN_PHONG);
+#ifdef WEDGE_GGX
+    vstore16(r.microfacets ? r.rise : normalization16(r), 0, lanes.normalization);
+    vstore16(r.microfacets ? (uint16)(WEDGE_MICROFACETS) : kind, 0, lanes.kind);
+#else
+    vstore16(kind, 0, lanes.kind);
+#endif
     return lanes;
 }
 

@@ -49,6 +49,12 @@ WEDGE_FN void prepareScattering(VertexPacket* at)
             at->normalization[lane] = lobe.normalization;
             at->leastCosine[lane] = lobe.leastCosine;
         }
+#ifdef WEDGE_GGX
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            const float rise = fresnelRise(laneVec(&at->diffuse, lane), laneVec(&at->specular, lane));
+            at->normalization[lane] = at->kind[lane] == WEDGE_MICROFACETS ? rise : at->normalization[lane];
+        }
+#endif
     }
 }
 

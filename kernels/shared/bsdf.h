@@ -1,4 +1,4 @@
-// Reflection of the materials: Lambert plus a Phong or Blinn-Phong lobe.
+// Reflection of the materials: Lambert plus a Phong, Blinn-Phong or GGX lobe.
 #ifndef WEDGE_SHARED_BSDF_H
 #define WEDGE_SHARED_BSDF_H
 
@@ -26,7 +26,7 @@ WEDGE_INLINE float specularNormalization(float exponent, uint kind)
 typedef struct {
     float exponent;
     uint kind; ///< WEDGE_PHONG and so on; of WEDGE_LAMBERT nobody asks
-    float normalization;
+    float normalization; ///< of microfacets Gloss::rise
     float leastCosine; ///< below it the lobe is under 1e-7 of its peak and counts as 0: most of a scene's directions
 } Lobe;
 
@@ -40,11 +40,83 @@ WEDGE_INLINE Lobe makeLobe(float exponent, uint kind)
     return lobe;
 }
 
+WEDGE_INLINE Lobe lobeOf(Gloss g)
+{
+    Lobe lobe = makeLobe(g.exponent, g.kind);
+#ifdef WEDGE_GGX
+    lobe.normalization = g.kind == WEDGE_MICROFACETS ? g.rise : lobe.normalization;
+#endif
+    return lobe;
+}
+
 /// What a lobe is in one direction, 1/sr.
 typedef struct {
     float value; ///< the reflection
     float pdf; ///< density at which sampleLobe() gives the direction
 } LobeAt;
+
+#ifdef WEDGE_GGX
+/// Views nearer to the horizon of microfacets than this cosine count as at it: where interpolated normals face away,
+/// surfaces go on reflecting.
+#define WEDGE_LEAST_FACING 1e-3f
+
+/// The view, lifted above the horizon.
+WEDGE_INLINE Vec3 facingView(Vec3 n, Vec3 v)
+{
+    const float below = WEDGE_LEAST_FACING - vecDot(n, v);
+    const Vec3 lifted = vecNormalize(vecMad(v, n, fmax(below, 0.0f)));
+    return vecChoose(below > 0.0f, lifted, v);
+}
+
+/// sqrt(alpha^2 + (1 - alpha^2) c^2) of a direction's cosine c: Smith's masking is G1 = 2 c / (c + this).
+WEDGE_INLINE float smithRoot(float squaredAlpha, float c) { return sqrt(squaredAlpha + (1.0f - squaredAlpha) * c * c); }
+
+/// Schlick's Fresnel factor over F0 for the cosine between half vector and view.
+WEDGE_INLINE float fresnelOver(float rise, float c)
+{
+    const float away = fmax(1.0f - c, 0.0f), squared = away * away;
+    return 1.0f + rise * squared * squared * away;
+}
+
+/// What of the microfacets' reflection there is beside their distribution.
+typedef struct {
+    float nh; ///< cosine of the half vector
+    float d; ///< their distribution (Trowbridge and Reitz; Walter et al. 2007)
+    float nv, rootV, crossed; ///< crossed: nl rootV + nv rootL
+    float fresnel; ///< over F0
+} Microfacets;
+
+WEDGE_INLINE Microfacets microfacetsAt(Lobe lobe, Vec3 n, Vec3 v, Vec3 l)
+{
+    const float squaredAlpha = 4.0f / fmax(lobe.exponent, 4.0f);
+    const Vec3 view = facingView(n, v);
+    const Vec3 sum = vecAdd(view, l);
+    const Vec3 h = vecScale(sum, 1.0f / fmax(vecLength(sum), 1e-20f));
+    const float nl = fmax(vecDot(n, l), 0.0f);
+    Microfacets m;
+    m.nv = fmax(vecDot(n, view), 0.5f * WEDGE_LEAST_FACING);
+    m.nh = vecDot(n, h);
+    // 1 - nh^2 would leave nothing of sharp lobes.
+    const Vec3 aside = vecMad(h, n, -m.nh);
+    const float spread = vecDot(aside, aside) + squaredAlpha * m.nh * m.nh;
+    m.d = squaredAlpha * WEDGE_INV_PI / fmax(spread * spread, 1e-30f);
+    m.rootV = smithRoot(squaredAlpha, m.nv);
+    m.crossed = nl * m.rootV + m.nv * smithRoot(squaredAlpha, nl);
+    m.fresnel = fresnelOver(lobe.normalization, vecDot(view, h));
+    return m;
+}
+
+/// lobeAt() of microfacets: D G2 F / (4 nv nl) over F0, with the height-correlated masking and shadowing of Smith
+/// (Heitz 2014), and the density of visible normals over 4 v.h, G1 D / (4 nv).
+WEDGE_INLINE LobeAt microfacetLobeAt(Lobe lobe, Vec3 n, Vec3 v, Vec3 l)
+{
+    const Microfacets m = microfacetsAt(lobe, n, v, l);
+    LobeAt at;
+    at.value = m.nh > 0.0f ? 0.5f * m.d * m.fresnel / m.crossed : 0.0f;
+    at.pdf = m.nh > 0.0f ? 0.5f * m.d / (m.nv + m.rootV) : 0.0f;
+    return at;
+}
+#endif
 
 /// For unit vectors: n normal, v to the viewer, l to the light, both above n's horizon.
 WEDGE_INLINE LobeAt lobeAt(Lobe lobe, Vec3 n, Vec3 v, Vec3 l)
@@ -62,6 +134,12 @@ WEDGE_INLINE LobeAt lobeAt(Lobe lobe, Vec3 n, Vec3 v, Vec3 l)
     LobeAt at;
     at.value = inside ? lobe.normalization * power : 0.0f;
     at.pdf = inside ? (phong ? density : mirroredHalf) : 0.0f;
+#ifdef WEDGE_GGX
+    const bool microfacets = lobe.kind == WEDGE_MICROFACETS;
+    const LobeAt other = microfacetLobeAt(lobe, n, v, l);
+    at.value = microfacets ? other.value : at.value;
+    at.pdf = microfacets ? other.pdf : at.pdf;
+#endif
     return at;
 }
 
@@ -115,8 +193,30 @@ WEDGE_INLINE Vec3 powerCosineDirection(Vec3 n, float exponent, Vec2 u)
     return vecMad(vecMad(vecScale(s, r * cosine), t, r * sine), n, c);
 }
 
+#ifdef WEDGE_GGX
+/// The view mirrored by a visible normal of the microfacets: in the space in which they are a hemisphere, the cap of
+/// directions about the view, each halved with it (Dupuy and Benyoub, Sampling Visible GGX Normals with Spherical
+/// Caps, 2023).
+WEDGE_INLINE Vec3 sampleMicrofacets(Lobe lobe, Vec3 n, Vec3 v, Vec2 u)
+{
+    const float alpha = 2.0f / sqrt(fmax(lobe.exponent, 4.0f));
+    const Vec3 view = facingView(n, v);
+    Vec3 s, t;
+    tangentFrame(n, &s, &t);
+    const Vec3 w = vecNormalize(vec3(alpha * vecDot(s, view), alpha * vecDot(t, view), vecDot(n, view)));
+    const float z = (1.0f - u.x) * (1.0f + w.z) - w.z;
+    const float r = sqrt(fmax(0.0f, 1.0f - z * z));
+    float sine, cosine;
+    sinCosTurn(u.y, &sine, &cosine);
+    const Vec3 m = vecNormalize(vec3(alpha * (r * cosine + w.x), alpha * (r * sine + w.y), fmax(z + w.z, 1e-20f)));
+    const Vec3 h = vecMad(vecMad(vecScale(s, m.x), t, m.y), n, m.z);
+    return vecMad(vecScale(view, -1.0f), h, 2.0f * vecDot(view, h));
+}
+#endif
+
 /// A direction distributed as the lobe is, see lobePdf(); it may lie below n's horizon, where the lobe reflects
-/// nothing. Phong: about the mirrored view; Blinn-Phong: the view mirrored by a half vector about n.
+/// nothing. Phong: about the mirrored view; Blinn-Phong: the view mirrored by a half vector about n; microfacets: by
+/// one of their visible normals.
 WEDGE_INLINE Vec3 sampleLobe(Lobe lobe, Vec3 n, Vec3 v, Vec2 u)
 {
     const bool phong = lobe.kind == WEDGE_PHONG;
@@ -124,7 +224,12 @@ WEDGE_INLINE Vec3 sampleLobe(Lobe lobe, Vec3 n, Vec3 v, Vec2 u)
     const Vec3 axis = vec3(phong ? mirrored.x : n.x, phong ? mirrored.y : n.y, phong ? mirrored.z : n.z);
     const Vec3 h = powerCosineDirection(axis, lobe.exponent, u);
     const Vec3 l = vecMad(vecScale(v, -1.0f), h, 2.0f * vecDot(v, h));
-    return vec3(phong ? h.x : l.x, phong ? h.y : l.y, phong ? h.z : l.z);
+    const Vec3 sampled = vec3(phong ? h.x : l.x, phong ? h.y : l.y, phong ? h.z : l.z);
+#ifdef WEDGE_GGX
+    return vecChoose(lobe.kind == WEDGE_MICROFACETS, sampleMicrofacets(lobe, n, v, u), sampled);
+#else
+    return sampled;
+#endif
 }
 
 /// Density in 1/sr of sampleLobe() at the unit vector l.
@@ -140,7 +245,14 @@ WEDGE_INLINE float lobeOverPdf(Lobe lobe, Vec3 n, Vec3 v, Vec3 l)
     const float c = phong ? mirrored : vecDot(n, h);
     // Where l is next to -v, rounding may put the half vector on the wrong side of v.
     const float jacobian = phong ? 1.0f : 4.0f * fmax(vecDot(v, h), 0.0f);
-    return c > lobe.leastCosine ? jacobian * scale : 0.0f;
+    const float weight = c > lobe.leastCosine ? jacobian * scale : 0.0f;
+#ifdef WEDGE_GGX
+    const Microfacets m = microfacetsAt(lobe, n, v, l);
+    const float other = m.nh > 0.0f ? m.fresnel * (m.nv + m.rootV) / m.crossed : 0.0f;
+    return lobe.kind == WEDGE_MICROFACETS ? other : weight;
+#else
+    return weight;
+#endif
 }
 
 /// The same for a lobe that is used once.

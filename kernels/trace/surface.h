@@ -193,7 +193,8 @@ typedef struct {
     Gloss gloss;
 } Finish;
 
-WEDGE_FN Finish finishOf(SurfaceData data, Hit hit)
+/// With the material's own number in the place of the exponent.
+WEDGE_FN Finish paintOf(SurfaceData data, Hit hit)
 {
     Finish s;
     const MaterialData material = data.materials[data.materialIds[hit.triangle]];
@@ -230,6 +231,17 @@ WEDGE_FN Finish finishOf(SurfaceData data, Hit hit)
         s.gloss.exponent *=
             sampleTexture(data.textures, data.texels, data.srgbToLinear + 256, material.exponentTexture, tu, tv).x;
     }
+    return s;
+}
+
+WEDGE_FN Finish finishOf(SurfaceData data, Hit hit)
+{
+    Finish s = paintOf(data, hit);
+#ifdef WEDGE_GGX
+    if (s.gloss.kind == WEDGE_MICROFACETS) {
+        s.gloss = microfacetGloss(s.gloss.exponent, s.diffuse, s.specular);
+    }
+#endif
     return s;
 }
 

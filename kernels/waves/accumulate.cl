@@ -272,7 +272,7 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
     const uint size = wave.planeSize, pixels = frame.planeSize;
     const Vec3 none = vec3(0.0f, 0.0f, 0.0f);
     Vec3 at = none, facing = none, kd = none, ks = none, emitted = none;
-    GlossSum lobes = { { 0.0f, WEDGE_LAMBERT }, 0.0f };
+    GlossSum lobes = { { 0.0f, WEDGE_LAMBERT, 0.0f }, 0.0f };
     float hit = 0.0f, edge = 0.0f, moveX = 0.0f, moveY = 0.0f, squared = 0.0f;
     const bool has = p.before > 0u && wave.packed == 0u;
     float low = has ? confusionOf[p.i] : INFINITY, high = has ? confusionOf[pixels + p.i] : -INFINITY;
