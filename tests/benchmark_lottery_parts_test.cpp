@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <random>
 #include <sstream>
 
@@ -141,6 +142,61 @@ TEST_CASE("lamps of version 2 emit, and are frozen")
         CHECK(emitting == known.emitting);
         CHECK(emission == doctest::Approx(known.emission).epsilon(1e-5));
         CHECK(scene.name == "lottery2_" + std::to_string(known.seed));
+    }
+}
+
+TEST_CASE("version 3 is version 1 on open ground, under skies of five kinds")
+{
+    for (const std::uint32_t first : { 1u, 3001u }) {
+        std::map<generator::Sky, int> kinds;
+        int alone = 0;
+        for (std::uint32_t seed = first; seed < first + 100; ++seed) {
+            const generator::LotteryTraits before = generator::lotteryTraits(seed),
+                                           t = generator::lotteryTraits(seed, 3);
+            CHECK(before.sky == generator::Sky::None);
+            CHECK(t.open);
+            CHECK(t.lamps == generator::Lamps::None);
+            CHECK(t.things == before.things);
+            CHECK(hardCases(t).size() == hardCases(before).size() + (before.open ? 1 : 2));
+            ++kinds[t.sky];
+            alone += t.quads ? 0 : 1;
+        }
+        CHECK(kinds.size() == 5);
+        for (const auto& kind : kinds)
+            CHECK(kind.second >= 5);
+        CHECK(alone >= 60);
+        CHECK(alone <= 90);
+    }
+}
+
+TEST_CASE("skies of version 3 have the light that was drawn, and are frozen")
+{
+    struct Known {
+        std::uint32_t seed;
+        generator::Sky sky;
+        double mean, sum; ///< luminance over the sphere; x + 2 y + 3 z of texels
+    };
+    for (const Known& known : { Known { 2, generator::Sky::Even, 0.506141, 2.74523 },
+             { 3, generator::Sky::Clear, 0.635797, 118500 }, { 5, generator::Sky::Clouds, 0.465555, 106468 },
+             { 4, generator::Sky::Sun, 0.763147, 131567 }, { 3010, generator::Sky::Lamps, 0.723191, 160695 } }) {
+        CAPTURE(known.seed);
+        const generator::GeneratedScene scene = generator::makeLottery(known.seed, 3);
+        CHECK(generator::lotteryTraits(known.seed, 3).sky == known.sky);
+        CHECK(scene.name == "lottery3_" + std::to_string(known.seed));
+        const image::RgbImage& map = scene.sky;
+        REQUIRE(map.rgb.size() == 3u * static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
+        double sum = 0, light = 0, weights = 0;
+        for (std::size_t i = 0; i < map.rgb.size(); i += 3) {
+            const double r = map.rgb[i], g = map.rgb[i + 1], b = map.rgb[i + 2];
+            const double row = static_cast<double>(i / 3 / static_cast<std::size_t>(map.width));
+            const double weight = std::sin(std::numbers::pi * (row + 0.5) / map.height);
+            REQUIRE(std::min({ r, g, b }) >= 0);
+            sum += r + 2 * g + 3 * b;
+            light += weight * (0.2126 * r + 0.7152 * g + 0.0722 * b);
+            weights += weight;
+        }
+        CHECK(light / weights == doctest::Approx(known.mean).epsilon(1e-4));
+        CHECK(sum == doctest::Approx(known.sum).epsilon(1e-5));
     }
 }
 

@@ -84,6 +84,20 @@ TEST_CASE("version 2 is another lottery, whose results are not mixed with the fi
     CHECK(contains(place.text("scenes/lottery2_2022.mtl"), "map_Ke lottery2_2022_screen.png"));
 }
 
+TEST_CASE("version 3 is written with its sky, and loads")
+{
+    const Workplace place;
+    const Outcome scenes = place.run({ "--seeds", "2:3", "--lottery-version", "3", "--write-scenes", "scenes" });
+    REQUIRE_MESSAGE(scenes.status == 0, scenes.err);
+    CHECK(contains(place.text("scenes/lottery3_2.toml"), "[environment]\nradiance = ["));
+    CHECK(contains(place.text("scenes/lottery3_3.toml"), "map = \"lottery3_3_sky.exr\""));
+    std::vector<std::string> call = tiny("3");
+    call.insert(call.end(), { "--lottery-version", "3" });
+    const Outcome outcome = place.run(call);
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    CHECK(contains(Json::parse(place.text("results.json"))["scenes"][0]["hard_cases"].dump(), "clear_sky"));
+}
+
 TEST_CASE("wrong calls end in one line")
 {
     const Workplace place;
@@ -95,7 +109,7 @@ TEST_CASE("wrong calls end in one line")
             { { "--seeds", "x" }, 2, "whole numbers" },
             { { "--seeds", "1:99999999" }, 2, "at most" },
             { { "--size", "16" }, 2, "--size" },
-            { { "--lottery-version", "3" }, 2, "--lottery-version" },
+            { { "--lottery-version", "4" }, 2, "--lottery-version" },
             { { "--seeds", "1", "--json", "other.json" }, 1, "other.json" },
             { { "--seeds", "1", "--json", "broken.json" }, 1, "broken.json" },
             { { "--seeds", "1", "--json", "gone/r.json" }, 1, "gone/r.json" },

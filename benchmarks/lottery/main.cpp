@@ -122,8 +122,8 @@ int main(int argc, char** argv)
     parser.add_option("--seeds", a.seeds, "scenes, A:B or one (1:200)");
     parser
         .add_option("--lottery-version", a.version,
-            "1: as seeds were frozen first; 2: with meshes that emit in a quarter of the scenes (1)")
-        ->check(CLI::Range(1, 2));
+            "1: as seeds were frozen first; 2: with meshes that emit in a quarter of the scenes; 3: under skies (1)")
+        ->check(CLI::Range(1, 3));
     parser.add_flag("--quick", a.quick, "seeds 1:10, references of 2048 samples: to see that it works, not to report");
     parser.add_option(
         "--json", a.json, "results, rewritten after each scene; a call that was interrupted goes on from there");

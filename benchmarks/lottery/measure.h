@@ -22,7 +22,7 @@ struct LotteryPlan {
     std::vector<double> imageBlurs { 0.4, 0.6, 0.85, 1.2, 1.7, 2.4 }; ///< pixels: Gaussians over a plain image
     std::vector<float> termBlurs { 0.75f, 1.5f, 3.0f }; ///< pixels: of each term, with the tests of normals and objects
     std::string referenceFolder, imageFolder; ///< imageFolder: "" for no pictures
-    int version = 1; ///< of the generator: 1 or 2
+    int version = 1; ///< of the generator: 1 to 3
 };
 
 /// One method at one budget.

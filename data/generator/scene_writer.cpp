@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "host/error.h"
+#include "host/image/exr.h"
 #include "host/image/png.h"
 
 namespace wedge::generator {
@@ -63,6 +64,36 @@ std::string partText(const GeneratedScene& scene, const MovingPart& part)
     return text + '\n';
 }
 
+std::string skyFile(const GeneratedScene& scene) { return scene.name + "_sky.exr"; }
+
+/// What is beyond the scene.
+std::string beyondText(const GeneratedScene& scene)
+{
+    if (scene.sky.rgb.empty())
+        return fmt::format("[background]\nradiance = {}\n\n", list(scene.background));
+    if (scene.sky.rgb.size() == 3)
+        return fmt::format(
+            "[environment]\nradiance = {}\n\n", list({ scene.sky.rgb[0], scene.sky.rgb[1], scene.sky.rgb[2] }));
+    return fmt::format("[environment]\nmap = \"{}\"\n\n", skyFile(scene));
+}
+
+void writeSky(const GeneratedScene& scene, const std::filesystem::path& folder)
+{
+    if (scene.sky.rgb.size() <= 3)
+        return;
+    image::LayeredImage map;
+    map.width = scene.sky.width;
+    map.height = scene.sky.height;
+    map.window = { 0, 0, map.width, map.height };
+    for (const std::size_t c : { 0, 1, 2 }) {
+        image::Channel channel { std::string(1, "RGB"[c]), {} };
+        for (std::size_t i = c; i < scene.sky.rgb.size(); i += 3)
+            channel.values.push_back(scene.sky.rgb[i]);
+        map.channels.push_back(std::move(channel));
+    }
+    image::writeExr((folder / skyFile(scene)).string(), map);
+}
+
 std::string lightText(const scene::AreaLight& light)
 {
     std::string text = fmt::format("[[light]]\ntype = \"quad\"\ncentre = {}\nhalf_u = {}\nhalf_v = {}\n",
@@ -86,8 +117,7 @@ std::string tomlText(const GeneratedScene& scene)
     text += cameraText(scene.camera);
     if (scene.shutterClose > 0.0)
         text += fmt::format("[shutter]\nopen = 0\nclose = {:g}\n\n", scene.shutterClose);
-    text +=
-        fmt::format("[image]\nwidth = 640\nheight = 480\n\n[background]\nradiance = {}\n\n", list(scene.background));
+    text += "[image]\nwidth = 640\nheight = 480\n\n" + beyondText(scene);
     if (scene.bounces > 0 || scene.antialias)
         text +=
             fmt::format("[integrator]\n{}{}\n", scene.bounces > 0 ? fmt::format("bounces = {}\n", scene.bounces) : "",
@@ -155,6 +185,7 @@ void writeScene(const GeneratedScene& scene, const std::filesystem::path& folder
     }
     for (std::size_t i = 0; i < scene.textures.size(); ++i)
         image::writePng((folder / textureFile(scene, i)).string(), scene.textures[i].image);
+    writeSky(scene, folder);
     writeText(folder / (scene.name + ".mtl"), mtlText(scene));
     writeText(folder / (scene.name + ".toml"), tomlText(scene));
 }

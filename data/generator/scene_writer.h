@@ -37,7 +37,8 @@ struct MovingPart {
     std::vector<PartShape> shapes;
 };
 
-/// One generated scene: what goes into NAME.obj, NAME.mtl, NAME.toml and the files of its textures and moving parts.
+/// One generated scene: what goes into NAME.obj, NAME.mtl, NAME.toml and the files of its textures, moving parts and
+/// sky.
 struct GeneratedScene {
     std::string name, comment;
     ObjWriter mesh;
@@ -50,6 +51,8 @@ struct GeneratedScene {
     std::vector<scene::AreaLight> furtherLights;
     bool hasLight = true; ///< false: meshes that emit, and neither `light` nor the others
     glm::vec3 background { 0.35f, 0.42f, 0.5f };
+    image::RgbImage sky; ///< lights the scene from all around in the place of the background, where it has pixels: a
+                         ///< lat-long map, NAME_sky.exr, or of one pixel the same radiance everywhere
     int bounces = 0;
     bool antialias = false;
 };

@@ -9,7 +9,7 @@
 namespace wedge::generator {
 
 /// Each subject draws from numbers of its own, so that one that draws more does not shift the others.
-enum class Stream : std::uint32_t { Traits, Stage, Materials, Camera, Things, Lights, Emitters, Motion, Lamps };
+enum class Stream : std::uint32_t { Traits, Stage, Materials, Camera, Things, Lights, Emitters, Motion, Lamps, Sky };
 
 inline Random stream(std::uint32_t seed, Stream subject)
 {

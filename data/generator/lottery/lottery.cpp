@@ -38,6 +38,7 @@ GeneratedScene makeLottery(std::uint32_t seed, int version)
     placeEmitters(s, stream(seed, Stream::Emitters));
     s.scene.hasLight = s.traits.quads;
     placeLamps(s, stream(seed, Stream::Lamps));
+    makeSky(s, stream(seed, Stream::Sky));
     return std::move(s.scene);
 }
 

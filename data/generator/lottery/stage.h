@@ -40,6 +40,8 @@ void placeThings(LotteryScene& s, Random random, Random motion);
 void placeLights(LotteryScene& s, Random random);
 void placeEmitters(LotteryScene& s, Random random);
 void placeLamps(LotteryScene& s, Random random);
+/// What lights it from all around, in the place of the background.
+void makeSky(LotteryScene& s, Random random);
 
 /// A texture of colours, any of six kinds.
 image::RgbImage pattern(Random& random);

@@ -26,9 +26,15 @@ LotteryTraits lotteryTraits(std::uint32_t seed, int version)
                           : whole(random, 9, 16);
     t.things = static_cast<int>(logarithmic(random, 5, 50));
     Random ofLamps = stream(seed, Stream::Lamps);
-    if (version >= 2 && chance(ofLamps, 0.35)) {
+    if (version == 2 && chance(ofLamps, 0.35)) {
         t.lamps = static_cast<Lamps>(whole(ofLamps, 1, 3));
         t.quads = chance(ofLamps, 0.5);
+    }
+    if (version == 3) {
+        Random ofSky = stream(seed, Stream::Sky);
+        t.open = true;
+        t.sky = static_cast<Sky>(whole(ofSky, 1, 5));
+        t.quads = chance(ofSky, 0.25);
     }
     return t;
 }
@@ -48,6 +54,11 @@ std::vector<std::string> hardCases(const LotteryTraits& t)
     add(t.lamps == Lamps::Large, "large_lamps");
     add(t.lamps == Lamps::Small, "small_lamps");
     add(t.lamps == Lamps::Textured, "textured_lamp");
+    add(t.sky == Sky::Even, "even_sky");
+    add(t.sky == Sky::Clear, "clear_sky");
+    add(t.sky == Sky::Clouds, "clouds");
+    add(t.sky == Sky::Sun, "sun");
+    add(t.sky == Sky::Lamps, "sky_of_lamps");
     return out;
 }
 
