@@ -287,17 +287,72 @@ TEST_CASE("with as many samples, filters are ahead of none over matt and curved 
                      plain = error(sized(render::monteCarlo(16), 64, 64));
         MESSAGE("RMSE: ", filtered, ", without filter: ", plain);
         CHECK(filtered < plain);
-        // What lobes see keeps its own samples, but for who asks for one width.
-        render::Settings fixed = sized(render::axisAligned(16), 64, 64);
+        // What lobes see is shared by nearby pixels where samples do not speak against it, or as far as one asks for.
+        render::Settings fixed = sized(render::axisAligned(16), 64, 64), own = sized(render::axisAligned(16), 64, 64);
         fixed.filtering = render::Filtering::Fixed;
-        for (const render::Settings& s : { sized(render::axisAligned(16), 64, 64), fixed }) {
+        own.environment.lobeWidening = 0;
+        CHECK(filtered < error(own));
+        for (const render::Settings& s : { sized(render::axisAligned(16), 64, 64), own, fixed }) {
             renderPixels(renderer, s, true);
             REQUIRE(renderer.termPlanes().size() == 2);
             CHECK(renderer.termPlanes()[1].name == "EnvironmentGlossy");
             const float widest = *std::ranges::max_element(renderer.termPlanes()[1].beta);
-            CHECK((widest > 0) == (s.filtering == render::Filtering::Fixed));
+            CHECK((widest > 0) == (s.filtering == render::Filtering::Fixed || s.environment.lobeWidening > 0));
             CHECK(*std::ranges::max_element(renderer.termPlanes()[0].beta) > 0);
         }
+    });
+}
+
+TEST_CASE("what rough lobes see beyond the scene is shared by nearby pixels")
+{
+    onEveryDevice([](const device::Device& device) {
+        SceneBuilder b = openFloor();
+        b.scene.materials[0].diffuse = glm::vec3(0.0f);
+        b.scene.materials[0].specular = glm::vec3(0.6f);
+        b.scene.materials[0].exponent = 10;
+        b.newObject();
+        b.sphere({ 0, 0.6f, 0 }, 0.6f, 24);
+        b.camera({ 0, 0.9f, 2.6f }, { 0, 0.5f, 0 });
+        render::setEnvironment(b.scene, spotted());
+        render::Renderer renderer(b.scene, device, renderOptions());
+        render::Settings reference = sized(render::monteCarlo(4096), 64, 64);
+        reference.seed = 99;
+        const std::vector<float> expected = renderPixels(renderer, reference);
+        render::Settings shared = sized(render::axisAligned(16), 64, 64), own = shared;
+        own.environment.lobeWidening = 0;
+        const double error = rmse(renderPixels(renderer, shared), expected),
+                     before = rmse(renderPixels(renderer, own), expected);
+        MESSAGE("RMSE: ", error, ", of pixels' own samples: ", before);
+        CHECK(error < 0.8 * before);
+    });
+}
+
+TEST_CASE("samples of what lies beyond the scene go to where they vary and few pixels share them, as many in the mean")
+{
+    onEveryDevice([](const device::Device& device) {
+        // A floor that is far larger than what stands on it.
+        SceneBuilder b = openFloor();
+        b.sphere({ 0, 0.25f, 0 }, 0.25f, 24);
+        b.camera({ 0, 3, 5 }, { 0, 0, 0 });
+        render::setEnvironment(b.scene, spotted());
+        render::Renderer renderer(b.scene, device, renderOptions());
+        render::Settings reference = sized(render::monteCarlo(4096), 96, 96);
+        reference.seed = 99;
+        const std::vector<float> expected = renderPixels(renderer, reference);
+        render::Settings adaptive = sized(render::axisAligned(16), 96, 96), uniform = adaptive;
+        uniform.sampling = render::Sampling::Uniform;
+        const double before = rmse(renderPixels(renderer, uniform), expected),
+                     error = rmse(renderPixels(renderer, adaptive), expected);
+        MESSAGE("RMSE: ", error, ", with as many samples everywhere: ", before);
+        CHECK(error < 0.85 * before);
+        const render::FrameStatistics frame = renderer.render(adaptive, {}, true);
+        CHECK(frame.sppMean == doctest::Approx(16).epsilon(0.02));
+        std::vector<std::uint32_t> taken = pixels(renderer, renderer.frame().samples, { 0, 0, 96, 96 });
+        std::erase(taken, 0u); // where nothing is seen
+        const auto [least, most] = std::ranges::minmax(taken);
+        CHECK(least >= 4); // what the analysis begins with, and a quarter of the mean
+        CHECK(least <= 8);
+        CHECK(most > 32);
     });
 }
 

@@ -308,13 +308,14 @@ inline render::Options renderOptions()
     return options;
 }
 
-/// R, G, B of the pixels of window, row by row, from the planes of a frame.
-inline std::vector<float> pixels(render::Renderer& renderer, const device::Buffer<float>& planes, image::Window window)
+/// R, G, B, or the one number, of the pixels of window, row by row, from the planes of a frame.
+template <typename T>
+std::vector<T> pixels(render::Renderer& renderer, const device::Buffer<T>& planes, image::Window window)
 {
-    const std::vector<float> values = planes.downloadAll(renderer.queue());
+    const std::vector<T> values = planes.downloadAll(renderer.queue());
     const render::PlaneLayout& layout = renderer.frame().layout;
     const std::size_t count = values.size() / layout.size;
-    std::vector<float> out;
+    std::vector<T> out;
     for (int y = window.y0; y < window.y1; ++y)
         for (int x = window.x0; x < window.x1; ++x)
             for (std::size_t plane = 0; plane < count; ++plane)

@@ -34,7 +34,7 @@ shared::PathParams pathParams(const FrameBuilder& frame, Component component)
     p.bounces = static_cast<std::uint32_t>(std::max(1, settings.bounces));
     p.sampler = static_cast<std::uint32_t>(settings.sampler);
     p.lightSampling = static_cast<std::uint32_t>(settings.lightSampling);
-    p.firstPass = settings.method == Method::AxisAligned ? WEDGE_INDIRECT_FIRST_RAYS : 0;
+    p.firstPass = settings.method == Method::AxisAligned ? firstPathsOf(component, settings) : 0;
     p.ambientDistance = settings.indirect.ambientDistance > 0 ? settings.indirect.ambientDistance
                                                               : std::numeric_limits<float>::infinity();
     const DeviceScene* scene = frame.scene;
@@ -63,7 +63,7 @@ shared::ReflectorParams reflectorParams(const FrameBuilder& frame, Component com
     p.component = static_cast<std::uint32_t>(component);
     p.mu = in.mu;
     p.alpha = in.alpha;
-    p.widthScale = in.widthScale;
+    p.widthScale = isOfEnvironment(component) ? settings.environment.widthScale : in.widthScale;
     p.leastReflector = in.leastReflector;
     p.meanFraction = in.meanFraction;
     p.countCap = static_cast<std::uint32_t>(in.maxSpp);
@@ -85,13 +85,30 @@ shared::FilterParams pathFilterParams(const FrameBuilder& frame, Component compo
     return p;
 }
 
-shared::AnalysisParams pathCountParams(shared::AnalysisParams p, const Settings& settings)
+float wideningOf(Component component, const Settings& settings)
+{
+    return component == Component::EnvironmentGlossy ? settings.environment.lobeWidening : settings.indirect.widening;
+}
+
+std::uint32_t firstPathsOf(Component component, const Settings& settings)
+{
+    // Fewer tell nothing of how much they vary.
+    constexpr std::uint32_t fewest = 4;
+    const float share = settings.environment.firstShare * static_cast<float>(settings.spp);
+    return isOfEnvironment(component) ? std::clamp(static_cast<std::uint32_t>(share), fewest, WEDGE_INDIRECT_FIRST_RAYS)
+                                      : WEDGE_INDIRECT_FIRST_RAYS;
+}
+
+shared::AnalysisParams pathCountParams(shared::AnalysisParams p, Component component, const Settings& settings)
 {
     p.countCap = static_cast<std::uint32_t>(std::max(settings.indirect.maxSpp, settings.spp)); // not below the mean
     p.countExponent = settings.indirect.countExponent;
     p.varianceSpread = settings.varianceSpread;
-    // Where the first paths met nothing bright there is still noise of what they may meet: rare, and large.
-    p.leastCount = std::max(WEDGE_INDIRECT_FIRST_RAYS, static_cast<std::uint32_t>(settings.spp) / 2);
+    // Where the first paths met nothing bright there is still noise of what they may meet: rare, and large, but for
+    // what lies beyond the scene, which is chosen by its brightness.
+    const float share = isOfEnvironment(component) ? settings.environment.leastShare : 0.5f;
+    p.leastCount = std::max(
+        firstPathsOf(component, settings), static_cast<std::uint32_t>(share * static_cast<float>(settings.spp)));
     return p;
 }
 

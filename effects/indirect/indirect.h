@@ -26,15 +26,10 @@ constexpr bool isGlossy(Component c)
 }
 /// Whether it is direct light of what the list of lights has.
 constexpr bool isOfEmitters(Component c) { return c == Component::Emitters || c == Component::EmittersGlossy; }
+/// Whether it is direct light from beyond the scene.
+constexpr bool isOfEnvironment(Component c) { return c == Component::Environment || c == Component::EnvironmentGlossy; }
 /// Whether it is direct light.
-constexpr bool isDirect(Component c)
-{
-    return isOfEmitters(c) || c == Component::Environment || c == Component::EnvironmentGlossy;
-}
-
-/// Whether distances of what a component's rays meet tell how wide it may be filtered. What lobes see beyond the scene
-/// varies with the surface's direction and the eye's: pixels keep their own samples of it, but for fixed widths.
-constexpr bool hasWidths(Component c) { return c != Component::EnvironmentGlossy; }
+constexpr bool isDirect(Component c) { return isOfEmitters(c) || isOfEnvironment(c); }
 
 /// Whether a component's samples are fractions of what would arrive if nothing were hidden, and its reflectance is
 /// multiplied by that.
@@ -55,8 +50,14 @@ std::vector<graph::Argument> sceneLights(const FrameBuilder& frame, Component co
 /// How paths are traced where the pixels are the receivers.
 shared::PathParams pathParams(const FrameBuilder& frame, Component component);
 
-/// What counts of paths need besides where pixels lie.
-shared::AnalysisParams pathCountParams(shared::AnalysisParams params, const Settings& settings);
+/// Pixels: filters of a component that are narrower are compared with one of this width (kernels/analysis/widen.cl).
+float wideningOf(Component component, const Settings& settings);
+
+/// Samples that the analysis of a component begins with where the pixels are the receivers.
+std::uint32_t firstPathsOf(Component component, const Settings& settings);
+
+/// What counts of a component's paths need besides where pixels lie.
+shared::AnalysisParams pathCountParams(shared::AnalysisParams params, Component component, const Settings& settings);
 
 /// Declares how the widths of a component's filter, metres, follow from the distances of reflectors
 /// (kernels/paths/reflectors.cl).

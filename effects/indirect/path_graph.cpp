@@ -73,7 +73,7 @@ public:
             f_.zero(parts_);
         }
         unshadowed();
-        constexpr std::uint32_t first = WEDGE_INDIRECT_FIRST_RAYS;
+        const std::uint32_t first = firstPathsOf(component_, s_);
         uniformCounts(f_, first, f_.surfaces.objectId, wanted_);
         paths("first paths", 0, first, first, true);
         countRays();
@@ -95,11 +95,11 @@ public:
             return;
         }
         // What was stopped early has not the counts that the parts of samples were made for.
-        if (widens(s_) && hasWidths(component_)) {
+        if (widens(s_)) {
             g_.only(
                 "widening", [state = state_](const Run& run) { return state->analysed && !run.cut(); },
                 [&] {
-                    widen(f_, "filter of indirect", filterParams(), s_.indirect.widening, pinholeNoise,
+                    widen(f_, "filter of indirect", filterParams(), wideningOf(component_, s_), pinholeNoise,
                         { irradiance_, deviation_, weights_ }, beta_);
                 });
         }
@@ -115,7 +115,7 @@ private:
     /// Whether a pixel's samples are asked how much they vary, for what filters do.
     bool varies() const { return widens(s_) || usesFallback(s_); }
     shared::FilterParams filterParams() const { return pathFilterParams(f_, component_); }
-    shared::AnalysisParams countParams() const { return pathCountParams(f_.analysisParams(), s_); }
+    shared::AnalysisParams countParams() const { return pathCountParams(f_.analysisParams(), component_, s_); }
     shared::ReflectorParams reflectorParams() const { return render::reflectorParams(f_, component_); }
 
     void count()
@@ -242,8 +242,8 @@ void PathGraph::deviations()
 {
     f_.blocks("filter of indirect", PassKind::Filter, { "analysis/widen.cl", "oneOfPaths" },
         { f_.rectangle(countParams()), value("component", static_cast<std::uint32_t>(component_)),
-            value("firstPass", WEDGE_INDIRECT_FIRST_RAYS), reads("reflectance", reflectance_), updates("value", sums_),
-            reads("parts", parts_), reads("taken", taken_), writes("irradiance", irradiance_),
+            value("firstPass", firstPathsOf(component_, s_)), reads("reflectance", reflectance_),
+            updates("value", sums_), reads("parts", parts_), reads("taken", taken_), writes("irradiance", irradiance_),
             writes("deviation", deviation_), writes("weights", weights_) });
     value_ = graph::Handle<Value> { static_cast<const graph::Version&>(sums_) };
 }

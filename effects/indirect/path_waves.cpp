@@ -66,6 +66,7 @@ void PathWaves::widths()
 {
     shared::ReflectorParams p = reflectorParams(f_, component_);
     p.meanOnly = f_.packed ? 1 : 0;
+    p.widthScale = settings().indirect.widthScale;
     reflectorWidths(f_, p, leastExtreme(), means.taken, means.beta);
 }
 
@@ -85,8 +86,8 @@ graph::Handle<Value> PathWaves::filtered(const shared::DistributedParams& params
     const shared::FilterParams filter = shape_.published
         ? publishedParams(settings(), f_.wholeFrame(), f_.graph.image())
         : pathFilterParams(f_, component_);
-    if (widens(settings()) && hasWidths(component_)) {
-        widen("filter of indirect", params, filter, settings().indirect.widening);
+    if (widens(settings())) {
+        widen("filter of indirect", params, filter, wideningOf(component_, settings()));
     }
     graph::Handle<Value> plain = means.value;
     if (f_.packed) {

@@ -206,7 +206,12 @@ Settings asPublished(std::optional<float> mu)
     in.meanFraction = 0.0f;
     in.counts = IndirectCounts::Spectrum;
     in.maxSpp = static_cast<int>(std::lround(std::clamp(100.0f * in.mu, 100.0f, 1e5f)));
-    s.environment = { .relative = false, .normalDegrees = s.normalDegrees };
+    s.environment = { .relative = false,
+        .normalDegrees = s.normalDegrees,
+        .widthScale = in.widthScale,
+        .lobeWidening = 0.0f,
+        .firstShare = 1.0f,
+        .leastShare = 1.0f };
     DistributedSettings& d = s.distributed;
     d.published = true;
     d.firstPaths = 16;
@@ -357,9 +362,12 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
     }
     if (s.method == Method::AxisAligned && tracesPaths(s)) {
         describeIndirect(s.indirect, out);
+        const EnvironmentSettings& e = s.environment;
         out.insert(out.end(),
-            { { "environmentRelative", number(s.environment.relative) },
-                { "environmentNormalDegrees", number(s.environment.normalDegrees) } });
+            { { "environmentRelative", number(e.relative) }, { "environmentNormalDegrees", number(e.normalDegrees) },
+                { "environmentWidthScale", number(e.widthScale) },
+                { "environmentLobeWidening", number(e.lobeWidening) },
+                { "environmentFirstShare", number(e.firstShare) }, { "environmentLeastShare", number(e.leastShare) } });
     }
     if (s.method == Method::AxisAligned) {
         describeDistributed(s.distributed, out);

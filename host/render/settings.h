@@ -106,12 +106,16 @@ struct IndirectSettings {
     float ambientDistance = 0.0f; ///< metres: farther surfaces do not occlude; 0: any distance does
 };
 
-/// The filter of what diffuse surfaces receive from beyond the scene, besides IndirectSettings.
+/// Direct light from beyond the scene, besides IndirectSettings; docs/environment.md says how they were chosen.
 struct EnvironmentSettings {
     /// Samples are filtered as fractions of what would arrive if nothing were hidden, which is known (kernels/light/
     /// unshadowed_environment.h).
     bool relative = true;
-    float normalDegrees = 20.0f; ///< as Settings::normalDegrees
+    float normalDegrees = 14.0f; ///< as Settings::normalDegrees
+    float widthScale = 0.25f; ///< as that of IndirectSettings, which holds where pixels have several receivers
+    float lobeWidening = 1.5f; ///< pixels, as Settings::widening, of what lobes reflect, which has no other width
+    float firstShare = 0.25f; ///< of the samples, that the analysis of pixels with one receiver begins with
+    float leastShare = 0.25f; ///< of the mean count, that every such pixel takes
 };
 
 /// Where texture and irradiance are taken apart in pixels of several receivers.
