@@ -20,12 +20,18 @@ WEDGE_FN float penumbraOf(BeyondData beyond, BeyondSample seen, float hidden)
 WEDGE_FN void divideByUnshadowed(
     __global const EnvironmentMap* environment, BeyondData beyond, const ReceiverPacket* r, PathPacket* paths)
 {
+    // Packets may have fewer lanes than vectors.
+    float x[16] = { 0.0f }, y[16] = { 0.0f }, z[16] = { 0.0f };
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        x[lane] = r->normalX[lane];
+        y[lane] = r->normalY[lane];
+        z[lane] = r->normalZ[lane];
+    }
     Vec3x16 n;
-    n.x = vload16(0, r->normalX);
-    n.y = vload16(0, r->normalY);
-    n.z = vload16(0, r->normalZ);
+    n.x = vload16(0, x);
+    n.y = vload16(0, y);
+    n.z = vload16(0, z);
     const Vec3x16 whole = unshadowedLight(environment, beyond.table, n);
-    float x[WEDGE_PACKET_SIZE], y[WEDGE_PACKET_SIZE], z[WEDGE_PACKET_SIZE];
     vstore16(1.0f / whole.x, 0, x);
     vstore16(1.0f / whole.y, 0, y);
     vstore16(1.0f / whole.z, 0, z);
