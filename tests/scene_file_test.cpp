@@ -189,6 +189,8 @@ TEST_CASE("wrong types and values are told with their place")
         contains(error("[[material]]\nname='a'\nroughness=2\nmodel='ggx'\n"), "roughness of material is out of range"));
     CHECK(contains(error("[[material]]\nname='a'\nroughness=0.2\n"), "does nothing beside the model: 'blinn_phong'"));
     CHECK(contains(error("[[material]]\nname='a'\nexponent=2\nmodel='ggx'\n"), "does nothing beside the model: 'ggx'"));
+    CHECK(contains(error("[[material]]\nname='a'\nnormal_strength=2\n"), "does nothing without a texture: 2"));
+    CHECK(contains(error("[[material]]\nname='a'\nnormal_strength=2000\n"), "normal_strength of material is out of"));
     CHECK(contains(error("[[material]]\nname='a'\n[[material]]\nname='a'\n"), "s.toml:4:6: name of material is taken"));
     CHECK(contains(error("[[material]]\ndiffuse=1\n"), "material lacks a key: name"));
     CHECK(

@@ -80,18 +80,16 @@ TEST_CASE("values that make no sense")
 
 TEST_CASE("what would change the look is named once a library")
 {
-    const Library left = parse("newmtl a\nKd 0.5\nd -halo 0.5\nmap_bump b.png\nbump b.png\nillum 7\nTf 1 1 1\n"
-                               "newmtl b\nTr 0.5\nnorm c.png\ndisp d.png\nrefl e.png\nPs 0.5\nPc 1\nTf 0.5 1 1\nd 0.1\n"
+    const Library left = parse("newmtl a\nKd 0.5\nd -halo 0.5\nillum 7\nTf 1 1 1\n"
+                               "newmtl b\nTr 0.5\ndisp d.png\nrefl e.png\nPs 0.5\nPc 1\nTf 0.5 1 1\nd 0.1\n"
                                "newmtl c\nd 1\nTr 0\nillum 2\nNi 1.5\nKa 1 1 1\nmap_Ka f.png\n");
-    CHECK(left.warnings.size() == 8);
+    CHECK(left.warnings.size() == 6);
     const auto says = [&](const std::string& what, int materials, const std::string& first) {
         const std::string line = "material file m.mtl: " + what + " has no effect here; " + std::to_string(materials)
             + " material(s) have it, '" + first + "' is the first";
         return std::count(left.warnings.begin(), left.warnings.end(), line);
     };
     CHECK(says("transparency by the angle of view (d -halo)", 1, "a") == 1);
-    CHECK(says("a bump map (bump, map_bump)", 1, "a") == 1);
-    CHECK(says("a normal map (norm)", 1, "b") == 1);
     CHECK(says("displacement (disp)", 1, "b") == 1);
     CHECK(says("a reflection map (refl)", 1, "b") == 1);
     CHECK(says("sheen or clear coat (Ps, Pc)", 1, "b") == 1);
@@ -153,6 +151,59 @@ TEST_CASE("opacity: d, Tr where there is no d, and values that are none")
     REQUIRE(missing.warnings.size() == 1);
     CHECK(missing.warnings[0].find("none.png") != std::string::npos);
     CHECK(missing.warnings[0].find("the plain colour is used") != std::string::npos);
+}
+
+TEST_CASE("normal maps, heights, and normal maps that are called heights")
+{
+    const auto bmp = [](const std::string& blueGreenRed) { // one texel
+        return std::string("BM\x3a\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\1\0\0\0\1\0\0\0\1\0\x18\0", 30)
+            + std::string(24, '\0') + blueGreenRed + '\0';
+    };
+    const TemporaryFolder folder;
+    folder.write("grey.bmp", bmp("\x80\x80\x80"));
+    folder.write("normal.bmp", bmp("\xf5\xa0\x90"));
+    folder.write("blue.bmp", bmp("\xff\xff\x20")); // too long a vector
+    const auto read = [&](const std::string& statements) {
+        TextureSet textures(std::int64_t { 1 } << 20);
+        Warnings warnings;
+        const std::vector<Material> materials =
+            parseMtl("newmtl a\nKd 0.5\n" + statements, folder.path("m.mtl"), textures, warnings);
+        return Library { materials, warnings.lines() };
+    };
+    for (const std::string keyword : { "bump", "map_bump", "map_Bump" }) {
+        const Library heights = read(keyword + " -bm 0.3 grey.bmp\n");
+        CHECK(heights.materials[0].normalTexture == 0);
+        CHECK(heights.materials[0].normalIsHeight);
+        CHECK(heights.materials[0].normalStrength == 0.3f);
+        CHECK(heights.warnings.empty());
+        CHECK_FALSE(read(keyword + " normal.bmp\n").materials[0].normalIsHeight);
+        CHECK(read(keyword + " blue.bmp\n").materials[0].normalIsHeight);
+    }
+    for (const std::string keyword : { "norm", "map_Kn" }) {
+        const Library normals = read(keyword + " -bm -2 grey.bmp\n");
+        CHECK(normals.materials[0].normalTexture == 0);
+        CHECK_FALSE(normals.materials[0].normalIsHeight);
+        CHECK(normals.materials[0].normalStrength == -2);
+        CHECK(normals.warnings.empty());
+    }
+    const Library both = read("map_Kd grey.bmp\nmap_bump -bm 3 grey.bmp\nnorm normal.bmp\n");
+    CHECK(both.materials[0].normalTexture == 1);
+    CHECK_FALSE(both.materials[0].normalIsHeight);
+    CHECK(both.materials[0].normalStrength == 1);
+    REQUIRE(both.warnings.size() == 1);
+    CHECK(contains(both.warnings[0], "a bump map beside a normal map (bump, map_bump) has no effect here"));
+    const Library missing = read("norm none.png\n");
+    CHECK(missing.materials[0].normalTexture == -1);
+    REQUIRE(missing.warnings.size() == 1);
+    CHECK(contains(missing.warnings[0], "the surface stays smooth"));
+    for (const std::string word : { "1e9", "-1e9", "nan", "inf" }) {
+        CAPTURE(word);
+        const Library wrong = read("bump -bm " + word + " grey.bmp\n");
+        CHECK(wrong.materials[0].normalTexture == 0);
+        CHECK(wrong.materials[0].normalStrength == 1);
+        REQUIRE(wrong.warnings.size() == 1);
+        CHECK(contains(wrong.warnings[0], "-bm has the value " + word + ", 1 is used"));
+    }
 }
 
 TEST_CASE("options of textures")

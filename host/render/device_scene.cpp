@@ -57,6 +57,9 @@ std::vector<shared::MaterialData> materialData(const scene::Scene& scene)
         d.specularTexture = textureId(m.specularTexture);
         d.exponentTexture = textureId(m.exponentTexture);
         d.emissionTexture = textureId(m.emissionTexture);
+        d.normalTexture = textureId(m.normalTexture);
+        d.normalIsHeight = m.normalIsHeight ? 1 : 0;
+        d.normalStrength = m.normalStrength;
         out.push_back(d);
     }
     return out;
@@ -182,6 +185,12 @@ bool hasMicrofacets(const scene::Scene& scene)
 {
     return std::ranges::any_of(
         scene.geometry.materialIds, [&](std::uint32_t id) { return kindOf(scene.materials[id]) == WEDGE_MICROFACETS; });
+}
+
+bool hasNormalMaps(const scene::Scene& scene)
+{
+    return std::ranges::any_of(
+        scene.geometry.materialIds, [&](std::uint32_t id) { return scene.materials[id].normalTexture >= 0; });
 }
 
 void DeviceScene::plan(

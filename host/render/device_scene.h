@@ -29,6 +29,9 @@ bool hasSpecular(const scene::Scene& scene);
 /// Whether any of them is of GGX microfacets.
 bool hasMicrofacets(const scene::Scene& scene);
 
+/// Whether any of them has a normal map or heights: programs are then built with WEDGE_NORMAL_MAPS.
+bool hasNormalMaps(const scene::Scene& scene);
+
 /// The scene on the device: hierarchy, geometry, materials, textures, lights.
 class DeviceScene {
 public:

@@ -60,6 +60,9 @@ device::BuildOptions programOptions(const scene::Scene& scene, const Options& op
     if (hasMicrofacets(scene)) {
         out.defines.emplace_back("WEDGE_GGX", "1");
     }
+    if (hasNormalMaps(scene)) {
+        out.defines.emplace_back("WEDGE_NORMAL_MAPS", "1");
+    }
     if (pictureOf(scene) != nullptr) {
         out.defines.emplace_back("WEDGE_ENVIRONMENT_MAP", "1");
     }

@@ -24,6 +24,22 @@ int readTextureKey(TableReader& table, const std::string& key, TextureSet& textu
     }
 }
 
+/// A map of normals, or heights.
+void readNormals(TableReader& table, TextureSet& textures, Material& m)
+{
+    const int normals = readTextureKey(table, "normal_texture", textures);
+    const int heights = readTextureKey(table, "bump_texture", textures);
+    const auto strength = table.number("normal_strength", -mostNormalStrength, mostNormalStrength);
+    if (normals >= 0 && heights >= 0)
+        table.fail("bump_texture", "stands beside a", "normal_texture", "give one of them");
+    if (strength && normals < 0 && heights < 0)
+        table.fail("normal_strength", "does nothing without a texture", fmt::format("{:g}", *strength),
+            "give a normal_texture or a bump_texture");
+    m.normalIsHeight = heights >= 0;
+    m.normalTexture = m.normalIsHeight ? heights : normals;
+    m.normalStrength = static_cast<float>(strength.value_or(m.normalStrength));
+}
+
 /// The lobe's model and what is its own; a number of another model would do nothing, which is an error.
 void readModel(TableReader& table, TextureSet& textures, Material& m)
 {
@@ -60,6 +76,7 @@ Material readMaterial(TableReader& table, TextureSet& textures, Warnings& warnin
     m.specular = table.colour("specular").value_or(m.specularTexture >= 0 ? glm::vec3(1.0f) : m.specular);
     m.emission = table.colour("emission").value_or(m.emissionTexture >= 0 ? glm::vec3(1.0f) : m.emission);
     readModel(table, textures, m);
+    readNormals(table, textures, m);
     table.finish();
     warnOfEnergy({ m }, table.where("diffuse"), warnings);
     return m;

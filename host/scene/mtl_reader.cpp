@@ -1,6 +1,7 @@
 #include "host/scene/mtl_reader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -23,11 +24,10 @@ constexpr glm::vec3 diffuseOfTexture(0.6f);
 constexpr float usualIndex = 1.5f;
 
 /// Statements that change the look in other programs, and what messages call them.
-const std::map<std::string_view, const char*> unsupported = { { "bump", "a bump map (bump, map_bump)" },
-    { "map_bump", "a bump map (bump, map_bump)" }, { "map_Bump", "a bump map (bump, map_bump)" },
-    { "norm", "a normal map (norm)" }, { "disp", "displacement (disp)" }, { "refl", "a reflection map (refl)" },
-    { "Ps", "sheen or clear coat (Ps, Pc)" }, { "Pc", "sheen or clear coat (Ps, Pc)" },
-    { "map_Ps", "sheen or clear coat (Ps, Pc)" }, { "map_Pm", "a texture of metal (map_Pm)" } };
+const std::map<std::string_view, const char*> unsupported = { { "disp", "displacement (disp)" },
+    { "refl", "a reflection map (refl)" }, { "Ps", "sheen or clear coat (Ps, Pc)" },
+    { "Pc", "sheen or clear coat (Ps, Pc)" }, { "map_Ps", "sheen or clear coat (Ps, Pc)" },
+    { "map_Pm", "a texture of metal (map_Pm)" } };
 
 /// Reads one library; a member reads one statement.
 class Library {
@@ -70,7 +70,7 @@ private:
         bool hasDissolve = false; ///< d, which outdoes Tr
         std::optional<float> roughness, metal; ///< Pr, Pm
         float index = usualIndex; ///< Ni
-        MtlTexture diffuse, specular, exponent, emission, opacity, roughnessMap;
+        MtlTexture diffuse, specular, exponent, emission, opacity, roughnessMap, normals, heights;
     };
     struct LeftOut {
         std::size_t materials = 0;
@@ -146,6 +146,10 @@ private:
             extra_.index = value > 1.0f ? value : usualIndex;
         } else if (keyword == "map_Pr") {
             extra_.roughnessMap = parseMtlTexture(in);
+        } else if (keyword == "norm" || keyword == "map_Kn") {
+            extra_.normals = parseMtlTexture(in);
+        } else if (keyword == "bump" || keyword == "map_bump" || keyword == "map_Bump") {
+            extra_.heights = parseMtlTexture(in);
         } else if (keyword == "Tf") {
             if (colour("Tf", in) != glm::vec3(1.0f))
                 leaveOut("a transmission filter (Tf)");
@@ -224,7 +228,27 @@ private:
         return value;
     }
 
-    int texture(const MtlTexture& statement)
+    /// A map of normals, or heights where there is none. What is named as heights may be a map of normals.
+    void addNormals()
+    {
+        Material& m = material_;
+        const bool mapped = !extra_.normals.name.empty();
+        const MtlTexture& from = mapped ? extra_.normals : extra_.heights;
+        if (mapped && !extra_.heights.name.empty())
+            leaveOut("a bump map beside a normal map (bump, map_bump)");
+        m.normalTexture = texture(from, "the surface stays smooth");
+        m.normalIsHeight = !mapped && m.normalTexture >= 0 && !looksLikeNormals(textures_.at(m.normalTexture));
+        if (from.multiplier.empty())
+            return;
+        float value = 1.0f;
+        if (parseNumber(from.multiplier, value) != NumberKind::Good || std::abs(value) > mostNormalStrength) {
+            value = 1.0f;
+            warn("values of material files", fmt::format("-bm has the value {}, 1 is used", from.multiplier));
+        }
+        m.normalStrength = value;
+    }
+
+    int texture(const MtlTexture& statement, const char* instead = "the plain colour is used")
     {
         if (statement.name.empty())
             return -1;
@@ -234,7 +258,7 @@ private:
         try {
             return textures_.add(resolvePath(statement.name, folder_, where_));
         } catch (const Error& error) {
-            warn("textures that cannot be used", fmt::format("{}; the plain colour is used", error.what()));
+            warn("textures that cannot be used", fmt::format("{}; {}", error.what(), instead));
             return -1;
         }
     }
@@ -256,6 +280,7 @@ private:
             m.diffuse = glm::vec3(1.0f);
         }
         makeMetallicRough();
+        addNormals();
         const bool shines = m.specular != glm::vec3(0.0f);
         if (extra_.illumination != 2 && (extra_.illumination != 1 || shines))
             leaveOut("an illumination model other than diffuse and highlight (illum)");

@@ -33,6 +33,8 @@ MtlTexture parseMtlTexture(StatementReader& statement)
             const std::string_view word = statement.word();
             texture.hasUnsupported = texture.hasUnsupported || (keyword == "-clamp" && word == "on")
                 || ((keyword == "-o" || keyword == "-s") && value != harmless);
+            if (keyword == "-bm")
+                texture.multiplier = word;
         }
     }
     texture.name = statement.rest();

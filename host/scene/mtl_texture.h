@@ -10,6 +10,7 @@ namespace wedge::scene {
 struct MtlTexture {
     std::string name; ///< to the end of the line, spaces and all; empty: none
     bool hasUnsupported = false; ///< an option that moves, scales or clamps it
+    std::string multiplier; ///< the word behind -bm; empty: none
 };
 
 /// Reads what follows the keyword: options and a file name.

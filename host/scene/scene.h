@@ -32,6 +32,9 @@ struct Material {
     float opacity = 1.0f; ///< 0 to 1: the share of rays that do not pass through
     /// Indices into Scene::textures; -1 = none.
     int diffuseTexture = -1, specularTexture = -1, exponentTexture = -1, emissionTexture = -1, opacityTexture = -1;
+    int normalTexture = -1; ///< a normal map, or heights
+    bool normalIsHeight = false;
+    float normalStrength = 1.0f; ///< its slopes are multiplied by this; within +-mostNormalStrength
 };
 
 enum class LightProfile { Uniform, Gaussian };
@@ -144,6 +147,7 @@ constexpr int maxImageSide = 32768;
 constexpr int maxSamples = 1 << 20;
 constexpr double leastMu = 0.01, mostMu = 1000.0;
 constexpr int maxBounces = 1024;
+constexpr double mostNormalStrength = 1000.0;
 constexpr double leastAmbientDistance = 1e-12, mostAmbientDistance = 1e12;
 /// Frames of a sequence in one unit of the keys' time.
 constexpr double leastFps = 1e-6, mostFps = 1e6;

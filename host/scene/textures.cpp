@@ -15,6 +15,18 @@ constexpr std::uintmax_t maxTextureFile = std::uintmax_t { 256 } << 20; // read 
 
 } // namespace
 
+bool looksLikeNormals(const Texture& texture)
+{
+    const auto isNormal = [](std::uint32_t rgba) {
+        const std::uint32_t r = rgba & 255u, g = (rgba >> 8) & 255u, b = (rgba >> 16) & 255u;
+        const auto coordinate = [](std::uint32_t byte) { return static_cast<float>(byte) / 127.5f - 1.0f; };
+        const float length = glm::length(glm::vec3(coordinate(r), coordinate(g), coordinate(b)));
+        return b > r && b > g && length > 0.8f && length < 1.2f;
+    };
+    const auto count = std::ranges::count_if(texture.rgba, isNormal);
+    return static_cast<std::size_t>(count) * 10 >= texture.rgba.size() * 9;
+}
+
 Texture TextureSet::read(const std::filesystem::path& path)
 {
     constexpr std::int64_t sceneFactor = 16, pixelsPerByte = 64;

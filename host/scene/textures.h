@@ -12,6 +12,10 @@
 
 namespace wedge::scene {
 
+/// Whether a picture has directions of a normal map rather than heights: in nine of ten texels blue is the largest
+/// channel, and the vector 2c - 1 of the channels c, 0 to 1, has a length of 0.8 to 1.2.
+bool looksLikeNormals(const Texture& texture);
+
 /// The textures of a scene, each file once. What they may take together is bounded: 16 times what one image may have,
 /// and beyond what one may have 64 pixels a byte of their files, so that many small files do not add up to gigabytes.
 /// Those that fail after their size was let through count, too, and their bytes do not.
@@ -26,6 +30,8 @@ public:
     /// The index in take() of a file's texture: PNG, JPEG, BMP, TGA or Radiance HDR. Throws Error when it is missing,
     /// no regular file, no image, damaged, or beyond the limits; for the same file again without reading it again.
     int add(const std::filesystem::path& path);
+
+    const Texture& at(int index) const { return textures_[static_cast<std::size_t>(index)]; }
 
     std::vector<Texture> take() { return std::move(textures_); }
 

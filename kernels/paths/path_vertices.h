@@ -95,6 +95,9 @@ WEDGE_FN void loadVertices(SurfaceData surfaces, const RayPacket* rays, const Pa
         setLaneVec(&at->geometric, lane, f.geometric);
         setLaneVec(&at->view, lane, vecScale(direction, -1.0f));
     }
+#ifdef WEDGE_NORMAL_MAPS
+    mapNormals(surfaces, hits, &corners, at->live, &at->geometric, &at->normal);
+#endif
     prepareScattering(at);
 }
 

@@ -3,6 +3,7 @@
 #define WEDGE_SURFACE_H
 
 #include "shared/hit.h"
+#include "trace/normal_maps.h"
 #include "trace/texture.h"
 
 /// Rounding errors of a hit point and of the next ray's triangle test, in units of the last place of the largest
@@ -187,6 +188,17 @@ WEDGE_INLINE Facet facetOf(Corners k, float u, float v, Vec3 direction)
     return f;
 }
 
+/// Texture coordinates of a hit.
+WEDGE_FN Vec2 texcoordsAt(SurfaceData data, Hit hit)
+{
+    const uint a = data.indices[3u * hit.triangle];
+    const uint b = data.indices[3u * hit.triangle + 1u];
+    const uint c = data.indices[3u * hit.triangle + 2u];
+    const float w = 1.0f - hit.u - hit.v;
+    return vec2(data.texcoords[2u * a] * w + data.texcoords[2u * b] * hit.u + data.texcoords[2u * c] * hit.v,
+        data.texcoords[2u * a + 1u] * w + data.texcoords[2u * b + 1u] * hit.u + data.texcoords[2u * c + 1u] * hit.v);
+}
+
 /// What a surface is made of.
 typedef struct {
     Vec3 diffuse, specular, emission;
@@ -207,13 +219,8 @@ WEDGE_FN Finish paintOf(SurfaceData data, Hit hit)
     if (!textured) {
         return s;
     }
-    const uint ia = data.indices[3u * hit.triangle];
-    const uint ib = data.indices[3u * hit.triangle + 1u];
-    const uint ic = data.indices[3u * hit.triangle + 2u];
-    const float wa = 1.0f - hit.u - hit.v;
-    const float tu = data.texcoords[2u * ia] * wa + data.texcoords[2u * ib] * hit.u + data.texcoords[2u * ic] * hit.v;
-    const float tv =
-        data.texcoords[2u * ia + 1u] * wa + data.texcoords[2u * ib + 1u] * hit.u + data.texcoords[2u * ic + 1u] * hit.v;
+    const Vec2 at = texcoordsAt(data, hit);
+    const float tu = at.x, tv = at.y;
     if (material.diffuseTexture != WEDGE_NO_TEXTURE) {
         s.diffuse = vecMul(
             s.diffuse, sampleTexture(data.textures, data.texels, data.srgbToLinear, material.diffuseTexture, tu, tv));
@@ -245,15 +252,49 @@ WEDGE_FN Finish finishOf(SurfaceData data, Hit hit)
     return s;
 }
 
+#ifdef WEDGE_NORMAL_MAPS
+/// How far the texture coordinates go from one vertex to another.
+WEDGE_FN Vec2 texcoordStep(SurfaceData data, uint from, uint to)
+{
+    return vec2(data.texcoords[2u * to] - data.texcoords[2u * from],
+        data.texcoords[2u * to + 1u] - data.texcoords[2u * from + 1u]);
+}
+
+/// The shading normal of a hit with the map of its material, if it has one. normal, geometric: as facetOf() has them of
+/// the triangle's corners. Files' normals say where the outside is, and where there are none the winding.
+WEDGE_FN Vec3 mappedNormal(SurfaceData data, Hit hit, Corners k, Vec3 normal, Vec3 geometric)
+{
+    const MaterialData material = data.materials[data.materialIds[hit.triangle]];
+    if (material.normalTexture == WEDGE_NO_TEXTURE) {
+        return normal;
+    }
+    const Vec3 direction =
+        mappedDirection(data.textures, data.texels, data.srgbToLinear + 256, material, texcoordsAt(data, hit));
+    const Vec3 ab = vecSub(k.b, k.a), ac = vecSub(k.c, k.a);
+    const Vec3 own = vecMad(vecMad(vecScale(k.normalA, 1.0f - hit.u - hit.v), k.normalB, hit.u), k.normalC, hit.v);
+    const float byNormals = vecDot(own, geometric), byWinding = vecDot(vecCross(ab, ac), geometric);
+    const float side = (byNormals != 0.0f ? byNormals : byWinding) < 0.0f ? -1.0f : 1.0f;
+    const uint a = data.indices[3u * hit.triangle];
+    const Vec2 uvB = texcoordStep(data, a, data.indices[3u * hit.triangle + 1u]);
+    const Vec2 uvC = texcoordStep(data, a, data.indices[3u * hit.triangle + 2u]);
+    return fromTangentSpace(direction, normal, geometric, side, ab, ac, uvB, uvC);
+}
+#endif
+
 /// Surface hit by a ray of the given direction (any length) and time (0 where the shutter opens, 1 where it closes).
 WEDGE_FN Surface surfaceAt(SurfaceData data, Hit hit, Vec3 direction, float time)
 {
-    const Facet f = facetOf(cornersOf(data, hit.triangle, time), hit.u, hit.v, direction);
+    const Corners corners = cornersOf(data, hit.triangle, time);
+    const Facet f = facetOf(corners, hit.u, hit.v, direction);
     const Finish finish = finishOf(data, hit);
     Surface s;
     s.position = f.position;
     s.origin = f.origin;
+#ifdef WEDGE_NORMAL_MAPS
+    s.normal = mappedNormal(data, hit, corners, f.normal, f.geometric);
+#else
     s.normal = f.normal;
+#endif
     s.geometric = f.geometric;
     s.diffuse = finish.diffuse;
     s.specular = finish.specular;

@@ -58,6 +58,21 @@ typedef struct {
     uint gloss[WEDGE_PACKET_SIZE]; ///< packGloss()
 } SurfaceLanes;
 
+#ifdef WEDGE_NORMAL_MAPS
+/// mappedNormal() of each live lane, from its normals.
+WEDGE_FN void mapNormals(SurfaceData data, const PacketHits* hits, const CornerLanes* corners, const uint* live,
+    const VecLanes* geometric, VecLanes* normal)
+{
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        if (live[lane] != 0u) {
+            setLaneVec(normal, lane,
+                mappedNormal(data, packetHit(hits, lane), laneCorners(corners, lane), laneVec(normal, lane),
+                    laneVec(geometric, lane)));
+        }
+    }
+}
+#endif
+
 /// surfaceAt() of each lane's hit.
 WEDGE_FN void surfacesAt(SurfaceData data, const RayPacket* rays, const PacketHits* hits, SurfaceLanes* s)
 {
@@ -87,6 +102,9 @@ WEDGE_FN void surfacesAt(SurfaceData data, const RayPacket* rays, const PacketHi
         setLaneVec(&s->normal, lane, vecChoose(live, f.normal, facing));
         setLaneVec(&s->geometric, lane, vecChoose(live, f.geometric, facing));
     }
+#ifdef WEDGE_NORMAL_MAPS
+    mapNormals(data, hits, &corners, s->live, &s->geometric, &s->normal);
+#endif
 }
 
 #endif

@@ -56,6 +56,7 @@ for target in spir64 nvptx64 amdgcn; do
                 printf '%s\0' "lint $target $file $family $motion" "lint $target $file $family $motion -DWEDGE_SPECULAR=1" \
                     "lint $target $file $family $motion -DWEDGE_SPECULAR=1 -DWEDGE_ENVIRONMENT_MAP=1" \
                     "lint $target $file $family $motion -DWEDGE_SPECULAR=1 -DWEDGE_GGX=1" \
+                    "lint $target $file $family $motion -DWEDGE_NORMAL_MAPS=1" \
                     "lint $target $file $family $motion -DWEDGE_CUTOUTS=1"
             done
         done
