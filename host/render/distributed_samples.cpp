@@ -93,7 +93,7 @@ void DistributedSamples::keepPixels()
 {
     Surfaces& s = f_.surfaces;
     s.position = kept<Position>("position", graph::vectors);
-    s.normal = kept<Normal>("normal", f_.packed ? packedNormals : graph::vectors);
+    s.normal = kept<Normal>("normal", f_.normals(f_.packed));
     s.objectId = kept<ObjectId>("object id", graph::counts);
     s.emission = kept<Radiance>("emission", graph::vectors);
     counts_.taken = kept<Count>("primary samples taken", graph::counts);

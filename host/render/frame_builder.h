@@ -48,6 +48,7 @@ inline constexpr graph::Format shortCounts { "ushort1", 2, "uint", "", "", "" };
 inline constexpr graph::Format shortGloss { "gloss16", 2, "uint", "", "", "" };
 inline constexpr graph::Format tallySums { "ulong1", 8, "ulong", "", "", "" };
 inline constexpr graph::Format packedNormals { "normal32", 4, "float", "", "", "" };
+inline constexpr graph::Format packedNormalPairs { "normal64", 8, "float", "", "", "" };
 inline constexpr graph::Format packedColours { "colour48", 6, "float", "", "", "" };
 inline constexpr graph::Format packedFractions { "fraction32", 4, "float", "", "", "" };
 
@@ -101,6 +102,12 @@ struct FrameBuilder {
     Surfaces surfaces = {};
     Totals totals = {};
 
+    /// Of normals, each in one number or in three. In scenes with normal maps the ones without them lie behind.
+    graph::Format normals(bool inOne) const
+    {
+        const bool mapped = hasNormalMaps(description);
+        return inOne ? (mapped ? packedNormalPairs : packedNormals) : mapped ? graph::floatPlanes(6) : graph::vectors;
+    }
     bool analysed() const { return settings.method == Method::AxisAligned; }
     /// The file of that path below kernels/, or the one beside it of packed planes.
     std::string program(const std::string& path) const

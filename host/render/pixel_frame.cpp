@@ -71,7 +71,7 @@ void PixelFrame::primary(bool lit)
 {
     Surfaces& s = f_.surfaces;
     s.position = graph_.plane<Position>("position", graph::vectors);
-    s.normal = graph_.plane<Normal>("normal", graph::vectors);
+    s.normal = graph_.plane<Normal>("normal", f_.normals(false));
     s.origin = graph_.plane<Position>("origin", graph::vectors);
     s.geometric = graph_.plane<Packed>("geometric normal", graph::counts);
     s.objectId = graph_.plane<ObjectId>("object id", graph::counts);

@@ -237,7 +237,7 @@ void Waves::trace(bool lit)
         .mostItems = tilesOfWave(),
         .everywhere = sampling_.everywhere });
     r_.position = list<Position>("positions", graph::vectors);
-    r_.normal = list<Normal>("normals", graph::vectors);
+    r_.normal = list<Normal>("normals", f_.normals(false));
     r_.origin = list<Position>("origins", graph::vectors);
     r_.geometric = list<Packed>("geometric normals", graph::counts);
     r_.objectId = list<ObjectId>("object ids", graph::counts);

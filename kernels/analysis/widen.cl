@@ -29,7 +29,8 @@ WEDGE_FN float16 comparedWidth16(AnalysisParams p, FrameParams frame, float pixe
     // Solid angle of a pixel off the axis: area / distance^2 times the cosine to the image plane.
     const float16 axis = max16(
         (ray.x * frame.forward.x + ray.y * frame.forward.y + ray.z * frame.forward.z) * inverse, (float16)(1e-10f));
-    const float16 facing = fabs(dot16(loadNormals16(normal, p.planeSize, i, p.packed), ray)) * inverse;
+    __global const float* unmapped = normal + unmappedNormals(p.planeSize, p.packed);
+    const float16 facing = fabs(dot16(loadNormals16(unmapped, p.planeSize, i, p.packed), ray)) * inverse;
     const float pixel = vecLength(vecCross(frame.right, frame.down));
     return pixels * sqrt(pixel * squared * axis * axis * axis / max16(facing, (float16)(WEDGE_MIN_VIEW_COSINE)));
 }

@@ -77,6 +77,19 @@ WEDGE_FN Vec3x16 loadNormals16(__global const float* planes, uint planeSize, int
     return packed != 0u ? unpackNormals16(planes, i) : loadVecBlock(planes, planeSize, i);
 }
 
+/// Where among the planes of normals the ones without maps begin, which filters tell planes by: behind those with them.
+/// Without maps there are none, and both are the same.
+WEDGE_FN uint unmappedNormals(uint planeSize, uint packed)
+{
+#ifdef WEDGE_NORMAL_MAPS
+    return packed != 0u ? planeSize : 3u * planeSize;
+#else
+    (void)planeSize;
+    (void)packed;
+    return 0u;
+#endif
+}
+
 WEDGE_FN void storeNormal(__global float* planes, uint planeSize, uint i, uint packed, Vec3 normal)
 {
     if (packed != 0u) {

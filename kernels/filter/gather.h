@@ -1,6 +1,7 @@
 // The image-space filter: a Gaussian of world-space standard deviation beta(x), as two one-dimensional passes.
 // Weights come from distances between the pixels' positions, so depth edges need no special case; neighbours of another
-// object or with another normal are left out. Distances are those in the plane parallel to a light, or, where the term
+// object or with another normal are left out: with its map, since light is gathered by it; how the surface lies is told
+// by the normal without its map. Distances are those in the plane parallel to a light, or, where the term
 // is of no light, plain ones. Each pixel counts for the surface that it sees: the convolutions (3.10) and (4.16) are
 // integrals over the surface, and pixels are not alike in what they see of it. Here is what neighbours weigh;
 // gather_lines.h has the passes. Each program that filters sets WEDGE_GATHER_CHANNELS, the planes of value. Those
@@ -30,7 +31,8 @@
 
 /// What a block of pixels needs to weigh its neighbours.
 typedef struct {
-    Vec3x16 position, normal, slant; ///< slant: what a motion of 1 along the light's normal adds, see distance16
+    Vec3x16 position, normal, plane, slant; ///< plane: the normal without its map; slant: what a motion of 1 along the
+                                            ///< light's normal adds, see distance16
     uint16 object;
     float16 perSize; ///< 1 over the side of the surface that the pixel sees, metres
 } GatherBlock;
@@ -51,6 +53,16 @@ WEDGE_INLINE Vec3x16 loadNormalBlock(FilterParams p, __global const float* norma
     return unpackNormals16(normal, i);
 #else
     return loadVecBlock(normal, p.planeSize, i);
+#endif
+}
+
+/// The same without their maps.
+WEDGE_INLINE Vec3x16 loadPlaneBlock(FilterParams p, __global const float* normal, int i)
+{
+#ifdef WEDGE_GATHER_PACKED
+    return loadNormalBlock(p, normal + unmappedNormals(p.planeSize, 1u), i);
+#else
+    return loadNormalBlock(p, normal + unmappedNormals(p.planeSize, 0u), i);
 #endif
 }
 
@@ -96,10 +108,10 @@ WEDGE_INLINE float16 radiusInPixels(FilterParams p, GatherBlock b, Vec3 step, fl
 {
     const Vec3x16 fromEye = sub16(b.position, splat3(p.eye));
     const float16 z = fromEye.x * p.forward.x + fromEye.y * p.forward.y + fromEye.z * p.forward.z;
-    const float16 facing = dot16(b.normal, fromEye);
+    const float16 facing = dot16(b.plane, fromEye);
     const float16 least = WEDGE_MIN_STEP_COSINE * sqrt(dot16(fromEye, fromEye));
     const float16 bounded = fabs(facing) < least ? copysign(least, facing) : facing;
-    const float16 turn = (b.normal.x * step.x + b.normal.y * step.y + b.normal.z * step.z) * z / bounded;
+    const float16 turn = (b.plane.x * step.x + b.plane.y * step.y + b.plane.z * step.z) * z / bounded;
     Vec3x16 moved;
     moved.x = z * step.x - fromEye.x * turn;
     moved.y = z * step.y - fromEye.y * turn;
@@ -116,6 +128,7 @@ WEDGE_INLINE GatherBlock gatherBlock(FilterParams p, int i, uint16 object, __glo
     b.object = object;
     b.position = loadVecBlock(position, p.planeSize, i);
     b.normal = loadNormalBlock(p, normal, i);
+    b.plane = loadPlaneBlock(p, normal, i);
     b.slant = slantOf(p, b.position);
     b.perSize = p.surface != 0u ? 1.0f / max16(loadSizeBlock(pixelSize, i), (float16)(1e-30f)) : (float16)(1.0f);
     return b;
@@ -152,7 +165,7 @@ WEDGE_INLINE Neighbours neighboursAt(FilterParams p, GatherBlock b, int j, float
     n.known = (object == b.object) & (betaThere >= 0.0f) & (dot16(b.normal, normalThere) >= p.normalCosine);
     n.area = (float16)(1.0f);
     if (p.surface != 0u) {
-        const float16 rise = dot16(b.normal, d);
+        const float16 rise = dot16(b.plane, d);
         n.known &= rise * rise <= WEDGE_MOST_RISE * WEDGE_MOST_RISE * dot16(d, d);
         const float16 size = loadSizeBlock(pixelSize, j) * b.perSize;
         n.area = min16(size * size, (float16)(WEDGE_MOST_AREA));

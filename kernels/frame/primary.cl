@@ -1,10 +1,12 @@
 // The primary pass: one ray through each pixel's centre, and what it hits, into the G-buffer.
 //
 // in   frame, BVH, surfaces, area lights (the camera sees those that are visible)
-// out  position, normal, origin (3 planes each), geometric (normal, packed), objectId (0: nothing to shade), depth (ray
+// out  position, normal, origin (3 planes each; normals with maps have 3 more, without them), geometric (normal,
+// packed), objectId (0: nothing to shade), depth (ray
 //      distance, +inf on a miss), pixelSize (projected edge of the pixel on the surface, metres), diffuse, specular,
 //      emission (3 each; emission holds background and light radiance where nothing is shaded), gloss (packed;
 //      negative: Phong)
+#include "core/packed_planes.h"
 #include "core/pixel.h"
 #include "light/environment_map.h"
 #include "light/seen_light.h"
@@ -61,6 +63,9 @@ __kernel void primary(FrameParams frame, __global const TraversalNode* restrict 
         const Vec3 facing = laneVec(&at.geometric, lane);
         storeVec(position, size, i, laneVec(&at.position, lane));
         storeVec(normal, size, i, laneVec(&at.normal, lane));
+#ifdef WEDGE_NORMAL_MAPS
+        storeVec(normal + unmappedNormals(size, 0u), size, i, laneVec(&at.unmapped, lane));
+#endif
         storeVec(origin, size, i, laneVec(&at.origin, lane));
         geometric[i] = packDirection(facing);
         objectId[i] = objectIds[hit.triangle];

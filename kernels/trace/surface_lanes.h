@@ -56,6 +56,9 @@ typedef struct {
     VecLanes position, origin, normal, geometric;
     VecLanes diffuse, specular, emission;
     uint gloss[WEDGE_PACKET_SIZE]; ///< packGloss()
+#ifdef WEDGE_NORMAL_MAPS
+    VecLanes unmapped; ///< normals without their maps
+#endif
 } SurfaceLanes;
 
 #ifdef WEDGE_NORMAL_MAPS
@@ -103,6 +106,7 @@ WEDGE_FN void surfacesAt(SurfaceData data, const RayPacket* rays, const PacketHi
         setLaneVec(&s->geometric, lane, vecChoose(live, f.geometric, facing));
     }
 #ifdef WEDGE_NORMAL_MAPS
+    s->unmapped = s->normal;
     mapNormals(data, hits, &corners, s->live, &s->geometric, &s->normal);
 #endif
 }

@@ -272,6 +272,9 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
     const uint size = wave.planeSize, pixels = frame.planeSize;
     const Vec3 none = vec3(0.0f, 0.0f, 0.0f);
     Vec3 at = none, facing = none, kd = none, ks = none, emitted = none;
+#ifdef WEDGE_NORMAL_MAPS
+    Vec3 unmapped = none;
+#endif
     GlossSum lobes = { { 0.0f, WEDGE_LAMBERT, 0.0f }, 0.0f };
     float hit = 0.0f, edge = 0.0f, moveX = 0.0f, moveY = 0.0f, squared = 0.0f;
     const bool has = p.before > 0u && wave.packed == 0u;
@@ -295,6 +298,9 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
         hit += 1.0f;
         at = vecAdd(at, loadVec(position, size, r));
         facing = vecAdd(facing, loadVec(normal, size, r));
+#ifdef WEDGE_NORMAL_MAPS
+        unmapped = vecAdd(unmapped, loadVec(normal + unmappedNormals(size, 0u), size, r));
+#endif
         kd = vecAdd(kd, loadVec(diffuse, size, r));
         ks = vecAdd(ks, loadVec(specular, size, r));
         addGloss(&lobes, unpackGloss(gloss[r]));
@@ -338,6 +344,11 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
     storeMean(positionOf, pixels, p.i, hits, at, hit);
     const Vec3 faced = loadNormal(normalOf, pixels, p.i, wave.packed);
     storeNormal(normalOf, pixels, p.i, wave.packed, vecNormalize(vecMad(facing, faced, hits)));
+#ifdef WEDGE_NORMAL_MAPS
+    __global float* unmappedOf = normalOf + unmappedNormals(pixels, wave.packed);
+    const Vec3 had = loadNormal(unmappedOf, pixels, p.i, wave.packed);
+    storeNormal(unmappedOf, pixels, p.i, wave.packed, vecNormalize(vecMad(unmapped, had, hits)));
+#endif
     if (measures && wave.packed != 0u) {
         storeShort(pixelSizeOf, pixels, p.i, 0u, edge / hit);
     } else if (measures) {

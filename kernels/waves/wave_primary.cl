@@ -2,8 +2,8 @@
 //
 // in   frame, camera, wave, BVH, surfaces, area lights (the camera sees those that are visible); pixelOf, sampleOf,
 //      wanted: primary samples of each pixel; known, if hasKnown: what pixels see of lights (seen_lights.cl)
-// out  planes of the wave: position, normal, origin (3 each), geometric (normal, packed), objectId (0: nothing to
-// shade),
+// out  planes of the wave: position, normal, origin (3 each; normals as primary.cl has them), geometric (normal,
+// packed), objectId (0: nothing to shade),
 //      gloss (packed), view (packed direction back along the ray), time, diffuse, specular, emission
 //      (3 each; emission holds background and light radiance where nothing is shaded), pixelSize (metres), depth
 //      (along the view axis; +inf on a miss), motion (2 planes: pixels that the point moves in the image from shutter
@@ -213,6 +213,9 @@ __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wav
     storeLanes(pixelSize + first, sizes, count);
     storeVecLanes(position + first, size, &at.position, count);
     storeVecLanes(normal + first, size, &at.normal, count);
+#ifdef WEDGE_NORMAL_MAPS
+    storeVecLanes(normal + unmappedNormals(size, 0u) + first, size, &at.unmapped, count);
+#endif
     storeVecLanes(origin + first, size, &at.origin, count);
     storeVecLanes(diffuse + first, size, &at.diffuse, count);
     storeVecLanes(specular + first, size, &at.specular, count);
