@@ -92,9 +92,41 @@ TEST_CASE("a board with cut-out fields gives the bits of a board without these f
                 for (const render::Settings& settings : { render::monteCarlo(16), render::axisAligned() }) {
                     const std::vector<float> a = picture(cut, device, settings, render::Traversal::Wide);
                     CHECK(a == picture(left, device, settings, render::Traversal::Wide));
+                    if (moving == emitter)
+                        CHECK(a == picture(cut, device, settings, render::Traversal::Scalar));
                     CHECK(*std::ranges::max_element(a) > 0.1f);
                 }
             }
+    });
+}
+
+TEST_CASE("both families of traversals see the same through veils and the soft edges of masks")
+{
+    onEveryDevice([](const device::Device& device) {
+        for (const bool lens : { false, true }) {
+            CAPTURE(lens);
+            SceneBuilder b = lampRoom();
+            b.scene.textures = { halfMask() };
+            scene::Material veil;
+            veil.diffuse = { 0.3f, 0.6f, 0.2f };
+            veil.opacity = 0.6f;
+            b.quad({ 0.1f, 0.9f, 0 }, { 0, 0, 0.6f }, { 0.6f, 0, 0 }, addMaterial(b, veil));
+            b.newObject();
+            b.quad({ 0, 0.5f, 0.6f }, { 0.7f, 0, 0 }, { 0, 0.3f, 0 }, addMasked(b, veil));
+            b.light({ 0.2f, 2, 0.1f }, { 0.3f, 0, 0 }, { 0, 0, 0.3f }, scene::LightProfile::Gaussian, 20);
+            b.scene.pointLights.push_back({ { 1, 1.8f, 0.5f }, glm::vec3(0.7f) });
+            b.scene.camera.apertureRadius = lens ? 0.03f : 0.0f;
+            const render::Settings settings = lens ? render::monteCarlo(16) : render::axisAligned();
+            const std::vector<float> wide = picture(b.scene, device, settings, render::Traversal::Wide);
+            CHECK(wide == picture(b.scene, device, settings, render::Traversal::Scalar));
+            // They are not opaque.
+            scene::Scene opaque = b.scene;
+            for (scene::Material& m : opaque.materials) {
+                m.opacity = 1;
+                m.opacityTexture = -1;
+            }
+            CHECK(wide != picture(opaque, device, settings, render::Traversal::Wide));
+        }
     });
 }
 

@@ -201,6 +201,30 @@ TEST_CASE("the moving Cornell box: what moves goes 10 to 40 pixels, the rest sta
     CHECK(lens.geometry.positionsAtClose == pinhole.geometry.positionsAtClose);
 }
 
+TEST_CASE("the tree of cards has leaves with holes and a trunk with bumps")
+{
+    const GeneratedScene made = wedge::generator::makeCardTree();
+    const TemporaryFolder folder;
+    wedge::generator::writeScene(made, folder.path("out"));
+    const Scene s = loadScene(folder.path("out/card_tree.toml"));
+    CHECK(s.warnings.empty());
+    checkSound(s);
+    CHECK(s.geometry.indices.size() / 3 == wedge::generator::triangles(made));
+    CHECK(s.settings.antialias);
+    CHECK(made.mesh.text() == wedge::generator::makeCardTree().mesh.text());
+    const auto named = [&](const std::string& name) -> const wedge::scene::Material& {
+        return *std::ranges::find(s.materials, name, &wedge::scene::Material::name);
+    };
+    CHECK(named("bark").normalTexture >= 0);
+    CHECK(named("bark").normalIsHeight);
+    REQUIRE(named("leaf").opacityTexture >= 0);
+    // Between a quarter and three quarters of a card are leaves.
+    const wedge::scene::Texture& mask = s.textures[static_cast<std::size_t>(named("leaf").opacityTexture)];
+    const auto leaves = std::ranges::count_if(mask.rgba, [](std::uint32_t t) { return (t & 255u) > 127u; });
+    CHECK(leaves > static_cast<std::ptrdiff_t>(mask.rgba.size() / 4));
+    CHECK(leaves < static_cast<std::ptrdiff_t>(mask.rgba.size() * 3 / 4));
+}
+
 TEST_CASE("scenes with textures are the same in every run")
 {
     const GeneratedScene a = wedge::generator::makeToasters(), b = wedge::generator::makeToasters();

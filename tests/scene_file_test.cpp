@@ -165,6 +165,37 @@ TEST_CASE("unknown keys are told with their place and the nearest known key")
     CHECK(contains(error("[background]\nradiance=0\nqqqqqq=0\n"), "use one of: radiance"));
 }
 
+TEST_CASE("textures of opacity, normals and heights, and their factors")
+{
+    const TemporaryFolder folder;
+    folder.write("m.obj", triangleObj);
+    // One white texel of a TGA file.
+    folder.write("a.tga", std::string("\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x18\0\xff\xff\xff", 21));
+    const auto material = [&](const std::string& keys) {
+        return wedge::scene::loadScene(
+            folder.write("s.toml", mesh + "material = 'a'\n[[material]]\nname = 'a'\n" + keys))
+            .materials[0];
+    };
+    CHECK(material("").opacity == 1);
+    CHECK(material("").opacityTexture == -1);
+    CHECK(material("").normalTexture == -1);
+    CHECK(material("opacity = 0.25").opacity == 0.25f);
+    CHECK(material("opacity_texture = 'a.tga'").opacityTexture == 0);
+    CHECK(material("opacity_texture = 'a.tga'").opacity == 1);
+    const auto normals = material("normal_texture = 'a.tga'\nnormal_strength = -0.5");
+    CHECK(normals.normalTexture == 0);
+    CHECK_FALSE(normals.normalIsHeight);
+    CHECK(normals.normalStrength == -0.5f);
+    const auto heights = material("bump_texture = 'a.tga'");
+    CHECK(heights.normalTexture == 0);
+    CHECK(heights.normalIsHeight);
+    CHECK(heights.normalStrength == 1);
+    const std::string both =
+        folder.write("t.toml", mesh + "[[material]]\nname = 'a'\nnormal_texture = 'a.tga'\nbump_texture = 'a.tga'\n");
+    CHECK(contains(errorOf(both), "stands beside a: normal_texture: give one of them"));
+    CHECK(contains(error("[[material]]\nname='a'\nopacity=1.5\n"), "opacity of material is out of range"));
+}
+
 TEST_CASE("wrong types and values are told with their place")
 {
     CHECK(error("[image]\nwidth = 3.5\n")

@@ -18,7 +18,7 @@ int main(int count, char** arguments)
     }
     try {
         for (const auto make : { makeGrids, makeBench, makeTentacles, makeSpheres, makeCornellGlossy, makeCornellFigure,
-                 makeChess, makeStillLife, makeToasters, makeRoom, makeMovingCornell, makeMovingLens }) {
+                 makeChess, makeStillLife, makeToasters, makeRoom, makeMovingCornell, makeMovingLens, makeCardTree }) {
             const GeneratedScene scene = make();
             writeScene(scene, folder);
             fmt::print("{}/{}.toml: {} triangles\n", folder, scene.name, triangles(scene));

@@ -28,6 +28,11 @@ std::string mtlText(const GeneratedScene& scene)
             text += fmt::format("map_Kd {}\n", textureFile(scene, static_cast<std::size_t>(m.diffuseTexture)));
         if (m.emissionTexture >= 0)
             text += fmt::format("map_Ke {}\n", textureFile(scene, static_cast<std::size_t>(m.emissionTexture)));
+        if (m.opacityTexture >= 0)
+            text += fmt::format("map_d {}\n", textureFile(scene, static_cast<std::size_t>(m.opacityTexture)));
+        if (m.normalTexture >= 0)
+            text += fmt::format("{} -bm {:g} {}\n", m.normalIsHeight ? "map_bump" : "norm", m.normalStrength,
+                textureFile(scene, static_cast<std::size_t>(m.normalTexture)));
         text += '\n';
     }
     return text;

@@ -42,7 +42,7 @@ struct MovingPart {
 struct GeneratedScene {
     std::string name, comment;
     ObjWriter mesh;
-    std::vector<scene::Material> materials; ///< diffuseTexture and emissionTexture are indices into `textures`
+    std::vector<scene::Material> materials; ///< their textures are indices into `textures`
     std::vector<GeneratedTexture> textures;
     std::vector<MovingPart> parts;
     double shutterClose = 0.0; ///< it opens at 0
@@ -90,5 +90,9 @@ GeneratedScene makeToasters(); ///< 2,500: toasters on a counter
 GeneratedScene makeRoom(); ///< 100,000: a living room behind a plant out of focus
 GeneratedScene makeMovingCornell(); ///< a Cornell box with a gliding board, a flying vase and a waving flag
 GeneratedScene makeMovingLens(); ///< the same through a lens
+
+// Cut-outs.
+
+GeneratedScene makeCardTree(); ///< 3,300 triangles: a tree whose leaves are pictures with holes on crossed cards
 
 } // namespace wedge::generator
