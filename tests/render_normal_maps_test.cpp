@@ -120,6 +120,7 @@ TEST_CASE("mapped normals follow the texture's axes, mirrored, turned, sheared, 
         for (const Axes& axes : all)
             for (const bool below : { false, true })
                 for (const bool own : { false, true }) {
+                    const bool isMirrored = below && own; // the mesh, by a transform
                     SceneBuilder b = floorFromAbove();
                     mapNormals(b, constantMap(tilted));
                     setTexcoords(b.scene, [&](glm::vec3 p) {
@@ -133,6 +134,13 @@ TEST_CASE("mapped normals follow the texture's axes, mirrored, turned, sheared, 
                     }
                     if (below)
                         b.scene.camera.eye.y *= -1;
+                    if (isMirrored) {
+                        scene::Geometry& g = b.scene.geometry;
+                        for (std::size_t i = 0; i < g.positions.size(); i += 3)
+                            g.positions[i] *= -1;
+                        for (std::size_t i = 0; i < g.indices.size(); i += 3)
+                            std::swap(g.indices[i], g.indices[i + 1]);
+                    }
                     // Where u grows and v does not, and the other way round.
                     const double area = axes.u.x * axes.v.y - axes.u.y * axes.v.x;
                     const glm::dvec3 alongU(axes.v.y / area, 0, -axes.v.x / area),
@@ -140,7 +148,8 @@ TEST_CASE("mapped normals follow the texture's axes, mirrored, turned, sheared, 
                     const glm::dvec3 t = glm::normalize(alongU),
                                      across = glm::normalize(alongV - t * glm::dot(t, alongV));
                     const glm::dvec3 up(0, own ? -1 : 1, 0), n = directionOf(tilted);
-                    const glm::dvec3 outside = n.x * t + n.y * across + n.z * up;
+                    glm::dvec3 outside = n.x * t + n.y * across + n.z * up;
+                    outside.x *= isMirrored ? -1 : 1;
                     const bool isOutside = below == own;
                     CAPTURE(axes.u.x);
                     CAPTURE(below);

@@ -96,6 +96,41 @@ check published_bounce "$scenes/penumbra.toml" --traversal wide --size 9x3 --met
 check one_pixel "$scenes/penumbra.toml" --traversal wide --size 1x1 --method aaf --spp 16 --bounces 1
 check sky "$scenes/sky.toml" --traversal wide --size 9x5 --method aaf --spp 16
 check sky_waves "$scenes/sky.toml" --traversal wide --size 7x3 --method aaf --spp 16 --antialias
+# Microfacets, normal maps and heights, and cut-outs.
+cat >"$work/bumps.toml" <<END
+[camera]
+eye = [0.5, 0.9, 1.5]
+look_at = [0, 0, 0]
+[[material]]
+name = "normals"
+model = "ggx"
+roughness = 0.4
+specular = 0.3
+normal_texture = "$scenes/textures/tiles.png"
+[[material]]
+name = "heights"
+bump_texture = "$scenes/textures/tiles.png"
+normal_strength = 5
+opacity = 0.7
+[[mesh]]
+file = "$scenes/meshes/quad.obj"
+material = "normals"
+[[mesh]]
+file = "$scenes/meshes/quad.obj"
+material = "heights"
+transform = [{ scale = 0.4 }, { rotate = [1, 0, 0, 50] }, { translate = [0, 0.3, 0] }]
+[[light]]
+type = "quad"
+centre = [0.3, 2, 0.5]
+half_u = [0.3, 0, 0]
+half_v = [0, 0, 0.3]
+radiance = 5
+two_sided = true
+END
+for family in wide scalar; do
+    check bumps_$family "$work/bumps.toml" --size 9x5 --method aaf --spp 16 --bounces 1 --traversal $family
+    check bumps_waves_$family "$work/bumps.toml" --size 7x3 --method aaf --spp 16 --antialias --traversal $family
+done
 check over_time_%d "$scenes/motion.toml" --traversal wide --size 9x5 --method aaf --spp 10 --frames 0:1 --temporal on
 check bounced_over_time_%d "$scenes/penumbra.toml" --traversal wide --size 9x5 --method aaf --spp 16 --bounces 1 --frames 0:1 --temporal on
 checkSabotaged
