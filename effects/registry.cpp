@@ -4,6 +4,7 @@
 #include "effects/emitters/emitters.h"
 #include "effects/environment/environment.h"
 #include "effects/indirect/indirect_light.h"
+#include "effects/mirrors/mirrors.h"
 
 namespace wedge::render {
 namespace {
@@ -13,6 +14,7 @@ const Registration ofDeltaLights(deltaLights());
 const Registration ofEmitters(emitters());
 const Registration ofEnvironment(environment());
 const Registration ofIndirectLight(indirectLight());
+const Registration ofMirrors(mirrors());
 
 } // namespace
 } // namespace wedge::render

@@ -222,6 +222,13 @@ TEST_CASE("wrong types and values are told with their place")
     CHECK(contains(error("[[material]]\nname='a'\nexponent=2\nmodel='ggx'\n"), "does nothing beside the model: 'ggx'"));
     CHECK(contains(error("[[material]]\nname='a'\nnormal_strength=2\n"), "does nothing without a texture: 2"));
     CHECK(contains(error("[[material]]\nname='a'\nnormal_strength=2000\n"), "normal_strength of material is out of"));
+    CHECK(contains(error("[[material]]\nname='a'\nior=1.3\n"), "ior of material does nothing beside the model"));
+    CHECK(contains(error("[[material]]\nname='a'\nior=1.3\nmodel='mirror'\n"), "the model: 'mirror': add model ="));
+    CHECK(contains(error("[[material]]\nname='a'\nior=0.01\nmodel='glass'\n"), "ior of material is out of range"));
+    CHECK(contains(error("[[material]]\nname='a'\ndiffuse=0.1\nmodel='mirror'\n"),
+        "diffuse of material does nothing beside the model: 'mirror': colour it by specular"));
+    CHECK(contains(error("[[material]]\nname='a'\nroughness_texture='b.png'\nmodel='glass'\n"),
+        "roughness_texture of material does nothing beside the model: 'glass'"));
     CHECK(contains(error("[[material]]\nname='a'\n[[material]]\nname='a'\n"), "s.toml:4:6: name of material is taken"));
     CHECK(contains(error("[[material]]\ndiffuse=1\n"), "material lacks a key: name"));
     CHECK(

@@ -101,6 +101,37 @@ TEST_CASE("what would change the look is named once a library")
     CHECK(parse("newmtl a\nillum 0\n").warnings.size() == 1);
 }
 
+TEST_CASE("illum makes mirrors and glass of materials that are otherwise such, and nothing of others")
+{
+    using wedge::scene::SpecularModel;
+    for (const char* illum : { "3", "5" }) {
+        const Library l = parse(std::string("newmtl a\nKd 0.01 0.01 0.01\nKs 0.9 0.8 0.7\nNs 1000\nillum ") + illum);
+        CHECK(l.materials[0].specularModel == SpecularModel::Mirror);
+        CHECK(l.materials[0].specular == glm::vec3(0.9f, 0.8f, 0.7f));
+        CHECK(l.materials[0].diffuse == glm::vec3(0));
+        CHECK(l.warnings.empty());
+    }
+    for (const char* illum : { "4", "6", "7", "9" }) {
+        const Library l =
+            parse(std::string("newmtl a\nKd 0.01\nKs 0.3\nTf 0.25 0.5 1\nNs 200\nNi 1.33\nillum ") + illum);
+        CHECK(l.materials[0].specularModel == SpecularModel::Glass);
+        CHECK(l.materials[0].index == 1.33f);
+        CHECK(l.materials[0].specular == glm::vec3(1));
+        CHECK(glm::length(l.materials[0].transmission - glm::vec3(0.5f, 0.70710678f, 1)) < 1e-6f);
+        CHECK(l.warnings.empty());
+    }
+    // No word of a mirror's colour, colour below it, a texture there; no index, transparency by d, roughness.
+    for (const char* other : { "illum 5\n", "Ks 1\nKd 0.5\nillum 3\n", "Ks 1\nmap_Kd a.png\nillum 3\n",
+             "Ks 1\nillum 7\n", "Ks 1\nNi 1\nillum 4\n", "Ks 1\nNi 1.45\nd 0.5\nillum 9\n",
+             "Kd 0.8\nKs 0.5\nNi 1.45\nillum 6\n", "Ks 1\nillum 8\n", "Ks 1\nNi 1.5\nillum 2\n" }) {
+        CAPTURE(other);
+        const Library l = parse(std::string("newmtl a\n") + other);
+        CHECK(l.materials[0].specularModel == SpecularModel::BlinnPhong);
+        CHECK(l.warnings.empty() == (std::string(other).find("illum 2") != std::string::npos));
+    }
+    CHECK(parse("newmtl a\nKs 1\nPr 0.1\nillum 3\n").materials[0].specularModel == SpecularModel::Ggx);
+}
+
 TEST_CASE("roughness and metal make GGX of a base colour")
 {
     const auto material = [](const std::string& statements) { return parse("newmtl a\n" + statements).materials[0]; };

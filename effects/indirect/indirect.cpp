@@ -45,6 +45,7 @@ shared::PathParams pathParams(const FrameBuilder& frame, Component component)
     p.emitterShare = frame.scene != nullptr ? frame.scene->emitterShare : 0.0f;
     p.environmentShare = frame.scene != nullptr ? frame.scene->environmentShare : 0.0f;
     p.relative = isRelative(component, settings) ? 1 : 0;
+    p.skipsMirrors = component != Component::Ambient ? 1 : 0;
     p.sceneDiameter = frame.scene != nullptr ? frame.scene->diameter : 0.0f;
     if (scene != nullptr) {
         const glm::vec3 &low = scene->sharedTerm.low, &high = scene->sharedTerm.high;

@@ -29,6 +29,12 @@ double profileMean(const scene::AreaLight& light)
 /// Textures multiply the specular colour.
 std::uint32_t kindOf(const scene::Material& m)
 {
+    if (m.specularModel == scene::SpecularModel::Mirror) {
+        return WEDGE_MIRROR;
+    }
+    if (m.specularModel == scene::SpecularModel::Glass) {
+        return WEDGE_GLASS;
+    }
     if (m.specular == glm::vec3(0.0f)) {
         return WEDGE_LAMBERT;
     }
@@ -39,6 +45,9 @@ std::uint32_t kindOf(const scene::Material& m)
         return WEDGE_BLINN_PHONG;
     case scene::SpecularModel::Ggx:
         return WEDGE_MICROFACETS;
+    case scene::SpecularModel::Mirror:
+    case scene::SpecularModel::Glass:
+        break;
     }
     return WEDGE_LAMBERT;
 }
@@ -53,6 +62,10 @@ std::vector<shared::MaterialData> materialData(const scene::Scene& scene)
         d.emission = toVec3(m.emission);
         d.kind = kindOf(m);
         d.exponent = d.kind == WEDGE_MICROFACETS ? m.roughness : m.exponent;
+        if (d.kind == WEDGE_MIRROR || d.kind == WEDGE_GLASS) {
+            d.diffuse = toVec3(m.transmission);
+            d.exponent = m.index;
+        }
         d.diffuseTexture = textureId(m.diffuseTexture);
         d.specularTexture = textureId(m.specularTexture);
         d.exponentTexture = textureId(m.exponentTexture);
@@ -176,9 +189,15 @@ shared::AreaLight deviceLight(const scene::AreaLight& light)
 bool hasSpecular(const scene::Scene& scene)
 {
     return std::ranges::any_of(scene.geometry.materialIds, [&](std::uint32_t id) {
-        const glm::vec3 s = scene.materials[id].specular;
-        return s.r + s.g + s.b > 0.0f;
+        const scene::Material& m = scene.materials[id];
+        return m.specular.r + m.specular.g + m.specular.b > 0.0f && !WEDGE_IS_MIRROR(kindOf(m));
     });
+}
+
+bool hasMirrors(const scene::Scene& scene)
+{
+    return std::ranges::any_of(
+        scene.geometry.materialIds, [&](std::uint32_t id) { return WEDGE_IS_MIRROR(kindOf(scene.materials[id])); });
 }
 
 bool hasMicrofacets(const scene::Scene& scene)

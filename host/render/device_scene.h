@@ -26,6 +26,9 @@ double profileArea(const scene::AreaLight& light);
 /// lobes cost more than all else of a shadow ray.
 bool hasSpecular(const scene::Scene& scene);
 
+/// Whether any of them is a mirror or glass.
+bool hasMirrors(const scene::Scene& scene);
+
 /// Whether any of them is of GGX microfacets.
 bool hasMicrofacets(const scene::Scene& scene);
 

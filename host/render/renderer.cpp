@@ -63,6 +63,9 @@ device::BuildOptions programOptions(const scene::Scene& scene, const Options& op
     if (hasNormalMaps(scene)) {
         out.defines.emplace_back("WEDGE_NORMAL_MAPS", "1");
     }
+    if (hasMirrors(scene)) {
+        out.defines.emplace_back("WEDGE_MIRRORS", "1");
+    }
     if (pictureOf(scene) != nullptr) {
         out.defines.emplace_back("WEDGE_ENVIRONMENT_MAP", "1");
     }

@@ -40,10 +40,44 @@ void readNormals(TableReader& table, TextureSet& textures, Material& m)
     m.normalStrength = static_cast<float>(strength.value_or(m.normalStrength));
 }
 
-/// The lobe's model and what is its own; a number of another model would do nothing, which is an error.
-void readModel(TableReader& table, TextureSet& textures, Material& m)
+constexpr double leastIndex = 0.1, mostIndex = 10.0;
+
+/// A mirror or glass has colours and an index, and nothing else of what reflects.
+void readMirror(TableReader& table, const std::string& model, Material& m)
 {
-    const std::string model = table.choice("model", { "phong", "blinn_phong", "ggx" }).value_or("blinn_phong");
+    const bool isGlass = model == "glass";
+    const auto refuse = [&](const char* key) {
+        table.fail(key, "does nothing beside the model", fmt::format("'{}'", model),
+            isGlass ? "colour it by specular and transmission" : "colour it by specular");
+    };
+    for (const char* key : { "exponent", "roughness" })
+        if (table.number(key, 0.0, maxExponent))
+            refuse(key);
+    if (table.colour("diffuse"))
+        refuse("diffuse");
+    for (const char* key : { "diffuse_texture", "specular_texture", "exponent_texture", "roughness_texture" })
+        if (table.path(key))
+            refuse(key);
+    m.specularModel = isGlass ? SpecularModel::Glass : SpecularModel::Mirror;
+    m.diffuse = glm::vec3(0.0f);
+    m.specular = table.colour("specular").value_or(glm::vec3(1.0f));
+}
+
+/// What is glass' own.
+void readGlass(TableReader& table, const std::string& model, Material& m)
+{
+    const auto index = table.number("ior", leastIndex, mostIndex);
+    const auto transmission = table.colour("transmission");
+    if (model != "glass" && (index || transmission))
+        table.fail(index ? "ior" : "transmission", "does nothing beside the model", fmt::format("'{}'", model),
+            "add model = \"glass\"");
+    m.index = static_cast<float>(index.value_or(m.index));
+    m.transmission = transmission.value_or(m.transmission);
+}
+
+/// The lobe's model and what is its own; a number of another model would do nothing, which is an error.
+void readModel(TableReader& table, TextureSet& textures, const std::string& model, Material& m)
+{
     const bool isGgx = model == "ggx";
     m.specularModel = isGgx ? SpecularModel::Ggx : model == "phong" ? SpecularModel::Phong : SpecularModel::BlinnPhong;
     const auto exponent = table.number("exponent", 0.0, maxExponent);
@@ -66,16 +100,23 @@ Material readMaterial(TableReader& table, TextureSet& textures, Warnings& warnin
 {
     Material m;
     m.name = table.require("name", table.text("name"));
-    m.diffuseTexture = readTextureKey(table, "diffuse_texture", textures);
-    m.specularTexture = readTextureKey(table, "specular_texture", textures);
+    const std::string model =
+        table.choice("model", { "phong", "blinn_phong", "ggx", "mirror", "glass" }).value_or("blinn_phong");
     m.emissionTexture = readTextureKey(table, "emission_texture", textures);
     m.opacityTexture = readTextureKey(table, "opacity_texture", textures);
     m.opacity = static_cast<float>(table.number("opacity", 0.0, 1.0).value_or(m.opacity));
     // A texture multiplies its colour, so it is seen as it is where no colour is given.
-    m.diffuse = table.colour("diffuse").value_or(m.diffuseTexture >= 0 ? glm::vec3(1.0f) : m.diffuse);
-    m.specular = table.colour("specular").value_or(m.specularTexture >= 0 ? glm::vec3(1.0f) : m.specular);
     m.emission = table.colour("emission").value_or(m.emissionTexture >= 0 ? glm::vec3(1.0f) : m.emission);
-    readModel(table, textures, m);
+    readGlass(table, model, m);
+    if (model == "mirror" || model == "glass") {
+        readMirror(table, model, m);
+    } else {
+        m.diffuseTexture = readTextureKey(table, "diffuse_texture", textures);
+        m.specularTexture = readTextureKey(table, "specular_texture", textures);
+        m.diffuse = table.colour("diffuse").value_or(m.diffuseTexture >= 0 ? glm::vec3(1.0f) : m.diffuse);
+        m.specular = table.colour("specular").value_or(m.specularTexture >= 0 ? glm::vec3(1.0f) : m.specular);
+        readModel(table, textures, model, m);
+    }
     readNormals(table, textures, m);
     table.finish();
     warnOfEnergy({ m }, table.where("diffuse"), warnings);

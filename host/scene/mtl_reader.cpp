@@ -22,6 +22,8 @@ constexpr std::uintmax_t maxMtlFile = std::uintmax_t { 256 } << 20;
 constexpr glm::vec3 diffuseOfTexture(0.6f);
 /// The refractive index of what is no metal where no Ni above 1 is given: 4 % are reflected head-on.
 constexpr float usualIndex = 1.5f;
+/// Kd of mirrors and glass, at most, over what they reflect or let through.
+constexpr float blackShare = 0.1f;
 
 /// Statements that change the look in other programs, and what messages call them.
 const std::map<std::string_view, const char*> unsupported = { { "disp", "displacement (disp)" },
@@ -70,6 +72,8 @@ private:
         bool hasDissolve = false; ///< d, which outdoes Tr
         std::optional<float> roughness, metal; ///< Pr, Pm
         float index = usualIndex; ///< Ni
+        bool hasIndex = false; ///< above 1
+        glm::vec3 filter { 1.0f }; ///< Tf
         MtlTexture diffuse, specular, exponent, emission, opacity, roughnessMap, normals, heights;
     };
     struct LeftOut {
@@ -143,7 +147,8 @@ private:
             extra_.metal = share("Pm", in.word(), 0.0f);
         } else if (keyword == "Ni") {
             value = number("Ni", in.word(), usualIndex);
-            extra_.index = value > 1.0f ? value : usualIndex;
+            extra_.hasIndex = value > 1.0f;
+            extra_.index = extra_.hasIndex ? value : usualIndex;
         } else if (keyword == "map_Pr") {
             extra_.roughnessMap = parseMtlTexture(in);
         } else if (keyword == "norm" || keyword == "map_Kn") {
@@ -151,8 +156,7 @@ private:
         } else if (keyword == "bump" || keyword == "map_bump" || keyword == "map_Bump") {
             extra_.heights = parseMtlTexture(in);
         } else if (keyword == "Tf") {
-            if (colour("Tf", in) != glm::vec3(1.0f))
-                leaveOut("a transmission filter (Tf)");
+            extra_.filter = colour("Tf", in);
         } else if (const auto known = unsupported.find(keyword); known != unsupported.end()) {
             leaveOut(known->second);
         }
@@ -203,6 +207,38 @@ private:
         m.diffuse = base * (1.0f - metal) * (1.0f - ratio * ratio);
         // One texture multiplies each colour: a mixture counts as what there is more of.
         m.specularTexture = metal >= 0.5f ? m.diffuseTexture : -1;
+    }
+
+    /// Whether Kd is next to nothing beside another colour.
+    bool isBlackBeside(float other) const
+    {
+        const glm::vec3& kd = material_.diffuse;
+        return extra_.diffuse.name.empty() && std::max({ kd.x, kd.y, kd.z }) <= blackShare * other;
+    }
+
+    /// A mirror or glass, where illum says so and the rest of the material is of one: programs write it for much else.
+    /// Returns whether it is.
+    bool makeMirror()
+    {
+        Material& m = material_;
+        const int illum = extra_.illumination;
+        const float shine = std::max({ m.specular.x, m.specular.y, m.specular.z });
+        const glm::vec3& tf = extra_.filter;
+        const bool mirror = (illum == 3 || illum == 5) && shine > 0.0f && isBlackBeside(shine);
+        const bool glass = (illum == 4 || illum == 6 || illum == 7 || illum == 9) && extra_.hasIndex
+            && m.opacity == 1.0f && extra_.opacity.name.empty() && isBlackBeside(std::max({ shine, tf.x, tf.y, tf.z }));
+        if (m.specularModel == SpecularModel::Ggx || !(mirror || glass))
+            return false;
+        if (m.specularTexture >= 0)
+            leaveOut("a texture of a mirror or glass (map_Ks)");
+        m.specularModel = mirror ? SpecularModel::Mirror : SpecularModel::Glass;
+        m.diffuse = glm::vec3(0.0f);
+        m.specular = mirror ? m.specular : glm::vec3(1.0f);
+        m.specularTexture = m.exponentTexture = -1;
+        m.index = extra_.index;
+        // The filter is of a whole body, which light passes into and out of.
+        m.transmission = glm::sqrt(tf);
+        return true;
     }
 
     /// A value that makes no sense is told and replaced.
@@ -281,9 +317,11 @@ private:
         }
         makeMetallicRough();
         addNormals();
-        const bool shines = m.specular != glm::vec3(0.0f);
-        if (extra_.illumination != 2 && (extra_.illumination != 1 || shines))
+        const bool isMirror = makeMirror(), shines = m.specular != glm::vec3(0.0f);
+        if (!isMirror && extra_.illumination != 2 && (extra_.illumination != 1 || shines))
             leaveOut("an illumination model other than diffuse and highlight (illum)");
+        if (m.specularModel != SpecularModel::Glass && extra_.filter != glm::vec3(1.0f))
+            leaveOut("a transmission filter (Tf)");
         materials_.push_back(m);
         isOpen_ = false;
     }
@@ -319,7 +357,9 @@ std::vector<Material> parseMtl(
 void warnOfEnergy(const std::vector<Material>& materials, const std::string& where, Warnings& warnings)
 {
     const auto reflected = [](const Material& m) {
-        const glm::vec3 sum = m.diffuse + m.specular;
+        glm::vec3 sum = m.diffuse + m.specular;
+        if (m.specularModel == SpecularModel::Glass)
+            sum = glm::max(m.specular, m.transmission);
         return std::max({ sum.x, sum.y, sum.z });
     };
     const auto tooMuch = [&](const Material& m) { return reflected(m) > 1.0f + 1e-5f; };

@@ -21,13 +21,21 @@ struct Texture {
     bool hasAlpha = false; ///< some texel is not opaque, and as an opacity the alphas count; else luminance
 };
 
-enum class SpecularModel { Phong, BlinnPhong, Ggx };
+enum class SpecularModel {
+    Phong,
+    BlinnPhong,
+    Ggx,
+    Mirror, ///< reflects specular of the mirrored view, and nothing else
+    Glass, ///< a smooth dielectric: reflects specular and transmits transmission of Fresnel's shares
+};
 
 struct Material {
     std::string name;
     glm::vec3 diffuse { 0.5f }, specular { 0.0f }, emission { 0.0f };
     float exponent = 1.0f; ///< of the specular lobe, at least 0; Ggx has none
     float roughness = 0.5f; ///< of Ggx, 0 to 1; exponentTexture multiplies it. specular is what faces reflect head-on
+    glm::vec3 transmission { 1.0f }; ///< of Glass, each time that light passes through the surface
+    float index = 1.5f; ///< refractive index of Glass, above 0
     SpecularModel specularModel = SpecularModel::BlinnPhong;
     float opacity = 1.0f; ///< 0 to 1: the share of rays that do not pass through
     /// Indices into Scene::textures; -1 = none.

@@ -65,6 +65,11 @@ __kernel void keepFrame(TemporalParams p, __global const float* restrict positio
     depth[i] = vecDot(vecSub(loadVec(position, n, i), p.eye), p.forward);
     facing[i] = packNormal(loadVec(normal, n, i));
     object[i] = objectId[i];
+#ifdef WEDGE_MIRRORS
+    // What a mirror shows does not move with it: it is looked for nowhere, and found where all is still.
+    const Vec3 colour = vecAdd(loadVec(diffuse, n, i), loadVec(specular, n, i));
+    object[i] = p.open == 0u && colour.x + colour.y + colour.z == 0.0f ? 0u : object[i];
+#endif
     storeColour(directLight, n, i, WEDGE_COLOUR_BITS, vecChoose(reflects, over(loadVec(direct, n, i), k), black));
     Vec3 unfiltered = loadVec(directNoisy, n, i);
     if (p.indirect != 0u) {

@@ -103,27 +103,6 @@ WEDGE_FN void takePaths(const PathPacket* paths, const float* weight, const RayP
     takeSamples(at, &samples, sink, WEDGE_SINK_ARGUMENTS);
 }
 
-WEDGE_FN LightData lightData(PathParams params, __global const AreaLight* area, __global const DeltaLight* delta,
-    SurfaceData surfaces, __global const Emitter* emitters, __global const float* emitterPicks,
-    __global const EnvironmentMap* environment, __global const float* environmentTable)
-{
-    LightData lights;
-    lights.emitters.surfaces = surfaces;
-    lights.emitters.quads = area;
-    lights.emitters.list = emitters;
-    lights.emitters.picks = emitterPicks;
-    lights.emitters.count = params.emitters;
-    lights.emitters.share = params.emitterShare;
-    lights.beyond = beyondData(environment, environmentTable, params.environmentShare);
-    lights.area = area;
-    lights.delta = delta;
-    lights.areaCount = params.areaLights;
-    lights.deltaCount = params.deltaLights;
-    lights.sceneDiameter = params.sceneDiameter;
-    lights.sampling = params.lightSampling;
-    return lights;
-}
-
 WEDGE_FN SampleParams samplingOf(PathParams params)
 {
     SampleParams sampling;
@@ -143,8 +122,11 @@ WEDGE_FN void preparePaths(uint size, PathParams params, uint lastSample, __glob
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const uint at = own->receivers.pixel[lane];
-        const bool reflects = at != WEDGE_NO_PIXEL
+        bool reflects = at != WEDGE_NO_PIXEL
             && (!WEDGE_IS_GLOSSY(params.component) || luminance(loadVec(specular, size, at)) > 0.0f);
+#ifdef WEDGE_MIRRORS
+        reflects &= params.skipsMirrors == 0u || !WEDGE_IS_MIRROR(own->receivers.gloss[lane]);
+#endif
         own->receivers.pixel[lane] = reflects ? at : WEDGE_NO_PIXEL;
         const uint i = reflects ? at : 0u;
         setLaneVec(&own->facing, lane, reflects ? unpackDirection(geometric[i]) : vec3(0.0f, 0.0f, 1.0f));

@@ -31,7 +31,12 @@ WEDGE_FN void sampleVertexLights(LightData lights, SampleParams params, PathPack
         const bool above = vecDot(laneVec(&at->geometric, lane), laneVec(&chosen.direction, lane)) > 0.0f;
         const Vec3 irradiance = laneVec(&chosen.irradiance, lane);
         const bool unused = area && lights.sampling == WEDGE_LIGHTS_MET;
-        const bool wanted = at->live[lane] != 0u && above && luminance(irradiance) > 0.0f && !unused;
+#ifdef WEDGE_MIRRORS
+        const bool scatters = !WEDGE_IS_MIRROR(at->kind[lane]);
+#else
+        const bool scatters = true;
+#endif
+        const bool wanted = at->live[lane] != 0u && scatters && above && luminance(irradiance) > 0.0f && !unused;
         const float weight = powerHeuristic(chosen.pdf[lane], pdf[lane]);
         const float w = area && lights.sampling == WEDGE_LIGHTS_BOTH ? weight : 1.0f;
         setLaneVec(light, lane,
@@ -41,6 +46,32 @@ WEDGE_FN void sampleVertexLights(LightData lights, SampleParams params, PathPack
         setTime(shadow, lane, timeOf(rays, lane));
         paths->shadowRays[lane] += wanted ? 1u : 0u;
     }
+}
+
+/// Density of a ray's direction where no other technique finds what it meets.
+#define WEDGE_ONE_DIRECTION INFINITY
+
+/// What a ray whose direction has the density pdf counts of a light that the other technique has with `other`. After
+/// mirrors and glass there is no other, whatever the light sampling is.
+WEDGE_INLINE float metWeight(LightData lights, float pdf, float other)
+{
+    const float weight = lights.sampling == WEDGE_LIGHTS_MET ? 1.0f : powerHeuristic(pdf, other);
+#ifdef WEDGE_MIRRORS
+    return lights.sampling == WEDGE_LIGHTS_SAMPLED && pdf < WEDGE_ONE_DIRECTION ? 0.0f : weight;
+#else
+    return weight;
+#endif
+}
+
+/// 1: rays that go on may count lights that they meet.
+WEDGE_INLINE bool meetsLights(LightData lights)
+{
+#ifdef WEDGE_MIRRORS
+    (void)lights;
+    return true;
+#else
+    return lights.sampling != WEDGE_LIGHTS_SAMPLED;
+#endif
 }
 
 /// Distances of the farthest lights that rays from the vertices meet; 0 where they meet none.
@@ -86,6 +117,20 @@ WEDGE_FN bool goOn(LightData lights, SampleParams params, PathPacket* paths, uin
         goes[lane] = at->live[lane] != 0u && !ends ? 1u : 0u;
         end[lane] = INFINITY;
     }
+#ifdef WEDGE_MIRRORS
+    VecLanes start = at->origin;
+    for (uint lane = 0u; at->anyMirror && lane < WEDGE_PACKET_SIZE; ++lane) {
+        if (at->live[lane] != 0u && WEDGE_IS_MIRROR(at->kind[lane])) {
+            const MirrorRay ray = vertexMirrorRay(lights.emitters.surfaces.materials, at, lane, choice[lane]);
+            setLaneVec(&start, lane, ray.start);
+            setLaneVec(&l, lane, ray.to.direction);
+            const Vec3 carried = vecMul(laneVec(&paths->throughput, lane), ray.to.weight);
+            setLaneVec(&throughput, lane, carried);
+            pdf[lane] = WEDGE_ONE_DIRECTION;
+            goes[lane] = luminance(carried) > 0.0f ? 1u : 0u;
+        }
+    }
+#endif
     // What emits may be anywhere, and so is what lies beyond the scene.
     if (last && lights.emitters.count + WEDGE_OPEN == 0u) {
         farthestMeetings(lights, at, &l, end);
@@ -96,7 +141,12 @@ WEDGE_FN bool goOn(LightData lights, SampleParams params, PathPacket* paths, uin
         setLaneVecIf(&paths->throughput, lane, on, laneVec(&throughput, lane));
         paths->pdf[lane] = on ? pdf[lane] : paths->pdf[lane];
         const float until = on ? end[lane] : 0.0f;
-        setRay(rays, lane, laneVec(&at->origin, lane), laneVec(&l, lane), 0.0f, until);
+#ifdef WEDGE_MIRRORS
+        const Vec3 from = laneVec(&start, lane);
+#else
+        const Vec3 from = laneVec(&at->origin, lane);
+#endif
+        setRay(rays, lane, from, laneVec(&l, lane), 0.0f, until);
         paths->rays[lane] += until > 0.0f ? 1u : 0u;
         any |= until > 0.0f ? 1u : 0u;
     }
@@ -127,7 +177,7 @@ WEDGE_FN void addLightsMet(LightData lights, const RayPacket* rays, const Packet
             // As for shadow rays, what lies just before the light is its housing.
             const bool meets = rays->tMax[lane] > 0.0f && m.t * WEDGE_SHADOW_RAY_END < hits->t[lane] && m.t < INFINITY;
             const float other = lightPdf(light, m.a, m.b, m.t, m.facing);
-            const float w = lights.sampling == WEDGE_LIGHTS_MET ? 1.0f : powerHeuristic(paths->pdf[lane], other);
+            const float w = metWeight(lights, paths->pdf[lane], other);
             setLaneVecIf(&sum, lane, meets, vecMad(laneVec(&sum, lane), light.radiance, w * metProfile(light, m)));
         }
     }
@@ -141,10 +191,10 @@ WEDGE_FN void addEmittedMet(LightData lights, const RayPacket* rays, const Packe
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const Hit hit = packetHit(hits, lane);
         Vec3 emitted = emittedOf(lights.emitters, hit);
-        if (lights.sampling == WEDGE_LIGHTS_BOTH && luminance(emitted) > 0.0f) {
+        if (lights.sampling != WEDGE_LIGHTS_MET && luminance(emitted) > 0.0f) {
             const float other =
                 lights.emitters.share * emitterPdf(lights.emitters, hit, rayDirection(rays, lane), timeOf(rays, lane));
-            emitted = vecScale(emitted, powerHeuristic(paths->pdf[lane], other));
+            emitted = vecScale(emitted, metWeight(lights, paths->pdf[lane], other));
         }
         setLaneVec(&sum, lane, emitted);
     }
@@ -160,11 +210,9 @@ WEDGE_FN void addBeyond(LightData lights, const RayPacket* rays, const PacketHit
         // Rays that there are not need not be of length 1.
         const Vec3 direction = vecChoose(beyond, rayDirection(rays, lane), vec3(0.0f, 0.0f, 1.0f));
         Vec3 radiance = environmentRadiance(direction);
-        if (WEDGE_ENVIRONMENT_MAP != 0 && beyond && lights.sampling != WEDGE_LIGHTS_SAMPLED) {
+        if (WEDGE_ENVIRONMENT_MAP != 0 && beyond && meetsLights(lights)) {
             const BeyondSample seen = seenBeyond(lights.beyond, direction);
-            const float w = lights.sampling == WEDGE_LIGHTS_MET
-                ? 1.0f
-                : powerHeuristic(paths->pdf[lane], lights.beyond.share * seen.pdf);
+            const float w = metWeight(lights, paths->pdf[lane], lights.beyond.share * seen.pdf);
             radiance = vecMad(radiance, seen.radiance, w);
         }
         setLaneVec(&sum, lane, vec3(0.0f, 0.0f, 0.0f));
@@ -176,7 +224,7 @@ WEDGE_FN void addBeyond(LightData lights, const RayPacket* rays, const PacketHit
 /// Adds what is seen along the rays that went on from a vertex.
 WEDGE_FN void addMet(LightData lights, const RayPacket* rays, const PacketHits* hits, PathPacket* paths)
 {
-    if (lights.sampling != WEDGE_LIGHTS_SAMPLED) {
+    if (meetsLights(lights)) {
         addLightsMet(lights, rays, hits, paths);
         if (lights.emitters.count > 0u) {
             addEmittedMet(lights, rays, hits, paths);
@@ -199,14 +247,13 @@ WEDGE_FN void beginPaths(const RayPacket* rays, PathPacket* paths)
     }
 }
 
-/// Traces the paths whose first rays (unit directions; tMax 0: no path) are in `rays`, all rays of a path at the time
-/// of its first: fills paths->radiance, distance and counts of rays. `bounces` surfaces a path, at least 1.
-WEDGE_FN void tracePaths(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
+/// Goes on with paths that have begun (beginPaths()) and whose rays (unit directions; tMax 0: no path) are in `rays`,
+/// all rays of a path at the time of that: adds to paths->radiance and counts of rays, and fills distance. `bounces`
+/// more surfaces a path, at least 1.
+WEDGE_FN void followPaths(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
     SurfaceData surfaces, LightData lights, SampleParams params, uint bounces, RayPacket* rays, PathPacket* paths)
 {
-    beginPaths(rays, paths);
-    const bool meets = lights.sampling != WEDGE_LIGHTS_SAMPLED
-        && lights.areaCount + lights.emitters.count + WEDGE_ENVIRONMENT_MAP > 0u;
+    const bool meets = meetsLights(lights) && lights.areaCount + lights.emitters.count + WEDGE_ENVIRONMENT_MAP > 0u;
     for (uint vertex = 1u;; ++vertex) {
         PacketHits hits;
         closestHits(nodes, blocks, rays, &hits);
@@ -239,6 +286,36 @@ WEDGE_FN void tracePaths(__global const TraversalNode* restrict nodes, __global 
             return;
         }
     }
+}
+
+/// Traces the paths whose first rays are in `rays`: fills paths->radiance, distance and counts of rays.
+WEDGE_FN void tracePaths(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
+    SurfaceData surfaces, LightData lights, SampleParams params, uint bounces, RayPacket* rays, PathPacket* paths)
+{
+    beginPaths(rays, paths);
+    followPaths(nodes, blocks, surfaces, lights, params, bounces, rays, paths);
+}
+
+/// The scene's lights, as paths take them.
+WEDGE_FN LightData lightData(PathParams params, __global const AreaLight* area, __global const DeltaLight* delta,
+    SurfaceData surfaces, __global const Emitter* emitters, __global const float* emitterPicks,
+    __global const EnvironmentMap* environment, __global const float* environmentTable)
+{
+    LightData lights;
+    lights.emitters.surfaces = surfaces;
+    lights.emitters.quads = area;
+    lights.emitters.list = emitters;
+    lights.emitters.picks = emitterPicks;
+    lights.emitters.count = params.emitters;
+    lights.emitters.share = params.emitterShare;
+    lights.beyond = beyondData(environment, environmentTable, params.environmentShare);
+    lights.area = area;
+    lights.delta = delta;
+    lights.areaCount = params.areaLights;
+    lights.deltaCount = params.deltaLights;
+    lights.sceneDiameter = params.sceneDiameter;
+    lights.sampling = params.lightSampling;
+    return lights;
 }
 
 #endif

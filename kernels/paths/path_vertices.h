@@ -5,9 +5,10 @@
 #define WEDGE_PATH_VERTICES_H
 
 #include "paths/path_state.h"
+#include "shared/mirror.h"
 #include "trace/surface_lanes.h"
 
-/// Scattering is Lambert and one specular lobe.
+/// Scattering is Lambert and one specular lobe; or that of a mirror or glass, which has neither.
 typedef struct {
     uint live[WEDGE_PACKET_SIZE]; ///< 1: the lane's path is at a surface; else all else of it is void, and finite
     VecLanes origin, normal, geometric; ///< as of Surface
@@ -17,6 +18,10 @@ typedef struct {
     uint kind[WEDGE_PACKET_SIZE], glossy[WEDGE_PACKET_SIZE]; ///< of lobes, and 1 where there is one
     float diffuseShare[WEDGE_PACKET_SIZE]; ///< probability that the path goes on by the diffuse part
     bool any, anyGlossy; ///< of the live lanes
+#ifdef WEDGE_MIRRORS
+    VecLanes position; ///< as of Surface
+    bool anyMirror;
+#endif
 } VertexPacket;
 
 WEDGE_INLINE Lobe vertexLobe(const VertexPacket* at, uint lane)
@@ -89,7 +94,11 @@ WEDGE_FN void loadVertices(SurfaceData surfaces, const RayPacket* rays, const Pa
     fetchSurfaces(surfaces, rays, hits, &corners, at);
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const Vec3 direction = rayDirection(rays, lane);
-        const Facet f = facetOf(laneCorners(&corners, lane), hits->u[lane], hits->v[lane], direction);
+        Facet f = facetOf(laneCorners(&corners, lane), hits->u[lane], hits->v[lane], direction);
+#ifdef WEDGE_MIRRORS
+        mirrorFacet(laneCorners(&corners, lane), hits->u[lane], hits->v[lane], direction, &f, &at->kind[lane]);
+        setLaneVec(&at->position, lane, f.position);
+#endif
         setLaneVec(&at->origin, lane, f.origin);
         setLaneVec(&at->normal, lane, f.normal);
         setLaneVec(&at->geometric, lane, f.geometric);
@@ -99,7 +108,43 @@ WEDGE_FN void loadVertices(SurfaceData surfaces, const RayPacket* rays, const Pa
     mapNormals(surfaces, hits, &corners, at->live, &at->geometric, &at->normal);
 #endif
     prepareScattering(at);
+#ifdef WEDGE_MIRRORS
+    at->anyMirror = false;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        at->anyMirror |= at->live[lane] != 0u && WEDGE_IS_MIRROR(at->kind[lane]);
+    }
+#endif
 }
+
+#ifdef WEDGE_MIRRORS
+/// A ray from a mirror or glass: its start, and Deflection.
+typedef struct {
+    Vec3 start;
+    Deflection to;
+} MirrorRay;
+
+/// Follows the unit view v at a surface of that kind. origin: on v's side, as far from the surface as rays start
+WEDGE_FN MirrorRay mirrorRay(__global const MaterialData* materials, uint kind, Vec3 position, Vec3 origin, Vec3 normal,
+    Vec3 geometric, Vec3 v, float choice)
+{
+    const MaterialData material = materials[kind >> WEDGE_MIRROR_BITS];
+    const bool glass = (kind & 7u) == WEDGE_GLASS, behind = (kind & WEDGE_MIRROR_BEHIND) != 0u;
+    const float index = glass ? (behind ? 1.0f / material.exponent : material.exponent) : 0.0f;
+    MirrorRay ray;
+    ray.to = deflect(normal, geometric, v, index, material.specular, material.diffuse, choice);
+    const float off = vecDot(vecSub(origin, position), geometric);
+    ray.start = vecMad(origin, geometric, ray.to.through != 0u ? -2.0f * off : 0.0f);
+    return ray;
+}
+
+/// Of a lane's vertex.
+WEDGE_FN MirrorRay vertexMirrorRay(
+    __global const MaterialData* materials, const VertexPacket* at, uint lane, float choice)
+{
+    return mirrorRay(materials, at->kind[lane], laneVec(&at->position, lane), laneVec(&at->origin, lane),
+        laneVec(&at->normal, lane), laneVec(&at->geometric, lane), laneVec(&at->view, lane), choice);
+}
+#endif
 
 /// What the surfaces reflect from unit directions l, in 1/sr, and the densities at which paths go on in them. Holds
 /// for directions above the horizons of both normals.

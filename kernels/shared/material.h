@@ -8,6 +8,9 @@
 #if defined(__cplusplus) && !defined(WEDGE_GGX)
 #define WEDGE_GGX 1
 #endif
+#if defined(__cplusplus) && !defined(WEDGE_MIRRORS)
+#define WEDGE_MIRRORS 1
+#endif
 
 #define WEDGE_NO_TEXTURE 0xffffffffu
 
@@ -16,14 +19,22 @@
 #define WEDGE_PHONG 1u ///< a power of the cosine to the mirrored view
 #define WEDGE_BLINN_PHONG 2u ///< a power of the half vector's cosine to the normal
 #define WEDGE_MICROFACETS 3u ///< GGX microfacets, whose reflection rises towards grazing directions
+#define WEDGE_MIRROR 4u ///< the mirrored view alone
+#define WEDGE_GLASS 5u ///< the mirrored and the refracted view
 /// Bits that a kind takes in planes.
 #define WEDGE_KIND_BITS 3u
+
+/// Of a gloss plane's value, or a surface's kind: whether it is a mirror or glass. Such a kind has the number of the
+/// material, shifted by WEDGE_MIRROR_BITS, and this bit where the surface is seen from behind.
+#define WEDGE_IS_MIRROR(kind) (((kind)&7u) >= WEDGE_MIRROR)
+#define WEDGE_MIRROR_BEHIND 8u
+#define WEDGE_MIRROR_BITS 4u
 
 WEDGE_SHARED_BEGIN
 
 typedef struct {
-    Vec3 diffuse;
-    float exponent; ///< of WEDGE_MICROFACETS the roughness
+    Vec3 diffuse; ///< of WEDGE_GLASS what is transmitted
+    float exponent; ///< of WEDGE_MICROFACETS the roughness, of WEDGE_GLASS the refractive index
     Vec3 specular;
     uint kind; ///< WEDGE_LAMBERT and so on
     Vec3 emission;
@@ -44,7 +55,7 @@ typedef struct {
 /// What the shape of a surface's reflection depends on.
 typedef struct {
     float exponent; ///< at least 0; of microfacets 4 / alpha^2, that of the Blinn-Phong lobe of as sharp a peak
-    uint kind; ///< WEDGE_LAMBERT and so on
+    uint kind; ///< WEDGE_LAMBERT and so on; see WEDGE_IS_MIRROR
     float rise; ///< of microfacets: by how much of itself the specular colour is more at grazing directions; else 0
 } Gloss;
 
@@ -92,10 +103,15 @@ WEDGE_INLINE Gloss unpackMicrofacets(uint packed)
     return g;
 }
 
-/// In one word: the exponent to 1e-6; microfacets see packMicrofacets().
+/// In one word: the exponent to 1e-6; microfacets see packMicrofacets(), mirrors and glass WEDGE_IS_MIRROR.
 WEDGE_INLINE uint packGloss(Gloss g)
 {
     const uint kinds = (1u << WEDGE_KIND_BITS) - 1u;
+#ifdef WEDGE_MIRRORS
+    if (WEDGE_IS_MIRROR(g.kind)) {
+        return g.kind;
+    }
+#endif
 #ifdef WEDGE_GGX
     const uint microfacets = packMicrofacets(g);
     return g.kind == WEDGE_MICROFACETS ? microfacets : (as_uint(g.exponent) & ~kinds) | g.kind;
@@ -104,9 +120,15 @@ WEDGE_INLINE uint packGloss(Gloss g)
 #endif
 }
 
+/// Mirrors and glass have no lobe: they are as black as their reflectances in planes.
 WEDGE_INLINE Gloss unpackGloss(uint packed)
 {
     const uint kinds = (1u << WEDGE_KIND_BITS) - 1u;
+#ifdef WEDGE_MIRRORS
+    if (WEDGE_IS_MIRROR(packed)) {
+        return makeGloss(1.0f, WEDGE_LAMBERT);
+    }
+#endif
 #ifdef WEDGE_GGX
     if ((packed & kinds) == WEDGE_MICROFACETS) {
         return unpackMicrofacets(packed);

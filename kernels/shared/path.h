@@ -45,6 +45,7 @@ typedef struct {
     float directedWithin; ///< metres from it within which diffuse parts follow reflected directions, too
     float environmentShare; ///< as emitterShare, of what is beyond the scene
     uint relative; ///< 1: samples of the environment are divided by unshadowedLight()
+    uint skipsMirrors; ///< 1: receivers on mirrors and glass have no samples
 } PathParams;
 
 /// Distances of reflectors to widths and counts.

@@ -198,6 +198,19 @@ WEDGE_FN Vec2 texcoordsAt(SurfaceData data, Hit hit)
     return vec2(data.texcoords[2u * a] * w + data.texcoords[2u * b] * hit.u + data.texcoords[2u * c] * hit.v,
         data.texcoords[2u * a + 1u] * w + data.texcoords[2u * b + 1u] * hit.u + data.texcoords[2u * c + 1u] * hit.v);
 }
+#ifdef WEDGE_MIRRORS
+/// A mirror's or glass' facet: no light is sampled there, and rays start next to the triangle itself. *kind: of the
+/// surface.
+WEDGE_INLINE void mirrorFacet(Corners k, float u, float v, Vec3 direction, Facet* f, uint* kind)
+{
+    const bool mirror = WEDGE_IS_MIRROR(*kind);
+    const Vec3 plain =
+        rayOrigin(f->position, f->geometric, k.a, k.b, k.c, f->normal, f->normal, f->normal, false, u, v);
+    f->origin = vecChoose(mirror, plain, f->origin);
+    const bool behind = vecDot(vecCross(vecSub(k.b, k.a), vecSub(k.c, k.a)), direction) > 0.0f;
+    *kind |= mirror && behind ? WEDGE_MIRROR_BEHIND : 0u;
+}
+#endif
 
 /// What a surface is made of.
 typedef struct {
@@ -249,6 +262,12 @@ WEDGE_FN Finish finishOf(SurfaceData data, Hit hit)
         s.gloss = microfacetGloss(s.gloss.exponent, s.diffuse, s.specular);
     }
 #endif
+#ifdef WEDGE_MIRRORS
+    if (WEDGE_IS_MIRROR(s.gloss.kind)) {
+        s.gloss.kind |= data.materialIds[hit.triangle] << WEDGE_MIRROR_BITS;
+        s.diffuse = s.specular = vec3(0.0f, 0.0f, 0.0f);
+    }
+#endif
     return s;
 }
 
@@ -285,8 +304,11 @@ WEDGE_FN Vec3 mappedNormal(SurfaceData data, Hit hit, Corners k, Vec3 normal, Ve
 WEDGE_FN Surface surfaceAt(SurfaceData data, Hit hit, Vec3 direction, float time)
 {
     const Corners corners = cornersOf(data, hit.triangle, time);
-    const Facet f = facetOf(corners, hit.u, hit.v, direction);
-    const Finish finish = finishOf(data, hit);
+    Facet f = facetOf(corners, hit.u, hit.v, direction);
+    Finish finish = finishOf(data, hit);
+#ifdef WEDGE_MIRRORS
+    mirrorFacet(corners, hit.u, hit.v, direction, &f, &finish.gloss.kind);
+#endif
     Surface s;
     s.position = f.position;
     s.origin = f.origin;

@@ -97,7 +97,10 @@ WEDGE_FN void surfacesAt(SurfaceData data, const RayPacket* rays, const PacketHi
     }
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const Vec3 direction = rayDirection(rays, lane);
-        const Facet f = facetOf(laneCorners(&corners, lane), hits->u[lane], hits->v[lane], direction);
+        Facet f = facetOf(laneCorners(&corners, lane), hits->u[lane], hits->v[lane], direction);
+#ifdef WEDGE_MIRRORS
+        mirrorFacet(laneCorners(&corners, lane), hits->u[lane], hits->v[lane], direction, &f, &s->gloss[lane]);
+#endif
         const bool live = s->live[lane] != 0u;
         const Vec3 facing = vecScale(vecNormalize(direction), -1.0f);
         setLaneVec(&s->position, lane, f.position);

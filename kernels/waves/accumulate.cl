@@ -284,9 +284,13 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
         const Vec3 e = loadVec(emission, size, r);
         emitted = vecAdd(emitted, e);
         squared += luminance(e) * luminance(e);
-        const float radius = camera.apertureRadius > 0.0f
+        float radius = camera.apertureRadius > 0.0f
             ? circleOfConfusion(camera.apertureRadius, camera.focusDistance, depth[r], camera.pixelStep)
             : 0.0f;
+#ifdef WEDGE_MIRRORS
+        // What a mirror shows lies elsewhere, and may be in focus.
+        radius = objectId[r] != 0u && WEDGE_IS_MIRROR(gloss[r]) ? 0.0f : radius;
+#endif
         low = fmin(low, radius);
         high = fmax(high, radius);
         traced += rays[r];

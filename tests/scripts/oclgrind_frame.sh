@@ -131,6 +131,10 @@ for family in wide scalar; do
     check bumps_$family "$work/bumps.toml" --size 9x5 --method aaf --spp 16 --bounces 1 --traversal $family
     check bumps_waves_$family "$work/bumps.toml" --size 7x3 --method aaf --spp 16 --antialias --traversal $family
 done
+# Mirrors and glass.
+check mirrors "$scenes/mirrors.toml" --traversal wide --size 9x7 --method mc --spp 2
+check mirrors_scalar "$scenes/mirrors.toml" --traversal scalar --size 9x5 --method aaf --spp 16 --bounces 1
+check mirrors_waves "$scenes/mirrors.toml" --traversal wide --size 7x3 --method aaf --spp 16 --bounces 1 --antialias
 check over_time_%d "$scenes/motion.toml" --traversal wide --size 9x5 --method aaf --spp 10 --frames 0:1 --temporal on
 check bounced_over_time_%d "$scenes/penumbra.toml" --traversal wide --size 9x5 --method aaf --spp 16 --bounces 1 --frames 0:1 --temporal on
 checkSabotaged
