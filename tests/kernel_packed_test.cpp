@@ -87,7 +87,7 @@ TEST_CASE("a kind and an exponent: in one word to 1e-6, in 16 bits to 0.2 % or t
 {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> magnitude(-10, 22);
-    for (std::uint32_t kind = 0; kind < 1u << WEDGE_KIND_BITS; ++kind) {
+    for (std::uint32_t kind = 0; kind < WEDGE_MIRROR; ++kind) {
         for (int k = 0; k < 5000; ++k) {
             const float exponent = std::exp2(magnitude(random));
             const Gloss word = unpackGloss(packGloss(makeGloss(exponent, kind)));
@@ -109,6 +109,21 @@ TEST_CASE("a kind and an exponent: in one word to 1e-6, in 16 bits to 0.2 % or t
             CHECK(found.kind == kind);
         }
     }
+}
+
+TEST_CASE("mirrors and glass in one word: their own, which is of no lobe")
+{
+    for (const std::uint32_t kind : { WEDGE_MIRROR, WEDGE_GLASS })
+        for (const std::uint32_t material : { 0u, 1u, 70000u, (1u << 28) - 1u }) {
+            const std::uint32_t word = kind | WEDGE_MIRROR_BEHIND | material << WEDGE_MIRROR_BITS;
+            CHECK(packGloss(makeGloss(3.0f, word)) == word);
+            CHECK(WEDGE_IS_MIRROR(word));
+            const Gloss found = unpackGloss(word);
+            CHECK(found.kind == WEDGE_LAMBERT);
+            CHECK(found.exponent == 1.0f);
+        }
+    for (const std::uint32_t kind : { WEDGE_LAMBERT, WEDGE_PHONG, WEDGE_BLINN_PHONG, WEDGE_MICROFACETS })
+        CHECK(!WEDGE_IS_MIRROR(packGloss(makeGloss(12345.678f, kind))));
 }
 
 TEST_CASE("microfacets in one word: sharpness and Fresnel's rise to 0.1 %, never a larger rise")
