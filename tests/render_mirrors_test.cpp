@@ -170,10 +170,12 @@ TEST_CASE("a flat mirror shows what a camera behind it sees, pixel by pixel, of 
     });
 }
 
-TEST_CASE("a mirror shows the sky as the camera sees it, with the suns that were taken out of it")
+TEST_CASE("a mirror shows visible lights and the sky, with suns that were taken out of it, as the camera sees them")
 {
     SceneBuilder b;
     b.triangle({ 0, -9, 0 }, { 0.1f, -9, 0 }, { 0, -9, 0.1f });
+    b.light({ -0.5f, 0.15f, -0.3f }, { 0, 0.1f, 0 }, { 0, 0, 0.1f }, scene::LightProfile::Gaussian, 50).visible = true;
+    b.light({ -0.5f, 0.6f, 0.3f }, { 0, 0.1f, 0 }, { 0, 0, 0.1f }, scene::LightProfile::Uniform, 5000);
     Mirrored m = mirrored(b, glm::vec3(1));
     render::EnvironmentPicture sky;
     sky.width = 64;
@@ -198,8 +200,13 @@ TEST_CASE("a mirror shows the sky as the camera sees it, with the suns that were
             const std::vector<float> a = renderPixels(seen, s), e = leftToRight(renderPixels(direct, s), 64);
             REQUIRE(notFinite(a) == 0);
             CHECK(*std::ranges::max_element(e) > 100);
-            for (std::size_t i = 0; i < a.size(); ++i)
-                REQUIRE(a[i] == doctest::Approx(e[i]).epsilon(2e-3));
+            int off = 0, bright = 0;
+            for (std::size_t i = 0; i < a.size(); ++i) {
+                off += std::abs(a[i] - e[i]) > 2e-3f * e[i] ? 1 : 0;
+                bright += e[i] > 5 && e[i] < 51 ? 1 : 0;
+            }
+            CHECK(bright > 100); // the light
+            CHECK(off < 15); // its edge by rounding
         }
     });
 }
