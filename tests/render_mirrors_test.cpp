@@ -187,7 +187,7 @@ TEST_CASE("a mirror shows visible lights and the sky, with suns that were taken 
     sky.shown = sky.radiance;
     const glm::vec3 sun = glm::normalize(glm::vec3(-2.2f, -0.1f, -1.3f));
     const double column = 32 + 64 / (2 * 3.14159265) * std::atan2(sun.x, -sun.z);
-    const auto texel = static_cast<std::size_t>(16 * 64 + static_cast<int>(column));
+    const std::size_t texel = 16 * 64 + static_cast<std::size_t>(column);
     std::fill_n(sky.shown.begin() + static_cast<std::ptrdiff_t>(3 * texel), 3, 400.0f);
     const auto picture = std::make_shared<const render::EnvironmentPicture>(sky);
     render::setEnvironment(m.seen, picture);
