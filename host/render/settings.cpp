@@ -211,7 +211,7 @@ Settings asPublished(std::optional<float> mu)
         .widthScale = in.widthScale,
         .lobeWidening = 0.0f,
         .firstShare = 1.0f,
-        .leastShare = 1.0f };
+        .leastShare = 0.5f };
     DistributedSettings& d = s.distributed;
     d.published = true;
     d.firstPaths = 16;
