@@ -188,8 +188,8 @@ TEST_CASE("skies of version 3 have the light that was drawn, and are frozen")
         double sum = 0, light = 0, weights = 0;
         for (std::size_t i = 0; i < map.rgb.size(); i += 3) {
             const double r = map.rgb[i], g = map.rgb[i + 1], b = map.rgb[i + 2];
-            const double row = static_cast<double>(i / 3 / static_cast<std::size_t>(map.width));
-            const double weight = std::sin(std::numbers::pi * (row + 0.5) / map.height);
+            const std::size_t row = i / 3 / static_cast<std::size_t>(map.width);
+            const double weight = std::sin(std::numbers::pi * (static_cast<double>(row) + 0.5) / map.height);
             REQUIRE(std::min({ r, g, b }) >= 0);
             sum += r + 2 * g + 3 * b;
             light += weight * (0.2126 * r + 0.7152 * g + 0.0722 * b);

@@ -405,7 +405,7 @@ TEST_CASE("highlights of lights cut by the horizon: as good as their rule, whate
                 if (ruleOf(light, p, true).sampled)
                     continue;
                 ++ruled;
-                CAPTURE(cut);
+                CAPTURE(light.cut);
                 CAPTURE(near);
                 CAPTURE(across);
                 CAPTURE(p.phong);

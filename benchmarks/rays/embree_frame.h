@@ -41,7 +41,7 @@ private:
 
     Shaded startPixel(std::size_t i) const;
     shared::Vec3 direction(const Shaded& pixel) const;
-    Sample sample(const Shaded& pixel, std::size_t light, int k) const;
+    Sample sample(const Shaded& pixel, std::size_t index, int k) const;
     void endLight(Shaded& pixel, std::size_t light) const;
     void store(const Shaded& pixel);
     void renderPixel(RTCScene scene, std::size_t i);
