@@ -142,6 +142,7 @@ TEST_CASE("microfacets in one word: sharpness and Fresnel's rise to 0.1 %, never
     CHECK(unpackGloss(packGloss(microfacetGloss(0.5f, vec3(0, 0, 0), vec3(1, 1, 1)))).rise == 0);
     // Beyond what fits it is the most that does.
     CHECK(unpackGloss(packGloss(microfacetGloss(0.5f, vec3(0, 0, 0), vec3(1e-9f, 0, 0)))).rise > 6e4f);
+    CHECK(fresnelRise(vec3(0, 0, 0), vec3(1e-39f, 0, 0)) < 65536.0f); // of next to no colour, too
     CHECK(fresnelRise(vec3(0.2f, 0.5f, 0), vec3(0.04f, 0.02f, 0)) == doctest::Approx(0.5 / 0.04 - 1));
     CHECK(fresnelRise(vec3(0.2f, 0.5f, 0), vec3(0.7f, 0, 0)) == 0);
     CHECK(fresnelRise(vec3(0, 0, 0), vec3(0, 0, 0)) == 0);

@@ -150,6 +150,9 @@ TEST_CASE("roughness and metal make GGX of a base colour")
     CHECK(half.specular.x == doctest::Approx(0.5 * 0.25 + 0.5 * 0.8));
     CHECK(half.diffuse.x == doctest::Approx(0.8 * 0.5 * 0.75));
     CHECK(half.roughness == 0);
+    const Library dense = parse("newmtl a\nKd 1\nPr 0.2\nNi 1e30\n");
+    CHECK(dense.materials[0].specular == material("Kd 1\nPr 0.2\nNi 1.5\n").specular);
+    CHECK(dense.warnings.size() == 1);
     CHECK(material("Kd 1\nmap_Pr none.png\n").roughness == 1);
     // Nothing reflects more than it gets.
     CHECK(parse("newmtl a\nKd 1\nPr 0.5\n").warnings.empty());

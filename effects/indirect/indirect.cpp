@@ -96,8 +96,9 @@ std::uint32_t firstPathsOf(Component component, const Settings& settings)
     // Fewer tell nothing of how much they vary.
     constexpr std::uint32_t fewest = 4;
     const float share = settings.environment.firstShare * static_cast<float>(settings.spp);
-    return isOfEnvironment(component) ? std::clamp(static_cast<std::uint32_t>(share), fewest, WEDGE_INDIRECT_FIRST_RAYS)
-                                      : WEDGE_INDIRECT_FIRST_RAYS;
+    return isOfEnvironment(component) && settings.environment.firstShare < 1.0f
+        ? std::clamp(static_cast<std::uint32_t>(share), fewest, WEDGE_INDIRECT_FIRST_RAYS)
+        : WEDGE_INDIRECT_FIRST_RAYS;
 }
 
 shared::AnalysisParams pathCountParams(shared::AnalysisParams p, Component component, const Settings& settings)

@@ -114,7 +114,8 @@ struct EnvironmentSettings {
     float normalDegrees = 14.0f; ///< as Settings::normalDegrees
     float widthScale = 0.25f; ///< as that of IndirectSettings, which holds where pixels have several receivers
     float lobeWidening = 1.5f; ///< pixels, as Settings::widening, of what lobes reflect, which has no other width
-    float firstShare = 0.25f; ///< of the samples, that the analysis of pixels with one receiver begins with
+    float firstShare =
+        0.25f; ///< of the samples, that the analysis of pixels with one receiver begins with; 1: as many as of paths
     float leastShare = 0.25f; ///< of the mean count, that every such pixel takes
 };
 

@@ -22,6 +22,7 @@ constexpr std::uintmax_t maxMtlFile = std::uintmax_t { 256 } << 20;
 constexpr glm::vec3 diffuseOfTexture(0.6f);
 /// The refractive index of what is no metal where no Ni above 1 is given: 4 % are reflected head-on.
 constexpr float usualIndex = 1.5f;
+constexpr float mostIndex = 10.0f;
 /// Kd of mirrors and glass, at most, over what they reflect or let through.
 constexpr float blackShare = 0.1f;
 
@@ -147,6 +148,10 @@ private:
             extra_.metal = share("Pm", in.word(), 0.0f);
         } else if (keyword == "Ni") {
             value = number("Ni", in.word(), usualIndex);
+            if (value > mostIndex) {
+                warn("values of material files", fmt::format("Ni has the value {:g}, {:g} is used", value, usualIndex));
+                value = usualIndex;
+            }
             extra_.hasIndex = value > 1.0f;
             extra_.index = extra_.hasIndex ? value : usualIndex;
         } else if (keyword == "map_Pr") {

@@ -74,7 +74,8 @@ WEDGE_INLINE float fresnelRise(Vec3 diffuse, Vec3 specular)
 {
     const float f0 = fmax(specular.x, fmax(specular.y, specular.z));
     const float f90 = fmax(f0, 1.0f - fmax(diffuse.x, fmax(diffuse.y, diffuse.z)));
-    return f0 > 0.0f ? f90 / f0 - 1.0f : 0.0f;
+    // Not more than planes keep, and nothing infinite where there is next to no colour.
+    return f0 > 0.0f ? fmin(f90 / f0, 65535.0f) - 1.0f : 0.0f;
 }
 
 /// Microfacets of a roughness in [0, 1], alpha = roughness^2 (Burley 2012).
