@@ -219,17 +219,17 @@ TEST_CASE("the external scenes of indirect light: matt, lit from above by a unif
         std::size_t triangles, textures; ///< of Sponza three are masks of cut-outs
         bool flat; ///< has faces without area
     };
-    for (const auto& [name, triangles, textures, flat] : { Expected { "aaf2013_cornell_bunny", 5110, 0, false },
+    for (const Expected& expected : { Expected { "aaf2013_cornell_bunny", 5110, 0, false },
              Expected { "crytek_sponza", 262'154, 26, true }, Expected { "conference", 331'179, 0, false } }) {
-        const std::optional<Scene> s = external(name, name);
+        const std::optional<Scene> s = external(expected.name, expected.name);
         if (!s)
             continue;
-        CAPTURE(name);
-        CHECK(s->warnings.empty() != flat);
+        CAPTURE(expected.name);
+        CHECK(s->warnings.empty() != expected.flat);
         for (const std::string& warning : s->warnings)
             CHECK(contains(warning, "area"));
-        CHECK(s->geometry.indices.size() / 3 == triangles);
-        CHECK(s->textures.size() == textures);
+        CHECK(s->geometry.indices.size() / 3 == expected.triangles);
+        CHECK(s->textures.size() == expected.textures);
         for (const auto& material : s->materials)
             CHECK(material.specular == glm::vec3(0.0f));
         const auto& light = s->areaLights[0];
