@@ -66,7 +66,7 @@ __kernel void keepFrame(TemporalParams p, __global const float* restrict positio
     facing[i] = packNormal(loadVec(normal, n, i));
     object[i] = objectId[i];
 #ifdef WEDGE_MIRRORS
-    // What a mirror shows does not move with it: it is looked for nowhere, and found where all is still.
+    // What a mirror shows does not move with it: nothing earlier is found of it unless all is still.
     const Vec3 colour = vecAdd(loadVec(diffuse, n, i), loadVec(specular, n, i));
     object[i] = p.open == 0u && colour.x + colour.y + colour.z == 0.0f ? 0u : object[i];
 #endif
@@ -107,18 +107,20 @@ __kernel void findVariation(TemporalParams p, __global const float* restrict noi
         return;
     }
     const uint n = p.planeSize, id = object[i];
+    // Of what mirrors show no deviation is known.
+    const uint measured = id != 0u ? p.measured : 0u;
     const float own = loadShort(noisy, n, i, 0u);
     float across = 0.0f, down = 0.0f, count = 0.0f;
     if (x > 0u && x + 1u < p.width && object[i - 1u] == id && object[i + 1u] == id) {
-        across = roughness(loadShort(noisy, n, i - 1u, 0u), own, loadShort(noisy, n, i + 1u, 0u), p.measured);
+        across = roughness(loadShort(noisy, n, i - 1u, 0u), own, loadShort(noisy, n, i + 1u, 0u), measured);
         count += 1.0f;
     }
     if (y > 0u && y + 1u < p.height && object[i - p.stride] == id && object[i + p.stride] == id) {
-        down = roughness(loadShort(noisy, n, i - p.stride, 0u), own, loadShort(noisy, n, i + p.stride, 0u), p.measured);
+        down = roughness(loadShort(noisy, n, i - p.stride, 0u), own, loadShort(noisy, n, i + p.stride, 0u), measured);
         count += 1.0f;
     }
     float sum = across + down;
-    if (p.measured == 0u) {
+    if (measured == 0u) {
         sum = count > 0.0f ? sum / count : own * own; // nothing is known of pixels by themselves
     }
     storeShort(variation, n, i, 0u, loadShort(variation, n, i, 0u) + sum);
