@@ -30,6 +30,15 @@ inline Mean meanOf(const std::vector<float>& pixels, std::size_t channel)
     return { mean, std::sqrt(std::max(0.0, squares / count - mean * mean) / count) };
 }
 
+/// Of the second channel over frames of seeds from 0 on.
+inline double meanOverSeeds(render::Renderer& renderer, render::Settings settings, std::uint32_t seeds)
+{
+    double sum = 0;
+    for (settings.seed = 0; settings.seed < seeds; ++settings.seed)
+        sum += meanOf(renderPixels(renderer, settings), 1).value;
+    return sum / seeds;
+}
+
 /// Every channel is `expected` within 3 standard deviations of the image's mean and rounding.
 inline void checkMean(const std::vector<float>& pixels, glm::vec3 expected, double slack = 1e-4)
 {

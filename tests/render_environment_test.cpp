@@ -1,10 +1,9 @@
 // Light from beyond the scene against closed forms, by every method and kind of frame.
-#include "effects/environment/environment.h"
 #include "host/render/environment_table.h"
 #include "host/render/layers.h"
 #include "host/render/progressive.h"
+#include "tests/environment_support.h"
 #include "tests/image_means.h"
-#include "tests/render_support.h"
 
 #include <doctest/doctest.h>
 
@@ -12,36 +11,6 @@ using namespace wedge;
 using namespace wedge::test;
 
 namespace {
-
-const glm::vec3 sky(0.4f, 0.6f, 0.9f), reflectance(0.8f, 0.7f, 0.6f);
-
-std::shared_ptr<render::EnvironmentPicture> even(glm::vec3 radiance, int width = 1, int height = 1)
-{
-    auto p = std::make_shared<render::EnvironmentPicture>();
-    p->width = width;
-    p->height = height;
-    for (int i = 0; i < width * height; ++i)
-        p->radiance.insert(p->radiance.end(), { radiance.x, radiance.y, radiance.z });
-    return p;
-}
-
-void set(render::EnvironmentPicture& p, int x, int y, glm::vec3 radiance)
-{
-    for (int c = 0; c < 3; ++c)
-        p.radiance[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(p.width) + static_cast<std::size_t>(x))
-            + static_cast<std::size_t>(c)] = radiance[c];
-}
-
-/// All that the camera sees is a floor.
-SceneBuilder openFloor()
-{
-    SceneBuilder b;
-    b.scene.materials[0].diffuse = reflectance;
-    b.quad({ 0, 0, 0 }, { 0, 0, 4 }, { 4, 0, 0 });
-    b.camera({ 0, 2, 0 }, { 0, 0, 0 }, { 0, 0, -1 }, 40);
-    render::setEnvironment(b.scene, even(sky));
-    return b;
-}
 
 render::Settings settings(bool filtered, int spp = 32)
 {
@@ -58,18 +27,6 @@ std::vector<float> beauty(render::Renderer& renderer, const render::Settings& se
 
 constexpr render::LightSampling samplings[] = { render::LightSampling::Both, render::LightSampling::Lights,
     render::LightSampling::Directions };
-
-/// A dim sky with a small bright spot and a gradient, which every texel's radiance differs in.
-std::shared_ptr<render::EnvironmentPicture> spotted()
-{
-    auto p = even(glm::vec3(0), 32, 16);
-    for (int y = 0; y < 16; ++y)
-        for (int x = 0; x < 32; ++x)
-            set(*p, x, y, glm::vec3(0.02f * static_cast<float>(x), 0.3f, 0.05f * static_cast<float>(16 - y)));
-    set(*p, 11, 4, { 90, 80, 60 });
-    set(*p, 12, 4, { 90, 80, 60 });
-    return p;
-}
 
 } // namespace
 
@@ -231,156 +188,6 @@ TEST_CASE("directions of the map, of lobes, and both together tell the same")
                 }
             }
         }
-    });
-}
-
-TEST_CASE("filters keep the mean")
-{
-    onEveryDevice([](const device::Device& device) {
-        SceneBuilder b = openFloor();
-        b.scene.materials[0].specular = glm::vec3(0.2f);
-        b.scene.materials[0].exponent = 30.0f;
-        b.newObject();
-        b.box({ -0.5f, 0, -0.5f }, { 0.5f, 0.6f, 0.0f });
-        b.newObject();
-        b.sphere({ 0.3f, 0.3f, 0.8f }, 0.3f);
-        b.camera({ 0, 1.2f, 3 }, { 0, 0.2f, 0 });
-        render::setEnvironment(b.scene, spotted());
-        for (const bool lens : { false, true }) {
-            CAPTURE(lens);
-            b.scene.camera.apertureRadius = lens ? 0.02f : 0.0f;
-            render::Renderer renderer(b.scene, device, renderOptions());
-            const auto mean = [&](bool filtered) {
-                double sum = 0;
-                for (std::uint32_t seed = 0; seed < 8; ++seed) {
-                    render::Settings s = sized(filtered ? render::axisAligned(64) : render::monteCarlo(64), 48, 48);
-                    s.seed = seed;
-                    s.bounces = 1;
-                    sum += meanOf(renderPixels(renderer, s), 1).value;
-                }
-                return sum / 8;
-            };
-            CHECK(mean(true) == doctest::Approx(mean(false)).epsilon(0.005));
-        }
-    });
-}
-
-TEST_CASE("with as many samples, filters are ahead of none over matt and curved glossy surfaces")
-{
-    onEveryDevice([](const device::Device& device) {
-        SceneBuilder b = openFloor();
-        b.newObject();
-        scene::Material glossy = b.scene.materials[0];
-        glossy.diffuse = glm::vec3(0.1f);
-        glossy.specular = glm::vec3(0.6f);
-        glossy.exponent = 64;
-        b.scene.materials.push_back(glossy);
-        b.sphere({ 0, 0.6f, 0 }, 0.6f, 24, 1);
-        b.camera({ 0, 0.9f, 2.6f }, { 0, 0.5f, 0 });
-        render::setEnvironment(b.scene, spotted());
-        render::Renderer renderer(b.scene, device, renderOptions());
-        render::Settings reference = sized(render::monteCarlo(4096), 64, 64);
-        reference.seed = 99;
-        const std::vector<float> expected = renderPixels(renderer, reference);
-        const auto error = [&](const render::Settings& s) { return rmse(renderPixels(renderer, s), expected); };
-        const double filtered = error(sized(render::axisAligned(16), 64, 64)),
-                     plain = error(sized(render::monteCarlo(16), 64, 64));
-        MESSAGE("RMSE: ", filtered, ", without filter: ", plain);
-        CHECK(filtered < plain);
-        // What lobes see is shared by nearby pixels where samples do not speak against it, or as far as one asks for.
-        render::Settings fixed = sized(render::axisAligned(16), 64, 64), own = sized(render::axisAligned(16), 64, 64);
-        fixed.filtering = render::Filtering::Fixed;
-        own.environment.lobeWidening = 0;
-        CHECK(filtered < error(own));
-        for (const render::Settings& s : { sized(render::axisAligned(16), 64, 64), own, fixed }) {
-            renderPixels(renderer, s, true);
-            REQUIRE(renderer.termPlanes().size() == 2);
-            CHECK(renderer.termPlanes()[1].name == "EnvironmentGlossy");
-            const float widest = *std::ranges::max_element(renderer.termPlanes()[1].beta);
-            CHECK((widest > 0) == (s.filtering == render::Filtering::Fixed || s.environment.lobeWidening > 0));
-            CHECK(*std::ranges::max_element(renderer.termPlanes()[0].beta) > 0);
-        }
-    });
-}
-
-TEST_CASE("what rough lobes see beyond the scene is shared by nearby pixels")
-{
-    onEveryDevice([](const device::Device& device) {
-        SceneBuilder b = openFloor();
-        b.scene.materials[0].diffuse = glm::vec3(0.0f);
-        b.scene.materials[0].specular = glm::vec3(0.6f);
-        b.scene.materials[0].exponent = 10;
-        b.newObject();
-        b.sphere({ 0, 0.6f, 0 }, 0.6f, 24);
-        b.camera({ 0, 0.9f, 2.6f }, { 0, 0.5f, 0 });
-        render::setEnvironment(b.scene, spotted());
-        render::Renderer renderer(b.scene, device, renderOptions());
-        render::Settings reference = sized(render::monteCarlo(4096), 64, 64);
-        reference.seed = 99;
-        const std::vector<float> expected = renderPixels(renderer, reference);
-        render::Settings shared = sized(render::axisAligned(16), 64, 64), own = shared;
-        own.environment.lobeWidening = 0;
-        const double error = rmse(renderPixels(renderer, shared), expected),
-                     before = rmse(renderPixels(renderer, own), expected);
-        MESSAGE("RMSE: ", error, ", of pixels' own samples: ", before);
-        CHECK(error < 0.8 * before);
-    });
-}
-
-TEST_CASE("samples of what lies beyond the scene go to where they vary and few pixels share them, as many in the mean")
-{
-    onEveryDevice([](const device::Device& device) {
-        // A floor that is far larger than what stands on it.
-        SceneBuilder b = openFloor();
-        b.sphere({ 0, 0.25f, 0 }, 0.25f, 24);
-        b.camera({ 0, 3, 5 }, { 0, 0, 0 });
-        render::setEnvironment(b.scene, spotted());
-        render::Renderer renderer(b.scene, device, renderOptions());
-        render::Settings reference = sized(render::monteCarlo(4096), 96, 96);
-        reference.seed = 99;
-        const std::vector<float> expected = renderPixels(renderer, reference);
-        render::Settings adaptive = sized(render::axisAligned(16), 96, 96), uniform = adaptive;
-        uniform.sampling = render::Sampling::Uniform;
-        const double before = rmse(renderPixels(renderer, uniform), expected),
-                     error = rmse(renderPixels(renderer, adaptive), expected);
-        MESSAGE("RMSE: ", error, ", with as many samples everywhere: ", before);
-        CHECK(error < 0.85 * before);
-        const render::FrameStatistics frame = renderer.render(adaptive, {}, true);
-        CHECK(frame.sppMean == doctest::Approx(16).epsilon(0.02));
-        std::vector<std::uint32_t> taken = pixels(renderer, renderer.frame().samples, { 0, 0, 96, 96 });
-        std::erase(taken, 0u); // where nothing is seen
-        const auto [least, most] = std::ranges::minmax(taken);
-        CHECK(least >= 4); // what the analysis begins with, and a quarter of the mean
-        CHECK(least <= 8);
-        CHECK(most > 32);
-    });
-}
-
-TEST_CASE("curved surfaces: fractions of the unshadowed light are shared with less error than light is")
-{
-    onEveryDevice([](const device::Device& device) {
-        SceneBuilder b;
-        b.scene.materials[0].diffuse = reflectance;
-        b.sphere({ 0, 0, 0 }, 0.5f, 48);
-        b.camera({ 0, 0, 3 }, { 0, 0, 0 }, { 0, 1, 0 }, 25);
-        auto halves = even(glm::vec3(0.05f), 32, 16);
-        for (int y = 0; y < 8; ++y)
-            for (int x = 0; x < 12; ++x)
-                set(*halves, x, y, sky * 3.0f);
-        render::setEnvironment(b.scene, halves);
-        render::Renderer renderer(b.scene, device, renderOptions());
-        const auto image = [&](const render::Settings& s) { return renderPixels(renderer, s); };
-        render::Settings reference = sized(render::monteCarlo(2048), 64, 64);
-        reference.seed = 99;
-        const std::vector<float> expected = image(reference);
-        render::Settings fractions = sized(render::axisAligned(16), 64, 64);
-        render::Settings whole = fractions;
-        whole.environment.relative = false;
-        const double error = rmse(image(fractions), expected), before = rmse(image(whole), expected);
-        MESSAGE("RMSE: ", error, ", of light itself: ", before);
-        CHECK(error < 0.8 * before);
-        // As published nothing is known of it, and that stays so.
-        CHECK_FALSE(render::asPublished().environment.relative);
     });
 }
 

@@ -40,8 +40,6 @@ void readNormals(TableReader& table, TextureSet& textures, Material& m)
     m.normalStrength = static_cast<float>(strength.value_or(m.normalStrength));
 }
 
-constexpr double leastIndex = 0.1, mostIndex = 10.0;
-
 /// A mirror or glass has colours and an index, and nothing else of what reflects.
 void readMirror(TableReader& table, const std::string& model, Material& m)
 {

@@ -22,7 +22,6 @@ constexpr std::uintmax_t maxMtlFile = std::uintmax_t { 256 } << 20;
 constexpr glm::vec3 diffuseOfTexture(0.6f);
 /// The refractive index of what is no metal where no Ni above 1 is given: 4 % are reflected head-on.
 constexpr float usualIndex = 1.5f;
-constexpr float mostIndex = 10.0f;
 /// Kd of mirrors and glass, at most, over what they reflect or let through.
 constexpr float blackShare = 0.1f;
 
@@ -174,20 +173,15 @@ private:
             leaveOut("transparency by the angle of view (d -halo)");
             return;
         }
-        const std::string_view word = in.word();
-        float value = 0.0f;
         const bool isOpacity = keyword == "d";
-        if (parseNumber(word, value) != NumberKind::Good || value < 0.0f || value > 1.0f) {
-            value = isOpacity ? 1.0f : 0.0f;
-            warn("values of material files", fmt::format("{} has the value {}, {:g} is used", keyword, word, value));
-        }
+        const float value = share(keyword, in.word(), isOpacity ? 1.0f : 0.0f);
         if (isOpacity || !extra_.hasDissolve)
             material_.opacity = isOpacity ? value : 1.0f - value;
         extra_.hasDissolve = extra_.hasDissolve || isOpacity;
     }
 
     /// A number in [0, 1]; another is told and replaced.
-    float share(const char* key, std::string_view word, float replacement)
+    float share(std::string_view key, std::string_view word, float replacement)
     {
         float value = 0.0f;
         if (parseNumber(word, value) == NumberKind::Good && value >= 0.0f && value <= 1.0f)

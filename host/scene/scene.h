@@ -156,6 +156,7 @@ constexpr int maxSamples = 1 << 20;
 constexpr double leastMu = 0.01, mostMu = 1000.0;
 constexpr int maxBounces = 1024;
 constexpr double mostNormalStrength = 1000.0;
+constexpr double leastIndex = 0.1, mostIndex = 10.0; ///< of refraction
 constexpr double leastAmbientDistance = 1e-12, mostAmbientDistance = 1e12;
 /// Frames of a sequence in one unit of the keys' time.
 constexpr double leastFps = 1e-6, mostFps = 1e6;

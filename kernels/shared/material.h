@@ -42,11 +42,9 @@ typedef struct {
     uint specularTexture;
     uint exponentTexture;
     uint emissionTexture;
-    uint padding;
     uint normalTexture; ///< directions in the tangent space, or heights; see normal_maps.h
     uint normalIsHeight; ///< 1: heights
     float normalStrength; ///< that its slopes are multiplied by
-    uint padding2;
 } MaterialData;
 
 /// The least alpha of microfacets: sharper lobes are as those, 4 / alpha^2 being 4e6.
