@@ -214,6 +214,32 @@ private:
     glm::dvec3 position_, slant_;
 };
 
+/// What a pixel of a line counts for, d pixels from the one that gathers.
+struct LineTap {
+    int x, y;
+    double d, weight;
+};
+
+/// What the values of each tap are multiplied by: weights over their sum or, fitted, the coefficients of a straight
+/// line's value at 0, by least squares with 0.3 pixels^2 in the denominator of the slope.
+inline std::vector<double> lineCoefficients(const std::vector<LineTap>& taps, bool fitted)
+{
+    double weights = 0, middle = 0, spread = 0;
+    for (const LineTap& tap : taps) {
+        weights += tap.weight;
+        middle += tap.weight * tap.d;
+    }
+    middle /= weights;
+    for (const LineTap& tap : taps)
+        spread += tap.weight * (tap.d - middle) * (tap.d - middle);
+    std::vector<double> out;
+    out.reserve(taps.size());
+    for (const LineTap& tap : taps)
+        out.push_back(
+            tap.weight * (1 / weights - (fitted ? middle * (tap.d - middle) / (spread + 0.3 * weights) : 0.0)));
+    return out;
+}
+
 /// One pass. in: values (channels a pixel) and counts of the pass before, with its doubts.
 inline OracleResult gatherLine(const FilterImage& image, const OracleResult& in, int dx, int dy)
 {
@@ -230,7 +256,7 @@ inline OracleResult gatherLine(const FilterImage& image, const OracleResult& in,
             const int radius =
                 static_cast<int>(std::clamp(std::ceil(exactRadius), 1.0, static_cast<double>(p.maxRadius)));
             bool doubt = false;
-            double weights = 0, squares = 0, sums[4] = { 0, 0, 0, 0 };
+            std::vector<LineTap> taps;
             for (int k = -radius - 1; k <= radius + 1; ++k) {
                 const int qx = x + k * dx, qy = y + k * dy;
                 if (qx < 0 || qy < 0 || qx >= width || qy >= height)
@@ -255,15 +281,21 @@ inline OracleResult gatherLine(const FilterImage& image, const OracleResult& in,
                     continue;
                 const double width1 = p.narrower != 0 && there > 0 && k != 0 ? std::min(beta, there) : beta;
                 const double w = k == 0 ? 1.0 : seen * std::exp(-0.5 * squared / (width1 * width1));
-                weights += w;
-                squares += w * w;
-                for (int c = 0; c < in.channels; ++c)
-                    sums[c] += w * in.value(qx, qy, c);
+                taps.push_back({ qx, qy, static_cast<double>(k), w });
             }
             const std::size_t i = out.index(x, y);
-            for (int c = 0; c < in.channels; ++c)
-                out.values[i * static_cast<std::size_t>(in.channels) + static_cast<std::size_t>(c)] = sums[c] / weights;
-            out.counts[i] = in.counts[i] * weights * weights / squares;
+            const auto channels = static_cast<std::size_t>(in.channels);
+            for (std::size_t c = 0; c < channels; ++c) {
+                const std::vector<double> coefficients = lineCoefficients(taps, c < p.fitted);
+                double sum = 0;
+                for (std::size_t t = 0; t < taps.size(); ++t)
+                    sum += coefficients[t] * in.value(taps[t].x, taps[t].y, static_cast<int>(c));
+                out.values[i * channels + c] = c < p.fitted ? std::max(sum, 0.0) : sum;
+            }
+            double squares = 0;
+            for (const double coefficient : lineCoefficients(taps, p.fitted != 0))
+                squares += coefficient * coefficient;
+            out.counts[i] = in.counts[i] / squares;
             out.doubtful[i] = out.doubtful[i] || doubt;
         }
     return out;

@@ -111,6 +111,7 @@ TEST_CASE("two widths at once are what a gather with each makes, and what noise 
         for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough }) {
             CAPTURE(static_cast<int>(shape));
             Compared in(shape, 40);
+            in.image.params.fitted = 1;
             check(in, differenceOf(bench, in, in.image.normal, in.image.pixelSize));
             in.image = withoutLight(in.image);
             check(in, differenceOf(bench, in, in.image.normal, in.image.pixelSize));
@@ -118,7 +119,7 @@ TEST_CASE("two widths at once are what a gather with each makes, and what noise 
     });
 }
 
-TEST_CASE("two widths at once by the settings of a gather: the pixel's own width for each, all surfaces")
+TEST_CASE("two widths at once by the settings of a gather: the pixel's own width for each, all surfaces, means")
 {
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);

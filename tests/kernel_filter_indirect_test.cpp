@@ -117,6 +117,7 @@ TEST_CASE("without a light: both passes gather over plain distances, all planes 
             for (const bool narrower : { false, true }) {
                 FilterImage image = unlit(53, 31, shape, seed++, planes);
                 image.params.narrower = narrower ? 1 : 0;
+                image.params.fitted = static_cast<std::uint32_t>(narrower ? std::min(planes, 3) : 0);
                 CAPTURE(static_cast<int>(shape));
                 CAPTURE(narrower);
                 const OracleResult rows = oracleRows(image);

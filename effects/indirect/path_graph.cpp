@@ -105,8 +105,10 @@ public:
         }
         addSamples(); // not before: widening takes the most memory
         const char* program = varies() ? "filter/filter_paths.cl" : "filter/filter_indirect.cl";
+        shared::FilterParams params = filterParams();
+        params.fitted = std::min(params.fitted, channels); // of the variance the mean, which is not negative
         addFiltered(gaussianFilter(f_, { "filter of indirect", PassKind::Filter, program },
-            varies() ? channels + 1 : channels, filterParams(), value_, beta_)
+            varies() ? channels + 1 : channels, params, value_, beta_)
                         .value);
     }
 

@@ -17,7 +17,7 @@ namespace {
 
 // Where the default setting was tuned, and how width and count go together from there.
 constexpr float referenceSpp = 28.0f;
-constexpr float referenceMu = 2.0f;
+constexpr float referenceMu = 1.5f;
 // Bias of a kernel of width beta grows as beta^2; its noise falls with beta and, faster than plain Monte Carlo's, with
 // the count: widths that keep both in step go as a power of the count. Measured from 9 to 112 samples on two scenes,
 // with about five samples of the first pass, which it spends where nothing is in shadow, left out.
@@ -190,6 +190,7 @@ Settings asPublished(std::optional<float> mu)
     s.oblique = false;
     s.narrower = false;
     s.surface = false;
+    s.fitted = false;
     s.fallback = false;
     s.widening = 0.0f;
     s.mu = direct;
@@ -353,7 +354,7 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
             { { "counts", s.counts == Counts::Spectrum ? "spectrum" : "variance" },
                 { "slopes", s.slopes == Slopes::Published ? "published" : "smoothed" }, { "mu", number(s.mu) },
                 { "k", number(s.k) }, { "alpha", number(s.alpha) }, { "oblique", number(s.oblique) },
-                { "narrower", number(s.narrower) }, { "surface", number(s.surface) },
+                { "narrower", number(s.narrower) }, { "surface", number(s.surface) }, { "fitted", number(s.fitted) },
                 { "fallback", number(s.fallback) }, { "widening", number(s.widening) },
                 { "normalDegrees", number(s.normalDegrees) }, { "cut", number(s.cut) },
                 { "maxRadius", number(s.maxRadius) }, { "fillSigma", number(s.fillSigma) },

@@ -112,7 +112,7 @@ struct EnvironmentSettings {
     /// unshadowed_environment.h).
     bool relative = true;
     float normalDegrees = 14.0f; ///< as Settings::normalDegrees
-    float widthScale = 0.25f; ///< as that of IndirectSettings, which holds where pixels have several receivers
+    float widthScale = 0.3f; ///< as that of IndirectSettings, which holds where pixels have several receivers
     float lobeWidening = 1.5f; ///< pixels, as Settings::widening, of what lobes reflect, which has no other width
     float firstShare =
         0.25f; ///< of the samples, that the analysis of pixels with one receiver begins with; 1: as many as of paths
@@ -186,7 +186,7 @@ struct Settings {
     /// (counts from variance). Counts from the spectrum follow from mu alone.
     int spp = 28;
     int maxSpp = 256; ///< most samples of a pixel
-    float mu = 2.0f; ///< sampling beyond the critical rate: larger is narrower, and more samples (section 3.5.2)
+    float mu = 1.5f; ///< sampling beyond the critical rate: larger is narrower, and more samples (section 3.5.2)
     float k = 3.0f; ///< spread of the Gaussian's energy, (3.13)
     float alpha = 1.0f; ///< bandlimit of the occluders relative to the pixel's, (3.5)
 
@@ -194,6 +194,7 @@ struct Settings {
     bool narrower = true; ///< a pair of pixels is weighted by the narrower of both kernels
     bool surface =
         true; ///< pixels weigh by the surface that they see, and those off a pixel's own surface are left out
+    bool fitted = true; ///< adaptive filters fit lines to neighbours in the place of means
     bool fallback =
         true; ///< where filters are off by more than noise explains, samples show (kernels/analysis/fallback.cl)
     /// Pixels: lights' filters that are narrower are compared with one of this width, and widened where nothing speaks

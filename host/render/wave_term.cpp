@@ -114,7 +114,9 @@ void WaveTerm::fallBack(
         f_.blocks(pass, PassKind::Filter, { "analysis/fallback.cl", "termVariance" },
             { p, reads("deviation", means.deviation), writes("variance", squared) });
         const FilterRun run { pass, PassKind::Filter, "filter/filter_variance.cl" };
-        variance = gaussianFilter(f_, run, 1, *filter, squared, means.beta).value;
+        shared::FilterParams plain = *filter;
+        plain.fitted = 0; // of variances the mean, which is not negative
+        variance = gaussianFilter(f_, run, 1, plain, squared, means.beta).value;
     }
     auto differences = f_.graph.plane<Share>("what filters are off", gathered ? shortQuadruples : shortTriples);
     f_.pixels(pass, PassKind::Filter, { "waves/distributed.cl", "termDifferences" },

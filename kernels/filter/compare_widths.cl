@@ -13,19 +13,20 @@ typedef struct {
     LineMean narrow, wide;
 } LineMeans;
 
-WEDGE_INLINE GatherSum startSum(float16 own)
+WEDGE_INLINE GatherSum sumFrom(float16 own)
 {
     GatherSum sum;
-    sum.weight = sum.squared = (float16)(1.0f);
+    sum.weights = ownWeight();
     sum.channel[0] = own;
+    sum.moment[0] = (float16)(0.0f);
     return sum;
 }
 
-WEDGE_INLINE LineMean meanOf(GatherSum sum, int16 gathers, LineMean before)
+WEDGE_INLINE LineMean meanOf(FilterParams p, const GatherSum* sum, int16 gathers, LineMean before)
 {
     LineMean mean;
-    mean.value = gathers ? sum.channel[0] / sum.weight : before.value;
-    mean.count = before.count * (gathers ? sum.weight * sum.weight / sum.squared : (float16)(1.0f));
+    mean.value = gathers ? valueOfLine(sum, fitOf(sum->weights), 0u, p.fitted != 0u) : before.value;
+    mean.count = before.count * (gathers ? countOfLine(sum->weights, p.fitted != 0u) : (float16)(1.0f));
     return mean;
 }
 
@@ -46,29 +47,29 @@ WEDGE_INLINE LineMeans compareLine(FilterParams p, int i, int element, Vec3 step
     const GatherBlock b = gatherBlock(p, i, object, position, normal, pixelSize);
     const GatherWidth ofWide = gatherWidth(p, b, step, gathers, wideHere),
                       ofNarrow = gatherWidth(p, b, step, narrowGathers, narrowHere);
-    GatherSum wideSum = startSum(own.wide.value), narrowSum = startSum(own.narrow.value);
+    GatherSum wideSum = sumFrom(own.wide.value), narrowSum = sumFrom(own.narrow.value);
     const int radius = (int)largestOf(ofWide.radius), narrowRadius = (int)largestOf(ofNarrow.radius);
     for (int k = -min(radius, before); k <= min(radius, after); ++k) {
         if (k == 0) {
             continue;
         }
         const int j = i + k * element;
-        const float steps = fabs((float)k);
+        const float steps = (float)k;
         const float16 wideThere = loadBlock(compared, j);
         const Neighbours n = neighboursAt(p, b, j, wideThere, position, normal, pixelSize, objectId);
-        const float16 w = neighbourWeights(p, ofWide, n, wideThere, steps);
-        addWeight(&wideSum, w);
-        addValue(&wideSum, 0u, w, loadBlock(wide, j));
+        const float16 w = neighbourWeights(p, ofWide, n, wideThere, fabs(steps));
+        addWeight(&wideSum.weights, w, steps);
+        addValue(&wideSum, 0u, w, steps, loadBlock(wide, j));
         if (abs(k) <= (uint)narrowRadius) {
             const float16 narrowThere = wideThere > 0.0f ? loadBlock(beta, j) : (float16)(0.0f);
-            const float16 v = neighbourWeights(p, ofNarrow, n, narrowThere, steps);
-            addWeight(&narrowSum, v);
-            addValue(&narrowSum, 0u, v, loadBlock(narrow, j));
+            const float16 v = neighbourWeights(p, ofNarrow, n, narrowThere, fabs(steps));
+            addWeight(&narrowSum.weights, v, steps);
+            addValue(&narrowSum, 0u, v, steps, loadBlock(narrow, j));
         }
     }
     LineMeans means;
-    means.narrow = meanOf(narrowSum, narrowGathers, own.narrow);
-    means.wide = meanOf(wideSum, gathers, own.wide);
+    means.narrow = meanOf(p, &narrowSum, narrowGathers, own.narrow);
+    means.wide = meanOf(p, &wideSum, gathers, own.wide);
     return means;
 }
 

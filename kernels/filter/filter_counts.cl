@@ -1,14 +1,9 @@
-// How many equal samples the filter of gather_lines.h gathers at each pixel, of whatever value: (sum w)^2 / sum w^2
-// along its row times that along its column.
+// How many equal samples the filter of gather_lines.h gathers at each pixel, of whatever value: those along its row
+// times those along its column (countOfLine()).
 //
 // in   as for gather_lines.h, without values
 // out  effective
 #include "filter/gather.h"
-
-/// Weights of a line's neighbours.
-typedef struct {
-    float16 sum, squared;
-} LineWeights;
 
 WEDGE_INLINE void addNeighbour(FilterParams p, GatherBlock b, GatherWidth width, int j, float steps,
     __global const float* beta, __global const float* position, __global const float* normal,
@@ -16,29 +11,28 @@ WEDGE_INLINE void addNeighbour(FilterParams p, GatherBlock b, GatherWidth width,
 {
     const float16 betaThere = loadBlock(beta, j);
     const Neighbours n = neighboursAt(p, b, j, betaThere, position, normal, pixelSize, objectId);
-    const float16 w = neighbourWeights(p, width, n, betaThere, steps);
-    weights->sum += w;
-    weights->squared += w * w;
+    const float16 w = neighbourWeights(p, width, n, betaThere, fabs(steps));
+    addWeight(weights, w, steps);
 }
 
 /// Along image step `step`, whose pixels lie `element` apart; before, after: pixels that the line goes on to.
-WEDGE_INLINE float16 countOfLine(FilterParams p, GatherBlock b, int i, int element, Vec3 step, int before, int after,
+WEDGE_INLINE float16 countAlong(FilterParams p, GatherBlock b, int i, int element, Vec3 step, int before, int after,
     int16 gathers, float16 betaHere, __global const float* beta, __global const float* position,
     __global const float* normal, __global const float* pixelSize, __global const uint* objectId)
 {
     const GatherWidth width = gatherWidth(p, b, step, gathers, betaHere);
-    LineWeights weights;
-    weights.sum = weights.squared = (float16)(1.0f);
+    LineWeights weights = ownWeight();
     const int radius = (int)largestOf(width.radius);
     for (int k = 1; k <= radius; ++k) {
         if (k <= before) {
-            addNeighbour(p, b, width, i - k * element, (float)k, beta, position, normal, pixelSize, objectId, &weights);
+            addNeighbour(
+                p, b, width, i - k * element, -(float)k, beta, position, normal, pixelSize, objectId, &weights);
         }
         if (k <= after) {
             addNeighbour(p, b, width, i + k * element, (float)k, beta, position, normal, pixelSize, objectId, &weights);
         }
     }
-    return gathers ? weights.sum * weights.sum / weights.squared : (float16)(1.0f);
+    return gathers ? countOfLine(weights, p.fitted != 0u) : (float16)(1.0f);
 }
 
 __kernel void gatherCounts(FilterParams p, __global const float* restrict beta, __global const float* restrict position,
@@ -58,9 +52,9 @@ __kernel void gatherCounts(FilterParams p, __global const float* restrict beta, 
     if (any(gathers)) {
         const GatherBlock b = gatherBlock(p, i, object, position, normal, pixelSize);
         // The padding of the rows holds objectId 0, so no tap has to ask where the row ends.
-        count = countOfLine(p, b, i, 1, p.right, WEDGE_MAX_RADIUS, WEDGE_MAX_RADIUS, gathers, betaHere, beta, position,
+        count = countAlong(p, b, i, 1, p.right, WEDGE_MAX_RADIUS, WEDGE_MAX_RADIUS, gathers, betaHere, beta, position,
             normal, pixelSize, objectId);
-        count *= countOfLine(p, b, i, (int)p.stride, p.down, (int)y, (int)(p.height - 1u - y), gathers, betaHere, beta,
+        count *= countAlong(p, b, i, (int)p.stride, p.down, (int)y, (int)(p.height - 1u - y), gathers, betaHere, beta,
             position, normal, pixelSize, objectId);
     }
     vstore16(count, 0, effective + i);

@@ -3,12 +3,13 @@
 // object or with another normal are left out: with its map, since light is gathered by it; how the surface lies is told
 // by the normal without its map. Distances are those in the plane parallel to a light, or, where the term
 // is of no light, plain ones. Each pixel counts for the surface that it sees: the convolutions (3.10) and (4.16) are
-// integrals over the surface, and pixels are not alike in what they see of it. Here is what neighbours weigh;
-// gather_lines.h has the passes. Each program that filters sets WEDGE_GATHER_CHANNELS, the planes of value. Those
-// of packed frames set WEDGE_GATHER_PACKED, too: normals are packed, and pixels' sizes have 16 bits (packed_planes.h).
-// They are programs of their own since a test of a parameter in each tap takes several times as long. And all is
-// inlined by order: compilers leave calls, with vectors in memory, to functions of this size, and gathers took twice as
-// long.
+// integrals over the surface, and pixels are not alike in what they see of it. Of the neighbours along a line comes,
+// fitted, not their mean but what a straight line through them has at the pixel. Here is what neighbours weigh, and
+// their sums; gather_lines.h has the passes. Each program that filters sets WEDGE_GATHER_CHANNELS, the planes of value.
+// Those of packed frames set WEDGE_GATHER_PACKED, too: normals are packed, and pixels' sizes have 16 bits
+// (packed_planes.h). They are programs of their own since a test of a parameter in each tap takes several times as
+// long. And all is inlined by order: compilers leave calls, with vectors in memory, to functions of this size, and
+// gathers took twice as long.
 #ifndef WEDGE_GATHER_H
 #define WEDGE_GATHER_H
 
@@ -26,6 +27,8 @@
 /// Most that a neighbour counts for what it sees of the surface, against the pixel: where surfaces turn away, samples
 /// are few.
 #define WEDGE_MOST_AREA 4.0f
+/// pixels^2
+#define WEDGE_FIT_RIDGE 0.3f
 /// log2(e) / 2
 #define WEDGE_HALF_LOG2E 0.72134752f
 
@@ -186,22 +189,86 @@ WEDGE_INLINE float16 neighbourWeights(FilterParams p, GatherWidth width, Neighbo
     return taken ? n.area * exp2Block(n.squared * scale) : (float16)(0.0f);
 }
 
-#ifdef WEDGE_GATHER_CHANNELS
+/// Sums over a line of pixels that weigh w, d pixels from the one that gathers, which is one of them and weighs 1.
 typedef struct {
-    float16 weight, squared;
-    float16 channel[WEDGE_GATHER_CHANNELS];
-} GatherSum;
+    float16 weight, along, spread; ///< of w, w d, w d^2
+    float16 squared, squaredAlong, squaredSpread; ///< of w^2, w^2 d, w^2 d^2
+} LineWeights;
 
-WEDGE_INLINE void addWeight(GatherSum* sum, float16 w)
+WEDGE_INLINE LineWeights ownWeight(void)
 {
-    sum->weight += w;
-    sum->squared += w * w;
+    LineWeights sum;
+    sum.weight = sum.squared = (float16)(1.0f);
+    sum.along = sum.spread = sum.squaredAlong = sum.squaredSpread = (float16)(0.0f);
+    return sum;
 }
 
-/// Not the weight alone: 0 times a NaN would let it in.
-WEDGE_INLINE void addValue(GatherSum* sum, uint channel, float16 w, float16 value)
+/// steps: d
+WEDGE_INLINE void addWeight(LineWeights* sum, float16 w, float steps)
 {
-    sum->channel[channel] += w > 0.0f ? w * value : (float16)(0.0f);
+    const float16 along = w * steps;
+    sum->weight += w;
+    sum->along += along;
+    sum->spread += along * steps;
+    sum->squared += w * w;
+    sum->squaredAlong += w * along;
+    sum->squaredSpread += along * along;
+}
+
+/// How a line's sums become the value that a straight line through them has at the pixel, d = 0: the mean less the
+/// slope times the mean d (local linear regression; Fan and Gijbels, 1996). The slope is that of least squares with
+/// WEDGE_FIT_RIDGE in the denominator, for neighbours that are few. Where they lie evenly around the pixel that is the
+/// mean; at edges, and where kernels narrow to one side, a gradient puts the mean off, and not the line.
+typedef struct {
+    float16 perWeight, middle, lever; ///< lever: the slope's factor is d's mean, the rest of both is in here
+} LineFit;
+
+WEDGE_INLINE LineFit fitOf(LineWeights sum)
+{
+    LineFit fit;
+    fit.perWeight = 1.0f / sum.weight;
+    fit.middle = sum.along * fit.perWeight;
+    const float16 spread = max16(sum.spread - sum.along * fit.middle, (float16)(0.0f));
+    fit.lever = fit.middle / (spread + WEDGE_FIT_RIDGE * sum.weight);
+    return fit;
+}
+
+/// The equal samples that a line amounts to: 1 over the sum of squares of what its pixels count for in the end.
+WEDGE_INLINE float16 countOfLine(LineWeights sum, bool fitted)
+{
+    if (!fitted) {
+        return sum.weight * sum.weight / sum.squared;
+    }
+    const LineFit fit = fitOf(sum);
+    const float16 across = sum.squaredAlong - fit.middle * sum.squared;
+    const float16 wide = sum.squaredSpread - fit.middle * (sum.squaredAlong + across);
+    return 1.0f
+        / (fit.perWeight * (fit.perWeight * sum.squared - 2.0f * fit.lever * across) + fit.lever * fit.lever * wide);
+}
+
+#ifdef WEDGE_GATHER_CHANNELS
+typedef struct {
+    LineWeights weights;
+    float16 channel[WEDGE_GATHER_CHANNELS], moment[WEDGE_GATHER_CHANNELS]; ///< of w f, w d f
+} GatherSum;
+
+/// Not the weight alone: 0 times a NaN would let it in.
+WEDGE_INLINE void addValue(GatherSum* sum, uint channel, float16 w, float steps, float16 value)
+{
+    const float16 weighted = w > 0.0f ? w * value : (float16)(0.0f);
+    sum->channel[channel] += weighted;
+    sum->moment[channel] += steps * weighted;
+}
+
+/// A channel's mean or, fitted, the line's value at the pixel; that is not negative, since nothing that is filtered is.
+WEDGE_INLINE float16 valueOfLine(const GatherSum* sum, LineFit fit, uint channel, bool fitted)
+{
+    const float16 mean = sum->channel[channel] * fit.perWeight;
+    if (!fitted) {
+        return mean;
+    }
+    const float16 slope = sum->moment[channel] - fit.middle * sum->channel[channel];
+    return max16(mean - fit.lever * slope, (float16)(0.0f));
 }
 #endif
 

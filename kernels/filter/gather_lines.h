@@ -20,17 +20,17 @@ WEDGE_INLINE void storeEffective(float16 count, __global float* effective)
 #endif
 }
 
-/// Adds the neighbours at element j, `steps` pixels away.
+/// Adds the neighbours at element j, `steps` pixels away; negative: before the pixel.
 WEDGE_INLINE void gatherTap(FilterParams p, GatherBlock b, GatherWidth width, int j, float steps,
     __global const float* value, __global const float* beta, __global const float* position,
     __global const float* normal, __global const float* pixelSize, __global const uint* objectId, GatherSum* sum)
 {
     const float16 betaThere = loadBlock(beta, j);
     const Neighbours n = neighboursAt(p, b, j, betaThere, position, normal, pixelSize, objectId);
-    const float16 w = neighbourWeights(p, width, n, betaThere, steps);
-    addWeight(sum, w);
+    const float16 w = neighbourWeights(p, width, n, betaThere, fabs(steps));
+    addWeight(&sum->weights, w, steps);
     for (uint c = 0u; c < WEDGE_GATHER_CHANNELS; ++c) {
-        addValue(sum, c, w, loadBlock(value + c * p.planeSize, j));
+        addValue(sum, c, w, steps, loadBlock(value + c * p.planeSize, j));
     }
 }
 
@@ -57,24 +57,26 @@ WEDGE_INLINE void gatherLine(FilterParams p, uint x, uint y, int element, Vec3 s
     const GatherBlock b = gatherBlock(p, i, object, position, normal, pixelSize);
     const GatherWidth width = gatherWidth(p, b, step, gathers, betaHere);
     GatherSum sum;
-    sum.weight = (float16)(1.0f);
-    sum.squared = (float16)(1.0f);
+    sum.weights = ownWeight();
     for (uint c = 0u; c < WEDGE_GATHER_CHANNELS; ++c) {
         sum.channel[c] = own[c];
+        sum.moment[c] = (float16)(0.0f);
     }
     const int radius = (int)largestOf(width.radius);
     for (int k = 1; k <= radius; ++k) {
         if (k <= before) {
-            gatherTap(p, b, width, i - k * element, (float)k, value, beta, position, normal, pixelSize, objectId, &sum);
+            gatherTap(
+                p, b, width, i - k * element, -(float)k, value, beta, position, normal, pixelSize, objectId, &sum);
         }
         if (k <= after) {
             gatherTap(p, b, width, i + k * element, (float)k, value, beta, position, normal, pixelSize, objectId, &sum);
         }
     }
+    const LineFit fit = fitOf(sum.weights);
     for (uint c = 0u; c < WEDGE_GATHER_CHANNELS; ++c) {
-        vstore16(gathers ? sum.channel[c] / sum.weight : own[c], 0, filtered + c * p.planeSize + i);
+        vstore16(gathers ? valueOfLine(&sum, fit, c, c < p.fitted) : own[c], 0, filtered + c * p.planeSize + i);
     }
-    const float16 count = gathers ? sum.weight * sum.weight / sum.squared : (float16)(1.0f);
+    const float16 count = gathers ? countOfLine(sum.weights, p.fitted != 0u) : (float16)(1.0f);
     storeEffective(effectiveBefore * count, effective + i);
 }
 

@@ -35,6 +35,7 @@ typedef struct {
     uint x0, y0, x1, y1; ///< the pixels to produce, half open; x0 a multiple of WEDGE_BLOCK_PIXELS
     uint height;
     uint surface; ///< 1: neighbours weigh by the surface that they see, and those off the pixel's surface are left out
+    uint fitted; ///< planes, the first ones of a value: of those a line's fit and not its mean comes out
 } FilterParams;
 
 /// The analysis of one light: slopes to widths and counts.

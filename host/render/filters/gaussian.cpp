@@ -2,10 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/glm.hpp>
 
 namespace wedge::render {
+namespace {
+
+constexpr std::uint32_t allPlanes = std::numeric_limits<std::uint32_t>::max();
+
+} // namespace
 
 shared::FilterParams filterParams(
     const Settings& settings, const shared::FrameParams& frame, const image::Window& window)
@@ -19,6 +25,7 @@ shared::FilterParams filterParams(
     p.cut = settings.cut;
     p.narrower = settings.narrower ? 1 : 0;
     p.surface = settings.surface ? 1 : 0;
+    p.fitted = settings.fitted && settings.filtering == Filtering::Adaptive ? allPlanes : 0;
     p.maxRadius = static_cast<std::uint32_t>(settings.maxRadius);
     p.width = frame.width;
     p.height = frame.height;
