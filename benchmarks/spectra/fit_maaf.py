@@ -26,7 +26,7 @@ RATIOS = [2.0 ** (0.25 * k) for k in range(13)]
 SLOPES = 17
 PAIRS = (2, 3, 4)
 BANDWIDTH = 2.0  # of the light, (6): Omega_max = 2 / sigma
-NOISE = 0.01
+NOISE = 0.001
 
 
 def nodes():

@@ -27,6 +27,9 @@ MARGIN = 192        # on both sides, for filters to gather from
 OCCLUDERS = 8
 SCENES = 120        # of each set
 REALISATIONS = 8
+SCENES_MEASURED = 60  # of filters that go by slopes that samples tell
+REALISATIONS_MEASURED = 2
+FIRST = 9           # samples that tell them
 SPP = (9, 16, 64)
 SEEDS = {"chosen_on": 41, "reported_on": 42}
 NODES = 24          # of the polynomial in y by which filters that depend on it are applied
@@ -95,25 +98,25 @@ def exact(scene, x):
 
 # Filtering
 
-def polynomials(y):
-    """Chebyshev's, of degrees below NODES, over the light; the last axis is the degree."""
+def polynomials(y, count=NODES):
+    """Chebyshev's, of degrees below `count`, over the light; the last axis is the degree."""
     t = y / filters.CUT
-    out = np.empty(y.shape + (NODES,))
+    out = np.empty(y.shape + (count,))
     out[..., 0] = 1.0
     out[..., 1] = t
-    for k in range(2, NODES):
+    for k in range(2, count):
         out[..., k] = 2.0 * t * out[..., k - 1] - out[..., k - 2]
     return out
 
 
-def expansion(kernel, d):
+def expansion(kernel, d, count=NODES):
     """Of kernel.weight / profile in those polynomials, at each d: one row where it does not depend on y."""
     if kernel.of_light:
         return (kernel.weight(d, 0.0) / filters.profile(0.0))[None]
-    angles = np.pi * (np.arange(NODES) + 0.5) / NODES
+    angles = np.pi * (np.arange(count) + 0.5) / count
     y = filters.CUT * np.cos(angles)
     values = kernel.weight(d[None], y[:, None]) / filters.profile(y)[:, None]
-    out = 2.0 / NODES * np.cos(np.arange(NODES)[:, None] * angles) @ values
+    out = 2.0 / count * np.cos(np.arange(count)[:, None] * angles) @ values
     out[0] *= 0.5
     return out
 
@@ -220,7 +223,8 @@ def measure_set(seed, spp, lists):
 
 
 def root(x):
-    return float(np.sqrt(max(x, 0.0)))
+    """Of a mean square, to the four digits that tell something. Bias may come out below nought where noise hides it."""
+    return float(f"{np.sqrt(max(x, 0.0)):.4g}")
 
 
 def summary(errors):
@@ -228,40 +232,244 @@ def summary(errors):
     return {"rms": root(total), "bias": root(bias), "noise": root(noise)}
 
 
+# RMS errors are also given over scenes of some widths and of some ratios.
 BINS = {"all": lambda s, r: s > 0.0, "s_min sigma 2 to 4 px": lambda s, r: s < 4.0,
         "4 to 8": lambda s, r: (s >= 4.0) & (s < 8.0), "8 to 16": lambda s, r: s >= 8.0,
         "s_max / s_min 1 to 2": lambda s, r: r < 2.0, "2 to 4": lambda s, r: (r >= 2.0) & (r < 4.0),
         "4 to 8 times": lambda s, r: r >= 4.0}
 
 
+def best_of(entries, chosen_on, reported_on):
+    """The constant that errs least over the scenes it is chosen on, and the errors over others."""
+    means = [float(errors[:, 0].mean()) for errors in chosen_on]
+    best = int(np.argmin(means))
+    return {"constant": entries[best][0], **summary(reported_on[best]), "rms_where_chosen": root(means[best]),
+            "sweep": [{"constant": c, **summary(errors)} for (c, _), errors in zip(entries, reported_on)]}
+
+
+def add_saved(results):
+    """How many times the samples AAF needs for the same error, at its best constant for each count: between the counts that are
+    measured by straight lines in logarithms, none beyond them."""
+    counts = np.log([float(spp) for spp in results])
+    errors = np.log([rows["aaf"]["rms"] for rows in results.values()])
+    for spp, rows in results.items():
+        for row in rows.values():
+            at = np.log(row["rms"])
+            row["saved"] = None
+            if errors[-1] <= at <= errors[0]:
+                row["saved"] = float(f"{np.exp(np.interp(-at, -errors, counts)) / float(spp):.3g}")
+
+
+TITLE = "{} samples a pixel: RMS error, bias, noise, constant, samples of the best AAF over its own"
+
+
+def line_of(name, row):
+    saved = "-" if row["saved"] is None else f"{row['saved']:.2f}"
+    return f"  {name:28s} {row['rms']:.4f} {row['bias']:.4f} {row['noise']:.4f}  {row['constant']:.3f}  {saved}"
+
+
 def compare(spp, lists):
-    """Each filter with the constant that errs least over the scenes it is chosen on, and its errors over others."""
+    """Filters that know the scene's slopes."""
     chosen_on, _ = measure_set(SEEDS["chosen_on"], spp, lists)
     reported_on, shapes = measure_set(SEEDS["reported_on"], spp, lists)
     out = {}
     for name, entries in lists.items():
-        means = [float(chosen_on[name, k][:, 0].mean()) for k in range(len(entries))]
-        best = int(np.argmin(means))
-        errors = reported_on[name, best]
-        out[name] = {"constant": entries[best][0], **summary(errors),
-                     "rms_where_chosen": root(means[best]),
-                     "by": {label: summary(errors[of(shapes[:, 0], shapes[:, 1])]) for label, of in BINS.items()},
-                     "sweep": [{"constant": c, **summary(reported_on[name, k])} for k, (c, _) in enumerate(entries)]}
+        row = best_of(entries, [chosen_on[name, k] for k in range(len(entries))],
+                      [reported_on[name, k] for k in range(len(entries))])
+        errors = reported_on[name, [c for c, _ in entries].index(row["constant"])]
+        row["by"] = {label: summary(errors[of(shapes[:, 0], shapes[:, 1])])["rms"] for label, of in BINS.items()}
+        out[name] = row
     return out
+
+
+# Slopes that samples tell
+
+def measured_slopes(scene, x, y):
+    """(s_min, s_max) of each pixel from its first nine samples, as a renderer has them: of each hidden one the slope of the occluder
+    nearest to the receiver, which is the smallest; s_min as the least of three pixels, then both as means over three of their
+    logarithms; pixels that see all of the light take the mean with Gaussian weights of 6 pixels. Nought where nothing is near."""
+    at = x[:, None, None] + scene["slopes"] * y[:, :FIRST, None]
+    slopes = np.where((at > scene["a"]) & (at < scene["b"]), scene["slopes"], np.inf).min(axis=2)
+    hidden = np.isfinite(slopes).any(axis=1)
+    least = np.where(hidden, np.min(slopes, axis=1), np.inf)
+    most = np.where(hidden, np.max(np.where(np.isfinite(slopes), slopes, 0.0), axis=1), 0.0)
+    least = np.minimum(least, np.minimum(np.roll(least, 1), np.roll(least, -1)))
+    out = []
+    distances = np.arange(-18, 19)
+    for values in (least, most):
+        logs = np.where(hidden, np.log(np.where(hidden, values, 1.0)), 0.0)
+        three = np.convolve(logs, np.ones(3), "same") / np.maximum(np.convolve(hidden, np.ones(3), "same"), 1.0)
+        weights = np.exp(-0.5 * (distances / 6.0) ** 2)
+        total = np.convolve(hidden, weights, "same")
+        spread = np.convolve(np.where(hidden, three, 0.0), weights, "same") / np.maximum(total, 1e-30)
+        out.append(np.where(hidden, np.exp(three), np.where(total > 1e-12, np.exp(spread), 0.0)))
+    return out[0], np.maximum(out[0], out[1])
+
+
+def gathered(f, y, slopes, weight, reach):
+    """An image by a filter whose weight depends on both pixels' slopes: weight(d, y, s_min, s_max), pairs have the least s_min and the
+    greatest s_max of both. Where there are none, a pixel keeps its own mean."""
+    s_min, s_max = slopes
+    middle = slice(MARGIN, -MARGIN)
+    seen, taken = np.zeros(PIXELS), np.zeros(PIXELS)
+    for d in range(-reach, reach + 1):
+        other = slice(MARGIN + d, MARGIN + d + PIXELS)
+        low, high = np.minimum(s_min[middle], s_min[other]), np.maximum(s_max[middle], s_max[other])
+        usable = low > 0.0
+        w = weight(float(d), y[other], np.where(usable, low, 1.0)[:, None], np.where(usable, high, 1.0)[:, None])
+        w = np.broadcast_to(w * usable[:, None], y[other].shape)
+        seen += (w * f[other]).sum(axis=1)
+        taken += w.sum(axis=1)
+    return np.where(taken > 0.0, seen / np.where(taken > 0.0, taken, 1.0), f[middle].mean(axis=1))
+
+
+def gaussian_pair(c):
+    return lambda d, y, s_min, s_max: np.exp(-0.5 * (d / (c * s_min)) ** 2)
+
+
+def two_slope_pair(c):
+    def weight(d, y, s_min, s_max):
+        e = c * np.minimum(1.0, 0.8 * s_min * s_max / np.maximum((s_max - s_min) ** 2, 1e-9))
+        var_y, cov, var_d = 1.0 + e, -0.5 * e * (s_min + s_max), e * s_min * s_max
+        det = var_y * var_d - cov**2
+        return np.exp(-0.5 * (var_d * y**2 - 2.0 * cov * d * y + var_y * d**2) / det) / filters.profile(y)
+    return weight
+
+
+def measured_set(seed, spp):
+    """As measure_set, of filters that go by measured slopes."""
+    errors = {}
+    random_scenes = np.random.default_rng(seed)
+    random = np.random.default_rng([seed, spp])
+    x = np.arange(-MARGIN, PIXELS + MARGIN, dtype=float)
+    for _ in range(SCENES_MEASURED):
+        scene = random_scene(random_scenes)
+        truth = exact(scene, x[MARGIN:-MARGIN])
+        images = {}
+        for _ in range(REALISATIONS_MEASURED):
+            y = place((np.arange(spp) + random.uniform(size=(len(x), spp))) / spp)
+            f = visible(scene, x[:, None], y)
+            # The first pass's nine are strata of their own among them.
+            first = place((np.arange(FIRST) + random.uniform(size=(len(x), FIRST))) / FIRST) if spp > FIRST else y
+            slopes = measured_slopes(scene, x, first)
+            widest = float(slopes[0].max())
+
+            def image(weight, reach):
+                return gathered(f, y, slopes, weight, min(int(np.ceil(reach)), MARGIN))
+
+            def one_mean(c):
+                return gathered(f.mean(axis=1)[:, None], np.zeros((len(x), 1)), slopes, gaussian_pair(c),
+                                min(int(np.ceil(3.0 * c * widest)), MARGIN))
+
+            for k, c in enumerate(CONSTANTS["aaf"]):
+                images.setdefault(("aaf", k), []).append(one_mean(c))
+            for k, c in enumerate(CONSTANTS["extrapolated"]):
+                images.setdefault(("extrapolated", k), []).append(2.0 * one_mean(c) - one_mean(np.sqrt(2.0) * c))
+            for k, c in enumerate(CONSTANTS["two_slope"]):
+                wide = np.sqrt(c * np.max(slopes[0] * slopes[1] * np.minimum(
+                    1.0, 0.8 * slopes[0] * slopes[1] / np.maximum((slopes[1] - slopes[0]) ** 2, 1e-9))))
+                images.setdefault(("two_slope", k), []).append(image(two_slope_pair(c), 3.0 * wide))
+        for key, values in images.items():
+            errors.setdefault(key, []).append(split(np.array(values), truth))
+    return {key: np.array(value) for key, value in errors.items()}
+
+
+def compare_measured(spp):
+    chosen_on, reported_on = (measured_set(SEEDS[which], spp) for which in ("chosen_on", "reported_on"))
+    out = {}
+    for name in ("aaf", "extrapolated", "two_slope"):
+        entries = [(c, None) for c in CONSTANTS[name]]
+        out[name] = best_of(entries, [chosen_on[name, k] for k in range(len(entries))],
+                            [reported_on[name, k] for k in range(len(entries))])
+    return out
+
+
+# Pictures
+
+FAMILIES = (("aaf", "#d33b2f", "AAF"), ("extrapolated", "#1f3fa8", "extrapolated"), ("two_slope", "#6aa84f", "sheared, two slopes"))
+
+
+def library():
+    try:
+        import matplotlib
+    except ImportError:
+        sys.exit("maaf_flatland: error: matplotlib: not installed: apt install python3-matplotlib")
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    return plt
+
+
+def edge(s):
+    """A scene of one edge of slope s, with the judged pixels' middle in its shadow's."""
+    middle = 0.5 * PIXELS
+    return {"slopes": np.array([s]), "a": np.array([-1e6]), "b": np.array([middle])}
+
+
+def edge_filters(s_min, s_max):
+    """What the picture of edges shows; constants are those that err least at 9 samples a pixel."""
+    scene = {"s_min": s_min, "s_max": s_max}
+    return (("AAF, k mu 6", "#f0a8a0", filters.aaf(s_min, 1.0 / 6.0)), ("AAF, 0.4", "#d33b2f", filters.aaf(s_min, 0.4)),
+            ("extrapolated, 0.65", "#1f3fa8", filters.extrapolated(s_min, 0.65)),
+            ("sheared, two slopes, 0.25", "#6aa84f", filters.two_slope(s_min, s_max, 0.25)),
+            ("MAAF 5, printed", "0.6", maaf_printed(scene, 3, 2.0)),
+            ("MAAF 5, refitted", "#d9a400", maaf_refitted(scene, 3, fit_maaf.BANDWIDTH, fit_maaf.table(3))))
+
+
+def plot(results, folder):
+    plt = library()
+    os.makedirs(folder, exist_ok=True)
+    figure, panels = plt.subplots(2, 3, figsize=(14, 8))
+    for axes, spp in zip(panels[0], SPP):
+        rows = results["line"][str(spp)]
+        for name, colour, label in FAMILIES:
+            sweep = rows[name]["sweep"]
+            constants = [row["constant"] for row in sweep]
+            for part, style in (("rms", "-"), ("bias", ":"), ("noise", "--")):
+                axes.plot(constants, [row[part] for row in sweep], style, color=colour, linewidth=1.6 if part == "rms" else 0.8,
+                          label=label if part == "rms" else None)
+        axes.axhline(rows["maaf 5 refitted, noise 0.001"]["rms"], color="#d9a400", label="MAAF 5, refitted, at its best")
+        axes.set_title(f"{spp} samples: RMS error; bias dotted, noise dashed", fontsize=10)
+        axes.set_xlabel("constant")
+        axes.set_ylim(0.0, 1.3 * rows["aaf k mu 6"]["rms"])
+        axes.legend(fontsize=7)
+    s_min, s_max = 12.0, 48.0
+    x = np.arange(PIXELS, dtype=float)
+    for axes, s in zip(panels[1], (12.0, 24.0, 48.0)):
+        scene = edge(s)
+        truth = exact(scene, x)
+        samples = Samples(scene, 400, 1, np.random.default_rng(1))
+        for label, colour, kernel in edge_filters(s_min, s_max):
+            axes.plot(x - 0.5 * PIXELS, samples.filtered(kernel)[0] - truth, color=colour, label=label)
+        axes.set_title(f"filtered edge less true one, slope {s / s_min:g} s_min of 1 to 4", fontsize=10)
+        axes.set_xlabel("pixels; sigma s_min is 12")
+        axes.set_ylim(-0.12, 0.12)
+    panels[1, 0].legend(fontsize=7)
+    figure.tight_layout()
+    path = os.path.join(folder, "maaf_flatland.png")
+    figure.savefig(path, dpi=110)
+    print(path)
 
 
 def main(arguments):
     if len(arguments) not in (1, 2) or arguments[0].startswith("-"):
         print(__doc__.strip(), file=sys.stderr)
         return 2
+    if len(arguments) > 1:
+        library()
     lists = candidates(tables())
-    results = {"benchmark": "maaf_flatland", "scenes": SCENES, "realisations": REALISATIONS, "seeds": SEEDS,
-               "cut": filters.CUT, "line": {}}
+    results = {"benchmark": "maaf_flatland", "scenes": SCENES, "realisations": REALISATIONS, "scenes_measured": SCENES_MEASURED,
+               "realisations_measured": REALISATIONS_MEASURED, "seeds": SEEDS,
+               "cut": filters.CUT, "line": {}, "measured": {}}
     for spp in SPP:
         results["line"][str(spp)] = compare(spp, lists)
-        print(f"{spp} samples a pixel: RMS error, bias, noise, constant")
-        for name, row in results["line"][str(spp)].items():
-            print(f"  {name:28s} {row['rms']:.4f} {row['bias']:.4f} {row['noise']:.4f}  {row['constant']:.3f}")
+        results["measured"][str(spp)] = compare_measured(spp)
+    for part, heading in (("line", "Slopes known"), ("measured", "Slopes of nine samples")):
+        add_saved(results[part])
+        print(heading)
+        for spp, rows in results[part].items():
+            print(TITLE.format(spp))
+            for name, row in rows.items():
+                print(line_of(name, row))
     try:
         with open(arguments[0], "w", encoding="utf-8") as file:
             json.dump(results, file, indent=1)
@@ -269,6 +477,8 @@ def main(arguments):
     except OSError as error:
         print(f"maaf_flatland: error: {arguments[0]}: {error}: name a file that can be written", file=sys.stderr)
         return 1
+    if len(arguments) > 1:
+        plot(results, arguments[1])
     return 0
 
 
