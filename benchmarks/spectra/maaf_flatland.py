@@ -35,8 +35,8 @@ SEEDS = {"chosen_on": 41, "reported_on": 42}
 NODES = 24          # of the polynomial in y by which filters that depend on it are applied
 CONSTANTS = {
     "aaf": [0.1, 0.125, 1.0 / 6.0, 0.2, 0.25, 1.0 / 3.3, 0.35, 0.4, 0.5, 0.6],
-    "extrapolated": [0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8],
-    "two_slope": [0.025, 0.05, 0.1, 0.15, 0.2, 0.25, 0.35, 0.5, 0.7, 1.0],
+    "extrapolated": [0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8],
+    "two_slope": [0.0125, 0.025, 0.05, 0.1, 0.15, 0.2, 0.25, 0.35, 0.5, 0.7, 1.0],
     "maaf": [1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0],     # Omega_max sigma; the paper's is 2
 }
 NOISES = (0.0, 0.001, 0.01, 0.03)  # of the fit of weights
@@ -306,9 +306,9 @@ def measured_slopes(scene, x, y):
     return out[0], np.maximum(out[0], out[1])
 
 
-def gathered(f, y, slopes, weight, reach):
-    """An image by a filter whose weight depends on both pixels' slopes: weight(d, y, s_min, s_max), pairs have the least s_min and the
-    greatest s_max of both. Where there are none, a pixel keeps its own mean."""
+def gathered(f, y, slopes, exponent, reach):
+    """An image by a filter whose weight depends on both pixels' slopes: exp(exponent(d, y, s_min, s_max)); pairs have the least s_min
+    and the greatest s_max of both. Where there are none, a pixel keeps its own mean."""
     s_min, s_max = slopes
     middle = slice(MARGIN, -MARGIN)
     seen, taken = np.zeros(PIXELS), np.zeros(PIXELS)
@@ -316,7 +316,7 @@ def gathered(f, y, slopes, weight, reach):
         other = slice(MARGIN + d, MARGIN + d + PIXELS)
         low, high = np.minimum(s_min[middle], s_min[other]), np.maximum(s_max[middle], s_max[other])
         usable = low > 0.0
-        w = weight(float(d), y[other], np.where(usable, low, 1.0)[:, None], np.where(usable, high, 1.0)[:, None])
+        w = np.exp(exponent(float(d), y[other], np.where(usable, low, 1.0)[:, None], np.where(usable, high, 1.0)[:, None]))
         w = np.broadcast_to(w * usable[:, None], y[other].shape)
         seen += (w * f[other]).sum(axis=1)
         taken += w.sum(axis=1)
@@ -324,16 +324,24 @@ def gathered(f, y, slopes, weight, reach):
 
 
 def gaussian_pair(c):
-    return lambda d, y, s_min, s_max: np.exp(-0.5 * (d / (c * s_min)) ** 2)
+    """Exponents of weights, of d, y, s_min, s_max."""
+    return lambda d, y, s_min, s_max: -0.5 * (d / (c * s_min)) ** 2
 
 
 def two_slope_pair(c):
-    def weight(d, y, s_min, s_max):
+    def exponent(d, y, s_min, s_max):
         e = c * np.minimum(1.0, 0.8 * s_min * s_max / np.maximum((s_max - s_min) ** 2, 1e-9))
         var_y, cov, var_d = 1.0 + e, -0.5 * e * (s_min + s_max), e * s_min * s_max
         det = var_y * var_d - cov**2
-        return np.exp(-0.5 * (var_d * y**2 - 2.0 * cov * d * y + var_y * d**2) / det) / filters.profile(y)
-    return weight
+        # As filters.two_slope's, over the light's profile.
+        return (0.5 - 0.5 * var_d / det) * y**2 + cov * d / det * y - 0.5 * var_y * d**2 / det
+    return exponent
+
+
+def widest_two_slope(slopes, c):
+    s_min, s_max = slopes
+    bound = np.minimum(1.0, 0.8 * s_min * s_max / np.maximum((s_max - s_min) ** 2, 1e-9))
+    return float(np.sqrt(np.max(c * bound * s_min * s_max)))
 
 
 def measured_set(seed, spp):
@@ -354,8 +362,8 @@ def measured_set(seed, spp):
             slopes = measured_slopes(scene, x, first)
             widest = float(slopes[0].max())
 
-            def image(weight, reach):
-                return gathered(f, y, slopes, weight, min(int(np.ceil(reach)), MARGIN))
+            def image(exponent, reach):
+                return gathered(f, y, slopes, exponent, min(int(np.ceil(reach)), MARGIN))
 
             def one_mean(c):
                 return gathered(f.mean(axis=1)[:, None], np.zeros((len(x), 1)), slopes, gaussian_pair(c),
@@ -366,9 +374,7 @@ def measured_set(seed, spp):
             for k, c in enumerate(CONSTANTS["extrapolated"]):
                 images.setdefault(("extrapolated", k), []).append(2.0 * one_mean(c) - one_mean(np.sqrt(2.0) * c))
             for k, c in enumerate(CONSTANTS["two_slope"]):
-                wide = np.sqrt(c * np.max(slopes[0] * slopes[1] * np.minimum(
-                    1.0, 0.8 * slopes[0] * slopes[1] / np.maximum((slopes[1] - slopes[0]) ** 2, 1e-9))))
-                images.setdefault(("two_slope", k), []).append(image(two_slope_pair(c), 3.0 * wide))
+                images.setdefault(("two_slope", k), []).append(image(two_slope_pair(c), 3.0 * widest_two_slope(slopes, c)))
         for key, values in images.items():
             errors.setdefault(key, []).append(split(np.array(values), truth))
     return {key: np.array(value) for key, value in errors.items()}

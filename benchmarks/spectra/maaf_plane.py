@@ -35,6 +35,12 @@ CONSTANTS = {
     "two_slope": [0.05, 0.1, 0.15, 0.2, 0.25, 0.35, 0.5],
     "maaf": [1.5, 2.0, 2.5, 3.0],
 }
+# Of filters that go by slopes that samples tell: slow, since no two pixels have the same filter.
+SCENES_MEASURED = 12
+SPP_MEASURED = (9, 16, 64)
+REACH = 24
+MEASURED = {"aaf": [1.0 / 6.0, 0.2, 0.25, 1.0 / 3.3, 0.35, 0.4], "extrapolated": [0.3, 0.4, 0.5, 0.6, 0.7],
+            "two_slope": [0.05, 0.1, 0.15, 0.2, 0.25]}
 REFITTED = {2: (0.001,), 3: (0.0, 0.001, 0.01), 4: (0.001, 0.01)}  # pairs, and noise terms of the fit
 
 
@@ -156,23 +162,125 @@ def measure_set(seed, lists):
     return {key: np.array(value) for key, value in errors.items()}
 
 
+# Slopes that samples tell
+
+def around(values, weights):
+    """Sums with weights of an odd number of neighbours along both axes; nothing beyond the borders."""
+    for axis in (0, 1):
+        values = np.apply_along_axis(np.convolve, axis, values, weights, "same")
+    return values
+
+
+def measured_slopes(scene, x1, x2, y1, y2):
+    """As maaf_flatland.measured_slopes, over 3 x 3 pixels and round Gaussian weights."""
+    slopes = np.full(y1.shape, np.inf)
+    for k, s in enumerate(scene["slopes"]):
+        one = {key: scene[key][k:k + 1] for key in ("slopes", "middle", "angle", "half")}
+        slopes = np.where(visible(one, x1, x2, y1, y2), slopes, np.minimum(slopes, s))
+    hidden = np.isfinite(slopes).any(axis=2)
+    least, most = slopes.min(axis=2), np.where(np.isfinite(slopes), slopes, 0.0).max(axis=2)
+    for axis in (0, 1):
+        least = np.minimum(least, np.minimum(np.roll(least, 1, axis), np.roll(least, -1, axis)))
+    weights = np.exp(-0.5 * (np.arange(-18, 19) / 6.0) ** 2)
+    total = around(hidden.astype(float), weights)
+    near = np.maximum(around(hidden.astype(float), np.ones(3)), 1.0)
+    out = []
+    for values in (least, most):
+        logs = np.where(hidden, np.log(np.where(hidden, values, 1.0)), 0.0)
+        three = np.where(hidden, around(logs, np.ones(3)) / near, 0.0)
+        spread = around(three, weights) / np.maximum(total, 1e-30)
+        out.append(np.where(hidden, np.exp(three), np.where(total > 1e-12, np.exp(spread), 0.0)))
+    return out[0], np.maximum(out[0], out[1])
+
+
+def gathered(f, y1, y2, slopes, exponent, reach):
+    """As maaf_flatland.gathered. The exponent is a sum over both axes: exponent(d, y, s_min, s_max) of each."""
+    # In single precision, which is several times as fast.
+    (s_min, s_max), y1, y2 = [a.astype(np.float32) for a in slopes], y1.astype(np.float32), y2.astype(np.float32)
+    inner, one = slice(MARGIN, -MARGIN), np.float32(1.0)
+    seen, taken = np.zeros((PIXELS, PIXELS)), np.zeros((PIXELS, PIXELS))
+    for d2 in range(-reach, reach + 1):
+        for d1 in range(-reach, reach + 1):
+            if d1**2 + d2**2 > reach**2:
+                continue
+            other = (slice(MARGIN + d2, MARGIN + d2 + PIXELS), slice(MARGIN + d1, MARGIN + d1 + PIXELS))
+            low, high = np.minimum(s_min[inner, inner], s_min[other]), np.maximum(s_max[inner, inner], s_max[other])
+            usable = (low > 0.0)[:, :, None]
+            low, high = np.where(usable, low[:, :, None], one), np.where(usable, high[:, :, None], one)
+            w = np.exp(exponent(np.float32(d1), y1[other], low, high) + exponent(np.float32(d2), y2[other], low, high)) * usable
+            seen += (w * f[other]).sum(axis=2)
+            taken += np.broadcast_to(w, f[other].shape).sum(axis=2)
+    return np.where(taken > 0.0, seen / np.where(taken > 0.0, taken, 1.0), f[inner, inner].mean(axis=2))
+
+
+def samples_of(scene, spp, random, x):
+    side = int(round(spp**0.5))
+    shape = (len(x), len(x), side, side)
+    strata = np.arange(side)
+    y1 = flatland.place((strata + random.uniform(size=shape)) / side).reshape(len(x), len(x), spp)
+    y2 = flatland.place((strata[:, None] + random.uniform(size=shape)) / side).reshape(len(x), len(x), spp)
+    return visible(scene, x[:, None], x[:, None, None], y1, y2), y1, y2
+
+
+def measured_set(seed):
+    """As measure_set, of filters that go by measured slopes."""
+    errors = {}
+    random_scenes = np.random.default_rng(seed)
+    random = np.random.default_rng([seed, 2])
+    x = np.arange(-MARGIN, PIXELS + MARGIN, dtype=float)
+    nothing = np.zeros((len(x), len(x), 1))
+    for _ in range(SCENES_MEASURED):
+        scene = random_scene(random_scenes)
+        truth = exact(scene)
+        for spp in SPP_MEASURED:
+            images = {}
+            for _ in range(REALISATIONS):
+                f, y1, y2 = samples_of(scene, spp, random, x)
+                _, first_1, first_2 = (f, y1, y2) if spp == flatland.FIRST else samples_of(scene, flatland.FIRST, random, x)
+                slopes = measured_slopes(scene, x[:, None], x[:, None, None], first_1, first_2)
+                means = f.mean(axis=2)[:, :, None]
+
+                def one_mean(c):
+                    reach = min(int(np.ceil(3.0 * c * slopes[0].max())), REACH)
+                    return gathered(means, nothing, nothing, slopes, flatland.gaussian_pair(c), reach)
+
+                for k, c in enumerate(MEASURED["aaf"]):
+                    images.setdefault((spp, "aaf", k), []).append(one_mean(c))
+                for k, c in enumerate(MEASURED["extrapolated"]):
+                    images.setdefault((spp, "extrapolated", k), []).append(2.0 * one_mean(c) - one_mean(np.sqrt(2.0) * c))
+                for k, c in enumerate(MEASURED["two_slope"]):
+                    reach = min(int(np.ceil(3.0 * flatland.widest_two_slope(slopes, c))), REACH)
+                    images.setdefault((spp, "two_slope", k), []).append(
+                        gathered(f, y1, y2, slopes, flatland.two_slope_pair(c), reach))
+            for key, values in images.items():
+                errors.setdefault(key, []).append(flatland.split(np.array(values), truth))
+    return {key: np.array(value) for key, value in errors.items()}
+
+
+def all_best(spp, lists, chosen_on, reported_on):
+    return {name: flatland.best_of(entries, [chosen_on[spp, name, k] for k in range(len(entries))],
+                                   [reported_on[spp, name, k] for k in range(len(entries))])
+            for name, entries in lists.items()}
+
+
 def main(arguments):
     if len(arguments) != 1 or arguments[0].startswith("-"):
         print(__doc__.strip(), file=sys.stderr)
         return 2
     lists = candidates()
     chosen_on, reported_on = (measure_set(SEEDS[which], lists) for which in ("chosen_on", "reported_on"))
-    results = {"benchmark": "maaf_plane", "scenes": SCENES, "realisations": REALISATIONS, "seeds": SEEDS, "plane": {}}
-    for spp in SPP:
-        rows = results["plane"][str(spp)] = {}
-        for name, entries in lists.items():
-            rows[name] = flatland.best_of(entries, [chosen_on[spp, name, k] for k in range(len(entries))],
-                                          [reported_on[spp, name, k] for k in range(len(entries))])
-    flatland.add_saved(results["plane"])
-    for spp, rows in results["plane"].items():
-        print(flatland.TITLE.format(spp))
-        for name, row in rows.items():
-            print(flatland.line_of(name, row))
+    results = {"benchmark": "maaf_plane", "scenes": SCENES, "realisations": REALISATIONS, "scenes_measured": SCENES_MEASURED,
+               "seeds": SEEDS, "plane": {str(spp): all_best(spp, lists, chosen_on, reported_on) for spp in SPP}}
+    chosen_on, reported_on = (measured_set(SEEDS[which]) for which in ("chosen_on", "reported_on"))
+    lists = {name: [(c, None) for c in constants] for name, constants in MEASURED.items()}
+    results["measured"] = {str(spp): all_best(spp, lists, chosen_on, reported_on) for spp in SPP_MEASURED}
+    for part, heading in (("plane", "Slopes known"), ("measured", "Slopes of nine samples")):
+        flatland.add_saved(results[part])
+        print(heading)
+        for spp, rows in results[part].items():
+            print(flatland.TITLE.format(spp))
+            for name, row in rows.items():
+                print(flatland.line_of(name, row))
     try:
         with open(arguments[0], "w", encoding="utf-8") as file:
             json.dump(results, file, indent=1)

@@ -58,6 +58,21 @@ class Filters(unittest.TestCase):
         d, y = np.linspace(-5.0, 5.0, 41)[:, None], np.linspace(-2.0, 2.0, 21)
         self.assertLess(np.abs(kernel.weight(d, y) - filters.gaussian(d, 1.5) * filters.gaussian(y, 0.5)).max(), 1e-12)
 
+    def test_weights_of_light_make_its_transform(self):
+        omega = np.linspace(0.0, 1.2, 13)
+        for pairs, apart in ((3, 0.06), (4, 0.045)):
+            bank = filters.Components(pairs, 1.0, 2.0)
+
+            def off(weights):
+                made = sum(mu * np.exp(-0.5 * ((omega - side * c) / w) ** 2)
+                           for mu, c, w in zip(weights, bank.centre_y, bank.extent_y)
+                           for side in ((1.0, -1.0) if c > 0.0 else (1.0,)))
+                return np.abs(made / made[0] - np.exp(-0.5 * omega**2)).max()
+
+            self.assertLess(off(bank.weights_of_light()), apart)
+            # Those printed are of a light twice as wide in frequency.
+            self.assertGreater(off(bank.weights_printed(1.0)), 0.2)
+
     def test_symmetry(self):
         d, y = np.linspace(-9.0, 9.0, 37)[:, None], np.linspace(-2.0, 2.0, 17)
         for s_min, s_max in SLOPES:
@@ -190,15 +205,27 @@ class Spectra(unittest.TestCase):
                     inside |= (x >= left - 1e-9) & (x <= right + 1e-9) & (y >= low - 1e-9) & (y <= high + 1e-9)
                 self.assertTrue(inside.all(), name)
 
-    def test_coverage_of_gaussians_by_sums(self):
+    def test_coverage_of_gaussians_by_random_points(self):
         s_min, s_max = 0.7, 2.2
-        x, y = np.meshgrid(np.linspace(-25.0, 25.0, 2001), np.linspace(-12.0, 12.0, 961))
-        wedge = spectra.in_wedge(x, y, s_min, s_max, 0.0) & (np.abs(y) <= spectra.OMEGA)
+        x, y = np.meshgrid(np.linspace(-25.0, 25.0, 1001), np.linspace(-12.0, 12.0, 481))
+        cell = (x[0, 1] - x[0, 0]) * (y[1, 0] - y[0, 0])
+        random = np.random.default_rng(8)
+        in_y = spectra.OMEGA * np.sqrt(random.uniform(size=400000))
+        in_x = in_y * random.uniform(1.0 / s_max, 1.0 / s_min, len(in_y))
+        area = spectra.OMEGA**2 * (1.0 / s_min - 1.0 / s_max)
         for name in spectra.NAMES + spectra.OTHERS:
-            values = spectra.response(name, s_min, s_max, x, y)
+            whole = spectra.response(name, s_min, s_max, x, y).sum() * cell
+            values = spectra.response(name, s_min, s_max, in_x, in_y)
             coverage, accuracy, _ = spectra.gaussian_measures(name, s_min, s_max)
-            self.assertAlmostEqual(coverage, values[wedge].sum() / values.sum(), delta=3e-3, msg=name)
-            self.assertAlmostEqual(accuracy, 1.0 - np.sqrt(np.mean((values[wedge] - 1.0) ** 2)), delta=3e-3, msg=name)
+            self.assertAlmostEqual(coverage, area * values.mean() / whole, delta=2e-3, msg=name)
+            self.assertAlmostEqual(accuracy, 1.0 - np.sqrt(np.mean((values - 1.0) ** 2)), delta=2e-3, msg=name)
+
+    def test_wedge_holds_its_lines_only(self):
+        omega = np.array([-2.0, -0.5, 0.5, 2.0])
+        for s, inside in ((0.6, False), (0.8, True), (2.0, True), (2.4, False)):
+            self.assertTrue((spectra.in_wedge(omega / s, omega, 0.7, 2.2, 0.0) == inside).all())
+            self.assertFalse(spectra.in_wedge(-omega / s, omega, 0.7, 2.2, 0.0).any())
+        self.assertFalse(spectra.in_wedge(np.array([-1.0, 1.0]), np.array([0.0, 0.0]), 0.7, 2.2, 0.1).any())
 
     def test_spectra_lie_on_the_slopes(self):
         for row in spectra.measured_slopes()[:2]:
