@@ -248,23 +248,26 @@ def best_of(entries, chosen_on, reported_on):
 
 
 def add_saved(results):
-    """How many times the samples AAF needs for the same error, at its best constant for each count: between the counts that are
-    measured by straight lines in logarithms, none beyond them."""
+    """How many times the samples AAF needs for the same error, at its best constant for each count ("saved"), and with the thesis's
+    ("saved_thesis", where it is among them): between the counts that are measured by straight lines in logarithms, none beyond."""
     counts = np.log([float(spp) for spp in results])
-    errors = np.log([rows["aaf"]["rms"] for rows in results.values()])
-    for spp, rows in results.items():
-        for row in rows.values():
-            at = np.log(row["rms"])
-            row["saved"] = None
-            if errors[-1] <= at <= errors[0]:
-                row["saved"] = float(f"{np.exp(np.interp(-at, -errors, counts)) / float(spp):.3g}")
+    for key, name in (("saved", "aaf"), ("saved_thesis", "aaf k mu 6")):
+        if any(name not in rows for rows in results.values()):
+            continue
+        errors = np.log([rows[name]["rms"] for rows in results.values()])
+        for spp, rows in results.items():
+            for row in rows.values():
+                at = np.log(row["rms"])
+                row[key] = None
+                if errors[-1] <= at <= errors[0]:
+                    row[key] = float(f"{np.exp(np.interp(-at, -errors, counts)) / float(spp):.3g}")
 
 
-TITLE = "{} samples a pixel: RMS error, bias, noise, constant, samples of the best AAF over its own"
+TITLE = "{} samples a pixel: RMS error, bias, noise, constant; samples of AAF over its own, of the best and of the thesis's"
 
 
 def line_of(name, row):
-    saved = "-" if row["saved"] is None else f"{row['saved']:.2f}"
+    saved = " ".join("-" if row.get(key) is None else f"{row[key]:.2f}" for key in ("saved", "saved_thesis"))
     return f"  {name:28s} {row['rms']:.4f} {row['bias']:.4f} {row['noise']:.4f}  {row['constant']:.3f}  {saved}"
 
 

@@ -160,6 +160,27 @@ class Truth(unittest.TestCase):
         self.assertLess(np.sqrt(np.mean((mean - truth) ** 2)), 0.03)
 
 
+class Samples(unittest.TestCase):
+    def test_samples_for_the_same_error(self):
+        """Errors of AAF that fall as 1 / samples: half of the error is twice the samples, and nothing is guessed beyond the ends."""
+        results = {str(spp): {"aaf": {"rms": 1.0 / spp}, "half": {"rms": 0.5 / spp}, "twice": {"rms": 2.0 / spp}} for spp in (9, 16, 64)}
+        flatland.add_saved(results)
+        self.assertEqual([rows["aaf"]["saved"] for rows in results.values()], [1.0, 1.0, 1.0])
+        self.assertEqual([rows["half"]["saved"] for rows in results.values()], [2.0, 2.0, None])
+        self.assertEqual([rows["twice"]["saved"] for rows in results.values()], [None, None, 0.5])
+        self.assertNotIn("saved_thesis", results["9"]["aaf"])
+
+    def test_measured_slopes_are_the_occluders(self):
+        scene = scene_of([5.0, 20.0], [60.0, 150.0], [100.0, 200.0])
+        x = np.arange(-flatland.MARGIN, flatland.PIXELS + flatland.MARGIN, dtype=float)
+        y = flatland.place((np.arange(9) + 0.5) / 9) * np.ones((len(x), 1))
+        low, high = flatland.measured_slopes(scene, x, y)
+        for pixel, s in ((80, 5.0), (175, 20.0)):
+            self.assertAlmostEqual(low[pixel + flatland.MARGIN], s, delta=1e-9)
+            self.assertAlmostEqual(high[pixel + flatland.MARGIN], s, delta=1e-9)
+        self.assertEqual(low[0], 0.0)
+
+
 class Table(unittest.TestCase):
     def test_table_is_what_the_program_fits(self):
         with open(os.path.join(FOLDER, "maaf_weights.json"), encoding="utf-8") as file:
