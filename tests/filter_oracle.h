@@ -285,12 +285,18 @@ inline OracleResult gatherLine(const FilterImage& image, const OracleResult& in,
             }
             const std::size_t i = out.index(x, y);
             const auto channels = static_cast<std::size_t>(in.channels);
-            for (std::size_t c = 0; c < channels; ++c) {
-                const std::vector<double> coefficients = lineCoefficients(taps, c < p.fitted);
+            const auto sumOf = [&](bool fitted, std::size_t c) {
+                const std::vector<double> coefficients = lineCoefficients(taps, fitted);
                 double sum = 0;
                 for (std::size_t t = 0; t < taps.size(); ++t)
                     sum += coefficients[t] * in.value(taps[t].x, taps[t].y, static_cast<int>(c));
-                out.values[i * channels + c] = c < p.fitted ? std::max(sum, 0.0) : sum;
+                return sum;
+            };
+            for (std::size_t c = 0; c < channels; ++c) {
+                // A line is believed up to a fifth of the mean off it, and less and less up to two fifths.
+                const double mean = sumOf(false, c), off = c < p.fitted ? sumOf(true, c) - mean : 0.0;
+                const double trust = std::clamp(2 - 5 * std::fabs(off) / std::max(std::fabs(mean), 1e-30), 0.0, 1.0);
+                out.values[i * channels + c] = mean + trust * off;
             }
             double squares = 0;
             for (const double coefficient : lineCoefficients(taps, p.fitted != 0))

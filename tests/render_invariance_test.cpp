@@ -267,7 +267,9 @@ TEST_CASE("two lights give the sum of each: every light is a term of its own")
             CAPTURE(m.name);
             const image::Window all { 0, 0, width, height };
             const auto direct = [&](render::Renderer& r) {
-                r.render(m.settings, {}, true);
+                render::Settings settings = m.settings;
+                settings.fallback = false; // which looks at the lights' sum
+                r.render(settings, {}, true);
                 return pixels(r, r.frame().direct, all);
             };
             const std::vector<float> sum = direct(together), a = direct(one), b = direct(two);
