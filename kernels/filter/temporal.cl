@@ -88,12 +88,13 @@ __kernel void keepFrame(TemporalParams p, __global const float* restrict positio
 }
 
 /// What a pixel's light may differ by from that of the same surface in another frame, squared: of three pixels in a
-/// row, what half a pixel's shift of their slope makes; and, where noise is not `measured`, by how much the middle one
-/// is off the slope, whose mean is the variance where light is even.
+/// row, what an eighth of a pixel's shift of their slope makes, since differFromFrame() takes out what is known of it
+/// (half a pixel's let highlights and penumbrae of a moving camera lag behind); and, where noise is not `measured`, by
+/// how much the middle one is off the slope, whose mean is the variance where light is even.
 WEDGE_FN float roughness(float before, float own, float after, uint measured)
 {
     const float bend = measured != 0u ? 0.0f : 2.0f * own - before - after, slope = after - before;
-    return bend * bend * (1.0f / 6.0f) + slope * slope * (1.0f / 96.0f);
+    return bend * bend * (1.0f / 6.0f) + slope * slope * (1.0f / 1536.0f);
 }
 
 /// How much the light of unfiltered samples varies around each pixel.
@@ -202,11 +203,59 @@ WEDGE_FN bool seesSurface(TemporalParams p, SoughtPoint point, SoughtPlane plane
     return cosine > 0.0f && cosine * cosine >= p.normalCosine * p.normalCosine * vecDot(normal, normal);
 }
 
+/// How light changes along a line of three pixels: half of the difference between the outer ones, and their sum less
+/// twice the middle one; 0 where they do not see one smooth surface.
+typedef struct {
+    Vec3 slope, bend;
+} LightAlong;
+
+/// i: the middle pixel; step: to those beside it, which are in the image if `inside`
+WEDGE_FN LightAlong lightAlong(TemporalParams p, uint i, uint step, bool inside, __global const uint* object,
+    __global const float* normal, __global const float* light)
+{
+    const uint n = p.planeSize;
+    LightAlong out;
+    out.slope = out.bend = vec3(0.0f, 0.0f, 0.0f);
+    if (!inside || object[i - step] != object[i] || object[i + step] != object[i]) {
+        return out;
+    }
+    const Vec3 facing = loadVec(normal, n, i);
+    if (vecDot(facing, loadVec(normal, n, i - step)) < p.normalCosine
+        || vecDot(facing, loadVec(normal, n, i + step)) < p.normalCosine) {
+        return out;
+    }
+    const Vec3 before = loadColour(light, n, i - step, WEDGE_COLOUR_BITS);
+    const Vec3 after = loadColour(light, n, i + step, WEDGE_COLOUR_BITS);
+    out.slope = vecScale(vecSub(after, before), 0.5f);
+    out.bend = vecMad(vecAdd(before, after), loadColour(light, n, i, WEDGE_COLOUR_BITS), -2.0f);
+    return out;
+}
+
+/// How a pixel's light was looked up in another frame.
+typedef struct {
+    float fx, fy; ///< of the way between the pixels that light is interpolated between
+    float nearX, nearY; ///< from the point to the nearest one of them, pixels
+} LookUp;
+
+/// Takes out of interpolated light what lines add to curves, f (1 - f) / 2 times the bend, as this frame's light bends;
+/// returns what the nearest pixel's luminance has more than the point's.
+WEDGE_FN float straighten(TemporalParams p, uint x, uint y, LookUp at, __global const uint* object,
+    __global const float* normal, __global const float* light, float weight, Vec3* interpolated)
+{
+    const uint i = pixelIndex(x, y, p.stride);
+    const LightAlong across = lightAlong(p, i, 1u, x > 0u && x + 1u < p.width, object, normal, light);
+    const LightAlong down = lightAlong(p, i, p.stride, y > 0u && y + 1u < p.height, object, normal, light);
+    *interpolated = vecMad(*interpolated, across.bend, -0.5f * weight * at.fx * (1.0f - at.fx));
+    *interpolated = vecMad(*interpolated, down.bend, -0.5f * weight * at.fy * (1.0f - at.fy));
+    return at.nearX * luminance(across.slope) + at.nearY * luminance(down.slope);
+}
+
 /// One earlier frame, as far as a pixel's surface is seen in it.
 /// in   position, normal: of this frame; object, directLight, indirectLight, noisy: as keepFrame() made them of it;
 ///      earlierX: likewise of the earlier one; variation: findVariation(); motions: of objects, from this frame to that
 /// out  difference: of directLight, 3 planes, and with p.indirect of indirectLight, 3 more; noise: of the luminance
-///      before the filter, of the nearest pixel; variations: the sum of both pixels' own; share: g, 1 or 0
+///      before the filter, of the nearest pixel, less what light changes on the way to it; variations: the sum of both
+///      pixels' own; share: g, 1 or 0
 __kernel void differFromFrame(TemporalParams p, __global const float* restrict motions,
     __global const float* restrict position, __global const float* restrict normal,
     __global const uint* restrict object, __global const float* restrict directLight,
@@ -232,7 +281,7 @@ __kernel void differFromFrame(TemporalParams p, __global const float* restrict m
     float depth;
     const Vec3 black = vec3(0.0f, 0.0f, 0.0f);
     Vec3 direct = black, indirect = black;
-    float weight = 0.0f, nearest = 0.0f, unfiltered = 0.0f, varies = 0.0f;
+    float shift = 0.0f, weight = 0.0f, nearest = 0.0f, unfiltered = 0.0f, varies = 0.0f;
     if (movedBack(p, motions, &point, &still)) {
         if (still) {
             if (p.objectsStill != 0u
@@ -249,6 +298,7 @@ __kernel void differFromFrame(TemporalParams p, __global const float* restrict m
             // Of the four pixels around it those that see the surface.
             const float left = floor(at.x - 0.5f), top = floor(at.y - 0.5f);
             const float fx = at.x - 0.5f - left, fy = at.y - 0.5f - top;
+            LookUp found = { fx, fy, 0.0f, 0.0f };
             for (int tap = 0; tap < 4; ++tap) {
                 const int tx = (int)left + (tap & 1), ty = (int)top + (tap >> 1);
                 const float w = ((tap & 1) != 0 ? fx : 1.0f - fx) * ((tap >> 1) != 0 ? fy : 1.0f - fy);
@@ -260,18 +310,24 @@ __kernel void differFromFrame(TemporalParams p, __global const float* restrict m
                         indirect = vecMad(indirect, loadColour(earlierIndirect, n, j, WEDGE_COLOUR_BITS), w);
                     }
                     if (w > nearest) {
+                        found.nearX = (float)(tap & 1) - fx;
+                        found.nearY = (float)(tap >> 1) - fy;
                         unfiltered = loadShort(earlierNoisy, n, j, 0u);
                         varies = loadShort(earlierVariation, n, j, 0u);
                     }
                     nearest = fmax(nearest, w);
                 }
             }
+            shift = straighten(p, x, y, found, object, normal, directLight, weight, &direct);
+            if (p.indirect != 0u) {
+                shift += straighten(p, x, y, found, object, normal, indirectLight, weight, &indirect);
+            }
         }
     }
     const bool seen = weight > 0.05f;
     const float scale = seen ? 1.0f / weight : 0.0f;
     share[i] = seen ? 1.0f : 0.0f;
-    noise[i] = seen ? unfiltered - loadShort(noisy, n, i, 0u) : 0.0f;
+    noise[i] = seen ? unfiltered - loadShort(noisy, n, i, 0u) - shift : 0.0f;
     variations[i] = seen ? varies + loadShort(variation, n, i, 0u) : 0.0f;
     const Vec3 own = loadColour(directLight, n, i, WEDGE_COLOUR_BITS);
     storeVec(difference, n, i, seen ? vecMad(vecScale(own, -1.0f), direct, scale) : black);
