@@ -214,7 +214,7 @@ TEST_CASE("as published, mu is what the thesis has for the light and the cosine"
     CHECK(mu(box, { "--as-published" }) == "3");
     CHECK(mu(gaussian, { "--as-published", "--falloff", "inside" }) == "3");
     CHECK(mu(box, { "--as-published", "--mu", "1.5" }) == "1.5");
-    CHECK(mu(box, { "--spp", "28" }) == "2"); // not as published
+    CHECK(mu(box, { "--spp", "28" }) == "1.5"); // not as published
 }
 
 /// An image of 8x6 pixels of 0.5, some of them not finite.
