@@ -16,7 +16,8 @@ TEST_CASE("degenerate sizes: one pixel, one row, one column")
 {
     onEveryDevice([](const device::Device& device) {
         FilterRun filter(device);
-        for (const auto& [width, height] : { std::pair(1, 1), { 1, 23 }, { 23, 1 }, { 17, 2 } }) {
+        for (const std::pair<int, int>& size : { std::pair(1, 1), { 1, 23 }, { 23, 1 }, { 17, 2 } }) {
+            const int width = size.first, height = size.second;
             CAPTURE(width);
             CAPTURE(height);
             const FilterImage image = randomImage(width, height, Shape::Tilted, 3);
@@ -139,7 +140,7 @@ TEST_CASE("fitted, what filters make of numbers that are not negative is not neg
         image.params.fitted = 1;
         for (int y = 0; y < image.height(); ++y)
             for (int x = 0; x < image.width(); ++x)
-                image.value.at(x, y) = x > 20 + y / 3 ? static_cast<float>(x - 20 - y / 3) : 0.0f;
+                image.value.at(x, y) = static_cast<float>(std::max(0, 3 * (x - 20) - y)) / 3.0f;
         const FilterResult result = filter(image);
         for (int y = 0; y < image.height(); ++y)
             for (int x = 0; x < image.width(); ++x) {
@@ -337,7 +338,7 @@ TEST_CASE("two passes are close to the gather over squares of pixels, which they
             double difference = 0, effect = 0;
             for (int y = 0; y < 48; ++y)
                 for (int x = 0; x < 64; ++x) {
-                    const double reference = square[static_cast<std::size_t>(y * 64 + x)];
+                    const double reference = square[static_cast<std::size_t>(y) * 64 + static_cast<std::size_t>(x)];
                     difference += std::pow(separable.value.at(x, y) - reference, 2) / (64 * 48);
                     effect += std::pow(image.value.at(x, y) - reference, 2) / (64 * 48);
                 }
