@@ -30,6 +30,8 @@ bool sameBits(const std::vector<float>& a, const std::vector<float>& b)
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
+std::size_t pixelAt(int x, int y) { return static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x); }
+
 /// smallScene() with gloss, a texture, and a point light.
 scene::Scene richScene()
 {
@@ -201,7 +203,7 @@ TEST_CASE("any crop has the bits of the whole image")
                 for (int y = crop.y0; y < crop.y1; ++y)
                     for (int x = crop.x0; x < crop.x1; ++x)
                         for (int c = 0; c < 3; ++c)
-                            expected.push_back(whole[static_cast<std::size_t>(3 * (y * width + x) + c)]);
+                            expected.push_back(whole[3 * pixelAt(x, y) + static_cast<std::size_t>(c)]);
                 CAPTURE(crop.x0);
                 CAPTURE(crop.y0);
                 CHECK(sameBits(part, expected));
@@ -326,10 +328,10 @@ TEST_CASE("a pixel without a kernel keeps its own Monte Carlo value")
             unsigned without = 0, changed = 0;
             for (int y = 0; y < height; ++y)
                 for (int x = 0; x < width; ++x) {
-                    const std::size_t i = static_cast<std::size_t>(3 * (y * width + x));
+                    const std::size_t i = 3 * pixelAt(x, y);
                     const std::size_t at = shared::pixelIndex(
                         static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), renderer.frame().layout.stride);
-                    const bool same = std::memcmp(&direct[i], &noisy[i], 3 * sizeof(float)) == 0;
+                    const bool same = std::equal(&direct[i], &direct[i] + 3, &noisy[i]);
                     changed += same ? 0 : 1;
                     if (!(beta[at] > 0)) {
                         ++without;
