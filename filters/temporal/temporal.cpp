@@ -240,14 +240,11 @@ struct TemporalFilter::Declaration {
         auto sums = graph.list<Blocks>("sums of blocks", graph::floatPlanes(4), all);
         auto weights = graph.list<Blocks>("weights of blocks", graph::floats, all);
         const graph::Argument p = f.rectangle(params);
-        const graph::Reach beside = graph::around(1);
         f.pixels(pass, PassKind::Filter, { file, "differFromFrame" },
             { p, f.outside("motions", "float", &motionMemory), reads("position", f.surfaces.position),
-                reads("normal", f.surfaces.normal, beside), reads("object", own.object, beside),
-                reads("directLight", own.direct, beside),
-                indirect ? reads("indirectLight", own.indirect, beside) : f.nothing("indirectLight"),
-                reads("noisy", own.before), reads("variation", own.variation),
-                reads("earlierDepth", earlier.depth, graph::wholeImage),
+                reads("normal", f.surfaces.normal), reads("object", own.object), reads("directLight", own.direct),
+                readsIf(indirect, "indirectLight", own.indirect), reads("noisy", own.before),
+                reads("variation", own.variation), reads("earlierDepth", earlier.depth, graph::wholeImage),
                 reads("earlierFacing", earlier.facing, graph::wholeImage),
                 reads("earlierObject", earlier.object, graph::wholeImage),
                 reads("earlierDirect", earlier.direct, graph::wholeImage),

@@ -13,10 +13,8 @@
 //
 // Light is kept in 47 bits, and differences are between what was kept: frames that are equal change nothing, to the
 // bit.
-#include "core/packed_planes.h"
-#include "core/pixel.h"
+#include "filter/temporal_lookup.h"
 #include "shared/bsdf.h"
-#include "shared/temporal.h"
 
 /// The pixel of this work-item; false beyond the rectangle.
 WEDGE_FN bool temporalPixel(TemporalParams p, uint* x, uint* y, uint* i)
@@ -127,129 +125,6 @@ __kernel void findVariation(TemporalParams p, __global const float* restrict noi
     storeShort(variation, n, i, 0u, loadShort(variation, n, i, 0u) + sum);
 }
 
-/// A surface point as the earlier frame's camera looks for it.
-typedef struct {
-    Vec3 position, normal;
-    uint object;
-} SoughtPoint;
-
-/// Where a point of the object was: false where that is not known.
-WEDGE_FN bool movedBack(TemporalParams p, __global const float* motions, SoughtPoint* point, bool* still)
-{
-    *still = p.cameraStill != 0u && p.objectsStill != 0u;
-    if (*still) {
-        return true;
-    }
-    if (point->object == 0u || point->object > p.objects) {
-        return false; // it sees nothing, or several objects
-    }
-    if (p.objectsStill != 0u) {
-        return true;
-    }
-    __global const float* m = motions + (point->object - 1u) * WEDGE_TEMPORAL_MOTION;
-    const float kind = m[12];
-    *still = kind == WEDGE_TEMPORAL_STILL && p.cameraStill != 0u;
-    if (kind != WEDGE_TEMPORAL_MOVED) {
-        return kind == WEDGE_TEMPORAL_STILL;
-    }
-    const Vec3 a = vec3(m[0], m[1], m[2]), b = vec3(m[4], m[5], m[6]), c = vec3(m[8], m[9], m[10]);
-    const Vec3 at = point->position;
-    point->position = vec3(vecDot(a, at) + m[3], vecDot(b, at) + m[7], vecDot(c, at) + m[11]);
-    // Normals as what is across both of two tangents.
-    const Vec3 n = point->normal;
-    const Vec3 axis = fabs(n.x) < 0.6f ? vec3(1.0f, 0.0f, 0.0f) : vec3(0.0f, 1.0f, 0.0f);
-    const Vec3 u = vecCross(n, axis), v = vecCross(n, u);
-    const Vec3 mu = vec3(vecDot(a, u), vecDot(b, u), vecDot(c, u)), mv = vec3(vecDot(a, v), vecDot(b, v), vecDot(c, v));
-    const Vec3 across = vecCross(mu, mv);
-    const float length = vecLength(across);
-    point->normal = length > 0.0f ? vecScale(across, 1.0f / length) : n;
-    return true;
-}
-
-/// A sought point's plane as pixels of the earlier frame are held against it.
-typedef struct {
-    float forward, right, down; ///< parts of the camera's vectors along the normal
-    float offset; ///< of the eye
-    float tolerance; ///< how far off the plane a surface may be, of its depth
-} SoughtPlane;
-
-WEDGE_FN SoughtPlane planeOf(TemporalParams p, SoughtPoint point)
-{
-    SoughtPlane plane;
-    plane.right = vecDot(p.right, point.normal);
-    plane.down = vecDot(p.down, point.normal);
-    // Through the image's corner.
-    plane.forward = vecDot(p.forward, point.normal) + (0.5f - 0.5f * (float)p.width) * plane.right
-        + (0.5f - 0.5f * (float)p.height) * plane.down;
-    plane.offset = vecDot(vecSub(p.eye, point.position), point.normal);
-    plane.tolerance = vecLength(p.right);
-    return plane;
-}
-
-/// Whether the earlier frame's pixel sees the point's surface, no farther from its plane than a pixel is large.
-WEDGE_FN bool seesSurface(TemporalParams p, SoughtPoint point, SoughtPlane plane, int x, int y,
-    __global const float* depth, __global const uint* facing, __global const uint* object)
-{
-    if (x < 0 || y < 0 || x >= (int)p.width || y >= (int)p.height) {
-        return false;
-    }
-    const uint i = pixelIndex((uint)x, (uint)y, p.stride);
-    const float along = plane.forward + (float)x * plane.right + (float)y * plane.down;
-    if (object[i] != point.object || !(fabs(plane.offset + depth[i] * along) <= plane.tolerance * depth[i])) {
-        return false;
-    }
-    const Vec3 normal = unpackNormal(facing[i]);
-    const float cosine = vecDot(normal, point.normal);
-    return cosine > 0.0f && cosine * cosine >= p.normalCosine * p.normalCosine * vecDot(normal, normal);
-}
-
-/// How light changes along a line of three pixels: half of the difference between the outer ones, and their sum less
-/// twice the middle one; 0 where they do not see one smooth surface.
-typedef struct {
-    Vec3 slope, bend;
-} LightAlong;
-
-/// i: the middle pixel; step: to those beside it, which are in the image if `inside`
-WEDGE_FN LightAlong lightAlong(TemporalParams p, uint i, uint step, bool inside, __global const uint* object,
-    __global const float* normal, __global const float* light)
-{
-    const uint n = p.planeSize;
-    LightAlong out;
-    out.slope = out.bend = vec3(0.0f, 0.0f, 0.0f);
-    if (!inside || object[i - step] != object[i] || object[i + step] != object[i]) {
-        return out;
-    }
-    const Vec3 facing = loadVec(normal, n, i);
-    if (vecDot(facing, loadVec(normal, n, i - step)) < p.normalCosine
-        || vecDot(facing, loadVec(normal, n, i + step)) < p.normalCosine) {
-        return out;
-    }
-    const Vec3 before = loadColour(light, n, i - step, WEDGE_COLOUR_BITS);
-    const Vec3 after = loadColour(light, n, i + step, WEDGE_COLOUR_BITS);
-    out.slope = vecScale(vecSub(after, before), 0.5f);
-    out.bend = vecMad(vecAdd(before, after), loadColour(light, n, i, WEDGE_COLOUR_BITS), -2.0f);
-    return out;
-}
-
-/// How a pixel's light was looked up in another frame.
-typedef struct {
-    float fx, fy; ///< of the way between the pixels that light is interpolated between
-    float nearX, nearY; ///< from the point to the nearest one of them, pixels
-} LookUp;
-
-/// Takes out of interpolated light what lines add to curves, f (1 - f) / 2 times the bend, as this frame's light bends;
-/// returns what the nearest pixel's luminance has more than the point's.
-WEDGE_FN float straighten(TemporalParams p, uint x, uint y, LookUp at, __global const uint* object,
-    __global const float* normal, __global const float* light, float weight, Vec3* interpolated)
-{
-    const uint i = pixelIndex(x, y, p.stride);
-    const LightAlong across = lightAlong(p, i, 1u, x > 0u && x + 1u < p.width, object, normal, light);
-    const LightAlong down = lightAlong(p, i, p.stride, y > 0u && y + 1u < p.height, object, normal, light);
-    *interpolated = vecMad(*interpolated, across.bend, -0.5f * weight * at.fx * (1.0f - at.fx));
-    *interpolated = vecMad(*interpolated, down.bend, -0.5f * weight * at.fy * (1.0f - at.fy));
-    return at.nearX * luminance(across.slope) + at.nearY * luminance(down.slope);
-}
-
 /// One earlier frame, as far as a pixel's surface is seen in it.
 /// in   position, normal: of this frame; object, directLight, indirectLight, noisy: as keepFrame() made them of it;
 ///      earlierX: likewise of the earlier one; variation: findVariation(); motions: of objects, from this frame to that
@@ -298,7 +173,7 @@ __kernel void differFromFrame(TemporalParams p, __global const float* restrict m
             // Of the four pixels around it those that see the surface.
             const float left = floor(at.x - 0.5f), top = floor(at.y - 0.5f);
             const float fx = at.x - 0.5f - left, fy = at.y - 0.5f - top;
-            LookUp found = { fx, fy, 0.0f, 0.0f };
+            int nearestX = 0, nearestY = 0;
             for (int tap = 0; tap < 4; ++tap) {
                 const int tx = (int)left + (tap & 1), ty = (int)top + (tap >> 1);
                 const float w = ((tap & 1) != 0 ? fx : 1.0f - fx) * ((tap >> 1) != 0 ? fy : 1.0f - fy);
@@ -310,21 +185,28 @@ __kernel void differFromFrame(TemporalParams p, __global const float* restrict m
                         indirect = vecMad(indirect, loadColour(earlierIndirect, n, j, WEDGE_COLOUR_BITS), w);
                     }
                     if (w > nearest) {
-                        found.nearX = (float)(tap & 1) - fx;
-                        found.nearY = (float)(tap >> 1) - fy;
+                        nearestX = tx;
+                        nearestY = ty;
                         unfiltered = loadShort(earlierNoisy, n, j, 0u);
                         varies = loadShort(earlierVariation, n, j, 0u);
                     }
                     nearest = fmax(nearest, w);
                 }
             }
-            shift = straighten(p, x, y, found, object, normal, directLight, weight, &direct);
-            if (p.indirect != 0u) {
-                shift += straighten(p, x, y, found, object, normal, indirectLight, weight, &indirect);
+            if (nearest > 0.0f) {
+                const KeptSurfaces kept = { earlierDepth, earlierFacing, earlierObject };
+                const AroundTap around = aroundTap(p, point, plane, nearestX, nearestY, kept);
+                const Vec2 away = vec2((float)nearestX - left - fx, (float)nearestY - top - fy);
+                const Vec2 curve =
+                    weight > WEDGE_ALL_TAPS ? vec2(0.5f * fx * (1.0f - fx), 0.5f * fy * (1.0f - fy)) : vec2(0.0f, 0.0f);
+                shift = straighten(n, around, earlierDirect, away, curve, &direct);
+                if (p.indirect != 0u) {
+                    shift += straighten(n, around, earlierIndirect, away, curve, &indirect);
+                }
             }
         }
     }
-    const bool seen = weight > 0.05f;
+    const bool seen = weight > WEDGE_LEAST_TAPS;
     const float scale = seen ? 1.0f / weight : 0.0f;
     share[i] = seen ? 1.0f : 0.0f;
     noise[i] = seen ? unfiltered - loadShort(noisy, n, i, 0u) - shift : 0.0f;
