@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 namespace wedge::test {
@@ -73,6 +74,7 @@ inline FilterImage randomImage(int width, int height, Shape shape, unsigned seed
     p.normalCosine = 0.9848f;
     p.cut = 3;
     p.oblique = p.narrower = p.surface = 1;
+    p.most = std::numeric_limits<float>::infinity();
     p.maxRadius = WEDGE_MAX_RADIUS;
     p.width = p.x1 = static_cast<std::uint32_t>(width);
     p.height = p.y1 = static_cast<std::uint32_t>(height);
@@ -296,7 +298,9 @@ inline OracleResult gatherLine(const FilterImage& image, const OracleResult& in,
                 // A line is believed up to a fifth of the mean off it, and less and less up to two fifths.
                 const double mean = sumOf(false, c), off = c < p.fitted ? sumOf(true, c) - mean : 0.0;
                 const double trust = std::clamp(2 - 5 * std::fabs(off) / std::max(std::fabs(mean), 1e-30), 0.0, 1.0);
-                out.values[i * channels + c] = mean + trust * off;
+                const double line = mean + trust * off;
+                out.values[i * channels + c] =
+                    c < p.fitted ? std::clamp(line, 0.0, std::max<double>(mean, p.most)) : mean;
             }
             double squares = 0;
             for (const double coefficient : lineCoefficients(taps, p.fitted != 0))

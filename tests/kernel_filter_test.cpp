@@ -132,21 +132,49 @@ TEST_CASE("fitted, a straight gradient comes out as it is, at edges too, and mea
     });
 }
 
-TEST_CASE("fitted, what filters make of numbers that are not negative is not negative")
+TEST_CASE("fitted, nothing is farther from the mean than lines are believed, nor negative, nor beyond all of the light")
 {
     onEveryDevice([](const device::Device& device) {
         FilterRun filter(device);
         FilterImage image = randomImage(40, 21, Shape::Steps, 8);
-        image.params.fitted = 1;
         for (int y = 0; y < image.height(); ++y)
             for (int x = 0; x < image.width(); ++x)
-                image.value.at(x, y) = static_cast<float>(std::max(0, 3 * (x - 20) - y)) / 3.0f;
-        const FilterResult result = filter(image);
+                image.value.at(x, y) = std::min(1.0f, static_cast<float>(std::max(0, 3 * (x - 12) - y)) / 30.0f);
+        image.value.at(30, 10) = 400.0f; // far brighter than all around: no line
+        const FilterResult means = filter(image, true);
+        image.params.fitted = 1;
+        const FilterResult lines = filter(image, true);
+        image.params.most = 1.0f;
+        const FilterResult shares = filter(image, true);
+        int beyond = 0, differ = 0;
         for (int y = 0; y < image.height(); ++y)
             for (int x = 0; x < image.width(); ++x) {
-                REQUIRE(result.value.at(x, y) >= 0.0f);
-                REQUIRE(result.effective.at(x, y) >= 0.999f);
+                const float mean = means.value.at(x, y), line = lines.value.at(x, y), share = shares.value.at(x, y);
+                REQUIRE(std::isfinite(mean));
+                // off (2 - 5 off / mean) is at most a fifth of the mean where off is.
+                REQUIRE(line >= 0.799f * mean - 1e-30f); // less is flushed to 0
+                REQUIRE(line <= 1.201f * mean);
+                REQUIRE(lines.effective.at(x, y) >= 0.999f);
+                REQUIRE(share <= std::max(1.0f, mean));
+                beyond += line > 1.0f && mean < 1.0f ? 1 : 0;
+                differ += line != mean ? 1 : 0;
             }
+        CHECK(beyond > 3);
+        CHECK(differ > 100);
+    });
+}
+
+TEST_CASE("fitted, what is not finite stays so: nothing turns black")
+{
+    onEveryDevice([](const device::Device& device) {
+        FilterRun filter(device);
+        FilterImage image = randomImage(40, 21, Shape::Flat, 8);
+        image.params.fitted = 1;
+        for (const float bad : { notANumber, std::numeric_limits<float>::infinity() }) {
+            image.value.at(20, 10) = bad;
+            image.beta.at(20, 10) = 0.1f;
+            CHECK_FALSE(std::isfinite(filter(image).value.at(20, 10)));
+        }
     });
 }
 

@@ -82,6 +82,8 @@ shared::FilterParams pathFilterParams(const FrameBuilder& frame, Component compo
     shared::FilterParams p = filterParams(frame.settings, frame.wholeFrame(), frame.graph.image());
     if (component == Component::Environment) {
         p.normalCosine = std::cos(glm::radians(frame.settings.environment.normalDegrees));
+    } else if (component == Component::Ambient) {
+        p.most = 1.0f;
     }
     return p;
 }

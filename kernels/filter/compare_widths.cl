@@ -25,7 +25,7 @@ WEDGE_INLINE GatherSum sumFrom(float16 own)
 WEDGE_INLINE LineMean meanOf(FilterParams p, const GatherSum* sum, int16 gathers, LineMean before)
 {
     LineMean mean;
-    mean.value = gathers ? valueOfLine(sum, fitOf(sum->weights), 0u, p.fitted != 0u) : before.value;
+    mean.value = gathers ? valueOfLine(p, sum, fitOf(sum->weights), 0u) : before.value;
     mean.count = before.count * (gathers ? countOfLine(sum->weights, p.fitted != 0u) : (float16)(1.0f));
     return mean;
 }

@@ -261,20 +261,21 @@ WEDGE_INLINE void addValue(GatherSum* sum, uint channel, float16 w, float steps,
     sum->moment[channel] += steps * weighted;
 }
 
-/// A channel's mean or, fitted, the line's value at the pixel. That is not believed where it is far from the mean: what
-/// is bright in the middle of a wide kernel is not a straight line, and whoever draws one to the ends loses light
-/// (a lamp that few paths meet lost a quarter). So the line counts in full where it is off by up to a fifth of the
-/// mean, and not at all from two fifths on.
-WEDGE_INLINE float16 valueOfLine(const GatherSum* sum, LineFit fit, uint channel, bool fitted)
+/// A channel's mean or, fitted, the line's value at the pixel, from 0 to p.most. A line is not believed where it is far
+/// from the mean: what is bright in the middle of a wide kernel is not a straight line, and whoever draws one to the
+/// ends loses light (a lamp that few paths meet lost a quarter). So it counts in full where it is off by up to a fifth
+/// of the mean, and not at all from two fifths on. What is not finite stays so.
+WEDGE_INLINE float16 valueOfLine(FilterParams p, const GatherSum* sum, LineFit fit, uint channel)
 {
     const float16 mean = sum->channel[channel] * fit.perWeight;
-    if (!fitted) {
+    if (channel >= p.fitted) {
         return mean;
     }
     const float16 off = fit.lever * (sum->moment[channel] - fit.middle * sum->channel[channel]);
     const float16 trust = 2.0f - 5.0f * fabs(off) / max16(fabs(mean), (float16)(1e-30f));
-    // Not below 0 by a rounding.
-    return max16(mean - off * min16(max16(trust, (float16)(0.0f)), (float16)(1.0f)), (float16)(0.0f));
+    const float16 line = mean - off * min16(max16(trust, (float16)(0.0f)), (float16)(1.0f));
+    const float16 bounded = min16(max16(line, (float16)(0.0f)), max16(mean, (float16)(p.most)));
+    return fabs(off) < INFINITY ? bounded : mean;
 }
 #endif
 

@@ -3,8 +3,8 @@
 //
 // in   value, beta (metres; 0: keep the pixel's own value, still a neighbour of others; negative: neither), position,
 //      normal, pixelSize, objectId, and for the second pass the first one's effective counts
-// out  filtered (like value), effective: (sum w)^2 / sum w^2, the number of equal samples that the gather
-//      amounts to, times that of the pass before
+// out  filtered (like value), effective: the number of equal samples that the gather amounts to (countOfLine()), times
+//      that of the pass before
 #ifndef WEDGE_GATHER_LINES_H
 #define WEDGE_GATHER_LINES_H
 
@@ -74,7 +74,7 @@ WEDGE_INLINE void gatherLine(FilterParams p, uint x, uint y, int element, Vec3 s
     }
     const LineFit fit = fitOf(sum.weights);
     for (uint c = 0u; c < WEDGE_GATHER_CHANNELS; ++c) {
-        vstore16(gathers ? valueOfLine(&sum, fit, c, c < p.fitted) : own[c], 0, filtered + c * p.planeSize + i);
+        vstore16(gathers ? valueOfLine(p, &sum, fit, c) : own[c], 0, filtered + c * p.planeSize + i);
     }
     const float16 count = gathers ? countOfLine(sum.weights, p.fitted != 0u) : (float16)(1.0f);
     storeEffective(effectiveBefore * count, effective + i);

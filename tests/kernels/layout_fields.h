@@ -64,7 +64,7 @@ FIELD(FilterParams, lightCentre) FIELD(FilterParams, lightNormal) FIELD(FilterPa
 FIELD(FilterParams, cut) FIELD(FilterParams, oblique) FIELD(FilterParams, narrower) FIELD(FilterParams, maxRadius)
 FIELD(FilterParams, width) FIELD(FilterParams, stride) FIELD(FilterParams, planeSize) FIELD(FilterParams, x0)
 FIELD(FilterParams, y0) FIELD(FilterParams, x1) FIELD(FilterParams, y1) FIELD(FilterParams, height)
-FIELD(FilterParams, surface) FIELD(FilterParams, fitted)
+FIELD(FilterParams, surface) FIELD(FilterParams, fitted) FIELD(FilterParams, most)
 END(FilterParams)
 STRUCT(AnalysisParams)
 FIELD(AnalysisParams, x0) FIELD(AnalysisParams, y0) FIELD(AnalysisParams, x1) FIELD(AnalysisParams, y1)

@@ -26,6 +26,7 @@ shared::FilterParams filterParams(
     p.narrower = settings.narrower ? 1 : 0;
     p.surface = settings.surface ? 1 : 0;
     p.fitted = settings.fitted && settings.filtering == Filtering::Adaptive ? allPlanes : 0;
+    p.most = std::numeric_limits<float>::infinity();
     p.maxRadius = static_cast<std::uint32_t>(settings.maxRadius);
     p.width = frame.width;
     p.height = frame.height;
@@ -42,6 +43,9 @@ shared::FilterParams filterParams(const Settings& settings, const shared::FrameP
     p.lightCentre = light.centre;
     p.lightNormal = light.normal;
     p.oblique = settings.oblique ? 1 : 0;
+    if (settings.shading != Shading::Inside) {
+        p.most = 1.0f; // of visibilities
+    }
     return p;
 }
 
