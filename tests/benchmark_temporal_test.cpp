@@ -27,7 +27,9 @@ TEST_CASE("variances of a still camera's frames and of a moving one's, with and 
     CHECK(claim("sky_still.error_ratio") < 1.0);
     CHECK(claim("sky_still.uncovered_pixels") == 0.0);
     CHECK(claim("sky_moving.uncovered_pixels") > 0.0);
-    CHECK(claim("sky_moving.uncovered_error_ratio") > 0.0);
+    // 1.3 where pixels were taken of which few see the surface.
+    CHECK(claim("sky_moving.uncovered_error_ratio") > 0.3);
+    CHECK(claim("sky_moving.uncovered_error_ratio") < 2.0);
     CHECK(claim("sky_still.overhead") < 1.0);
     CHECK(claim("sky_still.memory") > 0.0);
     const Outcome wrong = place.run({ "--spp", "2" });

@@ -9,7 +9,6 @@ the formulas predict. The cases of Fig. 6.5 and of appendix E, and random ones. 
 python3-matplotlib for pictures.
 """
 
-import json
 import os
 import sys
 
@@ -17,6 +16,8 @@ try:
     import numpy as np
 except ImportError:
     sys.exit("environment_spectra: error: numpy: not installed: apt install python3-numpy")
+
+import results_file
 
 SHARE = 0.99
 RANDOM_CASES = 200
@@ -119,12 +120,7 @@ def summary(cases):
 
 
 def plot(named, diffuse, glossy, folder):
-    try:
-        import matplotlib
-    except ImportError:
-        sys.exit("environment_spectra: error: matplotlib: not installed: apt install python3-matplotlib")
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
+    plt = results_file.pyplot("environment_spectra")
     os.makedirs(folder, exist_ok=True)
     figure, panels = plt.subplots(2, 2, figsize=(10, 8))
     panels = panels.flatten()
@@ -168,13 +164,7 @@ def main(arguments):
     glossy = [case for case in cases if case["exponent"] is not None]
     results = {"benchmark": "environment_spectra", "share": SHARE, "b_f": b_f, "cases": [case for case, _, _ in named],
                "random": {"seed": SEED, "matt": summary(diffuse), "glossy": summary(glossy)}}
-    try:
-        with open(arguments[0], "w", encoding="utf-8") as file:
-            json.dump(results, file, indent=1)
-            file.write("\n")
-    except OSError as error:
-        print(f"environment_spectra: error: {arguments[0]}: {error}: name a file that can be written", file=sys.stderr)
-        return 1
+    results_file.write("environment_spectra", arguments[0], results)
     for case in results["cases"]:
         print(case["name"], f"true {case['true']:.2f}", *(f"{n} {v:.2f}" for n, v in case["predicted"].items()))
     for kind in ("matt", "glossy"):

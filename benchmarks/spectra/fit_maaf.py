@@ -12,7 +12,6 @@ of slope s is H(t + s y); what it should be is its integral over the light. Need
 """
 
 import functools
-import json
 import sys
 
 try:
@@ -21,6 +20,7 @@ except ImportError:
     sys.exit("fit_maaf: error: numpy: not installed: apt install python3-numpy")
 
 import maaf_filters
+import results_file
 
 RATIOS = [2.0 ** (0.25 * k) for k in range(13)]
 SLOPES = 17
@@ -116,13 +116,7 @@ def main(arguments):
             print(f"{2 * pairs - 1} components, s_max / s_min {ratio:.3f}: rest {rest:.4f}, energy {energy:.3f}, weights",
                   *(f"{w:.4f}" for w in weights))
         out["tables"][str(2 * pairs - 1)] = rows
-    try:
-        with open(arguments[0], "w", encoding="utf-8") as file:
-            json.dump(out, file, indent=1)
-            file.write("\n")
-    except OSError as error:
-        print(f"fit_maaf: error: {arguments[0]}: {error}: name a file that can be written", file=sys.stderr)
-        return 1
+    results_file.write("fit_maaf", arguments[0], out)
     return 0
 
 

@@ -1,17 +1,14 @@
 #!/usr/bin/python3
 """Which filter of sparse samples of a soft shadow errs least, in flatland: AAF, its extrapolation, MAAF, sheared.
 
-usage: maaf_flatland.py RESULTS.json [FOLDER]     and PNG files, into the folder if there is one
+usage: maaf_flatland.py RESULTS.json     which maaf_flatland_plot.py draws
 
 Random scenes of occluders at slopes between s_min and s_max; stratified samples of the light at every pixel, filtered, against
 the exact integral. Errors are split: bias is what is left of the mean over realisations, noise what differs between them.
-Each filter's constant is the best of one set of scenes, its errors those of another. Needs python3-numpy, and
-python3-matplotlib for pictures.
+Each filter's constant is the best of one set of scenes, its errors those of another. Needs python3-numpy.
 """
 
-import json
 import math
-import os
 import sys
 
 try:
@@ -21,6 +18,7 @@ except ImportError:
 
 import fit_maaf
 import maaf_filters as filters
+import results_file
 
 PIXELS = 256        # that are judged
 MARGIN = 192        # on both sides, for filters to gather from
@@ -393,78 +391,10 @@ def compare_measured(spp):
     return out
 
 
-# Pictures
-
-FAMILIES = (("aaf", "#d33b2f", "AAF"), ("extrapolated", "#1f3fa8", "extrapolated"), ("two_slope", "#6aa84f", "sheared, two slopes"))
-
-
-def library():
-    try:
-        import matplotlib
-    except ImportError:
-        sys.exit("maaf_flatland: error: matplotlib: not installed: apt install python3-matplotlib")
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-    return plt
-
-
-def edge(s):
-    """A scene of one edge of slope s, with the judged pixels' middle in its shadow's."""
-    middle = 0.5 * PIXELS
-    return {"slopes": np.array([s]), "a": np.array([-1e6]), "b": np.array([middle])}
-
-
-def edge_filters(s_min, s_max):
-    """What the picture of edges shows; constants are those that err least at 9 samples a pixel."""
-    scene = {"s_min": s_min, "s_max": s_max}
-    return (("AAF, k mu 6", "#f0a8a0", filters.aaf(s_min, 1.0 / 6.0)), ("AAF, 0.4", "#d33b2f", filters.aaf(s_min, 0.4)),
-            ("extrapolated, 0.65", "#1f3fa8", filters.extrapolated(s_min, 0.65)),
-            ("sheared, two slopes, 0.25", "#6aa84f", filters.two_slope(s_min, s_max, 0.25)),
-            ("MAAF 5, printed", "0.6", maaf_printed(scene, 3, 2.0)),
-            ("MAAF 5, refitted", "#d9a400", maaf_refitted(scene, 3, fit_maaf.BANDWIDTH, fit_maaf.table(3))))
-
-
-def plot(results, folder):
-    plt = library()
-    os.makedirs(folder, exist_ok=True)
-    figure, panels = plt.subplots(2, 3, figsize=(14, 8))
-    for axes, spp in zip(panels[0], SPP):
-        rows = results["line"][str(spp)]
-        for name, colour, label in FAMILIES:
-            sweep = rows[name]["sweep"]
-            constants = [row["constant"] for row in sweep]
-            for part, style in (("rms", "-"), ("bias", ":"), ("noise", "--")):
-                axes.plot(constants, [row[part] for row in sweep], style, color=colour, linewidth=1.6 if part == "rms" else 0.8,
-                          label=label if part == "rms" else None)
-        axes.axhline(rows["maaf 5 refitted, noise 0.001"]["rms"], color="#d9a400", label="MAAF 5, refitted, at its best")
-        axes.set_title(f"{spp} samples: RMS error; bias dotted, noise dashed", fontsize=10)
-        axes.set_xlabel("constant")
-        axes.set_ylim(0.0, 1.3 * rows["aaf k mu 6"]["rms"])
-        axes.legend(fontsize=7)
-    s_min, s_max = 12.0, 48.0
-    x = np.arange(PIXELS, dtype=float)
-    for axes, s in zip(panels[1], (12.0, 24.0, 48.0)):
-        scene = edge(s)
-        truth = exact(scene, x)
-        samples = Samples(scene, 400, 1, np.random.default_rng(1))
-        for label, colour, kernel in edge_filters(s_min, s_max):
-            axes.plot(x - 0.5 * PIXELS, samples.filtered(kernel)[0] - truth, color=colour, label=label)
-        axes.set_title(f"filtered edge less true one, slope {s / s_min:g} s_min of 1 to 4", fontsize=10)
-        axes.set_xlabel("pixels; sigma s_min is 12")
-        axes.set_ylim(-0.12, 0.12)
-    panels[1, 0].legend(fontsize=7)
-    figure.tight_layout()
-    path = os.path.join(folder, "maaf_flatland.png")
-    figure.savefig(path, dpi=110)
-    print(path)
-
-
 def main(arguments):
-    if len(arguments) not in (1, 2) or arguments[0].startswith("-"):
+    if len(arguments) != 1 or arguments[0].startswith("-"):
         print(__doc__.strip(), file=sys.stderr)
         return 2
-    if len(arguments) > 1:
-        library()
     lists = candidates(tables())
     results = {"benchmark": "maaf_flatland", "scenes": SCENES, "realisations": REALISATIONS, "scenes_measured": SCENES_MEASURED,
                "realisations_measured": REALISATIONS_MEASURED, "seeds": SEEDS,
@@ -479,15 +409,7 @@ def main(arguments):
             print(TITLE.format(spp))
             for name, row in rows.items():
                 print(line_of(name, row))
-    try:
-        with open(arguments[0], "w", encoding="utf-8") as file:
-            json.dump(results, file, indent=1)
-            file.write("\n")
-    except OSError as error:
-        print(f"maaf_flatland: error: {arguments[0]}: {error}: name a file that can be written", file=sys.stderr)
-        return 1
-    if len(arguments) > 1:
-        plot(results, arguments[1])
+    results_file.write("maaf_flatland", arguments[0], results)
     return 0
 
 

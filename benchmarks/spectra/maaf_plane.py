@@ -7,7 +7,6 @@ Rectangles at random angles and slopes, samples of the light in squares of strat
 (the axes of the light are those of the image). Needs python3-numpy.
 """
 
-import json
 import sys
 
 try:
@@ -18,6 +17,7 @@ except ImportError:
 import fit_maaf
 import maaf_filters as filters
 import maaf_flatland as flatland
+import results_file
 
 PIXELS = 64
 MARGIN = 64
@@ -281,13 +281,7 @@ def main(arguments):
             print(flatland.TITLE.format(spp))
             for name, row in rows.items():
                 print(flatland.line_of(name, row))
-    try:
-        with open(arguments[0], "w", encoding="utf-8") as file:
-            json.dump(results, file, indent=1)
-            file.write("\n")
-    except OSError as error:
-        print(f"maaf_plane: error: {arguments[0]}: {error}: name a file that can be written", file=sys.stderr)
-        return 1
+    results_file.write("maaf_plane", arguments[0], results)
     return 0
 
 

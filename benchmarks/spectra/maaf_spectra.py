@@ -8,7 +8,6 @@ wedge; coverage (15) and accuracy (14) of filters, recomputed from the definitio
 python3-numpy, and python3-matplotlib for pictures.
 """
 
-import json
 import os
 import sys
 
@@ -18,6 +17,7 @@ except ImportError:
     sys.exit("maaf_spectra: error: numpy: not installed: apt install python3-numpy")
 
 import maaf_filters as filters
+import results_file
 
 SEED = 19
 OMEGA = 2.0                     # the light's bandwidth, 2 / sigma
@@ -249,16 +249,6 @@ def shapes():
 
 # Pictures
 
-def library():
-    try:
-        import matplotlib
-    except ImportError:
-        sys.exit("maaf_spectra: error: matplotlib: not installed: apt install python3-matplotlib")
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-    return plt
-
-
 def outlines(name, s_min, s_max):
     """Of the boxes or the parallelogram: lists of corners."""
     if name == "sheared":
@@ -354,19 +344,13 @@ def main(arguments):
     if len(arguments) not in (1, 2) or arguments[0].startswith("-"):
         print(__doc__.strip(), file=sys.stderr)
         return 2
-    plt = library() if len(arguments) > 1 else None
+    plt = results_file.pyplot("maaf_spectra") if len(arguments) > 1 else None
     random = np.random.default_rng(SEED)
     apart, together = random_scene(random, True), random_scene(random, False)
     results = {"benchmark": "maaf_spectra", "seed": SEED, "slopes": measured_slopes(),
                "wedge": {"apart": wedge_check(apart), "together": wedge_check(together)},
                "averages": averages(), "shapes": shapes(), "paper": PAPER}
-    try:
-        with open(arguments[0], "w", encoding="utf-8") as file:
-            json.dump(results, file, indent=1)
-            file.write("\n")
-    except OSError as error:
-        print(f"maaf_spectra: error: {arguments[0]}: {error}: name a file that can be written", file=sys.stderr)
-        return 1
+    results_file.write("maaf_spectra", arguments[0], results)
     for row in results["slopes"]:
         print(f"one depth, {row['distance']:g} from the light: slope {row['slope']:.3f}, of the spectrum {row['measured']:.3f}")
     for kind, row in results["wedge"].items():

@@ -88,7 +88,7 @@ private:
     std::shared_ptr<const filters::ObjectPlaces> places_;
 };
 
-/// What one of a frame's planes has at pixel i, rows from the top.
+/// Where a frame's planes have pixel i, rows from the top.
 std::size_t planeIndex(const render::PlaneLayout& layout, std::size_t i)
 {
     return shared::pixelIndex(
@@ -275,8 +275,9 @@ int measureAll(const Arguments& a)
             claims.add("filter_ms", m.filterMilliseconds, "ms");
             claims.add("memory", m.memoryMebibytes, "MiB");
             addClaims(all, claims.claims);
-            fmt::print("{:<16} {:<7} {:>8.2f} {:>8.2f} {:>8.3f} {:>10.3f} {:>9.3f} {:>9.1f} {:>9.0f}\n", source.name,
-                path.name, m.ratio, m.medianRatio, m.errorRatio, m.uncoveredErrorRatio, m.overhead.median,
+            fmt::print("{:<16} {:<7} {:>8.2f} {:>8.2f} {:>8.3f} {:>10} {:>9.3f} {:>9.1f} {:>9.0f}\n", source.name,
+                path.name, m.ratio, m.medianRatio, m.errorRatio,
+                m.uncovered > 0 ? fmt::format("{:.3f}", m.uncoveredErrorRatio) : "-", m.overhead.median,
                 m.filterMilliseconds.median, m.frameMilliseconds.median);
             std::fflush(stdout);
             if (!a.json.empty()) {
