@@ -145,6 +145,44 @@ TEST_CASE("an environment lights what there is, by every method, and is told of"
     CHECK(contains(place.run({ "info", "--json", "s.toml" }).out, "\"environment\""));
 }
 
+TEST_CASE("directions are chosen by the map or among pre-computed ones, as asked, and are told of")
+{
+    Workplace place;
+    writeFloor(place, "[environment]\nradiance = [0.5, 0.7, 1]\n");
+    const auto told = [&](Arguments more) {
+        more.insert(more.begin(), { "render", "s.toml", "--quiet", "-o", "a.exr" });
+        const Outcome outcome = place.run(more);
+        REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+        return textOf(image::readExr((place.path() / "a.exr").string()), "method.environmentSampling");
+    };
+    CHECK(told({}) == "map");
+    CHECK(told({ "--method", "mc", "--spp", "4" }) == "map");
+    CHECK(told({ "--as-published" }) == "precomputed");
+    CHECK(told({ "--as-published", "--environment-sampling", "map" }) == "map");
+    const auto precomputed = [&](Arguments more) {
+        more.insert(more.end(), { "--environment-sampling", "precomputed" });
+        return more;
+    };
+    for (const Arguments& more :
+        { Arguments {}, { "--method", "mc", "--spp", "4" }, { "--antialias" }, { "--progressive", "--spp", "16" } })
+        CHECK(told(precomputed(more)) == "precomputed");
+    const auto refused = [&](const Arguments& more, const std::string& says) {
+        CAPTURE(says);
+        Arguments all { "render", "s.toml", "-o", "a.exr" };
+        all.insert(all.end(), more.begin(), more.end());
+        const Outcome outcome = place.run(all);
+        CHECK(outcome.status == wrongCall);
+        CHECK(outcome.err.ends_with("wedge: error: option has no effect " + says + "; see wedge render --help\n"));
+    };
+    refused(precomputed({ "--method", "mc", "--light-sampling", "directions" }),
+        "with reflected directions alone: --environment-sampling: leave it out, or add --light-sampling both");
+    refused(precomputed({ "--integrator", "ao" }),
+        "with integrator ao: --environment-sampling: leave it out, or add --integrator path");
+    writeFloor(place, "");
+    refused(precomputed({}),
+        "without an environment: --environment-sampling: leave it out, or add [environment] to the scene");
+}
+
 TEST_CASE("a map's sun is told of, is seen as the map has it, stays in sequences, and can be left in the map")
 {
     Workplace place;

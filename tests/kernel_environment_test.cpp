@@ -1,4 +1,5 @@
-// Directions of an environment's map: how often each is chosen, the densities that are told, and what is seen there.
+// Directions of an environment's map: how often each is chosen, the densities that are told, what is seen there, and
+// pre-computed ones.
 #include "host/render/environment_table.h"
 #include "tests/render_support.h"
 
@@ -98,6 +99,62 @@ double solidAngle(int y)
 {
     const double pi = std::acos(-1.0);
     return 2 * pi / width * (std::cos(pi * y / height) - std::cos(pi * (y + 1) / height));
+}
+
+/// The frame's pre-computed samples with that seed, row by row.
+std::vector<Sample> precomputed(const device::Device& device, const render::EnvironmentTable& table, std::uint32_t seed)
+{
+    constexpr std::uint32_t rows = WEDGE_ENVIRONMENT_CELLS;
+    constexpr std::size_t cells = std::size_t { rows } * rows, floats = WEDGE_ENVIRONMENT_SAMPLE_FLOATS;
+    KernelBench bench(device, { { "WEDGE_ENVIRONMENT_MAP", "1" } });
+    const auto map = bench.buffer(std::vector { table.map });
+    const auto numbers = bench.buffer(table.numbers), out = bench.filled(floats * cells, -1.0f);
+    device::Kernel kernel = bench.library.kernel("light/environment_samples.cl", "precomputeDirections");
+    kernel.setArgs(rows, seed, map, numbers, out);
+    bench.queue.launch("environment samples", device::PassKind::Trace, kernel, rows, 1);
+    const std::vector<float> read = bench.read(out);
+    std::vector<Sample> all;
+    for (std::size_t i = 0; i < cells; ++i) {
+        const float* s = &read[floats * i];
+        all.push_back({ { s[0], s[1], s[2] }, { s[3], s[4], s[5] }, s[6], {}, 0 });
+    }
+    return all;
+}
+
+/// Where sums up to an entry begin and end.
+struct Stripe {
+    double begin, end;
+};
+
+Stripe stripeOf(const float* upTo, int i) { return { i > 0 ? double { upTo[i - 1] } : 0.0, double { upTo[i] } }; }
+
+/// The integral of radiance times the cosine to a normal, where that is positive, by pre-computed samples.
+glm::dvec3 irradianceBy(const std::vector<Sample>& samples, glm::dvec3 normal)
+{
+    glm::dvec3 sum(0);
+    for (const Sample& s : samples)
+        sum += std::max(0.0, glm::dot(normal, s.direction)) / s.pdf * s.radiance;
+    return sum / static_cast<double>(samples.size());
+}
+
+/// The same by quadrature; the lookup goes from one texel to the next.
+std::vector<glm::dvec3> irradiances(const render::EnvironmentPicture& p, const std::vector<glm::dvec3>& normals)
+{
+    std::vector<glm::dvec3> sums(normals.size(), glm::dvec3(0));
+    constexpr int parts = 32;
+    const double pi = std::acos(-1.0);
+    for (int y = 0; y < height * parts; ++y)
+        for (int x = 0; x < width * parts; ++x) {
+            const double fx = (x + 0.5) / parts, fy = (y + 0.5) / parts;
+            const double polar = pi * fy / height, turn = 2 * pi * (fx / width - 0.5);
+            const glm::dvec3 d = std::cos(polar) * glm::dvec3(p.up)
+                + std::sin(polar) * (std::sin(turn) * glm::dvec3(p.right) - std::cos(turn) * glm::dvec3(p.back));
+            const double weight = 2 * pi * pi / (height * width * parts * parts) * std::sin(polar);
+            const glm::dvec3 radiance = lookup(p, { static_cast<int>(fx), static_cast<int>(fy), fx, fy });
+            for (std::size_t i = 0; i < normals.size(); ++i)
+                sums[i] += weight * std::max(0.0, glm::dot(normals[i], d)) * radiance;
+        }
+    return sums;
 }
 
 } // namespace
@@ -251,5 +308,92 @@ TEST_CASE("unshadowed light is the irradiance by normal, over the largest")
         grey.radiance.assign(3, 0.0f);
         for (const float value : unshadowed(grey))
             REQUIRE(value == 0.5f);
+    });
+}
+
+TEST_CASE("pre-computed samples lie one in each cell, evenly in it, and tell what the map has there")
+{
+    const render::EnvironmentPicture p = picture();
+    const render::EnvironmentTable table = render::environmentTable(&p);
+    const float* rows = table.numbers.data() + 3 * width * height;
+    const float* columns = rows + height;
+    onEveryDevice([&](const device::Device& device) {
+        constexpr int cells = WEDGE_ENVIRONMENT_CELLS, seeds = 8, parts = 4;
+        std::array<std::size_t, std::size_t { parts } * parts> found {};
+        std::size_t beside = 0, counted = 0;
+        for (std::uint32_t seed = 0; seed < seeds; ++seed) {
+            const std::vector<Sample> all = precomputed(device, table, seed);
+            REQUIRE(all.size() == 4096);
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                const Sample& s = all[i];
+                const Texel t = texelOf(p, s.direction);
+                const glm::dvec3 expected = lookup(p, t);
+                for (int c = 0; c < 3; ++c)
+                    REQUIRE(std::abs(s.radiance[c] - expected[c]) < 1e-3 * expected[c] + 5e-3);
+                if (std::min({ t.fx - t.x, t.x + 1 - t.fx, t.fy - t.y, t.y + 1 - t.fy }) < 1e-4) {
+                    ++beside; // may be rounded to the other side
+                    continue;
+                }
+                const Stripe row = stripeOf(rows, t.y), column = stripeOf(columns + indexOf(0, t.y), t.x);
+                const double pdf = (row.end - row.begin) * (column.end - column.begin) / solidAngle(t.y);
+                REQUIRE(s.pdf == doctest::Approx(pdf).epsilon(1e-4));
+                // The numbers that the direction was made of, in cells. Within rows cosines are even.
+                const double pi = std::acos(-1.0), cosine = glm::dot(glm::dvec3(p.up), s.direction);
+                const double top = std::cos(pi * t.y / height), bottom = std::cos(pi * (t.y + 1) / height);
+                const double u = cells * (column.begin + (column.end - column.begin) * (t.fx - t.x));
+                const double v = cells * (row.begin + (row.end - row.begin) * (cosine - top) / (bottom - top));
+                const auto x = static_cast<double>(i % cells), y = static_cast<double>(i / cells);
+                REQUIRE(std::abs(u - x - 0.5) < 0.5 + 1e-3);
+                REQUIRE(std::abs(v - y - 0.5) < 0.5 + 1e-3);
+                ++found[static_cast<std::size_t>(std::clamp(parts * (u - x), 0.0, parts - 0.5))
+                    + parts * static_cast<std::size_t>(std::clamp(parts * (v - y), 0.0, parts - 0.5))];
+                ++counted;
+            }
+        }
+        CHECK(beside < seeds * 4096 / 1000);
+        double square = 0;
+        const double expected = static_cast<double>(counted) / (parts * parts);
+        for (const std::size_t n : found)
+            square += (static_cast<double>(n) - expected) * (static_cast<double>(n) - expected) / expected;
+        CHECK(square < 15 + 5 * std::sqrt(30.0)); // chi-square of 15 degrees of freedom
+    });
+}
+
+TEST_CASE("pre-computed samples light as their map does, in the mean over seeds")
+{
+    std::vector<glm::dvec3> normals { { 0, 1, 0 }, { 0, -1, 0 }, { 1, 0, 0 }, { 0, 0, 1 } };
+    normals.push_back(glm::normalize(glm::dvec3(-1, 0.5, -0.7)));
+    onEveryDevice([&](const device::Device& device) {
+        render::EnvironmentPicture grey;
+        grey.width = width;
+        grey.height = height;
+        grey.radiance.assign(std::size_t { 3 } * width * height, 0.25f);
+        // All that a sample of an even map brings is the same; what is left is where directions are.
+        const std::vector<Sample> even = precomputed(device, render::environmentTable(&grey), 0);
+        double whole = 0;
+        for (const Sample& s : even)
+            whole += s.radiance.y / s.pdf / 4096;
+        CHECK(whole == doctest::Approx(std::acos(-1.0)).epsilon(1e-5)); // 4 pi / 4
+        for (const glm::dvec3& n : normals)
+            CHECK(irradianceBy(even, n).y == doctest::Approx(std::acos(-1.0) / 4).epsilon(0.002));
+
+        const render::EnvironmentPicture p = picture();
+        const render::EnvironmentTable table = render::environmentTable(&p);
+        const std::vector<glm::dvec3> expected = irradiances(p, normals);
+        constexpr std::uint32_t seeds = 32;
+        std::vector<double> sums(normals.size()), squares(normals.size());
+        for (std::uint32_t seed = 0; seed < seeds; ++seed) {
+            const std::vector<Sample> all = precomputed(device, table, seed);
+            for (std::size_t i = 0; i < normals.size(); ++i) {
+                const double off = irradianceBy(all, normals[i]).y - expected[i].y;
+                sums[i] += off / seeds;
+                squares[i] += off * off / seeds;
+            }
+        }
+        for (std::size_t i = 0; i < normals.size(); ++i) {
+            const double deviation = std::sqrt((squares[i] - sums[i] * sums[i]) / (seeds - 1));
+            CHECK(deviation > 0); // no two seeds have the same samples
+            CHECK(std::abs(sums[i]) < 4 * deviation + 1e-4 * expected[i].y);
+        }
     });
 }

@@ -134,6 +134,7 @@ public:
         surfaces.push_back(graph::outside("", "", s.emitterPicks.cl()));
         surfaces.push_back(graph::outside("", "", s.environment.cl()));
         surfaces.push_back(graph::outside("", "", s.environmentTable.cl()));
+        surfaces.push_back(graph::outside("", "", s.environmentTable.cl())); // no pre-computed samples
         return run({ "paths/indirect.cl", "samplePaths", becoming },
             { graph::value("frame", points.frame), graph::value("params", params) }, surfaces, true, points);
     }

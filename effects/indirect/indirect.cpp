@@ -23,7 +23,9 @@ std::vector<graph::Argument> sceneLights(const FrameBuilder& frame, Component co
             frame.ofScene("deltaLights", "DeltaLight", &DeviceScene::deltaLights),
             frame.ofScene("emitters", "Emitter", other ? &DeviceScene::sharedLights : &DeviceScene::emitters),
             frame.ofScene("emitterPicks", "float", other ? &DeviceScene::sharedPicks : &DeviceScene::emitterPicks) },
-        frame.beyond());
+        frame.beyond(),
+        Arguments { frame.environmentSamples ? reads("environmentSamples", *frame.environmentSamples)
+                                             : frame.nothing("environmentSamples") });
 }
 
 shared::PathParams pathParams(const FrameBuilder& frame, Component component)
@@ -44,6 +46,7 @@ shared::PathParams pathParams(const FrameBuilder& frame, Component component)
     p.emitters = scene == nullptr ? 0 : direct ? scene->sharedTerm.count : scene->emitterCount;
     p.emitterShare = frame.scene != nullptr ? frame.scene->emitterShare : 0.0f;
     p.environmentShare = frame.scene != nullptr ? frame.scene->environmentShare : 0.0f;
+    p.precomputed = frame.environmentSamples ? 1 : 0;
     p.relative = isRelative(component, settings) ? 1 : 0;
     p.skipsMirrors = component != Component::Ambient ? 1 : 0;
     p.sceneDiameter = frame.scene != nullptr ? frame.scene->diameter : 0.0f;

@@ -214,6 +214,10 @@ void addAblationOptions(CLI::App& parser, RenderOptions& o)
         "How paths find area lights: points on them, reflected directions that meet one, or both. The same image in "
         "the limit",
         o.lightSampling);
+    addChoice(parser, ablationGroup, "--environment-sampling", { "map", "precomputed" },
+        "How directions to what is beyond the scene are chosen: each by its map, or among 4096 that a frame begins "
+        "with",
+        o.environmentSampling);
 }
 
 void addEffectOptions(CLI::App& parser, RenderOptions& o)

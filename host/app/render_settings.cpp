@@ -5,6 +5,7 @@
 #include "host/error.h"
 #include "host/render/direct_lights.h"
 #include "host/render/distributed_frame.h"
+#include "host/render/effect.h"
 #include "host/render/emitters.h"
 
 #include <algorithm>
@@ -97,6 +98,13 @@ void applyPaths(const RenderOptions& o, const scene::Scene& scene, render::Setti
         const std::size_t index = choice("light_sampling", *file.lightSampling, lightSamplings);
         s.lightSampling = static_cast<render::LightSampling>(index);
     }
+    if (o.environmentSampling) {
+        const std::string option = "--environment-sampling";
+        refuse(render::pictureOf(scene) == nullptr, "without an environment", option, "add [environment] to the scene");
+        refuse(s.lightSampling == render::LightSampling::Directions, "with reflected directions alone", option,
+            "add --light-sampling both");
+        s.environment.sampling = *o.environmentSampling;
+    }
 }
 
 void applyAmbientOcclusion(const RenderOptions& o, const scene::Settings& file, render::Settings& s)
@@ -104,6 +112,7 @@ void applyAmbientOcclusion(const RenderOptions& o, const scene::Settings& file, 
     const std::string remedy = "add --integrator path";
     refuse(o.bounces.has_value(), "with integrator ao", fmt::format("--bounces {}", o.bounces.value_or(0)), remedy);
     refuse(o.lightSampling.has_value(), "with integrator ao", "--light-sampling", remedy);
+    refuse(o.environmentSampling.has_value(), "with integrator ao", "--environment-sampling", remedy);
     refuse(o.falloff.has_value(), "with integrator ao", "--falloff", remedy);
     s.indirect.ambientDistance = o.ambientDistance ? *o.ambientDistance : file.ambientDistance.value_or(0.0f);
 }

@@ -55,6 +55,7 @@ DistributedSamples::DistributedSamples(FrameBuilder& frame, const SampleShape& s
     state_->analysed = shape.analysed && before.taken > 0;
     state_->complete = before.taken > 0;
     keepPixels();
+    f_.precomputeDirections();
     const std::vector<Term> terms = frameTerms(frame.settings, frame.description);
     for (const Term& term : terms) {
         terms_.push_back(term.ofWaves(frame, shape));

@@ -1,6 +1,7 @@
 #include "host/render/frame_builder.h"
 
 #include "host/graph/execution.h"
+#include "host/render/effect.h"
 
 namespace wedge::render {
 
@@ -59,6 +60,21 @@ std::vector<graph::Argument> FrameBuilder::beyond() const
 {
     return { ofScene("environment", "EnvironmentMap", &DeviceScene::environment),
         ofScene("environmentTable", "float", &DeviceScene::environmentTable) };
+}
+
+void FrameBuilder::precomputeDirections()
+{
+    if (settings.environment.sampling != EnvironmentSampling::Precomputed || pictureOf(description) == nullptr) {
+        return;
+    }
+    constexpr std::uint32_t cells = WEDGE_ENVIRONMENT_CELLS;
+    auto samples = graph.list<Directions>(
+        "environment samples", graph::floats, std::uint64_t { cells } * cells * WEDGE_ENVIRONMENT_SAMPLE_FLOATS);
+    const auto rows = [](const Launch& launch) -> std::uint32_t { return launch.run.rehearsal() ? 0 : cells; };
+    items("environment samples", PassKind::Trace, { "light/environment_samples.cl", "precomputeDirections" }, cells,
+        joined({ graph::made("rows", rows), graph::value("seed", frameSeed(settings)) }, beyond(),
+            Arguments { graph::writes("samples", samples) }));
+    environmentSamples = samples;
 }
 
 std::vector<graph::Argument> FrameBuilder::receivers() const

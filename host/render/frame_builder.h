@@ -8,6 +8,7 @@
 #include "kernels/shared/filter_params.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,7 @@ struct Texture { }; ///< of a term, see accumulate.h
 struct Squares { }; ///< mean squares of luminances, or what is made of them
 struct Pixels { }; ///< lengths in the image
 struct Listed { }; ///< of waves' lists, see waves.cl
+struct Directions { }; ///< to what is beyond the scene, see kernels/shared/environment.h
 
 // Formats of packed planes, see kernels/core/packed_planes.h.
 inline constexpr graph::Format shortFloats { "short1", 2, "float", "", "", "" };
@@ -101,6 +103,7 @@ struct FrameBuilder {
     bool packed = false; ///< planes of pixels that have several receivers are packed, see kernels/waves/accumulate.h
     Surfaces surfaces = {};
     Totals totals = {};
+    std::optional<graph::Handle<Directions>> environmentSamples = {}; ///< pre-computed, where there are any
 
     /// Of normals, each in one number or in three. In scenes with normal maps the ones without them lie behind.
     graph::Format normals(bool inOne) const
@@ -137,6 +140,9 @@ struct FrameBuilder {
     std::vector<graph::Argument> geometry() const;
     /// WEDGE_BEYOND_PARAMETERS.
     std::vector<graph::Argument> beyond() const;
+    /// Declares the frame's pre-computed samples of what is beyond the scene, where there is a map and the settings
+    /// want them: before any pass that chooses lights.
+    void precomputeDirections();
     /// WEDGE_RECEIVER_PARAMETERS, the pixels being the receivers.
     std::vector<graph::Argument> receivers() const;
     /// A buffer that outlives the frame; null: none, and nothing reads it.

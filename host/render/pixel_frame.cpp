@@ -20,6 +20,7 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
 {
     const bool lit = settings.integrator == Integrator::Path;
     primary(lit);
+    f_.precomputeDirections();
     const std::vector<Term> terms = frameTerms(settings, scene);
     addTerms(Part::Direct, terms);
     std::map<std::string, graph::Handle<Radiance>> unfiltered;

@@ -207,7 +207,8 @@ Settings asPublished(std::optional<float> mu)
     in.meanFraction = 0.0f;
     in.counts = IndirectCounts::Spectrum;
     in.maxSpp = static_cast<int>(std::lround(std::clamp(100.0f * in.mu, 100.0f, 1e5f)));
-    s.environment = { .relative = false,
+    s.environment = { .sampling = EnvironmentSampling::Precomputed,
+        .relative = false,
         .normalDegrees = s.normalDegrees,
         .widthScale = in.widthScale,
         .lobeWidening = 0.0f,
@@ -341,6 +342,7 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
         { "integrator", s.integrator == Integrator::Path ? "path" : "ao" },
         { "bounces", number(s.bounces) },
         { "lightSampling", lightSamplings[static_cast<int>(s.lightSampling)] },
+        { "environmentSampling", s.environment.sampling == EnvironmentSampling::Map ? "map" : "precomputed" },
         { "progressive", s.progressive ? "true" : "false" },
     };
     if (s.temporal != Temporal::Off) {

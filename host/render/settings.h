@@ -34,6 +34,12 @@ enum class LightSampling {
     Directions, ///< reflected directions that happen to meet a light; point and directional lights as before
 };
 
+/// How directions to what is beyond the scene are chosen by its brightness.
+enum class EnvironmentSampling {
+    Map, ///< each by the map
+    Precomputed, ///< among 4096 that a frame begins with: the thesis (section 6.5)
+};
+
 /// How points on a light and directions are chosen.
 enum class Sampler {
     Sobol, ///< Owen-scrambled Sobol sequence, a scramble of its own for each pixel and term
@@ -108,6 +114,7 @@ struct IndirectSettings {
 
 /// Direct light from beyond the scene, besides IndirectSettings; docs/environment.md says how they were chosen.
 struct EnvironmentSettings {
+    EnvironmentSampling sampling = EnvironmentSampling::Map;
     /// Samples are filtered as fractions of what would arrive if nothing were hidden, which is known (kernels/light/
     /// unshadowed_environment.h).
     bool relative = true;

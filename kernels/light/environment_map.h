@@ -16,6 +16,8 @@ typedef struct {
     EnvironmentMap map;
     __global const float* table;
     float share; ///< probability that a path's vertex samples it and not other lights
+    uint precomputed; ///< 1: directions are chosen among `samples`
+    __global const float* samples; ///< pre-computed, see WEDGE_ENVIRONMENT_CELLS
 } BeyondData;
 
 /// The scene's map among a kernel's parameters.
@@ -34,6 +36,8 @@ WEDGE_FN BeyondData beyondData(
 #endif
     beyond.table = environmentTable;
     beyond.share = share;
+    beyond.precomputed = 0u;
+    beyond.samples = environmentTable;
     return beyond;
 }
 
@@ -130,6 +134,29 @@ WEDGE_FN BeyondSample sampleMap(BeyondData beyond, Vec2 u)
         mapRadiance(beyond, vec2(across, 0.318309886f * atan2(sqrt(fmax(0.0f, 1.0f - cosine * cosine)), cosine)));
     sample.pdf = texelPdf(beyond, parts, x, y);
     return sample;
+}
+
+/// The pre-computed sample of the cell that the numbers u are in.
+WEDGE_FN BeyondSample precomputedSample(__global const float* samples, Vec2 u)
+{
+    const uint last = WEDGE_ENVIRONMENT_CELLS - 1u;
+    const uint column = min((uint)(u.x * (float)WEDGE_ENVIRONMENT_CELLS), last);
+    const uint row = min((uint)(u.y * (float)WEDGE_ENVIRONMENT_CELLS), last);
+    const float8 s = vload8(row * WEDGE_ENVIRONMENT_CELLS + column, samples);
+    BeyondSample sample;
+    sample.direction = vec3(s.s0, s.s1, s.s2);
+    sample.radiance = vec3(s.s3, s.s4, s.s5);
+    sample.pdf = s.s6;
+    return sample;
+}
+
+/// A direction by the numbers u: sampleMap(), or as it was pre-computed near u.
+WEDGE_FN BeyondSample chooseBeyond(BeyondData beyond, Vec2 u)
+{
+    if (beyond.precomputed != 0u) {
+        return precomputedSample(beyond.samples, u);
+    }
+    return sampleMap(beyond, u);
 }
 
 /// What is seen in a unit direction, and the density at which sampleMap() finds it.

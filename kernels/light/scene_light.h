@@ -84,7 +84,7 @@ WEDGE_FN LightChoice sampleEmitterLight(EmitterData emitters, Vec3 origin, Vec3 
 /// A direction to what is beyond the scene.
 WEDGE_FN LightChoice sampleBeyond(BeyondData beyond, Vec3 normal, Vec2 u)
 {
-    const BeyondSample sample = sampleMap(beyond, u);
+    const BeyondSample sample = chooseBeyond(beyond, u);
     const float cosine = vecDot(normal, sample.direction), pdf = beyond.share * sample.pdf;
     const bool found = cosine > 0.0f && pdf > 0.0f;
     LightChoice choice;

@@ -78,7 +78,7 @@ WEDGE_FN void traceEnvironment(__global const TraversalNode* restrict nodes,
         if (sampling.lightSampling == WEDGE_LIGHTS_MET) {
             continue;
         }
-        const BeyondSample chosen = sampleMap(beyond, vec2(u[lane], v[lane]));
+        const BeyondSample chosen = chooseBeyond(beyond, vec2(u[lane], v[lane]));
         const Vec3 l = chosen.direction, n = vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]);
         if (vecDot(n, l) > 0.0f && vecDot(laneVec(facing, lane), l) > 0.0f && chosen.pdf > 0.0f) {
             const Reflected reflected = reflectedTo(r, lane, glossy, l);

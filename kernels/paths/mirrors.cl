@@ -185,13 +185,13 @@ WEDGE_FN void followMirrors(FrameParams frame, __global const TraversalNode* res
 __kernel void sampleMirrors(FrameParams frame, PathParams params, __global const TraversalNode* restrict nodes,
     __global const TriangleBlock* restrict blocks, WEDGE_SURFACE_PARAMETERS,
     __global const AreaLight* restrict areaLights, __global const DeltaLight* restrict deltaLights,
-    WEDGE_EMITTER_PARAMETERS, WEDGE_BEYOND_PARAMETERS, WEDGE_RECEIVER_PARAMETERS,
-    __global const uint* restrict sampleOf, uint lastSample, __global uint* restrict taken,
+    WEDGE_EMITTER_PARAMETERS, WEDGE_BEYOND_PARAMETERS, __global const float* restrict environmentSamples,
+    WEDGE_RECEIVER_PARAMETERS, __global const uint* restrict sampleOf, uint lastSample, __global uint* restrict taken,
     __global uint* restrict rays, __global uint* restrict pathRays, __global float* restrict sums, uint firstGroup)
 {
     const SurfaceData surfaces = WEDGE_SURFACE_ARGUMENTS;
-    LightData lights =
-        lightData(params, areaLights, deltaLights, surfaces, emitters, emitterPicks, environment, environmentTable);
+    LightData lights = lightData(params, areaLights, deltaLights, surfaces, emitters, emitterPicks, environment,
+        environmentTable, environmentSamples);
 #ifdef WEDGE_CUTOUTS
     lights.emitters.cutouts = WEDGE_CUTOUT_TABLE(nodes, blocks);
 #endif

@@ -299,7 +299,8 @@ WEDGE_FN void tracePaths(__global const TraversalNode* restrict nodes, __global 
 /// The scene's lights, as paths take them.
 WEDGE_FN LightData lightData(PathParams params, __global const AreaLight* area, __global const DeltaLight* delta,
     SurfaceData surfaces, __global const Emitter* emitters, __global const float* emitterPicks,
-    __global const EnvironmentMap* environment, __global const float* environmentTable)
+    __global const EnvironmentMap* environment, __global const float* environmentTable,
+    __global const float* environmentSamples)
 {
     LightData lights;
     lights.emitters.surfaces = surfaces;
@@ -309,6 +310,8 @@ WEDGE_FN LightData lightData(PathParams params, __global const AreaLight* area, 
     lights.emitters.count = params.emitters;
     lights.emitters.share = params.emitterShare;
     lights.beyond = beyondData(environment, environmentTable, params.environmentShare);
+    lights.beyond.precomputed = params.precomputed;
+    lights.beyond.samples = environmentSamples;
     lights.area = area;
     lights.delta = delta;
     lights.areaCount = params.areaLights;

@@ -27,6 +27,11 @@ typedef struct {
     uint shown; ///< where in the table radiance is as the camera sees it, with suns; 0: as at its beginning
 } EnvironmentMap;
 
+/// Pre-computed samples: one in each cell of the square that sampleMap() spreads over the directions, so many a side,
+/// row by row, of so many floats each: unit direction, radiance, density (1/sr), and one that nobody reads.
+#define WEDGE_ENVIRONMENT_CELLS 64u
+#define WEDGE_ENVIRONMENT_SAMPLE_FLOATS 8u
+
 /// Spherical harmonics of a channel.
 #define WEDGE_HARMONICS 9u
 

@@ -82,7 +82,7 @@ FIELD(PathParams, sceneDiameter) FIELD(PathParams, ambientDistance) FIELD(PathPa
 FIELD(PathParams, emitters) FIELD(PathParams, emitterShare) FIELD(PathParams, emittersLow)
 FIELD(PathParams, emittersHigh) FIELD(PathParams, directedWithin) FIELD(PathParams, environmentShare)
 FIELD(PathParams, relative)
-FIELD(PathParams, skipsMirrors)
+FIELD(PathParams, skipsMirrors) FIELD(PathParams, precomputed)
 END(PathParams)
 STRUCT(EnvironmentMap)
 FIELD(EnvironmentMap, width) FIELD(EnvironmentMap, height) FIELD(EnvironmentMap, right) FIELD(EnvironmentMap, up)
