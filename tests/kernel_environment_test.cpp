@@ -342,7 +342,8 @@ TEST_CASE("pre-computed samples lie one in each cell, evenly in it, and tell wha
                 const double top = std::cos(pi * t.y / height), bottom = std::cos(pi * (t.y + 1) / height);
                 const double u = cells * (column.begin + (column.end - column.begin) * (t.fx - t.x));
                 const double v = cells * (row.begin + (row.end - row.begin) * (cosine - top) / (bottom - top));
-                const auto x = static_cast<double>(i % cells), y = static_cast<double>(i / cells);
+                const std::size_t cellX = i % cells, cellY = i / cells;
+                const auto x = static_cast<double>(cellX), y = static_cast<double>(cellY);
                 REQUIRE(std::abs(u - x - 0.5) < 0.5 + 1e-3);
                 REQUIRE(std::abs(v - y - 0.5) < 0.5 + 1e-3);
                 ++found[static_cast<std::size_t>(std::clamp(parts * (u - x), 0.0, parts - 0.5))
