@@ -45,6 +45,7 @@ shared::PathParams pathParams(const FrameBuilder& frame, Component component)
     p.emitterShare = frame.scene != nullptr ? frame.scene->emitterShare : 0.0f;
     p.environmentShare = frame.scene != nullptr ? frame.scene->environmentShare : 0.0f;
     p.relative = isRelative(component, settings) ? 1 : 0;
+    p.occluders = isByCurvature(component, settings) ? 1 : 0;
     p.skipsMirrors = component != Component::Ambient ? 1 : 0;
     p.sceneDiameter = frame.scene != nullptr ? frame.scene->diameter : 0.0f;
     if (scene != nullptr) {
@@ -77,6 +78,20 @@ shared::ReflectorParams reflectorParams(const FrameBuilder& frame, Component com
     return p;
 }
 
+shared::CurvatureParams curvatureParams(const FrameBuilder& frame, Component component)
+{
+    shared::CurvatureParams p {};
+    p.component = static_cast<std::uint32_t>(component);
+    p.curvedBand = 1.0f;
+    p.cosineBand = 1.0f;
+    p.lightBand = frame.scene != nullptr ? frame.scene->environmentBandwidth.value() : 0.0f;
+    p.isSigned = 1;
+    // No bounds but of numbers: filters end at maxRadius.
+    p.leastPixels = 1e-3f;
+    p.mostPixels = 1e3f;
+    return p;
+}
+
 shared::FilterParams pathFilterParams(const FrameBuilder& frame, Component component)
 {
     shared::FilterParams p = filterParams(frame.settings, frame.wholeFrame(), frame.graph.image());
@@ -99,6 +114,7 @@ std::uint32_t firstPathsOf(Component component, const Settings& settings)
     constexpr std::uint32_t fewest = 4;
     const float share = settings.environment.firstShare * static_cast<float>(settings.spp);
     return isOfEnvironment(component) && settings.environment.firstShare < 1.0f
+            && !takesFirstPathsOnly(component, settings)
         ? std::clamp(static_cast<std::uint32_t>(share), fewest, WEDGE_INDIRECT_FIRST_RAYS)
         : WEDGE_INDIRECT_FIRST_RAYS;
 }

@@ -46,6 +46,7 @@ typedef struct {
     float environmentShare; ///< as emitterShare, of what is beyond the scene
     uint relative; ///< 1: samples of the environment are divided by unshadowedLight()
     uint skipsMirrors; ///< 1: receivers on mirrors and glass have no samples
+    uint occluders; ///< 1: of the environment, distances are those of what hides directions, over their cosines
 } PathParams;
 
 /// Distances of reflectors to widths and counts.

@@ -95,6 +95,7 @@ check ambient "$scenes/materials.toml" --traversal wide --size 17x3 --method aaf
 check published_bounce "$scenes/penumbra.toml" --traversal wide --size 9x3 --method aaf --as-published --bounces 1 --max-spp 24
 check one_pixel "$scenes/penumbra.toml" --traversal wide --size 1x1 --method aaf --spp 16 --bounces 1
 check sky "$scenes/sky.toml" --traversal wide --size 9x5 --method aaf --spp 16
+check sky_published "$scenes/sky.toml" --traversal wide --size 9x5 --method aaf --as-published
 check sky_waves "$scenes/sky.toml" --traversal wide --size 7x3 --method aaf --spp 16 --antialias
 # Microfacets, normal maps and heights, and cut-outs.
 cat >"$work/bumps.toml" <<END
