@@ -220,6 +220,57 @@ TEST_CASE("widths of pixels of any kind are those of the definition")
     });
 }
 
+TEST_CASE("smoothed, occluders are the nearest of the pixels around, in the geometric mean over those around")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        std::mt19937 random(11);
+        for (const auto& [width, height] : { std::pair(41, 19), { 1, 1 }, { 3, 9 } }) {
+            CAPTURE(width);
+            CurvedImage image(width, height);
+            for (int y = 0; y < height; ++y)
+                for (int x = 0; x < width; ++x) {
+                    image.objectId.at(x, y) = static_cast<std::uint32_t>(x / 9 + 2 * (y / 11)); // of which one is none
+                    image.occluders.at(x, y) =
+                        random() % 12 != 0 ? 0.0f : static_cast<float>(std::exp(uniform(random, -8, 4)));
+                }
+            const auto nearest = bench.filled(image.layout().size, -7.0f),
+                       mean = bench.filled(image.layout().size, -7.0f);
+            const auto objects = bench.buffer(image.objectId.values);
+            const auto pass = [&](const char* kernel, const auto& from, const auto& to) {
+                bench.passes.rows("widths", device::PassKind::Analysis, "analysis/curvature.cl", kernel, image.params,
+                    WEDGE_BLOCK_PIXELS, from, objects, to);
+            };
+            pass("nearestOccluders", bench.buffer(image.occluders.values), nearest);
+            // What lies between the rows is not written.
+            Planes<float> least = planesOf(image.layout(), bench.read(nearest));
+            pass("meanOccluders", nearest, mean);
+            const Planes<float> found = planesOf(image.layout(), bench.read(mean));
+            const auto around = [&](int x, int y, int reach, const Planes<float>& from) {
+                std::vector<double> out;
+                for (int qy = std::max(0, y - reach); qy <= std::min(height - 1, y + reach); ++qy)
+                    for (int qx = std::max(0, x - reach); qx <= std::min(width - 1, x + reach); ++qx)
+                        if (image.objectId.at(qx, qy) == image.objectId.at(x, y) && from.at(qx, qy) > 0)
+                            out.push_back(from.at(qx, qy));
+                return out;
+            };
+            for (int y = 0; y < height; ++y)
+                for (int x = 0; x < width; ++x) {
+                    if (image.objectId.at(x, y) == 0)
+                        continue;
+                    CAPTURE(x);
+                    CAPTURE(y);
+                    const std::vector<double> near = around(x, y, 1, image.occluders), far = around(x, y, 3, least);
+                    REQUIRE(least.at(x, y) == (near.empty() ? 0.0 : *std::ranges::min_element(near)));
+                    double logarithms = 0;
+                    for (const double distance : far)
+                        logarithms += std::log(distance) / static_cast<double>(far.size());
+                    REQUIRE(found.at(x, y) == doctest::Approx(far.empty() ? 0.0 : std::exp(logarithms)).epsilon(2e-4));
+                }
+        }
+    });
+}
+
 TEST_CASE("bandwidths are those of the thesis' flatland")
 {
     shared::CurvatureParams p {};

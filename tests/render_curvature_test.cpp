@@ -52,6 +52,32 @@ TEST_CASE("as published: filters keep the mean but for what widths take from sam
     });
 }
 
+TEST_CASE("corrected constants: means are kept, and errors are less than as published and without filters")
+{
+    onEveryDevice([](const device::Device& device) {
+        SceneBuilder b = openFloor();
+        b.newObject();
+        b.sphere({ 0, 0.4f, 0 }, 0.4f, 32);
+        b.camera({ 0, 1.2f, 2.6f }, { 0, 0.3f, 0 });
+        render::setEnvironment(b.scene, spotted());
+        render::Renderer renderer(b.scene, device, renderOptions());
+        render::Settings corrected = sized(render::axisAligned(16), 64, 64);
+        corrected.environment.widths = render::EnvironmentWidths::Corrected;
+        const render::Settings plain = sized(render::monteCarlo(16), 64, 64),
+                               published = sized(render::asPublished(), 64, 64);
+        render::Settings reference = sized(render::monteCarlo(2048), 64, 64);
+        reference.seed = 99;
+        const std::vector<float> expected = renderPixels(renderer, reference);
+        const auto errorOf = [&](const render::Settings& s) { return rmse(renderPixels(renderer, s), expected); };
+        const double ours = errorOf(corrected);
+        MESSAGE("RMSE: ", ours, ", as published: ", errorOf(published), ", without filter: ", errorOf(plain));
+        CHECK(ours < 0.8 * errorOf(published));
+        CHECK(ours < 0.6 * errorOf(plain));
+        CHECK(
+            meanOverSeeds(renderer, corrected, 8) == doctest::Approx(meanOverSeeds(renderer, plain, 8)).epsilon(0.005));
+    });
+}
+
 TEST_CASE("as published: under a ceiling widths follow from its height")
 {
     // Of what is hidden r cos theta is the height h: the largest cos^2 / h is that of the ray that is most upright.

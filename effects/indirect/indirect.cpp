@@ -78,12 +78,28 @@ shared::ReflectorParams reflectorParams(const FrameBuilder& frame, Component com
     return p;
 }
 
+namespace {
+
+// The corrected recipe: more than the clamped cosine's bandwidth of 2.36 on curvature, and B_e of soft maps.
+constexpr float correctedCurvedBand = 6.0f, correctedLightBand = 4.0f;
+constexpr float correctedNormalDegrees = 20.0f;
+constexpr std::uint32_t correctedRadius = 15;
+
+} // namespace
+
 shared::CurvatureParams curvatureParams(const FrameBuilder& frame, Component component)
 {
     shared::CurvatureParams p {};
     p.component = static_cast<std::uint32_t>(component);
-    p.curvedBand = 1.0f;
     p.cosineBand = 1.0f;
+    if (frame.settings.environment.widths == EnvironmentWidths::Corrected) {
+        p.curvedBand = correctedCurvedBand;
+        p.lightBand = correctedLightBand;
+        p.leastPixels = 1.0f;
+        p.mostPixels = 5.0f;
+        return p;
+    }
+    p.curvedBand = 1.0f;
     p.lightBand = frame.scene != nullptr ? frame.scene->environmentBandwidth.value() : 0.0f;
     p.isSigned = 1;
     // No bounds but of numbers: filters end at maxRadius.
@@ -99,6 +115,14 @@ shared::FilterParams pathFilterParams(const FrameBuilder& frame, Component compo
         p.normalCosine = std::cos(glm::radians(frame.settings.environment.normalDegrees));
     } else if (component == Component::Ambient) {
         p.most = 1.0f;
+    }
+    if (isByCurvature(component, frame.settings)) {
+        p.fitted = 0;
+    }
+    if (isByCurvature(component, frame.settings) && frame.settings.environment.widths == EnvironmentWidths::Corrected) {
+        p.maxRadius = correctedRadius;
+        p.normalCosine =
+            std::cos(glm::radians(isGlossy(component) ? frame.settings.normalDegrees : correctedNormalDegrees));
     }
     return p;
 }

@@ -227,7 +227,9 @@ void PathGraph::paths(const char* pass, std::uint32_t from, std::uint32_t most, 
 void PathGraph::widthsAndCounts()
 {
     if (byCurvature()) {
-        curvatureWidths(f_, curvatureParams(f_, component_), extremes_, taken_, axes_, beta_);
+        const bool smooth = s_.environment.widths == EnvironmentWidths::Corrected;
+        curvatureWidths(f_, curvatureParams(f_, component_), smooth ? smoothedOccluders(f_, extremes_) : extremes_,
+            taken_, axes_, beta_);
     } else {
         reflectorWidths(f_, reflectorParams(), extremes_, taken_, beta_);
     }

@@ -214,6 +214,11 @@ void addAblationOptions(CLI::App& parser, RenderOptions& o)
         "How paths find area lights: points on them, reflected directions that meet one, or both. The same image in "
         "the limit",
         o.lightSampling);
+    addChoice(parser, ablationGroup, "--environment-widths", environmentWidths,
+        "What widths of filters of light from beyond the scene follow from: what hides it and how wide that light is, "
+        "the "
+        "default; curvature, what hides it and the map's spectrum, as published; or such by corrected constants",
+        o.environmentWidths);
 }
 
 void addEffectOptions(CLI::App& parser, RenderOptions& o)

@@ -68,6 +68,7 @@ struct RenderOptions {
     std::optional<render::Sampler> sampler;
     std::optional<render::Counts> counts;
     std::optional<render::LightSampling> lightSampling;
+    std::optional<render::EnvironmentWidths> environmentWidths;
 };
 
 /// Adds the options to the subcommand's parser; parsing fills `options`, which must outlive it.

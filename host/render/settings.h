@@ -110,6 +110,7 @@ struct IndirectSettings {
 enum class EnvironmentWidths {
     Penumbrae, ///< distances of what hides directions, and how wide what is there is
     Curvature, ///< (6.13), (6.17) of thesis chapter 6, along x and y
+    Corrected, ///< the same with other constants, of smoothed occluders, and bounded in pixels
 };
 
 /// Direct light from beyond the scene, besides IndirectSettings; docs/environment.md says how they were chosen.

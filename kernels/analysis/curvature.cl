@@ -39,6 +39,54 @@ WEDGE_FN float16 curvatureAlong(CurvatureParams p, int i, int before, int after,
     return next.known ? next.curvature : last.known ? last.curvature : (float16)(0.0f);
 }
 
+/// The least distance of an occluder that a pixel of the object around found, metres, 0 where none did.
+__kernel void nearestOccluders(CurvatureParams p, __global const float* restrict occluders,
+    __global const uint* restrict objectId, __global float* restrict nearest)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride), reach = WEDGE_OCCLUDER_REACH;
+    const uint16 object = loadIdBlock(objectId, i);
+    float16 least = (float16)(INFINITY);
+    for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
+        for (int dx = -reach; dx <= reach; ++dx) {
+            const int j = i + dy * (int)p.stride + dx;
+            const float16 there = loadBlock(occluders, j);
+            const int16 counts = (loadIdBlock(objectId, j) == object) & (there > 0.0f);
+            least = counts ? min16(least, there) : least;
+        }
+    }
+    vstore16(least < INFINITY ? least : (float16)(0.0f), 0, nearest + i);
+}
+
+/// The geometric mean of the distances of the object's pixels around that have one, metres, 0 where none has.
+__kernel void meanOccluders(CurvatureParams p, __global const float* restrict nearest,
+    __global const uint* restrict objectId, __global float* restrict mean)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride), reach = WEDGE_OCCLUDER_MEAN_REACH;
+    const uint16 object = loadIdBlock(objectId, i);
+    const float16 none = (float16)(0.0f), one = (float16)(1.0f);
+    float16 sum = none, pixels = none;
+    for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
+        for (int dx = -reach; dx <= reach; ++dx) {
+            const int j = i + dy * (int)p.stride + dx;
+            const float16 there = loadBlock(nearest, j);
+            const int16 counts = (loadIdBlock(objectId, j) == object) & (there > 0.0f);
+            sum += counts ? log2Block(max16(there, (float16)(1e-20f))) : none;
+            pixels += counts ? one : none;
+        }
+    }
+    vstore16(pixels > 0.0f ? exp2Block(sum / max16(pixels, one)) : none, 0, mean + i);
+}
+
 /// Standard deviations of kernels exp(-2 B^2 r^2), 1 / (2 |B|), metres, along x and along y, and their mean; -1 where
 /// the pixel has no such term. occluders: the least r / cos theta of a hidden direction, metres, 0 where there is none.
 __kernel void curvatureWidths(CurvatureParams p, __global const float* restrict occluders,

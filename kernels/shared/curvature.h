@@ -8,6 +8,10 @@
 /// The 99 % bandwidth of a Gaussian's energy, in standard deviations of its spectrum: erf(x) = 0.99.
 #define WEDGE_GAUSSIAN_BANDWIDTH 1.82138637f
 
+/// Pixels around one, either way, the nearest of whose occluders it takes, and over which the mean of those goes.
+#define WEDGE_OCCLUDER_REACH 1
+#define WEDGE_OCCLUDER_MEAN_REACH 3
+
 WEDGE_SHARED_BEGIN
 
 /// Curvatures and distances of occluders to the widths of filters along the image's axes. Bandwidths are

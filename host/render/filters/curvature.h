@@ -11,4 +11,8 @@ namespace wedge::render {
 void curvatureWidths(FrameBuilder& frame, shared::CurvatureParams params, const graph::Handle<Extremes>& occluders,
     const graph::Handle<Count>& taken, AxisWidths& widths, graph::Handle<Metres>& beta);
 
+/// The same of less noise: distances are the least ones of the object's pixels around, of which the mean is taken over
+/// those around.
+graph::Handle<Extremes> smoothedOccluders(FrameBuilder& frame, const graph::Handle<Extremes>& occluders);
+
 } // namespace wedge::render
