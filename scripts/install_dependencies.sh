@@ -22,6 +22,7 @@ build    libtomlplusplus-dev     scene files, with line and column of every key
 build    libglm-dev              transforms of the scene
 build    libcli11-dev            the command line
 build    libfmt-dev              text
+build    libkissfft-dev          the spectrum of an environment map
 build    nlohmann-json3-dev      reports
 build    doctest-dev             the tests; configuring looks for it
 build    ?libembree-dev          what benchmarks measure rays and builds against

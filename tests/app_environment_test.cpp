@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include <nlohmann/json.hpp>
+
 namespace wedge::app::test {
 namespace {
 
@@ -212,6 +214,48 @@ TEST_CASE("a map's sun is told of, is seen as the map has it, stays in sequences
     place.write("s.toml", view + keys);
     CHECK(middle(render(place)).g == whole.g);
     CHECK(whole.g > 10000);
+}
+
+TEST_CASE("--environment-widths: which there are, what reports say of them, and where they have no effect")
+{
+    Workplace place;
+    writeMap(place.path() / "m.exr", 4, 2, std::vector<Texel>(8, Texel { 1, 1, 1 }));
+    const auto run = [&](const std::string& environment, const std::vector<std::string>& more) {
+        writeFloor(place, environment);
+        std::vector<std::string> arguments { "render", "s.toml", "--quiet", "-o", "a.exr", "--report", "r.json" };
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return place.run(arguments);
+    };
+    const auto widths = [&](const std::vector<std::string>& more) -> std::string {
+        const Outcome outcome = run("[environment]\nmap = \"m.exr\"\n", more);
+        REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+        return nlohmann::json::parse(place.text("r.json")).at("method").at("environmentWidths");
+    };
+    CHECK(widths({}) == "penumbrae");
+    CHECK(widths({ "--as-published" }) == "curvature");
+    CHECK(widths({ "--as-published", "--environment-widths", "penumbrae" }) == "penumbrae");
+    CHECK(widths({ "--spp", "16", "--environment-widths", "curvature" }) == "curvature");
+    CHECK(widths({ "--spp", "16", "--environment-widths", "corrected" }) == "corrected");
+    CHECK(widths({ "--as-published", "--environment-widths", "corrected", "--sampling", "uniform" }) == "corrected");
+    const auto refused = [&](const std::string& environment, std::vector<std::string> more, const std::string& what) {
+        more.insert(more.end(), { "--environment-widths", "curvature" });
+        const Outcome outcome = run(environment, more);
+        CHECK(outcome.status == 2);
+        CHECK_MESSAGE(contains(outcome.err, what), outcome.err);
+        CHECK_MESSAGE(contains(outcome.err, "--environment-widths"), outcome.err);
+        CHECK(std::ranges::count(outcome.err, '\n') == 1);
+    };
+    const std::string sky = "[environment]\nradiance = 1\n";
+    refused("", {}, "without light from beyond the scene");
+    refused(sky, { "--method", "mc" }, "with method mc");
+    refused(sky, { "--integrator", "ao" }, "with integrator ao");
+    refused(sky, { "--filter", "fixed" }, "with --filter fixed");
+    refused(sky, { "--antialias" }, "with antialiasing");
+    refused(sky, { "--progressive" }, "--progressive");
+    refused(sky, { "--aperture", "0.1" }, "through a lens");
+    const Outcome unknown = run(sky, { "--environment-widths", "wide" });
+    CHECK(unknown.status == 2);
+    CHECK_MESSAGE(contains(unknown.err, "wide"), unknown.err);
 }
 
 TEST_CASE("what is wrong with an environment is told in a line")

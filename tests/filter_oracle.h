@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace wedge::test {
@@ -17,6 +18,8 @@ struct FilterImage {
     shared::FilterParams params {};
     Planes<float> value, beta, position, normal, pixelSize;
     Planes<std::uint32_t> objectId;
+    std::optional<Planes<float>> betaOfColumns; ///< where widths along y are others than beta
+    bool meanSquare = false; ///< pairs have the mean of both squared bandwidths, as WEDGE_GATHER_MEAN_SQUARE
 
     FilterImage(int width, int height, std::size_t channels)
         : FilterImage(render::PlaneLayout(width, height), channels)
@@ -31,6 +34,7 @@ struct FilterImage {
         , objectId(layout, 1, 0u)
     {
     }
+    const Planes<float>& widthsAlong(bool rows) const { return rows || !betaOfColumns ? beta : *betaOfColumns; }
     int width() const { return static_cast<int>(value.layout.width); }
     int height() const { return static_cast<int>(value.layout.height); }
 };
@@ -242,19 +246,31 @@ inline std::vector<double> lineCoefficients(const std::vector<LineTap>& taps, bo
     return out;
 }
 
+/// The standard deviation of a pair's kernel. there: the neighbour's own, 0 where it has none.
+inline double pairWidth(const FilterImage& image, double beta, double there)
+{
+    if (!(there > 0))
+        return beta;
+    if (image.meanSquare) // of both bandwidths, 1 / (2 beta)
+        return std::sqrt(2 / (1 / (beta * beta) + 1 / (there * there)));
+    return image.params.narrower != 0 ? std::min(beta, there) : beta;
+}
+
 /// One pass. in: values (channels a pixel) and counts of the pass before, with its doubts.
 inline OracleResult gatherLine(const FilterImage& image, const OracleResult& in, int dx, int dy)
 {
     const shared::FilterParams& p = image.params;
     const int width = image.width(), height = image.height();
+    const Planes<float>& betas = image.widthsAlong(dx != 0);
     OracleResult out = in;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            const double beta = image.beta.at(x, y);
+            const double beta = betas.at(x, y);
             if (!(beta > 0) || image.objectId.at(x, y) == 0)
                 continue;
             const GatherGeometry geometry(image, x, y);
-            const double exactRadius = geometry.pixels(x, y, dx != 0 ? p.right : p.down, p.cut * beta);
+            const double widest = image.meanSquare ? std::sqrt(2.0) * beta : beta;
+            const double exactRadius = geometry.pixels(x, y, dx != 0 ? p.right : p.down, p.cut * widest);
             const int radius =
                 static_cast<int>(std::clamp(std::ceil(exactRadius), 1.0, static_cast<double>(p.maxRadius)));
             bool doubt = false;
@@ -263,12 +279,13 @@ inline OracleResult gatherLine(const FilterImage& image, const OracleResult& in,
                 const int qx = x + k * dx, qy = y + k * dy;
                 if (qx < 0 || qy < 0 || qx >= width || qy >= height)
                     continue;
-                const double there = image.beta.at(qx, qy);
+                const double there = betas.at(qx, qy);
                 const double facing = glm::dot(image.normal.vector(x, y), image.normal.vector(qx, qy));
                 if (k != 0 && (image.objectId.at(qx, qy) != image.objectId.at(x, y) || !(there >= 0)))
                     continue;
                 const double squared = geometry.squared(image.position.vector(qx, qy) - image.position.vector(x, y));
-                const double limit = p.cut * p.cut * beta * beta;
+                const double pair = pairWidth(image, beta, k != 0 ? there : 0.0);
+                const double reach = image.meanSquare ? pair : beta, limit = p.cut * p.cut * reach * reach;
                 const bool nearRadius = std::fabs(exactRadius - std::round(exactRadius)) < 1e-3 * exactRadius;
                 if (k != 0 && (std::fabs(squared / limit - 1) < 1e-3 || std::fabs(facing - p.normalCosine) < 1e-5))
                     doubt = true;
@@ -281,8 +298,7 @@ inline OracleResult gatherLine(const FilterImage& image, const OracleResult& in,
                     || in.uncertain(qx, qy);
                 if (std::abs(k) > radius)
                     continue;
-                const double width1 = p.narrower != 0 && there > 0 && k != 0 ? std::min(beta, there) : beta;
-                const double w = k == 0 ? 1.0 : seen * std::exp(-0.5 * squared / (width1 * width1));
+                const double w = k == 0 ? 1.0 : seen * std::exp(-0.5 * squared / (pair * pair));
                 taps.push_back({ qx, qy, static_cast<double>(k), w });
             }
             const std::size_t i = out.index(x, y);

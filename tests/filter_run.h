@@ -26,7 +26,8 @@ public:
             p.x1 = static_cast<std::uint32_t>(window.x1);
         }
         const auto value = bench_.buffer(image.value.values);
-        const auto beta = bench_.buffer(image.beta.values);
+        const auto beta = bench_.buffer(image.beta.values),
+                   betaOfColumns = bench_.buffer(image.widthsAlong(false).values);
         const auto position = bench_.buffer(image.position.values);
         const auto normal = bench_.buffer(image.normal.values);
         const auto pixelSize = bench_.buffer(image.pixelSize.values);
@@ -42,7 +43,8 @@ public:
         }
         const auto out = bench_.filled(image.value.values.size(), -7.0f);
         const auto effective = bench_.filled(image.value.layout.size, -7.0f);
-        launch("filterColumns", p, rows, beta, position, normal, pixelSize, objectId, rowsEffective, out, effective);
+        launch("filterColumns", p, rows, betaOfColumns, position, normal, pixelSize, objectId, rowsEffective, out,
+            effective);
         // Filtering in place would race: what was filtered is still there.
         const std::vector<float> after = bench_.read(value);
         CHECK(std::memcmp(after.data(), image.value.values.data(), after.size() * sizeof(float)) == 0);

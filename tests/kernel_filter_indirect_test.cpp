@@ -129,6 +129,35 @@ TEST_CASE("without a light: both passes gather over plain distances, all planes 
     });
 }
 
+TEST_CASE("along the axes: pairs have the mean of both squared bandwidths, and rows and columns widths of their own")
+{
+    onEveryDevice([](const device::Device& device) {
+        for (const Program& program :
+            { Program { "filter/filter_axes.cl", 3 }, Program { "filter/filter_axes_paths.cl", 4 } }) {
+            CAPTURE(program.file);
+            FilterRun filter(device, {}, program.file);
+            double uncertain = 0;
+            unsigned runs = 0, seed = 60;
+            for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough })
+                for (const bool fitted : { false, true }) {
+                    FilterImage image = unlit(53, 31, shape, seed, program.planes);
+                    image.betaOfColumns = unlit(53, 31, shape, seed + 100, program.planes).beta;
+                    image.meanSquare = true;
+                    image.params.maxRadius = 15;
+                    image.params.fitted = fitted ? 3 : 0;
+                    ++seed;
+                    CAPTURE(static_cast<int>(shape));
+                    CAPTURE(fitted);
+                    const OracleResult rows = oracleRows(image);
+                    uncertain += compare(image, filter(image, true), rows, program.planes);
+                    uncertain += compare(image, filter(image), oracleColumns(image, rows), program.planes);
+                    runs += 2;
+                }
+            CHECK(uncertain / runs < 0.1);
+        }
+    });
+}
+
 TEST_CASE("without a light: a constant field comes out unchanged to rounding")
 {
     withEach([](FilterRun& filter, int planes) {

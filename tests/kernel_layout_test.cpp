@@ -1,6 +1,7 @@
 // The structs that host and device share have the same layout on both.
 #include "kernels/shared/bvh_types.h"
 #include "kernels/shared/camera.h"
+#include "kernels/shared/curvature.h"
 #include "kernels/shared/cutout.h"
 #include "kernels/shared/distributed.h"
 #include "kernels/shared/environment.h"

@@ -48,6 +48,7 @@ shared::PathParams pathParams(const FrameBuilder& frame, Component component)
     p.environmentShare = frame.scene != nullptr ? frame.scene->environmentShare : 0.0f;
     p.precomputed = frame.environmentSamples ? 1 : 0;
     p.relative = isRelative(component, settings) ? 1 : 0;
+    p.occluders = isByCurvature(component, settings) ? 1 : 0;
     p.skipsMirrors = component != Component::Ambient ? 1 : 0;
     p.sceneDiameter = frame.scene != nullptr ? frame.scene->diameter : 0.0f;
     if (scene != nullptr) {
@@ -80,6 +81,36 @@ shared::ReflectorParams reflectorParams(const FrameBuilder& frame, Component com
     return p;
 }
 
+namespace {
+
+// The corrected recipe: more than the clamped cosine's bandwidth of 2.36 on curvature, and B_e of soft maps.
+constexpr float correctedCurvedBand = 6.0f, correctedLightBand = 4.0f;
+constexpr float correctedNormalDegrees = 20.0f;
+constexpr std::uint32_t correctedRadius = 15;
+
+} // namespace
+
+shared::CurvatureParams curvatureParams(const FrameBuilder& frame, Component component)
+{
+    shared::CurvatureParams p {};
+    p.component = static_cast<std::uint32_t>(component);
+    p.cosineBand = 1.0f;
+    if (frame.settings.environment.widths == EnvironmentWidths::Corrected) {
+        p.curvedBand = correctedCurvedBand;
+        p.lightBand = correctedLightBand;
+        p.leastPixels = 1.0f;
+        p.mostPixels = 5.0f;
+        return p;
+    }
+    p.curvedBand = 1.0f;
+    p.lightBand = frame.scene != nullptr ? frame.scene->environmentBandwidth.value() : 0.0f;
+    p.isSigned = 1;
+    // No bounds but of numbers: filters end at maxRadius.
+    p.leastPixels = 1e-3f;
+    p.mostPixels = 1e3f;
+    return p;
+}
+
 shared::FilterParams pathFilterParams(const FrameBuilder& frame, Component component)
 {
     shared::FilterParams p = filterParams(frame.settings, frame.wholeFrame(), frame.graph.image());
@@ -87,6 +118,14 @@ shared::FilterParams pathFilterParams(const FrameBuilder& frame, Component compo
         p.normalCosine = std::cos(glm::radians(frame.settings.environment.normalDegrees));
     } else if (component == Component::Ambient) {
         p.most = 1.0f;
+    }
+    if (isByCurvature(component, frame.settings)) {
+        p.fitted = 0;
+    }
+    if (isByCurvature(component, frame.settings) && frame.settings.environment.widths == EnvironmentWidths::Corrected) {
+        p.maxRadius = correctedRadius;
+        p.normalCosine =
+            std::cos(glm::radians(isGlossy(component) ? frame.settings.normalDegrees : correctedNormalDegrees));
     }
     return p;
 }
@@ -102,6 +141,7 @@ std::uint32_t firstPathsOf(Component component, const Settings& settings)
     constexpr std::uint32_t fewest = 4;
     const float share = settings.environment.firstShare * static_cast<float>(settings.spp);
     return isOfEnvironment(component) && settings.environment.firstShare < 1.0f
+            && !takesFirstPathsOnly(component, settings)
         ? std::clamp(static_cast<std::uint32_t>(share), fewest, WEDGE_INDIRECT_FIRST_RAYS)
         : WEDGE_INDIRECT_FIRST_RAYS;
 }

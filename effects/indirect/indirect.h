@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/render/frame_builder.h"
+#include "kernels/shared/curvature.h"
 #include "kernels/shared/filter_params.h"
 #include "kernels/shared/path.h"
 
@@ -37,6 +38,23 @@ inline bool isRelative(Component c, const Settings& settings)
 {
     return c == Component::Environment && settings.method == Method::AxisAligned && settings.environment.relative;
 }
+
+/// Whether the widths of a component's filter follow from curvatures, where the pixels are the receivers.
+inline bool isByCurvature(Component c, const Settings& settings)
+{
+    return isOfEnvironment(c) && settings.method == Method::AxisAligned && settings.filtering != Filtering::Fixed
+        && settings.environment.widths != EnvironmentWidths::Penumbrae;
+}
+
+/// Whether its samples are those of the analysis, 16 a pixel: of these widths no counts follow, unless from variances.
+inline bool takesFirstPathsOnly(Component c, const Settings& settings)
+{
+    return isByCurvature(c, settings) && settings.sampling == Sampling::Adaptive
+        && settings.indirect.counts == IndirectCounts::Spectrum;
+}
+
+/// What these need besides where pixels lie.
+shared::CurvatureParams curvatureParams(const FrameBuilder& frame, Component component);
 
 /// The filter of a component where the pixels are the receivers, or their means.
 shared::FilterParams pathFilterParams(const FrameBuilder& frame, Component component);

@@ -1,5 +1,6 @@
 #include "effects/indirect/path_graph.h"
 
+#include "host/render/filters/curvature.h"
 #include "host/render/filters/filter_graph.h"
 #include "host/render/filters/widening.h"
 #include "host/render/sample_slices.h"
@@ -39,6 +40,7 @@ public:
         , vertices_(isDirect(component) ? 1 : std::max(1, frame.settings.bounces))
         , state_(state)
         , beta_(beta)
+        , axes_ { g_.plane<Metres>("width along x", graph::floats), g_.plane<Metres>("width along y", graph::floats) }
         , sums_(g_.plane<Sums>("sums", graph::floatPlanes(4)))
         , value_(g_.plane<Value>("value", graph::floatPlanes(channels)))
         , parts_(g_.plane<Value>("value of part", packedColours))
@@ -79,12 +81,17 @@ public:
         countRays();
         f_.host("analysable", [state = state_](Run& run) { state->analysed = !run.cut(); });
         f_.zero(beta_); // which filters nothing
+        if (byCurvature()) {
+            f_.zero(axes_.x, axes_.y);
+        }
         wanted_ = g_.plane<Count>("samples wanted", graph::counts); // no version of the first: that ends here
         const auto analysed = [state = state_](const Run&) { return state->analysed; };
         g_.only("analysis of paths", analysed, [&] { widthsAndCounts(); });
         const int most = isUniform() ? s_.spp : std::max(s_.indirect.maxSpp, s_.spp);
-        g_.only("rest of paths", analysed,
-            [&] { paths("second paths", first, static_cast<std::uint32_t>(most), s_.spp, false); });
+        if (!takesFirstPathsOnly(component_, s_)) {
+            g_.only("rest of paths", analysed,
+                [&] { paths("second paths", first, static_cast<std::uint32_t>(most), s_.spp, false); });
+        }
         count();
         if (varies()) {
             deviations();
@@ -95,7 +102,7 @@ public:
             return;
         }
         // What was stopped early has not the counts that the parts of samples were made for.
-        if (widens(s_)) {
+        if (widensHere()) {
             g_.only(
                 "widening", [state = state_](const Run& run) { return state->analysed && !run.cut(); },
                 [&] {
@@ -104,18 +111,28 @@ public:
                 });
         }
         addSamples(); // not before: widening takes the most memory
-        const char* program = varies() ? "filter/filter_paths.cl" : "filter/filter_indirect.cl";
         shared::FilterParams params = filterParams();
         params.fitted = std::min(params.fitted, channels); // of the variance the mean, which is not negative
-        addFiltered(gaussianFilter(f_, { "filter of indirect", PassKind::Filter, program },
-            varies() ? channels + 1 : channels, params, value_, beta_)
-                        .value);
+        const std::uint32_t planes = varies() ? channels + 1 : channels;
+        if (byCurvature()) {
+            const char* program = varies() ? "filter/filter_axes_paths.cl" : "filter/filter_axes.cl";
+            addFiltered(
+                gaussianFilter(f_, { "filter of indirect", PassKind::Filter, program }, planes, params, value_, axes_)
+                    .value);
+            return;
+        }
+        const char* program = varies() ? "filter/filter_paths.cl" : "filter/filter_indirect.cl";
+        addFiltered(
+            gaussianFilter(f_, { "filter of indirect", PassKind::Filter, program }, planes, params, value_, beta_)
+                .value);
     }
 
 private:
     bool isUniform() const { return s_.sampling == Sampling::Uniform || s_.indirect.counts == IndirectCounts::Uniform; }
     /// Whether a pixel's samples are asked how much they vary, for what filters do.
-    bool varies() const { return widens(s_) || usesFallback(s_); }
+    bool varies() const { return widensHere() || usesFallback(s_); }
+    bool byCurvature() const { return isByCurvature(component_, s_); }
+    bool widensHere() const { return widens(s_) && !byCurvature(); }
     shared::FilterParams filterParams() const { return pathFilterParams(f_, component_); }
     shared::AnalysisParams countParams() const { return pathCountParams(f_.analysisParams(), component_, s_); }
     shared::ReflectorParams reflectorParams() const { return render::reflectorParams(f_, component_); }
@@ -155,6 +172,7 @@ private:
     int vertices_; ///< of a path
     std::shared_ptr<TermState> state_;
     graph::Handle<Metres>& beta_;
+    AxisWidths axes_; ///< where they follow from curvatures; beta_ is their mean then
     graph::Handle<Sums> sums_;
     graph::Handle<Value> value_, parts_;
     graph::Handle<Extremes> extremes_;
@@ -208,7 +226,16 @@ void PathGraph::paths(const char* pass, std::uint32_t from, std::uint32_t most, 
 
 void PathGraph::widthsAndCounts()
 {
-    reflectorWidths(f_, reflectorParams(), extremes_, taken_, beta_);
+    if (byCurvature()) {
+        const bool smooth = s_.environment.widths == EnvironmentWidths::Corrected;
+        curvatureWidths(f_, curvatureParams(f_, component_), smooth ? smoothedOccluders(f_, extremes_) : extremes_,
+            taken_, axes_, beta_);
+    } else {
+        reflectorWidths(f_, reflectorParams(), extremes_, taken_, beta_);
+    }
+    if (takesFirstPathsOnly(component_, s_)) {
+        return;
+    }
     if (isUniform()) {
         uniformCounts(f_, static_cast<std::uint32_t>(s_.spp), taken_, wanted_);
     } else if (s_.indirect.counts == IndirectCounts::Variance) {

@@ -27,6 +27,7 @@ shared::PathParams PathWaves::pathParams() const
     shared::PathParams p = render::pathParams(f_, component_);
     p.sampler = waveSampler(settings());
     p.firstPass = 0;
+    p.occluders = 0; // widths follow from distances
     p.skipsMirrors = 0; // pixels have receivers of all kinds, and one mean
     p.strata = static_cast<std::uint32_t>(settings().spp); // receivers have but some of their pixel's samples
     return p;

@@ -218,6 +218,11 @@ void addAblationOptions(CLI::App& parser, RenderOptions& o)
         "How directions to what is beyond the scene are chosen: each by its map, or among 4096 that a frame begins "
         "with",
         o.environmentSampling);
+    addChoice(parser, ablationGroup, "--environment-widths", environmentWidths,
+        "What widths of filters of light from beyond the scene follow from: what hides it and how wide that light is, "
+        "the "
+        "default; curvature, what hides it and the map's spectrum, as published; or such by corrected constants",
+        o.environmentWidths);
 }
 
 void addEffectOptions(CLI::App& parser, RenderOptions& o)

@@ -69,6 +69,7 @@ struct RenderOptions {
     std::optional<render::Counts> counts;
     std::optional<render::LightSampling> lightSampling;
     std::optional<render::EnvironmentSampling> environmentSampling;
+    std::optional<render::EnvironmentWidths> environmentWidths;
 };
 
 /// Adds the options to the subcommand's parser; parsing fills `options`, which must outlive it.

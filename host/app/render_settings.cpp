@@ -41,6 +41,7 @@ void refuseFilterOptions(const RenderOptions& o)
         { "--max-spp", o.maxSpp.has_value() }, { "--sampling", o.sampling.has_value() },
         { "--filter", o.filter.has_value() }, { "--filter-width", o.filterWidth.has_value() },
         { "--falloff", o.falloff.has_value() }, { "--counts", o.counts.has_value() },
+        { "--environment-widths", o.environmentWidths.has_value() },
         { "--temporal", o.temporal.value_or(render::Temporal::Off) != render::Temporal::Off } };
     for (const auto& [name, isGiven] : given) {
         if (isGiven) {
@@ -141,18 +142,25 @@ void applyIndirectCounts(const RenderOptions& o, render::Settings& s)
     }
 }
 
-void applyAblations(const RenderOptions& o, bool distributed, render::Settings& s)
+void applyAblations(const RenderOptions& o, const scene::Scene& scene, bool distributed, render::Settings& s)
 {
+    refuse(o.environmentWidths && render::pictureOf(scene) == nullptr, "without light from beyond the scene",
+        "--environment-widths", "give the scene an [environment]");
+    refuse(o.environmentWidths && s.integrator == Integrator::AmbientOcclusion, "with integrator ao",
+        "--environment-widths", "add --integrator path");
     s.sampling = o.sampling.value_or(s.sampling);
     s.filtering = o.filter.value_or(s.filtering);
     s.fixedWidth = o.filterWidth.value_or(s.fixedWidth);
     s.shading = o.falloff.value_or(s.shading);
     s.counts = o.counts.value_or(s.counts);
+    s.environment.widths = o.environmentWidths.value_or(s.environment.widths);
     applyIndirectCounts(o, s);
     if (o.filterWidth && s.filtering != Filtering::Fixed) {
         throw UsageError(
             "option has no effect", fmt::format("--filter-width {}", *o.filterWidth), "add --filter fixed");
     }
+    refuse(o.environmentWidths && s.filtering == Filtering::Fixed, "with --filter fixed", "--environment-widths",
+        "choose --filter adaptive");
     if (o.counts && s.sampling == Sampling::Uniform) {
         throw UsageError("option has no effect with uniform sampling", "--counts", "leave it out");
     }
@@ -168,7 +176,7 @@ void refuseUndistributed(const RenderOptions& o)
 {
     const std::pair<const char*, bool> given[] = { { "--falloff", o.falloff.has_value() },
         { "--sampling", o.sampling.has_value() }, { "--counts", o.counts.has_value() },
-        { "--sampler", o.sampler.has_value() } };
+        { "--sampler", o.sampler.has_value() }, { "--environment-widths", o.environmentWidths.has_value() } };
     for (const auto& [name, isGiven] : given) {
         if (isGiven) {
             throw UsageError(o.progressive
@@ -243,7 +251,7 @@ render::Settings resolveSettings(const RenderOptions& o, const scene::Scene& sce
         if (distributed) {
             refuseUndistributed(o);
         }
-        applyAblations(o, distributed, s);
+        applyAblations(o, scene, distributed, s);
         applyCounts(o, scene, distributed, s);
     }
     render::validate(s, distributed);

@@ -33,12 +33,13 @@ std::int64_t texturePixels(const std::string& option, const std::string& text);
 /// The names of bvh::Mode, in the order of its values.
 inline const std::vector<std::string> bvhModes = { "fast", "default", "quality" };
 
-/// The names of render::Integrator, render::PixelFilter, render::LightSampling and render::Temporal, in the order of
-/// their values.
+/// The names of render::Integrator, render::PixelFilter, render::LightSampling, render::Temporal and
+/// render::EnvironmentWidths, in the order of their values.
 inline const std::vector<std::string> integrators = { "path", "ao" };
 inline const std::vector<std::string> pixelFilters = { "box", "gaussian", "blackman-harris" };
 inline const std::vector<std::string> lightSamplings = { "both", "lights", "directions" };
 inline const std::vector<std::string> temporals = { "off", "on" };
+inline const std::vector<std::string> environmentWidths = { "penumbrae", "curvature", "corrected" };
 
 /// The index of text among choices.
 std::size_t choice(const std::string& option, const std::string& text, const std::vector<std::string>& choices);

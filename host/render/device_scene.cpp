@@ -1,5 +1,6 @@
 #include "host/render/device_scene.h"
 
+#include "host/render/effect.h"
 #include "host/render/quadrature.h"
 #include "kernels/shared/bsdf.h"
 
@@ -269,6 +270,7 @@ DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, 
     , sharedPicks(device, lights.shared.picks.size(), "shared lights' probabilities")
     , environment(device, 1, "environment")
     , environmentTable(device, lights.beyond.numbers.size(), "environment's table")
+    , environmentBandwidth(pictureOf(scene))
 {
     materials.upload(queue, materialData(scene));
     std::vector<shared::TextureData> infos;

@@ -4,6 +4,7 @@
 #include "host/device/memory_plan.h"
 #include "host/render/direct_lights.h"
 #include "host/render/emitters.h"
+#include "host/render/environment_bandwidth.h"
 #include "host/render/hierarchy.h"
 #include "host/scene/scene.h"
 #include "kernels/shared/bvh_types.h"
@@ -81,6 +82,7 @@ public:
     } sharedTerm;
     float emitterShare = 0; ///< probability that a path's vertex samples them and no other light
     float environmentShare = 0; ///< the same of what is beyond the scene
+    EnvironmentBandwidth environmentBandwidth; ///< of what is beyond the scene
     float diameter = 0; ///< metres, diagonal of the bounds
     float largestDimension = 0; ///< metres, of the bounds
     bool specular = false; ///< hasSpecular()

@@ -213,7 +213,8 @@ Settings asPublished(std::optional<float> mu)
         .widthScale = in.widthScale,
         .lobeWidening = 0.0f,
         .firstShare = 1.0f,
-        .leastShare = 0.5f };
+        .leastShare = 0.5f,
+        .widths = EnvironmentWidths::Curvature };
     DistributedSettings& d = s.distributed;
     d.published = true;
     d.firstPaths = 16;
@@ -363,6 +364,7 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
                 { "fillRadius", number(s.fillRadius) }, { "countExponent", number(s.countExponent) },
                 { "varianceFloor", number(s.varianceFloor) }, { "varianceSpread", number(s.varianceSpread) } });
     }
+    constexpr const char* environmentWidths[] = { "penumbrae", "curvature", "corrected" };
     if (s.method == Method::AxisAligned) { // bounces or not: light of meshes and environments goes by it, too
         describeIndirect(s.indirect, out);
         const EnvironmentSettings& e = s.environment;
@@ -370,7 +372,8 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
             { { "environmentRelative", number(e.relative) }, { "environmentNormalDegrees", number(e.normalDegrees) },
                 { "environmentWidthScale", number(e.widthScale) },
                 { "environmentLobeWidening", number(e.lobeWidening) },
-                { "environmentFirstShare", number(e.firstShare) }, { "environmentLeastShare", number(e.leastShare) } });
+                { "environmentFirstShare", number(e.firstShare) }, { "environmentLeastShare", number(e.leastShare) },
+                { "environmentWidths", environmentWidths[static_cast<int>(e.widths)] } });
     }
     if (s.method == Method::AxisAligned) {
         describeDistributed(s.distributed, out);

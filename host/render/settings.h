@@ -112,6 +112,13 @@ struct IndirectSettings {
     float ambientDistance = 0.0f; ///< metres: farther surfaces do not occlude; 0: any distance does
 };
 
+/// What the widths of environment light's filters follow from where pixels have one receiver.
+enum class EnvironmentWidths {
+    Penumbrae, ///< distances of what hides directions, and how wide what is there is
+    Curvature, ///< (6.13), (6.17) of thesis chapter 6, along x and y
+    Corrected, ///< the same with other constants, of smoothed occluders, and bounded in pixels
+};
+
 /// Direct light from beyond the scene, besides IndirectSettings; docs/environment.md says how they were chosen.
 struct EnvironmentSettings {
     EnvironmentSampling sampling = EnvironmentSampling::Map;
@@ -124,6 +131,7 @@ struct EnvironmentSettings {
     float firstShare =
         0.25f; ///< of the samples, that the analysis of pixels with one receiver begins with; 1: as many as of paths
     float leastShare = 0.25f; ///< of the mean count, that every such pixel takes
+    EnvironmentWidths widths = EnvironmentWidths::Penumbrae;
 };
 
 /// Where texture and irradiance are taken apart in pixels of several receivers.

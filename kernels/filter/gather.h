@@ -7,8 +7,9 @@
 // fitted, not their mean but what a straight line through them has at the pixel. Here is what neighbours weigh, and
 // their sums; gather_lines.h has the passes. Each program that filters sets WEDGE_GATHER_CHANNELS, the planes of value.
 // Those of packed frames set WEDGE_GATHER_PACKED, too: normals are packed, and pixels' sizes have 16 bits
-// (packed_planes.h). They are programs of their own since a test of a parameter in each tap takes several times as
-// long. And all is inlined by order: compilers leave calls, with vectors in memory, to functions of this size, and
+// (packed_planes.h). Those of WEDGE_GATHER_MEAN_SQUARE weigh a pair by the mean of both bandwidths' squares (6.23),
+// whatever `narrower` says. They are programs of their own since a test of a parameter in each tap takes several times
+// as long. And all is inlined by order: compilers leave calls, with vectors in memory, to functions of this size, and
 // gathers took twice as long.
 #ifndef WEDGE_GATHER_H
 #define WEDGE_GATHER_H
@@ -31,6 +32,13 @@
 #define WEDGE_FIT_RIDGE 0.3f
 /// log2(e) / 2
 #define WEDGE_HALF_LOG2E 0.72134752f
+/// How much wider than a pixel's own kernel that of a pair may be: half of the square of its bandwidth is left where
+/// the neighbour's is 0.
+#ifdef WEDGE_GATHER_MEAN_SQUARE
+#define WEDGE_WIDEST_PAIR 1.41421356f
+#else
+#define WEDGE_WIDEST_PAIR 1.0f
+#endif
 
 /// What a block of pixels needs to weigh its neighbours.
 typedef struct {
@@ -144,7 +152,7 @@ WEDGE_INLINE GatherWidth gatherWidth(FilterParams p, GatherBlock b, Vec3 step, i
     w.beta = gathers ? beta : (float16)(1.0f);
     w.scale = -WEDGE_HALF_LOG2E / (w.beta * w.beta);
     w.limit = p.cut * p.cut * w.beta * w.beta;
-    w.radius = gathers ? radiusInPixels(p, b, step, p.cut * w.beta) : (float16)(0.0f);
+    w.radius = gathers ? radiusInPixels(p, b, step, WEDGE_WIDEST_PAIR * p.cut * w.beta) : (float16)(0.0f);
     return w;
 }
 
@@ -179,6 +187,13 @@ WEDGE_INLINE Neighbours neighboursAt(FilterParams p, GatherBlock b, int j, float
 /// What neighbours `steps` pixels away weigh, whose own kernels are betaThere wide: 0 where they are not in reach.
 WEDGE_INLINE float16 neighbourWeights(FilterParams p, GatherWidth width, Neighbours n, float16 betaThere, float steps)
 {
+#ifdef WEDGE_GATHER_MEAN_SQUARE
+    // Bandwidths are 1 / (2 beta). A pixel with no kernel of its own (beta 0) counts as if it had the gathering one's.
+    const float16 there = betaThere > 0.0f ? -WEDGE_HALF_LOG2E / (betaThere * betaThere) : width.scale;
+    const float16 exponent = n.squared * (0.5f * (width.scale + there));
+    const int16 taken = n.known & (exponent >= -WEDGE_HALF_LOG2E * p.cut * p.cut) & (steps <= width.radius);
+    return taken ? n.area * exp2Block(exponent) : (float16)(0.0f);
+#else
     const int16 taken = n.known & (n.squared <= width.limit) & (steps <= width.radius);
     float16 scale = width.scale;
     if (p.narrower != 0u) {
@@ -187,6 +202,7 @@ WEDGE_INLINE float16 neighbourWeights(FilterParams p, GatherWidth width, Neighbo
         scale = -WEDGE_HALF_LOG2E / (own * own);
     }
     return taken ? n.area * exp2Block(n.squared * scale) : (float16)(0.0f);
+#endif
 }
 
 /// Sums over a line of pixels that weigh w, d pixels from the one that gathers, which is one of them and weighs 1.

@@ -1,8 +1,9 @@
 // The passes of gather.h's filter. Programs of packed frames in which nothing reads the effective counts set
 // WEDGE_GATHER_VALUE_ONLY.
 //
-// in   value, beta (metres; 0: keep the pixel's own value, still a neighbour of others; negative: neither), position,
-//      normal, pixelSize, objectId, and for the second pass the first one's effective counts
+// in   value, beta (metres, along the pass's axis; 0: keep the pixel's own value, still a neighbour of others;
+//      negative: neither), position, normal, pixelSize, objectId, and for the second pass the first one's effective
+//      counts
 // out  filtered (like value), effective: the number of equal samples that the gather amounts to (countOfLine()), times
 //      that of the pass before
 #ifndef WEDGE_GATHER_LINES_H

@@ -6,14 +6,16 @@
 #include "light/unshadowed_environment.h"
 #include "paths/emitter_rays.h"
 
-/// Of what hides a direction, `hidden` metres away: how far a reflector would be whose light varies as what the
-/// occluder lets through does. What the map has around the direction is as wide as a disk of even density: the penumbra
-/// of a small sun is narrow, that of an even sky as wide as the occluder is far (B_e of (6.13), by direction). Infinite
-/// where the map is dark.
-WEDGE_FN float penumbraOf(BeyondData beyond, BeyondSample seen, float hidden)
+/// Of what hides a direction, a metre away: how far a reflector would be whose light varies as what the occluder lets
+/// through does. What the map has around the direction is as wide as a disk of even density: the penumbra of a small
+/// sun is narrow, that of an even sky as wide as the occluder is far (B_e of (6.13), by direction). occluders: 1 / (cos
+/// theta), z / cos^2 theta of (6.13) at the height z = r cos theta. Infinite where the map is dark. cosine: with the
+/// normal
+WEDGE_FN float penumbraOf(BeyondData beyond, BeyondSample seen, uint occluders, float cosine)
 {
     const float extent = fmin(1.0f, rsqrt(fmax(6.28318531f * seen.pdf, 1e-20f)));
-    return luminance(seen.radiance) > beyond.map.dark ? fmax(extent * hidden, 1e-20f) : INFINITY;
+    const float reach = occluders != 0u ? 1.0f / fmax(cosine, 1e-6f) : extent;
+    return luminance(seen.radiance) > beyond.map.dark ? reach : INFINITY;
 }
 
 /// Divides what lanes' samples bring by what would come to their receivers if nothing were hidden.
@@ -42,11 +44,12 @@ WEDGE_FN void divideByUnshadowed(
 }
 
 /// One sample a lane, whose reflected direction is that of `rays` and counts `weight`, which becomes 1: fills
-/// paths->radiance, counts of rays, and in paths->distance, where sinks take distances, what widths follow from.
+/// paths->radiance, counts of rays, and in paths->distance, where sinks take distances, what widths follow from: see
+/// penumbraOf().
 WEDGE_FN void traceEnvironment(__global const TraversalNode* restrict nodes,
     __global const TriangleBlock* restrict blocks, BeyondData beyond, SampleParams sampling, bool glossy,
-    const ReceiverPacket* r, const VecLanes* facing, const uint* last, const RayPacket* rays, float* weight,
-    PathPacket* paths)
+    uint occluders, const ReceiverPacket* r, const VecLanes* facing, const uint* last, const RayPacket* rays,
+    float* weight, PathPacket* paths)
 {
     const bool both = sampling.lightSampling == WEDGE_LIGHTS_BOTH;
     PacketHits hits;
@@ -71,7 +74,9 @@ WEDGE_FN void traceEnvironment(__global const TraversalNode* restrict nodes,
         }
 #ifdef WEDGE_SINK_TAKES_DISTANCES
         if (follows && !open) {
-            paths->distance[lane] = penumbraOf(beyond, seenBeyond(beyond, direction), hits.t[lane]);
+            const float cosine = vecDot(vec3(r->normalX[lane], r->normalY[lane], r->normalZ[lane]), direction);
+            const float reach = penumbraOf(beyond, seenBeyond(beyond, direction), occluders, cosine);
+            paths->distance[lane] = fmax(reach * hits.t[lane], 1e-20f);
         }
 #endif
         weight[lane] = 1.0f;
@@ -88,7 +93,7 @@ WEDGE_FN void traceEnvironment(__global const TraversalNode* restrict nodes,
                 setLaneVec(&light, lane, brought);
                 const Vec3 origin = vec3(r->originX[lane], r->originY[lane], r->originZ[lane]);
                 setRay(&shadow, lane, origin, l, 0.0f, INFINITY);
-                extent[lane] = penumbraOf(beyond, chosen, 1.0f);
+                extent[lane] = penumbraOf(beyond, chosen, occluders, vecDot(n, l));
                 paths->shadowRays[lane] = 1u;
             }
         }

@@ -207,8 +207,8 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
                     at.dealt, &lanes->facing, counts.deal.last, follows, &packet, weight, &paths);
             } else if (WEDGE_ENVIRONMENT_MAP != 0 && WEDGE_IS_OF_ENVIRONMENT(params.component)) {
                 traceEnvironment(nodes, blocks, lights.beyond, sampling,
-                    params.component == WEDGE_COMPONENT_ENVIRONMENT_GLOSSY, at.dealt, &lanes->facing, counts.deal.last,
-                    &packet, weight, &paths);
+                    params.component == WEDGE_COMPONENT_ENVIRONMENT_GLOSSY, params.occluders, at.dealt, &lanes->facing,
+                    counts.deal.last, &packet, weight, &paths);
                 if (params.relative != 0u) {
                     divideByUnshadowed(environment, lights.beyond, at.dealt, &paths);
                 }

@@ -47,6 +47,7 @@ typedef struct {
     uint relative; ///< 1: samples of the environment are divided by unshadowedLight()
     uint skipsMirrors; ///< 1: receivers on mirrors and glass have no samples
     uint precomputed; ///< 1: directions beyond the scene are chosen among pre-computed samples
+    uint occluders; ///< 1: of the environment, distances are those of what hides directions, over their cosines
 } PathParams;
 
 /// Distances of reflectors to widths and counts.

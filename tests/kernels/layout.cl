@@ -1,6 +1,7 @@
 // Reports how the device lays out the structs that it shares with the host.
 #include "shared/bvh_types.h"
 #include "shared/camera.h"
+#include "shared/curvature.h"
 #include "shared/cutout.h"
 #include "shared/distributed.h"
 #include "shared/environment.h"

@@ -96,6 +96,8 @@ check published_bounce "$scenes/penumbra.toml" --traversal wide --size 9x3 --met
 check one_pixel "$scenes/penumbra.toml" --traversal wide --size 1x1 --method aaf --spp 16 --bounces 1
 check sky "$scenes/sky.toml" --traversal wide --size 9x5 --method aaf --spp 16
 check sky_precomputed "$scenes/sky.toml" --traversal wide --size 9x5 --method mc --spp 2 --environment-sampling precomputed
+check sky_published "$scenes/sky.toml" --traversal wide --size 9x5 --method aaf --as-published
+check sky_corrected "$scenes/sky.toml" --traversal wide --size 9x5 --method aaf --spp 16 --environment-widths corrected
 check sky_waves "$scenes/sky.toml" --traversal wide --size 7x3 --method aaf --spp 16 --antialias
 # Microfacets, normal maps and heights, and cut-outs.
 cat >"$work/bumps.toml" <<END

@@ -32,6 +32,24 @@ std::vector<graph::Argument> gathered(const FrameBuilder& frame, const shared::F
         reads("objectId", s.objectId, reach) };
 }
 
+/// Both passes, into planes that are there.
+void filterAlong(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels, const shared::FilterParams& params,
+    const graph::Handle<Value>& value, const AxisWidths& widths, Gathered& out)
+{
+    const int pixels = static_cast<int>(params.maxRadius);
+    const graph::Reach along { .x = pixels }, across { .y = pixels };
+    auto rows = frame.graph.plane<Value>("rows filtered", graph::floatPlanes(channels));
+    auto rowCounts = frame.graph.plane<Count>("effective count of rows", graph::floats);
+    frame.blocks(run.pass, run.kind, { frame.program(run.program), "filterRows" },
+        joined({ frame.rectangle(params), reads("value", value, along), reads("beta", widths.x, along) },
+            gathered(frame, params, along), Arguments { writes("filtered", rows), writes("effective", rowCounts) }));
+    frame.blocks(run.pass, run.kind, { frame.program(run.program), "filterColumns" },
+        joined({ frame.rectangle(params), reads("value", rows, across), reads("beta", widths.y, across) },
+            gathered(frame, params, across),
+            Arguments { reads("effectiveRows", rowCounts), writes("filtered", out.value),
+                writes("effective", out.effective) }));
+}
+
 } // namespace
 
 Gathered filteredPlanes(FrameBuilder& frame, std::uint32_t channels)
@@ -43,8 +61,14 @@ Gathered filteredPlanes(FrameBuilder& frame, std::uint32_t channels)
 Gathered gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels,
     const shared::FilterParams& params, const graph::Handle<Value>& value, const graph::Handle<Metres>& beta)
 {
+    return gaussianFilter(frame, run, channels, params, value, AxisWidths { beta, beta });
+}
+
+Gathered gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels,
+    const shared::FilterParams& params, const graph::Handle<Value>& value, const AxisWidths& widths)
+{
     Gathered out = filteredPlanes(frame, channels);
-    gaussianFilter(frame, run, channels, params, value, beta, out);
+    filterAlong(frame, run, channels, params, value, widths, out);
     return out;
 }
 
@@ -52,18 +76,7 @@ void gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t cha
     const shared::FilterParams& params, const graph::Handle<Value>& value, const graph::Handle<Metres>& beta,
     Gathered& out)
 {
-    const int pixels = static_cast<int>(params.maxRadius);
-    const graph::Reach along { .x = pixels }, across { .y = pixels };
-    auto rows = frame.graph.plane<Value>("rows filtered", graph::floatPlanes(channels));
-    auto rowCounts = frame.graph.plane<Count>("effective count of rows", graph::floats);
-    frame.blocks(run.pass, run.kind, { frame.program(run.program), "filterRows" },
-        joined({ frame.rectangle(params), reads("value", value, along), reads("beta", beta, along) },
-            gathered(frame, params, along), Arguments { writes("filtered", rows), writes("effective", rowCounts) }));
-    frame.blocks(run.pass, run.kind, { frame.program(run.program), "filterColumns" },
-        joined({ frame.rectangle(params), reads("value", rows, across), reads("beta", beta, across) },
-            gathered(frame, params, across),
-            Arguments { reads("effectiveRows", rowCounts), writes("filtered", out.value),
-                writes("effective", out.effective) }));
+    filterAlong(frame, run, channels, params, value, { beta, beta }, out);
 }
 
 graph::Handle<Count> gatheredCounts(FrameBuilder& frame, std::string_view pass, device::PassKind kind,

@@ -19,6 +19,15 @@ struct Gathered {
 Gathered gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels,
     const shared::FilterParams& params, const graph::Handle<Value>& value, const graph::Handle<Metres>& beta);
 
+/// Widths along the image's axes, metres.
+struct AxisWidths {
+    graph::Handle<Metres> x, y;
+};
+
+/// The same with widths of their own along x and along y.
+Gathered gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels,
+    const shared::FilterParams& params, const graph::Handle<Value>& value, const AxisWidths& widths);
+
 /// The same into planes that were there before, so that they may be read after the group of passes in hand.
 Gathered filteredPlanes(FrameBuilder& frame, std::uint32_t channels);
 void gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels,
