@@ -16,9 +16,10 @@ namespace wedge::test {
 /// What the filters read.
 struct FilterImage {
     shared::FilterParams params {};
-    Planes<float> value, beta, position, normal, pixelSize;
+    Planes<float> value, beta, position, normal, pixelSize, slopeWidth;
     Planes<std::uint32_t> objectId;
     std::optional<Planes<float>> betaOfColumns; ///< where widths along y are others than beta
+    std::optional<Planes<float>> gradients; ///< of sheared filters: two planes a channel of value
     bool meanSquare = false; ///< pairs have the mean of both squared bandwidths, as WEDGE_GATHER_MEAN_SQUARE
 
     FilterImage(int width, int height, std::size_t channels)
@@ -31,6 +32,7 @@ struct FilterImage {
         , position(layout, 3, 0.0f)
         , normal(layout, 3, 0.0f)
         , pixelSize(layout, 1, 1.0f)
+        , slopeWidth(layout, 1, 1.0f)
         , objectId(layout, 1, 0u)
     {
     }
@@ -190,9 +192,10 @@ public:
     /// Squared distance across the light's rays (methods: e = D - l (D.n)/(l.n), or along the normal).
     double squared(glm::dvec3 d) const
     {
-        const glm::dvec3 e = d - slant_ * glm::dot(d, toGlm(image_.params.lightNormal));
+        const glm::dvec3 e = offset(d);
         return glm::dot(e, e);
     }
+    glm::dvec3 offset(glm::dvec3 d) const { return d - slant_ * glm::dot(d, toGlm(image_.params.lightNormal)); }
 
     /// What a neighbour counts for the surface that it sees: 0 off the pixel's own. *doubt: a rounding may decide.
     double surface(int x, int y, int qx, int qy, bool* doubt) const
@@ -224,6 +227,7 @@ private:
 struct LineTap {
     int x, y;
     double d, weight;
+    glm::dvec3 offset; ///< metres
 };
 
 /// What the values of each tap are multiplied by: weights over their sum or, fitted, the coefficients of a straight
@@ -254,6 +258,21 @@ inline double pairWidth(const FilterImage& image, double beta, double there)
     if (image.meanSquare) // of both bandwidths, 1 / (2 beta)
         return std::sqrt(2 / (1 / (beta * beta) + 1 / (there * there)));
     return image.params.narrower != 0 ? std::min(beta, there) : beta;
+}
+
+/// What a neighbour counts less for its gradients; those of channel c are channels of `in` after the values.
+inline double shearOf(
+    const FilterImage& image, const OracleResult& in, const LineTap& tap, double slopeWidth, std::size_t c)
+{
+    const std::size_t values = image.value.values.size() / image.value.layout.size;
+    if (!image.gradients || c >= values)
+        return 0.0;
+    const auto gradient = [&](std::size_t axis) {
+        return in.value(tap.x, tap.y, static_cast<int>(values + 2 * c + axis));
+    };
+    return (glm::dot(tap.offset, toGlm(image.params.shearU)) * gradient(0)
+               + glm::dot(tap.offset, toGlm(image.params.shearV)) * gradient(1))
+        / slopeWidth;
 }
 
 /// One pass. in: values (channels a pixel) and counts of the pass before, with its doubts.
@@ -299,7 +318,8 @@ inline OracleResult gatherLine(const FilterImage& image, const OracleResult& in,
                 if (std::abs(k) > radius)
                     continue;
                 const double w = k == 0 ? 1.0 : seen * std::exp(-0.5 * squared / (pair * pair));
-                taps.push_back({ qx, qy, static_cast<double>(k), w });
+                taps.push_back({ qx, qy, static_cast<double>(k), w,
+                    geometry.offset(image.position.vector(qx, qy) - image.position.vector(x, y)) });
             }
             const std::size_t i = out.index(x, y);
             const auto channels = static_cast<std::size_t>(in.channels);
@@ -307,7 +327,9 @@ inline OracleResult gatherLine(const FilterImage& image, const OracleResult& in,
                 const std::vector<double> coefficients = lineCoefficients(taps, fitted);
                 double sum = 0;
                 for (std::size_t t = 0; t < taps.size(); ++t)
-                    sum += coefficients[t] * in.value(taps[t].x, taps[t].y, static_cast<int>(c));
+                    sum += coefficients[t]
+                        * (in.value(taps[t].x, taps[t].y, static_cast<int>(c))
+                            - shearOf(image, in, taps[t], std::max<double>(beta, image.slopeWidth.at(x, y)), c));
                 return sum;
             };
             for (std::size_t c = 0; c < channels; ++c) {
@@ -336,9 +358,12 @@ inline OracleResult oracleRows(const FilterImage& image)
         for (int x = 0; x < image.width(); ++x) {
             for (int c = 0; c < in.channels; ++c)
                 in.values.push_back(image.value.at(x, y, static_cast<std::size_t>(c)));
+            for (int k = 0; image.gradients && k < 2 * in.channels; ++k)
+                in.values.push_back(image.gradients->at(x, y, static_cast<std::size_t>(k)));
             in.counts.push_back(1);
             in.doubtful.push_back(false);
         }
+    in.channels *= image.gradients ? 3 : 1;
     return gatherLine(image, in, 1, 0);
 }
 

@@ -34,7 +34,14 @@ public:
         const auto objectId = bench_.buffer(image.objectId.values);
         const auto rows = bench_.filled(image.value.values.size(), -7.0f);
         const auto rowsEffective = bench_.filled(image.value.layout.size, -7.0f);
-        launch("filterRows", p, value, beta, position, normal, pixelSize, objectId, rows, rowsEffective);
+        const auto gradients = bench_.buffer(image.gradients ? image.gradients->values : std::vector<float>(1));
+        const auto slopeWidth = bench_.buffer(image.slopeWidth.values);
+        const auto rowGradients = bench_.filled(image.gradients ? image.gradients->values.size() : 1, -7.0f);
+        if (image.gradients)
+            launch("shearRows", p, value, beta, position, normal, pixelSize, objectId, gradients, slopeWidth, rows,
+                rowsEffective, rowGradients);
+        else
+            launch("filterRows", p, value, beta, position, normal, pixelSize, objectId, rows, rowsEffective);
         if (rowsOnly)
             return result(image, rows, rowsEffective);
         if (window.width() > 0) {
@@ -43,8 +50,12 @@ public:
         }
         const auto out = bench_.filled(image.value.values.size(), -7.0f);
         const auto effective = bench_.filled(image.value.layout.size, -7.0f);
-        launch("filterColumns", p, rows, betaOfColumns, position, normal, pixelSize, objectId, rowsEffective, out,
-            effective);
+        if (image.gradients)
+            launch("shearColumns", p, rows, beta, position, normal, pixelSize, objectId, rowGradients, slopeWidth,
+                rowsEffective, out, effective);
+        else
+            launch("filterColumns", p, rows, betaOfColumns, position, normal, pixelSize, objectId, rowsEffective, out,
+                effective);
         // Filtering in place would race: what was filtered is still there.
         const std::vector<float> after = bench_.read(value);
         CHECK(std::memcmp(after.data(), image.value.values.data(), after.size() * sizeof(float)) == 0);

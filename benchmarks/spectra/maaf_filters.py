@@ -92,6 +92,21 @@ def extrapolated(s_min, c):
     return Kernel(lambda d, y: (2.0 * gaussian(d, beta) - gaussian(d, wider)) * profile(y), 3.0 * wider, True)
 
 
+def score(y):
+    """-l'/l of the light's profile. The steps of the cut profile have what is left of the first moment, 1: what rises steeply
+    stands for them, as in the renderer (kernels/shared/light.h, scoreOf())."""
+    at = np.linspace(-CUT, CUT, 20001)
+    weights = profile(at) / profile(at).sum()
+    return y + (1.0 - (weights * at**2).sum()) / (weights * at**8).sum() * y**7
+
+
+def gradients(s_min, c):
+    """AAF's filter of what neighbours see less half of what their own gradients make of the way: the first order of a shear along
+    s_min. The gradient is the mean of f q over s_min, q the score."""
+    beta = c * s_min
+    return Kernel(lambda d, y: gaussian(d, beta) * profile(y) * (1.0 - 0.5 * d * score(y) / s_min), 3.0 * beta)
+
+
 def two_slope(s_min, s_max, c):
     """A joint Gaussian of d and y that leaves edges of slope s_min and of slope s_max as they are:
     var(d + s y) = s^2 + e (s - s_min)(s - s_max), with e small enough for that to stay near s^2 between them."""

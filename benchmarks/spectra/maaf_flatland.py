@@ -34,6 +34,7 @@ NODES = 24          # of the polynomial in y by which filters that depend on it 
 CONSTANTS = {
     "aaf": [0.1, 0.125, 1.0 / 6.0, 0.2, 0.25, 1.0 / 3.3, 0.35, 0.4, 0.5, 0.6],
     "extrapolated": [0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8],
+    "gradients": [0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8],
     "two_slope": [0.0125, 0.025, 0.05, 0.1, 0.15, 0.2, 0.25, 0.35, 0.5, 0.7, 1.0],
     "maaf": [1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0],     # Omega_max sigma; the paper's is 2
 }
@@ -177,6 +178,7 @@ def candidates(fitted):
     out["aaf"] = [(c, lambda s, c=c: filters.aaf(s["s_min"], c)) for c in CONSTANTS["aaf"]]
     out["extrapolated"] = [(c, lambda s, c=c: filters.extrapolated(s["s_min"], c)) for c in CONSTANTS["extrapolated"]]
     out["two_slope 0.25"] = [(0.25, lambda s: filters.two_slope(s["s_min"], s["s_max"], 0.25))]
+    out["gradients"] = [(c, lambda s, c=c: filters.gradients(s["s_min"], c)) for c in CONSTANTS["gradients"]]
     out["two_slope"] = [(c, lambda s, c=c: filters.two_slope(s["s_min"], s["s_max"], c)) for c in CONSTANTS["two_slope"]]
     for pairs in fit_maaf.PAIRS:
         name = f"maaf {2 * pairs - 1}"

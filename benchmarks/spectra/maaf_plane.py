@@ -32,6 +32,7 @@ ROWS = 16           # of the image that are sampled at once
 CONSTANTS = {
     "aaf": [0.125, 1.0 / 6.0, 0.2, 0.25, 1.0 / 3.3, 0.35, 0.4, 0.45, 0.5, 0.6],
     "extrapolated": [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0],
+    "gradients": [0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8],
     "two_slope": [0.05, 0.1, 0.15, 0.2, 0.25, 0.35, 0.5],
     "maaf": [1.5, 2.0, 2.5, 3.0],
 }
@@ -128,6 +129,7 @@ def candidates():
     out["extrapolated, product"] = [(c, lambda s, c=c: [(1.0, filters.extrapolated(s["s_min"], c))])
                                     for c in CONSTANTS["extrapolated"]]
     out["extrapolated, round"] = [(c, lambda s, c=c: extrapolated_round(s, c)) for c in CONSTANTS["extrapolated"]]
+    out["gradients"] = [(c, lambda s, c=c: [(1.0, filters.gradients(s["s_min"], c))]) for c in CONSTANTS["gradients"]]
     out["two_slope"] = [(c, lambda s, c=c: [(1.0, filters.two_slope(s["s_min"], s["s_max"], c))])
                         for c in CONSTANTS["two_slope"]]
     for pairs, noises in REFITTED.items():

@@ -11,6 +11,12 @@
 #include "kernels/shared/wedge.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+template <>
+inline constexpr std::string_view wedge::graph::kernelType<wedge::shared::LightScore> = "LightScore";
 
 namespace wedge::render {
 
@@ -45,6 +51,7 @@ public:
         , value_(g_.plane<Value>("value", graph::floatPlanes(channels_)))
         , parts_(g_.plane<Value>("value of part", frame.specular ? shortPairs : shortFloats))
         , extremes_(g_.plane<Extremes>("slopes", graph::floatPlanes(2)))
+        , scores_(g_.plane<Sums>("scores", graph::floatPlanes(4 * channels_)))
         , taken_(g_.plane<Count>("samples taken", graph::counts))
         , rays_(g_.plane<Count>("rays of light", graph::counts))
         , wanted_(g_.plane<Count>("samples wanted", graph::counts))
@@ -57,22 +64,22 @@ public:
         const auto spp = static_cast<std::uint32_t>(s_.spp);
         if (!f_.analysed()) {
             uniformCounts(f_, spp, f_.surfaces.objectId, wanted_);
-            samples("shadow rays", 0, monteCarloSlice, { sinks::sums(), sinks::means() });
+            samples("shadow rays", 0, monteCarloSlice);
             count();
             shade(value_, {});
             return;
         }
         f_.zero(extremes_, parts_);
+        if (sheared()) {
+            f_.zero(scores_);
+        }
         uniformCounts(f_, WEDGE_FIRST_PASS_RAYS, f_.surfaces.objectId, wanted_);
         firstPass();
         countRays();
         const auto analysed = [state = state_](const Run&) { return state->analysed; };
         wanted_ = g_.plane<Count>("samples wanted", graph::counts); // no version of the first: that ends here
         g_.only("analysis of light", analysed, [&] { widthsAndCounts(); });
-        g_.only("rest of light", analysed, [&] {
-            samples("second pass", WEDGE_FIRST_PASS_RAYS, secondPassSlice,
-                { sinks::sums(), sinks::means(), sinks::parts() });
-        });
+        g_.only("rest of light", analysed, [&] { samples("second pass", WEDGE_FIRST_PASS_RAYS, secondPassSlice); });
         count();
         if (s_.filtering == Filtering::None) {
             shade(value_, {});
@@ -80,13 +87,19 @@ public:
         }
         Gathered filtered = filteredPlanes(f_, channels_);
         g_.only("filter of light", analysed, [&] {
+            const std::optional<Shearing> shearing = sheared() ? std::optional(shears()) : std::nullopt;
             // What was stopped early has not the counts that the parts of samples were made for.
             if (widens(s_)) {
                 g_.only(
                     "widening", [](const Run& run) { return !run.cut(); }, [&] { widened(); });
             }
-            gaussianFilter(f_, { "filter", PassKind::Filter, "filter/filter.cl" }, channels_, filterParams(), value_,
-                beta_, filtered);
+            if (shearing) {
+                shearedFilter(f_, { "filter", PassKind::Filter, "filter/filter_sheared.cl" }, channels_,
+                    withShear(filterParams(), analysisParams(), light_), value_, beta_, *shearing, filtered);
+            } else {
+                gaussianFilter(f_, { "filter", PassKind::Filter, "filter/filter.cl" }, channels_, filterParams(),
+                    value_, beta_, filtered);
+            }
         });
         // Not in that group: what is added up need not be there before it.
         shade(filtered.value, analysed);
@@ -108,15 +121,23 @@ private:
         rays_ = g_.plane<Count>("rays of light", graph::counts);
         f_.zero(rays_);
     }
+    bool sheared() const { return isSheared(s_); }
+    /// The sinks of a pass that analysed frames have, and what they are handed.
+    std::pair<std::vector<graph::Sink>, Arguments> becoming();
+    Shearing shears();
     void firstPass();
-    void samples(const char* pass, std::uint32_t from, std::uint32_t slice, std::vector<graph::Sink> becoming);
+    void samples(const char* pass, std::uint32_t from, std::uint32_t slice);
     void widthsAndCounts();
     void narrowForLobes();
     void countsFromVariance();
     void widened();
     void shade(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition);
 
-    shared::AnalysisParams analysisParams() const { return lightParams(f_.analysisParams(), s_, light_); }
+    shared::AnalysisParams analysisParams() const
+    {
+        const shared::AnalysisParams p = lightParams(f_.analysisParams(), s_, light_);
+        return sheared() ? withShearedWidths(p, s_, light_) : p;
+    }
     graph::Argument sampleParams() const { return value("params", lightSampleParams(s_, index_)); }
     graph::Argument light() const { return value("light", light_); }
     graph::Argument quadrature() const
@@ -135,31 +156,61 @@ private:
     graph::Handle<Sums> sums_;
     graph::Handle<Value> value_, parts_;
     graph::Handle<Extremes> extremes_;
+    graph::Handle<Sums> scores_;
     graph::Handle<Count> taken_, rays_, wanted_;
 };
 
+std::pair<std::vector<graph::Sink>, Arguments> LightGraph::becoming()
+{
+    std::vector<graph::Sink> sinks { sinks::sums(), sinks::means() };
+    Arguments sunk { updates("sums", sums_), updates("value", value_) };
+    if (f_.analysed()) {
+        sinks.push_back(sinks::parts());
+        sunk.push_back(updates("parts", parts_));
+    }
+    if (f_.analysed() && sheared()) {
+        sinks.push_back(sinks::scores());
+        sunk.push_back(value("score", scoreOf(light_).score));
+        sunk.push_back(updates("scores", scores_));
+    }
+    return { std::move(sinks), std::move(sunk) };
+}
+
+/// And narrows filters by counts.
+Shearing LightGraph::shears()
+{
+    Shearing out { g_.plane<Value>("gradients", graph::floatPlanes(2 * channels_)),
+        g_.plane<Metres>("width by slopes", graph::floats) };
+    const graph::Argument p = f_.rectangle(analysisParams());
+    f_.blocks("filter", PassKind::Filter, { "analysis/shear.cl", "shadowGradients" },
+        { p, reads("sums", sums_), reads("scores", scores_), writes("gradients", out.gradients) });
+    f_.pixels("filter", PassKind::Filter, { "analysis/shear.cl", "narrowByCounts" },
+        { p, value("mean", static_cast<float>(s_.spp)), value("exponent", s_.countWidth), reads("taken", taken_),
+            writes("slopeWidth", out.slopeWidth), updates("beta", beta_) });
+    return out;
+}
+
 void LightGraph::firstPass()
 {
-    f_.trace("first pass",
-        { "light/area_light.cl", "sampleShadows", { sinks::sums(), sinks::means(), sinks::parts(), sinks::slopes() } },
+    auto [sinks, sunk] = becoming();
+    sinks.push_back(sinks::slopes());
+    sunk.push_back(updates("slopes", extremes_));
+    f_.trace("first pass", { "light/area_light.cl", "sampleShadows", std::move(sinks) },
         joined({ f_.frame(), sampleParams(), light() }, f_.hierarchy(), f_.receivers(),
             Arguments { reads("wanted", wanted_), value("lastSample", WEDGE_FIRST_PASS_RAYS), updates("taken", taken_),
-                tallies("rays", rays_), updates("sums", sums_), updates("value", value_), updates("parts", parts_),
-                updates("slopes", extremes_) }),
+                tallies("rays", rays_) },
+            sunk),
         true, [](const graph::Launch&) { return WEDGE_FIRST_PASS_RAYS; });
     f_.host("analysable", [state = state_](Run& run) { state->analysed = !run.cut(); });
 }
 
-void LightGraph::samples(const char* pass, std::uint32_t from, std::uint32_t slice, std::vector<graph::Sink> becoming)
+void LightGraph::samples(const char* pass, std::uint32_t from, std::uint32_t slice)
 {
     const int most = s_.sampling == Sampling::Uniform ? s_.spp : std::max(s_.maxSpp, s_.spp);
     const SampleSlices slices(from, static_cast<std::uint32_t>(most), slice, s_.spp);
-    Arguments sunk { updates("sums", sums_), updates("value", value_) };
-    if (f_.analysed()) {
-        sunk.push_back(updates("parts", parts_));
-    }
     g_.loop("slices", slices.counter(), [&] {
-        f_.trace(pass, { "light/area_light.cl", "sampleShadows", std::move(becoming) },
+        const auto [sinks, sunk] = becoming();
+        f_.trace(pass, { "light/area_light.cl", "sampleShadows", sinks },
             joined({ f_.frame(), sampleParams(), light() }, f_.hierarchy(), f_.receivers(),
                 Arguments { reads("wanted", wanted_), slices.last(), updates("taken", taken_), tallies("rays", rays_) },
                 sunk),

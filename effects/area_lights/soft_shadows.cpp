@@ -3,6 +3,7 @@
 #include "kernels/shared/wedge.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace wedge::render {
 namespace {
@@ -14,6 +15,60 @@ float gaussianScale(float sigma)
 }
 
 } // namespace
+
+bool isSheared(const Settings& s)
+{
+    // What is filtered has to be a share of the light's samples.
+    return s.sheared && s.method == Method::AxisAligned && s.filtering == Filtering::Adaptive
+        && s.shading != Shading::Inside;
+}
+
+ProfileScore scoreOf(const shared::AreaLight& light)
+{
+    // Local coordinates are products with the axes' duals.
+    const auto dual = [](shared::Vec3 a, shared::Vec3 b) {
+        const float aa = shared::vecDot(a, a), ab = shared::vecDot(a, b), bb = shared::vecDot(b, b);
+        return shared::vecScale(
+            shared::vecSub(shared::vecScale(a, bb), shared::vecScale(b, ab)), 1.0f / (aa * bb - ab * ab));
+    };
+    // -l'/l of a Gaussian is a cut^2; the rest of the first moment, which is 1, is that of the steps at its ends.
+    const bool gaussian = light.profile == WEDGE_PROFILE_GAUSSIAN;
+    const double slope = gaussian ? static_cast<double>(light.cut) * light.cut : 0.0;
+    double mass = 0, squares = 0, eighths = 0;
+    constexpr int points = 4096;
+    for (int i = 0; i < points; ++i) {
+        const double a = (i + 0.5) / points, squared = a * a, l = std::exp(-0.5 * slope * squared);
+        mass += l;
+        squares += l * squared;
+        eighths += l * squared * squared * squared * squared;
+    }
+    ProfileScore out;
+    out.edge = static_cast<float>(std::clamp(1.0 - slope * squares / mass, 0.0, 1.0));
+    out.score.centre = light.centre;
+    out.score.inner = static_cast<float>(slope);
+    out.score.alongU = dual(light.halfU, light.halfV);
+    out.score.alongV = dual(light.halfV, light.halfU);
+    out.score.outer = static_cast<float>(out.edge * mass / eighths);
+    return out;
+}
+
+shared::AnalysisParams withShearedWidths(
+    shared::AnalysisParams p, const Settings& settings, const shared::AreaLight& light)
+{
+    p.mu *= (1.0f + 0.5f * scoreOf(light).edge) / settings.shearedWidth;
+    return p;
+}
+
+shared::FilterParams withShear(
+    shared::FilterParams p, const shared::AnalysisParams& analysis, const shared::AreaLight& light)
+{
+    // slopeWidth is sigma s / (k mu), so that half of 1 / s is this over it.
+    const float half = 0.5f * light.sigma / (analysis.k * analysis.mu);
+    const shared::LightScore score = scoreOf(light).score;
+    p.shearU = shared::vecScale(score.alongU, half);
+    p.shearV = shared::vecScale(score.alongV, half);
+    return p;
+}
 
 std::uint32_t lobeDirections(int spp)
 {

@@ -18,6 +18,26 @@ struct TermLight {
 shared::AnalysisParams lightParams(
     shared::AnalysisParams params, const Settings& settings, const shared::AreaLight& light);
 
+/// Whether filters of lights are sheared where the pixels are the receivers (kernels/filter/gather_sheared.h).
+bool isSheared(const Settings& settings);
+
+/// The score of a light's profile. Of its two parts the steps at a cut profile's ends have `edge`, from 0 to 1, of the
+/// first moment, 1.
+struct ProfileScore {
+    shared::LightScore score {};
+    float edge = 0;
+};
+ProfileScore scoreOf(const shared::AreaLight& light);
+
+/// The analysis' parameters with the widths of sheared filters: shearedWidth times as wide as others where the profile
+/// ends in no edges. Shadows have kinks where it has, which no gradient takes away.
+shared::AnalysisParams withShearedWidths(
+    shared::AnalysisParams params, const Settings& settings, const shared::AreaLight& light);
+
+/// The gather's parameters with what neighbours' gradients count for. analysis: as above
+shared::FilterParams withShear(
+    shared::FilterParams params, const shared::AnalysisParams& analysis, const shared::AreaLight& light);
+
 /// How a light is sampled where the pixels are the receivers. index: of the light
 shared::SampleParams lightSampleParams(const Settings& settings, std::uint32_t index);
 

@@ -190,6 +190,7 @@ Settings asPublished(std::optional<float> mu)
     s.oblique = false;
     s.narrower = false;
     s.surface = false;
+    s.sheared = false;
     s.fitted = false;
     s.fallback = false;
     s.widening = 0.0f;
@@ -358,9 +359,10 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
                 { "slopes", s.slopes == Slopes::Published ? "published" : "smoothed" }, { "mu", number(s.mu) },
                 { "k", number(s.k) }, { "alpha", number(s.alpha) }, { "oblique", number(s.oblique) },
                 { "narrower", number(s.narrower) }, { "surface", number(s.surface) }, { "fitted", number(s.fitted) },
-                { "fallback", number(s.fallback) }, { "widening", number(s.widening) },
-                { "normalDegrees", number(s.normalDegrees) }, { "cut", number(s.cut) },
-                { "maxRadius", number(s.maxRadius) }, { "fillSigma", number(s.fillSigma) },
+                { "sheared", number(s.sheared) }, { "shearedWidth", number(s.shearedWidth) },
+                { "countWidth", number(s.countWidth) }, { "fallback", number(s.fallback) },
+                { "widening", number(s.widening) }, { "normalDegrees", number(s.normalDegrees) },
+                { "cut", number(s.cut) }, { "maxRadius", number(s.maxRadius) }, { "fillSigma", number(s.fillSigma) },
                 { "fillRadius", number(s.fillRadius) }, { "countExponent", number(s.countExponent) },
                 { "varianceFloor", number(s.varianceFloor) }, { "varianceSpread", number(s.varianceSpread) } });
     }

@@ -30,6 +30,14 @@ inline graph::Sink slopes()
     return { .file = "light/slopes.h", .name = "Slopes", .begin = { "slopes" }, .finish = { "slopes" } };
 }
 
+/// Where on a light it is that samples see: "scores", of "score", the light's.
+inline graph::Sink scores()
+{
+    return {
+        .file = "light/scores.h", .name = "Scores", .begin = { "scores" }, .take = { "score" }, .finish = { "scores" }
+    };
+}
+
 /// Of shadows in the image, after "slopes" in its planes: of "camera" and the scene's geometry.
 inline graph::Sink shadowMotions(const Arguments& geometry)
 {

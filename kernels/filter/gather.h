@@ -54,6 +54,9 @@ typedef struct {
     float16 scale; ///< -log2(e) / (2 beta^2)
     float16 limit; ///< (cut beta)^2
     float16 radius; ///< pixels along the line, 0 where there is none
+#ifdef WEDGE_GATHER_SHEARED
+    float16 perSlope; ///< 1 over slopeWidth, or over beta where that is wider
+#endif
 } GatherWidth;
 
 /// Normals of three planes, or of one that is packed.
@@ -77,13 +80,19 @@ WEDGE_INLINE Vec3x16 loadPlaneBlock(FilterParams p, __global const float* normal
 #endif
 }
 
-/// Squared distance between a pixel and its neighbour at offset d, as far as the light's shadow is concerned:
-/// d less its part along the light's normal (3.12), or, oblique, slid along the ray to the light's centre onto the
-/// plane through the pixel parallel to the light. Without a light, whose normal is then 0, it is |d|^2.
-WEDGE_INLINE float16 distance16(FilterParams p, Vec3x16 slant, Vec3x16 d)
+/// The offset d of a pixel's neighbour as far as the light's shadow is concerned: less its part along the light's
+/// normal (3.12), or, oblique, slid along the ray to the light's centre onto the plane through the pixel parallel to
+/// the light. Without a light, whose normal is then 0, it is d.
+WEDGE_INLINE Vec3x16 offset16(FilterParams p, Vec3x16 slant, Vec3x16 d)
 {
     const float16 along = d.x * p.lightNormal.x + d.y * p.lightNormal.y + d.z * p.lightNormal.z;
-    const Vec3x16 e = mad16(d, slant, -along);
+    return mad16(d, slant, -along);
+}
+
+/// Its square.
+WEDGE_INLINE float16 distance16(FilterParams p, Vec3x16 slant, Vec3x16 d)
+{
+    const Vec3x16 e = offset16(p, slant, d);
     return dot16(e, e);
 }
 
@@ -159,6 +168,7 @@ WEDGE_INLINE GatherWidth gatherWidth(FilterParams p, GatherBlock b, Vec3 step, i
 /// Neighbours of a block of pixels, however wide the kernels are.
 typedef struct {
     int16 known; ///< of the same surface
+    Vec3x16 offset; ///< offset16(), metres
     float16 squared; ///< distance
     float16 area; ///< over the pixel's own
 } Neighbours;
@@ -172,7 +182,8 @@ WEDGE_INLINE Neighbours neighboursAt(FilterParams p, GatherBlock b, int j, float
     const Vec3x16 normalThere = loadNormalBlock(p, normal, j);
     const Vec3x16 d = sub16(loadVecBlock(position, p.planeSize, j), b.position);
     Neighbours n;
-    n.squared = distance16(p, b.slant, d);
+    n.offset = offset16(p, b.slant, d);
+    n.squared = dot16(n.offset, n.offset);
     n.known = (object == b.object) & (betaThere >= 0.0f) & (dot16(b.normal, normalThere) >= p.normalCosine);
     n.area = (float16)(1.0f);
     if (p.surface != 0u) {
@@ -264,9 +275,15 @@ WEDGE_INLINE float16 countOfLine(LineWeights sum, bool fitted)
 }
 
 #ifdef WEDGE_GATHER_CHANNELS
+/// Planes of gradients: of each channel along two axes.
+#define WEDGE_GRADIENTS (2u * WEDGE_GATHER_CHANNELS)
+
 typedef struct {
     LineWeights weights;
     float16 channel[WEDGE_GATHER_CHANNELS], moment[WEDGE_GATHER_CHANNELS]; ///< of w f, w d f
+#ifdef WEDGE_GATHER_SHEARED
+    float16 gradient[WEDGE_GRADIENTS]; ///< of w times those of neighbours
+#endif
 } GatherSum;
 
 /// Not the weight alone: 0 times a NaN would let it in.

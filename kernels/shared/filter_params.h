@@ -37,6 +37,8 @@ typedef struct {
     uint surface; ///< 1: neighbours weigh by the surface that they see, and those off the pixel's surface are left out
     uint fitted; ///< planes, the first ones of a value: of those a line's fit and not its mean comes out
     float most; ///< that a fit may be, where the mean is not more: 1 of shares of light
+    Vec3 shearU, shearV; ///< of the sheared filter: what a neighbour's offset is multiplied by, over the pixel's
+                         ///< slopeWidth, for what its gradients count
 } FilterParams;
 
 /// The analysis of one light: slopes to widths and counts.

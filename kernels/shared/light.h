@@ -72,6 +72,23 @@ typedef struct {
     float pick; ///< probability that a path's vertex samples this light
 } DeltaLight;
 
+/// The score of a light's profile l, -l' / l: integrals over the light weighted by it are derivatives of what the light
+/// does where it moves. docs/soft-shadows.md
+typedef struct {
+    Vec3 centre;
+    float inner; ///< of the score's two parts, see scoreOf()
+    Vec3 alongU, alongV; ///< 1/m: local coordinates are their products with what a point is off the centre
+    float outer;
+} LightScore;
+
+/// At a local coordinate from -1 to 1, per unit of it. The derivative of a profile that is cut has a step at either end
+/// as well, which what rises steeply towards it stands for, of the same first moment.
+WEDGE_INLINE float scoreOf(LightScore light, float a)
+{
+    const float squared = a * a;
+    return a * (light.inner + light.outer * squared * squared * squared);
+}
+
 /// A directional light's shadow rays end this many scene diameters away.
 #define WEDGE_FAR_DIAMETERS 4.0f
 

@@ -79,6 +79,28 @@ void gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t cha
     filterAlong(frame, run, channels, params, value, { beta, beta }, out);
 }
 
+void shearedFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels,
+    const shared::FilterParams& params, const graph::Handle<Value>& value, const graph::Handle<Metres>& beta,
+    const Shearing& shearing, Gathered& out)
+{
+    const int pixels = static_cast<int>(params.maxRadius);
+    const graph::Reach along { .x = pixels }, across { .y = pixels };
+    auto rows = frame.graph.plane<Value>("rows filtered", graph::floatPlanes(channels));
+    auto rowCounts = frame.graph.plane<Count>("effective count of rows", graph::floats);
+    auto rowGradients = frame.graph.plane<Value>("gradients of rows", graph::floatPlanes(2 * channels));
+    frame.blocks(run.pass, run.kind, { frame.program(run.program), "shearRows" },
+        joined({ frame.rectangle(params), reads("value", value, along), reads("beta", beta, along) },
+            gathered(frame, params, along),
+            Arguments { reads("gradients", shearing.gradients, along), reads("slopeWidth", shearing.slopeWidth),
+                writes("filtered", rows), writes("effective", rowCounts), writes("gradientsOfRows", rowGradients) }));
+    frame.blocks(run.pass, run.kind, { frame.program(run.program), "shearColumns" },
+        joined({ frame.rectangle(params), reads("value", rows, across), reads("beta", beta, across) },
+            gathered(frame, params, across),
+            Arguments { reads("gradients", rowGradients, across), reads("slopeWidth", shearing.slopeWidth),
+                reads("effectiveRows", rowCounts), writes("filtered", out.value),
+                writes("effective", out.effective) }));
+}
+
 graph::Handle<Count> gatheredCounts(FrameBuilder& frame, std::string_view pass, device::PassKind kind,
     const shared::FilterParams& params, const graph::Handle<Metres>& beta)
 {

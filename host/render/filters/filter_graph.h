@@ -34,6 +34,18 @@ void gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t cha
     const shared::FilterParams& params, const graph::Handle<Value>& value, const graph::Handle<Metres>& beta,
     Gathered& out);
 
+/// What the sheared filter takes besides (kernels/filter/gather_sheared.h): two planes of gradients a channel, and
+/// widths that go with the occluders' slopes alone.
+struct Shearing {
+    graph::Handle<Value> gradients;
+    graph::Handle<Metres> slopeWidth;
+};
+
+/// The same as gaussianFilter() into planes that were there, sheared. params: with shearU and shearV.
+void shearedFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels,
+    const shared::FilterParams& params, const graph::Handle<Value>& value, const graph::Handle<Metres>& beta,
+    const Shearing& shearing, Gathered& out);
+
 /// The equal samples alone that it amounts to, of whatever value.
 graph::Handle<Count> gatheredCounts(FrameBuilder& frame, std::string_view pass, device::PassKind kind,
     const shared::FilterParams& params, const graph::Handle<Metres>& beta);

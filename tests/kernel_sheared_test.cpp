@@ -1,0 +1,191 @@
+// filter_sheared.cl and shear.cl alone: gathers that follow gradients, gradients of samples, widths by counts.
+#include "host/render/filters/filter_graph.h"
+#include "tests/filter_run.h"
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+const char* const program = "filter/filter_sheared.cl";
+
+/// A floor of 5 cm pixels seen from above with a share of light h = 0.5 + a x^2 + b x z + c z^2 and its gradients,
+/// where filters are 2 to 3 pixels wide.
+FilterImage curvedField(double a, double b, double c)
+{
+    FilterImage image = withoutLight(randomImage(41, 33, Shape::Flat, 3));
+    image.params.fitted = 1;
+    image.params.most = 1.0f;
+    image.params.shearU = shared::vec3(0.5f, 0, 0);
+    image.params.shearV = shared::vec3(0, 0, 0.5f);
+    image.gradients.emplace(image.value.layout, 2, 0.0f);
+    for (int y = 0; y < image.height(); ++y)
+        for (int i = 0; i < image.width(); ++i) {
+            const double x = 0.05 * (i - 20), z = 0.05 * (y - 16);
+            image.position.setVector(i, y, { x, 0, z });
+            image.normal.setVector(i, y, { 0, 1, 0 });
+            image.pixelSize.at(i, y) = 0.05f;
+            image.beta.at(i, y) = 0.1f + 0.001f * static_cast<float>(i);
+            image.value.at(i, y) = static_cast<float>(0.5 + a * x * x + b * x * z + c * z * z);
+            image.gradients->at(i, y, 0) = static_cast<float>(2 * a * x + b * z);
+            image.gradients->at(i, y, 1) = static_cast<float>(b * x + 2 * c * z);
+        }
+    return image;
+}
+
+/// The largest difference to the field that was filtered, of pixels `margin` away from the borders.
+double worst(const FilterImage& image, const FilterResult& result, int margin)
+{
+    double out = 0;
+    for (int y = margin; y < image.height() - margin; ++y)
+        for (int x = margin; x < image.width() - margin; ++x)
+            out = std::max<double>(out, std::fabs(result.value.at(x, y) - image.value.at(x, y)));
+    return out;
+}
+
+} // namespace
+
+TEST_CASE("a field of second order comes out as it is, and filters without its gradients flatten it")
+{
+    onEveryDevice([](const device::Device& device) {
+        FilterRun sheared(device, {}, program), plain(device);
+        FilterImage image = curvedField(0.2, -0.15, 0.3);
+        const FilterResult result = sheared(image);
+        const double inside = worst(image, result, 8), anywhere = worst(image, result, 0);
+        image.gradients.reset();
+        const FilterResult other = plain(image);
+        MESSAGE("off by up to ", inside, ", at borders ", anywhere, "; without gradients ", worst(image, other, 8));
+        CHECK(worst(image, other, 8) > 3e-3);
+        CHECK(inside < 1e-4);
+        CHECK(anywhere < worst(image, other, 0)); // one-sided kernels see gradients elsewhere
+    });
+}
+
+TEST_CASE("both passes gather what their definition in double gathers")
+{
+    onEveryDevice([](const device::Device& device) {
+        for (const bool specular : { false, true }) {
+            const std::size_t channels = specular ? 2 : 1;
+            FilterRun sheared(device, specular ? Defines { { "WEDGE_SPECULAR", "1" } } : Defines {}, program);
+            double left = 0;
+            unsigned images = 0;
+            for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough })
+                for (const std::uint32_t fitted : { 0u, 2u }) {
+                    FilterImage image = randomImage(37, 21, shape, 11 + fitted, channels);
+                    image.params.fitted = std::min<std::uint32_t>(fitted, static_cast<std::uint32_t>(channels));
+                    image.params.shearU = shared::vec3(0.02f, 0.003f, -0.001f);
+                    image.params.shearV = shared::vec3(-0.004f, 0.001f, 0.017f);
+                    image.gradients.emplace(image.value.layout, 2 * channels, 0.0f);
+                    std::mt19937 random(5);
+                    for (float& g : image.gradients->values)
+                        g = static_cast<float>(uniform(random, -1, 1));
+                    for (float& w : image.slopeWidth.values)
+                        w = static_cast<float>(uniform(random, 0.03, 0.3));
+                    CAPTURE(static_cast<int>(shape));
+                    CAPTURE(fitted);
+                    const OracleResult rows = oracleRows(image);
+                    left += compare(image, sheared(image, true), rows, static_cast<int>(channels));
+                    left += compare(image, sheared(image), oracleColumns(image, rows), static_cast<int>(channels));
+                    images += 2;
+                }
+            CHECK(left / images < 0.1);
+        }
+    });
+}
+
+TEST_CASE("without gradients the filter is the other one, bit by bit")
+{
+    onEveryDevice([](const device::Device& device) {
+        FilterRun sheared(device, {}, program), plain(device);
+        for (const Shape shape : { Shape::Tilted, Shape::Steps, Shape::Rough }) {
+            FilterImage image = randomImage(50, 19, shape, 7);
+            image.params.fitted = 1;
+            const FilterResult expected = plain(image);
+            image.gradients.emplace(image.value.layout, 2, 0.0f);
+            const FilterResult result = sheared(image);
+            for (int y = 0; y < image.height(); ++y)
+                for (int x = 0; x < image.width(); ++x) {
+                    REQUIRE(result.value.at(x, y) == expected.value.at(x, y));
+                    REQUIRE(result.effective.at(x, y) == expected.effective.at(x, y));
+                }
+        }
+    });
+}
+
+TEST_CASE("NaN of what is not gathered stays there")
+{
+    onEveryDevice([](const device::Device& device) {
+        FilterRun sheared(device, {}, program);
+        FilterImage image = curvedField(0.2, 0.1, 0.1);
+        const FilterResult clean = sheared(image);
+        for (int y = 0; y < image.height(); ++y) {
+            image.objectId.at(20, y) = 2;
+            image.value.at(20, y) = 0.5f;
+        }
+        const FilterResult apart = sheared(image);
+        for (int y = 0; y < image.height(); ++y)
+            for (std::size_t k = 0; k < 2; ++k)
+                image.gradients->at(20, y, k) = std::numeric_limits<float>::quiet_NaN();
+        const FilterResult result = sheared(image);
+        for (int y = 0; y < image.height(); ++y)
+            for (int x = 0; x < image.width(); ++x)
+                if (x != 20)
+                    REQUIRE(result.value.at(x, y) == apart.value.at(x, y));
+        CHECK(clean.value.at(19, 9) != apart.value.at(19, 9));
+    });
+}
+
+TEST_CASE("gradients are means of scores less that of all samples, and widths follow counts")
+{
+    onEveryDevice([](const device::Device& device) {
+        for (const std::uint32_t channels : { 1u, 2u }) {
+            KernelBench bench(device, channels == 2 ? Defines { { "WEDGE_SPECULAR", "1" } } : Defines {});
+            const render::PlaneLayout layout(19, 5);
+            shared::AnalysisParams p {};
+            p.x1 = p.width = layout.width;
+            p.y1 = p.height = layout.height;
+            p.stride = layout.stride;
+            p.planeSize = static_cast<std::uint32_t>(layout.size);
+            Planes<float> sums(layout, 2 * channels, 0.0f), scores(layout, 4 * channels, 0.0f), beta(layout, 1, 0.0f);
+            Planes<std::uint32_t> taken(layout, 1, 0u);
+            std::mt19937 random(2);
+            for (float& v : scores.values)
+                v = static_cast<float>(uniform(random, -1, 1));
+            for (int y = 0; y < 5; ++y)
+                for (int x = 0; x < 19; ++x) {
+                    for (std::uint32_t c = 0; c < channels; ++c) {
+                        // Pixels of the first column see nothing of the light.
+                        sums.at(x, y, 2 * c) = x == 0 ? 0.0f : static_cast<float>(uniform(random, 1, 20));
+                        sums.at(x, y, 2 * c + 1) = sums.at(x, y, 2 * c) * static_cast<float>(uniform(random));
+                    }
+                    beta.at(x, y) = x % 3 == 0 ? -1.0f : 0.1f * static_cast<float>(y);
+                    taken.at(x, y) = static_cast<std::uint32_t>(x);
+                }
+            const auto gradients = bench.filled(2 * channels * layout.size, -7.0f),
+                       slopeWidth = bench.filled(layout.size, -7.0f), width = bench.buffer(beta.values);
+            bench.passes.rows("filter", device::PassKind::Filter, "analysis/shear.cl", "shadowGradients", p,
+                WEDGE_BLOCK_PIXELS, bench.buffer(sums.values), bench.buffer(scores.values), gradients);
+            bench.passes.rows("filter", device::PassKind::Filter, "analysis/shear.cl", "narrowByCounts", p, 1, 28.0f,
+                0.2f, bench.buffer(taken.values), slopeWidth, width);
+            const Planes<float> found = planesOf(layout, bench.read(gradients)),
+                                before = planesOf(layout, bench.read(slopeWidth)),
+                                after = planesOf(layout, bench.read(width));
+            for (int y = 0; y < 5; ++y)
+                for (int x = 0; x < 19; ++x) {
+                    for (std::uint32_t c = 0; c < channels; ++c)
+                        for (std::uint32_t axis = 0; axis < 2; ++axis) {
+                            const double all = sums.at(x, y, 2 * c), seen = sums.at(x, y, 2 * c + 1);
+                            const double expected = x == 0
+                                ? 0.0
+                                : (scores.at(x, y, 4 * c + 2 + axis) - seen / all * scores.at(x, y, 4 * c + axis))
+                                    / all;
+                            REQUIRE(found.at(x, y, 2 * c + axis) == doctest::Approx(expected).epsilon(1e-4));
+                        }
+                    REQUIRE(before.at(x, y) == beta.at(x, y));
+                    const double expected =
+                        beta.at(x, y) > 0 ? beta.at(x, y) * std::pow(28.0 / std::max(1, x), 0.2) : beta.at(x, y);
+                    REQUIRE(after.at(x, y) == doctest::Approx(expected).epsilon(1e-5));
+                }
+        }
+    });
+}

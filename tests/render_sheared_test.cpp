@@ -1,0 +1,111 @@
+// Whole frames whose filters of lights follow gradients, and the scores that these are made of.
+#include "effects/area_lights/soft_shadows.h"
+#include "tests/render_support.h"
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+constexpr int width = 96, height = 72;
+
+/// A ground in the penumbrae of three slats at different heights.
+scene::Scene slats(scene::LightProfile profile)
+{
+    SceneBuilder b;
+    b.newObject();
+    b.quad({ 0, 0, 0 }, { 0, 0, 4 }, { 4, 0, 0 });
+    for (int i = 0; i < 3; ++i) {
+        b.newObject();
+        b.quad({ -0.6f + 0.6f * static_cast<float>(i), 0.5f + 0.3f * static_cast<float>(i), 0 }, { 0.1f, 0, 0.02f },
+            { 0, 0, 0.8f });
+    }
+    b.light({ 0, 3, 0 }, { 0.4f, 0, 0 }, { 0.1f, 0, 0.3f }, profile, 2).radiance = { 20, 18, 15 };
+    b.camera({ 0, 1.6f, 2.8f }, { 0, 0.1f, 0.4f });
+    return b.scene;
+}
+
+/// RMS over seeds.
+double errorOf(render::Renderer& renderer, render::Settings s, const std::vector<float>& reference)
+{
+    double squares = 0;
+    constexpr int seeds = 3;
+    for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
+        s.seed = seed;
+        const double e = rmse(renderPixels(renderer, s), reference);
+        squares += e * e;
+    }
+    return std::sqrt(squares / seeds);
+}
+
+} // namespace
+
+TEST_CASE("with as many samples, filters that follow gradients are ahead, of lights with and without edges")
+{
+    onEveryDevice([](const device::Device& device) {
+        for (const auto profile : { scene::LightProfile::Gaussian, scene::LightProfile::Uniform }) {
+            CAPTURE(static_cast<int>(profile));
+            const scene::Scene scene = slats(profile);
+            render::Renderer renderer(scene, device, renderOptions());
+            render::Settings truth = sized(render::monteCarlo(8192), width, height);
+            truth.seed = 99;
+            const std::vector<float> reference = renderPixels(renderer, truth);
+            for (const int spp : { 16, 64 }) {
+                render::Settings s = sized(render::axisAligned(spp), width, height);
+                const double sheared = errorOf(renderer, s, reference);
+                s.sheared = false;
+                const double plain = errorOf(renderer, s, reference);
+                MESSAGE("RMSE of ", spp, " samples: ", sheared, ", without gradients ", plain);
+                CHECK(sheared < (spp == 16 ? 0.9 : 1.0) * plain);
+            }
+        }
+    });
+}
+
+TEST_CASE("gradients are not taken where nothing is there to take them of")
+{
+    render::Settings s = render::axisAligned(28);
+    CHECK(render::isSheared(s));
+    s.filtering = render::Filtering::Fixed;
+    CHECK_FALSE(render::isSheared(s));
+    s = render::axisAligned(28);
+    s.shading = render::Shading::Inside;
+    CHECK_FALSE(render::isSheared(s));
+    CHECK_FALSE(render::isSheared(render::asPublished()));
+    CHECK_FALSE(render::isSheared(render::monteCarlo(28)));
+}
+
+TEST_CASE("a score has the first moment 1 over its light, and goes by coordinates of axes at any angle")
+{
+    const auto near = [](double a, double b) { return std::fabs(a - b) < 2e-3; };
+    for (const float cut : { 1.0f, 2.0f, 3.0f, 6.0f })
+        for (const auto profile : { WEDGE_PROFILE_GAUSSIAN, WEDGE_PROFILE_UNIFORM }) {
+            CAPTURE(cut);
+            CAPTURE(profile);
+            shared::AreaLight light {};
+            light.profile = profile;
+            light.cut = cut;
+            light.halfU = shared::vec3(0.4f, 0, 0.1f);
+            light.halfV = shared::vec3(0.2f, 0, 0.3f);
+            light.centre = shared::vec3(1, 2, 3);
+            const render::ProfileScore found = render::scoreOf(light);
+            double mass = 0, moment = 0;
+            for (int i = 0; i < 20000; ++i) {
+                const float a = (static_cast<float>(i) + 0.5f) / 10000.0f - 1.0f;
+                const double l = shared::lightProfile(a, 0, profile, cut);
+                mass += l;
+                moment += l * a * shared::scoreOf(found.score, a);
+            }
+            CHECK(near(moment / mass, 1.0));
+            CHECK(near(shared::vecDot(found.score.alongU, light.halfU), 1.0));
+            CHECK(near(shared::vecDot(found.score.alongU, light.halfV), 0.0));
+            CHECK(near(shared::vecDot(found.score.alongV, light.halfU), 0.0));
+            CHECK(near(shared::vecDot(found.score.alongV, light.halfV), 1.0));
+            // Within the light a Gaussian's score is that of one that is not cut.
+            if (profile == WEDGE_PROFILE_GAUSSIAN)
+                CHECK(near(shared::scoreOf(found.score, 0.1f) / (0.1 * cut * cut), 1.0));
+            CHECK(found.edge >= 0.0f);
+            CHECK(found.edge <= 1.0f);
+            CHECK((profile == WEDGE_PROFILE_UNIFORM ? found.edge == 1.0f : found.edge < 0.75f));
+        }
+}
