@@ -173,7 +173,8 @@ TEST_CASE("widths of pixels of any kind are those of the definition")
         std::mt19937 random(7);
         for (const std::uint32_t component : { WEDGE_COMPONENT_ENVIRONMENT, WEDGE_COMPONENT_ENVIRONMENT_GLOSSY })
             for (const std::uint32_t isSigned : { 0u, 1u })
-                for (const auto& [width, height] : { std::pair(53, 21), { 1, 1 }, { 1, 9 }, { 16, 2 } }) {
+                for (const std::pair<int, int>& extent : { std::pair(53, 21), { 1, 1 }, { 1, 9 }, { 16, 2 } }) {
+                    const int width = extent.first, height = extent.second;
                     CAPTURE(component);
                     CAPTURE(isSigned);
                     CAPTURE(width);
@@ -225,7 +226,8 @@ TEST_CASE("smoothed, occluders are the nearest of the pixels around, in the geom
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);
         std::mt19937 random(11);
-        for (const auto& [width, height] : { std::pair(41, 19), { 1, 1 }, { 3, 9 } }) {
+        for (const std::pair<int, int>& extent : { std::pair(41, 19), { 1, 1 }, { 3, 9 } }) {
+            const int width = extent.first, height = extent.second;
             CAPTURE(width);
             CurvedImage image(width, height);
             for (int y = 0; y < height; ++y)

@@ -27,15 +27,17 @@ const double turn = 2 * std::acos(-1.0);
 
 TEST_CASE("waves have their frequencies, even pictures none")
 {
-    const int sizes[][2] = { { 64, 32 }, { 60, 45 }, { 1, 1 }, { 27, 1 }, { 1, 8 }, { 512, 256 } };
-    for (const auto& [width, height] : sizes) {
+    const std::pair<int, int> sizes[] = { { 64, 32 }, { 60, 45 }, { 1, 1 }, { 27, 1 }, { 1, 8 }, { 512, 256 } };
+    for (const std::pair<int, int>& size : sizes) {
+        const int width = size.first, height = size.second;
         CAPTURE(width);
         CHECK(bandwidthOf(width, height, [](int, int) { return 0.7; }) == 0);
         CHECK(bandwidthOf(width, height, [](int, int) { return 0.0; }) == 0);
         CHECK(bandwidthOf(width, height, [](int, int) { return 1e30; }) == 0);
     }
-    for (const auto& [width, height] : { std::pair(64, 32), { 60, 45 }, { 512, 256 } })
-        for (const auto& [across, down] : { std::pair(1, 0), { 7, 0 }, { 0, 3 }, { 3, 2 }, { 12, 10 } }) {
+    for (const std::pair<int, int>& size : { std::pair(64, 32), { 60, 45 }, { 512, 256 } })
+        for (const std::pair<int, int>& wave : { std::pair(1, 0), { 7, 0 }, { 0, 3 }, { 3, 2 }, { 12, 10 } }) {
+            const int width = size.first, height = size.second, across = wave.first, down = wave.second;
             CAPTURE(width);
             CAPTURE(across);
             CAPTURE(down);
@@ -72,7 +74,8 @@ TEST_CASE("noise has all the frequencies that texels can have")
 TEST_CASE("pictures of awkward or large sizes are averaged")
 {
     // 1021 and 509 are primes, which a transform would take minutes for; of 1000 and 500 texels waves are the same.
-    for (const auto& [width, height] : { std::pair(1021, 509), { 4099, 33 }, { 5, 3001 } }) {
+    for (const std::pair<int, int>& size : { std::pair(1021, 509), { 4099, 33 }, { 5, 3001 } }) {
+        const int width = size.first, height = size.second;
         CAPTURE(width);
         CHECK(bandwidthOf(width, height, [&](int x, int) { return 1 + 0.9 * std::cos(turn * 2 * (x + 0.5) / width); })
             == 2);
