@@ -1,8 +1,16 @@
 # Checks by other tools than doctest: scripts/install_dependencies.sh test installs them.
 
 add_test(NAME kernel_lint COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/kernel_lint.sh ${CMAKE_SOURCE_DIR}/kernels)
-add_test(NAME oclgrind_frame COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/oclgrind_frame.sh $<TARGET_FILE:wedge>
-                                     ${CMAKE_SOURCE_DIR})
+# In parts, which run beside each other and beside other tests; the last asks whether all kernels ran in one of them.
+foreach(part 1 2 3 4 kernels)
+    add_test(NAME oclgrind_frame_${part}
+             COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/oclgrind_frame.sh $<TARGET_FILE:wedge> ${CMAKE_SOURCE_DIR}
+                     ${CMAKE_BINARY_DIR}/oclgrind_frames ${part} 4)
+    list(APPEND oclgrind_frames oclgrind_frame_${part})
+endforeach()
+set_tests_properties(oclgrind_frame_1 oclgrind_frame_2 oclgrind_frame_3 oclgrind_frame_4 PROPERTIES FIXTURES_SETUP
+                                                                                                    oclgrind_frames)
+set_tests_properties(oclgrind_frame_kernels PROPERTIES FIXTURES_REQUIRED oclgrind_frames)
 add_test(NAME second_driver COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/second_driver.sh $<TARGET_FILE:wedge>
                                     $<TARGET_FILE:bvh_traverse_test> $<TARGET_FILE:bvh_traverse_families_test>
                                     $<TARGET_FILE:bvh_watertight_test>)
@@ -13,10 +21,10 @@ add_test(NAME installed COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/install
 add_test(NAME maaf_flatland COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/maaf_flatland.sh ${CMAKE_SOURCE_DIR})
 set_tests_properties(bare_root tidy_changed format_check maaf_flatland PROPERTIES SKIP_RETURN_CODE 77)
 # Simulated devices are slow, and slower still beside other tests.
-set_tests_properties(kernel_lint oclgrind_frame second_driver PROPERTIES TIMEOUT 1200)
-set_tests_properties(oclgrind_frame PROPERTIES LABELS long) # test.sh
+set_tests_properties(kernel_lint ${oclgrind_frames} second_driver PROPERTIES TIMEOUT 1200)
+set_tests_properties(${oclgrind_frames} PROPERTIES LABELS long) # test.sh
 # What the system has no package for cannot be run, and its test says so.
-set_tests_properties(oclgrind_frame second_driver PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: this system has no ")
+set_tests_properties(${oclgrind_frames} second_driver PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: this system has no ")
 
 # The tests of the shared maths once more, under the sanitizers, whatever the build type: device code cannot be run
 # under them. With casts of floats out of range, which on devices give any value at all.

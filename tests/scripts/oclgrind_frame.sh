@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# oclgrind_frame.sh WEDGE SOURCES: renders tiny frames with the program WEDGE on Oclgrind, a simulated device that
-# notices accesses out of bounds, data races, diverging barriers and wrong calls of OpenCL. Fails if its log says
-# anything (its exit status is always 0), or if some kernel never ran.
+# oclgrind_frame.sh WEDGE SOURCES WORK PART PARTS: renders tiny frames with the program WEDGE on Oclgrind, a simulated
+# device that notices accesses out of bounds, data races, diverging barriers and wrong calls of OpenCL. Fails if its log
+# says anything (its exit status is always 0). Of PARTS such runs that share the frames this one is PART, from 1;
+# what they make stays in the folder WORK. PART kernels, after them: fails if some kernel never ran.
 #
 # Without optimisation, since Oclgrind 21.10 does not know intrinsics that the optimiser puts in. Without
 # --uninitialized, which in this version takes constants that an earlier kernel stored for uninitialised, and without
@@ -9,6 +10,9 @@
 set -euo pipefail
 wedge=${1:?oclgrind_frame.sh: error: no program: name wedge}
 sources=${2:?oclgrind_frame.sh: error: no source folder: name the one above kernels/ and data/}
+work=${3:?oclgrind_frame.sh: error: no folder to work in}
+part=${4:?oclgrind_frame.sh: error: no part: name one from 1 to PARTS, or kernels}
+parts=${5:?oclgrind_frame.sh: error: no number of parts}
 
 if ! command -v oclgrind >/dev/null; then
     if [ -n "$(apt-cache policy oclgrind 2>/dev/null | grep Candidate | grep -v none)" ]; then
@@ -18,8 +22,11 @@ if ! command -v oclgrind >/dev/null; then
     echo "skipped: this system has no oclgrind"
     exit 0
 fi
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+reports=$work
+work=$work/$part
+rm -rf "$work"
+mkdir -p "$work"
+number=0
 # Cached binaries would hide the build options below; an empty name means no cache.
 export WEDGE_CACHE_DIR=
 
@@ -35,13 +42,16 @@ simulate() {
 }
 
 check() {
+    number=$((number + 1))
+    if [ $((number % parts + 1)) -ne "$part" ]; then return 0; fi
+    local began=$SECONDS
     if ! simulate "$@" || ! grep -q "Oclgrind" "$work/$1.out" || [ ! -s "$work/${1/\%d/1}.exr" ] || [ -s "$work/$1.log" ]; then
         echo "oclgrind_frame: failed: $*" >&2
         cat "$work/$1.log" >&2
         cat "$work/$1.out" >&2
         return 1
     fi
-    echo "$1: nothing to report"
+    echo "$1: nothing to report, $((SECONDS - began)) s"
 }
 
 # The check itself must fail where a kernel writes past the end of a buffer.
@@ -62,14 +72,19 @@ checkSabotaged() {
 checkAllKernelsRan() {
     local kernel missing=0
     for kernel in $(grep -hoP '__kernel void \K\w+' $(ls "$sources"/kernels/*/*.cl | grep -v _test.cl)); do
-        grep -qF "\"$kernel\"" "$work"/*.json || { echo "oclgrind_frame: kernel never ran: $kernel" >&2; missing=1; }
+        grep -qF "\"$kernel\"" "$reports"/*/*.json || { echo "oclgrind_frame: kernel never ran: $kernel" >&2; missing=1; }
     done
     return $missing
 }
 
+scenes=$sources/data/scenes
+if [ "$part" = kernels ]; then
+    checkAllKernelsRan
+    exit
+fi
+if [ "$part" = 1 ]; then checkSabotaged; fi
 # Odd sizes, so that tiles and vectors reach over the border. The materials have textures, gloss, two area lights, a
 # point light and a directional one.
-scenes=$sources/data/scenes
 for family in wide scalar; do
     check plain_$family "$scenes/materials.toml" --size 19x13 --method mc --spp 1 --traversal $family
     check filtered_$family "$scenes/materials.toml" --size 19x13 --method aaf --spp 10 --traversal $family
@@ -86,7 +101,7 @@ check moving_published "$scenes/motion.toml" --traversal wide --size 9x5 --metho
 check moving_steps "$scenes/motion.toml" --traversal wide --size 9x5 --method aaf --progressive --spp 32 --bounces 1
 check moving_steps_image "$scenes/motion.toml" --traversal wide --size 9x5 --method aaf --progressive --spp 32 --bounces 1
 check plain_steps_image "$scenes/motion.toml" --traversal wide --size 9x5 --method mc --progressive --spp 32
-check published_image "$scenes/motion.toml" --traversal wide --size 9x5 --method aaf --as-published
+check published_image "$scenes/motion.toml" --traversal wide --size 9x5 --method aaf --as-published --max-spp 24
 # The rest by the wide family, whose vectors reach farther over the ends of things.
 check cropped "$scenes/penumbra.toml" --traversal wide --size 33x17 --crop 5,3,22,12 --method aaf --counts variance --spp 10
 check published "$scenes/penumbra.toml" --traversal wide --size 9x7 --method aaf --as-published
@@ -140,5 +155,3 @@ check mirrors_scalar "$scenes/mirrors.toml" --traversal scalar --size 9x5 --meth
 check mirrors_waves "$scenes/mirrors.toml" --traversal wide --size 7x3 --method aaf --spp 16 --bounces 1 --antialias
 check over_time_%d "$scenes/motion.toml" --traversal wide --size 9x5 --method aaf --spp 10 --frames 0:1 --temporal on
 check bounced_over_time_%d "$scenes/penumbra.toml" --traversal wide --size 9x5 --method aaf --spp 16 --bounces 1 --frames 0:1 --temporal on
-checkSabotaged
-checkAllKernelsRan
