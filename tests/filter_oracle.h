@@ -19,7 +19,8 @@ struct FilterImage {
     Planes<float> value, beta, position, normal, pixelSize, slopeWidth;
     Planes<std::uint32_t> objectId;
     std::optional<Planes<float>> betaOfColumns; ///< where widths along y are others than beta
-    std::optional<Planes<float>> gradients; ///< of sheared filters: two planes a channel of value
+    std::optional<Planes<float>>
+        gradients; ///< of sheared filters: two planes a channel of value; kernels have 16 bits of them
     bool meanSquare = false; ///< pairs have the mean of both squared bandwidths, as WEDGE_GATHER_MEAN_SQUARE
 
     FilterImage(int width, int height, std::size_t channels)

@@ -34,9 +34,9 @@ public:
         const auto objectId = bench_.buffer(image.objectId.values);
         const auto rows = bench_.filled(image.value.values.size(), -7.0f);
         const auto rowsEffective = bench_.filled(image.value.layout.size, -7.0f);
-        const auto gradients = bench_.buffer(image.gradients ? image.gradients->values : std::vector<float>(1));
-        const auto slopeWidth = bench_.buffer(image.slopeWidth.values);
-        const auto rowGradients = bench_.filled(image.gradients ? image.gradients->values.size() : 1, -7.0f);
+        const auto gradients = bench_.buffer(image.gradients ? inShorts(*image.gradients) : std::vector<float>(1));
+        const auto slopeWidth = bench_.buffer(inShorts(image.slopeWidth));
+        const auto rowGradients = bench_.filled(gradients.size(), -7.0f);
         if (image.gradients)
             launch("shearRows", p, value, beta, position, normal, pixelSize, objectId, gradients, slopeWidth, rows,
                 rowsEffective, rowGradients);

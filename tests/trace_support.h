@@ -62,11 +62,12 @@ private:
     }
 };
 
-/// sink.h of a kernel whose samples go to these sinks, which are handed planes of floats of these names.
-inline std::string sinkOf(const std::vector<graph::Sink>& sinks, const std::vector<std::string>& planes)
+/// sink.h of a kernel whose samples go to these sinks, which are handed values, and planes of floats of these names.
+inline std::string sinkOf(const std::vector<graph::Sink>& sinks, const std::vector<std::string>& planes,
+    const std::vector<graph::Argument>& values = {})
 {
     graph::Graph graph(1, 1, 1);
-    graph::Pass pass { .name = "samples", .kernel = { "", "", sinks } };
+    graph::Pass pass { .name = "samples", .kernel = { "", "", sinks }, .arguments = values };
     for (const std::string& name : planes) {
         auto plane = graph.plane<render::Sums>(name, graph::floats);
         pass.arguments.push_back(graph::updates(name, plane));

@@ -15,9 +15,6 @@
 #include <utility>
 #include <vector>
 
-template <>
-inline constexpr std::string_view wedge::graph::kernelType<wedge::shared::LightScore> = "LightScore";
-
 namespace wedge::render {
 
 using device::PassKind;
@@ -51,7 +48,7 @@ public:
         , value_(g_.plane<Value>("value", graph::floatPlanes(channels_)))
         , parts_(g_.plane<Value>("value of part", frame.specular ? shortPairs : shortFloats))
         , extremes_(g_.plane<Extremes>("slopes", graph::floatPlanes(2)))
-        , scores_(g_.plane<Sums>("scores", graph::floatPlanes(4 * channels_)))
+        , gradients_(g_.plane<Value>("gradients", gradientsOf(channels_)))
         , taken_(g_.plane<Count>("samples taken", graph::counts))
         , rays_(g_.plane<Count>("rays of light", graph::counts))
         , wanted_(g_.plane<Count>("samples wanted", graph::counts))
@@ -60,9 +57,10 @@ public:
 
     void declare()
     {
-        f_.zero(sums_, value_, taken_, rays_);
+        f_.zero(sums_, taken_, rays_);
         const auto spp = static_cast<std::uint32_t>(s_.spp);
         if (!f_.analysed()) {
+            f_.zero(value_);
             uniformCounts(f_, spp, f_.surfaces.objectId, wanted_);
             samples("shadow rays", 0, monteCarloSlice);
             count();
@@ -71,7 +69,7 @@ public:
         }
         f_.zero(extremes_, parts_);
         if (sheared()) {
-            f_.zero(scores_);
+            f_.zero(gradients_);
         }
         uniformCounts(f_, WEDGE_FIRST_PASS_RAYS, f_.surfaces.objectId, wanted_);
         firstPass();
@@ -81,6 +79,7 @@ public:
         g_.only("analysis of light", analysed, [&] { widthsAndCounts(); });
         g_.only("rest of light", analysed, [&] { samples("second pass", WEDGE_FIRST_PASS_RAYS, secondPassSlice); });
         count();
+        value_ = means("filter", PassKind::Filter);
         if (s_.filtering == Filtering::None) {
             shade(value_, {});
             return;
@@ -124,6 +123,7 @@ private:
     bool sheared() const { return isSheared(s_); }
     /// The sinks of a pass that analysed frames have, and what they are handed.
     std::pair<std::vector<graph::Sink>, Arguments> becoming();
+    graph::Handle<Value> means(const char* pass, PassKind kind);
     Shearing shears();
     void firstPass();
     void samples(const char* pass, std::uint32_t from, std::uint32_t slice);
@@ -156,38 +156,50 @@ private:
     graph::Handle<Sums> sums_;
     graph::Handle<Value> value_, parts_;
     graph::Handle<Extremes> extremes_;
-    graph::Handle<Sums> scores_;
+    graph::Handle<Value> gradients_;
     graph::Handle<Count> taken_, rays_, wanted_;
 };
 
 std::pair<std::vector<graph::Sink>, Arguments> LightGraph::becoming()
 {
-    std::vector<graph::Sink> sinks { sinks::sums(), sinks::means() };
-    Arguments sunk { updates("sums", sums_), updates("value", value_) };
-    if (f_.analysed()) {
-        sinks.push_back(sinks::parts());
-        sunk.push_back(updates("parts", parts_));
+    std::vector<graph::Sink> sinks { sinks::sums() };
+    Arguments sunk { updates("sums", sums_) };
+    if (!f_.analysed()) {
+        sinks.push_back(sinks::means());
+        sunk.push_back(updates("value", value_));
+        return { std::move(sinks), std::move(sunk) };
     }
-    if (f_.analysed() && sheared()) {
+    sinks.push_back(sinks::parts());
+    sunk.push_back(updates("parts", parts_));
+    if (sheared()) {
         sinks.push_back(sinks::scores());
         sunk.push_back(value("score", scoreOf(light_).score));
-        sunk.push_back(updates("scores", scores_));
+        sunk.push_back(updates("gradients", gradients_));
     }
     return { std::move(sinks), std::move(sunk) };
+}
+
+/// What the samples that are there are filtered as.
+graph::Handle<Value> LightGraph::means(const char* pass, PassKind kind)
+{
+    auto out = g_.plane<Value>("value", graph::floatPlanes(channels_));
+    f_.pixels(pass, kind, { "light/light_means.cl", "lightMeans" },
+        { f_.rectangle(analysisParams()), sampleParams(), reads("sums", sums_), reads("taken", taken_),
+            writes("value", out) });
+    return out;
 }
 
 /// And narrows filters by counts.
 Shearing LightGraph::shears()
 {
-    Shearing out { g_.plane<Value>("gradients", graph::floatPlanes(2 * channels_)),
-        g_.plane<Metres>("width by slopes", graph::floats) };
+    auto slopeWidth = g_.plane<Metres>("width by slopes", shortFloats);
     const graph::Argument p = f_.rectangle(analysisParams());
     f_.blocks("filter", PassKind::Filter, { "analysis/shear.cl", "shadowGradients" },
-        { p, reads("sums", sums_), reads("scores", scores_), writes("gradients", out.gradients) });
+        { p, reads("sums", sums_), updates("gradients", gradients_) });
     f_.pixels("filter", PassKind::Filter, { "analysis/shear.cl", "narrowByCounts" },
         { p, value("mean", static_cast<float>(s_.spp)), value("exponent", s_.countWidth), reads("taken", taken_),
-            writes("slopeWidth", out.slopeWidth), updates("beta", beta_) });
-    return out;
+            writes("slopeWidth", slopeWidth), updates("beta", beta_) });
+    return { gradients_, slopeWidth };
 }
 
 void LightGraph::firstPass()
@@ -251,13 +263,13 @@ void LightGraph::narrowForLobes()
 void LightGraph::countsFromVariance()
 {
     const shared::AnalysisParams p = analysisParams();
-    graph::Handle<Value> visibility = value_;
+    graph::Handle<Value> visibility = means("filter of first pass", PassKind::Analysis);
     auto effective = g_.plane<Count>("effective count of first pass", graph::floats);
     if (s_.filtering == Filtering::None) {
         f_.fill("ones", effective, 1.0f);
     } else {
         const Gathered gathered = gaussianFilter(f_, { "filter of first pass", PassKind::Analysis, "filter/filter.cl" },
-            channels_, filterParams(), value_, beta_);
+            channels_, filterParams(), visibility, beta_);
         visibility = gathered.value;
         effective = gathered.effective;
     }

@@ -46,6 +46,8 @@ inline constexpr graph::Format shortFloats { "short1", 2, "float", "", "", "" };
 inline constexpr graph::Format shortPairs { "short2", 4, "float", "", "", "" };
 inline constexpr graph::Format shortTriples { "short3", 6, "float", "", "", "" };
 inline constexpr graph::Format shortQuadruples { "short4", 8, "float", "", "", "" };
+/// Along both axes of a light, of as many channels.
+constexpr graph::Format gradientsOf(std::uint32_t channels) { return channels == 2 ? shortQuadruples : shortPairs; }
 inline constexpr graph::Format shortCounts { "ushort1", 2, "uint", "", "", "" };
 inline constexpr graph::Format shortGloss { "gloss16", 2, "uint", "", "", "" };
 inline constexpr graph::Format tallySums { "ulong1", 8, "ulong", "", "", "" };

@@ -209,7 +209,7 @@ struct Settings {
     bool narrower = true; ///< a pair of pixels is weighted by the narrower of both kernels
     bool surface =
         true; ///< pixels weigh by the surface that they see, and those off a pixel's own surface are left out
-    bool sheared = false; ///< filters of lights follow the gradients of shadows, where pixels have one receiver
+    bool sheared = true; ///< filters of lights follow the gradients of shadows, where pixels have one receiver
     float shearedWidth = 1.5f; ///< how much wider than others they are then, less what an edge of the light's takes
     float countWidth = 0.2f; ///< and with it widths ~ (mean count / own)^this
     bool fitted = true; ///< adaptive filters fit lines to neighbours in the place of means

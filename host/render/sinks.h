@@ -3,6 +3,10 @@
 
 #include "host/graph/graph.h"
 #include "host/render/frame_builder.h"
+#include "kernels/shared/light.h"
+
+template <>
+inline constexpr std::string_view wedge::graph::kernelType<wedge::shared::LightScore> = "LightScore";
 
 namespace wedge::render::sinks {
 
@@ -30,12 +34,10 @@ inline graph::Sink slopes()
     return { .file = "light/slopes.h", .name = "Slopes", .begin = { "slopes" }, .finish = { "slopes" } };
 }
 
-/// Where on a light it is that samples see: "scores", of "score", the light's.
+/// Where on a light it is that samples see: "gradients", of "score", the light's. After sums().
 inline graph::Sink scores()
 {
-    return {
-        .file = "light/scores.h", .name = "Scores", .begin = { "scores" }, .take = { "score" }, .finish = { "scores" }
-    };
+    return { .file = "light/scores.h", .name = "Scores", .take = { "score" }, .finish = { "sums", "gradients" } };
 }
 
 /// Of shadows in the image, after "slopes" in its planes: of "camera" and the scene's geometry.

@@ -12,12 +12,10 @@
 
 /// Of each channel and axis of the light how fast the part of it that is seen changes where the light, in its own
 /// coordinates, moves: mean of (V - h) q over the samples, V their visibility, h its mean, q their scores (scoreOf()).
-/// Less the mean, so that where all is seen, or nothing, it is 0 whatever the samples.
 ///
-/// in   sums (light_sampling.h), scores (light/scores.h)
-/// out  gradients: two planes a channel
-__kernel void shadowGradients(AnalysisParams p, __global const float* restrict sums,
-    __global const float* restrict scores, __global float* restrict gradients)
+/// in      sums (light_sampling.h)
+/// in out  gradients: of 16 bits; what finishScores() left, of which the means are made
+__kernel void shadowGradients(AnalysisParams p, __global const float* restrict sums, __global float* restrict gradients)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -25,15 +23,10 @@ __kernel void shadowGradients(AnalysisParams p, __global const float* restrict s
         return;
     }
     const int i = (int)pixelIndex(x, y, p.stride);
-    for (uint c = 0u; c < WEDGE_CHANNELS; ++c) {
-        const float16 all = loadBlock(sums + 2u * c * p.planeSize, i);
-        const float16 seen = loadBlock(sums + (2u * c + 1u) * p.planeSize, i);
+    for (uint k = 0u; k < 2u * WEDGE_CHANNELS; ++k) {
+        const float16 all = loadBlock(sums + (k & ~1u) * p.planeSize, i);
         const float16 perAll = all > 0.0f ? 1.0f / all : (float16)(0.0f);
-        for (uint axis = 0u; axis < 2u; ++axis) {
-            const float16 ofAll = loadBlock(scores + (4u * c + axis) * p.planeSize, i);
-            const float16 ofSeen = loadBlock(scores + (4u * c + 2u + axis) * p.planeSize, i);
-            vstore16((ofSeen - seen * perAll * ofAll) * perAll, 0, gradients + (2u * c + axis) * p.planeSize + i);
-        }
+        storeShortsBlock(gradients, p.planeSize, i, k, perAll * loadShortsBlock(gradients, p.planeSize, i, k));
     }
 }
 
@@ -41,7 +34,7 @@ __kernel void shadowGradients(AnalysisParams p, __global const float* restrict s
 /// put more off than they smooth. beta ~ (mean / count)^exponent.
 ///
 /// in out  beta: metres
-/// out     slopeWidth: what it was, which goes with the occluders' slopes alone
+/// out     slopeWidth: what it was, which goes with the occluders' slopes alone; of 16 bits
 __kernel void narrowByCounts(AnalysisParams p, float mean, float exponent, __global const uint* restrict taken,
     __global float* restrict slopeWidth, __global float* restrict beta)
 {
@@ -52,6 +45,6 @@ __kernel void narrowByCounts(AnalysisParams p, float mean, float exponent, __glo
     }
     const uint i = pixelIndex(x, y, p.stride);
     const float width = beta[i];
-    slopeWidth[i] = width;
+    storeShort(slopeWidth, 0u, i, 0u, width);
     beta[i] = width > 0.0f ? width * exp2(exponent * log2(mean / (float)max(taken[i], 1u))) : width;
 }

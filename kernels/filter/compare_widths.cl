@@ -100,16 +100,16 @@ __kernel void compareRows(FilterParams p, __global const float* restrict value, 
     vstore16(means.wide.count, 0, wideCounts + i);
 }
 
-/// Along y. `apart` may be in the place of either count: of each block these are read first.
-/// in   what compareRows() made
-/// out  difference: n - w; apart: what the variance of a pixel's mean is to be multiplied by for V of widen.cl, 0 where
-///      the wide filter does not gather more
+/// Along y.
+/// in      rows that compareRows() made
+/// in out  difference: of its narrow counts comes n - w; apart: of its wide counts what the variance of a pixel's mean
+/// is
+///         to be multiplied by for V of widen.cl, 0 where the wide filter does not gather more
 __kernel void compareColumns(FilterParams p, __global const float* restrict narrowRows,
-    __global const float* restrict wideRows, __global const float* narrowCounts, __global const float* wideCounts,
-    __global const float* restrict beta, __global const float* restrict compared,
-    __global const float* restrict position, __global const float* restrict normal,
-    __global const float* restrict pixelSize, __global const uint* restrict objectId,
-    __global float* restrict difference, __global float* apart)
+    __global const float* restrict wideRows, __global const float* restrict beta,
+    __global const float* restrict compared, __global const float* restrict position,
+    __global const float* restrict normal, __global const float* restrict pixelSize,
+    __global const uint* restrict objectId, __global float* restrict difference, __global float* restrict apart)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -120,8 +120,8 @@ __kernel void compareColumns(FilterParams p, __global const float* restrict narr
     LineMeans own;
     own.narrow.value = loadBlock(narrowRows, i);
     own.wide.value = loadBlock(wideRows, i);
-    own.narrow.count = loadBlock(narrowCounts, i);
-    own.wide.count = loadBlock(wideCounts, i);
+    own.narrow.count = loadBlock(difference, i);
+    own.wide.count = loadBlock(apart, i);
     const LineMeans means = compareLine(p, i, (int)p.stride, p.down, (int)y, (int)(p.height - 1u - y), narrowRows,
         wideRows, beta, compared, position, normal, pixelSize, objectId, own);
     const float16 k = means.narrow.count, kWide = means.wide.count;

@@ -4,7 +4,8 @@
 // in   value, beta (metres, along the pass's axis; 0: keep the pixel's own value, still a neighbour of others;
 //      negative: neither), position, normal, pixelSize, objectId, and for the second pass the first one's effective
 //      counts
-//      sheared also gradients, of each channel along both of the light's axes, and slopeWidth (gather_sheared.h)
+//      sheared also gradients, of each channel along both of the light's axes, and slopeWidth (gather_sheared.h), of
+//      16 bits
 // out  filtered (like value), effective: the number of equal samples that the gather amounts to (countOfLine()), times
 //      that of the pass before
 #ifndef WEDGE_GATHER_LINES_H

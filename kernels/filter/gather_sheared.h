@@ -26,8 +26,8 @@ WEDGE_INLINE Shear shearOf(FilterParams p, GatherWidth width, Neighbours n)
 WEDGE_INLINE float16 sheared(FilterParams p, __global const float* gradients, Shear shear, uint channel, int j,
     float16 w, float16 value, GatherSum* sum)
 {
-    const float16 u = loadBlock(gradients + 2u * channel * p.planeSize, j);
-    const float16 v = loadBlock(gradients + (2u * channel + 1u) * p.planeSize, j);
+    const float16 u = loadShortsBlock(gradients, p.planeSize, j, 2u * channel);
+    const float16 v = loadShortsBlock(gradients, p.planeSize, j, 2u * channel + 1u);
     // Not the weight alone: 0 times a NaN would let it in.
     sum->gradient[2u * channel] += w > 0.0f ? w * u : (float16)(0.0f);
     sum->gradient[2u * channel + 1u] += w > 0.0f ? w * v : (float16)(0.0f);
@@ -37,9 +37,9 @@ WEDGE_INLINE float16 sheared(FilterParams p, __global const float* gradients, Sh
 WEDGE_INLINE void beginShear(FilterParams p, GatherPlanes in, int i, GatherWidth* width, GatherSum* sum)
 {
     // Where filters were widened, slopes are not what makes them as wide.
-    width->perSlope = 1.0f / max16(width->beta, loadBlock(in.slopeWidth, i));
+    width->perSlope = 1.0f / max16(width->beta, loadShortBlock(in.slopeWidth, i));
     for (uint k = 0u; k < WEDGE_GRADIENTS; ++k) {
-        sum->gradient[k] = loadBlock(in.gradients + k * p.planeSize, i);
+        sum->gradient[k] = loadShortsBlock(in.gradients, p.planeSize, i, k);
     }
 }
 
@@ -47,7 +47,7 @@ WEDGE_INLINE void beginShear(FilterParams p, GatherPlanes in, int i, GatherWidth
 WEDGE_INLINE void keepGradients(FilterParams p, __global const float* gradients, int i, __global float* out)
 {
     for (uint k = 0u; out != 0 && k < WEDGE_GRADIENTS; ++k) {
-        vstore16(loadBlock(gradients + k * p.planeSize, i), 0, out + k * p.planeSize + i);
+        storeShortsBlock(out, p.planeSize, i, k, loadShortsBlock(gradients, p.planeSize, i, k));
     }
 }
 
@@ -56,8 +56,8 @@ WEDGE_INLINE void storeGradients(FilterParams p, __global const float* gradients
     const GatherSum* sum, LineFit fit, __global float* out)
 {
     for (uint k = 0u; out != 0 && k < WEDGE_GRADIENTS; ++k) {
-        const float16 own = loadBlock(gradients + k * p.planeSize, i);
-        vstore16(gathers ? sum->gradient[k] * fit.perWeight : own, 0, out + k * p.planeSize + i);
+        const float16 own = loadShortsBlock(gradients, p.planeSize, i, k);
+        storeShortsBlock(out, p.planeSize, i, k, gathers ? sum->gradient[k] * fit.perWeight : own);
     }
 }
 

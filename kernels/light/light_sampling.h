@@ -5,16 +5,6 @@
 #include "core/packed_planes.h"
 #include "light/light_packet.h"
 
-/// Numbers of a sample: in the diffuse term what it weighs, and what of that arrives; then the same in the specular
-/// one.
-#ifdef WEDGE_SPECULAR
-#define WEDGE_SUMS 4u
-#define WEDGE_VALUES 2u ///< that are filtered: one a term
-#else
-#define WEDGE_SUMS 2u
-#define WEDGE_VALUES 1u
-#endif
-
 /// A packet's receivers, and their samples. Members are pointers, so that compilers see through it.
 typedef struct {
     uint size; ///< elements of a plane
@@ -33,17 +23,9 @@ typedef struct {
     const PacketHits* hits; ///< of rays to points on the light, where sinks take hits; else null
 } Samples;
 
-/// What the sums of n samples are filtered as: a mean visibility in each term, or what is reflected.
 WEDGE_INLINE void storeValue(const Sampling* at, uint i, const float* sums, uint n, __global float* value)
 {
-    const float diffuse = termValue(at->shading, sums[0], sums[1], n);
-    value[i] = diffuse;
-#ifdef WEDGE_SPECULAR
-    // A lobe that no sample reached says nothing: what is seen of the light at all stands for what it sees. 0 would
-    // darken its highlight, and those of neighbours that gather it.
-    const bool reached = sums[2] > 0.0f || at->shading == WEDGE_SHADING_INSIDE;
-    value[at->size + i] = reached ? termValue(at->shading, sums[2], sums[3], n) : diffuse;
-#endif
+    storeTermValues(at->shading, at->size, i, sums, n, value);
 }
 
 /// The same of a part of the samples, in 16 bits each (packed_planes.h): it is compared with the whole, for its

@@ -6,21 +6,18 @@
 #include "light/light_sampling.h"
 #include "sinks/lanes.h"
 
-/// Numbers kept of a receiver: of each number of its samples the sums of its products with the scores of both axes.
-#define WEDGE_SCORES (2u * WEDGE_SUMS)
-
+/// Of each number of its samples a receiver's sum of its products with the scores of both axes.
 typedef struct {
-    float sum[WEDGE_SCORES][WEDGE_PACKET_SIZE];
+    float sum[2u * WEDGE_SUMS][WEDGE_PACKET_SIZE];
 } Scores;
 
-/// in out  scores: WEDGE_SCORES planes
-WEDGE_INLINE void beginScores(const Sampling* at, Scores* state, __global const float* scores)
+/// A launch's own alone: finishScores() adds them up.
+WEDGE_INLINE void beginScores(const Sampling* at, Scores* state)
 {
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const bool shaded = at->pixel[lane] != WEDGE_NO_PIXEL;
-        const uint i = shaded ? at->pixel[lane] : 0u;
-        for (uint k = 0u; k < WEDGE_SCORES; ++k) {
-            state->sum[k][lane] = shaded ? scores[k * at->size + i] : 0.0f;
+    (void)at;
+    for (uint k = 0u; k < 2u * WEDGE_SUMS; ++k) {
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            state->sum[k][lane] = 0.0f;
         }
     }
 }
@@ -36,7 +33,7 @@ WEDGE_INLINE void takeScores(const Sampling* at, const Samples* s, Scores* state
         score[0][lane] = traced ? scoreOf(light, vecDot(light.alongU, point)) : 0.0f;
         score[1][lane] = traced ? scoreOf(light, vecDot(light.alongV, point)) : 0.0f;
     }
-    for (uint k = 0u; k < WEDGE_SCORES; ++k) {
+    for (uint k = 0u; k < 2u * WEDGE_SUMS; ++k) {
         float product[WEDGE_PACKET_SIZE];
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
             product[lane] = score[k % 2u][lane] * s->value[k / 2u][lane];
@@ -45,11 +42,26 @@ WEDGE_INLINE void takeScores(const Sampling* at, const Samples* s, Scores* state
     }
 }
 
-WEDGE_INLINE void finishScores(const Sampling* at, const Scores* state, __global float* scores)
+/// Adds sums of (V - h) w q: V the samples' visibility, w what they weigh, q their scores, and h the mean that is known
+/// by now. Less the mean, so that where all is seen, or nothing, it is 0 whatever the samples; and not of the samples
+/// that come later, since what is missing to those has the mean 0.
+///
+/// in      sums: as finishSums() leaves them
+/// in out  gradients: of each channel of sums along both axes, of 16 bits (packed_planes.h)
+WEDGE_INLINE void finishScores(
+    const Sampling* at, const Scores* state, __global const float* sums, __global float* gradients)
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        for (uint k = 0u; k < WEDGE_SCORES && hasTaken(at, lane); ++k) {
-            scores[k * at->size + at->pixel[lane]] = state->sum[k][lane];
+        if (!hasTaken(at, lane)) {
+            continue;
+        }
+        const uint i = at->pixel[lane];
+        for (uint k = 0u; k < WEDGE_SUMS; ++k) {
+            const uint all = k & ~1u, axis = k & 1u; // sums are of a channel's weights, and of what is seen of them
+            const float weights = sums[all * at->size + i];
+            const float mean = weights > 0.0f ? sums[(all + 1u) * at->size + i] / weights : 0.0f;
+            const float ofAll = state->sum[2u * all + axis][lane], ofSeen = state->sum[2u * all + 2u + axis][lane];
+            storeShort(gradients, at->size, i, k, loadShort(gradients, at->size, i, k) + (ofSeen - mean * ofAll));
         }
     }
 }

@@ -87,7 +87,7 @@ void shearedFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t chan
     const graph::Reach along { .x = pixels }, across { .y = pixels };
     auto rows = frame.graph.plane<Value>("rows filtered", graph::floatPlanes(channels));
     auto rowCounts = frame.graph.plane<Count>("effective count of rows", graph::floats);
-    auto rowGradients = frame.graph.plane<Value>("gradients of rows", graph::floatPlanes(2 * channels));
+    auto rowGradients = frame.graph.plane<Value>("gradients of rows", gradientsOf(channels));
     frame.blocks(run.pass, run.kind, { frame.program(run.program), "shearRows" },
         joined({ frame.rectangle(params), reads("value", value, along), reads("beta", beta, along) },
             gathered(frame, params, along),
@@ -127,8 +127,7 @@ void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams para
     auto wider = g.plane<Metres>("width to compare with", graph::floats);
     auto narrowRows = g.plane<Value>("rows, narrow", graph::floats);
     auto wideRows = g.plane<Value>("rows, wide", graph::floats);
-    auto narrowCounts = g.plane<Count>("equal samples of narrow filters", graph::floats);
-    auto wideCounts = g.plane<Count>("equal samples of wide filters", graph::floats);
+    // Of equal samples of narrow and of wide filters.
     auto difference = g.plane<Value>("difference", graph::floats);
     auto apart = g.plane<Share>("variance that is not shared", graph::floats);
     auto squares = g.plane<Value>("squares", graph::floats);
@@ -142,12 +141,11 @@ void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams para
                    reads("compared", wider, along) },
             gathered(frame, params, along),
             Arguments { writes("narrowRows", narrowRows), writes("wideRows", wideRows),
-                writes("narrowCounts", narrowCounts), writes("wideCounts", wideCounts) }));
+                writes("narrowCounts", difference), writes("wideCounts", apart) }));
     frame.blocks(pass, PassKind::Filter, { program, "compareColumns" },
         joined({ frame.rectangle(params), reads("narrowRows", narrowRows, across), reads("wideRows", wideRows, across),
-                   reads("narrowCounts", narrowCounts), reads("wideCounts", wideCounts), reads("beta", beta, across),
-                   reads("compared", wider, across) },
-            gathered(frame, params, across), Arguments { writes("difference", difference), writes("apart", apart) }));
+                   reads("beta", beta, across), reads("compared", wider, across) },
+            gathered(frame, params, across), Arguments { updates("difference", difference), updates("apart", apart) }));
     frame.blocks(pass, PassKind::Filter, { "analysis/widen.cl", "widenSquares" },
         { frame.rectangle(p), reads("difference", difference), reads("apart", apart),
             reads("deviation", compared.deviation), reads("weights", compared.weights), writes("squares", squares),

@@ -34,7 +34,7 @@ void gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t cha
     const shared::FilterParams& params, const graph::Handle<Value>& value, const graph::Handle<Metres>& beta,
     Gathered& out);
 
-/// What the sheared filter takes besides (kernels/filter/gather_sheared.h): two planes of gradients a channel, and
+/// What the sheared filter takes besides (kernels/filter/gather_sheared.h), of 16 bits: two gradients a channel, and
 /// widths that go with the occluders' slopes alone.
 struct Shearing {
     graph::Handle<Value> gradients;
