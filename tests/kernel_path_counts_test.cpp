@@ -62,3 +62,35 @@ TEST_CASE("sampleVariance is the variance of the samples' luminance as the image
             }
     });
 }
+
+TEST_CASE("sampleVariance of fractions is that of samples that see all or nothing")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        const render::PlaneLayout layout(21, 3);
+        Planes<float> sums(layout, 4, 0.0f), reflectance(layout, 3, 0.5f);
+        Planes<std::uint32_t> taken(layout, 1, 0u);
+        std::mt19937 random(4);
+        everyPixel(layout, [&](int x, int y) {
+            // What is seen of n samples that bring 3 each; of the first column none brings anything.
+            const auto n = static_cast<std::uint32_t>(random() % 20);
+            const auto seen = static_cast<std::uint32_t>(random() % (n + 1));
+            taken.at(x, y) = n;
+            const float each = x == 0 ? 0.0f : 3.0f;
+            sums.setVector(x, y, glm::dvec3(each * static_cast<float>(seen)));
+            sums.at(x, y, 3) = each * static_cast<float>(n);
+        });
+        shared::ReflectorParams p = paramsFor(layout);
+        p.component = WEDGE_COMPONENT_ENVIRONMENT_GLOSSY;
+        p.fractions = 1;
+        const auto variance = bench.filled(layout.size, -7.0f);
+        launchRows(bench, "sampleVariance", p, block, bench.buffer(sums.values), bench.buffer(taken.values),
+            bench.buffer(reflectance.values), variance);
+        const Planes<float> found = planesOf(layout, bench.read(variance));
+        everyPixel(layout, [&](int x, int y) {
+            const double n = taken.at(x, y), f = n > 0 && x > 0 ? sums.at(x, y) / sums.at(x, y, 3) : 0;
+            const double expected = n > 1 ? n / (n - 1) * f * (1 - f) * 0.25 : 0; // of the reflectance 0.5
+            REQUIRE(std::fabs(found.at(x, y) - expected) <= 1e-5 * expected + 1e-7);
+        });
+    });
+}

@@ -427,8 +427,8 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
             });
             const auto paths = bench.buffer(sums.values);
             bench.passes.rows("widen", device::PassKind::Filter, "analysis/widen.cl", "oneOfPaths", paramsOf(layout),
-                WEDGE_BLOCK_PIXELS, WEDGE_COMPONENT_DIFFUSE, WEDGE_INDIRECT_FIRST_RAYS, bench.buffer(kd.values), paths,
-                bench.buffer(packedParts), bench.buffer(taken.values), seen, deviation, weights);
+                WEDGE_BLOCK_PIXELS, WEDGE_COMPONENT_DIFFUSE, 0u, WEDGE_INDIRECT_FIRST_RAYS, bench.buffer(kd.values),
+                paths, bench.buffer(packedParts), bench.buffer(taken.values), seen, deviation, weights);
             constexpr double luminances[] = { 0.2126, 0.7152, 0.0722 };
             check(
                 WEDGE_INDIRECT_FIRST_RAYS,
@@ -457,6 +457,21 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
                             == doctest::Approx(sums.at(x, y, c) / std::max(1.0, static_cast<double>(taken.at(x, y))))
                                    .epsilon(1e-6));
                 }
+            // Of fractions the fourth plane says of what, and all colours have the same.
+            const auto fractions = bench.buffer(sums.values);
+            bench.passes.rows("widen", device::PassKind::Filter, "analysis/widen.cl", "oneOfPaths", paramsOf(layout),
+                WEDGE_BLOCK_PIXELS, WEDGE_COMPONENT_ENVIRONMENT_GLOSSY, 1u, WEDGE_INDIRECT_FIRST_RAYS,
+                bench.buffer(ks.values), fractions, bench.buffer(packedParts), bench.buffer(taken.values), seen,
+                deviation, weights);
+            const Planes<float> found = planesOf(layout, bench.read(fractions));
+            everyPixel(layout, [&](int x, int y) {
+                double sum = 0;
+                for (std::size_t c = 0; c < 3; ++c)
+                    sum += luminances[c] * sums.at(x, y, c);
+                const double whole = sums.at(x, y, 3), expected = whole > 0 ? sum / whole : 0;
+                for (std::size_t c = 0; c < 3; ++c)
+                    REQUIRE(std::fabs(found.at(x, y, c) - expected) <= 1e-5 * std::fabs(expected));
+            });
         }
     });
 }

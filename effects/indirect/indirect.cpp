@@ -47,7 +47,7 @@ shared::PathParams pathParams(const FrameBuilder& frame, Component component)
     p.emitterShare = frame.scene != nullptr ? frame.scene->emitterShare : 0.0f;
     p.environmentShare = frame.scene != nullptr ? frame.scene->environmentShare : 0.0f;
     p.precomputed = frame.environmentSamples ? 1 : 0;
-    p.relative = isRelative(component, settings) ? 1 : 0;
+    p.relative = isRelative(component, settings) || isOfFractions(frame, component) ? 1 : 0;
     p.occluders = isByCurvature(component, settings) ? 1 : 0;
     p.skipsMirrors = component != Component::Ambient ? 1 : 0;
     p.sceneDiameter = frame.scene != nullptr ? frame.scene->diameter : 0.0f;
@@ -71,6 +71,7 @@ shared::ReflectorParams reflectorParams(const FrameBuilder& frame, Component com
     p.widthScale = isOfEnvironment(component) ? settings.environment.widthScale : in.widthScale;
     p.leastReflector = in.leastReflector;
     p.meanFraction = in.meanFraction;
+    p.fractions = isOfFractions(frame, component) ? 1 : 0;
     p.countCap = static_cast<std::uint32_t>(in.maxSpp);
     p.fixedWidth = settings.filtering == Filtering::Fixed ? settings.fixedWidth : 0.0f;
     p.width = frame.layout.width;
@@ -133,6 +134,31 @@ shared::FilterParams pathFilterParams(const FrameBuilder& frame, Component compo
 float wideningOf(Component component, const Settings& settings)
 {
     return component == Component::EnvironmentGlossy ? settings.environment.lobeWidening : settings.indirect.widening;
+}
+
+bool isOfFractions(const FrameBuilder& frame, Component component)
+{
+    const Settings& s = frame.settings;
+    // Of wide lobes and of the far tails of GGX unshadowedLobe() is off by more than samples are.
+    const auto isNarrow = [](const scene::Material& m) {
+        constexpr float least = 16.0f; // of Phong; of Blinn-Phong four times that
+        const bool phong = m.specularModel == scene::SpecularModel::Phong;
+        const bool lobes = m.specularModel != scene::SpecularModel::Mirror
+            && m.specularModel != scene::SpecularModel::Glass && m.specular != glm::vec3(0.0f);
+        return !lobes
+            || (m.specularModel != scene::SpecularModel::Ggx && m.exponentTexture < 0
+                && m.exponent >= (phong ? least : 4.0f * least));
+    };
+    // And of more samples than these plain means are as near.
+    constexpr int mostSpp = 128;
+    return component == Component::EnvironmentGlossy && s.spp <= mostSpp && s.method == Method::AxisAligned
+        && s.environment.relative && usesFallback(s) && std::ranges::all_of(frame.description.materials, isNarrow);
+}
+
+std::uint32_t lobeRings(int spp)
+{
+    constexpr std::uint32_t fewest = 4, most = 32; // more would make launches long
+    return std::clamp(static_cast<std::uint32_t>(1.5f * std::sqrt(static_cast<float>(spp))), fewest, most);
 }
 
 std::uint32_t firstPathsOf(Component component, const Settings& settings)

@@ -39,6 +39,14 @@ inline bool isRelative(Component c, const Settings& settings)
     return c == Component::Environment && settings.method == Method::AxisAligned && settings.environment.relative;
 }
 
+/// Whether its samples are such fractions by themselves: of lobes, where the pixels are the receivers and what lobes
+/// would see is known well enough.
+bool isOfFractions(const FrameBuilder& frame, Component component);
+
+/// How well what lobes would see is known, of so many samples a pixel: unshadowedLobe() looks along twice the square of
+/// this number of directions.
+std::uint32_t lobeRings(int spp);
+
 /// Whether the widths of a component's filter follow from curvatures, where the pixels are the receivers.
 inline bool isByCurvature(Component c, const Settings& settings)
 {

@@ -5,6 +5,7 @@
 #include "host/render/filters/widening.h"
 #include "host/render/sample_slices.h"
 #include "host/render/sinks.h"
+#include "kernels/shared/environment.h"
 #include "kernels/shared/indirect.h"
 
 #include <algorithm>
@@ -52,6 +53,7 @@ public:
         , irradiance_(g_.plane<Value>("irradiance", graph::floats))
         , deviation_(g_.plane<Deviation>("deviation", graph::floats))
         , weights_(g_.plane<Share>("weights", graph::floats))
+        , whole_(g_.plane<Value>("what lobes would see", graph::floats))
     {
     }
 
@@ -93,6 +95,7 @@ public:
                 [&] { paths("second paths", first, static_cast<std::uint32_t>(most), s_.spp, false); });
         }
         count();
+        correctLobes();
         if (varies()) {
             deviations();
         }
@@ -110,7 +113,9 @@ public:
                         { irradiance_, deviation_, weights_ }, beta_);
                 });
         }
-        addSamples(); // not before: widening takes the most memory
+        if (!isOfFractions(f_, component_)) {
+            addSamples(); // not before: widening takes the most memory
+        }
         shared::FilterParams params = filterParams();
         params.fitted = std::min(params.fitted, channels); // of the variance the mean, which is not negative
         const std::uint32_t planes = varies() ? channels + 1 : channels;
@@ -156,6 +161,7 @@ private:
         f_.zero(rays_, pathRays_);
     }
     void unshadowed();
+    void correctLobes();
     void paths(const char* pass, std::uint32_t from, std::uint32_t most, double mean, bool everywhere);
     void widthsAndCounts();
     void countsFromVariance();
@@ -180,20 +186,47 @@ private:
     graph::Handle<Value> irradiance_;
     graph::Handle<Deviation> deviation_;
     graph::Handle<Share> weights_;
+    graph::Handle<Value> whole_; ///< of lobes, what they would see if nothing were hidden
 };
 
 /// Makes fractions of samples, and what they are fractions of a part of the reflectance.
 void PathGraph::unshadowed()
 {
-    if (!isRelative(component_, s_)) {
+    const bool lobes = isOfFractions(f_, component_);
+    if (!lobes && !isRelative(component_, s_)) {
         return;
     }
     auto reflectance = g_.plane<Reflectance>("reflectance times unshadowed light", graph::vectors);
-    f_.blocks("composite", PassKind::Composite, { "light/unshadowed_environment.cl", "environmentOfPixels" },
-        joined({ f_.rectangle(countParams()) }, f_.beyond(),
-            Arguments { reads("normal", f_.surfaces.normal), reads("diffuse", f_.surfaces.diffuse),
-                writes("unshadowed", reflectance) }));
+    const Surfaces& s = f_.surfaces;
+    if (lobes) {
+        f_.pixels("composite", PassKind::Composite, { "light/unshadowed_environment.cl", "lobesOfPixels" },
+            joined({ f_.rectangle(countParams()), value("frame", f_.wholeFrame()), value("rings", lobeRings(s_.spp)) },
+                f_.beyond(),
+                Arguments { reads("position", s.position), reads("normal", s.normal), reads("gloss", s.gloss),
+                    reads("specular", s.specular), writes("unshadowed", reflectance), writes("whole", whole_) }));
+    } else {
+        f_.blocks("composite", PassKind::Composite, { "light/unshadowed_environment.cl", "environmentOfPixels" },
+            joined({ f_.rectangle(countParams()) }, f_.beyond(),
+                Arguments {
+                    reads("normal", s.normal), reads("diffuse", s.diffuse), writes("unshadowed", reflectance) }));
+    }
     reflectance_ = reflectance;
+}
+
+void PathGraph::correctLobes()
+{
+    if (!isOfFractions(f_, component_)) {
+        return;
+    }
+    const graph::Reach near = graph::around(WEDGE_LOBE_REACH);
+    f_.pixels("composite", PassKind::Composite, { "light/unshadowed_environment.cl", "correctLobes" },
+        { f_.rectangle(countParams()), reads("specular", f_.surfaces.specular), reads("sums", sums_, near),
+            reads("taken", taken_, near), reads("objectId", f_.surfaces.objectId, near), reads("whole", whole_, near),
+            updates("unshadowed", reflectance_) });
+    f_.blocks("composite", PassKind::Composite, { "frame/composite.cl", "addLobeSamples" },
+        { f_.rectangle(countParams()), value("firstPass", firstPathsOf(component_, s_)),
+            reads("specular", f_.surfaces.specular), reads("sums", sums_), reads("parts", parts_),
+            reads("taken", taken_), updates("noisy", sum_.noisy), updates("deviation", sum_.deviation) });
 }
 
 void PathGraph::paths(const char* pass, std::uint32_t from, std::uint32_t most, double mean, bool everywhere)
@@ -271,6 +304,7 @@ void PathGraph::deviations()
 {
     f_.blocks("filter of indirect", PassKind::Filter, { "analysis/widen.cl", "oneOfPaths" },
         { f_.rectangle(countParams()), value("component", static_cast<std::uint32_t>(component_)),
+            value("fractions", isOfFractions(f_, component_) ? 1u : 0u),
             value("firstPass", firstPathsOf(component_, s_)), reads("reflectance", reflectance_),
             updates("value", sums_), reads("parts", parts_), reads("taken", taken_), writes("irradiance", irradiance_),
             writes("deviation", deviation_), writes("weights", weights_) });

@@ -139,6 +139,35 @@ std::array<float, WEDGE_HARMONICS> unshadowedHarmonics(Harmonics sums)
     return out;
 }
 
+/// R, G, B of means over the texels of a picture of `columns` columns and half as many rows, by area on the sphere.
+void average(const EnvironmentPicture& p, int columns, std::span<float> out)
+{
+    const int rows = columns / 2;
+    // As many points in each texel as meet all of the picture's.
+    const int across = (p.width + columns - 1) / columns, down = (p.height + rows - 1) / rows;
+    for (int y = 0; y < rows; ++y) {
+        for (int x = 0; x < columns; ++x) {
+            glm::dvec3 sum(0.0);
+            double area = 0;
+            for (int j = 0; j < down; ++j) {
+                const double v = (y + (j + 0.5) / down) / rows, sine = std::sin(std::acos(-1.0) * v);
+                const auto row = static_cast<std::size_t>(v * p.height) * static_cast<std::size_t>(p.width);
+                for (int i = 0; i < across; ++i) {
+                    const double u = (x + (i + 0.5) / across) / columns;
+                    const float* texel = p.radiance.data() + 3 * (row + static_cast<std::size_t>(u * p.width));
+                    sum += sine * glm::dvec3(texel[0], texel[1], texel[2]);
+                    area += sine;
+                }
+            }
+            const std::size_t at =
+                3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x));
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                out[at + channel] = static_cast<float>(sum[static_cast<int>(channel)] / area);
+            }
+        }
+    }
+}
+
 shared::Vec3 toVec3(glm::vec3 v) { return shared::vec3(v.x, v.y, v.z); }
 
 } // namespace
@@ -193,6 +222,12 @@ EnvironmentTable environmentTable(const EnvironmentPicture* picture)
         const std::span<float> to = all.subspan(
             shared::environmentHarmonics(out.map.width, out.map.height) + WEDGE_HARMONICS * channel, WEDGE_HARMONICS);
         std::ranges::copy(unshadowedHarmonics(sums[channel]), to.begin());
+    }
+    const std::span<float> averages = all.subspan(shared::environmentAverages(out.map.width, out.map.height));
+    for (std::uint32_t level = 0; level < shared::coarseLevels(out.map.width); ++level) {
+        const std::uint32_t from = shared::coarseLevelAt(level);
+        average(*picture, static_cast<int>(WEDGE_COARSE_COLUMNS << level),
+            averages.subspan(from, shared::coarseLevelAt(level + 1) - from));
     }
     if (!picture->shown.empty()) { // no span is used from here on
         out.map.shown = static_cast<std::uint32_t>(out.numbers.size());

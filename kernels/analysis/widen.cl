@@ -122,13 +122,15 @@ __kernel void oneOfLight(AnalysisParams p, uint firstPass, __global const float*
 }
 
 /// The same of indirect light: the irradiance that is reflected.
-/// in       reflectance: 3 planes; component: WEDGE_COMPONENT_*; of ambient occlusion all is reflected
+/// in       reflectance: 3 planes; component: WEDGE_COMPONENT_*; of ambient occlusion all is reflected; fractions: 1:
+///          sums are those of fractions (path_sampling.h)
 ///          parts: of the first part, colours in 48 bits; taken: samples
 /// in out   value: sums of the samples, 3 planes, of which the means are made, and one in whose place comes the square
 ///          of the deviation, for filters (fallback.cl)
-__kernel void oneOfPaths(AnalysisParams p, uint component, uint firstPass, __global const float* restrict reflectance,
-    __global float* restrict value, __global const float* restrict parts, __global const uint* restrict taken,
-    __global float* restrict irradiance, __global float* restrict deviation, __global float* restrict weights)
+__kernel void oneOfPaths(AnalysisParams p, uint component, uint fractions, uint firstPass,
+    __global const float* restrict reflectance, __global float* restrict value, __global const float* restrict parts,
+    __global const uint* restrict taken, __global float* restrict irradiance, __global float* restrict deviation,
+    __global float* restrict weights)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -142,11 +144,18 @@ __kernel void oneOfPaths(AnalysisParams p, uint component, uint firstPass, __glo
     const uint16 count = loadIdBlock(taken, i);
     const float16 scale = 1.0f / max16(convert_float16(count), (float16)(1.0f));
     Vec3x16 all = loadVecBlock(value, size, i);
-    all.x *= scale;
-    all.y *= scale;
-    all.z *= scale;
-    storeOne(luminance16(k), luminance16(mul16(k, all)), luminance16(mul16(k, loadColours16(parts, size, i))), count,
-        firstPass, i, irradiance, deviation, weights);
+    Vec3x16 ofPart = loadColours16(parts, size, i);
+    if (fractions != 0u) {
+        const float16 whole = loadBlock(value + 3u * size, i);
+        all.x = all.y = all.z = whole > 0.0f ? luminance16(all) / whole : (float16)(0.0f);
+        ofPart.x = ofPart.y = ofPart.z = ofPart.y > 0.0f ? ofPart.x / ofPart.y : (float16)(0.0f);
+    } else {
+        all.x *= scale;
+        all.y *= scale;
+        all.z *= scale;
+    }
+    storeOne(luminance16(k), luminance16(mul16(k, all)), luminance16(mul16(k, ofPart)), count, firstPass, i, irradiance,
+        deviation, weights);
     const float16 d = loadBlock(deviation, i);
     vstore16(all.x, 0, value + i);
     vstore16(all.y, 0, value + size + i);

@@ -180,6 +180,36 @@ __kernel void addPathSamples(AnalysisParams p, uint component, uint varies, __gl
     }
 }
 
+/// The samples of fractions (path_sampling.h) as they are, which know nothing of what would be seen if nothing were
+/// hidden: so the fallback sees what that is off by.
+/// in      specular: 3 planes; sums; parts: of the first part; taken
+/// in out  noisy (3 planes), deviation (as of lights)
+__kernel void addLobeSamples(AnalysisParams p, uint firstPass, __global const float* restrict specular,
+    __global const float* restrict sums, __global const float* restrict parts, __global const uint* restrict taken,
+    __global float* restrict noisy, __global float* restrict deviation)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const uint16 count = loadIdBlock(taken, i);
+    const int16 has = count != 0u;
+    const float16 per = 1.0f / max16(convert_float16(count), (float16)(1.0f)), zero = (float16)(0.0f);
+    const Vec3x16 k = loadVecBlock(specular, p.planeSize, i), seen = loadVecBlock(sums, p.planeSize, i);
+    Vec3x16 all = loadVecBlock(noisy, p.planeSize, i);
+    all.x += has ? k.x * seen.x * per : zero;
+    all.y += has ? k.y * seen.y * per : zero;
+    all.z += has ? k.z * seen.z * per : zero;
+    vstore16(all.x, 0, noisy + i);
+    vstore16(all.y, 0, noisy + p.planeSize + i);
+    vstore16(all.z, 0, noisy + 2u * p.planeSize + i);
+    const Vec3x16 part = loadColours16(parts, p.planeSize, i);
+    const float16 off = luminance16(k) * deviation16(luminance16(seen) * per, part.x, count, firstPass);
+    addShorts(deviation, p.planeSize, i, has ? off : zero);
+}
+
 /// One term of indirect light, filtered.
 /// in      value: 3 planes, and, where they vary, the variance of a pixel's samples; taken
 /// in out  indirect (3 planes), variance (in the luminance that is shown, in 16 bits)

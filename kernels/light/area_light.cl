@@ -71,8 +71,9 @@ WEDGE_FN void addDirections(SampleParams params, AreaLight light, __global const
 }
 
 /// Takes the points on the light, with what `numbers` have of directions. Receivers that have all their samples wait
-/// for the others, and theirs are void.
-WEDGE_FN void takePoints(AreaLight light, __global const TraversalNode* restrict nodes,
+/// for the others, and theirs are void. This and takeStep() are inlined by order: where they are calls, NVIDIA's
+/// compiler for GPUs has the sinks read what these are handed by value from beyond all memory (docs/porting.md).
+WEDGE_INLINE void takePoints(AreaLight light, __global const TraversalNode* restrict nodes,
     __global const TriangleBlock* restrict blocks, LightSamples* s, float (*numbers)[WEDGE_PACKET_SIZE],
     const Sampling* at, LightCounts* counts, Sink* sink, WEDGE_SINK_PARAMETERS)
 {
@@ -109,7 +110,7 @@ WEDGE_FN void takePoints(AreaLight light, __global const TraversalNode* restrict
 }
 
 /// One sample of each lane.
-WEDGE_FN void takeStep(FrameParams frame, SampleParams params, AreaLight light,
+WEDGE_INLINE void takeStep(FrameParams frame, SampleParams params, AreaLight light,
     __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
     const LightLanes* lanes, const Sampling* at, LightCounts* counts, Sink* sink, WEDGE_SINK_PARAMETERS)
 {

@@ -4,6 +4,8 @@
 
 #include "core/vector16.h"
 #include "light/environment_map.h"
+#include "shared/bsdf.h"
+#include "shared/material.h"
 
 /// Least of what unshadowedLight() returns: harmonics of a small sun go below 0.
 #define WEDGE_LEAST_UNSHADOWED 0.0625f
@@ -27,5 +29,88 @@ WEDGE_INLINE Vec3x16 unshadowedLight(__global const EnvironmentMap* environment,
     light.z = ofHarmonics(c + 2u * WEDGE_HARMONICS, n);
     return light;
 }
+
+/// An average of the map, between the four texels around; the first column is beside the last one. at: in widths and
+/// heights
+WEDGE_FN Vec3 averageAt(__global const float* averages, uint level, Vec2 at)
+{
+    const int w = (int)(WEDGE_COARSE_COLUMNS << level), h = w / 2;
+    __global const float* texels = averages + coarseLevelAt(level);
+    const float fx = at.x * (float)w - 0.5f, fy = at.y * (float)h - 0.5f;
+    const int x = (int)floor(fx), y = (int)floor(fy);
+    const float tx = fx - (float)x, ty = fy - (float)y;
+    const int x0 = (x + w) & (w - 1), x1 = (x + 1) & (w - 1); // widths are powers of 2
+    const int y0 = clamp(y, 0, h - 1) * w, y1 = clamp(y + 1, 0, h - 1) * w;
+    const float weights[4] = { (1.0f - tx) * (1.0f - ty), tx * (1.0f - ty), (1.0f - tx) * ty, tx * ty };
+    const int places[4] = { y0 + x0, y0 + x1, y1 + x0, y1 + x1 };
+    Vec3 seen = vec3(0.0f, 0.0f, 0.0f);
+    for (uint k = 0u; k < 4u; ++k) {
+        __global const float* texel = texels + 3 * places[k];
+        seen = vecMad(seen, vec3(texel[0], texel[1], texel[2]), weights[k]);
+    }
+    return seen;
+}
+
+#ifdef WEDGE_SPECULAR
+/// Directions of a lobe, and what each of them stands for.
+typedef struct {
+    float x[16], y[16], z[16]; ///< unit
+    float weight[16], pdf[16];
+} LobeDirections;
+
+/// Strata `first` and on of rings * spokes of them.
+WEDGE_INLINE void lobeDirections(Lobe lobe, Vec3 n, Vec3 v, uint first, uint rings, uint spokes, LobeDirections* out)
+{
+    const float perRings = 1.0f / (float)rings, perSpokes = 1.0f / (float)spokes;
+    for (uint lane = 0u; lane < 16u; ++lane) {
+        const uint k = first + lane, ring = min(k / spokes, rings - 1u);
+        const float turn = 0.25f + 0.5f * (float)(ring & 1u);
+        const Vec3 l = sampleLobe(
+            lobe, n, v, vec2(((float)ring + 0.5f) * perRings, ((float)(k - ring * spokes) + turn) * perSpokes));
+        const LobeAt at = lobeAt(lobe, n, v, l);
+        const float cosine = vecDot(n, l);
+        const bool taken = k < rings * spokes && cosine > 0.0f && at.pdf > 0.0f;
+        out->x[lane] = l.x;
+        out->y[lane] = l.y;
+        out->z[lane] = l.z;
+        out->pdf[lane] = at.pdf;
+        out->weight[lane] = taken ? at.value * cosine / fmax(at.pdf, 1e-20f) : 0.0f;
+    }
+}
+
+/// What a surface's lobe reflects of what is beyond the scene if nothing hides it, over its specular reflectance:
+/// 2 rings^2 directions of the lobe, each of which sees the mean over as much as they are apart (Krivanek and Colbert,
+/// Real-Time Shading with Filtered Importance Sampling, 2008).
+WEDGE_FN Vec3 unshadowedLobe(EnvironmentMap map, __global const float* table, Vec3 n, Vec3 v, Gloss gloss, uint rings)
+{
+    const Lobe lobe = lobeOf(gloss);
+    const uint spokes = 2u * rings, count = rings * spokes, last = coarseLevels(map.width) - 1u;
+    __global const float* averages = table + environmentAverages(map.width, map.height);
+    Vec3 seen = vec3(0.0f, 0.0f, 0.0f);
+    for (uint first = 0u; first < count; first += 16u) {
+        LobeDirections d;
+        lobeDirections(lobe, n, v, first, rings, spokes, &d);
+        const float16 dx = vload16(0, d.x), dy = vload16(0, d.y), dz = vload16(0, d.z);
+        const float16 x = map.right.x * dx + map.right.y * dy + map.right.z * dz;
+        const float16 y = map.up.x * dx + map.up.y * dy + map.up.z * dz;
+        const float16 z = map.back.x * dx + map.back.y * dy + map.back.z * dz;
+        float across[16], down[16], level[16];
+        vstore16(0.5f + 0.159154943f * atan2(x, -z), 0, across);
+        vstore16(0.318309886f * atan2(sqrt(x * x + z * z), y), 0, down);
+        // Between texels' middles an average deviates by half of a texel's side: 1/12 of its square are of the texel,
+        // 1/6 of the interpolation. Directions deviate by sqrt(1 / (2 pi count pdf)).
+        const float widest = 3.14159265f / (float)WEDGE_COARSE_COLUMNS;
+        const float16 squared = 6.28318531f * widest * widest * (float)count * vload16(0, d.pdf);
+        vstore16(0.5f * log2(max16(squared, (float16)(1.0f))) + 0.5f, 0, level);
+        for (uint lane = 0u; lane < 16u; ++lane) {
+            if (d.weight[lane] > 0.0f) {
+                const Vec2 at = vec2(across[lane], down[lane]);
+                seen = vecMad(seen, averageAt(averages, min((uint)level[lane], last), at), d.weight[lane]);
+            }
+        }
+    }
+    return vecScale(seen, 1.0f / (float)count);
+}
+#endif
 
 #endif

@@ -45,11 +45,11 @@ WEDGE_FN void divideByUnshadowed(
 
 /// One sample a lane, whose reflected direction is that of `rays` and counts `weight`, which becomes 1: fills
 /// paths->radiance, counts of rays, and in paths->distance, where sinks take distances, what widths follow from: see
-/// penumbraOf().
+/// penumbraOf(). whole: of `fractions`, luminance of what would be seen if nothing were hidden.
 WEDGE_FN void traceEnvironment(__global const TraversalNode* restrict nodes,
     __global const TriangleBlock* restrict blocks, BeyondData beyond, SampleParams sampling, bool glossy,
-    uint occluders, const ReceiverPacket* r, const VecLanes* facing, const uint* last, const RayPacket* rays,
-    float* weight, PathPacket* paths)
+    bool fractions, uint occluders, const ReceiverPacket* r, const VecLanes* facing, const uint* last,
+    const RayPacket* rays, float* weight, PathPacket* paths, float* whole)
 {
     const bool both = sampling.lightSampling == WEDGE_LIGHTS_BOTH;
     PacketHits hits;
@@ -61,16 +61,19 @@ WEDGE_FN void traceEnvironment(__global const TraversalNode* restrict nodes,
     beginDirect(sampling, r, last, rays, paths, live, u, v, &shadow, &light);
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         extent[lane] = INFINITY;
+        whole[lane] = 0.0f;
         if (live[lane] == 0u) {
             continue;
         }
         const Vec3 direction = rayDirection(rays, lane);
         const bool follows = rays->tMax[lane] > 0.0f, open = hits.triangle[lane] == WEDGE_NO_TRIANGLE;
-        if (follows && open) {
+        if (follows && (open || fractions)) {
             const BeyondSample seen = seenBeyond(beyond, direction);
             const float own = reflectedTo(r, lane, glossy, direction).pdf;
             const float w = both ? powerHeuristic(own, seen.pdf) : 1.0f;
-            setLaneVec(&paths->radiance, lane, vecScale(seen.radiance, w * weight[lane]));
+            const Vec3 brought = vecScale(seen.radiance, w * weight[lane]);
+            whole[lane] = luminance(brought);
+            setLaneVecIf(&paths->radiance, lane, open, brought);
         }
 #ifdef WEDGE_SINK_TAKES_DISTANCES
         if (follows && !open) {
@@ -90,6 +93,7 @@ WEDGE_FN void traceEnvironment(__global const TraversalNode* restrict nodes,
             const float w = both ? powerHeuristic(chosen.pdf, reflected.pdf) : 1.0f;
             const Vec3 brought = vecScale(chosen.radiance, w * reflected.value / chosen.pdf);
             if (luminance(brought) > 0.0f) {
+                whole[lane] += luminance(brought);
                 setLaneVec(&light, lane, brought);
                 const Vec3 origin = vec3(r->originX[lane], r->originY[lane], r->originZ[lane]);
                 setRay(&shadow, lane, origin, l, 0.0f, INFINITY);

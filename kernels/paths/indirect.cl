@@ -82,10 +82,10 @@ WEDGE_FN void traceAmbient(__global const TraversalNode* restrict nodes, __globa
     }
 }
 
-/// Takes a path of each lane, whose radiance counts `weight`. Receivers that have all their samples wait for the
-/// others.
-WEDGE_FN void takePaths(const PathPacket* paths, const float* weight, const RayPacket* rays, const Sampling* at,
-    PathCounts* counts, Sink* sink, WEDGE_SINK_PARAMETERS)
+/// Takes a path of each lane, whose radiance counts `weight`, or of fractions it and `whole`. Receivers that have all
+/// their samples wait for the others.
+WEDGE_FN void takePaths(const PathPacket* paths, const float* weight, const float* whole, const RayPacket* rays,
+    const Sampling* at, PathCounts* counts, Sink* sink, WEDGE_SINK_PARAMETERS)
 {
     float numbers[WEDGE_SUMS][WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
@@ -95,7 +95,8 @@ WEDGE_FN void takePaths(const PathPacket* paths, const float* weight, const RayP
         numbers[0][lane] = taken ? radiance.x : 0.0f;
         numbers[1][lane] = taken ? radiance.y : 0.0f;
         numbers[2][lane] = taken ? radiance.z : 0.0f;
-        numbers[3][lane] = taken ? l * l : 0.0f;
+        const float last = at->fractions != 0u ? whole[lane] : l * l;
+        numbers[3][lane] = taken ? last : 0.0f;
         counts->laneRays[lane] += taken ? paths->rays[lane] + paths->shadowRays[lane] : 0u;
         counts->lanePathRays[lane] += taken ? paths->rays[lane] : 0u;
     }
@@ -177,7 +178,8 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
     const uint* pixel = own.receivers.pixel;
     PathCounts counts;
     preparePaths(frame.planeSize, params, lastSample, specular, geometric, taken, wanted, &own, &counts);
-    Sampling at = { frame.planeSize, params.firstPass, &own.receivers, pixel, &counts.wanted, &counts.deal };
+    const uint fractions = params.component == WEDGE_COMPONENT_ENVIRONMENT_GLOSSY ? params.relative : 0u;
+    Sampling at = { frame.planeSize, params.firstPass, fractions, &own.receivers, pixel, &counts.wanted, &counts.deal };
     Sink sink;
     beginReceivers(&at, &sink, WEDGE_SINK_ARGUMENTS);
     while (dealSamples(&counts.wanted, &counts.deal)) {
@@ -190,7 +192,7 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
             PathPacket paths;
             numberPaths(at.dealt, &counts.deal, &paths);
             RayPacket packet;
-            float weight[WEDGE_PACKET_SIZE];
+            float weight[WEDGE_PACKET_SIZE], whole[WEDGE_PACKET_SIZE];
             uint follows[WEDGE_PACKET_SIZE];
             followDirections(params, at.dealt, follows);
             firstRays(frame, params, sampling, lanes, &paths, counts.deal.last, follows, &packet, weight);
@@ -207,15 +209,15 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
                     at.dealt, &lanes->facing, counts.deal.last, follows, &packet, weight, &paths);
             } else if (WEDGE_ENVIRONMENT_MAP != 0 && WEDGE_IS_OF_ENVIRONMENT(params.component)) {
                 traceEnvironment(nodes, blocks, lights.beyond, sampling,
-                    params.component == WEDGE_COMPONENT_ENVIRONMENT_GLOSSY, params.occluders, at.dealt, &lanes->facing,
-                    counts.deal.last, &packet, weight, &paths);
-                if (params.relative != 0u) {
+                    params.component == WEDGE_COMPONENT_ENVIRONMENT_GLOSSY, fractions != 0u, params.occluders, at.dealt,
+                    &lanes->facing, counts.deal.last, &packet, weight, &paths, whole);
+                if (params.relative != 0u && params.component == WEDGE_COMPONENT_ENVIRONMENT) {
                     divideByUnshadowed(environment, lights.beyond, at.dealt, &paths);
                 }
             } else {
                 tracePaths(nodes, blocks, surfaces, lights, sampling, params.bounces, &packet, &paths);
             }
-            takePaths(&paths, weight, firstOnes, &at, &counts, &sink, WEDGE_SINK_ARGUMENTS);
+            takePaths(&paths, weight, whole, firstOnes, &at, &counts, &sink, WEDGE_SINK_ARGUMENTS);
             nextStep(&counts.deal);
         }
         moveToReceivers(&counts.deal, counts.laneRays, counts.rays);

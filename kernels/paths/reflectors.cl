@@ -194,7 +194,8 @@ __kernel void reflectorCounts(ReflectorParams p, __global const float* restrict 
 }
 
 /// Variance of a sample's luminance as the image shows it, (sum l^2 - n mean^2) / (n - 1) times the squared luminance
-/// of the reflectance: planes R, G, B, all 1 for ambient occlusion.
+/// of the reflectance: planes R, G, B, all 1 for ambient occlusion. Of fractions V it is V (1 - V), as
+/// if a sample saw all or nothing.
 __kernel void sampleVariance(ReflectorParams p, __global const float* restrict sums,
     __global const uint* restrict taken, __global const float* restrict reflectance, __global float* restrict variance)
 {
@@ -207,7 +208,12 @@ __kernel void sampleVariance(ReflectorParams p, __global const float* restrict s
     const float16 n = convert_float16(loadIdBlock(taken, i));
     const Vec3x16 sum = loadVecBlock(sums, p.planeSize, i);
     const float16 total = 0.2126f * sum.x + 0.7152f * sum.y + 0.0722f * sum.z;
-    const float16 spread = loadBlock(sums + 3u * p.planeSize, i) - total * total / max16(n, (float16)(1.0f));
+    const float16 last = loadBlock(sums + 3u * p.planeSize, i);
+    float16 spread = last - total * total / max16(n, (float16)(1.0f));
+    if (p.fractions != 0u) {
+        const float16 fraction = last > 0.0f ? total / last : (float16)(0.0f);
+        spread = n * fraction * (1.0f - fraction);
+    }
     const Vec3x16 k = loadVecBlock(reflectance, p.planeSize, i);
     const float16 shown =
         p.component == WEDGE_COMPONENT_AMBIENT ? (float16)(1.0f) : 0.2126f * k.x + 0.7152f * k.y + 0.0722f * k.z;

@@ -17,6 +17,7 @@ WEDGE_SHARED_BEGIN
 ///   texels    likewise of columns
 ///   height+1  cosines of the angles from `up` at which rows begin and end
 ///   27        of red, green and blue each the coefficients of unshadowedLight()
+///   averages  radiance, R G B of each texel, of coarseLevels() maps
 ///   3 texels  where suns were taken out: radiance with them
 typedef struct {
     uint width, height; ///< texels; 0: there is no map
@@ -32,16 +33,47 @@ typedef struct {
 #define WEDGE_ENVIRONMENT_CELLS 64u
 #define WEDGE_ENVIRONMENT_SAMPLE_FLOATS 8u
 
+/// Pixels around one whose samples tell by how much what a lobe would see is off, and by how much it is where they
+/// agree, over itself.
+#define WEDGE_LOBE_REACH 4
+#define WEDGE_LOBE_ERROR 0.001f
+
 /// Spherical harmonics of a channel.
 #define WEDGE_HARMONICS 9u
+
+/// Averages of the map, for what sees more of it than a texel: the first has so many columns and half as many rows,
+/// each other one twice as many, up to the map's own or to the last.
+#define WEDGE_COARSE_COLUMNS 16u
+#define WEDGE_MOST_COARSE_LEVELS 6u
+
+WEDGE_INLINE uint coarseLevels(uint width)
+{
+    uint levels = 1u;
+    while (levels < WEDGE_MOST_COARSE_LEVELS && (WEDGE_COARSE_COLUMNS << (levels - 1u)) < width) {
+        ++levels;
+    }
+    return levels;
+}
+
+/// How many floats the averages before a level have.
+WEDGE_INLINE uint coarseLevelAt(uint level)
+{
+    return WEDGE_COARSE_COLUMNS * WEDGE_COARSE_COLUMNS / 2u * ((1u << (2u * level)) - 1u);
+}
 
 /// Where the coefficients of unshadowedLight() begin in the table.
 WEDGE_INLINE uint environmentHarmonics(uint width, uint height) { return 5u * width * height + 3u * height + 1u; }
 
+/// Where the averages do.
+WEDGE_INLINE uint environmentAverages(uint width, uint height)
+{
+    return environmentHarmonics(width, height) + 3u * WEDGE_HARMONICS;
+}
+
 /// Floats of the table, without what the camera sees.
 WEDGE_INLINE uint environmentTableSize(uint width, uint height)
 {
-    return environmentHarmonics(width, height) + 3u * WEDGE_HARMONICS;
+    return environmentAverages(width, height) + coarseLevelAt(coarseLevels(width));
 }
 
 /// Where the map shows a direction, in widths and heights from its upper left corner.

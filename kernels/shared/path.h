@@ -44,7 +44,7 @@ typedef struct {
     Vec3 emittersLow, emittersHigh; ///< the box that they are in, metres
     float directedWithin; ///< metres from it within which diffuse parts follow reflected directions, too
     float environmentShare; ///< as emitterShare, of what is beyond the scene
-    uint relative; ///< 1: samples of the environment are divided by unshadowedLight()
+    uint relative; ///< 1: samples of the environment are divided by unshadowedLight(), those of lobes are fractions
     uint skipsMirrors; ///< 1: receivers on mirrors and glass have no samples
     uint precomputed; ///< 1: directions beyond the scene are chosen among pre-computed samples
     uint occluders; ///< 1: of the environment, distances are those of what hides directions, over their cosines
@@ -63,6 +63,7 @@ typedef struct {
     uint countCap; ///< most samples a pixel may take
     float fixedWidth; ///< pixels; more than 0: this width everywhere in place of the analysis
     uint meanOnly; ///< 1: of reflectors there is but the sum of inverse distances; pixels' sizes and gloss are packed
+    uint fractions; ///< 1: sums are those of fractions (path_sampling.h)
 } ReflectorParams;
 
 WEDGE_SHARED_END

@@ -102,7 +102,7 @@ FIELD(ReflectorParams, width) FIELD(ReflectorParams, height) FIELD(ReflectorPara
 FIELD(ReflectorParams, planeSize) FIELD(ReflectorParams, component) FIELD(ReflectorParams, mu)
 FIELD(ReflectorParams, alpha) FIELD(ReflectorParams, widthScale) FIELD(ReflectorParams, extent)
 FIELD(ReflectorParams, leastReflector) FIELD(ReflectorParams, meanFraction) FIELD(ReflectorParams, countCap)
-FIELD(ReflectorParams, fixedWidth) FIELD(ReflectorParams, meanOnly)
+FIELD(ReflectorParams, fixedWidth) FIELD(ReflectorParams, meanOnly) FIELD(ReflectorParams, fractions)
 END(ReflectorParams)
 STRUCT(MaterialData)
 FIELD(MaterialData, diffuse) FIELD(MaterialData, exponent) FIELD(MaterialData, specular)
