@@ -92,9 +92,64 @@ TEST_CASE("where much is hidden, and of another colour, errors fall as samples b
     });
 }
 
+TEST_CASE("under a map that is black but for a lamp, and a black one, lobes lose no light")
+{
+    onEveryDevice([](const device::Device& device) {
+        SceneBuilder b;
+        b.scene.materials[0] = lobe(scene::SpecularModel::Phong, 32.0f);
+        b.sphere({ 0, 0, 0 }, 0.5f, 48);
+        b.newObject();
+        b.box({ 0.6f, -0.5f, -0.2f }, { 0.8f, 0.5f, 0.2f });
+        b.camera({ 0, 0, 3 }, { 0, 0, 0 }, { 0, 1, 0 }, 30);
+        for (const float bright : { 50.0f, 5e-12f, 0.0f }) {
+            auto lamp = even(glm::vec3(0.0f), 64, 32);
+            for (int x = 20; x < 24; ++x)
+                set(*lamp, x, 9, glm::vec3(bright));
+            render::setEnvironment(b.scene, lamp);
+            render::Renderer renderer(b.scene, device, renderOptions());
+            render::Settings truth = sized(render::monteCarlo(2048), 48, 36);
+            truth.seed = 99;
+            const std::vector<float> expected = renderPixels(renderer, truth),
+                                     found = renderPixels(renderer, sized(render::axisAligned(64), 48, 36));
+            CAPTURE(bright);
+            for (const float value : found)
+                REQUIRE(std::isfinite(value));
+            const double sum = meanOf(expected, 1).value;
+            MESSAGE("mean over plain: ", meanOf(found, 1).value / std::max(sum, 1e-30));
+            CHECK(std::fabs(meanOf(found, 1).value - sum) <= 0.03 * sum);
+            CHECK((sum > 0) == (bright > 0));
+        }
+    });
+}
+
+TEST_CASE("crops of lobes are the whole frame's, bit by bit")
+{
+    onEveryDevice([](const device::Device& device) {
+        SceneBuilder b = openFloor();
+        b.scene.materials[0] = lobe(scene::SpecularModel::Phong, 32.0f);
+        b.newObject();
+        b.sphere({ 0, 0.5f, 0 }, 0.5f, 24);
+        b.camera({ 0.5f, 0.9f, 2.6f }, { 0, 0.4f, 0 });
+        render::setEnvironment(b.scene, spotted());
+        render::Renderer renderer(b.scene, device, renderOptions());
+        render::Settings s = sized(render::axisAligned(16), 64, 48);
+        const std::vector<float> whole = renderPixels(renderer, s);
+        s.crop = { 21, 13, 50, 31 };
+        const std::vector<float> part = renderPixels(renderer, s);
+        std::size_t differ = 0;
+        for (int y = 13; y < 31; ++y)
+            for (int x = 21; x < 50; ++x)
+                for (int c = 0; c < 3; ++c) {
+                    const auto at = static_cast<std::size_t>(3 * (y * 64 + x) + c);
+                    differ += part[at] == whole[at] ? 0 : 1;
+                }
+        CHECK(differ == 0);
+    });
+}
+
 TEST_CASE("averages of a map have its mean, whatever its size")
 {
-    for (const auto& [w, h] : { std::pair(1, 1), { 32, 16 }, { 7, 5 }, { 100, 50 } }) {
+    for (const auto& [w, h] : { std::pair(1, 1), { 32, 16 }, { 7, 5 }, { 100, 50 }, { 3, 200 }, { 700, 20 } }) {
         auto p = even(glm::vec3(0), w, h);
         std::mt19937 random(3);
         for (int y = 0; y < h; ++y)
@@ -114,8 +169,8 @@ TEST_CASE("averages of a map have its mean, whatever its size")
         const auto width = static_cast<std::uint32_t>(w), height = static_cast<std::uint32_t>(h);
         const float* averages = table.numbers.data() + shared::environmentAverages(width, height);
         const std::uint32_t levels = shared::coarseLevels(width);
-        CHECK((WEDGE_COARSE_COLUMNS << (levels - 1)) >= width);
-        CHECK(levels == (w > 64 ? 4 : w > 16 ? 2 : 1));
+        CHECK((WEDGE_COARSE_COLUMNS << (levels - 1)) >= std::min(width, 512u));
+        CHECK(levels == (w > 512 ? 6 : w > 64 ? 4 : w > 16 ? 2 : 1));
         for (std::uint32_t level = 0; level < levels; ++level)
             for (std::size_t channel = 0; channel < 3; ++channel) {
                 const int columns = static_cast<int>(WEDGE_COARSE_COLUMNS << level);

@@ -117,7 +117,7 @@ shared::FilterParams pathFilterParams(const FrameBuilder& frame, Component compo
     shared::FilterParams p = filterParams(frame.settings, frame.wholeFrame(), frame.graph.image());
     if (component == Component::Environment) {
         p.normalCosine = std::cos(glm::radians(frame.settings.environment.normalDegrees));
-    } else if (component == Component::Ambient) {
+    } else if (component == Component::Ambient || isOfFractions(frame, component)) {
         p.most = 1.0f;
     }
     if (isByCurvature(component, frame.settings)) {
@@ -152,13 +152,16 @@ bool isOfFractions(const FrameBuilder& frame, Component component)
     // And of more samples than these plain means are as near.
     constexpr int mostSpp = 128;
     return component == Component::EnvironmentGlossy && s.spp <= mostSpp && s.method == Method::AxisAligned
-        && s.environment.relative && usesFallback(s) && std::ranges::all_of(frame.description.materials, isNarrow);
+        && s.environment.relative && usesFallback(s)
+        && std::ranges::all_of(frame.description.geometry.materialIds, [&](std::uint32_t id) {
+               return isNarrow(frame.description.materials[id]); // those that are of no use do not count
+           });
 }
 
 std::uint32_t lobeRings(int spp)
 {
-    constexpr std::uint32_t fewest = 4, most = 32; // more would make launches long
-    return std::clamp(static_cast<std::uint32_t>(1.5f * std::sqrt(static_cast<float>(spp))), fewest, most);
+    constexpr std::uint32_t fewest = 4;
+    return std::max(static_cast<std::uint32_t>(1.5f * std::sqrt(static_cast<float>(spp))), fewest);
 }
 
 std::uint32_t firstPathsOf(Component component, const Settings& settings)

@@ -168,6 +168,28 @@ void average(const EnvironmentPicture& p, int columns, std::span<float> out)
     }
 }
 
+/// The same of half as many columns and rows.
+void halve(std::span<const float> finer, int columns, std::span<float> out)
+{
+    const auto width = static_cast<std::size_t>(columns), rows = width / 2;
+    const auto weight = [&](std::size_t row) {
+        return std::sin(std::acos(-1.0) * (static_cast<double>(row) + 0.5) / static_cast<double>(rows));
+    };
+    for (std::size_t y = 0; y < rows / 2; ++y) {
+        const double upper = weight(2 * y), lower = weight(2 * y + 1);
+        for (std::size_t x = 0; x < width / 2; ++x) {
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                const auto pair = [&](std::size_t row) {
+                    const std::size_t at = 3 * (row * width + 2 * x) + channel;
+                    return 0.5 * (double { finer[at] } + double { finer[at + 3] });
+                };
+                out[3 * (y * (width / 2) + x) + channel] =
+                    static_cast<float>((upper * pair(2 * y) + lower * pair(2 * y + 1)) / (upper + lower));
+            }
+        }
+    }
+}
+
 shared::Vec3 toVec3(glm::vec3 v) { return shared::vec3(v.x, v.y, v.z); }
 
 } // namespace
@@ -224,10 +246,14 @@ EnvironmentTable environmentTable(const EnvironmentPicture* picture)
         std::ranges::copy(unshadowedHarmonics(sums[channel]), to.begin());
     }
     const std::span<float> averages = all.subspan(shared::environmentAverages(out.map.width, out.map.height));
-    for (std::uint32_t level = 0; level < shared::coarseLevels(out.map.width); ++level) {
+    const auto levelOf = [&](std::uint32_t level) {
         const std::uint32_t from = shared::coarseLevelAt(level);
-        average(*picture, static_cast<int>(WEDGE_COARSE_COLUMNS << level),
-            averages.subspan(from, shared::coarseLevelAt(level + 1) - from));
+        return averages.subspan(from, shared::coarseLevelAt(level + 1) - from);
+    };
+    const std::uint32_t levels = shared::coarseLevels(out.map.width);
+    average(*picture, static_cast<int>(WEDGE_COARSE_COLUMNS << (levels - 1)), levelOf(levels - 1));
+    for (std::uint32_t level = levels - 1; level > 0; --level) {
+        halve(levelOf(level), static_cast<int>(WEDGE_COARSE_COLUMNS << level), levelOf(level - 1));
     }
     if (!picture->shown.empty()) { // no span is used from here on
         out.map.shown = static_cast<std::uint32_t>(out.numbers.size());

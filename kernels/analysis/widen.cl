@@ -147,8 +147,10 @@ __kernel void oneOfPaths(AnalysisParams p, uint component, uint fractions, uint 
     Vec3x16 ofPart = loadColours16(parts, size, i);
     if (fractions != 0u) {
         const float16 whole = loadBlock(value + 3u * size, i);
-        all.x = all.y = all.z = whole > 0.0f ? luminance16(all) / whole : (float16)(0.0f);
-        ofPart.x = ofPart.y = ofPart.z = ofPart.y > 0.0f ? ofPart.x / ofPart.y : (float16)(0.0f);
+        // Where no sample would have brought anything, nothing is hidden: 0 would darken neighbours.
+        const float16 none = count != 0u ? (float16)(1.0f) : (float16)(0.0f);
+        all.x = all.y = all.z = whole > 0.0f ? luminance16(all) / whole : none;
+        ofPart.x = ofPart.y = ofPart.z = ofPart.y > 0.0f ? ofPart.x / ofPart.y : all.x;
     } else {
         all.x *= scale;
         all.y *= scale;

@@ -102,9 +102,9 @@ __kernel void compareRows(FilterParams p, __global const float* restrict value, 
 
 /// Along y.
 /// in      rows that compareRows() made
-/// in out  difference: of its narrow counts comes n - w; apart: of its wide counts what the variance of a pixel's mean
-/// is
-///         to be multiplied by for V of widen.cl, 0 where the wide filter does not gather more
+/// in out  difference: in the place of its narrow counts comes n - w; apart: in that of its wide counts what the
+/// variance
+///         of a pixel's mean is to be multiplied by for V of widen.cl, 0 where the wide filter does not gather more
 __kernel void compareColumns(FilterParams p, __global const float* restrict narrowRows,
     __global const float* restrict wideRows, __global const float* restrict beta,
     __global const float* restrict compared, __global const float* restrict position,

@@ -1,6 +1,6 @@
 // What the sums of a light's samples are filtered as, where it is made when it is needed: by then parts and gradients
 // of the samples have taken the memory that it would have kept since the first pass.
-#include "light/light_sample.h"
+#include "light/light_values.h"
 #include "shared/filter_params.h"
 
 /// in   sums: of light_sampling.h; taken: samples

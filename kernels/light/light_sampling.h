@@ -4,6 +4,7 @@
 
 #include "core/packed_planes.h"
 #include "light/light_packet.h"
+#include "light/light_values.h"
 
 /// A packet's receivers, and their samples. Members are pointers, so that compilers see through it.
 typedef struct {

@@ -44,7 +44,8 @@ WEDGE_INLINE void takeScores(const Sampling* at, const Samples* s, Scores* state
 
 /// Adds sums of (V - h) w q: V the samples' visibility, w what they weigh, q their scores, and h the mean that is known
 /// by now. Less the mean, so that where all is seen, or nothing, it is 0 whatever the samples; and not of the samples
-/// that come later, since what is missing to those has the mean 0.
+/// that come later, since what is missing to those has the mean 0. (Those of the first launch are part of their mean,
+/// which takes a ninth of nine samples' sum.)
 ///
 /// in      sums: as finishSums() leaves them
 /// in out  gradients: of each channel of sums along both axes, of 16 bits (packed_planes.h)

@@ -56,10 +56,10 @@ WEDGE_FN Vec3 averageAt(__global const float* averages, uint level, Vec2 at)
 typedef struct {
     float x[16], y[16], z[16]; ///< unit
     float weight[16], pdf[16];
-} LobeDirections;
+} LobeStrata;
 
 /// Strata `first` and on of rings * spokes of them.
-WEDGE_INLINE void lobeDirections(Lobe lobe, Vec3 n, Vec3 v, uint first, uint rings, uint spokes, LobeDirections* out)
+WEDGE_INLINE void lobeStrata(Lobe lobe, Vec3 n, Vec3 v, uint first, uint rings, uint spokes, LobeStrata* out)
 {
     const float perRings = 1.0f / (float)rings, perSpokes = 1.0f / (float)spokes;
     for (uint lane = 0u; lane < 16u; ++lane) {
@@ -88,8 +88,8 @@ WEDGE_FN Vec3 unshadowedLobe(EnvironmentMap map, __global const float* table, Ve
     __global const float* averages = table + environmentAverages(map.width, map.height);
     Vec3 seen = vec3(0.0f, 0.0f, 0.0f);
     for (uint first = 0u; first < count; first += 16u) {
-        LobeDirections d;
-        lobeDirections(lobe, n, v, first, rings, spokes, &d);
+        LobeStrata d;
+        lobeStrata(lobe, n, v, first, rings, spokes, &d);
         const float16 dx = vload16(0, d.x), dy = vload16(0, d.y), dz = vload16(0, d.z);
         const float16 x = map.right.x * dx + map.right.y * dy + map.right.z * dz;
         const float16 y = map.up.x * dx + map.up.y * dy + map.up.z * dz;

@@ -194,8 +194,8 @@ __kernel void reflectorCounts(ReflectorParams p, __global const float* restrict 
 }
 
 /// Variance of a sample's luminance as the image shows it, (sum l^2 - n mean^2) / (n - 1) times the squared luminance
-/// of the reflectance: planes R, G, B, all 1 for ambient occlusion. Of fractions V it is V (1 - V), as
-/// if a sample saw all or nothing.
+/// of the reflectance: planes R, G, B, all 1 for ambient occlusion. Of fractions V it is n / (n - 1) V (1 - V) in the
+/// place of the first, as if a sample saw all or nothing.
 __kernel void sampleVariance(ReflectorParams p, __global const float* restrict sums,
     __global const uint* restrict taken, __global const float* restrict reflectance, __global float* restrict variance)
 {

@@ -33,9 +33,9 @@ typedef struct {
 #define WEDGE_ENVIRONMENT_CELLS 64u
 #define WEDGE_ENVIRONMENT_SAMPLE_FLOATS 8u
 
-/// Pixels around one whose samples tell by how much what a lobe would see is off, and by how much it is where they
-/// agree, over itself.
+/// Pixels around one, either way, whose samples tell by how much unshadowedLobe() is off.
 #define WEDGE_LOBE_REACH 4
+/// The deviation that is assumed of it where they do not, over itself.
 #define WEDGE_LOBE_ERROR 0.001f
 
 /// Spherical harmonics of a channel.
