@@ -251,8 +251,8 @@ TEST_CASE("widen: the width is as far between both as noise and difference of th
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);
         for (const float c : { 0.5f, 1.0f })
-            for (const auto& [bias, noise] :
-                { std::pair(0.0, 0.1), { 0.1, 0.1 }, { 0.3, 0.1 }, { 0.2, 0.0 }, { 0.0, 0.0 } }) {
+            for (const auto& errors : { std::pair(0.0, 0.1), { 0.1, 0.1 }, { 0.3, 0.1 }, { 0.2, 0.0 }, { 0.0, 0.0 } }) {
+                const double bias = errors.first, noise = errors.second;
                 CAPTURE(bias);
                 CAPTURE(noise);
                 const render::PlaneLayout layout(41, 23);
@@ -379,7 +379,7 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
                 int black = 0, noisy = 0;
                 everyPixel(layout, [&](int x, int y) {
                     const double weight = weightOf(x, y), n = taken.at(x, y),
-                                 h = n >= 2 * firstPass ? std::floor(n / 2) : firstPass / 2;
+                                 h = n >= 2 * firstPass ? std::floor(n / 2) : std::floor(firstPass / 2.0);
                     const double all = weight > 0 ? meanOf(x, y, 0) / weight : 0,
                                  part = weight > 0 ? meanOf(x, y, 1) / weight : 0;
                     REQUIRE(std::fabs(w.at(x, y) - weight) < 1e-5);

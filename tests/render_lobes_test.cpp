@@ -31,8 +31,10 @@ double errorOf(render::Renderer& renderer, const render::Settings& settings, con
 TEST_CASE("where nothing is hidden, lobes of all kinds have a fraction of their noise")
 {
     onEveryDevice([](const device::Device& device) {
-        for (const auto& [model, exponent] : { std::pair(scene::SpecularModel::Phong, 64.0f),
-                 { scene::SpecularModel::Phong, 16.0f }, { scene::SpecularModel::BlinnPhong, 200.0f } }) {
+        for (const auto& kind : { std::pair(scene::SpecularModel::Phong, 64.0f), { scene::SpecularModel::Phong, 16.0f },
+                 { scene::SpecularModel::BlinnPhong, 200.0f } }) {
+            const scene::SpecularModel model = kind.first;
+            const float exponent = kind.second;
             SceneBuilder b;
             b.scene.materials[0] = lobe(model, exponent);
             b.sphere({ 0, 0, 0 }, 0.5f, 48);
@@ -139,8 +141,8 @@ TEST_CASE("crops of lobes are the whole frame's, bit by bit")
         std::size_t differ = 0;
         for (int y = 13; y < 31; ++y)
             for (int x = 21; x < 50; ++x)
-                for (int c = 0; c < 3; ++c) {
-                    const auto at = static_cast<std::size_t>(3 * (y * 64 + x) + c);
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const std::size_t at = 3 * (static_cast<std::size_t>(y) * 64 + static_cast<std::size_t>(x)) + c;
                     differ += part[at] == whole[at] ? 0 : 1;
                 }
         CHECK(differ == 0);
@@ -160,7 +162,11 @@ TEST_CASE("averages of a map have its mean, whatever its size")
             for (int y = 0; y < rows; ++y)
                 for (int x = 0; x < columns; ++x) {
                     const double sine = std::sin(std::acos(-1.0) * (y + 0.5) / rows);
-                    sum += sine * rgb[3 * static_cast<std::size_t>(y * columns + x) + channel];
+                    sum += sine
+                        * rgb[3
+                                * (static_cast<std::size_t>(y) * static_cast<std::size_t>(columns)
+                                    + static_cast<std::size_t>(x))
+                            + channel];
                     area += sine;
                 }
             return sum / area;

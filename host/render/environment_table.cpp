@@ -85,6 +85,7 @@ Harmonics harmonicsAt(glm::dvec3 d)
 /// Of each channel the integral of its radiance times harmonicsAt().
 std::array<Harmonics, 3> projected(const EnvironmentPicture& picture)
 {
+    assert(picture.width > 0 && picture.height > 0);
     // Few texels are looked at in several places each.
     const int across = picture.width * std::max(1, 64 / picture.width);
     const int down = picture.height * std::max(1, 32 / picture.height);
