@@ -85,10 +85,9 @@ Harmonics harmonicsAt(glm::dvec3 d)
 /// Of each channel the integral of its radiance times harmonicsAt().
 std::array<Harmonics, 3> projected(const EnvironmentPicture& picture)
 {
-    assert(picture.width > 0 && picture.height > 0);
     // Few texels are looked at in several places each.
-    const int across = picture.width * std::max(1, 64 / picture.width);
-    const int down = picture.height * std::max(1, 32 / picture.height);
+    const auto times = [](int texels, int least) { return texels > 0 ? std::max(1, least / texels) : 1; };
+    const int across = picture.width * times(picture.width, 64), down = picture.height * times(picture.height, 32);
     std::vector<glm::dvec3> horizon(
         static_cast<std::size_t>(across)); // directions of columns, at a right angle to `up`
     for (std::size_t x = 0; x < horizon.size(); ++x) {
