@@ -41,16 +41,6 @@ struct Images {
     }
 };
 
-shared::AnalysisParams paramsOf(const render::PlaneLayout& layout)
-{
-    shared::AnalysisParams p {};
-    p.x1 = p.width = layout.width;
-    p.y1 = p.height = layout.height;
-    p.stride = layout.stride;
-    p.planeSize = static_cast<std::uint32_t>(layout.size);
-    return p;
-}
-
 /// Several numbers of 16 bits a pixel.
 struct Shorts {
     std::vector<float> words;

@@ -194,11 +194,7 @@ TEST_CASE("gradients are means of what samples add up to, and widths follow coun
         for (const std::uint32_t channels : { 1u, 2u }) {
             KernelBench bench(device, channels == 2 ? Defines { { "WEDGE_SPECULAR", "1" } } : Defines {});
             const render::PlaneLayout layout(19, 5);
-            shared::AnalysisParams p {};
-            p.x1 = p.width = layout.width;
-            p.y1 = p.height = layout.height;
-            p.stride = layout.stride;
-            p.planeSize = static_cast<std::uint32_t>(layout.size);
+            const shared::AnalysisParams p = paramsOf(layout);
             Planes<float> sums(layout, 2 * channels, 0.0f), scores(layout, 2 * channels, 0.0f), beta(layout, 1, 0.0f);
             Planes<std::uint32_t> taken(layout, 1, 0u);
             std::mt19937 random(2);

@@ -13,7 +13,7 @@ namespace {
 constexpr const char* file = "filter/temporal.cl";
 constexpr auto filterPass = device::PassKind::Filter;
 
-shared::TemporalParams paramsOf(const render::PlaneLayout& layout)
+shared::TemporalParams temporalParamsOf(const render::PlaneLayout& layout)
 {
     shared::TemporalParams p {};
     p.x1 = p.width = layout.width;
@@ -154,7 +154,7 @@ TEST_CASE("temporal: differences are those of the four pixels around where a poi
         Camera then;
         then.eye = { 0.31, -0.07, 4.8 };
         const Seen own(layout, now, diskNow), earlier(layout, then, diskThen);
-        shared::TemporalParams p = paramsOf(layout);
+        shared::TemporalParams p = temporalParamsOf(layout);
         setCamera(p, then);
         p.objects = 3;
         std::vector<float> motions(3 * WEDGE_TEMPORAL_MOTION, 0.0f);
@@ -245,7 +245,7 @@ TEST_CASE("temporal: a still camera's pixels are looked up where they are, whate
         const render::PlaneLayout layout(35, 18);
         const Camera camera;
         const Seen seen(layout, camera, diskNow);
-        shared::TemporalParams p = paramsOf(layout);
+        shared::TemporalParams p = temporalParamsOf(layout);
         setCamera(p, camera);
         p.cameraStill = p.objectsStill = 1;
         const auto difference = bench.filled(3 * layout.size, 7.0f), plane = bench.filled(layout.size, 7.0f),
@@ -281,7 +281,7 @@ TEST_CASE("temporal: blocks are weighed by Student's t of differences and by the
             variations.at(x, y) = share.at(x, y);
             difference.setVector(x, y, glm::dvec3(share.at(x, y)) * glm::dvec3(1, 2, 3));
         });
-        const shared::TemporalParams p = paramsOf(layout);
+        const shared::TemporalParams p = temporalParamsOf(layout);
         const std::uint32_t blocks = p.blocksX * p.blocksY;
         const auto sums = bench.filled(4 * std::size_t { blocks }, 7.0f), weights = bench.filled(blocks, 7.0f);
         const auto run = [&](const char* kernel, const auto&... args) {

@@ -8,6 +8,7 @@
 #include "host/render/hierarchy.h"
 #include "host/render/renderer.h"
 #include "host/scene/scene.h"
+#include "kernels/shared/filter_params.h"
 #include "kernels/shared/packed.h"
 #include "tests/device_testing.h"
 #include "tests/passes.h"
@@ -356,6 +357,17 @@ inline std::size_t notFinite(std::span<const float> values)
     for (const float v : values)
         count += std::isfinite(v) ? 0 : 1;
     return count;
+}
+
+/// Parameters of a whole image.
+inline shared::AnalysisParams paramsOf(const render::PlaneLayout& layout)
+{
+    shared::AnalysisParams p {};
+    p.x1 = p.width = layout.width;
+    p.y1 = p.height = layout.height;
+    p.stride = layout.stride;
+    p.planeSize = static_cast<std::uint32_t>(layout.size);
+    return p;
 }
 
 template <class Visit>

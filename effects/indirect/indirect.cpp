@@ -47,7 +47,8 @@ shared::PathParams pathParams(const FrameBuilder& frame, Component component)
     p.emitterShare = frame.scene != nullptr ? frame.scene->emitterShare : 0.0f;
     p.environmentShare = frame.scene != nullptr ? frame.scene->environmentShare : 0.0f;
     p.precomputed = frame.environmentSamples ? 1 : 0;
-    p.relative = isRelative(component, settings) || isOfFractions(frame, component) ? 1 : 0;
+    p.relative = isRelative(component, settings) ? 1 : 0;
+    p.fractions = isOfFractions(frame, component) ? 1 : 0;
     p.occluders = isByCurvature(component, settings) ? 1 : 0;
     p.skipsMirrors = component != Component::Ambient ? 1 : 0;
     p.sceneDiameter = frame.scene != nullptr ? frame.scene->diameter : 0.0f;
@@ -138,24 +139,10 @@ float wideningOf(Component component, const Settings& settings)
 
 bool isOfFractions(const FrameBuilder& frame, Component component)
 {
+    constexpr int mostSpp = 128; // of more samples plain means are as near
     const Settings& s = frame.settings;
-    // Of wide lobes and of the far tails of GGX unshadowedLobe() is off by more than samples are.
-    const auto isNarrow = [](const scene::Material& m) {
-        constexpr float least = 16.0f; // of Phong; of Blinn-Phong four times that
-        const bool phong = m.specularModel == scene::SpecularModel::Phong;
-        const bool lobes = m.specularModel != scene::SpecularModel::Mirror
-            && m.specularModel != scene::SpecularModel::Glass && m.specular != glm::vec3(0.0f);
-        return !lobes
-            || (m.specularModel != scene::SpecularModel::Ggx && m.exponentTexture < 0
-                && m.exponent >= (phong ? least : 4.0f * least));
-    };
-    // And of more samples than these plain means are as near.
-    constexpr int mostSpp = 128;
-    return component == Component::EnvironmentGlossy && s.spp <= mostSpp && s.method == Method::AxisAligned
-        && s.environment.relative && usesFallback(s)
-        && std::ranges::all_of(frame.description.geometry.materialIds, [&](std::uint32_t id) {
-               return isNarrow(frame.description.materials[id]); // those that are of no use do not count
-           });
+    return component == Component::EnvironmentGlossy && s.method == Method::AxisAligned && s.environment.relative
+        && usesFallback(s) && s.spp <= mostSpp && frame.narrowLobes;
 }
 
 std::uint32_t lobeRings(int spp)

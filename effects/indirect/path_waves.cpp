@@ -27,7 +27,6 @@ shared::PathParams PathWaves::pathParams() const
     shared::PathParams p = render::pathParams(f_, component_);
     p.sampler = waveSampler(settings());
     p.firstPass = 0;
-    p.relative = isRelative(component_, settings()) ? 1 : 0;
     p.occluders = 0; // widths follow from distances
     p.skipsMirrors = 0; // pixels have receivers of all kinds, and one mean
     p.strata = static_cast<std::uint32_t>(settings().spp); // receivers have but some of their pixel's samples
@@ -69,7 +68,6 @@ void PathWaves::widths()
 {
     shared::ReflectorParams p = reflectorParams(f_, component_);
     p.meanOnly = f_.packed ? 1 : 0;
-    p.fractions = 0; // those of lobes are of pixels alone
     p.widthScale = settings().indirect.widthScale;
     reflectorWidths(f_, p, leastExtreme(), means.taken, means.beta);
 }

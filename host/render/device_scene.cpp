@@ -195,6 +195,19 @@ bool hasSpecular(const scene::Scene& scene)
     });
 }
 
+bool hasNarrowLobes(const scene::Scene& scene)
+{
+    constexpr float leastPhong = 16.0f, leastBlinnPhong = 4.0f * leastPhong; // as wide: exponentAs()
+    return std::ranges::all_of(scene.geometry.materialIds, [&](std::uint32_t id) {
+        const scene::Material& m = scene.materials[id];
+        const std::uint32_t kind = kindOf(m);
+        const bool lobe = m.specular != glm::vec3(0.0f) && !WEDGE_IS_MIRROR(kind);
+        return !lobe
+            || (kind != WEDGE_MICROFACETS && m.exponentTexture < 0
+                && m.exponent >= (kind == WEDGE_PHONG ? leastPhong : leastBlinnPhong));
+    });
+}
+
 bool hasMirrors(const scene::Scene& scene)
 {
     return std::ranges::any_of(

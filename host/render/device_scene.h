@@ -27,6 +27,10 @@ double profileArea(const scene::AreaLight& light);
 /// lobes cost more than all else of a shadow ray.
 bool hasSpecular(const scene::Scene& scene);
 
+/// Whether all lobes of them are so narrow that what they see is known well by directions alone (kernels/light/
+/// unshadowed_environment.h): not wide ones, those that a texture may make wide, and GGX, whose tails reach far.
+bool hasNarrowLobes(const scene::Scene& scene);
+
 /// Whether any of them is a mirror or glass.
 bool hasMirrors(const scene::Scene& scene);
 

@@ -102,6 +102,7 @@ struct FrameBuilder {
     std::size_t packetSize; ///< pixels of a work-item over tiles
     bool specular; ///< hasSpecular()
     cl::Buffer unused; ///< for parameters that nothing is read from, or written to
+    bool narrowLobes = false; ///< hasNarrowLobes(), and the pixels are the receivers
     bool packed = false; ///< planes of pixels that have several receivers are packed, see kernels/waves/accumulate.h
     Surfaces surfaces = {};
     Totals totals = {};

@@ -18,6 +18,7 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
     , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize,
         hasSpecular(scene), unused }
 {
+    f_.narrowLobes = hasNarrowLobes(scene);
     const bool lit = settings.integrator == Integrator::Path;
     primary(lit);
     f_.precomputeDirections();

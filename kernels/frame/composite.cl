@@ -196,18 +196,16 @@ __kernel void addLobeSamples(AnalysisParams p, uint firstPass, __global const fl
     const int i = (int)pixelIndex(x, y, p.stride);
     const uint16 count = loadIdBlock(taken, i);
     const int16 has = count != 0u;
-    const float16 per = 1.0f / max16(convert_float16(count), (float16)(1.0f)), zero = (float16)(0.0f);
-    const Vec3x16 k = loadVecBlock(specular, p.planeSize, i), seen = loadVecBlock(sums, p.planeSize, i);
-    Vec3x16 all = loadVecBlock(noisy, p.planeSize, i);
-    all.x += has ? k.x * seen.x * per : zero;
-    all.y += has ? k.y * seen.y * per : zero;
-    all.z += has ? k.z * seen.z * per : zero;
-    vstore16(all.x, 0, noisy + i);
-    vstore16(all.y, 0, noisy + p.planeSize + i);
-    vstore16(all.z, 0, noisy + 2u * p.planeSize + i);
+    const float16 per = 1.0f / max16(convert_float16(count), (float16)(1.0f));
+    Vec3x16 k = loadVecBlock(specular, p.planeSize, i);
     const Vec3x16 part = loadColours16(parts, p.planeSize, i);
-    const float16 off = luminance16(k) * deviation16(luminance16(seen) * per, part.x, count, firstPass);
-    addShorts(deviation, p.planeSize, i, has ? off : zero);
+    const float16 mean = per * luminance16(loadVecBlock(sums, p.planeSize, i));
+    const float16 off = luminance16(k) * deviation16(mean, part.x, count, firstPass);
+    addShorts(deviation, p.planeSize, i, has ? off : (float16)(0.0f));
+    k.x *= per;
+    k.y *= per;
+    k.z *= per;
+    addTerm(p, WEDGE_COMPONENT_ENVIRONMENT_GLOSSY, k, has, sums, i, noisy);
 }
 
 /// One term of indirect light, filtered.

@@ -48,24 +48,29 @@ typedef struct {
     float pdf; ///< 1/sr
 } BeyondSample;
 
-WEDGE_FN Vec3 texelRadiance(BeyondData beyond, uint x, uint y)
+WEDGE_FN Vec3 texelAt(__global const float* texels, int i)
 {
-    __global const float* texel = beyond.table + 3u * (y * beyond.map.width + x);
+    __global const float* texel = texels + 3 * i;
     return vec3(texel[0], texel[1], texel[2]);
 }
 
-/// Between the four texels around; the first column is beside the last one.
-WEDGE_FN Vec3 mapRadiance(BeyondData beyond, Vec2 at)
+/// Of a map of w columns and h rows of R G B, between the four texels around; the first column is beside the last one.
+/// at: in widths and heights, from 0 to 1
+WEDGE_FN Vec3 radianceBetween(__global const float* texels, int w, int h, Vec2 at)
 {
-    const int w = (int)beyond.map.width, h = (int)beyond.map.height;
     const float fx = at.x * (float)w - 0.5f, fy = at.y * (float)h - 0.5f;
     const int x = (int)floor(fx), y = (int)floor(fy);
     const float tx = fx - (float)x, ty = fy - (float)y;
-    const uint x0 = (uint)((x + w) % w), x1 = (uint)((x + 1 + w) % w);
-    const uint y0 = (uint)clamp(y, 0, h - 1), y1 = (uint)clamp(y + 1, 0, h - 1);
-    const Vec3 above = vecMad(vecScale(texelRadiance(beyond, x0, y0), 1.0f - tx), texelRadiance(beyond, x1, y0), tx);
-    const Vec3 below = vecMad(vecScale(texelRadiance(beyond, x0, y1), 1.0f - tx), texelRadiance(beyond, x1, y1), tx);
+    const int x0 = x < 0 ? x + w : x, x1 = x + 1 < w ? x + 1 : x + 1 - w;
+    const int y0 = clamp(y, 0, h - 1) * w, y1 = clamp(y + 1, 0, h - 1) * w;
+    const Vec3 above = vecMad(vecScale(texelAt(texels, y0 + x0), 1.0f - tx), texelAt(texels, y0 + x1), tx);
+    const Vec3 below = vecMad(vecScale(texelAt(texels, y1 + x0), 1.0f - tx), texelAt(texels, y1 + x1), tx);
     return vecMad(vecScale(above, 1.0f - ty), below, ty);
+}
+
+WEDGE_FN Vec3 mapRadiance(BeyondData beyond, Vec2 at)
+{
+    return radianceBetween(beyond.table, (int)beyond.map.width, (int)beyond.map.height, at);
 }
 
 /// The first of `count` numbers in the table at `upTo` that reaches beyond `number`.

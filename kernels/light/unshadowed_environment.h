@@ -30,27 +30,6 @@ WEDGE_INLINE Vec3x16 unshadowedLight(__global const EnvironmentMap* environment,
     return light;
 }
 
-/// An average of the map, between the four texels around; the first column is beside the last one. at: in widths and
-/// heights
-WEDGE_FN Vec3 averageAt(__global const float* averages, uint level, Vec2 at)
-{
-    const int w = (int)(WEDGE_COARSE_COLUMNS << level), h = w / 2;
-    __global const float* texels = averages + coarseLevelAt(level);
-    const float fx = at.x * (float)w - 0.5f, fy = at.y * (float)h - 0.5f;
-    const int x = (int)floor(fx), y = (int)floor(fy);
-    const float tx = fx - (float)x, ty = fy - (float)y;
-    const int x0 = (x + w) & (w - 1), x1 = (x + 1) & (w - 1); // widths are powers of 2
-    const int y0 = clamp(y, 0, h - 1) * w, y1 = clamp(y + 1, 0, h - 1) * w;
-    const float weights[4] = { (1.0f - tx) * (1.0f - ty), tx * (1.0f - ty), (1.0f - tx) * ty, tx * ty };
-    const int places[4] = { y0 + x0, y0 + x1, y1 + x0, y1 + x1 };
-    Vec3 seen = vec3(0.0f, 0.0f, 0.0f);
-    for (uint k = 0u; k < 4u; ++k) {
-        __global const float* texel = texels + 3 * places[k];
-        seen = vecMad(seen, vec3(texel[0], texel[1], texel[2]), weights[k]);
-    }
-    return seen;
-}
-
 #ifdef WEDGE_SPECULAR
 /// Directions of a lobe, and what each of them stands for.
 typedef struct {
@@ -104,8 +83,11 @@ WEDGE_FN Vec3 unshadowedLobe(EnvironmentMap map, __global const float* table, Ve
         vstore16(0.5f * log2(max16(squared, (float16)(1.0f))) + 0.5f, 0, level);
         for (uint lane = 0u; lane < 16u; ++lane) {
             if (d.weight[lane] > 0.0f) {
-                const Vec2 at = vec2(across[lane], down[lane]);
-                seen = vecMad(seen, averageAt(averages, min((uint)level[lane], last), at), d.weight[lane]);
+                const uint chosen = min((uint)level[lane], last);
+                const int columns = (int)(WEDGE_COARSE_COLUMNS << chosen);
+                const Vec3 mean = radianceBetween(
+                    averages + coarseLevelAt(chosen), columns, columns / 2, vec2(across[lane], down[lane]));
+                seen = vecMad(seen, mean, d.weight[lane]);
             }
         }
     }

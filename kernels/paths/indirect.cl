@@ -178,8 +178,8 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
     const uint* pixel = own.receivers.pixel;
     PathCounts counts;
     preparePaths(frame.planeSize, params, lastSample, specular, geometric, taken, wanted, &own, &counts);
-    const uint fractions = params.component == WEDGE_COMPONENT_ENVIRONMENT_GLOSSY ? params.relative : 0u;
-    Sampling at = { frame.planeSize, params.firstPass, fractions, &own.receivers, pixel, &counts.wanted, &counts.deal };
+    Sampling at = { frame.planeSize, params.firstPass, params.fractions, &own.receivers, pixel, &counts.wanted,
+        &counts.deal };
     Sink sink;
     beginReceivers(&at, &sink, WEDGE_SINK_ARGUMENTS);
     while (dealSamples(&counts.wanted, &counts.deal)) {
@@ -209,9 +209,9 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
                     at.dealt, &lanes->facing, counts.deal.last, follows, &packet, weight, &paths);
             } else if (WEDGE_ENVIRONMENT_MAP != 0 && WEDGE_IS_OF_ENVIRONMENT(params.component)) {
                 traceEnvironment(nodes, blocks, lights.beyond, sampling,
-                    params.component == WEDGE_COMPONENT_ENVIRONMENT_GLOSSY, fractions != 0u, params.occluders, at.dealt,
-                    &lanes->facing, counts.deal.last, &packet, weight, &paths, whole);
-                if (params.relative != 0u && params.component == WEDGE_COMPONENT_ENVIRONMENT) {
+                    params.component == WEDGE_COMPONENT_ENVIRONMENT_GLOSSY, params.fractions != 0u, params.occluders,
+                    at.dealt, &lanes->facing, counts.deal.last, &packet, weight, &paths, whole);
+                if (params.relative != 0u) {
                     divideByUnshadowed(environment, lights.beyond, at.dealt, &paths);
                 }
             } else {

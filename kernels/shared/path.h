@@ -44,10 +44,11 @@ typedef struct {
     Vec3 emittersLow, emittersHigh; ///< the box that they are in, metres
     float directedWithin; ///< metres from it within which diffuse parts follow reflected directions, too
     float environmentShare; ///< as emitterShare, of what is beyond the scene
-    uint relative; ///< 1: samples of the environment are divided by unshadowedLight(), those of lobes are fractions
+    uint relative; ///< 1: samples of the environment are divided by unshadowedLight()
     uint skipsMirrors; ///< 1: receivers on mirrors and glass have no samples
     uint precomputed; ///< 1: directions beyond the scene are chosen among pre-computed samples
     uint occluders; ///< 1: of the environment, distances are those of what hides directions, over their cosines
+    uint fractions; ///< 1: samples of the environment's lobes are fractions (path_sampling.h)
 } PathParams;
 
 /// Distances of reflectors to widths and counts.

@@ -83,7 +83,7 @@ FIELD(PathParams, sceneDiameter) FIELD(PathParams, ambientDistance) FIELD(PathPa
 FIELD(PathParams, emitters) FIELD(PathParams, emitterShare) FIELD(PathParams, emittersLow)
 FIELD(PathParams, emittersHigh) FIELD(PathParams, directedWithin) FIELD(PathParams, environmentShare)
 FIELD(PathParams, relative)
-FIELD(PathParams, skipsMirrors) FIELD(PathParams, precomputed) FIELD(PathParams, occluders)
+FIELD(PathParams, skipsMirrors) FIELD(PathParams, precomputed) FIELD(PathParams, occluders) FIELD(PathParams, fractions)
 END(PathParams)
 STRUCT(CurvatureParams)
 FIELD(CurvatureParams, x0) FIELD(CurvatureParams, y0) FIELD(CurvatureParams, x1) FIELD(CurvatureParams, y1)
