@@ -235,6 +235,7 @@ TEST_CASE("--environment-widths: which there are, what reports say of them, and 
     CHECK(widths({ "--as-published" }) == "curvature");
     CHECK(widths({ "--as-published", "--environment-widths", "penumbrae" }) == "penumbrae");
     CHECK(widths({ "--spp", "16", "--environment-widths", "curvature" }) == "curvature");
+    CHECK(widths({ "--spp", "16", "--environment-widths", "flt" }) == "flt");
     CHECK(widths({ "--spp", "16", "--environment-widths", "corrected" }) == "corrected");
     CHECK(widths({ "--as-published", "--environment-widths", "corrected", "--sampling", "uniform" }) == "corrected");
     const auto refused = [&](const std::string& environment, std::vector<std::string> more, const std::string& what) {

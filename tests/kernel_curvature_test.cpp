@@ -27,6 +27,7 @@ struct CurvedImage {
         params.planeSize = static_cast<std::uint32_t>(layout().size);
         params.component = WEDGE_COMPONENT_ENVIRONMENT;
         params.curvedBand = params.cosineBand = 1;
+        params.hiddenLobes = 2;
         params.lightBand = 3;
         params.isSigned = 1;
         params.leastPixels = 1e-3f;
@@ -110,8 +111,8 @@ double expectedWidth(const CurvedImage& image, int x, int y, double curvature)
     const double lobe = glossy ? 1.8213863677 * std::sqrt(phong) : 0.0;
     const double nearest = image.occluders.at(x, y), occluded = nearest > 0 ? 1 / nearest : 0.0;
     const double bent = p.isSigned != 0 ? curvature : std::fabs(curvature);
-    const double bandwidth = std::fabs(
-        bent * (p.curvedBand + 2 * lobe) + occluded * (p.cosineBand + 2 * lobe + static_cast<double>(p.lightBand)));
+    const double hidden = p.cosineBand + static_cast<double>(p.hiddenLobes) * lobe + p.lightBand;
+    const double bandwidth = std::fabs(bent * (p.curvedBand + 2 * lobe) + occluded * hidden);
     const double size = image.pixelSize.at(x, y);
     return std::clamp(0.5 / std::max(bandwidth, 1e-30), p.leastPixels * size, p.mostPixels * size);
 }
@@ -182,6 +183,7 @@ TEST_CASE("widths of pixels of any kind are those of the definition")
                     image.params.component = component;
                     image.params.isSigned = isSigned;
                     image.params.curvedBand = isSigned != 0 ? 1.0f : 6.0f;
+                    image.params.hiddenLobes = isSigned != 0 ? 1.0f : 2.0f;
                     image.params.leastPixels = isSigned != 0 ? 1e-3f : 1.0f;
                     image.params.mostPixels = isSigned != 0 ? 1e3f : 5.0f;
                     for (int y = 0; y < height; ++y)
@@ -277,6 +279,7 @@ TEST_CASE("bandwidths are those of the thesis' flatland")
 {
     shared::CurvatureParams p {};
     p.curvedBand = p.cosineBand = 1;
+    p.hiddenLobes = 2;
     p.lightBand = 3;
     p.isSigned = 1;
     CHECK(shared::curvatureBandwidth(p, 0.5f, 0.5f, 0) == doctest::Approx(2.5)); // Fig. 6.5

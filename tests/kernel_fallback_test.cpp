@@ -130,8 +130,8 @@ TEST_CASE("fallback: shrinks samples towards what is filtered by the noise and d
                         if (gathered)
                             REQUIRE(std::fabs(kept16.gathered - exact.gathered) <= 0.004 * exact.gathered);
                         double variance = 0, around = 0, d = 0, f1 = 0, dd = 0, df = 0, ff = 0;
-                        const auto add = [&](int px, int py) {
-                            const Summed there = summed(differences, px, py, gathered);
+                        const auto add = [&, withGathered = gathered](int px, int py) {
+                            const Summed there = summed(differences, px, py, withGathered);
                             const double level = there.level, off = there.d;
                             variance += there.variance;
                             around += there.gathered;

@@ -31,6 +31,35 @@ TEST_CASE("as published: an even environment over an open floor comes out as it 
     });
 }
 
+TEST_CASE("as published: antialiased pixels take four primary samples and four of the environment of each")
+{
+    onEveryDevice([](const device::Device& device) {
+        SceneBuilder b = openFloor();
+        b.scene.materials[0].specular = glm::vec3(0.2f);
+        b.scene.materials[0].exponent = 30.0f;
+        b.newObject();
+        b.box({ -0.5f, 0, -0.5f }, { 0.5f, 0.6f, 0.0f });
+        render::setEnvironment(b.scene, spotted());
+        render::Renderer renderer(b.scene, device, renderOptions());
+        render::Settings published = sized(render::asPublished(), 40, 24),
+                         plain = sized(render::monteCarlo(64), 40, 24);
+        published.antialias = plain.antialias = true;
+        const render::FrameStatistics frame = renderer.render(published);
+        CHECK(frame.primarySpp == 4);
+        CHECK(frame.sppMean == 16);
+        const double expected = meanOverSeeds(renderer, plain, 8), found = meanOverSeeds(renderer, published, 8);
+        MESSAGE("mean over plain Monte Carlo's: ", found / expected);
+        CHECK(found == doctest::Approx(expected).epsilon(0.01));
+        // What else lights the scene, or blurs it, has chapter 5's counts, and so has all of the frame.
+        published.bounces = 1;
+        CHECK(renderer.render(published).primarySpp >= 16);
+        published.bounces = 0;
+        b.scene.camera.apertureRadius = 0.02f;
+        render::Renderer lens(b.scene, device, renderOptions());
+        CHECK(lens.render(published).primarySpp >= 16);
+    });
+}
+
 TEST_CASE("as published: filters keep the mean but for what widths take from samples")
 {
     onEveryDevice([](const device::Device& device) {
@@ -120,9 +149,14 @@ TEST_CASE("as published: what is seen of a cylinder is filtered along it and not
         b.camera({ 0, 0, 3 }, { 0, 0, 0 }, { 0, 1, 0 }, 10);
         render::setEnvironment(b.scene, even(sky));
         render::Renderer renderer(b.scene, device, renderOptions());
-        const Planes<float> beta = widthsOf(renderer, sized(render::asPublished(), 33, 33));
-        // Across it 1 / (2 kappa), kappa = 2 / m; along it as far as filters reach.
-        const double across = 0.25, size = 2.5 * 2 * std::tan(5 * std::acos(-1.0) / 180) / 33;
-        CHECK(beta.at(16, 16) == doctest::Approx(0.5 * (across + 1000 * size)).epsilon(0.02));
+        render::Settings published = sized(render::asPublished(), 33, 33);
+        const double size = 2.5 * 2 * std::tan(5 * std::acos(-1.0) / 180) / 33;
+        // Across it 1 / (2 kappa), kappa = 2 / m, by (6.19) half of that; along it as far as filters reach.
+        for (const auto widths : { render::EnvironmentWidths::Curvature, render::EnvironmentWidths::LightTransport }) {
+            published.environment.widths = widths;
+            const double across = widths == render::EnvironmentWidths::Curvature ? 0.25 : 0.125;
+            CHECK(widthsOf(renderer, published).at(16, 16)
+                == doctest::Approx(0.5 * (across + 1000 * size)).epsilon(0.003));
+        }
     });
 }

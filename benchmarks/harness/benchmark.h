@@ -97,6 +97,13 @@ struct TimeClaim {
     const char* unit;
 };
 
+/// Another published method, of as many samples: what a setting becomes it by.
+struct Rival {
+    const char* name;
+    const char* meaning;
+    void (*change)(render::Settings& settings);
+};
+
 /// A benchmark of error against samples or rays: all that makes it another one than its neighbours.
 struct Benchmark {
     std::string program; ///< its name
@@ -117,6 +124,7 @@ struct Benchmark {
     std::vector<BaselineRow> baselines = {};
     std::optional<FixedWidthRule> fixedWidth = {};
     std::optional<float> blurWidth = {}; ///< pixels: the default is held against one fixed width as well
+    std::optional<Rival> rival = {}; ///< the published setting is held against it as well
     const char* region = nullptr; ///< what claims call Subject::regionOf(); null where it has none
     std::vector<AblationRow> ablations = {};
     std::vector<VariantRow> variants = {}; ///< of all scenes

@@ -85,11 +85,17 @@ void addErrors(SceneClaims& out, const Benchmark& benchmark, const CaseSetting& 
     if (!setting.convergence.empty()) {
         out.add("mu_monotonic", falls(setting.convergence) ? 1 : 0, "1", &setting);
     }
-    if (setting.blur) {
+    const auto addRatio = [&](const std::string& quantity, const Method& other) {
         std::vector<double> ratios;
-        std::ranges::transform(setting.method.runs, setting.blur->runs, std::back_inserter(ratios),
-            [](const Measured& ours, const Measured& blurred) { return ours.error / blurred.error; });
-        out.add("vs_fixed_blur", summarize(ratios), "1", &setting);
+        std::ranges::transform(setting.method.runs, other.runs, std::back_inserter(ratios),
+            [](const Measured& ours, const Measured& others) { return ours.error / others.error; });
+        out.add(quantity, summarize(ratios), "1", &setting);
+    };
+    if (setting.blur) {
+        addRatio("vs_fixed_blur", *setting.blur);
+    }
+    if (setting.rival) {
+        addRatio(std::string("vs_") + benchmark.rival->name, *setting.rival);
     }
     if (setting.fixedWidth) {
         out.add("rmse_ratio_fixed_blur", setting.fixedWidth->measured.error / setting.method.runs.front().error, "1",

@@ -41,6 +41,11 @@ void measureErrors(const Benchmark& benchmark, Lab& lab, CaseSetting& out)
     if (benchmark.blurWidth && !out.published) {
         out.blur = measureMethod(lab, "blur", fixed(settings, *benchmark.blurWidth));
     }
+    if (benchmark.rival && out.published) {
+        render::Settings changed = settings;
+        benchmark.rival->change(changed);
+        out.rival = measureMethod(lab, benchmark.rival->name, changed);
+    }
     const std::vector<bool>& region = lab.region(settings);
     out.regionFraction = region.empty()
         ? 0.0

@@ -104,6 +104,10 @@ Json dataOf(const CaseSetting& setting, const Benchmark& benchmark)
         out["blur"] = { { "width_pixels", *benchmark.blurWidth },
             { "points", listOf(setting.blur->runs, benchmark.raysKey) } };
     }
+    if (setting.rival) {
+        out["rival"] = { { "name", benchmark.rival->name }, { "meaning", benchmark.rival->meaning },
+            { "points", listOf(setting.rival->runs, benchmark.raysKey) } };
+    }
     if (setting.fixedWidth && !benchmark.settingsByName) {
         out["fixed_blur"] = dataOf(*setting.fixedWidth, benchmark.raysKey);
     }

@@ -32,6 +32,7 @@ struct CaseSetting {
     std::vector<Measured> convergence; ///< by mu
     std::optional<FixedWidth> fixedWidth;
     std::optional<Method> blur; ///< with Benchmark::blurWidth everywhere, by the method's seeds
+    std::optional<Method> rival; ///< Benchmark::rival, by the method's seeds
     double regionFraction = 0; ///< of the image, Subject::regionOf()
 
     /// Appended to quantities of claims.

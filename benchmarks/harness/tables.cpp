@@ -139,6 +139,12 @@ std::string errorLines(const Benchmark& benchmark, const SceneResult& result)
                 rowStart(result.source.name + setting.of.label, "blur"), blurred.spp, blurred.rmse,
                 *benchmark.blurWidth);
         }
+        if (setting.rival) {
+            const Measured& other = setting.rival->runs.front();
+            out += fmt::format("{}{:>7.1f} spp  rmse {:.6f}  {}\n",
+                rowStart(result.source.name + setting.of.label, benchmark.rival->name), other.spp, other.rmse,
+                benchmark.rival->meaning);
+        }
         if (setting.fixedWidth) {
             const Measured& fixed = setting.fixedWidth->measured;
             out += fmt::format("{}{:>7.1f} spp  rmse {:.6f}  one width of {:.2f} pixels for the whole image\n",

@@ -141,6 +141,8 @@ int main(int argc, char** argv)
             .baselines = { { "sobol", "mc, Owen-scrambled Sobol: its default", Sampler::Sobol },
                 { "stratified", "mc, jittered strata", Sampler::Stratified } },
             .blurWidth = 2.0f,
+            .rival = Rival { "flt", "as published, with the bandwidth (6.19) of frequency analysis of light transport",
+                [](render::Settings& s) { s.environment.widths = render::EnvironmentWidths::LightTransport; } },
             .region = "smooth",
             .columns = columns(),
             .times = thesisTable("primary", "primary"),

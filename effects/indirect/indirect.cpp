@@ -97,6 +97,7 @@ shared::CurvatureParams curvatureParams(const FrameBuilder& frame, Component com
     shared::CurvatureParams p {};
     p.component = static_cast<std::uint32_t>(component);
     p.cosineBand = 1.0f;
+    p.hiddenLobes = 2.0f;
     if (frame.settings.environment.widths == EnvironmentWidths::Corrected) {
         p.curvedBand = correctedCurvedBand;
         p.lightBand = correctedLightBand;
@@ -104,8 +105,15 @@ shared::CurvatureParams curvatureParams(const FrameBuilder& frame, Component com
         p.mostPixels = 5.0f;
         return p;
     }
-    p.curvedBand = 1.0f;
-    p.lightBand = frame.scene != nullptr ? frame.scene->environmentBandwidth.value() : 0.0f;
+    if (frame.settings.environment.widths == EnvironmentWidths::LightTransport) {
+        // (2 kappa + 1/z) B_rho, which is the cosine's B_f of diffuse reflection, whatever the map's band.
+        p.cosineBand = isGlossy(component) ? 0.0f : 1.0f;
+        p.curvedBand = 2.0f * p.cosineBand;
+        p.hiddenLobes = 1.0f;
+    } else {
+        p.curvedBand = 1.0f;
+        p.lightBand = frame.scene != nullptr ? frame.scene->environmentBandwidth.value() : 0.0f;
+    }
     p.isSigned = 1;
     // No bounds but of numbers: filters end at maxRadius.
     p.leastPixels = 1e-3f;

@@ -72,6 +72,12 @@ void PathWaves::widths()
     reflectorWidths(f_, p, leastExtreme(), means.taken, means.beta);
 }
 
+std::uint32_t PathWaves::publishedSamples() const
+{
+    constexpr std::uint32_t ofChapter6 = 16; // section 6.5.1
+    return isOfEnvironment(component_) ? ofChapter6 : 0;
+}
+
 void PathWaves::publishedWidths(
     const shared::DistributedParams& params, const graph::Handle<Share>& flags, const graph::Handle<Pixels>& confusion)
 {

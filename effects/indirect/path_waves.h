@@ -13,6 +13,7 @@ public:
     void sample(
         Waves& waves, const Adding& adding, const PrimaryCounts& counts, const graph::Handle<Count>& hits) override;
     void widths() override;
+    std::uint32_t publishedSamples() const override;
     void publishedWidths(const shared::DistributedParams& params, const graph::Handle<Share>& flags,
         const graph::Handle<Pixels>& confusion) override;
     graph::Handle<Value> filtered(const shared::DistributedParams& params) override;

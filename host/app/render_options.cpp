@@ -221,7 +221,9 @@ void addAblationOptions(CLI::App& parser, RenderOptions& o)
     addChoice(parser, ablationGroup, "--environment-widths", environmentWidths,
         "What widths of filters of light from beyond the scene follow from: what hides it and how wide that light is, "
         "the "
-        "default; curvature, what hides it and the map's spectrum, as published; or such by corrected constants",
+        "default; curvature, what hides it and the map's spectrum, as published; the same without the map's spectrum, "
+        "as "
+        "Durand et al.'s frequency analysis of light transport has it; or by corrected constants",
         o.environmentWidths);
 }
 

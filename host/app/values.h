@@ -39,7 +39,7 @@ inline const std::vector<std::string> integrators = { "path", "ao" };
 inline const std::vector<std::string> pixelFilters = { "box", "gaussian", "blackman-harris" };
 inline const std::vector<std::string> lightSamplings = { "both", "lights", "directions" };
 inline const std::vector<std::string> temporals = { "off", "on" };
-inline const std::vector<std::string> environmentWidths = { "penumbrae", "curvature", "corrected" };
+inline const std::vector<std::string> environmentWidths = { "penumbrae", "curvature", "flt", "corrected" };
 
 /// The index of text among choices.
 std::size_t choice(const std::string& option, const std::string& text, const std::vector<std::string>& choices);

@@ -82,6 +82,9 @@ void DistributedSamples::publishedCounts()
             { pixels(), reads("texture", m.texture), reads("value", m.value), reads("termRadiance", m.radiance),
                 writes("flags", flags) });
         term->publishedWidths(params(), flags, confusion_);
+        if (hasFixedCounts()) {
+            f_.fill("counts", m.demand, 0.0f); // what is taken is all
+        }
     }
     const auto most = static_cast<std::uint32_t>(d.maxSpp);
     f_.pixels("counts", PassKind::Analysis, { "analysis/published.cl", "publishedPrimary" },

@@ -164,9 +164,19 @@ std::function<bool(const Run&)> DistributedSamples::analysed() const
     return [state = state_](const Run&) { return state->analysed; };
 }
 
+bool DistributedSamples::hasFixedCounts() const
+{
+    return shape_.published && !shape_.moves && f_.description.camera.apertureRadius <= 0 && !f_.settings.progressive
+        && !terms_.empty() && std::ranges::all_of(terms_, [](const std::unique_ptr<WaveTerm>& term) {
+               return term->publishedSamples() > 0;
+           });
+}
+
 std::uint32_t DistributedSamples::firstPaths() const
 {
-    return static_cast<std::uint32_t>(std::min(f_.settings.distributed.firstPaths, f_.settings.spp));
+    constexpr std::uint32_t fixed = 4;
+    return hasFixedCounts() ? fixed
+                            : static_cast<std::uint32_t>(std::min(f_.settings.distributed.firstPaths, f_.settings.spp));
 }
 
 shared::DistributedParams DistributedSamples::params() const
@@ -237,6 +247,7 @@ void DistributedSamples::monteCarlo()
 void DistributedSamples::adaptive(const DistributedSamples* guide)
 {
     const std::uint32_t first = firstPaths();
+    const bool fixed = hasFixedCounts();
     if (before_.taken < first) {
         // Packed planes do not hold what is wanted: the wave says it.
         PrimaryCounts counts { counts_.taken, counts_.taken };
@@ -245,11 +256,11 @@ void DistributedSamples::adaptive(const DistributedSamples* guide)
             f_.fill("counts", counts.wanted, first);
             for (const std::unique_ptr<WaveTerm>& term : terms_) {
                 term->means.wanted = f_.graph.plane<Count>("samples wanted first", graph::counts);
-                f_.fill("counts", term->means.wanted, first);
+                f_.fill("counts", term->means.wanted, fixed ? term->publishedSamples() : first);
             }
         }
         sample(true, counts,
-            { .last = [first](std::size_t) { return first; },
+            { .last = [first, fixed](std::size_t) { return fixed ? allSamples : first; },
                 .most = static_cast<double>(first),
                 .workUnits = static_cast<double>(first),
                 .everywhere = true });

@@ -77,6 +77,9 @@ private:
     void keepPixels();
     void keepTerm(WaveTerm& term);
     std::uint32_t firstPaths() const; ///< samples of the first pass
+    /// Whether counts are chapter 6's, of antialiased frames that nothing else lights or blurs, whatever is found: four
+    /// primary samples, and of each as many of a term as make it WaveTerm::publishedSamples().
+    bool hasFixedCounts() const;
     /// Motions are.
     bool keepsMotion() const { return shape_.layers || shape_.published || (shape_.moves && shape_.analysed); }
 

@@ -366,7 +366,7 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
                 { "fillRadius", number(s.fillRadius) }, { "countExponent", number(s.countExponent) },
                 { "varianceFloor", number(s.varianceFloor) }, { "varianceSpread", number(s.varianceSpread) } });
     }
-    constexpr const char* environmentWidths[] = { "penumbrae", "curvature", "corrected" };
+    constexpr const char* environmentWidths[] = { "penumbrae", "curvature", "flt", "corrected" };
     if (s.method == Method::AxisAligned) { // bounces or not: light of meshes and environments goes by it, too
         describeIndirect(s.indirect, out);
         const EnvironmentSettings& e = s.environment;

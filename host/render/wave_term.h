@@ -70,7 +70,9 @@ public:
         Waves& waves, const Adding& adding, const PrimaryCounts& counts, const graph::Handle<Count>& hits) = 0;
     /// means.beta, metres, from what was measured.
     virtual void widths() = 0;
-    /// The same as published, and means.demand; flags: 1 where texture and value are taken apart.
+    /// Samples that antialiased pixels take of it as published; 0: what the analysis says.
+    virtual std::uint32_t publishedSamples() const { return 0; }
+    /// widths() as published, and means.demand; flags: 1 where texture and value are taken apart.
     virtual void publishedWidths(const shared::DistributedParams& params, const graph::Handle<Share>& flags,
         const graph::Handle<Pixels>& confusion) = 0;
     /// Widens means.beta once the samples are complete, and filters the value; returns one of valuePlanes().

@@ -1,4 +1,4 @@
-// Bandwidths of light from beyond the scene by curvature and occluders, (6.13), (6.17); docs/environment.md.
+// Bandwidths of light from beyond the scene by curvature and occluders, (6.13), (6.17), (6.19); docs/environment.md.
 #ifndef WEDGE_SHARED_CURVATURE_H
 #define WEDGE_SHARED_CURVATURE_H
 
@@ -22,6 +22,7 @@ typedef struct {
     uint component; ///< WEDGE_COMPONENT_ENVIRONMENT, or of lobes
     float curvedBand; ///< what curvature is multiplied by: B_f of the clamped cosine, or more
     float cosineBand; ///< B_f where something is hidden
+    float hiddenLobes; ///< B_rho where something is hidden count so often
     float lightBand; ///< B_e, of the map
     uint isSigned; ///< 1: concave surfaces have negative curvatures; 0: they count as convex ones
     float leastPixels, mostPixels; ///< widths, in sides of the surface that the pixel sees
@@ -33,12 +34,13 @@ WEDGE_FN float lobeBandwidth(Gloss lobe)
     return WEDGE_GAUSSIAN_BANDWIDTH * sqrt(fmax(exponentAs(lobe, WEDGE_PHONG), 0.0f));
 }
 
-/// B_x of (6.13), and with a lobe's B_rho of (6.17), 1/m. curvature: 1/m, convex is positive; occluded: the largest
-/// cos^2 theta / z of an occluder at height z, 1/m, 0 where nothing is hidden; lobe: B_rho, 0 of diffuse reflection.
+/// B_x of (6.13), and with a lobe's B_rho of (6.17) or, with other constants, (6.19), 1/m. curvature: 1/m, convex is
+/// positive; occluded: the largest cos^2 theta / z of an occluder at height z, 1/m, 0 where nothing is hidden; lobe:
+/// B_rho, 0 of diffuse reflection.
 WEDGE_FN float curvatureBandwidth(CurvatureParams p, float curvature, float occluded, float lobe)
 {
     const float bent = p.isSigned != 0u ? curvature : fabs(curvature);
-    return bent * (p.curvedBand + 2.0f * lobe) + occluded * (p.cosineBand + 2.0f * lobe + p.lightBand);
+    return bent * (p.curvedBand + 2.0f * lobe) + occluded * (p.cosineBand + p.hiddenLobes * lobe + p.lightBand);
 }
 
 WEDGE_SHARED_END
