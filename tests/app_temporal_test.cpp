@@ -85,22 +85,23 @@ TEST_CASE("temporal: frames that are equal stay as they are, to the bit")
     CHECK(values(place.exr("a3.exr"), "G") == values(place.exr("b3.exr"), "G"));
 }
 
-/// RMS difference of a frame with the filter from the mean of it and the seven before it without, over that of the
-/// frame without.
-double apartFromMean(const Workplace& place, const std::string& scene, const Arguments& more)
+/// RMS difference of a frame with the filter from the mean of it and those before it, so many in all, without, over
+/// that of the frame without.
+double apartFromMean(const Workplace& place, const std::string& scene, const Arguments& more,
+    const std::string& filter = "on", int of = 8)
 {
     const auto with = [&](Arguments arguments) {
         arguments.insert(arguments.end(), more.begin(), more.end());
         return arguments;
     };
     REQUIRE(frames(place, scene, "0:9", with({ "-o", "a%d.exr", "--temporal", "off" })).status == 0);
-    REQUIRE(frames(place, scene, "9", with({ "-o", "b%d.exr" })).status == 0);
+    REQUIRE(frames(place, scene, "9", with({ "-o", "b%d.exr", "--temporal", filter })).status == 0);
     const std::vector<float> filtered = values(place.exr("b9.exr"), "G"), last = values(place.exr("a9.exr"), "G");
     std::vector<double> mean(filtered.size(), 0.0);
-    for (int i = 2; i < 10; ++i) {
+    for (int i = 10 - of; i < 10; ++i) {
         const std::vector<float> frame = values(place.exr("a" + std::to_string(i) + ".exr"), "G");
         for (std::size_t k = 0; k < mean.size(); ++k) {
-            mean[k] += frame[k] / 8.0;
+            mean[k] += frame[k] / static_cast<double>(of);
         }
     }
     double noise = 0, off = 0;
@@ -118,6 +119,23 @@ TEST_CASE("temporal: with a still camera a frame is the mean of the last eight, 
     place.write("s.toml", camera + quad + light + ball);
     // Some differences are taken for those of light by chance.
     CHECK(apartFromMean(place, "s.toml", { "--spp", "9" }) < 0.1);
+}
+
+TEST_CASE(
+    "temporal: as published it is that of the last two, of pixels that see one surface; and the same in any range")
+{
+    const Workplace place;
+    place.write("s.toml", camera + quad + light + ball);
+    // No difference is taken for one of light.
+    CHECK(apartFromMean(place, "s.toml", { "--spp", "9" }, "published", 2) < 0.01);
+    place.write("m.toml", camera + passesBy + quad + light + ball + rolls);
+    REQUIRE(frames(place, "m.toml", "7:9", { "-o", "c%d.exr", "--temporal", "published", "--report", "r.json" }).status
+        == 0);
+    REQUIRE(frames(place, "m.toml", "9", { "-o", "d%d.exr", "--temporal", "published" }).status == 0);
+    CHECK(values(place.exr("c9.exr"), "R") == values(place.exr("d9.exr"), "R"));
+    CHECK(nlohmann::json::parse(place.text("r.json"))["method"]["temporal"] == "published");
+    REQUIRE(frames(place, "m.toml", "9", { "-o", "e%d.exr" }).status == 0);
+    CHECK(values(place.exr("d9.exr"), "R") != values(place.exr("e9.exr"), "R"));
 }
 
 TEST_CASE("temporal: that is so of what mirrors and glass show, and of what is beside them, too")

@@ -1,5 +1,4 @@
-// temporal.cl alone: against the same on the host, in double; and where objects are found to have gone.
-#include "filters/temporal/object_motion.h"
+// temporal.cl alone: against the same on the host, in double.
 #include "kernels/shared/temporal.h"
 #include "tests/render_support.h"
 
@@ -143,6 +142,63 @@ Change changeAt(const Seen& then, const Camera& camera, std::uint32_t id, glm::d
     return { 0.5 * (b - a), a + b - 2.0 * then.light.vector(tap.x, tap.y) };
 }
 
+/// The camera of the earlier frame.
+Camera cameraThen()
+{
+    Camera then;
+    then.eye = { 0.31, -0.07, 4.8 };
+    return then;
+}
+
+/// What differFromFrame() finds, of the disk that has moved.
+struct Differences {
+    Planes<float> light, seen, unfiltered, variations;
+};
+
+Differences differ(KernelBench& bench, std::uint32_t published, const Seen& own, const Seen& earlier)
+{
+    const render::PlaneLayout& layout = own.depth.layout;
+    shared::TemporalParams p = temporalParamsOf(layout);
+    setCamera(p, cameraThen());
+    p.published = published;
+    p.objects = 3;
+    std::vector<float> motions(3 * WEDGE_TEMPORAL_MOTION, 0.0f);
+    motions[12] = motions[WEDGE_TEMPORAL_MOTION + 12] = WEDGE_TEMPORAL_STILL;
+    for (int k = 0; k < 3; ++k) {
+        motions[2 * WEDGE_TEMPORAL_MOTION + 5 * k] = 1.0f;
+        motions[2 * WEDGE_TEMPORAL_MOTION + 4 * k + 3] = static_cast<float>((diskThen - diskNow)[k]);
+    }
+    motions[2 * WEDGE_TEMPORAL_MOTION + 12] = WEDGE_TEMPORAL_MOVED;
+    const auto difference = bench.filled(3 * layout.size, 7.0f);
+    const auto noise = bench.filled(layout.size, 7.0f), variations = bench.filled(layout.size, 7.0f),
+               share = bench.filled(layout.size, 7.0f);
+    const auto variation = bench.buffer(inShorts(Planes<float>(layout, 1, 0.25f)));
+    const auto nothing = bench.filled(1, 0.0f);
+    bench.passes.rows("filter over time", filterPass, file, "differFromFrame", p, 1, bench.buffer(motions),
+        bench.buffer(own.position.values), bench.buffer(own.normal.values), bench.buffer(own.object.values),
+        bench.buffer(packed(layout, own.light)), nothing, bench.buffer(inShorts(own.noisy)), variation,
+        bench.buffer(earlier.depth.values), bench.buffer(earlier.facing.values), bench.buffer(earlier.object.values),
+        bench.buffer(packed(layout, earlier.light)), nothing, bench.buffer(inShorts(earlier.noisy)), variation,
+        difference, noise, variations, share);
+    return { planesOf(layout, bench.read(difference)), planesOf(layout, bench.read(share)),
+        planesOf(layout, bench.read(noise)), planesOf(layout, bench.read(variations)) };
+}
+
+/// Where the earlier frame has a pixel's point: its place in the scene, and in pixels from the middle of the first.
+struct Place {
+    glm::dvec3 at;
+    double x, y;
+};
+
+Place placeThen(const Seen& own, const Camera& then, int x, int y)
+{
+    const render::PlaneLayout& layout = own.depth.layout;
+    const glm::dvec3 moved = own.object.at(x, y) == 3 ? diskThen - diskNow : glm::dvec3(0);
+    const glm::dvec3 at = own.position.vector(x, y) + moved, d = at - then.eye;
+    return { at, d.x / (then.right.x * -d.z) + 0.5 * layout.width - 0.5,
+        d.y / (then.down.y * -d.z) + 0.5 * layout.height - 0.5 };
+}
+
 } // namespace
 
 TEST_CASE("temporal: differences are those of the four pixels around where a point was that see its surface")
@@ -150,43 +206,14 @@ TEST_CASE("temporal: differences are those of the four pixels around where a poi
     onEveryDevice([](const device::Device& device) {
         KernelBench bench(device);
         const render::PlaneLayout layout(83, 61);
-        const Camera now;
-        Camera then;
-        then.eye = { 0.31, -0.07, 4.8 };
-        const Seen own(layout, now, diskNow), earlier(layout, then, diskThen);
-        shared::TemporalParams p = temporalParamsOf(layout);
-        setCamera(p, then);
-        p.objects = 3;
-        std::vector<float> motions(3 * WEDGE_TEMPORAL_MOTION, 0.0f);
-        motions[12] = motions[WEDGE_TEMPORAL_MOTION + 12] = WEDGE_TEMPORAL_STILL;
-        for (int k = 0; k < 3; ++k) {
-            motions[2 * WEDGE_TEMPORAL_MOTION + 5 * k] = 1.0f;
-            motions[2 * WEDGE_TEMPORAL_MOTION + 4 * k + 3] = static_cast<float>((diskThen - diskNow)[k]);
-        }
-        motions[2 * WEDGE_TEMPORAL_MOTION + 12] = WEDGE_TEMPORAL_MOVED;
-        const auto difference = bench.filled(3 * layout.size, 7.0f);
-        const auto noise = bench.filled(layout.size, 7.0f), variations = bench.filled(layout.size, 7.0f),
-                   share = bench.filled(layout.size, 7.0f);
-        const auto variation = bench.buffer(inShorts(Planes<float>(layout, 1, 0.25f)));
-        const auto nothing = bench.filled(1, 0.0f);
-        bench.passes.rows("filter over time", filterPass, file, "differFromFrame", p, 1, bench.buffer(motions),
-            bench.buffer(own.position.values), bench.buffer(own.normal.values), bench.buffer(own.object.values),
-            bench.buffer(packed(layout, own.light)), nothing, bench.buffer(inShorts(own.noisy)), variation,
-            bench.buffer(earlier.depth.values), bench.buffer(earlier.facing.values),
-            bench.buffer(earlier.object.values), bench.buffer(packed(layout, earlier.light)), nothing,
-            bench.buffer(inShorts(earlier.noisy)), variation, difference, noise, variations, share);
-        const Planes<float> found = planesOf(layout, bench.read(difference)),
-                            seen = planesOf(layout, bench.read(share)),
-                            unfiltered = planesOf(layout, bench.read(noise)),
-                            varies = planesOf(layout, bench.read(variations));
+        const Camera then = cameraThen();
+        const Seen own(layout, Camera(), diskNow), earlier(layout, then, diskThen);
+        const auto [found, seen, unfiltered, varies] = differ(bench, 0, own, earlier);
         int other = 0, shown = 0, hidden = 0, bends = 0, bounded = 0;
         everyPixel(layout, [&](int x, int y) {
             const std::uint32_t id = own.object.at(x, y);
             const glm::dvec3 n = own.normal.vector(x, y);
-            const glm::dvec3 at = own.position.vector(x, y) + (id == 3 ? diskThen - diskNow : glm::dvec3(0));
-            const glm::dvec3 d = at - then.eye;
-            const double px = d.x / (then.right.x * -d.z) + 0.5 * layout.width - 0.5,
-                         py = d.y / (then.down.y * -d.z) + 0.5 * layout.height - 0.5;
+            const auto [at, px, py] = placeThen(own, then, x, y);
             double weight = 0, nearest = 0, before = 0;
             glm::ivec2 nearby(0);
             glm::dvec3 sum(0);
@@ -235,6 +262,32 @@ TEST_CASE("temporal: differences are those of the four pixels around where a poi
         CHECK(bends > 50);
         CHECK(bounded > 5);
         CHECK(other < 20);
+    });
+}
+
+TEST_CASE("temporal: as published differences are those of the nearest pixel, where it sees the surface")
+{
+    onEveryDevice([](const device::Device& device) {
+        KernelBench bench(device);
+        const render::PlaneLayout layout(83, 61);
+        const Camera then = cameraThen();
+        const Seen own(layout, Camera(), diskNow), earlier(layout, then, diskThen);
+        const Differences found = differ(bench, 1, own, earlier);
+        int other = 0, shown = 0, hidden = 0;
+        everyPixel(layout, [&](int x, int y) {
+            const std::uint32_t id = own.object.at(x, y);
+            const Place place = placeThen(own, then, x, y);
+            const int nearX = static_cast<int>(std::lround(place.x)), nearY = static_cast<int>(std::lround(place.y));
+            const bool isSeen = id != 0 && sees(earlier, then, id, place.at, own.normal.vector(x, y), nearX, nearY);
+            const glm::dvec3 expected =
+                isSeen ? earlier.light.vector(nearX, nearY) - own.light.vector(x, y) : glm::dvec3(0);
+            shown += isSeen ? 1 : 0;
+            hidden += !isSeen && id != 0 ? 1 : 0;
+            other += (found.seen.at(x, y) == 1.0f) != isSeen || glm::length(found.light.vector(x, y) - expected) > 2e-3;
+        });
+        CHECK(shown > 1000);
+        CHECK(hidden > 50);
+        CHECK(other < 20); // where two are equally near
     });
 }
 
@@ -340,6 +393,13 @@ TEST_CASE("temporal: blocks are weighed by Student's t of differences and by the
         const auto sum = bench.filled(3 * layout.size, 0.0f), counts = bench.filled(layout.size, 0.0f);
         bench.passes.rows("filter over time", filterPass, file, "addFrame", p, 1, bench.buffer(difference.values),
             shares, weights, sum, counts);
+        // As published it counts whatever has changed.
+        shared::TemporalParams published = p;
+        published.published = 1;
+        const auto unweighed = bench.filled(3 * layout.size, 0.0f);
+        bench.passes.rows("filter over time", filterPass, file, "addFrame", published, 1,
+            bench.buffer(difference.values), shares, weights, unweighed, bench.filled(layout.size, 0.0f));
+        CHECK(bench.read(unweighed) == difference.values);
         Planes<float> direct(layout, 3, 1.0f), beauty(layout, 3, 2.0f), diffuse(layout, 3, 0.49f);
         const auto directOut = bench.buffer(direct.values), beautyOut = bench.buffer(beauty.values);
         bench.passes.rows("filter over time", filterPass, file, "finishTemporal", p, 1, bench.buffer(diffuse.values),
@@ -363,55 +423,4 @@ TEST_CASE("temporal: blocks are weighed by Student's t of differences and by the
             CHECK(glm::length(madeDirect.vector(x, y) - glm::dvec3(1) - more * glm::dvec3(1, 2, 3)) < 3e-3);
         });
     });
-}
-
-TEST_CASE("temporal: objects are found again by their vertices, and those that deform are not")
-{
-    scene::Geometry then;
-    const auto add = [&](const std::vector<glm::vec3>& corners) {
-        then.objectNames.emplace_back("object");
-        for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                then.indices.push_back(static_cast<std::uint32_t>(then.positions.size() / 3));
-                const glm::vec3 v = corners[i + k];
-                then.positions.insert(then.positions.end(), { v.x, v.y, v.z });
-            }
-            then.objectIds.push_back(static_cast<std::uint32_t>(then.objectNames.size()));
-        }
-    };
-    add({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 1, 1 } }); // moves
-    add({ { 5, 0, 0 }, { 6, 0, 0 }, { 5, 1, 0 }, { 6, 1, 0 } }); // flat, turns out of its plane
-    add({ { 0, 5, 0 }, { 1, 5, 0 }, { 0, 6, 0 }, { 0, 5, 1 }, { 1, 6, 1 } }); // deforms
-    add({ { 9, 9, 9 }, { 8, 9, 9 }, { 9, 8, 9 } }); // rests
-    const filters::ObjectTracker tracker(then);
-    scene::Geometry now = then;
-    const auto moved = [](std::uint32_t id, glm::dvec3 v) {
-        return id == 1 ? glm::dvec3(2 - v.y, v.x, 1.5 * v.z) : glm::dvec3(v.x, -v.z, v.y + 0.5);
-    };
-    for (std::size_t corner = 0; corner < now.indices.size(); ++corner) {
-        const std::uint32_t id = now.objectIds[corner / 3];
-        float* at = &now.positions[3 * std::size_t { now.indices[corner] }];
-        const glm::dvec3 to = moved(id, { at[0], at[1], at[2] });
-        for (int k = 0; id < 3 && k < 3; ++k) {
-            at[k] = static_cast<float>(to[k]);
-        }
-    }
-    now.positions[3 * std::size_t { then.indices[18] } + 1] += 0.3f;
-    const filters::ObjectPlaces before = tracker.placesIn(then), after = tracker.placesIn(now);
-    CHECK(filters::areStill(before, before));
-    CHECK_FALSE(filters::areStill(before, after));
-    const std::vector<float> motions = filters::motionsBetween(after, before);
-    const auto kind = [&](std::size_t id) { return motions[(id - 1) * WEDGE_TEMPORAL_MOTION + 12]; };
-    CHECK(kind(1) == WEDGE_TEMPORAL_MOVED);
-    CHECK(kind(2) == WEDGE_TEMPORAL_MOVED);
-    CHECK(kind(3) == WEDGE_TEMPORAL_UNKNOWN);
-    CHECK(kind(4) == WEDGE_TEMPORAL_STILL);
-    for (const std::uint32_t id : { 1u, 2u }) {
-        const float* m = &motions[(id - 1) * WEDGE_TEMPORAL_MOTION];
-        const glm::dvec3 was = id == 1 ? glm::dvec3(0.2, 0.3, 0.4) : glm::dvec3(5.3, 0.6, 0.0), is = moved(id, was);
-        for (int row = 0; row < 3; ++row) {
-            const double back = m[4 * row] * is.x + m[4 * row + 1] * is.y + m[4 * row + 2] * is.z + m[4 * row + 3];
-            CHECK(back == doctest::Approx(was[row]).epsilon(1e-5));
-        }
-    }
 }

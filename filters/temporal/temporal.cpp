@@ -101,6 +101,7 @@ struct TemporalFilter::Declaration {
         params.blocksX = (params.width + WEDGE_TEMPORAL_BLOCK - 1) / WEDGE_TEMPORAL_BLOCK;
         params.blocksY = (params.height + WEDGE_TEMPORAL_BLOCK - 1) / WEDGE_TEMPORAL_BLOCK;
         params.indirect = indirect ? 1 : 0;
+        params.published = settings.temporal == render::Temporal::Published ? 1 : 0;
         params.open = settings.integrator == render::Integrator::AmbientOcclusion ? 1 : 0;
         params.mixed = frame.distributed ? 1 : 0;
         params.measured = frame.directDeviation.size() > 0 ? 1 : 0;
@@ -294,14 +295,17 @@ TemporalFilter::TemporalFilter(const device::Device& device)
 
 TemporalFilter::~TemporalFilter() = default;
 
-TemporalFilter::Kept& TemporalFilter::slotOf(std::uint32_t frame) { return kept_.at(frame % temporalWindow); }
+TemporalFilter::Kept& TemporalFilter::slotOf(std::uint32_t frame, const Settings& settings)
+{
+    return kept_.at(frame % windowOf(settings.temporal));
+}
 
 void TemporalFilter::addTo(device::MemoryPlan& plan, const Settings& settings, const scene::Scene& scene)
 {
     const render::PlaneLayout layout(settings.width, settings.height);
     for (std::size_t i = 0; i < keptOf(settings, scene); ++i) {
         // Allocated one by one.
-        for (std::uint32_t k = 0; k < temporalWindow; ++k) {
+        for (std::uint32_t k = 0; k < windowOf(settings.temporal); ++k) {
             plan.addItems(keptPlanes[i].name, layout.size, keptPlanes[i].format.bytes);
         }
     }
@@ -309,7 +313,7 @@ void TemporalFilter::addTo(device::MemoryPlan& plan, const Settings& settings, c
     plan.addItems("sums of the filter over time", layout.size, (planes + 4) * sizeof(float));
     plan.addItems("weights of the filter over time", layout.size / (WEDGE_TEMPORAL_BLOCK * WEDGE_TEMPORAL_BLOCK),
         5 * sizeof(float));
-    plan.addItems("motions", std::uint64_t { temporalWindow } * scene.geometry.objectNames.size(),
+    plan.addItems("motions", std::uint64_t { windowOf(settings.temporal) } * scene.geometry.objectNames.size(),
         WEDGE_TEMPORAL_MOTION * sizeof(float));
 }
 
@@ -338,7 +342,7 @@ void TemporalFilter::run(render::Renderer& renderer, const Settings& settings,
     const std::uint32_t number = settings.frame.value_or(0);
     device::TimedQueue& queue = renderer.queue();
     Declaration d(renderer, settings, unused_);
-    Kept& own = slotOf(number);
+    Kept& own = slotOf(number, settings);
     const auto allocate = [&](Kept& kept) {
         for (std::size_t i = kept.planes.size(); i < keptOf(settings, renderer.scene()); ++i) {
             kept.planes.emplace_back(device_, d.frame.layout.size * keptPlanes[i].format.bytes, keptPlanes[i].name);
@@ -363,14 +367,14 @@ void TemporalFilter::run(render::Renderer& renderer, const Settings& settings,
     };
     if (filters) {
         d.startSums();
-        for (std::uint32_t frame = number; frame-- > firstOfWindow(number);) {
-            if (slotOf(frame).frame == frame) {
-                add(slotOf(frame));
+        for (std::uint32_t frame = number; frame-- > firstOfWindow(number, settings.temporal);) {
+            if (slotOf(frame, settings).frame == frame) {
+                add(slotOf(frame, settings));
             }
         }
         if (rehearsal) {
-            allocate(slotOf(number + 1));
-            add(slotOf(number + 1));
+            allocate(slotOf(number + 1, settings));
+            add(slotOf(number + 1, settings));
         }
         d.finish();
     }

@@ -15,17 +15,26 @@
 
 namespace wedge::filters {
 
-/// Frames that one is the mean of, itself among them.
+/// Frames that one is the mean of, itself among them, at most.
 constexpr std::uint32_t temporalWindow = 8;
 
+/// The same by this filter.
+constexpr std::uint32_t windowOf(render::Temporal filter)
+{
+    return filter == render::Temporal::Published ? 2 : temporalWindow;
+}
+
 /// The first frame that frame n is made of. There are none before 0.
-constexpr std::uint32_t firstOfWindow(std::uint32_t frame) { return frame - std::min(frame, temporalWindow - 1); }
+constexpr std::uint32_t firstOfWindow(std::uint32_t frame, render::Temporal filter)
+{
+    return frame - std::min(frame, windowOf(filter) - 1);
+}
 
 /// The filter over time (docs/temporal.md): keeps what frames of a sequence found, and takes means over those that are
 /// still in the window, each looked up where surfaces were in it.
 class TemporalFilter {
 public:
-    /// Frames are of one size. device must outlive this.
+    /// Frames are of one size, and of one filter. device must outlive this.
     explicit TemporalFilter(const device::Device& device);
     ~TemporalFilter();
 
@@ -50,7 +59,7 @@ private:
     struct Kept;
     struct Declaration;
 
-    Kept& slotOf(std::uint32_t frame);
+    Kept& slotOf(std::uint32_t frame, const render::Settings& settings);
     void run(render::Renderer& renderer, const render::Settings& settings, std::shared_ptr<const ObjectPlaces> places,
         bool filters, render::FrameStatistics* statistics);
 

@@ -69,7 +69,9 @@ void addFrameOptions(CLI::App& parser, RenderOptions& o)
         "With --frames: frame n is n / N later, in the time of the scene's keys. Default: the scene's, 24",
         [&o](const std::string& text) { o.fps = finiteNumber("--fps", text, scene::leastFps, scene::mostFps); });
     addChoice(parser, whatGroup, "--temporal", temporals,
-        "With --frames: filter each frame with those before it, up to seven, against flicker. Default: off",
+        "With --frames: filter each frame with those before it, up to seven, against flicker; published: with one, "
+        "whatever "
+        "lights it. Default: off",
         o.temporal);
     addValue(parser, whatGroup, "--layers", "LIST",
         "Layers to add to the EXR: all, or names separated by commas, listed below",

@@ -94,7 +94,8 @@ void RenderJob::planVisits()
 {
     for (const std::uint32_t frame : unfinished_) {
         const std::uint32_t before = visits_.empty() ? 0 : visits_.back().frame + 1;
-        const std::uint32_t first = filtersOverTime() ? std::max(before, filters::firstOfWindow(frame)) : frame;
+        const std::uint32_t first =
+            filtersOverTime() ? std::max(before, filters::firstOfWindow(frame, settings_.temporal)) : frame;
         for (std::uint32_t each = first; each <= frame; ++each) {
             visits_.push_back({ each, each == frame });
         }

@@ -38,7 +38,7 @@ inline const std::vector<std::string> bvhModes = { "fast", "default", "quality" 
 inline const std::vector<std::string> integrators = { "path", "ao" };
 inline const std::vector<std::string> pixelFilters = { "box", "gaussian", "blackman-harris" };
 inline const std::vector<std::string> lightSamplings = { "both", "lights", "directions" };
-inline const std::vector<std::string> temporals = { "off", "on" };
+inline const std::vector<std::string> temporals = { "off", "on", "published" };
 inline const std::vector<std::string> environmentWidths = { "penumbrae", "curvature", "flt", "corrected" };
 
 /// The index of text among choices.

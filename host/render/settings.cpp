@@ -348,7 +348,7 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
         { "progressive", s.progressive ? "true" : "false" },
     };
     if (s.temporal != Temporal::Off) {
-        out.emplace_back("temporal", "on");
+        out.emplace_back("temporal", s.temporal == Temporal::On ? "on" : "published");
     }
     if (tracesPaths(s) && s.integrator == Integrator::AmbientOcclusion) {
         out.emplace_back("ambientDistance", number(s.indirect.ambientDistance));

@@ -93,6 +93,7 @@ enum class IndirectCounts {
 enum class Temporal {
     Off,
     On, ///< a mean over a window of frames
+    Published, ///< of the frame before, whatever lights it: (6.24) to (6.26) of thesis chapter 6
 };
 
 /// Indirect light and ambient occlusion; docs/indirect.md has the equations.

@@ -11,6 +11,8 @@
 // Where light moves by less than a block is large the differences' mean may be 0: so their squares are held against the
 // noise's, too: that of two parts of the samples, or what pixels differ by from those beside them in the same frame.
 //
+// As published that is one frame back, at the nearest pixel, with w = 1.
+//
 // Light is kept in 47 bits, and differences are between what was kept: frames that are equal change nothing, to the
 // bit.
 #include "filter/temporal_lookup.h"
@@ -172,7 +174,11 @@ __kernel void differFromFrame(TemporalParams p, __global const float* restrict m
             const SoughtPlane plane = planeOf(p, point);
             // Of the four pixels around it those that see the surface.
             const float left = floor(at.x - 0.5f), top = floor(at.y - 0.5f);
-            const float fx = at.x - 0.5f - left, fy = at.y - 0.5f - top;
+            float fx = at.x - 0.5f - left, fy = at.y - 0.5f - top;
+            if (p.published != 0u) {
+                fx = floor(fx + 0.5f);
+                fy = floor(fy + 0.5f);
+            }
             int nearestX = 0, nearestY = 0;
             for (int tap = 0; tap < 4; ++tap) {
                 const int tx = (int)left + (tap & 1), ty = (int)top + (tap >> 1);
@@ -304,7 +310,7 @@ __kernel void addFrame(TemporalParams p, __global const float* restrict differen
     const float fx = bx - (float)left, fy = by - (float)top;
     const float above = mix(weights[top * p.blocksX + left], weights[top * p.blocksX + right], fx);
     const float under = mix(weights[below * p.blocksX + left], weights[below * p.blocksX + right], fx);
-    const float w = mix(above, under, fy);
+    const float w = p.published != 0u ? 1.0f : mix(above, under, fy);
     const uint planes = p.indirect != 0u ? 6u : 3u;
     for (uint plane = 0u; plane < planes; ++plane) {
         const uint at = plane * p.planeSize + i;

@@ -32,6 +32,7 @@ typedef struct {
     uint indirect; ///< 1: there is indirect light
     uint open; ///< 1: what is shown is how open surfaces' surroundings are, and no reflectance
     uint measured; ///< 1: the noise of unfiltered light is known
+    uint published; ///< 1: of the nearest pixel, and whatever lights it
     float normalCosine; ///< the least between both normals of what is one surface
     Vec3 eye, forward, right, down; ///< of the frame that is read, or, kept, of this one: as FrameParams has them
 } TemporalParams;

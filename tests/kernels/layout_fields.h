@@ -149,6 +149,7 @@ FIELD(TemporalParams, width) FIELD(TemporalParams, height) FIELD(TemporalParams,
 FIELD(TemporalParams, planeSize) FIELD(TemporalParams, blocksX) FIELD(TemporalParams, blocksY)
 FIELD(TemporalParams, cameraStill) FIELD(TemporalParams, objectsStill) FIELD(TemporalParams, objects)
 FIELD(TemporalParams, mixed) FIELD(TemporalParams, indirect) FIELD(TemporalParams, open) FIELD(TemporalParams, measured)
+FIELD(TemporalParams, published)
 FIELD(TemporalParams, normalCosine) FIELD(TemporalParams, eye) FIELD(TemporalParams, forward)
 FIELD(TemporalParams, right) FIELD(TemporalParams, down)
 END(TemporalParams)
