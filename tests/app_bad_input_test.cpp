@@ -70,7 +70,7 @@ TEST_CASE("values out of range")
     checkRenderRefused(place, box, { "--integrator", "ambient" }, wrongCall, "ambient");
     checkRenderRefused(place, box, { "--bounces", "1", "--light-sampling", "mis" }, wrongCall, "mis");
     checkRenderRefused(place, box, { "--seed", "4294967296" }, wrongCall, "4294967296");
-    checkRenderRefused(place, box, { "--method", "maaf" }, wrongCall, "maaf");
+    checkRenderRefused(place, box, { "--method", "saaf" }, wrongCall, "saaf");
     checkRenderRefused(place, box, { "--filter", "soft" }, wrongCall, "soft");
     checkRenderRefused(place, box, { "--traversal", "narrow" }, wrongCall, "narrow");
     checkRenderRefused(place, box, { "--bvh", "best" }, wrongCall, "best");

@@ -213,7 +213,7 @@ TEST_CASE("wrong types and values are told with their place")
     CHECK(contains(error("[background]\n"), "s.toml:1:1: background lacks a key: radiance: add 'radiance = ...'"));
     CHECK(contains(error("[integrator]\nmethod = 'magic'\n"), "method of integrator is unknown: 'magic': use one of"));
     CHECK(contains(error("[integrator]\nmu = 0\n"), "mu of integrator is out of range"));
-    CHECK(contains(error("[integrator]\nmethod = 'maaf'\n"), "s.toml:2:10: method of integrator is unknown: 'maaf'"));
+    CHECK(contains(error("[integrator]\nmethod = 'saaf'\n"), "s.toml:2:10: method of integrator is unknown: 'saaf'"));
     CHECK(contains(error("[integrator]\nseed = -1\n"), "seed of integrator is out of range"));
     CHECK(contains(error("[[material]]\nname='a'\nexponent=-1\n"), "exponent of material is out of range"));
     CHECK(

@@ -1,6 +1,7 @@
 #include "effects/area_lights/light_graph.h"
 
 #include "effects/area_lights/light_widths.h"
+#include "effects/area_lights/maaf.h"
 #include "effects/area_lights/soft_shadows.h"
 #include "host/graph/execution.h"
 #include "host/render/filters/filter_graph.h"
@@ -42,13 +43,15 @@ public:
         , index_(light.number)
         , light_(light.light)
         , channels_(frame.specular ? 2 : 1)
+        , maaf_(maafOf(s_, light_))
         , state_(state)
         , beta_(beta)
         , sums_(g_.plane<Sums>("sums", graph::floatPlanes(2 * channels_)))
         , value_(g_.plane<Value>("value", graph::floatPlanes(channels_)))
         , parts_(g_.plane<Value>("value of part", frame.specular ? shortPairs : shortFloats))
         , extremes_(g_.plane<Extremes>("slopes", graph::floatPlanes(2)))
-        , gradients_(g_.plane<Value>("gradients", gradientsOf(channels_)))
+        , gradients_(g_.plane<Value>("gradients", gradientsFormat()))
+        , ratio_(g_.plane<Share>("ratio of slopes", shortFloats))
         , taken_(g_.plane<Count>("samples taken", graph::counts))
         , rays_(g_.plane<Count>("rays of light", graph::counts))
         , wanted_(g_.plane<Count>("samples wanted", graph::counts))
@@ -68,7 +71,7 @@ public:
             return;
         }
         f_.zero(extremes_, parts_);
-        if (sheared()) {
+        if (sheared() || maaf_) {
             f_.zero(gradients_);
         }
         uniformCounts(f_, WEDGE_FIRST_PASS_RAYS, f_.surfaces.objectId, wanted_);
@@ -86,13 +89,21 @@ public:
         }
         Gathered filtered = filteredPlanes(f_, channels_);
         g_.only("filter of light", analysed, [&] {
-            const std::optional<Shearing> shearing = sheared() ? std::optional(shears()) : std::nullopt;
+            const std::optional<Shearing> shearing = sheared() || maaf_ ? std::optional(shears()) : std::nullopt;
+            if (ofComponents()) {
+                componentFilter(f_, filterParams(), analysisParams(), light_, value_, beta_,
+                    { sums_, gradients_, shearing->slopeWidth, ratio_ }, filtered);
+                return;
+            }
             // What was stopped early has not the counts that the parts of samples were made for.
             if (widens(s_)) {
                 g_.only(
                     "widening", [](const Run& run) { return !run.cut(); }, [&] { widened(); });
             }
-            if (shearing) {
+            if (maaf_) {
+                shearedFilter(f_, { "filter", PassKind::Filter, "filter/filter_curved.cl" }, channels_,
+                    withTwoSlopes(filterParams(), analysisParams(), light_), value_, beta_, *shearing, filtered);
+            } else if (shearing) {
                 shearedFilter(f_, { "filter", PassKind::Filter, "filter/filter_sheared.cl" }, channels_,
                     withShear(filterParams(), analysisParams(), light_), value_, beta_, *shearing, filtered);
             } else {
@@ -120,7 +131,16 @@ private:
         rays_ = g_.plane<Count>("rays of light", graph::counts);
         f_.zero(rays_);
     }
-    bool sheared() const { return isSheared(s_); }
+    bool sheared() const { return !maaf_ && isSheared(s_); }
+    bool twoSlopes() const { return maaf_ == Maaf::TwoSlope; }
+    bool ofComponents() const { return maaf_ && *maaf_ != Maaf::TwoSlope; }
+    /// What pixels keep of where on the light they see it.
+    graph::Format gradientsFormat() const
+    {
+        return ofComponents() ? componentsFormat(s_.components, channels_)
+            : maaf_           ? momentsFormat(channels_)
+                              : gradientsOf(channels_);
+    }
     /// The sinks of a pass that analysed frames have, and what they are handed.
     std::pair<std::vector<graph::Sink>, Arguments> becoming();
     graph::Handle<Value> means(const char* pass, PassKind kind);
@@ -136,7 +156,7 @@ private:
     shared::AnalysisParams analysisParams() const
     {
         const shared::AnalysisParams p = lightParams(f_.analysisParams(), s_, light_);
-        return sheared() ? withShearedWidths(p, s_, light_) : p;
+        return sheared() ? withShearedWidths(p, s_, light_) : twoSlopes() ? withTwoSlopeWidths(p, light_) : p;
     }
     graph::Argument sampleParams() const { return value("params", lightSampleParams(s_, index_)); }
     graph::Argument light() const { return value("light", light_); }
@@ -151,12 +171,14 @@ private:
     std::uint32_t index_;
     shared::AreaLight light_;
     std::uint32_t channels_;
+    std::optional<Maaf> maaf_; ///< none: one filter
     std::shared_ptr<TermState> state_;
     graph::Handle<Metres>& beta_;
     graph::Handle<Sums> sums_;
     graph::Handle<Value> value_, parts_;
     graph::Handle<Extremes> extremes_;
     graph::Handle<Value> gradients_;
+    graph::Handle<Share> ratio_;
     graph::Handle<Count> taken_, rays_, wanted_;
 };
 
@@ -171,7 +193,15 @@ std::pair<std::vector<graph::Sink>, Arguments> LightGraph::becoming()
     }
     sinks.push_back(sinks::parts());
     sunk.push_back(updates("parts", parts_));
-    if (sheared()) {
+    if (twoSlopes()) {
+        sinks.push_back(sinks::moments());
+        sunk.push_back(value("scores", momentsOf(light_)));
+        sunk.push_back(updates("moments", gradients_));
+    } else if (ofComponents()) {
+        sinks.push_back(sinks::components(s_.components));
+        sunk.push_back(value("axes", axesOf(light_, s_.components)));
+        sunk.push_back(updates("components", gradients_));
+    } else if (sheared()) {
         sinks.push_back(sinks::scores());
         sunk.push_back(value("score", scoreOf(light_).score));
         sunk.push_back(updates("gradients", gradients_));
@@ -194,12 +224,21 @@ Shearing LightGraph::shears()
 {
     auto slopeWidth = g_.plane<Metres>("width by slopes", shortFloats);
     const graph::Argument p = f_.rectangle(analysisParams());
-    f_.blocks("filter", PassKind::Filter, { "analysis/shear.cl", "shadowGradients" },
-        { p, reads("sums", sums_), updates("gradients", gradients_) });
+    if (twoSlopes()) {
+        f_.blocks("filter", PassKind::Filter, { "analysis/two_slopes.cl", "shadowMoments" },
+            { p, reads("sums", sums_), updates("moments", gradients_) });
+    } else if (sheared()) {
+        f_.blocks("filter", PassKind::Filter, { "analysis/shear.cl", "shadowGradients" },
+            { p, reads("sums", sums_), updates("gradients", gradients_) });
+    }
     f_.pixels("filter", PassKind::Filter, { "analysis/shear.cl", "narrowByCounts" },
         { p, value("mean", static_cast<float>(s_.spp)), value("exponent", s_.countWidth), reads("taken", taken_),
             writes("slopeWidth", slopeWidth), updates("beta", beta_) });
-    return { gradients_, slopeWidth };
+    if (twoSlopes()) {
+        f_.pixels("filter", PassKind::Filter, { "analysis/two_slopes.cl", "widthOfMeanSlope" },
+            { p, reads("ratio", ratio_), updates("slopeWidth", slopeWidth) });
+    }
+    return { gradients_, slopeWidth, gradientsFormat() };
 }
 
 void LightGraph::firstPass()
@@ -238,7 +277,11 @@ void LightGraph::widthsAndCounts()
         publishedWidths(f_, analysisParams(), extremes_, lit, beta_, wanted_);
     }
     if (s_.slopes == Slopes::Smoothed) {
-        smoothedWidths(f_, analysisParams(), extremes_, lit, beta_);
+        smoothedWidths(f_, analysisParams(), extremes_, lit, beta_, maaf_ ? &ratio_ : nullptr);
+        if (twoSlopes()) {
+            f_.pixels("widths", PassKind::Analysis, { "analysis/two_slopes.cl", "widenBetweenSlopes" },
+                { f_.rectangle(analysisParams()), reads("ratio", ratio_), updates("beta", beta_) });
+        }
         narrowForLobes();
     }
     if (s_.sampling == Sampling::Uniform) {

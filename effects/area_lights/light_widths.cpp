@@ -29,19 +29,29 @@ graph::Handle<Logarithms> spreadOver(FrameBuilder& frame, const shared::Analysis
 } // namespace
 
 void smoothedWidths(FrameBuilder& frame, const shared::AnalysisParams& params, const graph::Handle<Extremes>& slopes,
-    const std::function<graph::Version()>& lit, graph::Handle<Metres>& beta)
+    const std::function<graph::Version()>& lit, graph::Handle<Metres>& beta, graph::Handle<Share>* ratio)
 {
     const graph::Argument p = frame.rectangle(params);
     const Surfaces& s = frame.surfaces;
+    const std::uint32_t planes = ratio != nullptr ? 3 : 2;
     auto eroded = frame.graph.plane<Extremes>("eroded slopes", graph::floats);
-    auto logs = frame.graph.plane<Logarithms>("logarithms", graph::floatPlanes(2));
+    auto logs = frame.graph.plane<Logarithms>("logarithms", graph::floatPlanes(planes));
     frame.blocks("widths", PassKind::Analysis, { "analysis/analysis.cl", "erodeSlopes" },
         { p, reads("slopes", slopes, around(1)), reads("objectId", s.objectId, around(1)), writes("eroded", eroded) });
     frame.zero(logs); // what spreads comes from the padding, too
     frame.blocks("widths", PassKind::Analysis, { "analysis/analysis.cl", "smoothSlopes" },
         { p, reads("eroded", eroded, around(1)), reads("objectId", s.objectId, around(1)),
             updates("logSlopes", logs) });
-    const auto spread = spreadOver(frame, params, 2, logs);
+    if (ratio != nullptr) {
+        frame.blocks("widths", PassKind::Analysis, { "analysis/two_slopes.cl", "smoothLargest" },
+            { p, reads("slopes", slopes, around(1)), reads("objectId", s.objectId, around(1)),
+                updates("logSlopes", logs) });
+    }
+    const auto spread = spreadOver(frame, params, planes, logs);
+    if (ratio != nullptr) {
+        frame.blocks("widths", PassKind::Analysis, { "analysis/two_slopes.cl", "slopeRatios" },
+            { p, reads("logSlopes", logs), reads("spread", spread), writes("ratio", *ratio) });
+    }
     frame.pixels("widths", PassKind::Analysis, { "analysis/analysis.cl", "widths" },
         { p, reads("logSlopes", logs), reads("spread", spread), reads("objectId", s.objectId),
             reads("pixelSize", s.pixelSize), reads("lit", lit()), writes("beta", beta) });

@@ -30,16 +30,21 @@ void addValue(CLI::App& parser, const std::string& group, const std::string& nam
         ->group(group);
 }
 
+std::string alternatives(const std::vector<std::string>& texts)
+{
+    std::string out;
+    for (const std::string& each : texts) {
+        out += (out.empty() ? "" : "|") + each;
+    }
+    return out;
+}
+
 /// An option that chooses among the values of an enumeration, named in their order.
 template <class Enum>
 void addChoice(CLI::App& parser, const std::string& group, const std::string& name,
     const std::vector<std::string>& names, const std::string& help, std::optional<Enum>& target)
 {
-    std::string type;
-    for (const std::string& each : names) {
-        type += (type.empty() ? "" : "|") + each;
-    }
-    addValue(parser, group, name, type, help,
+    addValue(parser, group, name, alternatives(names), help,
         [name, names, &target](const std::string& text) { target = static_cast<Enum>(choice(name, text, names)); });
 }
 
@@ -137,8 +142,19 @@ std::string svgPath(const std::string& text)
 
 void addMethodOptions(CLI::App& parser, RenderOptions& o)
 {
-    addChoice(parser, howGroup, "--method", { "mc", "aaf" },
-        "mc: plain Monte Carlo; aaf: axis-aligned filtering, the default", o.method);
+    addValue(parser, howGroup, "--method", alternatives(methods),
+        "mc: plain Monte Carlo; aaf: axis-aligned filtering, the default; maaf: the same, but for shadows of Gaussian "
+        "area lights in frames through a pinhole that are not antialiased, which several filters at once smooth",
+        [&o](const std::string& text) { o.method = methods[choice("--method", text, methods)]; });
+    addChoice(parser, howGroup, "--maaf", maafs,
+        "With --method maaf, its filters: two-slope, a Gaussian sheared along both slopes, the default; printed or "
+        "refitted, components with the paper's weights or with such by least squares, slow",
+        o.maaf);
+    addValue(parser, howGroup, "--components", alternatives(componentCounts),
+        "With --maaf printed or refitted: filters along each axis of a light. Default: 5",
+        [&o](const std::string& text) {
+            o.components = std::stoi(componentCounts[choice("--components", text, componentCounts)]);
+        });
     parser.add_flag("--as-published", o.asPublished, "aaf as it was published, without later improvements")
         ->group(howGroup);
     addValue(parser, howGroup, "--spp", "N",

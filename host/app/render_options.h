@@ -24,8 +24,10 @@ namespace wedge::app {
 struct RenderOptions {
     std::string scene;
     std::vector<std::string> outputs;
-    std::optional<render::Method> method;
+    std::optional<std::string> method; ///< one of methods
     bool asPublished = false;
+    std::optional<render::Maaf> maaf;
+    std::optional<int> components;
     std::optional<render::Integrator> integrator;
     std::optional<int> bounces;
     std::optional<float> ambientDistance; ///< metres

@@ -23,15 +23,13 @@ using render::Sampling;
 
 constexpr int defaultMonteCarloSpp = 64;
 
-Method resolveMethod(const RenderOptions& options, const scene::Scene& scene)
+/// One of `methods`.
+std::string resolveMethod(const RenderOptions& options, const scene::Scene& scene)
 {
     if (options.method) {
         return *options.method;
     }
-    if (options.asPublished || !scene.settings.method) {
-        return Method::AxisAligned;
-    }
-    return *scene.settings.method == render::methodName(Method::MonteCarlo) ? Method::MonteCarlo : Method::AxisAligned;
+    return options.asPublished ? "aaf" : scene.settings.method.value_or("aaf");
 }
 
 /// Options that plain Monte Carlo has no use for are mistakes, not wishes to ignore.
@@ -46,6 +44,37 @@ void refuseFilterOptions(const RenderOptions& o)
     for (const auto& [name, isGiven] : given) {
         if (isGiven) {
             throw UsageError("option has no effect with method mc", name, "leave it out, or choose --method aaf");
+        }
+    }
+}
+
+/// An option, if it is given, as a mistake: for what it has no effect with, and how it would have one.
+void refuse(bool given, const std::string& with, const std::string& option, const std::string& remedy)
+{
+    if (given) {
+        throw UsageError("option has no effect " + with, option, "leave it out, or " + remedy);
+    }
+}
+
+/// What goes with method maaf alone, and what does not go with it.
+void applyMaaf(const RenderOptions& o, const std::string& method, render::Settings& s)
+{
+    if (method != "maaf") {
+        refuse(o.maaf.has_value(), "with method " + method, "--maaf", "choose --method maaf");
+        refuse(o.components.has_value(), "with method " + method, "--components", "choose --method maaf");
+        return;
+    }
+    s.maaf = o.maaf.value_or(render::Maaf::TwoSlope);
+    refuse(o.components && *s.maaf == render::Maaf::TwoSlope, "with --maaf two-slope, whose filter is one",
+        fmt::format("--components {}", o.components.value_or(0)), "choose --maaf refitted or printed");
+    s.components = o.components.value_or(s.components);
+    // Several filters follow from slopes, and are of visibilities.
+    const std::pair<const char*, bool> given[] = { { "--as-published", o.asPublished },
+        { "--filter none", o.filter == Filtering::None }, { "--filter fixed", o.filter == Filtering::Fixed },
+        { "--falloff inside", o.falloff == render::Shading::Inside } };
+    for (const auto& [name, isGiven] : given) {
+        if (isGiven) {
+            throw UsageError("option does not go with method maaf", name, "leave it out, or choose --method aaf");
         }
     }
 }
@@ -74,14 +103,6 @@ render::Settings preset(const RenderOptions& o, const scene::Scene& scene, Metho
     s.indirect = render::asPublished(mu).indirect;
     s.distributed = render::asPublished(mu).distributed;
     return s;
-}
-
-/// An option, if it is given, as a mistake: for what it has no effect with, and how it would have one.
-void refuse(bool given, const std::string& with, const std::string& option, const std::string& remedy)
-{
-    if (given) {
-        throw UsageError("option has no effect " + with, option, "leave it out, or " + remedy);
-    }
 }
 
 void applyPaths(const RenderOptions& o, const scene::Scene& scene, render::Settings& s)
@@ -225,12 +246,14 @@ void applyLens(const RenderOptions& o, scene::Scene& scene)
 render::Settings resolveSettings(const RenderOptions& o, const scene::Scene& scene)
 {
     const scene::Settings& file = scene.settings;
-    const Method method = resolveMethod(o, scene);
+    const std::string name = resolveMethod(o, scene);
+    const Method method = name == "mc" ? Method::MonteCarlo : Method::AxisAligned;
     if (method == Method::MonteCarlo) {
         refuseFilterOptions(o);
     }
     checkProgressive(o);
     render::Settings s = preset(o, scene, method);
+    applyMaaf(o, name, s);
     s.width = o.size ? o.size->first : file.width;
     s.height = o.size ? o.size->second : file.height;
     s.crop = o.crop.value_or(s.crop);

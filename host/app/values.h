@@ -33,8 +33,14 @@ std::int64_t texturePixels(const std::string& option, const std::string& text);
 /// The names of bvh::Mode, in the order of its values.
 inline const std::vector<std::string> bvhModes = { "fast", "default", "quality" };
 
-/// The names of render::Integrator, render::PixelFilter, render::LightSampling, render::Temporal and
+/// The names of methods.
+inline const std::vector<std::string> methods = { "mc", "aaf", "maaf" };
+/// And how many components filters of maaf may have.
+inline const std::vector<std::string> componentCounts = { "3", "5", "7" };
+
+/// The names of render::Maaf, render::Integrator, render::PixelFilter, render::LightSampling, render::Temporal and
 /// render::EnvironmentWidths, in the order of their values.
+inline const std::vector<std::string> maafs = { "printed", "refitted", "two-slope" };
 inline const std::vector<std::string> integrators = { "path", "ao" };
 inline const std::vector<std::string> pixelFilters = { "box", "gaussian", "blackman-harris" };
 inline const std::vector<std::string> lightSamplings = { "both", "lights", "directions" };

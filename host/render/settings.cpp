@@ -104,39 +104,6 @@ void validateCounts(const Settings& s, bool distributed)
         fmt::format("{} or less through a lens or shutter, or with antialiasing", mostDistributedSpp));
 }
 
-using Descriptions = std::vector<std::pair<std::string, std::string>>;
-
-void describeIndirect(const IndirectSettings& in, Descriptions& out)
-{
-    const auto number = [](auto value) { return fmt::format("{}", value); };
-    constexpr const char* counts[] = { "uniform", "spectrum", "variance" };
-    out.insert(out.end(),
-        { { "indirectMu", number(in.mu) }, { "indirectAlpha", number(in.alpha) },
-            { "indirectWidthScale", number(in.widthScale) },
-            { "reflectorExtent", in.extent == ReflectorExtent::Scene ? "scene" : "visible" },
-            { "leastReflector", number(in.leastReflector) }, { "meanFraction", number(in.meanFraction) },
-            { "indirectCounts", counts[static_cast<int>(in.counts)] },
-            { "indirectCountExponent", number(in.countExponent) }, { "indirectMaxSpp", number(in.maxSpp) } });
-}
-
-void describeDistributed(const DistributedSettings& d, Descriptions& out)
-{
-    const auto number = [](auto value) { return fmt::format("{}", value); };
-    out.insert(out.end(),
-        { { "distributedCounts", d.published ? "spectrum" : "variance" },
-            { "distributedFirstPaths", number(d.firstPaths) }, { "distributedMaxSpp", number(d.maxSpp) },
-            { "distributedMu", number(d.mu) }, { "mixedPaths", number(d.mixedPaths) },
-            { "factoring", d.factoring == Factoring::Never ? "never" : "error" },
-            { "factoringError", number(d.factoringError) }, { "factoringRadius", number(d.factoringRadius) },
-            { "blur", number(d.blur) }, { "blurWidth", number(d.blurWidth) },
-            { "blurExponent", number(d.blurExponent) }, { "shutterWidth", number(d.shutterWidth) },
-            { "shutterExponent", number(d.shutterExponent) }, { "leastRadius", number(d.leastRadius) },
-            { "leastShare", number(d.leastShare) }, { "leastTermShare", number(d.leastTermShare) },
-            { "leastPrimaries", number(d.leastPrimaries) }, { "leastSecondaries", number(d.leastSecondaries) },
-            { "irradianceWidth", number(d.irradianceWidth) }, { "distributedCountExponent", number(d.countExponent) },
-            { "distributedVarianceSpread", number(d.varianceSpread) }, { "oneVelocity", number(d.oneVelocity) } });
-}
-
 } // namespace
 
 Settings monteCarlo(int spp)
@@ -175,6 +142,13 @@ Settings axisAligned(std::optional<int> spp, std::optional<float> mu)
     s.distributed.maxSpp =
         std::clamp(s.distributed.maxSpp * std::min(s.spp, mostDistributedSpp) / static_cast<int>(referenceSpp),
             s.distributed.maxSpp, mostPixelSpp);
+    return s;
+}
+
+Settings multipleAxisAligned(Maaf maaf, std::optional<int> spp, std::optional<float> mu)
+{
+    Settings s = axisAligned(spp, mu);
+    s.maaf = maaf;
     return s;
 }
 
@@ -276,6 +250,8 @@ void validate(const Settings& s, bool distributed)
         !s.progressive || !s.published, "progressive render", "as published", "counts that are not the published ones");
     requireRange(!s.progressive || s.method == Method::MonteCarlo || s.spp >= leastProgressiveSpp,
         "samples a pixel of a progressive render", text(s.spp), fmt::format("{} or more", leastProgressiveSpp));
+    requireRange(s.components == 1 || s.components == 3 || s.components == 5 || s.components == 7,
+        "components of filters", text(s.components), "3, 5 or 7");
     if (s.method == Method::AxisAligned) {
         validateCounts(s, distributed);
         requireRange(s.shading != Shading::Inside || s.counts != Counts::Variance || s.sampling == Sampling::Uniform,
@@ -322,73 +298,6 @@ bool tracesPaths(const Settings& s) { return s.bounces > 0 || s.integrator == In
 bool usesFallback(const Settings& s)
 {
     return s.fallback && s.method == Method::AxisAligned && s.filtering == Filtering::Adaptive;
-}
-
-std::string methodName(Method method) { return method == Method::MonteCarlo ? "mc" : "aaf"; }
-
-std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
-{
-    const auto number = [](auto value) { return fmt::format("{}", value); };
-    constexpr const char* shadings[] = { "separate", "inside", "ratio" };
-    constexpr const char* lightSamplings[] = { "both", "lights", "directions" };
-    constexpr const char* filters[] = { "none", "fixed", "adaptive" };
-    Descriptions out = {
-        { "method", methodName(s.method) },
-        { "setting", s.published ? "as published" : "default" },
-        { "sampler", s.sampler == Sampler::Sobol ? "owen-sobol" : "stratified" },
-        { "shading", shadings[static_cast<int>(s.shading)] },
-        { "sampling", s.sampling == Sampling::Uniform ? "uniform" : "adaptive" },
-        { "filter", filters[static_cast<int>(s.filtering)] },
-        { "spp", number(s.spp) },
-        { "maxSpp", number(s.maxSpp) },
-        { "integrator", s.integrator == Integrator::Path ? "path" : "ao" },
-        { "bounces", number(s.bounces) },
-        { "lightSampling", lightSamplings[static_cast<int>(s.lightSampling)] },
-        { "environmentSampling", s.environment.sampling == EnvironmentSampling::Map ? "map" : "precomputed" },
-        { "progressive", s.progressive ? "true" : "false" },
-    };
-    if (s.temporal != Temporal::Off) {
-        out.emplace_back("temporal", s.temporal == Temporal::On ? "on" : "published");
-    }
-    if (tracesPaths(s) && s.integrator == Integrator::AmbientOcclusion) {
-        out.emplace_back("ambientDistance", number(s.indirect.ambientDistance));
-    }
-    if (s.method == Method::AxisAligned) {
-        out.insert(out.end(),
-            { { "counts", s.counts == Counts::Spectrum ? "spectrum" : "variance" },
-                { "slopes", s.slopes == Slopes::Published ? "published" : "smoothed" }, { "mu", number(s.mu) },
-                { "k", number(s.k) }, { "alpha", number(s.alpha) }, { "oblique", number(s.oblique) },
-                { "narrower", number(s.narrower) }, { "surface", number(s.surface) }, { "fitted", number(s.fitted) },
-                { "sheared", number(s.sheared) }, { "shearedWidth", number(s.shearedWidth) },
-                { "countWidth", number(s.countWidth) }, { "fallback", number(s.fallback) },
-                { "widening", number(s.widening) }, { "normalDegrees", number(s.normalDegrees) },
-                { "cut", number(s.cut) }, { "maxRadius", number(s.maxRadius) }, { "fillSigma", number(s.fillSigma) },
-                { "fillRadius", number(s.fillRadius) }, { "countExponent", number(s.countExponent) },
-                { "varianceFloor", number(s.varianceFloor) }, { "varianceSpread", number(s.varianceSpread) } });
-    }
-    constexpr const char* environmentWidths[] = { "penumbrae", "curvature", "flt", "corrected" };
-    if (s.method == Method::AxisAligned) { // bounces or not: light of meshes and environments goes by it, too
-        describeIndirect(s.indirect, out);
-        const EnvironmentSettings& e = s.environment;
-        out.insert(out.end(),
-            { { "environmentRelative", number(e.relative) }, { "environmentNormalDegrees", number(e.normalDegrees) },
-                { "environmentWidthScale", number(e.widthScale) },
-                { "environmentLobeWidening", number(e.lobeWidening) },
-                { "environmentFirstShare", number(e.firstShare) }, { "environmentLeastShare", number(e.leastShare) },
-                { "environmentWidths", environmentWidths[static_cast<int>(e.widths)] } });
-    }
-    if (s.method == Method::AxisAligned) {
-        describeDistributed(s.distributed, out);
-    }
-    if (s.antialias) {
-        constexpr const char* pixelFilters[] = { "box", "gaussian", "blackman-harris" };
-        out.emplace_back("antialias", "true");
-        out.emplace_back("pixelFilter", pixelFilters[static_cast<int>(s.pixelFilter)]);
-    }
-    if (s.filtering == Filtering::Fixed) {
-        out.emplace_back("fixedWidth", number(s.fixedWidth));
-    }
-    return out;
 }
 
 } // namespace wedge::render

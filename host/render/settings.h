@@ -14,6 +14,13 @@ enum class Method {
     AxisAligned, ///< "aaf": axis-aligned filtering, thesis chapters 3 and 4
 };
 
+/// What the filters of area lights are made of with method maaf where pixels have one receiver, docs/maaf.md.
+enum class Maaf {
+    Printed, ///< components with the paper's weights, (10)
+    Refitted, ///< components with weights by least squares
+    TwoSlope, ///< a Gaussian of distance and place on the light, sheared along both slopes
+};
+
 /// What a frame shows.
 enum class Integrator {
     Path, ///< direct light and, with bounces, paths
@@ -172,10 +179,13 @@ struct DistributedSettings {
     float oneVelocity = 0.1f; ///< motions of a pixel differ by less than this fraction where it is filtered along them
 };
 
-/// Everything that decides what a frame looks like. monteCarlo(), axisAligned() and asPublished() give the presets.
+/// Everything that decides what a frame looks like. monteCarlo(), axisAligned(), multipleAxisAligned() and asPublished()
+/// give the presets.
 struct Settings {
     Method method = Method::AxisAligned;
     bool published = false; ///< made by asPublished()
+    std::optional<Maaf> maaf; ///< method maaf, which is axis-aligned filtering but for those filters; empty: method aaf
+    int components = 5; ///< of Printed and Refitted along each axis of a light: 3, 5, 7; 1 is one filter, for tests
     int width = 640, height = 480;
     image::Window crop; ///< pixels to render; empty: all
     std::uint32_t seed = 0;
@@ -239,6 +249,9 @@ Settings monteCarlo(int spp);
 /// from the count, so that either one alone converges.
 Settings axisAligned(std::optional<int> spp = {}, std::optional<float> mu = {});
 
+/// The same with several filters of area lights' shadows.
+Settings multipleAxisAligned(Maaf maaf, std::optional<int> spp = {}, std::optional<float> mu = {});
+
 /// Axis-aligned filtering as thesis chapters 3 and 4 have it. Without mu, each effect's own: 2 for soft shadows, 0.9
 /// for indirect light.
 Settings asPublished(std::optional<float> mu = {});
@@ -278,8 +291,9 @@ int leastSpp(const Settings& settings, bool distributed);
 /// Throws UsageError if a value is out of its range. distributed: as above.
 void validate(const Settings& settings, bool distributed);
 
-/// "aaf" and the like.
+/// "aaf" and the like; of settings "maaf", too.
 std::string methodName(Method method);
+std::string methodName(const Settings& settings);
 
 /// Name and value of each setting that shapes the image, for metadata and report; of method aaf also those that shape
 /// none but distributed frames, whether this is one or not.

@@ -3,10 +3,17 @@
 
 #include "host/graph/graph.h"
 #include "host/render/frame_builder.h"
+#include "kernels/shared/components.h"
 #include "kernels/shared/light.h"
+
+#include <fmt/format.h>
 
 template <>
 inline constexpr std::string_view wedge::graph::kernelType<wedge::shared::LightScore> = "LightScore";
+template <>
+inline constexpr std::string_view wedge::graph::kernelType<wedge::shared::LightMoments> = "LightMoments";
+template <>
+inline constexpr std::string_view wedge::graph::kernelType<wedge::shared::LightAxes> = "LightAxes";
 
 namespace wedge::render::sinks {
 
@@ -38,6 +45,21 @@ inline graph::Sink slopes()
 inline graph::Sink scores()
 {
     return { .file = "light/scores.h", .name = "Scores", .take = { "score" }, .finish = { "sums", "gradients" } };
+}
+
+/// The same of first and second order: "moments", of "scores", the light's. After sums().
+inline graph::Sink moments()
+{
+    return { .file = "light/moments.h", .name = "Moments", .take = { "scores" }, .finish = { "sums", "moments" } };
+}
+
+/// By components along both axes, so many each: "components", of the light's "axes".
+inline graph::Sink components(int count)
+{
+    return { .file = fmt::format("light/components{}.h", count),
+        .name = "Components",
+        .take = { "axes" },
+        .finish = { "components" } };
 }
 
 /// Of shadows in the image, after "slopes" in its planes: of "camera" and the scene's geometry.

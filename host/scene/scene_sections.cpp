@@ -148,7 +148,7 @@ void readIntegrator(TableReader& root, Scene& scene)
         return value ? std::optional(static_cast<int>(*value)) : std::nullopt;
     };
     Settings& s = scene.settings;
-    s.method = table->choice("method", { "mc", "aaf" });
+    s.method = table->choice("method", { "mc", "aaf", "maaf" });
     s.spp = count("spp");
     s.maxSpp = count("max_spp");
     if (s.spp && s.maxSpp && *s.maxSpp < *s.spp)

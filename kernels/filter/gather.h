@@ -275,8 +275,13 @@ WEDGE_INLINE float16 countOfLine(LineWeights sum, bool fitted)
 }
 
 #ifdef WEDGE_GATHER_CHANNELS
-/// Planes of gradients: of each channel along two axes.
-#define WEDGE_GRADIENTS (2u * WEDGE_GATHER_CHANNELS)
+/// Planes of gradients: of each channel along two axes, and of programs of WEDGE_GATHER_CURVED three second derivatives.
+#ifdef WEDGE_GATHER_CURVED
+#define WEDGE_GRADIENTS_EACH 5u
+#else
+#define WEDGE_GRADIENTS_EACH 2u
+#endif
+#define WEDGE_GRADIENTS (WEDGE_GRADIENTS_EACH * WEDGE_GATHER_CHANNELS)
 
 typedef struct {
     LineWeights weights;

@@ -5,6 +5,9 @@
 // beta takes h for h + beta^2 h'' / 2 + ..., and the mean of h - d h' / 2 over neighbours at d has no such term. That
 // is the first order of a Gaussian of d and y that is sheared along s. docs/soft-shadows.md
 //
+// Programs of WEDGE_GATHER_CURVED have the second order as well, and factors of both in what they read
+// (analysis/two_slopes.cl): the mean of h - 5/8 d h' + 1/8 d^2 h'' is off from the sixth derivative on. docs/maaf.md
+//
 // Included by gather_lines.h, between its types and its passes.
 #ifndef WEDGE_GATHER_SHEARED_H
 #define WEDGE_GATHER_SHEARED_H
@@ -22,6 +25,27 @@ WEDGE_INLINE Shear shearOf(FilterParams p, GatherWidth width, Neighbours n)
     return shear;
 }
 
+#ifdef WEDGE_GATHER_CURVED
+/// What the polynomial at element j is there: value + b.z + z.C z, z the displacement of the light that stands for the
+/// way. The pass passes polynomials on: as seen from where they are gathered to, b + 2 C z and C.
+WEDGE_INLINE float16 sheared(FilterParams p, __global const float* gradients, Shear shear, uint channel, int j,
+    float16 w, float16 value, GatherSum* sum)
+{
+    float16 m[WEDGE_GRADIENTS_EACH];
+    for (uint k = 0u; k < WEDGE_GRADIENTS_EACH; ++k) {
+        m[k] = loadShortsBlock(gradients, p.planeSize, j, WEDGE_GRADIENTS_EACH * channel + k);
+    }
+    const float16 bendU = m[2] * shear.u + m[3] * shear.v, bendV = m[3] * shear.u + m[4] * shear.v;
+    const float16 there = value + (shear.u * (m[0] + bendU) + shear.v * (m[1] + bendV));
+    m[0] += 2.0f * bendU;
+    m[1] += 2.0f * bendV;
+    for (uint k = 0u; k < WEDGE_GRADIENTS_EACH; ++k) {
+        // Not the weight alone: 0 times a NaN would let it in.
+        sum->gradient[WEDGE_GRADIENTS_EACH * channel + k] += w > 0.0f ? w * m[k] : (float16)(0.0f);
+    }
+    return there;
+}
+#else
 /// The value at element j, less half of what its gradient makes of the way; adds its gradients to the sums.
 WEDGE_INLINE float16 sheared(FilterParams p, __global const float* gradients, Shear shear, uint channel, int j,
     float16 w, float16 value, GatherSum* sum)
@@ -33,6 +57,7 @@ WEDGE_INLINE float16 sheared(FilterParams p, __global const float* gradients, Sh
     sum->gradient[2u * channel + 1u] += w > 0.0f ? w * v : (float16)(0.0f);
     return value - (shear.u * u + shear.v * v);
 }
+#endif
 
 WEDGE_INLINE void beginShear(FilterParams p, GatherPlanes in, int i, GatherWidth* width, GatherSum* sum)
 {

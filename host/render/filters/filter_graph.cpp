@@ -87,7 +87,7 @@ void shearedFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t chan
     const graph::Reach along { .x = pixels }, across { .y = pixels };
     auto rows = frame.graph.plane<Value>("rows filtered", graph::floatPlanes(channels));
     auto rowCounts = frame.graph.plane<Count>("effective count of rows", graph::floats);
-    auto rowGradients = frame.graph.plane<Value>("gradients of rows", gradientsOf(channels));
+    auto rowGradients = frame.graph.plane<Value>("gradients of rows", shearing.format);
     frame.blocks(run.pass, run.kind, { frame.program(run.program), "shearRows" },
         joined({ frame.rectangle(params), reads("value", value, along), reads("beta", beta, along) },
             gathered(frame, params, along),

@@ -34,11 +34,12 @@ void gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t cha
     const shared::FilterParams& params, const graph::Handle<Value>& value, const graph::Handle<Metres>& beta,
     Gathered& out);
 
-/// What the sheared filter takes besides (kernels/filter/gather_sheared.h), of 16 bits: two gradients a channel, and
-/// widths that go with the occluders' slopes alone.
+/// What the sheared filter takes besides (kernels/filter/gather_sheared.h), of 16 bits: two gradients a channel, or
+/// five numbers with second derivatives, and widths that go with the occluders' slopes alone.
 struct Shearing {
     graph::Handle<Value> gradients;
     graph::Handle<Metres> slopeWidth;
+    graph::Format format; ///< of gradients
 };
 
 /// The same as gaussianFilter() into planes that were there, sheared. params: with shearU and shearV.

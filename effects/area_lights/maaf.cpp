@@ -1,0 +1,135 @@
+#include "effects/area_lights/maaf.h"
+
+#include "effects/area_lights/soft_shadows.h"
+#include "host/render/sinks.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace wedge::render {
+
+using device::PassKind;
+using graph::reads;
+using graph::value;
+using graph::writes;
+
+namespace {
+
+/// Omega_max of (6) times the light's standard deviation, which weights were fitted with; of one component, that of the
+/// light itself.
+constexpr float bandwidth = 2.0f;
+/// Weights are fitted to a profile that is cut at 2 deviations; farther out components over the profile grow without
+/// bound.
+constexpr float widestCut = 2.5f;
+/// Of a filter of both slopes, over one of s_min that follows no gradients.
+constexpr float twoSlopeWidth = 1.5f;
+
+} // namespace
+
+std::optional<Maaf> maafOf(const Settings& settings, const shared::AreaLight& light)
+{
+    const bool filters = settings.method == Method::AxisAligned && settings.filtering == Filtering::Adaptive
+        && settings.slopes == Slopes::Smoothed && settings.shading != Shading::Inside;
+    if (!settings.maaf || !filters || light.profile != WEDGE_PROFILE_GAUSSIAN) {
+        return std::nullopt;
+    }
+    return *settings.maaf == Maaf::TwoSlope || light.cut <= widestCut ? settings.maaf : std::nullopt;
+}
+
+shared::LightMoments momentsOf(const shared::AreaLight& light)
+{
+    // The second score is that of the Gaussian, a^2 less its mean, with a factor that makes its second moment 2, as that
+    // of l'' is: where the profile is cut it has steps at its ends, too.
+    const double slope = static_cast<double>(light.cut) * light.cut;
+    double mass = 0, squares = 0, fourths = 0;
+    constexpr int points = 4096;
+    for (int i = 0; i < points; ++i) {
+        const double a = (i + 0.5) / points, l = std::exp(-0.5 * slope * a * a);
+        mass += l;
+        squares += l * a * a;
+        fourths += l * a * a * a * a;
+    }
+    squares /= mass;
+    fourths /= mass;
+    shared::LightMoments out {};
+    out.first = scoreOf(light).score;
+    out.curve = static_cast<float>(2.0 / (fourths - squares * squares));
+    out.square = static_cast<float>(squares);
+    return out;
+}
+
+shared::LightAxes axesOf(const shared::AreaLight& light, int components)
+{
+    const shared::LightScore score = scoreOf(light).score;
+    shared::LightAxes out {};
+    out.centre = light.centre;
+    out.bandwidth = components == 1 ? 1.0f : bandwidth;
+    out.alongU = shared::vecScale(score.alongU, light.cut);
+    out.alongV = shared::vecScale(score.alongV, light.cut);
+    return out;
+}
+
+graph::Format momentsFormat(std::uint32_t channels)
+{
+    return { channels == 2 ? "short10" : "short5", 10 * channels, "float", "", "", "" };
+}
+
+graph::Format componentsFormat(int components, std::uint32_t channels)
+{
+    // Of each channel all weights, and what is seen of them.
+    const auto count = static_cast<std::uint32_t>(2 * components * components) * channels;
+    switch (count) {
+    case 2: return shortPairs;
+    case 4: return shortQuadruples;
+    case 18: return { "short18", 36, "float", "", "", "" };
+    case 36: return { "short36", 72, "float", "", "", "" };
+    case 50: return { "short50", 100, "float", "", "", "" };
+    case 100: return { "short100", 200, "float", "", "", "" };
+    case 98: return { "short98", 196, "float", "", "", "" };
+    case 196: return { "short196", 392, "float", "", "", "" };
+    default: throw std::logic_error(fmt::format("no format of {} components", components));
+    }
+}
+
+shared::AnalysisParams withTwoSlopeWidths(shared::AnalysisParams p, const shared::AreaLight& light)
+{
+    const char* t = std::getenv("TWOW");
+    p.mu *= (1.0f + 0.5f * scoreOf(light).edge) / (t ? std::strtof(t, nullptr) : twoSlopeWidth);
+    return p;
+}
+
+shared::FilterParams withTwoSlopes(
+    shared::FilterParams p, const shared::AnalysisParams& analysis, const shared::AreaLight& light)
+{
+    // slopeWidth is sigma s / (k mu), so that 1 / s is this over it.
+    const float perSlope = light.sigma / (analysis.k * analysis.mu);
+    const shared::LightScore score = scoreOf(light).score;
+    p.shearU = shared::vecScale(score.alongU, perSlope);
+    p.shearV = shared::vecScale(score.alongV, perSlope);
+    return p;
+}
+
+void componentFilter(FrameBuilder& frame, const shared::FilterParams& params, const shared::AnalysisParams& analysis,
+    const shared::AreaLight& light, const graph::Handle<Value>& shown, const graph::Handle<Metres>& beta,
+    const ComponentTerm& term, Gathered& out)
+{
+    const Settings& settings = frame.settings;
+    const int pixels = static_cast<int>(params.maxRadius);
+    const graph::Reach around { .x = pixels, .y = pixels };
+    const Surfaces& s = frame.surfaces;
+    frame.blocks("filter", PassKind::Filter,
+        { fmt::format("filter/filter_components{}.cl", settings.components), "filterComponents" },
+        { frame.rectangle(params), value("light", axesOf(light, settings.components)),
+            value("slopesPerWidth", analysis.k * analysis.mu / analysis.sigma),
+            value("refitted", settings.maaf == Maaf::Refitted ? 1u : 0u), reads("value", shown),
+            reads("beta", beta, around), reads("slopeWidth", term.slopeWidth, around), reads("ratio", term.ratio),
+            reads("position", s.position, around), reads("normal", s.normal, around),
+            reads("pixelSize", s.pixelSize, around), reads("objectId", s.objectId, around),
+            reads("sums", term.sums, around), reads("components", term.components, around),
+            writes("filtered", out.value), writes("effective", out.effective) });
+}
+
+} // namespace wedge::render

@@ -1,0 +1,141 @@
+// What filters of a light need that go by both slopes of its shadows (docs/maaf.md): the largest slope over the least
+// one, widths between both, and how shadows bend.
+#include "core/packed_planes.h"
+#include "core/vector16.h"
+#include "shared/filter_params.h"
+#include "shared/wedge.h"
+
+#ifdef WEDGE_SPECULAR
+#define WEDGE_CHANNELS 2u
+#else
+#define WEDGE_CHANNELS 1u
+#endif
+/// Of a channel, see light/moments.h.
+#define WEDGE_MOMENTS 5u
+
+/// s_max counts as no more than so many times s_min: what is farther apart no one filter is right for.
+#define WEDGE_MOST_RATIO 4.0f
+/// Weight of spread slopes below which a pixel counts as far from any shadow, as in analysis.cl.
+#define WEDGE_LEAST_SPREAD 1e-4f
+/// A filter's weights as a polynomial of z, by how much the light is displaced: 1 - ORDER1 z + ORDER2 z^2. A Gaussian of
+/// deviation beta over distance makes of waves that are Omega fast, with these two numbers, 1 - (beta Omega)^6 / 48, and
+/// no others leave so little.
+#define WEDGE_ORDER1 0.625f
+#define WEDGE_ORDER2 0.125f
+/// How far filters of both slopes may reach, over how far apart these are (betweenSlopes()).
+#define WEDGE_APART 0.9f
+
+/// smoothSlopes() (analysis.cl) of the largest slope, as it was measured: 3x3 mean of log2 s_max over the pixels of the
+/// same object that have one.
+///
+/// in      slopes: planes of the least and the largest
+/// in out  logSlopes: the third plane; the second says where there are slopes
+__kernel void smoothLargest(AnalysisParams p, __global const float* restrict slopes,
+    __global const uint* restrict objectId, __global float* restrict logSlopes)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const uint16 object = loadIdBlock(objectId, i);
+    const int16 has = loadBlock(logSlopes + p.planeSize, i) > 0.0f;
+    float16 sum = (float16)(0.0f), count = (float16)(0.0f);
+    if (any(has)) {
+        for (int dy = y > 0u ? -1 : 0; dy <= (y + 1u < p.height ? 1 : 0); ++dy) {
+            for (int dx = -1; dx <= 1; ++dx) {
+                const int j = i + dy * (int)p.stride + dx;
+                const float16 slope = loadBlock(slopes + p.planeSize, j);
+                const int16 taken = (slope > 0.0f) & (loadIdBlock(objectId, j) == object) & (object != 0u);
+                sum += taken ? log2Block(slope) : (float16)(0.0f);
+                count += taken ? (float16)(1.0f) : (float16)(0.0f);
+            }
+        }
+    }
+    // A pixel with an eroded slope may have none itself, and then none around but farther ones.
+    const int16 some = has & (count > 0.0f);
+    const float16 least = loadBlock(logSlopes, i);
+    const float16 mean = some ? sum / max16(count, (float16)(1.0f)) : least;
+    vstore16(has ? mean : (float16)(0.0f), 0, logSlopes + 2u * p.planeSize + i);
+}
+
+/// s_max / s_min of pixels, from 1 to WEDGE_MOST_RATIO: their own, else of what spread to them, else 1.
+///
+/// in   logSlopes, spread: planes of log2 s_min, weight, log2 s_max, as smoothSlopes(), smoothLargest() and their spread
+/// out  ratio: of 16 bits
+__kernel void slopeRatios(AnalysisParams p, __global const float* restrict logSlopes,
+    __global const float* restrict spread, __global float* restrict ratio)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    const float16 own = loadBlock(logSlopes + 2u * p.planeSize, i) - loadBlock(logSlopes, i);
+    const float16 near = loadBlock(spread + p.planeSize, i);
+    const float16 apart = loadBlock(spread + 2u * p.planeSize, i) - loadBlock(spread, i);
+    const float16 spreadApart = near > WEDGE_LEAST_SPREAD ? apart / near : (float16)(0.0f);
+    const float16 logRatio = loadBlock(logSlopes + p.planeSize, i) > 0.0f ? own : spreadApart;
+    const float16 bounded = min16(max16(exp2Block(min16(logRatio, (float16)(8.0f))), (float16)(1.0f)),
+        (float16)(WEDGE_MOST_RATIO));
+    storeShortsBlock(ratio, p.planeSize, i, 0u, bounded);
+}
+
+/// The harmonic mean of both slopes over the lesser one.
+WEDGE_FN float meanSlope(float ratio) { return 2.0f * ratio / (1.0f + ratio); }
+
+/// How wide a filter of both slopes is, over one of the lesser alone: as their mean says, which it is sheared along,
+/// unless they are far apart.
+WEDGE_FN float betweenSlopes(float ratio)
+{
+    const float mean = meanSlope(ratio);
+    return ratio > 1.0f ? fmin(mean, WEDGE_APART * ratio / (ratio - 1.0f)) : mean;
+}
+
+/// in out  beta: metres
+__kernel void widenBetweenSlopes(AnalysisParams p, __global const float* restrict ratio, __global float* restrict beta)
+{
+    const uint x = p.x0 + get_global_id(0);
+    const uint y = p.y0 + get_global_id(1);
+    if (x < p.x1 && y < p.y1) {
+        const uint i = pixelIndex(x, y, p.stride);
+        beta[i] *= beta[i] > 0.0f ? betweenSlopes(loadShort(ratio, 0u, i, 0u)) : 1.0f;
+    }
+}
+
+/// in out  slopeWidth: as narrowByCounts() (shear.cl) left it; then it goes with the slopes' mean alone
+__kernel void widthOfMeanSlope(
+    AnalysisParams p, __global const float* restrict ratio, __global float* restrict slopeWidth)
+{
+    const uint x = p.x0 + get_global_id(0);
+    const uint y = p.y0 + get_global_id(1);
+    if (x < p.x1 && y < p.y1) {
+        const uint i = pixelIndex(x, y, p.stride);
+        const float r = loadShort(ratio, 0u, i, 0u);
+        storeShort(slopeWidth, 0u, i, 0u, loadShort(slopeWidth, 0u, i, 0u) * meanSlope(r) / betweenSlopes(r));
+    }
+}
+
+/// Of each channel how the part of it that is seen changes where the light, in its own coordinates, moves, as the
+/// polynomial that filters take (gather_sheared.h): means of (V - h) q over the samples times the orders' factors.
+///
+/// in      sums (light_sampling.h)
+/// in out  moments: of 16 bits; what finishMoments() left, of which the means are made
+__kernel void shadowMoments(AnalysisParams p, __global const float* restrict sums, __global float* restrict moments)
+{
+    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
+    const uint y = p.y0 + get_global_id(1);
+    if (x >= p.x1 || y >= p.y1) {
+        return;
+    }
+    const int i = (int)pixelIndex(x, y, p.stride);
+    for (uint k = 0u; k < WEDGE_MOMENTS * WEDGE_CHANNELS; ++k) {
+        const float16 all = loadBlock(sums + 2u * (k / WEDGE_MOMENTS) * p.planeSize, i);
+        const float16 perAll = all > 0.0f ? 1.0f / all : (float16)(0.0f);
+        const float factor = k % WEDGE_MOMENTS < 2u ? -WEDGE_ORDER1 : WEDGE_ORDER2;
+        storeShortsBlock(
+            moments, p.planeSize, i, k, factor * perAll * loadShortsBlock(moments, p.planeSize, i, k));
+    }
+}
