@@ -4,7 +4,6 @@
 #include "host/render/sinks.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -25,7 +24,7 @@ constexpr float bandwidth = 2.0f;
 /// bound.
 constexpr float widestCut = 2.5f;
 /// Of a filter of both slopes, over one of s_min that follows no gradients.
-constexpr float twoSlopeWidth = 1.5f;
+constexpr float twoSlopeWidth = 2.1f;
 
 } // namespace
 
@@ -41,8 +40,8 @@ std::optional<Maaf> maafOf(const Settings& settings, const shared::AreaLight& li
 
 shared::LightMoments momentsOf(const shared::AreaLight& light)
 {
-    // The second score is that of the Gaussian, a^2 less its mean, with a factor that makes its second moment 2, as that
-    // of l'' is: where the profile is cut it has steps at its ends, too.
+    // The second score is that of the Gaussian, a^2 less its mean, with a factor that makes its second moment 2, as
+    // that of l'' is: where the profile is cut it has steps at its ends, too.
     const double slope = static_cast<double>(light.cut) * light.cut;
     double mass = 0, squares = 0, fourths = 0;
     constexpr int points = 4096;
@@ -82,22 +81,30 @@ graph::Format componentsFormat(int components, std::uint32_t channels)
     // Of each channel all weights, and what is seen of them.
     const auto count = static_cast<std::uint32_t>(2 * components * components) * channels;
     switch (count) {
-    case 2: return shortPairs;
-    case 4: return shortQuadruples;
-    case 18: return { "short18", 36, "float", "", "", "" };
-    case 36: return { "short36", 72, "float", "", "", "" };
-    case 50: return { "short50", 100, "float", "", "", "" };
-    case 100: return { "short100", 200, "float", "", "", "" };
-    case 98: return { "short98", 196, "float", "", "", "" };
-    case 196: return { "short196", 392, "float", "", "", "" };
-    default: throw std::logic_error(fmt::format("no format of {} components", components));
+    case 2:
+        return shortPairs;
+    case 4:
+        return shortQuadruples;
+    case 18:
+        return { "short18", 36, "float", "", "", "" };
+    case 36:
+        return { "short36", 72, "float", "", "", "" };
+    case 50:
+        return { "short50", 100, "float", "", "", "" };
+    case 100:
+        return { "short100", 200, "float", "", "", "" };
+    case 98:
+        return { "short98", 196, "float", "", "", "" };
+    case 196:
+        return { "short196", 392, "float", "", "", "" };
+    default:
+        throw std::logic_error(fmt::format("no format of {} components", components));
     }
 }
 
 shared::AnalysisParams withTwoSlopeWidths(shared::AnalysisParams p, const shared::AreaLight& light)
 {
-    const char* t = std::getenv("TWOW");
-    p.mu *= (1.0f + 0.5f * scoreOf(light).edge) / (t ? std::strtof(t, nullptr) : twoSlopeWidth);
+    p.mu *= (1.0f + 0.5f * scoreOf(light).edge) / twoSlopeWidth;
     return p;
 }
 

@@ -17,8 +17,8 @@ namespace wedge::render {
 /// The filters that method maaf has for a light; none where its filter is that of method aaf.
 std::optional<Maaf> maafOf(const Settings& settings, const shared::AreaLight& light);
 
-/// What its samples are expanded in by filters of both slopes. Scores have the profile's own moments: the first of order
-/// 1, the second of order 2, cut as the profile is.
+/// What its samples are expanded in by filters of both slopes. Scores have the profile's own moments: the first of
+/// order 1, the second of order 2, cut as the profile is.
 shared::LightMoments momentsOf(const shared::AreaLight& light);
 /// And by components.
 shared::LightAxes axesOf(const shared::AreaLight& light, int components);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace wedge::render {
 namespace {
@@ -20,7 +19,6 @@ float gaussianScale(float sigma)
 bool isSheared(const Settings& s)
 {
     // What is filtered has to be a share of the light's samples.
-    if (getenv("NOSHEAR")) return false;
     return s.sheared && s.method == Method::AxisAligned && s.filtering == Filtering::Adaptive
         && s.shading != Shading::Inside;
 }
@@ -57,7 +55,7 @@ ProfileScore scoreOf(const shared::AreaLight& light)
 shared::AnalysisParams withShearedWidths(
     shared::AnalysisParams p, const Settings& settings, const shared::AreaLight& light)
 {
-    p.mu *= (1.0f + 0.5f * scoreOf(light).edge) / (getenv("SHW") ? std::strtof(getenv("SHW"), nullptr) : settings.shearedWidth);
+    p.mu *= (1.0f + 0.5f * scoreOf(light).edge) / settings.shearedWidth;
     return p;
 }
 

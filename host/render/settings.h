@@ -179,8 +179,8 @@ struct DistributedSettings {
     float oneVelocity = 0.1f; ///< motions of a pixel differ by less than this fraction where it is filtered along them
 };
 
-/// Everything that decides what a frame looks like. monteCarlo(), axisAligned(), multipleAxisAligned() and asPublished()
-/// give the presets.
+/// Everything that decides what a frame looks like. monteCarlo(), axisAligned(), multipleAxisAligned() and
+/// asPublished() give the presets.
 struct Settings {
     Method method = Method::AxisAligned;
     bool published = false; ///< made by asPublished()

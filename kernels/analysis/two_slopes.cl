@@ -17,13 +17,13 @@
 #define WEDGE_MOST_RATIO 4.0f
 /// Weight of spread slopes below which a pixel counts as far from any shadow, as in analysis.cl.
 #define WEDGE_LEAST_SPREAD 1e-4f
-/// A filter's weights as a polynomial of z, by how much the light is displaced: 1 - ORDER1 z + ORDER2 z^2. A Gaussian of
-/// deviation beta over distance makes of waves that are Omega fast, with these two numbers, 1 - (beta Omega)^6 / 48, and
-/// no others leave so little.
+/// A filter's weights as a polynomial of z, by how much the light is displaced: 1 - ORDER1 z + ORDER2 z^2. A Gaussian
+/// of deviation beta over distance makes of waves that are Omega fast, with these two numbers, 1 - (beta Omega)^6 / 48,
+/// and no others leave so little.
 #define WEDGE_ORDER1 0.625f
 #define WEDGE_ORDER2 0.125f
 /// How far filters of both slopes may reach, over how far apart these are (betweenSlopes()).
-#define WEDGE_APART 0.9f
+#define WEDGE_APART 0.6f
 
 /// smoothSlopes() (analysis.cl) of the largest slope, as it was measured: 3x3 mean of log2 s_max over the pixels of the
 /// same object that have one.
@@ -62,8 +62,8 @@ __kernel void smoothLargest(AnalysisParams p, __global const float* restrict slo
 
 /// s_max / s_min of pixels, from 1 to WEDGE_MOST_RATIO: their own, else of what spread to them, else 1.
 ///
-/// in   logSlopes, spread: planes of log2 s_min, weight, log2 s_max, as smoothSlopes(), smoothLargest() and their spread
-/// out  ratio: of 16 bits
+/// in   logSlopes, spread: planes of log2 s_min, weight, log2 s_max, as smoothSlopes(), smoothLargest() and their
+/// spread out  ratio: of 16 bits
 __kernel void slopeRatios(AnalysisParams p, __global const float* restrict logSlopes,
     __global const float* restrict spread, __global float* restrict ratio)
 {
@@ -78,8 +78,8 @@ __kernel void slopeRatios(AnalysisParams p, __global const float* restrict logSl
     const float16 apart = loadBlock(spread + 2u * p.planeSize, i) - loadBlock(spread, i);
     const float16 spreadApart = near > WEDGE_LEAST_SPREAD ? apart / near : (float16)(0.0f);
     const float16 logRatio = loadBlock(logSlopes + p.planeSize, i) > 0.0f ? own : spreadApart;
-    const float16 bounded = min16(max16(exp2Block(min16(logRatio, (float16)(8.0f))), (float16)(1.0f)),
-        (float16)(WEDGE_MOST_RATIO));
+    const float16 bounded =
+        min16(max16(exp2Block(min16(logRatio, (float16)(8.0f))), (float16)(1.0f)), (float16)(WEDGE_MOST_RATIO));
     storeShortsBlock(ratio, p.planeSize, i, 0u, bounded);
 }
 
@@ -135,7 +135,6 @@ __kernel void shadowMoments(AnalysisParams p, __global const float* restrict sum
         const float16 all = loadBlock(sums + 2u * (k / WEDGE_MOMENTS) * p.planeSize, i);
         const float16 perAll = all > 0.0f ? 1.0f / all : (float16)(0.0f);
         const float factor = k % WEDGE_MOMENTS < 2u ? -WEDGE_ORDER1 : WEDGE_ORDER2;
-        storeShortsBlock(
-            moments, p.planeSize, i, k, factor * perAll * loadShortsBlock(moments, p.planeSize, i, k));
+        storeShortsBlock(moments, p.planeSize, i, k, factor * perAll * loadShortsBlock(moments, p.planeSize, i, k));
     }
 }

@@ -1,7 +1,7 @@
-// Multiple axis-aligned filters (Wu et al. 2017): the sums of light/components.h over a pixel's neighbours, in one pass,
-// with weights by how far these are along both of the light's axes,
+// Multiple axis-aligned filters (Wu et al. 2017): the sums of light/components.h over a pixel's neighbours, in one
+// pass, with weights by how far these are along both of the light's axes,
 //
-//     h = sum over neighbours j and products (i, k) of c_i(d_u) c_k(d_v) S_ik(j) / the same of T_ik(j)              (21)
+//     h = sum over neighbours j and products (i, k) of c_i(d_u) c_k(d_v) S_ik(j) / the same of T_ik(j) (21)
 //
 // S the sums of what is seen, T those of all samples: so what is the same everywhere stays so, whatever the samples and
 // whichever neighbours are left out. d: their offset (gather.h's offset16()) in the light's standard deviations; d > 0
@@ -43,7 +43,8 @@ WEDGE_INLINE void placeComponents(float bandwidth, float16 sMin, float16 sMax, C
     const float count = (float)WEDGE_COMPONENTS;
     bank->reach = (float16)(0.0f);
     for (uint p = 0u; p < WEDGE_PAIRS; ++p) {
-        const float16 inner = (2.0f * (float)p - 1.0f) / (count * sMax), outer = (2.0f * (float)p + 1.0f) / (count * sMin);
+        const float16 inner = (2.0f * (float)p - 1.0f) / (count * sMax),
+                      outer = (2.0f * (float)p + 1.0f) / (count * sMin);
         bank->centre[p] = p > 0u ? 0.5f * bandwidth * (inner + outer) : (float16)(0.0f);
         bank->extent[p] = p > 0u ? 0.5f * bandwidth * (outer - inner) : bandwidth / (count * sMin);
         bank->reach = max16(bank->reach, 1.0f / bank->extent[p]);
@@ -131,8 +132,8 @@ typedef struct {
 } ComponentSum;
 
 /// Adds the neighbours at element j. width: metres, of the pixels' own filters by their slopes
-WEDGE_INLINE void addNeighbours(FilterParams p, LightAxes light, GatherBlock b, const ComponentBank* bank, float16 width,
-    ComponentPlanes in, int j, ComponentSum* sum)
+WEDGE_INLINE void addNeighbours(FilterParams p, LightAxes light, GatherBlock b, const ComponentBank* bank,
+    float16 width, ComponentPlanes in, int j, ComponentSum* sum)
 {
     const float16 betaThere = loadBlock(in.beta, j);
     const Neighbours n = neighboursAt(p, b, j, betaThere, in.position, in.normal, in.pixelSize, in.objectId);
@@ -182,18 +183,20 @@ WEDGE_INLINE void addNeighbours(FilterParams p, LightAxes light, GatherBlock b, 
 ///      the gather's planes. slopesPerWidth: s_min over slopeWidth, 1/m. refitted: 1, or 0 for weights as printed
 /// out  filtered; effective: the number of equal pixels that the weights amount to
 __kernel void filterComponents(FilterParams p, LightAxes light, float slopesPerWidth, uint refitted,
-    __global const float* restrict value, __global const float* restrict beta, __global const float* restrict slopeWidth,
-    __global const float* restrict ratio, __global const float* restrict position,
-    __global const float* restrict normal, __global const float* restrict pixelSize,
-    __global const uint* restrict objectId, __global const float* restrict sums,
-    __global const float* restrict components, __global float* restrict filtered, __global float* restrict effective)
+    __global const float* restrict value, __global const float* restrict beta,
+    __global const float* restrict slopeWidth, __global const float* restrict ratio,
+    __global const float* restrict position, __global const float* restrict normal,
+    __global const float* restrict pixelSize, __global const uint* restrict objectId,
+    __global const float* restrict sums, __global const float* restrict components, __global float* restrict filtered,
+    __global float* restrict effective)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
     if (x >= p.x1 || y >= p.y1) {
         return;
     }
-    const ComponentPlanes in = { value, beta, slopeWidth, ratio, position, normal, pixelSize, sums, components, objectId };
+    const ComponentPlanes in = { value, beta, slopeWidth, ratio, position, normal, pixelSize, sums, components,
+        objectId };
     const int i = (int)pixelIndex(x, y, p.stride);
     const uint16 object = loadIdBlock(objectId, i);
     const float16 width = loadShortBlock(slopeWidth, i);

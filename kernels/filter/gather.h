@@ -275,7 +275,8 @@ WEDGE_INLINE float16 countOfLine(LineWeights sum, bool fitted)
 }
 
 #ifdef WEDGE_GATHER_CHANNELS
-/// Planes of gradients: of each channel along two axes, and of programs of WEDGE_GATHER_CURVED three second derivatives.
+/// Planes of gradients: of each channel along two axes, and of programs of WEDGE_GATHER_CURVED three second
+/// derivatives.
 #ifdef WEDGE_GATHER_CURVED
 #define WEDGE_GRADIENTS_EACH 5u
 #else

@@ -50,8 +50,8 @@ WEDGE_INLINE void takeMoments(const Sampling* at, const Samples* s, Moments* sta
     }
 }
 
-/// Adds sums of (V - h) w q, as finishScores() does: V the samples' visibility, w what they weigh, q their scores, h the
-/// mean that is known by now.
+/// Adds sums of (V - h) w q, as finishScores() does: V the samples' visibility, w what they weigh, q their scores, h
+/// the mean that is known by now.
 ///
 /// in      sums: as finishSums() leaves them
 /// in out  moments: of each channel of sums, of 16 bits (packed_planes.h)
@@ -70,8 +70,8 @@ WEDGE_INLINE void finishMoments(
                 const float ofAll = state->sum[2u * channel * WEDGE_MOMENTS + k][lane];
                 const float ofSeen = state->sum[(2u * channel + 1u) * WEDGE_MOMENTS + k][lane];
                 const uint plane = channel * WEDGE_MOMENTS + k;
-                storeShort(moments, at->size, i, plane,
-                    loadShort(moments, at->size, i, plane) + (ofSeen - mean * ofAll));
+                storeShort(
+                    moments, at->size, i, plane, loadShort(moments, at->size, i, plane) + (ofSeen - mean * ofAll));
             }
         }
     }
