@@ -87,6 +87,26 @@ TEST_CASE("options that contradict each other")
     checkRenderRefused(place, box, { "--filter-width", "3" }, wrongCall, "--filter-width");
     checkRenderRefused(place, box, { "--as-published", "--spp", "20" }, wrongCall, "--spp 20");
     checkRenderRefused(place, box, { "--spp", "4" }, wrongCall, "4"); // the first pass alone takes 9
+    const std::string alone = "option has no effect with method aaf: ";
+    checkRenderRefused(place, box, { "--maaf", "printed" }, wrongCall, alone + "--maaf: leave it out, or choose");
+    checkRenderRefused(place, box, { "--components", "3" }, wrongCall, alone + "--components: leave it out, or choose");
+    checkRenderRefused(place, box, { "--method", "mc", "--maaf", "printed" }, wrongCall, "with method mc: --maaf");
+    const auto several = [&](const Arguments& more, const std::string& said) {
+        Arguments all { "--method", "maaf" };
+        all.insert(all.end(), more.begin(), more.end());
+        checkRenderRefused(place, box, all, wrongCall, said);
+    };
+    several({ "--components", "5" }, "with --maaf two-slope, whose filter is one: --components 5: leave it out, or");
+    several({ "--maaf", "two-slope", "--components", "3" }, "--components 3: leave it out, or choose --maaf refitted");
+    several({ "--maaf", "refitted", "--components", "4" }, "4");
+    several({ "--maaf", "three-slope" }, "three-slope");
+    for (const char* option : { "--as-published", "--filter none", "--filter fixed", "--falloff inside" }) {
+        const std::string text = option;
+        const std::size_t space = text.find(' ');
+        several(space == std::string::npos ? Arguments { text }
+                                           : Arguments { text.substr(0, space), text.substr(space + 1) },
+            "option does not go with method maaf: " + text + ": leave it out, or choose --method aaf");
+    }
     checkRefused(place, { "render", box, "-o", "a.png", "--layers", "albedo" }, wrongCall, "albedo");
     checkRefused(place, { "render", box, "-o", "a.jpeg" }, wrongCall, "a.jpeg");
 }

@@ -214,9 +214,8 @@ __kernel void filterComponents(FilterParams p, LightAxes light, float slopesPerW
             bankOf(light.bandwidth, refitted, sMin, gathers ? loadShortBlock(ratio, i) : (float16)(1.0f));
         const float perMetre = sqrt(fmin(vecDot(light.alongU, light.alongU), vecDot(light.alongV, light.alongV)));
         const float16 reach = p.cut / perMetre * bank.reach;
-        const int16 wide = gathers;
-        const int across = (int)largestOf(wide ? radiusInPixels(p, b, p.right, reach) : (float16)(0.0f));
-        const int down = (int)largestOf(wide ? radiusInPixels(p, b, p.down, reach) : (float16)(0.0f));
+        const int across = (int)largestOf(gathers ? radiusInPixels(p, b, p.right, reach) : (float16)(0.0f));
+        const int down = (int)largestOf(gathers ? radiusInPixels(p, b, p.down, reach) : (float16)(0.0f));
         const int first = max(-down, -(int)y), last = min(down, (int)(p.height - 1u - y));
         for (int dy = first; dy <= last; ++dy) {
             for (int dx = -across; dx <= across; ++dx) {

@@ -1,0 +1,123 @@
+// Whole frames of method maaf.
+#include "effects/area_lights/maaf.h"
+#include "tests/render_support.h"
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+constexpr int width = 64, height = 48;
+
+/// A ground in the penumbrae of three slats at different heights.
+scene::Scene slats(scene::LightProfile profile)
+{
+    SceneBuilder b;
+    b.newObject();
+    b.quad({ 0, 0, 0 }, { 0, 0, 4 }, { 4, 0, 0 });
+    for (int i = 0; i < 3; ++i) {
+        b.newObject();
+        b.quad({ -0.6f + 0.6f * static_cast<float>(i), 0.5f + 0.3f * static_cast<float>(i), 0 }, { 0.1f, 0, 0.02f },
+            { 0, 0, 0.8f });
+    }
+    b.light({ 0, 3, 0 }, { 0.4f, 0, 0 }, { 0.1f, 0, 0.3f }, profile, 2).radiance = { 20, 18, 15 };
+    b.camera({ 0, 1.6f, 2.8f }, { 0, 0.1f, 0.4f });
+    return b.scene;
+}
+
+render::Settings ofMaaf(render::Maaf maaf, int spp, int components = 5)
+{
+    render::Settings s = sized(render::multipleAxisAligned(maaf, spp), width, height);
+    s.components = components;
+    return s;
+}
+
+} // namespace
+
+TEST_CASE("filters of both slopes err less than plain sampling, and less than one filter without gradients")
+{
+    onEveryDevice([](const device::Device& device) {
+        const scene::Scene scene = slats(scene::LightProfile::Gaussian);
+        render::Renderer renderer(scene, device, renderOptions());
+        render::Settings truth = sized(render::monteCarlo(8192), width, height);
+        truth.seed = 99;
+        const std::vector<float> reference = renderPixels(renderer, truth);
+        for (const int spp : { 9, 28 }) {
+            const auto errorOf = [&](render::Settings s) {
+                double squares = 0;
+                for (s.seed = 1; s.seed <= 3; ++s.seed)
+                    squares += std::pow(rmse(renderPixels(renderer, s), reference), 2.0);
+                return std::sqrt(squares / 3);
+            };
+            render::Settings one = sized(render::axisAligned(spp), width, height);
+            const double aaf = errorOf(one);
+            one.sheared = false;
+            const double without = errorOf(one), plain = errorOf(sized(render::monteCarlo(spp), width, height)),
+                         both = errorOf(ofMaaf(render::Maaf::TwoSlope, spp));
+            MESSAGE(spp, " samples: ", both, ", aaf ", aaf, ", without gradients ", without, ", unfiltered ", plain);
+            CHECK(both < (spp == 9 ? 0.8 : 0.5) * plain);
+            CHECK((spp == 9 || both < without)); // nine tell slopes and widths of so small an image poorly
+        }
+    });
+}
+
+TEST_CASE("refitted, seven components differ from five by less than five from three")
+{
+    onEveryDevice([](const device::Device& device) {
+        const scene::Scene scene = slats(scene::LightProfile::Gaussian);
+        render::Renderer renderer(scene, device, renderOptions());
+        std::vector<std::vector<float>> images;
+        for (const int components : { 3, 5, 7 }) {
+            render::Settings s = ofMaaf(render::Maaf::Refitted, 9, components);
+            s.fallback = false;
+            images.push_back(renderPixels(renderer, s));
+        }
+        render::Settings plain = sized(render::monteCarlo(9), width, height);
+        const double far = rmse(images[0], images[1]), near = rmse(images[1], images[2]);
+        MESSAGE("three and five differ by ", far, ", five and seven by ", near);
+        CHECK(near < far);
+        CHECK(near > 0);
+        CHECK(rmse(images[1], renderPixels(renderer, plain)) > near);
+    });
+}
+
+TEST_CASE("lights that are not Gaussian, and frames through a lens, are those of method aaf, bit by bit")
+{
+    onEveryDevice([](const device::Device& device) {
+        for (const render::Maaf maaf : { render::Maaf::TwoSlope, render::Maaf::Printed }) {
+            scene::Scene scene = slats(scene::LightProfile::Uniform);
+            render::Renderer renderer(scene, device, renderOptions());
+            const render::Settings aaf = sized(render::axisAligned(16), width, height);
+            CHECK(renderPixels(renderer, ofMaaf(maaf, 16)) == renderPixels(renderer, aaf));
+            scene = slats(scene::LightProfile::Gaussian);
+            render::Renderer gaussian(scene, device, renderOptions());
+            render::Settings several = ofMaaf(maaf, 16), one = aaf;
+            CHECK(renderPixels(gaussian, several) != renderPixels(gaussian, one));
+            several.antialias = one.antialias = true;
+            CHECK(renderPixels(gaussian, several) == renderPixels(gaussian, one));
+        }
+    });
+}
+
+TEST_CASE("where a light has several filters")
+{
+    shared::AreaLight light {};
+    light.profile = WEDGE_PROFILE_GAUSSIAN;
+    light.cut = 2;
+    render::Settings s = render::multipleAxisAligned(render::Maaf::Refitted);
+    CHECK(render::methodName(s) == "maaf");
+    CHECK(render::maafOf(s, light) == render::Maaf::Refitted);
+    light.cut = 3; // components over such a profile are without bound
+    CHECK_FALSE(render::maafOf(s, light));
+    s.maaf = render::Maaf::TwoSlope;
+    CHECK(render::maafOf(s, light) == render::Maaf::TwoSlope);
+    s.shading = render::Shading::Inside;
+    CHECK_FALSE(render::maafOf(s, light));
+    s = render::multipleAxisAligned(render::Maaf::TwoSlope);
+    s.filtering = render::Filtering::Fixed;
+    CHECK_FALSE(render::maafOf(s, light));
+    CHECK_FALSE(render::maafOf(render::axisAligned(), light));
+    CHECK(render::methodName(render::axisAligned()) == "aaf");
+    s.components = 4;
+    CHECK_THROWS(render::validate(s, false));
+}
