@@ -131,7 +131,8 @@ double oracle(const ComponentImage& in, int x, int y)
     const FilterImage& image = in.image;
     const shared::FilterParams& p = image.params;
     const double width = image.slopeWidth.at(x, y);
-    if (!(image.beta.at(x, y) > 0) || image.objectId.at(x, y) == 0 || width < image.pixelSize.at(x, y))
+    if (!(image.beta.at(x, y) > 0) || image.objectId.at(x, y) == 0
+        || 0.5 * width * in.slopesPerWidth < image.pixelSize.at(x, y))
         return image.value.at(x, y);
     const GatherGeometry geometry(image, x, y);
     const double sMin = width * in.slopesPerWidth, sMax = sMin * in.ratio.at(x, y), bandwidth = in.axes.bandwidth;

@@ -12,6 +12,7 @@ filters divide by the sum of weights.
 import numpy as np
 
 CUT = 2.0
+APART = 0.6  # as WEDGE_APART of kernels/analysis/two_slopes.cl
 
 
 def profile(y):
@@ -116,6 +117,25 @@ def two_slope(s_min, s_max, c):
     det = var_y * var_d - cov**2
     return Kernel(lambda d, y: np.exp(-0.5 * (var_d * y**2 - 2.0 * cov * d * y + var_y * d**2) / det),
                   3.0 * np.sqrt(var_d))
+
+
+def second_score(y):
+    """l''/l of the light's profile, cut as it is: y^2 less its mean, with the second moment 2 (momentsOf() of the renderer)."""
+    at = np.linspace(-CUT, CUT, 20001)
+    weights = profile(at) / profile(at).sum()
+    square, fourth = (weights * at**2).sum(), (weights * at**4).sum()
+    return 2.0 / (fourth - square**2) * (y**2 - square)
+
+
+def second_order(s_min, s_max, c):
+    """The renderer's filter of two slopes: the second order of a shear along their harmonic mean, z = d/s, with the factors 5/8
+    and 1/8. Of a wave that makes z = i beta Omega they leave 1 - (beta Omega / s)^6 / 48."""
+    ratio = s_max / s_min
+    mean = 2.0 * ratio / (1.0 + ratio)
+    beta = c * s_min * (min(mean, APART * ratio / (ratio - 1.0)) if ratio > 1.0 else 1.0)
+    s = s_min * mean
+    return Kernel(lambda d, y: gaussian(d, beta) * profile(y)
+                  * (1.0 - 0.625 * d / s * score(y) + 0.125 * (d / s) ** 2 * second_score(y)), 3.0 * beta)
 
 
 def maaf(pairs, s_min, s_max, weights, omega=2.0):

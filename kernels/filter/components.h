@@ -200,8 +200,10 @@ __kernel void filterComponents(FilterParams p, LightAxes light, float slopesPerW
     const int i = (int)pixelIndex(x, y, p.stride);
     const uint16 object = loadIdBlock(objectId, i);
     const float16 width = loadShortBlock(slopeWidth, i);
-    // A filter of less than a pixel has nothing to gather.
-    const int16 gathers = (loadBlock(beta, i) > 0.0f) & (width >= loadSizeBlock(pixelSize, i)) & (object != 0u);
+    // Where a standard deviation of the light is less than a pixel in shadows there is nothing to gather.
+    const float perMetre = sqrt(fmin(vecDot(light.alongU, light.alongU), vecDot(light.alongV, light.alongV)));
+    const int16 wide = width * slopesPerWidth >= perMetre * loadSizeBlock(pixelSize, i);
+    const int16 gathers = (loadBlock(beta, i) > 0.0f) & wide & (object != 0u);
     ComponentSum sum;
     for (uint channel = 0u; channel < WEDGE_COMPONENT_CHANNELS; ++channel) {
         sum.seen[channel] = sum.all[channel] = sum.size[channel] = (float16)(0.0f);
@@ -212,7 +214,6 @@ __kernel void filterComponents(FilterParams p, LightAxes light, float slopesPerW
         const float16 sMin = gathers ? width * slopesPerWidth : (float16)(1.0f);
         const ComponentBank bank =
             bankOf(light.bandwidth, refitted, sMin, gathers ? loadShortBlock(ratio, i) : (float16)(1.0f));
-        const float perMetre = sqrt(fmin(vecDot(light.alongU, light.alongU), vecDot(light.alongV, light.alongV)));
         const float16 reach = p.cut / perMetre * bank.reach;
         const int across = (int)largestOf(gathers ? radiusInPixels(p, b, p.right, reach) : (float16)(0.0f));
         const int down = (int)largestOf(gathers ? radiusInPixels(p, b, p.down, reach) : (float16)(0.0f));

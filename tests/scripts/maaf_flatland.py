@@ -15,6 +15,7 @@ import maaf_filters as filters
 import maaf_flatland as flatland
 import maaf_plane as plane
 import maaf_spectra as spectra
+import weights_header
 
 SLOPES = [(3.0, 3.0), (3.0, 5.0), (2.0, 16.0)]
 
@@ -97,6 +98,33 @@ class Filters(unittest.TestCase):
                     self.assertAlmostEqual(variance, 1.0, delta=1e-3)
                 else:
                     self.assertTrue(0.9 < variance <= 1.001, variance)
+
+    def test_second_order_is_near_the_joint_gaussian(self):
+        """What both make of waves of the slope that both are sheared along: nothing but the light, to (beta Omega / s)^6 / 48."""
+        kept, filters.CUT = filters.CUT, 6.0  # an end of the profile is no part of this
+        try:
+            for c in (0.3, 0.5):
+                kernel = filters.second_order(3.0, 3.0, c)
+                joint = filters.two_slope(3.0, 3.0, c**2)
+                first = filters.gradients(3.0, c)
+                for omega_y in (0.5, 1.0, 1.5):
+                    def response(k):
+                        return transform(k, omega_y / 3.0, omega_y, 12.0, 6.0) / transform(k, 0.0, 0.0, 12.0, 6.0)
+
+                    light = np.exp(-0.5 * omega_y**2)
+                    self.assertAlmostEqual(response(joint), light, delta=1e-3)
+                    off = response(kernel) / light - 1.0
+                    self.assertAlmostEqual(off, -((c * omega_y) ** 6) / 48.0, delta=3e-4 + 0.25 * (c * omega_y) ** 6 / 48.0)
+                    self.assertLess(abs(off), abs(response(first) / light - 1.0) + 3e-4)
+        finally:
+            filters.CUT = kept
+
+    def test_second_order_goes_between_both_slopes(self):
+        for s_min, s_max in SLOPES:
+            kernel = filters.second_order(s_min, s_max, 0.4)
+            ratio = s_max / s_min
+            between = min(2.0 * ratio / (1.0 + ratio), 0.6 * ratio / (ratio - 1.0)) if ratio > 1.0 else 1.0
+            self.assertAlmostEqual(kernel.reach, 3.0 * 0.4 * s_min * between)
 
     def test_polynomials_and_convolutions_are_the_sum_over_samples(self):
         scene = scene_of([3.0, 9.0, 5.0], [40.0, 90.0, 180.0], [60.0, 130.0, 200.0])
@@ -192,6 +220,12 @@ class Table(unittest.TestCase):
                 self.assertAlmostEqual(rest, row["rest"], delta=1e-4)
                 # Columns nearly depend on one another where slopes are one: weights to fewer digits than what they make.
                 self.assertLess(np.abs(weights - row["weights"]).max(), 1e-3)
+
+    def test_header_of_the_renderer_is_the_table(self):
+        with open(os.path.join(FOLDER, "maaf_weights.json"), encoding="utf-8") as file:
+            expected = weights_header.header(json.load(file)["tables"])
+        with open(os.path.join(FOLDER, "..", "..", "kernels", "filter", "refitted_weights.h"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), expected)
 
     def test_refitted_edges_are_nearer_than_printed_ones(self):
         for pairs in fit_maaf.PAIRS:

@@ -91,6 +91,11 @@ for family in wide scalar; do
     check paths_$family "$scenes/materials.toml" --size 17x5 --method mc --spp 2 --bounces 2 --traversal $family
     check bounced_$family "$scenes/materials.toml" --size 17x3 --method aaf --spp 17 --bounces 2 --traversal $family
 done
+# Several filters of a light at once.
+check two_slopes "$scenes/materials.toml" --traversal wide --size 19x13 --method maaf --spp 10
+check two_slopes_scalar "$scenes/penumbra.toml" --traversal scalar --size 9x7 --method maaf --spp 10
+check components "$scenes/penumbra.toml" --traversal wide --size 9x7 --method maaf --maaf refitted --components 3 --spp 10
+check components_printed "$scenes/penumbra.toml" --traversal scalar --size 7x5 --method maaf --maaf printed --components 5 --spp 9
 # Through a lens and a shutter.
 check moving_plain "$scenes/motion.toml" --traversal wide --size 9x7 --method mc --spp 2 --bounces 1
 check moving_filtered "$scenes/motion.toml" --traversal wide --size 11x7 --method aaf --spp 16 --bounces 1
