@@ -60,7 +60,8 @@ std::vector<std::array<double, 6>> oraclePass(
                 const double beta = image.beta.at(x, y), u = d.x / beta, v = d.z / beta;
                 const double w = std::exp(-0.5 * (u * u + v * v));
                 const std::array<double, 6>& m = in[static_cast<std::size_t>(qy * image.width() + qx)];
-                const double a = u * image.params.shearU.x, b = v * image.params.shearV.z;
+                const shared::Vec3 along = image.params.shearU, across = image.params.shearV;
+                const double a = u * along.x + v * along.z, b = u * across.x + v * across.z;
                 weights += w;
                 sum[0] += w * (m[0] + m[1] * a + m[2] * b + m[3] * a * a + 2 * m[4] * a * b + m[5] * b * b);
                 sum[1] += w * (m[1] + 2 * (m[3] * a + m[4] * b));
@@ -112,8 +113,8 @@ TEST_CASE("both passes of the filter pass polynomials on as their definition in 
         FilterImage image = curvedField();
         image.params.cut = 6;
         image.params.maxRadius = 6;
-        image.params.shearU = shared::vec3(0.03f, 0, 0);
-        image.params.shearV = shared::vec3(0, 0, 0.07f);
+        image.params.shearU = shared::vec3(0.5f, 0, 0.2f);
+        image.params.shearV = shared::vec3(-0.3f, 0, 0.4f);
         std::mt19937 random(4);
         std::vector<std::array<double, 6>> in;
         for (int y = 0; y < image.height(); ++y)
@@ -132,10 +133,8 @@ TEST_CASE("both passes of the filter pass polynomials on as their definition in 
         const FilterResult found = curved(image);
         for (int y = 0; y < image.height(); ++y)
             for (int x = 0; x < image.width(); ++x)
-                REQUIRE(found.value.at(x, y)
-                    == doctest::Approx(
-                        std::clamp(expected[static_cast<std::size_t>(y * image.width() + x)][0], -9., 9.))
-                           .epsilon(1e-3));
+                REQUIRE(std::fabs(found.value.at(x, y) - expected[static_cast<std::size_t>(y * image.width() + x)][0])
+                    < 3e-3); // moments of rows have 16 bits
     });
 }
 
