@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -77,6 +79,7 @@ render::Settings withoutLines(int spp)
 render::Settings ofThesis(int spp)
 {
     render::Settings s = render::asPublished();
+    s.shading = render::Shading::Ratio; // what is compared is the filter
     s.sampling = render::Sampling::Uniform;
     s.spp = spp;
     return s;
@@ -84,7 +87,7 @@ render::Settings ofThesis(int spp)
 
 constexpr Rival rivals[] = { { "aaf", "method aaf", [](int spp) { return render::axisAligned(spp); } },
     { "means", "method aaf without gradients and lines, as it was before it had them", withoutLines },
-    { "thesis", "--as-published, with as many samples everywhere", ofThesis } };
+    { "thesis", "the thesis's widths, with as many samples everywhere", ofThesis } };
 
 /// What is measured of a scene at one count.
 struct Row {
@@ -136,11 +139,12 @@ Row measureRow(Lab& lab, int spp)
     out.timing = timeFrames(lab, settings, columns(), fmt::format("maaf {} spp", spp));
     for (const Rival& rival : rivals) {
         const Comparison compared = compareWith(lab, method, rival.name, rival.meaning, rival.settings);
-        out.samples.push_back(summarize(compared.saved.samples).median);
-        // A filter that does not get there takes no time that could be told.
-        const double equal = out.samples.back() * out.spp;
-        double speedup = equal;
-        if (std::isfinite(equal) && equal < 4.0 * lab.plan().largestBaseline) {
+        const double saved = summarize(compared.saved.samples).median, equal = saved * out.spp;
+        // Filters that do not narrow may never get there.
+        const bool gets = equal < 4.0 * lab.plan().largestBaseline;
+        double speedup = std::numeric_limits<double>::infinity();
+        out.samples.push_back(gets ? saved : speedup);
+        if (gets) {
             const int count = std::max(render::leastSpp(settings, false), static_cast<int>(std::lround(equal)));
             const Timing time =
                 timeFrames(lab, rival.settings(count), columns(), fmt::format("{} {} spp", rival.name, count));
