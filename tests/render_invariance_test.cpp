@@ -19,7 +19,7 @@ struct Named {
 std::vector<Named> methods()
 {
     std::vector<Named> out = { { "mc", render::monteCarlo(13) }, { "aaf", render::axisAligned(16) },
-        { "published", render::asPublished() } };
+        { "published", render::asPublished() }, { "maaf", render::multipleAxisAligned(render::Maaf::TwoSlope, 16) } };
     for (Named& m : out)
         m.settings = sized(m.settings, width, height);
     return out;
@@ -225,7 +225,9 @@ TEST_CASE("a crop in the middle of a large image has its bits, and reads nothing
         poisoned.poison = true;
         render::Settings aaf = sized(render::axisAligned(16), across, down);
         aaf.bounces = 1;
-        render::Settings fixed = aaf, antialiased = aaf;
+        render::Settings fixed = aaf, antialiased = aaf, slopes = aaf, components = aaf;
+        slopes.maaf = render::Maaf::TwoSlope;
+        components.maaf = render::Maaf::Printed;
         fixed.filtering = render::Filtering::Fixed;
         antialiased.antialias = true;
         struct Frame {
@@ -233,9 +235,9 @@ TEST_CASE("a crop in the middle of a large image has its bits, and reads nothing
             render::Settings settings;
             bool layers;
         };
-        for (const Frame& frame :
-            { Frame { scene, aaf, false }, Frame { scene, aaf, true }, Frame { scene, fixed, false },
-                Frame { scene, antialiased, false }, Frame { lens, aaf, false }, Frame { lens, aaf, true } }) {
+        for (const Frame& frame : { Frame { scene, aaf, false }, Frame { scene, aaf, true },
+                 Frame { scene, fixed, false }, Frame { scene, slopes, false }, Frame { scene, components, false },
+                 Frame { scene, antialiased, false }, Frame { lens, aaf, false }, Frame { lens, aaf, true } }) {
             CAPTURE(frame.layers);
             CAPTURE(&frame.scene == &lens);
             render::Renderer whole(frame.scene, device, renderOptions()), part(frame.scene, device, poisoned);

@@ -103,6 +103,21 @@ WEDGE_INLINE ComponentBank bankOf(float bandwidth, uint refitted, float16 sMin, 
     return bank;
 }
 
+/// sinCosTurn() of sixteen, at any turn.
+WEDGE_INLINE void sinCosTurn16(float16 turn, float16* sine, float16* cosine)
+{
+    const float16 nearest = floor(4.0f * turn + 0.5f);
+    const int16 quarter = convert_int16(nearest);
+    const float16 x = 6.28318531f * (turn - 0.25f * nearest);
+    const float16 q = x * x;
+    const float16 s = x * (1.0f - q * (0.166666667f - q * (0.00833333333f - q * 0.000198412698f)));
+    const float16 c = 1.0f - q * (0.5f - q * (0.0416666667f - q * (0.00138888889f - q * 0.0000248015873f)));
+    const float16 a = (quarter & 1) != 0 ? c : s;
+    const float16 b = (quarter & 1) != 0 ? s : c;
+    *sine = (quarter & 2) != 0 ? -a : a;
+    *cosine = ((quarter + 1) & 2) != 0 ? -b : b;
+}
+
 /// c of every component at d.
 WEDGE_INLINE void coefficientsAt(const ComponentBank* bank, float16 d, float16* c)
 {
@@ -112,9 +127,10 @@ WEDGE_INLINE void coefficientsAt(const ComponentBank* bank, float16 d, float16* 
         if (p == 0u) {
             c[0] = bank->cosine[0] * g;
         } else {
-            const float16 angle = bank->centre[p] * d;
-            c[2u * p - 1u] = bank->cosine[p] * cos(angle) * g;
-            c[2u * p] = bank->sine[p] * sin(angle) * g;
+            float16 sine, cosine;
+            sinCosTurn16(0.159154943f * bank->centre[p] * d, &sine, &cosine);
+            c[2u * p - 1u] = bank->cosine[p] * cosine * g;
+            c[2u * p] = bank->sine[p] * sine * g;
         }
     }
 }

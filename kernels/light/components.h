@@ -40,9 +40,12 @@ WEDGE_INLINE void basisOf(float bandwidth, const float* y, float (*basis)[WEDGE_
     }
     for (uint p = 1u; 2u * p < WEDGE_COMPONENTS; ++p) {
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-            const float angle = 2.0f * (float)p * extent * y[lane];
-            basis[2u * p - 1u][lane] = basis[0][lane] * cos(angle);
-            basis[2u * p][lane] = basis[0][lane] * sin(angle);
+            // Not the library's: its last digits are others where a loop is compiled otherwise.
+            const float turn = 0.159154943f * 2.0f * (float)p * extent * y[lane];
+            float sine, cosine;
+            sinCosTurn(turn - floor(turn), &sine, &cosine);
+            basis[2u * p - 1u][lane] = basis[0][lane] * cosine;
+            basis[2u * p][lane] = basis[0][lane] * sine;
         }
     }
 }
