@@ -32,8 +32,10 @@ TEST_CASE("options that take no value are not given one")
     for (const std::string flag : { "--antialias", "--no-antialias", "--as-published", "--progressive",
              "--check-launches", "--fast-math", "--quiet", "--verbose", "--help" }) {
         for (const std::string value : { "no", "yes", "false", "true", "0", "1", "" }) {
-            checkRenderRefused(place, box, { flag + "=" + value }, wrongCall,
-                "option takes no value: " + flag + "=" + value + ": give " + flag + " alone");
+            std::string given = flag, told = "option takes no value: ";
+            given.append("=").append(value);
+            told.append(given).append(": give ").append(flag).append(" alone");
+            checkRenderRefused(place, box, { given }, wrongCall, told);
         }
     }
     checkRefused(place, { "compare", "a.exr", "b.exr", "--json=no" }, wrongCall, "--json=no");

@@ -13,7 +13,8 @@ namespace {
 /// B_i of kernels/light/components.h.
 double basis(int count, double bandwidth, int i, double y)
 {
-    const double extent = bandwidth / count, angle = 2 * ((i + 1) / 2) * extent * y;
+    const int pair = (i + 1) / 2;
+    const double extent = bandwidth / count, angle = 2 * pair * extent * y;
     return std::exp(-0.5 * extent * extent * y * y) * (i == 0 ? 1.0 : i % 2 == 1 ? std::cos(angle) : std::sin(angle));
 }
 
@@ -53,7 +54,7 @@ struct ComponentImage {
         axes.alongU = toShared(u / 0.5);
         axes.alongV = toShared(glm::cross(n, u) / 0.4);
     }
-    std::size_t products() const { return static_cast<std::size_t>(count * count); }
+    std::size_t products() const { return static_cast<std::size_t>(count) * static_cast<std::size_t>(count); }
 
     FilterImage image;
     int count;
@@ -81,7 +82,8 @@ ComponentImage randomComponents(const FilterImage& base, int components)
                     for (int k = 0; k < components; ++k) {
                         const double b = basis(components, out.axes.bandwidth, i, u)
                             * basis(components, out.axes.bandwidth, k, v) * std::exp(0.5 * (u * u + v * v));
-                        const auto at = static_cast<std::size_t>(i * components + k);
+                        const std::size_t at = static_cast<std::size_t>(i) * static_cast<std::size_t>(components)
+                            + static_cast<std::size_t>(k);
                         products[at] += weight * b;
                         products[at + out.products()] += visible ? weight * b : 0.0;
                     }
@@ -165,7 +167,8 @@ double oracle(const ComponentImage& in, int x, int y)
             double ofAll = 0, ofSeen = 0;
             for (int i = 0; i < in.count; ++i)
                 for (int k = 0; k < in.count; ++k) {
-                    const auto plane = static_cast<std::size_t>(i * in.count + k);
+                    const std::size_t plane =
+                        static_cast<std::size_t>(i) * static_cast<std::size_t>(in.count) + static_cast<std::size_t>(k);
                     const double c = ofU[static_cast<std::size_t>(i)] * ofV[static_cast<std::size_t>(k)];
                     ofAll += c * in.sinks.at(qx, qy, plane);
                     ofSeen += c * in.sinks.at(qx, qy, plane + in.products());
@@ -301,7 +304,7 @@ TEST_CASE("components of samples are the light's integrals of the basis, of what
         params.sampler = WEDGE_SAMPLER_SOBOL;
         const shared::AreaLight& onDevice = traced.onDevice.areaLightList[0];
         for (const int count : { 3, 5 }) {
-            const auto products = static_cast<std::size_t>(count * count);
+            const std::size_t products = static_cast<std::size_t>(count) * static_cast<std::size_t>(count);
             const shared::LightAxes axes = render::axesOf(onDevice, count);
             const std::string sink = sinkOf({ render::sinks::sums(), render::sinks::components(count) },
                 { "sums", "components" }, { graph::value("axes", shared::LightAxes {}) });

@@ -208,7 +208,7 @@ TEST_CASE("temporal: differences are those of the four pixels around where a poi
         const render::PlaneLayout layout(83, 61);
         const Camera then = cameraThen();
         const Seen own(layout, Camera(), diskNow), earlier(layout, then, diskThen);
-        const auto [found, seen, unfiltered, varies] = differ(bench, 0, own, earlier);
+        const Differences found = differ(bench, 0, own, earlier);
         int other = 0, shown = 0, hidden = 0, bends = 0, bounded = 0;
         everyPixel(layout, [&](int x, int y) {
             const std::uint32_t id = own.object.at(x, y);
@@ -230,11 +230,11 @@ TEST_CASE("temporal: differences are those of the four pixels around where a poi
                 }
             }
             const bool isSeen = weight > 0.5;
-            if ((seen.at(x, y) == 1.0f) != isSeen) {
+            if ((found.seen.at(x, y) == 1.0f) != isSeen) {
                 ++other; // at the edge of what is decided
                 return;
             }
-            CHECK((seen.at(x, y) == 0.0f || seen.at(x, y) == 1.0f));
+            CHECK((found.seen.at(x, y) == 0.0f || found.seen.at(x, y) == 1.0f));
             shown += isSeen ? 1 : 0;
             hidden += !isSeen && id != 0 ? 1 : 0;
             glm::dvec3 expected(0);
@@ -250,10 +250,10 @@ TEST_CASE("temporal: differences are those of the four pixels around where a poi
                 bends += glm::length(curved) > 0.01 ? 1 : 0;
                 bounded += glm::any(glm::greaterThan(glm::abs(curved), 0.5 * looked)) ? 1 : 0;
             }
-            CHECK(glm::length(found.vector(x, y) - expected) < 2e-3); // of which rounding is 4e-4
-            CHECK(varies.at(x, y) == (isSeen ? 0.5f : 0.0f));
+            CHECK(glm::length(found.light.vector(x, y) - expected) < 2e-3); // of which rounding is 4e-4
+            CHECK(found.variations.at(x, y) == (isSeen ? 0.5f : 0.0f));
             const double change = isSeen ? before - own.noisy.at(x, y) - moved : 0.0;
-            if (std::abs(unfiltered.at(x, y) - change) > 1e-3) { // light is packed
+            if (std::abs(found.unfiltered.at(x, y) - change) > 1e-3) { // light is packed
                 ++other; // two are equally near
             }
         });

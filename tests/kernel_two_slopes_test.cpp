@@ -43,6 +43,11 @@ FilterImage curvedField()
     return image;
 }
 
+std::size_t indexOf(const FilterImage& image, int x, int y)
+{
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width()) + static_cast<std::size_t>(x);
+}
+
 /// One pass over a flat floor in double, of values and the polynomials that neighbours have; planes: value and moments.
 std::vector<std::array<double, 6>> oraclePass(
     const FilterImage& image, const std::vector<std::array<double, 6>>& in, int dx, int dy)
@@ -59,7 +64,7 @@ std::vector<std::array<double, 6>> oraclePass(
                 const glm::dvec3 d = image.position.vector(qx, qy) - image.position.vector(x, y);
                 const double beta = image.beta.at(x, y), u = d.x / beta, v = d.z / beta;
                 const double w = std::exp(-0.5 * (u * u + v * v));
-                const std::array<double, 6>& m = in[static_cast<std::size_t>(qy * image.width() + qx)];
+                const std::array<double, 6>& m = in[indexOf(image, qx, qy)];
                 const shared::Vec3 along = image.params.shearU, across = image.params.shearV;
                 const double a = u * along.x + v * along.z, b = u * across.x + v * across.z;
                 weights += w;
@@ -70,7 +75,7 @@ std::vector<std::array<double, 6>> oraclePass(
                     sum[p] += w * m[p];
             }
             for (std::size_t p = 0; p < 6; ++p)
-                out[static_cast<std::size_t>(y * image.width() + x)][p] = sum[p] / weights;
+                out[indexOf(image, x, y)][p] = sum[p] / weights;
         }
     return out;
 }
@@ -133,7 +138,7 @@ TEST_CASE("both passes of the filter pass polynomials on as their definition in 
         const FilterResult found = curved(image);
         for (int y = 0; y < image.height(); ++y)
             for (int x = 0; x < image.width(); ++x)
-                REQUIRE(std::fabs(found.value.at(x, y) - expected[static_cast<std::size_t>(y * image.width() + x)][0])
+                REQUIRE(std::fabs(found.value.at(x, y) - expected[indexOf(image, x, y)][0])
                     < 3e-3); // moments of rows have 16 bits
     });
 }

@@ -44,7 +44,7 @@ struct ComponentTerm {
 
 /// Declares the filter of components (kernels/filter/components.h) into planes that were there.
 void componentFilter(FrameBuilder& frame, const shared::FilterParams& params, const shared::AnalysisParams& analysis,
-    const shared::AreaLight& light, const graph::Handle<Value>& value, const graph::Handle<Metres>& beta,
+    const shared::AreaLight& light, const graph::Handle<Value>& shown, const graph::Handle<Metres>& beta,
     const ComponentTerm& term, Gathered& out);
 
 } // namespace wedge::render

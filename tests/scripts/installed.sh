@@ -43,7 +43,7 @@ complete -p wedge >/dev/null
 expected="render" completes re
 expected="--bounces" completes render x.toml --boun
 expected="--no-antialias" completes render --no-a
-expected="mc aaf" completes render --method ""
+expected="mc aaf maaf" completes render --method ""
 expected="aaf" completes render --method aa
 expected="fast" completes render --bvh = f
 expected="rmse relmse" completes compare --metric r
