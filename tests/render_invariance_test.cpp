@@ -1,6 +1,7 @@
 // What must not change an image: repetition, batches, crops, the company of other lights.
 #include "tests/render_support.h"
 
+#include <algorithm>
 #include <cstring>
 #include <numeric>
 
@@ -19,7 +20,10 @@ struct Named {
 std::vector<Named> methods()
 {
     std::vector<Named> out = { { "mc", render::monteCarlo(13) }, { "aaf", render::axisAligned(16) },
-        { "published", render::asPublished() }, { "maaf", render::multipleAxisAligned(render::Maaf::TwoSlope, 16) } };
+        { "published", render::asPublished() }, { "maaf", render::multipleAxisAligned(render::Maaf::TwoSlope, 16) },
+        { "three components", render::multipleAxisAligned(render::Maaf::Printed, 16) },
+        { "five components", render::multipleAxisAligned(render::Maaf::Refitted, 16) } };
+    out[4].settings.components = 3;
     for (Named& m : out)
         m.settings = sized(m.settings, width, height);
     return out;
@@ -104,8 +108,13 @@ TEST_CASE("nothing shows of what lay in the memory before")
         frames.back().settings.bounces = 1;
         frames.push_back({ "uniform counts", methods()[1].settings });
         frames.back().settings.sampling = render::Sampling::Uniform;
-        frames.push_back({ "crop", frames[4].settings });
-        frames.back().settings.crop = { 21, 9, 50, 31 };
+        for (const char* whole : { "mc, ambient occlusion", "aaf, indirect" }) {
+            const auto found = std::ranges::find(frames, whole, &Named::name);
+            REQUIRE(found != frames.end());
+            Named cropped { found->name + ", crop", found->settings };
+            cropped.settings.crop = { 21, 9, 50, 31 };
+            frames.push_back(cropped);
+        }
         for (const Named& frame : frames) {
             CAPTURE(frame.name);
             const image::Window window = render::outputWindow(frame.settings);
