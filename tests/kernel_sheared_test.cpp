@@ -213,7 +213,7 @@ TEST_CASE("gradients are means of what samples add up to, and widths follow coun
             const auto gradients = bench.buffer(inShorts(scores)), slopeWidth = bench.filled(layout.size, -7.0f),
                        width = bench.buffer(beta.values);
             bench.passes.rows("filter", device::PassKind::Filter, "analysis/shear.cl", "shadowGradients", p,
-                WEDGE_BLOCK_PIXELS, bench.buffer(sums.values), gradients);
+                WEDGE_BLOCK_PIXELS, 2u, 1.0f, 0.0f, bench.buffer(sums.values), gradients);
             bench.passes.rows("filter", device::PassKind::Filter, "analysis/shear.cl", "narrowByCounts", p, 1, 28.0f,
                 0.2f, bench.buffer(taken.values), slopeWidth, width);
             const Planes<float> found = ofShorts(layout, 2 * channels, bench.read(gradients)),

@@ -309,8 +309,9 @@ TEST_CASE("moments become the factors of a polynomial")
                     for (std::uint32_t c = 0; c < channels; ++c)
                         sums.at(x, y, 2 * c) = static_cast<float>(uniform(random, 1, 20));
             const auto onDevice = bench.buffer(inShorts(moments));
-            bench.passes.rows("filter", device::PassKind::Filter, "analysis/two_slopes.cl", "shadowMoments",
-                paramsOf(layout), WEDGE_BLOCK_PIXELS, bench.buffer(sums.values), onDevice);
+            bench.passes.rows("filter", device::PassKind::Filter, "analysis/shear.cl", "shadowGradients",
+                paramsOf(layout), WEDGE_BLOCK_PIXELS, WEDGE_MOMENTS, -WEDGE_ORDER1, WEDGE_ORDER2,
+                bench.buffer(sums.values), onDevice);
             const Planes<float> found = ofShorts(layout, 5 * channels, bench.read(onDevice));
             for (int y = 0; y < 5; ++y)
                 for (int x = 0; x < 19; ++x)

@@ -1,6 +1,6 @@
 // Whole frames of method maaf.
 #include "effects/area_lights/maaf.h"
-#include "tests/render_support.h"
+#include "tests/slats_scene.h"
 
 using namespace wedge;
 using namespace wedge::test;
@@ -8,22 +8,6 @@ using namespace wedge::test;
 namespace {
 
 constexpr int width = 64, height = 48;
-
-/// A ground in the penumbrae of three slats at different heights.
-scene::Scene slats(scene::LightProfile profile)
-{
-    SceneBuilder b;
-    b.newObject();
-    b.quad({ 0, 0, 0 }, { 0, 0, 4 }, { 4, 0, 0 });
-    for (int i = 0; i < 3; ++i) {
-        b.newObject();
-        b.quad({ -0.6f + 0.6f * static_cast<float>(i), 0.5f + 0.3f * static_cast<float>(i), 0 }, { 0.1f, 0, 0.02f },
-            { 0, 0, 0.8f });
-    }
-    b.light({ 0, 3, 0 }, { 0.4f, 0, 0 }, { 0.1f, 0, 0.3f }, profile, 2).radiance = { 20, 18, 15 };
-    b.camera({ 0, 1.6f, 2.8f }, { 0, 0.1f, 0.4f });
-    return b.scene;
-}
 
 render::Settings ofMaaf(render::Maaf maaf, int spp, int components = 5)
 {
@@ -43,17 +27,12 @@ TEST_CASE("filters of both slopes err less than plain sampling, and less than on
         truth.seed = 99;
         const std::vector<float> reference = renderPixels(renderer, truth);
         for (const int spp : { 9, 28 }) {
-            const auto errorOf = [&](render::Settings s) {
-                double squares = 0;
-                for (s.seed = 1; s.seed <= 3; ++s.seed)
-                    squares += std::pow(rmse(renderPixels(renderer, s), reference), 2.0);
-                return std::sqrt(squares / 3);
-            };
+            const auto of = [&](const render::Settings& s) { return errorOf(renderer, s, reference); };
             render::Settings one = sized(render::axisAligned(spp), width, height);
-            const double aaf = errorOf(one);
+            const double aaf = of(one);
             one.sheared = false;
-            const double without = errorOf(one), plain = errorOf(sized(render::monteCarlo(spp), width, height)),
-                         both = errorOf(ofMaaf(render::Maaf::TwoSlope, spp));
+            const double without = of(one), plain = of(sized(render::monteCarlo(spp), width, height)),
+                         both = of(ofMaaf(render::Maaf::TwoSlope, spp));
             MESSAGE(spp, " samples: ", both, ", aaf ", aaf, ", without gradients ", without, ", unfiltered ", plain);
             CHECK(both < (spp == 9 ? 0.8 : 0.5) * plain);
             CHECK((spp == 9 || both < without)); // nine tell slopes and widths of so small an image poorly

@@ -224,12 +224,11 @@ Shearing LightGraph::shears()
 {
     auto slopeWidth = g_.plane<Metres>("width by slopes", shortFloats);
     const graph::Argument p = f_.rectangle(analysisParams());
-    if (twoSlopes()) {
-        f_.blocks("filter", PassKind::Filter, { "analysis/two_slopes.cl", "shadowMoments" },
-            { p, reads("sums", sums_), updates("moments", gradients_) });
-    } else if (sheared()) {
+    if (!ofComponents()) {
+        const bool both = twoSlopes();
         f_.blocks("filter", PassKind::Filter, { "analysis/shear.cl", "shadowGradients" },
-            { p, reads("sums", sums_), updates("gradients", gradients_) });
+            { p, value("each", both ? WEDGE_MOMENTS : 2u), value("first", both ? -WEDGE_ORDER1 : 1.0f),
+                value("second", WEDGE_ORDER2), reads("sums", sums_), updates("gradients", gradients_) });
     }
     f_.pixels("filter", PassKind::Filter, { "analysis/shear.cl", "narrowByCounts" },
         { p, value("mean", static_cast<float>(s_.spp)), value("exponent", s_.countWidth), reads("taken", taken_),

@@ -13,9 +13,13 @@
 /// Of each channel and axis of the light how fast the part of it that is seen changes where the light, in its own
 /// coordinates, moves: mean of (V - h) q over the samples, V their visibility, h its mean, q their scores (scoreOf()).
 ///
+/// each: of a channel 2, or WEDGE_MOMENTS with derivatives of second order; first, second: what those of first and of
+/// second order are multiplied by
+///
 /// in      sums (light_sampling.h)
-/// in out  gradients: of 16 bits; what finishScores() left, of which the means are made
-__kernel void shadowGradients(AnalysisParams p, __global const float* restrict sums, __global float* restrict gradients)
+/// in out  gradients: of 16 bits; what finishScores() or finishMoments() left, of which the means are made
+__kernel void shadowGradients(AnalysisParams p, uint each, float first, float second,
+    __global const float* restrict sums, __global float* restrict gradients)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -23,10 +27,15 @@ __kernel void shadowGradients(AnalysisParams p, __global const float* restrict s
         return;
     }
     const int i = (int)pixelIndex(x, y, p.stride);
-    for (uint k = 0u; k < 2u * WEDGE_CHANNELS; ++k) {
-        const float16 all = loadBlock(sums + (k & ~1u) * p.planeSize, i);
+    for (uint channel = 0u; channel < WEDGE_CHANNELS; ++channel) {
+        const float16 all = loadBlock(sums + 2u * channel * p.planeSize, i);
         const float16 perAll = all > 0.0f ? 1.0f / all : (float16)(0.0f);
-        storeShortsBlock(gradients, p.planeSize, i, k, perAll * loadShortsBlock(gradients, p.planeSize, i, k));
+        for (uint k = 0u; k < each; ++k) {
+            const float16 factor = (k < 2u ? first : second) * perAll;
+            const uint plane = channel * each + k;
+            storeShortsBlock(
+                gradients, p.planeSize, i, plane, factor * loadShortsBlock(gradients, p.planeSize, i, plane));
+        }
     }
 }
 

@@ -1,27 +1,14 @@
 // What filters of a light need that go by both slopes of its shadows (docs/maaf.md): the largest slope over the least
-// one, widths between both, and how shadows bend.
+// one, and widths between both.
 #include "core/packed_planes.h"
 #include "core/vector16.h"
 #include "shared/filter_params.h"
 #include "shared/wedge.h"
 
-#ifdef WEDGE_SPECULAR
-#define WEDGE_CHANNELS 2u
-#else
-#define WEDGE_CHANNELS 1u
-#endif
-/// Of a channel, see light/moments.h.
-#define WEDGE_MOMENTS 5u
-
 /// s_max counts as no more than so many times s_min: what is farther apart no one filter is right for.
 #define WEDGE_MOST_RATIO 4.0f
 /// Weight of spread slopes below which a pixel counts as far from any shadow, as in analysis.cl.
 #define WEDGE_LEAST_SPREAD 1e-4f
-/// A filter's weights as a polynomial of z, by how much the light is displaced: 1 - ORDER1 z + ORDER2 z^2. A Gaussian
-/// of deviation beta over distance makes of waves that are Omega fast, with these two numbers, 1 - (beta Omega)^6 / 48,
-/// and no others leave so little.
-#define WEDGE_ORDER1 0.625f
-#define WEDGE_ORDER2 0.125f
 /// How far filters of both slopes may reach, over how far apart these are (betweenSlopes()).
 #define WEDGE_APART 0.6f
 
@@ -115,26 +102,5 @@ __kernel void widthOfMeanSlope(
         const uint i = pixelIndex(x, y, p.stride);
         const float r = loadShort(ratio, 0u, i, 0u);
         storeShort(slopeWidth, 0u, i, 0u, loadShort(slopeWidth, 0u, i, 0u) * meanSlope(r) / betweenSlopes(r));
-    }
-}
-
-/// Of each channel how the part of it that is seen changes where the light, in its own coordinates, moves, as the
-/// polynomial that filters take (gather_sheared.h): means of (V - h) q over the samples times the orders' factors.
-///
-/// in      sums (light_sampling.h)
-/// in out  moments: of 16 bits; what finishMoments() left, of which the means are made
-__kernel void shadowMoments(AnalysisParams p, __global const float* restrict sums, __global float* restrict moments)
-{
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
-    for (uint k = 0u; k < WEDGE_MOMENTS * WEDGE_CHANNELS; ++k) {
-        const float16 all = loadBlock(sums + 2u * (k / WEDGE_MOMENTS) * p.planeSize, i);
-        const float16 perAll = all > 0.0f ? 1.0f / all : (float16)(0.0f);
-        const float factor = k % WEDGE_MOMENTS < 2u ? -WEDGE_ORDER1 : WEDGE_ORDER2;
-        storeShortsBlock(moments, p.planeSize, i, k, factor * perAll * loadShortsBlock(moments, p.planeSize, i, k));
     }
 }

@@ -6,7 +6,7 @@
 // is the first order of a Gaussian of d and y that is sheared along s. docs/soft-shadows.md
 //
 // Programs of WEDGE_GATHER_CURVED have the second order as well, and factors of both in what they read
-// (analysis/two_slopes.cl): the mean of h - 5/8 d h' + 1/8 d^2 h'' is off from the sixth derivative on. docs/maaf.md
+// (analysis/shear.cl): the mean of h - 5/8 d h' + 1/8 d^2 h'' is off from the sixth derivative on. docs/maaf.md
 //
 // Included by gather_lines.h, between its types and its passes.
 #ifndef WEDGE_GATHER_SHEARED_H

@@ -6,12 +6,11 @@
 // y in standard deviations of the light, Omega its bandwidth in their reciprocals, (6), N = WEDGE_COMPONENTS of them.
 // Samples are distributed as the profile l, and so weighted by B / l. None of this goes by slopes: what does is the
 // filter's (filter/components.h), so that one pass may sample before they are known.
-#ifndef WEDGE_COMPONENTS_H
-#define WEDGE_COMPONENTS_H
+#ifndef WEDGE_LIGHT_COMPONENTS_H
+#define WEDGE_LIGHT_COMPONENTS_H
 
-#include "light/light_sampling.h"
+#include "light/products.h"
 #include "shared/components.h"
-#include "sinks/lanes.h"
 
 #define WEDGE_PRODUCTS (WEDGE_COMPONENTS * WEDGE_COMPONENTS)
 
@@ -24,11 +23,7 @@ typedef struct {
 WEDGE_INLINE void beginComponents(const Sampling* at, Components* state)
 {
     (void)at;
-    for (uint k = 0u; k < WEDGE_SUMS * WEDGE_PRODUCTS; ++k) {
-        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-            state->sum[k][lane] = 0.0f;
-        }
-    }
+    clearProducts(WEDGE_PRODUCTS, state->sum);
 }
 
 /// B / l of one axis at the lanes' coordinates.
@@ -52,15 +47,8 @@ WEDGE_INLINE void basisOf(float bandwidth, const float* y, float (*basis)[WEDGE_
 
 WEDGE_INLINE void takeComponents(const Sampling* at, const Samples* s, Components* state, LightAxes light)
 {
-    float u[WEDGE_PACKET_SIZE], v[WEDGE_PACKET_SIZE];
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const Vec3 from = vec3(s->rays->originX[lane], s->rays->originY[lane], s->rays->originZ[lane]);
-        const Vec3 ray = vec3(s->rays->directionX[lane], s->rays->directionY[lane], s->rays->directionZ[lane]);
-        const Vec3 point = vecSub(vecAdd(from, ray), light.centre);
-        const bool traced = s->rays->tMax[lane] > 0.0f;
-        u[lane] = traced ? vecDot(light.alongU, point) : 0.0f;
-        v[lane] = traced ? vecDot(light.alongV, point) : 0.0f;
-    }
+    float u[WEDGE_PACKET_SIZE], v[WEDGE_PACKET_SIZE], traced[WEDGE_PACKET_SIZE]; // what is not counts nothing
+    pointsAlong(s, light.centre, light.alongU, light.alongV, u, v, traced);
     float ofU[WEDGE_COMPONENTS][WEDGE_PACKET_SIZE], ofV[WEDGE_COMPONENTS][WEDGE_PACKET_SIZE];
     basisOf(light.bandwidth, u, ofU);
     basisOf(light.bandwidth, v, ofV);

@@ -4,6 +4,15 @@
 
 #include "light.h"
 
+/// Numbers of a channel that filters of both slopes go by: derivatives of first order along u and v, of second along
+/// u u, u v and v v.
+#define WEDGE_MOMENTS 5u
+/// Such a filter's weights as a polynomial of z, by how much the light is displaced: 1 - ORDER1 z + ORDER2 z^2. A
+/// Gaussian of deviation beta over distance makes of waves that are Omega fast, with these two numbers,
+/// 1 - (beta Omega)^6 / 48, and no others leave so little.
+#define WEDGE_ORDER1 0.625f
+#define WEDGE_ORDER2 0.125f
+
 WEDGE_SHARED_BEGIN
 
 /// Coordinates of a Gaussian light, in standard deviations of its profile along either axis.
