@@ -329,7 +329,9 @@ TEST_CASE("the published fallback: mean distances within 5 pixels, then (3.13) a
             const Planes<float> spread = analysis.spread(in, planesOf(in.layout(), bench.read(distances)), 4);
             const auto betaOut = bench.filled(in.layout().size, -7.0f);
             const auto wantedOut = bench.filled(in.layout().size, 777u);
-            analysis.launch("publishedWidths", in.params, 1, bench.buffer(in.slopes.values),
+            shared::AnalysisParams narrower = in.params; // filters: counts keep their own mu
+            narrower.mu = 3;
+            analysis.launch("publishedWidths", narrower, 1, in.params.mu, bench.buffer(in.slopes.values),
                 bench.buffer(spread.values), bench.buffer(in.objectId.values), bench.buffer(in.pixelSize.values),
                 bench.buffer(in.sums.values), betaOut, wantedOut);
             const Planes<float> beta = planesOf(in.layout(), bench.read(betaOut));
@@ -348,7 +350,7 @@ TEST_CASE("the published fallback: mean distances within 5 pixels, then (3.13) a
                 const double sMin = own ? in.slopes.at(x, y) : std::clamp(d1 / farthest - 1, 1e-4, 1e3);
                 const double sMax = own ? in.slopes.at(x, y, 1) : std::clamp(d1 / nearest - 1, 1e-4, 1e3);
                 const double d = in.pixelSize.at(x, y);
-                const double width = d1 > 0 ? std::max(0.25 * sMin, (1 + sMin) * d) / 6 : 0.0;
+                const double width = d1 > 0 ? std::max(0.25 * sMin, (1 + sMin) * d) / 9 : 0.0;
                 // Distances are floats: s = d1/d2 - 1 has lost digits where it is small.
                 const double slack = d1 > 0 ? 1e-5 * (1 + 1 / sMin) : 1e-5;
                 REQUIRE(beta.at(x, y) == doctest::Approx(lit ? width : -1.0).epsilon(slack));
@@ -381,7 +383,7 @@ TEST_CASE("an occluder at the receiver or at the light gives widths and counts w
         const auto none = bench.filled(4 * in.layout().size, 0.0f);
         const auto beta = bench.filled(in.layout().size, -7.0f);
         const auto wanted = bench.filled(in.layout().size, 777u);
-        analysis.launch("publishedWidths", in.params, 1, bench.buffer(in.slopes.values), none,
+        analysis.launch("publishedWidths", in.params, 1, in.params.mu, bench.buffer(in.slopes.values), none,
             bench.buffer(in.objectId.values), bench.buffer(in.pixelSize.values), bench.buffer(in.sums.values), beta,
             wanted);
         const Planes<float> widths = planesOf(in.layout(), bench.read(beta));

@@ -28,6 +28,14 @@ graph::Sink stored()
         .finish = { "storedCounts" } };
 }
 
+/// The same of points on lights alone.
+graph::Sink storedPoints()
+{
+    graph::Sink out = stored();
+    out.file = "sinks/stored_points.h";
+    return out;
+}
+
 scene::Scene glossyScene()
 {
     scene::Scene scene = smallScene();
@@ -363,6 +371,25 @@ TEST_CASE("points on lights: a sink that stores each sample gets what the sums a
                         ++onLight;
                     });
                 CHECK(onLight > 1000);
+                // Sinks that go by where points are get what these bring, without what directions met elsewhere.
+                const Result all = sampler.lights(*points, params, light, { stored() }),
+                             alone = sampler.lights(*points, params, light, { storedPoints() });
+                REQUIRE(alone.counts == all.counts);
+                std::size_t differ = 0, partly = 0, some = 0;
+                for (std::size_t i = 0; i < points->size(); ++i)
+                    for (std::size_t slot = 0; slot < all.counts[i]; ++slot)
+                        for (const std::size_t part : { 0u, 2u }) {
+                            const auto number = [&](const Result& of, std::size_t k) {
+                                return of.stored[(slot * storedPlanes + 3 + part + k) * points->size() + i];
+                            };
+                            const float there = number(alone, 0), seen = number(alone, 1);
+                            some += there > 0 ? 1 : 0;
+                            partly += seen != 0 && seen != there ? 1 : 0;
+                            differ += there != number(all, 0) || seen != number(all, 1) ? 1 : 0;
+                        }
+                CHECK(some > 1000);
+                CHECK(partly == 0);
+                CHECK((differ > 100) == (finding == WEDGE_LIGHTS_BOTH));
             }
     });
 }

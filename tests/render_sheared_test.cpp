@@ -46,6 +46,24 @@ TEST_CASE("gradients are not taken where nothing is there to take them of")
     CHECK_FALSE(render::isSheared(render::monteCarlo(28)));
 }
 
+TEST_CASE("counts from the spectrum are what mu says, however wide filters are")
+{
+    onEveryDevice([](const device::Device& device) {
+        const scene::Scene scene = slats(scene::LightProfile::Gaussian);
+        render::Renderer renderer(scene, device, renderOptions());
+        const auto samples = [&](render::Settings s) {
+            s.counts = render::Counts::Spectrum;
+            return renderer.render(sized(s, width, height)).shadowRays;
+        };
+        render::Settings plain = render::axisAligned(28);
+        plain.sheared = false;
+        const auto expected = samples(plain);
+        CHECK(expected > 10ULL * width * height); // more than the first pass
+        CHECK(samples(render::axisAligned(28)) == expected);
+        CHECK(samples(render::multipleAxisAligned(render::Maaf::TwoSlope)) == expected);
+    });
+}
+
 TEST_CASE("a score has the first moment 1 over its light, and goes by coordinates of axes at any angle")
 {
     const auto near = [](double a, double b) { return std::fabs(a - b) < 2e-3; };

@@ -69,8 +69,9 @@ void publishedWidths(FrameBuilder& frame, const shared::AnalysisParams& params, 
             updates("distances", distances) });
     const auto spread = spreadOver(frame, params, 4, distances);
     frame.pixels("widths", PassKind::Analysis, { "analysis/analysis.cl", "publishedWidths" },
-        { p, reads("slopes", slopes), reads("distances", spread), reads("objectId", s.objectId),
-            reads("pixelSize", s.pixelSize), reads("lit", lit()), writes("beta", beta), writes("wanted", wanted) });
+        { p, value("countMu", frame.settings.mu), reads("slopes", slopes), reads("distances", spread),
+            reads("objectId", s.objectId), reads("pixelSize", s.pixelSize), reads("lit", lit()), writes("beta", beta),
+            writes("wanted", wanted) });
 }
 
 } // namespace wedge::render

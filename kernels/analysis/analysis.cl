@@ -252,8 +252,9 @@ __kernel void narrowForHighlights(AnalysisParams p, FrameParams frame, AreaLight
 }
 
 /// Widths (3.13) and sample counts (3.21) of the published setting; distances: the sums of publishedDistances over
-/// the window. A pixel with no occluded one near keeps the first pass's samples and is not filtered.
-__kernel void publishedWidths(AnalysisParams p, __global const float* restrict slopes,
+/// the window. A pixel with no occluded one near keeps the first pass's samples and is not filtered. countMu: counts'
+/// own, since p.mu is as wide as filters are.
+__kernel void publishedWidths(AnalysisParams p, float countMu, __global const float* restrict slopes,
     __global const float* restrict distances, __global const uint* restrict objectId,
     __global const float* restrict pixelSize, __global const float* restrict sums, __global float* restrict beta,
     __global uint* restrict wanted)
@@ -278,7 +279,7 @@ __kernel void publishedWidths(AnalysisParams p, __global const float* restrict s
     const float analysed = filtered ? filterWidth(sMin, p.sigma, pixelSize[i], p.k, p.mu, p.alpha) : 0.0f;
     const float wide = p.fixedWidth > 0.0f ? p.fixedWidth * pixelSize[i] : analysed;
     beta[i] = lit ? wide : -1.0f;
-    const float count = filtered && lit ? sampleCount(sMin, sMax, pixelSize[i], p.lightSize, p.mu, p.alpha) : 0.0f;
+    const float count = filtered && lit ? sampleCount(sMin, sMax, pixelSize[i], p.lightSize, countMu, p.alpha) : 0.0f;
     const float bounded = fmin(fmax(count, (float)WEDGE_FIRST_PASS_RAYS), (float)p.countCap);
     wanted[i] = objectId[i] != 0u ? (uint)(bounded + 0.5f) : 0u;
 }

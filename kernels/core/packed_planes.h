@@ -99,16 +99,17 @@ WEDGE_FN void storeNormal(__global float* planes, uint planeSize, uint i, uint p
     }
 }
 
-/// One of several numbers of 16 bits: the first (which: 0), the second and so on of all pixels.
+/// One of several numbers of 16 bits: the first (which: 0), the second and so on of all pixels. Components of filters
+/// are up to 196 planes, which have more elements than 32 bits count from 22 million pixels on.
 WEDGE_FN float loadShort(__global const float* plane, uint planeSize, uint i, uint which)
 {
-    return unpackShort(((__global const ushort*)plane)[which * planeSize + i]);
+    return unpackShort(((__global const ushort*)plane)[(size_t)which * planeSize + i]);
 }
 
 /// Sixteen of them.
 WEDGE_FN float16 loadShortsBlock(__global const float* plane, uint planeSize, int i, uint which)
 {
-    return as_float16(convert_uint16(vload16(0, (__global const ushort*)plane + which * planeSize + i)) << 16);
+    return as_float16(convert_uint16(vload16(0, (__global const ushort*)plane + (size_t)which * planeSize + i)) << 16);
 }
 
 WEDGE_FN float16 loadShortBlock(__global const float* plane, int i) { return loadShortsBlock(plane, 0u, i, 0u); }
@@ -118,7 +119,7 @@ WEDGE_FN void storeShortsBlock(__global float* plane, uint planeSize, int i, uin
 {
     const uint16 bits = as_uint16(value);
     vstore16(convert_ushort16((bits + 0x7fffu + (bits >> 16 & 1u)) >> 16), 0,
-        (__global ushort*)plane + which * planeSize + i);
+        (__global ushort*)plane + (size_t)which * planeSize + i);
 }
 
 /// Sixteen deviations, which have 16 bits where they are packed.
@@ -165,7 +166,7 @@ WEDGE_FN void storeHits(__global uint* hits, uint i, uint packed, uint count)
 
 WEDGE_FN void storeShort(__global float* plane, uint planeSize, uint i, uint which, float x)
 {
-    ((__global ushort*)plane)[which * planeSize + i] = (ushort)packShort(x);
+    ((__global ushort*)plane)[(size_t)which * planeSize + i] = (ushort)packShort(x);
 }
 
 /// A vector on the image in one plane of two numbers.

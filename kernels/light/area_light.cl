@@ -95,16 +95,23 @@ WEDGE_INLINE void takePoints(AreaLight light, __global const TraversalNode* rest
     anyHits(nodes, blocks, &packet, occluded);
     const PacketHits* hits = 0;
 #endif
+    float points[WEDGE_SUMS][WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const bool visible = occluded[lane] == 0u;
-        numbers[0][lane] += s->diffuse[lane];
-        numbers[1][lane] += visible ? s->diffuse[lane] : 0.0f;
+        points[0][lane] = s->diffuse[lane];
+        points[1][lane] = visible ? s->diffuse[lane] : 0.0f;
 #ifdef WEDGE_SPECULAR
-        numbers[2][lane] += s->specular[lane];
-        numbers[3][lane] += visible ? s->specular[lane] : 0.0f;
+        points[2][lane] = s->specular[lane];
+        points[3][lane] = visible ? s->specular[lane] : 0.0f;
 #endif
     }
-    const Samples samples = { (const float(*)[WEDGE_PACKET_SIZE])numbers, &packet, hits };
+    for (uint k = 0u; k < WEDGE_SUMS; ++k) {
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            numbers[k][lane] += points[k][lane];
+        }
+    }
+    const Samples samples = { (const float(*)[WEDGE_PACKET_SIZE])numbers, (const float(*)[WEDGE_PACKET_SIZE])points,
+        &packet, hits };
     takeSamples(at, &samples, sink, WEDGE_SINK_ARGUMENTS);
     countRays(&packet, counts);
 }

@@ -58,7 +58,7 @@ WEDGE_INLINE void takeComponents(const Sampling* at, const Samples* s, Component
             const float* b = ofV[product % WEDGE_COMPONENTS];
             float weighted[WEDGE_PACKET_SIZE];
             for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-                weighted[lane] = s->value[k][lane] * a[lane] * b[lane];
+                weighted[lane] = s->points[k][lane] * a[lane] * b[lane];
             }
             addLanes(at, weighted, state->sum[k * WEDGE_PRODUCTS + product]);
         }

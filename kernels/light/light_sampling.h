@@ -20,6 +20,7 @@ typedef struct {
 /// One sample of each lane.
 typedef struct {
     const float (*value)[WEDGE_PACKET_SIZE]; ///< WEDGE_SUMS of them
+    const float (*points)[WEDGE_PACKET_SIZE]; ///< the part of it that points on the light have, without directions
     const RayPacket* rays; ///< to the points on the light, where they are 1; tMax is 0 where none was traced
     const PacketHits* hits; ///< of rays to points on the light, where sinks take hits; else null
 } Samples;

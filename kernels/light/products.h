@@ -1,5 +1,6 @@
 // Sums of products of samples with what goes by where on the light they are: what the sinks Scores, Moments and
-// Components keep. Of each number of the samples there are `each` sums, one after the other.
+// Components keep. Of each number of the samples there are `each` sums, one after the other. Only points on the light
+// count: where a reflected direction meets it, if it does, is elsewhere.
 #ifndef WEDGE_PRODUCTS_H
 #define WEDGE_PRODUCTS_H
 
@@ -37,7 +38,7 @@ WEDGE_INLINE void addProducts(const Sampling* at, const Samples* s, uint each,
     for (uint k = 0u; k < each * WEDGE_SUMS; ++k) {
         float product[WEDGE_PACKET_SIZE];
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-            product[lane] = factors[k % each][lane] * s->value[k / each][lane];
+            product[lane] = factors[k % each][lane] * s->points[k / each][lane];
         }
         addLanes(at, product, sum[k]);
     }

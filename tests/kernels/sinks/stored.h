@@ -5,6 +5,9 @@
 #include "sinks/lanes.h"
 
 #define WEDGE_SINK_TAKES_RAYS
+#ifndef WEDGE_STORED
+#define WEDGE_STORED value ///< of Samples
+#endif
 
 /// Planes of a sample: the ray's direction, then what it adds to each sum.
 #define WEDGE_STORED_PLANES (3u + WEDGE_SUMS)
@@ -34,7 +37,7 @@ WEDGE_INLINE void takeStored(const Sampling* at, const Samples* s, Stored* state
         sample[at->size] = s->rays->directionY[lane];
         sample[2u * at->size] = s->rays->directionZ[lane];
         for (uint k = 0u; k < WEDGE_SUMS; ++k) {
-            sample[(3u + k) * at->size] = s->value[k][lane];
+            sample[(3u + k) * at->size] = s->WEDGE_STORED[k][lane];
         }
         state->count[r] += 1u;
     }
