@@ -253,12 +253,16 @@ struct TemporalFilter::Declaration {
                 reads("earlierNoisy", earlier.before, graph::wholeImage),
                 reads("earlierVariation", earlier.variation, graph::wholeImage), writes("difference", difference),
                 writes("noise", noise), writes("variations", variations), writes("share", share) });
-        blocks("sumBlocks",
-            { reads("noise", noise), reads("variations", variations), reads("share", share), writes("sums", sums) });
-        blocks("weighBlocks", { reads("sums", sums), writes("weights", weights) });
+        const bool weighed = params.published == 0;
+        if (weighed) {
+            blocks("sumBlocks",
+                { reads("noise", noise), reads("variations", variations), reads("share", share),
+                    writes("sums", sums) });
+            blocks("weighBlocks", { reads("sums", sums), writes("weights", weights) });
+        }
         f.pixels(pass, PassKind::Filter, { file, "addFrame" },
-            { p, reads("difference", difference), reads("share", share), reads("weights", weights), updates("sum", sum),
-                updates("counts", counts) });
+            { p, reads("difference", difference), reads("share", share), readsIf(weighed, "weights", weights),
+                updates("sum", sum), updates("counts", counts) });
     }
 
     void finish()

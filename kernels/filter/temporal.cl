@@ -291,8 +291,22 @@ __kernel void weighBlocks(
     weights[block] = temporalTrust(t, ratio);
 }
 
+/// Weights of blocks, interpolated between their centres.
+WEDGE_FN float weightAt(TemporalParams p, __global const float* weights, uint x, uint y)
+{
+    const float scale = 1.0f / (float)WEDGE_TEMPORAL_BLOCK;
+    const float bx = clamp(((float)x + 0.5f) * scale - 0.5f, 0.0f, (float)(p.blocksX - 1u));
+    const float by = clamp(((float)y + 0.5f) * scale - 0.5f, 0.0f, (float)(p.blocksY - 1u));
+    const uint left = (uint)bx, top = (uint)by;
+    const uint right = min(left + 1u, p.blocksX - 1u), below = min(top + 1u, p.blocksY - 1u);
+    const float fx = bx - (float)left, fy = by - (float)top;
+    const float above = mix(weights[top * p.blocksX + left], weights[top * p.blocksX + right], fx);
+    const float under = mix(weights[below * p.blocksX + left], weights[below * p.blocksX + right], fx);
+    return mix(above, under, fy);
+}
+
 /// Adds an earlier frame.
-/// in      difference, share; weights of blocks, between whose centres they are interpolated
+/// in      difference, share; weights: as published not looked at
 /// in out  sum: of g w times the difference, as many planes; counts: of g
 __kernel void addFrame(TemporalParams p, __global const float* restrict difference,
     __global const float* restrict share, __global const float* restrict weights, __global float* restrict sum,
@@ -302,15 +316,7 @@ __kernel void addFrame(TemporalParams p, __global const float* restrict differen
     if (!temporalPixel(p, &x, &y, &i) || share[i] == 0.0f) {
         return;
     }
-    const float scale = 1.0f / (float)WEDGE_TEMPORAL_BLOCK;
-    const float bx = clamp(((float)x + 0.5f) * scale - 0.5f, 0.0f, (float)(p.blocksX - 1u));
-    const float by = clamp(((float)y + 0.5f) * scale - 0.5f, 0.0f, (float)(p.blocksY - 1u));
-    const uint left = (uint)bx, top = (uint)by;
-    const uint right = min(left + 1u, p.blocksX - 1u), below = min(top + 1u, p.blocksY - 1u);
-    const float fx = bx - (float)left, fy = by - (float)top;
-    const float above = mix(weights[top * p.blocksX + left], weights[top * p.blocksX + right], fx);
-    const float under = mix(weights[below * p.blocksX + left], weights[below * p.blocksX + right], fx);
-    const float w = p.published != 0u ? 1.0f : mix(above, under, fy);
+    const float w = p.published != 0u ? 1.0f : weightAt(p, weights, x, y);
     const uint planes = p.indirect != 0u ? 6u : 3u;
     for (uint plane = 0u; plane < planes; ++plane) {
         const uint at = plane * p.planeSize + i;
