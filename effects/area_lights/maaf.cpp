@@ -141,6 +141,7 @@ void componentFilter(FrameBuilder& frame, const shared::FilterParams& params, co
         { fmt::format("filter/filter_components{}.cl", settings.components), "filterComponents" },
         { frame.rectangle(params), value("light", axesOf(light, settings.components)),
             value("slopesPerWidth", analysis.k * analysis.mu / analysis.sigma),
+            value("floorPerPixel", 1.0f / (analysis.alpha * analysis.sigma)),
             value("refitted", settings.maaf == Maaf::Refitted ? 1u : 0u), reads("value", shown),
             reads("beta", beta, around), reads("slopeWidth", term.slopeWidth, around), reads("ratio", term.ratio),
             reads("position", s.position, around), reads("normal", s.normal, around),
