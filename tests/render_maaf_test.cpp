@@ -35,7 +35,11 @@ TEST_CASE("filters of both slopes err less than plain sampling, and less than on
                          both = of(ofMaaf(render::Maaf::TwoSlope, spp));
             MESSAGE(spp, " samples: ", both, ", aaf ", aaf, ", without gradients ", without, ", unfiltered ", plain);
             CHECK(both < (spp == 9 ? 0.8 : 0.5) * plain);
-            CHECK((spp == 9 || both < without)); // nine tell slopes and widths of so small an image poorly
+            // Nine tell slopes and widths of so small an image poorly.
+            if (spp == 28) {
+                CHECK(both < without);
+                CHECK(both < 1.03 * aaf); // 0.985 with these seeds
+            }
         }
     });
 }
