@@ -113,6 +113,62 @@ TEST_CASE("options that contradict each other")
     checkRefused(place, { "render", box, "-o", "a.jpeg" }, wrongCall, "a.jpeg");
 }
 
+TEST_CASE("filters of maaf that no light of a frame has are refused where they are named")
+{
+    const Workplace place;
+    const auto scene = [&](const std::string& name, const std::string& lights, const std::string& more = "") {
+        place.write(name,
+            "[image]\nwidth = 8\nheight = 6\n" + camera + more + quad + "material = \"m\"\n" + lights
+                + "[[material]]\nname = \"m\"\n");
+    };
+    scene("lamp.toml", light);
+    scene("point.toml", "[[light]]\ntype = \"point\"\nposition = [0, 3, 0]\nintensity = 1\n");
+    scene("narrow.toml", light + "cut = 1\n");
+    scene("wide.toml", light + "cut = 3\n");
+    scene("lens.toml", light, "aperture = 0.1\n");
+    const auto refused = [&](const std::string& file, const Arguments& more, const std::string& said) {
+        Arguments all { "--method", "maaf" };
+        all.insert(all.end(), more.begin(), more.end());
+        checkRenderRefused(place, file, all, wrongCall, "option has no effect " + said);
+        // Without naming any, the frame is one of method aaf.
+        all = { "render", file, "--quiet", "--method", "maaf", "--size", "8x6", "-o", "a.exr" };
+        const auto isOption = [](const std::string& text) { return text == "--maaf" || text == "--components"; };
+        for (std::size_t i = 0; i < more.size(); ++i) {
+            if (isOption(more[i])) {
+                ++i;
+            } else {
+                all.push_back(more[i]);
+            }
+        }
+        const Outcome outcome = place.run(all);
+        CHECK_MESSAGE(outcome.status == 0, outcome.err);
+    };
+    const std::string distributed = "with method maaf through a lens or shutter, or with antialiasing: --maaf ",
+                      gaussian = "without a Gaussian area light that is cut at 1.5 ";
+    refused("lamp.toml", { "--maaf", "two-slope", "--antialias" },
+        distributed + "two-slope: leave it out, or render through a pinhole");
+    refused("lamp.toml", { "--maaf", "refitted", "--components", "3", "--aperture", "0.1" }, distributed + "refitted");
+    refused("lens.toml", { "--maaf", "printed" }, distributed + "printed");
+    refused("lamp.toml", { "--maaf", "two-slope", "--progressive", "--spp", "32" },
+        "with --progressive: --maaf two-slope: leave it out, or render in one step");
+    refused("lamp.toml", { "--maaf", "two-slope", "--integrator", "ao" },
+        "with integrator ao: --maaf two-slope: leave it out, or add --integrator path");
+    refused(box, { "--maaf", "two-slope" },
+        gaussian + "deviations or beyond: --maaf two-slope: leave it out, or give the scene such a light");
+    refused(
+        "point.toml", { "--maaf", "printed" }, gaussian + "to 2.5 deviations: --maaf printed: leave it out, or give");
+    refused("narrow.toml", { "--maaf", "two-slope" }, gaussian + "deviations or beyond: --maaf two-slope");
+    refused("wide.toml", { "--maaf", "refitted", "--components", "7" },
+        gaussian + "to 2.5 deviations: --maaf refitted: leave it out, or choose --maaf two-slope");
+    for (const Arguments& fine : { Arguments { "lamp.toml", "--maaf", "printed", "--components", "3" },
+             Arguments { "wide.toml", "--maaf", "two-slope" } }) {
+        Arguments all { "render", "--quiet", "--method", "maaf", "--size", "8x6", "-o", "a.exr" };
+        all.insert(all.end(), fine.begin(), fine.end());
+        const Outcome outcome = place.run(all);
+        CHECK_MESSAGE(outcome.status == 0, outcome.err);
+    }
+}
+
 TEST_CASE("sample counts that contradict each other, and those of a scene file")
 {
     const Workplace place;
@@ -148,6 +204,8 @@ TEST_CASE("sample counts that contradict each other, and those of a scene file")
     checkRenderRefused(place, "most.toml", { "--spp", "30" }, wrongCall, "the scene file's max_spp 20 and --spp 30");
     checkRenderRefused(place, "direct.toml", { "--bounces", "1" }, failure, "direct.toml: spp is too low");
     checkRenderRefused(place, box, { "--bounces", "1", "--spp", "12" }, wrongCall, "16 or more");
+    checkRenderRefused(place, box, { "--method", "maaf", "--spp", "8" }, wrongCall, "too few for method maaf: --spp 8");
+    checkRenderRefused(place, "few.toml", { "--method", "maaf" }, failure, "spp is too low for method maaf: 8");
     checkRenderRefused(place, "few.toml", { "--as-published", "--sampling", "uniform" }, failure, "few.toml");
     // What is overridden or has no effect is not refused.
     const std::vector<Arguments> fine = { { "few.toml", "--as-published" }, { "few.toml", "--spp", "9" },

@@ -231,6 +231,8 @@ TEST_CASE("counts of frames through a lens, and options that have no effect on t
         checkRenderRefused(place, "lens.toml", option, wrongCall,
             "option has no effect with method aaf through a lens or shutter, or with antialiasing: " + option[0]);
     }
+    checkRenderRefused(place, "lens.toml", { "--method", "maaf", "--falloff", "ratio" }, wrongCall,
+        "option has no effect with method maaf through a lens or shutter, or with antialiasing: --falloff");
     CHECK(setting({ "--method", "mc", "--sampler", "stratified" }, "sampler") == "stratified");
 }
 
@@ -254,6 +256,8 @@ TEST_CASE("counts that frames through a lens cannot have are refused, and how to
     checkRenderRefused(
         place, "open.toml", { "--mu", "40" }, wrongCall, many + "--mu 40: lower it, or give --spp, 2048 or less");
     checkRenderRefused(place, "plain.toml", { "--antialias", "--spp", "2049" }, wrongCall, many + "--spp 2049" + ways);
+    refused({ "--method", "maaf", "--spp", "2049" },
+        "samples a pixel are too many for method maaf through a lens or shutter, or with antialiasing: --spp 2049");
     refused({ "--spp", "7" }, few + "--spp 7: give 8 or more");
     refused({ "--spp", "7", "--bounces", "1" }, few + "--spp 7: give 8 or more");
     checkRenderRefused(place, "open.toml", { "--max-spp", "7" }, wrongCall, few + "--max-spp 7: give 8 or more");

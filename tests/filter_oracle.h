@@ -20,7 +20,8 @@ struct FilterImage {
     Planes<std::uint32_t> objectId;
     std::optional<Planes<float>> betaOfColumns; ///< where widths along y are others than beta
     std::optional<Planes<float>>
-        gradients; ///< of sheared filters: two planes a channel of value; kernels have 16 bits of them
+        gradients; ///< of sheared filters: planes of each channel of value, two or `moments`; kernels have 16 bits
+    std::size_t moments = 2; ///< 5: of filters that follow second derivatives, as WEDGE_GATHER_CURVED
     bool meanSquare = false; ///< pairs have the mean of both squared bandwidths, as WEDGE_GATHER_MEAN_SQUARE
 
     FilterImage(int width, int height, std::size_t channels)
@@ -261,19 +262,26 @@ inline double pairWidth(const FilterImage& image, double beta, double there)
     return image.params.narrower != 0 ? std::min(beta, there) : beta;
 }
 
-/// What a neighbour counts less for its gradients; those of channel c are channels of `in` after the values.
-inline double shearOf(
+/// What a neighbour counts as: its value, as seen from where it is gathered to. Its moments are channels of `in` after
+/// the values, and as seen from there, too.
+inline double seenThere(
     const FilterImage& image, const OracleResult& in, const LineTap& tap, double slopeWidth, std::size_t c)
 {
     const std::size_t values = image.value.values.size() / image.value.layout.size;
-    if (!image.gradients || c >= values)
-        return 0.0;
-    const auto gradient = [&](std::size_t axis) {
-        return in.value(tap.x, tap.y, static_cast<int>(values + 2 * c + axis));
-    };
-    return (glm::dot(tap.offset, toGlm(image.params.shearU)) * gradient(0)
-               + glm::dot(tap.offset, toGlm(image.params.shearV)) * gradient(1))
-        / slopeWidth;
+    const double own = in.value(tap.x, tap.y, static_cast<int>(c));
+    if (!image.gradients)
+        return own;
+    const std::size_t first = c < values ? values + image.moments * c : c - (c - values) % image.moments;
+    const auto moment = [&](std::size_t k) { return in.value(tap.x, tap.y, static_cast<int>(first + k)); };
+    const double u = glm::dot(tap.offset, toGlm(image.params.shearU)) / slopeWidth,
+                 v = glm::dot(tap.offset, toGlm(image.params.shearV)) / slopeWidth;
+    if (image.moments == 2)
+        return c < values ? own - u * moment(0) - v * moment(1) : own;
+    // The polynomial b.z + z.C z, whose slope elsewhere is b + 2 C z.
+    if (c < values)
+        return own + u * moment(0) + v * moment(1) + u * u * moment(2) + 2 * u * v * moment(3) + v * v * moment(4);
+    const std::size_t k = c - first;
+    return k < 2 ? own + 2 * (u * moment(2 + k) + v * moment(3 + k)) : own;
 }
 
 /// One pass. in: values (channels a pixel) and counts of the pass before, with its doubts.
@@ -329,8 +337,7 @@ inline OracleResult gatherLine(const FilterImage& image, const OracleResult& in,
                 double sum = 0;
                 for (std::size_t t = 0; t < taps.size(); ++t)
                     sum += coefficients[t]
-                        * (in.value(taps[t].x, taps[t].y, static_cast<int>(c))
-                            - shearOf(image, in, taps[t], std::max<double>(beta, image.slopeWidth.at(x, y)), c));
+                        * seenThere(image, in, taps[t], std::max<double>(beta, image.slopeWidth.at(x, y)), c);
                 return sum;
             };
             for (std::size_t c = 0; c < channels; ++c) {
@@ -359,12 +366,12 @@ inline OracleResult oracleRows(const FilterImage& image)
         for (int x = 0; x < image.width(); ++x) {
             for (int c = 0; c < in.channels; ++c)
                 in.values.push_back(image.value.at(x, y, static_cast<std::size_t>(c)));
-            for (int k = 0; image.gradients && k < 2 * in.channels; ++k)
-                in.values.push_back(image.gradients->at(x, y, static_cast<std::size_t>(k)));
+            for (std::size_t k = 0; image.gradients && k < image.moments * static_cast<std::size_t>(in.channels); ++k)
+                in.values.push_back(image.gradients->at(x, y, k));
             in.counts.push_back(1);
             in.doubtful.push_back(false);
         }
-    in.channels *= image.gradients ? 3 : 1;
+    in.channels *= image.gradients ? 1 + static_cast<int>(image.moments) : 1;
     return gatherLine(image, in, 1, 0);
 }
 

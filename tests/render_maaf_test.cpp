@@ -35,7 +35,11 @@ TEST_CASE("filters of both slopes err less than plain sampling, and less than on
                          both = of(ofMaaf(render::Maaf::TwoSlope, spp));
             MESSAGE(spp, " samples: ", both, ", aaf ", aaf, ", without gradients ", without, ", unfiltered ", plain);
             CHECK(both < (spp == 9 ? 0.8 : 0.5) * plain);
-            CHECK((spp == 9 || both < without)); // nine tell slopes and widths of so small an image poorly
+            // Nine tell slopes and widths of so small an image poorly.
+            if (spp == 28) {
+                CHECK(both < without);
+                CHECK(both < 1.03 * aaf); // 0.985 with these seeds
+            }
         }
     });
 }
@@ -78,10 +82,26 @@ TEST_CASE("lights that are not Gaussian, and frames through a lens, are those of
     });
 }
 
+TEST_CASE("Gaussians that are cut until they are uniform in all but name are those of method aaf, bit by bit")
+{
+    onEveryDevice([](const device::Device& device) {
+        for (const float cut : { 0.2f, 1.0f }) {
+            scene::Scene scene = slats(scene::LightProfile::Gaussian);
+            scene.areaLights.at(0).cut = cut;
+            render::Renderer renderer(scene, device, renderOptions());
+            const std::vector<float> aaf = renderPixels(renderer, sized(render::axisAligned(16), width, height));
+            for (const render::Maaf maaf : { render::Maaf::TwoSlope, render::Maaf::Refitted })
+                CHECK(renderPixels(renderer, ofMaaf(maaf, 16)) == aaf);
+        }
+    });
+}
+
 TEST_CASE("where a light has several filters")
 {
     shared::AreaLight light {};
     light.profile = WEDGE_PROFILE_GAUSSIAN;
+    light.halfU = shared::vec3(1, 0, 0);
+    light.halfV = shared::vec3(0, 0, 1);
     light.cut = 2;
     render::Settings s = render::multipleAxisAligned(render::Maaf::Refitted);
     CHECK(render::methodName(s) == "maaf");
@@ -89,6 +109,10 @@ TEST_CASE("where a light has several filters")
     light.cut = 3; // components over such a profile are without bound
     CHECK_FALSE(render::maafOf(s, light));
     s.maaf = render::Maaf::TwoSlope;
+    CHECK(render::maafOf(s, light) == render::Maaf::TwoSlope);
+    light.cut = 1.4f; // nearly half of its slope is in steps
+    CHECK_FALSE(render::maafOf(s, light));
+    light.cut = 1.5f;
     CHECK(render::maafOf(s, light) == render::Maaf::TwoSlope);
     s.shading = render::Shading::Inside;
     CHECK_FALSE(render::maafOf(s, light));

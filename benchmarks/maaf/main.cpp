@@ -62,7 +62,7 @@ private:
 };
 
 /// One filter, in three forms.
-struct Rival {
+struct SingleFilter {
     const char* name; ///< of claims: speedup_vs_<name>
     const char* meaning;
     render::Settings (*settings)(int spp);
@@ -85,7 +85,7 @@ render::Settings ofThesis(int spp)
     return s;
 }
 
-constexpr Rival rivals[] = { { "aaf", "method aaf", [](int spp) { return render::axisAligned(spp); } },
+constexpr SingleFilter rivals[] = { { "aaf", "method aaf", [](int spp) { return render::axisAligned(spp); } },
     { "means", "method aaf without gradients and lines, as it was before it had them", withoutLines },
     { "thesis", "the thesis's widths, with as many samples everywhere", ofThesis } };
 
@@ -110,7 +110,7 @@ std::vector<SceneSource> scenes()
 
 std::vector<TimingColumn> columns() { return withFrameColumns({ tracing(), widthsAndCounts() }); }
 
-/// Pixels whose filter gathers, of those that see something.
+/// Pixels that the first light's filter gathers for, in the frame that was rendered last, of those that see something.
 double filteredShare(render::Renderer& renderer)
 {
     const render::Frame& frame = renderer.frame();
@@ -137,7 +137,7 @@ Row measureRow(Lab& lab, int spp)
     out.spp = method.runs.front().spp;
     out.error = summarize(method.errors()).median;
     out.timing = timeFrames(lab, settings, columns(), fmt::format("maaf {} spp", spp));
-    for (const Rival& rival : rivals) {
+    for (const SingleFilter& rival : rivals) {
         const Comparison compared = compareWith(lab, method, rival.name, rival.meaning, rival.settings);
         const double saved = summarize(compared.saved.samples).median, equal = saved * out.spp;
         // Filters that do not narrow may never get there.
@@ -201,7 +201,7 @@ int measureAll(const Arguments& a)
                 row.speedup[0], row.speedup[1], row.speedup[2]);
             std::fflush(stdout);
         }
-        // Where components stand, and what frames take.
+        // How much of a frame the filter of both slopes has, and what such a frame takes.
         render::Settings settings = maafSettings(render::Maaf::TwoSlope, a.spp.front());
         settings.width = plan.width;
         settings.height = plan.height;
@@ -210,6 +210,7 @@ int measureAll(const Arguments& a)
         settings.maaf.reset();
         claims.add("memory_vs_aaf", bytes / static_cast<double>(lab.renderer().render(settings, {}, true).memoryBytes),
             "1", {}, 2.0);
+        // Where components stand.
         const double aaf = summarize(measureMethod(lab, "aaf", render::axisAligned(a.spp.front())).errors()).median;
         for (const auto& [name, maaf] :
             { std::pair("refitted", render::Maaf::Refitted), { "printed", render::Maaf::Printed } }) {

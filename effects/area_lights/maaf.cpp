@@ -23,6 +23,10 @@ constexpr float bandwidth = 2.0f;
 /// Weights are fitted to a profile that is cut at 2 deviations; farther out components over the profile grow without
 /// bound.
 constexpr float widestCut = 2.5f;
+/// What ends in steps makes kinks in shadows, which second derivatives overshoot and no component knows: steps may have
+/// this much of the profile's first moment, which a Gaussian's have where it is cut at 1.5 deviations. Cut at a
+/// fraction of one it is uniform in all but name.
+constexpr float mostEdge = 0.45f;
 /// Of a filter of both slopes, over one of s_min that follows no gradients.
 constexpr float twoSlopeWidth = 2.1f;
 
@@ -32,10 +36,16 @@ std::optional<Maaf> maafOf(const Settings& settings, const shared::AreaLight& li
 {
     const bool filters = settings.method == Method::AxisAligned && settings.filtering == Filtering::Adaptive
         && settings.slopes == Slopes::Smoothed && settings.shading != Shading::Inside;
-    if (!settings.maaf || !filters || light.profile != WEDGE_PROFILE_GAUSSIAN) {
+    if (!settings.maaf || !filters || light.profile != WEDGE_PROFILE_GAUSSIAN || scoreOf(light).edge > mostEdge) {
         return std::nullopt;
     }
     return *settings.maaf == Maaf::TwoSlope || light.cut <= widestCut ? settings.maaf : std::nullopt;
+}
+
+std::string lightOf(Maaf maaf)
+{
+    const std::string cut = "a Gaussian area light that is cut at 1.5 "; // mostEdge
+    return cut + (maaf == Maaf::TwoSlope ? "deviations or beyond" : fmt::format("to {} deviations", widestCut));
 }
 
 shared::LightMoments momentsOf(const shared::AreaLight& light)
@@ -131,6 +141,7 @@ void componentFilter(FrameBuilder& frame, const shared::FilterParams& params, co
         { fmt::format("filter/filter_components{}.cl", settings.components), "filterComponents" },
         { frame.rectangle(params), value("light", axesOf(light, settings.components)),
             value("slopesPerWidth", analysis.k * analysis.mu / analysis.sigma),
+            value("floorPerPixel", 1.0f / (analysis.alpha * analysis.sigma)),
             value("refitted", settings.maaf == Maaf::Refitted ? 1u : 0u), reads("value", shown),
             reads("beta", beta, around), reads("slopeWidth", term.slopeWidth, around), reads("ratio", term.ratio),
             reads("position", s.position, around), reads("normal", s.normal, around),

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace wedge::render {
 
@@ -16,6 +17,9 @@ namespace wedge::render {
 
 /// The filters that method maaf has for a light; none where its filter is that of method aaf.
 std::optional<Maaf> maafOf(const Settings& settings, const shared::AreaLight& light);
+
+/// Which lights have such filters, for people.
+std::string lightOf(Maaf maaf);
 
 /// What its samples are expanded in by filters of both slopes. Scores have the profile's own moments: the first of
 /// order 1, the second of order 2, cut as the profile is.

@@ -6,6 +6,9 @@
 
 namespace wedge::app {
 
+/// How messages call frames whose pixels have several receivers.
+inline constexpr const char* distributedFrames = "through a lens or shutter, or with antialiasing";
+
 /// Samples at which a progressive render ends. Those of the file are for one image, and do not cut short what is to end
 /// otherwise.
 int progressiveSpp(const RenderOptions& options, const scene::Scene& scene);

@@ -1,5 +1,6 @@
 #include "host/app/render_settings.h"
 
+#include "effects/area_lights/maaf.h"
 #include "host/app/render_counts.h"
 #include "host/app/values.h"
 #include "host/error.h"
@@ -77,6 +78,29 @@ void applyMaaf(const RenderOptions& o, const std::string& method, render::Settin
             throw UsageError("option does not go with method maaf", name, "leave it out, or choose --method aaf");
         }
     }
+}
+
+/// The filters of method maaf, where they are named, have to be those of a light: without being asked for any, frames
+/// in which no light has them go as with method aaf.
+void refuseIdleMaaf(const RenderOptions& o, const scene::Scene& scene, bool distributed, const render::Settings& s)
+{
+    if (!s.maaf || !o.maaf) { // --components is refused without
+        return;
+    }
+    const std::string option = "--maaf " + maafs[static_cast<std::size_t>(*o.maaf)];
+    refuse(s.integrator == Integrator::AmbientOcclusion, "with integrator ao", option, "add --integrator path");
+    refuse(s.progressive, "with --progressive", option, "render in one step");
+    refuse(distributed, fmt::format("with method maaf {}", distributedFrames), option,
+        "render through a pinhole what does not move, without antialiasing");
+    const std::vector<render::OwnLight> lights = render::directLights(scene).own;
+    const auto anyHas = [&](render::Maaf maaf) {
+        render::Settings of = s;
+        of.maaf = maaf;
+        return std::ranges::any_of(
+            lights, [&](const render::OwnLight& light) { return render::maafOf(of, light.onDevice()).has_value(); });
+    };
+    refuse(!anyHas(*s.maaf), "without " + render::lightOf(*s.maaf), option,
+        anyHas(render::Maaf::TwoSlope) ? "choose --maaf two-slope" : "give the scene such a light");
 }
 
 /// The mu of the thesis: 3, more conservative, where the light is not a Gaussian or the cosine is filtered along, and
@@ -193,16 +217,15 @@ void applyAblations(const RenderOptions& o, const scene::Scene& scene, bool dist
 }
 
 /// In frames through a lens or a shutter, antialiased and progressive ones, method aaf has but one way to sample.
-void refuseUndistributed(const RenderOptions& o)
+void refuseUndistributed(const RenderOptions& o, const std::string& method)
 {
     const std::pair<const char*, bool> given[] = { { "--falloff", o.falloff.has_value() },
         { "--sampling", o.sampling.has_value() }, { "--counts", o.counts.has_value() },
         { "--sampler", o.sampler.has_value() }, { "--environment-widths", o.environmentWidths.has_value() } };
     for (const auto& [name, isGiven] : given) {
         if (isGiven) {
-            throw UsageError(o.progressive
-                    ? "option has no effect with method aaf and --progressive"
-                    : "option has no effect with method aaf through a lens or shutter, or with antialiasing",
+            throw UsageError("option has no effect with method " + method
+                    + (o.progressive ? std::string(" and --progressive") : fmt::format(" {}", distributedFrames)),
                 name, "leave it out");
         }
     }
@@ -270,9 +293,10 @@ render::Settings resolveSettings(const RenderOptions& o, const scene::Scene& sce
         s.pixelFilter = static_cast<render::PixelFilter>(choice("pixel_filter", *file.pixelFilter, pixelFilters));
     }
     const bool distributed = render::isDistributed(s, scene);
+    refuseIdleMaaf(o, scene, distributed, s);
     if (method == Method::AxisAligned) {
         if (distributed) {
-            refuseUndistributed(o);
+            refuseUndistributed(o, name);
         }
         applyAblations(o, scene, distributed, s);
         applyCounts(o, scene, distributed, s);

@@ -124,8 +124,8 @@ struct IndirectSettings {
 enum class EnvironmentWidths {
     Penumbrae, ///< distances of what hides directions, and how wide what is there is
     Curvature, ///< (6.13), (6.17) of thesis chapter 6, along x and y
-    LightTransport, ///< the same by (6.19), of Durand et al., Frequency Analysis of Light Transport
-    Corrected, ///< the same with other constants, of smoothed occluders, and bounded in pixels
+    LightTransport, ///< as Curvature, but by (6.19), of Durand et al., Frequency Analysis of Light Transport
+    Corrected, ///< as Curvature, with other constants, of smoothed occluders, and bounded in pixels
 };
 
 /// Direct light from beyond the scene, besides IndirectSettings; docs/environment.md says how they were chosen.

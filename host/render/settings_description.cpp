@@ -79,7 +79,7 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
     if (tracesPaths(s) && s.integrator == Integrator::AmbientOcclusion) {
         out.emplace_back("ambientDistance", number(s.indirect.ambientDistance));
     }
-    if (s.method == Method::AxisAligned) {
+    if (s.method == Method::AxisAligned) { // all of it with maaf, too: lights that it has no filter for go by it
         out.insert(out.end(),
             { { "counts", s.counts == Counts::Spectrum ? "spectrum" : "variance" },
                 { "slopes", s.slopes == Slopes::Published ? "published" : "smoothed" }, { "mu", number(s.mu) },

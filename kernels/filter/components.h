@@ -29,6 +29,9 @@
 #endif
 /// Where weights of neighbours cancel to less than this share of what they are without their signs, nothing is known.
 #define WEDGE_LEAST_SHARE 0.05f
+/// How far above the least that filterWidth() has for any slope widths are by slopes of their own: more than what 16
+/// bits round.
+#define WEDGE_ABOVE_FLOOR 1.05f
 
 /// The components of sixteen pixels along an axis of the light, whose standard deviation is 1.
 typedef struct {
@@ -196,10 +199,11 @@ WEDGE_INLINE void addNeighbours(FilterParams p, LightAxes light, GatherBlock b, 
 
 /// in   value: what is filtered, beta: metres, 0 or less: nothing is gathered; slopeWidth: what beta is by slopes
 ///      alone, and ratio: s_max / s_min, both of 16 bits; sums (light_sampling.h), components (light/components.h), and
-///      the gather's planes. slopesPerWidth: s_min over slopeWidth, 1/m. refitted: 1, or 0 for weights as printed
+///      the gather's planes. slopesPerWidth: s_min over slopeWidth, 1/m. floorPerPixel: the least that slopes come out
+///      as, over (1 + s) and the pixel's metres. refitted: 1, or 0 for weights as printed
 /// out  filtered; effective: the number of equal pixels that the weights amount to
-__kernel void filterComponents(FilterParams p, LightAxes light, float slopesPerWidth, uint refitted,
-    __global const float* restrict value, __global const float* restrict beta,
+__kernel void filterComponents(FilterParams p, LightAxes light, float slopesPerWidth, float floorPerPixel,
+    uint refitted, __global const float* restrict value, __global const float* restrict beta,
     __global const float* restrict slopeWidth, __global const float* restrict ratio,
     __global const float* restrict position, __global const float* restrict normal,
     __global const float* restrict pixelSize, __global const uint* restrict objectId,
@@ -216,9 +220,11 @@ __kernel void filterComponents(FilterParams p, LightAxes light, float slopesPerW
     const int i = (int)pixelIndex(x, y, p.stride);
     const uint16 object = loadIdBlock(objectId, i);
     const float16 width = loadShortBlock(slopeWidth, i);
-    // Where a standard deviation of the light is less than a pixel in shadows there is nothing to gather.
+    // Where a standard deviation of the light is less than a pixel in shadows, widths are those of pixels and tell no
+    // slope (filterWidth()), and there is next to nothing to gather.
     const float perMetre = sqrt(fmin(vecDot(light.alongU, light.alongU), vecDot(light.alongV, light.alongV)));
-    const int16 wide = width * slopesPerWidth >= perMetre * loadSizeBlock(pixelSize, i);
+    const float16 slope = width * slopesPerWidth;
+    const int16 wide = slope > WEDGE_ABOVE_FLOOR * floorPerPixel * (1.0f + slope) * loadSizeBlock(pixelSize, i);
     const int16 gathers = (loadBlock(beta, i) > 0.0f) & wide & (object != 0u);
     ComponentSum sum;
     for (uint channel = 0u; channel < WEDGE_COMPONENT_CHANNELS; ++channel) {
@@ -227,7 +233,7 @@ __kernel void filterComponents(FilterParams p, LightAxes light, float slopesPerW
     sum.squared = (float16)(0.0f);
     if (any(gathers)) {
         const GatherBlock b = gatherBlock(p, i, object, position, normal, pixelSize);
-        const float16 sMin = gathers ? width * slopesPerWidth : (float16)(1.0f);
+        const float16 sMin = gathers ? slope : (float16)(1.0f);
         const ComponentBank bank =
             bankOf(light.bandwidth, refitted, sMin, gathers ? loadShortBlock(ratio, i) : (float16)(1.0f));
         const float16 reach = p.cut / perMetre * bank.reach;
