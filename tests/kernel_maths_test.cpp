@@ -139,6 +139,17 @@ TEST_CASE("elementary functions are those of the library")
         sinCosTurn(u, &s, &c);
         turn = std::max({ turn, std::fabs(s - std::sin(2 * pi * u)), std::fabs(c - std::cos(2 * pi * u)) });
     }
+    double angle = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const double a = 2 * pi * i / 4000.0, size = std::pow(10.0, i % 21 - 10);
+        const float x = static_cast<float>(size * std::cos(a)), y = static_cast<float>(size * std::sin(a));
+        angle = std::max(angle, std::fabs(turnOf(y, x) - std::atan2(double { y }, double { x }) / (2 * pi)));
+    }
+    CHECK(angle < 1.2e-7);
+    CHECK(turnOf(0.0f, 0.0f) == 0.0f);
+    CHECK(turnOf(0.0f, -2.0f) == 0.5f);
+    CHECK(turnOf(-3.0f, 0.0f) == -0.25f);
+    CHECK(turnOf(1e-30f, 1e30f) == 0.0f);
     CHECK(logarithm < 1e-7);
     CHECK(error < 5e-7);
     CHECK(power < 1e-6);

@@ -258,6 +258,7 @@ EnvironmentTable environmentTable(const EnvironmentPicture* picture)
     if (!picture->shown.empty()) { // no span is used from here on
         out.map.shown = static_cast<std::uint32_t>(out.numbers.size());
         out.numbers.insert(out.numbers.end(), picture->shown.begin(), picture->shown.end());
+        out.numbers.push_back(0.0f); // behind the last texel
     }
     return out;
 }

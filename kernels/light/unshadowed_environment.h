@@ -69,13 +69,12 @@ WEDGE_FN Vec3 unshadowedLobe(EnvironmentMap map, __global const float* table, Ve
     for (uint first = 0u; first < count; first += 16u) {
         LobeStrata d;
         lobeStrata(lobe, n, v, first, rings, spokes, &d);
-        const float16 dx = vload16(0, d.x), dy = vload16(0, d.y), dz = vload16(0, d.z);
-        const float16 x = map.right.x * dx + map.right.y * dy + map.right.z * dz;
-        const float16 y = map.up.x * dx + map.up.y * dy + map.up.z * dz;
-        const float16 z = map.back.x * dx + map.back.y * dy + map.back.z * dz;
         float across[16], down[16], level[16];
-        vstore16(0.5f + 0.159154943f * atan2(x, -z), 0, across);
-        vstore16(0.318309886f * atan2(sqrt(x * x + z * z), y), 0, down);
+        for (uint lane = 0u; lane < 16u; ++lane) {
+            const Vec2 at = environmentCoordinates(map, vec3(d.x[lane], d.y[lane], d.z[lane]));
+            across[lane] = at.x;
+            down[lane] = at.y;
+        }
         // Between texels' middles an average deviates by half of a texel's side: 1/12 of its square are of the texel,
         // 1/6 of the interpolation. Directions deviate by sqrt(1 / (2 pi count pdf)).
         const float widest = 3.14159265f / (float)WEDGE_COARSE_COLUMNS;

@@ -3,6 +3,7 @@
 #ifndef WEDGE_SHARED_ENVIRONMENT_H
 #define WEDGE_SHARED_ENVIRONMENT_H
 
+#include "maths.h"
 #include "rng.h"
 #include "vec.h"
 
@@ -18,7 +19,8 @@ WEDGE_SHARED_BEGIN
 ///   height+1  cosines of the angles from `up` at which rows begin and end
 ///   27        of red, green and blue each the coefficients of unshadowedLight()
 ///   averages  radiance, R G B of each texel, of coarseLevels() maps
-///   3 texels  where suns were taken out: radiance with them
+///   1         that stands behind the last texel, of which four numbers are read at once
+///   3 texels  where suns were taken out: radiance with them; and again one more
 typedef struct {
     uint width, height; ///< texels; 0: there is no map
     Vec3 right, up, back; ///< unit, in the world: what 3/4 of the width shows in the middle of the height, the upper
@@ -73,22 +75,23 @@ WEDGE_INLINE uint environmentAverages(uint width, uint height)
 /// Floats of the table, without what the camera sees.
 WEDGE_INLINE uint environmentTableSize(uint width, uint height)
 {
-    return environmentAverages(width, height) + coarseLevelAt(coarseLevels(width));
+    return environmentAverages(width, height) + coarseLevelAt(coarseLevels(width)) + 1u;
 }
 
 /// Where the map shows a direction, in widths and heights from its upper left corner.
 WEDGE_FN Vec2 environmentCoordinates(EnvironmentMap m, Vec3 direction)
 {
     const float x = vecDot(m.right, direction), y = vecDot(m.up, direction), z = vecDot(m.back, direction);
-    return vec2(0.5f + 0.159154943f * atan2(x, -z), 0.318309886f * atan2(sqrt(x * x + z * z), y));
+    return vec2(0.5f + turnOf(x, -z), 2.0f * turnOf(sqrt(x * x + z * z), y));
 }
 
-/// The unit direction at u widths, `cosine` that of the angle from `up`.
+/// The unit direction at u widths, 0 to 1, `cosine` that of the angle from `up`.
 WEDGE_FN Vec3 environmentDirection(EnvironmentMap m, float u, float cosine)
 {
-    const float angle = 6.28318531f * (u - 0.5f);
     const float sine = sqrt(fmax(0.0f, 1.0f - cosine * cosine));
-    return vecMad(vecMad(vecScale(m.up, cosine), m.right, sine * sin(angle)), m.back, -sine * cos(angle));
+    float across, along; // of the angle from the left edge, which is half a turn from the middle
+    sinCosTurn(u, &across, &along);
+    return vecMad(vecMad(vecScale(m.up, cosine), m.right, -sine * across), m.back, sine * along);
 }
 
 WEDGE_SHARED_END

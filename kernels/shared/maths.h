@@ -76,6 +76,27 @@ WEDGE_INLINE void sinCosTurn(float turn, float* sine, float* cosine)
     *cosine = ((quarter + 1) & 2) != 0 ? -b : b;
 }
 
+/// The angle of (x, y) in turns, atan2(y, x) / (2 pi), from -1/2 to 1/2, to 1e-7; 0 of (0, 0). Up to an eighth it is
+/// the lesser over the greater times a polynomial of its square, whose largest error is least.
+WEDGE_INLINE float turnOf(float y, float x)
+{
+    const float ax = fabs(x), ay = fabs(y);
+    const float greater = fmax(ax, ay);
+    const float t = greater > 0.0f ? fmin(ax, ay) / greater : 0.0f;
+    const float q = t * t;
+    float p = 0.00108413f;
+    p = -0.00534827f + p * q;
+    p = 0.01267249f + p * q;
+    p = -0.02106151f + p * q;
+    p = 0.03152512f + p * q;
+    p = -0.05302624f + p * q;
+    p = 0.15915432f + p * q;
+    const float toEighth = t * p;
+    const float toQuarter = ay > ax ? 0.25f - toEighth : toEighth;
+    const float toHalf = x < 0.0f ? 0.5f - toQuarter : toQuarter;
+    return y < 0.0f ? -toHalf : toHalf;
+}
+
 WEDGE_SHARED_END
 
 #endif
