@@ -48,26 +48,43 @@ typedef struct {
     float pdf; ///< 1/sr
 } BeyondSample;
 
-/// Of a map of w columns and h rows of R G B, between the four texels around; the first column is beside the last one.
-/// Of each texel four numbers are read at once, one more than there are: loads and sums of four are one instruction
-/// each, and looking a sky up was a quarter of a frame.
+/// The four texels around a place in a map, by where each begins among its numbers, and how far it is between them.
+typedef struct {
+    int above[2], below[2];
+    float across, down;
+} TexelsAround;
+
+/// Of a map of w columns and h rows of R G B; the first column is beside the last one.
 /// at: in widths and heights, from 0 to 1
-WEDGE_FN Vec3 radianceBetween(__global const float* texels, int w, int h, Vec2 at)
+WEDGE_INLINE TexelsAround texelsAround(int w, int h, Vec2 at)
 {
     const float fx = at.x * (float)w - 0.5f, fy = at.y * (float)h - 0.5f;
     const int x = (int)floor(fx), y = (int)floor(fy);
-    const float tx = fx - (float)x, ty = fy - (float)y;
-    const int x0 = x < 0 ? x + w : x, x1 = x + 1 < w ? x + 1 : x + 1 - w;
-    const int y0 = clamp(y, 0, h - 1) * w, y1 = clamp(y + 1, 0, h - 1) * w;
-    const float4 above = vload4(0, texels + 3 * (y0 + x0)) * (1.0f - tx) + vload4(0, texels + 3 * (y0 + x1)) * tx;
-    const float4 below = vload4(0, texels + 3 * (y1 + x0)) * (1.0f - tx) + vload4(0, texels + 3 * (y1 + x1)) * tx;
-    const float4 mean = above * (1.0f - ty) + below * ty;
+    const int left = 3 * (x < 0 ? x + w : x), right = 3 * (x + 1 < w ? x + 1 : x + 1 - w);
+    const int top = 3 * w * clamp(y, 0, h - 1), bottom = 3 * w * clamp(y + 1, 0, h - 1);
+    TexelsAround around;
+    around.above[0] = top + left;
+    around.above[1] = top + right;
+    around.below[0] = bottom + left;
+    around.below[1] = bottom + right;
+    around.across = fx - (float)x;
+    around.down = fy - (float)y;
+    return around;
+}
+
+/// Of each texel four numbers are read at once, one more than there are: loads and sums of four are one instruction
+/// each, and looking a sky up was a quarter of a frame.
+WEDGE_INLINE Vec3 radianceBetween(__global const float* texels, TexelsAround a)
+{
+    const float4 above = vload4(0, texels + a.above[0]) * (1.0f - a.across) + vload4(0, texels + a.above[1]) * a.across;
+    const float4 below = vload4(0, texels + a.below[0]) * (1.0f - a.across) + vload4(0, texels + a.below[1]) * a.across;
+    const float4 mean = above * (1.0f - a.down) + below * a.down;
     return vec3(mean.x, mean.y, mean.z);
 }
 
 WEDGE_FN Vec3 mapRadiance(BeyondData beyond, Vec2 at)
 {
-    return radianceBetween(beyond.table, (int)beyond.map.width, (int)beyond.map.height, at);
+    return radianceBetween(beyond.table, texelsAround((int)beyond.map.width, (int)beyond.map.height, at));
 }
 
 /// The first of `count` numbers in the table at `upTo` that reaches beyond `number`.

@@ -69,24 +69,31 @@ WEDGE_FN Vec3 unshadowedLobe(EnvironmentMap map, __global const float* table, Ve
     for (uint first = 0u; first < count; first += 16u) {
         LobeStrata d;
         lobeStrata(lobe, n, v, first, rings, spokes, &d);
-        float across[16], down[16], level[16];
-        for (uint lane = 0u; lane < 16u; ++lane) {
-            const Vec2 at = environmentCoordinates(map, vec3(d.x[lane], d.y[lane], d.z[lane]));
-            across[lane] = at.x;
-            down[lane] = at.y;
-        }
         // Between texels' middles an average deviates by half of a texel's side: 1/12 of its square are of the texel,
         // 1/6 of the interpolation. Directions deviate by sqrt(1 / (2 pi count pdf)).
         const float widest = 3.14159265f / (float)WEDGE_COARSE_COLUMNS;
         const float16 squared = 6.28318531f * widest * widest * (float)count * vload16(0, d.pdf);
+        float level[16];
         vstore16(0.5f * log2(max16(squared, (float16)(1.0f))) + 0.5f, 0, level);
+        int above[2][16], below[2][16]; // of TexelsAround, from where averages begin
+        float across[16], down[16];
+        for (uint lane = 0u; lane < 16u; ++lane) {
+            const uint chosen = min((uint)level[lane], last);
+            const int columns = (int)(WEDGE_COARSE_COLUMNS << chosen), from = (int)coarseLevelAt(chosen);
+            const TexelsAround a =
+                texelsAround(columns, columns / 2, environmentCoordinates(map, vec3(d.x[lane], d.y[lane], d.z[lane])));
+            above[0][lane] = from + a.above[0];
+            above[1][lane] = from + a.above[1];
+            below[0][lane] = from + a.below[0];
+            below[1][lane] = from + a.below[1];
+            across[lane] = a.across;
+            down[lane] = a.down;
+        }
         for (uint lane = 0u; lane < 16u; ++lane) {
             if (d.weight[lane] > 0.0f) {
-                const uint chosen = min((uint)level[lane], last);
-                const int columns = (int)(WEDGE_COARSE_COLUMNS << chosen);
-                const Vec3 mean = radianceBetween(
-                    averages + coarseLevelAt(chosen), columns, columns / 2, vec2(across[lane], down[lane]));
-                seen = vecMad(seen, mean, d.weight[lane]);
+                const TexelsAround a = { { above[0][lane], above[1][lane] }, { below[0][lane], below[1][lane] },
+                    across[lane], down[lane] };
+                seen = vecMad(seen, radianceBetween(averages, a), d.weight[lane]);
             }
         }
     }
