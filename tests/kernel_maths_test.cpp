@@ -147,6 +147,7 @@ TEST_CASE("elementary functions are those of the library")
     }
     CHECK(angle < 1.2e-7);
     CHECK(turnOf(0.0f, 0.0f) == 0.0f);
+    CHECK(turnOf(1e-40f, 0.0f) == 0.25f); // what devices may take for 0, and divide by
     CHECK(turnOf(0.0f, -2.0f) == 0.5f);
     CHECK(turnOf(-3.0f, 0.0f) == -0.25f);
     CHECK(turnOf(1e-30f, 1e30f) == 0.0f);

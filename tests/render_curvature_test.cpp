@@ -27,7 +27,11 @@ TEST_CASE("as published: an even environment over an open floor comes out as it 
         render::Renderer renderer(b.scene, device, renderOptions());
         const render::Settings s = sized(render::asPublished(), 24, 24);
         checkMean(renderPixels(renderer, s), sky * reflectance, 0.01);
-        CHECK(renderer.render(s).sppMean == doctest::Approx(16));
+        const render::FrameStatistics frame = renderer.render(s);
+        CHECK(frame.sppMean == doctest::Approx(16));
+        // Of each sample a ray to what was chosen by brightness, and one reflected: there is no pass after the first.
+        CHECK(frame.shadowRays + frame.indirectRays >= 16 * frame.shadedPixels);
+        CHECK(frame.shadowRays + frame.indirectRays <= 2 * 16 * frame.shadedPixels);
     });
 }
 

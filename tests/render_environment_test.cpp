@@ -221,6 +221,9 @@ TEST_CASE("a table chooses directions by how far they are brighter than the mean
     const render::EnvironmentTable table = render::environmentTable(p.get());
     const std::size_t w = 32, h = 16;
     REQUIRE(table.numbers.size() == shared::environmentTableSize(w, h));
+    // Kernels read four numbers of each texel.
+    REQUIRE(table.numbers.size() > shared::environmentAverages(w, h)
+            + shared::coarseLevelAt(shared::coarseLevels(static_cast<std::uint32_t>(w))));
     CHECK(table.map.width == w);
     const float* rows = table.numbers.data() + 3 * w * h;
     const float* columns = rows + h;

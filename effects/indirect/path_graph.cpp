@@ -67,7 +67,8 @@ public:
         if (!f_.analysed()) {
             uniformCounts(f_, spp, f_.surfaces.objectId, wanted_);
             paths("paths", 0, spp, s_.spp, false);
-            count();
+            countSamples();
+            countRays();
             addSamples();
             addFiltered(value_);
             return;
@@ -93,8 +94,9 @@ public:
         if (!takesFirstPathsOnly(component_, s_)) {
             g_.only("rest of paths", analysed,
                 [&] { paths("second paths", first, static_cast<std::uint32_t>(most), s_.spp, false); });
+            countRays();
         }
-        count();
+        countSamples();
         correctLobes();
         if (varies()) {
             deviations();
@@ -142,16 +144,16 @@ private:
     shared::AnalysisParams countParams() const { return pathCountParams(f_.analysisParams(), component_, s_); }
     shared::ReflectorParams reflectorParams() const { return render::reflectorParams(f_, component_); }
 
-    void count()
+    void countSamples()
     {
         Totals& t = f_.totals;
         f_.count(taken_, false, t.tallies.samples, &t.samples);
         if (!isDirect(component_)) {
             f_.count(taken_, false, t.tallies.indirectSamples);
         }
-        countRays();
     }
-    /// And begins anew, so that nothing of it takes memory until there are more.
+    /// After a pass that traced some; and begins anew, so that nothing of it takes memory until there are more. Not
+    /// without a pass: counting makes nobody clear a plane.
     void countRays()
     {
         f_.count(rays_, true, f_.totals.tallies.rays, &f_.totals.rays);

@@ -238,7 +238,6 @@ struct TemporalFilter::Declaration {
         auto noise = graph.plane<Noisy>("difference before the filter", graph::floats);
         auto variations = graph.plane<render::Squares>("variation of both", graph::floats);
         auto share = graph.plane<render::Share>("whether the surface was seen", graph::floats);
-        auto sums = graph.list<Blocks>("sums of blocks", graph::floatPlanes(4), all);
         auto weights = graph.list<Blocks>("weights of blocks", graph::floats, all);
         const graph::Argument p = f.rectangle(params);
         f.pixels(pass, PassKind::Filter, { file, "differFromFrame" },
@@ -255,6 +254,7 @@ struct TemporalFilter::Declaration {
                 writes("noise", noise), writes("variations", variations), writes("share", share) });
         const bool weighed = params.published == 0;
         if (weighed) {
+            auto sums = graph.list<Blocks>("sums of blocks", graph::floatPlanes(4), all);
             blocks("sumBlocks",
                 { reads("noise", noise), reads("variations", variations), reads("share", share),
                     writes("sums", sums) });

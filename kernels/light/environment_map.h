@@ -59,7 +59,7 @@ typedef struct {
 WEDGE_INLINE TexelsAround texelsAround(int w, int h, Vec2 at)
 {
     const float fx = at.x * (float)w - 0.5f, fy = at.y * (float)h - 0.5f;
-    const int x = (int)floor(fx), y = (int)floor(fy);
+    const int x = clamp((int)floor(fx), -1, w - 1), y = (int)floor(fy);
     const int left = 3 * (x < 0 ? x + w : x), right = 3 * (x + 1 < w ? x + 1 : x + 1 - w);
     const int top = 3 * w * clamp(y, 0, h - 1), bottom = 3 * w * clamp(y + 1, 0, h - 1);
     TexelsAround around;

@@ -82,7 +82,7 @@ WEDGE_INLINE float turnOf(float y, float x)
 {
     const float ax = fabs(x), ay = fabs(y);
     const float greater = fmax(ax, ay);
-    const float t = greater > 0.0f ? fmin(ax, ay) / greater : 0.0f;
+    const float t = greater > 1e-30f ? fmin(ax, ay) / greater : 0.0f; // no quotient of what devices take for 0
     const float q = t * t;
     float p = 0.00108413f;
     p = -0.00534827f + p * q;
