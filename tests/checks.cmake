@@ -19,7 +19,8 @@ add_test(NAME tidy_changed COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/tidy
 add_test(NAME format_check COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/format_check.sh ${CMAKE_SOURCE_DIR})
 add_test(NAME installed COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/installed.sh ${CMAKE_COMMAND} ${CMAKE_BINARY_DIR})
 add_test(NAME maaf_flatland COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/maaf_flatland.sh ${CMAKE_SOURCE_DIR})
-set_tests_properties(bare_root tidy_changed format_check maaf_flatland PROPERTIES SKIP_RETURN_CODE 77)
+add_test(NAME maaf_lens COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/maaf_lens.sh ${CMAKE_SOURCE_DIR})
+set_tests_properties(bare_root tidy_changed format_check maaf_flatland maaf_lens PROPERTIES SKIP_RETURN_CODE 77)
 # Simulated devices are slow, and slower still beside other tests.
 set_tests_properties(kernel_lint ${oclgrind_frames} second_driver PROPERTIES TIMEOUT 1200)
 set_tests_properties(${oclgrind_frames} PROPERTIES LABELS long) # test.sh

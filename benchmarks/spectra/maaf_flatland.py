@@ -247,11 +247,11 @@ def best_of(entries, chosen_on, reported_on):
             "sweep": [{"constant": c, **summary(errors)} for (c, _), errors in zip(entries, reported_on)]}
 
 
-def add_saved(results):
+def add_saved(results, thesis="aaf k mu 6"):
     """How many times the samples AAF needs for the same error, at its best constant for each count ("saved"), and with the thesis's
     ("saved_thesis", where it is among them): between the counts that are measured by straight lines in logarithms, none beyond."""
     counts = np.log([float(spp) for spp in results])
-    for key, name in (("saved", "aaf"), ("saved_thesis", "aaf k mu 6")):
+    for key, name in (("saved", "aaf"), ("saved_thesis", thesis)):
         if any(name not in rows for rows in results.values()):
             continue
         errors = np.log([rows[name]["rms"] for rows in results.values()])
