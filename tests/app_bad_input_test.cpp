@@ -86,6 +86,8 @@ TEST_CASE("options that contradict each other")
     checkRenderRefused(place, box, { "--method", "mc", "--mu", "2" }, wrongCall, "--mu");
     checkRenderRefused(place, box, { "--method", "mc", "--as-published" }, wrongCall, "--as-published");
     checkRenderRefused(place, box, { "--method", "mc", "--layers", "filterWidth" }, wrongCall, "filterWidth");
+    checkRenderRefused(place, box, { "--layers", "components" }, wrongCall, "not filtered by components");
+    checkRenderRefused(place, box, { "--method", "maaf", "--layers", "components" }, wrongCall, "components");
     checkRenderRefused(place, box, { "--filter-width", "3" }, wrongCall, "--filter-width");
     checkRenderRefused(place, box, { "--as-published", "--spp", "20" }, wrongCall, "--spp 20");
     checkRenderRefused(place, box, { "--spp", "4" }, wrongCall, "4"); // the first pass alone takes 9

@@ -49,6 +49,38 @@ std::array<float, 3> transformed(const std::array<float, 16>& m, const std::arra
     return { out[0] / w, out[1] / w, out[2] / w };
 }
 
+TEST_CASE("layers of components add up to a light's visibility")
+{
+    const Workplace place;
+    // The half plane of the scene hides nothing at the right, and all at the left.
+    const image::LayeredImage image = render(place, scenes + "/penumbra.toml",
+        { "--size", "64x48", "--method", "maaf", "--maaf", "refitted", "--components", "3", "--layers",
+            "albedo,components" });
+    std::set<std::string> found;
+    for (const image::Channel& channel : image.channels) {
+        found.insert(channel.name);
+    }
+    CHECK(found
+        == std::set<std::string> { "R", "G", "B", "albedo.R", "albedo.G", "albedo.B", "components.00", "components.01",
+            "components.10", "components.11" });
+    std::size_t between = 0, several = 0;
+    for (std::size_t y = 4; y < 44; ++y) {
+        for (std::size_t x = 0; x < 64; ++x) {
+            const auto at = [&](const char* channel) { return values(image, channel)[y * 64 + x]; };
+            const float sum = at("components.00") + at("components.01") + at("components.10") + at("components.11");
+            REQUIRE(sum > -0.2f);
+            REQUIRE(sum < 1.2f);
+            if (x < 4 || x >= 60) {
+                REQUIRE(std::abs(sum - (x < 4 ? 0.0f : 1.0f)) < 0.01f);
+            }
+            between += sum > 0.2f && sum < 0.8f ? 1 : 0;
+            several += std::abs(at("components.10")) > 0.02f ? 1 : 0; // across the edge, and not along it
+        }
+    }
+    CHECK(between > 40);
+    CHECK(several > 40);
+}
+
 TEST_CASE("all layers of a frame fit together")
 {
     const Workplace place;

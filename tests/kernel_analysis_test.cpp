@@ -80,10 +80,11 @@ public:
         launch("erodeSlopes", in.params, block, bench.buffer(in.slopes.values), bench.buffer(in.objectId.values), out);
         return planesOf(in.layout(), bench.read(out));
     }
-    Planes<float> smoothed(const Slopes& in)
+    Planes<float> smoothed(const Slopes& in, int radius)
     {
         const auto out = bench.filled(4 * in.layout().size, 0.0f);
-        launch("smoothSlopes", in.params, block, bench.buffer(in.slopes.values), bench.buffer(in.objectId.values), out);
+        launch("smoothSlopes", in.params, block, radius, bench.buffer(in.slopes.values),
+            bench.buffer(in.objectId.values), out);
         return planesOf(in.layout(), bench.read(out));
     }
     Planes<float> spread(const Slopes& in, const Planes<float>& from, std::uint32_t planes)
@@ -166,25 +167,26 @@ TEST_CASE("erodeSlopes takes the least slope of the same object within 3x3")
     });
 }
 
-TEST_CASE("smoothSlopes averages the logarithm over the object's slopes within 3x3, where there is one")
+TEST_CASE("smoothSlopes averages the logarithm over the object's slopes near by, where there is one")
 {
     onEveryDevice([](const device::Device& device) {
         Analysis analysis(device);
-        for (const Slopes& in : cases()) {
-            const Planes<float> found = analysis.smoothed(in);
-            everyPixel(in, [&](int x, int y) {
-                double sum = 0, count = 0;
-                around(in, x, y, 1, [&](int qx, int qy) {
-                    if (in.slopes.at(qx, qy) > 0 && in.objectId.at(qx, qy) == in.objectId.at(x, y)) {
-                        sum += std::log2(in.slopes.at(qx, qy));
-                        count += 1;
-                    }
+        for (const Slopes& in : cases())
+            for (const int radius : { 1, 2 }) {
+                const Planes<float> found = analysis.smoothed(in, radius);
+                everyPixel(in, [&](int x, int y) {
+                    double sum = 0, count = 0;
+                    around(in, x, y, radius, [&](int qx, int qy) {
+                        if (in.slopes.at(qx, qy) > 0 && in.objectId.at(qx, qy) == in.objectId.at(x, y)) {
+                            sum += std::log2(in.slopes.at(qx, qy));
+                            count += 1;
+                        }
+                    });
+                    const bool has = in.slopes.at(x, y) > 0 && in.objectId.at(x, y) != 0;
+                    REQUIRE(found.at(x, y, 1) == (has ? 1.0f : 0.0f));
+                    REQUIRE(std::fabs(found.at(x, y) - (has ? sum / count : 0.0)) < 1e-3);
                 });
-                const bool has = in.slopes.at(x, y) > 0 && in.objectId.at(x, y) != 0;
-                REQUIRE(found.at(x, y, 1) == (has ? 1.0f : 0.0f));
-                REQUIRE(std::fabs(found.at(x, y) - (has ? sum / count : 0.0)) < 1e-3);
-            });
-        }
+            }
     });
 }
 
@@ -226,7 +228,7 @@ TEST_CASE("widths are (3.13) of the pixel's own slope, else of what spread to it
             for (const float fixedWidth : { 0.0f, 2.5f }) {
                 in.params.fixedWidth = fixedWidth;
                 in.params.fillScale = -0.05f;
-                const Planes<float> logs = analysis.smoothed(in), spread = analysis.spread(in, logs, 2);
+                const Planes<float> logs = analysis.smoothed(in, 1), spread = analysis.spread(in, logs, 2);
                 const auto out = analysis.bench.filled(in.layout().size, -7.0f);
                 analysis.launch("widths", in.params, 1, analysis.bench.buffer(logs.values),
                     analysis.bench.buffer(spread.values), analysis.bench.buffer(in.objectId.values),

@@ -188,15 +188,18 @@ TEST_CASE("gradients that samples tell are how what is seen changes where the li
     });
 }
 
-TEST_CASE("gradients are means of what samples add up to, and widths follow counts")
+TEST_CASE("gradients are means of what samples add up to, and widths follow counts and how wide shadows are")
 {
     onEveryDevice([](const device::Device& device) {
         for (const std::uint32_t channels : { 1u, 2u }) {
             KernelBench bench(device, channels == 2 ? Defines { { "WEDGE_SPECULAR", "1" } } : Defines {});
             const render::PlaneLayout layout(19, 5);
-            const shared::AnalysisParams p = paramsOf(layout);
+            shared::AnalysisParams p = paramsOf(layout);
+            p.k = 3;
+            p.mu = 1.5f;
             Planes<float> sums(layout, 2 * channels, 0.0f), scores(layout, 2 * channels, 0.0f), beta(layout, 1, 0.0f);
             Planes<std::uint32_t> taken(layout, 1, 0u);
+            Planes<float> size(layout, 1, 0.0f);
             std::mt19937 random(2);
             for (float& v : scores.values)
                 v = static_cast<float>(uniform(random, -1, 1));
@@ -209,13 +212,16 @@ TEST_CASE("gradients are means of what samples add up to, and widths follow coun
                     }
                     beta.at(x, y) = x % 3 == 0 ? -1.0f : 0.1f * static_cast<float>(y);
                     taken.at(x, y) = static_cast<std::uint32_t>(x);
+                    // Blurs of 2, and of 48 to 120 pixels.
+                    size.at(x, y) = p.k * p.mu * 0.1f * static_cast<float>(y)
+                        / (x % 2 == 0 ? 2.0f : 24.0f * static_cast<float>(y + 1));
                 }
             const auto gradients = bench.buffer(inShorts(scores)), slopeWidth = bench.filled(layout.size, -7.0f),
                        width = bench.buffer(beta.values);
             bench.passes.rows("filter", device::PassKind::Filter, "analysis/shear.cl", "shadowGradients", p,
                 WEDGE_BLOCK_PIXELS, 2u, 1.0f, 0.0f, bench.buffer(sums.values), gradients);
-            bench.passes.rows("filter", device::PassKind::Filter, "analysis/shear.cl", "narrowByCounts", p, 1, 28.0f,
-                0.2f, bench.buffer(taken.values), slopeWidth, width);
+            bench.passes.rows("filter", device::PassKind::Filter, "analysis/shear.cl", "narrowSheared", p, 1, 28.0f,
+                0.2f, 12.0f, 0.4f, bench.buffer(taken.values), bench.buffer(size.values), slopeWidth, width);
             const Planes<float> found = ofShorts(layout, 2 * channels, bench.read(gradients)),
                                 before = ofShorts(layout, 1, bench.read(slopeWidth)),
                                 after = planesOf(layout, bench.read(width));
@@ -228,8 +234,10 @@ TEST_CASE("gradients are means of what samples add up to, and widths follow coun
                             REQUIRE(std::fabs(found.at(x, y, 2 * c + axis) - expected) <= std::fabs(expected) / 256);
                         }
                     REQUIRE(before.at(x, y) == shared::unpackShort(shared::packShort(beta.at(x, y))));
-                    const double expected =
-                        beta.at(x, y) > 0 ? beta.at(x, y) * std::pow(28.0 / std::max(1, x), 0.2) : beta.at(x, y);
+                    const double blur = x % 2 == 0 ? 2.0 : 24.0 * (y + 1);
+                    const double expected = beta.at(x, y) > 0 ? beta.at(x, y) * std::pow(28.0 / std::max(1, x), 0.2)
+                            * std::min(1.0, std::pow(12.0 / blur, 0.4))
+                                                              : beta.at(x, y);
                     REQUIRE(after.at(x, y) == doctest::Approx(expected).epsilon(1e-5));
                 }
         }

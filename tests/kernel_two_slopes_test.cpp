@@ -312,7 +312,7 @@ TEST_CASE("slopes, ratios and widths are what their definitions make of them")
                    width = bench.buffer(beta.values), slopeWidth = bench.buffer(inShorts(beta));
         const std::string file = "analysis/two_slopes.cl";
         const auto kind = device::PassKind::Analysis;
-        bench.passes.rows("widths", kind, file, "smoothLargest", p, WEDGE_BLOCK_PIXELS, bench.buffer(slopes.values),
+        bench.passes.rows("widths", kind, file, "smoothLargest", p, WEDGE_BLOCK_PIXELS, 1, bench.buffer(slopes.values),
             bench.buffer(objectId.values), onDevice);
         const Planes<float> smoothed = planesOf(layout, bench.read(onDevice));
         bench.passes.rows(

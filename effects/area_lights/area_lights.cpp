@@ -17,8 +17,8 @@ public:
         const std::vector<OwnLight> lights =
             settings.integrator == Integrator::Path ? directLights(scene).own : std::vector<OwnLight> {};
         for (std::uint32_t i = 0; i < lights.size(); ++i) {
-            const TermLight light { i, lights[i].onDevice() };
-            out.push_back({ .name = lights.size() == 1 ? "" : std::to_string(i + 1),
+            const TermLight light { i, lights[i].onDevice(), lights.size() == 1 ? "" : std::to_string(i + 1) };
+            out.push_back({ .name = light.name,
                 .part = Part::Direct,
                 .workUnits = static_cast<double>(settings.spp),
                 .ofPixels = [light](FrameBuilder& frame, const std::shared_ptr<TermState>& state,

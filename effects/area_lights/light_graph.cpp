@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -41,6 +42,7 @@ public:
         , g_(frame.graph)
         , s_(frame.settings)
         , index_(light.number)
+        , term_(light.name)
         , light_(light.light)
         , channels_(frame.specular ? 2 : 1)
         , maaf_(maafOf(s_, light_))
@@ -88,11 +90,12 @@ public:
             return;
         }
         Gathered filtered = filteredPlanes(f_, channels_);
+        graph::Handle<Value>* parts = ofComponents() ? keptParts() : nullptr;
         g_.only("filter of light", analysed, [&] {
             const std::optional<Shearing> shearing = sheared() || maaf_ ? std::optional(shears()) : std::nullopt;
             if (ofComponents()) {
                 componentFilter(f_, filterParams(), analysisParams(), light_, value_, beta_,
-                    { sums_, gradients_, shearing->slopeWidth, ratio_ }, filtered);
+                    { sums_, gradients_, shearing->slopeWidth, ratio_ }, filtered, parts);
                 return;
             }
             // What was stopped early has not the counts that the parts of samples were made for.
@@ -151,6 +154,7 @@ private:
     void narrowForLobes();
     void countsFromVariance();
     void widened();
+    graph::Handle<Value>* keptParts();
     void shade(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition);
 
     shared::AnalysisParams analysisParams() const
@@ -169,6 +173,7 @@ private:
     graph::Graph& g_;
     const Settings& s_;
     std::uint32_t index_;
+    std::string term_;
     shared::AreaLight light_;
     std::uint32_t channels_;
     std::optional<Maaf> maaf_; ///< none: one filter
@@ -219,7 +224,7 @@ graph::Handle<Value> LightGraph::means(const char* pass, PassKind kind)
     return out;
 }
 
-/// And narrows filters by counts.
+/// And narrows filters by counts and where shadows are wide.
 Shearing LightGraph::shears()
 {
     auto slopeWidth = g_.plane<Metres>("width by slopes", shortFloats);
@@ -230,9 +235,11 @@ Shearing LightGraph::shears()
             { p, value("each", both ? WEDGE_MOMENTS : 2u), value("first", both ? -WEDGE_ORDER1 : 1.0f),
                 value("second", WEDGE_ORDER2), reads("sums", sums_), updates("gradients", gradients_) });
     }
-    f_.pixels("filter", PassKind::Filter, { "analysis/shear.cl", "narrowByCounts" },
-        { p, value("mean", static_cast<float>(s_.spp)), value("exponent", s_.countWidth), reads("taken", taken_),
-            writes("slopeWidth", slopeWidth), updates("beta", beta_) });
+    f_.pixels("filter", PassKind::Filter, { "analysis/shear.cl", "narrowSheared" },
+        { p, value("mean", static_cast<float>(s_.spp)), value("countPower", s_.countWidth),
+            value("wideBlur", twoSlopes() ? twoSlopeWideBlur : s_.wideBlur),
+            value("blurPower", twoSlopes() ? twoSlopeBlurWidth : s_.blurWidth), reads("taken", taken_),
+            reads("pixelSize", f_.surfaces.pixelSize), writes("slopeWidth", slopeWidth), updates("beta", beta_) });
     if (twoSlopes()) {
         f_.pixels("filter", PassKind::Filter, { "analysis/two_slopes.cl", "widthOfMeanSlope" },
             { p, reads("ratio", ratio_), updates("slopeWidth", slopeWidth) });
@@ -276,7 +283,8 @@ void LightGraph::widthsAndCounts()
         publishedWidths(f_, analysisParams(), extremes_, lit, beta_, wanted_);
     }
     if (s_.slopes == Slopes::Smoothed) {
-        smoothedWidths(f_, analysisParams(), extremes_, lit, beta_, maaf_ ? &ratio_ : nullptr);
+        smoothedWidths(f_, analysisParams(), extremes_, lit, beta_, maaf_ ? &ratio_ : nullptr,
+            ofComponents() ? slopeWindowOfComponents : SlopeWindow {});
         if (twoSlopes()) {
             f_.pixels("widths", PassKind::Analysis, { "analysis/two_slopes.cl", "widenBetweenSlopes" },
                 { f_.rectangle(analysisParams()), reads("ratio", ratio_), updates("beta", beta_) });
@@ -335,6 +343,19 @@ void LightGraph::widened()
             reads("specular", f_.surfaces.specular), writes("visibility", visibility), writes("deviation", deviation),
             writes("weights", weights) });
     widen(f_, "filter", filterParams(), s_.widening, pinholeNoise, { visibility, deviation, weights }, beta_);
+}
+
+/// Planes of what pairs of components make up, where layers are read.
+graph::Handle<Value>* LightGraph::keptParts()
+{
+    if (f_.components == nullptr) {
+        return nullptr;
+    }
+    auto& parts =
+        f_.components->emplace(term_, g_.plane<Value>("components", graph::floatPlanes(partPlanes(s_.components))))
+            .first->second;
+    f_.zero(parts);
+    return &parts;
 }
 
 void LightGraph::shade(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition)

@@ -29,22 +29,28 @@ graph::Handle<Logarithms> spreadOver(FrameBuilder& frame, const shared::Analysis
 } // namespace
 
 void smoothedWidths(FrameBuilder& frame, const shared::AnalysisParams& params, const graph::Handle<Extremes>& slopes,
-    const std::function<graph::Version()>& lit, graph::Handle<Metres>& beta, graph::Handle<Share>* ratio)
+    const std::function<graph::Version()>& lit, graph::Handle<Metres>& beta, graph::Handle<Share>* ratio,
+    SlopeWindow window)
 {
     const graph::Argument p = frame.rectangle(params);
     const Surfaces& s = frame.surfaces;
     const std::uint32_t planes = ratio != nullptr ? 3 : 2;
-    auto eroded = frame.graph.plane<Extremes>("eroded slopes", graph::floats);
+    graph::Handle<Extremes> least = slopes;
     auto logs = frame.graph.plane<Logarithms>("logarithms", graph::floatPlanes(planes));
-    frame.blocks("widths", PassKind::Analysis, { "analysis/analysis.cl", "erodeSlopes" },
-        { p, reads("slopes", slopes, around(1)), reads("objectId", s.objectId, around(1)), writes("eroded", eroded) });
+    if (window.eroded) {
+        least = frame.graph.plane<Extremes>("eroded slopes", graph::floats);
+        frame.blocks("widths", PassKind::Analysis, { "analysis/analysis.cl", "erodeSlopes" },
+            { p, reads("slopes", slopes, around(1)), reads("objectId", s.objectId, around(1)),
+                writes("eroded", least) });
+    }
+    const graph::Argument radius = value("radius", window.radius);
+    const graph::Reach near = around(window.radius);
     frame.zero(logs); // what spreads comes from the padding, too
     frame.blocks("widths", PassKind::Analysis, { "analysis/analysis.cl", "smoothSlopes" },
-        { p, reads("eroded", eroded, around(1)), reads("objectId", s.objectId, around(1)),
-            updates("logSlopes", logs) });
+        { p, radius, reads("eroded", least, near), reads("objectId", s.objectId, near), updates("logSlopes", logs) });
     if (ratio != nullptr) {
         frame.blocks("widths", PassKind::Analysis, { "analysis/two_slopes.cl", "smoothLargest" },
-            { p, reads("slopes", slopes, around(1)), reads("objectId", s.objectId, around(1)),
+            { p, radius, reads("slopes", slopes, near), reads("objectId", s.objectId, near),
                 updates("logSlopes", logs) });
     }
     const auto spread = spreadOver(frame, params, planes, logs);

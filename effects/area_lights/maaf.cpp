@@ -7,11 +7,13 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <glm/glm.hpp>
 
 namespace wedge::render {
 
 using device::PassKind;
 using graph::reads;
+using graph::updates;
 using graph::value;
 using graph::writes;
 
@@ -27,6 +29,8 @@ constexpr float widestCut = 2.5f;
 /// this much of the profile's first moment, which a Gaussian's have where it is cut at 1.5 deviations. Cut at a
 /// fraction of one it is uniform in all but name.
 constexpr float mostEdge = 0.45f;
+/// Components gather from neighbours whose normals are within so many degrees, as the paper's do.
+constexpr double componentDegrees = 20.0;
 /// Of a filter of both slopes, over one of s_min that follows no gradients.
 constexpr float twoSlopeWidth = 2.1f;
 
@@ -112,6 +116,12 @@ graph::Format componentsFormat(int components, std::uint32_t channels)
     }
 }
 
+std::uint32_t partPlanes(int components)
+{
+    const auto pairs = static_cast<std::uint32_t>((components + 1) / 2);
+    return pairs * pairs;
+}
+
 shared::AnalysisParams withTwoSlopeWidths(shared::AnalysisParams p, const shared::AreaLight& light)
 {
     p.mu *= (1.0f + 0.5f * scoreOf(light).edge) / twoSlopeWidth;
@@ -129,10 +139,11 @@ shared::FilterParams withTwoSlopes(
     return p;
 }
 
-void componentFilter(FrameBuilder& frame, const shared::FilterParams& params, const shared::AnalysisParams& analysis,
+void componentFilter(FrameBuilder& frame, shared::FilterParams params, const shared::AnalysisParams& analysis,
     const shared::AreaLight& light, const graph::Handle<Value>& shown, const graph::Handle<Metres>& beta,
-    const ComponentTerm& term, Gathered& out)
+    const ComponentTerm& term, Gathered& out, graph::Handle<Value>* parts)
 {
+    params.normalCosine = static_cast<float>(std::cos(glm::radians(componentDegrees)));
     const Settings& settings = frame.settings;
     const int pixels = static_cast<int>(params.maxRadius);
     const graph::Reach around { .x = pixels, .y = pixels };
@@ -142,12 +153,14 @@ void componentFilter(FrameBuilder& frame, const shared::FilterParams& params, co
         { frame.rectangle(params), value("light", axesOf(light, settings.components)),
             value("slopesPerWidth", analysis.k * analysis.mu / analysis.sigma),
             value("floorPerPixel", 1.0f / (analysis.alpha * analysis.sigma)),
-            value("refitted", settings.maaf == Maaf::Refitted ? 1u : 0u), reads("value", shown),
-            reads("beta", beta, around), reads("slopeWidth", term.slopeWidth, around), reads("ratio", term.ratio),
+            value("refitted", settings.maaf == Maaf::Refitted ? 1u : 0u),
+            value("keepsParts", parts != nullptr ? 1u : 0u), reads("value", shown), reads("beta", beta, around),
+            reads("slopeWidth", term.slopeWidth, around), reads("ratio", term.ratio),
             reads("position", s.position, around), reads("normal", s.normal, around),
             reads("pixelSize", s.pixelSize, around), reads("objectId", s.objectId, around),
             reads("sums", term.sums, around), reads("components", term.components, around),
-            writes("filtered", out.value), writes("effective", out.effective) });
+            writes("filtered", out.value), writes("effective", out.effective),
+            parts != nullptr ? updates("parts", *parts) : frame.nothing("parts") });
 }
 
 } // namespace wedge::render

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "effects/area_lights/light_widths.h"
 #include "host/render/filters/filter_graph.h"
 #include "host/render/frame_builder.h"
 #include "host/render/settings.h"
@@ -17,6 +18,10 @@ namespace wedge::render {
 
 /// The filters that method maaf has for a light; none where its filter is that of method aaf.
 std::optional<Maaf> maafOf(const Settings& settings, const shared::AreaLight& light);
+
+/// Settings::wideBlur and blurWidth of filters of both slopes, whose error is of higher order, so that kinks of shadows
+/// show sooner: constants as chosen in docs/maaf.md.
+inline constexpr float twoSlopeWideBlur = 8.0f, twoSlopeBlurWidth = 0.5f;
 
 /// Which lights have such filters, for people.
 std::string lightOf(Maaf maaf);
@@ -38,6 +43,12 @@ shared::AnalysisParams withTwoSlopeWidths(shared::AnalysisParams params, const s
 shared::FilterParams withTwoSlopes(
     shared::FilterParams params, const shared::AnalysisParams& analysis, const shared::AreaLight& light);
 
+/// Pairs of components along u by those along v.
+std::uint32_t partPlanes(int components);
+
+/// As the paper has it: plain means over 5 x 5 pixels.
+inline constexpr SlopeWindow slopeWindowOfComponents { false, 2 };
+
 /// What the filter of components takes besides values and widths.
 struct ComponentTerm {
     graph::Handle<Sums> sums;
@@ -46,9 +57,10 @@ struct ComponentTerm {
     graph::Handle<Share> ratio;
 };
 
-/// Declares the filter of components (kernels/filter/components.h) into planes that were there.
-void componentFilter(FrameBuilder& frame, const shared::FilterParams& params, const shared::AnalysisParams& analysis,
+/// Declares the filter of components (kernels/filter/components.h) into planes that were there. parts: what each pair
+/// of components has of a pixel's visibility, partPlanes() of them; null where nobody wants it
+void componentFilter(FrameBuilder& frame, shared::FilterParams params, const shared::AnalysisParams& analysis,
     const shared::AreaLight& light, const graph::Handle<Value>& shown, const graph::Handle<Metres>& beta,
-    const ComponentTerm& term, Gathered& out);
+    const ComponentTerm& term, Gathered& out, graph::Handle<Value>* parts);
 
 } // namespace wedge::render

@@ -5,6 +5,7 @@
 #include "kernels/shared/light.h"
 
 #include <cstdint>
+#include <string>
 
 namespace wedge::render {
 
@@ -12,6 +13,7 @@ namespace wedge::render {
 struct TermLight {
     std::uint32_t number = 0; ///< of DirectLights::own
     shared::AreaLight light {};
+    std::string name; ///< of its term
 };
 
 /// What the analysis of a light needs besides where pixels lie.

@@ -15,6 +15,7 @@ namespace wedge::render {
 namespace {
 
 constexpr const char* widthLayer = "filterWidth";
+constexpr const char* componentsLayer = "components";
 constexpr const char* lensWidthLayer = "filterWidthLens";
 constexpr const char* motionWidthLayer = "filterWidthMotion";
 
@@ -122,6 +123,21 @@ public:
         }
     }
 
+    /// Of each light that has some; of others, and of those that an early stop kept from being filtered, there are
+    /// none.
+    void components()
+    {
+        for (const auto& [term, planes] : frame().components) {
+            const std::vector<float> values = planes.downloadAll(renderer_.queue());
+            const auto pairs = static_cast<std::size_t>((settings_.components + 1) / 2);
+            for (std::size_t part = 0; part < pairs * pairs; ++part) {
+                const std::size_t offset = part * frame().layout.size;
+                channel(fmt::format("{}{}.{}{}", componentsLayer, term, part / pairs, part % pairs), Where::OnSurfaces,
+                    [&](std::size_t i) { return values[offset + i]; });
+            }
+        }
+    }
+
 private:
     std::vector<std::uint32_t> primarySamplesOf()
     {
@@ -200,6 +216,13 @@ std::vector<Layer> layerTable()
               "(method aaf; "
                   + widthLayers() + ")" },
             [](LayerReader& r) { r.filterWidths(); } },
+        { { componentsLayer,
+              "00 01 ...: what each pair of components along a light's two axes has of its visibility, which they add "
+              "up to, "
+              "where it is filtered by components (method maaf, --maaf printed or refitted; of the area light; of "
+              "several "
+              "components1, components2, ...)" },
+            [](LayerReader& r) { r.components(); } },
         { { lensWidthLayer,
               "pixels: standard deviation of the image's filter of what the lens blurs, 0 where there is none "
               "(method aaf)" },
@@ -234,6 +257,9 @@ std::string obstacle(const std::string& layer, const Settings& settings, const s
         if (own && own->name == layer && !effect->unfiltered(settings, scene)) {
             return "the frame has no " + effect->name();
         }
+    }
+    if (layer == componentsLayer && (!settings.maaf || *settings.maaf == Maaf::TwoSlope)) {
+        return "the frame is not filtered by components (--method maaf, --maaf printed or refitted)";
     }
     if (!layer.starts_with(widthLayer)) {
         return "";

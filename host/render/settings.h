@@ -224,6 +224,9 @@ struct Settings {
     bool sheared = true; ///< filters of lights follow the gradients of shadows, where pixels have one receiver
     float shearedWidth = 1.5f; ///< how much wider than others they are then, less what an edge of the light's takes
     float countWidth = 0.2f; ///< and with it widths ~ (mean count / own)^this
+    /// And where a light's standard deviation blurs shadows over more pixels than so many, ~ (wideBlur /
+    /// blur)^blurWidth.
+    float wideBlur = 12.0f, blurWidth = 0.4f;
     bool fitted = true; ///< adaptive filters fit lines to neighbours in the place of means
     bool fallback =
         true; ///< where filters are off by more than noise explains, samples show (kernels/analysis/fallback.cl)

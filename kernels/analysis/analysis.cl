@@ -37,9 +37,9 @@ __kernel void erodeSlopes(AnalysisParams p, __global const float* restrict slope
     vstore16(least <= WEDGE_SLOPE_MAX ? least : (float16)(0.0f), 0, eroded + i);
 }
 
-/// 3x3 mean of log2 s over the pixels of the same object that have a slope. out planes: log2 of the slope, weight
-/// (1 where there is one, else 0).
-__kernel void smoothSlopes(AnalysisParams p, __global const float* restrict eroded,
+/// Mean of log2 s over the pixels of the same object that have a slope, no more than `radius` (at most
+/// WEDGE_BLOCK_PIXELS) away along both axes. out planes: log2 of the slope, weight (1 where there is one, else 0).
+__kernel void smoothSlopes(AnalysisParams p, int radius, __global const float* restrict eroded,
     __global const uint* restrict objectId, __global float* restrict logSlopes)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
@@ -53,8 +53,8 @@ __kernel void smoothSlopes(AnalysisParams p, __global const float* restrict erod
     float16 sum = (float16)(0.0f);
     float16 count = (float16)(0.0f);
     if (any(has)) {
-        for (int dy = y > 0u ? -1 : 0; dy <= (y + 1u < p.height ? 1 : 0); ++dy) {
-            for (int dx = -1; dx <= 1; ++dx) {
+        for (int dy = max(-radius, -(int)y); dy <= min(radius, (int)(p.height - 1u - y)); ++dy) {
+            for (int dx = -radius; dx <= radius; ++dx) {
                 const int j = i + dy * (int)p.stride + dx;
                 const float16 slope = loadBlock(eroded, j);
                 const int16 taken = (slope > 0.0f) & (loadIdBlock(objectId, j) == object);

@@ -1,5 +1,5 @@
 // What the sheared filter of a light's term takes besides widths (gather_sheared.h, docs/soft-shadows.md): gradients,
-// and widths that follow pixels' own counts.
+// and widths that follow pixels' own counts and how wide shadows are.
 #include "core/packed_planes.h"
 #include "core/vector16.h"
 #include "shared/filter_params.h"
@@ -39,13 +39,17 @@ __kernel void shadowGradients(AnalysisParams p, uint each, float first, float se
     }
 }
 
-/// Widths are made for pixels that take the mean count: those that take more are less noisy, and as wide filters would
-/// put more off than they smooth. beta ~ (mean / count)^exponent.
+/// Widths are made for pixels that take the mean count, and for shadows of few pixels. Those that take more samples are
+/// less noisy, and where shadows are wide more pixels are gathered: as wide filters would put more off than they
+/// smooth. beta ~ (mean / count)^countPower, and where shadows blur over more pixels than wideBlur (a light's standard
+/// deviation), ~ (wideBlur / blur)^blurPower.
 ///
+/// in      taken: samples; pixelSize: metres
 /// in out  beta: metres
 /// out     slopeWidth: what it was, which goes with the occluders' slopes alone; of 16 bits
-__kernel void narrowByCounts(AnalysisParams p, float mean, float exponent, __global const uint* restrict taken,
-    __global float* restrict slopeWidth, __global float* restrict beta)
+__kernel void narrowSheared(AnalysisParams p, float mean, float countPower, float wideBlur, float blurPower,
+    __global const uint* restrict taken, __global const float* restrict pixelSize, __global float* restrict slopeWidth,
+    __global float* restrict beta)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -55,5 +59,9 @@ __kernel void narrowByCounts(AnalysisParams p, float mean, float exponent, __glo
     const uint i = pixelIndex(x, y, p.stride);
     const float width = beta[i];
     storeShort(slopeWidth, 0u, i, 0u, width);
-    beta[i] = width > 0.0f ? width * exp2(exponent * log2(mean / (float)max(taken[i], 1u))) : width;
+    if (width > 0.0f) {
+        const float byCount = countPower * log2(mean / (float)max(taken[i], 1u));
+        const float byBlur = blurPower * log2(wideBlur * pixelSize[i] / (p.k * p.mu * width));
+        beta[i] = width * exp2(byCount + fmin(byBlur, 0.0f));
+    }
 }

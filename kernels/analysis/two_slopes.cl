@@ -12,12 +12,12 @@
 /// How far filters of both slopes may reach, over how far apart these are (betweenSlopes()).
 #define WEDGE_APART 0.6f
 
-/// smoothSlopes() (analysis.cl) of the largest slope, as it was measured: 3x3 mean of log2 s_max over the pixels of the
+/// smoothSlopes() (analysis.cl) of the largest slope, as it was measured: mean of log2 s_max over the pixels of the
 /// same object that have one.
 ///
 /// in      slopes: planes of the least and the largest
 /// in out  logSlopes: the third plane; the second says where there are slopes
-__kernel void smoothLargest(AnalysisParams p, __global const float* restrict slopes,
+__kernel void smoothLargest(AnalysisParams p, int radius, __global const float* restrict slopes,
     __global const uint* restrict objectId, __global float* restrict logSlopes)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
@@ -30,8 +30,8 @@ __kernel void smoothLargest(AnalysisParams p, __global const float* restrict slo
     const int16 has = loadBlock(logSlopes + p.planeSize, i) > 0.0f;
     float16 sum = (float16)(0.0f), count = (float16)(0.0f);
     if (any(has)) {
-        for (int dy = y > 0u ? -1 : 0; dy <= (y + 1u < p.height ? 1 : 0); ++dy) {
-            for (int dx = -1; dx <= 1; ++dx) {
+        for (int dy = max(-radius, -(int)y); dy <= min(radius, (int)(p.height - 1u - y)); ++dy) {
+            for (int dx = -radius; dx <= radius; ++dx) {
                 const int j = i + dy * (int)p.stride + dx;
                 const float16 slope = loadBlock(slopes + p.planeSize, j);
                 const int16 taken = (slope > 0.0f) & (loadIdBlock(objectId, j) == object) & (object != 0u);
@@ -92,7 +92,7 @@ __kernel void widenBetweenSlopes(AnalysisParams p, __global const float* restric
     }
 }
 
-/// in out  slopeWidth: as narrowByCounts() (shear.cl) left it; then it goes with the slopes' mean alone
+/// in out  slopeWidth: as narrowSheared() (shear.cl) left it; then it goes with the slopes' mean alone
 __kernel void widthOfMeanSlope(
     AnalysisParams p, __global const float* restrict ratio, __global float* restrict slopeWidth)
 {

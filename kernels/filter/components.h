@@ -148,7 +148,11 @@ typedef struct {
 typedef struct {
     float16 seen[WEDGE_COMPONENT_CHANNELS], all[WEDGE_COMPONENT_CHANNELS], size[WEDGE_COMPONENT_CHANNELS];
     float16 squared; ///< of all, of the first channel
+    float16 part[WEDGE_PAIRS * WEDGE_PAIRS]; ///< of what is seen in the first channel, by pairs along u and v
 } ComponentSum;
+
+/// The pair of components p and -p that basis function i is of.
+WEDGE_INLINE uint pairOf(uint i) { return (i + 1u) / 2u; }
 
 /// Adds the neighbours at element j. width: metres, of the pixels' own filters by their slopes
 WEDGE_INLINE void addNeighbours(FilterParams p, LightAxes light, GatherBlock b, const ComponentBank* bank,
@@ -176,14 +180,21 @@ WEDGE_INLINE void addNeighbours(FilterParams p, LightAxes light, GatherBlock b, 
     coefficientsAt(bank, v, ofV);
     for (uint channel = 0u; channel < WEDGE_COMPONENT_CHANNELS; ++channel) {
         const uint first = 2u * channel * WEDGE_PRODUCTS;
-        float16 all = (float16)(0.0f), seen = (float16)(0.0f);
+        float16 all = (float16)(0.0f), seen = (float16)(0.0f), part[WEDGE_PAIRS * WEDGE_PAIRS];
+        for (uint pair = 0u; pair < WEDGE_PAIRS * WEDGE_PAIRS; ++pair) {
+            part[pair] = (float16)(0.0f);
+        }
         for (uint i = 0u; i < WEDGE_COMPONENTS; ++i) {
             for (uint k = 0u; k < WEDGE_COMPONENTS; ++k) {
                 const float16 c = ofU[i] * ofV[k];
                 const uint plane = first + i * WEDGE_COMPONENTS + k;
                 all += c * loadShortsBlock(in.components, p.planeSize, j, plane);
-                seen += c * loadShortsBlock(in.components, p.planeSize, j, plane + WEDGE_PRODUCTS);
+                part[pairOf(i) * WEDGE_PAIRS + pairOf(k)] +=
+                    c * loadShortsBlock(in.components, p.planeSize, j, plane + WEDGE_PRODUCTS);
             }
+        }
+        for (uint pair = 0u; pair < WEDGE_PAIRS * WEDGE_PAIRS; ++pair) {
+            seen += part[pair];
         }
         // Pixels count for the surface that they see, and not for how much arrives there.
         const float16 weights = loadBlock(in.sums + 2u * channel * p.planeSize, j);
@@ -193,7 +204,12 @@ WEDGE_INLINE void addNeighbours(FilterParams p, LightAxes light, GatherBlock b, 
         sum->seen[channel] += counts ? perSample * seen : (float16)(0.0f);
         sum->all[channel] += a;
         sum->size[channel] += fabs(a);
-        sum->squared += channel == 0u ? a * a : (float16)(0.0f);
+        if (channel == 0u) {
+            sum->squared += a * a;
+            for (uint pair = 0u; pair < WEDGE_PAIRS * WEDGE_PAIRS; ++pair) {
+                sum->part[pair] += counts ? perSample * part[pair] : (float16)(0.0f);
+            }
+        }
     }
 }
 
@@ -201,14 +217,16 @@ WEDGE_INLINE void addNeighbours(FilterParams p, LightAxes light, GatherBlock b, 
 ///      alone, and ratio: s_max / s_min, both of 16 bits; sums (light_sampling.h), components (light/components.h), and
 ///      the gather's planes. slopesPerWidth: s_min over slopeWidth, 1/m. floorPerPixel: the least that slopes come out
 ///      as, over (1 + s) and the pixel's metres. refitted: 1, or 0 for weights as printed
-/// out  filtered; effective: the number of equal pixels that the weights amount to
+/// out  filtered; effective: the number of equal pixels that the weights amount to; parts, if keepsParts is not 0: of
+///      the first channel, before it is bounded, what each pair of components along u and v has of it (v running
+///      fastest), all of it of the pair 0, 0 where nothing is gathered
 __kernel void filterComponents(FilterParams p, LightAxes light, float slopesPerWidth, float floorPerPixel,
-    uint refitted, __global const float* restrict value, __global const float* restrict beta,
+    uint refitted, uint keepsParts, __global const float* restrict value, __global const float* restrict beta,
     __global const float* restrict slopeWidth, __global const float* restrict ratio,
     __global const float* restrict position, __global const float* restrict normal,
     __global const float* restrict pixelSize, __global const uint* restrict objectId,
     __global const float* restrict sums, __global const float* restrict components, __global float* restrict filtered,
-    __global float* restrict effective)
+    __global float* restrict effective, __global float* restrict parts)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -231,6 +249,9 @@ __kernel void filterComponents(FilterParams p, LightAxes light, float slopesPerW
         sum.seen[channel] = sum.all[channel] = sum.size[channel] = (float16)(0.0f);
     }
     sum.squared = (float16)(0.0f);
+    for (uint pair = 0u; pair < WEDGE_PAIRS * WEDGE_PAIRS; ++pair) {
+        sum.part[pair] = (float16)(0.0f);
+    }
     if (any(gathers)) {
         const GatherBlock b = gatherBlock(p, i, object, position, normal, pixelSize);
         const float16 sMin = gathers ? slope : (float16)(1.0f);
@@ -256,6 +277,10 @@ __kernel void filterComponents(FilterParams p, LightAxes light, float slopesPerW
     const float16 count = sum.all[0] * sum.all[0] / max16(sum.squared, (float16)(1e-30f));
     const int16 known = gathers & (sum.all[0] > WEDGE_LEAST_SHARE * sum.size[0]);
     vstore16(known ? count : (float16)(1.0f), 0, effective + i);
+    for (uint pair = 0u; keepsParts != 0u && pair < WEDGE_PAIRS * WEDGE_PAIRS; ++pair) {
+        const float16 unfiltered = pair == 0u ? loadBlock(value, i) : (float16)(0.0f);
+        vstore16(known ? sum.part[pair] / sum.all[0] : unfiltered, 0, parts + pair * p.planeSize + i);
+    }
 }
 
 #endif
