@@ -123,8 +123,7 @@ public:
         }
     }
 
-    /// Of each light that has some; of others, and of those that an early stop kept from being filtered, there are
-    /// none.
+    /// Of each light that has some; 0 of those that an early stop kept from being filtered.
     void components()
     {
         for (const auto& [term, planes] : frame().components) {
