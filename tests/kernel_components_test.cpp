@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 
@@ -153,8 +154,11 @@ FilterResult filterBoth(KernelBench& bench, const ComponentImage& in, Planes<flo
         bench.buffer(image.position.values), bench.buffer(image.normal.values), bench.buffer(image.pixelSize.values),
         bench.buffer(image.objectId.values), bench.buffer(in.sums.values), bench.buffer(inShorts(in.sinks)), out,
         effective, ofPairs);
+    const Planes<float> kept = planesOf(image.value.layout, bench.read(ofPairs));
     if (parts != nullptr)
-        *parts = planesOf(image.value.layout, bench.read(ofPairs));
+        *parts = kept;
+    else
+        CHECK(std::ranges::all_of(kept.values, [](float v) { return v == -7.0f; }));
     return { planesOf(image.value.layout, bench.read(out)), planesOf(image.value.layout, bench.read(effective)) };
 }
 

@@ -1,4 +1,5 @@
-// filter_sheared.cl and shear.cl alone: gathers that follow gradients, gradients of samples, widths by counts.
+// filter_sheared.cl and shear.cl alone: gathers that follow gradients, gradients of samples, widths by counts and
+// blurs.
 #include "effects/area_lights/soft_shadows.h"
 #include "host/render/filters/filter_graph.h"
 #include "tests/filter_run.h"

@@ -288,64 +288,68 @@ TEST_CASE("second scores have the moments of a second derivative, whatever the c
 TEST_CASE("slopes, ratios and widths are what their definitions make of them")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        const render::PlaneLayout layout(21, 9);
-        const shared::AnalysisParams p = paramsOf(layout);
-        Planes<float> slopes(layout, 2, 0.0f), logs(layout, 3, 0.0f), spread(layout, 3, 0.0f), beta(layout, 1, 0.0f);
-        Planes<std::uint32_t> objectId(layout, 1, 0u);
-        std::mt19937 random(6);
-        for (int y = 0; y < 9; ++y)
-            for (int x = 0; x < 21; ++x) {
-                objectId.at(x, y) = x < 12 ? 1u : 2u;
-                const bool occluded = (x + 2 * y) % 3 != 0;
-                slopes.at(x, y) = occluded ? static_cast<float>(uniform(random, 0.1, 1)) : 0.0f;
-                slopes.at(x, y, 1) = slopes.at(x, y) * static_cast<float>(uniform(random, 1, 9));
-                logs.at(x, y) = occluded ? std::log2(slopes.at(x, y)) : 0.0f;
-                logs.at(x, y, 1) = occluded ? 1.0f : 0.0f;
-                spread.at(x, y, 1) = x > 17 ? 0.0f : static_cast<float>(uniform(random, 0.1, 3));
-                spread.at(x, y, 0) = -spread.at(x, y, 1);
-                spread.at(x, y, 2) =
-                    spread.at(x, y, 0) + spread.at(x, y, 1) * static_cast<float>(uniform(random, -1, 3));
-                beta.at(x, y) = y == 0 ? -1.0f : 0.1f * static_cast<float>(y);
-            }
-        const auto onDevice = bench.buffer(logs.values), ratios = bench.filled(layout.size, -7.0f),
-                   width = bench.buffer(beta.values), slopeWidth = bench.buffer(inShorts(beta));
-        const std::string file = "analysis/two_slopes.cl";
-        const auto kind = device::PassKind::Analysis;
-        bench.passes.rows("widths", kind, file, "smoothLargest", p, WEDGE_BLOCK_PIXELS, 1, bench.buffer(slopes.values),
-            bench.buffer(objectId.values), onDevice);
-        const Planes<float> smoothed = planesOf(layout, bench.read(onDevice));
-        bench.passes.rows(
-            "widths", kind, file, "slopeRatios", p, WEDGE_BLOCK_PIXELS, onDevice, bench.buffer(spread.values), ratios);
-        bench.passes.rows("widths", kind, file, "widenBetweenSlopes", p, 1, ratios, width);
-        bench.passes.rows("widths", kind, file, "widthOfMeanSlope", p, 1, ratios, slopeWidth);
-        const Planes<float> ratio = ofShorts(layout, 1, bench.read(ratios)),
-                            wider = planesOf(layout, bench.read(width)),
-                            ofMean = ofShorts(layout, 1, bench.read(slopeWidth));
-        for (int y = 0; y < 9; ++y)
-            for (int x = 0; x < 21; ++x) {
-                CAPTURE(x);
-                CAPTURE(y);
-                double sum = 0, count = 0;
-                for (int qy = std::max(0, y - 1); qy <= std::min(8, y + 1); ++qy)
-                    for (int qx = std::max(0, x - 1); qx <= std::min(20, x + 1); ++qx)
-                        if (slopes.at(qx, qy, 1) > 0 && objectId.at(qx, qy) == objectId.at(x, y)) {
-                            sum += std::log2(slopes.at(qx, qy, 1));
-                            ++count;
-                        }
-                const bool has = logs.at(x, y, 1) > 0;
-                REQUIRE(smoothed.at(x, y, 2) == doctest::Approx(has ? sum / count : 0.0).epsilon(1e-3).scale(1));
-                const double own = smoothed.at(x, y, 2) - logs.at(x, y),
-                             near = spread.at(x, y, 1) > 0 ? (spread.at(x, y, 2) - spread.at(x, y)) / spread.at(x, y, 1)
-                                                           : 0.0;
-                const double r = std::clamp(std::exp2(has ? own : near), 1.0, 4.0);
-                REQUIRE(ratio.at(x, y) == doctest::Approx(r).epsilon(0.005));
-                const double exact = ratio.at(x, y), mean = 2 * exact / (1 + exact);
-                const double between = exact > 1 ? std::min(mean, 0.6 * exact / (exact - 1)) : mean;
-                REQUIRE(wider.at(x, y) == doctest::Approx(y == 0 ? -1.0 : 0.1 * y * between).epsilon(1e-4));
-                const double before = shared::unpackShort(shared::packShort(beta.at(x, y)));
-                REQUIRE(ofMean.at(x, y) == doctest::Approx(before * mean / between).epsilon(0.005));
-            }
+        for (const int radius : { 1, 2 }) {
+            KernelBench bench(device);
+            const render::PlaneLayout layout(21, 9);
+            const shared::AnalysisParams p = paramsOf(layout);
+            Planes<float> slopes(layout, 2, 0.0f), logs(layout, 3, 0.0f), spread(layout, 3, 0.0f),
+                beta(layout, 1, 0.0f);
+            Planes<std::uint32_t> objectId(layout, 1, 0u);
+            std::mt19937 random(6);
+            for (int y = 0; y < 9; ++y)
+                for (int x = 0; x < 21; ++x) {
+                    objectId.at(x, y) = x < 12 ? 1u : 2u;
+                    const bool occluded = (x + 2 * y) % 3 != 0;
+                    slopes.at(x, y) = occluded ? static_cast<float>(uniform(random, 0.1, 1)) : 0.0f;
+                    slopes.at(x, y, 1) = slopes.at(x, y) * static_cast<float>(uniform(random, 1, 9));
+                    logs.at(x, y) = occluded ? std::log2(slopes.at(x, y)) : 0.0f;
+                    logs.at(x, y, 1) = occluded ? 1.0f : 0.0f;
+                    spread.at(x, y, 1) = x > 17 ? 0.0f : static_cast<float>(uniform(random, 0.1, 3));
+                    spread.at(x, y, 0) = -spread.at(x, y, 1);
+                    spread.at(x, y, 2) =
+                        spread.at(x, y, 0) + spread.at(x, y, 1) * static_cast<float>(uniform(random, -1, 3));
+                    beta.at(x, y) = y == 0 ? -1.0f : 0.1f * static_cast<float>(y);
+                }
+            const auto onDevice = bench.buffer(logs.values), ratios = bench.filled(layout.size, -7.0f),
+                       width = bench.buffer(beta.values), slopeWidth = bench.buffer(inShorts(beta));
+            const std::string file = "analysis/two_slopes.cl";
+            const auto kind = device::PassKind::Analysis;
+            bench.passes.rows("widths", kind, file, "smoothLargest", p, WEDGE_BLOCK_PIXELS, radius,
+                bench.buffer(slopes.values), bench.buffer(objectId.values), onDevice);
+            const Planes<float> smoothed = planesOf(layout, bench.read(onDevice));
+            bench.passes.rows("widths", kind, file, "slopeRatios", p, WEDGE_BLOCK_PIXELS, onDevice,
+                bench.buffer(spread.values), ratios);
+            bench.passes.rows("widths", kind, file, "widenBetweenSlopes", p, 1, ratios, width);
+            bench.passes.rows("widths", kind, file, "widthOfMeanSlope", p, 1, ratios, slopeWidth);
+            const Planes<float> ratio = ofShorts(layout, 1, bench.read(ratios)),
+                                wider = planesOf(layout, bench.read(width)),
+                                ofMean = ofShorts(layout, 1, bench.read(slopeWidth));
+            for (int y = 0; y < 9; ++y)
+                for (int x = 0; x < 21; ++x) {
+                    CAPTURE(x);
+                    CAPTURE(y);
+                    double sum = 0, count = 0;
+                    for (int qy = std::max(0, y - radius); qy <= std::min(8, y + radius); ++qy)
+                        for (int qx = std::max(0, x - radius); qx <= std::min(20, x + radius); ++qx)
+                            if (slopes.at(qx, qy, 1) > 0 && objectId.at(qx, qy) == objectId.at(x, y)) {
+                                sum += std::log2(slopes.at(qx, qy, 1));
+                                ++count;
+                            }
+                    const bool has = logs.at(x, y, 1) > 0;
+                    REQUIRE(smoothed.at(x, y, 2) == doctest::Approx(has ? sum / count : 0.0).epsilon(1e-3).scale(1));
+                    const double own = smoothed.at(x, y, 2) - logs.at(x, y),
+                                 near = spread.at(x, y, 1) > 0
+                        ? (spread.at(x, y, 2) - spread.at(x, y)) / spread.at(x, y, 1)
+                        : 0.0;
+                    const double r = std::clamp(std::exp2(has ? own : near), 1.0, 4.0);
+                    REQUIRE(ratio.at(x, y) == doctest::Approx(r).epsilon(0.005));
+                    const double exact = ratio.at(x, y), mean = 2 * exact / (1 + exact);
+                    const double between = exact > 1 ? std::min(mean, 0.6 * exact / (exact - 1)) : mean;
+                    REQUIRE(wider.at(x, y) == doctest::Approx(y == 0 ? -1.0 : 0.1 * y * between).epsilon(1e-4));
+                    const double before = shared::unpackShort(shared::packShort(beta.at(x, y)));
+                    REQUIRE(ofMean.at(x, y) == doctest::Approx(before * mean / between).epsilon(0.005));
+                }
+        }
     });
 }
 

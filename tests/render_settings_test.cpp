@@ -7,6 +7,8 @@
 
 #include <functional>
 #include <limits>
+#include <set>
+#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -150,6 +152,16 @@ TEST_CASE("settings that differ are described differently")
         [](auto& d) { d.leastTermShare = 0.4f; }, [](auto& d) { d.leastPrimaries = 0.4f; },
         [](auto& d) { d.leastSecondaries = 0.4f; }, [](auto& d) { d.oneVelocity = 0.5f; } };
     std::vector<decltype(describe(Settings()))> seen = { describe(axisAligned()) };
+    std::set<std::string> names; // reports keep one value of each
+    for (const auto& [name, value] : seen.front()) {
+        CAPTURE(name);
+        CHECK(names.insert(name).second);
+    }
+    for (float Settings::*number : { &Settings::wideBlur, &Settings::wideBlurExponent, &Settings::shearedWidth }) {
+        Settings other = axisAligned();
+        other.*number += 0.5f;
+        seen.push_back(describe(other));
+    }
     for (const Change& change : changes)
         seen.push_back(describe(with(axisAligned(), change)));
     Settings smooth = axisAligned();

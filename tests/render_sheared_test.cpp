@@ -1,5 +1,6 @@
 // Whole frames whose filters of lights follow gradients, and the scores that these are made of.
 #include "effects/area_lights/soft_shadows.h"
+#include "host/render/direct_lights.h"
 #include "tests/slats_scene.h"
 
 using namespace wedge;
@@ -97,4 +98,35 @@ TEST_CASE("a score has the first moment 1 over its light, and goes by coordinate
             CHECK(found.edge <= 1.0f);
             CHECK((profile == WEDGE_PROFILE_UNIFORM ? found.edge == 1.0f : found.edge < 0.75f));
         }
+}
+
+TEST_CASE("filters narrow where a light's deviation blurs shadows over many pixels")
+{
+    onEveryDevice([](const device::Device& device) {
+        const scene::Scene scene = slats(scene::LightProfile::Gaussian);
+        render::Renderer renderer(scene, device, renderOptions());
+        const auto widthsOf = [&](render::Settings s) {
+            s.sampling = render::Sampling::Uniform; // so that counts change nothing
+            s.widening = 0;
+            renderer.render(s, {}, true);
+            return renderer.termPlanes().front().beta;
+        };
+        render::Settings s = sized(render::axisAligned(28), width, height);
+        s.wideBlur = 1e9f;
+        const std::vector<float> wide = widthsOf(s);
+        s.wideBlur = 4;
+        const std::vector<float> narrow = widthsOf(s), size = renderer.frame().pixelSize.downloadAll(renderer.queue());
+        const shared::AreaLight light = render::directLights(scene).own.front().onDevice();
+        const double mu = s.mu * (1 + 0.5 * render::scoreOf(light).edge) / s.shearedWidth;
+        int narrowed = 0, same = 0;
+        for (std::size_t i = 0; i < wide.size(); ++i) {
+            if (!(wide[i] > 0))
+                continue;
+            const double blur = wide[i] * s.k * mu / size[i];
+            REQUIRE(narrow[i] / wide[i] == doctest::Approx(std::min(1.0, std::pow(4 / blur, 0.4))).epsilon(1e-3));
+            ++(blur > 4 ? narrowed : same);
+        }
+        CHECK(narrowed > 100);
+        CHECK(same > 100);
+    });
 }

@@ -224,7 +224,7 @@ graph::Handle<Value> LightGraph::means(const char* pass, PassKind kind)
     return out;
 }
 
-/// And narrows filters by counts and where shadows are wide.
+/// And narrows filters by counts and where shadows are wide; components go by slopes alone.
 Shearing LightGraph::shears()
 {
     auto slopeWidth = g_.plane<Metres>("width by slopes", shortFloats);
@@ -236,10 +236,14 @@ Shearing LightGraph::shears()
                 value("second", WEDGE_ORDER2), reads("sums", sums_), updates("gradients", gradients_) });
     }
     f_.pixels("filter", PassKind::Filter, { "analysis/shear.cl", "narrowSheared" },
-        { p, value("mean", static_cast<float>(s_.spp)), value("countPower", s_.countWidth),
+        { p, value("mean", static_cast<float>(s_.spp)), value("countPower", ofComponents() ? 0.0f : s_.countWidth),
             value("wideBlur", twoSlopes() ? twoSlopeWideBlur : s_.wideBlur),
-            value("blurPower", twoSlopes() ? twoSlopeBlurWidth : s_.blurWidth), reads("taken", taken_),
-            reads("pixelSize", f_.surfaces.pixelSize), writes("slopeWidth", slopeWidth), updates("beta", beta_) });
+            value("blurPower",
+                ofComponents()    ? 0.0f
+                    : twoSlopes() ? twoSlopeWideBlurExponent
+                                  : s_.wideBlurExponent),
+            reads("taken", taken_), reads("pixelSize", f_.surfaces.pixelSize), writes("slopeWidth", slopeWidth),
+            updates("beta", beta_) });
     if (twoSlopes()) {
         f_.pixels("filter", PassKind::Filter, { "analysis/two_slopes.cl", "widthOfMeanSlope" },
             { p, reads("ratio", ratio_), updates("slopeWidth", slopeWidth) });

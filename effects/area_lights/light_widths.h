@@ -14,7 +14,7 @@ struct SlopeWindow {
 };
 
 /// Declares how the widths of a light's filter, metres, follow from slopes of occluders by default: the least one,
-/// eroded, smoothed and spread (kernels/analysis/analysis.cl).
+/// eroded and smoothed as the window says, and spread (kernels/analysis/analysis.cl).
 /// slopes: the least of each pixel, in the first plane; lit(): above 0 where the light is seen, in the first plane,
 /// asked for when it is needed. ratio: if there is one, the largest slope, which is in the second plane then, smoothed
 /// and spread as well, over the least (kernels/analysis/two_slopes.cl)

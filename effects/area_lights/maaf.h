@@ -19,9 +19,9 @@ namespace wedge::render {
 /// The filters that method maaf has for a light; none where its filter is that of method aaf.
 std::optional<Maaf> maafOf(const Settings& settings, const shared::AreaLight& light);
 
-/// Settings::wideBlur and blurWidth of filters of both slopes, whose error is of higher order, so that kinks of shadows
-/// show sooner: constants as chosen in docs/maaf.md.
-inline constexpr float twoSlopeWideBlur = 8.0f, twoSlopeBlurWidth = 0.5f;
+/// Settings::wideBlur and wideBlurExponent of filters of both slopes, whose error is of higher order, so that kinks of
+/// shadows show sooner: constants as chosen in docs/maaf.md.
+inline constexpr float twoSlopeWideBlur = 8.0f, twoSlopeWideBlurExponent = 0.5f;
 
 /// Which lights have such filters, for people.
 std::string lightOf(Maaf maaf);

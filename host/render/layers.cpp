@@ -216,11 +216,8 @@ std::vector<Layer> layerTable()
                   + widthLayers() + ")" },
             [](LayerReader& r) { r.filterWidths(); } },
         { { componentsLayer,
-              "00 01 ...: what each pair of components along a light's two axes has of its visibility, which they add "
-              "up to, "
-              "where it is filtered by components (method maaf, --maaf printed or refitted; of the area light; of "
-              "several "
-              "components1, components2, ...)" },
+              "00 01 ...: what each pair of components along a light's axes adds to the part of it that matt surfaces "
+              "see (--maaf printed or refitted; of several lights components1, components2, ...)" },
             [](LayerReader& r) { r.components(); } },
         { { lensWidthLayer,
               "pixels: standard deviation of the image's filter of what the lens blurs, 0 where there is none "

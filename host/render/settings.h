@@ -225,15 +225,15 @@ struct Settings {
     float shearedWidth = 1.5f; ///< how much wider than others they are then, less what an edge of the light's takes
     float countWidth = 0.2f; ///< and with it widths ~ (mean count / own)^this
     /// And where a light's standard deviation blurs shadows over more pixels than so many, ~ (wideBlur /
-    /// blur)^blurWidth.
-    float wideBlur = 12.0f, blurWidth = 0.4f;
+    /// blur)^wideBlurExponent.
+    float wideBlur = 12.0f, wideBlurExponent = 0.4f;
     bool fitted = true; ///< adaptive filters fit lines to neighbours in the place of means
     bool fallback =
         true; ///< where filters are off by more than noise explains, samples show (kernels/analysis/fallback.cl)
     /// Pixels: lights' filters that are narrower are compared with one of this width, and widened where nothing speaks
     /// for them (kernels/analysis/widen.cl); 0: never.
     float widening = 2.0f;
-    float normalDegrees = 10.0f; ///< neighbours whose normals differ by more are not gathered
+    float normalDegrees = 10.0f; ///< neighbours whose normals differ by more are not gathered (by components: 20)
     float cut = 3.0f; ///< kernel radius in standard deviations
     int maxRadius = 40; ///< kernel radius in pixels at most
     float fixedWidth = 3.0f; ///< pixels, for Filtering::Fixed

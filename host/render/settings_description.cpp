@@ -87,7 +87,7 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
                 { "narrower", number(s.narrower) }, { "surface", number(s.surface) }, { "fitted", number(s.fitted) },
                 { "sheared", number(s.sheared) }, { "shearedWidth", number(s.shearedWidth) },
                 { "countWidth", number(s.countWidth) }, { "wideBlur", number(s.wideBlur) },
-                { "blurWidth", number(s.blurWidth) }, { "fallback", number(s.fallback) },
+                { "wideBlurExponent", number(s.wideBlurExponent) }, { "fallback", number(s.fallback) },
                 { "widening", number(s.widening) }, { "normalDegrees", number(s.normalDegrees) },
                 { "cut", number(s.cut) }, { "maxRadius", number(s.maxRadius) }, { "fillSigma", number(s.fillSigma) },
                 { "fillRadius", number(s.fillRadius) }, { "countExponent", number(s.countExponent) },

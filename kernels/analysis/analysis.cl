@@ -1,8 +1,8 @@
 // From the first pass's slopes to filter widths.
 //
 // Published (thesis section 3.6): an unoccluded pixel takes the mean distances of the occluded pixels within 5
-// pixels. Default: s_min is eroded over 3x3 pixels of the same object, smoothed in the logarithm, and spread to
-// unoccluded pixels with Gaussian weights, so that the widths have no border of their own.
+// pixels. Default: s_min is eroded over 3x3 pixels of the same object (but for components, docs/maaf.md), smoothed in
+// the logarithm, and spread to unoccluded pixels with Gaussian weights, so that the widths have no border of their own.
 #include "core/packed_planes.h"
 #include "core/vector16.h"
 #include "shared/bsdf.h"

@@ -42,7 +42,8 @@ __kernel void shadowGradients(AnalysisParams p, uint each, float first, float se
 /// Widths are made for pixels that take the mean count, and for shadows of few pixels. Those that take more samples are
 /// less noisy, and where shadows are wide more pixels are gathered: as wide filters would put more off than they
 /// smooth. beta ~ (mean / count)^countPower, and where shadows blur over more pixels than wideBlur (a light's standard
-/// deviation), ~ (wideBlur / blur)^blurPower.
+/// deviation), ~ (wideBlur / blur)^blurPower. The blur is k mu times the width (filterWidth()), of both slopes that of
+/// their mean; where a lobe has narrowed the width it counts as less, and nothing is narrowed twice.
 ///
 /// in      taken: samples; pixelSize: metres
 /// in out  beta: metres

@@ -279,7 +279,8 @@ __kernel void filterComponents(FilterParams p, LightAxes light, float slopesPerW
     vstore16(known ? count : (float16)(1.0f), 0, effective + i);
     for (uint pair = 0u; keepsParts != 0u && pair < WEDGE_PAIRS * WEDGE_PAIRS; ++pair) {
         const float16 unfiltered = pair == 0u ? loadBlock(value, i) : (float16)(0.0f);
-        vstore16(known ? sum.part[pair] / sum.all[0] : unfiltered, 0, parts + pair * p.planeSize + i);
+        const float16 all = known ? sum.all[0] : (float16)(1.0f);
+        vstore16(known ? sum.part[pair] / all : unfiltered, 0, parts + pair * p.planeSize + i);
     }
 }
 
