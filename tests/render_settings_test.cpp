@@ -61,7 +61,7 @@ TEST_CASE("settings of distributed frames out of range are refused")
         &DistributedSettings::countExponent, &DistributedSettings::varianceSpread, &DistributedSettings::oneVelocity };
     for (const auto member : members)
         for (const float value : { -1.0f, nan, infinity })
-            wrong.push_back([=](DistributedSettings& d) { d.*member = value; });
+            wrong.emplace_back([=](DistributedSettings& d) { d.*member = value; });
     for (std::size_t i = 0; i < wrong.size(); ++i) {
         CAPTURE(i);
         CHECK_THROWS_AS(validate(with(axisAligned(), wrong[i]), true), UsageError);
@@ -153,9 +153,9 @@ TEST_CASE("settings that differ are described differently")
         [](auto& d) { d.leastSecondaries = 0.4f; }, [](auto& d) { d.oneVelocity = 0.5f; } };
     std::vector<decltype(describe(Settings()))> seen = { describe(axisAligned()) };
     std::set<std::string> names; // reports keep one value of each
-    for (const auto& [name, value] : seen.front()) {
-        CAPTURE(name);
-        CHECK(names.insert(name).second);
+    for (const auto& described : seen.front()) {
+        CAPTURE(described.first);
+        CHECK(names.insert(described.first).second);
     }
     for (float Settings::*number : { &Settings::wideBlur, &Settings::wideBlurExponent, &Settings::shearedWidth }) {
         Settings other = axisAligned();
