@@ -124,3 +124,51 @@ TEST_CASE("where a light has several filters")
     s.components = 4;
     CHECK_THROWS(render::validate(s, false));
 }
+
+TEST_CASE("what filters of both slopes and components have of their own")
+{
+    const render::Settings s = render::multipleAxisAligned(render::Maaf::TwoSlope);
+    const render::Narrowing one = render::narrowingOf(s, {}), both = render::narrowingOf(s, render::Maaf::TwoSlope),
+                            components = render::narrowingOf(s, render::Maaf::Refitted);
+    CHECK(one.wideBlur == s.wideBlur);
+    CHECK(one.blurPower == s.wideBlurExponent);
+    CHECK(one.countPower == s.countWidth);
+    CHECK(both.wideBlur == 8); // docs/maaf.md
+    CHECK(both.blurPower == 0.5f);
+    CHECK(both.countPower == s.countWidth);
+    CHECK(components.countPower == 0);
+    CHECK(components.blurPower == 0);
+    for (const auto& maaf : { std::optional<render::Maaf> {}, std::optional(render::Maaf::TwoSlope) }) {
+        CHECK(render::slopeWindowOf(maaf).eroded);
+        CHECK(render::slopeWindowOf(maaf).radius == 1);
+    }
+    CHECK_FALSE(render::slopeWindowOf(render::Maaf::Printed).eroded); // the paper's 5 x 5
+    CHECK(render::slopeWindowOf(render::Maaf::Printed).radius == 2);
+    CHECK(render::withComponents({}).normalCosine == doctest::Approx(std::cos(std::acos(-1.0) / 9)));
+}
+
+TEST_CASE("frames take them")
+{
+    onEveryDevice([](const device::Device& device) {
+        const scene::Scene scene = slats(scene::LightProfile::Gaussian);
+        render::Renderer renderer(scene, device, renderOptions());
+        // Narrower everywhere, and by counts more than usual: of method aaf's filters alone.
+        const auto changed = [&](render::Settings s, bool byCounts) {
+            const std::vector<float> usual = renderPixels(renderer, s);
+            (byCounts ? s.countWidth : s.wideBlur) = byCounts ? 2.0f : 0.1f;
+            return renderPixels(renderer, s) != usual;
+        };
+        const render::Settings aaf = sized(render::axisAligned(16), width, height);
+        for (const bool byCounts : { false, true }) {
+            CHECK(changed(aaf, byCounts));
+            CHECK(changed(ofMaaf(render::Maaf::TwoSlope, 16), byCounts) == byCounts);
+            CHECK_FALSE(changed(ofMaaf(render::Maaf::Refitted, 16, 3), byCounts));
+        }
+        // What normals other filters take is nothing to components; counts are analysed with those, though.
+        render::Settings strict = ofMaaf(render::Maaf::Refitted, 16, 3);
+        strict.sampling = render::Sampling::Uniform;
+        const std::vector<float> usual = renderPixels(renderer, strict);
+        strict.normalDegrees = 1e-3f;
+        CHECK(renderPixels(renderer, strict) == usual);
+    });
+}

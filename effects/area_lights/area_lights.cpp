@@ -2,6 +2,7 @@
 
 #include "effects/area_lights/light_graph.h"
 #include "effects/area_lights/light_waves.h"
+#include "effects/area_lights/maaf.h"
 #include "host/render/direct_lights.h"
 
 namespace wedge::render {
@@ -34,6 +35,8 @@ public:
     std::string absence(Part part) const override { return part == Part::Direct ? "the scene has no area light" : ""; }
 
     std::string widthLayers() const override { return "of the area light; of several filterWidth1, filterWidth2, ..."; }
+
+    std::optional<TermLayer> termLayer(const Settings& settings) const override { return componentsLayer(settings); }
 };
 
 } // namespace

@@ -94,7 +94,7 @@ public:
         g_.only("filter of light", analysed, [&] {
             const std::optional<Shearing> shearing = sheared() || maaf_ ? std::optional(shears()) : std::nullopt;
             if (ofComponents()) {
-                componentFilter(f_, filterParams(), analysisParams(), light_, value_, beta_,
+                componentFilter(f_, withComponents(filterParams()), analysisParams(), light_, value_, beta_,
                     { sums_, gradients_, shearing->slopeWidth, ratio_ }, filtered, parts);
                 return;
             }
@@ -235,15 +235,11 @@ Shearing LightGraph::shears()
             { p, value("each", both ? WEDGE_MOMENTS : 2u), value("first", both ? -WEDGE_ORDER1 : 1.0f),
                 value("second", WEDGE_ORDER2), reads("sums", sums_), updates("gradients", gradients_) });
     }
+    const Narrowing narrowing = narrowingOf(s_, maaf_);
     f_.pixels("filter", PassKind::Filter, { "analysis/shear.cl", "narrowSheared" },
-        { p, value("mean", static_cast<float>(s_.spp)), value("countPower", ofComponents() ? 0.0f : s_.countWidth),
-            value("wideBlur", twoSlopes() ? twoSlopeWideBlur : s_.wideBlur),
-            value("blurPower",
-                ofComponents()    ? 0.0f
-                    : twoSlopes() ? twoSlopeWideBlurExponent
-                                  : s_.wideBlurExponent),
-            reads("taken", taken_), reads("pixelSize", f_.surfaces.pixelSize), writes("slopeWidth", slopeWidth),
-            updates("beta", beta_) });
+        { p, value("mean", static_cast<float>(s_.spp)), value("countPower", narrowing.countPower),
+            value("wideBlur", narrowing.wideBlur), value("blurPower", narrowing.blurPower), reads("taken", taken_),
+            reads("pixelSize", f_.surfaces.pixelSize), writes("slopeWidth", slopeWidth), updates("beta", beta_) });
     if (twoSlopes()) {
         f_.pixels("filter", PassKind::Filter, { "analysis/two_slopes.cl", "widthOfMeanSlope" },
             { p, reads("ratio", ratio_), updates("slopeWidth", slopeWidth) });
@@ -287,8 +283,7 @@ void LightGraph::widthsAndCounts()
         publishedWidths(f_, analysisParams(), extremes_, lit, beta_, wanted_);
     }
     if (s_.slopes == Slopes::Smoothed) {
-        smoothedWidths(f_, analysisParams(), extremes_, lit, beta_, maaf_ ? &ratio_ : nullptr,
-            ofComponents() ? slopeWindowOfComponents : SlopeWindow {});
+        smoothedWidths(f_, analysisParams(), extremes_, lit, beta_, maaf_ ? &ratio_ : nullptr, slopeWindowOf(maaf_));
         if (twoSlopes()) {
             f_.pixels("widths", PassKind::Analysis, { "analysis/two_slopes.cl", "widenBetweenSlopes" },
                 { f_.rectangle(analysisParams()), reads("ratio", ratio_), updates("beta", beta_) });
@@ -349,14 +344,16 @@ void LightGraph::widened()
     widen(f_, "filter", filterParams(), s_.widening, pinholeNoise, { visibility, deviation, weights }, beta_);
 }
 
-/// Planes of what pairs of components make up, where layers are read.
+/// The planes of componentsLayer(), where layers are read.
 graph::Handle<Value>* LightGraph::keptParts()
 {
-    if (f_.components == nullptr) {
+    if (f_.termLayers == nullptr) {
         return nullptr;
     }
+    const TermLayer layer = componentsLayer(s_);
+    const auto planes = static_cast<std::uint32_t>(layer.channels.size());
     auto& parts =
-        f_.components->emplace(term_, g_.plane<Value>("components", graph::floatPlanes(partPlanes(s_.components))))
+        f_.termLayers->emplace(layer.info.name + term_, g_.plane<Value>(layer.info.name, graph::floatPlanes(planes)))
             .first->second;
     f_.zero(parts);
     return &parts;

@@ -29,8 +29,6 @@ constexpr float widestCut = 2.5f;
 /// this much of the profile's first moment, which a Gaussian's have where it is cut at 1.5 deviations. Cut at a
 /// fraction of one it is uniform in all but name.
 constexpr float mostEdge = 0.45f;
-/// Components gather from neighbours whose normals are within so many degrees, as the paper's do.
-constexpr double componentDegrees = 20.0;
 /// Of a filter of both slopes, over one of s_min that follows no gradients.
 constexpr float twoSlopeWidth = 2.1f;
 
@@ -116,10 +114,37 @@ graph::Format componentsFormat(int components, std::uint32_t channels)
     }
 }
 
-std::uint32_t partPlanes(int components)
+TermLayer componentsLayer(const Settings& settings)
 {
-    const auto pairs = static_cast<std::uint32_t>((components + 1) / 2);
-    return pairs * pairs;
+    TermLayer layer { { "components",
+                          "00 01 ...: what each pair of components along a light's axes adds to the part of it that "
+                          "matt surfaces see (--maaf printed or refitted; of several lights components1, components2, "
+                          "...)" },
+        {}, "the frame is not filtered by components (--method maaf, --maaf printed or refitted)" };
+    const int pairs = settings.maaf && *settings.maaf != Maaf::TwoSlope ? (settings.components + 1) / 2 : 0;
+    for (int pair = 0; pair < pairs * pairs; ++pair) {
+        layer.channels.push_back(fmt::format("{}{}", pair / pairs, pair % pairs));
+    }
+    return layer;
+}
+
+SlopeWindow slopeWindowOf(const std::optional<Maaf>& maaf)
+{
+    return maaf && *maaf != Maaf::TwoSlope ? SlopeWindow { .eroded = false, .radius = 2 } : SlopeWindow {};
+}
+
+Narrowing narrowingOf(const Settings& settings, const std::optional<Maaf>& maaf)
+{
+    if (!maaf) {
+        return { settings.countWidth, settings.wideBlur, settings.wideBlurExponent };
+    }
+    return *maaf == Maaf::TwoSlope ? Narrowing { settings.countWidth, 8.0f, 0.5f } : Narrowing {};
+}
+
+shared::FilterParams withComponents(shared::FilterParams p)
+{
+    p.normalCosine = static_cast<float>(std::cos(glm::radians(20.0)));
+    return p;
 }
 
 shared::AnalysisParams withTwoSlopeWidths(shared::AnalysisParams p, const shared::AreaLight& light)
@@ -139,11 +164,10 @@ shared::FilterParams withTwoSlopes(
     return p;
 }
 
-void componentFilter(FrameBuilder& frame, shared::FilterParams params, const shared::AnalysisParams& analysis,
+void componentFilter(FrameBuilder& frame, const shared::FilterParams& params, const shared::AnalysisParams& analysis,
     const shared::AreaLight& light, const graph::Handle<Value>& shown, const graph::Handle<Metres>& beta,
     const ComponentTerm& term, Gathered& out, graph::Handle<Value>* parts)
 {
-    params.normalCosine = static_cast<float>(std::cos(glm::radians(componentDegrees)));
     const Settings& settings = frame.settings;
     const int pixels = static_cast<int>(params.maxRadius);
     const graph::Reach around { .x = pixels, .y = pixels };

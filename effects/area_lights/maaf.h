@@ -1,6 +1,7 @@
 #pragma once
 
 #include "effects/area_lights/light_widths.h"
+#include "host/render/effect.h"
 #include "host/render/filters/filter_graph.h"
 #include "host/render/frame_builder.h"
 #include "host/render/settings.h"
@@ -18,10 +19,6 @@ namespace wedge::render {
 
 /// The filters that method maaf has for a light; none where its filter is that of method aaf.
 std::optional<Maaf> maafOf(const Settings& settings, const shared::AreaLight& light);
-
-/// Settings::wideBlur and wideBlurExponent of filters of both slopes, whose error is of higher order, so that kinks of
-/// shadows show sooner: constants as chosen in docs/maaf.md.
-inline constexpr float twoSlopeWideBlur = 8.0f, twoSlopeWideBlurExponent = 0.5f;
 
 /// Which lights have such filters, for people.
 std::string lightOf(Maaf maaf);
@@ -43,11 +40,20 @@ shared::AnalysisParams withTwoSlopeWidths(shared::AnalysisParams params, const s
 shared::FilterParams withTwoSlopes(
     shared::FilterParams params, const shared::AnalysisParams& analysis, const shared::AreaLight& light);
 
-/// Pairs of components along u by those along v.
-std::uint32_t partPlanes(int components);
+/// The layer of what each pair of components along u and along v (which runs fastest) has of a light's visibility.
+TermLayer componentsLayer(const Settings& settings);
 
-/// As the paper has it: plain means over 5 x 5 pixels.
-inline constexpr SlopeWindow slopeWindowOfComponents { false, 2 };
+/// Over which pixels slopes are taken together: by components as the paper has it, plain means over 5 x 5 pixels.
+/// maaf: maafOf() of the light
+SlopeWindow slopeWindowOf(const std::optional<Maaf>& maaf);
+
+/// How filters that follow gradients narrow by counts and where shadows are wide, narrowSheared() of
+/// kernels/analysis/shear.cl. Filters of both slopes have a blur and a power of their own, chosen in docs/maaf.md:
+/// their error is of higher order, so that kinks of shadows show sooner. Components narrow by neither.
+struct Narrowing {
+    float countPower = 0, wideBlur = 1, blurPower = 0;
+};
+Narrowing narrowingOf(const Settings& settings, const std::optional<Maaf>& maaf);
 
 /// What the filter of components takes besides values and widths.
 struct ComponentTerm {
@@ -57,9 +63,12 @@ struct ComponentTerm {
     graph::Handle<Share> ratio;
 };
 
-/// Declares the filter of components (kernels/filter/components.h) into planes that were there. parts: what each pair
-/// of components has of a pixel's visibility, partPlanes() of them; null where nobody wants it
-void componentFilter(FrameBuilder& frame, shared::FilterParams params, const shared::AnalysisParams& analysis,
+/// The gather's parameters of components: neighbours as the paper has them.
+shared::FilterParams withComponents(shared::FilterParams params);
+
+/// Declares the filter of components (kernels/filter/components.h) into planes that were there. params: of
+/// withComponents(). parts: planes of componentsLayer(); null where nobody wants them
+void componentFilter(FrameBuilder& frame, const shared::FilterParams& params, const shared::AnalysisParams& analysis,
     const shared::AreaLight& light, const graph::Handle<Value>& shown, const graph::Handle<Metres>& beta,
     const ComponentTerm& term, Gathered& out, graph::Handle<Value>* parts);
 

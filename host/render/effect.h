@@ -36,6 +36,14 @@ struct LayerInfo {
     std::string meaning; ///< one line, channels and units
 };
 
+/// A layer that shows what terms of an effect keep: each has planes of its own, and its channels are called by the
+/// layer's name and the term's.
+struct TermLayer {
+    LayerInfo info;
+    std::vector<std::string> channels; ///< one of each plane; none: terms keep nothing for it with these settings
+    std::string absence; ///< why they do not
+};
+
 /// Direct light that is added as it is sampled.
 struct Unfiltered {
     std::string name; ///< of its planes
@@ -77,6 +85,8 @@ public:
     virtual std::string widthLayers() const { return ""; }
     /// That of its unfiltered light, R G B.
     virtual std::optional<LayerInfo> layer() const { return std::nullopt; }
+    /// One of its terms. They write it to FrameBuilder::termLayers.
+    virtual std::optional<TermLayer> termLayer(const Settings&) const { return std::nullopt; }
 
     /// Kernels of its own and what they include, by the paths that passes and includes name.
     virtual device::GeneratedSources sources() const { return {}; }

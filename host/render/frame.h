@@ -51,7 +51,7 @@ struct Frame {
     std::map<std::string, device::Buffer<float>>
         unfiltered = {}; ///< direct light that no filter had, by effects' layers
     std::map<std::string, device::Buffer<float>>
-        components = {}; ///< what pairs of components have of a light's visibility, by names of terms
+        termLayers = {}; ///< by names of layers of terms, each with its term's (effect.h)
     device::Buffer<std::uint32_t> samples =
         none<std::uint32_t>(); ///< of all terms; without layers of distributed frames alone
     device::Buffer<std::uint32_t> indirectSamples = none<std::uint32_t>(); ///< of the indirect terms

@@ -107,9 +107,9 @@ struct FrameBuilder {
     bool packed = false; ///< planes of pixels that have several receivers are packed, see kernels/waves/accumulate.h
     Surfaces surfaces = {};
     Totals totals = {};
-    /// By names of terms, what components of method maaf each have of a light's visibility; null where no layers are
+    /// By names of layers of terms, each with its term's (effect.h), what terms keep for them; null where no layers are
     /// read.
-    std::map<std::string, graph::Handle<Value>>* components = nullptr;
+    std::map<std::string, graph::Handle<Value>>* termLayers = nullptr;
     std::optional<graph::Handle<Directions>> environmentSamples = {}; ///< pre-computed, where there are any
 
     /// Of normals, each in one number or in three. In scenes with normal maps the ones without them lie behind.

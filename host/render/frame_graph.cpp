@@ -45,8 +45,8 @@ void eachShown(const Shown& shown, Frame& frame, const Visit& visit)
     for (const auto& [layer, radiance] : shown.unfiltered) {
         one(frame.unfiltered.try_emplace(layer, Frame::none<float>()).first->second, radiance);
     }
-    for (const auto& [term, parts] : shown.components) {
-        one(frame.components.try_emplace(term, Frame::none<float>()).first->second, parts);
+    for (const auto& [name, planes] : shown.termLayers) {
+        one(frame.termLayers.try_emplace(name, Frame::none<float>()).first->second, planes);
     }
 }
 

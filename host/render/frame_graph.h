@@ -52,7 +52,7 @@ protected:
         graph::Handle<Count> primaryTaken;
         graph::Handle<Pixels> lensWidth, motionWidth, motion;
         std::map<std::string, graph::Handle<Radiance>> unfiltered; ///< by effects' layers
-        std::map<std::string, graph::Handle<Value>> components = {}; ///< by names of terms
+        std::map<std::string, graph::Handle<Value>> termLayers = {}; ///< by names of layers and terms
     };
     /// Wants all that is shown, and the widths of terms that are analysed if layers are kept.
     void show(const Shown& shown, bool distributed, bool analysed);

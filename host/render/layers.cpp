@@ -15,7 +15,6 @@ namespace wedge::render {
 namespace {
 
 constexpr const char* widthLayer = "filterWidth";
-constexpr const char* componentsLayer = "components";
 constexpr const char* lensWidthLayer = "filterWidthLens";
 constexpr const char* motionWidthLayer = "filterWidthMotion";
 
@@ -123,19 +122,25 @@ public:
         }
     }
 
-    /// Of each light that has some; 0 of those that an early stop kept from being filtered.
-    void components()
+    /// Of each term that has some; 0 of those that an early stop kept from being filtered.
+    void ofTerms(const TermLayer& layer)
     {
-        for (const auto& [term, planes] : frame().components) {
-            const std::vector<float> values = planes.downloadAll(renderer_.queue());
-            const auto pairs = static_cast<std::size_t>((settings_.components + 1) / 2);
-            for (std::size_t part = 0; part < pairs * pairs; ++part) {
-                const std::size_t offset = part * frame().layout.size;
-                channel(fmt::format("{}{}.{}{}", componentsLayer, term, part / pairs, part % pairs), Where::OnSurfaces,
+        for (const Term& term : frameTerms(settings_, renderer_.scene())) {
+            const std::string name = layer.info.name + term.name;
+            const auto known = frame().termLayers.find(name);
+            if (known == frame().termLayers.end()) {
+                continue;
+            }
+            const std::vector<float> values = known->second.downloadAll(renderer_.queue());
+            for (std::size_t plane = 0; plane < layer.channels.size(); ++plane) {
+                const std::size_t offset = plane * frame().layout.size;
+                channel(name + "." + layer.channels[plane], Where::OnSurfaces,
                     [&](std::size_t i) { return values[offset + i]; });
             }
         }
     }
+
+    const Settings& settings() const { return settings_; }
 
 private:
     std::vector<std::uint32_t> primarySamplesOf()
@@ -215,10 +220,6 @@ std::vector<Layer> layerTable()
               "(method aaf; "
                   + widthLayers() + ")" },
             [](LayerReader& r) { r.filterWidths(); } },
-        { { componentsLayer,
-              "00 01 ...: what each pair of components along a light's axes adds to the part of it that matt surfaces "
-              "see (--maaf printed or refitted; of several lights components1, components2, ...)" },
-            [](LayerReader& r) { r.components(); } },
         { { lensWidthLayer,
               "pixels: standard deviation of the image's filter of what the lens blurs, 0 where there is none "
               "(method aaf)" },
@@ -237,6 +238,10 @@ std::vector<Layer> layerTable()
         if (const std::optional<LayerInfo> layer = effect->layer()) {
             table.push_back({ *layer, [name = layer->name](LayerReader& r) { r.unfiltered(name); } });
         }
+        if (const std::optional<TermLayer> layer = effect->termLayer({})) {
+            table.push_back(
+                { layer->info, [&effect](LayerReader& r) { r.ofTerms(effect->termLayer(r.settings()).value()); } });
+        }
     }
     return table;
 }
@@ -253,9 +258,10 @@ std::string obstacle(const std::string& layer, const Settings& settings, const s
         if (own && own->name == layer && !effect->unfiltered(settings, scene)) {
             return "the frame has no " + effect->name();
         }
-    }
-    if (layer == componentsLayer && (!settings.maaf || *settings.maaf == Maaf::TwoSlope)) {
-        return "the frame is not filtered by components (--method maaf, --maaf printed or refitted)";
+        const std::optional<TermLayer> ofTerms = effect->termLayer(settings);
+        if (ofTerms && ofTerms->info.name == layer && ofTerms->channels.empty()) {
+            return ofTerms->absence;
+        }
     }
     if (!layer.starts_with(widthLayer)) {
         return "";

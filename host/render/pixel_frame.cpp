@@ -23,8 +23,8 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
     primary(lit);
     f_.precomputeDirections();
     const std::vector<Term> terms = frameTerms(settings, scene);
-    std::map<std::string, graph::Handle<Value>> components;
-    f_.components = keepLayers ? &components : nullptr;
+    std::map<std::string, graph::Handle<Value>> termLayers;
+    f_.termLayers = keepLayers ? &termLayers : nullptr;
     addTerms(Part::Direct, terms);
     std::map<std::string, graph::Handle<Radiance>> unfiltered;
     for (const UnfilteredOf& added : frameUnfiltered(settings, scene)) {
@@ -59,7 +59,7 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
     }
     Shown shown { {}, imageOf(f_.totals), {}, {}, {}, {}, {}, {} };
     if (keepLayers) {
-        shown = { f_.surfaces, f_.totals, {}, {}, {}, {}, unfiltered, components };
+        shown = { f_.surfaces, f_.totals, {}, {}, {}, {}, unfiltered, termLayers };
         if (settings.temporal == Temporal::Off || !fallsBack) {
             shown.totals.direct.deviation = shown.totals.indirect.deviation = {};
         }
@@ -68,7 +68,7 @@ PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene
     if (std::ranges::any_of(terms, &Term::ofLobes)) {
         shown.surfaces.specular = f_.surfaces.specular; // pixels that have some are sampled for more terms
     }
-    f_.components = nullptr;
+    f_.termLayers = nullptr;
     show(shown, false, f_.analysed());
 }
 

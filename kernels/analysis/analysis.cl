@@ -3,6 +3,7 @@
 // Published (thesis section 3.6): an unoccluded pixel takes the mean distances of the occluded pixels within 5
 // pixels. Default: s_min is eroded over 3x3 pixels of the same object (but for components, docs/maaf.md), smoothed in
 // the logarithm, and spread to unoccluded pixels with Gaussian weights, so that the widths have no border of their own.
+#include "analysis/smooth_slopes.h"
 #include "core/packed_planes.h"
 #include "core/vector16.h"
 #include "shared/bsdf.h"
@@ -50,20 +51,12 @@ __kernel void smoothSlopes(AnalysisParams p, int radius, __global const float* r
     const int i = (int)pixelIndex(x, y, p.stride);
     const uint16 object = loadIdBlock(objectId, i);
     const int16 has = (loadBlock(eroded, i) > 0.0f) & (object != 0u);
-    float16 sum = (float16)(0.0f);
-    float16 count = (float16)(0.0f);
+    float16 mean = (float16)(0.0f);
     if (any(has)) {
-        for (int dy = max(-radius, -(int)y); dy <= min(radius, (int)(p.height - 1u - y)); ++dy) {
-            for (int dx = -radius; dx <= radius; ++dx) {
-                const int j = i + dy * (int)p.stride + dx;
-                const float16 slope = loadBlock(eroded, j);
-                const int16 taken = (slope > 0.0f) & (loadIdBlock(objectId, j) == object);
-                sum += taken ? log2Block(slope) : (float16)(0.0f);
-                count += taken ? (float16)(1.0f) : (float16)(0.0f);
-            }
-        }
+        const SlopesAround around = slopesAround(p, radius, y, i, object, eroded, objectId);
+        mean = has ? around.sum / around.count : (float16)(0.0f);
     }
-    vstore16(has ? sum / count : (float16)(0.0f), 0, logSlopes + i);
+    vstore16(mean, 0, logSlopes + i);
     vstore16(has ? (float16)(1.0f) : (float16)(0.0f), 0, logSlopes + p.planeSize + i);
 }
 

@@ -1,5 +1,6 @@
 // What filters of a light need that go by both slopes of its shadows (docs/maaf.md): the largest slope over the least
 // one, and widths between both.
+#include "analysis/smooth_slopes.h"
 #include "core/packed_planes.h"
 #include "core/vector16.h"
 #include "shared/filter_params.h"
@@ -28,23 +29,15 @@ __kernel void smoothLargest(AnalysisParams p, int radius, __global const float* 
     const int i = (int)pixelIndex(x, y, p.stride);
     const uint16 object = loadIdBlock(objectId, i);
     const int16 has = loadBlock(logSlopes + p.planeSize, i) > 0.0f;
-    float16 sum = (float16)(0.0f), count = (float16)(0.0f);
+    float16 mean = (float16)(0.0f);
     if (any(has)) {
-        for (int dy = max(-radius, -(int)y); dy <= min(radius, (int)(p.height - 1u - y)); ++dy) {
-            for (int dx = -radius; dx <= radius; ++dx) {
-                const int j = i + dy * (int)p.stride + dx;
-                const float16 slope = loadBlock(slopes + p.planeSize, j);
-                const int16 taken = (slope > 0.0f) & (loadIdBlock(objectId, j) == object) & (object != 0u);
-                sum += taken ? log2Block(slope) : (float16)(0.0f);
-                count += taken ? (float16)(1.0f) : (float16)(0.0f);
-            }
-        }
+        const SlopesAround around = slopesAround(p, radius, y, i, object, slopes + p.planeSize, objectId);
+        // A pixel with an eroded slope may have none itself, and then none around but farther ones.
+        const float16 some = around.sum / max16(around.count, (float16)(1.0f));
+        const float16 own = around.count > 0.0f ? some : loadBlock(logSlopes, i);
+        mean = has ? own : (float16)(0.0f);
     }
-    // A pixel with an eroded slope may have none itself, and then none around but farther ones.
-    const int16 some = has & (count > 0.0f);
-    const float16 least = loadBlock(logSlopes, i);
-    const float16 mean = some ? sum / max16(count, (float16)(1.0f)) : least;
-    vstore16(has ? mean : (float16)(0.0f), 0, logSlopes + 2u * p.planeSize + i);
+    vstore16(mean, 0, logSlopes + 2u * p.planeSize + i);
 }
 
 /// s_max / s_min of pixels, from 1 to WEDGE_MOST_RATIO: their own, else of what spread to them, else 1.
