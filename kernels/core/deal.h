@@ -27,6 +27,7 @@ typedef struct {
     uint stride; ///< from a lane's sample to its next
     uint steps;
     bool own; ///< receiver[lane] == lane
+    bool whole; ///< all lanes take samples of one receiver, none of them is idle
 } Deal;
 
 WEDGE_INLINE uint samplesLeft(const Wanted* wanted, uint receiver)
@@ -38,6 +39,7 @@ WEDGE_INLINE uint samplesLeft(const Wanted* wanted, uint receiver)
 WEDGE_FN void dealWhole(Wanted* wanted, uint receiver, Deal* deal)
 {
     deal->own = false;
+    deal->whole = true;
     deal->stride = WEDGE_PACKET_SIZE;
     deal->steps = samplesLeft(wanted, receiver) / WEDGE_PACKET_SIZE;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
@@ -51,6 +53,7 @@ WEDGE_FN void dealWhole(Wanted* wanted, uint receiver, Deal* deal)
 WEDGE_FN void dealOwn(Wanted* wanted, uint steps, Deal* deal)
 {
     deal->own = true;
+    deal->whole = false;
     deal->stride = 1u;
     deal->steps = steps;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
@@ -63,7 +66,7 @@ WEDGE_FN void dealOwn(Wanted* wanted, uint steps, Deal* deal)
 /// One packet of what receivers have left, one after the other.
 WEDGE_FN void dealRest(Wanted* wanted, Deal* deal)
 {
-    deal->own = false;
+    deal->own = deal->whole = false;
     deal->stride = 1u;
     deal->steps = 1u;
     uint lane = 0u;

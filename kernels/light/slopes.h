@@ -30,16 +30,24 @@ WEDGE_INLINE void takeSlopes(const Sampling* at, const Samples* s, Slopes* state
     if (s->hits == 0) {
         return;
     }
-    float slope[WEDGE_PACKET_SIZE];
+    float least[WEDGE_PACKET_SIZE], largest[WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        slope[lane] = slopeOfHit(s->hits->t[lane]);
+        const float slope = slopeOfHit(s->hits->t[lane]);
+        const bool hit = s->hits->triangle[lane] != WEDGE_NO_TRIANGLE;
+        least[lane] = hit ? slope : WEDGE_SLOPE_MAX * 2.0f;
+        largest[lane] = hit ? slope : 0.0f;
+    }
+    if (at->deal->own) {
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            state->least[lane] = fmin(state->least[lane], least[lane]);
+            state->largest[lane] = fmax(state->largest[lane], largest[lane]);
+        }
+        return;
     }
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        if (s->hits->triangle[lane] != WEDGE_NO_TRIANGLE) {
-            const uint r = at->deal->receiver[lane];
-            state->least[r] = fmin(state->least[r], slope[lane]);
-            state->largest[r] = fmax(state->largest[r], slope[lane]);
-        }
+        const uint r = at->deal->receiver[lane];
+        state->least[r] = fmin(state->least[r], least[lane]);
+        state->largest[r] = fmax(state->largest[r], largest[lane]);
     }
 }
 

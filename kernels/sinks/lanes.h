@@ -14,13 +14,22 @@ WEDGE_INLINE bool hasTaken(const Sampling* at, uint receiver)
     return at->pixel[receiver] != WEDGE_NO_PIXEL && at->wanted->next[receiver] > at->wanted->first[receiver];
 }
 
-/// Adds what each lane has to its receiver's.
+/// Adds what each lane has to its receiver's, in the samples' order.
 WEDGE_INLINE void addLanes(const Sampling* at, const float* lanes, float* receivers)
 {
     if (at->deal->own) {
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
             receivers[lane] += lanes[lane];
         }
+        return;
+    }
+    if (at->deal->whole) {
+        // The same sum, but not by way of memory from one lane to the next.
+        float sum = receivers[at->deal->receiver[0]];
+        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+            sum += lanes[lane];
+        }
+        receivers[at->deal->receiver[0]] = sum;
         return;
     }
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
