@@ -46,7 +46,9 @@ const std::vector<Case> cases = { { 1, 1, { 0, 0, 1, 1 } }, { 37, 1, { 0, 0, 37,
 /// The corner of the tile that is number `slot`.
 std::pair<int, int> tileAt(const shared::FrameParams& p, std::uint32_t slot)
 {
-    const auto tile = static_cast<int>(std::uint64_t { slot } * p.tileStep % p.tileCount);
+    const std::uint32_t strips = p.tileCount / WEDGE_STRIP_TILES, strip = slot / WEDGE_STRIP_TILES;
+    const std::uint64_t distant = strip < strips ? std::uint64_t { strip } * p.tileStep % strips : strip;
+    const auto tile = static_cast<int>(distant * WEDGE_STRIP_TILES + slot % WEDGE_STRIP_TILES);
     const auto across = static_cast<int>(p.tilesX);
     return { static_cast<int>(p.x0) + tile % across * 8, static_cast<int>(p.y0) + tile / across * 8 };
 }

@@ -20,7 +20,7 @@ std::uint64_t wholeParts(std::uint64_t elements)
     return (elements + part - 1) / part * part;
 }
 
-/// A step near the golden section of count and coprime to it, so that consecutive groups take distant tiles.
+/// A step near the golden section of count and coprime to it, so that consecutive strips of tiles are distant.
 std::uint32_t tileStep(std::uint32_t count)
 {
     std::uint32_t step = std::max(1u, static_cast<std::uint32_t>(0.618034 * count));
@@ -73,7 +73,7 @@ shared::FrameParams frameParams(
     setRectangle(p, window);
     p.tilesX = (p.x1 - p.x0 + WEDGE_TILE - 1) / WEDGE_TILE;
     p.tileCount = p.tilesX * ((p.y1 - p.y0 + WEDGE_TILE - 1) / WEDGE_TILE);
-    p.tileStep = tileStep(p.tileCount);
+    p.tileStep = tileStep(p.tileCount / WEDGE_STRIP_TILES);
     p.seed = seed;
     p.eye = toVec3(axes.eye);
     p.forward = toVec3(axes.forward);

@@ -8,7 +8,9 @@
 /// Pixel `inTile` of the tile that is taken as number `slot`, less than frame.tileCount; false beyond the rectangle.
 WEDGE_FN bool slotPixel(FrameParams frame, uint slot, uint inTile, uint* x, uint* y)
 {
-    const uint tile = (uint)(((ulong)slot * frame.tileStep) % frame.tileCount);
+    const uint strips = frame.tileCount / WEDGE_STRIP_TILES, strip = slot / WEDGE_STRIP_TILES;
+    const uint distant = strip < strips ? (uint)(((ulong)strip * frame.tileStep) % strips) : strip;
+    const uint tile = distant * WEDGE_STRIP_TILES + slot % WEDGE_STRIP_TILES;
     const uint block = inTile / 16u;
     *x = frame.x0 + (tile % frame.tilesX) * WEDGE_TILE + block % 2u * 4u + inTile % 4u;
     *y = frame.y0 + (tile / frame.tilesX) * WEDGE_TILE + block / 2u * 4u + inTile % 16u / 4u;
@@ -17,7 +19,8 @@ WEDGE_FN bool slotPixel(FrameParams frame, uint slot, uint inTile, uint* x, uint
 
 /// Pixel of one lane of this work-item, which has WEDGE_PACKET_SIZE of them; false beyond the rectangle. Items take 8x8
 /// tiles, and in them blocks of 4x4 pixels, so that a packet of 16 is such a block, whatever the size of work-groups.
-/// Consecutive tiles are distant ones, so that a costly part of the image does not end up with one thread.
+/// Strips of consecutive tiles are distant ones, so that a costly part of the image does not end up with one thread; the
+/// tiles of a strip lie side by side, and share the lines of memory and the pages that rows of pixels are in.
 /// firstGroup: the work-groups of the pass that went before this launch.
 WEDGE_FN bool tilePixel(FrameParams frame, uint firstGroup, uint lane, uint* x, uint* y)
 {

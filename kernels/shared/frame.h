@@ -14,6 +14,8 @@
 /// Edge of the square pixel tiles that one work-group traces.
 #define WEDGE_TILE 8u
 #define WEDGE_TILE_PIXELS 64u
+/// Tiles side by side that are taken one after the other.
+#define WEDGE_STRIP_TILES 8u
 
 WEDGE_SHARED_BEGIN
 
@@ -24,7 +26,7 @@ typedef struct {
     uint x0, y0, x1, y1; ///< the rectangle of pixels to work on, half open
     uint tilesX; ///< tiles of that rectangle in x
     uint tileCount;
-    uint tileStep; ///< coprime to tileCount: consecutive work-groups take distant tiles
+    uint tileStep; ///< coprime to the number of whole strips: consecutive ones are distant
     uint seed;
     Vec3 eye; ///< metres
     Vec3 forward; ///< unit
