@@ -3,8 +3,11 @@
 #include "host/device/buffer.h"
 #include "host/device/queue.h"
 
+#include <fstream>
 #include <limits>
 #include <numeric>
+
+#include <unistd.h>
 
 using namespace wedge::device;
 using wedge::test::contains;
@@ -27,6 +30,15 @@ DeviceInfo imaginary(std::uint64_t memory, std::uint64_t allocation)
 }
 
 constexpr std::uint64_t MiB = 1024 * 1024;
+
+/// What this process has in memory, bytes.
+std::uint64_t residentBytes()
+{
+    std::ifstream statistics("/proc/self/statm");
+    std::uint64_t pages = 0, resident = 0;
+    statistics >> pages >> resident;
+    return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
 
 } // namespace
 
@@ -82,6 +94,35 @@ TEST_CASE("an empty buffer is a buffer")
         buffer.fill(queue, { 1, 2, 3 });
         buffer.upload(queue, std::span<const Odd>());
         CHECK(buffer.downloadAll(queue).empty());
+    }
+}
+
+TEST_CASE("large buffers hold what they are given as long as a part of them is there, and give their memory back")
+{
+    for (const Device& device : wedge::test::usableDevices()) {
+        CAPTURE(device.info().name);
+        TimedQueue queue(device);
+        constexpr std::size_t count = 8 * MiB; // 32 MiB
+        const auto lastOf = [&] {
+            const Buffer<unsigned> whole(device, count, "whole");
+            std::vector<unsigned> values(count);
+            std::iota(values.begin(), values.end(), 3u);
+            Buffer<unsigned> written = whole;
+            written.upload(queue, values);
+            CHECK(whole.downloadAll(queue) == values);
+            return whole.part<unsigned>(count - 256, 256, "end");
+        };
+        std::vector<unsigned> end(256);
+        std::iota(end.begin(), end.end(), static_cast<unsigned>(count - 256 + 3));
+        std::uint64_t before = 0;
+        for (int round = 0; round < 12; ++round) {
+            const Buffer<unsigned> part = lastOf();
+            CHECK(part.downloadAll(queue) == end);
+            before = round == 1 ? residentBytes() : before;
+        }
+        if (device.info().type == DeviceType::Cpu) {
+            CHECK(residentBytes() < before + 100 * MiB); // ten rounds of 32 MiB
+        }
     }
 }
 

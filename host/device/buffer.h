@@ -4,6 +4,7 @@
 #include "host/device/device.h"
 #include "host/device/memory_plan.h"
 #include "host/device/opencl.h"
+#include "host/device/paged_memory.h"
 #include "host/device/queue.h"
 
 #include <fmt/format.h>
@@ -21,6 +22,8 @@ namespace wedge::device {
 
 /// Where parts of a buffer may start, bytes: no device that renders asks for more.
 constexpr std::size_t partAlignment = 1024;
+/// Buffers of CPU devices of so many bytes are pagedMemory().
+constexpr std::size_t leastPaged = std::size_t { 2 } << 20;
 
 /// `count` elements of T in device memory, uninitialised. Copies share the memory. Transfers are recorded by the
 /// queue as "upload NAME", "download NAME" and "fill NAME", wait, and throw Error where they leave the buffer.
@@ -41,8 +44,11 @@ public:
     {
         requireAllocation(device.info());
         const std::size_t bytes = std::max<std::size_t>(count, 1) * sizeof(T);
-        checked(fmt::format("buffer {} ({})", name_, mebibytes(bytes)), device.info().name,
-            [&] { buffer_ = cl::Buffer(device.context(), CL_MEM_READ_WRITE, bytes); });
+        checked(fmt::format("buffer {} ({})", name_, mebibytes(bytes)), device.info().name, [&] {
+            const bool paged = device.info().type == DeviceType::Cpu && bytes >= leastPaged;
+            buffer_ =
+                paged ? pagedMemory(device.context(), bytes) : cl::Buffer(device.context(), CL_MEM_READ_WRITE, bytes);
+        });
     }
 
     /// Elements that kernels only read, with the values of `values`. A CPU device works on that memory itself, which

@@ -19,8 +19,8 @@ WEDGE_FN bool slotPixel(FrameParams frame, uint slot, uint inTile, uint* x, uint
 
 /// Pixel of one lane of this work-item, which has WEDGE_PACKET_SIZE of them; false beyond the rectangle. Items take 8x8
 /// tiles, and in them blocks of 4x4 pixels, so that a packet of 16 is such a block, whatever the size of work-groups.
-/// Strips of consecutive tiles are distant ones, so that a costly part of the image does not end up with one thread; the
-/// tiles of a strip lie side by side, and share the lines of memory and the pages that rows of pixels are in.
+/// Strips of consecutive tiles are distant ones, so that a costly part of the image does not end up with one thread;
+/// the tiles of a strip lie side by side, and share the lines of memory and the pages that rows of pixels are in.
 /// firstGroup: the work-groups of the pass that went before this launch.
 WEDGE_FN bool tilePixel(FrameParams frame, uint firstGroup, uint lane, uint* x, uint* y)
 {
