@@ -8,13 +8,14 @@ import numpy as np
 FOLDER = sys.argv.pop(1)
 sys.path.insert(0, FOLDER)
 
+import lens_filters
 import maaf_filters as filters
 import maaf_flatland as flatland
 import maaf_lens as combined
 
-WEDGES = [combined.Wedge(1.5, 1.5, 3.0, 3.0), combined.Wedge(4.0, 9.0, 3.0, 5.0), combined.Wedge(0.6, 2.0, 2.0, 16.0)]
+WEDGES = [lens_filters.Wedge(1.5, 1.5, 3.0, 3.0), lens_filters.Wedge(4.0, 9.0, 3.0, 5.0), lens_filters.Wedge(0.6, 2.0, 2.0, 16.0)]
 # A lens of no radius, and slopes of the light.
-PINHOLES = [combined.Wedge(0.0, 0.0, 3.0, 3.0), combined.Wedge(0.0, 0.0, 3.0, 5.0), combined.Wedge(0.0, 0.0, 2.0, 16.0)]
+PINHOLES = [lens_filters.Wedge(0.0, 0.0, 3.0, 3.0), lens_filters.Wedge(0.0, 0.0, 3.0, 5.0), lens_filters.Wedge(0.0, 0.0, 2.0, 16.0)]
 PLACES = [(0.0, 0.0), (0.7, -0.4), (-1.6, 1.1), (1.2, 1.9)]  # of v and y
 
 
@@ -25,29 +26,29 @@ def scene_of(radii, slopes, a, b):
 
 
 def kernels(wedge, lens):
-    yield "aaf", combined.aaf(0.3 * combined.blur(wedge))
-    yield "published", combined.aaf_published(wedge, lens, combined.PUBLISHED)
-    yield "extrapolated", combined.extrapolated(0.6 * combined.blur(wedge))
-    for name, make in (("both", combined.both_scores), ("light", combined.light_score), ("share", combined.light_score_share),
-                       ("joint", combined.joint_both), ("joint light", combined.joint_light)):
+    yield "aaf", lens_filters.aaf(0.3 * lens_filters.blur(wedge))
+    yield "published", lens_filters.aaf_published(wedge, lens, combined.PUBLISHED)
+    yield "extrapolated", lens_filters.extrapolated(0.6 * lens_filters.blur(wedge))
+    for name, make in (("both", lens_filters.both_scores), ("light", lens_filters.light_score), ("share", lens_filters.light_score_share),
+                       ("joint", lens_filters.joint_both), ("joint light", lens_filters.joint_light)):
         yield name, make(wedge, lens, 0.3)
     for pairs in combined.PAIRS:
-        yield f"printed {pairs}", combined.maaf_printed(wedge, lens, pairs, 2.0)
-        yield f"not cut {pairs}", combined.maaf_printed(wedge, lens, pairs, 2.0, as_printed=True)
+        yield f"printed {pairs}", lens_filters.maaf_printed(wedge, lens, pairs, 2.0)
+        yield f"not cut {pairs}", lens_filters.maaf_printed(wedge, lens, pairs, 2.0, as_printed=True)
         for lens_first in (False, True):
-            bank = combined.Components(pairs, wedge, 2.0, lens_first=lens_first)
-            yield f"refitted {pairs}, {lens_first}", combined.maaf(bank, combined.fit(bank, wedge, lens)[0], lens)
+            bank = lens_filters.Components(pairs, wedge, 2.0, lens_first=lens_first)
+            yield f"refitted {pairs}, {lens_first}", lens_filters.maaf(bank, lens_filters.fit(bank, wedge, lens)[0], lens)
 
 
 def mirrored(kernel):
-    return combined.Kernel(("mirrored", kernel.key), kernel.values, lambda d: kernel.rows(-d), kernel.reach)
+    return lens_filters.Kernel(("mirrored", kernel.key), kernel.values, lambda d: kernel.rows(-d), kernel.reach)
 
 
 def response(kernel, lens, rho, s, omega):
     """What a filter makes of the wave exp(i omega (x + rho v + s y)), by sums over all d and nodes of both profiles."""
     d = np.linspace(-4.0 / 3.0 * kernel.reach, 4.0 / 3.0 * kernel.reach, 2001)
-    v, y = (x.ravel() for x in np.meshgrid(lens.node, combined.LIGHT.node))
-    weights = np.outer(combined.LIGHT.share, lens.share).ravel()
+    v, y = (x.ravel() for x in np.meshgrid(lens.node, lens_filters.LIGHT.node))
+    weights = np.outer(lens_filters.LIGHT.share, lens.share).ravel()
     by_sample = (kernel.values(v, y) * weights) @ np.exp(1j * omega * (rho * v + s * y))
     by_d = kernel.rows(d) @ np.exp(1j * omega * d) * (d[1] - d[0])
     return (by_sample @ by_d).real
@@ -58,7 +59,7 @@ class Bank(unittest.TestCase):
         """At p = 0 the box is the plain one: Omega_max s^u_max / (s^y_min (2 N - 1)) on either side of nought."""
         for wedge in WEDGES:
             for pairs in (1, 2, 3, 4):
-                bank = combined.Components(pairs, wedge, 2.0, smaller=False)
+                bank = lens_filters.Components(pairs, wedge, 2.0, smaller=False)
                 self.assertEqual(bank.centre_v[0], 0.0)
                 self.assertAlmostEqual(bank.extent_v[0], 2.0 * wedge.rho_max / (wedge.s_min * (2 * pairs - 1)))
 
@@ -69,7 +70,7 @@ class Bank(unittest.TestCase):
         for wedge in WEDGES:
             for lens_first in (False, True):
                 for pairs in (2, 3, 4):
-                    bank = combined.Components(pairs, wedge, 2.0, smaller=False, lens_first=lens_first)
+                    bank = lens_filters.Components(pairs, wedge, 2.0, smaller=False, lens_first=lens_first)
                     first, other = (bank.centre_v, bank.centre_y) if lens_first else (bank.centre_y, bank.centre_v)
                     half, half_other = (bank.extent_v, bank.extent_y) if lens_first else (bank.extent_y, bank.extent_v)
                     near = np.zeros((pairs, 2))
@@ -89,23 +90,23 @@ class Bank(unittest.TestCase):
     def test_smaller_band(self):
         """Omega_x goes no farther than the lens' band, and the light's where that is the smaller one."""
         for wedge in WEDGES:
-            bank = combined.Components(3, wedge, 2.0)
+            bank = lens_filters.Components(3, wedge, 2.0)
             self.assertAlmostEqual(bank.centre_x[2] + bank.extent_x[2], 2.0 / max(wedge.s_min, wedge.rho_min))
 
 
 class Filters(unittest.TestCase):
     def test_without_a_lens_they_are_those_of_maaf_filters(self):
         """Weights at any d, v and y, each over that at 0. Components do not have the profile of the lens."""
-        for lens in combined.LENSES.values():
+        for lens in lens_filters.LENSES.values():
             for wedge in PINHOLES:
-                b = combined.blur(wedge)
-                pairs_of = [(combined.aaf(0.3 * b), filters.aaf(wedge.s_min, 0.3), False),
-                            (combined.extrapolated(0.6 * b), filters.extrapolated(wedge.s_min, 0.6), False),
-                            (combined.both_scores(wedge, lens, 0.3), filters.gradients(wedge.s_min, 0.3), False),
-                            (combined.joint_both(wedge, lens, 0.25), filters.two_slope(wedge.s_min, wedge.s_max, 0.25), False)]
+                b = lens_filters.blur(wedge)
+                pairs_of = [(lens_filters.aaf(0.3 * b), filters.aaf(wedge.s_min, 0.3), False),
+                            (lens_filters.extrapolated(0.6 * b), filters.extrapolated(wedge.s_min, 0.6), False),
+                            (lens_filters.both_scores(wedge, lens, 0.3), filters.gradients(wedge.s_min, 0.3), False),
+                            (lens_filters.joint_both(wedge, lens, 0.25), filters.two_slope(wedge.s_min, wedge.s_max, 0.25), False)]
                 scene = {"s_min": wedge.s_min, "s_max": wedge.s_max}
                 for pairs in combined.PAIRS:
-                    pairs_of.append((combined.maaf_printed(wedge, lens, pairs, 2.0),
+                    pairs_of.append((lens_filters.maaf_printed(wedge, lens, pairs, 2.0),
                                      flatland.maaf_printed(scene, pairs, 2.0), True))
                 for kernel, wanted, all_over in pairs_of:
                     self.assertAlmostEqual(kernel.reach, wanted.reach)
@@ -119,12 +120,12 @@ class Filters(unittest.TestCase):
     def test_joint_gaussian_keeps_both_lines(self):
         """The variance of d + rho v + s y is |q|^2 at both ends of the wedge, with profiles that are not cut."""
         e = np.random.default_rng(2)
-        kept, combined.LIGHT.cut = combined.LIGHT.cut, 7.0
+        kept, lens_filters.LIGHT.cut = lens_filters.LIGHT.cut, 7.0
         try:
             v, y = (x.ravel() for x in np.meshgrid(np.linspace(-7.0, 7.0, 141), np.linspace(-7.0, 7.0, 141)))
             light = np.exp(-0.5 * (v**2 + y**2))
             for wedge in WEDGES:
-                b = combined.blur(wedge)
+                b = lens_filters.blur(wedge)
                 for n in ((wedge.rho_min / b, wedge.s_min / b), (0.0, 1.0)):
                     ends = [(wedge.rho_min, wedge.s_min), (wedge.rho_max, wedge.s_max)]
                     if n[0] == 0.0:  # whatever the lens
@@ -140,35 +141,35 @@ class Filters(unittest.TestCase):
                         cross = 2.0 * ((values * light) @ t) @ (rows @ d)
                         self.assertAlmostEqual((square + cross) / total / (rho**2 + s**2), 1.0, delta=2e-3)
         finally:
-            combined.LIGHT.cut = kept
+            lens_filters.LIGHT.cut = kept
 
     def test_gradients_tell_the_slope_of_a_ramp(self):
         """f = x + rho v + s y has the gradient 1: the mean of f q."""
-        for lens in combined.LENSES.values():
-            v, y = lens.node, combined.LIGHT.node
+        for lens in lens_filters.LENSES.values():
+            v, y = lens.node, lens_filters.LIGHT.node
             for rho, s in ((3.0, 2.0), (0.5, 7.0)):
                 of_lens = rho**2 * (lens.share * v) @ lens.score(v)
-                of_light = s**2 * (combined.LIGHT.share * y) @ combined.LIGHT.score(y)
+                of_light = s**2 * (lens_filters.LIGHT.share * y) @ lens_filters.LIGHT.score(y)
                 self.assertAlmostEqual((of_lens + of_light) / (rho**2 + s**2), 1.0, delta=1e-6)
 
     def test_fit_has_the_filters_own_responses(self):
         """What is minimised, with responses summed up from the kernel itself: other weights nearby leave more of it."""
-        lens = combined.LENSES["uniform"]
+        lens = lens_filters.LENSES["uniform"]
         wedge = WEDGES[1]
-        bank = combined.Components(2, wedge, 2.0)
-        weights = combined.fit(bank, wedge, lens, (0.0,))[0]
-        omega = (np.arange(combined.FIT_WAVES) + 0.5) / combined.FIT_WAVES * float((bank.centre_x + 3.0 * bank.extent_x).max())
-        slopes = np.geomspace(wedge.s_min, wedge.s_max, combined.FIT_SLOPES)
-        radii = np.geomspace(wedge.rho_min, wedge.rho_max, combined.FIT_RADII)
+        bank = lens_filters.Components(2, wedge, 2.0)
+        weights = lens_filters.fit(bank, wedge, lens, (0.0,))[0]
+        omega = (np.arange(lens_filters.FIT_WAVES) + 0.5) / lens_filters.FIT_WAVES * float((bank.centre_x + 3.0 * bank.extent_x).max())
+        slopes = np.geomspace(wedge.s_min, wedge.s_max, lens_filters.FIT_SLOPES)
+        radii = np.geomspace(wedge.rho_min, wedge.rho_max, lens_filters.FIT_RADII)
 
         def left(of):
-            kernel = combined.maaf(bank, of, lens)
+            kernel = lens_filters.maaf(bank, of, lens)
             ones = response(kernel, lens, 0.0, 0.0, 0.0)
             out = 0.0
             for s in slopes[::3]:
                 for rho in radii:
                     for w in omega[::4]:
-                        true = np.cos(w * s * combined.LIGHT.node) @ combined.LIGHT.share
+                        true = np.cos(w * s * lens_filters.LIGHT.node) @ lens_filters.LIGHT.share
                         true *= np.cos(w * rho * lens.node) @ lens.share
                         out += ((response(kernel, lens, rho, s, w) / ones - true) / w) ** 2
             return out
@@ -182,7 +183,7 @@ class Filters(unittest.TestCase):
 
     def test_constant_in_constant_out(self):
         ends = ([3.0, 9.0], [4.0, 12.0])
-        for lens in combined.LENSES.values():
+        for lens in lens_filters.LENSES.values():
             for scene, value in ((scene_of(*ends, [1e6, 2e6], [1.1e6, 2.1e6]), 1.0),
                                  (scene_of(*ends, [-1e6, -1e6], [1e6, 1e6]), 0.0)):
                 samples = combined.Samples(scene, lens, 16, 1, np.random.default_rng(3))
@@ -190,7 +191,7 @@ class Filters(unittest.TestCase):
                     self.assertLess(np.abs(samples.filtered(kernel) - value).max(), 1e-9, name)
 
     def test_convolutions_are_the_sum_over_samples(self):
-        lens = combined.LENSES["uniform"]
+        lens = lens_filters.LENSES["uniform"]
         scene = scene_of([2.0, 6.0, 3.0], [3.0, 9.0, 5.0], [40.0, 90.0, 180.0], [60.0, 130.0, 200.0])
         samples = combined.Samples(scene, lens, 4, 1, np.random.default_rng(4))
         for name, kernel in kernels(combined.wedge_of(scene, lens), lens):
@@ -209,17 +210,17 @@ class Filters(unittest.TestCase):
         """One seed's scenes: the sheared filters err less than chapter 5's, that less than none; and phases of the wrong sign err
         more than twice as much, of joint Gaussians and of components."""
         random = np.random.default_rng(5)
-        lens = combined.LENSES["gaussian"]
+        lens = lens_filters.LENSES["gaussian"]
         errors = {}
         for number in range(12):
             scene = combined.random_scene(random, list(combined.BINS)[number % 3])
             wedge = combined.wedge_of(scene, lens)
             truth = combined.exact(scene, lens, np.arange(combined.PIXELS, dtype=float))
             samples = combined.Samples(scene, lens, 16, 2, random)
-            bank = combined.Components(3, wedge, 2.0)
-            by_name = {"published": combined.aaf_published(wedge, lens, combined.PUBLISHED),
-                       "gradients": combined.both_scores(wedge, lens, 0.5), "joint": combined.joint_both(wedge, lens, 0.25),
-                       "maaf": combined.maaf(bank, combined.fit(bank, wedge, lens)[1], lens)}
+            bank = lens_filters.Components(3, wedge, 2.0)
+            by_name = {"published": lens_filters.aaf_published(wedge, lens, combined.PUBLISHED),
+                       "gradients": lens_filters.both_scores(wedge, lens, 0.5), "joint": lens_filters.joint_both(wedge, lens, 0.25),
+                       "maaf": lens_filters.maaf(bank, lens_filters.fit(bank, wedge, lens)[1], lens)}
             images = {name: samples.filtered(kernel) for name, kernel in by_name.items()}
             images["none"] = samples.mean[:, combined.MARGIN:-combined.MARGIN]
             for name in ("joint", "maaf"):
@@ -236,26 +237,26 @@ class Filters(unittest.TestCase):
 
 def joint_of_many_nodes(wedge, n):
     """The joint Gaussian for profiles up to 7 deviations, where its polynomial takes more nodes."""
-    kept, combined.NODES = combined.NODES, 160
-    kernel = combined.joint(wedge, combined.LIGHT, n, 0.25)
+    kept, lens_filters.NODES = lens_filters.NODES, 160
+    kernel = lens_filters.joint(wedge, lens_filters.LIGHT, n, 0.25)
     rows, values = kernel.rows, kernel.values
-    combined.NODES = kept
+    lens_filters.NODES = kept
 
     def many(of):
         def run(*arguments):
-            before, combined.NODES = combined.NODES, 160
+            before, lens_filters.NODES = lens_filters.NODES, 160
             try:
                 return of(*arguments)
             finally:
-                combined.NODES = before
+                lens_filters.NODES = before
         return run
 
-    return combined.Kernel(kernel.key, many(values), many(rows), kernel.reach)
+    return lens_filters.Kernel(kernel.key, many(values), many(rows), kernel.reach)
 
 
 class Truth(unittest.TestCase):
     def test_exact_is_what_dense_samples_give(self):
-        for lens in combined.LENSES.values():
+        for lens in lens_filters.LENSES.values():
             scene = combined.random_scene(np.random.default_rng(6), "lens above twice the light")
             x = np.arange(combined.PIXELS, dtype=float)
             places = (np.arange(300) + 0.5) / 300
@@ -267,7 +268,7 @@ class Truth(unittest.TestCase):
         random = np.random.default_rng(7)
         for label, of in combined.BINS.items():
             for _ in range(20):
-                wedge = combined.wedge_of(combined.random_scene(random, label), combined.LENSES["uniform"])
+                wedge = combined.wedge_of(combined.random_scene(random, label), lens_filters.LENSES["uniform"])
                 self.assertTrue(of(wedge.rho_min / wedge.s_min))
 
 
