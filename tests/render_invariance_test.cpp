@@ -1,4 +1,6 @@
 // What must not change an image: repetition, batches, crops, the company of other lights.
+#include "kernels/shared/indirect.h"
+#include "kernels/shared/wedge.h"
 #include "tests/render_support.h"
 
 #include <algorithm>
@@ -351,6 +353,35 @@ TEST_CASE("a pixel without a kernel keeps its own Monte Carlo value")
                 }
             CHECK(without > 50);
             CHECK(changed > 200);
+        }
+    });
+}
+
+TEST_CASE("where no more samples are asked for than analyses take, nothing is shared out and no pass takes the rest")
+{
+    onEveryDevice([](const device::Device& device) {
+        scene::Scene scene = smallScene();
+        render::Renderer renderer(scene, device, renderOptions());
+        const auto has = [](const render::FrameStatistics& frame, const char* pass) {
+            return std::ranges::any_of(frame.passes, [&](const device::PassRecord& p) { return p.name == pass; });
+        };
+        for (const int bounces : { 0, 1 }) {
+            const int first = bounces == 0 ? WEDGE_FIRST_PASS_RAYS : WEDGE_INDIRECT_FIRST_RAYS;
+            for (const int spp : { first, first + 1 }) {
+                CAPTURE(spp);
+                render::Settings adaptive = sized(render::axisAligned(spp), width, height);
+                adaptive.bounces = bounces;
+                render::Settings uniform = adaptive;
+                uniform.sampling = render::Sampling::Uniform;
+                const render::FrameStatistics shared = renderer.render(adaptive), even = renderer.render(uniform);
+                const char* rest = bounces == 0 ? "second pass" : "second paths";
+                CHECK(has(shared, rest) == (spp > first));
+                CHECK(has(even, rest) == (spp > first));
+                CHECK((bounces == 0 ? shared.directSpp : shared.indirectSpp) == doctest::Approx(spp).epsilon(0.05));
+                if (bounces == 0)
+                    CHECK(
+                        sameBits(renderPixels(renderer, adaptive), renderPixels(renderer, uniform)) == (spp == first));
+            }
         }
     });
 }

@@ -82,7 +82,9 @@ public:
         const auto analysed = [state = state_](const Run&) { return state->analysed; };
         wanted_ = g_.plane<Count>("samples wanted", graph::counts); // no version of the first: that ends here
         g_.only("analysis of light", analysed, [&] { widthsAndCounts(); });
-        g_.only("rest of light", analysed, [&] { samples("second pass", WEDGE_FIRST_PASS_RAYS, secondPassSlice); });
+        if (!takesFirstPassOnly()) {
+            g_.only("rest of light", analysed, [&] { samples("second pass", WEDGE_FIRST_PASS_RAYS, secondPassSlice); });
+        }
         count();
         value_ = means("filter", PassKind::Filter);
         if (s_.filtering == Filtering::None) {
@@ -133,6 +135,12 @@ private:
         f_.count(rays_, true, f_.totals.tallies.rays, &f_.totals.rays);
         rays_ = g_.plane<Count>("rays of light", graph::counts);
         f_.zero(rays_);
+    }
+    /// Whether no more samples are asked for than the first pass takes of every pixel: there is nothing to share out.
+    bool takesFirstPassOnly() const
+    {
+        const bool shared = s_.sampling == Sampling::Uniform || s_.counts == Counts::Variance;
+        return shared && s_.spp <= static_cast<int>(WEDGE_FIRST_PASS_RAYS);
     }
     bool sheared() const { return !maaf_ && isSheared(s_); }
     bool twoSlopes() const { return maaf_ == Maaf::TwoSlope; }
@@ -289,6 +297,9 @@ void LightGraph::widthsAndCounts()
                 { f_.rectangle(analysisParams()), reads("ratio", ratio_), updates("beta", beta_) });
         }
         narrowForLobes();
+    }
+    if (takesFirstPassOnly()) {
+        return;
     }
     if (s_.sampling == Sampling::Uniform) {
         uniformCounts(f_, static_cast<std::uint32_t>(s_.spp), f_.surfaces.objectId, wanted_);

@@ -3,6 +3,7 @@
 #include "host/render/frame_builder.h"
 #include "kernels/shared/curvature.h"
 #include "kernels/shared/filter_params.h"
+#include "kernels/shared/indirect.h"
 #include "kernels/shared/path.h"
 
 #include <cstdint>
@@ -54,11 +55,15 @@ inline bool isByCurvature(Component c, const Settings& settings)
         && settings.environment.widths != EnvironmentWidths::Penumbrae;
 }
 
-/// Whether its samples are those of the analysis, 16 a pixel: of these widths no counts follow, unless from variances.
+/// Whether its samples are those of the analysis, 16 a pixel: of widths by curvatures no counts follow, unless from
+/// variances; and where no more are asked for there is nothing to share out. Of what is beyond the scene the analysis
+/// takes fewer.
 inline bool takesFirstPathsOnly(Component c, const Settings& settings)
 {
-    return isByCurvature(c, settings) && settings.sampling == Sampling::Adaptive
-        && settings.indirect.counts == IndirectCounts::Spectrum;
+    const bool spectrum =
+        settings.sampling == Sampling::Adaptive && settings.indirect.counts == IndirectCounts::Spectrum;
+    return spectrum ? isByCurvature(c, settings)
+                    : !isOfEnvironment(c) && settings.spp <= static_cast<int>(WEDGE_INDIRECT_FIRST_RAYS);
 }
 
 /// What these need besides where pixels lie.
