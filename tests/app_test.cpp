@@ -82,6 +82,29 @@ TEST_CASE("layers of components add up to a light's visibility")
     CHECK(several > 200);
 }
 
+TEST_CASE("of several lights each has components of its own")
+{
+    const Workplace place;
+    std::string scene = readAll(scenes + "/penumbra.toml");
+    for (std::size_t at = 0; (at = scene.find("\"meshes/", at)) != std::string::npos; at += scenes.size()) {
+        scene.replace(at, 1, "\"" + scenes + "/");
+    }
+    place.write("two.toml",
+        scene
+            + "[[light]]\ntype = \"quad\"\ncentre = [0.3, 4, 0]\nhalf_u = [0.5, 0, 0]\nhalf_v = [0, 0, 0.5]\n"
+              "radiance = 50\nprofile = \"gaussian\"\ncut = 2\nvisible = false\n");
+    const image::LayeredImage image = render(place, "two.toml",
+        { "--size", "32x24", "--method", "maaf", "--maaf", "printed", "--components", "3", "--layers", "components" });
+    std::set<std::string> found;
+    for (const image::Channel& channel : image.channels) {
+        found.insert(channel.name);
+    }
+    CHECK(found
+        == std::set<std::string> { "R", "G", "B", "components1.00", "components1.01", "components1.10",
+            "components1.11", "components2.00", "components2.01", "components2.10", "components2.11" });
+    CHECK(values(image, "components1.00") != values(image, "components2.00"));
+}
+
 TEST_CASE("all layers of a frame fit together")
 {
     const Workplace place;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 using namespace wedge;
 using namespace wedge::test;
@@ -41,7 +42,8 @@ struct Case {
     image::Window window;
 };
 const std::vector<Case> cases = { { 1, 1, { 0, 0, 1, 1 } }, { 37, 1, { 0, 0, 37, 1 } }, { 3, 29, { 0, 0, 3, 29 } },
-    { 45, 27, { 0, 0, 45, 27 } }, { 64, 40, { 17, 5, 50, 30 } }, { 64, 40, { 8, 8, 9, 40 } } };
+    { 45, 27, { 0, 0, 45, 27 } }, { 75, 35, { 0, 0, 75, 35 } }, { 64, 40, { 17, 5, 50, 30 } },
+    { 64, 40, { 8, 8, 9, 40 } } };
 
 /// The corner of the tile that is number `slot`.
 std::pair<int, int> tileAt(const shared::FrameParams& p, std::uint32_t slot)
@@ -106,8 +108,10 @@ TEST_CASE("countReceivers: the new samples of each tile's pixels inside the wind
                 wave.lastSample = last;
                 const std::vector<std::uint32_t> found = bench.tileCounts(counts.taken, counts.wanted, wave);
                 std::uint64_t all = 0, expectedAll = 0;
+                std::set<std::pair<int, int>> tiles;
                 for (std::uint32_t slot = 0; slot < bench.params.tileCount; ++slot) {
                     const auto [x0, y0] = tileAt(bench.params, slot);
+                    tiles.emplace(x0, y0);
                     std::uint32_t expected = 0;
                     for (int y = y0; y < std::min(y0 + 8, c.window.y1); ++y)
                         for (int x = x0; x < std::min(x0 + 8, c.window.x1); ++x)
@@ -117,6 +121,7 @@ TEST_CASE("countReceivers: the new samples of each tile's pixels inside the wind
                 }
                 bench.everyPixel([&](int x, int y) { expectedAll += counts.added(x, y, last); });
                 CHECK(all == expectedAll);
+                CHECK(tiles.size() == bench.params.tileCount); // and so each is taken once
             }
     });
 }

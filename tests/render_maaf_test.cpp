@@ -147,7 +147,7 @@ TEST_CASE("what filters of both slopes and components have of their own")
     CHECK(render::withComponents({}).normalCosine == doctest::Approx(std::cos(std::acos(-1.0) / 9)));
 }
 
-TEST_CASE("frames take them")
+TEST_CASE("frames are filtered with these")
 {
     onEveryDevice([](const device::Device& device) {
         scene::Scene scene = slats(scene::LightProfile::Gaussian);
@@ -160,7 +160,7 @@ TEST_CASE("frames take them")
             }
         }
         render::Renderer renderer(scene, device, renderOptions());
-        // Narrower everywhere, and by counts more than usual: of method aaf's filters alone.
+        // Settings::wideBlur is of method aaf alone, countWidth of filters of both slopes, too.
         const auto changed = [&](render::Settings s, bool byCounts) {
             const std::vector<float> usual = renderPixels(renderer, s);
             (byCounts ? s.countWidth : s.wideBlur) = byCounts ? 2.0f : 0.1f;

@@ -22,7 +22,7 @@ namespace wedge::device {
 
 /// Where parts of a buffer may start, bytes: no device that renders asks for more.
 constexpr std::size_t partAlignment = 1024;
-/// Buffers of CPU devices of so many bytes are pagedMemory().
+/// Buffers of CPU devices of at least so many bytes are pagedMemory().
 constexpr std::size_t leastPaged = std::size_t { 2 } << 20;
 
 /// `count` elements of T in device memory, uninitialised. Copies share the memory. Transfers are recorded by the

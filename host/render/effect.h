@@ -40,7 +40,7 @@ struct LayerInfo {
 /// layer's name and the term's.
 struct TermLayer {
     LayerInfo info;
-    std::vector<std::string> channels; ///< one of each plane; none: terms keep nothing for it with these settings
+    std::vector<std::string> channels; ///< of each plane; empty: terms keep nothing for it with these settings
     std::string absence; ///< why they do not
 };
 
@@ -85,7 +85,7 @@ public:
     virtual std::string widthLayers() const { return ""; }
     /// That of its unfiltered light, R G B.
     virtual std::optional<LayerInfo> layer() const { return std::nullopt; }
-    /// One of its terms. They write it to FrameBuilder::termLayers.
+    /// One of its terms, which write it to FrameBuilder::termLayers: of all settings, or of none.
     virtual std::optional<TermLayer> termLayer(const Settings&) const { return std::nullopt; }
 
     /// Kernels of its own and what they include, by the paths that passes and includes name.

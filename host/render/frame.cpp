@@ -20,7 +20,7 @@ std::uint64_t wholeParts(std::uint64_t elements)
     return (elements + part - 1) / part * part;
 }
 
-/// A step near the golden section of count and coprime to it, so that consecutive strips of tiles are distant.
+/// A step near the golden section of count and coprime to it, so that the next one of many strips is distant.
 std::uint32_t tileStep(std::uint32_t count)
 {
     std::uint32_t step = std::max(1u, static_cast<std::uint32_t>(0.618034 * count));

@@ -132,6 +132,7 @@ public:
                 continue;
             }
             const std::vector<float> values = known->second.downloadAll(renderer_.queue());
+            assert(values.size() == layer.channels.size() * frame().layout.size);
             for (std::size_t plane = 0; plane < layer.channels.size(); ++plane) {
                 const std::size_t offset = plane * frame().layout.size;
                 channel(name + "." + layer.channels[plane], Where::OnSurfaces,

@@ -19,8 +19,9 @@ WEDGE_FN bool slotPixel(FrameParams frame, uint slot, uint inTile, uint* x, uint
 
 /// Pixel of one lane of this work-item, which has WEDGE_PACKET_SIZE of them; false beyond the rectangle. Items take 8x8
 /// tiles, and in them blocks of 4x4 pixels, so that a packet of 16 is such a block, whatever the size of work-groups.
-/// Strips of consecutive tiles are distant ones, so that a costly part of the image does not end up with one thread;
-/// the tiles of a strip lie side by side, and share the lines of memory and the pages that rows of pixels are in.
+/// Strips of tiles that follow each other in their row are taken as wholes, and the strips of a large image in an order
+/// in which the next is a distant one: so that a costly part of the image does not end up with one thread, and lines of
+/// memory, and the pages that rows of pixels are in, are still there for the next tile.
 /// firstGroup: the work-groups of the pass that went before this launch.
 WEDGE_FN bool tilePixel(FrameParams frame, uint firstGroup, uint lane, uint* x, uint* y)
 {

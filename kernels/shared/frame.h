@@ -14,7 +14,7 @@
 /// Edge of the square pixel tiles that one work-group traces.
 #define WEDGE_TILE 8u
 #define WEDGE_TILE_PIXELS 64u
-/// Tiles side by side that are taken one after the other.
+/// Tiles of a strip, which follow each other in their row, or from its end to the next one's start.
 #define WEDGE_STRIP_TILES 8u
 
 WEDGE_SHARED_BEGIN
@@ -26,7 +26,7 @@ typedef struct {
     uint x0, y0, x1, y1; ///< the rectangle of pixels to work on, half open
     uint tilesX; ///< tiles of that rectangle in x
     uint tileCount;
-    uint tileStep; ///< coprime to the number of whole strips: consecutive ones are distant
+    uint tileStep; ///< coprime to the number of whole strips: of many the next is distant
     uint seed;
     Vec3 eye; ///< metres
     Vec3 forward; ///< unit
