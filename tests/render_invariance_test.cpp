@@ -378,6 +378,9 @@ TEST_CASE("where no more samples are asked for than analyses take, nothing is sh
                 CHECK(has(shared, rest) == (spp > first));
                 CHECK(has(even, rest) == (spp > first));
                 CHECK((bounces == 0 ? shared.directSpp : shared.indirectSpp) == doctest::Approx(spp).epsilon(0.05));
+                const std::uint64_t most = static_cast<std::uint64_t>(spp) * scene.areaLights.size() * width * height;
+                CHECK(shared.shadowRays > 0);
+                CHECK(shared.shadowRays <= most * (bounces == 0 ? 1 : 3));
                 if (bounces == 0)
                     CHECK(
                         sameBits(renderPixels(renderer, adaptive), renderPixels(renderer, uniform)) == (spp == first));

@@ -68,7 +68,8 @@ public:
             f_.zero(value_);
             uniformCounts(f_, spp, f_.surfaces.objectId, wanted_);
             samples("shadow rays", 0, monteCarloSlice);
-            count();
+            countSamples();
+            countRays();
             shade(value_, {});
             return;
         }
@@ -84,8 +85,9 @@ public:
         g_.only("analysis of light", analysed, [&] { widthsAndCounts(); });
         if (!takesFirstPassOnly()) {
             g_.only("rest of light", analysed, [&] { samples("second pass", WEDGE_FIRST_PASS_RAYS, secondPassSlice); });
+            countRays();
         }
-        count();
+        countSamples();
         value_ = means("filter", PassKind::Filter);
         if (s_.filtering == Filtering::None) {
             shade(value_, {});
@@ -124,12 +126,9 @@ public:
 private:
     shared::FilterParams filterParams() const { return render::filterParams(s_, f_.wholeFrame(), light_, g_.image()); }
 
-    void count()
-    {
-        f_.count(taken_, false, f_.totals.tallies.samples, &f_.totals.samples);
-        countRays();
-    }
-    /// And begins anew, so that nothing of it takes memory until there are more.
+    void countSamples() { f_.count(taken_, false, f_.totals.tallies.samples, &f_.totals.samples); }
+    /// After a pass that traced some; and begins anew, so that nothing of it takes memory until there are more. Not
+    /// without a pass: counting makes nobody clear a plane.
     void countRays()
     {
         f_.count(rays_, true, f_.totals.tallies.rays, &f_.totals.rays);
