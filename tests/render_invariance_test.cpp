@@ -1,6 +1,4 @@
 // What must not change an image: repetition, batches, crops, the company of other lights.
-#include "kernels/shared/indirect.h"
-#include "kernels/shared/wedge.h"
 #include "tests/render_support.h"
 
 #include <algorithm>
@@ -354,85 +352,5 @@ TEST_CASE("a pixel without a kernel keeps its own Monte Carlo value")
             CHECK(without > 50);
             CHECK(changed > 200);
         }
-    });
-}
-
-TEST_CASE("where no more samples are asked for than analyses take, nothing is shared out and no pass takes the rest")
-{
-    onEveryDevice([](const device::Device& device) {
-        scene::Scene scene = smallScene();
-        render::Renderer renderer(scene, device, renderOptions());
-        const auto has = [](const render::FrameStatistics& frame, const char* pass) {
-            return std::ranges::any_of(frame.passes, [&](const device::PassRecord& p) { return p.name == pass; });
-        };
-        for (const int bounces : { 0, 1 }) {
-            const int first = bounces == 0 ? WEDGE_FIRST_PASS_RAYS : WEDGE_INDIRECT_FIRST_RAYS;
-            for (const int spp : { first, first + 1 }) {
-                CAPTURE(spp);
-                render::Settings adaptive = sized(render::axisAligned(spp), width, height);
-                adaptive.bounces = bounces;
-                render::Settings uniform = adaptive;
-                uniform.sampling = render::Sampling::Uniform;
-                const render::FrameStatistics shared = renderer.render(adaptive), even = renderer.render(uniform);
-                const char* rest = bounces == 0 ? "second pass" : "second paths";
-                CHECK(has(shared, rest) == (spp > first));
-                CHECK(has(even, rest) == (spp > first));
-                CHECK((bounces == 0 ? shared.directSpp : shared.indirectSpp) == doctest::Approx(spp).epsilon(0.05));
-                const std::uint64_t most = static_cast<std::uint64_t>(spp) * scene.areaLights.size() * width * height;
-                CHECK(shared.shadowRays > 0);
-                CHECK(shared.shadowRays <= most * (bounces == 0 ? 1 : 3));
-                if (bounces == 0)
-                    CHECK(
-                        sameBits(renderPixels(renderer, adaptive), renderPixels(renderer, uniform)) == (spp == first));
-            }
-        }
-    });
-}
-
-TEST_CASE("what a frame counts is the same with layers and without, and is what its layers say")
-{
-    onEveryDevice([](const device::Device& device) {
-        scene::Scene scene = smallScene();
-        scene.materials[0].specular = glm::vec3(0.2f);
-        scene.materials[0].exponent = 8;
-        scene.pointLights.push_back({ .position = { 0, 2, 1 }, .intensity = glm::vec3(3) });
-        render::Renderer renderer(scene, device, renderOptions());
-        render::Settings settings = sized(render::axisAligned(28), 48, 32);
-        settings.crop = { 5, 3, 31, 27 };
-        for (const render::Method method : { render::Method::AxisAligned, render::Method::MonteCarlo })
-            for (const int bounces : { 0, 2 }) {
-                CAPTURE(bounces);
-                settings.method = method;
-                settings.bounces = bounces;
-                const render::FrameStatistics image = renderer.render(settings, {}, false);
-                const render::FrameStatistics layers = renderer.render(settings, {}, true);
-                CHECK(image.shadowRays == layers.shadowRays);
-                CHECK(image.indirectRays == layers.indirectRays);
-                CHECK(image.sppMean == layers.sppMean);
-                CHECK(image.directSpp == layers.directSpp);
-                CHECK(image.indirectSpp == layers.indirectSpp);
-                CHECK((image.indirectRays > 0) == (bounces > 0));
-                CHECK(image.directSpp > 20);
-                const std::uint32_t stride = renderer.frame().layout.stride;
-                const auto sum = [&](const auto& counts) {
-                    const auto each = counts.downloadAll(renderer.queue());
-                    return std::accumulate(each.begin(), each.end(), std::uint64_t { 0 });
-                };
-                const auto within = [&](const device::Buffer<std::uint32_t>& counts, const image::Window& window) {
-                    const std::vector<std::uint32_t> each = counts.downloadAll(renderer.queue());
-                    std::uint64_t all = 0;
-                    for (int y = window.y0; y < window.y1; ++y)
-                        for (int x = window.x0; x < window.x1; ++x)
-                            all += each[shared::pixelIndex(
-                                static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), stride)];
-                    return all;
-                };
-                CHECK(within(renderer.frame().samples, settings.crop) == sum(renderer.frame().samplesTally));
-                // The whole image's rays, of which a crop has not all.
-                render::Settings whole = settings;
-                whole.crop = {};
-                renderer.render(whole, {}, true);
-                CHECK(within(renderer.frame().rays, { 0, 0, 48, 32 }) == sum(renderer.frame().raysTally));
-            }
     });
 }
