@@ -19,6 +19,7 @@ build    libopenexr-dev          OpenEXR images with layers
 build    libpng-dev              PNG images
 build    libjpeg62-turbo-dev     JPEG images as textures
 build    libtomlplusplus-dev     scene files, with line and column of every key
+build    libtinyobjloader-dev    vertices and faces of Wavefront OBJ meshes
 build    libglm-dev              transforms of the scene
 build    libcli11-dev            the command line
 build    libfmt-dev              text

@@ -62,8 +62,78 @@ TEST_CASE("names, line ends, and statements outside of materials")
     CHECK(ends.materials[0].name == "two words");
     CHECK(ends.materials[0].diffuse == glm::vec3(0, 1, 0));
     CHECK(ends.materials[1].diffuse == glm::vec3(0, 0, 1));
+    REQUIRE(ends.warnings.size() == 1);
+    CHECK(contains(
+        ends.warnings[0], "m.mtl:1: a statement before any newmtl with a name has no effect; it is the first of 2"));
     // A comment ends with its line, even where it looks as if it went on.
     CHECK(parse("newmtl a\n# C:\\textures\\\nKd 1 0 0\n").materials[0].diffuse == glm::vec3(1, 0, 0));
+}
+
+TEST_CASE("keywords of any case, and names in quotation marks")
+{
+    const Library l = parse("NEWMTL \"a b\"\nKD 0.1 0.2 0.3\nks 0.5\nke 1 2 3\nNS 7\ntr 0.25\nNi 2\nPM 0\n");
+    REQUIRE(l.materials.size() == 1);
+    CHECK(l.materials[0].name == "a b");
+    CHECK(l.materials[0].emission == glm::vec3(1, 2, 3));
+    CHECK(l.materials[0].exponent == 7.0f);
+    CHECK(l.materials[0].opacity == 0.75f);
+    CHECK(l.materials[0].specularModel == wedge::scene::SpecularModel::Ggx);
+    CHECK(l.warnings.empty());
+    for (const char* name : { "\"my file.png\"", "'my file.png'", "-s 1 1 1 \"my file.png\"", "my file.png" }) {
+        const Library named = parse(std::string("newmtl a\nmap_kd ") + name + "\n");
+        REQUIRE(named.warnings.size() == 1);
+        CHECK(contains(named.warnings[0], "texture file not found: my file.png:"));
+    }
+    CHECK(parse("newmtl \"a\" b\"\n").materials[0].name == "\"a\" b\""); // no pair around a name
+    CHECK(parse("newmtl \"\n").materials[0].name == "\"");
+}
+
+TEST_CASE("textures without a colour of their own are seen, beside a black one they are told")
+{
+    const TemporaryFolder folder;
+    std::filesystem::copy_file(dataFolder() + "/scenes/textures/tiles.png", folder.path("t.png"));
+    const auto read = [&](const std::string& text) {
+        TextureSet textures(std::int64_t { 1 } << 20);
+        Warnings warnings;
+        const std::vector<Material> materials = parseMtl("newmtl a\n" + text, folder.path("m.mtl"), textures, warnings);
+        return Library { materials, warnings.lines() };
+    };
+    const Library glow = read("Kd 0.5\nmap_Ke t.png\n");
+    CHECK(glow.materials[0].emission == glm::vec3(1.0f));
+    CHECK(glow.materials[0].emissionTexture == 0);
+    CHECK(glow.warnings.empty());
+    CHECK(parse("newmtl a\nmap_Ke none.png\n").materials[0].emission == glm::vec3(0.0f)); // nothing glows by mistake
+    const Library shine = read("Kd 0.25 0.5 0\nNs 20\nmap_Ks t.png\n");
+    CHECK(shine.materials[0].specular == glm::vec3(0.5f)); // as much as the diffuse part leaves
+    CHECK(shine.materials[0].specularTexture == 0);
+    CHECK(shine.warnings.empty());
+    const auto told = [&](const std::string& text, const std::string& what) {
+        const Library l = read(text);
+        return l.warnings.size() == 1 && contains(l.warnings[0], what + " has no effect here");
+    };
+    CHECK(told("Kd 1\nmap_Ks t.png\n", "a map_Ks beside a white Kd"));
+    CHECK(told("Kd 0.5\nKs 0 0 0\nmap_Ks t.png\n", "a map_Ks beside a black Ks"));
+    CHECK(told("Kd 0.5\nKe 0 0 0\nmap_Ke t.png\n", "a map_Ke beside a black Ke"));
+    CHECK(told("Kd 0.5\nmap_Ns t.png\n", "a map_Ns without Ks"));
+    CHECK(read("Kd 0.5\nPr 0.5\nKs 0\nmap_Ks t.png\n").warnings.empty()); // of GGX none counts
+    CHECK(read("Kd 0.5\nKs 0.2\nmap_Ks t.png\nmap_Ns t.png\n").warnings.empty());
+}
+
+TEST_CASE("colours as CIE XYZ, and as spectra")
+{
+    const Library white = parse("newmtl a\nKd xyz 0.9505 1 1.089\nKs XYZ 0.4124 0.2126 0.0193\nKe xyz 0 0 1\n");
+    for (int i = 0; i < 3; ++i)
+        CHECK(white.materials[0].diffuse[i] == doctest::Approx(1.0).epsilon(1e-3));
+    CHECK(white.materials[0].specular.x == doctest::Approx(1.0).epsilon(1e-3));
+    CHECK(white.materials[0].specular.y == doctest::Approx(0.0).epsilon(1e-3));
+    CHECK(white.materials[0].emission.x == 0.0f); // negative in Rec.709
+    CHECK(white.materials[0].emission.z == doctest::Approx(1.057).epsilon(1e-3));
+    CHECK(parse("newmtl a\nKd xyz 0.5\n").materials[0].diffuse.y > 0.4f); // one number stands for three
+    const Library spectral = parse("newmtl a\nKd spectral f.rfl 1\nKs Spectral f.rfl\nKe spectral f.rfl\n");
+    CHECK(spectral.materials[0].diffuse == glm::vec3(0.5f));
+    CHECK(spectral.materials[0].specular == glm::vec3(0.0f));
+    REQUIRE(spectral.warnings.size() == 3);
+    CHECK(contains(spectral.warnings[0], "a spectrum (Kd spectral), in whose place is 0.5, has no effect here"));
 }
 
 TEST_CASE("values that make no sense")
@@ -83,7 +153,7 @@ TEST_CASE("what would change the look is named once a library")
     const Library left = parse("newmtl a\nKd 0.5\nd -halo 0.5\nillum 7\nTf 1 1 1\n"
                                "newmtl b\nTr 0.5\ndisp d.png\nrefl e.png\nPs 0.5\nPc 1\nTf 0.5 1 1\nd 0.1\n"
                                "newmtl c\nd 1\nTr 0\nillum 2\nNi 1.5\nKa 1 1 1\nmap_Ka f.png\n");
-    CHECK(left.warnings.size() == 6);
+    CHECK(left.warnings.size() == 7);
     const auto says = [&](const std::string& what, int materials, const std::string& first) {
         const std::string line = "material file m.mtl: " + what + " has no effect here; " + std::to_string(materials)
             + " material(s) have it, '" + first + "' is the first";
@@ -95,6 +165,11 @@ TEST_CASE("what would change the look is named once a library")
     CHECK(says("sheen or clear coat (Ps, Pc)", 1, "b") == 1);
     CHECK(says("a transmission filter (Tf)", 1, "b") == 1);
     CHECK(says("an illumination model other than diffuse and highlight (illum)", 1, "a") == 1);
+    CHECK(says("a map_Ka without map_Kd", 1, "c") == 1);
+    // Each once, whatever it is; not what stands for light that is worked out here.
+    CHECK(parse("newmtl a\nKa 0.1\nfoo 1\nFOO 2\nbar\nnewmtl b\nfoo 1\nmap_Kd a.png\nmap_Ka a.png\n").warnings.size()
+        == 3);
+    CHECK(contains(parse("newmtl a\nPcr 1\n").warnings[0], "statement 'pcr' has no effect here; 1 material(s)"));
     // Without a highlight 1 is the same as 2.
     CHECK(parse("newmtl a\nillum 1\nKd 0.5\n").warnings.empty());
     CHECK(parse("newmtl a\nillum 1\nKd 0.5\nKs 0.5\n").warnings.size() == 1);
@@ -250,7 +325,12 @@ TEST_CASE("options of textures")
     };
     CHECK(!warned("my file.png"));
     CHECK(!warned("-s 1 1 1 -o 0 0 0 my file.png"));
-    CHECK(!warned("-blendu on -mm 0 1 -bm 1 -clamp off -texres 64 -imfchan r -type sphere -boost 2 my file.png"));
+    CHECK(!warned("-blendu on -mm 0 1 -bm 1 -clamp off -texres 64 -imfchan m -type sphere -boost 2 my file.png"));
+    CHECK(!warned("-colorspace sRGB -cc off -t 0 0 0 my file.png"));
+    CHECK(warned("-imfchan r my file.png"));
+    CHECK(warned("-mm 0.2 1 my file.png"));
+    CHECK(warned("-colorspace linear my file.png"));
+    CHECK(warned("-cc on my file.png"));
     CHECK(warned("-s 2 my file.png"));
     CHECK(warned("-s 1 1 2 my file.png"));
     CHECK(warned("-o 0.5 0 my file.png"));

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "scene_support.h"
 
 using namespace scene_test;
@@ -114,6 +116,67 @@ TEST_CASE("faces: relative indices, comments, continued lines, polygons")
     CHECK(warns(dropped, "mesh.obj:4: 1 face(s) of fewer than 3 corners left out"));
 }
 
+TEST_CASE("numbers and indices in every spelling mean what they say")
+{
+    const TemporaryFolder folder;
+    const std::string hundreds(300, '0');
+    const auto x = [&](const std::string& number) {
+        return loadMesh(folder, "v " + number + " 0 0\nv 9 0 0\nv 0 9 0\nf 1 2 3\n").geometry.positions[0];
+    };
+    CHECK(x("0.1") == 0.1f);
+    CHECK(x("+1.5") == 1.5f);
+    CHECK(x("-.5") == -0.5f);
+    CHECK(x("1.25e+1") == 12.5f);
+    CHECK(x("1" + hundreds + "e-299") == 10.0f); // more than a double holds, times as little
+    CHECK(x("0." + hundreds + "25e301") == 2.5f);
+    CHECK(x("0e999") == 0.0f);
+    CHECK(x("1e-400") == 0.0f);
+    CHECK(x("0.30000000000000004440892098500626") == 0.3f);
+    CHECK(x("16777217") == 16777216.0f);
+    // An index that is left out is none, whatever follows.
+    const Scene trailing = loadMesh(folder, triangle + "vt 0.5 0.5\nvn 0 0 1\nf 1/1/ 2/1/ 3/1/\nf 1// 2//1 +3/+1/+1\n");
+    CHECK(trailing.geometry.indices.size() == 6);
+    CHECK(vectorAt(trailing.geometry.normals, trailing.geometry.indices[0]) == glm::vec3(0.0f));
+    CHECK(vectorAt(trailing.geometry.normals, trailing.geometry.indices[4]) == glm::vec3(0.0f, 0.0f, 1.0f));
+    CHECK(area(loadMesh(folder, "V 0 0 0\nV 1 0 0\nV 0 1 0\nF 1 2 3\n")) == doctest::Approx(0.5));
+}
+
+TEST_CASE("large faces and many blocks of lines lose nothing")
+{
+    const TemporaryFolder folder;
+    std::string text;
+    constexpr int corners = 700, copies = 200;
+    for (int copy = 0; copy < copies; ++copy) {
+        for (int i = 0; i < corners; ++i) {
+            const double angle = 2 * std::acos(-1.0) * i / corners;
+            text += "v " + std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) + " "
+                + std::to_string(copy) + "\n";
+        }
+        text += "f";
+        for (int i = corners; i > 0; --i)
+            text += " -" + std::to_string(i);
+        text += "\n";
+    }
+    REQUIRE(text.size() > 3u << 20); // the library gets a MiB at once
+    const Scene scene = loadMesh(folder, text);
+    CHECK(scene.geometry.indices.size() / 3 == std::size_t { copies } * (corners - 2));
+    CHECK(area(scene) == doctest::Approx(copies * std::acos(-1.0)).epsilon(1e-4));
+}
+
+TEST_CASE("what of a mesh file has no effect is told once")
+{
+    const TemporaryFolder folder;
+    const Scene colours = loadMesh(folder, "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 0.5 0.5 0.5\nf 1 2 3\n");
+    CHECK(warns(colours, "mesh.obj:1: 3 vertices have colours, which have no effect"));
+    CHECK(area(colours) == doctest::Approx(0.5));
+    const std::string weights = "v 0 0 0 1\nv 1 0 0 1.0 # a b c\nv 0 1 0 1\n";
+    CHECK(!warns(loadMesh(folder, weights + "f 1 2 3\n"), "colours"));
+    const Scene unknown = loadMesh(folder, "vx 1\n" + triangle + "f 1 2 3\nsurf 0 1 0 1 1 2 3\nl 1 2\ns 1\np 1\n");
+    CHECK(warns(unknown, "mesh.obj:1: statement 'vx' is not read here and has no effect; it is the first of 2"));
+    CHECK(!warns(loadMesh(folder, triangle + "s off\nl 1 2\np 1\n# note\nlod 1\nf 1 2 3\n"), "statement"));
+    CHECK(warns(loadMesh(folder, triangle + "usemtl\nf 1 2 3\n"), "mesh.obj:4: usemtl names no material"));
+}
+
 TEST_CASE("normals and texture coordinates that are not finite become zero, with a warning")
 {
     const TemporaryFolder folder;
@@ -179,13 +242,20 @@ TEST_CASE("material libraries: missing, several on a line, names with spaces")
     folder.write("a.mtl", "newmtl a\nKd 1 0 0\n");
     folder.write("b c.mtl", "newmtl b\nKd 0 1 0\n");
     const std::string faces = triangle + "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n";
-    for (const char* lines : { "mtllib a.mtl\nmtllib b c.mtl\n", "mtllib a.mtl b\\ c.mtl\n" }) {
+    for (const char* lines : { "mtllib a.mtl\nmtllib b c.mtl\n", "mtllib a.mtl b\\ c.mtl\n",
+             "mtllib a.mtl \"b c.mtl\"\n", "mtllib \"a.mtl\"\nmtllib \"b c.mtl\"\n", "mtllib 'a.mtl' 'b c.mtl'\n",
+             "MTLLIB a.mtl\nMtlLib b c.mtl\n" }) {
         const Scene scene = loadMesh(folder, lines + faces);
         CAPTURE(lines);
         REQUIRE(scene.materials.size() == 2);
         CHECK(scene.materials[0].diffuse == glm::vec3(1.0f, 0.0f, 0.0f));
         CHECK(scene.materials[1].diffuse == glm::vec3(0.0f, 1.0f, 0.0f));
     }
+    folder.write("b's.mtl", "newmtl \"b\"\nKd 0 1 0\n");
+    const Scene quoted =
+        loadMesh(folder, "mtllib a.mtl b's.mtl\n" + triangle + "usemtl \"a\"\nf 1 2 3\nusemtl b\nf 1 2 3\n");
+    CHECK(!warns(quoted, "material"));
+    CHECK(quoted.materials[1].diffuse == glm::vec3(0.0f, 1.0f, 0.0f));
     folder.write("a.mtl", std::string("\0\1\2\xff junk \n newmtl \n", 20)); // binary: no material, no crash
     CHECK(warns(loadMesh(folder, "mtllib a.mtl\n" + faces), "material 'a' not found"));
 }
@@ -226,7 +296,7 @@ TEST_CASE("textures of a library: backslashes, options, missing and broken files
     CHECK(scene.materials[1].specularTexture == -1);
     CHECK(scene.materials[2].emissionTexture == -1);
     CHECK(warns(scene, "material 'b': Kd is black and would hide its texture"));
-    CHECK(warns(scene, "material 'b': the options -s, -o and -clamp of texture"));
+    CHECK(warns(scene, "material 'b': the option -s of texture"));
     CHECK(warns(scene, "none.png: check the path; the plain colour is used"));
     CHECK(warns(scene, "material 'c': texture file cannot be decoded"));
     // The tile of the image's lower left corner is red: row 0 is the bottom, R the low byte.

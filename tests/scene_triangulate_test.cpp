@@ -20,16 +20,17 @@ using wedge::scene::Triangulator;
 
 namespace {
 
-std::vector<glm::vec3> inPlane(
+/// In a plane, rounded to single precision as most meshes are.
+std::vector<glm::dvec3> inPlane(
     const Outline& outline, const glm::dvec3& u, const glm::dvec3& v, const glm::dvec3& origin)
 {
-    std::vector<glm::vec3> corners;
+    std::vector<glm::dvec3> corners;
     for (const glm::vec2& p : outline)
-        corners.emplace_back(origin + double { p.x } * u + double { p.y } * v);
+        corners.emplace_back(glm::vec3(origin + double { p.x } * u + double { p.y } * v));
     return corners;
 }
 
-glm::dvec3 areaOf(const std::vector<glm::vec3>& corners)
+glm::dvec3 areaOf(const std::vector<glm::dvec3>& corners)
 {
     glm::dvec3 sum(0.0);
     const glm::dvec3 origin(corners[0]);
@@ -39,7 +40,7 @@ glm::dvec3 areaOf(const std::vector<glm::vec3>& corners)
 }
 
 /// The area of all triangles, each as large as it is, those that face the other way counted off.
-double coveredArea(const std::vector<glm::vec3>& corners, const Triangulator& triangulator)
+double coveredArea(const std::vector<glm::dvec3>& corners, const Triangulator& triangulator)
 {
     const glm::dvec3 facing = areaOf(corners);
     double sum = 0.0;
@@ -57,7 +58,7 @@ struct Result {
     double lost; ///< of the area, relative
 };
 
-Result splitUp(const std::vector<glm::vec3>& corners)
+Result splitUp(const std::vector<glm::dvec3>& corners)
 {
     static Triangulator triangulator;
     const Split split = triangulator.split(corners);
@@ -203,7 +204,8 @@ TEST_CASE("quads: the shorter diagonal, or the one that is inside")
     CHECK(quad({ at(0, 0), at(1, 1), at(1, 0), at(0, 1) }).first == Split::Crossed);
     CHECK(quad({ at(0, 0), at(2, 2), at(2, 0), at(0, 1) }).first == Split::Crossed);
     CHECK(quad({ at(0, 0), at(1, 1), at(2, 2), at(3, 3) }).first == Split::NoArea);
-    CHECK(t.split(std::vector<glm::vec3> { { 0, 0, 0 }, { 1, 0, 0.1f }, { 1, 1, 0 }, { 0, 1, 0.1f } }) == Split::Whole);
+    CHECK(
+        t.split(std::vector<glm::dvec3> { { 0, 0, 0 }, { 1, 0, 0.1f }, { 1, 1, 0 }, { 0, 1, 0.1f } }) == Split::Whole);
 }
 
 TEST_CASE("outlines that cross themselves are told, and what can be kept is")
@@ -230,7 +232,7 @@ TEST_CASE("outlines that cross themselves are told, and what can be kept is")
     }
     // Folded along its middle, so far that it faces itself.
     Triangulator t;
-    CHECK(t.split(std::vector<glm::vec3> {
+    CHECK(t.split(std::vector<glm::dvec3> {
               { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 }, { 2, 1, 0 }, { 1, 1, 0 }, { 0.2f, 1, 0.1f }, { 3, 0.5f, 0.1f } })
         == Split::Crossed);
 }
@@ -243,7 +245,7 @@ TEST_CASE("outlines without area")
     // A tree that is walked around has none either.
     CHECK(splitFlat({ at(0, 0), at(2, 0), at(2, 1), at(2, 0), at(3, -1), at(2, 0) }).split == Split::NoArea);
     Triangulator t;
-    CHECK(t.split(std::vector<glm::vec3> { { 1, 2, 3 }, { 2, 4, 6 }, { 3, 6, 9 }, { 4, 8, 12 } }) == Split::NoArea);
+    CHECK(t.split(std::vector<glm::dvec3> { { 1, 2, 3 }, { 2, 4, 6 }, { 3, 6, 9 }, { 4, 8, 12 } }) == Split::NoArea);
     CHECK(t.triangles().empty());
 }
 

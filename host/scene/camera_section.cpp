@@ -7,10 +7,30 @@
 
 #include "host/scene/camera_framing.h"
 #include "host/scene/keyframes.h"
+#include "host/scene/rounding.h"
 #include "host/scene/validate.h"
 
 namespace wedge::scene {
 namespace {
+
+/// Of the way from eye to look_at so much may be off at either end.
+constexpr double viewOff = 1e-3;
+
+/// Where the camera is, and where it looks.
+struct View {
+    glm::vec3 eye, lookAt;
+};
+
+/// What of a table has no value here is `otherwise`. Warns where single precision shows.
+View readView(TableReader& table, const View& otherwise, Warnings& warnings)
+{
+    const glm::dvec3 eye = table.point("eye").value_or(glm::dvec3(otherwise.eye));
+    const glm::dvec3 lookAt = table.point("look_at").value_or(glm::dvec3(otherwise.lookAt));
+    const double size = viewOff * glm::distance(eye, lookAt);
+    for (const auto& [key, place] : { std::pair("eye", eye), std::pair("look_at", lookAt) })
+        warnOfRounding(place, size, table.where(key), fmt::format("camera's {}", key), warnings);
+    return { glm::vec3(eye), glm::vec3(lookAt) };
+}
 
 void readLens(TableReader& table, Camera& camera)
 {
@@ -27,15 +47,16 @@ struct CameraKeys {
 };
 
 /// A key has from the camera's table what it does not say itself.
-CameraKeys readKeys(TableReader& table, const Camera& camera)
+CameraKeys readKeys(TableReader& table, const Camera& camera, Warnings& warnings)
 {
     CameraKeys keys;
     for (TableReader& key : table.tables("key")) {
         keys.times.push_back(readKeyTime(key, keys.times));
         Camera posed = camera;
-        posed.eye = key.point("eye").value_or(camera.eye);
-        posed.lookAt = key.point("look_at").value_or(camera.lookAt);
-        posed.up = key.vector("up").value_or(camera.up);
+        const View view = readView(key, { camera.eye, camera.lookAt }, warnings);
+        posed.eye = view.eye;
+        posed.lookAt = view.lookAt;
+        posed.up = glm::vec3(key.vector("up").value_or(glm::dvec3(camera.up)));
         key.finish();
         keys.cameras.push_back(posed);
     }
@@ -80,7 +101,7 @@ void readShutter(TableReader& root, Scene& scene)
     table->finish();
 }
 
-void readCamera(TableReader& root, Scene& scene)
+void readCamera(TableReader& root, Scene& scene, Warnings& warnings)
 {
     auto table = root.table("camera");
     if (!table) {
@@ -88,12 +109,15 @@ void readCamera(TableReader& root, Scene& scene)
         return;
     }
     Camera& camera = scene.camera;
-    camera.eye = table->require("eye", table->point("eye"));
-    camera.lookAt = table->require("look_at", table->point("look_at"));
-    camera.up = table->vector("up").value_or(camera.up);
+    for (const char* key : { "eye", "look_at" })
+        table->require(key, table->point(key));
+    const View view = readView(*table, {}, warnings);
+    camera.eye = view.eye;
+    camera.lookAt = view.lookAt;
+    camera.up = glm::vec3(table->vector("up").value_or(glm::dvec3(camera.up)));
     camera.verticalFov = static_cast<float>(table->number("fov").value_or(double { camera.verticalFov }));
     readLens(*table, camera);
-    const CameraKeys keys = readKeys(*table, camera);
+    const CameraKeys keys = readKeys(*table, camera, warnings);
     table->finish();
     const std::string where = root.where("camera");
     const Camera own = camera;

@@ -18,7 +18,11 @@ struct MeshCorner {
 
 /// A mesh file's triangles, in its own space.
 struct Mesh {
-    std::vector<glm::vec3> positions, normals;
+    /// Of single precision where that tells the mesh's points apart, else as the file has them: a transform may move
+    /// what is far from the origin to where single precision does.
+    std::vector<glm::dvec3> positions;
+    bool isSingle = true; ///< positions are of single precision
+    std::vector<glm::vec3> normals;
     std::vector<glm::vec2> texcoords;
     std::vector<MeshCorner> corners; ///< 3 a triangle
     std::vector<std::uint32_t> materials, objects; ///< 1 a triangle: into `palette`, into `objectNames`

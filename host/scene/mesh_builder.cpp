@@ -35,7 +35,8 @@ glm::vec3 unitOrZero(const glm::dvec3& v)
 
 /// Vertices of a mesh at one time.
 struct VertexView {
-    const std::vector<glm::vec3>&positions, &normals;
+    const std::vector<glm::dvec3>& positions;
+    const std::vector<glm::vec3>& normals;
 };
 
 void addVertices(const VertexView& from, const glm::dmat4& transform, const std::string& where,
@@ -43,7 +44,7 @@ void addVertices(const VertexView& from, const glm::dmat4& transform, const std:
 {
     const glm::dmat3 normalMatrix = glm::transpose(glm::inverse(glm::dmat3(transform)));
     for (std::size_t i = 0; i < from.positions.size(); ++i) {
-        const glm::dvec3 p(transform * glm::dvec4(glm::dvec3(from.positions[i]), 1.0));
+        const glm::dvec3 p(transform * glm::dvec4(from.positions[i], 1.0));
         const glm::vec3 n = unitOrZero(normalMatrix * glm::dvec3(from.normals[i]));
         for (int axis = 0; axis < 3; ++axis) {
             if (!(std::abs(p[axis]) <= maxCoordinate))
@@ -72,6 +73,19 @@ void addAllVertices(Geometry& geometry, const IndexedMesh& mesh, const Placement
     addVertices(open, placement.atOpen, where, geometry.positions, geometry.normals);
     for (const glm::vec2& t : mesh.texcoords)
         geometry.texcoords.insert(geometry.texcoords.end(), { t.x, t.y });
+}
+
+double leastTriangleOf(const IndexedMesh& mesh)
+{
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
+        const glm::dvec3 &a = mesh.positions[mesh.indices[t]], &b = mesh.positions[mesh.indices[t + 1]],
+                         &c = mesh.positions[mesh.indices[t + 2]];
+        const double longest = std::max({ glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c) });
+        if (longest > 0.0)
+            least = std::min(least, longest);
+    }
+    return std::sqrt(least);
 }
 
 glm::vec3 normalOf(const Mesh& mesh, int normal)
@@ -107,6 +121,8 @@ IndexedMesh indexMesh(const Mesh& mesh, std::uint32_t materialBase, const Mesh* 
         out.materials.push_back(materialBase + material);
     out.objects = mesh.objects;
     out.objectNames = mesh.objectNames;
+    out.isSingle = mesh.isSingle;
+    out.leastTriangle = leastTriangleOf(out);
     return out;
 }
 

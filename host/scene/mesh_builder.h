@@ -13,13 +13,17 @@ namespace wedge::scene {
 
 /// A mesh whose vertices are shared where position, normal and texture coordinate are.
 struct IndexedMesh {
-    std::vector<glm::vec3> positions, normals; ///< a zero normal = use the geometric one
+    std::vector<glm::dvec3> positions;
+    bool isSingle = true; ///< as Mesh::isSingle
+    double leastTriangle = 0.0; ///< the longest edge of the smallest triangle that has one
+    std::vector<glm::vec3> normals; ///< a zero normal = use the geometric one
     std::vector<glm::vec2> texcoords;
     std::vector<std::uint32_t> indices;
     std::vector<std::uint32_t> materials, objects; ///< a triangle, into the scene's materials and `objectNames`
     std::vector<std::string> objectNames;
-    std::vector<glm::vec3> positionsAtClose,
-        normalsAtClose; ///< empty unless the mesh deforms while the shutter is open
+    /// Empty unless the mesh deforms while the shutter is open.
+    std::vector<glm::dvec3> positionsAtClose;
+    std::vector<glm::vec3> normalsAtClose;
 };
 
 /// Where a copy of a mesh is.

@@ -28,28 +28,32 @@ MeshKeys::MeshKeys(TableReader& mesh)
         Pose pose;
         const double time = readKeyTime(key, times_);
         if (key.has("translate"))
-            pose.translation = glm::dvec3(*key.vector("translate"));
+            pose.translation = readVector(key, "translate");
         if (key.has("rotate"))
             pose.rotation = readRotation(key, "rotate");
         if (key.has("scale"))
             pose.scale = readScale(key, "scale");
         key.finish();
-        checkScale(key, pose.scale, poses_.empty() ? pose.scale : poses_.back().scale);
+        checkScale(key, pose.scale.single, poses_.empty() ? pose.scale.single : poses_.back().scale.single);
         times_.push_back(time);
         poses_.push_back(pose);
     }
 }
 
-glm::dmat4 MeshKeys::at(double time) const
+Transform MeshKeys::at(double time) const
 {
     if (times_.empty())
-        return glm::dmat4(1.0);
+        return {};
     const KeySpan span = spanAt(times_, time);
     const Pose &a = poses_[span.from], &b = poses_[span.to];
     const double weight = a == b ? 0.0 : span.weight; // rounding must not make rest a motion
-    const glm::dmat4 moved = glm::translate(glm::dmat4(1.0), glm::mix(a.translation, b.translation, weight));
-    const glm::dmat4 turned = moved * glm::mat4_cast(glm::slerp(a.rotation, b.rotation, weight));
-    return glm::scale(turned, glm::mix(a.scale, b.scale, weight));
+    const glm::dmat4 turn = glm::mat4_cast(glm::slerp(a.rotation, b.rotation, weight));
+    const auto placed = [&](glm::dvec3 FileVector::*kind) {
+        const glm::dmat4 moved =
+            glm::translate(glm::dmat4(1.0), glm::mix(a.translation.*kind, b.translation.*kind, weight));
+        return glm::scale(moved * turn, glm::mix(a.scale.*kind, b.scale.*kind, weight));
+    };
+    return { placed(&FileVector::exact), placed(&FileVector::single) };
 }
 
 } // namespace wedge::scene

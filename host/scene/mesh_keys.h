@@ -6,6 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "host/scene/toml_reader.h"
+#include "host/scene/transform.h"
 
 namespace wedge::scene {
 
@@ -18,11 +19,11 @@ public:
 
     /// Between two keys translation and scale are linear, and the rotation goes the shorter way at an even speed
     /// (slerp). Identity without keys.
-    glm::dmat4 at(double time) const;
+    Transform at(double time) const;
 
 private:
     struct Pose {
-        glm::dvec3 translation { 0.0 }, scale { 1.0 };
+        FileVector translation, scale { glm::dvec3(1.0), glm::dvec3(1.0) };
         glm::dquat rotation { 1.0, 0.0, 0.0, 0.0 };
         bool operator==(const Pose&) const = default;
     };

@@ -12,6 +12,7 @@
 #include "host/scene/mesh_keys.h"
 #include "host/scene/mesh_shapes.h"
 #include "host/scene/nearest.h"
+#include "host/scene/rounding.h"
 #include "host/scene/smooth_normals.h"
 #include "host/scene/transform.h"
 
@@ -68,20 +69,28 @@ struct MeshSource {
     const NamedMaterials& materials;
 };
 
-void addOne(TableReader& table, const MeshSource& source, const Placement& placement, int material,
+/// How a copy stands when the shutter opens and closes.
+struct PosedMesh {
+    Transform atOpen, atClose;
+};
+
+void addOne(TableReader& table, const MeshSource& source, const PosedMesh& posed, int material,
     const std::string& prefix, Scene& scene, Warnings& warnings)
 {
     const std::string where = table.where("file");
+    const bool isSingle = source.mesh.isSingle;
+    const Placement placement { posed.atOpen.chosen(isSingle), posed.atClose.chosen(isSingle) };
     if (material < 0 && source.hasNameless)
         warnings.add("meshes without materials", where + ": some faces of the mesh have no material, grey is used");
     addInstance(scene.geometry, source.mesh, placement, material, prefix, where);
+    warnOfRounding(source.mesh, placement.atOpen, where, warnings);
 }
 
 void addInstances(TableReader& table, const MeshSource& source, Scene& scene, Warnings& warnings)
 {
-    const glm::dmat4 transform = readTransform(table, "transform");
+    const Transform transform = readTransform(table, "transform");
     const MeshKeys keys(table);
-    const Placement placed { keys.at(scene.shutterOpen) * transform, keys.at(scene.shutterClose) * transform };
+    const PosedMesh placed { keys.at(scene.shutterOpen) * transform, keys.at(scene.shutterClose) * transform };
     const int material = source.materials.chosen(table, -1);
     const std::string name = table.text("name").value_or("");
     std::vector<TableReader> instances = table.tables("instances");
@@ -92,7 +101,7 @@ void addInstances(TableReader& table, const MeshSource& source, Scene& scene, Wa
         addOne(table, source, placed, material, base, scene, warnings);
     int number = 0;
     for (TableReader& instance : instances) {
-        const glm::dmat4 moved = readTransform(instance, "transform");
+        const Transform moved = readTransform(instance, "transform");
         const int own = source.materials.chosen(instance, material);
         const std::string label = instance.text("name").value_or(fmt::format("{}", number++));
         instance.finish();

@@ -26,6 +26,12 @@ void checkTriangles(TableReader& table, const Mesh& shape, const Mesh& mesh)
     }
 }
 
+glm::dvec3 between(const glm::dvec3& a, const glm::dvec3& b, double weight, bool isSingle)
+{
+    return isSingle ? glm::dvec3(glm::mix(glm::vec3(a), glm::vec3(b), static_cast<float>(weight)))
+                    : glm::mix(a, b, weight);
+}
+
 /// Normals may be shared otherwise in each shape, so that a normal stands for a pair of theirs.
 void blendNormals(const Mesh& a, const Mesh& b, float weight, Mesh& out)
 {
@@ -72,10 +78,10 @@ Mesh MeshShapes::at(double time, const Mesh& mesh) const
         return out;
     const KeySpan span = spanAt(times_, time);
     const Mesh &a = *shapes_[span.from], &b = *shapes_[span.to];
-    const auto weight = static_cast<float>(span.weight);
+    out.isSingle = a.isSingle && b.isSingle;
     for (std::size_t i = 0; i < out.positions.size(); ++i)
-        out.positions[i] = glm::mix(a.positions[i], b.positions[i], weight);
-    blendNormals(a, b, weight, out);
+        out.positions[i] = between(a.positions[i], b.positions[i], span.weight, out.isSingle);
+    blendNormals(a, b, static_cast<float>(span.weight), out);
     return out;
 }
 

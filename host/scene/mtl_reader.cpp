@@ -4,14 +4,15 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "host/error.h"
 #include "host/scene/mtl_texture.h"
+#include "host/scene/mtl_values.h"
 #include "host/scene/paths.h"
 #include "host/scene/statements.h"
-#include "host/text.h"
 
 namespace wedge::scene {
 namespace {
@@ -22,14 +23,16 @@ constexpr std::uintmax_t maxMtlFile = std::uintmax_t { 256 } << 20;
 constexpr glm::vec3 diffuseOfTexture(0.6f);
 /// The refractive index of what is no metal where no Ni above 1 is given: 4 % are reflected head-on.
 constexpr float usualIndex = 1.5f;
+/// Of unknown statements no more is shown.
+constexpr std::size_t longestKeyword = 32;
 /// Kd of mirrors and glass, at most, over what they reflect or let through.
 constexpr float blackShare = 0.1f;
 
 /// Statements that change the look in other programs, and what messages call them.
 const std::map<std::string_view, const char*> unsupported = { { "disp", "displacement (disp)" },
-    { "refl", "a reflection map (refl)" }, { "Ps", "sheen or clear coat (Ps, Pc)" },
-    { "Pc", "sheen or clear coat (Ps, Pc)" }, { "map_Ps", "sheen or clear coat (Ps, Pc)" },
-    { "map_Pm", "a texture of metal (map_Pm)" } };
+    { "refl", "a reflection map (refl)" }, { "ps", "sheen or clear coat (Ps, Pc)" },
+    { "pc", "sheen or clear coat (Ps, Pc)" }, { "map_ps", "sheen or clear coat (Ps, Pc)" },
+    { "map_pm", "a texture of metal (map_Pm)" } };
 
 /// Reads one library; a member reads one statement.
 class Library {
@@ -39,6 +42,8 @@ public:
         , folder_(path.parent_path())
         , warnings_(warnings)
         , textures_(textures)
+        , notes_(where_, warnings)
+        , values_(notes_)
     {
     }
 
@@ -46,20 +51,25 @@ public:
     {
         StatementReader statements(text);
         while (statements.next()) {
-            const std::string_view keyword = statements.word();
+            const std::string keyword = lowerCase(std::string(statements.word().substr(0, longestKeyword)));
+            if (keyword.empty() || keyword.front() == '#')
+                continue;
             if (keyword == "newmtl")
-                begin(statements.rest());
+                begin(unquoted(statements.rest()));
             else if (isOpen_)
                 statement(keyword, statements);
+            else if (lost_++ == 0)
+                firstLost_ = statements.line();
         }
         end();
         if (materials_.empty())
             throw Error(where_ + " has no materials", "no line begins with newmtl and a name",
                 "name a Wavefront material library");
-        for (const auto& [what, left] : leftOut_)
+        notes_.finish();
+        if (lost_ > 0)
             warnings_.add("statements of material files without effect",
-                fmt::format("{}: {} has no effect here; {} material(s) have it, '{}' is the first", where_, what,
-                    left.materials, left.first));
+                fmt::format("{}:{}: a statement before any newmtl with a name has no effect; it is the first of {}",
+                    where_, firstLost_, lost_));
         warnOfEnergy(materials_, where_, warnings_);
         return std::move(materials_);
     }
@@ -67,35 +77,16 @@ public:
 private:
     /// What the statements of a material say besides what Material holds.
     struct Extra {
-        bool hasDiffuse = false;
+        bool hasDiffuse = false, hasSpecular = false, hasEmission = false;
         int illumination = 2;
         bool hasDissolve = false; ///< d, which outdoes Tr
         std::optional<float> roughness, metal; ///< Pr, Pm
         float index = usualIndex; ///< Ni
         bool hasIndex = false; ///< above 1
         glm::vec3 filter { 1.0f }; ///< Tf
-        MtlTexture diffuse, specular, exponent, emission, opacity, roughnessMap, normals, heights;
+        MtlTexture diffuse, specular, exponent, emission, opacity, roughnessMap, normals, heights, ambient;
     };
-    struct LeftOut {
-        std::size_t materials = 0;
-        std::string first;
-        std::size_t last = 0; ///< number of the last material that was counted
-    };
-
-    void warn(std::string_view kind, const std::string& text)
-    {
-        warnings_.add(kind, fmt::format("{}: material '{}': {}", where_, shownName_, text));
-    }
-
-    void leaveOut(const std::string& what)
-    {
-        LeftOut& left = leftOut_[what];
-        if (left.materials > 0 && left.last == materials_.size())
-            return;
-        if (left.materials++ == 0)
-            left.first = material_.name;
-        left.last = materials_.size();
-    }
+    void warn(std::string_view kind, const std::string& text) { notes_.warn(kind, text); }
 
     void begin(std::string_view name)
     {
@@ -104,90 +95,116 @@ private:
         material_ = {};
         extra_ = {};
         material_.name = name;
-        shownName_ = shortened(name, maxMessage / 3); // once, and not for each of its warnings
         material_.diffuse = glm::vec3(0.0f);
+        notes_.begin(name);
     }
 
+    /// The texture that a statement names, if it is one of these. keyword: in small letters.
+    MtlTexture* textureOf(std::string_view keyword)
+    {
+        const std::pair<std::string_view, MtlTexture*> known[] = { { "map_kd", &extra_.diffuse },
+            { "map_ks", &extra_.specular }, { "map_ns", &extra_.exponent }, { "map_ke", &extra_.emission },
+            { "map_d", &extra_.opacity }, { "map_pr", &extra_.roughnessMap }, { "norm", &extra_.normals },
+            { "map_kn", &extra_.normals }, { "bump", &extra_.heights }, { "map_bump", &extra_.heights },
+            { "map_ka", &extra_.ambient } };
+        const auto found = std::ranges::find(known, keyword, &std::pair<std::string_view, MtlTexture*>::first);
+        return found == std::end(known) ? nullptr : found->second;
+    }
+
+    /// Programs differ in the case of keywords. keyword: in small letters.
     void statement(std::string_view keyword, StatementReader& in)
     {
-        if (keyword == "Kd") {
-            material_.diffuse = colour("Kd", in);
+        if (MtlTexture* const texture = textureOf(keyword)) {
+            *texture = parseMtlTexture(in);
+        } else if (keyword == "kd") {
+            material_.diffuse = values_.colour("Kd", in, 0.5f);
             extra_.hasDiffuse = true;
-        } else if (keyword == "Ks")
-            material_.specular = colour("Ks", in);
-        else if (keyword == "Ke")
-            material_.emission = colour("Ke", in);
-        else if (keyword == "Ns")
-            material_.exponent = number("Ns", in.word(), 1.0f);
-        else if (keyword == "map_Kd")
-            extra_.diffuse = parseMtlTexture(in);
-        else if (keyword == "map_Ks")
-            extra_.specular = parseMtlTexture(in);
-        else if (keyword == "map_Ns")
-            extra_.exponent = parseMtlTexture(in);
-        else if (keyword == "map_Ke")
-            extra_.emission = parseMtlTexture(in);
-        else if (keyword == "map_d")
-            extra_.opacity = parseMtlTexture(in);
-        else if (keyword == "d" || keyword == "Tr")
-            dissolve(keyword, in);
-        else
+        } else if (keyword == "ks") {
+            material_.specular = values_.colour("Ks", in, 0.0f);
+            extra_.hasSpecular = true;
+        } else if (keyword == "ke") {
+            material_.emission = values_.colour("Ke", in, 0.0f);
+            extra_.hasEmission = true;
+        } else if (keyword == "ns") {
+            material_.exponent = values_.number("Ns", in.word(), 1.0f);
+        } else if (keyword == "d" || keyword == "tr") {
+            dissolve(keyword == "d" ? "d" : "Tr", in);
+        } else {
             otherStatement(keyword, in);
+        }
     }
 
     void otherStatement(std::string_view keyword, StatementReader& in)
     {
-        float value = 0.0f;
         if (keyword == "illum") {
+            float value = 0.0f;
             const bool isNumber = parseNumber(in.word(), value) == NumberKind::Good;
             extra_.illumination = isNumber && value >= 0.0f && value < 100.0f ? static_cast<int>(value) : 2;
-        } else if (keyword == "Pr") {
-            extra_.roughness = share("Pr", in.word(), 0.5f);
-        } else if (keyword == "Pm") {
-            extra_.metal = share("Pm", in.word(), 0.0f);
-        } else if (keyword == "Ni") {
-            value = number("Ni", in.word(), usualIndex);
-            if (value > mostIndex) {
-                warn("values of material files", fmt::format("Ni has the value {:g}, {:g} is used", value, usualIndex));
-                value = usualIndex;
-            }
-            extra_.hasIndex = value > 1.0f;
-            extra_.index = extra_.hasIndex ? value : usualIndex;
-        } else if (keyword == "map_Pr") {
-            extra_.roughnessMap = parseMtlTexture(in);
-        } else if (keyword == "norm" || keyword == "map_Kn") {
-            extra_.normals = parseMtlTexture(in);
-        } else if (keyword == "bump" || keyword == "map_bump" || keyword == "map_Bump") {
-            extra_.heights = parseMtlTexture(in);
-        } else if (keyword == "Tf") {
-            extra_.filter = colour("Tf", in);
+        } else if (keyword == "pr") {
+            extra_.roughness = values_.share("Pr", in.word(), 0.5f);
+        } else if (keyword == "pm") {
+            extra_.metal = values_.share("Pm", in.word(), 0.0f);
+        } else if (keyword == "ni") {
+            index(in.word());
+        } else if (keyword == "tf") {
+            extra_.filter = values_.colour("Tf", in, 1.0f);
         } else if (const auto known = unsupported.find(keyword); known != unsupported.end()) {
-            leaveOut(known->second);
+            notes_.leaveOut(known->second);
+        } else if (keyword != "ka") { // light from everywhere, which is worked out here and not stated
+            notes_.leaveOut(fmt::format("statement '{}'", keyword));
         }
+    }
+
+    void index(std::string_view word)
+    {
+        float value = values_.number("Ni", word, usualIndex);
+        if (value > mostIndex) {
+            warn("values of material files", fmt::format("Ni has the value {:g}, {:g} is used", value, usualIndex));
+            value = usualIndex;
+        }
+        extra_.hasIndex = value > 1.0f;
+        extra_.index = extra_.hasIndex ? value : usualIndex;
+    }
+
+    /// A texture is seen without a colour of its own, as far as it leaves light for others; beside a black one it is
+    /// not, which is told.
+    void completeTextures()
+    {
+        Material& m = material_;
+        if (!extra_.hasDiffuse && !extra_.diffuse.name.empty())
+            m.diffuse = diffuseOfTexture;
+        if (m.diffuseTexture >= 0 && m.diffuse == glm::vec3(0.0f)) {
+            warn("black colours beside textures", "Kd is black and would hide its texture, white is used");
+            m.diffuse = glm::vec3(1.0f);
+        }
+        if (m.emissionTexture >= 0 && !extra_.hasEmission)
+            m.emission = glm::vec3(1.0f);
+        if (m.specularTexture >= 0 && !extra_.hasSpecular)
+            m.specular = glm::vec3(std::max(0.0f, 1.0f - std::max({ m.diffuse.x, m.diffuse.y, m.diffuse.z })));
+        if (m.emissionTexture >= 0 && m.emission == glm::vec3(0.0f))
+            notes_.leaveOut("a map_Ke beside a black Ke");
+        const bool isRough = extra_.roughness || extra_.metal || !extra_.roughnessMap.name.empty();
+        const bool shines = m.specular != glm::vec3(0.0f);
+        if (m.specularTexture >= 0 && !shines && !isRough)
+            notes_.leaveOut(extra_.hasSpecular ? "a map_Ks beside a black Ks" : "a map_Ks beside a white Kd");
+        if (m.exponentTexture >= 0 && !shines && !isRough)
+            notes_.leaveOut("a map_Ns without Ks");
+        if (!extra_.ambient.name.empty() && extra_.diffuse.name.empty())
+            notes_.leaveOut("a map_Ka without map_Kd");
     }
 
     /// d, or Tr = 1 - d where there is no d: some programs write Tr the other way round beside a d that is right.
     void dissolve(std::string_view keyword, StatementReader& in)
     {
         if (in.ahead() == "-halo") {
-            leaveOut("transparency by the angle of view (d -halo)");
+            notes_.leaveOut("transparency by the angle of view (d -halo)");
             return;
         }
         const bool isOpacity = keyword == "d";
-        const float value = share(keyword, in.word(), isOpacity ? 1.0f : 0.0f);
+        const float value = values_.share(keyword, in.word(), isOpacity ? 1.0f : 0.0f);
         if (isOpacity || !extra_.hasDissolve)
             material_.opacity = isOpacity ? value : 1.0f - value;
         extra_.hasDissolve = extra_.hasDissolve || isOpacity;
-    }
-
-    /// A number in [0, 1]; another is told and replaced.
-    float share(std::string_view key, std::string_view word, float replacement)
-    {
-        float value = 0.0f;
-        if (parseNumber(word, value) == NumberKind::Good && value >= 0.0f && value <= 1.0f)
-            return value;
-        warn("values of material files", fmt::format("{} has the value {}, {:g} is used", key, word, replacement));
-        return replacement;
     }
 
     /// Kd, Ni and Pm to what is reflected: a metal's colour is its reflection's, another's what is below it.
@@ -229,7 +246,7 @@ private:
         if (m.specularModel == SpecularModel::Ggx || !(mirror || glass))
             return false;
         if (m.specularTexture >= 0)
-            leaveOut("a texture of a mirror or glass (map_Ks)");
+            notes_.leaveOut("a texture of a mirror or glass (map_Ks)");
         m.specularModel = mirror ? SpecularModel::Mirror : SpecularModel::Glass;
         m.diffuse = glm::vec3(0.0f);
         m.specular = mirror ? m.specular : glm::vec3(1.0f);
@@ -240,29 +257,6 @@ private:
         return true;
     }
 
-    /// A value that makes no sense is told and replaced.
-    float number(const char* key, std::string_view word, float replacement)
-    {
-        float value = 0.0f;
-        if (parseNumber(word, value) == NumberKind::Good && value >= 0.0f)
-            return value;
-        warn("values of material files", fmt::format("{} has the value {}, {:g} is used", key, word, replacement));
-        return replacement;
-    }
-
-    /// One number stands for a grey, as the format has it.
-    glm::vec3 colour(const char* key, StatementReader& in)
-    {
-        glm::vec3 value(number(key, in.word(), 0.0f));
-        for (int i = 1; i < 3; ++i) {
-            const std::string_view word = in.word();
-            if (word.empty() || word.front() == '#')
-                return value;
-            value[i] = number(key, word, 0.0f);
-        }
-        return value;
-    }
-
     /// A map of normals, or heights where there is none. What is named as heights may be a map of normals.
     void addNormals()
     {
@@ -270,7 +264,7 @@ private:
         const bool mapped = !extra_.normals.name.empty();
         const MtlTexture& from = mapped ? extra_.normals : extra_.heights;
         if (mapped && !extra_.heights.name.empty())
-            leaveOut("a bump map beside a normal map (bump, map_bump)");
+            notes_.leaveOut("a bump map beside a normal map (bump, map_bump)");
         m.normalTexture = texture(from, "the surface stays smooth");
         m.normalIsHeight = !mapped && m.normalTexture >= 0 && !looksLikeNormals(textures_.at(m.normalTexture));
         if (from.multiplier.empty())
@@ -287,9 +281,9 @@ private:
     {
         if (statement.name.empty())
             return -1;
-        if (statement.hasUnsupported)
+        if (!statement.unsupported.empty())
             warn("options of textures",
-                fmt::format("the options -s, -o and -clamp of texture '{}' are not supported", statement.name));
+                fmt::format("the option {} of texture '{}' has no effect here", statement.unsupported, statement.name));
         try {
             return textures_.add(resolvePath(statement.name, folder_, where_));
         } catch (const Error& error) {
@@ -308,19 +302,14 @@ private:
         m.exponentTexture = texture(extra_.exponent);
         m.emissionTexture = texture(extra_.emission);
         m.opacityTexture = texture(extra_.opacity);
-        if (!extra_.hasDiffuse && !extra_.diffuse.name.empty())
-            m.diffuse = diffuseOfTexture;
-        if (m.diffuseTexture >= 0 && m.diffuse == glm::vec3(0.0f)) {
-            warn("black colours beside textures", "Kd is black and would hide its texture, white is used");
-            m.diffuse = glm::vec3(1.0f);
-        }
+        completeTextures();
         makeMetallicRough();
         addNormals();
         const bool isMirror = makeMirror(), shines = m.specular != glm::vec3(0.0f);
         if (!isMirror && extra_.illumination != 2 && (extra_.illumination != 1 || shines))
-            leaveOut("an illumination model other than diffuse and highlight (illum)");
+            notes_.leaveOut("an illumination model other than diffuse and highlight (illum)");
         if (m.specularModel != SpecularModel::Glass && extra_.filter != glm::vec3(1.0f))
-            leaveOut("a transmission filter (Tf)");
+            notes_.leaveOut("a transmission filter (Tf)");
         materials_.push_back(m);
         isOpen_ = false;
     }
@@ -332,9 +321,10 @@ private:
     std::vector<Material> materials_;
     bool isOpen_ = false; ///< material_ and extra_ are being read
     Material material_;
-    std::string shownName_; ///< its name in messages
     Extra extra_;
-    std::map<std::string, LeftOut> leftOut_;
+    MtlNotes notes_;
+    MtlValues values_;
+    std::size_t lost_ = 0, firstLost_ = 0; ///< statements that no material has, and the first one's line
 };
 
 } // namespace

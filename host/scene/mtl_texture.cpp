@@ -1,6 +1,9 @@
 #include "host/scene/mtl_texture.h"
 
+#include <array>
 #include <map>
+
+#include "host/scene/paths.h"
 
 namespace wedge::scene {
 namespace {
@@ -9,13 +12,23 @@ namespace {
 struct Option {
     int words = 0;
     bool numbers = false;
-    float harmless = 0.0f; ///< the numbers that do nothing
+    std::array<std::string_view, 3> harmless {}; ///< words or numbers that change nothing; empty: all
 };
 
-const std::map<std::string_view, Option> options = { { "-o", { 3, true, 0.0f } }, { "-s", { 3, true, 1.0f } },
-    { "-t", { 3, true, 0.0f } }, { "-mm", { 2, true, 0.0f } }, { "-bm", { 1, true, 0.0f } },
-    { "-boost", { 1, true, 0.0f } }, { "-texres", { 1, true, 0.0f } }, { "-blendu", { 1 } }, { "-blendv", { 1 } },
-    { "-cc", { 1 } }, { "-clamp", { 1 } }, { "-imfchan", { 1 } }, { "-type", { 1 } }, { "-colorspace", { 1 } } };
+const std::map<std::string_view, Option> options = { { "-o", { 3, true, { "0", "0", "0" } } },
+    { "-s", { 3, true, { "1", "1", "1" } } }, { "-t", { 3, true, { "0", "0", "0" } } },
+    { "-mm", { 2, true, { "0", "1" } } }, { "-bm", { 1, true } }, { "-boost", { 1, true } }, { "-texres", { 1, true } },
+    { "-blendu", { 1 } }, { "-blendv", { 1 } }, { "-cc", { 1, false, { "off" } } },
+    { "-clamp", { 1, false, { "off" } } }, { "-imfchan", { 1, false, { "m" } } }, { "-type", { 1 } },
+    { "-colorspace", { 1, false, { "srgb" } } } };
+
+bool isHarmless(std::string_view word, std::string_view harmless)
+{
+    double value = 0.0, same = 0.0;
+    if (parseNumber(harmless, same) == NumberKind::Good)
+        return parseNumber(word, value) == NumberKind::Good && value == same;
+    return harmless.empty() || lowerCase(std::string(word.substr(0, 8))) == harmless;
+}
 
 } // namespace
 
@@ -31,13 +44,13 @@ MtlTexture parseMtlTexture(StatementReader& statement)
             if (numbers && parseNumber(statement.ahead(), value) == NumberKind::Unreadable)
                 break;
             const std::string_view word = statement.word();
-            texture.hasUnsupported = texture.hasUnsupported || (keyword == "-clamp" && word == "on")
-                || ((keyword == "-o" || keyword == "-s") && value != harmless);
+            if (texture.unsupported.empty() && !isHarmless(word, harmless[static_cast<std::size_t>(i)]))
+                texture.unsupported = keyword;
             if (keyword == "-bm")
                 texture.multiplier = word;
         }
     }
-    texture.name = statement.rest();
+    texture.name = unquoted(statement.rest());
     return texture;
 }
 

@@ -9,7 +9,7 @@ namespace wedge::scene {
 /// What a texture statement of an MTL file says.
 struct MtlTexture {
     std::string name; ///< to the end of the line, spaces and all; empty: none
-    bool hasUnsupported = false; ///< an option that moves, scales or clamps it
+    std::string unsupported; ///< the first option that would change it and is not read; empty: none
     std::string multiplier; ///< the word behind -bm; empty: none
 };
 

@@ -29,21 +29,28 @@ bool isFile(const std::string& name, const std::filesystem::path& besides, const
 }
 
 /// The files an mtllib line names: all of it where there is a file of that name, spaces and all, else each word, in
-/// which a backslash keeps a space.
+/// which a backslash or quotation marks keep spaces.
 std::vector<std::string> libraryNames(
     const std::string& line, const std::filesystem::path& path, const std::string& where)
 {
     if (isFile(line, path, where))
         return { line };
     std::vector<std::string> names(1);
+    char quote = 0; // that the name is in
     for (std::size_t i = 0; i < line.size(); ++i) {
-        if (line[i] == '\\' && i + 1 < line.size() && line[i + 1] == ' ')
+        const bool opens = names.back().empty() && (line[i] == '"' || line[i] == '\'');
+        if (quote == 0 && opens && line.find(line[i], i + 1) != std::string::npos)
+            quote = line[i];
+        else if (quote != 0 && line[i] == quote)
+            quote = 0;
+        else if (line[i] == '\\' && i + 1 < line.size() && line[i + 1] == ' ')
             names.back() += line[++i];
-        else if (line[i] != ' ' && line[i] != '\t')
+        else if (quote != 0 || (line[i] != ' ' && line[i] != '\t'))
             names.back() += line[i];
         else if (!names.back().empty())
             names.emplace_back();
     }
+    std::erase(names, "");
     return names;
 }
 

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "host/scene/single_precision.h"
+
 namespace wedge::scene {
 namespace {
 
@@ -38,7 +40,7 @@ bool isShort(const glm::dvec2& difference, const glm::dvec2& from, const glm::dv
     constexpr double most = std::numeric_limits<float>::max();
     if (!(std::abs(difference.x) <= most && std::abs(difference.y) <= most))
         return false;
-    return glm::dvec2(glm::vec2(difference)) == difference && from + difference == to && to - difference == from;
+    return inSingle(difference) == difference && from + difference == to && to - difference == from;
 }
 
 } // namespace
@@ -48,14 +50,21 @@ int exactOrientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2&
     const glm::dvec2 ab = b - a, ac = c - a;
     if (isShort(ab, a, b) && isShort(ac, a, c))
         return signOf(ab.x * ac.y - ab.y * ac.x);
-    // The product of two numbers of 24 bits is exact in 53.
-    return signOfSum(std::array { b.x * c.y, -(b.y * c.x), a.y * c.x, -(a.x * c.y), a.x * b.y, -(a.y * b.x) });
+    const double factors[][2] = { { b.x, c.y }, { -b.y, c.x }, { a.y, c.x }, { -a.x, c.y }, { a.x, b.y },
+        { -a.y, b.x } };
+    std::array<double, 12> summands {};
+    for (std::size_t i = 0; i < 6; ++i) {
+        const double product = factors[i][0] * factors[i][1];
+        summands[2 * i] = std::fma(factors[i][0], factors[i][1], -product); // what rounding took, exactly
+        summands[2 * i + 1] = product;
+    }
+    return signOfSum(summands);
 }
 
-bool onOneLine(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
+bool onOneLine(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 {
     for (int axis = 0; axis < 3; ++axis) {
-        const auto flat = [axis](const glm::vec3& p) { return glm::dvec2(p[axis], p[(axis + 1) % 3]); };
+        const auto flat = [axis](const glm::dvec3& p) { return glm::dvec2(p[axis], p[(axis + 1) % 3]); };
         if (orientation(flat(a), flat(b), flat(c)) != 0)
             return false;
     }

@@ -9,8 +9,8 @@ namespace wedge::scene {
 /// orientation() where rounding leaves it open.
 int exactOrientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c);
 
-/// Which way a, b, c turn: 1 counter-clockwise, -1 clockwise, 0 on one line. Exact where the coordinates are those of
-/// single precision.
+/// Which way a, b, c turn: 1 counter-clockwise, -1 clockwise, 0 on one line. Exact, as long as products of coordinates
+/// neither overflow nor underflow.
 inline int orientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
 {
     const double left = (b.x - a.x) * (c.y - a.y), right = (b.y - a.y) * (c.x - a.x);
@@ -24,7 +24,7 @@ inline double doubleArea(const glm::dvec2& a, const glm::dvec2& b, const glm::dv
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Whether three points of single precision lie on one line, exactly.
-bool onOneLine(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+/// Whether three points lie on one line; exact as orientation() is.
+bool onOneLine(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 
 } // namespace wedge::scene

@@ -44,7 +44,7 @@ void SceneFile::read(Scene& scene, Warnings& warnings)
     root_.finish(); // a wrong key is told before large meshes are read
     meshes_.emplace(root_, scene, textures_, warnings);
     meshes_->place(scene, warnings);
-    readCamera(root_, scene);
+    readCamera(root_, scene, warnings);
     brought_ = lightsOfExtensions(scene);
     scene.areaLights.insert(scene.areaLights.end(), brought_.begin(), brought_.end());
     scene.textures = textures_.take();
@@ -63,7 +63,7 @@ Moment SceneFile::at(double later)
     if (moves)
         meshes_->place(scene, told);
     if (root_.has("camera")) {
-        readCamera(root_, scene);
+        readCamera(root_, scene, told);
     } else {
         scene.camera = start_.camera;
     }

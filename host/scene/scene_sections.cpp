@@ -1,5 +1,6 @@
 #include "host/scene/scene_sections.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -7,11 +8,16 @@
 #include <fmt/format.h>
 
 #include "host/scene/mesh_keys.h"
+#include "host/scene/rounding.h"
 #include "host/scene/sections.h"
+#include "host/scene/single_precision.h"
 #include "host/scene/validate.h"
 
 namespace wedge::scene {
 namespace {
+
+/// Of a light's half edge its middle may be off by so much.
+constexpr double lightOff = 0.02;
 
 /// Where a light's keys, [[light.key]], put it at a time: as a mesh's do.
 class LightPose {
@@ -23,56 +29,66 @@ public:
     {
     }
 
-    glm::vec3 point(const glm::vec3& p) const
+    FileVector point(const FileVector& p) const
     {
-        if (!moves_)
-            return p;
-        const glm::dvec3 moved(pose_ * glm::dvec4(p, 1.0));
+        const FileVector moved { moves_ ? glm::dvec3(pose_.exact * glm::dvec4(p.exact, 1.0)) : p.exact,
+            moves_ ? glm::dvec3(pose_.single * glm::dvec4(p.single, 1.0)) : p.single };
         for (int axis = 0; axis < 3; ++axis) {
-            if (!(std::abs(moved[axis]) <= maxCoordinate))
-                table_.fail("key", "puts a light at a coordinate beyond 1e12", fmt::format("{:g}", moved[axis]),
+            if (!(std::abs(moved.exact[axis]) <= maxCoordinate))
+                table_.fail("key", "puts a light at a coordinate beyond 1e12", fmt::format("{:g}", moved.exact[axis]),
                     "scale the scene down");
         }
-        return glm::vec3(moved);
+        return moved;
     }
-    glm::dvec3 vector(const glm::dvec3& v) const { return moves_ ? glm::dmat3(pose_) * v : v; }
-    bool mirrors() const { return glm::determinant(glm::dmat3(pose_)) < 0.0; }
+    glm::dvec3 vector(const glm::dvec3& v) const { return moves_ ? glm::dmat3(pose_.single) * v : v; }
+    bool mirrors() const { return glm::determinant(glm::dmat3(pose_.single)) < 0.0; }
 
 private:
     bool moves_;
     TableReader& table_;
-    glm::dmat4 pose_;
+    Transform pose_;
 };
 
-/// A quad is a corner and two edges, or a centre and two half edges.
-void readQuadShape(TableReader& table, AreaLight& light)
+glm::vec3 settled(const FileVector& p) { return glm::vec3(isPrecise(p.single, p.exact) ? p.single : p.exact); }
+
+/// The point under a key.
+FileVector readPlace(TableReader& table, const std::string& key)
+{
+    const glm::dvec3 exact = table.require(key, table.point(key));
+    return { exact, inSingle(exact) };
+}
+
+/// A quad is a corner and two edges, or a centre and two half edges. Returns the centre; the light gets the edges.
+FileVector readQuadShape(TableReader& table, AreaLight& light)
 {
     if (table.has("corner")) {
-        const glm::vec3 corner = *table.point("corner");
-        light.halfU = 0.5f * table.require("edge1", table.point("edge1"));
-        light.halfV = 0.5f * table.require("edge2", table.point("edge2"));
-        light.centre = corner + light.halfU + light.halfV;
-    } else if (table.has("centre")) {
-        light.centre = *table.point("centre");
-        light.halfU = table.require("half_u", table.point("half_u"));
-        light.halfV = table.require("half_v", table.point("half_v"));
-    } else {
-        table.failHere("has no shape", "quad", "give corner, edge1 and edge2, or centre, half_u and half_v");
+        const FileVector corner = readPlace(table, "corner");
+        const glm::dvec3 u = readPlace(table, "edge1").exact, v = readPlace(table, "edge2").exact;
+        light.halfU = 0.5f * glm::vec3(u);
+        light.halfV = 0.5f * glm::vec3(v);
+        return { corner.exact + 0.5 * (u + v), glm::dvec3(glm::vec3(corner.single) + light.halfU + light.halfV) };
     }
+    if (table.has("centre")) {
+        light.halfU = glm::vec3(readPlace(table, "half_u").exact);
+        light.halfV = glm::vec3(readPlace(table, "half_v").exact);
+        return readPlace(table, "centre");
+    }
+    table.failHere("has no shape", "quad", "give corner, edge1 and edge2, or centre, half_u and half_v");
 }
 
 void readQuad(TableReader& table, const LightPose& pose, Scene& scene, Warnings& warnings)
 {
     AreaLight light;
     light.name = table.text("name").value_or("");
-    readQuadShape(table, light);
+    const FileVector centre = readQuadShape(table, light);
     light.radiance = table.require("radiance", table.colour("radiance"));
     if (table.choice("profile", { "gaussian", "uniform" }).value_or("gaussian") == "uniform")
         light.profile = LightProfile::Uniform;
     light.cut = static_cast<float>(table.number("cut").value_or(double { light.cut }));
     if (table.boolean("flip").value_or(false))
         std::swap(light.halfU, light.halfV);
-    light.centre = pose.point(light.centre);
+    const FileVector placed = pose.point(centre);
+    light.centre = settled(placed);
     light.halfU = glm::vec3(pose.vector(light.halfU));
     light.halfV = glm::vec3(pose.vector(light.halfV));
     if (pose.mirrors())
@@ -80,13 +96,15 @@ void readQuad(TableReader& table, const LightPose& pose, Scene& scene, Warnings&
     light.twoSided = table.boolean("two_sided").value_or(light.twoSided);
     light.visible = table.boolean("visible").value_or(light.visible);
     checkAreaLight(light, table.where("type"), warnings);
+    const float side = std::min(glm::length(light.halfU), glm::length(light.halfV));
+    warnOfRounding(placed.exact, lightOff * double { side }, table.where("type"), "light's middle", warnings);
     scene.areaLights.push_back(light);
 }
 
 void readPoint(TableReader& table, const LightPose& pose, Scene& scene)
 {
     PointLight light;
-    light.position = pose.point(table.require("position", table.point("position")));
+    light.position = settled(pose.point(readPlace(table, "position")));
     light.intensity = table.require("intensity", table.colour("intensity"));
     scene.pointLights.push_back(light);
 }
@@ -94,7 +112,7 @@ void readPoint(TableReader& table, const LightPose& pose, Scene& scene)
 void readDirectional(TableReader& table, const LightPose& pose, Scene& scene)
 {
     DirectionalLight light;
-    const glm::dvec3 direction(table.require("direction", table.vector("direction")));
+    const glm::dvec3 direction = inSingle(table.require("direction", table.vector("direction")));
     if (!(glm::length(direction) > 0.0))
         table.fail("direction", "is zero", "[0, 0, 0]", "give the way the light travels");
     light.direction = glm::vec3(glm::normalize(pose.vector(direction)));

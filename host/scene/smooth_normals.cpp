@@ -12,11 +12,11 @@ namespace wedge::scene {
 namespace {
 
 struct PositionHash {
-    std::size_t operator()(const glm::vec3& p) const
+    std::size_t operator()(const glm::dvec3& p) const
     {
         std::size_t hash = 0;
         for (int i = 0; i < 3; ++i)
-            hash = (hash ^ std::bit_cast<std::uint32_t>(p[i] + 0.0f)) * 0x9e3779b97f4a7c15ull; // + 0: -0 is 0
+            hash = (hash ^ std::bit_cast<std::uint64_t>(p[i] + 0.0)) * 0x9e3779b97f4a7c15ull; // + 0: -0 is 0
         return hash ^ hash >> 29;
     }
 };
@@ -50,10 +50,10 @@ std::vector<CornerPlane> cornerPlanes(const Mesh& mesh)
 /// The corners at each distinct position.
 std::vector<std::vector<std::size_t>> cornersByPosition(const Mesh& mesh)
 {
-    std::unordered_map<glm::vec3, std::size_t, PositionHash> slots;
+    std::unordered_map<glm::dvec3, std::size_t, PositionHash> slots;
     std::vector<std::vector<std::size_t>> groups;
     for (std::size_t c = 0; c < mesh.corners.size(); ++c) {
-        const glm::vec3 position = mesh.positions[static_cast<std::size_t>(mesh.corners[c].position)];
+        const glm::dvec3& position = mesh.positions[static_cast<std::size_t>(mesh.corners[c].position)];
         const auto [slot, isNew] = slots.emplace(position, groups.size());
         if (isNew)
             groups.emplace_back();

@@ -90,9 +90,16 @@ std::string_view StatementReader::rest()
     return statement_;
 }
 
-NumberKind parseNumber(std::string_view word, float& value)
+std::string_view unquoted(std::string_view name)
 {
-    value = 0.0f;
+    const bool quoted =
+        name.size() >= 2 && (name.front() == '"' || name.front() == '\'') && name.back() == name.front();
+    return quoted && name.find(name.front(), 1) == name.size() - 1 ? name.substr(1, name.size() - 2) : name;
+}
+
+NumberKind parseNumber(std::string_view word, double& value)
+{
+    value = 0.0;
     if (!word.empty() && word.front() == '+')
         word.remove_prefix(1);
     double read = 0.0;
@@ -107,8 +114,16 @@ NumberKind parseNumber(std::string_view word, float& value)
         return NumberKind::Unreadable;
     if (!(std::abs(read) <= static_cast<double>(std::numeric_limits<float>::max()))) // also false for NaN
         return NumberKind::NotFinite;
-    value = static_cast<float>(read);
+    value = read;
     return NumberKind::Good;
+}
+
+NumberKind parseNumber(std::string_view word, float& value)
+{
+    double read = 0.0;
+    const NumberKind kind = parseNumber(word, read);
+    value = static_cast<float>(read);
+    return kind;
 }
 
 } // namespace wedge::scene

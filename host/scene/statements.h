@@ -37,6 +37,9 @@ private:
     std::size_t line_ = 0, following_ = 1;
 };
 
+/// A name without the quotation marks, double or single, that some programs write around it.
+std::string_view unquoted(std::string_view name);
+
 /// What a word is when it is read as a number.
 enum class NumberKind {
     Good, ///< finite in single precision
@@ -45,6 +48,7 @@ enum class NumberKind {
 };
 
 /// value: 0 unless the kind is Good.
+NumberKind parseNumber(std::string_view word, double& value);
 NumberKind parseNumber(std::string_view word, float& value);
 
 } // namespace wedge::scene

@@ -189,15 +189,15 @@ void TableReader::appendNumbers(
     }
 }
 
-std::optional<glm::vec3> TableReader::vector(const std::string& key)
+std::optional<glm::dvec3> TableReader::vector(const std::string& key)
 {
     const std::optional<std::vector<double>> v = numbers(key, 3, 3);
-    return v ? std::optional(glm::vec3((*v)[0], (*v)[1], (*v)[2])) : std::nullopt;
+    return v ? std::optional(glm::dvec3((*v)[0], (*v)[1], (*v)[2])) : std::nullopt;
 }
 
-std::optional<glm::vec3> TableReader::point(const std::string& key)
+std::optional<glm::dvec3> TableReader::point(const std::string& key)
 {
-    const std::optional<glm::vec3> p = vector(key);
+    const std::optional<glm::dvec3> p = vector(key);
     for (int axis = 0; p && axis < 3; ++axis) {
         if (!(std::abs((*p)[axis]) <= maxCoordinate))
             fail(key, "has a coordinate beyond 1e12", fmt::format("{:g}", (*p)[axis]), "scale the scene down");
@@ -211,7 +211,7 @@ std::optional<glm::vec3> TableReader::colour(const std::string& key)
     if (node == nullptr)
         return std::nullopt;
     const glm::vec3 value =
-        node->is_number() ? glm::vec3(static_cast<float>(finite(key, *node, -1e30, 1e30))) : *vector(key);
+        node->is_number() ? glm::vec3(static_cast<float>(finite(key, *node, -1e30, 1e30))) : glm::vec3(*vector(key));
     if (value.x < 0.0f || value.y < 0.0f || value.z < 0.0f)
         fail(key, "is negative", shown(*node), "use numbers of at least 0");
     return value;

@@ -29,9 +29,9 @@ public:
     std::optional<bool> boolean(const std::string& key);
     std::optional<std::string> text(const std::string& key);
     std::optional<std::string> choice(const std::string& key, const std::vector<std::string>& choices);
-    std::optional<glm::vec3> vector(const std::string& key);
+    std::optional<glm::dvec3> vector(const std::string& key);
     /// A point in the scene, with coordinates that the renderer can take.
-    std::optional<glm::vec3> point(const std::string& key);
+    std::optional<glm::dvec3> point(const std::string& key);
     /// Three numbers of at least 0, or one for a grey.
     std::optional<glm::vec3> colour(const std::string& key);
     std::optional<std::filesystem::path> path(const std::string& key);

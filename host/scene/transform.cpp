@@ -1,9 +1,12 @@
 #include "host/scene/transform.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
+
+#include "host/scene/single_precision.h"
 
 namespace wedge::scene {
 namespace {
@@ -22,29 +25,46 @@ glm::dmat4 readMatrix(TableReader& step)
     return matrix;
 }
 
-glm::dmat4 readStep(TableReader& step)
+Transform readStep(TableReader& step)
 {
-    glm::dmat4 matrix(1.0);
+    const glm::dmat4 none(1.0);
+    Transform out;
     int found = 0;
-    if (step.has("translate") && ++found)
-        matrix = glm::translate(matrix, glm::dvec3(*step.vector("translate")));
+    if (step.has("translate") && ++found) {
+        const FileVector by = readVector(step, "translate");
+        out = { glm::translate(none, by.exact), glm::translate(none, by.single) };
+    }
     if (step.has("rotate") && ++found)
-        matrix = glm::mat4_cast(readRotation(step, "rotate"));
-    if (step.has("scale") && ++found)
-        matrix = glm::scale(matrix, readScale(step, "scale"));
+        out.exact = out.single = glm::mat4_cast(readRotation(step, "rotate"));
+    if (step.has("scale") && ++found) {
+        const FileVector by = readScale(step, "scale");
+        out = { glm::scale(none, by.exact), glm::scale(none, by.single) };
+    }
     if (step.has("matrix") && ++found)
-        matrix = readMatrix(step);
+        out.exact = out.single = readMatrix(step);
     step.finish();
     if (found != 1)
         step.failHere("must have one key", std::to_string(found),
             "write one of translate, rotate, scale, matrix a step: [{ rotate = [..] }, { translate = [..] }]");
-    const double volume = glm::determinant(glm::dmat3(matrix));
+    const double volume = glm::determinant(glm::dmat3(out.single));
     if (!(std::abs(volume) > 1e-30))
         step.failHere("squeezes the mesh flat", fmt::format("determinant {:g}", volume), "use factors other than 0");
-    return matrix;
+    return out;
 }
 
 } // namespace
+
+bool isPrecise(const glm::dvec3& single, const glm::dvec3& exact)
+{
+    constexpr double roundings = 4.0 / (1 << 24);
+    const auto largest = [](const glm::dvec3& v) { return std::max({ std::abs(v.x), std::abs(v.y), std::abs(v.z) }); };
+    return largest(single - exact) <= roundings * largest(exact);
+}
+
+const glm::dmat4& Transform::chosen(bool isSingle) const
+{
+    return isSingle && isPrecise(glm::dvec3(single[3]), glm::dvec3(exact[3])) ? single : exact;
+}
 
 glm::dquat readRotation(TableReader& table, const std::string& key)
 {
@@ -55,14 +75,23 @@ glm::dquat readRotation(TableReader& table, const std::string& key)
     return glm::angleAxis(glm::radians(r[3]), glm::normalize(axis));
 }
 
-glm::dvec3 readScale(TableReader& table, const std::string& key)
+FileVector readVector(TableReader& table, const std::string& key)
 {
-    return table.isList(key) ? glm::dvec3(*table.vector(key)) : glm::dvec3(*table.number(key));
+    const glm::dvec3 exact = *table.vector(key);
+    return { exact, inSingle(exact) };
 }
 
-glm::dmat4 readTransform(TableReader& table, const std::string& key)
+FileVector readScale(TableReader& table, const std::string& key)
 {
-    glm::dmat4 all(1.0);
+    if (table.isList(key))
+        return readVector(table, key);
+    const glm::dvec3 even(*table.number(key));
+    return { even, even };
+}
+
+Transform readTransform(TableReader& table, const std::string& key)
+{
+    Transform all;
     for (TableReader& step : table.tables(key))
         all = readStep(step) * all;
     return all;

@@ -22,11 +22,12 @@ double agreement(
     return std::min(glm::dot(normal, glm::cross(b - a, c - a)), glm::dot(normal, glm::cross(c - a, d - a)));
 }
 
+/// In single precision: which of two equal diagonals is the shorter is a matter of rounding.
 float squaredLength(const glm::vec3& v) { return v.x * v.x + v.y * v.y + v.z * v.z; }
 
 } // namespace
 
-Split Triangulator::split(std::span<const glm::vec3> corners)
+Split Triangulator::split(std::span<const glm::dvec3> corners)
 {
     assert(corners.size() >= 4);
     triangles_.clear();
@@ -52,13 +53,13 @@ Split Triangulator::split(std::span<const glm::vec3> corners)
     return triangles_.empty() ? Split::NoArea : crossed ? Split::Crossed : Split::Whole;
 }
 
-Split Triangulator::splitQuad(std::span<const glm::vec3> corners)
+Split Triangulator::splitQuad(std::span<const glm::dvec3> corners)
 {
-    const glm::dvec3 a(corners[0]), b(corners[1]), c(corners[2]), d(corners[3]);
+    const glm::dvec3 &a = corners[0], &b = corners[1], &c = corners[2], &d = corners[3];
     const glm::dvec3 normal = glm::cross(c - a, d - b);
     const double first = agreement(normal, a, b, c, d), second = agreement(normal, b, c, d, a);
     const double scale = glm::dot(normal, normal);
-    const bool shorter = squaredLength(corners[2] - corners[0]) < squaredLength(corners[3] - corners[1]);
+    const bool shorter = squaredLength(glm::vec3(c - a)) < squaredLength(glm::vec3(d - b));
     const double better = shorter ? first : second, other = shorter ? second : first;
     const bool useShorter = better > 1e-6 * scale || better >= other;
     const std::array<std::array<std::uint32_t, 3>, 2> halves = shorter == useShorter
@@ -75,12 +76,12 @@ Split Triangulator::splitQuad(std::span<const glm::vec3> corners)
 }
 
 /// Drops the axis that the face looks along most, which keeps coordinates as they are: what is simple stays simple.
-void Triangulator::project(std::span<const glm::vec3> corners)
+void Triangulator::project(std::span<const glm::dvec3> corners)
 {
     glm::dvec3 normal(0.0), extent(0.0);
-    const glm::dvec3 origin(corners[0]);
+    const glm::dvec3& origin = corners[0];
     for (std::size_t i = 2; i < corners.size(); ++i) {
-        const glm::dvec3 n = glm::cross(glm::dvec3(corners[i - 1]) - origin, glm::dvec3(corners[i]) - origin);
+        const glm::dvec3 n = glm::cross(corners[i - 1] - origin, corners[i] - origin);
         normal += n;
         extent += glm::abs(n);
     }
@@ -93,7 +94,7 @@ void Triangulator::project(std::span<const glm::vec3> corners)
     if (normal[axis] < 0.0)
         std::swap(u, v);
     points_.clear();
-    for (const glm::vec3& corner : corners)
+    for (const glm::dvec3& corner : corners)
         points_.emplace_back(corner[u], corner[v]);
 }
 

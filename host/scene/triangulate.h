@@ -29,7 +29,7 @@ public:
     /// A face of 4 is split by its shorter diagonal, if that is inside. Larger ones lose an ear after the other:
     /// orientations are exact, a tree finds the corners in the way, and the work is bounded by a constant a corner.
     /// Where no ear is left, because the outline crosses itself, the smallest corner is cut off.
-    Split split(std::span<const glm::vec3> corners);
+    Split split(std::span<const glm::dvec3> corners);
 
     const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return triangles_; }
 
@@ -46,8 +46,8 @@ private:
         bool operator<(const Candidate& other) const { return size > other.size; } // the heap's top is the smallest
     };
 
-    Split splitQuad(std::span<const glm::vec3> corners);
-    void project(std::span<const glm::vec3> corners);
+    Split splitQuad(std::span<const glm::dvec3> corners);
+    void project(std::span<const glm::dvec3> corners);
     void start();
     bool windsTwice() const;
     void classify(std::uint32_t vertex);

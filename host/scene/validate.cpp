@@ -39,7 +39,7 @@ void checkCamera(const Camera& camera, const std::string& where)
     if (!(glm::length(forward) >= leastView))
         throw Error(where + ": camera's eye and look_at are too near each other",
             fmt::format("{:g} m apart", glm::length(forward)),
-            fmt::format("move them {:g} m apart or more", leastView));
+            fmt::format("move them {:g} m apart or more, or the scene to the origin", leastView));
     const double sine = glm::length(glm::cross(forward, up)) / (glm::length(forward) * glm::length(up));
     if (!(sine > 1e-6)) // also when up is zero
         throw Error(where + ": camera's up is zero or along its view", shown(camera.up),
