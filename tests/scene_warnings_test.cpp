@@ -69,3 +69,15 @@ TEST_CASE("files that give thousands of warnings give tens of lines")
     CHECK(std::all_of(
         scene.warnings.begin(), scene.warnings.end(), [](const std::string& line) { return line.size() <= 400; }));
 }
+
+TEST_CASE("what is said is true also where something else makes up for it")
+{
+    CHECK(warns(load(mesh), "no light, surfaces stay black but with --integrator ao"));
+    CHECK(!warns(load(mesh + "[integrator]\ntype = \"ao\"\n"), "no light"));
+    const TemporaryFolder folder;
+    folder.write("m.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    folder.write("open.obj", "v 0 0 0\nv 1 0 0\nv 2 1 0\nf 1 2 3\n");
+    const std::string shape = "[[mesh.shape]]\ntime = 0\nfile = \"open.obj\"\n";
+    CHECK(warns(wedge::scene::loadScene(folder.write("s.toml", mesh)), "nothing of it is seen"));
+    CHECK(!warns(wedge::scene::loadScene(folder.write("s.toml", mesh + shape)), "nothing of it is seen"));
+}

@@ -159,7 +159,7 @@ void SceneMeshes::readFiles(TableReader& root, Warnings& warnings)
         const std::filesystem::path path = readMeshPath(table);
         const MeshFiles::Entry& entry = files_.get(path, table.path("mtl").value_or(std::filesystem::path()));
         const std::string where = table.where("file");
-        if (entry.mesh.flat == entry.mesh.triangles())
+        if (entry.mesh.flat == entry.mesh.triangles() && !table.has("shape")) // which may unfold it
             warnings.add("meshes without area", where + ": mesh has no triangle with an area, nothing of it is seen");
         const std::size_t instances = table.count("instances") + table.count("instance");
         const std::size_t copies = std::max<std::size_t>(instances + table.count("shape"), 1);

@@ -95,7 +95,7 @@ private:
 
     void warnOfFlat()
     {
-        warn("faces without area", fmt::format("face of {} corners has no area and cannot be seen", face_.size()));
+        warn("faces without area", fmt::format("face of {} corners has no area", face_.size()));
     }
 
     void addTriangle(const std::array<std::uint32_t, 3>& corners)

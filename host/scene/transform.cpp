@@ -48,7 +48,8 @@ Transform readStep(TableReader& step)
             "write one of translate, rotate, scale, matrix a step: [{ rotate = [..] }, { translate = [..] }]");
     const double volume = glm::determinant(glm::dmat3(out.single));
     if (!(std::abs(volume) > 1e-30))
-        step.failHere("squeezes the mesh flat", fmt::format("determinant {:g}", volume), "use factors other than 0");
+        step.failHere("squeezes the mesh flat, or to next to nothing", fmt::format("determinant {:g}", volume),
+            "use factors of which none is 0 and whose product is above 1e-30");
     return out;
 }
 

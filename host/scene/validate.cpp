@@ -29,8 +29,8 @@ void checkCamera(const Camera& camera, const std::string& where)
     const glm::dvec3 forward = glm::dvec3(camera.lookAt) - glm::dvec3(camera.eye);
     const glm::dvec3 up(camera.up);
     if (!(glm::length(forward) > 0.0))
-        throw Error(
-            where + ": camera looks nowhere, eye and look_at are equal", shown(camera.eye), "move one of the two");
+        throw Error(where + ": camera looks nowhere, eye and look_at are equal in single precision", shown(camera.eye),
+            "move one of the two");
     double largest = 0.0;
     for (int axis = 0; axis < 3; ++axis)
         largest =
@@ -55,7 +55,7 @@ void checkAreaLight(const AreaLight& light, const std::string& where, Warnings& 
     const double lengthV = glm::length(glm::dvec3(light.halfV));
     const double area = 4.0 * glm::length(glm::cross(glm::dvec3(light.halfU), glm::dvec3(light.halfV)));
     if (!(area > 1e-6 * lengthU * lengthV) || !(area >= leastArea))
-        throw Error(where + ": area light has no area",
+        throw Error(where + ": area light has next to no area",
             fmt::format("half edges {} and {}", shown(light.halfU), shown(light.halfV)),
             "give two edges that are not zero and not parallel");
     if (!(area <= mostArea))
@@ -85,13 +85,16 @@ void checkScene(const Scene& scene, Warnings& warnings)
     assert(scene.geometry.positionsAtClose.size() == scene.geometry.normalsAtClose.size());
     assert(!geometryMoves(scene) || scene.geometry.positionsAtClose.size() == scene.geometry.positions.size());
     if (scene.geometry.indices.empty())
-        warnings.add("meshes", fmt::format("scene {}: no mesh, only lights and background are seen", scene.path));
+        warnings.add(
+            "meshes", fmt::format("scene {}: no mesh, only lights and what is behind all are seen", scene.path));
     const bool emits = std::ranges::any_of(
         scene.geometry.materialIds, [&](std::uint32_t id) { return scene.materials[id].emission != glm::vec3(0.0f); });
     const bool lit = std::ranges::any_of(
         sections(), [&](const Section& section) { return section.lights && scene.extensions.contains(section.key); });
-    if (scene.areaLights.empty() && scene.pointLights.empty() && scene.directionalLights.empty() && !emits && !lit)
-        warnings.add("lights", fmt::format("scene {}: no light, surfaces stay black", scene.path));
+    if (scene.settings.integrator != "ao" && scene.areaLights.empty() && scene.pointLights.empty()
+        && scene.directionalLights.empty() && !emits && !lit)
+        warnings.add(
+            "lights", fmt::format("scene {}: no light, surfaces stay black but with --integrator ao", scene.path));
 }
 
 } // namespace wedge::scene
