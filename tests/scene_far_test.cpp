@@ -127,6 +127,24 @@ TEST_CASE("shapes of a mesh far away")
     CHECK(scene.geometry.positions[0] == doctest::Approx(0.5).epsilon(1e-6));
 }
 
+TEST_CASE("texture coordinates far out are brought back by whole numbers")
+{
+    const TemporaryFolder folder;
+    const auto texcoords = [&](const std::string& vt) {
+        folder.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + vt + "f 1/1 2/2 3/3\n");
+        return load(folder, mesh).geometry.texcoords;
+    };
+    const std::vector<float> far =
+        texcoords("vt 448265.375 -5411931.8125\nvt 448266.625 -5411930\nvt 448265.375 0.25\n");
+    CHECK(far[0] == 0.375f);
+    CHECK(far[1] == 0.1875f);
+    CHECK(far[2] == 1.625f);
+    CHECK(far[3] == 2.0f);
+    const std::vector<float> near = texcoords("vt 40.5 -3.25\nvt 41 0\nvt 42 0\n");
+    CHECK(near[0] == 40.5f);
+    CHECK(near[1] == -3.25f);
+}
+
 TEST_CASE("a mesh that stays far away is told with the size that is lost")
 {
     const TemporaryFolder folder;

@@ -17,7 +17,7 @@ namespace wedge::scene {
 struct ObjElements {
     std::vector<glm::dvec3> positions;
     std::vector<glm::vec3> normals;
-    std::vector<glm::vec2> texcoords;
+    std::vector<glm::dvec2> texcoords;
     std::vector<MeshCorner> corners; ///< of all faces, one after the other
     std::vector<std::uint32_t> faceCorners; ///< how many each face has
 };

@@ -1,6 +1,7 @@
 #include "host/scene/obj_faces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
@@ -21,6 +22,24 @@ constexpr double farInSizes = 128.0;
 /// And a face smaller than this part of its distance has lost more than a hundredth of it.
 constexpr double leastFace = 1.0 / (1 << 17);
 
+/// Textures repeat, so that coordinates as far out as a surveyor's places may be brought back by whole numbers, before
+/// single precision takes what is left of them.
+std::vector<glm::vec2> repeated(const std::vector<glm::dvec2>& texcoords)
+{
+    constexpr double farOut = 4096.0;
+    glm::dvec2 least(std::numeric_limits<double>::max()), largest(0.0);
+    for (const glm::dvec2& t : texcoords) {
+        least = glm::min(least, t);
+        largest = glm::max(largest, glm::abs(t));
+    }
+    const glm::dvec2 by(largest.x > farOut ? std::floor(least.x) : 0.0, largest.y > farOut ? std::floor(least.y) : 0.0);
+    std::vector<glm::vec2> out;
+    out.reserve(texcoords.size());
+    for (const glm::dvec2& t : texcoords)
+        out.emplace_back(t - by);
+    return out;
+}
+
 /// Adds the triangles of one face after the other to a mesh.
 class FaceSplitter {
 public:
@@ -31,7 +50,7 @@ public:
     {
         mesh_.positions = std::move(elements.positions);
         mesh_.normals = std::move(elements.normals);
-        mesh_.texcoords = std::move(elements.texcoords);
+        mesh_.texcoords = repeated(elements.texcoords);
     }
 
     void roundPositions()
@@ -93,10 +112,7 @@ private:
         warnings_.add(kind, fmt::format("mesh file {}:{}: {}", file_, current_->line, text));
     }
 
-    void warnOfFlat()
-    {
-        warn("faces without area", fmt::format("face of {} corners has no area", face_.size()));
-    }
+    void warnOfFlat() { warn("faces without area", fmt::format("face of {} corners has no area", face_.size())); }
 
     void addTriangle(const std::array<std::uint32_t, 3>& corners)
     {
