@@ -14,6 +14,7 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <doctest/doctest.h>
 #include <functional>
+#include <optional>
 #include <vector>
 
 using namespace wedge::image;
@@ -169,17 +170,19 @@ TEST_CASE("chromaticities of an EXR are converted, its neutral colour to grey")
         return readImage(path).rgb;
     };
     const std::vector<float> stored { 0.5f, 0, 0, 0.5f, 0.5f, 0.5f };
-    CHECK(read({}) == stored);
+    CHECK(read(Imf::Chromaticities()) == stored);
     const Imath::V2f d65(0.3127f, 0.3290f), d60(0.32168f, 0.33767f);
-    const std::vector<float> wide = read({ { 0.708f, 0.292f }, { 0.170f, 0.797f }, { 0.131f, 0.046f }, d65 });
+    const std::vector<float> wide =
+        read(Imf::Chromaticities { { 0.708f, 0.292f }, { 0.170f, 0.797f }, { 0.131f, 0.046f }, d65 });
     const float expected[] = { 0.5f * 1.6605f, 0.5f * -0.1246f, 0.5f * -0.0182f, 0.5f, 0.5f, 0.5f };
     for (std::size_t i = 0; i < 6; ++i)
         CHECK(wide[i] == doctest::Approx(expected[i]).epsilon(2e-4));
-    const std::vector<float> aces = read({ { 0.7347f, 0.2653f }, { 0, 1 }, { 0.0001f, -0.0770f }, d60 });
+    const std::vector<float> aces =
+        read(Imf::Chromaticities { { 0.7347f, 0.2653f }, { 0, 1 }, { 0.0001f, -0.0770f }, d60 });
     CHECK(aces[0] == doctest::Approx(0.5 * 2.5217).epsilon(2e-4));
     for (std::size_t i = 3; i < 6; ++i)
         CHECK(aces[i] == doctest::Approx(0.5).epsilon(1e-5));
-    const std::vector<float> cool = read({}, d60);
+    const std::vector<float> cool = read(Imf::Chromaticities(), d60);
     CHECK(cool[5] > 1.04f * cool[3]);
     const Imf::Chromaticities none({ 0.3f, 0.3f }, { 0.3f, 0.3f }, { 0.3f, 0.3f }, { 0.3f, 0.3f });
     const std::string refused = errorOf([&] { read(none); });
