@@ -196,6 +196,7 @@ TEST_CASE("chromaticities leave a luminance alone as it is")
     const Imath::Box2i window({ 0, 0 }, { 0, 0 });
     const auto wide = [](Imf::Header& header) {
         Imf::addChromaticities(header, { { 0.7f, 0.3f }, { 0.2f, 0.7f }, { 0.1f, 0.1f }, { 0.4f, 0.4f } });
+        Imf::addAdoptedNeutral(header, { 0.3f, 0.3f });
     };
     writeExrOf(directory / "a.exr", window, window, wide, [](int, int, int) { return 0.3f; }, { "Y" });
     CHECK(readImage(directory / "a.exr").rgb == std::vector<float> { 0.3f, 0.3f, 0.3f });
