@@ -16,6 +16,14 @@ struct Window {
     bool empty() const { return x0 >= x1 || y0 >= y1; }
     bool operator==(const Window&) const = default;
 
+    bool contains(const Window& part) const { return x0 <= part.x0 && y0 <= part.y0 && x1 >= part.x1 && y1 >= part.y1; }
+
+    /// What is in both.
+    Window within(const Window& other) const
+    {
+        return { std::max(x0, other.x0), std::max(y0, other.y0), std::min(x1, other.x1), std::min(y1, other.y1) };
+    }
+
     /// The smallest that holds both.
     Window with(const Window& other) const
     {

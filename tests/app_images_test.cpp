@@ -54,6 +54,58 @@ TEST_CASE("sizes are compared before pixels are decoded")
         place, { "render", "m.obj", "--quiet", "--size", "20x10", "--reference", "a.hdr" }, failure, "it ends before");
 }
 
+TEST_CASE("what is compared of pictures that are stored in part, or with more around them")
+{
+    const Workplace place;
+    const auto write = [&](const std::string& name, const image::Window& window, float beyond) {
+        image::LayeredImage picture { 8, 6, window, {}, {} };
+        for (const char* channel : { "R", "G", "B" }) {
+            picture.channels.push_back({ channel, {} });
+            for (int y = window.y0; y < window.y1; ++y)
+                for (int x = window.x0; x < window.x1; ++x)
+                    picture.channels.back().values.push_back(
+                        x < 0 || y < 0 || x >= 8 || y >= 6 ? beyond : 0.01f * static_cast<float>(10 * y + x));
+        }
+        image::writeExr((place.path() / name).string(), picture);
+    };
+    write("full.exr", { 0, 0, 8, 6 }, 0);
+    write("more.exr", { -3, -2, 9, 9 }, 1e30f);
+    write("crop.exr", { 2, 1, 6, 4 }, 0);
+    write("same.exr", { 2, 1, 6, 4 }, 0);
+    write("other.exr", { 4, 2, 8, 5 }, 0);
+    const auto compared = [&](const char* a, const char* b) {
+        const Outcome outcome = place.run({ "compare", a, b, "--metric", "rmse" });
+        CHECK(outcome.status == 0);
+        CHECK(outcome.out == "0\n");
+        return outcome.err;
+    };
+    CHECK(compared("full.exr", "more.exr") == "");
+    CHECK(compared("more.exr", "more.exr") == "");
+    CHECK(compared("crop.exr", "same.exr") == "");
+    CHECK(compared("crop.exr", "more.exr")
+        == "wedge: warning: compared are the pixels 2,1,6,4 of the frame, which both crop.exr and more.exr store\n");
+    CHECK(contains(compared("crop.exr", "other.exr"), "the pixels 4,2,6,4 of"));
+
+    place.write("m.obj", mesh);
+    const auto with = [](const char* reference, const std::string& crop) {
+        Arguments all { "render", "m.obj", "--quiet", "--size", "8x6", "--method", "mc", "--spp", "1", "-o", "a.exr",
+            "--reference", reference };
+        if (!crop.empty())
+            all.insert(all.end(), { "--crop", crop });
+        return all;
+    };
+    for (const auto& [reference, crop] :
+        { std::pair("full.exr", ""), std::pair("more.exr", ""), std::pair("full.exr", "2,1,6,4"),
+            std::pair("more.exr", "2,1,6,4"), std::pair("crop.exr", "2,1,6,4"), std::pair("crop.exr", "3,2,5,4") }) {
+        CAPTURE(reference);
+        CAPTURE(crop);
+        const Outcome outcome = place.run(with(reference, crop));
+        CHECK_MESSAGE(outcome.status == 0, outcome.err);
+    }
+    checkRefused(place, with("crop.exr", ""), failure, "crop.exr lacks a part of the image: 2,1,6,4 and 0,0,8,6");
+    checkRefused(place, with("crop.exr", "4,2,8,5"), failure, "2,1,6,4 and 4,2,8,5: render with --crop 2,1,6,4");
+}
+
 TEST_CASE("a file that never ends is no image")
 {
     const Workplace place;

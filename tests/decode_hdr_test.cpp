@@ -60,7 +60,57 @@ TEST_CASE("HDR: values, and what a texture gets of them")
     CHECK(hdrValue(255, 255) == doctest::Approx(255.0 * 0x1p119));
     // 1, 0.25 and 0 at the exponent 129; everything above 1 is clipped.
     const std::string bytes = hdr("-Y 1 +X 2", text({ 128, 32, 0, 129, 200, 200, 200, 200 }));
-    CHECK(fromTop(decodeHdr(bytesOf(bytes), {})) == Pixels { packRgba(255, 136, 0), packRgba(255, 255, 255) });
+    CHECK(fromTop(decodeHdr(bytesOf(bytes), {})) == Pixels { packRgba(255, 137, 0), packRgba(255, 255, 255) });
+    // As plain numbers.
+    CHECK(fromTop(decodeHdrFor(TextureUse::Numbers, bytesOf(bytes), {}))
+        == Pixels { packRgba(255, 64, 0), packRgba(255, 255, 255) });
+}
+
+TEST_CASE("HDR: what pixels were multiplied with is divided out")
+{
+    const auto radiance = [](const std::string& lines) {
+        HdrReader reader(bytesOf(hdr("-Y 1 +X 1", text({ 128, 64, 32, 129 }), lines + "FORMAT=32-bit_rle_rgbe\n")));
+        std::array<float, 3> out {};
+        reader.readRows([&](int, std::span<const Rgbe> pixels) { out = reader.radiance(pixels[0]); });
+        return out;
+    };
+    using Rgb = std::array<float, 3>;
+    CHECK(radiance("") == Rgb { 1, 0.5f, 0.25f });
+    CHECK(radiance("EXPOSURE=4\n") == Rgb { 0.25f, 0.125f, 0.0625f });
+    CHECK(radiance("EXPOSURE= 2.0e0 \r\npfilt -e 2\nEXPOSURE=+2\n") == Rgb { 0.25f, 0.125f, 0.0625f });
+    CHECK(radiance("COLORCORR=1 2 0.5\n") == Rgb { 1, 0.25f, 0.5f });
+    CHECK(radiance("COLORCORR=1 2 0.5\nEXPOSURE=0.5\nCOLORCORR=1 0.5 0.5\n") == Rgb { 2, 1, 2 });
+    CHECK(radiance("GAMMA=1\nVIEW=-vtv -vp 0 0 0\nPIXASPECT=2\nPRIMARIES=0 0 0 0 0 0 0 0\nSOFTWARE=x\n")
+        == Rgb { 1, 0.5f, 0.25f });
+    // A line of a command, which is indented, is no variable.
+    CHECK(radiance("\tEXPOSURE=4\n") == Rgb { 1, 0.5f, 0.25f });
+    CHECK(radiance("PRIMARIES=0.64 0.33 0.30 0.60 0.15 0.06 0.313 0.329\n") == Rgb { 1, 0.5f, 0.25f });
+    // Red and green the other way round; the white moves a little, since equal parts of them are not equally bright.
+    const Rgb turned = radiance("PRIMARIES=0.30 0.60 0.64 0.33 0.15 0.06 0.3127 0.3290\n");
+    CHECK(turned[0] == doctest::Approx(0.5).epsilon(1e-4));
+    CHECK(turned[1] == doctest::Approx(1.0).epsilon(1e-4));
+    const std::string dark = hdr("-Y 1 +X 1", text({ 128, 32, 0, 129 }), "EXPOSURE=0.5\nFORMAT=32-bit_rle_rgbe\n");
+    CHECK(fromTop(decodeHdr(bytesOf(dark), {})) == Pixels { packRgba(255, 188, 0) });
+}
+
+TEST_CASE("HDR: lines that make no sense are refused with what they say")
+{
+    const auto failure = [](const std::string& lines) {
+        return failureOf(hdr("-Y 1 +X 1", pixel('a'), lines + "FORMAT=32-bit_rle_rgbe\n"), decodeHdr);
+    };
+    CHECK(failure("EXPOSURE=bright\n") == "its header has 'EXPOSURE=bright', which is not a number");
+    CHECK(failure("EXPOSURE=\n") == "its header has 'EXPOSURE=', which is not a number");
+    for (const char* wrong : { "0", "-1" })
+        CHECK(failure(std::string("EXPOSURE=") + wrong + "\n")
+            == std::string("its header has 'EXPOSURE=") + wrong + "', which is not above 0");
+    for (const char* wrong : { "inf", "nan", "1 2", "1x" })
+        CHECK(failure(std::string("EXPOSURE=") + wrong + "\n").find("which is not a number") != std::string::npos);
+    CHECK(failure("COLORCORR=1 1\n") == "its header has 'COLORCORR=1 1', which is not three numbers");
+    CHECK(failure("COLORCORR=1 0 1\n") == "its header has 'COLORCORR=1 0 1', which is not above 0");
+    CHECK(failure("PRIMARIES=0.6 0.3\n") == "its header has 'PRIMARIES=0.6 0.3', which is not eight numbers");
+    CHECK(failure("PRIMARIES=.3 .3 .3 .3 .3 .3 .3 .3\n") == "its primaries span no colours");
+    CHECK(failure("EXPOSURE=1e-20\nEXPOSURE=1e-20\n").find("is out of range") != std::string::npos);
+    CHECK(failure("GAMMA=2.2\n") == "its pixels are encoded, by its line 'GAMMA=2.2'");
 }
 
 TEST_CASE("HDR: headers that are not read")

@@ -100,6 +100,72 @@ TEST_CASE("PNG: every kind becomes RGBA of 8 bits, as encoded")
         == Pixels { packRgba(1, 2, 3, 0), two });
 }
 
+TEST_CASE("PNG: colours of another curve or other primaries become those of sRGB, numbers stay")
+{
+    const auto gamma = [](int hundredThousandths) {
+        return chunk("gAMA",
+            text({ 0, hundredThousandths >> 16 & 255, hundredThousandths >> 8 & 255, hundredThousandths & 255 }));
+    };
+    const auto both = [](const std::string& before) {
+        const std::string bytes = Png { .colour = PNG_COLOR_TYPE_RGBA,
+            .before = before,
+            .rows = text({ 0, 0, 64, 255, 7, 128, 128, 128, 255 }) }
+                                      .bytes();
+        const Picture colours = decodePng(bytesOf(bytes), {});
+        const Picture numbers = decodePngFor(TextureUse::Numbers, bytesOf(bytes), {});
+        CHECK(fromTop(numbers) == Pixels { packRgba(0, 64, 255, 7), packRgba(128, 128, 128) });
+        CHECK(colours.sameForAllUses == (fromTop(colours) == fromTop(numbers)));
+        return fromTop(colours);
+    };
+    const Pixels stored { packRgba(0, 64, 255, 7), packRgba(128, 128, 128) },
+        linear { packRgba(0, 137, 255, 7), packRgba(188, 188, 188) };
+    CHECK(both("") == stored);
+    CHECK(both(gamma(100000)) == linear);
+    CHECK(both(gamma(45455)) == stored); // how files say sRGB
+    CHECK(both(gamma(0)) == stored);
+    CHECK(both(chunk("sRGB", text({ 0 })) + gamma(100000)) == stored);
+    CHECK(both(gamma(55556))[1] == packRgba(146, 146, 146)); // an exponent of 1.8
+    CHECK(both(chunk("cICP", text({ 1, 13, 0, 1 })) + gamma(100000)) == stored);
+    CHECK(both(chunk("cICP", text({ 1, 8, 0, 1 }))) == linear);
+    // Rec.2020 with the curve of sRGB: grey stays, and a blue is beyond sRGB's, which is clipped.
+    const Pixels wide = both(chunk("cICP", text({ 9, 13, 0, 1 })));
+    CHECK(wide[1] == stored[1]);
+    CHECK(wide[0] == packRgba(0, 63, 255, 7));
+    // 16 bits, linear: 0.001 is 8 bits' 3 by the curve, and would be 0 if it were rounded before.
+    CHECK(decoded({ .width = 1, .depth = 16, .before = gamma(100000), .rows = text({ 0, 0, 66, 0, 66, 0, 66 }) })
+        == Pixels { packRgba(3, 3, 3) });
+    const auto failure = [](const std::string& before) {
+        return failureOf(Png { .before = before, .rows = text({ 0, 1, 2, 3, 4, 5, 6 }) }.bytes(), decodePng);
+    };
+    CHECK(failure(chunk("cICP", text({ 9, 16, 0, 1 }))) == "its cICP chunk has a transfer curve (16) that is not read");
+    CHECK(failure(chunk("cICP", text({ 9, 18, 0, 1 }))) == "its cICP chunk has a transfer curve (18) that is not read");
+    CHECK(failure(chunk("cICP", text({ 3, 13, 0, 1 }))) == "its cICP chunk has primaries (3) that are not read");
+    CHECK(failure(chunk("cICP", text({ 1, 13, 0, 0 }))) == "its cICP chunk says that it is no RGB of full range");
+    CHECK(failure(chunk("cICP", text({ 1, 13 }))) == "its cICP chunk has not four bytes");
+}
+
+TEST_CASE("PNG: chromaticities count as cICP's primaries do")
+{
+    const auto chromaticities = [](std::initializer_list<int> values) {
+        std::string data;
+        for (const int v : values)
+            data += text({ v >> 24 & 255, v >> 16 & 255, v >> 8 & 255, v & 255 });
+        return chunk("cHRM", data);
+    };
+    const auto decodedWith = [](const std::string& before) {
+        return decoded({ .before = before, .rows = text({ 0, 200, 90, 100, 128, 128, 128 }) });
+    };
+    const std::string rec2020 = chromaticities({ 31270, 32900, 70800, 29200, 17000, 79700, 13100, 4600 });
+    const Pixels wide = decodedWith(rec2020);
+    CHECK(wide == decodedWith(chunk("cICP", text({ 9, 13, 0, 1 }))));
+    CHECK(wide[0] != packRgba(200, 90, 100));
+    CHECK(wide[1] == packRgba(128, 128, 128));
+    const Pixels stored { packRgba(200, 90, 100), packRgba(128, 128, 128) };
+    CHECK(decodedWith(chunk("sRGB", text({ 0 })) + rec2020) == stored);
+    CHECK(decodedWith(chromaticities({ 31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000 })) == stored);
+    CHECK(decodedWith(chromaticities({ 0, 0, 0, 0, 0, 0, 0, 0 })) == stored); // libpng passes over it
+}
+
 TEST_CASE("PNG: interlaced pictures of every small size, each pixel in its place")
 {
     for (int width = 1; width <= 10; ++width) {

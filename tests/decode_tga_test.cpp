@@ -43,14 +43,14 @@ TEST_CASE("TGA: every origin")
 
 TEST_CASE("TGA: every depth")
 {
-    CHECK(decoded({ .bits = 32, .width = 1, .height = 1, .data = text({ 1, 2, 3, 4 }) })
+    CHECK(decoded({ .bits = 32, .descriptor = 0x28, .width = 1, .height = 1, .data = text({ 1, 2, 3, 4 }) })
         == Pixels { packRgba(3, 2, 1, 4) });
     for (const unsigned bits : { 15u, 16u }) // 1 00001 00010 11111
         CHECK(decoded({ .bits = bits, .width = 1, .height = 1, .data = text({ 0x5f, 0x84 }) })
             == Pixels { packRgba(255 / 31, 2 * 255 / 31, 255) });
     CHECK(decoded({ .type = 3, .bits = 8, .width = 2, .height = 1, .data = text({ 7, 200 }) })
         == Pixels { packRgba(7, 7, 7), packRgba(200, 200, 200) });
-    CHECK(decoded({ .type = 3, .bits = 16, .width = 1, .height = 1, .data = text({ 7, 200 }) })
+    CHECK(decoded({ .type = 3, .bits = 16, .descriptor = 0x28, .width = 1, .height = 1, .data = text({ 7, 200 }) })
         == Pixels { packRgba(7, 7, 7, 200) });
 }
 
@@ -73,6 +73,7 @@ TEST_CASE("TGA: colour maps of every depth, which may begin at any index")
     CHECK(decoded(wide) == Pixels { four[1], four[0] });
     Tga alpha = bgr;
     alpha.mapBits = 32;
+    alpha.descriptor = 0x28;
     alpha.map = text({ 1, 2, 3, 4, 5, 6, 7, 8 });
     CHECK(decoded(alpha) == Pixels { packRgba(7, 6, 5, 8), packRgba(3, 2, 1, 4) });
     Tga packed = bgr;
@@ -86,6 +87,81 @@ TEST_CASE("TGA: colour maps of every depth, which may begin at any index")
     }
     // A true-colour picture may carry a map, which is passed over.
     CHECK(decoded({ .mapLength = 2, .mapBits = 24, .map = fourBgr.substr(6, 6), .data = fourBgr }) == four);
+}
+
+TEST_CASE("TGA: what no bit of the descriptor calls an attribute is no alpha")
+{
+    CHECK(
+        decoded({ .bits = 32, .width = 1, .height = 1, .data = text({ 1, 2, 3, 4 }) }) == Pixels { packRgba(3, 2, 1) });
+    CHECK(decoded({ .type = 10, .bits = 32, .width = 2, .height = 1, .data = text({ 0x81, 1, 2, 3, 4 }) })
+        == Pixels(2, packRgba(3, 2, 1)));
+    CHECK(decoded({ .type = 3, .bits = 16, .width = 1, .height = 1, .data = text({ 7, 200 }) })
+        == Pixels { packRgba(7, 7, 7) });
+    CHECK(decoded({ .type = 1,
+              .bits = 8,
+              .width = 2,
+              .height = 1,
+              .mapLength = 2,
+              .mapBits = 32,
+              .map = text({ 1, 2, 3, 4, 5, 6, 7, 8 }),
+              .data = text({ 1, 0 }) })
+        == Pixels { packRgba(7, 6, 5), packRgba(3, 2, 1) });
+}
+
+TEST_CASE("TGA: the one attribute of 16 bits is alpha")
+{
+    const std::string data = text({ 0x5f, 0x84, 0x5f, 0x04 });
+    const std::uint32_t opaque = packRgba(255 / 31, 2 * 255 / 31, 255);
+    CHECK(decoded({ .bits = 16, .descriptor = 0x21, .width = 2, .height = 1, .data = data })
+        == Pixels { opaque, opaque & 0xffffff });
+    CHECK(decoded({ .bits = 16, .width = 2, .height = 1, .data = data }) == Pixels { opaque, opaque });
+}
+
+TEST_CASE("TGA: attributes that are 0 everywhere are no alpha")
+{
+    CHECK(decoded({ .bits = 32, .descriptor = 0x28, .width = 2, .height = 1, .data = text({ 1, 2, 3, 0, 4, 5, 6, 0 }) })
+        == Pixels { packRgba(3, 2, 1), packRgba(6, 5, 4) });
+    CHECK(decoded({ .bits = 32, .descriptor = 0x28, .width = 2, .height = 1, .data = text({ 1, 2, 3, 0, 4, 5, 6, 1 }) })
+        == Pixels { packRgba(3, 2, 1, 0), packRgba(6, 5, 4, 1) });
+    CHECK(decoded({ .type = 3, .bits = 16, .descriptor = 0x28, .width = 1, .height = 1, .data = text({ 7, 0 }) })
+        == Pixels { packRgba(7, 7, 7) });
+}
+
+TEST_CASE("TGA: an extension area says what attributes are, whatever the descriptor has")
+{
+    const auto withArea = [](unsigned descriptor, int type) {
+        const Tga tga { .bits = 32,
+            .descriptor = descriptor,
+            .width = 2,
+            .height = 1,
+            .data = text({ 20, 40, 60, 128, 1, 2, 3, 255 }) };
+        File file;
+        file.add(tga.bytes());
+        const auto at = static_cast<std::uint32_t>(file.bytes.size());
+        std::string area(495, '\0');
+        area[0] = static_cast<char>(495 % 256);
+        area[1] = static_cast<char>(495 / 256);
+        area[494] = static_cast<char>(type);
+        return file.add(area).u32(at).u32(0).add(std::string("TRUEVISION-XFILE.\0", 18)).bytes;
+    };
+    const auto pixels = [](const std::string& bytes) { return fromTop(decodeTga(bytesOf(bytes), {})); };
+    const Pixels opaque { packRgba(60, 40, 20), packRgba(3, 2, 1) },
+        alpha { packRgba(60, 40, 20, 128), packRgba(3, 2, 1) },
+        divided { packRgba(120, 80, 40, 128), packRgba(3, 2, 1) };
+    for (const unsigned descriptor : { 0x20u, 0x28u }) {
+        CAPTURE(descriptor);
+        for (const int none : { 0, 1, 2 })
+            CHECK(pixels(withArea(descriptor, none)) == opaque);
+        CHECK(pixels(withArea(descriptor, 3)) == alpha);
+        CHECK(pixels(withArea(descriptor, 4)) == divided);
+    }
+    // A footer without an area, and one whose area lies beyond the file, say nothing.
+    for (const std::uint32_t at : { 0u, 1u, 400u, 0xffffffffu }) {
+        std::string bytes = withArea(0x28, 0);
+        bytes.replace(bytes.size() - 26, 4, File().u32(at).bytes);
+        CHECK(pixels(bytes) == alpha);
+    }
+    checkNoDamagedByteCrashes(withArea(0x28, 4), decodeTga);
 }
 
 TEST_CASE("TGA: runs, also beyond the end of a row, but not of the picture")

@@ -240,10 +240,12 @@ TEST_CASE("files of other programs: half and uint, tiles, every kind of compress
             CHECK(image.find("R")->values[39] == doctest::Approx(39.0 / 64.0).epsilon(0.02));
         }
     }
+    // The picture is the display window: the last pixel of the data, at (27, 12) of it, among them.
     const RgbImage colour = readImage(path);
-    CHECK(colour.width == 40);
-    CHECK(colour.height == 30);
-    CHECK(colour.rgb[3 * 1199 + 1] == 1199.0f);
+    CHECK(colour.width == 100);
+    CHECK(colour.height == 50);
+    CHECK(colour.rgb[3 * (12 * 100 + 27) + 1] == 1199.0f);
+    CHECK(colour.rgb[3 * (12 * 100 + 28) + 1] == 0.0f);
 }
 
 TEST_CASE("beauty is the root colour, or a gray")

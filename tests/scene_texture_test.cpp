@@ -55,6 +55,41 @@ TEST_CASE("a file is read once, however it is spelled, and row 0 is at the botto
     CHECK(read[0].rgba == std::vector<std::uint32_t> { 0xff010101, 0xff020202 });
 }
 
+TEST_CASE("a file of linear values is read for colours and for numbers, others once for both")
+{
+    using wedge::decode::TextureUse;
+    const TemporaryFolder folder;
+    const std::string linear =
+        folder.write("a.hdr", "#?RADIANCE\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81");
+    const std::string plain = folder.write("b.tga", tga(1, 1));
+    TextureSet textures(1 << 20);
+    CHECK(textures.add(linear) == 0);
+    CHECK(textures.add(linear, TextureUse::Numbers) == 1);
+    CHECK(textures.add(linear, TextureUse::Colours) == 0);
+    CHECK(textures.add(plain, TextureUse::Numbers) == 2);
+    CHECK(textures.add(plain) == 2);
+    CHECK(textures.at(0).rgba == std::vector<std::uint32_t> { 0xffbcbcbc });
+    CHECK(textures.at(1).rgba == std::vector<std::uint32_t> { 0xff808080 });
+
+    // A scene's keys and a library's statements say which.
+    folder.write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 -1\nusemtl a\nf 1 2 3\n");
+    folder.write("m.mtl", "newmtl a\nKd 1 1 1\nmap_Kd a.hdr\nmap_Ns a.hdr\nmap_Ke a.hdr\nmap_d a.hdr\nnorm a.hdr\n");
+    const auto check = [](const wedge::scene::Scene& scene) {
+        const wedge::scene::Material& m = scene.materials.at(0);
+        const auto texel = [&](int index) { return scene.textures.at(static_cast<std::size_t>(index)).rgba.at(0); };
+        for (const int colour : { m.diffuseTexture, m.emissionTexture })
+            CHECK(texel(colour) == 0xffbcbcbc);
+        for (const int number : { m.exponentTexture, m.opacityTexture, m.normalTexture })
+            CHECK(texel(number) == 0xff808080);
+    };
+    check(wedge::scene::loadScene(folder.path("m.obj")));
+    folder.write("n.obj", "v 0 0 0\nv 1 0 0\nv 0 0 -1\nf 1 2 3\n");
+    check(wedge::scene::loadScene(folder.write("s.toml",
+        "[camera]\neye = [0, 2, 4]\nlook_at = [0, 0, 0]\n[[mesh]]\nfile = \"n.obj\"\nmaterial = \"a\"\n"
+        "[[material]]\nname = \"a\"\ndiffuse_texture = \"a.hdr\"\nemission_texture = \"a.hdr\"\n"
+        "exponent_texture = \"a.hdr\"\nopacity_texture = \"a.hdr\"\nbump_texture = \"a.hdr\"\n")));
+}
+
 TEST_CASE("the limit on the pixels of a texture names the option")
 {
     const TemporaryFolder folder;

@@ -1,18 +1,20 @@
 #include "effects/environment/environment_section.h"
 
 #include "effects/environment/angular_map.h"
+#include "effects/environment/map_numbers.h"
 #include "effects/environment/suns.h"
 #include "host/decode/limits.h"
 #include "host/error.h"
 #include "host/image/read_image.h"
 #include "host/render/environment_table.h"
 #include "host/scene/toml_reader.h"
+#include "host/scene/warnings.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -23,28 +25,36 @@ namespace {
 /// A map takes 20 bytes a texel of the device.
 constexpr std::int64_t mostTexels = std::int64_t { 1 } << 25;
 constexpr double mostIntensity = 1e9;
-/// Of texels, W/(sr m^2): squares and sums of what they light stay numbers.
-constexpr float mostRadiance = 1e12f;
 
 /// A map as a file has it, its radiance times the intensity.
-image::RgbImage readMap(const std::string& path, float intensity)
+image::RgbImage readMap(const std::string& path, float intensity, scene::Warnings& warnings)
 {
     decode::Limits limits = decode::referenceLimits;
     limits.pixels = mostTexels;
     limits.remedy = "scale the map down";
     image::ImageFile file(path, limits);
+    if (file.isCubeMap()) {
+        throw Error("environment map is a cube map (its attribute envmap)", path,
+            "convert it to latitude and longitude, as exrenvmap -latlong does");
+    }
     image::RgbImage map = file.read();
-    std::size_t wrong = 0;
-    for (float& c : map.rgb) {
-        c *= intensity;
-        wrong += std::isnan(c) ? 1 : 0;
-        c = std::clamp(c, 0.0f, mostRadiance); // resampling leaves small negative numbers beside suns
-    }
-    if (wrong > 0) {
-        throw Error("environment map has numbers that are no radiance", fmt::format("{} in {}", wrong, path),
-            "repair the map, or write it anew");
-    }
+    makeRadiances(map, intensity, path, warnings);
     return map;
+}
+
+/// The same in all directions, times the intensity.
+std::vector<float> evenRadiance(
+    const scene::TableReader& table, const glm::vec3& radiance, float intensity, scene::Warnings& warnings)
+{
+    const glm::vec3 even = radiance * intensity;
+    const float largest = std::max({ even.r, even.g, even.b });
+    if (largest > mostRadiance) {
+        warnings.add("environments",
+            fmt::format("{}: radiance times intensity is {:g} W/(sr m^2), {:g} is used", table.where("radiance"),
+                largest, mostRadiance));
+    }
+    const glm::vec3 used = glm::min(even, glm::vec3(mostRadiance));
+    return { used.r, used.g, used.b };
 }
 
 /// The map's axes in the world, turned about `up` by degrees, counter-clockwise as seen from above.
@@ -59,7 +69,7 @@ void orient(EnvironmentPicture& picture, bool zIsUp, double degrees)
 
 } // namespace
 
-std::any readEnvironment(scene::TableReader& table)
+std::any readEnvironment(scene::TableReader& table, scene::Warnings& warnings)
 {
     auto picture = std::make_shared<EnvironmentPicture>();
     const auto radiance = table.colour("radiance");
@@ -82,10 +92,9 @@ std::any readEnvironment(scene::TableReader& table)
     }
     const auto factor = static_cast<float>(intensity.value_or(1.0));
     if (radiance) {
-        const glm::vec3 even = glm::min(*radiance * factor, glm::vec3(mostRadiance));
-        picture->radiance = { even.r, even.g, even.b };
+        picture->radiance = evenRadiance(table, *radiance, factor, warnings);
     } else {
-        image::RgbImage pixels = readMap(map->string(), factor);
+        image::RgbImage pixels = readMap(map->string(), factor, warnings);
         if (layout == "angular") {
             if (pixels.width != pixels.height) {
                 table.fail("map", "is no square, as angular maps are",

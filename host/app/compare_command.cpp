@@ -91,9 +91,14 @@ int compare(const CompareOptions& options)
     }
     const decode::Limits limits = limitsOf(options);
     image::ImageFile imageFile(options.image, limits), referenceFile(options.reference, limits);
-    image::requireSameSize(imageFile, referenceFile);
-    const RgbImage a = imageFile.read();
-    const RgbImage b = referenceFile.read();
+    const image::ComparedParts parts = image::comparedParts(imageFile, referenceFile);
+    if (parts.isLess) {
+        const image::Window& part = parts.image;
+        warn(fmt::format("compared are the pixels {},{},{},{} of the frame, which both {} and {} store", part.x0,
+            part.y0, part.x1, part.y1, options.image, options.reference));
+    }
+    const RgbImage a = imageFile.read(parts.image);
+    const RgbImage b = referenceFile.read(parts.reference);
     nlohmann::ordered_json json;
     for (std::size_t i = 0; i < std::size(metrics); ++i) {
         if (options.metric && *options.metric != i) {

@@ -12,16 +12,7 @@
 namespace wedge::app {
 namespace {
 
-image::RgbImage cut(const image::RgbImage& image, const image::Window& window)
-{
-    image::RgbImage out { window.width(), window.height(), {} };
-    out.rgb.reserve(static_cast<std::size_t>(out.width) * out.height * 3);
-    for (int y = window.y0; y < window.y1; ++y) {
-        const auto row = image.rgb.begin() + (static_cast<std::ptrdiff_t>(y) * image.width + window.x0) * 3;
-        out.rgb.insert(out.rgb.end(), row, row + static_cast<std::ptrdiff_t>(out.width) * 3);
-    }
-    return out;
-}
+std::string corners(const image::Window& w) { return fmt::format("{},{},{},{}", w.x0, w.y0, w.x1, w.y1); }
 
 } // namespace
 
@@ -34,13 +25,18 @@ image::RgbImage readReference(const std::string& path, const render::Settings& s
     limits.unquestioned = std::max(limits.unquestioned, framePixels);
     limits.remedy = "give one of the frame's size";
     image::ImageFile file(path, limits);
-    const image::Window& crop = settings.crop;
-    const bool cropped = crop.width() > 0;
+    const bool cropped = settings.crop.width() > 0;
+    const image::Window part = render::outputWindow(settings);
+    const image::Window& stored = file.stored();
     if (file.width() == settings.width && file.height() == settings.height) {
-        return cropped ? cut(file.read(), crop) : file.read();
+        if (stored.contains(part)) {
+            return file.read(part);
+        }
+        throw Error("reference " + path + " lacks a part of the image", corners(stored) + " and " + corners(part),
+            "render with --crop " + corners(stored) + ", or give another reference");
     }
-    if (cropped && file.width() == crop.width() && file.height() == crop.height()) {
-        return file.read();
+    if (cropped && stored.width() == part.width() && stored.height() == part.height()) {
+        return file.read(stored);
     }
     throw Error("reference " + path + " has another size than the image",
         fmt::format("{}x{} and {}x{}", file.width(), file.height(), settings.width, settings.height),

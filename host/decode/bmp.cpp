@@ -199,16 +199,6 @@ void decodeRow(const std::uint8_t* in, unsigned bytes, const MaskedPixels& masks
     }
 }
 
-/// Many programs leave the fourth byte 0 and mean an opaque picture.
-void makeOpaqueIfEmpty(Picture& picture)
-{
-    constexpr std::uint32_t opaque = 0xff000000;
-    if (std::all_of(picture.rgba.begin(), picture.rgba.end(), [](std::uint32_t p) { return (p & opaque) == 0; })) {
-        for (std::uint32_t& pixel : picture.rgba)
-            pixel |= opaque;
-    }
-}
-
 } // namespace
 
 Picture decodeBmp(Bytes bytes, const Limits& limits)

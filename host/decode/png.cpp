@@ -1,5 +1,8 @@
 #include "host/decode/png.h"
 
+#include "host/decode/code_points.h"
+#include "host/decode/srgb.h"
+
 #include <cmath>
 #include <csetjmp>
 #include <cstring>
@@ -18,6 +21,10 @@ struct PngReader::Decoder {
     char message[200] = "";
     std::uint32_t width = 0, height = 0;
     double gamma = 0.0;
+    Primaries primaries = rec709;
+    std::array<png_byte, 4> codePoints {}; ///< of cICP
+    bool hasCodePoints = false;
+    std::optional<ColourMatrix> matrix;
     int passes = 1;
     std::size_t rowBytes = 0;
 
@@ -30,6 +37,8 @@ struct PngReader::Decoder {
     Decoder& operator=(const Decoder&) = delete;
 
     bool readHeader();
+    void readColourSpace();
+    void applyCodePoints();
     bool start(PngSamples samples);
     bool readRow(png_bytep row);
     bool finish();
@@ -55,8 +64,10 @@ struct PngReader::Decoder {
 namespace {
 
 /// Chunks that the pixels do not depend on; text and profiles can be packed and large, so none of them is unpacked.
-constexpr png_byte skipped[] =
-    "bKGD\0cHRM\0eXIf\0hIST\0iCCP\0iTXt\0oFFs\0pCAL\0pHYs\0sBIT\0sCAL\0sPLT\0tEXt\0tIME\0zTXt";
+constexpr png_byte skipped[] = "bKGD\0eXIf\0hIST\0iCCP\0iTXt\0oFFs\0pCAL\0pHYs\0sBIT\0sCAL\0sPLT\0tEXt\0tIME\0zTXt";
+
+/// Four code points of ITU-T H.273, which libpng knows since 1.6.45 alone.
+constexpr png_byte codePointChunk[] = "cICP";
 
 } // namespace
 
@@ -74,15 +85,44 @@ bool PngReader::Decoder::readHeader()
     png_set_crc_action(png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, 0);
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, skipped, sizeof skipped / 5);
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, codePointChunk, 1);
     png_read_info(png, info);
     width = png_get_image_width(png, info);
     height = png_get_image_height(png, info);
-    int intent = 0;
-    double stated = 0.0;
-    if (!png_get_sRGB(png, info, &intent) && png_get_gAMA(png, info, &stated) && stated > 0.0
-        && std::abs(stated - 1.0 / 2.2) > 0.01)
-        gamma = stated;
+    readColourSpace();
     return true;
+}
+
+/// Called where libpng may leave.
+void PngReader::Decoder::readColourSpace()
+{
+    png_unknown_chunkp kept = nullptr;
+    const int count = png_get_unknown_chunks(png, info, &kept);
+    for (int i = 0; i < count; ++i) {
+        if (std::memcmp(kept[i].name, codePointChunk, 4) != 0 || (kept[i].location & PNG_AFTER_IDAT) != 0)
+            continue;
+        if (kept[i].size != codePoints.size())
+            png_error(png, "its cICP chunk has not four bytes");
+        std::memcpy(codePoints.data(), kept[i].data, codePoints.size());
+        hasCodePoints = true;
+    }
+    int intent = 0;
+    if (hasCodePoints || png_get_sRGB(png, info, &intent))
+        return;
+    double stated = 0.0;
+    if (png_get_gAMA(png, info, &stated) && stated > 0.0 && std::abs(stated - 1.0 / 2.2) > 0.01)
+        gamma = stated;
+    Primaries p;
+    if (png_get_cHRM(
+            png, info, &p.white.x, &p.white.y, &p.red.x, &p.red.y, &p.green.x, &p.green.y, &p.blue.x, &p.blue.y))
+        primaries = p;
+}
+
+void PngReader::Decoder::applyCodePoints()
+{
+    const CodePoints space(codePoints);
+    primaries = space.primaries;
+    gamma = space.gamma;
 }
 
 bool PngReader::Decoder::start(PngSamples samples)
@@ -92,6 +132,9 @@ bool PngReader::Decoder::start(PngSamples samples)
     if (samples == PngSamples::Rgb16) {
         png_set_expand_16(png);
         png_set_strip_alpha(png);
+    } else if (samples == PngSamples::Rgba16) {
+        png_set_expand_16(png);
+        png_set_add_alpha(png, 0xffff, PNG_FILLER_AFTER);
     } else {
         png_set_expand(png);
         png_set_strip_16(png);
@@ -127,6 +170,9 @@ PngReader::PngReader(Bytes bytes)
         throw Failure("it is empty");
     if (!decoder_->readHeader())
         decoder_->fail();
+    if (decoder_->hasCodePoints)
+        decoder_->applyCodePoints();
+    decoder_->matrix = matrixToRec709(decoder_->primaries);
 }
 
 PngReader::~PngReader() = default;
@@ -135,11 +181,23 @@ Size PngReader::size() const { return { static_cast<int>(decoder_->width), stati
 
 double PngReader::gamma() const { return decoder_->gamma; }
 
+const std::optional<ColourMatrix>& PngReader::matrix() const { return decoder_->matrix; }
+
+std::vector<float> PngReader::linearValues() const
+{
+    std::vector<float> values(1 << 16);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const float encoded = static_cast<float>(i) / 65535.0f;
+        values[i] = gamma() == 0.0 ? decodeSrgb(encoded) : std::pow(encoded, static_cast<float>(1.0 / gamma()));
+    }
+    return values;
+}
+
 void PngReader::readRows(PngSamples samples, const std::function<void(const Row&)>& row)
 {
     if (!decoder_->start(samples))
         decoder_->fail();
-    const std::size_t bytesPerPixel = samples == PngSamples::Rgba8 ? 4 : 6;
+    const std::size_t bytesPerPixel = samples == PngSamples::Rgba8 ? 4 : samples == PngSamples::Rgb16 ? 6 : 8;
     if (decoder_->rowBytes != bytesPerPixel * decoder_->width)
         throw Failure("its pixels are of a kind that is not read");
     std::vector<png_byte> buffer(decoder_->rowBytes);
@@ -159,21 +217,6 @@ void PngReader::readRows(PngSamples samples, const std::function<void(const Row&
     }
     if (!decoder_->finish())
         decoder_->fail();
-}
-
-Picture decodePng(Bytes bytes, const Limits& limits)
-{
-    PngReader reader(bytes);
-    limits.admit(reader.size(), bytes.size());
-    Picture picture(reader.size());
-    reader.readRows(PngSamples::Rgba8, [&](const PngReader::Row& row) {
-        std::uint32_t* to = picture.rowFromTop(row.y);
-        for (int x = row.first; x < picture.size.width; x += row.step) {
-            const std::uint8_t* p = row.samples + 4 * static_cast<std::ptrdiff_t>(x);
-            to[x] = packRgba(p[0], p[1], p[2], p[3]);
-        }
-    });
-    return picture;
 }
 
 } // namespace wedge::decode

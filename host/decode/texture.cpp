@@ -31,22 +31,27 @@ std::string_view unreadFormat(Bytes bytes)
 
 } // namespace
 
-Picture decodeTexture(Bytes bytes, const Limits& limits)
+Picture decodeTextureFor(TextureUse use, Bytes bytes, const Limits& limits)
 {
     if (startsWith(bytes, "\x89PNG"))
-        return decodePng(bytes, limits);
+        return decodePngFor(use, bytes, limits);
     if (startsWith(bytes, "\xff\xd8\xff"))
         return decodeJpeg(bytes, limits);
     if (startsWith(bytes, "BM"))
         return decodeBmp(bytes, limits);
     if (startsWith(bytes, "#?"))
-        return decodeHdr(bytes, limits);
+        return decodeHdrFor(use, bytes, limits);
     const std::string unread(unreadFormat(bytes));
     if (!unread.empty())
         throw Failure(unread + " is no format that is read", "save it as PNG or JPEG");
     if (isTga(bytes))
         return decodeTga(bytes, limits);
     throw Failure(bytes.empty() ? "it is empty" : "its format is not known", "save it as PNG or JPEG");
+}
+
+Picture decodeTexture(Bytes bytes, const Limits& limits)
+{
+    return decodeTextureFor(TextureUse::Colours, bytes, limits);
 }
 
 } // namespace wedge::decode

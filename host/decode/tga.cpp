@@ -30,6 +30,8 @@ struct Header {
     bool mapped() const { return imageType % 8 == 1; }
     bool grey() const { return imageType % 8 == 3; }
     unsigned mapEntryBytes() const { return (mapBits + 7) / 8; }
+    /// Of each pixel, or of each colour of the map.
+    unsigned attributeBits() const { return descriptor & 15; }
 
     bool consistent() const
     {
@@ -46,27 +48,72 @@ struct Header {
     }
 };
 
-std::uint32_t colour(const std::uint8_t* p, unsigned bits)
+/// What the attribute bits of the pixels are (the specification's field 24, and what stands where there is none).
+enum class Attributes { None, Alpha, Premultiplied };
+
+/// The extension area's attributes type, where the file ends in a footer that tells of one, else by the descriptor.
+Attributes attributesOf(Bytes bytes, const Header& header)
 {
-    if (bits > 16)
-        return packRgba(p[2], p[1], p[0], bits == 32 ? p[3] : 255);
+    constexpr std::size_t footerBytes = 26, typeAt = 494, extensionBytes = 495;
+    constexpr std::string_view signature("TRUEVISION-XFILE.\0", 18);
+    const Attributes stated = header.attributeBits() > 0 ? Attributes::Alpha : Attributes::None;
+    if (bytes.size() < 18 + footerBytes || !startsWith(bytes.last(signature.size()), signature))
+        return stated;
+    const std::uint32_t at = ByteReader(bytes.last(footerBytes)).u32();
+    if (at < 18 || bytes.size() < extensionBytes || at > bytes.size() - extensionBytes)
+        return stated; // 0 where there is none
+    ByteReader area(bytes.subspan(at));
+    if (area.u16() < extensionBytes)
+        return stated;
+    switch (bytes[at + typeAt]) {
+    case 3:
+        return Attributes::Alpha;
+    case 4:
+        return Attributes::Premultiplied;
+    default: // none, or such as are to be ignored or only kept
+        return Attributes::None;
+    }
+}
+
+/// The colour that was multiplied with its alpha.
+std::uint32_t divided(std::uint32_t rgba)
+{
+    const unsigned alpha = rgba >> 24;
+    if (alpha == 0)
+        return rgba;
+    const auto channel = [&](unsigned shift) {
+        return std::min(255u, ((rgba >> shift & 255) * 255 + alpha / 2) / alpha);
+    };
+    return packRgba(channel(0), channel(8), channel(16), alpha);
+}
+
+/// Of 16 bits the uppermost is the alpha, if any.
+std::uint32_t colour(const std::uint8_t* p, unsigned bits, Attributes attributes)
+{
+    const bool hasAlpha = attributes != Attributes::None;
+    if (bits > 16) {
+        const std::uint32_t rgba = packRgba(p[2], p[1], p[0], bits == 32 && hasAlpha ? p[3] : 255);
+        return attributes == Attributes::Premultiplied ? divided(rgba) : rgba;
+    }
     const unsigned value = p[0] | p[1] << 8;
     const auto channel = [&](unsigned shift) { return (value >> shift & 31) * 255 / 31; };
-    return packRgba(channel(10), channel(5), channel(0));
+    return packRgba(channel(10), channel(5), channel(0), bits == 16 && hasAlpha && value < 0x8000 ? 0 : 255);
 }
 
 /// The pixels of the file in its own order.
 class Pixels {
 public:
-    Pixels(ByteReader& in, const Header& header)
+    Pixels(ByteReader& in, const Header& header, Attributes attributes)
         : in_(in)
         , header_(header)
+        , attributes_(attributes)
         , bytes_((header.bits + 7) / 8)
     {
         const Bytes map = in.take(std::size_t { header.mapLength } * header.mapEntryBytes());
         if (header.mapped()) {
             for (unsigned i = 0; i < header.mapLength; ++i)
-                map_.push_back(colour(map.data() + std::size_t { i } * header.mapEntryBytes(), header.mapBits));
+                map_.push_back(
+                    colour(map.data() + std::size_t { i } * header.mapEntryBytes(), header.mapBits, attributes));
         }
     }
     std::uint32_t next()
@@ -95,13 +142,17 @@ private:
                 throw Failure("a pixel has a colour that its colour map lacks");
             return map_[index];
         }
-        if (header_.grey())
-            return packRgba(p[0], p[0], p[0], bytes_ == 2 ? p[1] : 255);
-        return colour(p, header_.bits);
+        if (header_.grey()) {
+            const bool hasAlpha = bytes_ == 2 && attributes_ != Attributes::None;
+            const std::uint32_t rgba = packRgba(p[0], p[0], p[0], hasAlpha ? p[1] : 255);
+            return attributes_ == Attributes::Premultiplied ? divided(rgba) : rgba;
+        }
+        return colour(p, header_.bits, attributes_);
     }
 
     ByteReader& in_;
     const Header& header_;
+    Attributes attributes_;
     std::size_t bytes_;
     std::vector<std::uint32_t> map_;
     unsigned left_ = 0;
@@ -125,7 +176,7 @@ Picture decodeTga(Bytes bytes, const Limits& limits)
         throw Failure("its header is of no TGA that is read");
     limits.admit(header.size, bytes.size());
     in.take(header.idBytes);
-    Pixels pixels(in, header);
+    Pixels pixels(in, header, attributesOf(bytes, header));
     const std::size_t need = static_cast<std::size_t>(header.size.pixels()) * ((header.bits + 7) / 8);
     if (!header.runs() && in.left() < need)
         throw Failure("it ends before the picture does");
@@ -140,6 +191,7 @@ Picture decodeTga(Bytes bytes, const Limits& limits)
     }
     if (!pixels.betweenPackets())
         throw Failure("a run of pixels goes beyond the picture");
+    makeOpaqueIfEmpty(picture);
     return picture;
 }
 

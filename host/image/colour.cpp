@@ -1,20 +1,15 @@
 #include "host/image/colour.h"
 
+#include "host/decode/srgb.h"
+
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 namespace wedge::image {
 
-float encodeSrgb(float linear)
-{
-    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
-}
+float encodeSrgb(float linear) { return decode::encodeSrgb(linear); }
 
-float decodeSrgb(float encoded)
-{
-    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
+float decodeSrgb(float encoded) { return decode::decodeSrgb(encoded); }
 
 std::vector<float> displayReferred(const RgbImage& image)
 {

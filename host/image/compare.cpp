@@ -41,9 +41,19 @@ void requireSameSize(const RgbImage& image, const RgbImage& reference)
     requireSame({ image.width, image.height }, { reference.width, reference.height });
 }
 
-void requireSameSize(const ImageFile& image, const ImageFile& reference)
+ComparedParts comparedParts(const ImageFile& image, const ImageFile& reference)
 {
-    requireSame({ image.width(), image.height() }, { reference.width(), reference.height() });
+    const Window &a = image.stored(), &b = reference.stored();
+    if (image.whole() != reference.whole()) {
+        requireSame({ a.width(), a.height() }, { b.width(), b.height() });
+        return { a, b };
+    }
+    const Window common = a.within(b);
+    if (common.empty())
+        throw Error("image and reference show different parts of the frame",
+            fmt::format("{},{},{},{} and {},{},{},{}", a.x0, a.y0, a.x1, a.y1, b.x0, b.y0, b.x1, b.y1),
+            "compare images of one part");
+    return { common, common, a != b };
 }
 
 Comparison compare(const RgbImage& image, const RgbImage& reference)

@@ -5,6 +5,7 @@
 
 #include "host/decode/failure.h"
 #include "host/decode/limits.h"
+#include "host/decode/primaries.h"
 #include "host/file.h"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -14,6 +15,7 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <algorithm>
 #include <optional>
@@ -75,6 +77,19 @@ std::map<std::string, MetadataValue> readMetadata(const Imf::Header& header)
     return metadata;
 }
 
+/// What makes its colours those of Rec.709, if anything does; they are where it has no chromaticities.
+std::optional<decode::ColourMatrix> matrixOf(const Imf::Header& header)
+{
+    if (!Imf::hasChromaticities(header))
+        return std::nullopt;
+    const auto point = [](const Imath::V2f& xy) { return decode::Chromaticity { xy.x, xy.y }; };
+    const Imf::Chromaticities& c = Imf::chromaticities(header);
+    std::optional<decode::Chromaticity> neutral;
+    if (Imf::hasAdoptedNeutral(header))
+        neutral = point(Imf::adoptedNeutral(header));
+    return decode::matrixToRec709({ point(c.red), point(c.green), point(c.blue), point(c.white) }, neutral);
+}
+
 class ExrImage : public ImageFile::Reader {
 public:
     explicit ExrImage(const std::string& path, const decode::Limits& limits = decode::referenceLimits)
@@ -84,7 +99,7 @@ public:
     {
     }
 
-    std::pair<int, int> open() override
+    ImageFile::Header open() override
     {
         checkExrHeaders(stream_, stream_.bytes(), limits_);
         file_.emplace(stream_);
@@ -98,10 +113,15 @@ public:
         for (auto it = channels.begin(); it != channels.end(); ++it) {
             layout_.channels.push_back({ it.name(), {}, it.channel().type == Imf::UINT });
         }
-        return { layout_.window.width(), layout_.window.height() };
+        const bool isCubeMap = Imf::hasEnvmap(file_->header()) && Imf::envmap(file_->header()) != Imf::ENVMAP_LATLONG;
+        return { .width = layout_.width,
+            .height = layout_.height,
+            .data = layout_.window,
+            .bytes = stream_.bytes(),
+            .isCubeMap = isCubeMap };
     }
 
-    /// The root colour; other channels are passed over.
+    /// The root colour over the data window, as Rec.709; other channels are passed over.
     RgbImage read() override
     {
         const auto channels = beautyChannels(layout_, path_);
@@ -117,6 +137,8 @@ public:
         readPixels(frame);
         for (std::size_t i = 0; gray && i < image.rgb.size(); i += 3)
             image.rgb[i + 1] = image.rgb[i + 2] = image.rgb[i];
+        if (const auto matrix = matrixOf(file_->header()); matrix && !gray)
+            decode::convert(*matrix, image.rgb);
         return image;
     }
 

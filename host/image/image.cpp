@@ -36,6 +36,9 @@ std::array<const Channel*, 3> beautyChannels(const LayeredImage& image, const st
     if (red || green || blue || !gray)
         throw Error(name + " has no colour at its root, its channels are", listOfChannels(image),
             "use an image with the channels R, G and B");
+    if (image.find("RY") || image.find("BY"))
+        throw Error(
+            name + " stores luminance and chroma, its channels are", listOfChannels(image), "convert it to R, G and B");
     return { gray, gray, gray };
 }
 

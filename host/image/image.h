@@ -49,7 +49,7 @@ struct RgbImage {
 };
 
 /// The channels that are the root colour: R, G and B, or Y three times.
-/// Throws Error, which calls the image by the name given, where it has neither.
+/// Throws Error, which calls the image by the name given, where it has neither, or Y with chroma (RY, BY).
 std::array<const Channel*, 3> beautyChannels(const LayeredImage& image, const std::string& name);
 
 /// The root colour of the image over its data window: channels R, G and B, or Y alone as a gray.

@@ -64,7 +64,15 @@ std::size_t countInvalidPixels(const RgbImage& image, const RgbImage& reference)
 /// Throws Error with both sizes where they differ, and std::logic_error where an image is empty or contradicts itself.
 void requireSameSize(const RgbImage& image, const RgbImage& reference);
 
-/// The same for files of which the headers have been read.
-void requireSameSize(const ImageFile& image, const ImageFile& reference);
+/// The parts of two files that show the same pixels.
+struct ComparedParts {
+    Window image, reference;
+    bool isLess = false; ///< one of the files stores more of the frame
+};
+
+/// Of pictures of one size what both store of them: all, a crop, or what two crops have in common. Of others what is
+/// stored, where it is of one size: a crop that knows its frame beside one that does not. Throws Error with both sizes,
+/// or windows, where there is no such part.
+ComparedParts comparedParts(const ImageFile& image, const ImageFile& reference);
 
 } // namespace wedge::image

@@ -20,7 +20,7 @@ std::string pngInputs(const std::string& path);
 bool isOwnPng(const std::string& path);
 
 /// Reads a PNG of any kind (gray, RGB, palette, 1 to 16 bits, interlaced) as linear Rec.709. Alpha is ignored. Samples
-/// are taken as sRGB, unless the file states another gamma (a gAMA chunk that is not 1/2.2, and no sRGB chunk).
+/// are taken as sRGB, unless the file states another curve or other primaries (decode::PngReader::gamma(), matrix()).
 /// Throws Error for a file that is missing, not a PNG, truncated, damaged or too large.
 RgbImage readPng(const std::string& path);
 

@@ -1,27 +1,14 @@
-#include "host/image/colour.h"
 #include "host/image/png.h"
 #include "host/image/readers.h"
 
 #include "host/decode/png.h"
 #include "host/file.h"
 
-#include <cmath>
 #include <optional>
 
 namespace wedge::image {
 
 namespace {
-
-/// The linear value of every 16-bit sample.
-std::vector<float> linearValues(double gamma)
-{
-    std::vector<float> values(1 << 16);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const float encoded = static_cast<float>(i) / 65535.0f;
-        values[i] = gamma == 0.0 ? decodeSrgb(encoded) : std::pow(encoded, static_cast<float>(1.0 / gamma));
-    }
-    return values;
-}
 
 class PngImage : public ImageFile::Reader {
 public:
@@ -31,17 +18,18 @@ public:
     {
     }
 
-    std::pair<int, int> open() override
+    ImageFile::Header open() override
     {
         png_.emplace(decode::bytesOf(bytes_));
         limits_.admit(png_->size(), bytes_.size());
-        return { png_->size().width, png_->size().height };
+        const auto [width, height] = png_->size();
+        return { .width = width, .height = height, .data = { 0, 0, width, height }, .bytes = bytes_.size() };
     }
 
     RgbImage read() override
     {
         const decode::Size size = png_->size();
-        const std::vector<float> linear = linearValues(png_->gamma());
+        const std::vector<float> linear = png_->linearValues();
         RgbImage image { size.width, size.height, {} };
         image.rgb.resize(static_cast<std::size_t>(size.pixels()) * 3);
         png_->readRows(decode::PngSamples::Rgb16, [&](const decode::PngReader::Row& row) {
@@ -52,6 +40,8 @@ public:
                     to[3 * x + c] = linear[static_cast<std::size_t>(p[2 * c] << 8 | p[2 * c + 1])]; // big-endian
             }
         });
+        if (png_->matrix())
+            decode::convert(*png_->matrix(), image.rgb);
         return image;
     }
 

@@ -2,6 +2,7 @@
 
 #include "host/image/readers.h"
 
+#include "host/decode/failure.h"
 #include "host/decode/hdr.h"
 #include "host/error.h"
 #include "host/file.h"
@@ -25,11 +26,12 @@ public:
     {
     }
 
-    std::pair<int, int> open() override
+    ImageFile::Header open() override
     {
         hdr_.emplace(decode::bytesOf(bytes_));
         limits_.admit(hdr_->size(), bytes_.size());
-        return { hdr_->size().width, hdr_->size().height };
+        const auto [width, height] = hdr_->size();
+        return { .width = width, .height = height, .data = { 0, 0, width, height }, .bytes = bytes_.size() };
     }
 
     RgbImage read() override
@@ -39,8 +41,8 @@ public:
         image.rgb.reserve(static_cast<std::size_t>(size.pixels()) * 3);
         hdr_->readRows([&](int, std::span<const decode::Rgbe> pixels) {
             for (const decode::Rgbe& p : pixels) {
-                for (std::size_t c = 0; c < 3; ++c)
-                    image.rgb.push_back(decode::hdrValue(p[c], p[3]));
+                const std::array<float, 3> colour = hdr_->radiance(p);
+                image.rgb.insert(image.rgb.end(), colour.begin(), colour.end());
             }
         });
         return image;
@@ -72,8 +74,31 @@ void failToRead(const std::string& path, const std::string& kind, const std::exc
         failure ? failure->remedy() : "check that the file is whole and of its type");
 }
 
+namespace {
+
+/// A part of the frame that `image` shows the window `data` of.
+RgbImage partOf(RgbImage image, const Window& data, const Window& part)
+{
+    if (part == data)
+        return image;
+    RgbImage out { part.width(), part.height(), {} };
+    out.rgb.resize(3 * static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
+    const Window common = data.within(part);
+    const auto row = [](const Window& window, int y) {
+        return 3 * static_cast<std::ptrdiff_t>(y - window.y0) * window.width();
+    };
+    for (int y = common.y0; y < common.y1 && !common.empty(); ++y) {
+        const auto from = image.rgb.begin() + row(data, y) + 3 * (common.x0 - data.x0);
+        std::copy_n(from, 3 * common.width(), out.rgb.begin() + row(part, y) + 3 * (common.x0 - part.x0));
+    }
+    return out;
+}
+
+} // namespace
+
 ImageFile::ImageFile(const std::string& path, const decode::Limits& limits)
     : path_(path)
+    , limits_(limits)
 {
     std::string extension = std::filesystem::path(path).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -88,7 +113,11 @@ ImageFile::ImageFile(const std::string& path, const decode::Limits& limits)
             reader_ = pngReader(path, limits);
         else
             reader_ = std::make_unique<HdrImage>(path, limits);
-        std::tie(width_, height_) = reader_->open();
+        header_ = reader_->open();
+        stored_ = header_.data.within(whole());
+        if (stored_.empty())
+            throw decode::Failure("its data window lies outside of its display window, so that nothing of it is seen",
+                "write it anew, with pixels inside of the display window");
     } catch (const std::exception& error) {
         failToRead(path, kind_, error);
     }
@@ -96,10 +125,12 @@ ImageFile::ImageFile(const std::string& path, const decode::Limits& limits)
 
 ImageFile::~ImageFile() = default;
 
-RgbImage ImageFile::read()
+RgbImage ImageFile::read(const Window& part)
 {
     try {
-        return reader_->read();
+        if (!stored_.contains(part)) // memory that no header has been held against
+            limits_.admit({ part.width(), part.height() }, header_.bytes);
+        return partOf(reader_->read(), header_.data, part);
     } catch (const std::exception& error) {
         failToRead(path_, kind_, error);
     }

@@ -12,13 +12,16 @@ namespace {
 
 constexpr double maxExponent = 1e6;
 
-int readTextureKey(TableReader& table, const std::string& key, TextureSet& textures)
+using decode::TextureUse;
+
+int readTextureKey(
+    TableReader& table, const std::string& key, TextureSet& textures, TextureUse use = TextureUse::Colours)
 {
     const auto path = table.path(key);
     if (!path)
         return -1;
     try {
-        return textures.add(*path);
+        return textures.add(*path, use);
     } catch (const Error& error) {
         throw Error(table.where(key) + ": texture of the material", path->string(), error.what());
     }
@@ -27,8 +30,8 @@ int readTextureKey(TableReader& table, const std::string& key, TextureSet& textu
 /// A map of normals, or heights.
 void readNormals(TableReader& table, TextureSet& textures, Material& m)
 {
-    const int normals = readTextureKey(table, "normal_texture", textures);
-    const int heights = readTextureKey(table, "bump_texture", textures);
+    const int normals = readTextureKey(table, "normal_texture", textures, TextureUse::Numbers);
+    const int heights = readTextureKey(table, "bump_texture", textures, TextureUse::Numbers);
     const auto strength = table.number("normal_strength", -mostNormalStrength, mostNormalStrength);
     if (normals >= 0 && heights >= 0)
         table.fail("bump_texture", "stands beside a", "normal_texture", "give one of them");
@@ -80,8 +83,8 @@ void readModel(TableReader& table, TextureSet& textures, const std::string& mode
     m.specularModel = isGgx ? SpecularModel::Ggx : model == "phong" ? SpecularModel::Phong : SpecularModel::BlinnPhong;
     const auto exponent = table.number("exponent", 0.0, maxExponent);
     const auto roughness = table.number("roughness", 0.0, 1.0);
-    const int exponentTexture = readTextureKey(table, "exponent_texture", textures);
-    const int roughnessTexture = readTextureKey(table, "roughness_texture", textures);
+    const int exponentTexture = readTextureKey(table, "exponent_texture", textures, TextureUse::Numbers);
+    const int roughnessTexture = readTextureKey(table, "roughness_texture", textures, TextureUse::Numbers);
     if (isGgx && (exponent || exponentTexture >= 0))
         table.fail(exponent ? "exponent" : "exponent_texture", "does nothing beside the model", "'ggx'",
             "give a roughness, or another model");
@@ -101,7 +104,7 @@ Material readMaterial(TableReader& table, TextureSet& textures, Warnings& warnin
     const std::string model =
         table.choice("model", { "phong", "blinn_phong", "ggx", "mirror", "glass" }).value_or("blinn_phong");
     m.emissionTexture = readTextureKey(table, "emission_texture", textures);
-    m.opacityTexture = readTextureKey(table, "opacity_texture", textures);
+    m.opacityTexture = readTextureKey(table, "opacity_texture", textures, TextureUse::Numbers);
     m.opacity = static_cast<float>(table.number("opacity", 0.0, 1.0).value_or(m.opacity));
     // A texture multiplies its colour, so it is seen as it is where no colour is given.
     m.emission = table.colour("emission").value_or(m.emissionTexture >= 0 ? glm::vec3(1.0f) : m.emission);

@@ -216,7 +216,7 @@ private:
             return;
         m.specularModel = SpecularModel::Ggx;
         m.roughness = extra_.roughness.value_or(textured ? 1.0f : m.roughness);
-        m.exponentTexture = texture(extra_.roughnessMap);
+        m.exponentTexture = texture(extra_.roughnessMap, decode::TextureUse::Numbers);
         const float metal = extra_.metal.value_or(0.0f), ratio = (extra_.index - 1.0f) / (extra_.index + 1.0f);
         const glm::vec3 base = m.diffuse;
         m.specular = glm::mix(glm::vec3(ratio * ratio), base, metal);
@@ -265,7 +265,7 @@ private:
         const MtlTexture& from = mapped ? extra_.normals : extra_.heights;
         if (mapped && !extra_.heights.name.empty())
             notes_.leaveOut("a bump map beside a normal map (bump, map_bump)");
-        m.normalTexture = texture(from, "the surface stays smooth");
+        m.normalTexture = texture(from, decode::TextureUse::Numbers, "the surface stays smooth");
         m.normalIsHeight = !mapped && m.normalTexture >= 0 && !looksLikeNormals(textures_.at(m.normalTexture));
         if (from.multiplier.empty())
             return;
@@ -277,7 +277,8 @@ private:
         m.normalStrength = value;
     }
 
-    int texture(const MtlTexture& statement, const char* instead = "the plain colour is used")
+    int texture(const MtlTexture& statement, decode::TextureUse use = decode::TextureUse::Colours,
+        const char* instead = "the plain colour is used")
     {
         if (statement.name.empty())
             return -1;
@@ -285,7 +286,7 @@ private:
             warn("options of textures",
                 fmt::format("the option {} of texture '{}' has no effect here", statement.unsupported, statement.name));
         try {
-            return textures_.add(resolvePath(statement.name, folder_, where_));
+            return textures_.add(resolvePath(statement.name, folder_, where_), use);
         } catch (const Error& error) {
             warn("textures that cannot be used", fmt::format("{}; {}", error.what(), instead));
             return -1;
@@ -299,9 +300,9 @@ private:
         Material& m = material_;
         m.diffuseTexture = texture(extra_.diffuse);
         m.specularTexture = texture(extra_.specular);
-        m.exponentTexture = texture(extra_.exponent);
+        m.exponentTexture = texture(extra_.exponent, decode::TextureUse::Numbers);
         m.emissionTexture = texture(extra_.emission);
-        m.opacityTexture = texture(extra_.opacity);
+        m.opacityTexture = texture(extra_.opacity, decode::TextureUse::Numbers);
         completeTextures();
         makeMetallicRough();
         addNormals();

@@ -17,7 +17,7 @@ namespace wedge::scene {
 struct Texture {
     std::string path;
     int width = 0, height = 0;
-    std::vector<std::uint32_t> rgba; ///< width x height, sRGB-encoded, R in the low byte, row 0 = bottom (v = 0)
+    std::vector<std::uint32_t> rgba; ///< width x height, colours by the sRGB curve, R low, row 0 = bottom (v = 0)
     bool hasAlpha = false; ///< some texel is not opaque, and as an opacity the alphas count; else luminance
 };
 

@@ -36,7 +36,7 @@ void SceneFile::read(Scene& scene, Warnings& warnings)
     readBackground(root_, scene);
     readShutter(root_, scene);
     readLights(root_, scene, warnings);
-    readExtensions(root_, scene);
+    readExtensions(root_, scene, warnings);
     // Materials before the meshes that choose among them, meshes before the camera that may have to frame them.
     scene.materials = readMaterials(root_, textures_, warnings);
     for (const char* later : { "mesh", "camera" })

@@ -214,11 +214,11 @@ void readLights(TableReader& root, Scene& scene, Warnings& warnings)
     }
 }
 
-void readExtensions(TableReader& root, Scene& scene)
+void readExtensions(TableReader& root, Scene& scene, Warnings& warnings)
 {
     for (const Section& section : sections()) {
         if (auto table = root.table(section.key)) {
-            scene.extensions[section.key] = section.read(*table);
+            scene.extensions[section.key] = section.read(*table, warnings);
             table->finish();
         }
     }

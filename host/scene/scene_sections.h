@@ -18,7 +18,7 @@ void readBackground(TableReader& root, Scene& scene);
 /// Lights as they are when the shutter opens, which is known.
 void readLights(TableReader& root, Scene& scene, Warnings& warnings);
 /// Those of sections.h.
-void readExtensions(TableReader& root, Scene& scene);
+void readExtensions(TableReader& root, Scene& scene, Warnings& warnings);
 /// The area lights that they bring into the scene, which has its geometry.
 std::vector<AreaLight> lightsOfExtensions(const Scene& scene);
 

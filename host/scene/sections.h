@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/scene/scene.h"
+#include "host/scene/warnings.h"
 
 #include <any>
 #include <functional>
@@ -15,7 +16,8 @@ class TableReader;
 /// Scene::extensions[key].
 struct Section {
     std::string key;
-    std::function<std::any(TableReader&)> read; ///< throws Error for what is wrong in it
+    /// Throws Error for what is wrong in it, and warns of what is used in spite of it.
+    std::function<std::any(TableReader&, Warnings&)> read;
     bool lights = false; ///< what is read lights the scene
     /// Area lights that what was read brings into a scene of these bounds; may be null.
     std::function<std::vector<AreaLight>(const std::any&, const Bounds&)> areaLights {};

@@ -27,7 +27,7 @@ bool looksLikeNormals(const Texture& texture)
     return static_cast<std::size_t>(count) * 10 >= texture.rgba.size() * 9;
 }
 
-Texture TextureSet::read(const std::filesystem::path& path)
+decode::Picture TextureSet::decoded(const std::filesystem::path& path, decode::TextureUse use)
 {
     constexpr std::int64_t sceneFactor = 16, pixelsPerByte = 64;
     const std::string bytes = readFile(path, "texture file", maxTextureFile);
@@ -41,10 +41,9 @@ Texture TextureSet::read(const std::filesystem::path& path)
     limits.admitted = &pixels_;
     limits.remedy = "scale the image down, or raise --max-texture-pixels";
     try {
-        decode::Picture picture = decode::decodeTexture(decode::bytesOf(bytes), limits);
+        decode::Picture picture = decode::decodeTextureFor(use, decode::bytesOf(bytes), limits);
         bytes_ += fileBytes;
-        const bool hasAlpha = std::ranges::any_of(picture.rgba, [](std::uint32_t t) { return t >> 24 != 255; });
-        return { path.string(), picture.size.width, picture.size.height, std::move(picture.rgba), hasAlpha };
+        return picture;
     } catch (const std::bad_alloc&) {
         throw Error("texture file cannot be decoded (host memory is exhausted)", path.string(), "scale the image down");
     } catch (const decode::Failure& failure) {
@@ -53,23 +52,35 @@ Texture TextureSet::read(const std::filesystem::path& path)
     }
 }
 
-int TextureSet::add(const std::filesystem::path& path)
+void TextureSet::read(const std::filesystem::path& path, decode::TextureUse use, Known& known)
+{
+    const auto tell = [&](bool ofAllUses, const std::variant<int, Error>& answer) {
+        for (std::size_t i = 0; i < known.size(); ++i)
+            if (ofAllUses || i == static_cast<std::size_t>(use))
+                known[i] = answer;
+    };
+    try {
+        decode::Picture picture = decoded(path, use);
+        const bool hasAlpha = std::ranges::any_of(picture.rgba, [](std::uint32_t t) { return t >> 24 != 255; });
+        textures_.push_back(
+            { path.string(), picture.size.width, picture.size.height, std::move(picture.rgba), hasAlpha });
+        tell(picture.sameForAllUses, static_cast<int>(textures_.size()) - 1);
+    } catch (const Error& error) {
+        tell(true, error);
+    }
+}
+
+int TextureSet::add(const std::filesystem::path& path, decode::TextureUse use)
 {
     std::error_code code;
     const std::filesystem::path canonical = std::filesystem::canonical(path, code);
-    const std::string key = (code ? path.lexically_normal() : canonical).string();
-    auto known = known_.find(key);
-    if (known == known_.end()) {
-        try {
-            textures_.push_back(read(path));
-            known = known_.emplace(key, static_cast<int>(textures_.size()) - 1).first;
-        } catch (const Error& error) {
-            known = known_.emplace(key, error).first;
-        }
-    }
-    if (const Error* error = std::get_if<Error>(&known->second))
+    Known& known = known_[(code ? path.lexically_normal() : canonical).string()];
+    auto& answer = known[static_cast<std::size_t>(use)];
+    if (!answer)
+        read(path, use, known);
+    if (const Error* error = std::get_if<Error>(&*answer))
         throw Error(*error);
-    return std::get<int>(known->second);
+    return std::get<int>(*answer);
 }
 
 } // namespace wedge::scene

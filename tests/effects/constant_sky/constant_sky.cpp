@@ -129,7 +129,7 @@ void registerSky()
 {
     static const bool once = [] {
         render::registerEffect(constantSky());
-        scene::registerSection({ key, [](scene::TableReader& table) -> std::any {
+        scene::registerSection({ key, [](scene::TableReader& table, scene::Warnings&) -> std::any {
                                     return table.require("radiance", table.colour("radiance"));
                                 } });
         return true;
