@@ -6,7 +6,7 @@
 #include "host/app/reference.h"
 #include "host/app/render_job.h"
 #include "host/app/render_settings.h"
-#include "host/device/driver_cache.h"
+#include "host/device/device.h"
 #include "host/error.h"
 #include "host/files_opened.h"
 #include "host/render/distributed_frame.h"
@@ -192,8 +192,8 @@ void RenderJob::load()
 void RenderJob::build()
 {
     const device::Device device = device::Device::open(options_.devices.empty() ? "" : options_.devices[0]);
-    if (const std::string notice = device::DriverCache::ofProcess().notice(); !notice.empty() && !options_.quiet) {
-        warn(notice);
+    if (!options_.quiet) {
+        warnOf(device::deviceNotices());
     }
     render::Options options;
     options.kernelDir = options_.kernelDir;
