@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace wedge {
 
@@ -21,23 +20,8 @@ struct OpenFile {
 
 /// Opens a file. Throws Error when it is missing, a folder, anything else that is no regular file (what a FIFO or a
 /// device would deliver has no end, or never comes), or unreadable; `kind` ("mesh file") names it in the message.
+/// All that a result is made from is opened here and nowhere else, so that FilesOpened knows of it.
 OpenFile openFile(const std::filesystem::path& path, const std::string& kind);
-
-/// Notes, while it lives, which files this thread opens with openFile().
-class FilesOpened {
-public:
-    FilesOpened();
-    ~FilesOpened();
-    FilesOpened(const FilesOpened&) = delete;
-    FilesOpened& operator=(const FilesOpened&) = delete;
-
-    const std::vector<std::filesystem::path>& paths() const { return paths_; } ///< in their order
-
-private:
-    friend OpenFile openFile(const std::filesystem::path& path, const std::string& kind);
-    std::vector<std::filesystem::path> paths_;
-    FilesOpened* outer_;
-};
 
 /// The whole of a file. Throws Error as openFile, and when it is larger than `limit` bytes.
 std::string readFile(const std::filesystem::path& path, const std::string& kind, std::uintmax_t limit);

@@ -130,7 +130,9 @@ TEST_CASE("a cache folder that is in use for something else keeps what is in it"
     }
     ::setenv("WEDGE_CACHE_DIR", folder.c_str(), 1);
     ::unsetenv("POCL_CACHE_DIR");
-    CHECK(place.run({ "devices" }).err == "");
+    const std::string said = place.run({ "devices" }).err;
+    CHECK(contains(said, "docs (its folder wedge-pocl: it is not of wedge's making)"));
+    CHECK(std::ranges::count(said, '\n') == 1);
     for (const char* name : { "docs/notes.mark", "docs/driver/thesis.txt", "docs/wedge-pocl/thesis.txt" }) {
         CHECK(place.has(name));
     }

@@ -14,6 +14,7 @@ set_tests_properties(oclgrind_frame_kernels PROPERTIES FIXTURES_REQUIRED oclgrin
 add_test(NAME second_driver COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/second_driver.sh $<TARGET_FILE:wedge>
                                     $<TARGET_FILE:bvh_traverse_test> $<TARGET_FILE:bvh_traverse_families_test>
                                     $<TARGET_FILE:bvh_watertight_test> $<TARGET_FILE:device_buffer_test>)
+add_test(NAME readers COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/readers.sh ${CMAKE_SOURCE_DIR})
 add_test(NAME bare_root COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/bare_root.sh ${CMAKE_SOURCE_DIR}/scripts/bare.sh)
 add_test(NAME tidy_changed COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/tidy_changed.sh ${CMAKE_SOURCE_DIR})
 add_test(NAME format_check COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/format_check.sh ${CMAKE_SOURCE_DIR})

@@ -5,6 +5,7 @@
 #include "host/app/values.h"
 #include "host/decode/limits.h"
 #include "host/error.h"
+#include "host/files_opened.h"
 #include "host/image/atomic_file.h"
 #include "host/image/colour.h"
 #include "host/image/metrics.h"
@@ -91,6 +92,7 @@ int compare(const CompareOptions& options)
     }
     const decode::Limits limits = limitsOf(options);
     image::ImageFile imageFile(options.image, limits), referenceFile(options.reference, limits);
+    requireNotOpened({ options.errorMap }, "give it a name of its own");
     const image::ComparedParts parts = image::comparedParts(imageFile, referenceFile);
     if (parts.isLess) {
         const image::Window& part = parts.image;

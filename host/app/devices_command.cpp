@@ -1,7 +1,6 @@
 #include "host/app/commands.h"
 #include "host/app/console.h"
 #include "host/device/device.h"
-#include "host/device/driver_cache.h"
 #include "host/device/memory_plan.h"
 #include "host/error.h"
 
@@ -45,9 +44,7 @@ void print(const DeviceInfo& d)
 int listDevices(bool json)
 {
     const std::vector<DeviceInfo> devices = device::listDevices();
-    if (const std::string& notice = device::DriverCache::ofProcess().notice(); !notice.empty()) {
-        warn(notice);
-    }
+    warnOf(device::deviceNotices());
     if (json) {
         Json list = Json::array();
         for (const DeviceInfo& d : devices) {
@@ -57,10 +54,7 @@ int listDevices(bool json)
         requireSaid();
         return 0;
     }
-    if (devices.empty()) {
-        throw Error("OpenCL device", "none found",
-            "install an OpenCL driver, such as the package pocl-opencl-icd for the CPU, or your GPU vendor's");
-    }
+    device::requireDevices();
     for (const DeviceInfo& d : devices) {
         print(d);
     }

@@ -1,5 +1,6 @@
 #include "host/app/finished_frames.h"
 
+#include "host/files_opened.h"
 #include "host/hash.h"
 #include "host/image/exr.h"
 #include "host/image/png.h"
@@ -59,6 +60,7 @@ bool isFinished(const Output& output, const std::string& inputs)
     if (!std::filesystem::is_regular_file(output.path, ignored)) {
         return false;
     }
+    const FilesLookedAt looking;
     try {
         if (output.format == ImageFormat::Exr) {
             return isFinishedExr(output.path, inputs);

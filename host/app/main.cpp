@@ -4,6 +4,7 @@
 #include "host/app/console.h"
 #include "host/app/interrupt.h"
 #include "host/error.h"
+#include "host/files_opened.h"
 #include "host/render/metadata.h"
 
 #include <algorithm>
@@ -142,6 +143,7 @@ int main(int argc, char** argv)
 {
     prepareProcess();
     keepIgnoring();
+    const FilesOpened inputs; // from the start, so that no output is one of them, whatever reads them
     try {
         if (const std::optional<int> status = compileForOther(argc, argv)) {
             return *status;

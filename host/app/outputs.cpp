@@ -2,6 +2,7 @@
 
 #include "host/app/console.h"
 #include "host/error.h"
+#include "host/files_opened.h"
 #include "host/image/atomic_file.h"
 #include "host/image/exr.h"
 #include "host/image/png.h"
@@ -10,6 +11,7 @@
 #include <cctype>
 #include <filesystem>
 #include <tuple>
+#include <utility>
 
 #include <sys/stat.h>
 
@@ -91,12 +93,19 @@ std::vector<Output> defaultOutputs(const std::string& scene, const std::vector<s
     return outputs;
 }
 
+void leaveOutOpened(std::vector<Output>& defaults)
+{
+    std::erase_if(
+        defaults, [](const Output& output) { return output.format == ImageFormat::Png && wasOpened(output.path); });
+}
+
 void refuseOverwriting(const std::vector<std::string>& written, const std::vector<std::string>& read)
 {
-    std::vector<Place> inputs, outputs;
+    std::vector<std::pair<Place, std::string>> inputs;
+    std::vector<Place> outputs;
     for (const std::string& path : read) {
         if (!path.empty()) {
-            inputs.push_back(placeOf(path));
+            inputs.emplace_back(placeOf(path), path);
         }
     }
     for (const std::string& path : written) {
@@ -107,8 +116,9 @@ void refuseOverwriting(const std::vector<std::string>& written, const std::vecto
         if (std::ranges::count(outputs, place) > 0) {
             throw UsageError("output is named twice", path, "give each output a name of its own");
         }
-        if (std::ranges::count(inputs, place) > 0) {
-            throw UsageError("output is a file that is read", path, "give it a name of its own");
+        const auto input = std::ranges::find(inputs, place, &std::pair<Place, std::string>::first);
+        if (input != inputs.end()) {
+            throw UsageError("output is a file that is read, " + input->second, path, "give it a name of its own");
         }
         outputs.push_back(place);
     }

@@ -28,8 +28,12 @@ std::vector<Output> planOutputs(const std::vector<std::string>& paths);
 /// use.
 std::vector<Output> defaultOutputs(const std::string& scene, const std::vector<std::string>& inUse);
 
-/// Throws UsageError where two of the files that are written are one, and where one of them is read: under whatever
-/// spelling, also through symbolic links. Empty paths stand for none.
+/// Drops the picture of defaultOutputs() where it is a file that was read.
+void leaveOutOpened(std::vector<Output>& defaults);
+
+/// Throws UsageError where two of the files that are written are one, and where one of them is to be read: under
+/// whatever spelling, also through symbolic links. Empty paths stand for none. What is known before anything is read;
+/// requireNotOpened() is for all that was.
 void refuseOverwriting(const std::vector<std::string>& written, const std::vector<std::string>& read);
 
 /// Throws the Errors that writing would end in, as far as can be told now. report: a path, or "".

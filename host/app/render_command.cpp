@@ -6,8 +6,9 @@
 #include "host/app/reference.h"
 #include "host/app/render_job.h"
 #include "host/app/render_settings.h"
-#include "host/device/driver_cache.h"
+#include "host/device/device.h"
 #include "host/error.h"
+#include "host/files_opened.h"
 #include "host/render/distributed_frame.h"
 #include "host/render/layers.h"
 
@@ -41,7 +42,7 @@ std::vector<Output> outputsOf(const RenderOptions& options)
 
 RenderJob::RenderJob(const RenderOptions& options)
     : options_(options)
-    , images_(outputsOf(options), { options.exposureStops, options.view.value_or(image::View::Srgb) })
+    , images_(outputsOf(options), look())
     , progress_(!options.quiet)
 {
 }
@@ -96,10 +97,7 @@ void RenderJob::checkCall() const
     if (!options_.layers.empty() && !anyExr) {
         throw UsageError("layers have no file to go to", options_.layers, "add an output that ends in .exr");
     }
-    const bool anyPng = std::ranges::any_of(outputs, [](const Output& o) { return o.format == ImageFormat::Png; });
-    if (options_.view && !anyPng) {
-        throw UsageError("a view has no picture to go to", "--view", "add an output that ends in .png");
-    }
+    checkView();
     std::error_code ignored;
     if (!options_.kernelDir.empty() && !std::filesystem::is_directory(options_.kernelDir, ignored)) {
         throw Error("kernel folder", options_.kernelDir, "name an existing folder");
@@ -110,6 +108,44 @@ void RenderJob::checkCall() const
     checkFrames();
     requireWritable(options_.frames ? frameOutputs(outputs, options_.frames->first) : outputs,
         options_.explain.empty() ? options_.report : options_.explain);
+}
+
+void RenderJob::checkView() const
+{
+    const std::vector<Output>& outputs = images_.outputs();
+    const bool anyPng = std::ranges::any_of(outputs, [](const Output& o) { return o.format == ImageFormat::Png; });
+    if (options_.view && !anyPng) {
+        throw UsageError("a view has no picture to go to", "--view", "add an output that ends in .png");
+    }
+}
+
+void RenderJob::leaveOutInputs()
+{
+    std::vector<Output> outputs = images_.outputs();
+    leaveOutOpened(outputs);
+    if (outputs.size() < images_.outputs().size()) {
+        images_ = ImageWriter(outputs, look());
+        checkView();
+    }
+}
+
+void RenderJob::keepInputs()
+{
+    const bool images = options_.explain.empty(), named = !options_.outputs.empty();
+    if (images && !named) {
+        leaveOutInputs();
+    }
+    std::vector<std::string> written = { options_.report, options_.explain };
+    const auto add = [&written](const std::vector<Output>& outputs) {
+        std::ranges::transform(outputs, std::back_inserter(written), &Output::path);
+    };
+    for (std::uint32_t i = 0; options_.frames && i < options_.frames->count(); ++i) {
+        add(frameOutputs(images_.outputs(), options_.frames->first + i));
+    }
+    if (images && !options_.frames) {
+        add(images_.outputs());
+    }
+    requireNotOpened(written, images && !named ? "name outputs with -o" : "give it a name of its own");
 }
 
 /// A call that names no outputs takes no picture that is not its own.
@@ -135,6 +171,7 @@ void RenderJob::load()
     }
     extras_.loadMilliseconds = millisecondsSince(start);
     progress_.clear();
+    keepInputs();
     if (!options_.quiet) {
         warnOf(scene_.warnings);
     }
@@ -148,14 +185,15 @@ void RenderJob::load()
         reference_ = readReference(options_.reference, settings_);
         extras_.reference = options_.reference;
     }
+    keepInputs(); // what options read is among them
 }
 
 /// What there is before memory is planned: the device, the hierarchy, and the programs' options.
 void RenderJob::build()
 {
     const device::Device device = device::Device::open(options_.devices.empty() ? "" : options_.devices[0]);
-    if (const std::string notice = device::DriverCache::ofProcess().notice(); !notice.empty() && !options_.quiet) {
-        warn(notice);
+    if (!options_.quiet) {
+        warnOf(device::deviceNotices());
     }
     render::Options options;
     options.kernelDir = options_.kernelDir;
@@ -173,9 +211,10 @@ void RenderJob::build()
     progress_.clear();
 }
 
-void RenderJob::explain() const
+void RenderJob::explain()
 {
     const render::Explanation explanation = renderer_->explain(settings_, !layers_.empty());
+    keepInputs();
     say("{}", explanation.text);
     writeText(options_.explain, explanation.drawing);
     tell("wrote {}\n", printable(options_.explain));
@@ -212,6 +251,7 @@ void RenderJob::prepare()
     progress_.show("building kernels");
     renderer_->rehearse(renderedSettings(), keepsLayers());
     progress_.clear();
+    keepInputs(); // kernels of --kernel-dir are among them
 }
 
 void RenderJob::render()

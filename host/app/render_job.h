@@ -53,12 +53,17 @@ private:
     bool filtersOverTime() const { return settings_.temporal != render::Temporal::Off; }
     /// Of a frame as it is rendered: what is to be filtered over time is all of the image, whatever is shown.
     render::Settings renderedSettings() const;
+    image::Look look() const { return { options_.exposureStops, options_.view.value_or(image::View::Srgb) }; }
     bool keepsLayers() const { return !layers_.empty() || filtersOverTime(); }
 
+    void checkView() const;
     void warnOfPicture() const;
+    /// Refuses outputs that are a file that was read until now; of those that nobody named, the picture is left out.
+    void keepInputs();
+    void leaveOutInputs();
     void load();
     void build();
-    void explain() const;
+    void explain();
     /// What a frame takes, with what filters it over time. Throws where that is more than there may be.
     device::MemoryPlan checkedPlan() const;
     void prepare();

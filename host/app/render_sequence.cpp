@@ -175,8 +175,7 @@ void RenderJob::runVisits()
                 std::fflush(stdout);
             }
         }
-        images_ = ImageWriter(
-            frameOutputs(patterns, visit.frame), { options_.exposureStops, options_.view.value_or(image::View::Srgb) });
+        images_ = ImageWriter(frameOutputs(patterns, visit.frame), look());
         if (!renderFrame(visit, i, start)) {
             interrupted_ = guard_->flag();
             extras_.sequence->ended = interrupted_ ? "interrupt" : "time limit";

@@ -7,11 +7,29 @@
 
 namespace wedge::device {
 
-/// The folder wedge-pocl below root, made where it is not there yet; empty if it cannot be had: without a root, where
-/// it cannot be written, or where something of that name is not of our making. It is told by a file put in when it is
-/// made. It has to belong to this user as well, since of folders that another user's driver makes in it this one's
-/// could write to none, and would not build.
-std::filesystem::path ownCacheFolder(const std::filesystem::path& root);
+/// A folder that can be had, or why not.
+struct FolderOrReason {
+    std::filesystem::path folder; ///< empty: there is none
+    std::string reason; ///< then: a few words, the system's own where it has any
+};
+
+/// The folder wedge-pocl below root, made where it is not there yet. None is to be had without a root, where it cannot
+/// be written, or where something of that name is not of our making. It is told by a file put in when it is made. It
+/// has to belong to this user as well, since of folders that another user's driver makes in it this one's could write
+/// to none, and would not build.
+FolderOrReason ownCacheFolder(const std::filesystem::path& root);
+
+/// A folder of this user's below one for temporary files (usually everybody's), made where it is not there yet: its
+/// owner alone has access, and nobody else can have made it, or put another in its place. What others have made of that
+/// name is passed over for another name.
+FolderOrReason ownTemporaryFolder(const std::filesystem::path& temporary);
+
+/// Why no file can be made in a folder, which is made if it is not there yet; "" where one can.
+std::string whyUnwritable(const std::filesystem::path& folder);
+
+/// Whether the disk of a folder has too little room for what a driver compiles for a frame or two: then PoCL ends the
+/// process.
+bool lacksRoom(const std::filesystem::path& folder);
 
 /// A file that is open and locked (how: as flock has it), or -1. The lock goes with the process, however that ends.
 int openLocked(const std::filesystem::path& path, int how);

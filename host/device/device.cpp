@@ -1,7 +1,9 @@
 #include "host/device/device.h"
 
+#include "host/device/cache_root.h"
 #include "host/device/cl_error.h"
 #include "host/device/driver_cache.h"
+#include "host/device/no_device.h"
 #include "host/device/quirks.h"
 
 #include <fmt/format.h>
@@ -20,33 +22,56 @@ struct Candidate {
     cl::Device device;
 };
 
-std::vector<cl::Platform> platforms()
+/// What there is.
+struct Found {
+    std::vector<Candidate> all;
+    std::vector<SilentPlatform> silent;
+    cl_int code = CL_SUCCESS; ///< of the loader
+};
+
+std::vector<cl::Platform> platforms(cl_int& code)
 {
     DriverCache::ofProcess(); // before the driver asks where its cache is
     std::vector<cl::Platform> found;
     try {
         cl::Platform::get(&found);
-    } catch (const cl::Error&) {
+    } catch (const cl::Error& error) {
         found.clear(); // the loader reports "no platform" as an error
+        code = error.err();
     }
     return found;
 }
 
-std::vector<Candidate> candidates()
+/// A platform without devices is an error to OpenCL, and a broken one must not hide the others.
+SilentPlatform silent(const cl::Platform& platform, cl_int code)
 {
-    std::vector<Candidate> all;
-    for (const cl::Platform& platform : platforms()) {
+    try {
+        return { platform.getInfo<CL_PLATFORM_NAME>().c_str(), platform.getInfo<CL_PLATFORM_VERSION>().c_str(), code };
+    } catch (const cl::Error& error) {
+        return { "without a name", "", error.err() };
+    }
+}
+
+Found search()
+{
+    Found found;
+    for (const cl::Platform& platform : platforms(found.code)) {
         std::vector<cl::Device> devices;
+        cl_int code = CL_DEVICE_NOT_FOUND;
         try {
             platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
-        } catch (const cl::Error&) {
-            continue; // a platform without devices is an error too, and a broken one must not hide the others
+        } catch (const cl::Error& error) {
+            devices.clear();
+            code = error.err();
+        }
+        if (devices.empty()) {
+            found.silent.push_back(silent(platform, code));
         }
         for (const cl::Device& device : devices) {
-            all.push_back({ queryDevice(platform, device, static_cast<unsigned>(all.size())), device });
+            found.all.push_back({ queryDevice(platform, device, static_cast<unsigned>(found.all.size())), device });
         }
     }
-    return all;
+    return found;
 }
 
 std::string lowered(std::string text)
@@ -124,23 +149,50 @@ std::string described(const std::vector<Candidate>& all)
 std::vector<DeviceInfo> listDevices()
 {
     std::vector<DeviceInfo> infos;
-    for (Candidate& candidate : candidates()) {
+    for (Candidate& candidate : search().all) {
         infos.push_back(std::move(candidate.info));
     }
     return infos;
 }
 
+void requireDevices()
+{
+    if (const Found found = search(); found.all.empty()) {
+        throw noDevice(found.code, found.silent);
+    }
+}
+
+std::vector<std::string> deviceNotices()
+{
+    const Found found = search();
+    const CacheRoot& root = CacheRoot::ofProcess();
+    std::vector<std::string> lines = { root.notice, DriverCache::ofProcess().notice() };
+    if (!found.all.empty()) {
+        lines.push_back(
+            root.failure.empty() ? "" : "compiled kernels are not kept, for want of a folder: " + root.failure);
+        lines.push_back(whySilent(found.silent));
+    }
+    std::erase(lines, "");
+    return lines;
+}
+
 Device Device::open(const std::string& selector)
 {
-    const std::vector<Candidate> all = candidates();
+    const Found found = search();
+    const std::vector<Candidate>& all = found.all;
     if (all.empty()) {
-        throw Error("OpenCL device", "none found",
-            "install an OpenCL driver, such as the package pocl-opencl-icd for the CPU, or your GPU vendor's");
+        throw noDevice(found.code, found.silent);
+    }
+    if (!firstUsable(all, [](const DeviceInfo&) { return true; })) {
+        throw Error("OpenCL device that can be used", "none of " + described(all),
+            "install another OpenCL driver, or all of this one");
     }
     std::optional<Candidate> chosen = select(all, selector);
     if (!chosen) {
-        throw Error("no such OpenCL device", selector.empty() ? "any" : selector,
-            "choose cpu, gpu, an index or part of a name of: " + described(all));
+        const std::string silent = whySilent(found.silent);
+        throw Error("no such OpenCL device", selector,
+            "choose cpu, gpu, an index or part of a name of: " + described(all)
+                + (silent.empty() ? "" : "; " + silent));
     }
     if (!chosen->info.unusable.empty()) {
         throw Error(

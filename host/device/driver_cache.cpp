@@ -2,7 +2,7 @@
 
 #include "host/device/cache_folder.h"
 #include "host/device/cache_record.h"
-#include "host/device/program_cache.h"
+#include "host/device/cache_root.h"
 
 #include <algorithm>
 #include <array>
@@ -82,7 +82,7 @@ void catchEndingNoMore()
 } // namespace
 
 DriverCache::DriverCache(const fs::path& root)
-    : folder_(ownCacheFolder(root))
+    : folder_(ownCacheFolder(root).folder)
 {
 }
 
@@ -90,7 +90,7 @@ DriverCache& DriverCache::ofProcess()
 {
     // Never destroyed: a mark may be set until the process ends.
     static DriverCache& cache = *[] {
-        auto* made = new DriverCache(ProgramCache::fromEnvironment().folder());
+        auto* made = new DriverCache(CacheRoot::ofProcess().folder);
         const char* users = std::getenv(variable);
         made->recover(users == nullptr ? "" : users);
         if (users == nullptr && !made->folder_.empty()) {

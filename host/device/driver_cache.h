@@ -16,7 +16,7 @@ public:
     /// root: the folder of our caches; empty: the driver keeps its cache where it likes, and there are no marks.
     explicit DriverCache(const std::filesystem::path& root);
 
-    /// The cache of this process, in ProgramCache's folder. The first call comes before the first call of OpenCL: it
+    /// The cache of this process, in CacheRoot's folder. The first call comes before the first call of OpenCL: it
     /// points the driver to the folder (POCL_CACHE_DIR, unless the user has set it or there is no such folder to be
     /// had) and removes from it what it has to.
     static DriverCache& ofProcess();

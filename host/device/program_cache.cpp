@@ -1,5 +1,6 @@
 #include "host/device/program_cache.h"
 
+#include "host/device/cache_root.h"
 #include "host/hash.h"
 
 #include <fmt/format.h>
@@ -48,14 +49,9 @@ ProgramCache::ProgramCache(fs::path folder)
 
 ProgramCache ProgramCache::fromEnvironment()
 {
-    if (const char* chosen = std::getenv("WEDGE_CACHE_DIR")) {
-        return ProgramCache(chosen);
-    }
-    if (const char* caches = std::getenv("XDG_CACHE_HOME"); caches != nullptr && *caches != '\0') {
-        return ProgramCache(fs::path(caches) / "wedge");
-    }
-    const char* home = std::getenv("HOME");
-    return ProgramCache(home != nullptr && *home != '\0' ? fs::path(home) / ".cache" / "wedge" : fs::path());
+    const CacheRoot& root = CacheRoot::ofProcess();
+    const WantedCache wanted = WantedCache::fromEnvironment();
+    return ProgramCache(wanted == root.wanted ? root.folder : wanted.folder);
 }
 
 fs::path ProgramCache::entry(std::string_view key) const

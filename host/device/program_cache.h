@@ -17,7 +17,7 @@ public:
     /// folder: made when first stored into; empty turns the cache off.
     explicit ProgramCache(std::filesystem::path folder);
 
-    /// The folder WEDGE_CACHE_DIR (empty: off), else wedge below XDG_CACHE_HOME, else ~/.cache/wedge, else off.
+    /// In the folder that the environment asks for now (WantedCache), or the one that stands in for it (CacheRoot).
     static ProgramCache fromEnvironment();
 
     /// The binary stored under exactly this key, if it is there unharmed.

@@ -1,6 +1,7 @@
 #include "host/image/atomic_file.h"
 
 #include "host/error.h"
+#include "host/files_opened.h"
 
 #include <atomic>
 #include <cerrno>
@@ -83,6 +84,7 @@ Target targetOf(const std::string& path)
 AtomicFile::AtomicFile(const std::string& path)
     : path_(path)
 {
+    requireNotOpened({ path }, "write elsewhere");
     const Target target = targetOf(path);
     target_ = target.path;
     direct_ = target.direct;

@@ -1,6 +1,7 @@
 #include "host/scene/sequence.h"
 
 #include "host/file.h"
+#include "host/files_opened.h"
 #include "host/hash.h"
 #include "host/scene/load_scene.h"
 #include "host/scene/scene_file.h"

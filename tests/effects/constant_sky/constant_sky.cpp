@@ -39,14 +39,17 @@ graph::Argument sampling(const FrameBuilder& f)
 void ofPixels(FrameBuilder& f, graph::Handle<Radiance>* own)
 {
     render::Totals& t = f.totals;
+    auto rays = f.graph.plane<render::Count>("rays of the sky", graph::counts);
+    f.zero(rays);
     f.trace("sky", kernel,
         render::joined({ f.frame(), sampling(f), value("samples", static_cast<std::uint32_t>(f.settings.spp)) },
             f.hierarchy(), f.receivers(),
             render::Arguments { f.outside("sampleOf", "uint", nullptr), reads("diffuse", f.surfaces.diffuse),
                 reads("specular", f.surfaces.specular), updates("direct", t.direct.filtered),
                 updates("directNoisy", t.direct.noisy), value("keepsOwn", own != nullptr ? 1u : 0u),
-                own != nullptr ? updates("own", *own) : f.nothing("own"), tallies("rays", t.rays) }),
+                own != nullptr ? updates("own", *own) : f.nothing("own"), tallies("rays", rays) }),
         false, [spp = f.settings.spp](const graph::Launch&) { return static_cast<double>(spp); });
+    f.count(rays, true, t.tallies.rays, &t.rays);
 }
 
 /// One sample a receiver.

@@ -40,6 +40,18 @@ std::vector<float> beauty(render::Renderer& renderer, const render::Settings& se
     return pixels(renderer, renderer.frame().beauty, { 0, 0, settings.width, settings.height });
 }
 
+/// The layer's sum.
+std::uint64_t raysOfPixels(render::Renderer& renderer, const render::Settings& settings)
+{
+    const std::vector<std::uint32_t> rays = renderer.frame().rays.downloadAll(renderer.queue());
+    std::uint64_t sum = 0;
+    for (int y = 0; y < settings.height; ++y)
+        for (int x = 0; x < settings.width; ++x)
+            sum += rays[shared::pixelIndex(
+                static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), renderer.frame().layout.stride)];
+    return sum;
+}
+
 } // namespace
 
 TEST_CASE("a floor under a constant sky reflects its reflectance of it in every kind of frame")
@@ -147,6 +159,29 @@ TEST_CASE("points of the sky, directions of lobes, and both together tell the sa
             for (std::size_t i = 0; i < both.size(); ++i)
                 difference[i] -= both[i];
             checkMean(difference, glm::vec3(0.0f));
+        }
+    });
+}
+
+TEST_CASE("rays to the sky count in every kind of frame")
+{
+    // All that is seen is a floor, and every direction of a technique is above it: each is a ray.
+    onEveryDevice([](const device::Device& device) {
+        SceneBuilder b = openFloor();
+        render::Renderer renderer(b.scene, device, renderOptions());
+        for (const render::LightSampling sampling :
+            { render::LightSampling::Both, render::LightSampling::Lights, render::LightSampling::Directions }) {
+            for (const bool distributed : { false, true }) {
+                CAPTURE(static_cast<int>(sampling));
+                CAPTURE(distributed);
+                render::Settings s = settings(false, 4);
+                s.lightSampling = sampling;
+                s.antialias = distributed;
+                const render::FrameStatistics statistics = renderer.render(s, {}, true);
+                const std::uint64_t techniques = sampling == render::LightSampling::Both ? 2 : 1;
+                CHECK(statistics.shadowRays == 24u * 24u * 4u * techniques);
+                CHECK(raysOfPixels(renderer, s) == statistics.shadowRays);
+            }
         }
     });
 }
