@@ -312,6 +312,9 @@ TEST_CASE("points on sparse emitters, directions and both agree")
         const std::size_t last = b.scene.geometry.positions.size() / 3;
         moveTexture(b, last - 6, { 1.7f, 0.4f }, { -0.5f, 1.2f }, { 0.3f, -2.1f });
         b.newObject();
+        // A screen that stands on the floor, near which directions are denser than points.
+        b.quad({ 0, 0.8f, -1.45f }, { 1.5f, 0, 0 }, { 0, 0.8f, 0 }, addSparseGlow(b, addSparse(b, 8, 4, 8), 9));
+        b.newObject();
         b.triangle({ -1.2f, 0.4f, -1 }, { -1.0f, 1.2f, -1.2f }, { -0.8f, 0.5f, -0.4f },
             static_cast<std::uint32_t>(b.scene.materials.size() - 1));
         for (std::size_t k = 0; k < 6; ++k)

@@ -1,6 +1,7 @@
 #include "host/render/emitter_tree.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -40,14 +41,16 @@ public:
         const std::size_t one = add(first, pick * split, splits), other = add(second, pick * (1.0f - split), splits);
         shared::Emitter& node = list_[at];
         node.upTo = split;
+        node.extent = 1.0f / std::max(split, std::numeric_limits<float>::min());
+        node.header = std::bit_cast<std::uint32_t>(1.0f / std::max(1.0f - split, std::numeric_limits<float>::min()));
         node.pair = number == 0 ? WEDGE_PAIR_SPLIT_X : WEDGE_PAIR_SPLIT_Y;
         node.triangle = static_cast<std::uint32_t>(one);
         node.guide = static_cast<std::uint32_t>(other);
         return at;
     }
 
-    /// The two numbers stand for the axes along which the mesh is longest, in their order: a pair that has the first one
-    /// for a side goes on within itself as the mesh does.
+    /// The two numbers stand for the axes along which the mesh is longest, in their order: a pair that has the first
+    /// one for a side goes on within itself as the mesh does.
     void orderAxes(std::span<const EmitterPart> parts)
     {
         const glm::dvec3 e = extentsOf(parts);

@@ -157,7 +157,7 @@ WEDGE_FN EmitterPoint sampleQuad(AreaLight light, Vec2 u, float pick)
 /// An entry, and where in its square a sample's point is.
 typedef struct {
     Emitter entry;
-    float pick; ///< the entry's probability
+    float pick; ///< the entry's probability, or that of its mesh
     Vec2 at;
 } EmitterChoice;
 
@@ -174,17 +174,21 @@ WEDGE_FN EmitterChoice chooseEmitter(EmitterData e, Vec2 u)
     if (out.entry.pair != WEDGE_PAIR_MESH) {
         return out;
     }
-    out.entry = e.list[out.entry.triangle];
-    while (out.entry.pair >= WEDGE_PAIR_SPLIT_X) {
-        const bool byX = out.entry.pair == WEDGE_PAIR_SPLIT_X;
-        const float split = out.entry.upTo, number = byX ? out.at.x : out.at.y;
+    uint node = out.entry.triangle, pair = e.list[node].pair;
+    float x = out.at.x, y = out.at.y;
+    while (pair >= WEDGE_PAIR_SPLIT_X) {
+        __global const Emitter* parts = e.list + node;
+        const bool byX = pair == WEDGE_PAIR_SPLIT_X;
+        const float split = parts->upTo, number = byX ? x : y;
         const bool first = number < split;
-        const float part = first ? split : 1.0f - split;
-        const float within = clamp((first ? number : number - split) / fmax(part, 1e-30f), 0.0f, 1.0f);
-        out.at = byX ? vec2(within, out.at.y) : vec2(out.at.x, within);
-        out.pick *= part;
-        out.entry = e.list[first ? out.entry.triangle : out.entry.guide];
+        const float within = first ? number * parts->extent : (number - split) * as_float(parts->header);
+        x = byX ? within : x;
+        y = byX ? y : within;
+        node = first ? parts->triangle : parts->guide;
+        pair = e.list[node].pair;
     }
+    out.entry = e.list[node];
+    out.at = vec2(clamp(x, 0.0f, 1.0f), clamp(y, 0.0f, 1.0f));
     return out;
 }
 

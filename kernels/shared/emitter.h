@@ -29,7 +29,7 @@
 #define WEDGE_PAIR_QUAD 3u ///< no triangle, but the area light of that number
 #define WEDGE_PAIR_MESH 4u ///< no triangle, but the parts of the entry of that number, which is behind the list
 /// Two parts, of which `upTo` of one of a sample's two numbers chooses the first; `triangle` and `guide` are the
-/// entries that they are.
+/// entries that they are, `extent` and the bits of `header` one over the shares of the numbers that choose them.
 #define WEDGE_PAIR_SPLIT_X 5u ///< by the first number
 #define WEDGE_PAIR_SPLIT_Y 6u ///< by the second
 
