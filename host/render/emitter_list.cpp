@@ -112,8 +112,7 @@ private:
             if (group.entries.size() == 1) {
                 entry = entryOf(group, group.entries[0], upTo - before);
             } else {
-                entry.pair = WEDGE_PAIR_MESH;
-                entry.triangle = static_cast<std::uint32_t>(mesh(group, upTo - before));
+                entry = mesh(group, upTo - before);
                 entry.extent = static_cast<float>(group.extent);
             }
             entry.upTo = upTo;
@@ -121,7 +120,7 @@ private:
             before = upTo;
         }
     }
-    std::size_t mesh(const EmitterGroup& group, float pick)
+    shared::Emitter mesh(const EmitterGroup& group, float pick)
     {
         std::vector<EmitterPart> parts;
         for (const EmitterEntry& e : group.entries) {
@@ -129,8 +128,8 @@ private:
             part.triangle = static_cast<std::uint32_t>(&e - group.entries.data()); // until its probability is known
             parts.push_back({ part, e.power, e.at });
         }
-        const std::size_t first = out_.list.size(),
-                          at = addParts(out_.list, parts, axesOf(scene_.geometry, group), pick);
+        const std::size_t first = out_.list.size();
+        const shared::Emitter mesh = addMesh(out_.list, parts, axesOf(scene_.geometry, group), pick);
         std::vector<float> picks(parts.size());
         for (const EmitterPart& p : parts) {
             picks[p.entry.triangle] = p.pick;
@@ -141,7 +140,7 @@ private:
                 out_.list[i] = entryOf(group, group.entries[part], picks[part]);
             }
         }
-        return at;
+        return mesh;
     }
     /// Fills the probabilities of its triangles, too.
     shared::Emitter entryOf(const EmitterGroup& group, const EmitterEntry& e, float pick)

@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t mostSorted = 4096;
 /// Parts nearer to each other than this share of all, along an axis, are in one row.
 constexpr double sameRow = 1e-4;
+constexpr std::uint32_t mostCellsOnSide = 1024;
 
 class Tree {
 public:
@@ -127,14 +128,59 @@ private:
     std::array<std::size_t, 3> order_ { 0, 1, 2 };
 };
 
+/// Of a tree from `node` on, what all numbers of a cell choose a part of.
+shared::Emitter cellOf(
+    const std::vector<shared::Emitter>& list, std::size_t node, std::array<double, 2> from, double side)
+{
+    constexpr double rounding = 1e-7;
+    std::array<double, 2> low { 0, 0 }, size { 1, 1 };
+    while (list[node].pair >= WEDGE_PAIR_SPLIT_X) {
+        const std::size_t number = list[node].pair == WEDGE_PAIR_SPLIT_X ? 0 : 1;
+        const double split = list[node].upTo, border = low[number] + size[number] * split;
+        if (from[number] + side <= border + rounding) {
+            size[number] *= split;
+            node = list[node].triangle;
+        } else if (from[number] >= border - rounding) {
+            low[number] = border;
+            size[number] *= 1.0 - split;
+            node = list[node].guide;
+        } else {
+            break;
+        }
+    }
+    const auto bits = [](double x) { return std::bit_cast<std::uint32_t>(static_cast<float>(x)); };
+    shared::Emitter cell {};
+    cell.pair = WEDGE_PAIR_MESH;
+    cell.triangle = static_cast<std::uint32_t>(node);
+    cell.upTo = static_cast<float>(1.0 / size[0]);
+    cell.extent = static_cast<float>(-low[0] / size[0]);
+    cell.guide = bits(1.0 / size[1]);
+    cell.header = bits(-low[1] / size[1]);
+    return cell;
+}
+
 } // namespace
 
-std::size_t addParts(
+shared::Emitter addMesh(
     std::vector<shared::Emitter>& list, std::span<EmitterPart> parts, const std::array<glm::dvec3, 3>& axes, float pick)
 {
     Tree tree(list, axes);
     tree.orderAxes(parts);
-    return tree.add(parts, pick, { 0, 0 });
+    const std::size_t root = tree.add(parts, pick, { 0, 0 });
+    // About as many cells as parts.
+    std::uint32_t side = 1;
+    while (4 * std::size_t { side } * side <= 2 * parts.size() && side < mostCellsOnSide) {
+        side *= 2;
+    }
+    shared::Emitter mesh {};
+    mesh.pair = WEDGE_PAIR_MESH;
+    mesh.triangle = static_cast<std::uint32_t>(list.size());
+    mesh.header = side;
+    for (std::uint32_t i = 0; i < side * side; ++i) {
+        list.push_back(cellOf(list, root,
+            { (i % side) / static_cast<double>(side), (i / side) / static_cast<double>(side) }, 1.0 / side));
+    }
+    return mesh;
 }
 
 } // namespace wedge::render

@@ -21,9 +21,9 @@ struct EmitterPart {
 
 /// Divides a mesh into halves again and again, so that the two numbers of a sample choose a part of it as they choose a
 /// point of a square: points that are stratified over the square are so over the mesh. Appends to `list` what kernels
-/// descend (WEDGE_PAIR_SPLIT_X), and returns which of it to begin at.
+/// descend, and returns the entry of the mesh (WEDGE_PAIR_MESH).
 /// axes: at right angles to each other. pick: the probability that the mesh is chosen.
-std::size_t addParts(std::vector<shared::Emitter>& list, std::span<EmitterPart> parts,
+shared::Emitter addMesh(std::vector<shared::Emitter>& list, std::span<EmitterPart> parts,
     const std::array<glm::dvec3, 3>& axes, float pick);
 
 } // namespace wedge::render

@@ -174,8 +174,12 @@ WEDGE_FN EmitterChoice chooseEmitter(EmitterData e, Vec2 u)
     if (out.entry.pair != WEDGE_PAIR_MESH) {
         return out;
     }
-    uint node = out.entry.triangle, pair = e.list[node].pair;
-    float x = out.at.x, y = out.at.y;
+    const uint side = out.entry.header;
+    const uint column = min((uint)(out.at.x * (float)side), side - 1u);
+    const uint row = min((uint)(out.at.y * (float)side), side - 1u);
+    __global const Emitter* cell = e.list + out.entry.triangle + row * side + column;
+    float x = out.at.x * cell->upTo + cell->extent, y = out.at.y * as_float(cell->guide) + as_float(cell->header);
+    uint node = cell->triangle, pair = e.list[node].pair;
     while (pair >= WEDGE_PAIR_SPLIT_X) {
         __global const Emitter* parts = e.list + node;
         const bool byX = pair == WEDGE_PAIR_SPLIT_X;

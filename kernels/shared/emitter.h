@@ -27,7 +27,11 @@
 #define WEDGE_PAIR_FIRST 1u ///< a, b, c and a, c, d
 #define WEDGE_PAIR_SECOND 2u ///< a, b, d and b, c, d
 #define WEDGE_PAIR_QUAD 3u ///< no triangle, but the area light of that number
-#define WEDGE_PAIR_MESH 4u ///< no triangle, but the parts of the entry of that number, which is behind the list
+/// No triangle, but a mesh: the square of a sample's two numbers is divided into `header` x `header` cells, row by row
+/// from the entry `triangle` on, which is behind the list. A cell has in `triangle` the entry that all of its numbers
+/// choose a part of, in `upTo` and `extent` what the first number is multiplied with for that and what is added to it,
+/// and in the bits of `guide` and `header` likewise for the second.
+#define WEDGE_PAIR_MESH 4u
 /// Two parts, of which `upTo` of one of a sample's two numbers chooses the first; `triangle` and `guide` are the
 /// entries that they are, `extent` and the bits of `header` one over the shares of the numbers that choose them.
 #define WEDGE_PAIR_SPLIT_X 5u ///< by the first number
