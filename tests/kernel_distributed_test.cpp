@@ -169,17 +169,19 @@ TEST_CASE("counts are the scaled demand to the nearest, within bounds, and never
 {
     onEveryRegion(150, [](KernelBench& bench, const Region& region, std::mt19937& random) {
         for (const float scale : { 0.0f, 1.0f, 37.5f, 1e30f }) {
+            const float even = scale == 1.0f ? 0.75f : 0.0f, mean = 26.0f;
             const auto demand = filledPlanes(region, 1, 1e30f,
                 [&](int, int, std::size_t) { return random() % 5 == 0 ? 0.0 : std::exp(uniform(random, -6, 6)); });
             const auto taken = filledPlanes(region, 1, 1u << 20, [&](int, int, std::size_t) { return random() % 40; });
             Output<std::uint32_t> wanted(bench, region, 1);
             const auto demands = bench.buffer(demand.values);
             const auto takens = bench.buffer(taken.values);
-            launchPixels(bench, "waves/distributed.cl", "scaleCounts", paramsOf(region), scale, 8u, 100u, demands,
-                takens, wanted.buffer());
+            launchPixels(bench, "waves/distributed.cl", "scaleCounts", paramsOf(region), scale, even, mean, 8u, 100u,
+                demands, takens, wanted.buffer());
             const Planes<std::uint32_t> found = wanted.read();
             everyPixel(region.window, [&](int x, int y) {
-                const double n = std::clamp(static_cast<double>(scale) * demand.at(x, y), 8.0, 100.0);
+                const double asked = std::clamp(static_cast<double>(scale) * demand.at(x, y), 8.0, 100.0);
+                const double n = asked + double { even } * (mean - asked);
                 if (std::fabs(n - std::floor(n) - 0.5) > 1e-4)
                     REQUIRE(
                         found.at(x, y) == std::max(static_cast<std::uint32_t>(std::floor(n + 0.5)), taken.at(x, y)));

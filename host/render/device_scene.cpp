@@ -320,13 +320,13 @@ DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, 
     environmentTable.upload(queue, lights.beyond.numbers);
     emitters.upload(queue, lights.emitters.list);
     emitterPicks.upload(queue, lights.emitters.picks);
-    emitterCount = static_cast<std::uint32_t>(lights.emitters.list.size());
+    emitterCount = lights.emitters.count;
     sharedLights.upload(queue, lights.shared.list);
     sharedPicks.upload(queue, lights.shared.picks);
     const EmitterList& ofTerm = lights.ofSharedTerm();
     sharedTerm = { .ofEmitters = lights.direct.shareEmitters(),
         .quads = !lights.direct.sharedQuads.empty(),
-        .count = static_cast<std::uint32_t>(ofTerm.list.size()),
+        .count = ofTerm.count,
         .low = ofTerm.low,
         .high = ofTerm.high,
         .directedWithin = ofTerm.directedWithin };

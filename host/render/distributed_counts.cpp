@@ -2,6 +2,7 @@
 // frame of several receivers a pixel are worth most.
 #include "host/render/distributed_samples.h"
 
+#include "host/render/count_scale.h"
 #include "host/render/filters/filter_graph.h"
 
 #include <algorithm>
@@ -18,59 +19,6 @@ using graph::Run;
 using graph::updates;
 using graph::value;
 using graph::writes;
-
-namespace {
-
-/// Of one kind of samples, as the device has them.
-struct Asked {
-    std::vector<float> values;
-    std::vector<std::uint32_t> taken; ///< which no count goes below
-    float rays; ///< of a sample
-    float least; ///< samples of a pixel
-    float room; ///< new samples of a tile's pixels together, at most
-};
-
-/// Samples of all pixels, where those have `scale` times what they ask for, `most` at most.
-double samplesAt(float scale, const Asked& asked, float most, const PlaneLayout& frame)
-{
-    double sum = 0;
-    std::vector<float> added((frame.width + WEDGE_TILE - 1) / WEDGE_TILE);
-    for (std::uint32_t top = 0; top < frame.height; top += WEDGE_TILE) {
-        std::ranges::fill(added, 0.0f);
-        for (std::uint32_t y = top; y < std::min(top + WEDGE_TILE, frame.height); ++y) {
-            const std::size_t row = shared::pixelIndex(0, y, frame.stride);
-            float before = 0;
-            for (std::size_t x = 0; x < frame.width; ++x) {
-                const float wanted = std::clamp(scale * asked.values[row + x], asked.least, most);
-                const auto taken = static_cast<float>(asked.taken[row + x]);
-                before += taken;
-                added[x / WEDGE_TILE] += std::max(wanted - taken, 0.0f);
-            }
-            sum += before;
-        }
-        for (const float tile : added) {
-            sum += std::min(tile, asked.room);
-        }
-    }
-    return sum;
-}
-
-/// The scale of all demands that makes the number of rays `budget`.
-float scaleOf(const std::vector<Asked>& asked, double budget, float most, const PlaneLayout& frame)
-{
-    double low = 1e-12, high = 1e12;
-    for (int step = 0; step < 40; ++step) {
-        const double scale = std::sqrt(low * high);
-        double rays = 0;
-        for (const Asked& one : asked) {
-            rays += one.rays * samplesAt(static_cast<float>(scale), one, most, frame);
-        }
-        (rays > budget ? high : low) = scale;
-    }
-    return static_cast<float>(low);
-}
-
-} // namespace
 
 void DistributedSamples::publishedCounts()
 {
@@ -138,14 +86,14 @@ void DistributedSamples::demandOfTerm(WaveTerm& term, const Blurs& blurs, graph:
         { p, reads("part", ofTexture), updates("sum", ofTextures) });
     const auto effective = gatheredCounts(f_, "pixels gathered", PassKind::Analysis,
         filterParams(f_.settings, f_.wholeFrame(), f_.graph.image()), m.beta);
-    demandOfRays(p, ofIrradiance, effective, m.beta, blurs, m.demand);
+    demandOfRays(p, ofIrradiance, effective, m.beta, blurs, m.uncertainty, m.demand);
 }
 
 void DistributedSamples::demandOfRays(const graph::Argument& p, const graph::Version& variance,
     const graph::Version& effective, const graph::Handle<Metres>& beta, const Blurs& blurs,
-    graph::Handle<Demand>& demand)
+    graph::Handle<Uncertainty>& uncertainty, graph::Handle<Demand>& demand)
 {
-    auto uncertainty = f_.graph.plane<Uncertainty>("uncertainty", graph::floats);
+    uncertainty = f_.graph.plane<Uncertainty>("uncertainty", graph::floats);
     f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "uncertaintyOfRays" },
         { p, reads("variance", variance), reads("effective", effective), reads("beta", beta), reads("lens", blurs.lens),
             keepsMotion() ? reads("along", blurs.along) : f_.nothing("along"), writes("uncertainty", uncertainty) });
@@ -191,7 +139,7 @@ void DistributedSamples::demands()
     // Nothing but lens and shutter averages textures and what emits.
     auto none = f_.graph.plane<Metres>("no widths", graph::floats);
     f_.fill("counts", none, -1.0f);
-    demandOfRays(pixels, ofTextures, ofTextures, none, own, demand_);
+    demandOfRays(pixels, ofTextures, ofTextures, none, own, uncertainty_, demand_);
     const DistributedSettings& d = f_.settings.distributed;
     const auto atLeast = [&](float apart, float together, const TermMeans& term, const graph::Handle<Demand>& least,
                              graph::Handle<Demand>& demand) {
@@ -223,18 +171,21 @@ void DistributedSamples::counts(const DistributedSamples& guide)
     const float least = std::min(std::max(leastOf(d.leastShare), first + 1.0f), spp);
     struct Kind {
         graph::Handle<Demand> demand;
+        graph::Handle<Uncertainty> uncertainty;
         graph::Handle<Count> taken;
         float rays, least, room;
     };
-    std::vector<Kind> kinds { { guide.demand_, counts_.taken, 1.0f, least,
+    std::vector<Kind> kinds { { guide.demand_, uncertainty_, counts_.taken, 1.0f, least,
         static_cast<float>(roomOfWaves(f_.layout, mostNew())) } }; // limitTiles()
     for (std::size_t i = 0; i < terms_.size(); ++i) {
-        kinds.push_back({ guide.terms_[i]->means.demand, terms_[i]->means.taken, terms_[i]->rays, leastOfTerms,
+        const TermMeans& m = terms_[i]->means;
+        kinds.push_back({ guide.terms_[i]->means.demand, m.uncertainty, m.taken, terms_[i]->rays, leastOfTerms,
             std::numeric_limits<float>::infinity() });
     }
     std::vector<graph::Argument> uses;
     for (const Kind& kind : kinds) {
         uses.push_back(reads("demand", kind.demand));
+        uses.push_back(reads("uncertainty", kind.uncertainty));
         // Of frames that keep no counts of terms it is one plane for all.
         if (shape_.full || &kind == kinds.data()) {
             uses.push_back(reads("taken", kind.taken));
@@ -244,20 +195,26 @@ void DistributedSamples::counts(const DistributedSamples& guide)
     f_.host(
         "count scale",
         [kinds, budget, most, layout = f_.layout, state = state_](Run& run) {
-            std::vector<Asked> asked;
+            std::vector<AskedSamples> asked;
             for (const Kind& kind : run.rehearsal() ? std::vector<Kind>() : kinds) {
                 asked.push_back({ run.buffer<float>(kind.demand).downloadAll(run.queue()),
-                    run.buffer<std::uint32_t>(kind.taken).downloadAll(run.queue()), kind.rays, kind.least, kind.room });
+                    run.buffer<std::uint32_t>(kind.taken).downloadAll(run.queue()),
+                    run.buffer<float>(kind.uncertainty).downloadAll(run.queue()), kind.rays, kind.least, kind.room });
             }
             state->scale = run.rehearsal() ? 1.0f : scaleOf(asked, budget, most, layout);
+            state->even = run.rehearsal() ? EvenCounts() : evenCounts(asked, state->scale, most, layout);
         },
         uses);
     const auto scale = made("scale", [state = state_](const graph::Launch&) { return state->scale; });
+    const auto even = made("even", [state = state_](const graph::Launch&) { return state->even.share; });
+    const auto mean = made("mean", [state = state_](const graph::Launch&) { return state->even.mean; });
+    const graph::Argument zero = value("even", 0.0f), noMean = value("mean", 0.0f);
     const auto wants = [&](const Kind& kind, graph::Handle<Count>& wanted) {
+        const bool primary = &kind == kinds.data();
         f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "scaleCounts" },
-            { pixels(), scale, value("least", static_cast<std::uint32_t>(kind.least)),
-                value("most", static_cast<std::uint32_t>(most)), reads("demand", kind.demand),
-                reads("taken", kind.taken), writes("wanted", wanted) });
+            { pixels(), scale, primary ? even : zero, primary ? mean : noMean,
+                value("least", static_cast<std::uint32_t>(kind.least)), value("most", static_cast<std::uint32_t>(most)),
+                reads("demand", kind.demand), reads("taken", kind.taken), writes("wanted", wanted) });
     };
     wants(kinds[0], counts_.wanted);
     for (std::size_t i = 0; i < terms_.size(); ++i) {

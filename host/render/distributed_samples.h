@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/render/count_scale.h"
 #include "host/render/effect.h"
 #include "host/render/frame_builder.h"
 #include "host/render/sample_memory.h"
@@ -64,6 +65,7 @@ public:
     struct State : TermState {
         bool complete = false; ///< once all samples that a frame, or a step of it, asks for were taken
         float scale = 1.0f; ///< of demands
+        EvenCounts even; ///< of primary samples
     };
     const std::shared_ptr<State>& state() const { return state_; }
 
@@ -102,7 +104,8 @@ private:
     };
 
     void demandOfRays(const graph::Argument& p, const graph::Version& variance, const graph::Version& effective,
-        const graph::Handle<Metres>& beta, const Blurs& blurs, graph::Handle<Demand>& demand);
+        const graph::Handle<Metres>& beta, const Blurs& blurs, graph::Handle<Uncertainty>& uncertainty,
+        graph::Handle<Demand>& demand);
     void demandOfTerm(WaveTerm& term, const Blurs& blurs, graph::Handle<Squares>& ofTextures);
     void countSamples();
     void startSums();
@@ -148,6 +151,7 @@ private:
     };
     std::vector<Added> added_;
     graph::Handle<Demand> demand_; ///< of primary samples
+    graph::Handle<Uncertainty> uncertainty_; ///< likewise, of each pixel's own
     graph::Handle<Radiance> emission_, plain_;
     std::optional<graph::Handle<Radiance>> seenLights_;
     graph::Handle<Pixels> lens_, along_;

@@ -1,5 +1,6 @@
 // The list of lights that sampling chooses among.
-#include "host/render/device_scene.h"
+#include "host/render/emitter_groups.h"
+#include "host/render/emitter_tree.h"
 #include "host/render/emitters.h"
 
 #include <algorithm>
@@ -8,210 +9,10 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <map>
-#include <unordered_map>
 #include <utility>
 
 namespace wedge::render {
 namespace {
-
-/// A triangle's corners in an order that does not depend on where it begins or which way it winds.
-using Corners = std::array<float, 9>;
-Corners cornersOf(const scene::Geometry& g, std::size_t triangle)
-{
-    std::array<std::array<float, 3>, 3> corners {};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const glm::vec3 c(cornerOf(g, triangle, k));
-        corners[k] = { c.x, c.y, c.z };
-    }
-    std::ranges::sort(corners);
-    Corners out {};
-    for (std::size_t i = 0; i < 9; ++i) {
-        out[i] = corners[i / 3][i % 3];
-    }
-    return out;
-}
-
-struct CornersHash {
-    std::size_t operator()(const Corners& corners) const
-    {
-        std::size_t hash = 0;
-        for (const float c : corners) {
-            hash = (hash ^ std::bit_cast<std::uint32_t>(c + 0.0f)) * 0x9e3779b97f4a7c15u; // + 0: -0 is 0
-            hash ^= hash >> 32;
-        }
-        return hash;
-    }
-};
-
-/// What is added up of an object's triangles.
-struct Moments {
-    double power = 0, squares = 0; ///< squares: of the distance from the origin of coordinates, times power
-    glm::dvec3 centre { 0 }; ///< times power
-
-    double extent() const
-    {
-        const glm::dvec3 middle = centre / power;
-        return std::sqrt(std::max(squares / power - glm::dot(middle, middle), 0.0));
-    }
-};
-
-/// One triangle before it is part of the list.
-struct Emitting {
-    std::size_t triangle;
-    double power;
-};
-
-/// WEDGE_PAIR_* of two that are a quadrilateral's and emit about as much.
-std::uint32_t pairOf(const scene::Geometry& g, const Emitting& one, const Emitting& other)
-{
-    const bool alike = other.triangle == one.triangle + 1
-        && !(std::abs(one.power - other.power) > 0.1 * std::max(one.power, other.power));
-    return alike ? pairAt(g, one.triangle) : WEDGE_PAIR_NONE;
-}
-
-/// Power of an area light, W/sr of one side, as triangles' is counted, and the root of the mean squared distance of its
-/// light from its middle, metres.
-struct QuadMoments {
-    double power, extent;
-};
-
-QuadMoments momentsOf(const scene::AreaLight& quad)
-{
-    // Of a Gaussian cut at c deviations: 1 - c phi(c) / (Phi(c) - 1/2), of its variance; of a uniform profile a third.
-    const double c = quad.cut, half = 0.5 * std::erf(c / std::sqrt(2.0));
-    const double density = std::exp(-0.5 * c * c) / std::sqrt(2.0 * std::acos(-1.0));
-    const bool uniform = quad.profile == scene::LightProfile::Uniform;
-    const double square = uniform ? 1.0 / 3.0 : (1.0 - c * density / half) / (c * c);
-    const glm::dvec3 u(quad.halfU), v(quad.halfV);
-    return { powerOf(profileArea(quad), quad.radiance) * (quad.twoSided ? 1.0 : 0.5),
-        std::sqrt(square * (glm::dot(u, u) + glm::dot(v, v))) };
-}
-
-/// What is chosen together.
-struct Entry {
-    double power, extent;
-    std::size_t number; ///< the first triangle, or the quad
-    std::uint32_t pair;
-    glm::vec3 at; ///< the middle of its object's light
-    std::uint32_t order = 0;
-};
-
-std::vector<Entry> entriesOf(const scene::Scene& scene, const std::vector<Emitting>& triangles,
-    std::span<const std::uint32_t> quads, std::map<std::uint32_t, Moments>& objects)
-{
-    const scene::Geometry& g = scene.geometry;
-    std::vector<Entry> out;
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const Emitting& e = triangles[i];
-        const std::uint32_t pair = i + 1 < triangles.size() ? pairOf(g, e, triangles[i + 1]) : WEDGE_PAIR_NONE;
-        const bool paired = pair != WEDGE_PAIR_NONE;
-        const Moments& object = objects[g.objectIds[e.triangle]];
-        out.push_back({ e.power + (paired ? triangles[i + 1].power : 0.0), object.extent(), e.triangle, pair,
-            glm::vec3(object.centre / object.power) });
-        i += paired ? 1 : 0;
-    }
-    for (const std::uint32_t i : quads) {
-        const QuadMoments quad = momentsOf(scene.areaLights[i]);
-        out.push_back({ quad.power, quad.extent, i, WEDGE_PAIR_QUAD, scene.areaLights[i].centre });
-    }
-    return out;
-}
-
-/// Bits of a 10-bit number, three apart.
-std::uint32_t spreadBits(std::uint32_t x)
-{
-    x = (x | (x << 16)) & 0x030000ffu;
-    x = (x | (x << 8)) & 0x0300f00fu;
-    x = (x | (x << 4)) & 0x030c30c3u;
-    return (x | (x << 2)) & 0x09249249u;
-}
-
-/// Along a Morton curve, object by object: numbers that are stratified over the list are so in space. Within an object
-/// meshes' own order is the better one, which makes strips and rings of triangles.
-void sortInSpace(std::vector<Entry>& entries)
-{
-    glm::vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
-    for (const Entry& e : entries) {
-        low = glm::min(low, e.at);
-        high = glm::max(high, e.at);
-    }
-    const glm::vec3 extent = high - low;
-    const float largest = std::max({ extent.x, extent.y, extent.z, std::numeric_limits<float>::min() });
-    for (Entry& e : entries) {
-        const glm::uvec3 cell(glm::clamp((e.at - low) / largest * 1024.0f, 0.0f, 1023.0f));
-        e.order = spreadBits(cell.x) | (spreadBits(cell.y) << 1) | (spreadBits(cell.z) << 2);
-    }
-    std::ranges::stable_sort(entries, {}, &Entry::order);
-}
-
-/// A list that is being made, one entry after the other.
-class Choices {
-public:
-    explicit Choices(double total)
-        : total_(total)
-    {
-    }
-    /// Returns the probability after rounding: what has 0 is found by reflected directions alone.
-    float add(const Entry& e)
-    {
-        sum_ += e.power;
-        const float upTo = std::min(static_cast<float>(sum_ / total_), 1.0f), pick = upTo - before_;
-        list_.push_back({ upTo, static_cast<std::uint32_t>(e.number), static_cast<float>(e.extent), e.pair, 0 });
-        before_ = upTo;
-        return pick;
-    }
-    std::vector<shared::Emitter> take()
-    {
-        std::size_t chosen = 0;
-        for (std::size_t i = 0; i < list_.size(); ++i) {
-            const float from = static_cast<float>(i) / static_cast<float>(list_.size());
-            while (chosen + 1 < list_.size() && list_[chosen].upTo <= from) {
-                ++chosen;
-            }
-            list_[i].guide = static_cast<std::uint32_t>(chosen);
-        }
-        return std::move(list_);
-    }
-
-private:
-    double total_, sum_ = 0;
-    float before_ = 0;
-    std::vector<shared::Emitter> list_;
-};
-
-/// twins: triangles that lie in the place of another one, and that one.
-std::vector<Emitting> emitting(const scene::Scene& scene, std::span<const std::size_t> elsewhere,
-    std::map<std::uint32_t, Moments>& objects, std::vector<std::pair<std::size_t, std::size_t>>& twins)
-{
-    const scene::Geometry& g = scene.geometry;
-    std::vector<Emitting> out;
-    std::unordered_map<Corners, std::size_t, CornersHash> known;
-    for (std::size_t t = 0; t < g.materialIds.size(); ++t) {
-        if (!mayEmit(scene, t) || std::ranges::binary_search(elsewhere, t)) {
-            continue;
-        }
-        const glm::dvec3 a = cornerOf(g, t, 0), b = cornerOf(g, t, 1), c = cornerOf(g, t, 2),
-                         middle = (a + b + c) / 3.0;
-        const double power = texturedPower(scene, t);
-        if (!(power > 0)) {
-            continue;
-        }
-        // Faces that exporters write twice, once each way round, are one: rays meet one of them.
-        if (const auto [first, isFirst] = known.try_emplace(cornersOf(g, t), t); !isFirst) {
-            twins.emplace_back(t, first->second);
-            continue;
-        }
-        out.push_back({ t, power });
-        Moments& object = objects[g.objectIds[t]];
-        object.power += power;
-        object.centre += power * middle;
-        // The mean square over a triangle: that of its middle and a twelfth of those of the corners from there.
-        const auto squared = [&](const glm::dvec3& p) { return glm::dot(p - middle, p - middle); };
-        object.squares += power * (glm::dot(middle, middle) + (squared(a) + squared(b) + squared(c)) / 12.0);
-    }
-    return out;
-}
 
 /// Where a list's lights are, and how far their reflected directions may matter.
 struct Surroundings {
@@ -236,6 +37,8 @@ struct Surroundings {
         }
         include(4.0 * glm::length(glm::cross(quad.halfU, quad.halfV)), pick);
     }
+    /// What is never chosen is found by directions alone, from wherever.
+    void alone(bool found) { sparsest = found ? std::numeric_limits<double>::infinity() : sparsest; }
     /// Points of density d on a surface at the distance r have at least the density d r^2 in 1/sr, reflected
     /// directions at most 1/pi.
     float directedWithin() const { return static_cast<float>(std::sqrt(sparsest / std::acos(-1.0))); }
@@ -246,11 +49,185 @@ private:
         low = glm::min(low, point);
         high = glm::max(high, point);
     }
-    /// What is never chosen is found by directions alone, from wherever.
     void include(double area, float pick)
     {
         sparsest = std::max(sparsest, pick > 0 ? area / double { pick } : std::numeric_limits<double>::infinity());
     }
+};
+
+/// Axes of a mesh: a side of its strongest face, across it, and that one's normal.
+std::array<glm::dvec3, 3> axesOf(const scene::Geometry& g, const EmitterGroup& group)
+{
+    const auto strongest = std::ranges::max_element(group.entries, {}, &EmitterEntry::power);
+    const std::size_t t = strongest->number;
+    const glm::dvec3 a = cornerOf(g, t, 0), along = glm::normalize(cornerOf(g, t, 1) - a),
+                     normal = glm::normalize(glm::cross(along, cornerOf(g, t, 2) - a));
+    return { along, glm::cross(normal, along), normal };
+}
+
+/// A list that is being made.
+class ListMaker {
+public:
+    ListMaker(const scene::Scene& scene, const EmitterGroups& groups)
+        : scene_(scene)
+        , groups_(groups)
+    {
+        out_.power = 2.0 * groups.power;
+        out_.quadPicks.assign(scene.areaLights.size(), WEDGE_PICK_ELSEWHERE);
+        const std::size_t count = scene.geometry.materialIds.size();
+        std::size_t some = 0;
+        while (some < count && !mayEmit(scene, some)) {
+            ++some;
+        }
+        if (some < count) {
+            out_.picks.assign(count, 0.0f);
+        }
+        tables_.assign(groups.textures.size(), 0);
+        list();
+        guide();
+        for (std::size_t t = 0; t < count && some < count; ++t) {
+            around_.alone(isFoundAlone(scene, t));
+        }
+        out_.low = around_.low;
+        out_.high = around_.high;
+        out_.directedWithin = around_.directedWithin();
+        for (const EmitterTwin& twin : groups.twins) {
+            addTwin(twin);
+        }
+    }
+    EmitterList take() { return std::move(out_); }
+
+private:
+    void list()
+    {
+        out_.count = static_cast<std::uint32_t>(groups_.groups.size());
+        out_.list.resize(out_.count);
+        double sum = 0;
+        float before = 0;
+        for (std::size_t i = 0; i < groups_.groups.size(); ++i) {
+            const EmitterGroup& group = groups_.groups[i];
+            sum += group.power;
+            const float upTo = std::min(static_cast<float>(sum / groups_.power), 1.0f);
+            shared::Emitter entry {};
+            if (group.entries.size() == 1) {
+                entry = entryOf(group, group.entries[0], upTo - before);
+            } else {
+                entry = mesh(group, upTo - before);
+                entry.extent = static_cast<float>(group.extent);
+            }
+            entry.upTo = upTo;
+            out_.list[i] = entry;
+            before = upTo;
+        }
+    }
+    shared::Emitter mesh(const EmitterGroup& group, float pick)
+    {
+        std::vector<EmitterPart> parts;
+        for (const EmitterEntry& e : group.entries) {
+            shared::Emitter part {};
+            part.triangle = static_cast<std::uint32_t>(&e - group.entries.data()); // until its probability is known
+            parts.push_back({ part, e.power, e.at });
+        }
+        const std::size_t first = out_.list.size();
+        const shared::Emitter mesh = addMesh(out_.list, parts, axesOf(scene_.geometry, group), pick);
+        std::vector<float> picks(parts.size());
+        for (const EmitterPart& p : parts) {
+            picks[p.entry.triangle] = p.pick;
+        }
+        for (std::size_t i = first; i < out_.list.size(); ++i) {
+            if (out_.list[i].pair == WEDGE_PAIR_NONE) {
+                const std::size_t part = out_.list[i].triangle;
+                out_.list[i] = entryOf(group, group.entries[part], picks[part]);
+            }
+        }
+        return mesh;
+    }
+    /// Fills the probabilities of its triangles, too.
+    shared::Emitter entryOf(const EmitterGroup& group, const EmitterEntry& e, float pick)
+    {
+        shared::Emitter out {};
+        out.triangle = static_cast<std::uint32_t>(e.number);
+        out.extent = static_cast<float>(group.extent);
+        out.pair = e.pair;
+        if (e.pair == WEDGE_PAIR_QUAD) {
+            out_.quadPicks[e.number] = pick;
+            around_.add(scene_.areaLights[e.number], pick);
+            return out;
+        }
+        const std::size_t count = e.pair == WEDGE_PAIR_NONE ? 1 : 2;
+        const std::uint32_t table = e.texture == EmitterEntry::none ? 0 : tableOf(e.texture);
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t t = e.number + i;
+            const float own = pick / static_cast<float>(count);
+            around_.add(scene_.geometry, t, own);
+            out_.picks[t] = own;
+            if (table != 0 && pick > 0) {
+                const std::uint32_t header =
+                    addHeader(pick, e.pair | (i > 0 ? WEDGE_HEADER_SECOND : 0u), { 0, 1 }, table);
+                out_.picks[t] = std::bit_cast<float>(WEDGE_PICK_TABLE + header);
+                out.header = i == 0 ? header : out.header;
+            }
+        }
+        return out;
+    }
+    /// 0: none.
+    std::uint32_t tableOf(std::size_t texture)
+    {
+        if (tables_[texture] == 0 && !groups_.textures[texture].cells.empty()) {
+            tables_[texture] = static_cast<std::uint32_t>(out_.picks.size());
+            const std::vector<float> table = emitterTable(groups_.textures[texture]);
+            out_.picks.insert(out_.picks.end(), table.begin(), table.end());
+        }
+        return tables_[texture];
+    }
+    /// corners: of the triangle, that are the first two of the entry's.
+    std::uint32_t addHeader(float pick, std::uint32_t shape, std::array<std::uint32_t, 2> corners, std::uint32_t table)
+    {
+        const auto header = static_cast<std::uint32_t>(out_.picks.size());
+        const std::uint32_t order = corners[0] | (corners[1] << 2);
+        out_.picks.insert(out_.picks.end(),
+            { pick, std::bit_cast<float>(shape | (order << WEDGE_HEADER_CORNERS)), std::bit_cast<float>(table) });
+        return header;
+    }
+    void addTwin(const EmitterTwin& twin)
+    {
+        const float pick = out_.picks[twin.first];
+        out_.picks[twin.triangle] = pick;
+        if (pick < 2.0f) {
+            return;
+        }
+        const std::size_t header = std::bit_cast<std::uint32_t>(pick) - WEDGE_PICK_TABLE;
+        std::array<std::uint32_t, 2> corners {};
+        for (std::uint32_t k = 0; k < 2; ++k) {
+            while (corners[k] < 2
+                && cornerOf(scene_.geometry, twin.triangle, corners[k]) != cornerOf(scene_.geometry, twin.first, k)) {
+                ++corners[k];
+            }
+        }
+        constexpr std::uint32_t kinds = (1u << WEDGE_HEADER_CORNERS) - 1u;
+        const std::uint32_t shape = std::bit_cast<std::uint32_t>(out_.picks[header + 1]) & kinds;
+        const auto table = std::bit_cast<std::uint32_t>(out_.picks[header + 2]);
+        const float entry = out_.picks[header];
+        out_.picks[twin.triangle] = std::bit_cast<float>(WEDGE_PICK_TABLE + addHeader(entry, shape, corners, table));
+    }
+    /// Where the search for each of as many stripes of numbers begins.
+    void guide()
+    {
+        std::uint32_t chosen = 0;
+        for (std::uint32_t i = 0; i < out_.count; ++i) {
+            const float from = static_cast<float>(i) / static_cast<float>(out_.count);
+            while (chosen + 1 < out_.count && out_.list[chosen].upTo <= from) {
+                ++chosen;
+            }
+            out_.list[i].guide = chosen;
+        }
+    }
+
+    const scene::Scene& scene_;
+    const EmitterGroups& groups_;
+    EmitterList out_;
+    Surroundings around_;
+    std::vector<std::uint32_t> tables_; ///< of each texture: where its table begins, 0 until it is made
 };
 
 } // namespace
@@ -258,62 +235,13 @@ private:
 EmitterList emitterList(
     const scene::Scene& scene, std::span<const std::size_t> elsewhere, std::span<const std::uint32_t> quads)
 {
-    EmitterList out;
-    std::map<std::uint32_t, Moments> objects;
-    std::vector<std::pair<std::size_t, std::size_t>> twins;
-    const std::vector<Emitting> triangles = emitting(scene, elsewhere, objects, twins);
-    double total = 0;
-    for (const Emitting& e : triangles) {
-        total += e.power;
+    const EmitterGroups groups = emitterGroups(scene, elsewhere, quads);
+    if (!(groups.power > 0)) {
+        return {};
     }
-    for (const std::uint32_t i : quads) {
-        total += momentsOf(scene.areaLights[i]).power;
-    }
-    if (!(total > 0)) {
-        return out;
-    }
-    out.power = 2.0 * total;
-    out.quadPicks.assign(scene.areaLights.size(), WEDGE_PICK_ELSEWHERE);
-    std::vector<float>& picks = out.picks;
-    const std::size_t count = scene.geometry.materialIds.size();
-    std::size_t some = 0;
-    while (some < count && !mayEmit(scene, some)) {
-        ++some;
-    }
-    if (some < count) {
-        picks.assign(count, 0.0f);
-    }
-    std::vector<Entry> entries = entriesOf(scene, triangles, quads, objects);
-    sortInSpace(entries);
-    Choices choices(total);
-    Surroundings around;
-    for (const Entry& e : entries) {
-        const float pick = choices.add(e);
-        if (e.pair == WEDGE_PAIR_QUAD) {
-            out.quadPicks[e.number] = pick;
-            around.add(scene.areaLights[e.number], pick);
-            continue;
-        }
-        const std::size_t triangleCount = e.pair == WEDGE_PAIR_NONE ? 1 : 2;
-        for (std::size_t t = e.number; t < e.number + triangleCount; ++t) {
-            picks[t] = pick / static_cast<float>(triangleCount);
-            around.add(scene.geometry, t, picks[t]);
-        }
-    }
-    for (std::size_t t = 0; t < picks.size(); ++t) {
-        if (isFoundAlone(scene, t)) {
-            around.sparsest = std::numeric_limits<double>::infinity();
-        }
-    }
-    out.low = around.low;
-    out.high = around.high;
-    out.directedWithin = around.directedWithin();
-    out.list = choices.take();
-    for (const auto& [twin, first] : twins) {
-        picks[twin] = picks[first];
-    }
+    EmitterList out = ListMaker(scene, groups).take();
     for (const std::size_t t : elsewhere) {
-        picks[t] = WEDGE_PICK_ELSEWHERE;
+        out.picks[t] = WEDGE_PICK_ELSEWHERE;
     }
     return out;
 }

@@ -1,81 +1,20 @@
 #include "host/render/emitters.h"
 
-#include "host/render/cutouts.h"
-#include "kernels/shared/bsdf.h"
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 
 namespace wedge::render {
 namespace {
 
-// Numbers an axis that a triangle's texture is looked up at.
-constexpr int textureSamples = 8;
-
-float luminanceOf(glm::vec3 c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
-
 const scene::Material& materialOf(const scene::Scene& scene, std::size_t triangle)
 {
     return scene.materials[scene.geometry.materialIds[triangle]];
 }
 
-/// Calls add(i) for texels i of a triangle's texture, the nearest to even points of it.
-template <typename Add>
-void forTexels(const scene::Scene& scene, const scene::Texture& texture, std::size_t triangle, const Add& add)
-{
-    const scene::Geometry& g = scene.geometry;
-    const auto coordinates = [&](int corner) {
-        const std::size_t v = g.indices[3 * triangle + static_cast<std::size_t>(corner)];
-        return glm::dvec2(g.texcoords[2 * v], g.texcoords[2 * v + 1]);
-    };
-    const glm::dvec2 a = coordinates(0), ab = coordinates(1) - a, ac = coordinates(2) - a;
-    const auto texel = [](double x, int size) {
-        const double within = x - std::floor(x);
-        return std::isfinite(within) ? std::min(static_cast<int>(within * size), size - 1) : 0;
-    };
-    for (int i = 0; i < textureSamples * textureSamples; ++i) {
-        const int row = i / textureSamples, column = i % textureSamples;
-        const shared::Vec2 w = shared::squareToTriangle(shared::vec2(
-            (static_cast<float>(column) + 0.5f) / textureSamples, (static_cast<float>(row) + 0.5f) / textureSamples));
-        const glm::dvec2 at = a + ab * static_cast<double>(w.x) + ac * static_cast<double>(w.y);
-        add(static_cast<std::size_t>(texel(at.y, texture.height)) * static_cast<std::size_t>(texture.width)
-            + static_cast<std::size_t>(texel(at.x, texture.width)));
-    }
-}
-
-constexpr double textureShare = 1.0 / (textureSamples * textureSamples);
-
-/// Of the texture's colours over a triangle, nearest texels; never quite 0, where something bright may lie between.
-glm::vec3 meanColour(const scene::Scene& scene, const scene::Texture& texture, std::size_t triangle)
-{
-    // 2.2 in the place of the sRGB curve: these are probabilities.
-    static const std::array<double, 256> linear = [] {
-        std::array<double, 256> out {};
-        for (std::size_t i = 0; i < out.size(); ++i) {
-            out[i] = std::pow(static_cast<double>(i) / 255.0, 2.2);
-        }
-        return out;
-    }();
-    glm::dvec3 sum(0);
-    forTexels(scene, texture, triangle, [&](std::size_t texel) {
-        for (int channel = 0; channel < 3; ++channel) {
-            sum[channel] += linear[(texture.rgba[texel] >> (8 * channel)) & 255u];
-        }
-    });
-    return glm::max(glm::vec3(sum * textureShare), glm::vec3(1e-3f));
-}
-
-/// Of the texture's opacities likewise.
-float meanOpacity(const scene::Scene& scene, const scene::Texture& texture, std::size_t triangle)
-{
-    double sum = 0;
-    forTexels(scene, texture, triangle, [&](std::size_t texel) { sum += opacityOf(texture, texel) / 255.0; });
-    return std::max(static_cast<float>(sum * textureShare), 1e-3f);
-}
-
 } // namespace
+
+float luminanceOf(glm::vec3 c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
 glm::dvec3 cornerOf(const scene::Geometry& g, std::size_t triangle, std::size_t k)
 {
@@ -101,18 +40,6 @@ double plainPower(const scene::Scene& scene, std::size_t triangle)
     return mayEmit(scene, triangle) ? powerOf(areaOf(scene.geometry, triangle),
                materialOf(scene, triangle).emission * materialOf(scene, triangle).opacity)
                                     : 0.0;
-}
-
-double texturedPower(const scene::Scene& scene, std::size_t triangle)
-{
-    const scene::Material& m = materialOf(scene, triangle);
-    const glm::vec3 radiance = m.emissionTexture < 0
-        ? m.emission
-        : m.emission * meanColour(scene, scene.textures[static_cast<std::size_t>(m.emissionTexture)], triangle);
-    const float opacity = m.opacityTexture < 0
-        ? 1.0f
-        : meanOpacity(scene, scene.textures[static_cast<std::size_t>(m.opacityTexture)], triangle);
-    return powerOf(areaOf(scene.geometry, triangle), radiance * (m.opacity * opacity));
 }
 
 bool mayEmit(const scene::Scene& scene, std::size_t triangle)

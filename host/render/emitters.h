@@ -14,11 +14,13 @@ namespace wedge::render {
 bool hasEmitters(const scene::Scene& scene);
 
 /// Triangles that emit, and area lights, as kernels choose among them (kernels/light/emitters.h): in proportion to
-/// their power, of triangles area times the mean luminance of what they emit.
+/// their power, of triangles area times the luminance of what they emit, and where on them by their texture.
 struct EmitterList {
-    std::vector<shared::Emitter> list; ///< mostly in the order of where they are; empty without any
-    /// Of each triangle of the scene: the probability that a number chooses it, or WEDGE_PICK_ELSEWHERE; empty where no
-    /// material in use emits.
+    /// Mostly in the order of where they are, then the parts of those that are meshes; empty without any.
+    std::vector<shared::Emitter> list;
+    std::uint32_t count = 0; ///< of the list without parts
+    /// Of each triangle of the scene: the probability that a number chooses it, or WEDGE_PICK_ELSEWHERE, or
+    /// WEDGE_PICK_TABLE, and behind them what that stands for; empty where no material in use emits.
     std::vector<float> picks;
     std::vector<float> quadPicks; ///< of each area light of the scene, likewise; empty where the list is
     double power = 0; ///< W/sr, of both sides, as lights' are counted
@@ -46,15 +48,15 @@ bool mayEmit(const scene::Scene& scene, std::size_t triangle);
 /// Area of a triangle when the shutter opens, m^2.
 double areaOf(const scene::Geometry& g, std::size_t triangle);
 
+/// Of linear RGB.
+float luminanceOf(glm::vec3 c);
+
 /// Area, m^2, times the luminance of radiance, W/(sr m^2): 0 of what has no area, or more than numbers can hold.
 double powerOf(double area, glm::vec3 radiance);
 
 /// A triangle's power for one side, W/sr, from its material's emission without its texture: 0 if it is no light, having
 /// no area, emitting nothing, or more than numbers can hold.
 double plainPower(const scene::Scene& scene, std::size_t triangle);
-
-/// The same with the mean of its texture, at 64 of its points.
-double texturedPower(const scene::Scene& scene, std::size_t triangle);
 
 /// WEDGE_PAIR_* of a triangle and the next one as the halves of a quadrilateral.
 std::uint32_t pairAt(const scene::Geometry& g, std::size_t triangle);

@@ -25,6 +25,7 @@ struct TermMeans {
     // Made of these:
     graph::Handle<Metres> beta; ///< width of the filter
     graph::Handle<Demand> demand;
+    graph::Handle<Uncertainty> uncertainty; ///< of the pixel's own samples
 };
 
 /// What a frame is to have of its pixels, and in which shape.

@@ -13,7 +13,7 @@ typedef struct {
     __global const AreaLight* quads; ///< which WEDGE_PAIR_QUAD numbers
     __global const Emitter* list;
     __global const float* picks; ///< of each triangle of the scene: the probability that it is chosen, or
-                                 ///< WEDGE_PICK_ELSEWHERE: it is part of another term
+                                 ///< WEDGE_PICK_ELSEWHERE: it is part of another term, or WEDGE_PICK_TABLE
     uint count; ///< of the list
     float share; ///< probability that a path's vertex samples them and not other lights
 #ifdef WEDGE_CUTOUTS
@@ -58,6 +58,69 @@ WEDGE_FN uint findEmitter(EmitterData e, float number)
     return low;
 }
 
+/// The first of `count` numbers that reaches beyond `number`, which the last one does.
+WEDGE_FN uint findCell(__global const float* upTo, uint count, float number)
+{
+    uint low = 0u, high = count - 1u;
+    while (low < high) {
+        const uint middle = (low + high) / 2u;
+        const bool below = upTo[middle] <= number;
+        low = below ? middle + 1u : low;
+        high = below ? high : middle;
+    }
+    return low;
+}
+
+/// Where numbers that are even over the square are, spread as a table says, and in *density how much denser there.
+WEDGE_FN Vec2 spreadByTable(__global const float* table, Vec2 u, float* density)
+{
+    const uint columns = as_uint(table[0]), rows = as_uint(table[1]);
+    __global const float* ofRows = table + 2u;
+    const float below1 = 0.99999994f;
+    const Vec2 number = vec2(fmin(u.x, below1), fmin(u.y, below1));
+    const uint y = findCell(ofRows, rows, number.y);
+    __global const float* ofColumns = ofRows + rows + y * columns;
+    const uint x = findCell(ofColumns, columns, number.x);
+    const float fromX = x > 0u ? ofColumns[x - 1u] : 0.0f, fromY = y > 0u ? ofRows[y - 1u] : 0.0f;
+    const float partX = ofColumns[x] - fromX, partY = ofRows[y] - fromY;
+    *density = partX * (float)columns * (partY * (float)rows);
+    return vec2(((float)x + clamp((number.x - fromX) / fmax(partX, 1e-30f), 0.0f, 1.0f)) / (float)columns,
+        ((float)y + clamp((number.y - fromY) / fmax(partY, 1e-30f), 0.0f, 1.0f)) / (float)rows);
+}
+
+/// How much denser such numbers are at a place of the square.
+WEDGE_FN float densityInTable(__global const float* table, Vec2 at)
+{
+    const uint columns = as_uint(table[0]), rows = as_uint(table[1]);
+    const uint x = min((uint)(fmax(at.x, 0.0f) * (float)columns), columns - 1u);
+    const uint y = min((uint)(fmax(at.y, 0.0f) * (float)rows), rows - 1u);
+    __global const float* ofRows = table + 2u;
+    __global const float* ofColumns = ofRows + rows + y * columns;
+    const float partX = ofColumns[x] - (x > 0u ? ofColumns[x - 1u] : 0.0f);
+    const float partY = ofRows[y] - (y > 0u ? ofRows[y - 1u] : 0.0f);
+    return partX * (float)columns * (partY * (float)rows);
+}
+
+/// The probability that a triangle is chosen, or 0, times how much denser than on average points are at the weights of
+/// its second and third corner.
+WEDGE_FN float pickAt(EmitterData e, uint triangle, Vec2 weights)
+{
+    const float pick = e.picks[triangle];
+    if (pick < 2.0f) {
+        return fmax(pick, 0.0f);
+    }
+    __global const float* header = e.picks + (as_uint(pick) - WEDGE_PICK_TABLE);
+    const uint shape = as_uint(header[1]), pair = shape & 3u;
+    const uint first = (shape >> WEDGE_HEADER_CORNERS) & 3u, second = (shape >> (WEDGE_HEADER_CORNERS + 2u)) & 3u;
+    // The weights of the second and third corner of the entry's triangle, which this one need not begin as.
+    const float own[3] = { 1.0f - weights.x - weights.y, weights.x, weights.y };
+    const Vec2 ofEntry = vec2(own[second], own[3u - first - second]);
+    const uint isSecond = (shape & WEDGE_HEADER_SECOND) != 0u ? 1u : 0u;
+    const Vec2 at = pair != WEDGE_PAIR_NONE ? pairToSquare(pair, isSecond, ofEntry) : triangleToSquare(ofEntry);
+    const float share = pair != WEDGE_PAIR_NONE ? 0.5f : 1.0f;
+    return share * header[0] * densityInTable(e.picks + as_uint(header[2]), at);
+}
+
 WEDGE_FN Vec3 emittedAt(SurfaceData data, uint triangle, Vec2 weights)
 {
     const MaterialData material = data.materials[data.materialIds[triangle]];
@@ -91,24 +154,86 @@ WEDGE_FN EmitterPoint sampleQuad(AreaLight light, Vec2 u, float pick)
     return p;
 }
 
-/// The point of the numbers u at a time. The first number chooses the triangle and goes on within it: what is
-/// stratified over the square is so over the list, too.
-WEDGE_FN EmitterPoint sampleEmitter(EmitterData e, Vec2 u, float time)
+/// An entry, and where in its square a sample's point is.
+typedef struct {
+    Emitter entry;
+    float pick; ///< the entry's probability, or that of its mesh
+    Vec2 at;
+} EmitterChoice;
+
+/// The first number chooses in the list and goes on within the entry, both in a mesh: what is stratified over the
+/// square is so over the list and over each mesh, too.
+WEDGE_FN EmitterChoice chooseEmitter(EmitterData e, Vec2 u)
 {
     const uint i = findEmitter(e, u.x);
-    const Emitter emitter = e.list[i];
+    EmitterChoice out;
+    out.entry = e.list[i];
     const float from = i > 0u ? e.list[i - 1u].upTo : 0.0f;
-    const float within = clamp((u.x - from) / fmax(emitter.upTo - from, 1e-30f), 0.0f, 1.0f);
+    out.pick = out.entry.upTo - from;
+    out.at = vec2(clamp((u.x - from) / fmax(out.pick, 1e-30f), 0.0f, 1.0f), u.y);
+    if (out.entry.pair != WEDGE_PAIR_MESH) {
+        return out;
+    }
+    const uint side = out.entry.header;
+    const uint column = min((uint)(out.at.x * (float)side), side - 1u);
+    const uint row = min((uint)(out.at.y * (float)side), side - 1u);
+    __global const Emitter* cell = e.list + out.entry.triangle + row * side + column;
+    float x = out.at.x * cell->upTo + cell->extent, y = out.at.y * as_float(cell->guide) + as_float(cell->header);
+    uint node = cell->triangle, pair = e.list[node].pair;
+    while (pair >= WEDGE_PAIR_SPLIT_X) {
+        __global const Emitter* parts = e.list + node;
+        const bool byX = pair == WEDGE_PAIR_SPLIT_X;
+        const float split = parts->upTo, number = byX ? x : y;
+        const bool first = number < split;
+        const float within = first ? number * parts->extent : (number - split) * as_float(parts->header);
+        x = byX ? within : x;
+        y = byX ? y : within;
+        node = first ? parts->triangle : parts->guide;
+        pair = e.list[node].pair;
+    }
+    out.entry = e.list[node];
+    out.at = vec2(clamp(x, 0.0f, 1.0f), clamp(y, 0.0f, 1.0f));
+    return out;
+}
+
+/// A place on a triangle that emits.
+typedef struct {
+    uint triangle;
+    Vec2 weights; ///< of its second and third corner
+    float pick; ///< as pickAt()
+} EmitterPlace;
+
+/// Where on an entry's triangles the choice is.
+WEDGE_FN EmitterPlace placeOf(EmitterData e, EmitterChoice choice)
+{
+    const Emitter emitter = choice.entry;
+    Vec2 at = choice.at;
     uint second = 0u;
-    const Vec2 at = vec2(within, u.y);
-    if (emitter.pair == WEDGE_PAIR_QUAD) {
-        EmitterPoint p = sampleQuad(e.quads[emitter.triangle], at, emitter.upTo - from);
-        p.extent = emitter.extent;
+    float denser = 1.0f;
+    if (emitter.header != 0u) {
+        at = spreadByTable(e.picks + as_uint(e.picks[emitter.header + 2u]), at, &denser);
+    }
+    const bool paired = emitter.pair != WEDGE_PAIR_NONE;
+    EmitterPlace place;
+    place.weights = paired ? squareToPair(emitter.pair, at, &second) : squareToTriangle(at);
+    place.triangle = emitter.triangle + second;
+    place.pick =
+        emitter.header != 0u ? (paired ? 0.5f : 1.0f) * e.picks[emitter.header] * denser : e.picks[place.triangle];
+    return place;
+}
+
+/// The point of the numbers u at a time.
+WEDGE_FN EmitterPoint sampleEmitter(EmitterData e, Vec2 u, float time)
+{
+    const EmitterChoice choice = chooseEmitter(e, u);
+    if (choice.entry.pair == WEDGE_PAIR_QUAD) {
+        EmitterPoint p = sampleQuad(e.quads[choice.entry.triangle], choice.at, choice.pick);
+        p.extent = choice.entry.extent;
         return p;
     }
-    const Vec2 weights =
-        emitter.pair != WEDGE_PAIR_NONE ? squareToPair(emitter.pair, at, &second) : squareToTriangle(at);
-    const uint triangle = emitter.triangle + second;
+    const EmitterPlace place = placeOf(e, choice);
+    const uint triangle = place.triangle;
+    const Vec2 weights = place.weights;
     const SurfaceData data = e.surfaces;
     const Vec3 a = positionAt(data, data.indices[3u * triangle], time);
     const Vec3 ab = vecSub(positionAt(data, data.indices[3u * triangle + 1u], time), a);
@@ -123,8 +248,8 @@ WEDGE_FN EmitterPoint sampleEmitter(EmitterData e, Vec2 u, float time)
     // Rays end before the emitter; as many as would pass through it find no light.
     p.radiance = vecScale(p.radiance, opacityAt(e.cutouts, triangle, weights.x, weights.y) * (1.0f / 255.0f));
 #endif
-    p.density = 2.0f * e.picks[triangle] / fmax(twice, 1e-30f);
-    p.extent = emitter.extent;
+    p.density = 2.0f * place.pick / fmax(twice, 1e-30f);
+    p.extent = choice.entry.extent;
     const Vec3 far = vec3(
         fabs(a.x) + fabs(ab.x) + fabs(ac.x), fabs(a.y) + fabs(ab.y) + fabs(ac.y), fabs(a.z) + fabs(ab.z) + fabs(ac.z));
     p.error = WEDGE_ORIGIN_ULPS * WEDGE_ULP * (far.x + far.y + far.z);
@@ -153,7 +278,7 @@ WEDGE_INLINE float densityOfDirection(float density, Vec3 normal, Vec3 l, float 
 /// Density in 1/sr at which sampleEmitter() finds what a ray of unit direction l met.
 WEDGE_FN float emitterPdf(EmitterData e, Hit hit, Vec3 l, float time)
 {
-    const float pick = e.picks[hit.triangle];
+    const float pick = pickAt(e, hit.triangle, vec2(hit.u, hit.v));
     if (!(pick > 0.0f)) {
         return 0.0f;
     }

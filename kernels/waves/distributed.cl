@@ -141,14 +141,15 @@ __kernel void unpackImage(DistributedParams p, __global const float* restrict in
     }
 }
 
-/// wanted = clamp(scale demand, least, most), and never less than `taken`. Both may be one plane: of each pixel demand
-/// is read first.
-__kernel void scaleCounts(DistributedParams p, float scale, uint least, uint most, __global const float* demand,
-    __global const uint* restrict taken, __global uint* wanted)
+/// wanted = clamp(scale demand, least, most), nearer to `mean` by the share `even` of the way, and never less than
+/// `taken`. Both may be one plane: of each pixel demand is read first.
+__kernel void scaleCounts(DistributedParams p, float scale, float even, float mean, uint least, uint most,
+    __global const float* demand, __global const uint* restrict taken, __global uint* wanted)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
-        const float n = clamp(scale * demand[i], (float)least, (float)most);
+        const float asked = clamp(scale * demand[i], (float)least, (float)most);
+        const float n = even > 0.0f ? asked + even * (mean - asked) : asked;
         wanted[i] = max((uint)(n + 0.5f), taken[i]);
     }
 }
