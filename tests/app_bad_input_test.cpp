@@ -66,6 +66,10 @@ TEST_CASE("values out of range")
     for (const char* bounces : { "-1", "1025", "1.5", "many", "4294967297" }) {
         checkRenderRefused(place, box, { "--bounces", bounces }, wrongCall, bounces);
     }
+    for (const char* surfaces : { "0", "-1", "65537", "1.5", "all" }) {
+        checkRenderRefused(place, box, { "--max-surfaces", surfaces }, wrongCall, surfaces);
+    }
+    checkRenderRefused(place, box, { "--max-surfaces", "64" }, wrongCall, "without mirrors and glass");
     for (const char* distance : { "0", "-1", "nan", "inf", "1e13", "1e-13", "near" }) {
         checkRenderRefused(place, box, { "--integrator", "ao", "--ao-distance", distance }, wrongCall, distance);
     }

@@ -23,6 +23,26 @@ glm::vec3 normalOf(const Scene& scene, std::size_t triangle)
 
 } // namespace
 
+TEST_CASE("lights without extent in a scene with glass are warned of, by their places and the materials' names")
+{
+    const TemporaryFolder folder;
+    folder.write("pane.obj", triangleObj);
+    const std::string mesh = "[[mesh]]\nname='m'\nmaterial='pane'\nfile='pane.obj'\n";
+    const std::string point = "[[light]]\ntype='point'\nposition=[1, 2, 3]\nintensity=7\n";
+    const std::string sun = "[[light]]\ntype='directional'\ndirection=[0, -2, 0]\nirradiance=1\n";
+    const std::string glass = "[[material]]\nname='pane'\nmodel='glass'\n",
+                      mirror = "[[material]]\nname='pane'\nmodel='mirror'\n";
+    const auto warnings = [&](const std::string& text) { return loadScene(folder.write("s.toml", text)).warnings; };
+    REQUIRE(warnings(glass + mesh + point + sun).size() == 1);
+    const std::string told = warnings(glass + mesh + point + sun)[0];
+    CHECK(
+        contains(told, "light of the point light at [1, 2, 3], the directional light along [0, -1, 0] does not pass"));
+    CHECK(contains(told, "of material 'pane'"));
+    CHECK(warnings(mirror + mesh + point + sun).empty());
+    CHECK(warnings(glass + point).size() == 1); // of the mesh that there is not
+    CHECK(contains(warnings(glass + point)[0], "no mesh"));
+}
+
 TEST_CASE("a scene file with every section")
 {
     const Scene s = load(R"(
@@ -224,6 +244,10 @@ TEST_CASE("wrong types and values are told with their place")
     CHECK(contains(error("[[material]]\nname='a'\nnormal_strength=2000\n"), "normal_strength of material is out of"));
     CHECK(contains(error("[[material]]\nname='a'\nior=1.3\n"), "ior of material does nothing beside the model"));
     CHECK(contains(error("[[material]]\nname='a'\nior=1.3\nmodel='mirror'\n"), "the model: 'mirror': add model ="));
+    CHECK(
+        contains(error("[[material]]\nname='a'\npriority=1\n"), "priority of material does nothing beside the model"));
+    CHECK(contains(
+        error("[[material]]\nname='a'\npriority=101\nmodel='glass'\n"), "priority of material is out of range"));
     CHECK(contains(error("[[material]]\nname='a'\nior=0.01\nmodel='glass'\n"), "ior of material is out of range"));
     CHECK(contains(error("[[material]]\nname='a'\ndiffuse=0.1\nmodel='mirror'\n"),
         "diffuse of material does nothing beside the model: 'mirror': colour it by specular"));

@@ -1,6 +1,7 @@
 #include "effects/indirect/indirect.h"
 
 #include "host/render/filters/gaussian.h"
+#include "host/render/glass.h"
 #include "kernels/shared/indirect.h"
 
 #include <algorithm>
@@ -52,6 +53,13 @@ shared::PathParams pathParams(const FrameBuilder& frame, Component component)
     p.occluders = isByCurvature(component, settings) ? 1 : 0;
     p.skipsMirrors = component != Component::Ambient ? 1 : 0;
     p.sceneDiameter = frame.scene != nullptr ? frame.scene->diameter : 0.0f;
+    p.mostMirrored = static_cast<std::uint32_t>(settings.maxSurfaces);
+    if (scene != nullptr && scene->touchingGlass > 0.0f) {
+        p.touching = scene->touchingGlass;
+        const std::vector<std::uint32_t> media = mediaAt(frame.description, scene::middleCamera(frame.description).eye);
+        p.mediaCount = static_cast<std::uint32_t>(media.size());
+        std::ranges::copy(media, p.media);
+    }
     if (scene != nullptr) {
         const glm::vec3 &low = scene->sharedTerm.low, &high = scene->sharedTerm.high;
         p.emittersLow = shared::vec3(low.x, low.y, low.z);

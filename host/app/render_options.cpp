@@ -102,6 +102,12 @@ void addIntegratorOptions(CLI::App& parser, RenderOptions& o)
         [&o](const std::string& text) {
             o.bounces = static_cast<int>(wholeNumber("--bounces", text, 0, scene::maxBounces));
         });
+    addValue(parser, whatGroup, "--max-surfaces", "N",
+        "Mirrors and surfaces of glass that paths of the camera follow in a row before some end at each, weighing the "
+        "others: more is less noise in glass. Default: 16",
+        [&o](const std::string& text) {
+            o.maxSurfaces = static_cast<int>(wholeNumber("--max-surfaces", text, 1, scene::mostSurfaces));
+        });
     addValue(parser, whatGroup, "--ao-distance", "M",
         "Farther surfaces, in metres, do not occlude, for --integrator ao. Default: all do",
         [&o](const std::string& text) {

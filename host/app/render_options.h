@@ -30,6 +30,7 @@ struct RenderOptions {
     std::optional<int> components;
     std::optional<render::Integrator> integrator;
     std::optional<int> bounces;
+    std::optional<int> maxSurfaces;
     std::optional<float> ambientDistance; ///< metres
     std::optional<bool> antialias;
     std::optional<render::PixelFilter> pixelFilter;

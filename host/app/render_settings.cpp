@@ -4,6 +4,7 @@
 #include "host/app/render_counts.h"
 #include "host/app/values.h"
 #include "host/error.h"
+#include "host/render/device_scene.h"
 #include "host/render/direct_lights.h"
 #include "host/render/distributed_frame.h"
 #include "host/render/effect.h"
@@ -135,6 +136,9 @@ void applyPaths(const RenderOptions& o, const scene::Scene& scene, render::Setti
         fmt::format("--ao-distance {}", o.ambientDistance.value_or(0)), "add --integrator ao");
     const scene::Settings& file = scene.settings;
     s.bounces = o.bounces ? *o.bounces : file.bounces.value_or(0);
+    refuse(o.maxSurfaces && !render::hasMirrors(scene), "without mirrors and glass",
+        fmt::format("--max-surfaces {}", o.maxSurfaces.value_or(0)), "give the scene some");
+    s.maxSurfaces = o.maxSurfaces.value_or(s.maxSurfaces);
     refuse(o.lightSampling && s.bounces == 0 && s.method == Method::AxisAligned && !render::hasEmitters(scene)
             && !render::directLights(scene).share,
         "without bounces", "--light-sampling", "add --bounces 1");
@@ -157,6 +161,8 @@ void applyAmbientOcclusion(const RenderOptions& o, const scene::Settings& file, 
 {
     const std::string remedy = "add --integrator path";
     refuse(o.bounces.has_value(), "with integrator ao", fmt::format("--bounces {}", o.bounces.value_or(0)), remedy);
+    refuse(o.maxSurfaces.has_value(), "with integrator ao", fmt::format("--max-surfaces {}", o.maxSurfaces.value_or(0)),
+        remedy);
     refuse(o.lightSampling.has_value(), "with integrator ao", "--light-sampling", remedy);
     refuse(o.environmentSampling.has_value(), "with integrator ao", "--environment-sampling", remedy);
     refuse(o.falloff.has_value(), "with integrator ao", "--falloff", remedy);

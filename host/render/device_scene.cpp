@@ -1,6 +1,7 @@
 #include "host/render/device_scene.h"
 
 #include "host/render/effect.h"
+#include "host/render/glass.h"
 #include "host/render/quadrature.h"
 #include "kernels/shared/bsdf.h"
 
@@ -56,6 +57,7 @@ std::uint32_t kindOf(const scene::Material& m)
 std::vector<shared::MaterialData> materialData(const scene::Scene& scene)
 {
     std::vector<shared::MaterialData> out;
+    const std::vector<std::uint32_t> nesting = nestings(scene);
     for (const scene::Material& m : scene.materials) {
         shared::MaterialData d {};
         d.diffuse = toVec3(m.diffuse);
@@ -66,6 +68,8 @@ std::vector<shared::MaterialData> materialData(const scene::Scene& scene)
         if (d.kind == WEDGE_MIRROR || d.kind == WEDGE_GLASS) {
             d.diffuse = toVec3(m.transmission);
             d.exponent = m.index;
+            d.medium = mediumOf(scene, static_cast<std::uint32_t>(out.size()));
+            d.nesting = nesting[out.size()];
         }
         d.diffuseTexture = textureId(m.diffuseTexture);
         d.specularTexture = textureId(m.specularTexture);
@@ -333,6 +337,7 @@ DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, 
     areaLights.upload(queue, areaLightList);
     deltaLights.upload(queue, delta);
     deltaLightCount = static_cast<std::uint32_t>(delta.size());
+    touchingGlass = hasTouchingGlass(scene) ? touchingDistance(scene) : 0.0f;
     specular = hasSpecular(scene);
     moves = scene::geometryMoves(scene);
     assert(moves == hierarchy.moves);

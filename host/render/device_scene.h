@@ -89,6 +89,7 @@ public:
     EnvironmentBandwidth environmentBandwidth; ///< of what is beyond the scene
     float diameter = 0; ///< metres, diagonal of the bounds
     float largestDimension = 0; ///< metres, of the bounds
+    float touchingGlass = 0; ///< touchingDistance() where hasTouchingGlass(), else 0
     bool specular = false; ///< hasSpecular()
     bool moves = false; ///< scene::geometryMoves()
 };

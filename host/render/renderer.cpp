@@ -8,6 +8,7 @@
 #include "host/render/compilers.h"
 #include "host/render/distributed_frame.h"
 #include "host/render/effect.h"
+#include "host/render/glass.h"
 #include "host/render/halves.h"
 #include "host/render/pixel_frame.h"
 #include "host/render/progressive.h"
@@ -65,6 +66,9 @@ device::BuildOptions programOptions(const scene::Scene& scene, const Options& op
     }
     if (hasMirrors(scene)) {
         out.defines.emplace_back("WEDGE_MIRRORS", "1");
+    }
+    if (hasTouchingGlass(scene)) {
+        out.defines.emplace_back("WEDGE_TOUCHING_GLASS", "1");
     }
     if (pictureOf(scene) != nullptr) {
         out.defines.emplace_back("WEDGE_ENVIRONMENT_MAP", "1");

@@ -234,6 +234,8 @@ void validate(const Settings& s, bool distributed)
         "pixels above 0");
     requireRange(s.bounces >= 0 && s.bounces <= mostBounces, "bounces", text(s.bounces),
         fmt::format("a whole number from 0 to {}", mostBounces));
+    requireRange(s.maxSurfaces >= 1 && s.maxSurfaces <= mostSurfaces, "most mirrors and glass in a row",
+        text(s.maxSurfaces), fmt::format("a whole number from 1 to {}", mostSurfaces));
     requireRange(
         s.integrator == Integrator::Path || s.bounces == 0, "bounces", text(s.bounces), "none with ambient occlusion");
     const IndirectSettings& in = s.indirect;

@@ -194,6 +194,9 @@ struct Settings {
 
     Integrator integrator = Integrator::Path;
     int bounces = 0; ///< of indirect light: 0 is direct light alone
+    /// Mirrors and glass that paths of the camera follow one after the other before Russian roulette is played, at
+    /// least 1.
+    int maxSurfaces = 16;
     LightSampling lightSampling = LightSampling::Both;
     IndirectSettings indirect;
     EnvironmentSettings environment;
@@ -286,6 +289,7 @@ constexpr int mostPixelSpp = 16384;
 
 /// Most bounces that a path may have.
 constexpr int mostBounces = 1024;
+constexpr int mostSurfaces = 1 << 16; ///< of Settings::maxSurfaces
 
 /// Fewest samples a pixel that method aaf takes: those of the first pass, of progressive frames of both halves'.
 /// distributed: whether pixels have several receivers, see isDistributed().

@@ -66,6 +66,9 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
         { "environmentSampling", s.environment.sampling == EnvironmentSampling::Map ? "map" : "precomputed" },
         { "progressive", s.progressive ? "true" : "false" },
     };
+    if (s.maxSurfaces != Settings().maxSurfaces) {
+        out.emplace_back("maxSurfaces", number(s.maxSurfaces));
+    }
     if (s.temporal != Temporal::Off) {
         out.emplace_back("temporal", s.temporal == Temporal::On ? "on" : "published");
     }

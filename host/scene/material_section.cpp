@@ -69,11 +69,15 @@ void readGlass(TableReader& table, const std::string& model, Material& m)
 {
     const auto index = table.number("ior", leastIndex, mostIndex);
     const auto transmission = table.colour("transmission");
-    if (model != "glass" && (index || transmission))
-        table.fail(index ? "ior" : "transmission", "does nothing beside the model", fmt::format("'{}'", model),
-            "add model = \"glass\"");
+    const auto priority = table.integer("priority", -mostPriority, mostPriority);
+    if (model != "glass" && (index || transmission || priority))
+        table.fail(index       ? "ior"
+                : transmission ? "transmission"
+                               : "priority",
+            "does nothing beside the model", fmt::format("'{}'", model), "add model = \"glass\"");
     m.index = static_cast<float>(index.value_or(m.index));
     m.transmission = transmission.value_or(m.transmission);
+    m.priority = static_cast<int>(priority.value_or(m.priority));
 }
 
 /// The lobe's model and what is its own; a number of another model would do nothing, which is an error.

@@ -36,6 +36,7 @@ struct Material {
     float roughness = 0.5f; ///< of Ggx, 0 to 1; exponentTexture multiplies it. specular is what faces reflect head-on
     glm::vec3 transmission { 1.0f }; ///< of Glass, each time that light passes through the surface
     float index = 1.5f; ///< refractive index of Glass, above 0
+    int priority = 0; ///< of Glass: where bodies overlap the one of the highest counts; within +-mostPriority
     SpecularModel specularModel = SpecularModel::BlinnPhong;
     float opacity = 1.0f; ///< 0 to 1: the share of rays that do not pass through
     /// Indices into Scene::textures; -1 = none.
@@ -155,7 +156,9 @@ constexpr int maxImageSide = 32768;
 constexpr int maxSamples = 1 << 20;
 constexpr double leastMu = 0.01, mostMu = 1000.0;
 constexpr int maxBounces = 1024;
+constexpr int mostSurfaces = 1 << 16;
 constexpr double mostNormalStrength = 1000.0;
+constexpr int mostPriority = 100;
 constexpr double leastIndex = 0.1, mostIndex = 10.0; ///< of refraction
 constexpr double leastAmbientDistance = 1e-12, mostAmbientDistance = 1e12;
 /// Frames of a sequence in one unit of the keys' time.

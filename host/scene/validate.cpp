@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -21,6 +23,37 @@ constexpr double leastRelativeView = 1e-6; // of the largest coordinate: the dir
 constexpr double mostPower = 1e30; // W/sr, with room for a division by small squared distances
 
 std::string shown(const glm::vec3& v) { return fmt::format("[{:g}, {:g}, {:g}]", v.x, v.y, v.z); }
+
+/// The first names, and how many more there are.
+std::string listed(const std::vector<std::string>& names)
+{
+    constexpr std::size_t most = 3;
+    std::string out;
+    for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+        out += (i == 0 ? "" : ", ") + names[i];
+    return names.size() > most ? fmt::format("{} and {} more", out, names.size() - most) : out;
+}
+
+/// Light of lights without extent does not pass glass: no path meets them.
+void warnOfHiddenLights(const Scene& scene, Warnings& warnings)
+{
+    std::vector<bool> used(scene.materials.size(), false);
+    for (const std::uint32_t id : scene.geometry.materialIds)
+        used[id] = true;
+    std::vector<std::string> materials, lights;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        if (used[i] && scene.materials[i].specularModel == SpecularModel::Glass)
+            materials.push_back(fmt::format("'{}'", scene.materials[i].name));
+    for (const PointLight& light : scene.pointLights)
+        lights.push_back("the point light at " + shown(light.position));
+    for (const DirectionalLight& light : scene.directionalLights)
+        lights.push_back("the directional light along " + shown(light.direction));
+    if (!materials.empty() && !lights.empty())
+        warnings.add("lights behind glass",
+            fmt::format("scene {}: light of {} does not pass glass, of material {}: behind it they light nothing; "
+                        "an area light or a mesh that emits does",
+                scene.path, listed(lights), listed(materials)));
+}
 
 } // namespace
 
@@ -95,6 +128,7 @@ void checkScene(const Scene& scene, Warnings& warnings)
         && scene.directionalLights.empty() && !emits && !lit)
         warnings.add(
             "lights", fmt::format("scene {}: no light, surfaces stay black but with --integrator ao", scene.path));
+    warnOfHiddenLights(scene, warnings);
 }
 
 } // namespace wedge::scene

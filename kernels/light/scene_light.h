@@ -16,6 +16,7 @@ typedef struct {
     uint areaCount, deltaCount;
     float sceneDiameter;
     uint sampling; ///< WEDGE_LIGHTS_*
+    float touching; ///< of PathParams
 } LightData;
 
 /// One sample of one light.

@@ -215,6 +215,9 @@ __kernel void samplePaths(FrameParams frame, PathParams params, __global const T
                     divideByUnshadowed(environment, lights.beyond, at.dealt, &paths);
                 }
             } else {
+#ifdef WEDGE_TOUCHING_GLASS
+                beginInside(&params, &paths);
+#endif
                 tracePaths(nodes, blocks, surfaces, lights, sampling, params.bounces, &packet, &paths);
             }
             takePaths(&paths, weight, whole, firstOnes, &at, &counts, &sink, WEDGE_SINK_ARGUMENTS);

@@ -79,16 +79,33 @@ WEDGE_FN void mirrorChoices(SampleParams sampling, const PathPacket* paths, uint
     pathPairs(sampling, paths, all, WEDGE_MIRROR_VERTEX + number, WEDGE_DIMENSION_CHOICE, choice, unused);
 }
 
+#ifdef WEDGE_TOUCHING_GLASS
+/// The number of the first mirror that followMirrors() looks for.
+#define WEDGE_FIRST_FOLLOWED 0u
+
+/// Begins a path of each lane that takes a sample: its first ray, which meets the receiver anew, with what lies in one
+/// place with it.
+WEDGE_FN void leaveReceivers(SurfaceData surfaces, SampleParams sampling, const MirrorPacket* m, const Deal* deal,
+    PathPacket* paths, RayPacket* rays)
+{
+    (void)surfaces;
+    (void)sampling;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const bool takes = deal->index[lane] < deal->last[lane];
+        setRay(rays, lane, laneVec(&m->origin, lane), vecScale(laneVec(&m->view, lane), -1.0f), 0.0f,
+            takes ? INFINITY : 0.0f);
+        setTime(rays, lane, m->time[lane]);
+    }
+    beginPaths(rays, paths);
+}
+#else
+#define WEDGE_FIRST_FOLLOWED 1u
+
 /// Begins a path of each lane that takes a sample: its first ray.
 WEDGE_FN void leaveReceivers(SurfaceData surfaces, SampleParams sampling, const MirrorPacket* m, const Deal* deal,
     PathPacket* paths, RayPacket* rays)
 {
     float choice[WEDGE_PACKET_SIZE];
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        paths->seed[lane] = m->seed[lane];
-        paths->index[lane] = deal->index[lane];
-        paths->count[lane] = deal->count[lane];
-    }
     mirrorChoices(sampling, paths, 0u, choice);
     VecLanes carried;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
@@ -111,17 +128,34 @@ WEDGE_FN void leaveReceivers(SurfaceData surfaces, SampleParams sampling, const 
         setLaneVec(&paths->throughput, lane, laneVec(&carried, lane));
     }
 }
+#endif
+
+/// Whose sample each lane's path is.
+WEDGE_FN void numberMirrored(const MirrorPacket* m, const Deal* deal, PathPacket* paths)
+{
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        paths->seed[lane] = m->seed[lane];
+        paths->index[lane] = deal->index[lane];
+        paths->count[lane] = deal->count[lane];
+    }
+}
 
 /// What the camera would see along the rays: the nearest visible light, what surfaces emit, and what is behind all.
-/// Ends rays at lights; hits: of the surfaces.
+/// Ends rays at lights; hits: of the surfaces. number: of the mirror that is looked for; of number 0 the camera has
+/// seen all that it is before.
 WEDGE_FN void seeAlong(FrameParams frame, __global const TraversalNode* restrict nodes,
     __global const TriangleBlock* restrict blocks, SurfaceData surfaces, LightData lights,
-    __global const EnvironmentMap* environment, __global const float* environmentTable, RayPacket* rays,
-    PacketHits* hits, PathPacket* paths)
+    __global const EnvironmentMap* environment, __global const float* environmentTable, uint number,
+    WEDGE_MEETS_PARAMETER RayPacket* rays, PacketHits* hits, PathPacket* paths)
 {
     VecLanes seen;
     endAtLights(lights.area, lights.areaCount, rays, &seen);
+#ifdef WEDGE_TOUCHING_GLASS
+    meetInterfaces(nodes, blocks, surfaces, lights.touching, rays, hits, paths, met);
+#else
+    (void)number;
     closestHits(nodes, blocks, rays, hits);
+#endif
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const Hit hit = packetHit(hits, lane);
         Vec3 radiance = laneVec(&seen, lane);
@@ -131,6 +165,9 @@ WEDGE_FN void seeAlong(FrameParams frame, __global const TraversalNode* restrict
             radiance = vecAdd(
                 frame.background, cameraBeyond(environment, environmentTable, vecNormalize(rayDirection(rays, lane))));
         }
+#ifdef WEDGE_TOUCHING_GLASS
+        radiance = vecScale(radiance, number > 0u || met->passed[lane] != 0u ? 1.0f : 0.0f);
+#endif
         setLaneVec(&seen, lane, radiance);
     }
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
@@ -139,20 +176,33 @@ WEDGE_FN void seeAlong(FrameParams frame, __global const TraversalNode* restrict
     }
 }
 
+/// Whether the Russian roulette at the mirror of that number lets a lane's path go on.
+WEDGE_FN bool survives(const PathPacket* paths, uint lane, uint number)
+{
+    const uint path = hashCombine(paths->seed[lane], paths->index[lane]);
+    return toUnitFloat(hashCombine(path, WEDGE_MIRROR_VERTEX + number)) < WEDGE_MIRRORED_SURVIVAL;
+}
+
 /// Follows paths from mirror to mirror. `lit` are their rays to the first surface that is none; no rays where there is
-/// no such surface, or it comes after too many mirrors.
+/// no such surface. From mostMirrored mirrors and glass on Russian roulette is played wherever they reflect: paths that
+/// pass surfaces come out.
 WEDGE_FN void followMirrors(FrameParams frame, __global const TraversalNode* restrict nodes,
     __global const TriangleBlock* restrict blocks, SurfaceData surfaces, LightData lights, SampleParams sampling,
-    __global const EnvironmentMap* environment, __global const float* environmentTable, RayPacket* rays,
-    PathPacket* paths, RayPacket* lit)
+    __global const EnvironmentMap* environment, __global const float* environmentTable, uint mostMirrored,
+    RayPacket* rays, PathPacket* paths, RayPacket* lit)
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         setRay(lit, lane, rayStart(rays, lane), rayDirection(rays, lane), 0.0f, 0.0f);
         setTime(lit, lane, timeOf(rays, lane));
     }
-    for (uint number = 1u;; ++number) {
+    for (uint number = WEDGE_FIRST_FOLLOWED;; ++number) {
         PacketHits hits;
-        seeAlong(frame, nodes, blocks, surfaces, lights, environment, environmentTable, rays, &hits, paths);
+#ifdef WEDGE_TOUCHING_GLASS
+        Interfaces interfaces;
+        Interfaces* met = &interfaces;
+#endif
+        seeAlong(frame, nodes, blocks, surfaces, lights, environment, environmentTable, number, WEDGE_MET_ARGUMENT rays,
+            &hits, paths);
         VertexPacket at;
         loadVertices(surfaces, rays, &hits, &at);
         float choice[WEDGE_PACKET_SIZE];
@@ -162,12 +212,21 @@ WEDGE_FN void followMirrors(FrameParams frame, __global const TraversalNode* res
             const bool mirror = WEDGE_IS_MIRROR(at.kind[lane]);
             if (at.live[lane] != 0u && !mirror) {
                 setRay(lit, lane, rayStart(rays, lane), rayDirection(rays, lane), 0.0f, rays->tMax[lane]);
+#ifdef WEDGE_TOUCHING_GLASS
+                beginBehind(lit, lane, rays->tMin[lane], rays->after[lane]);
+                reachSurface(met, lane, packetHit(&hits, lane), paths);
+#endif
             }
             Vec3 start = rayStart(rays, lane), direction = rayDirection(rays, lane);
-            bool goes = at.live[lane] != 0u && mirror && number < WEDGE_MOST_MIRRORED;
+            bool goes = at.live[lane] != 0u && mirror;
             if (goes) {
-                const MirrorRay ray = vertexMirrorRay(surfaces.materials, &at, lane, choice[lane]);
-                const Vec3 carried = vecMul(laneVec(&paths->throughput, lane), ray.to.weight);
+                const MirrorRay ray =
+                    followDeflection(surfaces.materials, &at, WEDGE_MET_ARGUMENT lane, choice[lane], paths);
+                Vec3 carried = vecMul(laneVec(&paths->throughput, lane), ray.to.weight);
+                if (number >= mostMirrored && ray.to.through == 0u) {
+                    carried = survives(paths, lane, number) ? vecScale(carried, 1.0f / WEDGE_MIRRORED_SURVIVAL)
+                                                            : vec3(0.0f, 0.0f, 0.0f);
+                }
                 setLaneVec(&paths->throughput, lane, carried);
                 start = ray.start;
                 direction = ray.to.direction;
@@ -220,9 +279,13 @@ __kernel void sampleMirrors(FrameParams frame, PathParams params, __global const
         for (uint step = 0u; step < deal.steps; ++step) {
             PathPacket paths;
             RayPacket packet, lit;
+            numberMirrored(&dealt, &deal, &paths);
+#ifdef WEDGE_TOUCHING_GLASS
+            beginInside(&params, &paths);
+#endif
             leaveReceivers(surfaces, sampling, &dealt, &deal, &paths, &packet);
-            followMirrors(
-                frame, nodes, blocks, surfaces, lights, sampling, environment, environmentTable, &packet, &paths, &lit);
+            followMirrors(frame, nodes, blocks, surfaces, lights, sampling, environment, environmentTable,
+                params.mostMirrored, &packet, &paths, &lit);
             followPaths(nodes, blocks, surfaces, lights, sampling, params.bounces, &lit, &paths);
             for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
                 if (deal.index[lane] < deal.last[lane]) {

@@ -7,6 +7,7 @@
 #ifndef WEDGE_PATH_PACKET_H
 #define WEDGE_PATH_PACKET_H
 
+#include "paths/interfaces.h"
 #include "paths/light_choices.h"
 #include "trace/environment.h"
 
@@ -92,7 +93,7 @@ WEDGE_FN void farthestMeetings(LightData lights, const VertexPacket* at, const V
 /// Sends the paths on from their vertices, or ends them; returns whether any has a next ray. last: the paths have all
 /// their bounces, and the rays are only for the lights they meet and what is beyond the scene.
 WEDGE_FN bool goOn(LightData lights, SampleParams params, PathPacket* paths, uint vertex, bool last,
-    const VertexPacket* at, RayPacket* rays)
+    const VertexPacket* at, WEDGE_MET_PARAMETER RayPacket* rays)
 {
     float u[WEDGE_PACKET_SIZE], v[WEDGE_PACKET_SIZE], unused[WEDGE_PACKET_SIZE], choice[WEDGE_PACKET_SIZE];
     pathPairs(params, paths, at->live, vertex, WEDGE_DIMENSION_DIRECTION, u, v);
@@ -121,13 +122,21 @@ WEDGE_FN bool goOn(LightData lights, SampleParams params, PathPacket* paths, uin
     VecLanes start = at->origin;
     for (uint lane = 0u; at->anyMirror && lane < WEDGE_PACKET_SIZE; ++lane) {
         if (at->live[lane] != 0u && WEDGE_IS_MIRROR(at->kind[lane])) {
-            const MirrorRay ray = vertexMirrorRay(lights.emitters.surfaces.materials, at, lane, choice[lane]);
+            const MirrorRay ray =
+                followDeflection(lights.emitters.surfaces.materials, at, WEDGE_MET_ARGUMENT lane, choice[lane], paths);
             setLaneVec(&start, lane, ray.start);
             setLaneVec(&l, lane, ray.to.direction);
             const Vec3 carried = vecMul(laneVec(&paths->throughput, lane), ray.to.weight);
             setLaneVec(&throughput, lane, carried);
             pdf[lane] = WEDGE_ONE_DIRECTION;
             goes[lane] = luminance(carried) > 0.0f ? 1u : 0u;
+        }
+    }
+#endif
+#ifdef WEDGE_TOUCHING_GLASS
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        if (at->live[lane] != 0u && !WEDGE_IS_MIRROR(at->kind[lane])) {
+            leaveSurface(met, lane, paths);
         }
     }
 #endif
@@ -235,6 +244,30 @@ WEDGE_FN void addMet(LightData lights, const RayPacket* rays, const PacketHits* 
     }
 }
 
+#ifdef WEDGE_TOUCHING_GLASS
+/// What light sampling does not find as there are faces of glass in the way, though they are no interfaces, rays that
+/// went through these find alone; of first rays (vertex 1) nothing else was to be counted.
+WEDGE_FN void addMetThrough(LightData lights, const Interfaces* met, uint vertex, const RayPacket* rays,
+    const PacketHits* hits, PathPacket* paths)
+{
+    RayPacket counted = *rays;
+    PacketHits seen = *hits;
+    bool any = false;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const bool passed = met->passed[lane] != 0u;
+        paths->pdf[lane] = passed ? WEDGE_ONE_DIRECTION : paths->pdf[lane];
+        if (vertex == 1u && !passed) {
+            counted.tMax[lane] = 0.0f;
+            seen.triangle[lane] = WEDGE_NO_TRIANGLE;
+        }
+        any |= vertex > 1u || passed;
+    }
+    if (any) {
+        addMet(lights, &counted, &seen, paths);
+    }
+}
+#endif
+
 WEDGE_FN void beginPaths(const RayPacket* rays, PathPacket* paths)
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
@@ -256,10 +289,17 @@ WEDGE_FN void followPaths(__global const TraversalNode* restrict nodes, __global
     const bool meets = meetsLights(lights) && lights.areaCount + lights.emitters.count + WEDGE_ENVIRONMENT_MAP > 0u;
     for (uint vertex = 1u;; ++vertex) {
         PacketHits hits;
+#ifdef WEDGE_TOUCHING_GLASS
+        Interfaces interfaces;
+        const Interfaces* met = &interfaces;
+        meetInterfaces(nodes, blocks, surfaces, lights.touching, rays, &hits, paths, &interfaces);
+        addMetThrough(lights, met, vertex, rays, &hits, paths);
+#else
         closestHits(nodes, blocks, rays, &hits);
         if (vertex > 1u) {
             addMet(lights, rays, &hits, paths);
         }
+#endif
         if (vertex > bounces) {
             return;
         }
@@ -282,7 +322,7 @@ WEDGE_FN void followPaths(__global const TraversalNode* restrict nodes, __global
             setLaneVecIf(&paths->radiance, lane, lit, vecAdd(laneVec(&paths->radiance, lane), laneVec(&light, lane)));
         }
         const bool last = vertex == bounces, open = WEDGE_OPEN != 0u;
-        if ((last && !open && !meets) || !goOn(lights, params, paths, vertex, last, &at, rays)) {
+        if ((last && !open && !meets) || !goOn(lights, params, paths, vertex, last, &at, WEDGE_MET_ARGUMENT rays)) {
             return;
         }
     }
@@ -318,6 +358,7 @@ WEDGE_FN LightData lightData(PathParams params, __global const AreaLight* area, 
     lights.deltaCount = params.deltaLights;
     lights.sceneDiameter = params.sceneDiameter;
     lights.sampling = params.lightSampling;
+    lights.touching = params.touching;
     return lights;
 }
 

@@ -99,6 +99,9 @@ WEDGE_FN void loadVertices(SurfaceData surfaces, const RayPacket* rays, const Pa
         mirrorFacet(laneCorners(&corners, lane), hits->u[lane], hits->v[lane], direction, &f, &at->kind[lane]);
         setLaneVec(&at->position, lane, f.position);
 #endif
+#ifdef WEDGE_GGX
+        microfacetFacet(makeGloss(at->exponent[lane], at->kind[lane]), vecScale(direction, -1.0f), &f);
+#endif
         setLaneVec(&at->origin, lane, f.origin);
         setLaneVec(&at->normal, lane, f.normal);
         setLaneVec(&at->geometric, lane, f.geometric);

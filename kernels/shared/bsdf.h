@@ -68,6 +68,23 @@ WEDGE_INLINE Vec3 facingView(Vec3 n, Vec3 v)
     return vecChoose(below > 0.0f, lifted, v);
 }
 
+/// The mirrored view is at least this many alphas above the triangle, as a cosine, or as far as the view itself.
+#define WEDGE_RIM_ALPHAS 4.0f
+
+/// The shading normal n of microfacets on a triangle of the normal g, which v sees: bent towards g as far as it takes
+/// for the lobe to lie above the triangle. Beyond, at the rim of coarse meshes, what it reflects would be lost.
+WEDGE_INLINE Vec3 reflectingNormal(Vec3 n, Vec3 g, Vec3 v, float exponent)
+{
+    const float alpha = 2.0f / sqrt(fmax(exponent, 4.0f));
+    const float least = fmin(vecDot(v, g), WEDGE_RIM_ALPHAS * alpha);
+    const Vec3 facing = vecNormalize(vecMad(n, v, fmax(WEDGE_LEAST_FACING - vecDot(n, v), 0.0f)));
+    const Vec3 mirrored = vecMad(vecScale(v, -1.0f), facing, 2.0f * vecDot(facing, v));
+    const float below = least - vecDot(mirrored, g);
+    const Vec3 raised = vecNormalize(vecMad(mirrored, g, fmax(below, 0.0f)));
+    // Half of the way from the view to it. Rounding alone bends nothing.
+    return vecChoose(below > 1e-5f, vecNormalize(vecAdd(v, raised)), n);
+}
+
 /// sqrt(alpha^2 + (1 - alpha^2) c^2) of a direction's cosine c: Smith's masking is G1 = 2 c / (c + this).
 WEDGE_INLINE float smithRoot(float squaredAlpha, float c) { return sqrt(squaredAlpha + (1.0f - squaredAlpha) * c * c); }
 

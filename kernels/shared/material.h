@@ -30,6 +30,11 @@
 #define WEDGE_MIRROR_BEHIND 8u
 #define WEDGE_MIRROR_BITS 4u
 
+/// Bodies of glass in one another that paths follow.
+#define WEDGE_MOST_MEDIA 24u
+#define WEDGE_MEDIUM_PRIORITY_SHIFT 24u
+#define WEDGE_MEDIUM_MATERIAL 0xffffffu
+
 WEDGE_SHARED_BEGIN
 
 typedef struct {
@@ -45,6 +50,9 @@ typedef struct {
     uint normalTexture; ///< directions in the tangent space, or heights; see normal_maps.h
     uint normalIsHeight; ///< 1: heights
     float normalStrength; ///< that its slopes are multiplied by
+    uint
+        medium; ///< of WEDGE_GLASS: its number, and above WEDGE_MEDIUM_PRIORITY_SHIFT its priority where bodies overlap
+    uint nesting; ///< of WEDGE_GLASS: of two bodies in one another the one with the larger number is the inner one
 } MaterialData;
 
 /// The least alpha of microfacets: sharper lobes are as those, 4 / alpha^2 being 4e6.

@@ -4,8 +4,9 @@
 
 #include "material.h"
 
-/// Mirrors and glass that one path of the camera follows one after the other before it ends, black.
-#define WEDGE_MOST_MIRRORED 16u
+/// The part of the camera's paths that Russian roulette lets go on where a mirror or glass reflects them, from that of
+/// the number PathParams::mostMirrored on: most rays that stay in glass for so long stay for some more.
+#define WEDGE_MIRRORED_SURVIVAL 0.9f
 
 WEDGE_SHARED_BEGIN
 

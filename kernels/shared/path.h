@@ -2,6 +2,7 @@
 #ifndef WEDGE_SHARED_PATH_H
 #define WEDGE_SHARED_PATH_H
 
+#include "material.h"
 #include "vec.h"
 
 /// What a term holds.
@@ -49,6 +50,11 @@ typedef struct {
     uint precomputed; ///< 1: directions beyond the scene are chosen among pre-computed samples
     uint occluders; ///< 1: of the environment, distances are those of what hides directions, over their cosines
     uint fractions; ///< 1: samples of the environment's lobes are fractions (path_sampling.h)
+    uint
+        mostMirrored; ///< mirrors and glass one after the other from which on Russian roulette ends paths of the camera
+    float touching; ///< metres: faces of glass as near as this are in one place
+    uint mediaCount; ///< bodies of glass that the camera is inside of
+    uint media[WEDGE_MOST_MEDIA]; ///< by MaterialData::medium, from the outermost
 } PathParams;
 
 /// Distances of reflectors to widths and counts.

@@ -142,11 +142,11 @@ WEDGE_FN bool intersectBlock(__global const TriangleBlock* block, const Traversa
     const float8 nx = e1y * e2z - e1z * e2y, ny = e1z * e2x - e1x * e2z, nz = e1x * e2y - e1y * e2x;
     const Vec3 d = ray->testDirection;
     const float8 t = (nx * ax + ny * ay + nz * az) / (nx * d.x + ny * d.y + nz * d.z);
+    const int8 beyond = WEDGE_BEYOND_START(ray, t, vload8(0, block->triangle));
 #ifdef WEDGE_MOTION
-    const int8 in =
-        inside & (t > ray->tMin) & (t <= hit->t) & WEDGE_SPANS_AREA(nx, ny, nz, e1x, e1y, e1z, e2x, e2y, e2z);
+    const int8 in = inside & beyond & (t <= hit->t) & WEDGE_SPANS_AREA(nx, ny, nz, e1x, e1y, e1z, e2x, e2y, e2z);
 #else
-    const int8 in = inside & (t > ray->tMin) & (t <= hit->t);
+    const int8 in = inside & beyond & (t <= hit->t);
 #endif
     if (laneMask(in) == 0)
         return false;

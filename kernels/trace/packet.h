@@ -15,6 +15,9 @@ typedef struct {
     float originX[WEDGE_PACKET_SIZE], originY[WEDGE_PACKET_SIZE], originZ[WEDGE_PACKET_SIZE], tMin[WEDGE_PACKET_SIZE];
     float directionX[WEDGE_PACKET_SIZE], directionY[WEDGE_PACKET_SIZE], directionZ[WEDGE_PACKET_SIZE];
     float tMax[WEDGE_PACKET_SIZE];
+#ifdef WEDGE_TOUCHING_GLASS
+    uint after[WEDGE_PACKET_SIZE]; ///< closestHitAfter()'s
+#endif
 #ifdef WEDGE_MOTION
     float time[WEDGE_PACKET_SIZE];
 #endif
@@ -36,7 +39,20 @@ WEDGE_INLINE void setRay(RayPacket* packet, uint lane, Vec3 origin, Vec3 directi
     packet->directionZ[lane] = direction.z;
     packet->tMin[lane] = tMin;
     packet->tMax[lane] = tMax;
+#ifdef WEDGE_TOUCHING_GLASS
+    packet->after[lane] = WEDGE_NO_TRIANGLE;
+#endif
 }
+
+#ifdef WEDGE_TOUCHING_GLASS
+/// Lets a lane's ray begin behind a hit: at its t other triangles count if they come after it in the order in which
+/// closestHits() finds them.
+WEDGE_INLINE void beginBehind(RayPacket* packet, uint lane, float t, uint triangle)
+{
+    packet->tMin[lane] = t;
+    packet->after[lane] = triangle;
+}
+#endif
 
 /// Sets the time of a lane's ray, from 0, where the shutter opens, to 1, where it closes. Each lane of a packet needs
 /// one before it is traced, with a ray or without. Where nothing moves there is nothing to do.
@@ -89,9 +105,14 @@ WEDGE_INLINE Hit packetHit(const PacketHits* hits, uint lane)
 WEDGE_FN void closestHits(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
     const RayPacket* packet, PacketHits* hits)
 {
-    const Hit hit = closestHit(nodes, blocks, vec3(packet->originX[0], packet->originY[0], packet->originZ[0]),
-        vec3(packet->directionX[0], packet->directionY[0], packet->directionZ[0]), packet->tMin[0], packet->tMax[0],
-        timeOf(packet, 0));
+#ifdef WEDGE_TOUCHING_GLASS
+    const uint after = packet->after[0];
+#else
+    const uint after = WEDGE_NO_TRIANGLE;
+#endif
+    const Hit hit = closestHitAfter(nodes, blocks, vec3(packet->originX[0], packet->originY[0], packet->originZ[0]),
+        vec3(packet->directionX[0], packet->directionY[0], packet->directionZ[0]), packet->tMin[0], after,
+        packet->tMax[0], timeOf(packet, 0));
     hits->t[0] = hit.t;
     hits->u[0] = hit.u;
     hits->v[0] = hit.v;

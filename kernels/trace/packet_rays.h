@@ -18,6 +18,9 @@ typedef struct {
     PacketAxis x, y, z;
     float16 tMin, tFar, u, v;
     uint16 triangle;
+#ifdef WEDGE_TOUCHING_GLASS
+    uint16 after; ///< as in TraversalRay
+#endif
     float16 shearX, shearY; ///< as in TraversalRay
     int16 axis; ///< of the largest component of the direction: 0, 1, 2
     float16 testOriginX, testOriginY, testOriginZ; ///< as in TraversalRay
@@ -55,6 +58,9 @@ WEDGE_FN void loadPacket(const RayPacket* packet, float unit, TraversalPacket* p
     p->z = packetAxis(vload16(0, packet->originZ) * unit, vload16(0, packet->directionZ) * unit);
     const float16 tMin = vload16(0, packet->tMin), tMax = vload16(0, packet->tMax);
     p->tMin = WEDGE_MAX(tMin, (float16)(0.0f));
+#ifdef WEDGE_TOUCHING_GLASS
+    p->after = vload16(0, packet->after);
+#endif
 #ifdef WEDGE_MOTION
     const float16 time = vload16(0, packet->time);
     p->time = time > 0.0f ? WEDGE_MIN(time, (float16)(1.0f)) : (float16)(0.0f); // as boundedTime

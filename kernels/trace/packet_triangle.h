@@ -132,10 +132,11 @@ WEDGE_FN bool intersectTriangle(__global const TriangleBlock* block, uint lane, 
         / (n.x * p->testDirectionX + n.y * p->testDirectionY + n.z * p->testDirectionZ);
     const uint triangle = block->triangle[lane];
     const int16 nearer = (t < p->tFar) | ((t == p->tFar) & (triangle < p->triangle));
+    const int16 beyond = WEDGE_BEYOND_START(p, t, (uint16)(triangle));
 #ifdef WEDGE_MOTION
-    int16 hit = inside & (t > p->tMin) & nearer & packetArea(v0, v1, v2, &n, p);
+    int16 hit = inside & beyond & nearer & packetArea(v0, v1, v2, &n, p);
 #else
-    int16 hit = inside & (t > p->tMin) & nearer;
+    int16 hit = inside & beyond & nearer;
 #endif
     if (!anyLane(hit))
         return false;

@@ -17,6 +17,9 @@ WEDGE_FN TraversalRay rayOfLane(const TraversalPacket* p, uint lane)
     TraversalRay r;
     r.tMin = WEDGE_LANE(p->tMin, lane);
     r.tMax = WEDGE_LANE(p->tFar, lane);
+#ifdef WEDGE_TOUCHING_GLASS
+    r.after = ((const uint*)&p->after)[lane];
+#endif
     r.nearScale =
         vec3(WEDGE_LANE(p->x.nearScale, lane), WEDGE_LANE(p->y.nearScale, lane), WEDGE_LANE(p->z.nearScale, lane));
     r.nearOffset =

@@ -28,9 +28,21 @@
 #define WEDGE_MIN(a, b) ((a) < (b) ? (a) : (b))
 #define WEDGE_MAX(a, b) ((a) > (b) ? (a) : (b))
 
+/// Whether a triangle at t lies on a ray or a packet's rays, before their ends. Where bodies of glass touch, rays go on
+/// behind one of several faces at the same t.
+#ifdef WEDGE_TOUCHING_GLASS
+#define WEDGE_BEYOND_START(ray, t, triangle)                                                                           \
+    (((t) > (ray)->tMin) | (((t) == (ray)->tMin) & ((triangle) > (ray)->after)))
+#else
+#define WEDGE_BEYOND_START(ray, t, triangle) ((t) > (ray)->tMin)
+#endif
+
 /// A ray as the tests want it, in the units of the hierarchy. t is the caller's.
 typedef struct {
     float tMin, tMax; ///< hits have tMin < t <= tMax
+#ifdef WEDGE_TOUCHING_GLASS
+    uint after; ///< and at tMin itself triangles above this one count as well; WEDGE_NO_TRIANGLE: none
+#endif
     Vec3 nearScale, nearOffset; ///< t of a near plane p = p scale + offset, rounded towards earlier
     Vec3 farScale, farOffset; ///< the same of the far planes, towards later
     uint nearX, nearY, nearZ, farX, farY, farZ; ///< where these planes start in a node, in floats
@@ -87,6 +99,9 @@ WEDGE_FN bool prepareRay(TraversalRay* ray, float unit, Vec3 origin, Vec3 direct
     origin = vecScale(origin, unit);
     direction = vecScale(direction, unit);
     ray->tMin = WEDGE_MAX(tMin, 0.0f);
+#ifdef WEDGE_TOUCHING_GLASS
+    ray->after = WEDGE_NO_TRIANGLE;
+#endif
     // The float before tMax, or before infinity.
     ray->tMax = as_float(as_uint(tMax) - 1u);
     const Vec3 r = vec3(boundedReciprocal(direction.x), boundedReciprocal(direction.y), boundedReciprocal(direction.z));

@@ -2,6 +2,7 @@
 #ifndef WEDGE_SURFACE_H
 #define WEDGE_SURFACE_H
 
+#include "shared/bsdf.h"
 #include "shared/hit.h"
 #include "trace/normal_maps.h"
 #include "trace/texture.h"
@@ -212,6 +213,15 @@ WEDGE_INLINE void mirrorFacet(Corners k, float u, float v, Vec3 direction, Facet
 }
 #endif
 
+#ifdef WEDGE_GGX
+/// A facet of microfacets is shaded by reflectingNormal(); v: unit, to the viewer.
+WEDGE_INLINE void microfacetFacet(Gloss gloss, Vec3 v, Facet* f)
+{
+    const bool microfacets = gloss.kind == WEDGE_MICROFACETS;
+    f->normal = vecChoose(microfacets, reflectingNormal(f->normal, f->geometric, v, gloss.exponent), f->normal);
+}
+#endif
+
 /// What a surface is made of.
 typedef struct {
     Vec3 diffuse, specular, emission;
@@ -308,6 +318,9 @@ WEDGE_FN Surface surfaceAt(SurfaceData data, Hit hit, Vec3 direction, float time
     Finish finish = finishOf(data, hit);
 #ifdef WEDGE_MIRRORS
     mirrorFacet(corners, hit.u, hit.v, direction, &f, &finish.gloss.kind);
+#endif
+#ifdef WEDGE_GGX
+    microfacetFacet(finish.gloss, vecScale(vecNormalize(direction), -1.0f), &f);
 #endif
     Surface s;
     s.position = f.position;

@@ -80,6 +80,9 @@ WEDGE_FN void mapNormals(SurfaceData data, const PacketHits* hits, const CornerL
 WEDGE_FN void surfacesAt(SurfaceData data, const RayPacket* rays, const PacketHits* hits, SurfaceLanes* s)
 {
     CornerLanes corners;
+#ifdef WEDGE_GGX
+    Gloss gloss[WEDGE_PACKET_SIZE];
+#endif
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const Hit hit = packetHit(hits, lane);
         Corners k = noCorners();
@@ -94,6 +97,9 @@ WEDGE_FN void surfacesAt(SurfaceData data, const RayPacket* rays, const PacketHi
         setLaneVec(&s->specular, lane, finish.specular);
         setLaneVec(&s->emission, lane, finish.emission);
         s->gloss[lane] = packGloss(finish.gloss);
+#ifdef WEDGE_GGX
+        gloss[lane] = finish.gloss;
+#endif
     }
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const Vec3 direction = rayDirection(rays, lane);
@@ -103,6 +109,9 @@ WEDGE_FN void surfacesAt(SurfaceData data, const RayPacket* rays, const PacketHi
 #endif
         const bool live = s->live[lane] != 0u;
         const Vec3 facing = vecScale(vecNormalize(direction), -1.0f);
+#ifdef WEDGE_GGX
+        microfacetFacet(gloss[lane], facing, &f);
+#endif
         setLaneVec(&s->position, lane, f.position);
         setLaneVec(&s->origin, lane, f.origin);
         setLaneVec(&s->normal, lane, vecChoose(live, f.normal, facing));

@@ -16,12 +16,14 @@
 #endif
 
 /// The nearest hit of origin + t direction, tMin < t < tMax, on either face of the triangles; of hits at equal t the
-/// one of the smallest index. The direction may have any length. A negative tMin counts as 0; a ray with a NaN or
-/// infinity (but in tMax) or a zero direction hits nothing. On a miss triangle is WEDGE_NO_TRIANGLE and t = tMax.
-/// time: at which the ray is sent, from 0, where the shutter opens, to 1, where it closes. What does not move
-/// (programs without WEDGE_MOTION) has none.
-WEDGE_FN Hit closestHit(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
-    Vec3 origin, Vec3 direction, float tMin, float tMax, float time)
+/// one of the smallest index. after: in programs with WEDGE_TOUCHING_GLASS triangles above this index count at tMin
+/// itself, too, so that (t, triangle) of a hit leads to the next one; WEDGE_NO_TRIANGLE: none does. The direction may
+/// have any length. A negative tMin counts as 0; a ray with a NaN or infinity (but in tMax) or a zero direction hits
+/// nothing. On a miss triangle is WEDGE_NO_TRIANGLE and t = tMax. time: at which the ray is sent, from 0, where the
+/// shutter opens, to 1, where it closes. What does not move (programs without WEDGE_MOTION) has none.
+WEDGE_FN Hit closestHitAfter(__global const TraversalNode* restrict nodes,
+    __global const TriangleBlock* restrict blocks, Vec3 origin, Vec3 direction, float tMin, uint after, float tMax,
+    float time)
 {
     Hit hit;
     hit.t = tMax;
@@ -32,6 +34,11 @@ WEDGE_FN Hit closestHit(__global const TraversalNode* restrict nodes, __global c
     if (!prepareRay(&ray, nodes->unit, origin, direction, tMin, tMax, time))
         return hit;
     hit.t = ray.tMax;
+#ifdef WEDGE_TOUCHING_GLASS
+    ray.after = after;
+#else
+    (void)after;
+#endif
 #ifdef WEDGE_CUTOUTS
     ray.cutouts = WEDGE_CUTOUT_TABLE(nodes, blocks);
 #endif
@@ -39,6 +46,13 @@ WEDGE_FN Hit closestHit(__global const TraversalNode* restrict nodes, __global c
     if (hit.triangle == WEDGE_NO_TRIANGLE)
         hit.t = tMax;
     return hit;
+}
+
+/// The same of all hits behind tMin.
+WEDGE_FN Hit closestHit(__global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
+    Vec3 origin, Vec3 direction, float tMin, float tMax, float time)
+{
+    return closestHitAfter(nodes, blocks, origin, direction, tMin, WEDGE_NO_TRIANGLE, tMax, time);
 }
 
 /// Whether any triangle lies at tMin < t < tMax; the conditions of closestHit.

@@ -77,9 +77,9 @@ WEDGE_FN bool intersectTriangle(__global const TriangleBlock* block, uint lane, 
         return false;
 #endif
     const float t = vecDot(n, a) / vecDot(n, ray->testDirection);
-    if (!(t > ray->tMin && t <= hit->t))
-        return false;
     const uint triangle = block->triangle[lane];
+    if (!(WEDGE_BEYOND_START(ray, t, triangle) && t <= hit->t))
+        return false;
     if (t == hit->t && triangle > hit->triangle)
         return false;
     const float inverse = 1.0f / sum;
