@@ -8,8 +8,8 @@ namespace wedge::image {
 /// An output file that appears whole or not at all: bytes go to a temporary file in the same directory, and commit()
 /// renames it. Without a commit the destructor removes the temporary file, and a file that was there stays as it was.
 /// The file behind a symbolic link is the one that appears, also where it is not there yet. A path that leads to a
-/// device or a pipe (/dev/stdout) is written directly, as it cannot be replaced. Whatever is written, it is no file that
-/// was read for it, see requireNotOpened().
+/// device or a pipe (/dev/stdout) is written directly, as it cannot be replaced. Whatever is written, it is no file
+/// that was read for it, see requireNotOpened().
 class AtomicFile {
 public:
     /// Creates the temporary file. Throws Error where the directory is missing or not writable, or the path is a
