@@ -166,6 +166,60 @@ TEST_CASE("a mesh that stays far away is told with the size that is lost")
     CHECK(!warns(load(folder, "[[mesh]]\nfile = \"land.obj\"\n"), far));
 }
 
+TEST_CASE("long and narrow faces far away keep their shape, or are told")
+{
+    const TemporaryFolder folder;
+    // Strips of 50 m by 30 cm, turned, beside a plate that is as large as a town.
+    const auto strips = [&](double x, double y) {
+        std::ostringstream out;
+        out << std::setprecision(17);
+        for (int i = 0; i < 20; ++i) {
+            const double left = x + 700.0 * i, low = y + 400.0 * i;
+            for (const auto& [u, v] :
+                { std::pair(0.0, 0.0), std::pair(50.0, 0.0), std::pair(50.0, 0.3), std::pair(0.0, 0.3) })
+                out << "v " << left + 0.8 * u - 0.6 * v << " " << low + 0.6 * u + 0.8 * v << " 0\n";
+            out << "f -4 -3 -2 -1\n";
+        }
+        out << "v " << x << " " << y << " 1\nv " << x + 60 << " " << y << " 1\nv " << x << " " << y + 60
+            << " 1\nf -3 -2 -1\n";
+        return out.str();
+    };
+    folder.write("near.obj", strips(0, 0));
+    folder.write("far.obj", strips(east, north));
+    const Scene near = load(folder, "[[mesh]]\nfile = \"near.obj\"\n");
+    const Scene moved = load(folder, "[[mesh]]\nfile = \"far.obj\"\ntransform = " + translate(-east, -north) + "\n");
+    CHECK(moved.geometry.indices.size() == near.geometry.indices.size());
+    const auto area = [](const Scene& scene) {
+        double sum = 0.0;
+        for (std::size_t t = 0; t < scene.geometry.indices.size() / 3; ++t) {
+            const glm::dvec3 a(corner(scene.geometry, t, 0)), b(corner(scene.geometry, t, 1)),
+                c(corner(scene.geometry, t, 2));
+            sum += 0.5 * glm::length(glm::cross(b - a, c - a));
+        }
+        return sum;
+    };
+    CHECK(area(near) == doctest::Approx(20 * 15 + 1800).epsilon(1e-3)); // which ends 13 km from the origin
+    CHECK(area(moved) == doctest::Approx(area(near)).epsilon(1e-3));
+    CHECK(!warns(moved, far));
+    CHECK(!warns(near, far));
+    CHECK(warns(load(folder, "[[mesh]]\nfile = \"far.obj\"\n"), far));
+    CHECK(warns(loadScene(folder.path("far.obj")), "is moved by"));
+}
+
+TEST_CASE("point lights of a scene far away are told")
+{
+    const TemporaryFolder folder;
+    folder.write("floor.obj", "v -1000 0 -1000\nv 1000 0 -1000\nv 1000 0 1000\nv -1000 0 1000\nf 1 2 3 4\n");
+    const auto lit = [&](double y) {
+        return load(folder,
+            "[[mesh]]\nfile = \"floor.obj\"\ntransform = { translate = [0, " + number(y)
+                + ", 0] }\n[[light]]\ntype = \"point\"\nposition = [0, " + number(y + 1.3) + ", 0]\nintensity = 1\n");
+    };
+    CHECK(warns(lit(5.4e6), "where point light 1 is"));
+    CHECK(!warns(lit(0), far));
+    CHECK(!warns(lit(5000), far));
+}
+
 TEST_CASE("a bare mesh far away is moved with what it gets, and said to be")
 {
     const TemporaryFolder folder;

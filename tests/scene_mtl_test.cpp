@@ -71,7 +71,7 @@ TEST_CASE("names, line ends, and statements outside of materials")
 
 TEST_CASE("keywords of any case, and names in quotation marks")
 {
-    const Library l = parse("NEWMTL \"a b\"\nKD 0.1 0.2 0.3\nks 0.5\nke 1 2 3\nNS 7\ntr 0.25\nNi 2\nPM 0\n");
+    const Library l = parse("NEWMTL \"a b\"\nKD 0.1 0.2 0.3\nks 0\nke 1 2 3\nNS 7\ntr 0.25\nNi 2\nPM 0\n");
     REQUIRE(l.materials.size() == 1);
     CHECK(l.materials[0].name == "a b");
     CHECK(l.materials[0].emission == glm::vec3(1, 2, 3));
@@ -79,7 +79,8 @@ TEST_CASE("keywords of any case, and names in quotation marks")
     CHECK(l.materials[0].opacity == 0.75f);
     CHECK(l.materials[0].specularModel == wedge::scene::SpecularModel::Ggx);
     CHECK(l.warnings.empty());
-    for (const char* name : { "\"my file.png\"", "'my file.png'", "-s 1 1 1 \"my file.png\"", "my file.png" }) {
+    for (const char* name :
+        { "\"my file.png\"", "'my file.png'", "\"my file.png\" # a note", "-s 1 1 1 \"my file.png\"", "my file.png" }) {
         const Library named = parse(std::string("newmtl a\nmap_kd ") + name + "\n");
         REQUIRE(named.warnings.size() == 1);
         CHECK(contains(named.warnings[0], "texture file not found: my file.png:"));
@@ -115,7 +116,9 @@ TEST_CASE("textures without a colour of their own are seen, beside a black one t
     CHECK(told("Kd 0.5\nKs 0 0 0\nmap_Ks t.png\n", "a map_Ks beside a black Ks"));
     CHECK(told("Kd 0.5\nKe 0 0 0\nmap_Ke t.png\n", "a map_Ke beside a black Ke"));
     CHECK(told("Kd 0.5\nmap_Ns t.png\n", "a map_Ns without Ks"));
-    CHECK(read("Kd 0.5\nPr 0.5\nKs 0\nmap_Ks t.png\n").warnings.empty()); // of GGX none counts
+    CHECK(told("Kd 0.5\nPr 0.5\nKs 0\nmap_Ks t.png\n", "Ks and its textures beside Pr, Pm or map_Pr"));
+    CHECK(told("Kd 0.5\nPr 0.5\nKs 0.5\nNs 20\n", "Ks and its textures beside Pr, Pm or map_Pr"));
+    CHECK(read("Kd 0.5\nPr 0.5\nKs 0\nNs 20\n").warnings.empty());
     CHECK(read("Kd 0.5\nKs 0.2\nmap_Ks t.png\nmap_Ns t.png\n").warnings.empty());
 }
 
@@ -126,6 +129,10 @@ TEST_CASE("colours as CIE XYZ, and as spectra")
         CHECK(white.materials[0].diffuse[i] == doctest::Approx(1.0).epsilon(1e-3));
     CHECK(white.materials[0].specular.x == doctest::Approx(1.0).epsilon(1e-3));
     CHECK(white.materials[0].specular.y == doctest::Approx(0.0).epsilon(1e-3));
+    CHECK(parse("newmtl a\nKd xyz 0.9505 1 1.089\n").warnings.empty());
+    CHECK(parse("newmtl a\nKd rgb 0.1 0.2 0.3\n").materials[0].diffuse == glm::vec3(0.1f, 0.2f, 0.3f));
+    CHECK(contains(parse("newmtl a\nKd rgb 0.1 0.2 0.3\n").warnings[0], "Kd has the word rgb, which is not read"));
+    CHECK(contains(parse("newmtl a\nillum abc\n").warnings[0], "illum has the value abc, 2 is used"));
     CHECK(white.materials[0].emission.x == 0.0f); // negative in Rec.709
     CHECK(white.materials[0].emission.z == doctest::Approx(1.057).epsilon(1e-3));
     CHECK(parse("newmtl a\nKd xyz 0.5\n").materials[0].diffuse.y > 0.4f); // one number stands for three
@@ -145,7 +152,7 @@ TEST_CASE("values that make no sense")
     CHECK(wrong.materials[0].exponent == 1.0f);
     REQUIRE(wrong.warnings.size() == 6);
     CHECK(wrong.warnings[0] == "material file m.mtl: material 'a': Kd has the value x, 0 is used");
-    CHECK(wrong.warnings[4] == "material file m.mtl: material 'a': Ns has the value , 1 is used");
+    CHECK(wrong.warnings[4] == "material file m.mtl: material 'a': Ns has no value, 1 is used");
 }
 
 TEST_CASE("what would change the look is named once a library")
@@ -335,7 +342,10 @@ TEST_CASE("options of textures")
     CHECK(warned("-s 1 1 2 my file.png"));
     CHECK(warned("-o 0.5 0 my file.png"));
     CHECK(warned("-clamp on my file.png"));
-    CHECK(parse("newmtl a\nmap_Kd\nmap_Ks -s 1\n").warnings.empty()); // no file is named
+    CHECK(!warned("-CLAMP off -S 1 my file.png"));
+    const Library nameless = parse("newmtl a\nmap_Kd\nmap_Ks -s 1\nbump \"\"\n");
+    CHECK(nameless.warnings.size() == 3);
+    CHECK(contains(nameless.warnings[1], "a map_kd without a file has no effect here"));
 }
 
 TEST_CASE("files that are no libraries")

@@ -244,10 +244,11 @@ TEST_CASE("material libraries: missing, several on a line, names with spaces")
     const std::string faces = triangle + "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n";
     for (const char* lines : { "mtllib a.mtl\nmtllib b c.mtl\n", "mtllib a.mtl b\\ c.mtl\n",
              "mtllib a.mtl \"b c.mtl\"\n", "mtllib \"a.mtl\"\nmtllib \"b c.mtl\"\n", "mtllib 'a.mtl' 'b c.mtl'\n",
-             "MTLLIB a.mtl\nMtlLib b c.mtl\n" }) {
+             "MTLLIB a.mtl\nMtlLib b c.mtl\n", "mtllib a.mtl \"b c.mtl\" # by x\n" }) {
         const Scene scene = loadMesh(folder, lines + faces);
         CAPTURE(lines);
         REQUIRE(scene.materials.size() == 2);
+        CHECK(!warns(scene, "not found"));
         CHECK(scene.materials[0].diffuse == glm::vec3(1.0f, 0.0f, 0.0f));
         CHECK(scene.materials[1].diffuse == glm::vec3(0.0f, 1.0f, 0.0f));
     }

@@ -66,9 +66,11 @@ void limitInfinite(image::RgbImage& map, const Numbers& numbers, const std::stri
     }
     const std::size_t texels = limitTo(map, numbers.largest);
     warnings.add(kind,
-        fmt::format("environment map {}: {} infinite, and count as {:g}, the largest finite number in it: repair the "
-                    "map, or write it anew as 32-bit floats",
-            path, counted(texels) + (texels == 1 ? " is" : " are"), numbers.largest));
+        fmt::format(
+            "environment map {}: {} as {:g}, the largest finite number in it: repair the map, or write it anew as "
+            "32-bit floats",
+            path, counted(texels) + (texels == 1 ? " is infinite, and counts" : " are infinite, and count"),
+            numbers.largest));
 }
 
 /// Resampling overshoots by a fifth of an edge at most, and beside few texels.

@@ -19,7 +19,8 @@ std::string_view line(ByteReader& in)
     for (std::size_t length = 0; length < longest; ++length) {
         if (ahead.byte() == '\n') {
             const Bytes bytes = in.take(length + 1);
-            return { reinterpret_cast<const char*>(bytes.data()), length };
+            const std::string_view text(reinterpret_cast<const char*>(bytes.data()), length);
+            return text.ends_with('\r') ? text.substr(0, length - 1) : text; // lines of another system
         }
     }
     throw Failure("a line of its header is too long");

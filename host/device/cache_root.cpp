@@ -65,7 +65,7 @@ CacheRoot CacheRoot::find(const WantedCache& wanted, const std::vector<fs::path>
     if (!wanted.folder.empty() && reason.empty()) {
         return { wanted, wanted.folder, "", "" };
     }
-    std::string tried = wanted.folder.empty() ? "HOME is not set" : because(wanted.folder, reason);
+    std::string tried = wanted.folder.empty() ? "HOME is not set, or empty" : because(wanted.folder, reason);
     for (const fs::path& temporary : temporaries) {
         const FolderOrReason own = ownTemporaryFolder(temporary);
         const std::string refused = own.folder.empty() ? own.reason : whyNot(own.folder);

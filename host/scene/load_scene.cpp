@@ -41,7 +41,7 @@ Placement placementOf(const Mesh& mesh, const std::string& where, Warnings& warn
         return placement;
     // A round number that leaves less than half of the size.
     const double step = std::pow(10.0, std::floor(std::log10(extent.size())));
-    const glm::dvec3 by = -step * glm::round((0.5 * extent.lo + 0.5 * extent.hi) / step);
+    const glm::dvec3 by = -step * glm::round((0.5 * extent.lo + 0.5 * extent.hi) / step) + 0.0; // not -0
     placement.atOpen = placement.atClose = glm::translate(glm::dmat4(1.0), by);
     warnings.add("places far from the origin",
         fmt::format("{}: the mesh is too far from the origin for single precision, and is moved by [{:.12g}, {:.12g}, "

@@ -75,15 +75,17 @@ void addAllVertices(Geometry& geometry, const IndexedMesh& mesh, const Placement
         geometry.texcoords.insert(geometry.texcoords.end(), { t.x, t.y });
 }
 
-double leastTriangleOf(const IndexedMesh& mesh)
+double leastHeightOf(const IndexedMesh& mesh)
 {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
         const glm::dvec3 &a = mesh.positions[mesh.indices[t]], &b = mesh.positions[mesh.indices[t + 1]],
                          &c = mesh.positions[mesh.indices[t + 2]];
+        const glm::dvec3 normal = glm::cross(b - a, c - a);
         const double longest = std::max({ glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c) });
-        if (longest > 0.0)
-            least = std::min(least, longest);
+        const double area = glm::dot(normal, normal);
+        if (area > 0.0)
+            least = std::min(least, area / longest);
     }
     return std::sqrt(least);
 }
@@ -122,7 +124,7 @@ IndexedMesh indexMesh(const Mesh& mesh, std::uint32_t materialBase, const Mesh* 
     out.objects = mesh.objects;
     out.objectNames = mesh.objectNames;
     out.isSingle = mesh.isSingle;
-    out.leastTriangle = leastTriangleOf(out);
+    out.leastHeight = leastHeightOf(out);
     return out;
 }
 

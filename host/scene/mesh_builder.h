@@ -15,7 +15,7 @@ namespace wedge::scene {
 struct IndexedMesh {
     std::vector<glm::dvec3> positions;
     bool isSingle = true; ///< as Mesh::isSingle
-    double leastTriangle = 0.0; ///< the longest edge of the smallest triangle that has one
+    double leastHeight = 0.0; ///< of the triangles with an area, over their longest edge
     std::vector<glm::vec3> normals; ///< a zero normal = use the geometric one
     std::vector<glm::vec2> texcoords;
     std::vector<std::uint32_t> indices;

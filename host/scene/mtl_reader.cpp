@@ -116,6 +116,8 @@ private:
     {
         if (MtlTexture* const texture = textureOf(keyword)) {
             *texture = parseMtlTexture(in);
+            if (texture->name.empty())
+                notes_.leaveOut(fmt::format("a {} without a file", keyword));
         } else if (keyword == "kd") {
             material_.diffuse = values_.colour("Kd", in, 0.5f);
             extra_.hasDiffuse = true;
@@ -137,9 +139,7 @@ private:
     void otherStatement(std::string_view keyword, StatementReader& in)
     {
         if (keyword == "illum") {
-            float value = 0.0f;
-            const bool isNumber = parseNumber(in.word(), value) == NumberKind::Good;
-            extra_.illumination = isNumber && value >= 0.0f && value < 100.0f ? static_cast<int>(value) : 2;
+            extra_.illumination = static_cast<int>(std::min(values_.number("illum", in.word(), 2.0f), 100.0f));
         } else if (keyword == "pr") {
             extra_.roughness = values_.share("Pr", in.word(), 0.5f);
         } else if (keyword == "pm") {
@@ -185,6 +185,8 @@ private:
             notes_.leaveOut("a map_Ke beside a black Ke");
         const bool isRough = extra_.roughness || extra_.metal || !extra_.roughnessMap.name.empty();
         const bool shines = m.specular != glm::vec3(0.0f);
+        if (isRough && (shines || m.specularTexture >= 0 || m.exponentTexture >= 0))
+            notes_.leaveOut("Ks and its textures beside Pr, Pm or map_Pr");
         if (m.specularTexture >= 0 && !shines && !isRough)
             notes_.leaveOut(extra_.hasSpecular ? "a map_Ks beside a black Ks" : "a map_Ks beside a white Kd");
         if (m.exponentTexture >= 0 && !shines && !isRough)
@@ -352,7 +354,7 @@ void warnOfEnergy(const std::vector<Material>& materials, const std::string& whe
             sum = glm::max(m.specular, m.transmission);
         return std::max({ sum.x, sum.y, sum.z });
     };
-    const auto tooMuch = [&](const Material& m) { return reflected(m) > 1.0f + 1e-5f; };
+    const auto tooMuch = [&](const Material& m) { return reflected(m) > 1.0f + 1e-3f; };
     const auto count = std::count_if(materials.begin(), materials.end(), tooMuch);
     if (count == 0)
         return;

@@ -35,9 +35,10 @@ bool isHarmless(std::string_view word, std::string_view harmless)
 MtlTexture parseMtlTexture(StatementReader& statement)
 {
     MtlTexture texture;
-    for (auto option = options.find(statement.ahead()); option != options.end();
-         option = options.find(statement.ahead())) {
-        const std::string_view keyword = statement.word();
+    const auto ahead = [&] { return options.find(lowerCase(std::string(statement.ahead().substr(0, 16)))); };
+    for (auto option = ahead(); option != options.end(); option = ahead()) {
+        const std::string_view keyword = option->first;
+        statement.word();
         const auto& [words, numbers, harmless] = option->second;
         for (int i = 0; i < words; ++i) {
             float value = 0.0f;

@@ -9,7 +9,8 @@ namespace wedge::scene {
 namespace {
 
 /// Linear Rec.709 of CIE XYZ, by IEC 61966-2-1; columns first.
-const glm::mat3 fromXyz(3.2406f, -0.9689f, 0.0557f, -1.5372f, 1.8758f, -0.2040f, -0.4986f, 0.0415f, 1.0570f);
+const glm::mat3 fromXyz(
+    3.2404542f, -0.9692660f, 0.0556434f, -1.5371385f, 1.8760108f, -0.2040259f, -0.4985314f, 0.0415560f, 1.0572252f);
 
 } // namespace
 
@@ -48,8 +49,15 @@ float MtlValues::number(const char* key, std::string_view word, float replacemen
     float value = 0.0f;
     if (parseNumber(word, value) == NumberKind::Good && value >= 0.0f)
         return value;
-    notes_.warn("values of material files", fmt::format("{} has the value {}, {:g} is used", key, word, replacement));
+    replaced(key, word, replacement);
     return replacement;
+}
+
+void MtlValues::replaced(std::string_view key, std::string_view word, float replacement)
+{
+    notes_.warn("values of material files",
+        word.empty() ? fmt::format("{} has no value, {:g} is used", key, replacement)
+                     : fmt::format("{} has the value {}, {:g} is used", key, word, replacement));
 }
 
 float MtlValues::share(std::string_view key, std::string_view word, float replacement)
@@ -57,7 +65,7 @@ float MtlValues::share(std::string_view key, std::string_view word, float replac
     float value = 0.0f;
     if (parseNumber(word, value) == NumberKind::Good && value >= 0.0f && value <= 1.0f)
         return value;
-    notes_.warn("values of material files", fmt::format("{} has the value {}, {:g} is used", key, word, replacement));
+    replaced(key, word, replacement);
     return replacement;
 }
 
@@ -80,8 +88,13 @@ glm::vec3 MtlValues::colour(const char* key, StatementReader& in, float ofSpectr
         notes_.leaveOut(fmt::format("a spectrum ({} spectral), in whose place is {:g},", key, ofSpectrum));
         return glm::vec3(ofSpectrum);
     }
-    if (first != "xyz")
+    if (first != "xyz") {
+        double value = 0.0;
+        if (!first.empty() && first.front() != '#' && parseNumber(in.ahead(), value) == NumberKind::Unreadable)
+            notes_.warn(
+                "values of material files", fmt::format("{} has the word {}, which is not read", key, in.word()));
         return numbers(key, in);
+    }
     in.word();
     return glm::max(fromXyz * numbers(key, in), glm::vec3(0.0f)); // what no Rec.709 has is cut
 }

@@ -65,6 +65,7 @@ public:
     glm::vec3 colour(const char* key, StatementReader& in, float ofSpectrum);
 
 private:
+    void replaced(std::string_view key, std::string_view word, float replacement);
     glm::vec3 numbers(const char* key, StatementReader& in);
 
     MtlNotes& notes_;

@@ -21,6 +21,8 @@ namespace {
 constexpr double farInSizes = 128.0;
 /// And a face smaller than this part of its distance has lost more than a hundredth of it.
 constexpr double leastFace = 1.0 / (1 << 17);
+/// Of all area this part may be of faces that are so narrow: exact meshes have slivers.
+constexpr double mostNarrow = 1e-4;
 
 /// Textures repeat, so that coordinates as far out as a surveyor's places may be brought back by whole numbers, before
 /// single precision takes what is left of them.
@@ -139,18 +141,29 @@ private:
 bool fitsSinglePrecision(const ObjElements& elements)
 {
     Extent all;
+    double area = 0.0, narrowArea = 0.0; // doubled
     std::size_t at = 0;
     for (const std::uint32_t count : elements.faceCorners) {
+        const auto corner = [&](std::size_t i) -> const glm::dvec3& {
+            return elements.positions[static_cast<std::size_t>(elements.corners[at + i].position)];
+        };
         Extent face;
-        for (std::size_t i = at; i < at + count; ++i)
-            face.add(elements.positions[static_cast<std::size_t>(elements.corners[i].position)]);
+        glm::dvec3 normal(0.0);
+        for (std::size_t i = 0; i < count; ++i) {
+            face.add(corner(i));
+            if (i >= 2)
+                normal += glm::cross(corner(i - 1) - corner(0), corner(i) - corner(0));
+        }
         at += count;
-        if (face.size() > 0.0 && face.size() < leastFace * face.distance())
+        const double least = leastFace * face.distance(), faceArea = glm::length(normal);
+        if (face.size() > 0.0 && face.size() < least)
             return false;
+        area += faceArea;
+        narrowArea += faceArea < least * face.size() ? faceArea : 0.0;
         all.add(face.lo);
         all.add(face.hi);
     }
-    return !(all.size() > 0.0 && farInSizes * all.size() < all.distance());
+    return narrowArea <= mostNarrow * area && !(all.size() > 0.0 && farInSizes * all.size() < all.distance());
 }
 
 Mesh triangulated(ObjElements elements, const std::vector<ObjFace>& faces, const std::vector<std::string>& objectNames,

@@ -18,7 +18,8 @@ struct ObjFace {
 };
 
 /// Whether single precision tells the points of the faces apart: what it rounds off is next to nothing of the mesh's
-/// size and small against that of each face. Otherwise the mesh lies too far from its origin.
+/// size and small against that of each face, and against how narrow it is. Otherwise the mesh lies too far from its
+/// origin.
 bool fitsSinglePrecision(const ObjElements& elements);
 
 /// The triangles of the faces, of which there is one for each of elements.faceCorners; without palette. objectNames: of

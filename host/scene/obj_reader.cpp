@@ -38,6 +38,8 @@ std::vector<std::string> libraryNames(
     std::vector<std::string> names(1);
     char quote = 0; // that the name is in
     for (std::size_t i = 0; i < line.size(); ++i) {
+        if (quote == 0 && names.back().empty() && line[i] == '#' && i > 0) // a comment
+            break;
         const bool opens = names.back().empty() && (line[i] == '"' || line[i] == '\'');
         if (quote == 0 && opens && line.find(line[i], i + 1) != std::string::npos)
             quote = line[i];

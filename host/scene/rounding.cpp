@@ -13,7 +13,7 @@
 namespace wedge::scene {
 namespace {
 
-constexpr double mostOff = 0.05; ///< of an edge's length
+constexpr double mostOff = 0.05; ///< of an edge's length, or of a triangle's height
 constexpr double mostTriangles = 0.01, mostArea = 0.001; ///< that may be off by more
 constexpr const char* kind = "places far from the origin";
 constexpr const char* remedy = "move all that is seen, with camera and lights, near the origin";
@@ -22,7 +22,7 @@ double largestOf(const glm::dvec3& v) { return std::max({ std::abs(v.x), std::ab
 
 /// How much of a copy is off.
 struct Lost {
-    std::size_t triangles = 0;
+    std::size_t triangles = 0, narrow = 0; ///< by their edges, and by their heights
     double area = 0.0, ofArea = 0.0;
     double farthest = 0.0; ///< largest coordinate
 };
@@ -43,8 +43,9 @@ Lost lostOf(const IndexedMesh& mesh, const glm::dmat4& placement)
         }
         const double area = glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
         lost.ofArea += area;
-        if (off > mostOff * longest && longest > 0.0) {
-            ++lost.triangles;
+        lost.triangles += off > mostOff * longest && longest > 0.0 ? 1 : 0;
+        if (off * longest > mostOff * area) { // slivers are many, but small
+            ++lost.narrow;
             lost.area += area;
         }
     }
@@ -81,7 +82,7 @@ void warnOfRounding(const IndexedMesh& mesh, const glm::dmat4& placement, const 
     const double most = std::sqrt(3.0) * spacingAt(farthestOf(mesh, placement));
     const glm::dmat3 linear(placement);
     const double scale = std::min({ glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2]) });
-    if (most < mostOff * scale * mesh.leastTriangle)
+    if (most < mostOff * scale * mesh.leastHeight)
         return;
     const Lost lost = lostOf(mesh, placement);
     const auto triangles = static_cast<double>(mesh.indices.size() / 3);
@@ -90,7 +91,27 @@ void warnOfRounding(const IndexedMesh& mesh, const glm::dmat4& placement, const 
     warnings.add(kind,
         fmt::format("{}: single precision tells points {:.2g} m apart at coordinates of {:g} m, so that {} of {} "
                     "triangles lose their shape; {}",
-            where, spacingAt(lost.farthest), lost.farthest, lost.triangles, mesh.indices.size() / 3, remedy));
+            where, spacingAt(lost.farthest), lost.farthest, std::max(lost.triangles, lost.narrow),
+            mesh.indices.size() / 3, remedy));
+}
+
+void warnOfRounding(const Scene& scene, Warnings& warnings)
+{
+    constexpr double ofScene = 2e-5;
+    Bounds bounds = sceneBounds(scene);
+    for (const PointLight& light : scene.pointLights) {
+        bounds.lo = glm::min(bounds.lo, light.position);
+        bounds.hi = glm::max(bounds.hi, light.position);
+    }
+    const double size = largestOf(glm::dvec3(bounds.hi) - glm::dvec3(bounds.lo));
+    for (std::size_t i = 0; i < scene.pointLights.size(); ++i) {
+        const double farthest = largestOf(glm::dvec3(scene.pointLights[i].position));
+        if (spacingAt(farthest) > ofScene * size && size > 0.0)
+            warnings.add(kind,
+                fmt::format("scene {}: single precision tells points {:.2g} m apart at coordinates of {:g} m, where "
+                            "point light {} is; {}",
+                    scene.path, spacingAt(farthest), farthest, i + 1, remedy));
+    }
 }
 
 void warnOfRounding(

@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include "host/scene/mesh_builder.h"
+#include "host/scene/scene.h"
 #include "host/scene/warnings.h"
 
 namespace wedge::scene {
@@ -13,9 +14,13 @@ namespace wedge::scene {
 double spacingAt(double coordinate);
 
 /// Warns of a copy of a mesh that is so far from the origin that single precision shows in its shape, with the size
-/// that is lost: an edge of a hundredth of the triangles is off by a twentieth of its length, or one of triangles with
-/// a thousandth of the area. where: begins the message ("scene file a.toml:3:8").
+/// that is lost: a hundredth of the triangles has an edge that is off by a twentieth of the longest one, or triangles
+/// with a thousandth of the area one that is off by a twentieth of their height. where: begins the message ("scene file
+/// a.toml:3:8").
 void warnOfRounding(const IndexedMesh& mesh, const glm::dmat4& placement, const std::string& where, Warnings& warnings);
+
+/// Warns of point lights of a scene that is so far from the origin for its size that single precision shows.
+void warnOfRounding(const Scene& scene, Warnings& warnings);
 
 /// Warns of a place, say of a camera, that single precision moves by more than `size` m, which is what is small there.
 /// what: "camera's eye".

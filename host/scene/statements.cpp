@@ -92,9 +92,14 @@ std::string_view StatementReader::rest()
 
 std::string_view unquoted(std::string_view name)
 {
-    const bool quoted =
-        name.size() >= 2 && (name.front() == '"' || name.front() == '\'') && name.back() == name.front();
-    return quoted && name.find(name.front(), 1) == name.size() - 1 ? name.substr(1, name.size() - 2) : name;
+    if (name.empty() || (name.front() != '"' && name.front() != '\''))
+        return name;
+    const std::size_t end = name.find(name.front(), 1);
+    if (end == std::string_view::npos)
+        return name;
+    const std::size_t behind = name.find_first_not_of(" \t", end + 1);
+    const bool commented = behind != std::string_view::npos && behind > end + 1 && name[behind] == '#';
+    return behind == std::string_view::npos || commented ? name.substr(1, end - 1) : name;
 }
 
 NumberKind parseNumber(std::string_view word, double& value)

@@ -37,7 +37,7 @@ private:
     std::size_t line_ = 0, following_ = 1;
 };
 
-/// A name without the quotation marks, double or single, that some programs write around it.
+/// A name without the quotation marks, double or single, that some programs write around it; a comment may follow them.
 std::string_view unquoted(std::string_view name);
 
 /// What a word is when it is read as a number.

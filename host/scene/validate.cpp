@@ -1,5 +1,6 @@
 #include "host/scene/validate.h"
 
+#include "host/scene/rounding.h"
 #include "host/scene/sections.h"
 
 #include <algorithm>
@@ -129,6 +130,7 @@ void checkScene(const Scene& scene, Warnings& warnings)
         warnings.add(
             "lights", fmt::format("scene {}: no light, surfaces stay black but with --integrator ao", scene.path));
     warnOfHiddenLights(scene, warnings);
+    warnOfRounding(scene, warnings);
 }
 
 } // namespace wedge::scene
