@@ -44,6 +44,9 @@ void print(const DeviceInfo& d)
 int listDevices(bool json)
 {
     const std::vector<DeviceInfo> devices = device::listDevices();
+    if (!json) {
+        device::requireDevices();
+    }
     warnOf(device::deviceNotices());
     if (json) {
         Json list = Json::array();
@@ -54,7 +57,6 @@ int listDevices(bool json)
         requireSaid();
         return 0;
     }
-    device::requireDevices();
     for (const DeviceInfo& d : devices) {
         print(d);
     }

@@ -7,6 +7,7 @@
 #include "host/app/render_job.h"
 #include "host/app/render_settings.h"
 #include "host/device/device.h"
+#include "host/device/source.h"
 #include "host/error.h"
 #include "host/files_opened.h"
 #include "host/render/distributed_frame.h"
@@ -98,9 +99,8 @@ void RenderJob::checkCall() const
         throw UsageError("layers have no file to go to", options_.layers, "add an output that ends in .exr");
     }
     checkView();
-    std::error_code ignored;
-    if (!options_.kernelDir.empty() && !std::filesystem::is_directory(options_.kernelDir, ignored)) {
-        throw Error("kernel folder", options_.kernelDir, "name an existing folder");
+    if (!options_.kernelDir.empty()) {
+        device::requireKernelFolder(options_.kernelDir);
     }
     std::vector<std::string> written = { options_.report, options_.explain };
     std::ranges::transform(outputs, std::back_inserter(written), &Output::path);

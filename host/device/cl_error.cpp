@@ -90,7 +90,7 @@ std::string_view remedyFor(cl_int code)
     case CL_OUT_OF_RESOURCES:
         return "render a smaller image, close programs that use the device's memory, or choose another device";
     case CL_INVALID_COMMAND_QUEUE:
-        return "the driver has dropped the queue, as a watchdog does after seconds in one launch; choose another "
+        return "the driver may have dropped the queue, as a watchdog does after seconds in one launch; choose another "
                "device or update its driver";
     case CL_DEVICE_NOT_AVAILABLE:
     case CL_COMPILER_NOT_AVAILABLE:

@@ -46,7 +46,10 @@ std::string whyUnusable(const cl::Device& device, const std::string& version)
     unsigned majorVersion = 0;
     unsigned minorVersion = 0;
     const int parsed = std::sscanf(version.c_str(), "OpenCL %u.%u", &majorVersion, &minorVersion);
-    if (parsed != 2 || majorVersion * 10 + minorVersion < 12) {
+    if (parsed != 2) {
+        return "a version that is none of OpenCL: " + version;
+    }
+    if (majorVersion * 10 + minorVersion < 12) {
         return "older than OpenCL 1.2";
     }
     if (device.getInfo<CL_DEVICE_AVAILABLE>() == CL_FALSE) {

@@ -1,5 +1,6 @@
 #include "host/device/program.h"
 
+#include "host/device/cache_folder.h"
 #include "host/device/cl_error.h"
 #include "host/device/driver_cache.h"
 #include "host/device/quirks.h"
@@ -65,6 +66,16 @@ std::string writeTemporary(const std::string& text)
     }
     ::close(file);
     return rest.empty() ? path : "";
+}
+
+/// What to do about a program that does not build, of a folder of kernels or, "", of ours.
+std::string remedyOfFailure(const std::string& kernelDir)
+{
+    const std::filesystem::path cache = DriverCache::ofProcess().folder();
+    if (!cache.empty() && lacksRoom(cache)) {
+        return "make room on the disk of " + cache.string();
+    }
+    return kernelDir.empty() ? "update the driver or choose another device, or report it" : "correct the kernel";
 }
 
 void requirePlain(const std::string& text)
@@ -197,9 +208,7 @@ void ProgramLibrary::reportFailure(const std::string& file, const std::string& s
     const std::string report =
         writeTemporary(fmt::format("program: {}\ndevice: {} ({}, driver {})\noptions: {}\n\n{}\n\n{}", file,
             device_.info().name, device_.info().platform, device_.info().driver, optionsString(), log, source));
-    const std::string remedy = options_.kernelDir.empty()
-        ? "make room on the disk that the driver keeps its cache on, or report it"
-        : "correct the kernel";
+    const std::string remedy = remedyOfFailure(options_.kernelDir);
     std::string options = optionsString();
     if (const auto at = options.find(exactDivisionOption); at != std::string::npos) {
         options.erase(at, exactDivisionOption.size()); // one line has to hold the place in the kernel

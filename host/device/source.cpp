@@ -14,6 +14,7 @@
 #include <set>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 
 namespace wedge::device {
 namespace {
@@ -76,8 +77,8 @@ public:
         : kernelDir_(kernelDir)
         , generated_(generated)
     {
-        if (!kernelDir.empty() && !fs::is_directory(kernelDir)) {
-            throw Error("kernel folder", kernelDir, "name an existing folder with --kernel-dir");
+        if (!kernelDir.empty()) {
+            requireKernelFolder(kernelDir);
         }
     }
 
@@ -101,8 +102,8 @@ private:
         }
         if (!kernelDir_.empty()) {
             const fs::path onDisk = (kernelDir_ / path).lexically_normal();
-            std::error_code absent;
-            if (fs::exists(onDisk, absent)) {
+            std::error_code unknown; // what is there and cannot be looked at is told, and not passed over
+            if (fs::exists(fs::symlink_status(onDisk, unknown)) || unknown == std::errc::permission_denied) {
                 return SourceFile { path, onDisk.generic_string(), readFile(onDisk, "kernel file", maxKernelFile) };
             }
         }
@@ -182,6 +183,15 @@ private:
 };
 
 } // namespace
+
+void requireKernelFolder(const std::string& folder)
+{
+    std::error_code failed;
+    if (!fs::is_directory(folder, failed)) {
+        const std::error_code reason = failed ? failed : std::make_error_code(std::errc::not_a_directory);
+        throw Error(fmt::format("kernel folder ({})", reason.message()), folder, "name a folder with --kernel-dir");
+    }
+}
 
 std::string namePlaces(const std::string& log, const std::string& flatSource)
 {

@@ -26,6 +26,9 @@ using GeneratedSources = std::map<std::string, std::string, std::less<>>;
 /// Throws Error for a missing file or folder, and for files that include each other, with the including file and line.
 FlatSource flattenKernel(const std::string& kernelDir, const std::string& file, const GeneratedSources& generated = {});
 
+/// Throws Error, with the system's reason, where a folder of kernels is none or cannot be looked at.
+void requireKernelFolder(const std::string& folder);
+
 /// A compiler's messages, with the places in which some drivers (NVIDIA's) count the lines of a flattened source and
 /// look at no #line, `<kernel>:18:`, named as others name them: `kernels/frame/primary.cl:5:`.
 std::string namePlaces(const std::string& log, const std::string& flatSource);
