@@ -1,6 +1,7 @@
 #include "device_testing.h"
 
 #include "host/device/buffer.h"
+#include "host/device/cache_root.h"
 #include "host/device/program_cache.h"
 #include "host/device/queue.h"
 #include "host/device/quirks.h"
@@ -315,7 +316,7 @@ TEST_CASE("the cache folder: WEDGE_CACHE_DIR before XDG_CACHE_HOME before HOME")
     ::setenv("HOME", "/h", 1);
     ::setenv("XDG_CACHE_HOME", "/x", 1);
     ::setenv("WEDGE_CACHE_DIR", "/w", 1);
-    const auto folder = [] { return ProgramCache::fromEnvironment().entry("key").parent_path(); };
+    const auto folder = [] { return wedge::device::WantedCache::fromEnvironment().folder; };
     CHECK(folder() == "/w");
     ::unsetenv("WEDGE_CACHE_DIR");
     CHECK(folder() == "/x/wedge");
@@ -323,9 +324,11 @@ TEST_CASE("the cache folder: WEDGE_CACHE_DIR before XDG_CACHE_HOME before HOME")
     CHECK(folder() == "/h/.cache/wedge");
     ::unsetenv("HOME");
     CHECK(folder().empty());
+    CHECK_FALSE(wedge::device::WantedCache::fromEnvironment().off);
     ::setenv("HOME", home.c_str(), 1);
     ::setenv("WEDGE_CACHE_DIR", "", 1);
     CHECK(folder().empty());
+    CHECK(wedge::device::WantedCache::fromEnvironment().off);
 }
 
 TEST_CASE("the cache drops its oldest entries")
