@@ -275,6 +275,7 @@ TEST_CASE("a list's guide leads to where each stripe of numbers begins")
     SceneBuilder b = room();
     for (int i = 0; i < 40; ++i) { // powers from 1 to 5e5
         const float x = static_cast<float>(i), side = 0.1f * std::pow(1.4f, x);
+        b.newObject();
         b.triangle({ x, 3, 0 }, { x, 3, side }, { x + 0.5f, 3, 0 }, glowing);
     }
     const std::vector<shared::Emitter> list = render::emitterList(b.scene).list;
