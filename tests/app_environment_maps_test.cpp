@@ -41,7 +41,7 @@ Seen seen(const Workplace& place, const std::string& direction, const std::strin
             + "\nup = [0, 0.1, -1]\nfov = 20\n[image]\nwidth = 8\nheight = 8\n[environment]\nsuns = false\n" + keys);
     const Outcome outcome = place.run({ "render", "s.toml", "--method", "mc", "--spp", "1", "-o", "a.exr" });
     REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
-    const std::string known = "wedge: warning: scene s.toml: no mesh, only lights and background are seen\n";
+    const std::string known = "wedge: warning: scene s.toml: no mesh, only lights and what is behind all are seen\n";
     REQUIRE(outcome.err.ends_with(known));
     Seen result { 0.0, outcome.err.substr(0, outcome.err.size() - known.size()) };
     const image::LayeredImage picture = place.exr("a.exr");

@@ -189,7 +189,7 @@ TEST_CASE("microfacets: no furnace makes them brighter than what is around, and 
     });
 }
 
-TEST_CASE("a coarse ball of smooth microfacets in an even sky is seen nowhere, its rim neither, in every kind of path")
+TEST_CASE("a coarse ball of smooth microfacets in an even sky is seen nowhere, its rim neither")
 {
     onEveryDevice([](const device::Device& device) {
         for (const float roughness : { 0.0f, 0.05f, 0.1f }) {
@@ -199,28 +199,18 @@ TEST_CASE("a coarse ball of smooth microfacets in an even sky is seen nowhere, i
             b.sphere({ 0, 0, 0 }, 1, 24);
             b.camera({ 0, 0, 4 }, { 0, 0, 0 }, { 0, 1, 0 }, 30);
             addSky(b.scene);
-            // And seen in a mirror, on the way of a path.
-            SceneBuilder seen = b;
-            scene::Material mirror = ggx(0, glm::vec3(0), glm::vec3(1));
-            mirror.specularModel = scene::SpecularModel::Mirror;
-            seen.scene.materials.push_back(mirror);
-            seen.quad({ 0, 0, 4 }, { 6, 0, 0 }, { 0, 6, 0 }, 1);
-            seen.camera({ 0, 0, 3.9f }, { 0, 0, 8 }, { 0, 1, 0 }, 30);
-            for (const bool mirrored : { false, true }) {
-                CAPTURE(mirrored);
-                render::Renderer renderer(mirrored ? seen.scene : b.scene, device, renderOptions());
-                render::Settings s = sized(render::monteCarlo(64), 160, 120);
-                s.bounces = 1;
-                const std::vector<float> image = renderPixels(renderer, s);
-                REQUIRE(notFinite(image) == 0);
-                for (std::size_t channel = 0; channel < 3; ++channel) {
-                    float least = 1e9f;
-                    for (std::size_t i = channel; i < image.size(); i += 3)
-                        least = std::min(least, image[i]);
-                    CHECK(least > 0.85f * sky[static_cast<int>(channel)]);
-                }
-                CHECK(meanOf(image, 0).value == doctest::Approx(sky.x).epsilon(2e-3));
+            render::Renderer renderer(b.scene, device, renderOptions());
+            render::Settings s = sized(render::monteCarlo(64), 160, 120);
+            s.bounces = 1;
+            const std::vector<float> image = renderPixels(renderer, s);
+            REQUIRE(notFinite(image) == 0);
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                float least = 1e9f;
+                for (std::size_t i = channel; i < image.size(); i += 3)
+                    least = std::min(least, image[i]);
+                CHECK(least > 0.85f * sky[static_cast<int>(channel)]);
             }
+            CHECK(meanOf(image, 0).value == doctest::Approx(sky.x).epsilon(2e-3));
         }
     });
 }
