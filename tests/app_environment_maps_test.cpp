@@ -77,6 +77,7 @@ TEST_CASE("what a map stores outside of its display window is no part of the sph
 {
     const Workplace place;
     std::vector<std::pair<int, float>> outside;
+    outside.reserve(16 * 4);
     for (int i = 0; i < 16 * 4; ++i)
         outside.emplace_back(i, infinity); // four rows above the zenith
     writeMap(place, -4, 8, outside);

@@ -85,7 +85,8 @@ void warnOfRounding(const IndexedMesh& mesh, const glm::dmat4& placement, const 
     if (most < mostOff * scale * mesh.leastHeight)
         return;
     const Lost lost = lostOf(mesh, placement);
-    const auto triangles = static_cast<double>(mesh.indices.size() / 3);
+    const std::size_t count = mesh.indices.size() / 3;
+    const auto triangles = static_cast<double>(count);
     if (static_cast<double>(lost.triangles) <= mostTriangles * triangles && lost.area <= mostArea * lost.ofArea)
         return;
     warnings.add(kind,
