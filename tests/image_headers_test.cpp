@@ -88,7 +88,9 @@ TEST_CASE("an EXR's picture is its display window: black where nothing is stored
         { { { 5, -9 }, { 30, 20 } }, { -5, -5, 21, 25 } }, // more on all sides
         { { { 14, -9 }, { 30, -3 } }, { 4, -5, 21, 2 } }, // both
     };
-    for (const auto& [data, window] : windows) {
+    for (const auto& pair : windows) {
+        const auto& data = pair.first;
+        const Window& window = pair.second;
         CAPTURE(window.x0);
         CAPTURE(window.y1);
         writeExrOf(path, display, data);

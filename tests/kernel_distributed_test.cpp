@@ -119,12 +119,12 @@ TEST_CASE("widths: apart where the mean error around of the same object is small
     onEveryRegion(50, [](KernelBench& bench, const Region& region, std::mt19937& random) {
         for (const std::uint32_t radius : { 0u, 1u, 2u, 5u })
             for (const auto& [never, packed] : { std::pair(0u, 0u), { 1u, 0u }, { 0u, 1u }, { 1u, 1u } }) {
-                CAPTURE(packed);
                 const Widths in(region, random, packed);
                 shared::DistributedParams p = paramsOf(region);
                 p.packed = packed;
                 p.factoringRadius = radius;
                 p.never = never;
+                CAPTURE(p.packed);
                 const Planes<float> found = factoredWidths(bench, region, p, in);
                 everyPixel(region.window, [&](int x, int y) {
                     CAPTURE(x);

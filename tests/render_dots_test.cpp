@@ -60,7 +60,8 @@ TEST_CASE("counts are even where demands say nothing of the pixels that have the
     for (std::uint8_t& f : found)
         f = random() % 25 == 0 ? 1 : 0; // pixels in which one of eight samples found something
     const auto at = [&](int x, int y) {
-        return x >= 0 && y >= 0 && x < width && y < height && found[static_cast<std::size_t>(y * width + x)] != 0;
+        return x >= 0 && y >= 0 && x < width && y < height
+            && found[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] != 0;
     };
     const auto around = [&](int x, int y) {
         int sum = 0;

@@ -50,12 +50,13 @@ void addPanel(SceneBuilder& b, int n, std::uint32_t material)
 {
     for (int i = 0; i < n * n; ++i) {
         const auto at = [&](int k) { return (2.0f * static_cast<float>(k) + 1.0f) / static_cast<float>(n) - 1.0f; };
+        const int column = i % n, row = i / n;
         const std::size_t first = b.scene.geometry.positions.size() / 3;
         const glm::vec3 u = lampU / static_cast<float>(n), v = lampV / static_cast<float>(n);
-        b.quad(lampCentre + at(i % n) * lampU + at(i / n) * lampV, u, v, material);
+        b.quad(lampCentre + at(column) * lampU + at(row) * lampV, u, v, material);
         const float part = 1.0f / static_cast<float>(n);
         moveTexture(
-            b, first, { part, 0 }, { 0, part }, { part * static_cast<float>(i % n), part * static_cast<float>(i / n) });
+            b, first, { part, 0 }, { 0, part }, { part * static_cast<float>(column), part * static_cast<float>(row) });
     }
 }
 
@@ -266,9 +267,10 @@ TEST_CASE("tables of textures are bounded, and forget no texel")
         <= render::EmitterTextures::mostCells + square.columns + square.rows);
     const auto& rgba = b.scene.textures[0].rgba;
     const auto texel = static_cast<int>(std::ranges::find(rgba, 0xffffffffu) - rgba.begin());
+    const int column = texel % columns, row = texel / columns;
     for (const double dx : { -0.99, 0.0, 0.99 })
         for (const double dy : { -0.99, 0.0, 0.99 }) {
-            const double u = (texel % columns + 0.5 + dx) / columns, v = (texel / columns + 0.5 + dy) / rows;
+            const double u = (column + 0.5 + dx) / columns, v = (row + 0.5 + dy) / rows;
             const auto x = static_cast<std::size_t>(u * square.columns), y = static_cast<std::size_t>(v * square.rows);
             CHECK(square.cells[y * square.columns + x] > 0);
         }

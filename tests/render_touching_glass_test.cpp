@@ -6,6 +6,8 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+
 using namespace wedge;
 using namespace wedge::test;
 
@@ -104,10 +106,9 @@ TEST_CASE("slabs that share planes are one slab, of one glass and of several")
                 CAPTURE(lift);
                 checkSlabs(slabs(materials, { { lift, lift + 0.1f, 1 }, { lift - 0.2f, lift, 1 } }, angle), device,
                     seenThrough({ 1.5 }, angle));
-                std::vector<Layer> eight;
-                for (int i = 0; i < 8; ++i)
-                    eight.push_back(
-                        { lift - 0.1f * static_cast<float>(i + 1), lift - 0.1f * static_cast<float>(i), 1 });
+                std::array<Layer, 8> eight {};
+                for (std::size_t i = 0; i < eight.size(); ++i)
+                    eight[i] = { lift - 0.1f * static_cast<float>(i + 1), lift - 0.1f * static_cast<float>(i), 1 };
                 checkSlabs(slabs(materials, eight, angle), device, seenThrough({ 1.5 }, angle));
                 checkSlabs(
                     slabs(materials,
@@ -177,7 +178,7 @@ TEST_CASE("slabs in one another: the inner one counts, flush with the outer one 
             for (int i = 0; i < 20; ++i) {
                 const float inset = 0.04f * static_cast<float>(i);
                 nested.push_back({ -1 + inset, 1 - inset, static_cast<std::uint32_t>(4 + i) });
-                indices.push_back(materials[static_cast<std::size_t>(3 + i)].index);
+                indices.push_back(materials[3 + static_cast<std::size_t>(i)].index);
             }
             for (int i = 18; i >= 0; --i)
                 indices.push_back(indices[static_cast<std::size_t>(i)]);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "scene_support.h"
 
@@ -15,8 +16,8 @@ TEST_CASE("counts and mu of a scene file have the renderer's ranges")
 {
     for (const std::string key : { "spp", "max_spp" }) {
         for (const std::string value : { "0", "-1", "1048577", "99999999999" })
-            CHECK(contains(error("[integrator]\n" + key + " = " + value + "\n"),
-                key + " of integrator is out of range: " + value + ": use 1 to 1048576"));
+            CHECK(contains(error(fmt::format("[integrator]\n{} = {}\n", key, value)),
+                fmt::format("{} of integrator is out of range: {}: use 1 to 1048576", key, value)));
         CHECK(error("[integrator]\n" + key + " = 1\n") == "");
         CHECK(error("[integrator]\n" + key + " = 1048576\n") == "");
     }
@@ -62,11 +63,12 @@ TEST_CASE("cameras that single precision cannot tell apart from broken ones")
     // What is just inside has a direction and a right hand side in single precision too.
     const std::vector<std::pair<std::string, std::string>> sound = { { "[1e12, 1e12, 1e12]", "[0, 0, 0]" },
         { "[1000, 0, 0.002]", "[1000, 0, 0]" }, { "[0, 0, 2e-18]", "[0, 0, 0]" }, { "[0, 0, 1]", "[0, 0, 0]" } };
-    for (const auto& [eye, lookAt] : sound) {
+    for (const auto& place : sound) {
+        const auto& [eye, lookAt] = place;
         for (const char* up : { "[0, 1, 0]", "[0, 1e30, 0]", "[0, 1e-30, 0]" }) {
-            CAPTURE(eye);
+            CAPTURE(place.first);
             CAPTURE(up);
-            const Scene s = load("[camera]\neye = " + eye + "\nlook_at = " + lookAt + "\nup = " + up + "\n");
+            const Scene s = load(fmt::format("[camera]\neye = {}\nlook_at = {}\nup = {}\n", eye, lookAt, up));
             const glm::vec3 forward = glm::normalize(s.camera.lookAt - s.camera.eye);
             const glm::vec3 right = glm::normalize(glm::cross(forward, s.camera.up));
             CHECK(glm::length(forward) == doctest::Approx(1.0f));

@@ -1,6 +1,7 @@
 // Warnings: at most ten of a kind, each a line that a terminal can show.
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -47,9 +48,8 @@ TEST_CASE("files that give thousands of warnings give tens of lines")
     const TemporaryFolder folder;
     std::string faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", library;
     for (int i = 0; i < 3000; ++i) {
-        const std::string name = std::to_string(i);
-        faces += "usemtl A" + name + "\nf 1 2 3\nf 1 2 1\nusemtl none" + name + "\nf 3 2 1\n";
-        library += "newmtl a" + name + "\nKd 1 1 -1\nKs 1 1 1\nNs x\nmap_Kd none" + name + ".png\nd 0.5\n";
+        faces += fmt::format("usemtl A{0}\nf 1 2 3\nf 1 2 1\nusemtl none{0}\nf 3 2 1\n", i);
+        library += fmt::format("newmtl a{0}\nKd 1 1 -1\nKs 1 1 1\nNs x\nmap_Kd none{0}.png\nd 0.5\n", i);
     }
     folder.write("m.mtl", library);
     folder.write("m.obj", "mtllib m.mtl\n" + faces);

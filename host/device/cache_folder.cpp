@@ -119,7 +119,7 @@ bool isUntouched(const fs::path& folder)
 /// Makes a folder ours that is nobody's. Returns why it is not, or "".
 std::string adopt(const fs::path& folder)
 {
-    const std::string others = "it is not of wedge's making";
+    constexpr const char* others = "it is not of wedge's making";
     if (!isUntouched(folder)) {
         return hasTag(folder) ? "" : others; // that another process may have put in meanwhile
     }

@@ -46,7 +46,8 @@ std::vector<cl::Platform> platforms(cl_int& code)
 SilentPlatform silent(const cl::Platform& platform, cl_int code)
 {
     try {
-        return { platform.getInfo<CL_PLATFORM_NAME>().c_str(), platform.getInfo<CL_PLATFORM_VERSION>().c_str(), code };
+        return { trimmed(platform.getInfo<CL_PLATFORM_NAME>()), trimmed(platform.getInfo<CL_PLATFORM_VERSION>()),
+            code };
     } catch (const cl::Error& error) {
         return { "without a name", "", error.err() };
     }

@@ -30,16 +30,6 @@ DeviceType typeOf(cl_device_type type)
     return (type & CL_DEVICE_TYPE_ACCELERATOR) != 0 ? DeviceType::Accelerator : DeviceType::Other;
 }
 
-/// opencl.hpp keeps the terminating zero of some drivers' strings, and some pad names with blanks.
-std::string trimmed(std::string text)
-{
-    const std::string blanks(" \t\r\n\0", 5);
-    const auto last = text.find_last_not_of(blanks);
-    text.erase(last == std::string::npos ? 0 : last + 1);
-    text.erase(0, std::min(text.find_first_not_of(blanks), text.size()));
-    return text;
-}
-
 /// Why the device cannot run wedge's programs, or "".
 std::string whyUnusable(const cl::Device& device, const std::string& version)
 {
@@ -62,6 +52,15 @@ std::string whyUnusable(const cl::Device& device, const std::string& version)
 }
 
 } // namespace
+
+std::string trimmed(std::string text)
+{
+    const std::string blanks(" \t\r\n\0", 5);
+    const auto last = text.find_last_not_of(blanks);
+    text.erase(last == std::string::npos ? 0 : last + 1);
+    text.erase(0, std::min(text.find_first_not_of(blanks), text.size()));
+    return text;
+}
 
 std::string_view deviceTypeName(DeviceType type)
 {

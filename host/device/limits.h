@@ -57,6 +57,10 @@ struct DeviceInfo {
     std::vector<std::string> quirks;
 };
 
+/// A driver's string without blanks at its ends, with which some pad names, and without the terminating zeros that
+/// opencl.hpp keeps of some.
+std::string trimmed(std::string text);
+
 /// Queries one device and applies its quirks; hostTimers is a guess. Throws wedge::Error if a query fails.
 DeviceInfo queryDevice(const cl::Platform& platform, const cl::Device& device, unsigned index);
 

@@ -177,8 +177,9 @@ shared::Emitter addMesh(
     mesh.triangle = static_cast<std::uint32_t>(list.size());
     mesh.header = side;
     for (std::uint32_t i = 0; i < side * side; ++i) {
-        list.push_back(cellOf(list, root,
-            { (i % side) / static_cast<double>(side), (i / side) / static_cast<double>(side) }, 1.0 / side));
+        const std::uint32_t column = i % side, row = i / side;
+        list.push_back(
+            cellOf(list, root, { column / static_cast<double>(side), row / static_cast<double>(side) }, 1.0 / side));
     }
     return mesh;
 }

@@ -60,7 +60,7 @@ std::vector<std::string> libraryNames(
 class MaterialsByName {
 public:
     /// Of materials of one name the first counts.
-    void add(std::vector<Material> library)
+    void add(std::vector<Material>&& library)
     {
         for (Material& material : library) {
             const std::string name = material.name;

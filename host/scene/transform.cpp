@@ -15,10 +15,8 @@ glm::dmat4 readMatrix(TableReader& step)
 {
     const std::vector<double> m = *step.numbers("matrix", 16, 16);
     glm::dmat4 matrix;
-    for (int row = 0; row < 4; ++row) {
-        for (int column = 0; column < 4; ++column)
-            matrix[column][row] = m[static_cast<std::size_t>(4 * row + column)];
-    }
+    for (std::size_t i = 0; i < m.size(); ++i)
+        matrix[static_cast<int>(i % 4)][static_cast<int>(i / 4)] = m[i];
     if (m[12] != 0.0 || m[13] != 0.0 || m[14] != 0.0 || m[15] != 1.0)
         step.fail("matrix", "is projective", fmt::format("last row {:g} {:g} {:g} {:g}", m[12], m[13], m[14], m[15]),
             "end it with 0, 0, 0, 1 (the translation is the last column)");
