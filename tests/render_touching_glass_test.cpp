@@ -6,8 +6,6 @@
 
 #include <doctest/doctest.h>
 
-#include <array>
-
 using namespace wedge;
 using namespace wedge::test;
 
@@ -106,7 +104,7 @@ TEST_CASE("slabs that share planes are one slab, of one glass and of several")
                 CAPTURE(lift);
                 checkSlabs(slabs(materials, { { lift, lift + 0.1f, 1 }, { lift - 0.2f, lift, 1 } }, angle), device,
                     seenThrough({ 1.5 }, angle));
-                std::array<Layer, 8> eight {};
+                std::vector<Layer> eight(8);
                 for (std::size_t i = 0; i < eight.size(); ++i)
                     eight[i] = { lift - 0.1f * static_cast<float>(i + 1), lift - 0.1f * static_cast<float>(i), 1 };
                 checkSlabs(slabs(materials, eight, angle), device, seenThrough({ 1.5 }, angle));
