@@ -12,11 +12,9 @@ namespace wedge::render {
 /// Whether rays may pass through what is made of a material.
 bool isCutout(const scene::Material& m);
 
-/// Whether any triangle has a material that rays may pass through: programs are then built with WEDGE_CUTOUTS.
-bool hasCutouts(const scene::Scene& scene);
-
-/// What rays pass through, in the layout of kernels/shared/cutout.h; empty without any. Throws Error where it does not
-/// fit into 32-bit offsets.
+/// What rays pass through, of materials and behind lights in the plane of a triangle (coversOf()), in the layout of
+/// kernels/shared/cutout.h; empty without any: programs are else built with WEDGE_CUTOUTS. Throws Error where it does
+/// not fit into 32-bit offsets.
 std::vector<std::uint32_t> cutoutTable(const scene::Scene& scene);
 
 /// Opacity of a texel, 0 to 255: its alpha where the texture has any that is not opaque, else its luminance, whose

@@ -1,6 +1,7 @@
 #include "host/render/device_scene.h"
 
 #include "host/render/effect.h"
+#include "host/render/flush_lights.h"
 #include "host/render/glass.h"
 #include "host/render/quadrature.h"
 #include "kernels/shared/bsdf.h"
@@ -302,6 +303,7 @@ DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, 
     srgbToLinear.upload(queue, texelTable());
     for (const scene::AreaLight& light : scene.areaLights) {
         areaLightList.push_back(deviceLight(light));
+        areaLightList.back().lift = liftOf(light, scene.geometry);
     }
     for (std::size_t i = 0; i < lights.shared.quadPicks.size(); ++i) {
         areaLightList[i].sharedPick = lights.shared.quadPicks[i];

@@ -1,6 +1,7 @@
 #include "host/render/direct_lights.h"
 
 #include "host/render/cutouts.h"
+#include "host/render/flush_lights.h"
 
 #include "host/render/effect.h"
 
@@ -198,7 +199,7 @@ DirectLights directLights(const scene::Scene& scene)
                 out.sharedQuads.push_back(static_cast<std::uint32_t>(number));
             }
         } else if (number < quads) {
-            out.own.push_back({ scene.areaLights[number], 0 });
+            out.own.push_back({ scene.areaLights[number], liftOf(scene.areaLights[number], scene.geometry) });
         } else {
             const Candidate& panel = found[number - quads];
             out.own.push_back(lightOf(scene, panel));

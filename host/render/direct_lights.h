@@ -19,7 +19,7 @@ inline constexpr double leastPanelShare = 1.0 / 16.0;
 /// A light that has a term of direct light of its own.
 struct OwnLight {
     scene::AreaLight quad; ///< one of the scene's, or a panel
-    float lift = 0; ///< metres, AreaLight::lift: of a panel
+    float lift = 0; ///< metres, AreaLight::lift: of a panel, or of a quad that lies in a surface
 
     shared::AreaLight onDevice() const;
 };

@@ -58,6 +58,7 @@ void Hierarchy::append(std::span<const std::uint32_t> cutouts)
     if (cutouts.empty()) {
         return;
     }
+    hasCutouts = true;
     const auto appendTo = [&](auto& blocks) {
         const std::size_t first = blocks.size(), size = sizeof(blocks[0]);
         blocks.resize(first + (cutouts.size_bytes() + size - 1) / size);

@@ -46,6 +46,7 @@ struct Hierarchy {
     void append(std::span<const std::uint32_t> cutouts);
 
     bool moves;
+    bool hasCutouts = false; ///< what append() put behind the blocks
     Traversal traversal;
     bvh::Bvh bvh; ///< only its statistics where geometry moves
     std::vector<shared::BvhNode4> narrow; ///< empty for the wide family

@@ -1,7 +1,5 @@
 #include "host/render/renderer.h"
 
-#include "host/render/cutouts.h"
-
 #include "host/device/driver_cache.h"
 #include "host/device/quirks.h"
 #include "host/graph/explain.h"
@@ -52,7 +50,7 @@ std::vector<float> onlyInside(const image::Window& window, const PlaneLayout& la
     return out;
 }
 
-device::BuildOptions programOptions(const scene::Scene& scene, const Options& options, Traversal traversal)
+device::BuildOptions programOptions(const scene::Scene& scene, const Options& options, const Hierarchy& hierarchy)
 {
     device::BuildOptions out;
     if (hasSpecular(scene)) {
@@ -73,13 +71,13 @@ device::BuildOptions programOptions(const scene::Scene& scene, const Options& op
     if (pictureOf(scene) != nullptr) {
         out.defines.emplace_back("WEDGE_ENVIRONMENT_MAP", "1");
     }
-    if (traversal == Traversal::Scalar) {
+    if (hierarchy.traversal == Traversal::Scalar) {
         out.defines.emplace_back("WEDGE_TRAVERSAL_SCALAR", "1");
     }
     if (scene::geometryMoves(scene)) {
         out.defines.emplace_back("WEDGE_MOTION", "1");
     }
-    if (hasCutouts(scene)) {
+    if (hierarchy.hasCutouts) {
         out.defines.emplace_back("WEDGE_CUTOUTS", "1");
     }
     out.fastMath = options.fastMath;
@@ -107,7 +105,7 @@ Renderer::~Renderer() = default;
 
 void Renderer::buildPrograms()
 {
-    device::BuildOptions options = programOptions(scene_, options_, hierarchy_.traversal);
+    device::BuildOptions options = programOptions(scene_, options_, hierarchy_);
     if (programs_ && options.defines == programOptions_.defines && options.generated == programOptions_.generated) {
         return;
     }

@@ -148,8 +148,8 @@ WEDGE_FN EmitterPoint sampleQuad(AreaLight light, Vec2 u, float pick)
     p.normal = light.normal;
     p.radiance = vecScale(light.radiance, profile);
     p.density = pick * profile / light.profileArea;
-    p.error = 0.0f;
-    p.end = WEDGE_SHADOW_RAY_END;
+    p.error = light.lift;
+    p.end = shadowRayEnd(light);
     p.oneSided = light.twoSided == 0u;
     return p;
 }

@@ -314,16 +314,6 @@ WEDGE_FN void sampleLights(FrameParams frame, SampleParams params, AreaLight lig
 #endif
 }
 
-/// Where shadow rays to a light end, in their lengths. What lies just before a light that is in no surface is its
-/// housing; rays to one that is in a surface are lifted off it and meet all that is before it.
-WEDGE_INLINE float shadowRayEnd(AreaLight light) { return light.lift > 0.0f ? 1.0f : WEDGE_SHADOW_RAY_END; }
-
-/// A ray to a point of a light, lifted off the surface that the light is in, if any.
-WEDGE_INLINE Vec3 liftedRay(AreaLight light, Vec3 ray)
-{
-    return vecMad(ray, light.normal, vecDot(light.normal, ray) > 0.0f ? -light.lift : light.lift);
-}
-
 /// The shadow rays of samples whose weight is not 0.
 WEDGE_FN void shadowRays(AreaLight light, const ReceiverPacket* r, const LightSamples* s, RayPacket* packet)
 {

@@ -36,19 +36,28 @@ WEDGE_INLINE float lightPdf(AreaLight light, float a, float b, float distance, f
         / (light.profileArea * fmax(fabs(facing), 1e-12f));
 }
 
+/// Whether a point is in the surface that the light is in, which does not light itself: by rounding it may be on either
+/// side of it.
+WEDGE_INLINE bool isInLight(AreaLight light, Vec3 position)
+{
+    return fabs(vecDot(light.normal, vecSub(light.centre, position))) < light.lift;
+}
+
 /// As seen from where rays start, as directions that meet a light see it: the two are combined.
 WEDGE_INLINE LightChoice sampleAreaLight(AreaLight light, Vec3 origin, Vec3 normal, Vec2 u)
 {
     LightChoice choice;
-    choice.end = WEDGE_SHADOW_RAY_END;
+    choice.end = shadowRayEnd(light);
     const float a = lightCoordinate(u.x, light.profile, light.cut, light.erfCut);
     const float b = lightCoordinate(u.y, light.profile, light.cut, light.erfCut);
     choice.ray = vecSub(lightPoint(light.centre, light.halfU, light.halfV, a, b), origin);
     choice.direction = vecNormalize(choice.ray);
-    const float geometry = geometryTerm(normal, choice.ray, light.normal, light.twoSided);
+    const float geometry =
+        isInLight(light, origin) ? 0.0f : geometryTerm(normal, choice.ray, light.normal, light.twoSided);
     choice.irradiance = vecScale(light.power, geometry / light.pick);
     const float facing = vecDot(choice.direction, light.normal);
     choice.pdf = geometry > 0.0f ? lightPdf(light, a, b, vecLength(choice.ray), facing) : 0.0f;
+    choice.ray = liftedRay(light, choice.ray);
     return choice;
 }
 
@@ -123,12 +132,8 @@ WEDGE_FN uint pickLight(LightData lights, float pick)
     return lights.emitters.count > 0u ? others : WEDGE_NO_LIGHT;
 }
 
-/// Whether a point is in the surface that the light is in, which does not light itself: by rounding it may be on either
-/// side of it.
-WEDGE_INLINE bool isInLight(AreaLight light, Vec3 position)
-{
-    return fabs(vecDot(light.normal, vecSub(light.centre, position))) < light.lift;
-}
+/// Of a distance along a ray: what its meetings with a light and a surface in one place may be off by.
+#define WEDGE_MEETING_ROUNDING 1e-6f
 
 /// Where a ray meets a light's quad.
 typedef struct {
@@ -152,6 +157,23 @@ WEDGE_INLINE LightMeeting meetLight(AreaLight light, Vec3 origin, Vec3 direction
     m.b = vecDot(vecCross(light.halfU, d), n) * scale;
     m.t = before && fabs(m.a) <= 1.0f && fabs(m.b) <= 1.0f ? t : INFINITY;
     return m;
+}
+
+/// How far along its direction a ray has met a light that lies in a surface: before that surface on the sides that
+/// emit, behind it on the other. Elsewhere where it meets the quad.
+WEDGE_INLINE float meetingEnd(AreaLight light, LightMeeting m)
+{
+    const float off = light.lift / fmax(fabs(m.facing), 1e-12f) + WEDGE_MEETING_ROUNDING * m.t;
+    const float within = light.lift > 0.0f ? fmin(off, 0.5f * m.t) : 0.0f;
+    return m.t < INFINITY ? m.t + (m.facing < 0.0f || light.twoSided != 0u ? -within : within) : m.t;
+}
+
+/// Whether a path's ray from `origin` meets a light before what it hits at a distance. As for shadow rays, what lies
+/// just before the light is its housing.
+WEDGE_INLINE bool isMetBefore(AreaLight light, LightMeeting m, Vec3 origin, float hit)
+{
+    const bool before = m.t * WEDGE_SHADOW_RAY_END < hit || meetingEnd(light, m) < hit;
+    return m.t < INFINITY && before && !isInLight(light, origin);
 }
 
 /// The light's profile where a ray met it, 0 on the side that does not emit.

@@ -20,9 +20,10 @@ WEDGE_FN void endAtLights(__global const AreaLight* lights, uint count, RayPacke
         }
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
             const LightMeeting m = meetLight(light, rayStart(rays, lane), rayDirection(rays, lane));
-            const bool nearer = m.t < rays->tMax[lane];
+            const float end = meetingEnd(light, m);
+            const bool nearer = end < rays->tMax[lane];
             setLaneVecIf(radiance, lane, nearer, vecScale(light.radiance, metProfile(light, m)));
-            rays->tMax[lane] = nearer ? m.t : rays->tMax[lane];
+            rays->tMax[lane] = nearer ? end : rays->tMax[lane];
         }
     }
 }

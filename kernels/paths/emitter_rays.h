@@ -101,8 +101,7 @@ WEDGE_FN void meetQuads(LightData lights, bool glossy, const ReceiverPacket* r, 
         }
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
             const LightMeeting m = meetLight(light, rayStart(rays, lane), rayDirection(rays, lane));
-            // As for shadow rays, what lies just before the light is its housing.
-            const bool meets = rays->tMax[lane] > 0.0f && m.t * WEDGE_SHADOW_RAY_END < hits->t[lane] && m.t < INFINITY;
+            const bool meets = rays->tMax[lane] > 0.0f && isMetBefore(light, m, rayStart(rays, lane), hits->t[lane]);
             const float profile = metProfile(light, m);
             const float other = lightPdf(light, m.a, m.b, m.t, m.facing);
             const float w = lights.sampling == WEDGE_LIGHTS_MET ? 1.0f : powerHeuristic(own[lane], other);

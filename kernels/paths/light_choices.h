@@ -24,6 +24,7 @@ WEDGE_INLINE void keepChoice(LightChoices* out, uint lane, LightChoice c)
 typedef struct {
     VecLanes centre, halfU, halfV, normal, power;
     float cut[WEDGE_PACKET_SIZE], erfCut[WEDGE_PACKET_SIZE], profileArea[WEDGE_PACKET_SIZE], pick[WEDGE_PACKET_SIZE];
+    float lift[WEDGE_PACKET_SIZE];
     uint profile[WEDGE_PACKET_SIZE], twoSided[WEDGE_PACKET_SIZE];
 } AreaLightLanes;
 
@@ -40,6 +41,7 @@ WEDGE_INLINE void fetchLight(AreaLightLanes* out, uint lane, __global const Area
     out->pick[lane] = light->pick;
     out->profile[lane] = light->profile;
     out->twoSided[lane] = light->twoSided;
+    out->lift[lane] = light->lift;
 }
 
 WEDGE_INLINE AreaLight laneLight(const AreaLightLanes* l, uint lane)
@@ -56,6 +58,7 @@ WEDGE_INLINE AreaLight laneLight(const AreaLightLanes* l, uint lane)
     light.pick = l->pick[lane];
     light.profile = l->profile[lane];
     light.twoSided = l->twoSided[lane];
+    light.lift = l->lift[lane];
     return light;
 }
 

@@ -183,8 +183,7 @@ WEDGE_FN void addLightsMet(LightData lights, const RayPacket* rays, const Packet
         const AreaLight light = lights.area[i];
         for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
             const LightMeeting m = meetLight(light, rayStart(rays, lane), rayDirection(rays, lane));
-            // As for shadow rays, what lies just before the light is its housing.
-            const bool meets = rays->tMax[lane] > 0.0f && m.t * WEDGE_SHADOW_RAY_END < hits->t[lane] && m.t < INFINITY;
+            const bool meets = rays->tMax[lane] > 0.0f && isMetBefore(light, m, rayStart(rays, lane), hits->t[lane]);
             const float other = lightPdf(light, m.a, m.b, m.t, m.facing);
             const float w = metWeight(lights, paths->pdf[lane], other);
             setLaneVecIf(&sum, lane, meets, vecMad(laneVec(&sum, lane), light.radiance, w * metProfile(light, m)));

@@ -60,7 +60,8 @@ typedef struct {
     float pick; ///< probability that a path's vertex samples this light
     float sharedPick; ///< probability that a sample of the term that lights share is of this one; less than 0: it has a
                       ///< term of its own
-    float lift; ///< metres: how far from the quad shadow rays end that lies in a surface; 0: it lies in none
+    float lift; ///< metres: how far from the quad shadow rays end that lies in a surface; 0: it lies in none. On the
+                ///< sides that emit rays meet it before what is as near
 } AreaLight;
 
 /// A point light (directional = 0: vector is its position, colour its intensity in W/sr) or a directional one
@@ -71,6 +72,16 @@ typedef struct {
     Vec3 colour;
     float pick; ///< probability that a path's vertex samples this light
 } DeltaLight;
+
+/// Where shadow rays to a light end, in their lengths. What lies just before a light that is in no surface is its
+/// housing; rays to one that is in a surface are lifted off it and meet all that is before it.
+WEDGE_INLINE float shadowRayEnd(AreaLight light) { return light.lift > 0.0f ? 1.0f : WEDGE_SHADOW_RAY_END; }
+
+/// A ray to a point of a light, lifted off the surface that the light is in, if any.
+WEDGE_INLINE Vec3 liftedRay(AreaLight light, Vec3 ray)
+{
+    return vecMad(ray, light.normal, vecDot(light.normal, ray) > 0.0f ? -light.lift : light.lift);
+}
 
 /// The score of a light's profile l, -l' / l: integrals over the light weighted by it are derivatives of what the light
 /// does where it moves. docs/soft-shadows.md

@@ -41,11 +41,34 @@ WEDGE_FN float opacityAt(__global const uint* table, uint triangle, float u, flo
             c->u[0] * w + c->u[1] * u + c->u[2] * v, c->v[0] * w + c->v[1] * u + c->v[2] * v);
 }
 
+/// Whether something in a triangle's plane covers it at the barycentrics (u, v).
+WEDGE_FN bool isCovered(__global const uint* table, uint covers, float u, float v)
+{
+    __global const uint* grid = table + covers;
+    const uint side = grid[0];
+    const uint x = min((uint)(fmax(u, 0.0f) * (float)side), side - 1u);
+    const uint y = min((uint)(fmax(v, 0.0f) * (float)side), side - 1u);
+    __global const uint* before = grid + 1u + y * side + x;
+    __global const float* edges = (__global const float*)(grid + 2u + side * side);
+    for (uint i = before[0]; i < before[1]; ++i) {
+        __global const float* e = edges + WEDGE_COVER_WORDS * i;
+        if (e[0] * u + e[1] * v + e[2] > 0.0f && e[3] * u + e[4] * v + e[5] > 0.0f && e[6] * u + e[7] * v + e[8] > 0.0f)
+            return true;
+    }
+    return false;
+}
+
 /// Whether a ray that meets a triangle at the barycentrics (u, v) goes on through it. origin, direction: the ray's, in
 /// the axes and units of its test.
 WEDGE_FN bool isHole(
     __global const uint* table, uint triangle, float u, float v, Vec3 origin, Vec3 direction, float time)
 {
+    const uint at = table[triangle];
+    if (at == WEDGE_NO_CUTOUT)
+        return false;
+    const uint covers = ((__global const Cutout*)(table + at))->covers;
+    if (covers != WEDGE_NO_COVERS && isCovered(table, covers, u, v))
+        return true;
     const float opacity = opacityAt(table, triangle, u, v);
     if (opacity >= 255.0f)
         return false;
