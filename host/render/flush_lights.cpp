@@ -285,15 +285,21 @@ float liftOf(const scene::AreaLight& light, const scene::Geometry& g)
     const Plane ofQuad { 4.0 * glm::cross(u, v), centre };
     const glm::dvec3 normal = ofQuad.normal();
     const double far = farthest(quad);
+    // One corner tells of most triangles that they are elsewhere.
+    float largest = 0;
+    for (const float x : g.positions) {
+        largest = std::max(largest, std::abs(x));
+    }
+    const glm::vec3 along(normal);
+    const auto offset = static_cast<float>(glm::dot(normal, centre));
+    const auto most = static_cast<float>(4.0 * rounding * (lightRoundings * far + 3.0 * surfaceRoundings * largest));
     double lift = 0;
     for (std::size_t t = 0; t < g.materialIds.size(); ++t) {
-        const Corners surface = cornersOf(g, t);
-        // Most are not, whatever their size: without what costs more.
-        const double most = 2.0 * flushWithin(quad, surface);
-        if (std::ranges::none_of(
-                surface, [&](const glm::dvec3& c) { return std::abs(glm::dot(normal, c - centre)) <= most; })) {
+        const float* first = &g.positions[3 * std::size_t { g.indices[3 * t] }];
+        if (std::abs(along.x * first[0] + along.y * first[1] + along.z * first[2] - offset) > most) {
             continue;
         }
+        const Corners surface = cornersOf(g, t);
         const Plane ofSurface = planeOf(surface);
         const std::optional<double> distance = apart(quad, ofQuad, surface, ofSurface);
         if (distance && !Inside(quad, normal, 0.0).excludes(surface)
