@@ -52,8 +52,9 @@ Found launch(const device::Device& device, render::Traversal family, const scene
         defines.emplace_back("WEDGE_TRAVERSAL_SCALAR", "1");
     KernelBench bench(device, defines, kernelDir().empty() ? WEDGE_TEST_KERNELS : kernelDir());
     const render::Hierarchy hierarchy = render::buildHierarchy(scene, bvh::Mode::Default, family);
-    const render::DeviceScene s(scene, hierarchy, render::SceneLights(scene), device, bench.queue);
-    CHECK(s.moves == motion);
+    const render::PreparedScene prepared(scene);
+    const render::DeviceScene s(prepared, hierarchy, device, bench.queue);
+    CHECK(prepared.traits().moves == motion);
     const auto triangle = bench.filled(rayCount, 0u);
     const auto out = bench.filled(15 * rayCount, 0.0f);
     const auto rayBuffer = bench.buffer(rays), timeBuffer = bench.buffer(times);

@@ -56,12 +56,12 @@ struct Found {
 
 Found launch(const device::Device& device, render::Traversal family, const Scattered& in, float length)
 {
-    const scene::Scene& scene = in.builder.scene;
+    const render::PreparedScene scene(in.builder.scene);
     const Defines defines =
         family == render::Traversal::Scalar ? Defines { { "WEDGE_TRAVERSAL_SCALAR", "1" } } : Defines();
     KernelBench bench(device, defines, kernelDir().empty() ? WEDGE_TEST_KERNELS : kernelDir());
     const render::Hierarchy hierarchy(bvh::build({ scene.geometry.positions, scene.geometry.indices }), family);
-    const render::DeviceScene s(scene, hierarchy, render::SceneLights(scene), device, bench.queue);
+    const render::DeviceScene s(scene, hierarchy, device, bench.queue);
     const auto triangle = bench.filled(rayCount, 0u), returns = bench.filled(rayCount, 0u);
     const auto points = bench.filled(6 * rayCount, 0.0f);
     const auto rayBuffer = bench.buffer(in.rays), directionBuffer = bench.buffer(directions());

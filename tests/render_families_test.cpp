@@ -77,7 +77,7 @@ TEST_CASE("the family follows from the device's type unless it is forced, and sh
         CHECK(wide.nodes().size() == built.nodes.size() * sizeof(shared::BvhNode));
         CHECK(narrow.nodes().size() == narrow.narrow.size() * sizeof(shared::BvhNode4));
         const auto total = [&](const render::Hierarchy& h) {
-            return render::Renderer::plan(scene, h, render::SceneLights(scene), settings).total();
+            return render::Renderer::plan(render::PreparedScene(scene), h, settings).total();
         };
         CHECK(total(wide) - wide.nodes().size() == total(narrow) - narrow.nodes().size());
     });

@@ -125,7 +125,8 @@ Places places(const SceneBuilder& b, const device::Device& device, const std::ve
 {
     KernelBench bench(device, {}, kernelDir().empty() ? WEDGE_TEST_KERNELS : kernelDir());
     const render::Hierarchy tree(bvh::build({ b.scene.geometry.positions, b.scene.geometry.indices }));
-    const render::DeviceScene scene(b.scene, tree, render::SceneLights(b.scene), device, bench.queue);
+    const render::PreparedScene prepared(b.scene);
+    const render::DeviceScene scene(prepared, tree, device, bench.queue);
     std::mt19937 random(7);
     std::vector<float> numbers(2 * std::size_t { count });
     for (float& u : numbers)

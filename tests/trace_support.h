@@ -84,7 +84,7 @@ public:
         , bench(device, defines)
         , tree(bvh::build({ scene.geometry.positions, scene.geometry.indices }), familyOf(defines))
         , hierarchy(tree.bvh)
-        , onDevice(scene, tree, render::SceneLights(scene), device, bench.queue)
+        , onDevice(scene, tree, device, bench.queue)
         , layout(width, height)
         , frame(bench, layout)
         , params(render::frameParams(scene, layout, { 0, 0, width, height }, 5))
@@ -155,7 +155,7 @@ public:
                 visit(x, y);
     }
 
-    const scene::Scene scene;
+    const render::PreparedScene scene;
     KernelBench bench;
     render::Hierarchy tree;
     const bvh::Bvh& hierarchy;

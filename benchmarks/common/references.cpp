@@ -38,7 +38,7 @@ std::string kernelFingerprint(
     if (layer != "indirect") {
         files.insert(files.end(), { "light/area_light.cl", "light/delta_lights.cl" });
     }
-    if (render::tracesPaths(settings) || render::pictureOf(renderer.scene()) != nullptr) {
+    if (render::tracesPaths(settings) || renderer.scene().picture() != nullptr) {
         files.push_back("paths/indirect.cl");
     }
     Fingerprint f;

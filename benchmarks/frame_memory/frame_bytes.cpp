@@ -7,15 +7,15 @@
 namespace wedge::benchmark {
 
 std::uint64_t frameBytes(
-    const scene::Scene& scene, const device::DeviceInfo& device, const render::Settings& settings, bool keepLayers)
+    const scene::Scene& described, const device::DeviceInfo& device, const render::Settings& settings, bool keepLayers)
 {
+    const render::PreparedScene scene(described);
     const render::Options options;
     const render::Hierarchy hierarchy =
         render::buildHierarchy(scene, options.bvh, render::resolveTraversal(options.traversal, device));
     device::MemoryPlan ofScene;
-    const render::SceneLights lights(scene);
-    render::DeviceScene::plan(ofScene, scene, hierarchy, lights);
-    return render::Renderer::plan(scene, hierarchy, lights, settings, keepLayers, graph::slabRulesOf(device)).total()
+    render::DeviceScene::plan(ofScene, scene, hierarchy);
+    return render::Renderer::plan(scene, hierarchy, settings, keepLayers, graph::slabRulesOf(device)).total()
         - ofScene.total();
 }
 

@@ -3,7 +3,6 @@
 #include "effects/area_lights/light_graph.h"
 #include "effects/area_lights/light_waves.h"
 #include "effects/area_lights/maaf.h"
-#include "host/render/direct_lights.h"
 
 namespace wedge::render {
 namespace {
@@ -12,12 +11,11 @@ class AreaLights : public Effect {
 public:
     std::string name() const override { return "area lights"; }
 
-    std::vector<Term> terms(const Settings& settings, const scene::Scene& scene) const override
+    std::vector<Term> terms(const Settings& settings, const PreparedScene& scene) const override
     {
         std::vector<Term> out;
-        const std::vector<OwnLight> lights =
-            settings.integrator == Integrator::Path ? directLights(scene).own : std::vector<OwnLight> {};
-        for (std::uint32_t i = 0; i < lights.size(); ++i) {
+        const std::vector<OwnLight>& lights = scene.lights().direct.own;
+        for (std::uint32_t i = 0; settings.integrator == Integrator::Path && i < lights.size(); ++i) {
             const TermLight light { i, lights[i].onDevice(), lights.size() == 1 ? "" : std::to_string(i + 1) };
             out.push_back({ .name = light.name,
                 .part = Part::Direct,

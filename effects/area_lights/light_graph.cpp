@@ -44,13 +44,13 @@ public:
         , index_(light.number)
         , term_(light.name)
         , light_(light.light)
-        , channels_(frame.specular ? 2 : 1)
+        , channels_(frame.specular() ? 2 : 1)
         , maaf_(maafOf(s_, light_))
         , state_(state)
         , beta_(beta)
         , sums_(g_.plane<Sums>("sums", graph::floatPlanes(2 * channels_)))
         , value_(g_.plane<Value>("value", graph::floatPlanes(channels_)))
-        , parts_(g_.plane<Value>("value of part", frame.specular ? shortPairs : shortFloats))
+        , parts_(g_.plane<Value>("value of part", frame.specular() ? shortPairs : shortFloats))
         , extremes_(g_.plane<Extremes>("slopes", graph::floatPlanes(2)))
         , gradients_(g_.plane<Value>("gradients", gradientsFormat()))
         , ratio_(g_.plane<Share>("ratio of slopes", shortFloats))
@@ -310,7 +310,7 @@ void LightGraph::widthsAndCounts()
 void LightGraph::narrowForLobes()
 {
     // With shading apart from visibility samples know nothing of the lobe.
-    if (f_.specular && s_.filtering == Filtering::Adaptive && s_.shading != Shading::Separate) {
+    if (f_.specular() && s_.filtering == Filtering::Adaptive && s_.shading != Shading::Separate) {
         const Surfaces& s = f_.surfaces;
         f_.pixels("widths", PassKind::Analysis, { "analysis/analysis.cl", "narrowForLobes" },
             { f_.rectangle(analysisParams()), value("frame", f_.wholeFrame()), reads("sums", sums_),
@@ -381,7 +381,7 @@ void LightGraph::shade(const graph::Handle<Value>& shown, const std::function<bo
             updates("direct", direct.filtered), updates("directNoisy", direct.noisy),
             updates("deviation", direct.deviation) },
         condition);
-    if (f_.specular) {
+    if (f_.specular()) {
         f_.blocks("composite", PassKind::Composite, { "frame/composite.cl", "addSpecular" },
             { p, sampleParams(), light(), value("frame", f_.wholeFrame()), value("directions", lobeDirections(s_.spp)),
                 quadrature(), reads("position", s.position), reads("normal", s.normal), reads("objectId", s.objectId),

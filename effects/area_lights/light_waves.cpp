@@ -27,7 +27,7 @@ LightWaves::LightWaves(FrameBuilder& frame, const SampleShape& shape, const Term
     : WaveTerm(frame, shape, frame.totals.direct, 1, 1.0f)
     , index_(light.number)
     , light_(light.light)
-    , channels_(frame.specular ? 2 : 1)
+    , channels_(frame.specular() ? 2 : 1)
 {
 }
 
@@ -111,7 +111,7 @@ void LightWaves::widths()
 void LightWaves::narrowForHighlights()
 {
     // With shading apart from visibility samples know nothing of the lobe.
-    if (!f_.specular || settings().filtering != Filtering::Adaptive || settings().shading == Shading::Separate) {
+    if (!f_.specular() || settings().filtering != Filtering::Adaptive || settings().shading == Shading::Separate) {
         return;
     }
     const Surfaces& s = f_.surfaces;

@@ -48,7 +48,7 @@ class DeltaLights : public Effect {
 public:
     std::string name() const override { return "point and directional lights"; }
 
-    std::optional<Unfiltered> unfiltered(const Settings& settings, const scene::Scene& scene) const override
+    std::optional<Unfiltered> unfiltered(const Settings& settings, const PreparedScene& scene) const override
     {
         if (settings.integrator != Integrator::Path || (scene.pointLights.empty() && scene.directionalLights.empty())) {
             return std::nullopt;

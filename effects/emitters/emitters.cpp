@@ -1,7 +1,6 @@
 #include "effects/emitters/emitters.h"
 
 #include "effects/indirect/path_term.h"
-#include "host/render/direct_lights.h"
 
 namespace wedge::render {
 namespace {
@@ -10,13 +9,13 @@ class Emitters : public Effect {
 public:
     std::string name() const override { return "emitters"; }
 
-    std::vector<Term> terms(const Settings& settings, const scene::Scene& scene) const override
+    std::vector<Term> terms(const Settings& settings, const PreparedScene& scene) const override
     {
-        if (settings.integrator != Integrator::Path || !directLights(scene).share) {
+        if (settings.integrator != Integrator::Path || !scene.lights().direct.share) {
             return {};
         }
         std::vector<Term> terms { pathTerm(Component::Emitters, "Emitters", settings) };
-        if (hasSpecular(scene)) {
+        if (scene.traits().specular) {
             terms.push_back(pathTerm(Component::EmittersGlossy, "EmittersGlossy", settings));
         }
         return terms;

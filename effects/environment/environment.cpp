@@ -24,13 +24,13 @@ public:
 
     std::string name() const override { return key; }
 
-    std::vector<Term> terms(const Settings& settings, const scene::Scene& scene) const override
+    std::vector<Term> terms(const Settings& settings, const PreparedScene& scene) const override
     {
-        if (settings.integrator != Integrator::Path || picture(scene) == nullptr) {
+        if (settings.integrator != Integrator::Path || scene.picture() == nullptr) {
             return {};
         }
         std::vector<Term> terms { pathTerm(Component::Environment, "Environment", settings) };
-        if (hasSpecular(scene)) {
+        if (scene.traits().specular) {
             terms.push_back(pathTerm(Component::EnvironmentGlossy, "EnvironmentGlossy", settings));
         }
         return terms;

@@ -54,8 +54,8 @@ shared::PathParams pathParams(const FrameBuilder& frame, Component component)
     p.skipsMirrors = component != Component::Ambient ? 1 : 0;
     p.sceneDiameter = frame.scene != nullptr ? frame.scene->diameter : 0.0f;
     p.mostMirrored = static_cast<std::uint32_t>(settings.maxSurfaces);
-    if (scene != nullptr && scene->touchingGlass > 0.0f) {
-        p.touching = scene->touchingGlass;
+    if (scene != nullptr && frame.description.traits().touchingGlass > 0.0f) {
+        p.touching = frame.description.traits().touchingGlass;
         const std::vector<std::uint32_t> media = mediaAt(frame.description, scene::middleCamera(frame.description).eye);
         p.mediaCount = static_cast<std::uint32_t>(media.size());
         std::ranges::copy(media, p.media);

@@ -9,7 +9,7 @@ class IndirectLight : public Effect {
 public:
     std::string name() const override { return "indirect light"; }
 
-    std::vector<Term> terms(const Settings& settings, const scene::Scene& scene) const override
+    std::vector<Term> terms(const Settings& settings, const PreparedScene& scene) const override
     {
         if (settings.integrator == Integrator::AmbientOcclusion) {
             return { pathTerm(Component::Ambient, "Ambient", settings) };
@@ -18,7 +18,7 @@ public:
             return {};
         }
         std::vector<Term> terms { pathTerm(Component::Diffuse, "Indirect", settings) };
-        if (hasSpecular(scene)) {
+        if (scene.traits().specular) {
             terms.push_back(pathTerm(Component::Glossy, "Glossy", settings));
         }
         return terms;

@@ -70,9 +70,9 @@ class Mirrors : public Effect {
 public:
     std::string name() const override { return "mirrors and glass"; }
 
-    std::optional<Unfiltered> unfiltered(const Settings& settings, const scene::Scene& scene) const override
+    std::optional<Unfiltered> unfiltered(const Settings& settings, const PreparedScene& scene) const override
     {
-        if (settings.integrator != Integrator::Path || !hasMirrors(scene)) {
+        if (settings.integrator != Integrator::Path || !scene.traits().mirrors) {
             return std::nullopt;
         }
         return Unfiltered { .name = "mirrors",

@@ -40,12 +40,12 @@ constexpr KeptPlane keptPlanes[] = { { "kept depth", graph::floats }, { "kept no
     { "kept indirect light", render::packedColours } };
 enum KeptIndex : std::size_t { Depth, Facing, Object, Direct, Before, Variation, Indirect, keptCount };
 
-bool hasIndirect(const Settings& settings, const scene::Scene& scene)
+bool hasIndirect(const Settings& settings, const render::PreparedScene& scene)
 {
     return render::countOf(render::Part::Indirect, render::frameTerms(settings, scene)) > 0;
 }
 
-std::size_t keptOf(const Settings& settings, const scene::Scene& scene)
+std::size_t keptOf(const Settings& settings, const render::PreparedScene& scene)
 {
     return hasIndirect(settings, scene) ? keptCount : std::size_t { Indirect };
 }
@@ -91,7 +91,7 @@ struct TemporalFilter::Declaration {
         , settings(theSettings)
         , frame(theRenderer.frame())
         , graph(settings.width, settings.height, frame.layout.size)
-        , f { graph, theRenderer.scene(), nullptr, settings, frame.layout, 1, false, unused }
+        , f { graph, theRenderer.scene(), nullptr, settings, frame.layout, 1, unused }
         , indirect(hasIndirect(settings, theRenderer.scene()))
     {
         params.width = frame.layout.width;
@@ -304,7 +304,7 @@ TemporalFilter::Kept& TemporalFilter::slotOf(std::uint32_t frame, const Settings
     return kept_.at(frame % windowOf(settings.temporal));
 }
 
-void TemporalFilter::addTo(device::MemoryPlan& plan, const Settings& settings, const scene::Scene& scene)
+void TemporalFilter::addTo(device::MemoryPlan& plan, const Settings& settings, const render::PreparedScene& scene)
 {
     const render::PlaneLayout layout(settings.width, settings.height);
     for (std::size_t i = 0; i < keptOf(settings, scene); ++i) {

@@ -39,7 +39,7 @@ public:
     ~TemporalFilter();
 
     /// Device memory that it takes besides a frame's, before anything of it is allocated.
-    static void addTo(device::MemoryPlan& plan, const render::Settings& settings, const scene::Scene& scene);
+    static void addTo(device::MemoryPlan& plan, const render::Settings& settings, const render::PreparedScene& scene);
 
     /// Keeps the renderer's frame, of which all layers and the whole image are there, for those after it. Frames come
     /// in their order. places: of the scene's objects in this frame; null where none ever moves. statistics: of the

@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Facts {
-    scene::Scene scene;
+    render::PreparedScene scene;
     scene::Summary summary;
     bvh::Mode mode = bvh::Mode::Default;
     bvh::Statistics bvh;
@@ -33,14 +33,13 @@ struct Facts {
 /// What a frame of the scene's own settings would take, asked without a device.
 Facts gather(const std::string& path, bvh::Mode mode, const scene::LoadOptions& load)
 {
-    Facts facts;
-    facts.scene = scene::loadScene(path, load);
+    Facts facts { render::PreparedScene(scene::loadScene(path, load)), {}, {}, {}, {}, {} };
     facts.summary = scene::summary(facts.scene);
     facts.mode = mode;
     const render::Hierarchy hierarchy = render::buildHierarchy(facts.scene, mode);
     facts.bvh = hierarchy.bvh.statistics;
     facts.settings = resolveSettings(RenderOptions(), facts.scene);
-    facts.memory = render::Renderer::plan(facts.scene, hierarchy, render::SceneLights(facts.scene), facts.settings);
+    facts.memory = render::Renderer::plan(facts.scene, hierarchy, facts.settings);
     return facts;
 }
 
@@ -75,7 +74,7 @@ void printJson(const Facts& f)
         json["bounds"] = { { s.bounds.lo.x, s.bounds.lo.y, s.bounds.lo.z },
             { s.bounds.hi.x, s.bounds.hi.y, s.bounds.hi.z } };
     }
-    if (const auto picture = render::pictureOf(f.scene)) {
+    if (const auto picture = f.scene.picture()) {
         json["environment"] = render::environmentReport(*picture);
     }
     addCamera(f, json);
@@ -102,7 +101,7 @@ void printText(const Facts& f)
     }
     say("materials  {}, textures {} ({})\n", s.materials, s.textures, device::mebibytes(s.textureBytes));
     say("lights     {} area, {} point, {} directional\n", s.areaLights, s.pointLights, s.directionalLights);
-    if (const auto picture = render::pictureOf(f.scene)) {
+    if (const auto picture = f.scene.picture()) {
         say("           environment, a map of {}x{}\n", picture->width, picture->height);
         for (const render::Sun& sun : picture->suns) {
             say("           a sun of it is an area light: {:.1f} % of its light, towards [{:.3f}, {:.3f}, {:.3f}], "

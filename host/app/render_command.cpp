@@ -162,25 +162,27 @@ void RenderJob::load()
 {
     const Clock::time_point start = Clock::now();
     progress_.show("reading " + options_.scene);
+    scene::Scene scene;
     if (options_.frames) {
         sequence_.emplace(options_.scene, options_.load);
-        scene_ = sequence_->takeScene();
-        scene_.framesPerUnit = options_.fps.value_or(scene_.framesPerUnit);
+        scene = sequence_->takeScene();
+        scene.framesPerUnit = options_.fps.value_or(scene.framesPerUnit);
     } else {
-        scene_ = scene::loadScene(options_.scene, options_.load);
+        scene = scene::loadScene(options_.scene, options_.load);
     }
     extras_.loadMilliseconds = millisecondsSince(start);
     progress_.clear();
     keepInputs();
     if (!options_.quiet) {
-        warnOf(scene_.warnings);
+        warnOf(scene.warnings);
     }
-    applyLens(options_, scene_);
+    applyLens(options_, scene);
     for (const render::SceneChange& change : options_.changes) {
-        change(scene_);
+        change(scene);
     }
-    settings_ = resolveSettings(options_, scene_);
-    layers_ = render::selectLayers(options_.layers, settings_, scene_);
+    loaded_.emplace(std::move(scene));
+    settings_ = resolveSettings(options_, *loaded_);
+    layers_ = render::selectLayers(options_.layers, settings_, *loaded_);
     if (!options_.reference.empty()) {
         reference_ = readReference(options_.reference, settings_);
         extras_.reference = options_.reference;
@@ -207,7 +209,8 @@ void RenderJob::build()
         progress_.show(fmt::format("compiling {} kernels, once for frames of this kind on this device", kernels));
     };
     progress_.show("building the hierarchy");
-    renderer_ = std::make_unique<render::Renderer>(scene_, device, options);
+    renderer_ = std::make_unique<render::Renderer>(std::move(*loaded_), device, options);
+    loaded_.reset();
     progress_.clear();
 }
 
@@ -225,7 +228,7 @@ device::MemoryPlan RenderJob::checkedPlan() const
 {
     device::MemoryPlan plan = renderer_->plan(renderedSettings(), keepsLayers());
     if (filtersOverTime()) {
-        filters::TemporalFilter::addTo(plan, settings_, scene_);
+        filters::TemporalFilter::addTo(plan, settings_, scene());
         plan.check(renderer_->device().info(), options_.memoryLimitBytes);
     }
     return plan;
@@ -235,7 +238,7 @@ void RenderJob::prepare()
 {
     const device::DeviceInfo& device = renderer_->device().info();
     const device::MemoryPlan plan = checkedPlan();
-    tell("scene {}: {} triangles\n", printable(scene_.path), scene_.geometry.indices.size() / 3);
+    tell("scene {}: {} triangles\n", printable(scene().path), scene().geometry.indices.size() / 3);
     tell("device {} ({})\n", device.name, device.platform);
     if (options_.verbose) {
         tell("traversal {}\nbvh {}\n", render::traversalName(renderer_->traversal()),

@@ -54,6 +54,7 @@ private:
     /// Of a frame as it is rendered: what is to be filtered over time is all of the image, whatever is shown.
     render::Settings renderedSettings() const;
     image::Look look() const { return { options_.exposureStops, options_.view.value_or(image::View::Srgb) }; }
+    const render::PreparedScene& scene() const { return renderer_ ? renderer_->scene() : *loaded_; }
     bool keepsLayers() const { return !layers_.empty() || filtersOverTime(); }
 
     void checkView() const;
@@ -90,7 +91,7 @@ private:
     ImageWriter images_;
     std::vector<std::string> failures_; // lines about outputs
     ProgressLine progress_;
-    scene::Scene scene_;
+    std::optional<render::PreparedScene> loaded_; ///< until the renderer has it
     render::ReportExtras extras_;
     render::Settings settings_;
     std::vector<std::string> layers_;

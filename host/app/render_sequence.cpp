@@ -55,8 +55,8 @@ void RenderJob::checkFrames() const
 void RenderJob::findUnfinished()
 {
     const FrameRange range = *options_.frames;
-    inputs_ = sequenceInputs(options_, settings_, scene_.framesPerUnit, sequence_->contents());
-    extras_.sequence = { range.first, range.last, scene_.framesPerUnit, {}, "frames" };
+    inputs_ = sequenceInputs(options_, settings_, scene().framesPerUnit, sequence_->contents());
+    extras_.sequence = { range.first, range.last, scene().framesPerUnit, {}, "frames" };
     for (std::uint32_t i = 0; i < range.count(); ++i) {
         const std::uint32_t frame = range.first + i;
         const std::vector<Output> outputs = frameOutputs(images_.outputs(), frame);
@@ -71,21 +71,21 @@ void RenderJob::findUnfinished()
 /// The scene and the settings of a frame.
 void RenderJob::moveTo(std::uint32_t frame)
 {
-    scene::Moment moment = sequence_->at(frame / scene_.framesPerUnit);
-    scene::Change change = scene::changeTo(moment, scene_);
-    const auto alter = [&] {
-        scene::apply(std::move(moment), change, scene_);
-        applyLens(options_, scene_);
+    scene::Moment moment = sequence_->at(frame / scene().framesPerUnit);
+    scene::Change change = scene::changeTo(moment, scene());
+    const auto alter = [&](scene::Scene& altered) {
+        scene::apply(std::move(moment), change, altered);
+        applyLens(options_, altered);
     };
     if (renderer_) {
         renderer_->changeScene(change, alter);
     } else {
-        alter();
+        loaded_->change(change, alter);
     }
     if (tracker_ && (change.geometry || !places_)) {
-        places_ = std::make_shared<const filters::ObjectPlaces>(tracker_->placesIn(scene_.geometry));
+        places_ = std::make_shared<const filters::ObjectPlaces>(tracker_->placesIn(scene().geometry));
     }
-    settings_ = resolveSettings(options_, scene_);
+    settings_ = resolveSettings(options_, scene());
     settings_.frame = frame;
 }
 
@@ -123,7 +123,7 @@ int RenderJob::runFrames()
     }
     planVisits();
     if (filtersOverTime() && sequence_->at(0.0).geometry) {
-        tracker_.emplace(scene_.geometry);
+        tracker_.emplace(scene().geometry);
     }
     moveTo(visits_.empty() ? options_.frames->first : visits_.front().frame);
     build();
@@ -141,7 +141,7 @@ int RenderJob::runFrames()
 /// Compiles what the frame needs, where that may not have been.
 void RenderJob::prepareFrame(bool first)
 {
-    const bool distributed = render::isDistributed(settings_, scene_);
+    const bool distributed = render::isDistributed(settings_, scene());
     if (rehearsed_ == distributed) {
         return;
     }

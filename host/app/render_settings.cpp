@@ -4,10 +4,7 @@
 #include "host/app/render_counts.h"
 #include "host/app/values.h"
 #include "host/error.h"
-#include "host/render/device_scene.h"
-#include "host/render/direct_lights.h"
 #include "host/render/distributed_frame.h"
-#include "host/render/effect.h"
 #include "host/render/emitters.h"
 
 #include <algorithm>
@@ -83,7 +80,8 @@ void applyMaaf(const RenderOptions& o, const std::string& method, render::Settin
 
 /// The filters of method maaf, where they are named, have to be those of a light: without being asked for any, frames
 /// in which no light has them go as with method aaf.
-void refuseIdleMaaf(const RenderOptions& o, const scene::Scene& scene, bool distributed, const render::Settings& s)
+void refuseIdleMaaf(
+    const RenderOptions& o, const render::PreparedScene& scene, bool distributed, const render::Settings& s)
 {
     if (!s.maaf || !o.maaf) { // --components is refused without
         return;
@@ -93,7 +91,7 @@ void refuseIdleMaaf(const RenderOptions& o, const scene::Scene& scene, bool dist
     refuse(s.progressive, "with --progressive", option, "render in one step");
     refuse(distributed, fmt::format("with method maaf {}", distributedFrames), option,
         "render through a pinhole what does not move, without antialiasing");
-    const std::vector<render::OwnLight> lights = render::directLights(scene).own;
+    const std::vector<render::OwnLight>& lights = scene.lights().direct.own;
     const auto anyHas = [&](render::Maaf maaf) {
         render::Settings of = s;
         of.maaf = maaf;
@@ -106,14 +104,14 @@ void refuseIdleMaaf(const RenderOptions& o, const scene::Scene& scene, bool dist
 
 /// The mu of the thesis: 3, more conservative, where the light is not a Gaussian or the cosine is filtered along, and
 /// else 2 (section 3.7, "Extensions", Fig. 3.11).
-float publishedMu(const RenderOptions& o, const scene::Scene& scene)
+float publishedMu(const RenderOptions& o, const render::PreparedScene& scene)
 {
-    const bool uniform = std::ranges::any_of(render::directLights(scene).own,
+    const bool uniform = std::ranges::any_of(scene.lights().direct.own,
         [](const render::OwnLight& light) { return light.quad.profile == scene::LightProfile::Uniform; });
     return uniform || o.falloff == render::Shading::Inside ? 3.0f : 2.0f;
 }
 
-render::Settings preset(const RenderOptions& o, const scene::Scene& scene, Method method)
+render::Settings preset(const RenderOptions& o, const render::PreparedScene& scene, Method method)
 {
     const std::optional<int> spp = o.progressive ? progressiveSpp(o, scene) : o.spp ? o.spp : scene.settings.spp;
     const std::optional<float> mu = o.mu ? o.mu : scene.settings.mu;
@@ -130,17 +128,17 @@ render::Settings preset(const RenderOptions& o, const scene::Scene& scene, Metho
     return s;
 }
 
-void applyPaths(const RenderOptions& o, const scene::Scene& scene, render::Settings& s)
+void applyPaths(const RenderOptions& o, const render::PreparedScene& scene, render::Settings& s)
 {
     refuse(o.ambientDistance.has_value(), "with integrator path",
         fmt::format("--ao-distance {}", o.ambientDistance.value_or(0)), "add --integrator ao");
     const scene::Settings& file = scene.settings;
     s.bounces = o.bounces ? *o.bounces : file.bounces.value_or(0);
-    refuse(o.maxSurfaces && !render::hasMirrors(scene), "without mirrors and glass",
+    refuse(o.maxSurfaces && !scene.traits().mirrors, "without mirrors and glass",
         fmt::format("--max-surfaces {}", o.maxSurfaces.value_or(0)), "give the scene some");
     s.maxSurfaces = o.maxSurfaces.value_or(s.maxSurfaces);
     refuse(o.lightSampling && s.bounces == 0 && s.method == Method::AxisAligned && !render::hasEmitters(scene)
-            && !render::directLights(scene).share,
+            && !scene.lights().direct.share,
         "without bounces", "--light-sampling", "add --bounces 1");
     if (o.lightSampling) {
         s.lightSampling = *o.lightSampling;
@@ -150,7 +148,7 @@ void applyPaths(const RenderOptions& o, const scene::Scene& scene, render::Setti
     }
     if (o.environmentSampling) {
         const std::string option = "--environment-sampling";
-        refuse(render::pictureOf(scene) == nullptr, "without an environment", option, "add [environment] to the scene");
+        refuse(scene.picture() == nullptr, "without an environment", option, "add [environment] to the scene");
         refuse(s.lightSampling == render::LightSampling::Directions, "with reflected directions alone", option,
             "add --light-sampling both");
         s.environment.sampling = *o.environmentSampling;
@@ -171,7 +169,7 @@ void applyAmbientOcclusion(const RenderOptions& o, const scene::Settings& file, 
 
 /// The integrator and what goes with it alone. Options for the other one are mistakes; what the file has for the other
 /// one is overridden.
-void applyIntegrator(const RenderOptions& o, const scene::Scene& scene, render::Settings& s)
+void applyIntegrator(const RenderOptions& o, const render::PreparedScene& scene, render::Settings& s)
 {
     const scene::Settings& file = scene.settings;
     s.integrator = o.integrator.value_or(file.integrator == "ao" ? Integrator::AmbientOcclusion : Integrator::Path);
@@ -193,9 +191,9 @@ void applyIndirectCounts(const RenderOptions& o, render::Settings& s)
     }
 }
 
-void applyAblations(const RenderOptions& o, const scene::Scene& scene, bool distributed, render::Settings& s)
+void applyAblations(const RenderOptions& o, const render::PreparedScene& scene, bool distributed, render::Settings& s)
 {
-    refuse(o.environmentWidths && render::pictureOf(scene) == nullptr, "without light from beyond the scene",
+    refuse(o.environmentWidths && scene.picture() == nullptr, "without light from beyond the scene",
         "--environment-widths", "give the scene an [environment]");
     refuse(o.environmentWidths && s.integrator == Integrator::AmbientOcclusion, "with integrator ao",
         "--environment-widths", "add --integrator path");
@@ -272,7 +270,7 @@ void applyLens(const RenderOptions& o, scene::Scene& scene)
         fmt::format("--focus {}", o.focus.value_or(0)), "add --aperture");
 }
 
-render::Settings resolveSettings(const RenderOptions& o, const scene::Scene& scene)
+render::Settings resolveSettings(const RenderOptions& o, const render::PreparedScene& scene)
 {
     const scene::Settings& file = scene.settings;
     const std::string name = resolveMethod(o, scene);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/app/render_options.h"
-#include "host/scene/scene.h"
+#include "host/render/prepared_scene.h"
 
 namespace wedge::app {
 
@@ -12,6 +12,6 @@ void applyLens(const RenderOptions& options, scene::Scene& scene);
 /// The settings of the frame: options before what the scene file says, that before the defaults. Throws UsageError
 /// for options that contradict each other or have no effect together, and for values out of range; Error for counts in
 /// the scene file that its method cannot have.
-render::Settings resolveSettings(const RenderOptions& options, const scene::Scene& scene);
+render::Settings resolveSettings(const RenderOptions& options, const render::PreparedScene& scene);
 
 } // namespace wedge::app

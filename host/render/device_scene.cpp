@@ -1,7 +1,6 @@
 #include "host/render/device_scene.h"
 
 #include "host/render/effect.h"
-#include "host/render/flush_lights.h"
 #include "host/render/glass.h"
 #include "host/render/quadrature.h"
 #include "kernels/shared/bsdf.h"
@@ -27,32 +26,6 @@ double profileMean(const scene::AreaLight& light)
     }
     const double cut = light.cut;
     return std::sqrt(std::acos(-1.0) / 2.0) * std::erf(cut / std::sqrt(2.0)) / cut;
-}
-
-/// Textures multiply the specular colour.
-std::uint32_t kindOf(const scene::Material& m)
-{
-    if (m.specularModel == scene::SpecularModel::Mirror) {
-        return WEDGE_MIRROR;
-    }
-    if (m.specularModel == scene::SpecularModel::Glass) {
-        return WEDGE_GLASS;
-    }
-    if (m.specular == glm::vec3(0.0f)) {
-        return WEDGE_LAMBERT;
-    }
-    switch (m.specularModel) {
-    case scene::SpecularModel::Phong:
-        return WEDGE_PHONG;
-    case scene::SpecularModel::BlinnPhong:
-        return WEDGE_BLINN_PHONG;
-    case scene::SpecularModel::Ggx:
-        return WEDGE_MICROFACETS;
-    case scene::SpecularModel::Mirror:
-    case scene::SpecularModel::Glass:
-        break;
-    }
-    return WEDGE_LAMBERT;
 }
 
 std::vector<shared::MaterialData> materialData(const scene::Scene& scene)
@@ -160,6 +133,31 @@ std::array<float, 512> texelTable()
 
 } // namespace
 
+std::uint32_t kindOf(const scene::Material& m)
+{
+    if (m.specularModel == scene::SpecularModel::Mirror) {
+        return WEDGE_MIRROR;
+    }
+    if (m.specularModel == scene::SpecularModel::Glass) {
+        return WEDGE_GLASS;
+    }
+    if (m.specular == glm::vec3(0.0f)) {
+        return WEDGE_LAMBERT;
+    }
+    switch (m.specularModel) {
+    case scene::SpecularModel::Phong:
+        return WEDGE_PHONG;
+    case scene::SpecularModel::BlinnPhong:
+        return WEDGE_BLINN_PHONG;
+    case scene::SpecularModel::Ggx:
+        return WEDGE_MICROFACETS;
+    case scene::SpecularModel::Mirror:
+    case scene::SpecularModel::Glass:
+        break;
+    }
+    return WEDGE_LAMBERT;
+}
+
 double profileArea(const scene::AreaLight& light)
 {
     const double mean = profileMean(light);
@@ -192,49 +190,10 @@ shared::AreaLight deviceLight(const scene::AreaLight& light)
     return d;
 }
 
-bool hasSpecular(const scene::Scene& scene)
-{
-    return std::ranges::any_of(scene.geometry.materialIds, [&](std::uint32_t id) {
-        const scene::Material& m = scene.materials[id];
-        return m.specular.r + m.specular.g + m.specular.b > 0.0f && !WEDGE_IS_MIRROR(kindOf(m));
-    });
-}
-
-bool hasNarrowLobes(const scene::Scene& scene)
-{
-    constexpr float leastPhong = 16.0f, leastBlinnPhong = 4.0f * leastPhong; // as wide: exponentAs()
-    return std::ranges::all_of(scene.geometry.materialIds, [&](std::uint32_t id) {
-        const scene::Material& m = scene.materials[id];
-        const std::uint32_t kind = kindOf(m);
-        const bool lobe = m.specular != glm::vec3(0.0f) && !WEDGE_IS_MIRROR(kind);
-        return !lobe
-            || (kind != WEDGE_MICROFACETS && m.exponentTexture < 0
-                && m.exponent >= (kind == WEDGE_PHONG ? leastPhong : leastBlinnPhong));
-    });
-}
-
-bool hasMirrors(const scene::Scene& scene)
-{
-    return std::ranges::any_of(
-        scene.geometry.materialIds, [&](std::uint32_t id) { return WEDGE_IS_MIRROR(kindOf(scene.materials[id])); });
-}
-
-bool hasMicrofacets(const scene::Scene& scene)
-{
-    return std::ranges::any_of(
-        scene.geometry.materialIds, [&](std::uint32_t id) { return kindOf(scene.materials[id]) == WEDGE_MICROFACETS; });
-}
-
-bool hasNormalMaps(const scene::Scene& scene)
-{
-    return std::ranges::any_of(
-        scene.geometry.materialIds, [&](std::uint32_t id) { return scene.materials[id].normalTexture >= 0; });
-}
-
-void DeviceScene::plan(
-    device::MemoryPlan& plan, const scene::Scene& scene, const Hierarchy& hierarchy, const SceneLights& lights)
+void DeviceScene::plan(device::MemoryPlan& plan, const PreparedScene& scene, const Hierarchy& hierarchy)
 {
     const scene::Geometry& g = scene.geometry;
+    const SceneLights& lights = scene.lights();
     plan.addItems("BVH nodes", hierarchy.nodes().size(), 1);
     plan.addItems("triangle blocks", hierarchy.blocks().size(), 1);
     plan.addItems("positions", g.positions.size(), sizeof(float));
@@ -256,14 +215,14 @@ void DeviceScene::plan(
     if (!lights.beyond.numbers.empty()) {
         plan.addItems("environment's table", lights.beyond.numbers.size(), sizeof(float));
     }
-    if (scene::geometryMoves(scene)) {
+    if (scene.traits().moves) {
         plan.addItems("positions at closing", g.positionsAtClose.size(), sizeof(float));
         plan.addItems("normals at closing", g.normalsAtClose.size(), sizeof(float));
     }
 }
 
-DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, const SceneLights& lights,
-    const device::Device& device, device::TimedQueue& queue)
+DeviceScene::DeviceScene(
+    const PreparedScene& scene, const Hierarchy& hierarchy, const device::Device& device, device::TimedQueue& queue)
     : nodes(device::Buffer<std::byte>::readOnly(device, queue, hierarchy.nodes(), "BVH nodes"))
     , blocks(device::Buffer<std::byte>::readOnly(device, queue, hierarchy.blocks(), "triangle blocks"))
     , positions(device::Buffer<float>::readOnly(device, queue, scene.geometry.positions, "positions"))
@@ -282,14 +241,15 @@ DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, 
     , srgbToLinear(device, 512, "sRGB table")
     , areaLights(device, scene.areaLights.size(), "area lights")
     , deltaLights(device, scene.pointLights.size() + scene.directionalLights.size(), "point and directional lights")
-    , emitters(device, lights.emitters.list.size(), "emitters")
-    , sharedLights(device, lights.shared.list.size(), "shared lights")
-    , emitterPicks(device, lights.emitters.picks.size(), "emitters' probabilities")
-    , sharedPicks(device, lights.shared.picks.size(), "shared lights' probabilities")
+    , emitters(device, scene.lights().emitters.list.size(), "emitters")
+    , sharedLights(device, scene.lights().shared.list.size(), "shared lights")
+    , emitterPicks(device, scene.lights().emitters.picks.size(), "emitters' probabilities")
+    , sharedPicks(device, scene.lights().shared.picks.size(), "shared lights' probabilities")
     , environment(device, 1, "environment")
-    , environmentTable(device, lights.beyond.numbers.size(), "environment's table")
-    , environmentBandwidth(pictureOf(scene))
+    , environmentTable(device, scene.lights().beyond.numbers.size(), "environment's table")
+    , environmentBandwidth(scene.picture())
 {
+    const SceneLights& lights = scene.lights();
     materials.upload(queue, materialData(scene));
     std::vector<shared::TextureData> infos;
     std::size_t offset = 0;
@@ -303,7 +263,7 @@ DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, 
     srgbToLinear.upload(queue, texelTable());
     for (const scene::AreaLight& light : scene.areaLights) {
         areaLightList.push_back(deviceLight(light));
-        areaLightList.back().lift = liftOf(light, scene.geometry);
+        areaLightList.back().lift = lights.lifts[areaLightList.size() - 1];
     }
     for (std::size_t i = 0; i < lights.shared.quadPicks.size(); ++i) {
         areaLightList[i].sharedPick = lights.shared.quadPicks[i];
@@ -339,10 +299,7 @@ DeviceScene::DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, 
     areaLights.upload(queue, areaLightList);
     deltaLights.upload(queue, delta);
     deltaLightCount = static_cast<std::uint32_t>(delta.size());
-    touchingGlass = hasTouchingGlass(scene) ? touchingDistance(scene) : 0.0f;
-    specular = hasSpecular(scene);
-    moves = scene::geometryMoves(scene);
-    assert(moves == hierarchy.moves);
+    assert(scene.traits().moves == hierarchy.moves);
 }
 
 } // namespace wedge::render

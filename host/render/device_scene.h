@@ -2,10 +2,10 @@
 
 #include "host/device/buffer.h"
 #include "host/device/memory_plan.h"
-#include "host/render/direct_lights.h"
 #include "host/render/emitters.h"
 #include "host/render/environment_bandwidth.h"
 #include "host/render/hierarchy.h"
+#include "host/render/prepared_scene.h"
 #include "host/scene/scene.h"
 #include "kernels/shared/bvh_types.h"
 #include "kernels/shared/emitter.h"
@@ -17,43 +17,28 @@
 
 namespace wedge::render {
 
+/// Of MaterialData: what a material reflects besides diffusely, WEDGE_LAMBERT if nothing.
+std::uint32_t kindOf(const scene::Material& m);
+
 /// The light as kernels take it: profile integrated, axes, standard deviations.
 shared::AreaLight deviceLight(const scene::AreaLight& light);
 
 /// Area of a light, m^2, each point as much as it has of the radiance in the middle.
 double profileArea(const scene::AreaLight& light);
 
-/// Whether any triangle has a material that reflects specularly. What lies unused in a mesh's library does not count:
-/// lobes cost more than all else of a shadow ray.
-bool hasSpecular(const scene::Scene& scene);
-
-/// Whether all lobes of them are so narrow that what they see is known well by directions alone (kernels/light/
-/// unshadowed_environment.h): not wide ones, those that a texture may make wide, and GGX, whose tails reach far.
-bool hasNarrowLobes(const scene::Scene& scene);
-
-/// Whether any of them is a mirror or glass.
-bool hasMirrors(const scene::Scene& scene);
-
-/// Whether any of them is of GGX microfacets.
-bool hasMicrofacets(const scene::Scene& scene);
-
-/// Whether any of them has a normal map or heights: programs are then built with WEDGE_NORMAL_MAPS.
-bool hasNormalMaps(const scene::Scene& scene);
-
 /// The scene on the device: hierarchy, geometry, materials, textures, lights.
 class DeviceScene {
 public:
     /// Adds what the scene will take to the plan.
-    static void plan(
-        device::MemoryPlan& plan, const scene::Scene& scene, const Hierarchy& hierarchy, const SceneLights& lights);
+    static void plan(device::MemoryPlan& plan, const PreparedScene& scene, const Hierarchy& hierarchy);
 
     /// Uploads everything; scene and hierarchy must outlive this, since a CPU device works on their memory. Throws
     /// Error from the device.
-    DeviceScene(const scene::Scene& scene, const Hierarchy& hierarchy, const SceneLights& lights,
-        const device::Device& device, device::TimedQueue& queue);
+    DeviceScene(const PreparedScene& scene, const Hierarchy& hierarchy, const device::Device& device,
+        device::TimedQueue& queue);
 
-    DeviceScene(
-        const scene::Scene&, Hierarchy&&, const SceneLights&, const device::Device&, device::TimedQueue&) = delete;
+    DeviceScene(const PreparedScene&, Hierarchy&&, const device::Device&, device::TimedQueue&) = delete;
+    DeviceScene(PreparedScene&&, const Hierarchy&, const device::Device&, device::TimedQueue&) = delete;
 
     device::Buffer<std::byte> nodes; ///< of the hierarchy's family of traversals
     device::Buffer<std::byte> blocks;
@@ -89,9 +74,6 @@ public:
     EnvironmentBandwidth environmentBandwidth; ///< of what is beyond the scene
     float diameter = 0; ///< metres, diagonal of the bounds
     float largestDimension = 0; ///< metres, of the bounds
-    float touchingGlass = 0; ///< touchingDistance() where hasTouchingGlass(), else 0
-    bool specular = false; ///< hasSpecular()
-    bool moves = false; ///< scene::geometryMoves()
 };
 
 } // namespace wedge::render

@@ -215,11 +215,14 @@ DirectLights directLights(const scene::Scene& scene)
     return out;
 }
 
-SceneLights::SceneLights(const scene::Scene& scene)
+SceneLights::SceneLights(const scene::Scene& scene, const EnvironmentPicture* picture)
     : direct(directLights(scene))
     , emitters(emitterList(scene))
-    , beyond(environmentTable(pictureOf(scene).get()))
+    , beyond(environmentTable(picture))
 {
+    for (const scene::AreaLight& light : scene.areaLights) {
+        lifts.push_back(liftOf(light, scene.geometry));
+    }
     if (direct.share && !direct.shareEmitters()) {
         shared = emitterList(scene, direct.panelTriangles, direct.sharedQuads);
     }

@@ -42,9 +42,11 @@ DirectLights directLights(const scene::Scene& scene);
 /// A scene's lights as kernels choose among them. Takes time in proportion to its triangles, and memory likewise where
 /// anything emits: a renderer makes it once.
 struct SceneLights {
-    explicit SceneLights(const scene::Scene& scene);
+    /// picture: what is around the scene; null without.
+    SceneLights(const scene::Scene& scene, const EnvironmentPicture* picture);
 
     DirectLights direct;
+    std::vector<float> lifts; ///< liftOf() of each area light of the scene
     EmitterList emitters; ///< what paths' vertices choose among
     EmitterList shared; ///< what the term that lights share does, where that is something else; else empty
     EnvironmentTable beyond; ///< directions to what is beyond the scene

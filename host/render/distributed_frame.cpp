@@ -2,11 +2,10 @@
 
 namespace wedge::render {
 
-DistributedFrame::DistributedFrame(const scene::Scene& scene, const DeviceScene* deviceScene, const Settings& settings,
+DistributedFrame::DistributedFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
     std::size_t packetSize, const cl::Buffer& unused, bool keepLayers)
     : FrameGraph(settings, keepLayers)
-    , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize,
-        hasSpecular(scene), unused }
+    , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize, unused }
     , samples_(f_, sampleShape(settings, scene, keepLayers), {})
 {
     samples_.take(nullptr);

@@ -9,7 +9,7 @@ namespace wedge::render {
 class DistributedFrame : public FrameGraph {
 public:
     /// As PixelFrame. keepLayers: what layers show is wanted, too, and else nothing but the beauty and what is counted.
-    DistributedFrame(const scene::Scene& scene, const DeviceScene* deviceScene, const Settings& settings,
+    DistributedFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
         std::size_t packetSize, const cl::Buffer& unused, bool keepLayers);
 
 private:

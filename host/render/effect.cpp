@@ -26,7 +26,7 @@ void registerEffect(std::unique_ptr<const Effect> effect)
     registry().push_back(std::move(effect));
 }
 
-std::vector<Term> frameTerms(const Settings& settings, const scene::Scene& scene)
+std::vector<Term> frameTerms(const Settings& settings, const PreparedScene& scene)
 {
     std::vector<Term> terms;
     for (const auto& effect : effects()) {
@@ -41,7 +41,7 @@ std::size_t countOf(Part part, const std::vector<Term>& terms)
     return static_cast<std::size_t>(std::ranges::count(terms, part, &Term::part));
 }
 
-std::vector<UnfilteredOf> frameUnfiltered(const Settings& settings, const scene::Scene& scene)
+std::vector<UnfilteredOf> frameUnfiltered(const Settings& settings, const PreparedScene& scene)
 {
     std::vector<UnfilteredOf> out;
     for (const auto& effect : effects()) {

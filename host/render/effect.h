@@ -3,6 +3,7 @@
 #include "host/device/source.h"
 #include "host/render/environment_table.h"
 #include "host/render/frame_builder.h"
+#include "host/render/prepared_scene.h"
 #include "host/render/wave_term.h"
 
 #include <functional>
@@ -76,8 +77,8 @@ public:
     virtual ~Effect() = default;
 
     virtual std::string name() const = 0; ///< no other effect's
-    virtual std::vector<Term> terms(const Settings&, const scene::Scene&) const { return {}; }
-    virtual std::optional<Unfiltered> unfiltered(const Settings&, const scene::Scene&) const { return std::nullopt; }
+    virtual std::vector<Term> terms(const Settings&, const PreparedScene&) const { return {}; }
+    virtual std::optional<Unfiltered> unfiltered(const Settings&, const PreparedScene&) const { return std::nullopt; }
 
     /// Why a frame has no terms of this part, of an effect that could have some; "" of others.
     virtual std::string absence(Part) const { return ""; }
@@ -109,7 +110,7 @@ struct Registration {
 };
 
 /// The terms of a frame: those of direct light, then those of indirect light, each by effects.
-std::vector<Term> frameTerms(const Settings& settings, const scene::Scene& scene);
+std::vector<Term> frameTerms(const Settings& settings, const PreparedScene& scene);
 std::size_t countOf(Part part, const std::vector<Term>& terms);
 
 /// Unfiltered light of a frame, and its effect's layer, "" without.
@@ -117,12 +118,12 @@ struct UnfilteredOf {
     Unfiltered light;
     std::string layer;
 };
-std::vector<UnfilteredOf> frameUnfiltered(const Settings& settings, const scene::Scene& scene);
+std::vector<UnfilteredOf> frameUnfiltered(const Settings& settings, const PreparedScene& scene);
 
 /// What effects have programs made of.
 device::GeneratedSources programSources(const scene::Scene& scene);
 
-/// The picture around a scene; null without.
+/// The picture around a scene, by its effects; null without. PreparedScene has it.
 std::shared_ptr<const EnvironmentPicture> pictureOf(const scene::Scene& scene);
 
 /// Why a frame has no terms of this part.

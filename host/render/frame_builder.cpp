@@ -64,7 +64,7 @@ std::vector<graph::Argument> FrameBuilder::beyond() const
 
 void FrameBuilder::precomputeDirections()
 {
-    if (settings.environment.sampling != EnvironmentSampling::Precomputed || pictureOf(description) == nullptr) {
+    if (settings.environment.sampling != EnvironmentSampling::Precomputed || description.picture() == nullptr) {
         return;
     }
     constexpr std::uint32_t cells = WEDGE_ENVIRONMENT_CELLS;

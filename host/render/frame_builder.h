@@ -4,6 +4,7 @@
 #include "host/graph/graph.h"
 #include "host/render/device_scene.h"
 #include "host/render/frame.h"
+#include "host/render/prepared_scene.h"
 #include "host/render/settings.h"
 #include "kernels/shared/filter_params.h"
 
@@ -96,14 +97,13 @@ struct TermState {
 /// not run.
 struct FrameBuilder {
     graph::Graph& graph;
-    const scene::Scene& description;
+    const PreparedScene& description;
     const DeviceScene* scene; ///< null: the graph is not run
     const Settings& settings;
     PlaneLayout layout;
     std::size_t packetSize; ///< pixels of a work-item over tiles
-    bool specular; ///< hasSpecular()
     cl::Buffer unused; ///< for parameters that nothing is read from, or written to
-    bool narrowLobes = false; ///< hasNarrowLobes(), and the pixels are the receivers
+    bool narrowLobes = false; ///< SceneTraits::narrowLobes, and the pixels are the receivers
     bool packed = false; ///< planes of pixels that have several receivers are packed, see kernels/waves/accumulate.h
     Surfaces surfaces = {};
     Totals totals = {};
@@ -115,9 +115,10 @@ struct FrameBuilder {
     /// Of normals, each in one number or in three. In scenes with normal maps the ones without them lie behind.
     graph::Format normals(bool inOne) const
     {
-        const bool mapped = hasNormalMaps(description);
+        const bool mapped = description.traits().normalMaps;
         return inOne ? (mapped ? packedNormalPairs : packedNormals) : mapped ? graph::floatPlanes(6) : graph::vectors;
     }
+    bool specular() const { return description.traits().specular; }
     bool analysed() const { return settings.method == Method::AxisAligned; }
     /// The file of that path below kernels/, or the one beside it of packed planes.
     std::string program(const std::string& path) const

@@ -23,7 +23,7 @@ constexpr std::uint32_t secondSeed = 0x9e3779b9u;
 
 double ErrorEstimate::rmse() const { return std::sqrt(noise + (std::isnan(bias) ? bias : std::max(bias, 0.0))); }
 
-HalvesFrame::HalvesFrame(const scene::Scene& scene, const DeviceScene* deviceScene, const Settings& settings,
+HalvesFrame::HalvesFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
     std::size_t packetSize, const cl::Buffer& unused, bool keepLayers, HalfMemories& memories, int before, int spp)
     : FrameGraph(settings, keepLayers)
     , layout_(settings.width, settings.height)
@@ -34,8 +34,8 @@ HalvesFrame::HalvesFrame(const scene::Scene& scene, const DeviceScene* deviceSce
         Half& half = halves_[i];
         half.settings = halfAt(settings, spp);
         half.settings.seed += static_cast<std::uint32_t>(i) * secondSeed;
-        half.frame = std::make_unique<FrameBuilder>(FrameBuilder {
-            graph_, scene, deviceScene, half.settings, layout_, packetSize, hasSpecular(scene), unused });
+        half.frame = std::make_unique<FrameBuilder>(
+            FrameBuilder { graph_, scene, deviceScene, half.settings, layout_, packetSize, unused });
         half.samples = std::make_unique<DistributedSamples>(
             *half.frame, shape, DistributedSamples::Before { &memories[i], taken, i == 1 });
     }

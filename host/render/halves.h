@@ -29,7 +29,7 @@ public:
     /// As DistributedFrame. settings: of the last step. memories: of both halves, rewound. before, spp: samples a pixel
     /// of both together that there are, 0 at the first step, and that there are to be; each half has half of them,
     /// rounded down, but one at least.
-    HalvesFrame(const scene::Scene& scene, const DeviceScene* deviceScene, const Settings& settings,
+    HalvesFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
         std::size_t packetSize, const cl::Buffer& unused, bool keepLayers, HalfMemories& memories, int before, int spp);
 
     /// Of the image shown, over its window.

@@ -248,7 +248,7 @@ std::vector<Layer> layerTable()
 }
 
 /// Why the layer cannot be made; "" if it can.
-std::string obstacle(const std::string& layer, const Settings& settings, const scene::Scene& scene)
+std::string obstacle(const std::string& layer, const Settings& settings, const PreparedScene& scene)
 {
     const std::vector<Term> terms = frameTerms(settings, scene);
     if (layer.starts_with("indirect") && countOf(Part::Indirect, terms) == 0) {
@@ -300,7 +300,7 @@ std::vector<LayerInfo> knownLayers()
     return out;
 }
 
-std::vector<std::string> selectLayers(const std::string& list, const Settings& settings, const scene::Scene& scene)
+std::vector<std::string> selectLayers(const std::string& list, const Settings& settings, const PreparedScene& scene)
 {
     std::vector<std::string> known;
     for (const LayerInfo& info : knownLayers()) {

@@ -12,13 +12,12 @@ using graph::updates;
 using graph::value;
 using graph::writes;
 
-PixelFrame::PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene, const Settings& settings,
+PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
     std::size_t packetSize, const cl::Buffer& unused, bool keepLayers)
     : FrameGraph(settings, keepLayers)
-    , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize,
-        hasSpecular(scene), unused }
+    , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize, unused }
 {
-    f_.narrowLobes = hasNarrowLobes(scene);
+    f_.narrowLobes = scene.traits().narrowLobes;
     const bool lit = settings.integrator == Integrator::Path;
     primary(lit);
     f_.precomputeDirections();

@@ -12,7 +12,7 @@ class PixelFrame : public FrameGraph {
 public:
     /// deviceScene: null for a graph that is planned and not run. unused: for parameters that nothing is read from.
     /// keepLayers: the widths of the terms' filters are wanted, too.
-    PixelFrame(const scene::Scene& scene, const DeviceScene* deviceScene, const Settings& settings,
+    PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
         std::size_t packetSize, const cl::Buffer& unused, bool keepLayers);
 
 private:

@@ -50,31 +50,32 @@ std::vector<float> onlyInside(const image::Window& window, const PlaneLayout& la
     return out;
 }
 
-device::BuildOptions programOptions(const scene::Scene& scene, const Options& options, const Hierarchy& hierarchy)
+device::BuildOptions programOptions(const PreparedScene& scene, const Options& options, const Hierarchy& hierarchy)
 {
+    const SceneTraits& traits = scene.traits();
     device::BuildOptions out;
-    if (hasSpecular(scene)) {
+    if (traits.specular) {
         out.defines.emplace_back("WEDGE_SPECULAR", "1");
     }
-    if (hasMicrofacets(scene)) {
+    if (traits.microfacets) {
         out.defines.emplace_back("WEDGE_GGX", "1");
     }
-    if (hasNormalMaps(scene)) {
+    if (traits.normalMaps) {
         out.defines.emplace_back("WEDGE_NORMAL_MAPS", "1");
     }
-    if (hasMirrors(scene)) {
+    if (traits.mirrors) {
         out.defines.emplace_back("WEDGE_MIRRORS", "1");
     }
-    if (hasTouchingGlass(scene)) {
+    if (traits.touchingGlass > 0.0f) {
         out.defines.emplace_back("WEDGE_TOUCHING_GLASS", "1");
     }
-    if (pictureOf(scene) != nullptr) {
+    if (scene.picture() != nullptr) {
         out.defines.emplace_back("WEDGE_ENVIRONMENT_MAP", "1");
     }
     if (hierarchy.traversal == Traversal::Scalar) {
         out.defines.emplace_back("WEDGE_TRAVERSAL_SCALAR", "1");
     }
-    if (scene::geometryMoves(scene)) {
+    if (traits.moves) {
         out.defines.emplace_back("WEDGE_MOTION", "1");
     }
     if (hierarchy.hasCutouts) {
@@ -88,12 +89,11 @@ device::BuildOptions programOptions(const scene::Scene& scene, const Options& op
 
 } // namespace
 
-Renderer::Renderer(const scene::Scene& scene, const device::Device& device, Options options)
-    : scene_(scene)
+Renderer::Renderer(PreparedScene scene, const device::Device& device, Options options)
+    : scene_(std::move(scene))
     , device_(device)
     , options_(std::move(options))
-    , hierarchy_(buildHierarchy(scene, options_.bvh, resolveTraversal(options_.traversal, device.info())))
-    , lights_(scene)
+    , hierarchy_(buildHierarchy(scene_, options_.bvh, resolveTraversal(options_.traversal, device.info())))
     , queue_(device, options_.checkLaunches)
     , memory_(device_)
     , unused_(device::Buffer<std::uint32_t>(device_, 0, "nothing").cl())
@@ -115,7 +115,7 @@ void Renderer::buildPrograms()
     programOptions_ = std::move(options);
 }
 
-void Renderer::changeScene(const scene::Change& change, const std::function<void()>& alter)
+void Renderer::changeScene(const scene::Change& change, const std::function<void(scene::Scene&)>& alter)
 {
     queue_.finish();
     frame_.reset();
@@ -123,12 +123,9 @@ void Renderer::changeScene(const scene::Change& change, const std::function<void
     if (change.lights || change.geometry) {
         deviceScene_.reset(); // devices may work in the scene's memory
     }
-    alter();
+    scene_.change(change, alter);
     if (change.geometry) {
         hierarchy_ = buildHierarchy(scene_, options_.bvh, hierarchy_.traversal);
-    }
-    if (change.lights || change.geometry) {
-        lights_ = SceneLights(scene_); // triangles that emit are among them
     }
     buildPrograms();
 }
@@ -140,7 +137,7 @@ graph::SlabRules Renderer::slabRules() const
     return rules;
 }
 
-std::unique_ptr<FrameGraph> Renderer::declare(const scene::Scene& scene, const DeviceScene* deviceScene,
+std::unique_ptr<FrameGraph> Renderer::declare(const PreparedScene& scene, const DeviceScene* deviceScene,
     const Settings& settings, std::size_t packet, const cl::Buffer& unused, bool keepLayers)
 {
     if (isDistributed(settings, scene)) {
@@ -149,12 +146,12 @@ std::unique_ptr<FrameGraph> Renderer::declare(const scene::Scene& scene, const D
     return std::make_unique<PixelFrame>(scene, deviceScene, settings, packet, unused, keepLayers);
 }
 
-device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hierarchy, const SceneLights& lights,
-    const Settings& settings, bool keepLayers, const graph::SlabRules& slabs)
+device::MemoryPlan Renderer::plan(const PreparedScene& scene, const Hierarchy& hierarchy, const Settings& settings,
+    bool keepLayers, const graph::SlabRules& slabs)
 {
     const auto planned = [&](const StepRange& step) {
         device::MemoryPlan plan;
-        DeviceScene::plan(plan, scene, hierarchy, lights);
+        DeviceScene::plan(plan, scene, hierarchy);
         HalfMemories memories { SampleMemory(nullptr), SampleMemory(nullptr) };
         const std::unique_ptr<FrameGraph> frame =
             declareUnbacked(scene, hierarchy, settings, keepLayers, memories, step);
@@ -175,7 +172,7 @@ device::MemoryPlan Renderer::plan(const scene::Scene& scene, const Hierarchy& hi
     return most;
 }
 
-std::unique_ptr<FrameGraph> Renderer::declareUnbacked(const scene::Scene& scene, const Hierarchy& hierarchy,
+std::unique_ptr<FrameGraph> Renderer::declareUnbacked(const PreparedScene& scene, const Hierarchy& hierarchy,
     const Settings& settings, bool keepLayers, HalfMemories& memories, const StepRange& step)
 {
     const std::size_t packet = packetSize(hierarchy.traversal);
@@ -201,7 +198,7 @@ void Renderer::prepare(const Settings& settings, bool keepLayers)
     validate(settings, isDistributed(settings, scene_));
     plan(settings, keepLayers).check(device_.info(), options_.memoryLimit);
     if (!deviceScene_) {
-        deviceScene_ = std::make_unique<DeviceScene>(scene_, hierarchy_, lights_, device_, queue_);
+        deviceScene_ = std::make_unique<DeviceScene>(scene_, hierarchy_, device_, queue_);
     }
     frame_.reset(); // it has parts of the memory
     halfMemories_.reset();

@@ -8,8 +8,8 @@
 #include "host/render/frame_graph.h"
 #include "host/render/halves.h"
 #include "host/render/hierarchy.h"
+#include "host/render/prepared_scene.h"
 #include "host/render/settings.h"
-#include "host/scene/sequence.h"
 
 #include <atomic>
 #include <functional>
@@ -85,20 +85,23 @@ struct StepRange;
 /// render() may be called any number of times with other settings.
 class Renderer {
 public:
-    /// scene must outlive this.
-    Renderer(const scene::Scene& scene, const device::Device& device, Options options = {});
-    Renderer(scene::Scene&& scene, const device::Device& device, Options options = {}) = delete;
+    Renderer(PreparedScene scene, const device::Device& device, Options options = {});
+    /// Prepares a copy of the scene.
+    Renderer(const scene::Scene& scene, const device::Device& device, Options options = {})
+        : Renderer(PreparedScene(scene), device, std::move(options))
+    {
+    }
     ~Renderer();
 
     /// Device memory that a frame of these settings takes, before anything of it is allocated; of a progressive one the
     /// step that takes most.
     /// keepLayers: as render() has it.
     /// slabs: as graph::place() has them.
-    static device::MemoryPlan plan(const scene::Scene& scene, const Hierarchy& hierarchy, const SceneLights& lights,
-        const Settings& settings, bool keepLayers = false, const graph::SlabRules& slabs = {});
+    static device::MemoryPlan plan(const PreparedScene& scene, const Hierarchy& hierarchy, const Settings& settings,
+        bool keepLayers = false, const graph::SlabRules& slabs = {});
     device::MemoryPlan plan(const Settings& settings, bool keepLayers = false) const
     {
-        return plan(scene_, hierarchy_, lights_, settings, keepLayers, slabRules());
+        return plan(scene_, hierarchy_, settings, keepLayers, slabRules());
     }
 
     /// The passes of a frame, or of the first step of a progressive one, what they use, and the planes' memory.
@@ -122,9 +125,9 @@ public:
 
     /// Lets `alter` change the scene in the parts that `change` names, and in its camera. What was made of those is
     /// given up before and made anew after it.
-    void changeScene(const scene::Change& change, const std::function<void()>& alter);
+    void changeScene(const scene::Change& change, const std::function<void(scene::Scene&)>& alter);
 
-    const scene::Scene& scene() const { return scene_; }
+    const PreparedScene& scene() const { return scene_; }
     bvh::Mode bvhMode() const { return options_.bvh; }
     const bvh::Bvh& hierarchy() const { return hierarchy_.bvh; }
     Traversal traversal() const { return hierarchy_.traversal; } ///< never Automatic
@@ -141,10 +144,10 @@ public:
     graph::SlabRules slabRules() const;
 
 private:
-    static std::unique_ptr<FrameGraph> declare(const scene::Scene& scene, const DeviceScene* deviceScene,
+    static std::unique_ptr<FrameGraph> declare(const PreparedScene& scene, const DeviceScene* deviceScene,
         const Settings& settings, std::size_t packet, const cl::Buffer& unused, bool keepLayers);
     /// Of a frame that is only to be planned, or of a step of a progressive one.
-    static std::unique_ptr<FrameGraph> declareUnbacked(const scene::Scene& scene, const Hierarchy& hierarchy,
+    static std::unique_ptr<FrameGraph> declareUnbacked(const PreparedScene& scene, const Hierarchy& hierarchy,
         const Settings& settings, bool keepLayers, HalfMemories& memories, const StepRange& step);
     /// Tests the settings and whether memory suffices.
     void prepare(const Settings& settings, bool keepLayers);
@@ -168,11 +171,10 @@ private:
     void buildPrograms();
     double workUnits(const Settings& settings) const;
 
-    const scene::Scene& scene_;
+    PreparedScene scene_;
     device::Device device_;
     Options options_;
     Hierarchy hierarchy_;
-    SceneLights lights_;
     device::TimedQueue queue_;
     device::BuildOptions programOptions_;
     std::unique_ptr<device::ProgramLibrary> programs_;

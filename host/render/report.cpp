@@ -51,7 +51,7 @@ Json sceneSection(const Renderer& renderer, std::uint64_t memoryBytes)
             { { "mode", bvh::modeName(renderer.bvhMode()) }, { "nodes", b.nodes }, { "blocks", b.blocks },
                 { "triangles", b.triangles }, { "degenerate", b.degenerate }, { "skipped", b.skipped },
                 { "depth", b.depth }, { "sah_cost", b.sahCost }, { "bytes", b.bytes } } } };
-    if (const auto picture = pictureOf(renderer.scene())) {
+    if (const auto picture = renderer.scene().picture()) {
         out["environment"] = environmentReport(*picture);
     }
     out.update(cameraReport(renderer.scene()));

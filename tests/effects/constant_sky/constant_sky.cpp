@@ -84,7 +84,7 @@ public:
     std::string name() const override { return "constant sky"; }
 
     std::optional<render::Unfiltered> unfiltered(
-        const render::Settings& settings, const scene::Scene& scene) const override
+        const render::Settings& settings, const render::PreparedScene& scene) const override
     {
         if (settings.integrator != render::Integrator::Path || radianceOf(scene) == glm::vec3(0.0f)) {
             return std::nullopt;

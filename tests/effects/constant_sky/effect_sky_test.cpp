@@ -196,7 +196,7 @@ TEST_CASE("the sky has a layer, and is seen where nothing is hit")
             CAPTURE(antialias);
             render::Settings s = settings(true);
             s.antialias = antialias;
-            const std::vector<std::string> layers = render::selectLayers("all", s, b.scene);
+            const std::vector<std::string> layers = render::selectLayers("all", s, renderer.scene());
             REQUIRE(std::ranges::count(layers, std::string("sky")) == 1);
             const std::vector<float> all = renderPixels(renderer, s, true);
             const image::Window whole { 0, 0, s.width, s.height };
@@ -211,8 +211,9 @@ TEST_CASE("the sky has a layer, and is seen where nothing is hit")
             CHECK(meanOf(reflected, 0).value > 0.01);
         }
         b.scene.extensions.clear();
-        CHECK_THROWS(render::selectLayers("sky", settings(true), b.scene));
-        CHECK(std::ranges::count(render::selectLayers("all", settings(true), b.scene), std::string("sky")) == 0);
+        const render::PreparedScene without(b.scene);
+        CHECK_THROWS(render::selectLayers("sky", settings(true), without));
+        CHECK(std::ranges::count(render::selectLayers("all", settings(true), without), std::string("sky")) == 0);
     });
 }
 
