@@ -4,14 +4,14 @@ namespace wedge::render {
 
 DistributedFrame::DistributedFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
     std::size_t packetSize, const cl::Buffer& unused, bool keepLayers)
-    : FrameGraph(settings, keepLayers)
+    : FrameGraph(settings, scene, keepLayers)
     , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize, unused }
     , samples_(f_, sampleShape(settings, scene, keepLayers), {})
 {
     samples_.take(nullptr);
     samples_.compose();
     for (const std::unique_ptr<WaveTerm>& term : samples_.terms()) {
-        terms_.push_back({ samples_.state(), term->means.beta });
+        widths_.push_back({ samples_.state(), term->means.beta });
     }
     Shown shown { {}, imageOf(f_.totals), samples_.taken(), {}, {}, {}, {} };
     if (keepLayers) {

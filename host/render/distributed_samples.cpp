@@ -52,8 +52,11 @@ DistributedSamples::DistributedSamples(FrameBuilder& frame, const SampleShape& s
     , lit_(frame.settings.integrator == Integrator::Path)
 {
     f_.packed = shape.analysed && !shape.full;
-    state_->analysed = shape.analysed && before.taken > 0;
-    state_->complete = before.taken > 0;
+    f_.host(
+        "samples", [state = state_, analysed = shape.analysed && before.taken > 0, complete = before.taken > 0](Run&) {
+            state->analysed = analysed;
+            state->complete = complete;
+        });
     keepPixels();
     f_.precomputeDirections();
     const std::vector<Term> terms = frameTerms(frame.settings, frame.description);

@@ -71,11 +71,32 @@ void FrameGraph::show(const Shown& shown, bool distributed, bool analysed)
     Frame nobody { PlaneLayout(settings_.width, settings_.height) };
     eachShown(shown_, nobody, [&](auto&, const graph::Version& version) { graph_.want(version, output); });
     wantsWidths_ = keepsLayers_ && analysed;
-    for (const TermWidths& term : terms_) {
+    for (const TermWidths& term : widths_) {
         if (wantsWidths_) {
             graph_.want(term.beta, output);
         }
     }
+}
+
+FrameGraph::FrameGraph(const Settings& settings, const PreparedScene& scene, bool keepLayers)
+    : settings_(settings)
+    , keepsLayers_(keepLayers)
+    , graph_(settings.width, settings.height, PlaneLayout(settings.width, settings.height).size)
+    , terms_(frameTerms(settings, scene))
+    , unfiltered_(frameUnfiltered(settings, scene))
+{
+}
+
+double FrameGraph::workUnits() const
+{
+    double units = 1.0; // primary rays
+    for (const Term& term : terms_) {
+        units += term.workUnits;
+    }
+    for (const UnfilteredOf& added : unfiltered_) {
+        units += added.light.workUnits;
+    }
+    return units;
 }
 
 std::unique_ptr<Frame> FrameGraph::outputs(const graph::Execution& execution) const

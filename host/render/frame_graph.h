@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/graph/execution.h"
+#include "host/render/effect.h"
 #include "host/render/frame_builder.h"
 
 #include <map>
@@ -24,26 +25,27 @@ public:
     const graph::Graph& graph() const { return graph_; }
     const Settings& settings() const { return settings_; }
     bool keepsLayers() const { return keepsLayers_; }
-    /// Whether those of terms() are to be read.
+    /// Whether widths() are to be read.
     bool wantsWidths() const { return wantsWidths_; }
 
     /// What is to be read of a run.
     std::unique_ptr<Frame> outputs(const graph::Execution& execution) const;
 
-    /// One of frameTerms() each, in their order.
+    /// frameTerms() and frameUnfiltered() of it.
+    const std::vector<Term>& terms() const { return terms_; }
+    const std::vector<UnfilteredOf>& unfiltered() const { return unfiltered_; }
+    /// Of all terms and unfiltered light, as Term has it, and of camera rays.
+    double workUnits() const;
+
+    /// Of one of terms() each, in their order.
     struct TermWidths {
         std::shared_ptr<TermState> state;
         graph::Handle<Metres> beta; ///< wanted only of layers
     };
-    const std::vector<TermWidths>& terms() const { return terms_; }
+    const std::vector<TermWidths>& widths() const { return widths_; }
 
 protected:
-    FrameGraph(const Settings& settings, bool keepLayers)
-        : settings_(settings)
-        , keepsLayers_(keepLayers)
-        , graph_(settings.width, settings.height, PlaneLayout(settings.width, settings.height).size)
-    {
-    }
+    FrameGraph(const Settings& settings, const PreparedScene& scene, bool keepLayers);
 
     /// What is shown; handles that are of no graph are not.
     struct Shown {
@@ -60,7 +62,9 @@ protected:
     Settings settings_;
     bool keepsLayers_;
     graph::Graph graph_;
-    std::vector<TermWidths> terms_;
+    std::vector<Term> terms_;
+    std::vector<UnfilteredOf> unfiltered_;
+    std::vector<TermWidths> widths_;
 
 private:
     Shown shown_;

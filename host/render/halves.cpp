@@ -25,7 +25,7 @@ double ErrorEstimate::rmse() const { return std::sqrt(noise + (std::isnan(bias) 
 
 HalvesFrame::HalvesFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
     std::size_t packetSize, const cl::Buffer& unused, bool keepLayers, HalfMemories& memories, int before, int spp)
-    : FrameGraph(settings, keepLayers)
+    : FrameGraph(settings, scene, keepLayers)
     , layout_(settings.width, settings.height)
 {
     const SampleShape shape = sampleShape(settings, scene, keepLayers);
@@ -47,7 +47,7 @@ HalvesFrame::HalvesFrame(const PreparedScene& scene, const DeviceScene* deviceSc
     }
     const bool analysed = shape.analysed && settings.filtering != Filtering::None;
     for (const std::unique_ptr<WaveTerm>& term : halves_[0].samples->terms()) {
-        terms_.push_back({ halves_[0].samples->state(), term->means.beta });
+        widths_.push_back({ halves_[0].samples->state(), term->means.beta });
     }
     estimateError(analysed);
     join(analysed);

@@ -14,19 +14,18 @@ using graph::writes;
 
 PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
     std::size_t packetSize, const cl::Buffer& unused, bool keepLayers)
-    : FrameGraph(settings, keepLayers)
+    : FrameGraph(settings, scene, keepLayers)
     , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize, unused }
 {
     f_.narrowLobes = scene.traits().narrowLobes;
     const bool lit = settings.integrator == Integrator::Path;
     primary(lit);
     f_.precomputeDirections();
-    const std::vector<Term> terms = frameTerms(settings, scene);
     std::map<std::string, graph::Handle<Value>> termLayers;
     f_.termLayers = keepLayers ? &termLayers : nullptr;
-    addTerms(Part::Direct, terms);
+    addTerms(Part::Direct);
     std::map<std::string, graph::Handle<Radiance>> unfiltered;
-    for (const UnfilteredOf& added : frameUnfiltered(settings, scene)) {
+    for (const UnfilteredOf& added : unfiltered_) {
         graph::Handle<Radiance>* own = nullptr;
         if (keepLayers && !added.layer.empty()) {
             own = &unfiltered.emplace(added.layer, graph_.plane<Radiance>(added.layer, graph::vectors)).first->second;
@@ -34,8 +33,8 @@ PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScen
         }
         added.light.ofPixels(f_, own);
     }
-    const bool fallsBack = usesFallback(settings), reflects = countOf(Part::Indirect, terms) > 0;
-    if (fallsBack && countOf(Part::Direct, terms) > 0) {
+    const bool fallsBack = usesFallback(settings), reflects = countOf(Part::Indirect, terms_) > 0;
+    if (fallsBack && countOf(Part::Direct, terms_) > 0) {
         fallBack(f_.totals.direct);
     }
     // Two planes become one before paths are traced.
@@ -47,7 +46,7 @@ PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScen
                 reads("objectId", f_.surfaces.objectId), writes("sum", sum) });
     };
     add(f_.surfaces.emission, f_.totals.direct.filtered, beauty);
-    addTerms(Part::Indirect, terms);
+    addTerms(Part::Indirect);
     if (fallsBack && reflects) {
         fallBack(f_.totals.indirect);
     }
@@ -64,7 +63,7 @@ PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScen
         }
     }
     shown.surfaces.objectId = f_.surfaces.objectId;
-    if (std::ranges::any_of(terms, &Term::ofLobes)) {
+    if (std::ranges::any_of(terms_, &Term::ofLobes)) {
         shown.surfaces.specular = f_.surfaces.specular; // pixels that have some are sampled for more terms
     }
     f_.termLayers = nullptr;
@@ -120,18 +119,18 @@ void PixelFrame::primary(bool lit)
     }
 }
 
-void PixelFrame::addTerms(Part part, const std::vector<Term>& terms)
+void PixelFrame::addTerms(Part part)
 {
     Sum& sum = part == Part::Direct ? f_.totals.direct : f_.totals.indirect;
-    if (std::ranges::any_of(terms, [&](const Term& t) { return t.part == part && t.gathersVariance; })) {
+    if (std::ranges::any_of(terms_, [&](const Term& t) { return t.part == part && t.gathersVariance; })) {
         sum.variance = graph_.plane<Value>("gathered variance", shortFloats);
         f_.zero(sum.variance);
     }
-    for (const Term& term : terms) {
+    for (const Term& term : terms_) {
         if (term.part == part) {
-            terms_.push_back({ std::make_shared<TermState>(), graph_.plane<Metres>("filter width", graph::floats) });
-            f_.host("term", [state = terms_.back().state](Run&) { *state = {}; });
-            term.ofPixels(f_, terms_.back().state, terms_.back().beta);
+            widths_.push_back({ std::make_shared<TermState>(), graph_.plane<Metres>("filter width", graph::floats) });
+            f_.host("term", [state = widths_.back().state](Run&) { *state = {}; });
+            term.ofPixels(f_, widths_.back().state, widths_.back().beta);
         }
     }
 }

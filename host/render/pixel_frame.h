@@ -18,7 +18,7 @@ public:
 private:
     void primary(bool lit);
     /// Terms of the one part, of all those of the frame.
-    void addTerms(Part part, const std::vector<Term>& terms);
+    void addTerms(Part part);
     void fallBack(Sum& sum);
 
     FrameBuilder f_;

@@ -64,10 +64,9 @@ Renderer::Step Renderer::runStep(
     auto frame = std::make_unique<HalvesFrame>(scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal),
         unused_, keepLayers, *halfMemories_, range.before, range.spp);
     const HalvesFrame& halves = *frame;
-    frameGraph_ = std::move(frame);
-    const graph::Plan plan(halves.graph(), device::partAlignment, slabRules());
     frame_.reset(); // it has parts of the memory
-    graph::Execution execution(plan, memory_, *kernels_, queue_);
+    compile(std::move(frame));
+    graph::Execution execution(compiled_->plan(), memory_, *kernels_, queue_);
     const bool whole = run(execution, stop, rehearsal);
     return { rehearsal ? ErrorEstimate { 0, 0 } : halves.error(execution, queue_), whole };
 }

@@ -119,7 +119,8 @@ void Renderer::changeScene(const scene::Change& change, const std::function<void
 {
     queue_.finish();
     frame_.reset();
-    frameGraph_.reset(); // it refers to the scene
+    compiled_.reset(); // it refers to the scene
+    planned_.reset();
     if (change.lights || change.geometry) {
         deviceScene_.reset(); // devices may work in the scene's memory
     }
@@ -183,26 +184,72 @@ std::unique_ptr<FrameGraph> Renderer::declareUnbacked(const PreparedScene& scene
         scene, nullptr, settings, packet, cl::Buffer(), keepLayers, memories, step.before, step.spp);
 }
 
-Explanation Renderer::explain(const Settings& settings, bool keepLayers) const
+void Renderer::uploadScene()
+{
+    if (!deviceScene_) {
+        device::MemoryPlan plan;
+        DeviceScene::plan(plan, scene_, hierarchy_);
+        plan.check(device_.info(), options_.memoryLimit);
+        deviceScene_ = std::make_unique<DeviceScene>(scene_, hierarchy_, device_, queue_);
+    }
+}
+
+void Renderer::compile(std::unique_ptr<FrameGraph> declared)
+{
+    compiled_ = std::make_unique<CompiledFrame>(std::move(declared), slabRules());
+    ++framesCompiled_;
+}
+
+void Renderer::compile(const Settings& settings, bool keepLayers)
+{
+    if (compiled_ && compiled_->isOf(settings, keepLayers)) {
+        return;
+    }
+    uploadScene();
+    compile(declare(scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal), unused_, keepLayers));
+}
+
+const device::MemoryPlan& Renderer::plan(const Settings& settings, bool keepLayers)
 {
     validate(settings, isDistributed(settings, scene_));
+    if (!settings.progressive) {
+        compile(settings, keepLayers);
+    }
+    if (!planned_ || planned_->keepLayers != keepLayers || planned_->settings != settings) {
+        planned_.reset();
+        device::MemoryPlan memory;
+        if (settings.progressive) {
+            memory = plan(scene_, hierarchy_, settings, keepLayers, slabRules());
+        } else {
+            DeviceScene::plan(memory, scene_, hierarchy_);
+            compiled_->plan().addTo(memory);
+        }
+        planned_ = Planned { settings, keepLayers, std::move(memory) };
+    }
+    return planned_->memory;
+}
+
+Explanation Renderer::explain(const Settings& settings, bool keepLayers)
+{
+    validate(settings, isDistributed(settings, scene_));
+    if (!settings.progressive) {
+        compile(settings, keepLayers);
+        return { graph::explain(compiled_->plan()), graph::drawing(compiled_->plan()) };
+    }
     HalfMemories memories { SampleMemory(nullptr), SampleMemory(nullptr) };
-    const std::unique_ptr<FrameGraph> frame =
-        declareUnbacked(scene_, hierarchy_, settings, keepLayers, memories, firstStep(settings));
-    const graph::Plan plan(frame->graph(), device::partAlignment, slabRules());
-    return { graph::explain(plan), graph::drawing(plan) };
+    const CompiledFrame frame(
+        declareUnbacked(scene_, hierarchy_, settings, keepLayers, memories, firstStep(settings)), slabRules());
+    return { graph::explain(frame.plan()), graph::drawing(frame.plan()) };
 }
 
 void Renderer::prepare(const Settings& settings, bool keepLayers)
 {
-    validate(settings, isDistributed(settings, scene_));
     plan(settings, keepLayers).check(device_.info(), options_.memoryLimit);
-    if (!deviceScene_) {
-        deviceScene_ = std::make_unique<DeviceScene>(scene_, hierarchy_, device_, queue_);
-    }
+    uploadScene();
     frame_.reset(); // it has parts of the memory
     halfMemories_.reset();
     if (settings.progressive) {
+        compiled_.reset(); // it may have those of the halves
         memory_.hold({}); // before there is more
         halfMemories_ = std::make_unique<HalfMemories>(HalfMemories { SampleMemory(&device_), SampleMemory(&device_) });
     }
@@ -218,8 +265,6 @@ void Renderer::rehearse(const Settings& settings, bool keepLayers)
     if (settings.progressive) {
         runStep(settings, keepLayers, firstStep(settings), nullptr, true);
     } else {
-        frameGraph_ =
-            declare(scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal), unused_, keepLayers);
         run(nullptr, true);
     }
     queue_.finish();
@@ -228,25 +273,13 @@ void Renderer::rehearse(const Settings& settings, bool keepLayers)
     setupSeconds_ = secondsSince(start);
 }
 
-double Renderer::workUnits(const Settings& settings) const
-{
-    double units = 1.0; // primary rays
-    for (const Term& term : frameTerms(settings, scene_)) {
-        units += term.workUnits;
-    }
-    for (const UnfilteredOf& added : frameUnfiltered(settings, scene_)) {
-        units += added.light.workUnits;
-    }
-    return units;
-}
-
 FrameStatistics Renderer::render(const Settings& settings, const Control& control, bool keepLayers)
 {
     assert(!settings.progressive);
     prepare(settings, keepLayers);
     queue_.takeRecords();
     std::atomic<bool> stop { false };
-    const double total = workUnits(settings);
+    const double total = compiled_->declared().workUnits();
     const Clock::time_point start = Clock::now();
     queue_.setCancelFlag(nullptr);
     queue_.setProgress([&](double done) {
@@ -259,7 +292,6 @@ FrameStatistics Renderer::render(const Settings& settings, const Control& contro
         }
     });
     FrameStatistics statistics;
-    frameGraph_ = declare(scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal), unused_, keepLayers);
     statistics.complete = run(&stop, false);
     queue_.finish();
     statistics.wallMilliseconds = 1e3 * secondsSince(start);
@@ -275,15 +307,14 @@ FrameStatistics Renderer::completed(const Settings& settings, FrameStatistics st
         statistics.deviceMilliseconds += record.milliseconds;
     }
     statistics.frame = settings.frame;
-    statistics.memoryBytes = plan(settings, frameGraph_->keepsLayers()).total();
+    statistics.memoryBytes = plan(settings, compiled_->declared().keepsLayers()).total();
     countWork(settings, statistics);
     return statistics;
 }
 
 bool Renderer::run(const std::atomic<bool>* stop, bool rehearsal)
 {
-    const graph::Plan plan(frameGraph_->graph(), device::partAlignment, slabRules());
-    graph::Execution execution(plan, memory_, *kernels_, queue_);
+    graph::Execution execution(compiled_->plan(), memory_, *kernels_, queue_);
     return run(execution, stop, rehearsal);
 }
 
@@ -297,7 +328,7 @@ bool Renderer::run(graph::Execution& execution, const std::atomic<bool>* stop, b
         whole = execution.run(stop, options_.poison);
         keepWidths(execution);
     }
-    frame_ = frameGraph_->outputs(execution);
+    frame_ = compiled_->declared().outputs(execution);
     return whole;
 }
 
@@ -329,13 +360,14 @@ void Renderer::rehearse(graph::Execution& execution)
 
 void Renderer::keepWidths(const graph::Execution& execution)
 {
-    const Settings& settings = frameGraph_->settings();
-    const std::vector<Term> terms = frameTerms(settings, scene_);
+    const FrameGraph& frame = compiled_->declared();
+    const Settings& settings = frame.settings();
+    const std::vector<Term>& terms = frame.terms();
     const PlaneLayout layout(settings.width, settings.height);
-    for (std::size_t i = 0; frameGraph_->keepsLayers() && i < terms.size(); ++i) {
-        const FrameGraph::TermWidths& term = frameGraph_->terms()[i];
+    for (std::size_t i = 0; frame.keepsLayers() && i < terms.size(); ++i) {
+        const FrameGraph::TermWidths& term = frame.widths()[i];
         std::vector<float> shown;
-        if (term.state->analysed && frameGraph_->wantsWidths()) {
+        if (term.state->analysed && frame.wantsWidths()) {
             shown = onlyInside(outputWindow(settings), layout, execution.output<float>(term.beta).downloadAll(queue_));
         }
         termPlanes_.push_back({ terms[i].name, std::move(shown) });

@@ -3,9 +3,9 @@
 #include "host/device/memory_plan.h"
 #include "host/device/program.h"
 #include "host/graph/execution.h"
+#include "host/render/compiled_frame.h"
 #include "host/render/device_scene.h"
 #include "host/render/frame.h"
-#include "host/render/frame_graph.h"
 #include "host/render/halves.h"
 #include "host/render/hierarchy.h"
 #include "host/render/prepared_scene.h"
@@ -99,13 +99,11 @@ public:
     /// slabs: as graph::place() has them.
     static device::MemoryPlan plan(const PreparedScene& scene, const Hierarchy& hierarchy, const Settings& settings,
         bool keepLayers = false, const graph::SlabRules& slabs = {});
-    device::MemoryPlan plan(const Settings& settings, bool keepLayers = false) const
-    {
-        return plan(scene_, hierarchy_, settings, keepLayers, slabRules());
-    }
+    /// The same of this renderer's. Puts the scene on the device, if there is room for that.
+    const device::MemoryPlan& plan(const Settings& settings, bool keepLayers = false);
 
     /// The passes of a frame, or of the first step of a progressive one, what they use, and the planes' memory.
-    Explanation explain(const Settings& settings, bool keepLayers = false) const;
+    Explanation explain(const Settings& settings, bool keepLayers = false);
 
     /// Renders; the result stays on the device until the next call. Throws Error if memory does not suffice or the
     /// device fails. keepLayers: for frames of which layers will be read. It fills termPlanes() for those of widths,
@@ -134,6 +132,8 @@ public:
     const device::Device& device() const { return device_; }
     std::string buildOptions() const { return programs_->optionsString(); }
     double setupSeconds() const { return setupSeconds_; }
+    /// Frames, or steps of progressive ones, that were declared and planned since this is there.
+    std::size_t framesCompiled() const { return framesCompiled_; }
 
     /// Of the last frame: the image, counts and objects, and all else that layers show where those were kept.
     const Frame& frame() const { return *frame_; }
@@ -149,9 +149,15 @@ private:
     /// Of a frame that is only to be planned, or of a step of a progressive one.
     static std::unique_ptr<FrameGraph> declareUnbacked(const PreparedScene& scene, const Hierarchy& hierarchy,
         const Settings& settings, bool keepLayers, HalfMemories& memories, const StepRange& step);
-    /// Tests the settings and whether memory suffices.
+    /// Puts the scene on the device, where it is not there. Throws Error if it takes more than there may be.
+    void uploadScene();
+    /// Makes compiled_ one of these settings, of frames that are not progressive, if it is not.
+    void compile(const Settings& settings, bool keepLayers);
+    /// Makes compiled_ that frame.
+    void compile(std::unique_ptr<FrameGraph> declared);
+    /// Tests the settings and whether memory suffices, and makes compiled_ theirs if they are not progressive.
     void prepare(const Settings& settings, bool keepLayers);
-    /// Runs frameGraph_, or rehearses it. Returns false if it was stopped before all samples were taken.
+    /// Runs compiled_, or rehearses it. Returns false if it was stopped before all samples were taken.
     bool run(const std::atomic<bool>* stop, bool rehearsal);
     bool run(graph::Execution& execution, const std::atomic<bool>* stop, bool rehearsal);
     /// Compiles all of its kernels.
@@ -169,7 +175,6 @@ private:
     void countWork(const Settings& settings, FrameStatistics& statistics);
     /// The programs that the scene needs, where they are not there.
     void buildPrograms();
-    double workUnits(const Settings& settings) const;
 
     PreparedScene scene_;
     device::Device device_;
@@ -183,7 +188,15 @@ private:
     graph::Memory memory_; ///< of the frame
     cl::Buffer unused_; ///< for parameters that nothing is read from
     std::unique_ptr<HalfMemories> halfMemories_; ///< of progressive frames
-    std::unique_ptr<FrameGraph> frameGraph_;
+    std::unique_ptr<CompiledFrame> compiled_; ///< of the last frame, or step of a progressive one
+    /// plan() of the last settings.
+    struct Planned {
+        Settings settings;
+        bool keepLayers;
+        device::MemoryPlan memory;
+    };
+    std::optional<Planned> planned_;
+    std::size_t framesCompiled_ = 0;
     std::unique_ptr<Frame> frame_; ///< parts of the memory
     std::vector<TermPlanes> termPlanes_;
     double setupSeconds_ = 0;

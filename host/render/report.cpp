@@ -151,7 +151,7 @@ double megaraysPerSecond(const FrameStatistics& statistics)
     return milliseconds > 0 ? 1e-3 * static_cast<double>(rays) / milliseconds : 0.0;
 }
 
-std::string jsonReport(const Renderer& renderer, const Settings& settings, const std::vector<FrameStatistics>& frames,
+std::string jsonReport(Renderer& renderer, const Settings& settings, const std::vector<FrameStatistics>& frames,
     const ReportExtras& extras)
 {
     Json report;

@@ -118,6 +118,8 @@ struct IndirectSettings {
     int maxSpp = 256; ///< most samples of a pixel
     float widening = 4.0f; ///< pixels: as of lights
     float ambientDistance = 0.0f; ///< metres: farther surfaces do not occlude; 0: any distance does
+
+    bool operator==(const IndirectSettings&) const = default;
 };
 
 /// What the widths of environment light's filters follow from where pixels have one receiver.
@@ -141,6 +143,8 @@ struct EnvironmentSettings {
         0.25f; ///< of the samples, that the analysis of pixels with one receiver begins with; 1: as many as of paths
     float leastShare = 0.25f; ///< of the mean count, that every such pixel takes
     EnvironmentWidths widths = EnvironmentWidths::Penumbrae;
+
+    bool operator==(const EnvironmentSettings&) const = default;
 };
 
 /// Where texture and irradiance are taken apart in pixels of several receivers.
@@ -177,6 +181,8 @@ struct DistributedSettings {
     float countExponent = 0.3f;
     float varianceSpread = 0.5f;
     float oneVelocity = 0.1f; ///< motions of a pixel differ by less than this fraction where it is filtered along them
+
+    bool operator==(const DistributedSettings&) const = default;
 };
 
 /// Everything that decides what a frame looks like. monteCarlo(), axisAligned(), multipleAxisAligned() and
@@ -246,6 +252,8 @@ struct Settings {
     float countExponent = 0.5f; ///< counts ~ (variance / gathered pixels)^this
     float varianceFloor = 0.001f; ///< least variance assumed where there are slopes
     float varianceSpread = 0.25f; ///< least fraction of the neighbourhood's largest variance
+
+    bool operator==(const Settings&) const = default;
 };
 
 /// Plain Monte Carlo with spp samples a pixel and light.

@@ -41,7 +41,7 @@ void Renderer::countWork(const Settings& settings, FrameStatistics& statistics)
     const std::vector<std::uint32_t> indirect = pixels ? none : planeOf(frame_->indirectSamples);
     const std::vector<std::uint32_t> objects = planeOf(frame_->objectId);
     const image::Window output = outputWindow(settings);
-    const std::vector<Term> terms = frameTerms(settings, scene_);
+    const std::vector<Term>& terms = compiled_->declared().terms();
     const std::size_t direct = countOf(Part::Direct, terms), reflected = terms.size() - direct;
     // Pixels of several receivers take samples of all terms whatever is there.
     const auto lobesOf = [&](Part part) {
