@@ -1,7 +1,6 @@
 // Materials against integrals of their reflection in double, by every method and kind of frame.
-#include "effects/environment/environment.h"
-#include "host/render/environment_table.h"
 #include "kernels/shared/bsdf.h"
+#include "tests/glass_support.h"
 #include "tests/image_means.h"
 #include "tests/lobe_grid.h"
 #include "tests/render_oracles.h"
@@ -13,16 +12,6 @@ using namespace wedge;
 using namespace wedge::test;
 
 namespace {
-
-const glm::vec3 sky(0.4f, 0.6f, 0.9f);
-
-void addSky(scene::Scene& scene)
-{
-    auto p = std::make_shared<render::EnvironmentPicture>();
-    p->width = p->height = 1;
-    p->radiance = { sky.x, sky.y, sky.z };
-    render::setEnvironment(scene, p);
-}
 
 scene::Material ggx(float roughness, glm::vec3 diffuse, glm::vec3 specular)
 {
@@ -74,9 +63,9 @@ TEST_CASE("microfacets under an even sky reflect their albedo of it, in every ki
                 const double albedo = LobeGrid(shared::vec3(-v.x, 0, v.z)).overSphere([&](shared::Vec3 l) {
                     return l.z > 0 ? shared::lobeValue(lobe, up, v, l) * l.z : 0.0f;
                 });
-                const glm::vec3 expected = sky * (material.diffuse + static_cast<float>(albedo) * material.specular);
+                const glm::vec3 expected = even * (material.diffuse + static_cast<float>(albedo) * material.specular);
                 SceneBuilder b = floorSeenAt(material, angle);
-                addSky(b.scene);
+                addSky(b.scene, { even });
                 for (const bool lens : { false, true }) {
                     b.scene.camera.apertureRadius = lens ? 0.005f : 0.0f;
                     render::Renderer renderer(b.scene, device, renderOptions());
@@ -153,7 +142,7 @@ TEST_CASE("microfacets: what filters make has the mean of what paths find, under
         b.sphere({ 0.4f, 0.4f, 0.5f }, 0.4f, 24, 1);
         b.light({ 0.2f, 3, 0.3f }, { 0.5f, 0, 0 }, { 0, 0, 0.5f }, scene::LightProfile::Gaussian, 8).twoSided = true;
         b.camera({ 0, 1.2f, 3 }, { 0, 0.2f, 0 });
-        addSky(b.scene);
+        addSky(b.scene, { even });
         for (const bool lens : { false, true }) {
             CAPTURE(lens);
             b.scene.camera.apertureRadius = lens ? 0.02f : 0.0f;
@@ -177,40 +166,69 @@ TEST_CASE("microfacets: no furnace makes them brighter than what is around, and 
             b.quad({ 0, 0, 0 }, { 0, 0, 4 }, { 4, 0, 0 });
             b.sphere({ 0, 0.6f, 0 }, 0.5f, 24, 1);
             b.camera({ 0, 1.5f, 4.5f }, { 0, 0.4f, 0 });
-            addSky(b.scene);
+            addSky(b.scene, { even });
             render::Renderer renderer(b.scene, device, renderOptions());
             render::Settings s = settings(false, 256);
             s.bounces = 32;
             const Mean mean = meanOf(renderPixels(renderer, s), 1);
             CAPTURE(mean.value);
-            CHECK(mean.value <= sky.y + 3 * mean.deviation);
-            CHECK(mean.value > (roughness < 1 ? 0.97 : 0.7) * sky.y);
+            CHECK(mean.value <= even.y + 3 * mean.deviation);
+            CHECK(mean.value > (roughness < 1 ? 0.97 : 0.7) * even.y);
         }
     });
 }
 
-TEST_CASE("a coarse ball of smooth microfacets in an even sky is seen nowhere, its rim neither")
+TEST_CASE("a coarse ball of smooth microfacets in an even sky is seen nowhere, its rim neither, nor in a mirror")
 {
     onEveryDevice([](const device::Device& device) {
-        for (const float roughness : { 0.0f, 0.05f, 0.1f }) {
+        for (const bool mirrored : { false, true })
+            for (const float roughness : { 0.0f, 0.05f, 0.1f }) {
+                CAPTURE(mirrored);
+                CAPTURE(roughness);
+                SceneBuilder b;
+                b.scene.materials[0] = ggx(roughness, glm::vec3(0), glm::vec3(1));
+                b.sphere({ 0, 0, 0 }, 1, 24);
+                b.camera({ 0, 0, 4 }, { 0, 0, 0 }, { 0, 1, 0 }, 30);
+                if (mirrored) {
+                    b.quad({ 0, 0, 4 }, { 1, 0, 0 }, { 0, 1, 0 }, addMaterial(b, mirror()));
+                    b.camera({ 0, 0, 3.9f }, { 0, 0, 8 }, { 0, 1, 0 }, 30);
+                }
+                addSky(b.scene, { even });
+                render::Renderer renderer(b.scene, device, renderOptions());
+                render::Settings s = sized(render::monteCarlo(64), 160, 120);
+                // The middle of the ball is seen in the mirror again and again; that takes bounces.
+                s.bounces = mirrored ? 8 : 1;
+                const std::vector<float> image = renderPixels(renderer, s);
+                REQUIRE(notFinite(image) == 0);
+                for (std::size_t channel = 0; channel < 3; ++channel) {
+                    float least = 1e9f;
+                    for (std::size_t i = channel; i < image.size(); i += 3)
+                        least = std::min(least, image[i]);
+                    CHECK(least > 0.85f * even[static_cast<int>(channel)]);
+                }
+                CHECK(meanOf(image, 0).value == doctest::Approx(even.x).epsilon(2e-3));
+            }
+    });
+}
+
+TEST_CASE("a white plate below a coarse ball of smooth microfacets in an even sky is as bright as the sky")
+{
+    onEveryDevice([](const device::Device& device) {
+        for (const float roughness : { 0.0f, 0.1f }) {
             CAPTURE(roughness);
             SceneBuilder b;
-            b.scene.materials[0] = ggx(roughness, glm::vec3(0), glm::vec3(1));
-            b.sphere({ 0, 0, 0 }, 1, 24);
-            b.camera({ 0, 0, 4 }, { 0, 0, 0 }, { 0, 1, 0 }, 30);
-            addSky(b.scene);
+            b.scene.materials[0].diffuse = glm::vec3(1);
+            b.quad({ 0, 0, 0 }, { 0, 0, 0.01f }, { 0.01f, 0, 0 });
+            b.newObject();
+            b.sphere({ 0, 1.2f, 0 }, 1, 6, addMaterial(b, ggx(roughness, glm::vec3(0), glm::vec3(1))));
+            b.camera({ 0.7f, 0.1f, 0 }, { 0, 0, 0 }, { 0, 1, 0 }, 0.2f);
+            addSky(b.scene, { even });
             render::Renderer renderer(b.scene, device, renderOptions());
-            render::Settings s = sized(render::monteCarlo(64), 160, 120);
-            s.bounces = 1;
-            const std::vector<float> image = renderPixels(renderer, s);
-            REQUIRE(notFinite(image) == 0);
-            for (std::size_t channel = 0; channel < 3; ++channel) {
-                float least = 1e9f;
-                for (std::size_t i = channel; i < image.size(); i += 3)
-                    least = std::min(least, image[i]);
-                CHECK(least > 0.85f * sky[static_cast<int>(channel)]);
-            }
-            CHECK(meanOf(image, 0).value == doctest::Approx(sky.x).epsilon(2e-3));
+            render::Settings s = sized(render::monteCarlo(1024), 16, 16);
+            s.bounces = 8;
+            // Of lobes at the ball's rim a tenth may still be below its faces. With normals that do not bend it is
+            // 0.964.
+            checkMean(renderPixels(renderer, s), even, 4e-3);
         }
     });
 }

@@ -3,6 +3,7 @@
 #ifndef WEDGE_EMITTERS_H
 #define WEDGE_EMITTERS_H
 
+#include "light/sums.h"
 #include "shared/emitter.h"
 #include "shared/light.h"
 #include "trace/cutouts.h"
@@ -58,19 +59,6 @@ WEDGE_FN uint findEmitter(EmitterData e, float number)
     return low;
 }
 
-/// The first of `count` numbers that reaches beyond `number`, which the last one does.
-WEDGE_FN uint findCell(__global const float* upTo, uint count, float number)
-{
-    uint low = 0u, high = count - 1u;
-    while (low < high) {
-        const uint middle = (low + high) / 2u;
-        const bool below = upTo[middle] <= number;
-        low = below ? middle + 1u : low;
-        high = below ? high : middle;
-    }
-    return low;
-}
-
 /// Where numbers that are even over the square are, spread as a table says, and in *density how much denser there.
 WEDGE_FN Vec2 spreadByTable(__global const float* table, Vec2 u, float* density)
 {
@@ -78,9 +66,9 @@ WEDGE_FN Vec2 spreadByTable(__global const float* table, Vec2 u, float* density)
     __global const float* ofRows = table + 2u;
     const float below1 = 0.99999994f;
     const Vec2 number = vec2(fmin(u.x, below1), fmin(u.y, below1));
-    const uint y = findCell(ofRows, rows, number.y);
+    const uint y = findSum(ofRows, 0u, rows - 1u, number.y);
     __global const float* ofColumns = ofRows + rows + y * columns;
-    const uint x = findCell(ofColumns, columns, number.x);
+    const uint x = findSum(ofColumns, 0u, columns - 1u, number.x);
     const float fromX = x > 0u ? ofColumns[x - 1u] : 0.0f, fromY = y > 0u ? ofRows[y - 1u] : 0.0f;
     const float partX = ofColumns[x] - fromX, partY = ofRows[y] - fromY;
     *density = partX * (float)columns * (partY * (float)rows);

@@ -2,6 +2,7 @@
 #ifndef WEDGE_LIGHT_ENVIRONMENT_MAP_H
 #define WEDGE_LIGHT_ENVIRONMENT_MAP_H
 
+#include "light/sums.h"
 #include "shared/environment.h"
 #include "trace/environment.h"
 
@@ -91,14 +92,8 @@ WEDGE_FN Vec3 mapRadiance(BeyondData beyond, Vec2 at)
 WEDGE_FN uint findNumber(__global const float* upTo, __global const float* guide, uint count, float number)
 {
     const uint last = count - 1u, stripe = min((uint)(number * (float)count), last);
-    uint low = as_uint(guide[stripe]), high = stripe < last ? as_uint(guide[stripe + 1u]) : last;
-    while (low < high) {
-        const uint middle = (low + high) / 2u;
-        const bool below = upTo[middle] <= number;
-        low = below ? middle + 1u : low;
-        high = below ? high : middle;
-    }
-    return low;
+    const uint low = as_uint(guide[stripe]), high = stripe < last ? as_uint(guide[stripe + 1u]) : last;
+    return findSum(upTo, low, high, number);
 }
 
 /// Where the parts of the table are.
