@@ -52,7 +52,8 @@ std::vector<float> onlyInside(const image::Window& window, const PlaneLayout& la
     return out;
 }
 
-device::BuildOptions programOptions(const scene::Scene& scene, const Options& options, Traversal traversal)
+device::BuildOptions programOptions(
+    const scene::Scene& scene, const SceneLights& lights, const Options& options, Traversal traversal)
 {
     device::BuildOptions out;
     if (hasSpecular(scene)) {
@@ -69,6 +70,12 @@ device::BuildOptions programOptions(const scene::Scene& scene, const Options& op
     }
     if (hasTouchingGlass(scene)) {
         out.defines.emplace_back("WEDGE_TOUCHING_GLASS", "1");
+    }
+    if (lights.emitters.trees || lights.shared.trees) {
+        out.defines.emplace_back("WEDGE_EMITTER_TREES", "1");
+    }
+    if (lights.emitters.tables || lights.shared.tables) {
+        out.defines.emplace_back("WEDGE_EMITTER_TABLES", "1");
     }
     if (pictureOf(scene) != nullptr) {
         out.defines.emplace_back("WEDGE_ENVIRONMENT_MAP", "1");
@@ -107,7 +114,7 @@ Renderer::~Renderer() = default;
 
 void Renderer::buildPrograms()
 {
-    device::BuildOptions options = programOptions(scene_, options_, hierarchy_.traversal);
+    device::BuildOptions options = programOptions(scene_, lights_, options_, hierarchy_.traversal);
     if (programs_ && options.defines == programOptions_.defines && options.generated == programOptions_.generated) {
         return;
     }
