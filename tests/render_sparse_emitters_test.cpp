@@ -123,7 +123,8 @@ float unit(std::mt19937& random) { return static_cast<float>(random() >> 8) * (1
 
 Places places(const SceneBuilder& b, const device::Device& device, const std::vector<float>& meeting)
 {
-    KernelBench bench(device, {}, kernelDir().empty() ? WEDGE_TEST_KERNELS : kernelDir());
+    KernelBench bench(device, { { "WEDGE_EMITTER_TREES", "1" }, { "WEDGE_EMITTER_TABLES", "1" } },
+        kernelDir().empty() ? WEDGE_TEST_KERNELS : kernelDir());
     const render::Hierarchy tree(bvh::build({ b.scene.geometry.positions, b.scene.geometry.indices }));
     const render::PreparedScene prepared(b.scene);
     const render::DeviceScene scene(prepared, tree, device, bench.queue);
@@ -287,8 +288,27 @@ TEST_CASE("what a texture shows in equal brightness needs no table, and what it 
     REQUIRE(even.list.size() == 1);
     CHECK(even.list[0].header == 0);
     CHECK(even.picks.size() == b.scene.geometry.materialIds.size());
+    CHECK_FALSE(even.tables);
     std::ranges::fill(b.scene.textures[0].rgba, 0xff000000u);
     CHECK(render::emitterList(b.scene).list.empty());
+}
+
+TEST_CASE("lists say what kernels find in them, and parts of a mesh without a table have no entries")
+{
+    const render::EmitterList one = render::emitterList(roomWithPanel(1, 32, 0).scene);
+    CHECK(one.list.size() == 1);
+    CHECK_FALSE(one.trees);
+    CHECK_FALSE(one.tables);
+    // Of 16 pairs: the mesh, 15 splits and 4 x 4 cells.
+    const render::EmitterList many = render::emitterList(roomWithPanel(4, 32, 0).scene);
+    CHECK(many.list.size() == 1 + 15 + 16);
+    CHECK(many.trees);
+    CHECK_FALSE(many.tables);
+    const std::uint32_t firstCell = many.list[many.list[0].triangle].triangle;
+    CHECK((firstCell >> WEDGE_PART_SHIFT) <= WEDGE_PAIR_SECOND);
+    const render::EmitterList spot = render::emitterList(roomWithPanel(1, 32, 16).scene);
+    CHECK_FALSE(spot.trees);
+    CHECK(spot.tables);
 }
 
 TEST_CASE("a mesh of 32 triangles brings the light of one of two, and hardly more noise")

@@ -122,22 +122,23 @@ private:
     }
     shared::Emitter mesh(const EmitterGroup& group, float pick)
     {
+        out_.trees = true;
         std::vector<EmitterPart> parts;
+        parts.reserve(group.entries.size());
         for (const EmitterEntry& e : group.entries) {
-            shared::Emitter part {};
-            part.triangle = static_cast<std::uint32_t>(&e - group.entries.data()); // until its probability is known
-            parts.push_back({ part, e.power, e.at });
+            auto part = e.pair << WEDGE_PART_SHIFT | static_cast<std::uint32_t>(e.number);
+            if (tableOf(e) != 0) {
+                part = WEDGE_PART_TABLED << WEDGE_PART_SHIFT | static_cast<std::uint32_t>(out_.list.size());
+                out_.list.emplace_back(); // until its probability is known
+            }
+            parts.push_back({ parts.size(), part, e.power, e.at });
         }
-        const std::size_t first = out_.list.size();
         const shared::Emitter mesh = addMesh(out_.list, parts, axesOf(scene_.geometry, group), pick);
-        std::vector<float> picks(parts.size());
         for (const EmitterPart& p : parts) {
-            picks[p.entry.triangle] = p.pick;
-        }
-        for (std::size_t i = first; i < out_.list.size(); ++i) {
-            if (out_.list[i].pair == WEDGE_PAIR_NONE) {
-                const std::size_t part = out_.list[i].triangle;
-                out_.list[i] = entryOf(group, group.entries[part], picks[part]);
+            const EmitterEntry& e = group.entries[p.number];
+            const shared::Emitter entry = entryOf(group, e, p.pick);
+            if (p.part >> WEDGE_PART_SHIFT == WEDGE_PART_TABLED) {
+                out_.list[p.part & WEDGE_PART_NUMBER] = entry;
             }
         }
         return mesh;
@@ -155,7 +156,7 @@ private:
             return out;
         }
         const std::size_t count = e.pair == WEDGE_PAIR_NONE ? 1 : 2;
-        const std::uint32_t table = e.texture == EmitterEntry::none ? 0 : tableOf(e.texture);
+        const std::uint32_t table = tableOf(e);
         for (std::size_t i = 0; i < count; ++i) {
             const std::size_t t = e.number + i;
             const float own = pick / static_cast<float>(count);
@@ -171,14 +172,19 @@ private:
         return out;
     }
     /// 0: none.
-    std::uint32_t tableOf(std::size_t texture)
+    std::uint32_t tableOf(const EmitterEntry& e)
     {
-        if (tables_[texture] == 0 && !groups_.textures[texture].cells.empty()) {
-            tables_[texture] = static_cast<std::uint32_t>(out_.picks.size());
-            const std::vector<float> table = emitterTable(groups_.textures[texture]);
-            out_.picks.insert(out_.picks.end(), table.begin(), table.end());
+        if (e.texture == EmitterEntry::none || groups_.textures[e.texture].cells.empty()) {
+            return 0;
         }
-        return tables_[texture];
+        std::uint32_t& at = tables_[e.texture];
+        if (at == 0) {
+            at = static_cast<std::uint32_t>(out_.picks.size());
+            const std::vector<float> table = emitterTable(groups_.textures[e.texture]);
+            out_.picks.insert(out_.picks.end(), table.begin(), table.end());
+            out_.tables = true;
+        }
+        return at;
     }
     /// corners: of the triangle, that are the first two of the entry's.
     std::uint32_t addHeader(float pick, std::uint32_t shape, std::array<std::uint32_t, 2> corners, std::uint32_t table)

@@ -23,14 +23,14 @@ public:
     {
     }
 
-    std::size_t add(std::span<EmitterPart> parts, float pick, std::array<int, 2> splits)
+    /// Returns the part that they are together.
+    std::uint32_t add(std::span<EmitterPart> parts, float pick, std::array<int, 2> splits)
     {
-        const std::size_t at = list_.size();
         if (parts.size() == 1) {
             parts[0].pick = pick;
-            list_.push_back(parts[0].entry);
-            return at;
+            return parts[0].part;
         }
+        const std::size_t at = list_.size();
         list_.push_back({});
         const std::size_t axis = longest(parts);
         const std::size_t number = axis == order_[0] ? 0 : axis == order_[1] ? 1 : splits[0] <= splits[1] ? 0 : 1;
@@ -39,15 +39,15 @@ public:
         const std::span<EmitterPart> first = parts.first(middle), second = parts.subspan(middle);
         const double ofFirst = powerOf(first), ofSecond = powerOf(second);
         const auto split = static_cast<float>(ofFirst / (ofFirst + ofSecond));
-        const std::size_t one = add(first, pick * split, splits), other = add(second, pick * (1.0f - split), splits);
+        const std::uint32_t one = add(first, pick * split, splits), other = add(second, pick * (1.0f - split), splits);
         shared::Emitter& node = list_[at];
         node.upTo = split;
         node.extent = 1.0f / std::max(split, std::numeric_limits<float>::min());
         node.header = std::bit_cast<std::uint32_t>(1.0f / std::max(1.0f - split, std::numeric_limits<float>::min()));
-        node.pair = number == 0 ? WEDGE_PAIR_SPLIT_X : WEDGE_PAIR_SPLIT_Y;
-        node.triangle = static_cast<std::uint32_t>(one);
-        node.guide = static_cast<std::uint32_t>(other);
-        return at;
+        node.triangle = one;
+        node.guide = other;
+        const std::uint32_t kind = number == 0 ? WEDGE_PART_SPLIT_X : WEDGE_PART_SPLIT_Y;
+        return kind << WEDGE_PART_SHIFT | static_cast<std::uint32_t>(at);
     }
 
     /// The two numbers stand for the axes along which the mesh is longest, in their order: a pair that has the first
@@ -96,7 +96,7 @@ private:
         const auto along = [&](const EmitterPart& p) { return glm::dot(p.at, axis); };
         const auto before = [&](const EmitterPart& a, const EmitterPart& b) {
             const double x = along(a), y = along(b);
-            return x != y ? x < y : a.entry.triangle < b.entry.triangle;
+            return x != y ? x < y : a.number < b.number;
         };
         if (n > mostSorted) {
             std::ranges::nth_element(parts, parts.begin() + static_cast<std::ptrdiff_t>(n / 2), before);
@@ -128,30 +128,30 @@ private:
     std::array<std::size_t, 3> order_ { 0, 1, 2 };
 };
 
-/// Of a tree from `node` on, what all numbers of a cell choose a part of.
+/// Of a tree from `part` on, what all numbers of a cell choose a part of.
 shared::Emitter cellOf(
-    const std::vector<shared::Emitter>& list, std::size_t node, std::array<double, 2> from, double side)
+    const std::vector<shared::Emitter>& list, std::uint32_t part, std::array<double, 2> from, double side)
 {
     constexpr double rounding = 1e-7;
     std::array<double, 2> low { 0, 0 }, size { 1, 1 };
-    while (list[node].pair >= WEDGE_PAIR_SPLIT_X) {
-        const std::size_t number = list[node].pair == WEDGE_PAIR_SPLIT_X ? 0 : 1;
-        const double split = list[node].upTo, border = low[number] + size[number] * split;
+    while (part >> WEDGE_PART_SHIFT >= WEDGE_PART_SPLIT_X) {
+        const shared::Emitter& node = list[part & WEDGE_PART_NUMBER];
+        const std::size_t number = part >> WEDGE_PART_SHIFT == WEDGE_PART_SPLIT_X ? 0 : 1;
+        const double split = node.upTo, border = low[number] + size[number] * split;
         if (from[number] + side <= border + rounding) {
             size[number] *= split;
-            node = list[node].triangle;
+            part = node.triangle;
         } else if (from[number] >= border - rounding) {
             low[number] = border;
             size[number] *= 1.0 - split;
-            node = list[node].guide;
+            part = node.guide;
         } else {
             break;
         }
     }
     const auto bits = [](double x) { return std::bit_cast<std::uint32_t>(static_cast<float>(x)); };
     shared::Emitter cell {};
-    cell.pair = WEDGE_PAIR_MESH;
-    cell.triangle = static_cast<std::uint32_t>(node);
+    cell.triangle = part;
     cell.upTo = static_cast<float>(1.0 / size[0]);
     cell.extent = static_cast<float>(-low[0] / size[0]);
     cell.guide = bits(1.0 / size[1]);
@@ -166,7 +166,7 @@ shared::Emitter addMesh(
 {
     Tree tree(list, axes);
     tree.orderAxes(parts);
-    const std::size_t root = tree.add(parts, pick, { 0, 0 });
+    const std::uint32_t root = tree.add(parts, pick, { 0, 0 });
     // About as many cells as parts.
     std::uint32_t side = 1;
     while (4 * std::size_t { side } * side <= 2 * parts.size() && side < mostCellsOnSide) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace wedge::render {
 
 /// A part of a mesh that emits.
 struct EmitterPart {
-    shared::Emitter entry;
+    std::size_t number; ///< breaks ties
+    std::uint32_t part; ///< as kernels know it: WEDGE_PART_*
     double power;
     glm::dvec3 at; ///< its middle
     float pick = 0; ///< out: the probability that it is chosen

@@ -26,6 +26,8 @@ struct EmitterList {
     double power = 0; ///< W/sr, of both sides, as lights' are counted
     glm::vec3 low { 0 }, high { 0 }; ///< the box that they are in, metres
     float directedWithin = 0; ///< PathParams::directedWithin
+    bool trees = false; ///< there are meshes in the list: programs are then built with WEDGE_EMITTER_TREES
+    bool tables = false; ///< some have a table: WEDGE_EMITTER_TABLES
 };
 
 /// Whether a triangle has a material that emits, but is not chosen: it is too weak or too strong for numbers, or has no

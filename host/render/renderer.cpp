@@ -69,6 +69,13 @@ device::BuildOptions programOptions(const PreparedScene& scene, const Options& o
     if (traits.touchingGlass > 0.0f) {
         out.defines.emplace_back("WEDGE_TOUCHING_GLASS", "1");
     }
+    const SceneLights& lights = scene.lights();
+    if (lights.emitters.trees || lights.shared.trees) {
+        out.defines.emplace_back("WEDGE_EMITTER_TREES", "1");
+    }
+    if (lights.emitters.tables || lights.shared.tables) {
+        out.defines.emplace_back("WEDGE_EMITTER_TABLES", "1");
+    }
     if (scene.picture() != nullptr) {
         out.defines.emplace_back("WEDGE_ENVIRONMENT_MAP", "1");
     }

@@ -59,6 +59,7 @@ WEDGE_FN uint findEmitter(EmitterData e, float number)
     return low;
 }
 
+#ifdef WEDGE_EMITTER_TABLES
 /// Where numbers that are even over the square are, spread as a table says, and in *density how much denser there.
 WEDGE_FN Vec2 spreadByTable(__global const float* table, Vec2 u, float* density)
 {
@@ -89,14 +90,9 @@ WEDGE_FN float densityInTable(__global const float* table, Vec2 at)
     return partX * (float)columns * (partY * (float)rows);
 }
 
-/// The probability that a triangle is chosen, or 0, times how much denser than on average points are at the weights of
-/// its second and third corner.
-WEDGE_FN float pickAt(EmitterData e, uint triangle, Vec2 weights)
+/// pickAt() of a triangle with a table: what stands for its probability, and the weights of its corners.
+WEDGE_FN float pickInTable(EmitterData e, float pick, Vec2 weights)
 {
-    const float pick = e.picks[triangle];
-    if (pick < 2.0f) {
-        return fmax(pick, 0.0f);
-    }
     __global const float* header = e.picks + (as_uint(pick) - WEDGE_PICK_TABLE);
     const uint shape = as_uint(header[1]), pair = shape & 3u;
     const uint first = (shape >> WEDGE_HEADER_CORNERS) & 3u, second = (shape >> (WEDGE_HEADER_CORNERS + 2u)) & 3u;
@@ -107,6 +103,22 @@ WEDGE_FN float pickAt(EmitterData e, uint triangle, Vec2 weights)
     const Vec2 at = pair != WEDGE_PAIR_NONE ? pairToSquare(pair, isSecond, ofEntry) : triangleToSquare(ofEntry);
     const float share = pair != WEDGE_PAIR_NONE ? 0.5f : 1.0f;
     return share * header[0] * densityInTable(e.picks + as_uint(header[2]), at);
+}
+#endif
+
+/// The probability that a triangle is chosen, or 0, times how much denser than on average points are at the weights of
+/// its second and third corner.
+WEDGE_FN float pickAt(EmitterData e, uint triangle, Vec2 weights)
+{
+    const float pick = e.picks[triangle];
+#ifdef WEDGE_EMITTER_TABLES
+    if (pick >= 2.0f) {
+        return pickInTable(e, pick, weights);
+    }
+#else
+    (void)weights;
+#endif
+    return fmax(pick, 0.0f);
 }
 
 WEDGE_FN Vec3 emittedAt(SurfaceData data, uint triangle, Vec2 weights)
@@ -149,6 +161,39 @@ typedef struct {
     Vec2 at;
 } EmitterChoice;
 
+#ifdef WEDGE_EMITTER_TREES
+/// Goes on from a mesh to the entry of it that both numbers choose.
+WEDGE_FN void chooseInMesh(EmitterData e, EmitterChoice* choice)
+{
+    const uint side = choice->entry.header;
+    const uint column = min((uint)(choice->at.x * (float)side), side - 1u);
+    const uint row = min((uint)(choice->at.y * (float)side), side - 1u);
+    __global const Emitter* cell = e.list + choice->entry.triangle + row * side + column;
+    float x = choice->at.x * cell->upTo + cell->extent;
+    float y = choice->at.y * as_float(cell->guide) + as_float(cell->header);
+    uint part = cell->triangle;
+    while (part >= WEDGE_PART_SPLIT_X << WEDGE_PART_SHIFT) {
+        __global const Emitter* parts = e.list + (part & WEDGE_PART_NUMBER);
+        const bool byX = part < WEDGE_PART_SPLIT_Y << WEDGE_PART_SHIFT;
+        const float split = parts->upTo, number = byX ? x : y;
+        const bool first = number < split;
+        const float within = first ? number * parts->extent : (number - split) * as_float(parts->header);
+        x = byX ? within : x;
+        y = byX ? y : within;
+        part = first ? parts->triangle : parts->guide;
+    }
+    choice->at = vec2(clamp(x, 0.0f, 1.0f), clamp(y, 0.0f, 1.0f));
+    choice->entry.pair = part >> WEDGE_PART_SHIFT;
+    choice->entry.triangle = part & WEDGE_PART_NUMBER;
+    choice->entry.header = 0u;
+#ifdef WEDGE_EMITTER_TABLES
+    if (choice->entry.pair == WEDGE_PART_TABLED) {
+        choice->entry = e.list[choice->entry.triangle];
+    }
+#endif
+}
+#endif
+
 /// The first number chooses in the list and goes on within the entry, both in a mesh: what is stratified over the
 /// square is so over the list and over each mesh, too.
 WEDGE_FN EmitterChoice chooseEmitter(EmitterData e, Vec2 u)
@@ -159,28 +204,11 @@ WEDGE_FN EmitterChoice chooseEmitter(EmitterData e, Vec2 u)
     const float from = i > 0u ? e.list[i - 1u].upTo : 0.0f;
     out.pick = out.entry.upTo - from;
     out.at = vec2(clamp((u.x - from) / fmax(out.pick, 1e-30f), 0.0f, 1.0f), u.y);
-    if (out.entry.pair != WEDGE_PAIR_MESH) {
-        return out;
+#ifdef WEDGE_EMITTER_TREES
+    if (out.entry.pair == WEDGE_PAIR_MESH) {
+        chooseInMesh(e, &out);
     }
-    const uint side = out.entry.header;
-    const uint column = min((uint)(out.at.x * (float)side), side - 1u);
-    const uint row = min((uint)(out.at.y * (float)side), side - 1u);
-    __global const Emitter* cell = e.list + out.entry.triangle + row * side + column;
-    float x = out.at.x * cell->upTo + cell->extent, y = out.at.y * as_float(cell->guide) + as_float(cell->header);
-    uint node = cell->triangle, pair = e.list[node].pair;
-    while (pair >= WEDGE_PAIR_SPLIT_X) {
-        __global const Emitter* parts = e.list + node;
-        const bool byX = pair == WEDGE_PAIR_SPLIT_X;
-        const float split = parts->upTo, number = byX ? x : y;
-        const bool first = number < split;
-        const float within = first ? number * parts->extent : (number - split) * as_float(parts->header);
-        x = byX ? within : x;
-        y = byX ? y : within;
-        node = first ? parts->triangle : parts->guide;
-        pair = e.list[node].pair;
-    }
-    out.entry = e.list[node];
-    out.at = vec2(clamp(x, 0.0f, 1.0f), clamp(y, 0.0f, 1.0f));
+#endif
     return out;
 }
 
@@ -195,18 +223,25 @@ typedef struct {
 WEDGE_FN EmitterPlace placeOf(EmitterData e, EmitterChoice choice)
 {
     const Emitter emitter = choice.entry;
+    const bool paired = emitter.pair != WEDGE_PAIR_NONE;
     Vec2 at = choice.at;
     uint second = 0u;
+#ifdef WEDGE_EMITTER_TABLES
     float denser = 1.0f;
     if (emitter.header != 0u) {
         at = spreadByTable(e.picks + as_uint(e.picks[emitter.header + 2u]), at, &denser);
     }
-    const bool paired = emitter.pair != WEDGE_PAIR_NONE;
+#endif
     EmitterPlace place;
     place.weights = paired ? squareToPair(emitter.pair, at, &second) : squareToTriangle(at);
     place.triangle = emitter.triangle + second;
-    place.pick =
-        emitter.header != 0u ? (paired ? 0.5f : 1.0f) * e.picks[emitter.header] * denser : e.picks[place.triangle];
+#ifdef WEDGE_EMITTER_TABLES
+    if (emitter.header != 0u) {
+        place.pick = (paired ? 0.5f : 1.0f) * e.picks[emitter.header] * denser;
+        return place;
+    }
+#endif
+    place.pick = e.picks[place.triangle];
     return place;
 }
 

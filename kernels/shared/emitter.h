@@ -28,14 +28,20 @@
 #define WEDGE_PAIR_SECOND 2u ///< a, b, d and b, c, d
 #define WEDGE_PAIR_QUAD 3u ///< no triangle, but the area light of that number
 /// No triangle, but a mesh: the square of a sample's two numbers is divided into `header` x `header` cells, row by row
-/// from the entry `triangle` on, which is behind the list. A cell has in `triangle` the entry that all of its numbers
+/// from the entry `triangle` on, which is behind the list. A cell has in `triangle` the part that all of its numbers
 /// choose a part of, in `upTo` and `extent` what the first number is multiplied with for that and what is added to it,
-/// and in the bits of `guide` and `header` likewise for the second.
+/// and in the bits of `guide` and `header` likewise for the second. A part that is split has an entry: `upTo` of one of
+/// the two numbers chooses the first of its parts; these are `triangle` and `guide`, and `extent` and the bits of
+/// `header` one over the shares of the numbers that choose them.
 #define WEDGE_PAIR_MESH 4u
-/// Two parts, of which `upTo` of one of a sample's two numbers chooses the first; `triangle` and `guide` are the
-/// entries that they are, `extent` and the bits of `header` one over the shares of the numbers that choose them.
-#define WEDGE_PAIR_SPLIT_X 5u ///< by the first number
-#define WEDGE_PAIR_SPLIT_Y 6u ///< by the second
+
+/// A part of a mesh is what it is and, in the bits below, a number. WEDGE_PAIR_NONE, _FIRST and _SECOND: plain faces,
+/// of which that triangle is the first.
+#define WEDGE_PART_SHIFT 29u
+#define WEDGE_PART_NUMBER ((1u << WEDGE_PART_SHIFT) - 1u)
+#define WEDGE_PART_TABLED 4u ///< faces with a table, which have that entry
+#define WEDGE_PART_SPLIT_X 5u ///< split by the first number, at that entry
+#define WEDGE_PART_SPLIT_Y 6u ///< by the second
 
 WEDGE_SHARED_BEGIN
 

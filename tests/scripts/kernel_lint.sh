@@ -59,7 +59,8 @@ for target in spir64 nvptx64 amdgcn; do
                     "lint $target $file $family $motion -DWEDGE_NORMAL_MAPS=1" \
                     "lint $target $file $family $motion -DWEDGE_MIRRORS=1" \
                     "lint $target $file $family $motion -DWEDGE_MIRRORS=1 -DWEDGE_TOUCHING_GLASS=1" \
-                    "lint $target $file $family $motion -DWEDGE_CUTOUTS=1"
+                    "lint $target $file $family $motion -DWEDGE_CUTOUTS=1" \
+                    "lint $target $file $family $motion -DWEDGE_EMITTER_TREES=1 -DWEDGE_EMITTER_TABLES=1"
             done
         done
     done
