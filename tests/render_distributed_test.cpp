@@ -324,7 +324,7 @@ TEST_CASE(
             scene.materials[0].emission = glm::vec3(0);
             render::Settings settings = sized(render::axisAligned(16), 1024, 1024);
             settings.bounces = 1;
-            const render::Renderer renderer(scene, device, renderOptions());
+            render::Renderer renderer(scene, device, renderOptions());
             // Motions and deviations together are above the goal of 150 MB (docs/multiple-effects.md).
             const std::uint64_t goal = moves == Moves::Nothing ? 150'000'000u : 150u << 20;
             const bool turns = device.info().failsWithParts; // whole buffers hold more than is in them

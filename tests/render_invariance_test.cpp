@@ -1,7 +1,9 @@
 // What must not change an image: repetition, batches, crops, the company of other lights.
+#include "host/render/progressive.h"
 #include "tests/render_support.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <numeric>
 
@@ -67,6 +69,65 @@ TEST_CASE("two runs, other frames in between, and another renderer give the same
             seeded.seed = 1;
             CHECK_FALSE(sameBits(renderPixels(renderer, seeded), first));
         }
+    });
+}
+
+TEST_CASE("a frame is declared and planned once, however often it is asked for, and has the same bits each time")
+{
+    onEveryDevice([](const device::Device& device) {
+        render::Renderer renderer(richScene(), device, renderOptions());
+        std::vector<Named> kinds = methods();
+        kinds.push_back({ "antialiased", sized(render::axisAligned(16), width, height) });
+        kinds.back().settings.antialias = true;
+        std::size_t frames = 0;
+        for (const Named& m : kinds) {
+            CAPTURE(m.name);
+            const std::uint64_t bytes = renderer.plan(m.settings).total();
+            CHECK(renderer.framesCompiled() == ++frames);
+            renderer.rehearse(m.settings);
+            CHECK(!renderer.explain(m.settings).text.empty());
+            const std::vector<float> first = renderPixels(renderer, m.settings);
+            const std::atomic<bool> cancelled { true };
+            render::Control control;
+            control.cancel = &cancelled;
+            renderer.render(m.settings, control); // which leaves nothing behind for the next one
+            CHECK(sameBits(first, renderPixels(renderer, m.settings)));
+            CHECK(renderer.render(m.settings).memoryBytes == bytes);
+            CHECK(renderer.framesCompiled() == frames);
+            // Another crop is another frame.
+            render::Settings part = m.settings;
+            part.crop = { 8, 8, 40, 40 };
+            renderer.render(part);
+            renderer.render(part, {}, true);
+            CHECK(renderer.framesCompiled() == (frames += 2));
+        }
+        // And so is every step of a progressive one.
+        render::Settings steps = sized(render::axisAligned(64), width, height);
+        steps.progressive = true;
+        std::size_t shown = 0;
+        renderer.renderProgressively(steps, {}, [&](const render::ProgressiveStep&) { ++shown; });
+        CHECK(shown > 1);
+        CHECK(renderer.framesCompiled() == frames + shown);
+    });
+}
+
+TEST_CASE("a scene that is changed has what follows from it anew")
+{
+    onEveryDevice([](const device::Device& device) {
+        const scene::Scene before = richScene();
+        scene::Scene after = before;
+        after.areaLights.pop_back();
+        after.camera.eye.x += 0.3f;
+        const render::Settings settings = sized(render::axisAligned(16), width, height);
+        render::Renderer changed(before, device, renderOptions()), fresh(after, device, renderOptions());
+        renderPixels(changed, settings);
+        CHECK(changed.scene().lights().direct.own.size() == 2);
+        changed.changeScene({ .lights = true }, [&](scene::Scene& scene) {
+            scene.areaLights = after.areaLights;
+            scene.camera = after.camera;
+        });
+        CHECK(changed.scene().lights().direct.own.size() == 1);
+        CHECK(sameBits(renderPixels(changed, settings), renderPixels(fresh, settings)));
     });
 }
 

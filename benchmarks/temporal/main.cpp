@@ -67,17 +67,18 @@ public:
         }
     }
 
+    /// At frame 0.
     const scene::Scene& scene() const { return scene_; }
     std::shared_ptr<const filters::ObjectPlaces> places() const { return places_; }
 
     void moveTo(std::uint32_t frame, render::Renderer& renderer)
     {
-        scene::Moment moment = sequence_.at(frame / scene_.framesPerUnit);
+        scene::Moment moment = sequence_.at(frame / renderer.scene().framesPerUnit);
         moment.camera = turned(moment.camera, degrees_ * static_cast<float>(frame));
-        const scene::Change change = scene::changeTo(moment, scene_);
-        renderer.changeScene(change, [&] { scene::apply(std::move(moment), change, scene_); });
+        const scene::Change change = scene::changeTo(moment, renderer.scene());
+        renderer.changeScene(change, [&](scene::Scene& scene) { scene::apply(std::move(moment), change, scene); });
         if (tracker_ && change.geometry) {
-            places_ = std::make_shared<const filters::ObjectPlaces>(tracker_->placesIn(scene_.geometry));
+            places_ = std::make_shared<const filters::ObjectPlaces>(tracker_->placesIn(renderer.scene().geometry));
         }
     }
 
