@@ -173,7 +173,7 @@ TEST_CASE("the sixteen strongest lights have terms of their own, in the scene's 
     CHECK(found.sharedQuads == std::vector<std::uint32_t> { 3, 16, 17, 18, 19 });
     CHECK(found.panelTriangles.size() == 2);
     CHECK(found.share);
-    const render::EmitterList list = render::SceneLights(b.scene, nullptr).shared;
+    const render::EmitterList list = render::PreparedScene(b.scene).lights().shared;
     REQUIRE(list.list.size() == 5);
     CHECK(list.list[4].upTo == 1.0f);
     for (const shared::Emitter& e : list.list)
@@ -219,7 +219,7 @@ TEST_CASE("what no number chooses is looked for in all directions")
         for (int i = 0; i < 17; ++i)
             b.light(lampCentre, lampU, lampV, scene::LightProfile::Uniform, i == 16 ? 1e-9f : 1.0f);
         b.sphere({ 0.5f, 0.3f, 0.4f }, 0.12f, 6, glowing);
-        const render::EmitterList list = render::SceneLights(b.scene, nullptr).shared;
+        const render::EmitterList list = render::PreparedScene(b.scene).lights().shared;
         CHECK(list.quadPicks[16] == 0.0f);
         CHECK(list.quadPicks[15] == WEDGE_PICK_ELSEWHERE);
         CHECK(std::isinf(list.directedWithin));

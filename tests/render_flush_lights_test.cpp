@@ -8,7 +8,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <array>
+#include <bit>
 #include <cstring>
+#include <span>
 
 using namespace wedge;
 using namespace wedge::test;
@@ -28,6 +30,7 @@ constexpr std::array<Turn, 7> turns { { { 0, { 0, 1, 0 }, { 0, 0, 0 } }, { 31, {
     { 200, { 0.2, 0.1, 1 }, { 0, 0, 0 } }, { 311, { 1, -1, 1 }, { 0.7, 0.1, -0.2 } } } };
 
 enum class Lamp { Quad, TwoSidedQuad, Panel, Grid };
+constexpr std::initializer_list<Lamp> all { Lamp::Quad, Lamp::TwoSidedQuad, Lamp::Panel, Lamp::Grid };
 
 /// A room of six by three by six metres with a lamp `below` its ceiling, a mirror, and a glossy box.
 class Room {
@@ -109,27 +112,30 @@ Difference difference(const std::vector<float>& a, const std::vector<float>& b)
     return { apart / (static_cast<double>(a.size()) / 3), std::abs(sumA / sumB - 1) };
 }
 
-std::vector<float> imageOf(const Room& room, const device::Device& device, const render::Settings& method)
+std::vector<float> imageOf(
+    const Room& room, const device::Device& device, const render::Settings& method, const render::Options& options)
 {
-    render::Renderer renderer(room.b.scene, device, renderOptions());
+    render::Renderer renderer(room.b.scene, device, options);
     return renderPixels(renderer, sized(method, width, height));
 }
 
 /// Before its ceiling a quad that emits to both sides lights that, too, and hides it from the camera alone: in the
 /// ceiling it is as one that emits to the room.
-void check(const render::Settings& method, std::size_t firstTurn, std::size_t step, double pixels, double mean)
+void check(const render::Settings& method, std::size_t firstTurn, std::size_t step, std::initializer_list<Lamp> lamps,
+    double pixels, double mean, const render::Options& options = renderOptions())
 {
     onEveryDevice([&](const device::Device& device) {
         for (std::size_t i = firstTurn; i < turns.size(); i += step)
-            for (const Lamp lamp : { Lamp::Quad, Lamp::TwoSidedQuad, Lamp::Panel, Lamp::Grid }) {
+            for (const Lamp lamp : lamps) {
                 const Lamp alone = lamp == Lamp::TwoSidedQuad ? Lamp::Quad : lamp;
-                const std::vector<float> free = imageOf(Room(turns[i], alone, 1e-3), device, method);
+                const std::vector<float> free = imageOf(Room(turns[i], alone, 1e-3), device, method, options);
                 const auto kind = static_cast<int>(lamp);
                 for (const double below : { 0.0, -1e-6 * roomSize, 1e-6 * roomSize }) {
                     CAPTURE(turns[i].degrees);
                     CAPTURE(kind);
                     CAPTURE(below);
-                    const Difference d = difference(imageOf(Room(turns[i], lamp, below), device, method), free);
+                    const Difference d =
+                        difference(imageOf(Room(turns[i], lamp, below), device, method, options), free);
                     CHECK(d.pixels < pixels);
                     CHECK(d.mean < mean);
                 }
@@ -137,36 +143,43 @@ void check(const render::Settings& method, std::size_t firstTurn, std::size_t st
     });
 }
 
-/// As kernels look covers up.
-bool isCovered(const std::vector<std::uint32_t>& table, std::size_t triangle, float u, float v)
+/// How many covers a look-up at barycentrics tries at most, and whether one of them is there, as in kernels.
+struct Found {
+    std::uint32_t tried;
+    bool covered;
+};
+
+Found lookUp(const std::vector<std::uint32_t>& table, std::size_t triangle, float u, float v)
 {
-    const std::uint32_t at = table[triangle];
     shared::Cutout c {};
-    std::memcpy(&c, &table[at], sizeof(c));
+    std::memcpy(&c, &table[table[triangle]], sizeof(c));
     const std::uint32_t* grid = &table[c.covers];
     const std::uint32_t side = grid[0];
-    const auto cellOf = [&](float x) {
-        return std::min(static_cast<std::uint32_t>(x * static_cast<float>(side)), side - 1);
+    const auto cellOf = [&](float at, int axis) {
+        const float low = std::bit_cast<float>(grid[1 + axis]), scale = std::bit_cast<float>(grid[3 + axis]);
+        return std::min(static_cast<std::uint32_t>(std::max((at - low) * scale, 0.0f)), side - 1);
     };
-    const std::uint32_t* before = grid + 1 + cellOf(v) * side + cellOf(u);
+    const std::uint32_t* before = grid + WEDGE_COVER_HEADER + cellOf(v, 1) * side + cellOf(u, 0);
+    const std::uint32_t* covers = grid + WEDGE_COVER_HEADER + std::size_t { side } * side + 1;
     for (std::uint32_t i = before[0]; i < before[1]; ++i) {
         float e[WEDGE_COVER_WORDS];
-        std::memcpy(e, grid + 2 + std::size_t { side } * side + std::size_t { WEDGE_COVER_WORDS } * i, sizeof(e));
+        std::memcpy(e, covers + std::size_t { WEDGE_COVER_WORDS } * i, sizeof(e));
         if (e[0] * u + e[1] * v + e[2] > 0 && e[3] * u + e[4] * v + e[5] > 0 && e[6] * u + e[7] * v + e[8] > 0)
-            return true;
+            return { before[1] - before[0], true };
     }
-    return false;
+    return { before[1] - before[0], false };
 }
 
-/// A ceiling of two triangles, 6 by 6, and in it a grid of n x n separate quads of half its width.
-SceneBuilder dottedCeiling(int n, float above = 0)
+/// A ceiling of two triangles, 6 by 6, and in the middle of it, `across` wide, a grid of n x n quads with gaps as wide
+/// as they are.
+SceneBuilder dottedCeiling(int n, float above = 0, float across = 6)
 {
     SceneBuilder b;
     b.quad({ 0, 3, 0 }, { 3, 0, 0 }, { 0, 0, 3 });
     const std::uint32_t glow = addGlow(b, glm::vec3(1));
-    const float cell = 6.0f / static_cast<float>(n);
+    const float cell = across / static_cast<float>(n);
     for (int i = 0; i < n * n; ++i) {
-        const auto at = [&](int k) { return (static_cast<float>(k) + 0.5f) * cell - 3; };
+        const auto at = [&](int k) { return (static_cast<float>(k) + 0.5f) * cell - across / 2; };
         const int column = i % n, row = i / n;
         b.quad({ at(column), 3 + above, at(row) }, { 0.25f * cell, 0, 0 }, { 0, 0, 0.25f * cell }, glow);
     }
@@ -179,14 +192,53 @@ TEST_CASE("a lamp in its ceiling is as one before it: plain light with two bounc
 {
     render::Settings method = render::monteCarlo(16);
     method.bounces = 2;
-    check(method, 0, 1, 0.005, 0.003);
+    check(method, 0, 1, { Lamp::Quad, Lamp::Panel }, 0.005, 0.003);
+    check(method, 3, 3, { Lamp::TwoSidedQuad, Lamp::Grid }, 0.005, 0.003);
 }
 
 TEST_CASE("a lamp in its ceiling is as one before it: filtered light with a bounce")
 {
     render::Settings method = render::axisAligned(16);
     method.bounces = 1;
-    check(method, 1, 3, 0.02, 0.003);
+    check(method, 1, 5, all, 0.02, 0.003);
+}
+
+TEST_CASE("a lamp in its ceiling is as one before it: rays one by one")
+{
+    render::Options options = renderOptions();
+    options.traversal = render::Traversal::Scalar;
+    render::Settings method = render::monteCarlo(16);
+    method.bounces = 2;
+    check(method, 3, 4, { Lamp::Quad, Lamp::Grid }, 0.005, 0.003, options);
+}
+
+TEST_CASE("a quad that emits to one side is behind the surface that it lies in, to who looks at its back")
+{
+    const auto seen = [](const device::Device& device, float above, bool twoSided) {
+        SceneBuilder b;
+        b.quad({ 0, 3, 0 }, { 3, 0, 0 }, { 0, 0, 3 });
+        scene::AreaLight& light =
+            b.light({ 0, 3 + above, 0 }, { 1, 0, 0 }, { 0, 0, 1 }, scene::LightProfile::Gaussian, 9);
+        light.cut = 2;
+        light.visible = true;
+        light.twoSided = twoSided;
+        b.light({ 0, 8, 0 }, { 0.5f, 0, 0 }, { 0, 0, 0.5f }, scene::LightProfile::Uniform, 30);
+        b.camera({ 0.1f, 6, 0.2f }, { 0, 3, 0 }, { 0, 0, 1 }, 20);
+        render::Renderer renderer(b.scene, device, renderOptions());
+        return renderPixels(renderer, sized(render::monteCarlo(16), 24, 18));
+    };
+    onEveryDevice([&](const device::Device& device) {
+        for (const bool twoSided : { false, true }) {
+            CAPTURE(twoSided);
+            const std::vector<float> apart = seen(device, twoSided ? 1e-3f : -1e-3f, twoSided);
+            for (const float above : { 0.0f, 4e-6f, -4e-6f }) {
+                CAPTURE(above);
+                const Difference d = difference(seen(device, above, twoSided), apart);
+                CHECK(d.pixels < 0.01);
+                CHECK(d.mean < 0.003);
+            }
+        }
+    });
 }
 
 TEST_CASE("a lamp in its ceiling is as one before it: antialiased")
@@ -195,7 +247,7 @@ TEST_CASE("a lamp in its ceiling is as one before it: antialiased")
     method.bounces = 1;
     method.antialias = true;
     // Other demands are other counts, and so other noise.
-    check(method, 2, 3, 0.2, 0.003);
+    check(method, 2, 5, { Lamp::Quad, Lamp::Panel }, 0.2, 0.003);
 }
 
 TEST_CASE("covers are where lamps are, but for a rim")
@@ -225,12 +277,25 @@ TEST_CASE("covers are where lamps are, but for a rim")
                 const bool diagonal = std::abs((x - std::floor(x)) - (y - std::floor(y))) < 1e-3f;
                 if ((far > inside && far < outside) || diagonal)
                     continue;
-                const bool found = isCovered(table, second ? 1 : 0, u, v);
-                covered += found ? 1 : 0;
-                REQUIRE(found == (far < 0.25f));
+                const Found found = lookUp(table, second ? 1 : 0, u, v);
+                covered += found.covered ? 1 : 0;
+                REQUIRE(found.covered == (far < 0.25f));
+                REQUIRE(found.tried < 64);
             }
             CHECK(covered > 4000);
         }
+}
+
+TEST_CASE("look-ups of a small lamp of many triangles try few of them")
+{
+    const std::vector<std::uint32_t> table = render::cutoutTable(dottedCeiling(60, 0, 0.3f).scene);
+    REQUIRE_FALSE(table.empty());
+    std::uint32_t most = 0;
+    for (float a = 0.47f; a < 0.53f; a += 2e-4f)
+        for (float b = 0.47f; b <= a; b += 2e-4f)
+            most = std::max(most, lookUp(table, 0, a - b, b).tried);
+    CHECK(most > 0);
+    CHECK(most < 64);
 }
 
 TEST_CASE("only what lies in one plane is covered, by what emits, is whole and does not move")
@@ -269,7 +334,7 @@ TEST_CASE("quads are lifted off the surfaces that they lie in, and off no others
         light.centre = centre;
         light.halfU = u;
         light.halfV = { 0, 0, 0.5f };
-        return render::liftOf(light, geometry);
+        return render::liftsOf(std::span(&light, 1), geometry)[0];
     };
     const glm::vec3 along(0.5f, 0, 0);
     for (const float above : { 0.0f, 6e-6f, -6e-6f }) {
@@ -280,4 +345,24 @@ TEST_CASE("quads are lifted off the surfaces that they lie in, and off no others
     CHECK(lift({ 4, 3, 1 }, along) == 0);
     CHECK(lift({ 1, 3, 1 }, { 0, 0.5f, 0 }) == 0);
     CHECK(lift({ 1, 3, 1 }, { 0.5f, 0.01f, 0 }) == 0);
+    CHECK(lift({ 3.5f, 3, 1 }, along) == 0); // it touches the ceiling's edge
+}
+
+TEST_CASE("far from the origin a lamp a centimetre off a floor lies in none")
+{
+    SceneBuilder b;
+    b.quad({ 2000, 0, 2000 }, { 0, 0, 1e4f }, { 1e4f, 0, 0 });
+    const auto liftAt = [&](float height) {
+        scene::AreaLight light;
+        light.centre = { 2000, height, 2000 };
+        light.halfU = { 0.5f, 0, 0 };
+        light.halfV = { 0, 0, 0.5f };
+        return render::liftsOf(std::span(&light, 1), b.scene.geometry)[0];
+    };
+    CHECK(liftAt(0) > 0);
+    CHECK(liftAt(0) < 1e-3f);
+    CHECK(liftAt(0.01f) == 0);
+    b.newObject();
+    b.quad({ 2000, 0.01f, 2000 }, { 0.5f, 0, 0 }, { 0, 0, 0.5f }, addGlow(b, glm::vec3(1)));
+    CHECK(render::coversOf(b.scene).empty());
 }

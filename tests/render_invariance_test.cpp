@@ -82,16 +82,21 @@ TEST_CASE("a frame is declared and planned once, however often it is asked for, 
         std::size_t frames = 0;
         for (const Named& m : kinds) {
             CAPTURE(m.name);
-            const std::uint64_t bytes = renderer.plan(m.settings).total();
+            const std::uint64_t bytes = renderer.planUnbacked(m.settings).total();
+            CHECK(renderer.plan(m.settings).total() == bytes);
             CHECK(renderer.framesCompiled() == ++frames);
             renderer.rehearse(m.settings);
             CHECK(!renderer.explain(m.settings).text.empty());
             const std::vector<float> first = renderPixels(renderer, m.settings);
-            const std::atomic<bool> cancelled { true };
-            render::Control control;
-            control.cancel = &cancelled;
-            renderer.render(m.settings, control); // which leaves nothing behind for the next one
-            CHECK(sameBits(first, renderPixels(renderer, m.settings)));
+            for (const double fraction :
+                { 0.0, 0.3, 0.7 }) { // stopped there, it leaves nothing behind for the next one
+                std::atomic<bool> cancelled { fraction == 0.0 };
+                render::Control control;
+                control.cancel = &cancelled;
+                control.progress = [&](double done) { cancelled = cancelled || done > fraction; };
+                renderer.render(m.settings, control);
+                CHECK(sameBits(first, renderPixels(renderer, m.settings)));
+            }
             CHECK(renderer.render(m.settings).memoryBytes == bytes);
             CHECK(renderer.framesCompiled() == frames);
             // Another crop is another frame.
@@ -121,12 +126,12 @@ TEST_CASE("a scene that is changed has what follows from it anew")
         const render::Settings settings = sized(render::axisAligned(16), width, height);
         render::Renderer changed(before, device, renderOptions()), fresh(after, device, renderOptions());
         renderPixels(changed, settings);
-        CHECK(changed.scene().lights().direct.own.size() == 2);
+        CHECK(changed.scene().directLights().own.size() == 2);
         changed.changeScene({ .lights = true }, [&](scene::Scene& scene) {
             scene.areaLights = after.areaLights;
             scene.camera = after.camera;
         });
-        CHECK(changed.scene().lights().direct.own.size() == 1);
+        CHECK(changed.scene().directLights().own.size() == 1);
         CHECK(sameBits(renderPixels(changed, settings), renderPixels(fresh, settings)));
     });
 }

@@ -14,7 +14,7 @@ public:
     std::vector<Term> terms(const Settings& settings, const PreparedScene& scene) const override
     {
         std::vector<Term> out;
-        const std::vector<OwnLight>& lights = scene.lights().direct.own;
+        const std::vector<OwnLight>& lights = scene.directLights().own;
         for (std::uint32_t i = 0; settings.integrator == Integrator::Path && i < lights.size(); ++i) {
             const TermLight light { i, lights[i].onDevice(), lights.size() == 1 ? "" : std::to_string(i + 1) };
             out.push_back({ .name = light.name,

@@ -11,7 +11,7 @@ public:
 
     std::vector<Term> terms(const Settings& settings, const PreparedScene& scene) const override
     {
-        if (settings.integrator != Integrator::Path || !scene.lights().direct.share) {
+        if (settings.integrator != Integrator::Path || !scene.directLights().share) {
             return {};
         }
         std::vector<Term> terms { pathTerm(Component::Emitters, "Emitters", settings) };

@@ -91,7 +91,7 @@ void refuseIdleMaaf(
     refuse(s.progressive, "with --progressive", option, "render in one step");
     refuse(distributed, fmt::format("with method maaf {}", distributedFrames), option,
         "render through a pinhole what does not move, without antialiasing");
-    const std::vector<render::OwnLight>& lights = scene.lights().direct.own;
+    const std::vector<render::OwnLight>& lights = scene.directLights().own;
     const auto anyHas = [&](render::Maaf maaf) {
         render::Settings of = s;
         of.maaf = maaf;
@@ -106,7 +106,7 @@ void refuseIdleMaaf(
 /// else 2 (section 3.7, "Extensions", Fig. 3.11).
 float publishedMu(const RenderOptions& o, const render::PreparedScene& scene)
 {
-    const bool uniform = std::ranges::any_of(scene.lights().direct.own,
+    const bool uniform = std::ranges::any_of(scene.directLights().own,
         [](const render::OwnLight& light) { return light.quad.profile == scene::LightProfile::Uniform; });
     return uniform || o.falloff == render::Shading::Inside ? 3.0f : 2.0f;
 }
@@ -138,7 +138,7 @@ void applyPaths(const RenderOptions& o, const render::PreparedScene& scene, rend
         fmt::format("--max-surfaces {}", o.maxSurfaces.value_or(0)), "give the scene some");
     s.maxSurfaces = o.maxSurfaces.value_or(s.maxSurfaces);
     refuse(o.lightSampling && s.bounces == 0 && s.method == Method::AxisAligned && !render::hasEmitters(scene)
-            && !scene.lights().direct.share,
+            && !scene.directLights().share,
         "without bounces", "--light-sampling", "add --bounces 1");
     if (o.lightSampling) {
         s.lightSampling = *o.lightSampling;

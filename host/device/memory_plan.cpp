@@ -16,6 +16,20 @@ constexpr const char* wayOut = "render a smaller image with --size, or choose a 
 std::uint64_t saturatingAdd(std::uint64_t a, std::uint64_t b) { return b > most - a ? most : a + b; }
 std::uint64_t saturatingMul(std::uint64_t a, std::uint64_t b) { return b != 0 && a > most / b ? most : a * b; }
 
+/// Of all buffers together.
+struct Limit {
+    std::uint64_t bytes;
+    bool isUsers; ///< else the device's
+};
+
+Limit limitOf(const DeviceInfo& device, std::uint64_t userLimitBytes)
+{
+    const std::uint64_t reserve = device.globalMemory / (device.unifiedMemory ? 5 : 10);
+    const std::uint64_t ofDevice = device.globalMemory - reserve;
+    const bool isUsers = userLimitBytes != 0 && userLimitBytes < ofDevice;
+    return { isUsers ? userLimitBytes : ofDevice, isUsers };
+}
+
 } // namespace
 
 std::string mebibytes(std::uint64_t bytes)
@@ -61,16 +75,19 @@ const MemoryPlan::Part& MemoryPlan::largest() const
         parts_.begin(), parts_.end(), [](const Part& a, const Part& b) { return a.bytes < b.bytes; });
 }
 
+bool MemoryPlan::fits(const DeviceInfo& device, std::uint64_t userLimitBytes) const
+{
+    return parts_.empty()
+        || (total() <= limitOf(device, userLimitBytes).bytes && largest().bytes <= device.maxAllocation);
+}
+
 void MemoryPlan::check(const DeviceInfo& device, std::uint64_t userLimitBytes) const
 {
     if (parts_.empty()) {
         return;
     }
     const Part& part = largest();
-    const std::uint64_t reserve = device.globalMemory / (device.unifiedMemory ? 5 : 10);
-    const std::uint64_t deviceLimit = device.globalMemory - reserve;
-    const bool limitedByUser = userLimitBytes != 0 && userLimitBytes < deviceLimit;
-    const std::uint64_t limit = limitedByUser ? userLimitBytes : deviceLimit;
+    const auto [limit, limitedByUser] = limitOf(device, userLimitBytes);
     const std::string needed =
         fmt::format("{}, the most of it for {} ({})", mebibytes(total()), part.name, mebibytes(part.bytes));
     if (total() > limit) {

@@ -28,6 +28,9 @@ public:
     /// memory is the host's too. The message has the total, the largest buffer, the limit and the way out.
     void check(const DeviceInfo& device, std::uint64_t userLimitBytes = 0) const;
 
+    /// Whether check() throws nothing.
+    bool fits(const DeviceInfo& device, std::uint64_t userLimitBytes = 0) const;
+
 private:
     struct Part {
         std::string name;

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -22,75 +23,114 @@ const scene::Material& materialOf(const scene::Scene& scene, std::size_t triangl
 
 constexpr std::size_t wordsOf(std::size_t bytes) { return (bytes + 3) / 4; }
 
-/// Cells of a grid of `side` an axis that a cover may reach, by the corners of its triangle.
-struct Cells {
-    std::uint32_t x0, y0, x1, y1;
+/// A rectangle of barycentrics.
+struct Rectangle {
+    double low[2] = { 1, 1 }, high[2] = { 0, 0 };
 
-    Cells(const Cover& cover, std::uint32_t side)
+    void add(const Rectangle& other)
     {
-        double low[2] = { 1, 1 }, high[2] = { 0, 0 };
-        for (std::size_t i = 0; i < 3; ++i) {
-            const auto &e = cover[i], &f = cover[(i + 1) % 3];
-            const double determinant = static_cast<double>(e[0]) * f[1] - static_cast<double>(e[1]) * f[0];
-            const double at[2] = { (static_cast<double>(e[1]) * f[2] - static_cast<double>(e[2]) * f[1]) / determinant,
-                (static_cast<double>(e[2]) * f[0] - static_cast<double>(e[0]) * f[2]) / determinant };
-            for (std::size_t axis = 0; axis < 2; ++axis) {
-                // Edges that are nearly parallel: anywhere.
-                low[axis] = std::isfinite(at[axis]) ? std::min(low[axis], at[axis]) : 0;
-                high[axis] = std::isfinite(at[axis]) ? std::max(high[axis], at[axis]) : 1;
-            }
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            low[axis] = std::min(low[axis], other.low[axis]);
+            high[axis] = std::max(high[axis], other.high[axis]);
         }
-        const auto cellOf = [&](double at, double more) {
-            return static_cast<std::uint32_t>(
-                std::clamp(std::floor(at * side + more), 0.0, static_cast<double>(side - 1)));
-        };
-        x0 = cellOf(low[0], -0.01);
-        y0 = cellOf(low[1], -0.01);
-        x1 = cellOf(high[0], 0.01);
-        y1 = cellOf(high[1], 0.01);
     }
-    std::size_t count() const { return std::size_t { x1 - x0 + 1 } * (y1 - y0 + 1); }
 };
 
-/// The covers of one triangle, in the layout of kernels/shared/cutout.h.
-std::vector<std::uint32_t> coverGrid(const std::vector<Cover>& covers)
+/// Around a cover, by the corners of its triangle, and within the triangle that it covers.
+Rectangle around(const Cover& cover)
 {
-    // Some four a cell, where they are small and even, and not more than 16 times each.
-    auto side = static_cast<std::uint32_t>(std::clamp(std::sqrt(static_cast<double>(covers.size()) / 4.0), 1.0, 256.0));
-    const auto entries = [&] {
-        std::size_t sum = 0;
-        for (const Cover& cover : covers) {
-            sum += Cells(cover, side).count();
-        }
-        return sum;
-    };
-    while (side > 1 && entries() > 16 * covers.size()) {
-        side /= 2;
-    }
-    std::vector<std::vector<std::uint32_t>> cells(std::size_t { side } * side);
-    for (std::size_t i = 0; i < covers.size(); ++i) {
-        const Cells reached(covers[i], side);
-        for (std::uint32_t y = reached.y0; y <= reached.y1; ++y) {
-            for (std::uint32_t x = reached.x0; x <= reached.x1; ++x) {
-                cells[std::size_t { y } * side + x].push_back(static_cast<std::uint32_t>(i));
-            }
-        }
-    }
-    std::vector<std::uint32_t> out { side, 0 };
-    for (const auto& cell : cells) {
-        out.push_back(out.back() + static_cast<std::uint32_t>(cell.size()));
-    }
-    for (const auto& cell : cells) {
-        for (const std::uint32_t i : cell) {
-            for (const auto& edge : covers[i]) {
-                for (const float x : edge) {
-                    out.push_back(std::bit_cast<std::uint32_t>(x));
-                }
-            }
+    Rectangle out;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto &e = cover[i], &f = cover[(i + 1) % 3];
+        const double determinant = static_cast<double>(e[0]) * f[1] - static_cast<double>(e[1]) * f[0];
+        const double at[2] = { (static_cast<double>(e[1]) * f[2] - static_cast<double>(e[2]) * f[1]) / determinant,
+            (static_cast<double>(e[2]) * f[0] - static_cast<double>(e[0]) * f[2]) / determinant };
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            // Edges that are nearly parallel: anywhere.
+            const bool known = std::isfinite(at[axis]);
+            out.low[axis] = std::min(out.low[axis], known ? std::max(at[axis] - 1e-6, 0.0) : 0.0);
+            out.high[axis] = std::max(out.high[axis], known ? std::min(at[axis] + 1e-6, 1.0) : 1.0);
         }
     }
     return out;
 }
+
+/// A grid of `side` cells an axis over a rectangle.
+class CoverGrid {
+public:
+    CoverGrid(const std::vector<Cover>& covers)
+        : covers_(covers)
+    {
+        for (const Cover& cover : covers) {
+            whole_.add(around(cover));
+        }
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            low_[axis] = static_cast<float>(whole_.low[axis]);
+        }
+        // Some four a cell, where they are small and even, and not more than four times each.
+        side_ =
+            static_cast<std::uint32_t>(std::clamp(std::sqrt(static_cast<double>(covers.size()) / 4.0), 1.0, 1024.0));
+        while (side_ > 1 && entries() > 4 * covers.size()) {
+            side_ /= 2;
+        }
+    }
+
+    /// In the layout of kernels/shared/cutout.h.
+    std::vector<std::uint32_t> words() const
+    {
+        std::vector<std::uint32_t> counts(std::size_t { side_ } * side_ + 1, 0);
+        for (const Cover& cover : covers_) {
+            everyCell(cover, [&](std::size_t cell) { ++counts[cell + 1]; });
+        }
+        std::partial_sum(counts.begin(), counts.end(), counts.begin());
+        std::vector<std::uint32_t> out { side_, bits(low_[0]), bits(low_[1]), bits(scale(0)), bits(scale(1)) };
+        out.insert(out.end(), counts.begin(), counts.end());
+        const std::size_t first = out.size();
+        out.resize(first + WEDGE_COVER_WORDS * std::size_t { counts.back() });
+        for (const Cover& cover : covers_) {
+            everyCell(cover, [&](std::size_t cell) {
+                std::memcpy(&out[first + WEDGE_COVER_WORDS * std::size_t { counts[cell]++ }], &cover, sizeof(cover));
+            });
+        }
+        return out;
+    }
+
+private:
+    static std::uint32_t bits(float x) { return std::bit_cast<std::uint32_t>(x); }
+    float scale(std::size_t axis) const
+    {
+        return static_cast<float>(side_ / std::max(whole_.high[axis] - whole_.low[axis], 1e-6));
+    }
+    /// A cell beside it, for the rounding of look-ups.
+    template <class Visit>
+    void everyCell(const Cover& cover, const Visit& visit) const
+    {
+        const Rectangle reached = around(cover);
+        const auto cellOf = [&](std::size_t axis, double at, double more) {
+            const double cell = std::floor((at - low_[axis]) * scale(axis) + more);
+            return static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(side_ - 1)));
+        };
+        const std::size_t x0 = cellOf(0, reached.low[0], -0.01), x1 = cellOf(0, reached.high[0], 0.01);
+        for (std::size_t y = cellOf(1, reached.low[1], -0.01); y <= cellOf(1, reached.high[1], 0.01); ++y) {
+            for (std::size_t x = x0; x <= x1; ++x) {
+                visit(y * side_ + x);
+            }
+        }
+    }
+    std::size_t entries() const
+    {
+        std::size_t sum = 0;
+        for (const Cover& cover : covers_) {
+            everyCell(cover, [&](std::size_t) { ++sum; });
+        }
+        return sum;
+    }
+
+    const std::vector<Cover>& covers_;
+    Rectangle whole_;
+    float low_[2] {};
+    std::uint32_t side_ = 1;
+};
 
 } // namespace
 
@@ -111,7 +151,7 @@ std::vector<std::uint32_t> cutoutTable(const scene::Scene& scene)
     const std::size_t triangles = g.materialIds.size();
     std::map<std::size_t, std::vector<std::uint32_t>> grids;
     for (const auto& [triangle, covers] : coversOf(scene)) {
-        grids.emplace(triangle, coverGrid(covers));
+        grids.emplace(triangle, CoverGrid(covers).words());
     }
     std::size_t words = triangles, cutouts = 0;
     std::map<int, std::size_t> textures; // where each begins
@@ -135,8 +175,9 @@ std::vector<std::uint32_t> cutoutTable(const scene::Scene& scene)
         words += grid.size();
     }
     if (words > std::numeric_limits<std::uint32_t>::max()) {
-        throw Error("cut-outs are too large", fmt::format("{} words of triangles and opacity textures", words),
-            "use smaller opacity textures");
+        throw Error("cut-outs are too large",
+            fmt::format("{} words of triangles, opacity textures, and lamps in surfaces", words),
+            "use smaller opacity textures, and move lamps of many triangles a millimetre off");
     }
     std::vector<std::uint32_t> table(words, WEDGE_NO_CUTOUT);
     std::size_t next = triangles;
@@ -152,6 +193,7 @@ std::vector<std::uint32_t> cutoutTable(const scene::Scene& scene)
             c.covers = static_cast<std::uint32_t>(nextGrid);
             std::ranges::copy(grid->second, table.begin() + static_cast<std::ptrdiff_t>(nextGrid));
             nextGrid += grid->second.size();
+            grids.erase(grid); // which may be large
         }
         if (m.opacityTexture >= 0) {
             const scene::Texture& texture = scene.textures[static_cast<std::size_t>(m.opacityTexture)];

@@ -263,12 +263,12 @@ DeviceScene::DeviceScene(
     srgbToLinear.upload(queue, texelTable());
     for (const scene::AreaLight& light : scene.areaLights) {
         areaLightList.push_back(deviceLight(light));
-        areaLightList.back().lift = lights.lifts[areaLightList.size() - 1];
+        areaLightList.back().lift = scene.directLights().lifts[areaLightList.size() - 1];
     }
     for (std::size_t i = 0; i < lights.shared.quadPicks.size(); ++i) {
         areaLightList[i].sharedPick = lights.shared.quadPicks[i];
     }
-    for (const OwnLight& light : lights.direct.own) {
+    for (const OwnLight& light : scene.directLights().own) {
         const std::vector<float> rule = lightNodes(light.quad);
         quadratures.emplace_back(device, rule.size(), "light quadrature");
         quadratures.back().upload(queue, rule);
@@ -289,9 +289,9 @@ DeviceScene::DeviceScene(
     emitterCount = lights.emitters.count;
     sharedLights.upload(queue, lights.shared.list);
     sharedPicks.upload(queue, lights.shared.picks);
-    const EmitterList& ofTerm = lights.ofSharedTerm();
-    sharedTerm = { .ofEmitters = lights.direct.shareEmitters(),
-        .quads = !lights.direct.sharedQuads.empty(),
+    const EmitterList& ofTerm = scene.ofSharedTerm();
+    sharedTerm = { .ofEmitters = scene.directLights().shareEmitters(),
+        .quads = !scene.directLights().sharedQuads.empty(),
         .count = ofTerm.count,
         .low = ofTerm.low,
         .high = ofTerm.high,

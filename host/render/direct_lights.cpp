@@ -36,12 +36,6 @@ double roundingOf(const std::array<glm::dvec3, 4>& corners)
     return 64.0 * far * static_cast<double>(std::numeric_limits<float>::epsilon());
 }
 
-bool moves(const scene::Geometry& g, std::size_t triangle)
-{
-    return movesAt(g, g.indices[3 * triangle]) || movesAt(g, g.indices[3 * triangle + 1])
-        || movesAt(g, g.indices[3 * triangle + 2]);
-}
-
 std::array<glm::dvec3, 4> cornersOfPair(const scene::Geometry& g, std::size_t triangle, std::uint32_t pair)
 {
     const auto first = [&](std::size_t k) { return cornerOf(g, triangle, k); };
@@ -71,8 +65,8 @@ std::vector<Candidate> candidates(const scene::Scene& scene, double least)
         const std::uint32_t material = g.materialIds[t];
         const double power = plainPower(scene, t);
         if (!(power > 0) || 2.5 * power < least || scene.materials[material].emissionTexture >= 0
-            || isCutout(scene.materials[material]) || g.materialIds[t + 1] != material || moves(g, t)
-            || moves(g, t + 1)) {
+            || isCutout(scene.materials[material]) || g.materialIds[t + 1] != material || triangleMoves(g, t)
+            || triangleMoves(g, t + 1)) {
             continue;
         }
         const std::uint32_t pair = pairAt(g, t);
@@ -101,7 +95,8 @@ void meet(const scene::Scene& scene, std::size_t triangle, Candidate& candidate)
         touching += std::ranges::any_of(candidate.corners, isThere) ? 1 : 0;
         same += std::ranges::count(candidate.corners, corner) > 0 ? 1 : 0;
     }
-    if (same == 3 && scene.geometry.materialIds[triangle] == candidate.material && !moves(scene.geometry, triangle)) {
+    if (same == 3 && scene.geometry.materialIds[triangle] == candidate.material
+        && !triangleMoves(scene.geometry, triangle)) {
         candidate.triangles.push_back(triangle);
     } else if (touching > 0) {
         candidate.alone = false;
@@ -192,6 +187,7 @@ DirectLights directLights(const scene::Scene& scene)
     std::ranges::sort(ranked.begin(),
         ranked.begin() + static_cast<std::ptrdiff_t>(std::min(ranked.size(), mostOwnTerms)), {}, &Ranked::number);
     DirectLights out;
+    out.lifts = liftsOf(scene.areaLights, scene.geometry);
     for (std::size_t i = 0; i < ranked.size(); ++i) {
         const std::size_t number = ranked[i].number;
         if (i >= mostOwnTerms) {
@@ -199,7 +195,7 @@ DirectLights directLights(const scene::Scene& scene)
                 out.sharedQuads.push_back(static_cast<std::uint32_t>(number));
             }
         } else if (number < quads) {
-            out.own.push_back({ scene.areaLights[number], liftOf(scene.areaLights[number], scene.geometry) });
+            out.own.push_back({ scene.areaLights[number], out.lifts[number] });
         } else {
             const Candidate& panel = found[number - quads];
             out.own.push_back(lightOf(scene, panel));
@@ -215,14 +211,10 @@ DirectLights directLights(const scene::Scene& scene)
     return out;
 }
 
-SceneLights::SceneLights(const scene::Scene& scene, const EnvironmentPicture* picture)
-    : direct(directLights(scene))
-    , emitters(emitterList(scene))
+SceneLights::SceneLights(const scene::Scene& scene, const DirectLights& direct, const EnvironmentPicture* picture)
+    : emitters(emitterList(scene))
     , beyond(environmentTable(picture))
 {
-    for (const scene::AreaLight& light : scene.areaLights) {
-        lifts.push_back(liftOf(light, scene.geometry));
-    }
     if (direct.share && !direct.shareEmitters()) {
         shared = emitterList(scene, direct.panelTriangles, direct.sharedQuads);
     }

@@ -30,6 +30,7 @@ struct DirectLights {
     std::vector<std::uint32_t> sharedQuads; ///< numbers of the scene's area lights, ascending
     std::vector<std::size_t> panelTriangles; ///< of the panels that have a term of their own, ascending
     bool share = false; ///< whether there is anything for a term to share
+    std::vector<float> lifts; ///< liftsOf() the scene's area lights
 
     /// Whether what they share is all that emits, and nothing else.
     bool shareEmitters() const { return sharedQuads.empty() && panelTriangles.empty(); }
@@ -43,15 +44,11 @@ DirectLights directLights(const scene::Scene& scene);
 /// anything emits: a renderer makes it once.
 struct SceneLights {
     /// picture: what is around the scene; null without.
-    SceneLights(const scene::Scene& scene, const EnvironmentPicture* picture);
+    SceneLights(const scene::Scene& scene, const DirectLights& direct, const EnvironmentPicture* picture);
 
-    DirectLights direct;
-    std::vector<float> lifts; ///< liftOf() of each area light of the scene
     EmitterList emitters; ///< what paths' vertices choose among
     EmitterList shared; ///< what the term that lights share does, where that is something else; else empty
     EnvironmentTable beyond; ///< directions to what is beyond the scene
-
-    const EmitterList& ofSharedTerm() const { return direct.shareEmitters() ? emitters : shared; }
 };
 
 } // namespace wedge::render

@@ -57,6 +57,12 @@ bool movesAt(const scene::Geometry& g, std::size_t vertex)
     return false;
 }
 
+bool triangleMoves(const scene::Geometry& g, std::size_t triangle)
+{
+    return movesAt(g, g.indices[3 * triangle]) || movesAt(g, g.indices[3 * triangle + 1])
+        || movesAt(g, g.indices[3 * triangle + 2]);
+}
+
 std::uint32_t pairAt(const scene::Geometry& g, std::size_t triangle)
 {
     const std::size_t next = triangle + 1;

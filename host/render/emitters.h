@@ -44,6 +44,9 @@ glm::dvec3 cornerOf(const scene::Geometry& g, std::size_t triangle, std::size_t 
 /// Whether a vertex is elsewhere when the shutter closes.
 bool movesAt(const scene::Geometry& g, std::size_t vertex);
 
+/// Whether a corner of a triangle is.
+bool triangleMoves(const scene::Geometry& g, std::size_t triangle);
+
 /// Whether a triangle's material emits, textures apart.
 bool mayEmit(const scene::Scene& scene, std::size_t triangle);
 

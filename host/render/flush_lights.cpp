@@ -18,36 +18,38 @@ namespace {
 
 using Corners = std::array<glm::dvec3, 3>;
 
-// Roundings of a light's coordinates within which a surface lies in its plane: a millionth of a room's size and more.
-// Of the surface's, which may be far larger, what tests of rays may be off by.
-constexpr double lightRoundings = 64.0, surfaceRoundings = 8.0;
+// Roundings, of where a light is along its normal and of its and the surface's size, within which a surface lies in its
+// plane, a millionth of a room's size and more; and what tests of rays are off by. Of surfaces that are far larger,
+// only so much counts.
+constexpr double planeRoundings = 64.0, rayRoundings = 8.0, mostTimesLarger = 16.0;
 constexpr double rounding = std::numeric_limits<float>::epsilon();
-constexpr std::size_t mostWork = std::size_t { 1 } << 26, mostCovers = std::size_t { 1 } << 22;
-
-double farthest(std::span<const glm::dvec3> corners)
-{
-    double far = 0;
-    for (const glm::dvec3& c : corners) {
-        far = std::max(far, std::abs(c.x) + std::abs(c.y) + std::abs(c.z));
-    }
-    return far;
-}
-
-/// Metres within which a surface lies in a light's plane.
-double flushWithin(std::span<const glm::dvec3> light, std::span<const glm::dvec3> surface)
-{
-    return rounding * (lightRoundings * farthest(light) + surfaceRoundings * farthest(surface));
-}
+// Pairs that are looked at, and covers.
+constexpr std::size_t mostWork = std::size_t { 1 } << 24, mostCovers = std::size_t { 1 } << 22;
 
 Corners cornersOf(const scene::Geometry& g, std::size_t triangle)
 {
     return { cornerOf(g, triangle, 0), cornerOf(g, triangle, 1), cornerOf(g, triangle, 2) };
 }
 
-bool moves(const scene::Geometry& g, std::size_t triangle)
+/// The diagonal of the box around a polygon.
+double sizeOf(std::span<const glm::dvec3> corners)
 {
-    return movesAt(g, g.indices[3 * triangle]) || movesAt(g, g.indices[3 * triangle + 1])
-        || movesAt(g, g.indices[3 * triangle + 2]);
+    glm::dvec3 low = corners[0], high = corners[0];
+    for (const glm::dvec3& c : corners) {
+        low = glm::min(low, c);
+        high = glm::max(high, c);
+    }
+    return glm::length(high - low);
+}
+
+/// What of a polygon's coordinates is rounded along a normal, metres.
+double farthestAlong(std::span<const glm::dvec3> corners, glm::dvec3 normal)
+{
+    double far = 0;
+    for (const glm::dvec3& c : corners) {
+        far = std::max(far, glm::dot(glm::abs(c), glm::abs(normal)));
+    }
+    return far;
 }
 
 /// A polygon's plane. scaled: along its normal, as long as it is large.
@@ -68,17 +70,26 @@ struct Plane {
 
 Plane planeOf(const Corners& c) { return { glm::cross(c[1] - c[0], c[2] - c[0]), c[0] }; }
 
-/// Metres between a light and a surface in one plane, or nothing: they are not in one. By the plane of the larger one,
-/// which is the better known.
-std::optional<double> apart(
-    std::span<const glm::dvec3> light, Plane ofLight, std::span<const glm::dvec3> surface, Plane ofSurface)
+/// A light and a surface in one plane, metres.
+struct Flush {
+    double apart; ///< by how much they are not
+    double rounding; ///< of tests of rays against either
+};
+
+/// Nothing: they are not in one plane. By the plane of the larger one, which is the better known.
+std::optional<Flush> flush(std::span<const glm::dvec3> light, const Plane& ofLight, std::span<const glm::dvec3> surface,
+    const Plane& ofSurface)
 {
-    const double size = glm::length(ofLight.scaled), surfaceSize = glm::length(ofSurface.scaled);
-    if (!(size > 0.0) || !(surfaceSize > 0.0)) {
+    const double area = glm::length(ofLight.scaled), surfaceArea = glm::length(ofSurface.scaled);
+    if (!(area > 0.0) || !(surfaceArea > 0.0)) {
         return std::nullopt;
     }
-    const double far = surfaceSize > size ? ofSurface.farthestOf(light) : ofLight.farthestOf(surface);
-    return far <= flushWithin(light, surface) ? std::optional(far) : std::nullopt;
+    const bool surfaceIsLarger = surfaceArea > area;
+    const double apart = surfaceIsLarger ? ofSurface.farthestOf(light) : ofLight.farthestOf(surface);
+    const glm::dvec3 normal = (surfaceIsLarger ? ofSurface : ofLight).normal();
+    const double size = sizeOf(light), both = size + std::min(sizeOf(surface), mostTimesLarger * size);
+    const double scale = rounding * (farthestAlong(light, normal) + both);
+    return apart <= planeRoundings * scale ? std::optional(Flush { apart, rayRoundings * scale }) : std::nullopt;
 }
 
 /// The polygon's edges, seen from where it is counterclockwise: how far inside of them points are, metres, less a
@@ -117,11 +128,11 @@ private:
 std::optional<Cover> coverOf(const Corners& surface, const Corners& light)
 {
     const Plane ofLight = planeOf(light), ofSurface = planeOf(surface);
-    const std::optional<double> distance = apart(light, ofLight, surface, ofSurface);
-    if (!distance) {
+    const std::optional<Flush> both = flush(light, ofLight, surface, ofSurface);
+    if (!both) {
         return std::nullopt;
     }
-    const Inside inside(light, ofLight.normal(), 2.0 * *distance + 4.0 * rounding * farthest(surface));
+    const Inside inside(light, ofLight.normal(), 8.0 * both->apart + both->rounding);
     if (inside.excludes(surface) || Inside(surface, ofSurface.normal(), 0.0).excludes(light)) {
         return std::nullopt;
     }
@@ -151,13 +162,12 @@ struct Box {
 /// Boxes of triangles in a tree of halves, for what overlaps them.
 class BoxTree {
 public:
-    /// grownBy: by which part of their farthest coordinate boxes are larger.
-    BoxTree(const scene::Geometry& g, std::vector<std::size_t> triangles, double grownBy)
+    BoxTree(const scene::Geometry& g, std::vector<std::size_t> triangles)
         : triangles_(std::move(triangles))
     {
         boxes_.reserve(triangles_.size());
         for (const std::size_t triangle : triangles_) {
-            boxes_.push_back(boxOf(g, triangle, grownBy));
+            boxes_.push_back(boxOf(g, triangle));
         }
         order_.resize(triangles_.size());
         std::iota(order_.begin(), order_.end(), std::size_t { 0 });
@@ -166,10 +176,13 @@ public:
         }
     }
 
-    static Box boxOf(const scene::Geometry& g, std::size_t triangle, double grownBy)
+    /// Larger by more than what is in its plane may be off it.
+    static Box boxOf(const scene::Geometry& g, std::size_t triangle)
     {
         const Corners corners = cornersOf(g, triangle);
-        const glm::vec3 more(static_cast<float>(grownBy * farthest(corners)));
+        const glm::dvec3 most = glm::max(glm::max(glm::abs(corners[0]), glm::abs(corners[1])), glm::abs(corners[2]));
+        const double far = most.x + most.y + most.z + sizeOf(corners);
+        const glm::vec3 more(static_cast<float>(2.0 * rounding * planeRoundings * mostTimesLarger * far));
         Box box;
         for (const glm::dvec3& c : corners) {
             box.add(glm::vec3(c) - more);
@@ -178,7 +191,7 @@ public:
         return box;
     }
 
-    /// Calls found(triangle) for each whose box overlaps.
+    /// Calls found(triangle) for each whose box overlaps, until it returns false.
     template <class Found>
     void overlapping(const Box& box, const Found& found) const
     {
@@ -196,7 +209,9 @@ public:
             }
             for (std::size_t i = node.first; i < node.end; ++i) {
                 if (boxes_[order_[i]].overlaps(box)) {
-                    found(triangles_[order_[i]]);
+                    if (!found(triangles_[order_[i]])) {
+                        return;
+                    }
                 }
             }
         }
@@ -248,9 +263,12 @@ std::map<std::size_t, std::vector<Cover>> coversOf(const scene::Scene& scene)
     const scene::Geometry& g = scene.geometry;
     std::vector<std::size_t> lights, surfaces;
     for (std::size_t t = 0; t < g.materialIds.size(); ++t) {
+        if (triangleMoves(g, t)) {
+            continue;
+        }
         if (!mayEmit(scene, t)) {
             surfaces.push_back(t);
-        } else if (!isCutout(scene.materials[g.materialIds[t]]) && !moves(g, t)) {
+        } else if (!isCutout(scene.materials[g.materialIds[t]])) {
             lights.push_back(t);
         }
     }
@@ -259,55 +277,82 @@ std::map<std::size_t, std::vector<Cover>> coversOf(const scene::Scene& scene)
         return out;
     }
     const bool lightsAreFewer = lights.size() <= surfaces.size();
-    // At least what flushWithin() allows, as boxes are in single precision.
-    constexpr double grownBy = 2.0 * rounding * lightRoundings;
-    const BoxTree tree(g, lightsAreFewer ? lights : surfaces, grownBy);
+    const BoxTree tree(g, lightsAreFewer ? lights : surfaces);
     std::size_t work = 0, covers = 0;
+    const auto isSpent = [&] { return work > mostWork || covers > mostCovers; };
     for (const std::size_t outer : lightsAreFewer ? surfaces : lights) {
-        tree.overlapping(BoxTree::boxOf(g, outer, grownBy), [&](std::size_t inner) {
+        tree.overlapping(BoxTree::boxOf(g, outer), [&](std::size_t inner) {
             const std::size_t surface = lightsAreFewer ? outer : inner, light = lightsAreFewer ? inner : outer;
-            if (++work > mostWork || covers >= mostCovers || moves(g, surface)) {
-                return;
-            }
+            ++work;
             if (const std::optional<Cover> cover = coverOf(cornersOf(g, surface), cornersOf(g, light))) {
                 out[surface].push_back(*cover);
                 ++covers;
             }
+            return !isSpent();
         });
+        if (isSpent()) {
+            break;
+        }
     }
     return out;
 }
 
-float liftOf(const scene::AreaLight& light, const scene::Geometry& g)
+namespace {
+
+/// An area light as liftsOf() holds triangles against it.
+struct Quad {
+    explicit Quad(const scene::AreaLight& light)
+        : centre(light.centre)
+    {
+        const glm::dvec3 c(light.centre), u(light.halfU), v(light.halfV);
+        corners = { c - u - v, c + u - v, c + u + v, c - u + v };
+        plane = { 4.0 * glm::cross(u, v), c };
+        const double shorter = std::min(glm::length(u), glm::length(v)), size = sizeOf(corners);
+        const double far = farthestAlong(corners, plane.normal());
+        most = static_cast<float>(2.0 * rounding * planeRoundings * (far + (1.0 + mostTimesLarger) * size));
+        tilt = static_cast<float>(most / shorter);
+        normal = plane.normal();
+    }
+
+    /// Whether a triangle may be in its plane, by one corner.
+    bool mayLieIn(glm::vec3 corner) const
+    {
+        const glm::vec3 from = corner - centre;
+        const glm::vec3 far = glm::abs(from);
+        return std::abs(glm::dot(normal, from)) <= most + tilt * std::max({ far.x, far.y, far.z });
+    }
+
+    glm::vec3 centre, normal;
+    std::array<glm::dvec3, 4> corners;
+    Plane plane;
+    float most, tilt; ///< metres off the plane, and more for each metre from the centre
+};
+
+} // namespace
+
+std::vector<float> liftsOf(std::span<const scene::AreaLight> lights, const scene::Geometry& g)
 {
-    const glm::dvec3 centre(light.centre), u(light.halfU), v(light.halfV);
-    const std::array<glm::dvec3, 4> quad { centre - u - v, centre + u - v, centre + u + v, centre - u + v };
-    const Plane ofQuad { 4.0 * glm::cross(u, v), centre };
-    const glm::dvec3 normal = ofQuad.normal();
-    const double far = farthest(quad);
-    // One corner tells of most triangles that they are elsewhere.
-    float largest = 0;
-    for (const float x : g.positions) {
-        largest = std::max(largest, std::abs(x));
-    }
-    const glm::vec3 along(normal);
-    const auto offset = static_cast<float>(glm::dot(normal, centre));
-    const auto most = static_cast<float>(4.0 * rounding * (lightRoundings * far + 3.0 * surfaceRoundings * largest));
-    double lift = 0;
-    for (std::size_t t = 0; t < g.materialIds.size(); ++t) {
+    const std::vector<Quad> quads(lights.begin(), lights.end());
+    std::vector<float> out(lights.size(), 0.0f);
+    for (std::size_t t = 0; !quads.empty() && t < g.materialIds.size(); ++t) {
         const float* first = &g.positions[3 * std::size_t { g.indices[3 * t] }];
-        if (std::abs(along.x * first[0] + along.y * first[1] + along.z * first[2] - offset) > most) {
-            continue;
-        }
-        const Corners surface = cornersOf(g, t);
-        const Plane ofSurface = planeOf(surface);
-        const std::optional<double> distance = apart(quad, ofQuad, surface, ofSurface);
-        if (distance && !Inside(quad, normal, 0.0).excludes(surface)
-            && !Inside(surface, ofSurface.normal(), 0.0).excludes(quad)) {
-            lift = std::max(lift, 2.0 * *distance + 2.0 * surfaceRoundings * rounding * (far + farthest(surface)));
+        const glm::vec3 corner(first[0], first[1], first[2]);
+        for (std::size_t i = 0; i < quads.size(); ++i) {
+            const Quad& quad = quads[i];
+            if (!quad.mayLieIn(corner) || triangleMoves(g, t)) {
+                continue;
+            }
+            const Corners surface = cornersOf(g, t);
+            const Plane ofSurface = planeOf(surface);
+            const std::optional<Flush> both = flush(quad.corners, quad.plane, surface, ofSurface);
+            // What only touches it is beside it.
+            if (both && !Inside(quad.corners, quad.plane.normal(), both->rounding).excludes(surface)
+                && !Inside(surface, ofSurface.normal(), both->rounding).excludes(quad.corners)) {
+                out[i] = std::max(out[i], static_cast<float>(2.0 * (both->apart + both->rounding)));
+            }
         }
     }
-    return static_cast<float>(lift);
+    return out;
 }
 
 } // namespace wedge::render

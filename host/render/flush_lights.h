@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <span>
 #include <vector>
 
 namespace wedge::render {
@@ -20,8 +21,8 @@ using Cover = std::array<std::array<float, 3>, 3>;
 /// are left over are not there. Takes time in proportion to the scene's triangles where lights are few or far apart.
 std::map<std::size_t, std::vector<Cover>> coversOf(const scene::Scene& scene);
 
-/// AreaLight::lift of a quad, metres: more than it may be apart from the surface that it lies in; 0 if it lies in none.
-/// Takes time in proportion to the scene's triangles.
-float liftOf(const scene::AreaLight& light, const scene::Geometry& geometry);
+/// AreaLight::lift of quads, metres: more than one may be apart from the surface that it lies in, which does not move;
+/// 0 if it lies in none. Takes time in proportion to the lights times the triangles.
+std::vector<float> liftsOf(std::span<const scene::AreaLight> lights, const scene::Geometry& geometry);
 
 } // namespace wedge::render

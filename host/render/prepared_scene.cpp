@@ -41,19 +41,25 @@ SceneTraits traitsOf(const scene::Scene& scene)
 PreparedScene::PreparedScene(scene::Scene scene)
     : scene::Scene(std::move(scene))
     , picture_(pictureOf(*this))
-    , lights_(std::make_shared<const SceneLights>(*this, picture_.get()))
+    , direct_(render::directLights(*this))
     , traits_(traitsOf(*this))
 {
 }
 
+const SceneLights& PreparedScene::lights() const
+{
+    if (!lights_) {
+        lights_ = std::make_shared<const SceneLights>(*this, direct_, picture_.get());
+    }
+    return *lights_;
+}
+
 void PreparedScene::change(const scene::Change& change, const std::function<void(scene::Scene&)>& alter)
 {
-    if (change.lights || change.geometry) {
-        lights_.reset(); // before there are others
-    }
     alter(*this);
     if (change.lights || change.geometry) {
-        lights_ = std::make_shared<const SceneLights>(*this, picture_.get()); // triangles that emit are among them
+        lights_.reset();
+        direct_ = render::directLights(*this); // triangles that emit are among them
     }
     if (change.geometry) {
         traits_ = traitsOf(*this);

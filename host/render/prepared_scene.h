@@ -32,7 +32,10 @@ public:
     /// Takes time in proportion to its triangles.
     explicit PreparedScene(scene::Scene scene);
 
-    const SceneLights& lights() const { return *lights_; }
+    const DirectLights& directLights() const { return direct_; }
+    /// Made when first asked for, which is after the hierarchy, and has taken memory in proportion to what emits.
+    const SceneLights& lights() const;
+    const EmitterList& ofSharedTerm() const { return direct_.shareEmitters() ? lights().emitters : lights().shared; }
     const SceneTraits& traits() const { return traits_; }
     /// The picture around it; null without.
     const std::shared_ptr<const EnvironmentPicture>& picture() const { return picture_; }
@@ -42,7 +45,8 @@ public:
 
 private:
     std::shared_ptr<const EnvironmentPicture> picture_;
-    std::shared_ptr<const SceneLights> lights_; ///< copies have it in common
+    DirectLights direct_;
+    mutable std::shared_ptr<const SceneLights> lights_; ///< copies have it in common; null: not yet asked for
     SceneTraits traits_;
 };
 

@@ -191,14 +191,17 @@ std::unique_ptr<FrameGraph> Renderer::declareUnbacked(const PreparedScene& scene
         scene, nullptr, settings, packet, cl::Buffer(), keepLayers, memories, step.before, step.spp);
 }
 
-void Renderer::uploadScene()
+bool Renderer::uploadScene()
 {
     if (!deviceScene_) {
         device::MemoryPlan plan;
         DeviceScene::plan(plan, scene_, hierarchy_);
-        plan.check(device_.info(), options_.memoryLimit);
+        if (!plan.fits(device_.info(), options_.memoryLimit)) {
+            return false;
+        }
         deviceScene_ = std::make_unique<DeviceScene>(scene_, hierarchy_, device_, queue_);
     }
+    return true;
 }
 
 void Renderer::compile(std::unique_ptr<FrameGraph> declared)
@@ -212,35 +215,35 @@ void Renderer::compile(const Settings& settings, bool keepLayers)
     if (compiled_ && compiled_->isOf(settings, keepLayers)) {
         return;
     }
-    uploadScene();
+    assert(deviceScene_);
     compile(declare(scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal), unused_, keepLayers));
 }
 
 const device::MemoryPlan& Renderer::plan(const Settings& settings, bool keepLayers)
 {
     validate(settings, isDistributed(settings, scene_));
-    if (!settings.progressive) {
+    const bool compiles = !settings.progressive && uploadScene();
+    if (compiles) {
         compile(settings, keepLayers);
     }
     if (!planned_ || planned_->keepLayers != keepLayers || planned_->settings != settings) {
         planned_.reset();
         device::MemoryPlan memory;
-        if (settings.progressive) {
-            memory = plan(scene_, hierarchy_, settings, keepLayers, slabRules());
-        } else {
+        if (compiles) {
             DeviceScene::plan(memory, scene_, hierarchy_);
             compiled_->plan().addTo(memory);
+        } else {
+            memory = planUnbacked(settings, keepLayers);
         }
         planned_ = Planned { settings, keepLayers, std::move(memory) };
     }
     return planned_->memory;
 }
 
-Explanation Renderer::explain(const Settings& settings, bool keepLayers)
+Explanation Renderer::explain(const Settings& settings, bool keepLayers) const
 {
     validate(settings, isDistributed(settings, scene_));
-    if (!settings.progressive) {
-        compile(settings, keepLayers);
+    if (compiled_ && !settings.progressive && compiled_->isOf(settings, keepLayers)) {
         return { graph::explain(compiled_->plan()), graph::drawing(compiled_->plan()) };
     }
     HalfMemories memories { SampleMemory(nullptr), SampleMemory(nullptr) };
@@ -252,7 +255,8 @@ Explanation Renderer::explain(const Settings& settings, bool keepLayers)
 void Renderer::prepare(const Settings& settings, bool keepLayers)
 {
     plan(settings, keepLayers).check(device_.info(), options_.memoryLimit);
-    uploadScene();
+    [[maybe_unused]] const bool uploaded = uploadScene();
+    assert(uploaded); // as it is part of the plan
     frame_.reset(); // it has parts of the memory
     halfMemories_.reset();
     if (settings.progressive) {

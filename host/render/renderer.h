@@ -99,11 +99,18 @@ public:
     /// slabs: as graph::place() has them.
     static device::MemoryPlan plan(const PreparedScene& scene, const Hierarchy& hierarchy, const Settings& settings,
         bool keepLayers = false, const graph::SlabRules& slabs = {});
-    /// The same of this renderer's. Puts the scene on the device, if there is room for that.
+    /// The same of this renderer's. Puts the scene on the device, where there is room for that: for frames that are to
+    /// be rendered.
     const device::MemoryPlan& plan(const Settings& settings, bool keepLayers = false);
+    /// The same of a frame that is not: allocates nothing.
+    device::MemoryPlan planUnbacked(const Settings& settings, bool keepLayers = false) const
+    {
+        return plan(scene_, hierarchy_, settings, keepLayers, slabRules());
+    }
 
     /// The passes of a frame, or of the first step of a progressive one, what they use, and the planes' memory.
-    Explanation explain(const Settings& settings, bool keepLayers = false);
+    /// Allocates nothing.
+    Explanation explain(const Settings& settings, bool keepLayers = false) const;
 
     /// Renders; the result stays on the device until the next call. Throws Error if memory does not suffice or the
     /// device fails. keepLayers: for frames of which layers will be read. It fills termPlanes() for those of widths,
@@ -149,8 +156,9 @@ private:
     /// Of a frame that is only to be planned, or of a step of a progressive one.
     static std::unique_ptr<FrameGraph> declareUnbacked(const PreparedScene& scene, const Hierarchy& hierarchy,
         const Settings& settings, bool keepLayers, HalfMemories& memories, const StepRange& step);
-    /// Puts the scene on the device, where it is not there. Throws Error if it takes more than there may be.
-    void uploadScene();
+    /// Puts the scene on the device, where it is not there, if it does not take more than there may be. Returns whether
+    /// it is there.
+    bool uploadScene();
     /// Makes compiled_ one of these settings, of frames that are not progressive, if it is not.
     void compile(const Settings& settings, bool keepLayers);
     /// Makes compiled_ that frame.

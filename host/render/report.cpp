@@ -151,14 +151,14 @@ double megaraysPerSecond(const FrameStatistics& statistics)
     return milliseconds > 0 ? 1e-3 * static_cast<double>(rays) / milliseconds : 0.0;
 }
 
-std::string jsonReport(Renderer& renderer, const Settings& settings, const std::vector<FrameStatistics>& frames,
+std::string jsonReport(const Renderer& renderer, const Settings& settings, const std::vector<FrameStatistics>& frames,
     const ReportExtras& extras)
 {
     Json report;
     report["wedge"] = version();
     report["device"] = deviceSection(renderer);
     report["scene"] =
-        sceneSection(renderer, frames.empty() ? renderer.plan(settings).total() : frames.back().memoryBytes);
+        sceneSection(renderer, frames.empty() ? renderer.planUnbacked(settings).total() : frames.back().memoryBytes);
     report["method"] = methodSection(settings);
     report["setup"] = { { "load_ms", extras.loadMilliseconds },
         { "bvh_ms", 1e3 * renderer.hierarchy().statistics.buildSeconds },

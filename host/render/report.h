@@ -49,7 +49,7 @@ double degreesAcross(const glm::vec3& half);
 
 /// The report that docs/command-line.md describes, as JSON text of several lines. Quantities that are not finite are
 /// null.
-std::string jsonReport(Renderer& renderer, const Settings& settings, const std::vector<FrameStatistics>& frames,
+std::string jsonReport(const Renderer& renderer, const Settings& settings, const std::vector<FrameStatistics>& frames,
     const ReportExtras& extras);
 
 } // namespace wedge::render

@@ -18,9 +18,10 @@ WEDGE_SHARED_BEGIN
 /// start or WEDGE_NO_CUTOUT; then the Cutouts; then textures, a byte a texel (255: opaque), row 0 is v = 0; then
 /// covers.
 ///
-/// Covers of a triangle are a grid over its barycentrics (u, v), a square of `side` cells an axis: the side; then, row
-/// by row, how many covers come before each cell, and how many there are; then the covers, cell by cell, nine numbers
-/// each: (a, b, c) of three edges, inside of which a u + b v + c > 0.
+/// Covers of a triangle are a grid over a part of its barycentrics (u, v), of `side` cells an axis: the side; the least
+/// u and v; cells for each unit of u and of v; then, row by row, how many covers come before each cell, and how many
+/// there are; then the covers, cell by cell, nine numbers each: (a, b, c) of three edges, inside of which
+/// a u + b v + c > 0.
 typedef struct {
     float u[3], v[3]; ///< texture coordinates of the corners
     float opacity; ///< 0 to 1
@@ -31,6 +32,7 @@ typedef struct {
 
 #define WEDGE_CUTOUT_WORDS 11u
 #define WEDGE_COVER_WORDS 9u
+#define WEDGE_COVER_HEADER 5u ///< words before the counts
 
 /// The number in [0, 1) that decides whether a ray sees a triangle: it does where the triangle's opacity is larger.
 /// It depends on ray and triangle alone, so that every traversal decides alike, however often and in whatever order

@@ -46,10 +46,10 @@ WEDGE_FN bool isCovered(__global const uint* table, uint covers, float u, float 
 {
     __global const uint* grid = table + covers;
     const uint side = grid[0];
-    const uint x = min((uint)(fmax(u, 0.0f) * (float)side), side - 1u);
-    const uint y = min((uint)(fmax(v, 0.0f) * (float)side), side - 1u);
-    __global const uint* before = grid + 1u + y * side + x;
-    __global const float* edges = (__global const float*)(grid + 2u + side * side);
+    const float x = (u - as_float(grid[1])) * as_float(grid[3]), y = (v - as_float(grid[2])) * as_float(grid[4]);
+    const uint column = min((uint)fmax(x, 0.0f), side - 1u), row = min((uint)fmax(y, 0.0f), side - 1u);
+    __global const uint* before = grid + WEDGE_COVER_HEADER + row * side + column;
+    __global const float* edges = (__global const float*)(grid + WEDGE_COVER_HEADER + side * side + 1u);
     for (uint i = before[0]; i < before[1]; ++i) {
         __global const float* e = edges + WEDGE_COVER_WORDS * i;
         if (e[0] * u + e[1] * v + e[2] > 0.0f && e[3] * u + e[4] * v + e[5] > 0.0f && e[6] * u + e[7] * v + e[8] > 0.0f)

@@ -115,7 +115,7 @@ FIELD(MaterialData, normalStrength) FIELD(MaterialData, medium) FIELD(MaterialDa
 END(MaterialData)
 STRUCT(Cutout)
 FIELD(Cutout, u) FIELD(Cutout, v) FIELD(Cutout, opacity) FIELD(Cutout, alphas) FIELD(Cutout, width)
-FIELD(Cutout, height)
+FIELD(Cutout, height) FIELD(Cutout, covers)
 END(Cutout)
 STRUCT(TextureData)
 FIELD(TextureData, offset) FIELD(TextureData, width) FIELD(TextureData, height) FIELD(TextureData, padding)
