@@ -325,11 +325,14 @@ std::vector<T> pixels(render::Renderer& renderer, const device::Buffer<T>& plane
     return out;
 }
 
-/// The beauty of the whole frame, rendered with these settings.
+/// The beauty of the whole frame, rendered with these settings, or the last of a progressive one.
 inline std::vector<float> renderPixels(
     render::Renderer& renderer, const render::Settings& settings, bool keepLayers = false)
 {
-    renderer.render(settings, {}, keepLayers);
+    if (settings.progressive)
+        renderer.renderProgressively(settings, {}, {}, keepLayers);
+    else
+        renderer.render(settings, {}, keepLayers);
     return pixels(renderer, renderer.frame().beauty, { 0, 0, settings.width, settings.height });
 }
 
