@@ -10,7 +10,7 @@ namespace wedge::benchmark {
 
 /// Bytes of a frame's own buffers on a device, without the scene's and its hierarchy's. keepLayers: as
 /// Renderer::render() has it.
-std::uint64_t frameBytes(const scene::Scene& scene, const device::DeviceInfo& device, const render::Settings& settings,
-    bool keepLayers = false);
+std::uint64_t frameBytes(const scene::Scene& described, const device::DeviceInfo& device,
+    const render::Settings& settings, bool keepLayers = false);
 
 } // namespace wedge::benchmark

@@ -15,7 +15,6 @@ using graph::reads;
 using graph::tallies;
 using graph::updates;
 using graph::value;
-using graph::writes;
 using render::FrameBuilder;
 using render::Radiance;
 
