@@ -1,4 +1,4 @@
-// Images for the gather of filter.cl, filter_indirect.cl and filter_variance.cl, and the gather in double.
+// Images for the gather of filter.cl, and the gather in double.
 #pragma once
 
 #include "kernels/shared/filter_params.h"

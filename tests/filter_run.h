@@ -7,13 +7,11 @@
 
 namespace wedge::test {
 
-/// filterRows and filterColumns of one of the programs of gather_lines.h, on one device.
+/// The passes of filter.cl, compiled with these defines, on one device.
 class FilterRun {
 public:
-    explicit FilterRun(
-        const device::Device& device, const Defines& defines = {}, const std::string& program = "filter/filter.cl")
+    explicit FilterRun(const device::Device& device, const Defines& defines = {})
         : bench_(device, defines)
-        , program_(program)
     {
     }
 
@@ -77,7 +75,8 @@ private:
     template <class... Args>
     void launch(const std::string& kernel, const shared::FilterParams& p, const Args&... args)
     {
-        bench_.passes.rows("filter", device::PassKind::Filter, program_, kernel, p, WEDGE_BLOCK_PIXELS, args...);
+        bench_.passes.rows(
+            "filter", device::PassKind::Filter, "filter/filter.cl", kernel, p, WEDGE_BLOCK_PIXELS, args...);
     }
     FilterResult result(
         const FilterImage& image, const device::Buffer<float>& value, const device::Buffer<float>& effective)
@@ -87,7 +86,6 @@ private:
     }
 
     KernelBench bench_;
-    std::string program_;
 };
 
 /// Compares with the oracle wherever no test of it hangs on a rounding. Returns the fraction of pixels left out.

@@ -49,7 +49,8 @@ struct Difference {
 
 /// normals, sizes: of the image, as the program has them; window: the pixels to compare, all by default
 Difference differenceOf(KernelBench& bench, const Compared& in, const Planes<float>& normals,
-    const Planes<float>& sizes, const char* program = "filter/compare_widths.cl", image::Window window = {})
+    const Planes<float>& sizes, const device::ProgramSource& program = "filter/compare_widths.cl",
+    image::Window window = {})
 {
     const FilterImage& image = in.image;
     const std::size_t size = image.value.layout.size;
@@ -190,6 +191,6 @@ TEST_CASE("two widths at once with packed normals and sizes")
                 size = test::rounded(size);
             }
         const Planes<float> sizes = packedNumbers(in.image.pixelSize, in.image.pixelSize);
-        check(in, differenceOf(bench, in, packed, sizes, "filter/packed_compare_widths.cl"));
+        check(in, differenceOf(bench, in, packed, sizes, { "filter/compare_widths.cl", { { "WEDGE_PACKED", "" } } }));
     });
 }

@@ -30,17 +30,18 @@ TEST_CASE("components of samples are the light's integrals of the basis, of what
         for (const int count : { 3, 5 }) {
             const std::size_t products = static_cast<std::size_t>(count) * static_cast<std::size_t>(count);
             const shared::LightAxes axes = render::axesOf(onDevice, count);
-            const std::string sink = sinkOf({ render::sinks::sums(), render::sinks::components(count) },
-                { "sums", "components" }, { graph::value("axes", shared::LightAxes {}) });
+            const device::ProgramSource program =
+                withSinks("light/area_light.cl", { render::sinks::sums(), render::sinks::components(count) },
+                    { "sums", "components" }, { graph::value("axes", shared::LightAxes {}) });
             const auto components = traced.bench.filled(products * traced.layout.size, 0.0f);
             traced.sums.fill(traced.bench.queue, 0.0f);
             traced.taken.fill(traced.bench.queue, 0u);
             traced.wanted.fill(traced.bench.queue, 4096u);
             for (const std::uint32_t last : { 1024u, 4096u })
                 traced.bench.passes.tiles("samples", device::PassKind::Trace,
-                    traced.bench.passes.find("light/area_light.cl", "sampleShadows", sink), traced.params, 1.0, params,
-                    onDevice, traced.onDevice.nodes, traced.onDevice.blocks, traced.frame.receivers(), traced.wanted,
-                    last, traced.taken, traced.frame.rays, axes, traced.sums, components);
+                    traced.bench.passes.find(program, "sampleShadows"), traced.params, 1.0, params, onDevice,
+                    traced.onDevice.nodes, traced.onDevice.blocks, traced.frame.receivers(), traced.wanted, last,
+                    traced.taken, traced.frame.rays, axes, traced.sums, components);
             const Planes<float> found = ofShorts(traced.layout, 2 * products, traced.bench.read(components)),
                                 sums = traced.read(traced.sums);
             // Of one axis: integrals of B over those of the profile, over all of it and over its negative half.

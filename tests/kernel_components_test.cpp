@@ -1,4 +1,4 @@
-// filter_components*.cl alone, against the definition; what it filters: kernel_component_sums_test.
+// filter/components.cl alone, against the definition; what it filters: kernel_component_sums_test.
 #include "effects/area_lights/maaf.h"
 #include "tests/component_basis.h"
 #include "tests/filter_oracle.h"
@@ -15,7 +15,7 @@ using namespace wedge::test;
 
 namespace {
 
-/// Weights of a cosine and of a sine, mu of kernels/filter/components.h: as printed, (10).
+/// Weights of a cosine and of a sine, mu of kernels/filter/components.cl: as printed, (10).
 std::array<double, 2> printedWeights(int count, double bandwidth, int p, double sMin, double centre)
 {
     const double x = centre * sMin / bandwidth, y = 2.0 * p / count, mu = std::exp(-0.5 * (x * x + y * y));
@@ -40,7 +40,7 @@ std::array<double, 2> refittedWeights(int count, int p, double ratio)
     return { between(p > 0 ? 2 * pair - 1 : 0), between(2 * pair) };
 }
 
-/// c of kernels/filter/components.h.
+/// c of kernels/filter/components.cl.
 std::vector<double> coefficients(int count, double bandwidth, bool refitted, double sMin, double ratio, double d)
 {
     const double sMax = sMin * ratio;
@@ -140,13 +140,13 @@ FilterResult filterBoth(KernelBench& bench, const ComponentImage& in, Planes<flo
     const auto ofPairs = bench.filled(pairs * pairs * image.value.layout.size, -7.0f);
     const auto out = bench.filled(image.value.values.size(), -7.0f),
                effective = bench.filled(image.value.layout.size, -7.0f);
-    bench.passes.rows("filter", device::PassKind::Filter, "filter/filter_components" + std::to_string(in.count) + ".cl",
-        "filterComponents", image.params, WEDGE_BLOCK_PIXELS, in.axes, in.slopesPerWidth, in.floorPerPixel,
-        in.refitted ? 1u : 0u, parts != nullptr ? 1u : 0u, bench.buffer(image.value.values),
-        bench.buffer(image.beta.values), bench.buffer(inShorts(image.slopeWidth)), bench.buffer(inShorts(in.ratio)),
-        bench.buffer(image.position.values), bench.buffer(image.normal.values), bench.buffer(image.pixelSize.values),
-        bench.buffer(image.objectId.values), bench.buffer(in.sums.values), bench.buffer(inShorts(in.sinks)), out,
-        effective, ofPairs);
+    const device::ProgramSource program("filter/components.cl", { { "WEDGE_COMPONENTS", std::to_string(in.count) } });
+    bench.passes.rows("filter", device::PassKind::Filter, program, "filterComponents", image.params, WEDGE_BLOCK_PIXELS,
+        in.axes, in.slopesPerWidth, in.floorPerPixel, in.refitted ? 1u : 0u, parts != nullptr ? 1u : 0u,
+        bench.buffer(image.value.values), bench.buffer(image.beta.values), bench.buffer(inShorts(image.slopeWidth)),
+        bench.buffer(inShorts(in.ratio)), bench.buffer(image.position.values), bench.buffer(image.normal.values),
+        bench.buffer(image.pixelSize.values), bench.buffer(image.objectId.values), bench.buffer(in.sums.values),
+        bench.buffer(inShorts(in.sinks)), out, effective, ofPairs);
     const Planes<float> kept = planesOf(image.value.layout, bench.read(ofPairs));
     if (parts != nullptr)
         *parts = kept;

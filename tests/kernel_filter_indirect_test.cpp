@@ -1,5 +1,4 @@
-// filter_indirect.cl, filter_paths.cl and filter_variance.cl alone: the gather over plain distances, of three planes,
-// four and one.
+// filter.cl alone: the gather over plain distances, of one plane, three and four.
 #include "tests/filter_run.h"
 #include "tests/packed_support.h"
 
@@ -13,23 +12,22 @@ namespace {
 
 const float notANumber = std::numeric_limits<float>::quiet_NaN();
 
-struct Program {
-    std::string file;
-    int planes;
-    bool packs = true; ///< has a variant for packed frames
-};
-const Program programs[] = { { "filter/filter_indirect.cl", 3 }, { "filter/filter_paths.cl", 4, false },
-    { "filter/filter_variance.cl", 1 } };
+Defines program(int planes, const Defines& more = {})
+{
+    Defines defines { { "WEDGE_GATHER_CHANNELS", std::to_string(planes) } };
+    defines.insert(defines.end(), more.begin(), more.end());
+    return defines;
+}
 
-/// Calls test(filter, planes) for each program on every device.
+/// Calls test(filter, planes) for each number of planes on every device.
 template <class Test>
 void withEach(const Test& test)
 {
     onEveryDevice([&](const device::Device& device) {
-        for (const Program& program : programs) {
-            CAPTURE(program.file);
-            FilterRun filter(device, {}, program.file);
-            test(filter, program.planes);
+        for (const int planes : { 3, 4, 1 }) {
+            CAPTURE(planes);
+            FilterRun filter(device, program(planes));
+            test(filter, planes);
         }
     });
 }
@@ -132,16 +130,15 @@ TEST_CASE("without a light: both passes gather over plain distances, all planes 
 TEST_CASE("along the axes: pairs have the mean of both squared bandwidths, and rows and columns widths of their own")
 {
     onEveryDevice([](const device::Device& device) {
-        for (const Program& program :
-            { Program { "filter/filter_axes.cl", 3 }, Program { "filter/filter_axes_paths.cl", 4 } }) {
-            CAPTURE(program.file);
-            FilterRun filter(device, {}, program.file);
+        for (const int planes : { 3, 4 }) {
+            CAPTURE(planes);
+            FilterRun filter(device, program(planes, { { "WEDGE_GATHER_MEAN_SQUARE", "1" } }));
             double uncertain = 0;
             unsigned runs = 0, seed = 60;
             for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough })
                 for (const bool fitted : { false, true }) {
-                    FilterImage image = unlit(53, 31, shape, seed, program.planes);
-                    image.betaOfColumns = unlit(53, 31, shape, seed + 100, program.planes).beta;
+                    FilterImage image = unlit(53, 31, shape, seed, planes);
+                    image.betaOfColumns = unlit(53, 31, shape, seed + 100, planes).beta;
                     image.meanSquare = true;
                     image.params.maxRadius = 15;
                     image.params.fitted = fitted ? 3 : 0;
@@ -149,8 +146,8 @@ TEST_CASE("along the axes: pairs have the mean of both squared bandwidths, and r
                     CAPTURE(static_cast<int>(shape));
                     CAPTURE(fitted);
                     const OracleResult rows = oracleRows(image);
-                    uncertain += compare(image, filter(image, true), rows, program.planes);
-                    uncertain += compare(image, filter(image), oracleColumns(image, rows), program.planes);
+                    uncertain += compare(image, filter(image, true), rows, planes);
+                    uncertain += compare(image, filter(image), oracleColumns(image, rows), planes);
                     runs += 2;
                 }
             CHECK(uncertain / runs < 0.1);
@@ -216,7 +213,7 @@ TEST_CASE("without a light: NaN of another object, of another normal or of a pix
 TEST_CASE("on a smooth scene two passes over plain distances are close to the gather over squares of pixels")
 {
     onEveryDevice([](const device::Device& device) {
-        FilterRun filter(device, {}, "filter/filter_indirect.cl");
+        FilterRun filter(device, program(3));
         for (const bool narrower : { false, true })
             for (const unsigned seed : { 41u, 42u, 43u }) {
                 FilterImage image = smoothImage(64, 48, seed);
@@ -261,22 +258,22 @@ void packNormals(FilterImage& plain, FilterImage& packed)
 TEST_CASE("packed programs: what the others make of the same normals, without counts of three planes")
 {
     onEveryDevice([](const device::Device& device) {
-        for (const Program& program : programs) {
-            if (!program.packs)
-                continue;
-            CAPTURE(program.file);
-            const std::string packedFile = std::string(program.file).insert(program.file.rfind('/') + 1, "packed_");
-            FilterRun filter(device, {}, program.file), packedFilter(device, {}, packedFile);
-            const bool counts = program.planes == 1;
+        for (const int planes : { 3, 1 }) {
+            CAPTURE(planes);
+            const bool counts = planes == 1;
+            Defines packedDefines { { "WEDGE_PACKED", "1" } };
+            if (!counts)
+                packedDefines.emplace_back("WEDGE_GATHER_VALUE_ONLY", "1");
+            FilterRun filter(device, program(planes)), packedFilter(device, program(planes, packedDefines));
             for (const Shape shape : { Shape::Tilted, Shape::Steps, Shape::Rough }) {
-                FilterImage plain = unlit(61, 29, shape, 50, program.planes), packed = plain;
+                FilterImage plain = unlit(61, 29, shape, 50, planes), packed = plain;
                 packNormals(plain, packed);
                 const FilterResult expected = filter(plain), found = packedFilter(packed);
                 int filtered = 0;
                 everyPixel(plain, [&](int x, int y) {
                     CAPTURE(x);
                     CAPTURE(y);
-                    for (std::size_t c = 0; c < static_cast<std::size_t>(program.planes); ++c) {
+                    for (std::size_t c = 0; c < static_cast<std::size_t>(planes); ++c) {
                         REQUIRE(found.value.at(x, y, c) == doctest::Approx(expected.value.at(x, y, c)).epsilon(1e-5));
                         filtered += found.value.at(x, y, c) != plain.value.at(x, y, c) ? 1 : 0;
                     }
@@ -291,7 +288,7 @@ TEST_CASE("packed programs: what the others make of the same normals, without co
 TEST_CASE("the counts alone are those of the filter")
 {
     onEveryDevice([](const device::Device& device) {
-        FilterRun filter(device, {}, "filter/filter_variance.cl");
+        FilterRun filter(device, program(1));
         for (const auto& [width, height] : { std::pair(1, 1), { 1, 40 }, { 67, 33 } })
             for (const Shape shape : { Shape::Flat, Shape::Rough }) {
                 const FilterImage image = unlit(width, height, shape, 4, 1);

@@ -1,4 +1,4 @@
-// filter_sheared.cl and shear.cl alone: gathers that follow gradients, gradients of samples, widths by counts and
+// filter.cl and shear.cl alone: gathers that follow gradients, gradients of samples, widths by counts and
 // blurs.
 #include "effects/area_lights/soft_shadows.h"
 #include "host/render/filters/filter_graph.h"
@@ -10,7 +10,7 @@ using namespace wedge::test;
 
 namespace {
 
-const char* const program = "filter/filter_sheared.cl";
+const Defines program { { "WEDGE_GATHER_SHEARED", "1" } };
 
 /// A floor of 5 cm pixels seen from above with a share of light h = 0.5 + a x^2 + b x z + c z^2 and its gradients,
 /// where filters are 2 to 3 pixels wide.
@@ -51,7 +51,7 @@ double worst(const FilterImage& image, const FilterResult& result, int margin)
 TEST_CASE("a field of second order comes out as it is, and filters without its gradients flatten it")
 {
     onEveryDevice([](const device::Device& device) {
-        FilterRun sheared(device, {}, program), plain(device);
+        FilterRun sheared(device, program), plain(device);
         FilterImage image = curvedField(0.2, -0.15, 0.3);
         const FilterResult result = sheared(image);
         const double inside = worst(image, result, 8), anywhere = worst(image, result, 0);
@@ -69,7 +69,7 @@ TEST_CASE("both passes gather what their definition in double gathers")
     onEveryDevice([](const device::Device& device) {
         for (const bool specular : { false, true }) {
             const std::size_t channels = specular ? 2 : 1;
-            FilterRun sheared(device, specular ? Defines { { "WEDGE_SPECULAR", "1" } } : Defines {}, program);
+            FilterRun sheared(device, { program.front(), { "WEDGE_GATHER_CHANNELS", specular ? "2" : "1" } });
             double left = 0;
             unsigned images = 0;
             for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough })
@@ -99,7 +99,7 @@ TEST_CASE("both passes gather what their definition in double gathers")
 TEST_CASE("without gradients the filter is the other one, bit by bit")
 {
     onEveryDevice([](const device::Device& device) {
-        FilterRun sheared(device, {}, program), plain(device);
+        FilterRun sheared(device, program), plain(device);
         for (const Shape shape : { Shape::Tilted, Shape::Steps, Shape::Rough }) {
             FilterImage image = randomImage(50, 19, shape, 7);
             image.params.fitted = 1;
@@ -118,7 +118,7 @@ TEST_CASE("without gradients the filter is the other one, bit by bit")
 TEST_CASE("NaN of what is not gathered stays there")
 {
     onEveryDevice([](const device::Device& device) {
-        FilterRun sheared(device, {}, program);
+        FilterRun sheared(device, program);
         FilterImage image = curvedField(0.2, 0.1, 0.1);
         const FilterResult clean = sheared(image);
         for (int y = 0; y < image.height(); ++y) {
@@ -143,8 +143,9 @@ TEST_CASE("gradients that samples tell are how what is seen changes where the li
     onEveryDevice([](const device::Device& device) {
         TracedScene traced(smallScene(), device, 40, 30);
         traced.primary();
-        const std::string sink = sinkOf({ render::sinks::sums(), render::sinks::scores() }, { "sums", "gradients" },
-            { graph::value("score", shared::LightScore {}) });
+        const device::ProgramSource program =
+            withSinks("light/area_light.cl", { render::sinks::sums(), render::sinks::scores() },
+                { "sums", "gradients" }, { graph::value("score", shared::LightScore {}) });
         // Gaussian, and cut where its ends are next to nothing.
         shared::AreaLight light = traced.onDevice.areaLightList[0];
         light.cut = 3;
@@ -160,8 +161,8 @@ TEST_CASE("gradients that samples tell are how what is seen changes where the li
             traced.wanted.fill(traced.bench.queue, 4096u);
             for (const std::uint32_t last : { 1024u, 4096u })
                 traced.bench.passes.tiles("samples", device::PassKind::Trace,
-                    traced.bench.passes.find("light/area_light.cl", "sampleShadows", sink), traced.params, 1.0, params,
-                    at, traced.onDevice.nodes, traced.onDevice.blocks, traced.frame.receivers(), traced.wanted, last,
+                    traced.bench.passes.find(program, "sampleShadows"), traced.params, 1.0, params, at,
+                    traced.onDevice.nodes, traced.onDevice.blocks, traced.frame.receivers(), traced.wanted, last,
                     traced.taken, traced.frame.rays, render::scoreOf(at).score, traced.sums, gradients);
             return traced.read(traced.sums);
         };

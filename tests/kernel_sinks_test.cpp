@@ -460,17 +460,20 @@ TEST_CASE("kernels alone have the sinks of first passes over pixels")
         return std::string();
     };
     CHECK(embedded("light/sink.h")
-        == withoutSpace(sinkOf({ sinks::sums(), sinks::means(), sinks::parts(), sinks::slopes() },
-            { "sums", "value", "parts", "slopes" })));
+        == withoutSpace(withSinks("light/area_light.cl",
+            { sinks::sums(), sinks::means(), sinks::parts(), sinks::slopes() }, { "sums", "value", "parts", "slopes" })
+                            .generated.at("light/sink.h")));
     CHECK(embedded("paths/sink.h")
-        == withoutSpace(sinkOf({ sinks::sums(), sinks::means(), sinks::parts(), sinks::distances() },
-            { "sums", "value", "parts", "reflectors" })));
+        == withoutSpace(
+            withSinks("paths/indirect.cl", { sinks::sums(), sinks::means(), sinks::parts(), sinks::distances() },
+                { "sums", "value", "parts", "reflectors" })
+                .generated.at("paths/sink.h")));
 }
 
 TEST_CASE("what sinks are handed are the pass's last arguments")
 {
-    CHECK_THROWS_WITH_AS(sinkOf({ sinks::sums(), sinks::means() }, { "sums" }),
+    CHECK_THROWS_WITH_AS(withSinks("light/area_light.cl", { sinks::sums(), sinks::means() }, { "sums" }),
         "pass \"samples\" hands sinks \"value\", which is not among its last arguments", std::logic_error);
-    CHECK_THROWS_WITH_AS(sinkOf({ sinks::sums() }, { "sums", "taken" }),
+    CHECK_THROWS_WITH_AS(withSinks("light/area_light.cl", { sinks::sums() }, { "sums", "taken" }),
         "pass \"samples\" hands sinks \"sums\", which is not among its last arguments", std::logic_error);
 }

@@ -1,4 +1,4 @@
-// filter_curved.cl, two_slopes.cl and light/moments.h alone: gathers that follow second derivatives, what samples tell
+// filter.cl, two_slopes.cl and light/moments.h alone: gathers that follow second derivatives, what samples tell
 // of these, and the slopes that filters of both go by.
 #include "effects/area_lights/maaf.h"
 #include "effects/area_lights/soft_shadows.h"
@@ -11,6 +11,8 @@ using namespace wedge;
 using namespace wedge::test;
 
 namespace {
+
+const Defines curvedProgram { { "WEDGE_GATHER_SHEARED", "1" }, { "WEDGE_GATHER_CURVED", "1" } };
 
 /// A share of light on a floor, a polynomial of fourth order, and its derivatives along x, z, xx, xz, zz.
 std::array<double, 6> fieldAt(double x, double z)
@@ -85,7 +87,7 @@ std::vector<std::array<double, 6>> oraclePass(
 TEST_CASE("a field of fourth order comes out as it is, which first derivatives alone leave flatter")
 {
     onEveryDevice([](const device::Device& device) {
-        FilterRun curved(device, {}, "filter/filter_curved.cl"), sheared(device, {}, "filter/filter_sheared.cl");
+        FilterRun curved(device, curvedProgram), sheared(device, { { "WEDGE_GATHER_SHEARED", "1" } });
         FilterImage image = curvedField();
         image.slopeWidth = Planes<float>(image.value.layout, 1, 1.0f); // s = 1
         const auto worst = [&](const FilterResult& result) {
@@ -114,7 +116,7 @@ TEST_CASE("a field of fourth order comes out as it is, which first derivatives a
 TEST_CASE("both passes of the filter pass polynomials on as their definition in double does")
 {
     onEveryDevice([](const device::Device& device) {
-        FilterRun curved(device, {}, "filter/filter_curved.cl");
+        FilterRun curved(device, curvedProgram);
         FilterImage image = curvedField();
         image.params.cut = 6;
         image.params.maxRadius = 6;
@@ -148,8 +150,9 @@ TEST_CASE("fitted lines, narrower pairs and what is left out are as in the filte
     onEveryDevice([](const device::Device& device) {
         for (const bool specular : { false, true }) {
             const std::size_t channels = specular ? 2 : 1;
-            FilterRun curved(
-                device, specular ? Defines { { "WEDGE_SPECULAR", "1" } } : Defines {}, "filter/filter_curved.cl");
+            Defines defines = curvedProgram;
+            defines.emplace_back("WEDGE_GATHER_CHANNELS", specular ? "2" : "1");
+            FilterRun curved(device, defines);
             double left = 0;
             unsigned images = 0;
             for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough })
@@ -180,7 +183,7 @@ TEST_CASE("fitted lines, narrower pairs and what is left out are as in the filte
 TEST_CASE("NaN of moments that are not gathered stays there")
 {
     onEveryDevice([](const device::Device& device) {
-        FilterRun curved(device, {}, "filter/filter_curved.cl");
+        FilterRun curved(device, curvedProgram);
         FilterImage image = curvedField();
         const FilterResult clean = curved(image);
         for (int y = 0; y < image.height(); ++y)
@@ -203,8 +206,9 @@ TEST_CASE("moments that samples tell are how what is seen changes where the ligh
     onEveryDevice([](const device::Device& device) {
         TracedScene traced(smallScene(), device, 40, 30);
         traced.primary();
-        const std::string sink = sinkOf({ render::sinks::sums(), render::sinks::moments() }, { "sums", "moments" },
-            { graph::value("scores", shared::LightMoments {}) });
+        const device::ProgramSource program =
+            withSinks("light/area_light.cl", { render::sinks::sums(), render::sinks::moments() }, { "sums", "moments" },
+                { graph::value("scores", shared::LightMoments {}) });
         shared::AreaLight light = traced.onDevice.areaLightList[0];
         light.cut = 3; // its ends are next to nothing
         // Turned, so that shadows of boxes have mixed derivatives.
@@ -222,8 +226,8 @@ TEST_CASE("moments that samples tell are how what is seen changes where the ligh
             moments.fill(traced.bench.queue, 0.0f);
             for (const std::uint32_t last : { 1024u, 16384u })
                 traced.bench.passes.tiles("samples", device::PassKind::Trace,
-                    traced.bench.passes.find("light/area_light.cl", "sampleShadows", sink), traced.params, 1.0, params,
-                    at, traced.onDevice.nodes, traced.onDevice.blocks, traced.frame.receivers(), traced.wanted, last,
+                    traced.bench.passes.find(program, "sampleShadows"), traced.params, 1.0, params, at,
+                    traced.onDevice.nodes, traced.onDevice.blocks, traced.frame.receivers(), traced.wanted, last,
                     traced.taken, traced.frame.rays, render::momentsOf(at), traced.sums, moments);
             return traced.read(traced.sums);
         };

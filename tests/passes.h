@@ -27,10 +27,10 @@ public:
 
     /// A pass over the tiles of frame's rectangle. The kernel takes FrameParams first and firstGroup last.
     template <class... Args>
-    void tiles(std::string_view pass, device::PassKind kind, const std::string& file, const std::string& kernel,
-        shared::FrameParams frame, double workUnits, const Args&... args)
+    void tiles(std::string_view pass, device::PassKind kind, const device::ProgramSource& program,
+        const std::string& kernel, shared::FrameParams frame, double workUnits, const Args&... args)
     {
-        tiles(pass, kind, find(file, kernel), frame, workUnits, args...);
+        tiles(pass, kind, find(program, kernel), frame, workUnits, args...);
     }
     template <class... Args>
     void tiles(std::string_view pass, device::PassKind kind, device::Kernel& k, shared::FrameParams frame,
@@ -45,10 +45,10 @@ public:
     /// A pass over blocks of 16 pixels of a row (`across` = 16), or over pixels (`across` = 1). The kernel takes
     /// Params, which have the rectangle, first. Large images go in bands of rows, so that no launch is long.
     template <class Params, class... Args>
-    void rows(std::string_view pass, device::PassKind kind, const std::string& file, const std::string& kernel,
-        Params params, std::uint32_t across, const Args&... args)
+    void rows(std::string_view pass, device::PassKind kind, const device::ProgramSource& program,
+        const std::string& kernel, Params params, std::uint32_t across, const Args&... args)
     {
-        device::Kernel& k = find(file, kernel);
+        device::Kernel& k = find(program, kernel);
         const std::size_t columns = (params.x1 - params.x0 + across - 1) / across;
         const std::size_t local = localSize(k, 64);
         const std::size_t localX = std::min<std::size_t>(local, across == 1 ? 16 : 4);
@@ -65,18 +65,18 @@ public:
     /// A pass over `items` items of a list. The kernel takes FrameParams first, and tests for the end itself. Its time
     /// is all that is recorded.
     template <class... Args>
-    void list(std::string_view pass, device::PassKind kind, const std::string& file, const std::string& kernel,
-        std::size_t items, shared::FrameParams frame, const Args&... args)
+    void list(std::string_view pass, device::PassKind kind, const device::ProgramSource& program,
+        const std::string& kernel, std::size_t items, shared::FrameParams frame, const Args&... args)
     {
-        device::Kernel& k = find(file, kernel);
+        device::Kernel& k = find(program, kernel);
         k.setArgs(frame, args...);
         queue_.launch(pass, kind, k, items, localSize(k, listGroup));
     }
 
-    /// The kernel, compiled when first asked for; one instance a name and a sink, as graph::Kernels has them.
-    device::Kernel& find(const std::string& file, const std::string& kernel, const std::string& sink = {})
+    /// The kernel, compiled when first asked for.
+    device::Kernel& find(const device::ProgramSource& program, const std::string& kernel)
     {
-        return kernels_.find(file, kernel, sink);
+        return kernels_.find(program, kernel);
     }
 
 private:

@@ -27,7 +27,7 @@
 
 namespace wedge::test {
 
-using Defines = std::vector<std::pair<std::string, std::string>>;
+using device::Defines;
 
 /// Kernels to test in place of the embedded ones; "" unless WEDGE_TEST_KERNEL_DIR names a folder.
 inline std::string kernelDir()

@@ -62,17 +62,17 @@ private:
     }
 };
 
-/// sink.h of a kernel whose samples go to these sinks, which are handed values, and planes of floats of these names.
-inline std::string sinkOf(const std::vector<graph::Sink>& sinks, const std::vector<std::string>& planes,
-    const std::vector<graph::Argument>& values = {})
+/// The program of a file whose samples go to these sinks, which are handed values, and planes of floats of these names.
+inline device::ProgramSource withSinks(const std::string& file, const std::vector<graph::Sink>& sinks,
+    const std::vector<std::string>& planes, const std::vector<graph::Argument>& values = {})
 {
     graph::Graph graph(1, 1, 1);
-    graph::Pass pass { .name = "samples", .kernel = { "", "", sinks }, .arguments = values };
+    graph::Pass pass { .name = "samples", .kernel = { file, "", sinks }, .arguments = values };
     for (const std::string& name : planes) {
         auto plane = graph.plane<render::Sums>(name, graph::floats);
         pass.arguments.push_back(graph::updates(name, plane));
     }
-    return graph::sinkText(graph, pass);
+    return graph::programOf(graph, pass);
 }
 
 /// One scene's buffers, and the tracing kernels over them as the renderer launches them.
@@ -125,11 +125,10 @@ public:
     void secondPass(const shared::SampleParams& p, std::uint32_t last)
     {
         namespace sinks = render::sinks;
-        const std::string sink =
-            sinkOf({ sinks::sums(), sinks::means(), sinks::parts() }, { "sums", "value", "parts" });
-        bench.passes.tiles("second", device::PassKind::Trace,
-            bench.passes.find("light/area_light.cl", "sampleShadows", sink), params, 1.0, p,
-            onDevice.areaLightList[p.light], onDevice.nodes, onDevice.blocks, frame.receivers(), wanted, last, taken,
+        const device::ProgramSource program = withSinks(
+            "light/area_light.cl", { sinks::sums(), sinks::means(), sinks::parts() }, { "sums", "value", "parts" });
+        bench.passes.tiles("second", device::PassKind::Trace, bench.passes.find(program, "sampleShadows"), params, 1.0,
+            p, onDevice.areaLightList[p.light], onDevice.nodes, onDevice.blocks, frame.receivers(), wanted, last, taken,
             frame.rays, sums, value, parts);
     }
     template <class T>

@@ -108,14 +108,13 @@ public:
                     "widening", [](const Run& run) { return !run.cut(); }, [&] { widened(); });
             }
             if (maaf_) {
-                shearedFilter(f_, { "filter", PassKind::Filter, "filter/filter_curved.cl" }, channels_,
+                shearedFilter(f_, { "filter", PassKind::Filter }, channels_,
                     withTwoSlopes(filterParams(), analysisParams(), light_), value_, beta_, *shearing, filtered);
             } else if (shearing) {
-                shearedFilter(f_, { "filter", PassKind::Filter, "filter/filter_sheared.cl" }, channels_,
+                shearedFilter(f_, { "filter", PassKind::Filter }, channels_,
                     withShear(filterParams(), analysisParams(), light_), value_, beta_, *shearing, filtered);
             } else {
-                gaussianFilter(f_, { "filter", PassKind::Filter, "filter/filter.cl" }, channels_, filterParams(),
-                    value_, beta_, filtered);
+                gaussianFilter(f_, { "filter", PassKind::Filter }, channels_, filterParams(), value_, beta_, filtered);
             }
         });
         // Not in that group: what is added up need not be there before it.
@@ -251,7 +250,7 @@ Shearing LightGraph::shears()
         f_.pixels("filter", PassKind::Filter, { "analysis/two_slopes.cl", "widthOfMeanSlope" },
             { p, reads("ratio", ratio_), updates("slopeWidth", slopeWidth) });
     }
-    return { gradients_, slopeWidth, gradientsFormat() };
+    return { gradients_, slopeWidth, gradientsFormat(), twoSlopes() };
 }
 
 void LightGraph::firstPass()
@@ -327,8 +326,8 @@ void LightGraph::countsFromVariance()
     if (s_.filtering == Filtering::None) {
         f_.fill("ones", effective, 1.0f);
     } else {
-        const Gathered gathered = gaussianFilter(f_, { "filter of first pass", PassKind::Analysis, "filter/filter.cl" },
-            channels_, filterParams(), visibility, beta_);
+        const Gathered gathered = gaussianFilter(
+            f_, { "filter of first pass", PassKind::Analysis }, channels_, filterParams(), visibility, beta_);
         visibility = gathered.value;
         effective = gathered.effective;
     }

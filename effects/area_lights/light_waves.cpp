@@ -143,9 +143,7 @@ graph::Handle<Value> LightWaves::filtered(const shared::DistributedParams& param
         widen("filter", params, filter, settings().widening);
     }
     const graph::Handle<Value> seen = visibility("filter", params);
-    graph::Handle<Value> out =
-        gaussianFilter(f_, { "filter", PassKind::Filter, "filter/filter_variance.cl" }, 1, filter, seen, means.beta)
-            .value;
+    graph::Handle<Value> out = gaussianFilter(f_, { "filter", PassKind::Filter }, 1, filter, seen, means.beta).value;
     if (shape_.geometryMoves && settings().distributed.blur) {
         out = alongShadows(params, out);
     }

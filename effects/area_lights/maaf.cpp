@@ -173,7 +173,8 @@ void componentFilter(FrameBuilder& frame, const shared::FilterParams& params, co
     const graph::Reach around { .x = pixels, .y = pixels };
     const Surfaces& s = frame.surfaces;
     frame.blocks("filter", PassKind::Filter,
-        { fmt::format("filter/filter_components{}.cl", settings.components), "filterComponents" },
+        { "filter/components.cl", "filterComponents", {},
+            { { "WEDGE_COMPONENTS", std::to_string(settings.components) } } },
         { frame.rectangle(params), value("light", axesOf(light, settings.components)),
             value("slopesPerWidth", analysis.k * analysis.mu / analysis.sigma),
             value("floorPerPixel", 1.0f / (analysis.alpha * analysis.sigma)),

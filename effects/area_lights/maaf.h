@@ -66,7 +66,7 @@ struct ComponentTerm {
 /// The gather's parameters of components: neighbours as the paper has them.
 shared::FilterParams withComponents(shared::FilterParams params);
 
-/// Declares the filter of components (kernels/filter/components.h) into planes that were there. params: of
+/// Declares the filter of components (kernels/filter/components.cl) into planes that were there. params: of
 /// withComponents(). parts: planes of componentsLayer(); null where nobody wants them
 void componentFilter(FrameBuilder& frame, const shared::FilterParams& params, const shared::AnalysisParams& analysis,
     const shared::AreaLight& light, const graph::Handle<Value>& shown, const graph::Handle<Metres>& beta,

@@ -122,16 +122,12 @@ public:
         params.fitted = std::min(params.fitted, channels); // of the variance the mean, which is not negative
         const std::uint32_t planes = varies() ? channels + 1 : channels;
         if (byCurvature()) {
-            const char* program = varies() ? "filter/filter_axes_paths.cl" : "filter/filter_axes.cl";
             addFiltered(
-                gaussianFilter(f_, { "filter of indirect", PassKind::Filter, program }, planes, params, value_, axes_)
-                    .value);
+                gaussianFilter(f_, { "filter of indirect", PassKind::Filter }, planes, params, value_, axes_).value);
             return;
         }
-        const char* program = varies() ? "filter/filter_paths.cl" : "filter/filter_indirect.cl";
         addFiltered(
-            gaussianFilter(f_, { "filter of indirect", PassKind::Filter, program }, planes, params, value_, beta_)
-                .value);
+            gaussianFilter(f_, { "filter of indirect", PassKind::Filter }, planes, params, value_, beta_).value);
     }
 
 private:

@@ -103,9 +103,8 @@ graph::Handle<Value> PathWaves::filtered(const shared::DistributedParams& params
         f_.pixels("filter of indirect", PassKind::Filter, { "waves/distributed.cl", "unpackImage" },
             { f_.rectangle(of(params)), reads("in", means.value), writes("out", plain) });
     }
-    graph::Handle<Value> out = gaussianFilter(
-        f_, { "filter of indirect", PassKind::Filter, "filter/filter_indirect.cl" }, 3, filter, plain, means.beta)
-                                   .value;
+    graph::Handle<Value> out =
+        gaussianFilter(f_, { "filter of indirect", PassKind::Filter }, 3, filter, plain, means.beta).value;
     fallBack(params, &filter, out);
     return out;
 }

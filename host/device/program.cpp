@@ -78,14 +78,26 @@ std::string remedyOfFailure(const std::string& kernelDir)
     return kernelDir.empty() ? "update the driver or choose another device, or report it" : "correct the kernel";
 }
 
-void requirePlain(const std::string& text)
+void requirePlain(const Defines& defines)
 {
-    if (text.find_first_of(" \t\n\"'\\") != std::string::npos) {
-        throw Error("build option", text, "write defines without blanks and quotes, which drivers split differently");
+    for (const auto& [name, value] : defines) {
+        for (const std::string& text : { name, value }) {
+            if (text.find_first_of(" \t\n\"'\\") != std::string::npos) {
+                throw Error(
+                    "build option", text, "write defines without blanks and quotes, which drivers split differently");
+            }
+        }
     }
 }
 
 } // namespace
+
+std::string textOf(const BuildOptions& options, const ProgramSource& source)
+{
+    GeneratedSources generated = options.generated;
+    generated.insert(source.generated.begin(), source.generated.end());
+    return flattenKernel(options.kernelDir, source.file, generated).text;
+}
 
 std::string compilerEnvironment()
 {
@@ -105,25 +117,21 @@ ProgramLibrary::ProgramLibrary(const Device& device, BuildOptions options)
     , options_(std::move(options))
     , disk_(ProgramCache::fromEnvironment())
 {
-    for (const auto& [name, value] : options_.defines) {
-        requirePlain(name);
-        requirePlain(value);
-    }
+    requirePlain(options_.defines);
 }
 
-cl::Program& ProgramLibrary::program(const std::string& file, const GeneratedSources& more)
+cl::Program& ProgramLibrary::program(const ProgramSource& source)
 {
-    const auto found = programs_.find({ file, more });
-    return found != programs_.end() ? found->second
-                                    : programs_.emplace(std::pair(file, more), obtain(file, more)).first->second;
+    const auto found = programs_.find(source);
+    return found != programs_.end() ? found->second : programs_.emplace(source, obtain(source)).first->second;
 }
 
-Kernel ProgramLibrary::kernel(const std::string& file, const std::string& name, const GeneratedSources& more)
+Kernel ProgramLibrary::kernel(const ProgramSource& source, const std::string& name)
 {
-    return Kernel(device_, program(file, more), file, name);
+    return Kernel(device_, program(source), source.file, name);
 }
 
-std::string ProgramLibrary::optionsString() const
+std::string ProgramLibrary::optionsString(const Defines& defines) const
 {
     std::string text = "-cl-std=CL1.2";
     if (options_.kernelDir.empty()) {
@@ -136,30 +144,31 @@ std::string ProgramLibrary::optionsString() const
     } else if (device_.info().exactDivision) {
         text += exactDivisionOption;
     }
-    for (const auto& [name, value] : options_.defines) {
-        text += value.empty() ? fmt::format(" -D{}", name) : fmt::format(" -D{}={}", name, value);
+    for (const Defines* of : { &options_.defines, &defines }) {
+        for (const auto& [name, value] : *of) {
+            text += value.empty() ? fmt::format(" -D{}", name) : fmt::format(" -D{}={}", name, value);
+        }
     }
     return text;
 }
 
-cl::Program ProgramLibrary::obtain(const std::string& file, const GeneratedSources& more)
+cl::Program ProgramLibrary::obtain(const ProgramSource& source)
 {
-    GeneratedSources generated = options_.generated;
-    generated.insert(more.begin(), more.end());
-    const std::string source = flattenKernel(options_.kernelDir, file, generated).text;
+    requirePlain(source.defines);
+    const std::string text = textOf(options_, source);
     const DriverCache::Mark mark;
     if (driverKeepsKernels(device_.info().platformVersion)) {
         ++compiled_;
-        return compile(file, source);
+        return compile(source, text);
     }
-    const std::string key = cacheKey(source);
+    const std::string key = cacheKey(source.defines, text);
     if (const auto binary = disk_.load(key)) {
-        if (cl::Program program; load(*binary, program)) {
+        if (cl::Program program; load(*binary, source.defines, program)) {
             ++loaded_;
             return program;
         }
     }
-    cl::Program program = compile(file, source);
+    cl::Program program = compile(source, text);
     ++compiled_;
     try {
         disk_.store(key, program.getInfo<CL_PROGRAM_BINARIES>().at(0));
@@ -169,51 +178,51 @@ cl::Program ProgramLibrary::obtain(const std::string& file, const GeneratedSourc
     return program;
 }
 
-cl::Program ProgramLibrary::compile(const std::string& file, const std::string& source)
+cl::Program ProgramLibrary::compile(const ProgramSource& source, const std::string& text)
 {
-    return checked("program " + file, device_.info().name, [&] {
-        cl::Program program(device_.context(), source);
+    return checked("program " + source.file, device_.info().name, [&] {
+        cl::Program program(device_.context(), text);
         try {
-            program.build(device_.cl(), optionsString().c_str());
+            program.build(device_.cl(), optionsString(source.defines).c_str());
         } catch (const cl::Error& error) {
             if (error.err() != CL_BUILD_PROGRAM_FAILURE) {
                 throw;
             }
-            reportFailure(file, source, namePlaces(program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_.cl()), source));
+            reportFailure(source, text, namePlaces(program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_.cl()), text));
         }
         return program;
     });
 }
 
-bool ProgramLibrary::load(const ProgramCache::Binary& binary, cl::Program& program)
+bool ProgramLibrary::load(const ProgramCache::Binary& binary, const Defines& defines, cl::Program& program)
 {
     try {
         program = cl::Program(device_.context(), { device_.cl() }, cl::Program::Binaries { binary });
-        program.build(device_.cl(), optionsString().c_str());
+        program.build(device_.cl(), optionsString(defines).c_str());
         return true;
     } catch (const cl::Error&) {
         return false; // drivers may refuse binaries at any time; the source is at hand
     }
 }
 
-std::string ProgramLibrary::cacheKey(const std::string& source) const
+std::string ProgramLibrary::cacheKey(const Defines& defines, const std::string& text) const
 {
     const DeviceInfo& info = device_.info();
     return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", info.platform, info.platformVersion, info.name,
-        info.vendor, info.deviceVersion, info.driver, optionsString(), compilerEnvironment(), source);
+        info.vendor, info.deviceVersion, info.driver, optionsString(defines), compilerEnvironment(), text);
 }
 
-void ProgramLibrary::reportFailure(const std::string& file, const std::string& source, const std::string& log) const
+void ProgramLibrary::reportFailure(const ProgramSource& source, const std::string& text, const std::string& log) const
 {
-    const std::string report =
-        writeTemporary(fmt::format("program: {}\ndevice: {} ({}, driver {})\noptions: {}\n\n{}\n\n{}", file,
-            device_.info().name, device_.info().platform, device_.info().driver, optionsString(), log, source));
+    const std::string report = writeTemporary(fmt::format(
+        "program: {}\ndevice: {} ({}, driver {})\noptions: {}\n\n{}\n\n{}", source.file, device_.info().name,
+        device_.info().platform, device_.info().driver, optionsString(source.defines), log, text));
     const std::string remedy = remedyOfFailure(options_.kernelDir);
-    std::string options = optionsString();
+    std::string options = optionsString(source.defines);
     if (const auto at = options.find(exactDivisionOption); at != std::string::npos) {
         options.erase(at, exactDivisionOption.size()); // one line has to hold the place in the kernel
     }
-    throw Error(fmt::format("program {} does not build on {} with {}", file, device_.info().name, options),
+    throw Error(fmt::format("program {} does not build on {} with {}", source.file, device_.info().name, options),
         firstError(log), report.empty() ? remedy : remedy + "; whole log and source are in " + report);
 }
 

@@ -12,13 +12,40 @@
 
 namespace wedge::device {
 
+/// Names and values that a compiler is handed; no blanks or quotes in either.
+using Defines = std::vector<std::pair<std::string, std::string>>;
+
 /// How programs are built.
 struct BuildOptions {
-    std::vector<std::pair<std::string, std::string>> defines; ///< name and value; no blanks or quotes in either
+    Defines defines;
     bool fastMath = false; ///< -cl-fast-relaxed-math: other results, to be recorded with the image
     std::string kernelDir; ///< looked in before the embedded sources, for editing kernels; "" for none
     GeneratedSources generated {}; ///< what includes name and no file holds
 };
+
+/// What one program is made of, besides the options of all.
+struct ProgramSource {
+    ProgramSource() = default;
+    /// Implicit: a file alone is a program.
+    ProgramSource(const char* name)
+        : file(name)
+    {
+    }
+    ProgramSource(std::string name, Defines with = {}, GeneratedSources made = {})
+        : file(std::move(name))
+        , defines(std::move(with))
+        , generated(std::move(made))
+    {
+    }
+
+    std::string file; ///< of kernels/, "frame/primary.cl"
+    Defines defines; ///< what tells it from others of that file
+    GeneratedSources generated;
+    auto operator<=>(const ProgramSource&) const = default;
+};
+
+/// Its text, flattened (source.h), by options. Throws what flattenKernel() does.
+std::string textOf(const BuildOptions& options, const ProgramSource& source);
 
 /// The environment's settings for a driver's compiler, which a binary depends on as on the options: without them
 /// someone who compares two settings would measure one binary twice.
@@ -31,33 +58,32 @@ class ProgramLibrary {
 public:
     ProgramLibrary(const Device& device, BuildOptions options);
 
-    /// The program of a file of kernels/, "frame/primary.cl"; valid as long as the library. more: generated sources
-    /// besides those of the options. Throws Error if a file is missing or does not compile: the message has the device,
-    /// the options and the first error, and names a file in the temporary folder with the whole log and the flattened
-    /// source.
-    cl::Program& program(const std::string& file, const GeneratedSources& more = {});
+    /// The program; valid as long as the library. Throws Error if a file is missing or does not compile: the message
+    /// has the device, the options and the first error, and names a file in the temporary folder with the whole log and
+    /// the flattened source.
+    cl::Program& program(const ProgramSource& source);
 
     /// A new kernel, with arguments of its own, of that program.
-    Kernel kernel(const std::string& file, const std::string& name, const GeneratedSources& more = {});
+    Kernel kernel(const ProgramSource& source, const std::string& name);
 
-    /// What the compiler is called with, "-cl-std=CL1.2 -DNAME=VALUE".
-    std::string optionsString() const;
+    /// What the compiler is called with, "-cl-std=CL1.2 -DNAME=VALUE". defines: of a program, after those of all.
+    std::string optionsString(const Defines& defines = {}) const;
 
     /// Programs compiled from source (or fetched from the driver's own cache by it), and loaded from the disk, so far.
     unsigned compiled() const { return compiled_; }
     unsigned loaded() const { return loaded_; }
 
 private:
-    cl::Program obtain(const std::string& file, const GeneratedSources& more);
-    cl::Program compile(const std::string& file, const std::string& source);
-    bool load(const ProgramCache::Binary& binary, cl::Program& program);
-    std::string cacheKey(const std::string& source) const;
-    [[noreturn]] void reportFailure(const std::string& file, const std::string& source, const std::string& log) const;
+    cl::Program obtain(const ProgramSource& source);
+    cl::Program compile(const ProgramSource& source, const std::string& text);
+    bool load(const ProgramCache::Binary& binary, const Defines& defines, cl::Program& program);
+    std::string cacheKey(const Defines& defines, const std::string& text) const;
+    [[noreturn]] void reportFailure(const ProgramSource& source, const std::string& text, const std::string& log) const;
 
     Device device_;
     BuildOptions options_;
     ProgramCache disk_;
-    std::map<std::pair<std::string, GeneratedSources>, cl::Program> programs_;
+    std::map<ProgramSource, cl::Program> programs_;
     unsigned compiled_ = 0;
     unsigned loaded_ = 0;
 };

@@ -43,18 +43,12 @@ void requireApart(const Plan& plan)
 
 } // namespace
 
-device::Kernel& Kernels::find(const std::string& file, const std::string& kernel, const std::string& sink)
+device::Kernel& Kernels::find(const device::ProgramSource& program, const std::string& kernel)
 {
-    const std::string key = fmt::format("{}:{}:{}", file, kernel, sink);
+    const std::pair key(program, kernel);
     const auto found = kernels_.find(key);
-    if (found != kernels_.end()) {
-        return found->second;
-    }
-    device::GeneratedSources generated;
-    if (!sink.empty()) {
-        generated.emplace(file.substr(0, file.rfind('/') + 1) + "sink.h", sink);
-    }
-    return kernels_.emplace(key, library_.kernel(file, kernel, generated)).first->second;
+    return found != kernels_.end() ? found->second
+                                   : kernels_.emplace(key, library_.kernel(program, kernel)).first->second;
 }
 
 void Memory::hold(const std::vector<std::uint64_t>& slabs)
@@ -225,7 +219,7 @@ void Execution::launch(Run& run, const PlannedPass& planned)
         return;
     }
     const Pass& pass = *planned.pass;
-    device::Kernel& kernel = kernels_.find(pass.kernel.file, pass.kernel.name, pass.sink);
+    device::Kernel& kernel = kernels_.find(pass.program, pass.kernel.name);
     const bool tiles = pass.domain == Domain::Tiles;
     kernel.requireCount(pass.arguments.size() + (tiles ? 1 : 0));
     if (pass.domain == Domain::Pixels || pass.domain == Domain::Blocks) {
@@ -248,7 +242,7 @@ void Execution::launch(Run& run, const PlannedPass& planned)
 Trial Execution::trialOf(Run& run, const PlannedPass& planned) const
 {
     const Pass& pass = *planned.pass;
-    Trial trial { pass.kernel.file, pass.kernel.name, pass.sink, pass.domain };
+    Trial trial { pass.program, pass.kernel.name, pass.domain };
     Window covered = nothing(planned.window);
     if (pass.domain == Domain::Tiles) {
         trial.items = std::max<std::size_t>(pass.count({ run, planned.window }), 1);
@@ -279,7 +273,7 @@ void Execution::rehearse(Run& run, const PlannedPass& planned)
         return;
     }
     const Pass& pass = *planned.pass;
-    device::Kernel& kernel = kernels_.find(pass.kernel.file, pass.kernel.name, pass.sink);
+    device::Kernel& kernel = kernels_.find(pass.program, pass.kernel.name);
     kernel.requireCount(pass.arguments.size() + (pass.domain == Domain::Tiles ? 1 : 0));
     setArguments(run, kernel, planned, nothing(planned.window));
     graph::launch(queue_, pass.name, pass.kind, kernel, trial);

@@ -20,12 +20,11 @@ public:
         : library_(library)
     {
     }
-    /// sink: of a kernel that takes samples, see sinkText(); empty: the one beside its file, or none.
-    device::Kernel& find(const std::string& file, const std::string& kernel, const std::string& sink = {});
+    device::Kernel& find(const device::ProgramSource& program, const std::string& kernel);
 
 private:
     device::ProgramLibrary& library_;
-    std::map<std::string, device::Kernel> kernels_;
+    std::map<std::pair<device::ProgramSource, std::string>, device::Kernel> kernels_;
 };
 
 /// Device memory that plans have in turn.

@@ -50,9 +50,7 @@ void Graph::add(Pass pass)
         }
         use.handle = nullptr; // which need not live on
     }
-    if (!pass.kernel.sinks.empty()) {
-        pass.sink = sinkText(*this, pass);
-    }
+    pass.program = programOf(*this, pass);
     passes_.push_back(std::move(pass));
 }
 

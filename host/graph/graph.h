@@ -4,6 +4,7 @@
 #pragma once
 
 #include "host/device/kernel.h"
+#include "host/device/program.h"
 #include "host/device/queue.h"
 #include "host/graph/format.h"
 #include "host/window.h"
@@ -155,11 +156,13 @@ struct Sink {
     std::string file, name;
     std::vector<std::string> begin = {}, take = {}, finish = {};
     bool onlyFinishes = false; ///< it keeps nothing, and has no other function
+    device::Defines defines = {}; ///< what its header is compiled with
 };
 
 struct KernelName {
     std::string file, name;
     std::vector<Sink> sinks = {}; ///< of kernels that have any; what they are handed are the pass's last arguments
+    device::Defines defines = {}; ///< what tells its program from others of the file
 };
 
 /// One step of a frame.
@@ -175,7 +178,7 @@ struct Pass {
     std::size_t mostOfGroup = 16; ///< of a list: items of a work-group
     std::function<double(const Launch&)> workUnits = {}; ///< of the frame's progress: tiles
     std::function<void(Run&)> step = {}; ///< of the host
-    std::string sink = {}; ///< sinkText() of the kernel's sinks: the graph's to say
+    device::ProgramSource program = {}; ///< the kernel's: the graph's to say
     bool everywhere = false; ///< covers the whole image whatever part of its results is wanted
     /// Makes one resource and reads none: it is run right before the first pass that uses what it makes, so that memory
     /// is not taken before.

@@ -133,6 +133,19 @@ std::string sinkText(const Graph& graph, const Pass& pass)
         + sinkFunction(pass, "finish", "finishReceivers", &Sink::finish, "", unused);
 }
 
+device::ProgramSource programOf(const Graph& graph, const Pass& pass)
+{
+    const KernelName& kernel = pass.kernel;
+    device::ProgramSource out(kernel.file, kernel.defines);
+    if (!kernel.sinks.empty()) {
+        out.generated.emplace(kernel.file.substr(0, kernel.file.rfind('/') + 1) + "sink.h", sinkText(graph, pass));
+    }
+    for (const Sink& sink : kernel.sinks) {
+        out.defines.insert(out.defines.end(), sink.defines.begin(), sink.defines.end());
+    }
+    return out;
+}
+
 device::GeneratedSources interfaces(const Graph& graph)
 {
     device::GeneratedSources out;

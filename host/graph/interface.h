@@ -20,6 +20,9 @@ std::string interfaceText(const Graph& graph, const Pass& pass);
 /// as interfaceText() does.
 std::string sinkText(const Graph& graph, const Pass& pass);
 
+/// What the pass's kernel is compiled from. Throws as sinkText() does.
+device::ProgramSource programOf(const Graph& graph, const Pass& pass);
+
 /// The interfaces of all kernels of the graph, each as "pass/KERNEL.h", to be included before the kernel. Throws
 /// std::logic_error where two passes hand one kernel different things.
 device::GeneratedSources interfaces(const Graph& graph);

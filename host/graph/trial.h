@@ -13,7 +13,8 @@ namespace wedge::graph {
 
 /// What a pass launches in a rehearsal, as any process can: nothing in it depends on memory.
 struct Trial {
-    std::string file {}, kernel {}, sink {}; ///< as Kernels::find() has them
+    device::ProgramSource program {}; ///< and kernel: as Kernels::find() has them
+    std::string kernel {};
     Domain domain = Domain::Items; ///< Pixels and Blocks: rows
     std::vector<std::vector<std::byte>> arguments {}; ///< values; empty: memory
     std::size_t columns = 0, rows = 0; ///< of rows: items each way

@@ -48,33 +48,53 @@ json bytesOf(const std::vector<std::byte>& value)
     return json::binary({ bytes, bytes + value.size() });
 }
 
+std::map<std::string, std::string> toJson(const device::GeneratedSources& sources)
+{
+    return { sources.begin(), sources.end() };
+}
+
+device::GeneratedSources sourcesFrom(const json& j)
+{
+    device::GeneratedSources out;
+    for (const auto& [name, text] : j.items()) {
+        out.emplace(name, text.get<std::string>());
+    }
+    return out;
+}
+
+json toJson(const device::ProgramSource& source) { return { source.file, source.defines, toJson(source.generated) }; }
+
+device::ProgramSource sourceFrom(const json& j)
+{
+    return { j.at(0), j.at(1).get<device::Defines>(), sourcesFrom(j.at(2)) };
+}
+
 json toJson(const graph::Trial& t)
 {
     json arguments = json::array();
     for (const std::vector<std::byte>& value : t.arguments) {
         arguments.push_back(bytesOf(value));
     }
-    return { t.file, t.kernel, t.sink, static_cast<int>(t.domain), std::move(arguments), t.columns, t.rows,
+    return { toJson(t.program), t.kernel, static_cast<int>(t.domain), std::move(arguments), t.columns, t.rows,
         t.columnsOfGroup, t.items, t.itemsOfGroup };
 }
 
 graph::Trial trialFrom(const json& j)
 {
     graph::Trial t;
-    t.file = j.at(0);
+    t.program = sourceFrom(j.at(0));
     t.kernel = j.at(1);
-    t.sink = j.at(2);
-    t.domain = static_cast<graph::Domain>(j.at(3).get<int>());
-    for (const json& value : j.at(4)) {
+    t.domain = static_cast<graph::Domain>(j.at(2).get<int>());
+    for (const json& value : j.at(3)) {
         const auto& binary = value.get_binary();
         const auto* bytes = reinterpret_cast<const std::byte*>(binary.data());
         t.arguments.emplace_back(bytes, bytes + binary.size());
     }
-    t.columns = j.at(5);
-    t.rows = j.at(6);
-    t.columnsOfGroup = j.at(7);
-    t.items = j.at(8);
-    t.itemsOfGroup = j.at(9);
+    t.columns = j.at(4);
+    t.rows = j.at(5);
+    t.columnsOfGroup = j.at(6);
+    t.items = j.at(7);
+    t.itemsOfGroup = j.at(8);
     if (t.itemsOfGroup == 0 || (t.rows > 0 && t.columnsOfGroup == 0)) {
         throw std::runtime_error("work-groups of no items");
     }
@@ -92,9 +112,7 @@ json toJson(const CompileWork& work)
         programs.push_back(std::move(trials));
     }
     return { { "device", work.device }, { "defines", work.options.defines }, { "fastMath", work.options.fastMath },
-        { "kernelDir", work.options.kernelDir },
-        { "generated",
-            std::map<std::string, std::string>(work.options.generated.begin(), work.options.generated.end()) },
+        { "kernelDir", work.options.kernelDir }, { "generated", toJson(work.options.generated) },
         { "mostBytes", work.mostBytes }, { "programs", std::move(programs) } };
 }
 
@@ -105,9 +123,7 @@ CompileWork workFrom(const json& j)
     work.options.defines = j.at("defines");
     work.options.fastMath = j.at("fastMath");
     work.options.kernelDir = j.at("kernelDir");
-    for (const auto& [name, text] : j.at("generated").items()) {
-        work.options.generated.emplace(name, text.get<std::string>());
-    }
+    work.options.generated = sourcesFrom(j.at("generated"));
     work.mostBytes = j.at("mostBytes");
     for (const json& program : j.at("programs")) {
         std::vector<graph::Trial>& trials = work.programs.emplace_back();
@@ -207,16 +223,6 @@ bool endsWell(pid_t process, Clock::time_point until)
     }
 }
 
-/// The program's text, with what its sinks are.
-std::string textOf(const device::BuildOptions& options, const std::string& file, const std::string& sink)
-{
-    device::GeneratedSources generated = options.generated;
-    if (!sink.empty()) {
-        generated.emplace(file.substr(0, file.rfind('/') + 1) + "sink.h", sink);
-    }
-    return device::flattenKernel(options.kernelDir, file, generated).text;
-}
-
 void compile(SharedWork& shared, const CompileWork& work, device::TimedQueue& queue, graph::Kernels& kernels)
 {
     const std::vector<std::vector<graph::Trial>>& programs = work.programs;
@@ -224,7 +230,7 @@ void compile(SharedWork& shared, const CompileWork& work, device::TimedQueue& qu
     const device::Buffer<std::uint8_t> memory(queue.device(), static_cast<std::size_t>(work.mostBytes), "anything");
     for (std::size_t i = shared.claim(); i < programs.size(); i = shared.claim()) {
         for (const graph::Trial& trial : programs[i]) {
-            device::Kernel& kernel = kernels.find(trial.file, trial.kernel, trial.sink);
+            device::Kernel& kernel = kernels.find(trial.program, trial.kernel);
             for (unsigned k = 0; k < trial.arguments.size(); ++k) {
                 if (trial.arguments[k].empty()) {
                     kernel.setArg(k, memory.cl());
@@ -238,7 +244,7 @@ void compile(SharedWork& shared, const CompileWork& work, device::TimedQueue& qu
 
 auto sizeOf(const graph::Trial& t)
 {
-    return std::tuple(t.file, t.kernel, t.sink, t.domain, t.columns, t.rows, t.items, t.itemsOfGroup);
+    return std::tuple(t.program, t.kernel, t.domain, t.columns, t.rows, t.items, t.itemsOfGroup);
 }
 
 } // namespace
@@ -261,18 +267,18 @@ CompileWork compileWork(const device::Device& device, const device::BuildOptions
             work.mostBytes = std::max(work.mostBytes, plan.graph.resources()[i].bytes());
         }
     }
-    std::map<std::pair<std::string, std::string>, std::vector<graph::Trial>> programs;
+    std::map<device::ProgramSource, std::vector<graph::Trial>> programs;
     std::set<decltype(sizeOf(trials.front()))> known;
     for (const graph::Trial& trial : trials) {
         if (known.insert(sizeOf(trial)).second) {
-            programs[{ trial.file, trial.sink }].push_back(trial);
+            programs[trial.program].push_back(trial);
         }
     }
     // What traces has most text, and takes longest by far.
     std::vector<std::pair<std::size_t, std::vector<graph::Trial>>> bySize;
     bySize.reserve(programs.size());
     for (auto& [program, of] : programs) {
-        bySize.emplace_back(textOf(options, program.first, program.second).size(), std::move(of));
+        bySize.emplace_back(device::textOf(options, program).size(), std::move(of));
     }
     std::ranges::stable_sort(bySize, std::greater(), [](const auto& program) { return program.first; });
     for (auto& [size, of] : bySize) {
@@ -338,20 +344,23 @@ KnownKernels::KnownKernels(const device::Device& device, const std::string& opti
     if (folder.empty() || drivers == nullptr || folder != drivers) {
         return; // the driver's cache is elsewhere, or nowhere
     }
-    std::map<std::pair<std::string, std::string>, std::set<std::string>> programs;
+    std::map<device::ProgramSource, std::set<std::string>> programs;
     for (const graph::PlannedPass& planned : plan.passes) {
         if (planned.pass->domain != graph::Domain::Host) {
             // Kernels are compiled once more for grids of 65535 items along one axis, which only lists have.
             const graph::Pass& pass = *planned.pass;
             const char* size = pass.domain == graph::Domain::Items && pass.mostItems >= largeGrid ? "large" : "";
-            programs[{ pass.kernel.file, pass.sink }].insert(pass.kernel.name + size);
+            programs[pass.program].insert(pass.kernel.name + size);
         }
     }
     const device::DeviceInfo& info = device.info();
     std::string all = fmt::format("{}\n{}\n{}\n{}\n{}\n", info.platformVersion, info.name, info.driver, optionsString,
         device::compilerEnvironment());
     for (const auto& [program, kernels] : programs) {
-        all += fmt::format("{}\n{}\n", fmt::join(kernels, " "), textOf(options, program.first, program.second));
+        for (const auto& [name, value] : program.defines) {
+            all += fmt::format("{}={} ", name, value);
+        }
+        all += fmt::format("{}\n{}\n", fmt::join(kernels, " "), device::textOf(options, program));
     }
     path_ = folder / fmt::format("{}{:016x}", device::knownKernels, std::hash<std::string>()(all));
 }

@@ -120,11 +120,8 @@ struct FrameBuilder {
     }
     bool specular() const { return description.traits().specular; }
     bool analysed() const { return settings.method == Method::AxisAligned; }
-    /// The file of that path below kernels/, or the one beside it of packed planes.
-    std::string program(const std::string& path) const
-    {
-        return packed ? std::string(path).insert(path.rfind('/') + 1, "packed_") : path;
-    }
+    /// What programs that read packed planes or plain ones are compiled with.
+    device::Defines packing() const { return packed ? device::Defines { { "WEDGE_PACKED", "" } } : device::Defines {}; }
     /// Of the whole image.
     shared::FrameParams wholeFrame() const;
     /// Where kernels of analysis find pixels; the rectangle is to come.

@@ -6,7 +6,7 @@
 #include "kernels/shared/components.h"
 #include "kernels/shared/light.h"
 
-#include <fmt/format.h>
+#include <string>
 
 template <>
 inline constexpr std::string_view wedge::graph::kernelType<wedge::shared::LightScore> = "LightScore";
@@ -56,10 +56,11 @@ inline graph::Sink moments()
 /// By components along both axes, so many each: "components", of the light's "axes".
 inline graph::Sink components(int count)
 {
-    return { .file = fmt::format("light/components{}.h", count),
+    return { .file = "light/components.h",
         .name = "Components",
         .take = { "axes" },
-        .finish = { "components" } };
+        .finish = { "components" },
+        .defines = { { "WEDGE_COMPONENTS", std::to_string(count) } } };
 }
 
 /// Of shadows in the image, after "slopes" in its planes: of "camera" and the scene's geometry.

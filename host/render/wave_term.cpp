@@ -113,7 +113,7 @@ void WaveTerm::fallBack(
         auto squared = f_.graph.plane<Value>("variance of the term", graph::floats);
         f_.blocks(pass, PassKind::Filter, { "analysis/fallback.cl", "termVariance" },
             { p, reads("deviation", means.deviation), writes("variance", squared) });
-        const FilterRun run { pass, PassKind::Filter, "filter/filter_variance.cl" };
+        const FilterRun run { pass, PassKind::Filter };
         shared::FilterParams plain = *filter;
         plain.fitted = 0; // of variances the mean, which is not negative
         variance = gaussianFilter(f_, run, 1, plain, squared, means.beta).value;

@@ -1,7 +1,7 @@
-// How many equal samples the filter of gather_lines.h gathers at each pixel, of whatever value: those along its row
+// How many equal samples the filter of filter.cl gathers at each pixel, of whatever value: those along its row
 // times those along its column (countOfLine()).
 //
-// in   as for gather_lines.h, without values
+// in   as for filter.cl, without values
 // out  effective
 #include "filter/gather.h"
 

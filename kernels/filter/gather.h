@@ -5,12 +5,12 @@
 // is of no light, plain ones. Each pixel counts for the surface that it sees: the convolutions (3.10) and (4.16) are
 // integrals over the surface, and pixels are not alike in what they see of it. Of the neighbours along a line comes,
 // fitted, not their mean but what a straight line through them has at the pixel. Here is what neighbours weigh, and
-// their sums; gather_lines.h has the passes. Each program that filters sets WEDGE_GATHER_CHANNELS, the planes of value.
-// Those of packed frames set WEDGE_GATHER_PACKED, too: normals are packed, and pixels' sizes have 16 bits
-// (packed_planes.h). Those of WEDGE_GATHER_MEAN_SQUARE weigh a pair by the mean of both bandwidths' squares (6.23),
-// whatever `narrower` says. They are programs of their own since a test of a parameter in each tap takes several times
-// as long. And all is inlined by order: compilers leave calls, with vectors in memory, to functions of this size, and
-// gathers took twice as long.
+// their sums; filter.cl has the passes. Each program that filters sets WEDGE_GATHER_CHANNELS, the planes of value.
+// Those of packed frames set WEDGE_PACKED, too: normals are packed, and pixels' sizes have 16 bits (packed_planes.h).
+// Those of WEDGE_GATHER_MEAN_SQUARE weigh a pair by the mean of both bandwidths' squares (6.23), whatever `narrower`
+// says. They are programs of their own since a test of a parameter in each tap takes several times as long. And all is
+// inlined by order: compilers leave calls, with vectors in memory, to functions of this size, and gathers took twice as
+// long.
 #ifndef WEDGE_GATHER_H
 #define WEDGE_GATHER_H
 
@@ -62,7 +62,7 @@ typedef struct {
 /// Normals of three planes, or of one that is packed.
 WEDGE_INLINE Vec3x16 loadNormalBlock(FilterParams p, __global const float* normal, int i)
 {
-#ifdef WEDGE_GATHER_PACKED
+#ifdef WEDGE_PACKED
     (void)p;
     return unpackNormals16(normal, i);
 #else
@@ -73,7 +73,7 @@ WEDGE_INLINE Vec3x16 loadNormalBlock(FilterParams p, __global const float* norma
 /// The same without their maps.
 WEDGE_INLINE Vec3x16 loadPlaneBlock(FilterParams p, __global const float* normal, int i)
 {
-#ifdef WEDGE_GATHER_PACKED
+#ifdef WEDGE_PACKED
     return loadNormalBlock(p, normal + unmappedNormals(p.planeSize, 1u), i);
 #else
     return loadNormalBlock(p, normal + unmappedNormals(p.planeSize, 0u), i);
@@ -99,7 +99,7 @@ WEDGE_INLINE float16 distance16(FilterParams p, Vec3x16 slant, Vec3x16 d)
 /// Sides of the surface that pixels see, metres (projectedPixel()); packed, these have 16 bits.
 WEDGE_INLINE float16 loadSizeBlock(__global const float* pixelSize, int i)
 {
-#ifdef WEDGE_GATHER_PACKED
+#ifdef WEDGE_PACKED
     return loadShortBlock(pixelSize, i);
 #else
     return loadBlock(pixelSize, i);

@@ -8,7 +8,7 @@
 // Programs of WEDGE_GATHER_CURVED have the second order as well, and factors of both in what they read
 // (analysis/shear.cl): the mean of h - 5/8 d h' + 1/8 d^2 h'' is off from the sixth derivative on. docs/maaf.md
 //
-// Included by gather_lines.h, between its types and its passes.
+// Included by filter.cl, between its types and its passes.
 #ifndef WEDGE_GATHER_SHEARED_H
 #define WEDGE_GATHER_SHEARED_H
 

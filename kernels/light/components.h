@@ -5,7 +5,7 @@
 //
 // y in standard deviations of the light, Omega its bandwidth in their reciprocals, (6), N = WEDGE_COMPONENTS of them.
 // Samples are distributed as the profile l, and so weighted by B / l. None of this goes by slopes: what does is the
-// filter's (filter/components.h), so that one pass may sample before they are known.
+// filter's (filter/components.cl), so that one pass may sample before they are known.
 #ifndef WEDGE_LIGHT_COMPONENTS_H
 #define WEDGE_LIGHT_COMPONENTS_H
 

@@ -64,5 +64,17 @@ for target in spir64 nvptx64 amdgcn; do
             done
         done
     done
+    # What passes hand the programs of a file besides.
+    for channels in 1 2 3 4; do
+        for more in '' -DWEDGE_GATHER_SHEARED '-DWEDGE_GATHER_SHEARED -DWEDGE_GATHER_CURVED' -DWEDGE_GATHER_MEAN_SQUARE \
+            -DWEDGE_PACKED '-DWEDGE_PACKED -DWEDGE_GATHER_VALUE_ONLY'; do
+            printf '%s\0' "lint $target filter/filter.cl -DWEDGE_GATHER_CHANNELS=$channels $more"
+        done
+    done
+    printf '%s\0' "lint $target filter/filter_counts.cl -DWEDGE_PACKED" "lint $target filter/compare_widths.cl -DWEDGE_PACKED"
+    for components in 1 5 7; do
+        printf '%s\0' "lint $target filter/components.cl -DWEDGE_COMPONENTS=$components" \
+            "lint $target filter/components.cl -DWEDGE_COMPONENTS=$components -DWEDGE_SPECULAR=1"
+    done
 done | xargs -0 -n 1 -P "$(nproc)" bash -c
 echo "kernel_lint: ${#files[@]} programs pass with $clang $newest, under both families of traversals, at rest and moving, for spir64, nvptx64 and amdgcn"

@@ -32,18 +32,32 @@ std::vector<graph::Argument> gathered(const FrameBuilder& frame, const shared::F
         reads("objectId", s.objectId, reach) };
 }
 
-/// Both passes, into planes that are there.
+/// What the passes of kernels/filter/filter.cl are compiled with; more: besides.
+device::Defines gatherDefines(const FrameBuilder& frame, std::uint32_t channels, device::Defines more = {})
+{
+    more.emplace_back("WEDGE_GATHER_CHANNELS", std::to_string(channels));
+    const device::Defines packing = frame.packing();
+    more.insert(more.end(), packing.begin(), packing.end());
+    if (frame.packed && channels == 3) {
+        more.emplace_back("WEDGE_GATHER_VALUE_ONLY", ""); // of indirect light nobody reads the effective counts
+    }
+    return more;
+}
+
+/// Both passes, into planes that are there. apart: pairs have the mean of both squared bandwidths.
 void filterAlong(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels, const shared::FilterParams& params,
-    const graph::Handle<Value>& value, const AxisWidths& widths, Gathered& out)
+    const graph::Handle<Value>& value, const AxisWidths& widths, bool apart, Gathered& out)
 {
     const int pixels = static_cast<int>(params.maxRadius);
     const graph::Reach along { .x = pixels }, across { .y = pixels };
     auto rows = frame.graph.plane<Value>("rows filtered", graph::floatPlanes(channels));
     auto rowCounts = frame.graph.plane<Count>("effective count of rows", graph::floats);
-    frame.blocks(run.pass, run.kind, { frame.program(run.program), "filterRows" },
+    const device::Defines defines = gatherDefines(
+        frame, channels, apart ? device::Defines { { "WEDGE_GATHER_MEAN_SQUARE", "" } } : device::Defines {});
+    frame.blocks(run.pass, run.kind, { "filter/filter.cl", "filterRows", {}, defines },
         joined({ frame.rectangle(params), reads("value", value, along), reads("beta", widths.x, along) },
             gathered(frame, params, along), Arguments { writes("filtered", rows), writes("effective", rowCounts) }));
-    frame.blocks(run.pass, run.kind, { frame.program(run.program), "filterColumns" },
+    frame.blocks(run.pass, run.kind, { "filter/filter.cl", "filterColumns", {}, defines },
         joined({ frame.rectangle(params), reads("value", rows, across), reads("beta", widths.y, across) },
             gathered(frame, params, across),
             Arguments { reads("effectiveRows", rowCounts), writes("filtered", out.value),
@@ -61,14 +75,16 @@ Gathered filteredPlanes(FrameBuilder& frame, std::uint32_t channels)
 Gathered gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels,
     const shared::FilterParams& params, const graph::Handle<Value>& value, const graph::Handle<Metres>& beta)
 {
-    return gaussianFilter(frame, run, channels, params, value, AxisWidths { beta, beta });
+    Gathered out = filteredPlanes(frame, channels);
+    gaussianFilter(frame, run, channels, params, value, beta, out);
+    return out;
 }
 
 Gathered gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels,
     const shared::FilterParams& params, const graph::Handle<Value>& value, const AxisWidths& widths)
 {
     Gathered out = filteredPlanes(frame, channels);
-    filterAlong(frame, run, channels, params, value, widths, out);
+    filterAlong(frame, run, channels, params, value, widths, true, out);
     return out;
 }
 
@@ -76,7 +92,7 @@ void gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t cha
     const shared::FilterParams& params, const graph::Handle<Value>& value, const graph::Handle<Metres>& beta,
     Gathered& out)
 {
-    filterAlong(frame, run, channels, params, value, { beta, beta }, out);
+    filterAlong(frame, run, channels, params, value, { beta, beta }, false, out);
 }
 
 void shearedFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels,
@@ -88,12 +104,16 @@ void shearedFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t chan
     auto rows = frame.graph.plane<Value>("rows filtered", graph::floatPlanes(channels));
     auto rowCounts = frame.graph.plane<Count>("effective count of rows", graph::floats);
     auto rowGradients = frame.graph.plane<Value>("gradients of rows", shearing.format);
-    frame.blocks(run.pass, run.kind, { frame.program(run.program), "shearRows" },
+    device::Defines defines = gatherDefines(frame, channels, { { "WEDGE_GATHER_SHEARED", "" } });
+    if (shearing.curved) {
+        defines.emplace_back("WEDGE_GATHER_CURVED", "");
+    }
+    frame.blocks(run.pass, run.kind, { "filter/filter.cl", "shearRows", {}, defines },
         joined({ frame.rectangle(params), reads("value", value, along), reads("beta", beta, along) },
             gathered(frame, params, along),
             Arguments { reads("gradients", shearing.gradients, along), reads("slopeWidth", shearing.slopeWidth),
                 writes("filtered", rows), writes("effective", rowCounts), writes("gradientsOfRows", rowGradients) }));
-    frame.blocks(run.pass, run.kind, { frame.program(run.program), "shearColumns" },
+    frame.blocks(run.pass, run.kind, { "filter/filter.cl", "shearColumns", {}, defines },
         joined({ frame.rectangle(params), reads("value", rows, across), reads("beta", beta, across) },
             gathered(frame, params, across),
             Arguments { reads("gradients", rowGradients, across), reads("slopeWidth", shearing.slopeWidth),
@@ -107,7 +127,7 @@ graph::Handle<Count> gatheredCounts(FrameBuilder& frame, std::string_view pass, 
     const int pixels = static_cast<int>(params.maxRadius);
     const graph::Reach across { .x = pixels, .y = pixels };
     auto effective = frame.graph.plane<Count>("effective count", graph::floats);
-    frame.blocks(pass, kind, { frame.program("filter/filter_counts.cl"), "gatherCounts" },
+    frame.blocks(pass, kind, { "filter/filter_counts.cl", "gatherCounts", {}, frame.packing() },
         joined({ frame.rectangle(params), reads("beta", beta, across) }, gathered(frame, params, across),
             Arguments { writes("effective", effective) }));
     return effective;
@@ -120,7 +140,6 @@ void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams para
     const int far = static_cast<int>(params.maxRadius);
     const graph::Reach along { .x = far }, across { .y = far }, near = around(WEDGE_SHRINK_REACH);
     const graph::Reach noisy { .x = 2 * WEDGE_BLOCK_PIXELS - 1, .y = 3 * WEDGE_SHRINK_REACH };
-    const std::string program = frame.program("filter/compare_widths.cl");
     const shared::AnalysisParams p = frame.analysisParams();
     const auto all = value("frame", frame.wholeFrame());
     graph::Graph& g = frame.graph;
@@ -136,13 +155,13 @@ void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams para
     frame.blocks(pass, PassKind::Filter, { "analysis/widen.cl", "comparedWidths" },
         joined({ frame.rectangle(p), all, value("pixels", pixels), reads("deviation", compared.deviation, noisy) },
             neighbours(frame.surfaces, {}), Arguments { reads("beta", beta), writes("compared", wider) }));
-    frame.blocks(pass, PassKind::Filter, { program, "compareRows" },
+    frame.blocks(pass, PassKind::Filter, { "filter/compare_widths.cl", "compareRows", {}, frame.packing() },
         joined({ frame.rectangle(params), reads("value", compared.value, along), reads("beta", beta, along),
                    reads("compared", wider, along) },
             gathered(frame, params, along),
             Arguments { writes("narrowRows", narrowRows), writes("wideRows", wideRows),
                 writes("narrowCounts", difference), writes("wideCounts", apart) }));
-    frame.blocks(pass, PassKind::Filter, { program, "compareColumns" },
+    frame.blocks(pass, PassKind::Filter, { "filter/compare_widths.cl", "compareColumns", {}, frame.packing() },
         joined({ frame.rectangle(params), reads("narrowRows", narrowRows, across), reads("wideRows", wideRows, across),
                    reads("beta", beta, across), reads("compared", wider, across) },
             gathered(frame, params, across), Arguments { updates("difference", difference), updates("apart", apart) }));

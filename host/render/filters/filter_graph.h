@@ -24,7 +24,8 @@ struct AxisWidths {
     graph::Handle<Metres> x, y;
 };
 
-/// The same with widths of their own along x and along y.
+/// The same with widths of their own along x and along y; a pair is weighted by the mean of both bandwidths' squares
+/// (6.23).
 Gathered gaussianFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t channels,
     const shared::FilterParams& params, const graph::Handle<Value>& value, const AxisWidths& widths);
 
@@ -40,6 +41,7 @@ struct Shearing {
     graph::Handle<Value> gradients;
     graph::Handle<Metres> slopeWidth;
     graph::Format format; ///< of gradients
+    bool curved; ///< these have second derivatives
 };
 
 /// The same as gaussianFilter() into planes that were there, sheared. params: with shearU and shearV.

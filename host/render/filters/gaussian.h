@@ -19,12 +19,10 @@ shared::FilterParams filterParams(
 shared::FilterParams filterParams(const Settings& settings, const shared::FrameParams& frame,
     const shared::AreaLight& light, const image::Window& window);
 
-/// What one run of the filter is called in reports, and the program that does it.
+/// What one run of the filter is called in reports.
 struct FilterRun {
     std::string_view pass;
     device::PassKind kind;
-    std::string
-        program; ///< a file that includes kernels/filter/gather_lines.h; packed frames take the one called packed_...
 };
 
 /// Of the irradiances of distributed frames as published: (5.31) measures distances in space, also those of lights, and

@@ -11,8 +11,9 @@
 //     g_p = sigma_x exp(-(sigma_x d)^2 / 2)
 //
 // Weights mu are those of (10), or from a table (refitted_weights.h), then of sines apart.
-#ifndef WEDGE_FILTER_COMPONENTS_H
-#define WEDGE_FILTER_COMPONENTS_H
+#ifndef WEDGE_COMPONENTS
+#define WEDGE_COMPONENTS 3 // compiled alone
+#endif
 
 #include "filter/gather.h"
 #include "shared/components.h"
@@ -283,5 +284,3 @@ __kernel void filterComponents(FilterParams p, LightAxes light, float slopesPerW
         vstore16(known ? sum.part[pair] / all : unfiltered, 0, parts + pair * p.planeSize + i);
     }
 }
-
-#endif

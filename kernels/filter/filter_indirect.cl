@@ -1,3 +1,0 @@
-// The filter of indirect light: red, green and blue.
-#define WEDGE_GATHER_CHANNELS 3
-#include "filter/gather_lines.h"

@@ -1,3 +1,0 @@
-// The filter of one plane in packed frames.
-#define WEDGE_GATHER_PACKED
-#include "filter/filter_variance.cl"
