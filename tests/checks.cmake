@@ -1,6 +1,7 @@
 # Checks by other tools than doctest: scripts/install_dependencies.sh test installs them.
 
-add_test(NAME kernel_lint COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/kernel_lint.sh ${CMAKE_SOURCE_DIR}/kernels)
+add_test(NAME kernel_lint COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/kernel_lint.sh ${CMAKE_SOURCE_DIR}/kernels
+                                   $<TARGET_FILE:kernel_programs>)
 # In parts, which run beside each other and beside other tests; the last asks whether all kernels ran in one of them.
 foreach(part 1 2 3 4 kernels)
     add_test(NAME oclgrind_frame_${part}

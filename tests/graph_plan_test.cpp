@@ -582,11 +582,17 @@ TEST_CASE("kernels are handed what their passes declare, and no other")
     CHECK(text.find("#define STORE_out(size, at, value) store_half1(out, size, at, value)") != std::string::npos);
     CHECK(text.find("STORE_where") == std::string::npos);
     CHECK(text.find("LOAD_out") == std::string::npos);
-    CHECK(interfaces(graph).size() == 2);
+    const auto both = programs(graph);
+    CHECK(both[0] == both[1]); // of one file
+    CHECK(both[0]->generated.contains("pass/trace.h"));
+    CHECK(both[0]->generated.at("pass/shade.h") == text);
     auto mean = graph.plane<Metres>("mean", floats);
     add(graph, "shade", { value("scale", 2.0f), reads("where", position), writes("out", mean) });
-    CHECK(
-        faultOf([&] { interfaces(graph); }) == "pass \"shade\" hands kernel shade other things than a pass before it");
+    add(graph, "shade", { value("scale", 3.0f), reads("where", position), writes("out", openness) });
+    const auto all = programs(graph);
+    CHECK(all[2] != all[1]); // it hands the kernel something else
+    CHECK(all[2]->file == all[1]->file);
+    CHECK(all[3] == all[1]);
     struct Unknown {
         int x;
     };

@@ -30,9 +30,9 @@ TEST_CASE("components of samples are the light's integrals of the basis, of what
         for (const int count : { 3, 5 }) {
             const std::size_t products = static_cast<std::size_t>(count) * static_cast<std::size_t>(count);
             const shared::LightAxes axes = render::axesOf(onDevice, count);
-            const device::ProgramSource program =
-                withSinks("light/area_light.cl", { render::sinks::sums(), render::sinks::components(count) },
-                    { "sums", "components" }, { graph::value("axes", shared::LightAxes {}) });
+            const device::ProgramSource program = withSinks(device, "light/area_light.cl", "sampleShadows",
+                { render::sinks::sums(), render::sinks::components(count) }, { "sums", "components" },
+                { graph::value("axes", shared::LightAxes {}) });
             const auto components = traced.bench.filled(products * traced.layout.size, 0.0f);
             traced.sums.fill(traced.bench.queue, 0.0f);
             traced.taken.fill(traced.bench.queue, 0u);

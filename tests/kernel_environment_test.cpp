@@ -109,7 +109,7 @@ std::vector<Sample> precomputed(const device::Device& device, const render::Envi
     KernelBench bench(device, { { "WEDGE_ENVIRONMENT_MAP", "1" } });
     const auto map = bench.buffer(std::vector { table.map });
     const auto numbers = bench.buffer(table.numbers), out = bench.filled(floats * cells, -1.0f);
-    device::Kernel kernel = bench.library.kernel("light/environment_samples.cl", "precomputeDirections");
+    device::Kernel& kernel = bench.passes.find("light/environment_samples.cl", "precomputeDirections");
     kernel.setArgs(rows, seed, map, numbers, out);
     bench.queue.launch("environment samples", device::PassKind::Trace, kernel, rows, 1);
     const std::vector<float> read = bench.read(out);
@@ -263,7 +263,7 @@ TEST_CASE("unshadowed light is the irradiance by normal, over the largest")
             shared::WaveParams wave {};
             wave.receivers = wave.planeSize = normals;
             const auto out = bench.filled(planes.size(), -1.0f);
-            device::Kernel kernel = bench.library.kernel("light/unshadowed_environment.cl", "environmentOfReceivers");
+            device::Kernel& kernel = bench.passes.find("light/unshadowed_environment.cl", "environmentOfReceivers");
             const auto map = bench.buffer(std::vector { table.map });
             const auto numbers = bench.buffer(table.numbers), normal = bench.buffer(planes),
                        white = bench.filled(planes.size(), 0.5f);
@@ -281,7 +281,7 @@ TEST_CASE("unshadowed light is the irradiance by normal, over the largest")
             row.planeSize = static_cast<std::uint32_t>(layout.size);
             const auto image = bench.filled(half.values.size(), -1.0f), normalPlanes = bench.buffer(facing.values),
                        whitePlanes = bench.buffer(half.values);
-            device::Kernel pixels = bench.library.kernel("light/unshadowed_environment.cl", "environmentOfPixels");
+            device::Kernel& pixels = bench.passes.find("light/unshadowed_environment.cl", "environmentOfPixels");
             pixels.setArgs(row, map, numbers, normalPlanes, whitePlanes, image);
             bench.queue.launch("unshadowed", device::PassKind::Trace, pixels, normals / WEDGE_BLOCK_PIXELS, 1);
             const Planes<float> read = planesOf(layout, bench.read(image));

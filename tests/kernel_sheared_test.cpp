@@ -143,9 +143,9 @@ TEST_CASE("gradients that samples tell are how what is seen changes where the li
     onEveryDevice([](const device::Device& device) {
         TracedScene traced(smallScene(), device, 40, 30);
         traced.primary();
-        const device::ProgramSource program =
-            withSinks("light/area_light.cl", { render::sinks::sums(), render::sinks::scores() },
-                { "sums", "gradients" }, { graph::value("score", shared::LightScore {}) });
+        const device::ProgramSource program = withSinks(device, "light/area_light.cl", "sampleShadows",
+            { render::sinks::sums(), render::sinks::scores() }, { "sums", "gradients" },
+            { graph::value("score", shared::LightScore {}) });
         // Gaussian, and cut where its ends are next to nothing.
         shared::AreaLight light = traced.onDevice.areaLightList[0];
         light.cut = 3;

@@ -1,11 +1,10 @@
 // Sinks: the kernels that sample, with a sink of this test's own beside the renderer's and in their place, over pixels
 // and over receivers of a wave.
 #include "host/graph/execution.h"
-#include "kernels/embedded_kernels.hpp"
 #include "kernels/shared/path.h"
 #include "tests/trace_support.h"
 
-#include <cctype>
+#include <regex>
 #include <set>
 #include <stdexcept>
 
@@ -176,6 +175,7 @@ private:
         if (ofPaths)
             own.push_back(outside(points.specular));
         own.push_back(outside(points.wanted));
+        nameAs(kernel, own);
         for (const std::uint32_t last : { 6u, 1000u }) {
             std::vector<graph::Argument> all = own;
             all.insert(all.end(),
@@ -212,6 +212,24 @@ private:
             return execution.output<std::uint32_t>(list).downloadAll(b.queue);
         };
         return { floats(sums), floats(samples), numbers(counts), numbers(taken) };
+    }
+
+    /// Gives arguments the names and types that they have in the product's frames.
+    void nameAs(const graph::KernelName& kernel, std::vector<graph::Argument>& arguments)
+    {
+        const std::string text =
+            productProgram(traced_.bench.device, kernel.file, kernel.name).generated.at("pass/" + kernel.name + ".h");
+        static const std::regex parameter(
+            "(?:const )?(__global const \\w+ \\*|__global \\w+ \\*|\\w+ )(?:restrict )?(\\w+)");
+        const auto from = text.find("#define PARAMETERS ") + std::string("#define PARAMETERS ").size();
+        const std::string list = text.substr(from, text.find('\n', from) - from);
+        std::sregex_iterator next(list.begin(), list.end(), parameter);
+        for (graph::Argument& argument : arguments) {
+            argument.name = (*next)[2];
+            if (argument.type.starts_with("__global"))
+                argument.type = (*next)[1];
+            ++next;
+        }
     }
 
     static void fill(graph::Graph& graph, graph::Version& list, const std::vector<std::uint32_t>& values)
@@ -317,19 +335,6 @@ void checkIndependence(const Points& pixels, const Sample& sample)
         CHECK(receivers > 300);
         CHECK(differ == 0);
     }
-}
-
-std::string withoutSpace(std::string_view text)
-{
-    std::string out;
-    while (!text.empty()) {
-        const std::string_view line = text.substr(0, text.find('\n'));
-        text.remove_prefix(std::min(line.size() + 1, text.size()));
-        for (const char c : line.starts_with("//") ? std::string_view() : line)
-            if (!std::isspace(static_cast<unsigned char>(c)) && c != '\\')
-                out += c;
-    }
-    return out;
 }
 
 } // namespace
@@ -451,29 +456,26 @@ TEST_CASE("samples and sums of a receiver do not depend on what others of its pa
     });
 }
 
-TEST_CASE("kernels alone have the sinks of first passes over pixels")
+namespace {
+
+/// sinkText() of a pass with these planes.
+std::string textOf(const std::vector<graph::Sink>& sinks, const std::vector<std::string>& planes)
 {
-    const auto embedded = [](std::string_view path) {
-        for (const EmbeddedKernel& kernel : embeddedKernels())
-            if (kernel.path == path)
-                return withoutSpace(kernel.text);
-        return std::string();
-    };
-    CHECK(embedded("light/sink.h")
-        == withoutSpace(withSinks("light/area_light.cl",
-            { sinks::sums(), sinks::means(), sinks::parts(), sinks::slopes() }, { "sums", "value", "parts", "slopes" })
-                            .generated.at("light/sink.h")));
-    CHECK(embedded("paths/sink.h")
-        == withoutSpace(
-            withSinks("paths/indirect.cl", { sinks::sums(), sinks::means(), sinks::parts(), sinks::distances() },
-                { "sums", "value", "parts", "reflectors" })
-                .generated.at("paths/sink.h")));
+    graph::Graph graph(1, 1, 1);
+    graph::Pass pass { .name = "samples", .kernel = { "light/area_light.cl", "sampleShadows", sinks } };
+    for (const std::string& name : planes) {
+        auto plane = graph.plane<render::Sums>(name, graph::floats);
+        pass.arguments.push_back(graph::updates(name, plane));
+    }
+    return graph::sinkText(graph, pass);
 }
+
+} // namespace
 
 TEST_CASE("what sinks are handed are the pass's last arguments")
 {
-    CHECK_THROWS_WITH_AS(withSinks("light/area_light.cl", { sinks::sums(), sinks::means() }, { "sums" }),
+    CHECK_THROWS_WITH_AS(textOf({ sinks::sums(), sinks::means() }, { "sums" }),
         "pass \"samples\" hands sinks \"value\", which is not among its last arguments", std::logic_error);
-    CHECK_THROWS_WITH_AS(withSinks("light/area_light.cl", { sinks::sums() }, { "sums", "taken" }),
+    CHECK_THROWS_WITH_AS(textOf({ sinks::sums() }, { "sums", "taken" }),
         "pass \"samples\" hands sinks \"sums\", which is not among its last arguments", std::logic_error);
 }

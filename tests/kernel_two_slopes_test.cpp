@@ -206,9 +206,9 @@ TEST_CASE("moments that samples tell are how what is seen changes where the ligh
     onEveryDevice([](const device::Device& device) {
         TracedScene traced(smallScene(), device, 40, 30);
         traced.primary();
-        const device::ProgramSource program =
-            withSinks("light/area_light.cl", { render::sinks::sums(), render::sinks::moments() }, { "sums", "moments" },
-                { graph::value("scores", shared::LightMoments {}) });
+        const device::ProgramSource program = withSinks(device, "light/area_light.cl", "sampleShadows",
+            { render::sinks::sums(), render::sinks::moments() }, { "sums", "moments" },
+            { graph::value("scores", shared::LightMoments {}) });
         shared::AreaLight light = traced.onDevice.areaLightList[0];
         light.cut = 3; // its ends are next to nothing
         // Turned, so that shadows of boxes have mixed derivatives.

@@ -5,6 +5,7 @@
 #include "host/graph/execution.h"
 #include "kernels/shared/filter_params.h"
 #include "kernels/shared/frame.h"
+#include "tests/product_programs.h"
 
 #include <algorithm>
 #include <bit>
@@ -73,9 +74,13 @@ public:
         queue_.launch(pass, kind, k, items, localSize(k, listGroup));
     }
 
-    /// The kernel, compiled when first asked for.
-    device::Kernel& find(const device::ProgramSource& program, const std::string& kernel)
+    /// The kernel, compiled when first asked for. Parameters of the product's are as its frames declare them, if
+    /// the program does not say.
+    device::Kernel& find(device::ProgramSource program, const std::string& kernel)
     {
+        if (program.generated.empty()) {
+            program.generated = productProgram(queue_.device(), program.file, kernel).generated;
+        }
         return kernels_.find(program, kernel);
     }
 

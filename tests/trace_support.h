@@ -62,17 +62,34 @@ private:
     }
 };
 
-/// The program of a file whose samples go to these sinks, which are handed values, and planes of floats of these names.
-inline device::ProgramSource withSinks(const std::string& file, const std::vector<graph::Sink>& sinks,
-    const std::vector<std::string>& planes, const std::vector<graph::Argument>& values = {})
+/// The program of a kernel whose samples go to these sinks, which are handed values, and planes of floats of these
+/// names. All else it is handed is what frames hand it.
+inline device::ProgramSource withSinks(const device::Device& device, const std::string& file, const std::string& kernel,
+    const std::vector<graph::Sink>& sinks, const std::vector<std::string>& planes,
+    const std::vector<graph::Argument>& values = {})
 {
     graph::Graph graph(1, 1, 1);
-    graph::Pass pass { .name = "samples", .kernel = { file, "", sinks }, .arguments = values };
+    graph::Pass pass { .name = "samples", .kernel = { file, kernel, sinks }, .arguments = values };
     for (const std::string& name : planes) {
         auto plane = graph.plane<render::Sums>(name, graph::floats);
         pass.arguments.push_back(graph::updates(name, plane));
     }
-    return graph::programOf(graph, pass);
+    const std::string name = "pass/" + kernel + ".h", text = graph::sinkText(graph, pass);
+    device::ProgramSource out = productProgram(device, file, kernel);
+    std::string& all = out.generated.at(name);
+    const auto parametersOf = [](const std::string& of) {
+        const std::string macro = "#define WEDGE_SINK_PARAMETERS ";
+        const auto from = of.find(macro) + macro.size();
+        return of.substr(from, of.find('\n', from) - from);
+    };
+    const std::string before = parametersOf(all);
+    const auto list = all.find(before);
+    all.replace(list, before.size(), parametersOf(text));
+    all = all.substr(0, all.find('\n', list) + 1) + text;
+    for (const graph::Sink& sink : sinks) {
+        out.defines.insert(out.defines.end(), sink.defines.begin(), sink.defines.end());
+    }
+    return out;
 }
 
 /// One scene's buffers, and the tracing kernels over them as the renderer launches them.
@@ -125,8 +142,8 @@ public:
     void secondPass(const shared::SampleParams& p, std::uint32_t last)
     {
         namespace sinks = render::sinks;
-        const device::ProgramSource program = withSinks(
-            "light/area_light.cl", { sinks::sums(), sinks::means(), sinks::parts() }, { "sums", "value", "parts" });
+        const device::ProgramSource program = withSinks(bench.device, "light/area_light.cl", "sampleShadows",
+            { sinks::sums(), sinks::means(), sinks::parts() }, { "sums", "value", "parts" });
         bench.passes.tiles("second", device::PassKind::Trace, bench.passes.find(program, "sampleShadows"), params, 1.0,
             p, onDevice.areaLightList[p.light], onDevice.nodes, onDevice.blocks, frame.receivers(), wanted, last, taken,
             frame.rays, sums, value, parts);

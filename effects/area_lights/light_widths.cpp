@@ -60,7 +60,7 @@ void smoothedWidths(FrameBuilder& frame, const shared::AnalysisParams& params, c
     }
     frame.pixels("widths", PassKind::Analysis, { "analysis/analysis.cl", "widths" },
         { p, reads("logSlopes", logs), reads("spread", spread), reads("objectId", s.objectId),
-            reads("pixelSize", s.pixelSize), reads("lit", lit()), writes("beta", beta) });
+            reads("pixelSize", s.pixelSize), reads("sums", lit()), writes("beta", beta) });
 }
 
 void publishedWidths(FrameBuilder& frame, const shared::AnalysisParams& params, const graph::Handle<Extremes>& slopes,
@@ -76,7 +76,7 @@ void publishedWidths(FrameBuilder& frame, const shared::AnalysisParams& params, 
     const auto spread = spreadOver(frame, params, 4, distances);
     frame.pixels("widths", PassKind::Analysis, { "analysis/analysis.cl", "publishedWidths" },
         { p, value("countMu", frame.settings.mu), reads("slopes", slopes), reads("distances", spread),
-            reads("objectId", s.objectId), reads("pixelSize", s.pixelSize), reads("lit", lit()), writes("beta", beta),
+            reads("objectId", s.objectId), reads("pixelSize", s.pixelSize), reads("sums", lit()), writes("beta", beta),
             writes("wanted", wanted) });
 }
 

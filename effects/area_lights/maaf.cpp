@@ -185,7 +185,7 @@ void componentFilter(FrameBuilder& frame, const shared::FilterParams& params, co
             reads("pixelSize", s.pixelSize, around), reads("objectId", s.objectId, around),
             reads("sums", term.sums, around), reads("components", term.components, around),
             writes("filtered", out.value), writes("effective", out.effective),
-            parts != nullptr ? updates("parts", *parts) : frame.nothing("parts") });
+            parts != nullptr ? updates("parts", *parts) : frame.nowhere("parts") });
 }
 
 } // namespace wedge::render

@@ -315,7 +315,7 @@ void PathGraph::addSamples()
         { f_.rectangle(countParams()), value("component", static_cast<std::uint32_t>(component_)),
             value("varies", varies() ? 1u : 0u), reads("reflectance", reflectance_), reads("value", value_),
             varies() ? reads("deviations", deviation_) : f_.nothing("deviations"), reads("taken", taken_),
-            updates("noisy", sum_.noisy), updates("deviation", sum_.deviation) });
+            updates("indirectNoisy", sum_.noisy), updates("deviation", sum_.deviation) });
 }
 
 void PathGraph::addFiltered(const graph::Handle<Value>& filtered)
@@ -323,7 +323,7 @@ void PathGraph::addFiltered(const graph::Handle<Value>& filtered)
     f_.blocks("composite", PassKind::Composite, { "frame/composite.cl", "addIndirect" },
         { f_.rectangle(countParams()), value("component", static_cast<std::uint32_t>(component_)),
             value("varies", varies() ? 1u : 0u), reads("reflectance", reflectance_), reads("value", filtered),
-            reads("taken", taken_), updates("sum", sum_.filtered), updates("variance", sum_.variance) });
+            reads("taken", taken_), updates("indirect", sum_.filtered), updates("variance", sum_.variance) });
 }
 
 } // namespace

@@ -166,7 +166,7 @@ struct TemporalFilter::Declaration {
     template <class Quantity>
     graph::Argument changesIndirect(const char* name, graph::Handle<Quantity>& handle) const
     {
-        return indirect ? updates(name, handle) : f.nothing(name);
+        return indirect ? updates(name, handle) : f.nowhere(name);
     }
 
     /// Keeps the frame in `own`.

@@ -19,7 +19,8 @@ using GeneratedSources = std::map<std::string, std::string, std::less<>>;
 /// Reads `file` (relative to kernels/) and puts each `#include "x.h"` in place, with `#line` directives so that the
 /// compiler's messages name the real file and line. An include is looked for in the including file's folder, then in
 /// kernels/. Each file comes in once a program, at its first include, whatever conditionals stand around it;
-/// `#include <...>` stays as it is.
+/// `#include <...>` stays as it is. Of includes from pass/, interfaces of kernels, those that are not generated are
+/// left out: kernels that a program has no need of ask for them.
 ///
 /// kernelDir: a folder that is looked in before the embedded sources, file by file; "" for the embedded ones alone.
 /// generated: looked in before both, for includes.

@@ -51,6 +51,15 @@ device::Kernel& Kernels::find(const device::ProgramSource& program, const std::s
                                    : kernels_.emplace(key, library_.kernel(program, kernel)).first->second;
 }
 
+std::set<device::ProgramSource> Kernels::programs() const
+{
+    std::set<device::ProgramSource> out;
+    for (const auto& [name, kernel] : kernels_) {
+        out.insert(name.first);
+    }
+    return out;
+}
+
 void Memory::hold(const std::vector<std::uint64_t>& slabs)
 {
     const auto same = [](const device::Buffer<std::uint8_t>& there, std::uint64_t bytes) {
@@ -219,7 +228,7 @@ void Execution::launch(Run& run, const PlannedPass& planned)
         return;
     }
     const Pass& pass = *planned.pass;
-    device::Kernel& kernel = kernels_.find(pass.program, pass.kernel.name);
+    device::Kernel& kernel = kernels_.find(*planned.program, pass.kernel.name);
     const bool tiles = pass.domain == Domain::Tiles;
     kernel.requireCount(pass.arguments.size() + (tiles ? 1 : 0));
     if (pass.domain == Domain::Pixels || pass.domain == Domain::Blocks) {
@@ -242,7 +251,7 @@ void Execution::launch(Run& run, const PlannedPass& planned)
 Trial Execution::trialOf(Run& run, const PlannedPass& planned) const
 {
     const Pass& pass = *planned.pass;
-    Trial trial { pass.program, pass.kernel.name, pass.domain };
+    Trial trial { *planned.program, pass.kernel.name, pass.domain };
     Window covered = nothing(planned.window);
     if (pass.domain == Domain::Tiles) {
         trial.items = std::max<std::size_t>(pass.count({ run, planned.window }), 1);
@@ -273,7 +282,7 @@ void Execution::rehearse(Run& run, const PlannedPass& planned)
         return;
     }
     const Pass& pass = *planned.pass;
-    device::Kernel& kernel = kernels_.find(pass.program, pass.kernel.name);
+    device::Kernel& kernel = kernels_.find(*planned.program, pass.kernel.name);
     kernel.requireCount(pass.arguments.size() + (pass.domain == Domain::Tiles ? 1 : 0));
     setArguments(run, kernel, planned, nothing(planned.window));
     graph::launch(queue_, pass.name, pass.kind, kernel, trial);

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ public:
     {
     }
     device::Kernel& find(const device::ProgramSource& program, const std::string& kernel);
+    /// Those whose kernels were asked for.
+    std::set<device::ProgramSource> programs() const;
 
 private:
     device::ProgramLibrary& library_;

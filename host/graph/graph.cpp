@@ -1,7 +1,5 @@
 #include "host/graph/graph.h"
 
-#include "host/graph/interface.h"
-
 #include <fmt/format.h>
 
 #include <atomic>
@@ -50,7 +48,6 @@ void Graph::add(Pass pass)
         }
         use.handle = nullptr; // which need not live on
     }
-    pass.program = programOf(*this, pass);
     passes_.push_back(std::move(pass));
 }
 

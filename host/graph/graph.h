@@ -178,7 +178,6 @@ struct Pass {
     std::size_t mostOfGroup = 16; ///< of a list: items of a work-group
     std::function<double(const Launch&)> workUnits = {}; ///< of the frame's progress: tiles
     std::function<void(Run&)> step = {}; ///< of the host
-    device::ProgramSource program = {}; ///< the kernel's: the graph's to say
     bool everywhere = false; ///< covers the whole image whatever part of its results is wanted
     /// Makes one resource and reads none: it is run right before the first pass that uses what it makes, so that memory
     /// is not taken before.

@@ -16,9 +16,9 @@ std::string formatText(const Format& format)
 {
     return fmt::format("#ifndef FORMAT_{0}\n#define FORMAT_{0}\n"
                        "static inline {1} load_{0}(__global const {2} *plane, size_t size, size_t at)\n"
-                       "{{\n    return {3};\n}}\n"
+                       "{{\n    (void)size;\n    return {3};\n}}\n"
                        "static inline void store_{0}(__global {2} *plane, size_t size, size_t at, {1} value)\n"
-                       "{{\n    {4};\n}}\n#endif\n",
+                       "{{\n    (void)size;\n    {4};\n}}\n#endif\n",
         format.name, format.value, format.storage, format.load, format.store);
 }
 
@@ -85,7 +85,7 @@ std::string sinkFunction(const Pass& pass, const std::string& step, const std::s
 
 std::string interfaceText(const Graph& graph, const Pass& pass)
 {
-    std::string formats, macros, parameters;
+    std::string formats, macros = macro("PASS_" + pass.kernel.name, "", "1"), parameters;
     for (const Argument& argument : pass.arguments) {
         parameters += (parameters.empty() ? "" : ", ") + parameterOf(graph, pass, argument);
         if (!argument.isUse()) {
@@ -108,7 +108,8 @@ std::string interfaceText(const Graph& graph, const Pass& pass)
     if (pass.domain == Domain::Tiles) {
         parameters += ", const uint firstGroup";
     }
-    return formats + macros + macro("PARAMETERS", "", parameters);
+    const std::string sinks = pass.kernel.sinks.empty() ? "" : sinkText(graph, pass);
+    return formats + macros + macro("PARAMETERS", "", parameters) + sinks;
 }
 
 std::string sinkText(const Graph& graph, const Pass& pass)
@@ -133,31 +134,31 @@ std::string sinkText(const Graph& graph, const Pass& pass)
         + sinkFunction(pass, "finish", "finishReceivers", &Sink::finish, "", unused);
 }
 
-device::ProgramSource programOf(const Graph& graph, const Pass& pass)
+std::vector<std::shared_ptr<const device::ProgramSource>> programs(const Graph& graph)
 {
-    const KernelName& kernel = pass.kernel;
-    device::ProgramSource out(kernel.file, kernel.defines);
-    if (!kernel.sinks.empty()) {
-        out.generated.emplace(kernel.file.substr(0, kernel.file.rfind('/') + 1) + "sink.h", sinkText(graph, pass));
-    }
-    for (const Sink& sink : kernel.sinks) {
-        out.defines.insert(out.defines.end(), sink.defines.begin(), sink.defines.end());
-    }
-    return out;
-}
-
-device::GeneratedSources interfaces(const Graph& graph)
-{
-    device::GeneratedSources out;
+    std::vector<std::shared_ptr<device::ProgramSource>> known;
+    std::vector<std::shared_ptr<const device::ProgramSource>> out;
     for (const Pass& pass : graph.passes()) {
         if (pass.domain == Domain::Host) {
+            out.push_back(nullptr);
             continue;
         }
-        const auto [known, isNew] = out.emplace("pass/" + pass.kernel.name + ".h", interfaceText(graph, pass));
-        if (!isNew && known->second != interfaceText(graph, pass)) {
-            throw std::logic_error(fmt::format(
-                "pass \"{}\" hands kernel {} other things than a pass before it", pass.name, pass.kernel.name));
+        const std::string name = "pass/" + pass.kernel.name + ".h", text = interfaceText(graph, pass);
+        device::Defines defines = pass.kernel.defines;
+        for (const Sink& sink : pass.kernel.sinks) {
+            defines.insert(defines.end(), sink.defines.begin(), sink.defines.end());
         }
+        const auto fits = [&](const std::shared_ptr<device::ProgramSource>& program) {
+            const auto there = program->generated.find(name);
+            return program->file == pass.kernel.file && program->defines == defines
+                && (there == program->generated.end() || there->second == text);
+        };
+        auto program = std::ranges::find_if(known, fits);
+        if (program == known.end()) {
+            program = known.insert(known.end(), std::make_shared<device::ProgramSource>(pass.kernel.file, defines));
+        }
+        (*program)->generated.emplace(name, text);
+        out.push_back(*program);
     }
     return out;
 }

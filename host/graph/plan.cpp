@@ -1,5 +1,7 @@
 #include "host/graph/plan.h"
 
+#include "host/graph/interface.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,10 +46,11 @@ public:
 
     std::vector<PlannedPass> passes() const
     {
+        const auto ofPasses = programs(graph_);
         std::vector<PlannedPass> out;
         for (std::size_t i = 0; i < windows_.size(); ++i) {
             if (windows_[i]) {
-                out.push_back({ &graph_.passes()[i], *windows_[i] });
+                out.push_back({ &graph_.passes()[i], *windows_[i], ofPasses[i] });
             }
         }
         for (std::size_t i = out.size(); i-- > 0;) {

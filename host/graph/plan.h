@@ -6,6 +6,7 @@
 #include "host/graph/graph.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace wedge::graph {
 struct PlannedPass {
     const Pass* pass = nullptr;
     Window window; ///< the pixels that anybody wants of it
+    std::shared_ptr<const device::ProgramSource> program = {}; ///< of its kernel; null: the host's
 };
 
 /// What a graph becomes: which of its passes are run, over which pixels, and where their resources lie. Refers to the

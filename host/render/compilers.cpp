@@ -350,7 +350,7 @@ KnownKernels::KnownKernels(const device::Device& device, const std::string& opti
             // Kernels are compiled once more for grids of 65535 items along one axis, which only lists have.
             const graph::Pass& pass = *planned.pass;
             const char* size = pass.domain == graph::Domain::Items && pass.mostItems >= largeGrid ? "large" : "";
-            programs[pass.program].insert(pass.kernel.name + size);
+            programs[*planned.program].insert(pass.kernel.name + size);
         }
     }
     const device::DeviceInfo& info = device.info();

@@ -20,8 +20,8 @@ void DistributedSamples::blurs(float samples, Blurs& out)
     f_.pixels("widths", PassKind::Analysis, { "waves/distributed.cl", "blurs" },
         { f_.rectangle(p), reads("confusion", confusion_),
             keepsMotion() ? reads("motion", motion_) : f_.nothing("motion"), reads("taken", counts_.taken),
-            sets("lens", out.lens), keepsMotion() ? sets("along", out.along) : f_.nothing("along"),
-            keepsMotion() ? writes("directions", out.directions) : f_.nothing("directions") });
+            sets("lens", out.lens), keepsMotion() ? sets("along", out.along) : f_.nowhere("along"),
+            keepsMotion() ? writes("directions", out.directions) : f_.nowhere("directions") });
 }
 
 graph::Handle<Radiance>& DistributedSamples::sumOf(WaveTerm& term)

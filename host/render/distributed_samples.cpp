@@ -366,8 +366,8 @@ void DistributedSamples::accumulateSurfaces(Waves& waves, const Adding& adding)
     const Receivers& r = waves.receivers();
     Surfaces& s = f_.surfaces;
     const bool measures = (adding.omits & WEDGE_OMITS_ANALYSIS) == 0, layers = shape_.layers;
-    const auto keeps = [&](bool keep, const char* name, graph::Version& plane) {
-        return keep ? updates(name, plane) : f_.nothing(name);
+    const auto keeps = [&](bool keep, const char* name, graph::Version& plane, std::string_view type = "float") {
+        return keep ? updates(name, plane) : f_.nowhere(name, type);
     };
     waves.pixels("accumulateSurfaces",
         joined({ waves.pixelParams(), waves.params(), value("camera", camera_) }, waves.pixelLists(),
@@ -375,13 +375,14 @@ void DistributedSamples::accumulateSurfaces(Waves& waves, const Adding& adding)
                 reads("gloss", r.gloss), reads("diffuse", r.diffuse), reads("specular", r.specular),
                 reads("emission", r.emission), reads("pixelSize", r.pixelSize), reads("depth", r.depth),
                 reads("motion", r.motion), reads("rays", r.rays), reads("pathRays", r.pathRays),
-                updates("taken", waves.counts().taken), updates("hits", hits_), updates("objectIds", s.objectId),
-                updates("positions", s.position), updates("normals", s.normal), keeps(measures, "glosses", s.gloss),
-                keeps(layers, "diffuses", s.diffuse), keeps(layers, "speculars", s.specular),
-                updates("emissions", s.emission), keeps(measures, "emissionSquares", emissionSquares_),
-                keeps(measures, "pixelSizes", s.pixelSize), keeps(layers, "distances", s.depth),
-                updates("confusion", confusion_), keeps(keepsMotion(), "motions", motion_),
-                updates("raysOf", f_.totals.rays), updates("pathRaysOf", f_.totals.pathRays) }));
+                updates("taken", waves.counts().taken), updates("hitsOf", hits_), updates("objectOf", s.objectId),
+                updates("positionOf", s.position), updates("normalOf", s.normal),
+                keeps(measures, "glossOf", s.gloss, "uint"), keeps(layers, "diffuseOf", s.diffuse),
+                keeps(layers, "specularOf", s.specular), updates("emissionOf", s.emission),
+                keeps(measures, "emissionSquaresOf", emissionSquares_), keeps(measures, "pixelSizeOf", s.pixelSize),
+                keeps(layers, "distanceOf", s.depth), updates("confusionOf", confusion_),
+                keeps(keepsMotion(), "motionOf", motion_), updates("raysOf", f_.totals.rays),
+                updates("pathRaysOf", f_.totals.pathRays) }));
 }
 
 } // namespace wedge::render

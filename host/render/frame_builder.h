@@ -4,6 +4,7 @@
 #include "host/graph/graph.h"
 #include "host/render/device_scene.h"
 #include "host/render/frame.h"
+#include "host/render/kernel_types.h"
 #include "host/render/prepared_scene.h"
 #include "host/render/settings.h"
 #include "kernels/shared/filter_params.h"
@@ -152,8 +153,17 @@ struct FrameBuilder {
     std::vector<graph::Argument> receivers() const;
     /// A buffer that outlives the frame; null: none, and nothing reads it.
     graph::Argument outside(std::string name, std::string_view type, const cl::Buffer* memory) const;
-    /// In the place of a plane that there is no need of.
-    graph::Argument nothing(std::string name) const { return outside(std::move(name), "float", nullptr); }
+    /// In the place of a plane that nothing is read from, or, nowhere(), written to. type: OpenCL's, of its elements.
+    graph::Argument nothing(std::string name, std::string_view type = "float") const
+    {
+        return outside(std::move(name), type, nullptr);
+    }
+    graph::Argument nowhere(std::string name, std::string_view type = "float") const
+    {
+        graph::Argument out = nothing(std::move(name), type);
+        out.type = "__global " + std::string(type) + " *";
+        return out;
+    }
     /// One of the scene's.
     template <class T>
     graph::Argument ofScene(std::string name, std::string_view type, device::Buffer<T> DeviceScene::*member) const

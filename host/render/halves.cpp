@@ -159,10 +159,10 @@ void HalvesFrame::estimateError(bool analysed)
     const auto filtered = [analysed, state = halves_[0].samples->state()](
                               const graph::Launch&) -> std::uint32_t { return analysed && state->analysed ? 1 : 0; };
     std::vector<graph::Argument> arguments { f.rectangle(halves_[0].samples->params()), made("filtered", filtered) };
-    for (const Half& half : halves_) {
-        arguments.push_back(reads("beauty", half.frame->totals.beauty));
-        arguments.push_back(reads("plain", half.samples->plainImage()));
-    }
+    arguments.push_back(reads("beautyA", halves_[0].frame->totals.beauty));
+    arguments.push_back(reads("plainA", halves_[0].samples->plainImage()));
+    arguments.push_back(reads("beautyB", halves_[1].frame->totals.beauty));
+    arguments.push_back(reads("plainB", halves_[1].samples->plainImage()));
     arguments.push_back(writes("noise", noise_));
     arguments.push_back(writes("bias", bias_));
     f.pixels(pass, PassKind::Composite, { file, "errorOfHalves" }, arguments);

@@ -15,6 +15,7 @@
 #include <cassert>
 #include <chrono>
 #include <numeric>
+#include <set>
 #include <unistd.h>
 
 namespace wedge::render {
@@ -50,7 +51,7 @@ std::vector<float> onlyInside(const image::Window& window, const PlaneLayout& la
     return out;
 }
 
-device::BuildOptions programOptions(const PreparedScene& scene, const Options& options, const Hierarchy& hierarchy)
+device::BuildOptions optionsOf(const PreparedScene& scene, const Options& options, const Hierarchy& hierarchy)
 {
     const SceneTraits& traits = scene.traits();
     device::BuildOptions out;
@@ -112,7 +113,7 @@ Renderer::~Renderer() = default;
 
 void Renderer::buildPrograms()
 {
-    device::BuildOptions options = programOptions(scene_, options_, hierarchy_);
+    device::BuildOptions options = optionsOf(scene_, options_, hierarchy_);
     if (programs_ && options.defines == programOptions_.defines && options.generated == programOptions_.generated) {
         return;
     }
@@ -240,16 +241,37 @@ const device::MemoryPlan& Renderer::plan(const Settings& settings, bool keepLaye
     return planned_->memory;
 }
 
-Explanation Renderer::explain(const Settings& settings, bool keepLayers) const
+template <class Use>
+auto Renderer::withPlan(const Settings& settings, bool keepLayers, const Use& use) const
 {
     validate(settings, isDistributed(settings, scene_));
     if (compiled_ && !settings.progressive && compiled_->isOf(settings, keepLayers)) {
-        return { graph::explain(compiled_->plan()), graph::drawing(compiled_->plan()) };
+        return use(compiled_->plan());
     }
     HalfMemories memories { SampleMemory(nullptr), SampleMemory(nullptr) };
     const CompiledFrame frame(
         declareUnbacked(scene_, hierarchy_, settings, keepLayers, memories, firstStep(settings)), slabRules());
-    return { graph::explain(frame.plan()), graph::drawing(frame.plan()) };
+    return use(frame.plan());
+}
+
+Explanation Renderer::explain(const Settings& settings, bool keepLayers) const
+{
+    return withPlan(settings, keepLayers, [](const graph::Plan& plan) {
+        return Explanation { graph::explain(plan), graph::drawing(plan) };
+    });
+}
+
+std::vector<device::ProgramSource> Renderer::programs(const Settings& settings, bool keepLayers) const
+{
+    return withPlan(settings, keepLayers, [](const graph::Plan& plan) {
+        std::set<device::ProgramSource> found;
+        for (const graph::PlannedPass& planned : plan.passes) {
+            if (planned.program) {
+                found.insert(*planned.program);
+            }
+        }
+        return std::vector<device::ProgramSource>(found.begin(), found.end());
+    });
 }
 
 void Renderer::prepare(const Settings& settings, bool keepLayers)

@@ -111,6 +111,9 @@ public:
     /// The passes of a frame, or of the first step of a progressive one, what they use, and the planes' memory.
     /// Allocates nothing.
     Explanation explain(const Settings& settings, bool keepLayers = false) const;
+    /// The programs of the same frame's kernels, each once, and what all of them are built with. Allocates nothing.
+    std::vector<device::ProgramSource> programs(const Settings& settings, bool keepLayers = false) const;
+    const device::BuildOptions& programOptions() const { return programOptions_; }
 
     /// Renders; the result stays on the device until the next call. Throws Error if memory does not suffice or the
     /// device fails. keepLayers: for frames of which layers will be read. It fills termPlanes() for those of widths,
@@ -178,6 +181,9 @@ private:
     Step runStep(const Settings& settings, bool keepLayers, const StepRange& range, const std::atomic<bool>* stop,
         bool rehearsal);
     void keepWidths(const graph::Execution& execution);
+    /// Calls use(plan) with what was compiled, or is to look at alone.
+    template <class Use>
+    auto withPlan(const Settings& settings, bool keepLayers, const Use& use) const;
     /// With the sums of the passes, memory, and what the frame counted.
     FrameStatistics completed(const Settings& settings, FrameStatistics statistics);
     void countWork(const Settings& settings, FrameStatistics& statistics);

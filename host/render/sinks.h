@@ -8,13 +8,6 @@
 
 #include <string>
 
-template <>
-inline constexpr std::string_view wedge::graph::kernelType<wedge::shared::LightScore> = "LightScore";
-template <>
-inline constexpr std::string_view wedge::graph::kernelType<wedge::shared::LightMoments> = "LightMoments";
-template <>
-inline constexpr std::string_view wedge::graph::kernelType<wedge::shared::LightAxes> = "LightAxes";
-
 namespace wedge::render::sinks {
 
 /// What a receiver's samples add up to: "sums".

@@ -45,10 +45,10 @@ std::vector<graph::Argument> WaveTerm::accumulated(const Adding& adding, const P
 {
     const bool measures = (adding.omits & WEDGE_OMITS_ANALYSIS) == 0;
     const auto kept = [&](const char* name, graph::Version& plane, bool used) {
-        return used && plane.graph != 0 ? updates(name, plane) : f_.nothing(name);
+        return used && plane.graph != 0 ? updates(name, plane) : f_.nowhere(name);
     };
     const bool counted = (adding.omits & WEDGE_OMITS_COUNTS) == 0;
-    return { counted ? reads("termWanted", means.wanted) : f_.nothing("termWanted"),
+    return { counted ? reads("termWanted", means.wanted) : f_.nothing("termWanted", "uint"),
         shape_.full ? updates("termTaken", means.taken) : reads("termTaken", counts.taken),
         updates("texture", means.texture), updates("value", means.value), kept("plain", means.plain, measures),
         kept("squares", means.squares, measures), kept("textureSquares", means.textureSquares, measures),
@@ -58,7 +58,7 @@ std::vector<graph::Argument> WaveTerm::accumulated(const Adding& adding, const P
 
 graph::Argument WaveTerm::samplesOf(std::string name, graph::Handle<Count>& total) const
 {
-    return shape_.layers ? updates(std::move(name), total) : f_.nothing(std::move(name));
+    return shape_.layers ? updates(std::move(name), total) : f_.nowhere(std::move(name), "uint");
 }
 
 graph::Handle<Extremes> WaveTerm::leastExtreme() const

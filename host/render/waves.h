@@ -11,9 +11,6 @@
 #include <string>
 #include <vector>
 
-template <>
-inline constexpr std::string_view wedge::graph::kernelType<wedge::shared::CameraParams> = "CameraParams";
-
 namespace wedge::render {
 
 /// The waves in which the receivers of tiles are traced, and where those of each tile start in theirs.

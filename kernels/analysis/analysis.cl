@@ -16,8 +16,9 @@
 #define WEDGE_LEAST_SPREAD 1e-4f
 
 /// 3x3 minimum of s_min over occluded pixels of the same object; 0 where there is none.
-__kernel void erodeSlopes(AnalysisParams p, __global const float* restrict slopes,
-    __global const uint* restrict objectId, __global float* restrict eroded)
+#include "pass/erodeSlopes.h"
+#ifdef PASS_erodeSlopes
+__kernel void erodeSlopes(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -37,11 +38,13 @@ __kernel void erodeSlopes(AnalysisParams p, __global const float* restrict slope
     }
     vstore16(least <= WEDGE_SLOPE_MAX ? least : (float16)(0.0f), 0, eroded + i);
 }
+#endif
 
 /// Mean of log2 s over the pixels of the same object that have a slope, no more than `radius` (at most
 /// WEDGE_BLOCK_PIXELS) away along both axes. out planes: log2 of the slope, weight (1 where there is one, else 0).
-__kernel void smoothSlopes(AnalysisParams p, int radius, __global const float* restrict eroded,
-    __global const uint* restrict objectId, __global float* restrict logSlopes)
+#include "pass/smoothSlopes.h"
+#ifdef PASS_smoothSlopes
+__kernel void smoothSlopes(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -59,11 +62,13 @@ __kernel void smoothSlopes(AnalysisParams p, int radius, __global const float* r
     vstore16(mean, 0, logSlopes + i);
     vstore16(has ? (float16)(1.0f) : (float16)(0.0f), 0, logSlopes + p.planeSize + i);
 }
+#endif
 
 /// Distances of the published fallback: planes d1 w, d2_max w, d2_min w, w with w = 1 at occluded pixels, else 0;
 /// d1 = receiver to the light's centre in metres, d2 = d1 / (1 + s) (3.4).
-__kernel void publishedDistances(AnalysisParams p, __global const float* restrict slopes,
-    __global const float* restrict position, __global const uint* restrict objectId, __global float* restrict distances)
+#include "pass/publishedDistances.h"
+#ifdef PASS_publishedDistances
+__kernel void publishedDistances(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -82,6 +87,7 @@ __kernel void publishedDistances(AnalysisParams p, __global const float* restric
     vstore16(d1 / (1.0f + sMax), 0, distances + 2u * p.planeSize + i);
     vstore16(w, 0, distances + 3u * p.planeSize + i);
 }
+#endif
 
 /// One direction of a separable weighted sum over `planes` planes whose last is the weight (values arrive multiplied
 /// by their weights). element: 1 for rows, the stride for columns.
@@ -108,7 +114,9 @@ WEDGE_FN void spreadLine(AnalysisParams p, uint x, uint y, int element, int befo
     }
 }
 
-__kernel void spreadRows(AnalysisParams p, uint planes, __global const float* restrict in, __global float* restrict out)
+#include "pass/spreadRows.h"
+#ifdef PASS_spreadRows
+__kernel void spreadRows(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -116,9 +124,11 @@ __kernel void spreadRows(AnalysisParams p, uint planes, __global const float* re
         spreadLine(p, x, y, 1, (int)p.fillRadius, (int)p.fillRadius, planes, in, out);
     }
 }
+#endif
 
-__kernel void spreadColumns(
-    AnalysisParams p, uint planes, __global const float* restrict in, __global float* restrict out)
+#include "pass/spreadColumns.h"
+#ifdef PASS_spreadColumns
+__kernel void spreadColumns(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -126,11 +136,13 @@ __kernel void spreadColumns(
         spreadLine(p, x, y, (int)p.stride, (int)y, (int)(p.height - 1u - y), planes, in, out);
     }
 }
+#endif
 
 /// The luminance of a texture: what widths() takes for the sums of a light's unshadowed samples, and what a pixel's
 /// irradiance is worth in the image. bits: WEDGE_*_BITS.
-__kernel void luminanceOf(
-    AnalysisParams p, uint bits, __global const float* restrict image, __global float* restrict out)
+#include "pass/luminanceOf.h"
+#ifdef PASS_luminanceOf
+__kernel void luminanceOf(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -139,9 +151,12 @@ __kernel void luminanceOf(
         out[i] = luminance(loadColour(image, p.planeSize, i, bits));
     }
 }
+#endif
 
 /// The second of the numbers that a packed plane holds.
-__kernel void unpackSecond(AnalysisParams p, __global const float* restrict packed, __global float* restrict out)
+#include "pass/unpackSecond.h"
+#ifdef PASS_unpackSecond
+__kernel void unpackSecond(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -150,12 +165,13 @@ __kernel void unpackSecond(AnalysisParams p, __global const float* restrict pack
         out[i] = loadShort(packed, p.planeSize, i, 1u);
     }
 }
+#endif
 
 /// Widths of the default setting, metres: from the pixel's own smoothed slope, else from what spread to it, else 0
 /// (nothing near is in shadow). -1 where the pixel sees nothing of the light. fixedWidth replaces the analysis.
-__kernel void widths(AnalysisParams p, __global const float* restrict logSlopes, __global const float* restrict spread,
-    __global const uint* restrict objectId, __global const float* restrict pixelSize,
-    __global const float* restrict sums, __global float* restrict beta)
+#include "pass/widths.h"
+#ifdef PASS_widths
+__kernel void widths(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -173,6 +189,7 @@ __kernel void widths(AnalysisParams p, __global const float* restrict logSlopes,
     const float wide = p.fixedWidth > 0.0f ? p.fixedWidth * size : analysed;
     beta[i] = objectId[i] != 0u && sums[i] > 0.0f ? wide : -1.0f;
 }
+#endif
 
 /// Narrows a width to what a highlight allows, by its share of what arrives. A lobe that is narrower than the light has
 /// sharper shadows, and moves over the light as the receiver moves: an edge at distance o of the receiver, seen in a
@@ -193,9 +210,9 @@ WEDGE_FN float narrowed(AnalysisParams p, Vec3 toLight, Vec3 toEye, Gloss lobe, 
 /// narrowed() where the pixels are the receivers.
 /// in      sums: of the light's samples, see light_sampling.h, with the specular ones
 /// in out  beta
-__kernel void narrowForLobes(AnalysisParams p, FrameParams frame, __global const float* restrict sums,
-    __global const float* restrict position, __global const uint* restrict gloss,
-    __global const float* restrict diffuse, __global const float* restrict specular, __global float* restrict beta)
+#include "pass/narrowForLobes.h"
+#ifdef PASS_narrowForLobes
+__kernel void narrowForLobes(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -213,14 +230,15 @@ __kernel void narrowForLobes(AnalysisParams p, FrameParams frame, __global const
     beta[i] = narrowed(
         p, vecSub(p.lightCentre, at), vecSub(frame.eye, at), unpackGloss(gloss[i]), lobes / (lobes + matt), wide);
 }
+#endif
 
 /// narrowed() of pixels of many receivers, which keep what they reflect of the light as one. At least what a white matt
 /// surface that faced all of the light, as near as its nearest corner may be, would not reflect is a highlight's.
 /// in      texture: of the light's term, bits: WEDGE_*_BITS of it; gloss: may be packed
 /// in out  beta
-__kernel void narrowForHighlights(AnalysisParams p, FrameParams frame, AreaLight light, uint bits,
-    __global const float* restrict texture, __global const float* restrict position,
-    __global const uint* restrict gloss, __global const uint* restrict objectId, __global float* restrict beta)
+#include "pass/narrowForHighlights.h"
+#ifdef PASS_narrowForHighlights
+__kernel void narrowForHighlights(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -243,14 +261,14 @@ __kernel void narrowForHighlights(AnalysisParams p, FrameParams frame, AreaLight
             narrowed(p, toLight, vecSub(frame.eye, at), loadGloss(gloss, i, p.packed), 1.0f - white / reflected, wide);
     }
 }
+#endif
 
 /// Widths (3.13) and sample counts (3.21) of the published setting; distances: the sums of publishedDistances over
 /// the window. A pixel with no occluded one near keeps the first pass's samples and is not filtered. countMu: counts'
 /// own, since p.mu is as wide as filters are.
-__kernel void publishedWidths(AnalysisParams p, float countMu, __global const float* restrict slopes,
-    __global const float* restrict distances, __global const uint* restrict objectId,
-    __global const float* restrict pixelSize, __global const float* restrict sums, __global float* restrict beta,
-    __global uint* restrict wanted)
+#include "pass/publishedWidths.h"
+#ifdef PASS_publishedWidths
+__kernel void publishedWidths(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -276,3 +294,4 @@ __kernel void publishedWidths(AnalysisParams p, float countMu, __global const fl
     const float bounded = fmin(fmax(count, (float)WEDGE_FIRST_PASS_RAYS), (float)p.countCap);
     wanted[i] = objectId[i] != 0u ? (uint)(bounded + 0.5f) : 0u;
 }
+#endif

@@ -10,9 +10,9 @@
 
 /// Per stripe of rows: a histogram of log2 demand. counts and sums: WEDGE_DEMAND_BINS a stripe; shaded: pixels that
 /// take samples at all, a stripe: those whose mask is not 0. Pixels without demand are in no bin.
-__kernel void demandHistogram(AnalysisParams p, __global const float* restrict demand,
-    __global const uint* restrict mask, __global uint* restrict counts, __global float* restrict sums,
-    __global uint* restrict shaded)
+#include "pass/demandHistogram.h"
+#ifdef PASS_demandHistogram
+__kernel void demandHistogram(PARAMETERS)
 {
     const uint stripe = get_global_id(0);
     if (stripe >= WEDGE_DEMAND_STRIPES) {
@@ -49,12 +49,13 @@ __kernel void demandHistogram(AnalysisParams p, __global const float* restrict d
     }
     shaded[stripe] = pixels;
 }
+#endif
 
 /// Finds C such that the mean of clamp(C demand, least, cap) over the shaded pixels is `mean`, by bisection on the
 /// summed histograms, and writes it to scale[0]. One work-item. The mean grows with C, so 40 halvings settle it.
-__kernel void solveCountScale(float mean, float least, float cap, __global const uint* restrict counts,
-    __global const float* restrict sums, __global const uint* restrict shaded, __global uint* restrict binCounts,
-    __global float* restrict binSums, __global float* restrict scale)
+#include "pass/solveCountScale.h"
+#ifdef PASS_solveCountScale
+__kernel void solveCountScale(PARAMETERS)
 {
     if (get_global_id(0) != 0u) {
         return;
@@ -96,10 +97,12 @@ __kernel void solveCountScale(float mean, float least, float cap, __global const
     }
     scale[0] = exp2(0.5f * (low + high));
 }
+#endif
 
 /// Wanted samples: clamp(C demand, leastCount, cap); 0 where the mask is.
-__kernel void countsFromDemand(AnalysisParams p, __global const float* restrict demand,
-    __global const float* restrict scale, __global const uint* restrict mask, __global uint* restrict wanted)
+#include "pass/countsFromDemand.h"
+#ifdef PASS_countsFromDemand
+__kernel void countsFromDemand(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -110,10 +113,12 @@ __kernel void countsFromDemand(AnalysisParams p, __global const float* restrict 
     const float count = fmin(fmax(scale[0] * demand[i], (float)p.leastCount), (float)p.countCap);
     wanted[i] = mask[i] != 0u ? (uint)(count + 0.5f) : 0u;
 }
+#endif
 
 /// The same count for every pixel of the mask.
-__kernel void uniformCounts(
-    AnalysisParams p, uint count, __global const uint* restrict mask, __global uint* restrict wanted)
+#include "pass/uniformCounts.h"
+#ifdef PASS_uniformCounts
+__kernel void uniformCounts(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -123,3 +128,4 @@ __kernel void uniformCounts(
     const uint i = pixelIndex(x, y, p.stride);
     wanted[i] = mask[i] != 0u ? count : 0u;
 }
+#endif

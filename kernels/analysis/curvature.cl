@@ -40,8 +40,9 @@ WEDGE_FN float16 curvatureAlong(CurvatureParams p, int i, int before, int after,
 }
 
 /// The least distance of an occluder that a pixel of the object around found, metres, 0 where none did.
-__kernel void nearestOccluders(CurvatureParams p, __global const float* restrict occluders,
-    __global const uint* restrict objectId, __global float* restrict nearest)
+#include "pass/nearestOccluders.h"
+#ifdef PASS_nearestOccluders
+__kernel void nearestOccluders(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -61,10 +62,12 @@ __kernel void nearestOccluders(CurvatureParams p, __global const float* restrict
     }
     vstore16(least < INFINITY ? least : (float16)(0.0f), 0, nearest + i);
 }
+#endif
 
 /// The geometric mean of the distances of the object's pixels around that have one, metres, 0 where none has.
-__kernel void meanOccluders(CurvatureParams p, __global const float* restrict nearest,
-    __global const uint* restrict objectId, __global float* restrict mean)
+#include "pass/meanOccluders.h"
+#ifdef PASS_meanOccluders
+__kernel void meanOccluders(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -86,14 +89,13 @@ __kernel void meanOccluders(CurvatureParams p, __global const float* restrict ne
     }
     vstore16(pixels > 0.0f ? exp2Block(sum / max16(pixels, one)) : none, 0, mean + i);
 }
+#endif
 
 /// Standard deviations of kernels exp(-2 B^2 r^2), 1 / (2 |B|), metres, along x and along y, and their mean; -1 where
 /// the pixel has no such term. occluders: the least r / cos theta of a hidden direction, metres, 0 where there is none.
-__kernel void curvatureWidths(CurvatureParams p, __global const float* restrict occluders,
-    __global const float* restrict position, __global const float* restrict normal,
-    __global const uint* restrict objectId, __global const float* restrict pixelSize,
-    __global const uint* restrict gloss, __global const uint* restrict taken, __global float* restrict widthX,
-    __global float* restrict widthY, __global float* restrict beta)
+#include "pass/curvatureWidths.h"
+#ifdef PASS_curvatureWidths
+__kernel void curvatureWidths(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -124,3 +126,4 @@ __kernel void curvatureWidths(CurvatureParams p, __global const float* restrict 
     vstore16(has ? ofY : none, 0, widthY + i);
     vstore16(has ? 0.5f * (ofX + ofY) : none, 0, beta + i);
 }
+#endif

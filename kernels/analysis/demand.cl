@@ -9,8 +9,9 @@
 
 /// Uncertainty of filtered visibilities: v = p (1 - p), at least varianceFloor, since few rays miss thin occluders.
 /// -1 where no slope reaches (beta <= 0).
-__kernel void visibilityUncertainty(AnalysisParams p, __global const float* restrict filtered,
-    __global const float* restrict effective, __global const float* restrict beta, __global float* restrict uncertainty)
+#include "pass/visibilityUncertainty.h"
+#ifdef PASS_visibilityUncertainty
+__kernel void visibilityUncertainty(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -22,10 +23,12 @@ __kernel void visibilityUncertainty(AnalysisParams p, __global const float* rest
     const float16 v = max16(seen * (one - seen), (float16)(p.varianceFloor));
     vstore16(loadBlock(beta, i) > 0.0f ? v / max16(loadBlock(effective, i), one) : -one, 0, uncertainty + i);
 }
+#endif
 
 /// Uncertainty of samples of variance v; -1 where beta < 0.
-__kernel void uncertaintyOf(AnalysisParams p, __global const float* restrict variance,
-    __global const float* restrict effective, __global const float* restrict beta, __global float* restrict uncertainty)
+#include "pass/uncertaintyOf.h"
+#ifdef PASS_uncertaintyOf
+__kernel void uncertaintyOf(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -37,6 +40,7 @@ __kernel void uncertaintyOf(AnalysisParams p, __global const float* restrict var
     const float16 u = loadBlock(variance, i) / max16(loadBlock(effective, i), one);
     vstore16(loadBlock(beta, i) >= 0.0f ? u : -one, 0, uncertainty + i);
 }
+#endif
 
 /// Sums over pixels around.
 typedef struct {
@@ -62,8 +66,9 @@ WEDGE_INLINE void addAround(Around* a, float16 there, int16 counts, bool nearest
 /// first samples happened to be bright take more, which outvote those. So terms of that kind look at others alone. The
 /// visibility of an area light is between 0 and 1, where the error near 0 is that near 1 with its sign turned, and in
 /// small penumbrae no pixel around has the same.
-__kernel void demandOf(AnalysisParams p, uint oneObject, uint ownToo, __global const float* restrict uncertainty,
-    __global const uint* restrict objectId, __global float* restrict demand)
+#include "pass/demandOf.h"
+#ifdef PASS_demandOf
+__kernel void demandOf(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -98,3 +103,4 @@ __kernel void demandOf(AnalysisParams p, uint oneObject, uint ownToo, __global c
     const int16 wants = (own >= 0.0f) & (u > 1e-30f);
     vstore16(wants ? exp2Block(p.countExponent * log2Block(u)) : none, 0, demand + i);
 }
+#endif

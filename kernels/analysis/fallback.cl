@@ -37,9 +37,9 @@
 /// in   filtered, noisy: 3 planes each; deviation: of noisy's luminance (composite.cl); variance: gathered as filtered
 ///      was, where `gathered`
 /// out  differences: d, V, f, and, where `gathered`, that variance, in 16 bits each
-__kernel void fallbackDifferences(AnalysisParams p, uint gathered, __global const float* restrict filtered,
-    __global const float* restrict noisy, __global const float* restrict deviation,
-    __global const float* restrict variance, __global float* restrict differences)
+#include "pass/fallbackDifferences.h"
+#ifdef PASS_fallbackDifferences
+__kernel void fallbackDifferences(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -56,10 +56,12 @@ __kernel void fallbackDifferences(AnalysisParams p, uint gathered, __global cons
         storeShortsBlock(differences, p.planeSize, i, 3u, loadShortsBlock(variance, p.planeSize, i, 0u));
     }
 }
+#endif
 
 /// Squares of a term's deviations, a value for filters.
-__kernel void termVariance(
-    AnalysisParams p, __global const float* restrict deviation, __global float* restrict variance)
+#include "pass/termVariance.h"
+#ifdef PASS_termVariance
+__kernel void termVariance(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -70,6 +72,7 @@ __kernel void termVariance(
     const float16 d = loadDeviations16(deviation, i, p.packed);
     vstore16(d * d, 0, variance + i);
 }
+#endif
 
 /// Sums over pixels.
 typedef struct {
@@ -174,8 +177,9 @@ WEDGE_INLINE float16 fallenBack(Fallback fallback, float16 f, float16 u)
 }
 
 /// in out  filtered
-__kernel void fallBack(AnalysisParams p, uint gathered, __global const float* restrict differences,
-    __global const uint* restrict objectId, __global const float* restrict noisy, __global float* restrict filtered)
+#include "pass/fallBack.h"
+#ifdef PASS_fallBack
+__kernel void fallBack(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -193,6 +197,7 @@ __kernel void fallBack(AnalysisParams p, uint gathered, __global const float* re
     vstore16(fallenBack(fallback, f.y, u.y), 0, filtered + p.planeSize + i);
     vstore16(fallenBack(fallback, f.z, u.z), 0, filtered + 2u * p.planeSize + i);
 }
+#endif
 
 /// How far terms fall back, from sums without the pixel's own: two bright paths in one pixel, one in each half of its
 /// samples, leave no trace in V, and would be all of d. (They are in the filtered values of the pixels around, too,
@@ -200,8 +205,9 @@ __kernel void fallBack(AnalysisParams p, uint gathered, __global const float* re
 /// grains, it is the pixel's own that count.
 ///
 /// out  shares: the share of own samples, and r, in 16 bits each
-__kernel void ownShares(AnalysisParams p, uint gathered, __global const float* restrict differences,
-    __global const uint* restrict objectId, __global float* restrict shares)
+#include "pass/ownShares.h"
+#ifdef PASS_ownShares
+__kernel void ownShares(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -218,3 +224,4 @@ __kernel void ownShares(AnalysisParams p, uint gathered, __global const float* r
     storeShortsBlock(shares, p.planeSize, i, 0u, fallback.own);
     storeShortsBlock(shares, p.planeSize, i, 1u, fallback.ratio);
 }
+#endif

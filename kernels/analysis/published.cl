@@ -17,8 +17,9 @@ WEDGE_FN float largestConfusion(DistributedParams p, __global const float* confu
 }
 
 /// 1 where |L - k E| is small enough (5.30), else 0.
-__kernel void publishedFlags(DistributedParams p, __global const float* restrict texture,
-    __global const float* restrict value, __global const float* restrict termRadiance, __global float* restrict flags)
+#include "pass/publishedFlags.h"
+#ifdef PASS_publishedFlags
+__kernel void publishedFlags(PARAMETERS)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -29,6 +30,7 @@ __kernel void publishedFlags(DistributedParams p, __global const float* restrict
     const float error = vecLength(vecSub(loadVec(termRadiance, p.planeSize, i), vecMul(k, e)));
     flags[i] = p.never == 0u && error < p.factoringError ? 1.0f : 0.0f;
 }
+#endif
 
 /// The median of the flags around a pixel.
 WEDGE_FN bool medianFlag(DistributedParams p, __global const float* flags, uint x, uint y)
@@ -54,10 +56,9 @@ WEDGE_FN float publishedWidth(bool apart, float bandlimit, float pixelSize)
 
 /// A light's widths (5.18) and counts (5.25), (5.27). slopes: s_min, s_max; lightExtent: l_I, metres.
 /// out  beta, demand: the count
-__kernel void publishedShadows(DistributedParams p, float mu, float lightExtent, __global const float* restrict flags,
-    __global const float* restrict slopes, __global const float* restrict confusion,
-    __global const float* restrict pixelSize, __global const uint* restrict objectId, __global float* restrict beta,
-    __global float* restrict demand)
+#include "pass/publishedShadows.h"
+#ifdef PASS_publishedShadows
+__kernel void publishedShadows(PARAMETERS)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -72,12 +73,12 @@ __kernel void publishedShadows(DistributedParams p, float mu, float lightExtent,
     demand[i] =
         objectId[i] != 0u ? directCount(apart ? factored : combined, rMax, sMax, lightExtent, pixelSize[i]) : 0.0f;
 }
+#endif
 
 /// A component's widths (5.22) and counts (5.26), (5.28). reflectors: z_min, z_max.
-__kernel void publishedReflectors(DistributedParams p, float mu, uint component, __global const float* restrict flags,
-    __global const float* restrict reflectors, __global const uint* restrict gloss,
-    __global const float* restrict confusion, __global const float* restrict pixelSize,
-    __global const uint* restrict objectId, __global float* restrict beta, __global float* restrict demand)
+#include "pass/publishedReflectors.h"
+#ifdef PASS_publishedReflectors
+__kernel void publishedReflectors(PARAMETERS)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -95,10 +96,12 @@ __kernel void publishedReflectors(DistributedParams p, float mu, uint component,
         ? indirectRayCount(apart ? factored : combined, rMax, reflectors[p.planeSize + i], transfer, pixelSize[i])
         : 0.0f;
 }
+#endif
 
 /// n_p: (5.24), where something moves (B.3), and `mixed` where motions differ.
-__kernel void publishedPrimary(DistributedParams p, float mu, float mixed, __global const float* restrict confusion,
-    __global const float* restrict motion, __global float* restrict demand)
+#include "pass/publishedPrimary.h"
+#ifdef PASS_publishedPrimary
+__kernel void publishedPrimary(PARAMETERS)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -112,10 +115,12 @@ __kernel void publishedPrimary(DistributedParams p, float mu, float mixed, __glo
     const bool several = fmax(speed, spread) >= p.leastRadius && spread > p.oneVelocity * speed;
     demand[i] = fmax(ofLens, several ? mixed : speed >= p.leastRadius ? ofMotion : 1.0f);
 }
+#endif
 
 /// wanted = the largest demand within 3x3 pixels, rounded up, `most` at most; but never less than `least` and `taken`.
-__kernel void publishedCounts(DistributedParams p, uint most, __global const float* restrict demand,
-    __global const uint* restrict least, __global const uint* restrict taken, __global uint* restrict wanted)
+#include "pass/publishedCounts.h"
+#ifdef PASS_publishedCounts
+__kernel void publishedCounts(PARAMETERS)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -130,3 +135,4 @@ __kernel void publishedCounts(DistributedParams p, uint most, __global const flo
     const uint n = (uint)fmin(ceil(largest), (float)most);
     wanted[i] = max(max(n, least[i]), taken[i]);
 }
+#endif

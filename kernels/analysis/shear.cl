@@ -18,8 +18,9 @@
 ///
 /// in      sums (light_sampling.h)
 /// in out  gradients: of 16 bits; what finishScores() or finishMoments() left, of which the means are made
-__kernel void shadowGradients(AnalysisParams p, uint each, float first, float second,
-    __global const float* restrict sums, __global float* restrict gradients)
+#include "pass/shadowGradients.h"
+#ifdef PASS_shadowGradients
+__kernel void shadowGradients(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -38,6 +39,7 @@ __kernel void shadowGradients(AnalysisParams p, uint each, float first, float se
         }
     }
 }
+#endif
 
 /// Widths are made for pixels that take the mean count, and for shadows of few pixels. Those that take more samples are
 /// less noisy, and where shadows are wide more pixels are gathered: as wide filters would put more off than they
@@ -48,9 +50,9 @@ __kernel void shadowGradients(AnalysisParams p, uint each, float first, float se
 /// in      taken: samples; pixelSize: metres
 /// in out  beta: metres
 /// out     slopeWidth: what it was, which goes with the occluders' slopes alone; of 16 bits
-__kernel void narrowSheared(AnalysisParams p, float mean, float countPower, float wideBlur, float blurPower,
-    __global const uint* restrict taken, __global const float* restrict pixelSize, __global float* restrict slopeWidth,
-    __global float* restrict beta)
+#include "pass/narrowSheared.h"
+#ifdef PASS_narrowSheared
+__kernel void narrowSheared(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -66,3 +68,4 @@ __kernel void narrowSheared(AnalysisParams p, float mean, float countPower, floa
         beta[i] = width * exp2(byCount + fmin(byBlur, 0.0f));
     }
 }
+#endif

@@ -18,8 +18,9 @@
 ///
 /// in      slopes: planes of the least and the largest
 /// in out  logSlopes: the third plane; the second says where there are slopes
-__kernel void smoothLargest(AnalysisParams p, int radius, __global const float* restrict slopes,
-    __global const uint* restrict objectId, __global float* restrict logSlopes)
+#include "pass/smoothLargest.h"
+#ifdef PASS_smoothLargest
+__kernel void smoothLargest(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -39,13 +40,15 @@ __kernel void smoothLargest(AnalysisParams p, int radius, __global const float* 
     }
     vstore16(mean, 0, logSlopes + 2u * p.planeSize + i);
 }
+#endif
 
 /// s_max / s_min of pixels, from 1 to WEDGE_MOST_RATIO: their own, else of what spread to them, else 1.
 ///
 /// in   logSlopes, spread: planes of log2 s_min, weight, log2 s_max, as smoothSlopes(), smoothLargest() and their
 /// spread out  ratio: of 16 bits
-__kernel void slopeRatios(AnalysisParams p, __global const float* restrict logSlopes,
-    __global const float* restrict spread, __global float* restrict ratio)
+#include "pass/slopeRatios.h"
+#ifdef PASS_slopeRatios
+__kernel void slopeRatios(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -62,6 +65,7 @@ __kernel void slopeRatios(AnalysisParams p, __global const float* restrict logSl
         min16(max16(exp2Block(min16(logRatio, (float16)(8.0f))), (float16)(1.0f)), (float16)(WEDGE_MOST_RATIO));
     storeShortsBlock(ratio, p.planeSize, i, 0u, bounded);
 }
+#endif
 
 /// The harmonic mean of both slopes over the lesser one.
 WEDGE_FN float meanSlope(float ratio) { return 2.0f * ratio / (1.0f + ratio); }
@@ -75,7 +79,9 @@ WEDGE_FN float betweenSlopes(float ratio)
 }
 
 /// in out  beta: metres
-__kernel void widenBetweenSlopes(AnalysisParams p, __global const float* restrict ratio, __global float* restrict beta)
+#include "pass/widenBetweenSlopes.h"
+#ifdef PASS_widenBetweenSlopes
+__kernel void widenBetweenSlopes(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -84,10 +90,12 @@ __kernel void widenBetweenSlopes(AnalysisParams p, __global const float* restric
         beta[i] *= beta[i] > 0.0f ? betweenSlopes(loadShort(ratio, 0u, i, 0u)) : 1.0f;
     }
 }
+#endif
 
 /// in out  slopeWidth: as narrowSheared() (shear.cl) left it; then it goes with the slopes' mean alone
-__kernel void widthOfMeanSlope(
-    AnalysisParams p, __global const float* restrict ratio, __global float* restrict slopeWidth)
+#include "pass/widthOfMeanSlope.h"
+#ifdef PASS_widthOfMeanSlope
+__kernel void widthOfMeanSlope(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -97,3 +105,4 @@ __kernel void widthOfMeanSlope(
         storeShort(slopeWidth, 0u, i, 0u, loadShort(slopeWidth, 0u, i, 0u) * meanSlope(r) / betweenSlopes(r));
     }
 }
+#endif

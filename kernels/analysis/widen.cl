@@ -56,10 +56,9 @@ WEDGE_FN bool noiseAround(AnalysisParams p, uint x, uint y, __global const float
 /// none.
 /// in   deviation: of the value that is filtered; beta, metres
 /// out  compared: metres
-__kernel void comparedWidths(AnalysisParams p, FrameParams frame, float pixels,
-    __global const float* restrict deviation, __global const float* restrict position,
-    __global const float* restrict normal, __global const uint* restrict objectId, __global const float* restrict beta,
-    __global float* restrict compared)
+#include "pass/comparedWidths.h"
+#ifdef PASS_comparedWidths
+__kernel void comparedWidths(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -75,6 +74,7 @@ __kernel void comparedWidths(AnalysisParams p, FrameParams frame, float pixels,
     }
     vstore16(!has ? (float16)(-1.0f) : own < wide ? wide : (float16)(0.0f), 0, compared + i);
 }
+#endif
 
 /// A term of pixels that are the receivers in one number. weights: what it is multiplied by in the image; seen, ofPart:
 /// the products, of all samples and of the first of two parts of them
@@ -94,10 +94,9 @@ WEDGE_FN void storeOne(float16 weights, float16 seen, float16 ofPart, uint16 tak
 ///      samples; taken: these samples; sums: of them, see light_sampling.h
 /// out  visibility; deviation, as deviation16() has it; weights: the luminance that is reflected where all is visible,
 ///      1/m^2
-__kernel void oneOfLight(AnalysisParams p, uint firstPass, __global const float* restrict value,
-    __global const float* restrict parts, __global const uint* restrict taken, __global const float* restrict sums,
-    __global const float* restrict diffuse, __global const float* restrict specular,
-    __global float* restrict visibility, __global float* restrict deviation, __global float* restrict weights)
+#include "pass/oneOfLight.h"
+#ifdef PASS_oneOfLight
+__kernel void oneOfLight(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -120,6 +119,7 @@ __kernel void oneOfLight(AnalysisParams p, uint firstPass, __global const float*
 #endif
     storeOne(weight, seen, first, count, firstPass, i, visibility, deviation, weights);
 }
+#endif
 
 /// The same of indirect light: the irradiance that is reflected.
 /// in       reflectance: 3 planes; component: WEDGE_COMPONENT_*; of ambient occlusion all is reflected; fractions: 1:
@@ -127,10 +127,9 @@ __kernel void oneOfLight(AnalysisParams p, uint firstPass, __global const float*
 ///          parts: of the first part, colours in 48 bits; taken: samples
 /// in out   value: sums of the samples, 3 planes, of which the means are made, and one in whose place comes the square
 ///          of the deviation, for filters (fallback.cl)
-__kernel void oneOfPaths(AnalysisParams p, uint component, uint fractions, uint firstPass,
-    __global const float* restrict reflectance, __global float* restrict value, __global const float* restrict parts,
-    __global const uint* restrict taken, __global float* restrict irradiance, __global float* restrict deviation,
-    __global float* restrict weights)
+#include "pass/oneOfPaths.h"
+#ifdef PASS_oneOfPaths
+__kernel void oneOfPaths(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -164,14 +163,15 @@ __kernel void oneOfPaths(AnalysisParams p, uint component, uint fractions, uint 
     vstore16(all.z, 0, value + 2u * size + i);
     vstore16(d * d, 0, value + 3u * size + i);
 }
+#endif
 
 /// What is averaged, both of what is shown and not of irradiances, which may be noisy where there is little of them to
 /// see.
 /// in   difference, apart: of compareColumns(); deviation: its square is v; weights: of what n and w are multiplied by
 /// out  squares: (n - w)^2; variance: V. Both are 0 where the wide filter does not gather more.
-__kernel void widenSquares(AnalysisParams p, __global const float* restrict difference,
-    __global const float* restrict apart, __global const float* restrict deviation,
-    __global const float* restrict weights, __global float* restrict squares, __global float* restrict variance)
+#include "pass/widenSquares.h"
+#ifdef PASS_widenSquares
+__kernel void widenSquares(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -185,6 +185,7 @@ __kernel void widenSquares(AnalysisParams p, __global const float* restrict diff
     vstore16(wider ? own * own * ofVariance : (float16)(0.0f), 0, variance + i);
     vstore16(wider ? d * d : (float16)(0.0f), 0, squares + i);
 }
+#endif
 
 /// t of the head of this file. ratio: of the squared widths
 WEDGE_FN float16 wideShare(float16 difference, float16 variance, float16 ratio)
@@ -197,10 +198,9 @@ WEDGE_FN float16 wideShare(float16 difference, float16 variance, float16 ratio)
 
 /// in   noise: c; difference, variance: of widenSquares(); beta, metres
 /// out  shares: t; -1 of pixels that have no wider filter to compare with
-__kernel void wideShares(AnalysisParams p, FrameParams frame, float pixels, float noise,
-    __global const float* restrict difference, __global const float* restrict variance,
-    __global const float* restrict position, __global const float* restrict normal,
-    __global const uint* restrict objectId, __global const float* restrict beta, __global float* restrict shares)
+#include "pass/wideShares.h"
+#ifdef PASS_wideShares
+__kernel void wideShares(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -221,13 +221,14 @@ __kernel void wideShares(AnalysisParams p, FrameParams frame, float pixels, floa
     const int16 known = differs & (around.difference > 0.0f);
     vstore16(known ? share : (float16)(-1.0f), 0, shares + i);
 }
+#endif
 
 /// Widths by the mean of the shares around: where it changes from pixel to pixel a filter takes more from one side than
 /// from the other, as pairs are weighted by the narrower of both, and shifts what has a gradient.
 /// in out  beta, metres
-__kernel void widen(AnalysisParams p, FrameParams frame, float pixels, __global const float* restrict shares,
-    __global const float* restrict position, __global const float* restrict normal,
-    __global const uint* restrict objectId, __global float* restrict beta)
+#include "pass/widen.h"
+#ifdef PASS_widen
+__kernel void widen(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -256,3 +257,4 @@ __kernel void widen(AnalysisParams p, FrameParams frame, float pixels, __global 
     const float16 mean = sum / max16(count, (float16)(1.0f));
     vstore16(compared ? narrow + mean * max16(wide - narrow, (float16)(0.0f)) : narrow, 0, beta + i);
 }
+#endif

@@ -34,23 +34,27 @@ WEDGE_FN void blurLine(DistributedParams p, uint i, int before, int after, int e
     storeVec(out, n, i, vecScale(sum, 1.0f / weights));
 }
 
-__kernel void blurRows(DistributedParams p, __global const float* restrict lens, __global const float* restrict in,
-    __global float* restrict out)
+#include "pass/blurRows.h"
+#ifdef PASS_blurRows
+__kernel void blurRows(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0), y = p.y0 + get_global_id(1);
     if (x < p.x1 && y < p.y1) {
         blurLine(p, pixelIndex(x, y, p.stride), (int)x, (int)(p.width - 1u - x), 1, lens, in, out);
     }
 }
+#endif
 
-__kernel void blurColumns(DistributedParams p, __global const float* restrict lens, __global const float* restrict in,
-    __global float* restrict out)
+#include "pass/blurColumns.h"
+#ifdef PASS_blurColumns
+__kernel void blurColumns(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0), y = p.y0 + get_global_id(1);
     if (x < p.x1 && y < p.y1) {
         blurLine(p, pixelIndex(x, y, p.stride), (int)y, (int)(p.height - 1u - y), (int)p.stride, lens, in, out);
     }
 }
+#endif
 
 /// Index of the pixel k steps along direction (dx, dy) from (x, y); the pixel's own beyond the image.
 WEDGE_FN uint pixelAlong(DistributedParams p, uint x, uint y, uint i, float dx, float dy, int k)
@@ -104,8 +108,9 @@ WEDGE_FN void loadChannels(DistributedParams p, uint channels, __global const fl
 }
 
 /// Along the motion; channels: 1, or 3 of a term's texture.
-__kernel void blurMotion(DistributedParams p, uint channels, __global const float* restrict along,
-    __global const float* restrict directions, __global const float* restrict in, __global float* restrict out)
+#include "pass/blurMotion.h"
+#ifdef PASS_blurMotion
+__kernel void blurMotion(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0), y = p.y0 + get_global_id(1);
     if (x >= p.x1 || y >= p.y1) {
@@ -132,3 +137,4 @@ __kernel void blurMotion(DistributedParams p, uint channels, __global const floa
         out[c * n + i] = sum[c] / weights;
     }
 }
+#endif

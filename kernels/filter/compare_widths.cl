@@ -77,11 +77,9 @@ WEDGE_INLINE LineMeans compareLine(FilterParams p, int i, int element, Vec3 step
 /// in   value; beta: widths, metres; compared: those to compare with, 0 where beta is not less than they are or there
 ///      is no need to, -1 where there is no value
 /// out  of both: rows filtered, and equal samples that they amount to
-__kernel void compareRows(FilterParams p, __global const float* restrict value, __global const float* restrict beta,
-    __global const float* restrict compared, __global const float* restrict position,
-    __global const float* restrict normal, __global const float* restrict pixelSize,
-    __global const uint* restrict objectId, __global float* restrict narrowRows, __global float* restrict wideRows,
-    __global float* restrict narrowCounts, __global float* restrict wideCounts)
+#include "pass/compareRows.h"
+#ifdef PASS_compareRows
+__kernel void compareRows(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -99,17 +97,16 @@ __kernel void compareRows(FilterParams p, __global const float* restrict value, 
     vstore16(means.narrow.count, 0, narrowCounts + i);
     vstore16(means.wide.count, 0, wideCounts + i);
 }
+#endif
 
 /// Along y.
 /// in      rows that compareRows() made
 /// in out  difference: in the place of its narrow counts comes n - w; apart: in that of its wide counts what the
 /// variance
 ///         of a pixel's mean is to be multiplied by for V of widen.cl, 0 where the wide filter does not gather more
-__kernel void compareColumns(FilterParams p, __global const float* restrict narrowRows,
-    __global const float* restrict wideRows, __global const float* restrict beta,
-    __global const float* restrict compared, __global const float* restrict position,
-    __global const float* restrict normal, __global const float* restrict pixelSize,
-    __global const uint* restrict objectId, __global float* restrict difference, __global float* restrict apart)
+#include "pass/compareColumns.h"
+#ifdef PASS_compareColumns
+__kernel void compareColumns(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -128,3 +125,4 @@ __kernel void compareColumns(FilterParams p, __global const float* restrict narr
     vstore16(means.narrow.value - means.wide.value, 0, difference + i);
     vstore16(kWide > k ? 1.0f / k - 2.0f / (k + kWide) : (float16)(0.0f), 0, apart + i);
 }
+#endif

@@ -221,13 +221,9 @@ WEDGE_INLINE void addNeighbours(FilterParams p, LightAxes light, GatherBlock b, 
 /// out  filtered; effective: the number of equal pixels that the weights amount to; parts, if keepsParts is not 0: of
 ///      the first channel, before it is bounded, what each pair of components along u and v has of it (v running
 ///      fastest), all of it of the pair 0, 0 where nothing is gathered
-__kernel void filterComponents(FilterParams p, LightAxes light, float slopesPerWidth, float floorPerPixel,
-    uint refitted, uint keepsParts, __global const float* restrict value, __global const float* restrict beta,
-    __global const float* restrict slopeWidth, __global const float* restrict ratio,
-    __global const float* restrict position, __global const float* restrict normal,
-    __global const float* restrict pixelSize, __global const uint* restrict objectId,
-    __global const float* restrict sums, __global const float* restrict components, __global float* restrict filtered,
-    __global float* restrict effective, __global float* restrict parts)
+#include "pass/filterComponents.h"
+#ifdef PASS_filterComponents
+__kernel void filterComponents(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -284,3 +280,4 @@ __kernel void filterComponents(FilterParams p, LightAxes light, float slopesPerW
         vstore16(known ? sum.part[pair] / all : unfiltered, 0, parts + pair * p.planeSize + i);
     }
 }
+#endif

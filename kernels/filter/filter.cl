@@ -146,37 +146,43 @@ WEDGE_INLINE void gatherColumn(FilterParams p, GatherPlanes in, __global const f
         __global const float* restrict pixelSize, __global const uint* restrict objectId
 
 #ifndef WEDGE_GATHER_SHEARED
-__kernel void filterRows(
-    FilterParams p, WEDGE_GATHER_PARAMETERS, __global float* restrict filtered, __global float* restrict effective)
+#include "pass/filterRows.h"
+#ifdef PASS_filterRows
+__kernel void filterRows(PARAMETERS)
 {
     const GatherPlanes in = { value, beta, position, normal, pixelSize, objectId };
     const GatheredPlanes out = { filtered, effective };
     gatherRow(p, in, out);
 }
+#endif
 
-__kernel void filterColumns(FilterParams p, WEDGE_GATHER_PARAMETERS, __global const float* effectiveRows,
-    __global float* restrict filtered, __global float* effective)
+#include "pass/filterColumns.h"
+#ifdef PASS_filterColumns
+__kernel void filterColumns(PARAMETERS)
 {
     const GatherPlanes in = { value, beta, position, normal, pixelSize, objectId };
     const GatheredPlanes out = { filtered, effective };
     gatherColumn(p, in, effectiveRows, out);
 }
+#endif
 #else
-__kernel void shearRows(FilterParams p, WEDGE_GATHER_PARAMETERS, __global const float* restrict gradients,
-    __global const float* restrict slopeWidth, __global float* restrict filtered, __global float* restrict effective,
-    __global float* restrict gradientsOfRows)
+#include "pass/shearRows.h"
+#ifdef PASS_shearRows
+__kernel void shearRows(PARAMETERS)
 {
     const GatherPlanes in = { value, beta, position, normal, pixelSize, objectId, gradients, slopeWidth };
     const GatheredPlanes out = { filtered, effective, gradientsOfRows };
     gatherRow(p, in, out);
 }
+#endif
 
-__kernel void shearColumns(FilterParams p, WEDGE_GATHER_PARAMETERS, __global const float* restrict gradients,
-    __global const float* restrict slopeWidth, __global const float* effectiveRows, __global float* restrict filtered,
-    __global float* effective)
+#include "pass/shearColumns.h"
+#ifdef PASS_shearColumns
+__kernel void shearColumns(PARAMETERS)
 {
     const GatherPlanes in = { value, beta, position, normal, pixelSize, objectId, gradients, slopeWidth };
     const GatheredPlanes out = { filtered, effective, 0 };
     gatherColumn(p, in, effectiveRows, out);
 }
+#endif
 #endif

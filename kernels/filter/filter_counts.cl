@@ -35,9 +35,9 @@ WEDGE_INLINE float16 countAlong(FilterParams p, GatherBlock b, int i, int elemen
     return gathers ? countOfLine(weights, p.fitted != 0u) : (float16)(1.0f);
 }
 
-__kernel void gatherCounts(FilterParams p, __global const float* restrict beta, __global const float* restrict position,
-    __global const float* restrict normal, __global const float* restrict pixelSize,
-    __global const uint* restrict objectId, __global float* restrict effective)
+#include "pass/gatherCounts.h"
+#ifdef PASS_gatherCounts
+__kernel void gatherCounts(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -59,3 +59,4 @@ __kernel void gatherCounts(FilterParams p, __global const float* restrict beta, 
     }
     vstore16(count, 0, effective + i);
 }
+#endif

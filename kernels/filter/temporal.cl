@@ -45,15 +45,9 @@ WEDGE_FN Vec3 over(Vec3 a, Vec3 b) { return vec3(a.x / b.x, a.y / b.y, a.z / b.z
 /// and
 ///      its luminance before the filter, 16 bits;
 ///      variation: the variance of that where p.measured, or 0
-__kernel void keepFrame(TemporalParams p, __global const float* restrict position,
-    __global const float* restrict normal, __global const uint* restrict objectId,
-    __global const float* restrict diffuse, __global const float* restrict specular,
-    __global const float* restrict direct, __global const float* restrict directNoisy,
-    __global const float* restrict indirect, __global const float* restrict indirectNoisy,
-    __global const float* restrict directDeviation, __global const float* restrict indirectDeviation,
-    __global float* restrict depth, __global uint* restrict facing, __global uint* restrict object,
-    __global float* restrict directLight, __global float* restrict indirectLight, __global float* restrict noisy,
-    __global float* restrict variation)
+#include "pass/keepFrame.h"
+#ifdef PASS_keepFrame
+__kernel void keepFrame(PARAMETERS)
 {
     uint x, y, i;
     if (!temporalPixel(p, &x, &y, &i)) {
@@ -86,6 +80,7 @@ __kernel void keepFrame(TemporalParams p, __global const float* restrict positio
     }
     storeShort(variation, n, i, 0u, deviation * deviation);
 }
+#endif
 
 /// What a pixel's light may differ by from that of the same surface in another frame, squared: of three pixels in a
 /// row, what an eighth of a pixel's shift of their slope makes, since differFromFrame() takes out what is known of it
@@ -100,8 +95,9 @@ WEDGE_FN float roughness(float before, float own, float after, uint measured)
 /// How much the light of unfiltered samples varies around each pixel.
 /// in      noisy, object: of keepFrame()
 /// in out  variation: of it, 16 bits
-__kernel void findVariation(TemporalParams p, __global const float* restrict noisy,
-    __global const uint* restrict object, __global float* restrict variation)
+#include "pass/findVariation.h"
+#ifdef PASS_findVariation
+__kernel void findVariation(PARAMETERS)
 {
     uint x, y, i;
     if (!temporalPixel(p, &x, &y, &i)) {
@@ -126,6 +122,7 @@ __kernel void findVariation(TemporalParams p, __global const float* restrict noi
     }
     storeShort(variation, n, i, 0u, loadShort(variation, n, i, 0u) + sum);
 }
+#endif
 
 /// One earlier frame, as far as a pixel's surface is seen in it.
 /// in   position, normal: of this frame; object, directLight, indirectLight, noisy: as keepFrame() made them of it;
@@ -133,16 +130,9 @@ __kernel void findVariation(TemporalParams p, __global const float* restrict noi
 /// out  difference: of directLight, 3 planes, and with p.indirect of indirectLight, 3 more; noise: of the luminance
 ///      before the filter, of the nearest pixel, less what light changes on the way to it; variations: the sum of both
 ///      pixels' own; share: g, 1 or 0
-__kernel void differFromFrame(TemporalParams p, __global const float* restrict motions,
-    __global const float* restrict position, __global const float* restrict normal,
-    __global const uint* restrict object, __global const float* restrict directLight,
-    __global const float* restrict indirectLight, __global const float* restrict noisy,
-    __global const float* restrict variation, __global const float* restrict earlierDepth,
-    __global const uint* restrict earlierFacing, __global const uint* restrict earlierObject,
-    __global const float* restrict earlierDirect, __global const float* restrict earlierIndirect,
-    __global const float* restrict earlierNoisy, __global const float* restrict earlierVariation,
-    __global float* restrict difference, __global float* restrict noise, __global float* restrict variations,
-    __global float* restrict share)
+#include "pass/differFromFrame.h"
+#ifdef PASS_differFromFrame
+__kernel void differFromFrame(PARAMETERS)
 {
     uint x, y, i;
     if (!temporalPixel(p, &x, &y, &i)) {
@@ -224,11 +214,13 @@ __kernel void differFromFrame(TemporalParams p, __global const float* restrict m
         storeVec(difference + 3u * n, n, i, seen ? vecMad(vecScale(ownIndirect, -1.0f), indirect, scale) : black);
     }
 }
+#endif
 
 /// Sums over the pixels of a block: how many are seen in the earlier frame, their differences, and the squares of
 /// those. out  sums: 4 numbers a block
-__kernel void sumBlocks(TemporalParams p, uint blocks, __global const float* restrict noise,
-    __global const float* restrict variations, __global const float* restrict share, __global float* restrict sums)
+#include "pass/sumBlocks.h"
+#ifdef PASS_sumBlocks
+__kernel void sumBlocks(PARAMETERS)
 {
     const uint block = (uint)get_global_id(0);
     if (block >= blocks) {
@@ -250,6 +242,7 @@ __kernel void sumBlocks(TemporalParams p, uint blocks, __global const float* res
     sums[4u * block + 2u] = squares;
     sums[4u * block + 3u] = expected;
 }
+#endif
 
 /// Student's t, squared, of differences whose mean is to be 0.
 WEDGE_FN float squaredT(float count, float sum, float squares)
@@ -266,8 +259,9 @@ WEDGE_FN float squaredT(float count, float sum, float squares)
 /// Whether the light of a block is that of the earlier frame: where neither its own pixels nor those around differ in
 /// the mean, and its own by no more than by noise. The latter finds what is brighter here and darker there. out
 /// weights: w of each block
-__kernel void weighBlocks(
-    TemporalParams p, uint blocks, __global const float* restrict sums, __global float* restrict weights)
+#include "pass/weighBlocks.h"
+#ifdef PASS_weighBlocks
+__kernel void weighBlocks(PARAMETERS)
 {
     const uint block = (uint)get_global_id(0);
     if (block >= blocks) {
@@ -290,6 +284,7 @@ __kernel void weighBlocks(
     const float t = fmax(squaredT(count, sum, squares), squaredT(sums[own], sums[own + 1u], sums[own + 2u]));
     weights[block] = temporalTrust(t, ratio);
 }
+#endif
 
 /// Weights of blocks, interpolated between their centres.
 WEDGE_FN float weightAt(TemporalParams p, __global const float* weights, uint x, uint y)
@@ -308,9 +303,9 @@ WEDGE_FN float weightAt(TemporalParams p, __global const float* weights, uint x,
 /// Adds an earlier frame.
 /// in      difference, share; weights: as published not looked at
 /// in out  sum: of g w times the difference, as many planes; counts: of g
-__kernel void addFrame(TemporalParams p, __global const float* restrict difference,
-    __global const float* restrict share, __global const float* restrict weights, __global float* restrict sum,
-    __global float* restrict counts)
+#include "pass/addFrame.h"
+#ifdef PASS_addFrame
+__kernel void addFrame(PARAMETERS)
 {
     uint x, y, i;
     if (!temporalPixel(p, &x, &y, &i) || share[i] == 0.0f) {
@@ -324,13 +319,14 @@ __kernel void addFrame(TemporalParams p, __global const float* restrict differen
     }
     counts[i] += 1.0f;
 }
+#endif
 
 /// Puts the mean in the frame's place.
 /// in      sum, counts: of all earlier frames
 /// in out  direct, indirect (where p.indirect), beauty
-__kernel void finishTemporal(TemporalParams p, __global const float* restrict diffuse,
-    __global const float* restrict specular, __global const float* restrict sum, __global const float* restrict counts,
-    __global float* restrict direct, __global float* restrict indirect, __global float* restrict beauty)
+#include "pass/finishTemporal.h"
+#ifdef PASS_finishTemporal
+__kernel void finishTemporal(PARAMETERS)
 {
     uint x, y, i;
     if (!temporalPixel(p, &x, &y, &i)) {
@@ -347,3 +343,4 @@ __kernel void finishTemporal(TemporalParams p, __global const float* restrict di
     }
     storeVec(beauty, n, i, vecAdd(loadVec(beauty, n, i), more));
 }
+#endif

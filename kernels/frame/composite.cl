@@ -34,12 +34,9 @@ WEDGE_FN void addDeviation(__global float* plane, uint size, int i, float16 devi
 ///         taken: the samples of value
 /// in out  direct, directNoisy (3 planes each), deviation (of directNoisy's luminance, as deviation16() has it, in 16
 /// bits)
-__kernel void addDiffuse(AnalysisParams p, SampleParams params, AreaLight light, __global const float* restrict nodes,
-    __global const float* restrict position, __global const float* restrict normal,
-    __global const uint* restrict objectId, __global const float* restrict diffuse,
-    __global const float* restrict value, __global const float* restrict noisy, __global const float* restrict parts,
-    __global const uint* restrict taken, __global float* restrict direct, __global float* restrict directNoisy,
-    __global float* restrict deviation)
+#include "pass/addDiffuse.h"
+#ifdef PASS_addDiffuse
+__kernel void addDiffuse(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -74,6 +71,7 @@ __kernel void addDiffuse(AnalysisParams p, SampleParams params, AreaLight light,
         addDeviation(deviation, size, i, deviation16(mean, ofPart, loadIdBlock(taken, i), params.firstPass), reflected);
     }
 }
+#endif
 
 /// Unshadowed specular shading in the way of the term, of lanes `wanted`.
 WEDGE_FN float16 specularShading(SampleParams params, AreaLight light, Receivers16 r, __global const float* nodes,
@@ -90,12 +88,9 @@ WEDGE_FN float16 specularShading(SampleParams params, AreaLight light, Receivers
 
 /// One light's specular reflection; value, noisy and parts hold the specular term in their second planes. directions:
 /// of each lobe that is too sharp for a rule
-__kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light, FrameParams frame, uint directions,
-    __global const float* restrict nodes, __global const float* restrict position,
-    __global const float* restrict normal, __global const uint* restrict objectId, __global const uint* restrict gloss,
-    __global const float* restrict specular, __global const float* restrict value, __global const float* restrict noisy,
-    __global const float* restrict parts, __global const uint* restrict taken, __global float* restrict direct,
-    __global float* restrict directNoisy, __global float* restrict deviation)
+#include "pass/addSpecular.h"
+#ifdef PASS_addSpecular
+__kernel void addSpecular(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -131,6 +126,7 @@ __kernel void addSpecular(AnalysisParams p, SampleParams params, AreaLight light
         addDeviation(deviation, size, i, deviation16(mean, ofPart, loadIdBlock(taken, i), params.firstPass), reflected);
     }
 }
+#endif
 
 /// What one term of indirect light is multiplied by in the image. component: WEDGE_COMPONENT_*; of ambient occlusion
 /// the open part of the hemisphere is shown, on white. reflectance: 3 planes
@@ -161,9 +157,9 @@ WEDGE_FN void addTerm(AnalysisParams p, uint component, Vec3x16 k, int16 has, __
 /// in      value: 3 planes; deviations: where they vary, as deviation16() has them, in luminance over that of the
 ///         reflectance; taken: the samples of value
 /// in out  indirectNoisy (3 planes), deviation (as of lights)
-__kernel void addPathSamples(AnalysisParams p, uint component, uint varies, __global const float* restrict reflectance,
-    __global const float* restrict value, __global const float* restrict deviations,
-    __global const uint* restrict taken, __global float* restrict indirectNoisy, __global float* restrict deviation)
+#include "pass/addPathSamples.h"
+#ifdef PASS_addPathSamples
+__kernel void addPathSamples(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -179,14 +175,15 @@ __kernel void addPathSamples(AnalysisParams p, uint component, uint varies, __gl
         addShorts(deviation, p.planeSize, i, has ? off : (float16)(0.0f));
     }
 }
+#endif
 
 /// The samples of fractions (path_sampling.h) as they are, which know nothing of what would be seen if nothing were
 /// hidden: so the fallback sees what that is off by.
 /// in      specular: 3 planes; sums; parts: of the first part; taken
 /// in out  noisy (3 planes), deviation (as of lights)
-__kernel void addLobeSamples(AnalysisParams p, uint firstPass, __global const float* restrict specular,
-    __global const float* restrict sums, __global const float* restrict parts, __global const uint* restrict taken,
-    __global float* restrict noisy, __global float* restrict deviation)
+#include "pass/addLobeSamples.h"
+#ifdef PASS_addLobeSamples
+__kernel void addLobeSamples(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -207,13 +204,14 @@ __kernel void addLobeSamples(AnalysisParams p, uint firstPass, __global const fl
     k.z *= per;
     addTerm(p, WEDGE_COMPONENT_ENVIRONMENT_GLOSSY, k, has, sums, i, noisy);
 }
+#endif
 
 /// One term of indirect light, filtered.
 /// in      value: 3 planes, and, where they vary, the variance of a pixel's samples; taken
 /// in out  indirect (3 planes), variance (in the luminance that is shown, in 16 bits)
-__kernel void addIndirect(AnalysisParams p, uint component, uint varies, __global const float* restrict reflectance,
-    __global const float* restrict value, __global const uint* restrict taken, __global float* restrict indirect,
-    __global float* restrict variance)
+#include "pass/addIndirect.h"
+#ifdef PASS_addIndirect
+__kernel void addIndirect(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -229,10 +227,12 @@ __kernel void addIndirect(AnalysisParams p, uint component, uint varies, __globa
         addShorts(variance, p.planeSize, i, has ? gathered : (float16)(0.0f));
     }
 }
+#endif
 
 /// Adds what a surface reflects, `light`, to what is there without, `below` (3 planes each).
-__kernel void addReflected(AnalysisParams p, __global const float* restrict below, __global const float* restrict light,
-    __global const uint* restrict objectId, __global float* restrict sum)
+#include "pass/addReflected.h"
+#ifdef PASS_addReflected
+__kernel void addReflected(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -246,3 +246,4 @@ __kernel void addReflected(AnalysisParams p, __global const float* restrict belo
         vstore16(loadBlock(below, j) + (surface ? loadBlock(light, j) : (float16)(0.0f)), 0, sum + j);
     }
 }
+#endif

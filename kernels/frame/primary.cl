@@ -20,13 +20,9 @@ WEDGE_FN Vec3 pixelDirection(FrameParams frame, uint x, uint y)
         (float)x + 0.5f, (float)y + 0.5f);
 }
 
-__kernel void primary(FrameParams frame, __global const TraversalNode* restrict nodes,
-    __global const TriangleBlock* restrict blocks, WEDGE_SURFACE_PARAMETERS, __global const uint* restrict objectIds,
-    __global const AreaLight* restrict lights, uint lightCount, WEDGE_BEYOND_PARAMETERS,
-    __global float* restrict position, __global float* restrict normal, __global float* restrict origin,
-    __global uint* restrict geometric, __global uint* restrict objectId, __global float* restrict depth,
-    __global float* restrict pixelSize, __global float* restrict diffuse, __global float* restrict specular,
-    __global float* restrict emission, __global uint* restrict gloss, uint firstGroup)
+#include "pass/primary.h"
+#ifdef PASS_primary
+__kernel void primary(PARAMETERS)
 {
     const SurfaceData data = WEDGE_SURFACE_ARGUMENTS;
     const uint size = frame.planeSize;
@@ -76,3 +72,4 @@ __kernel void primary(FrameParams frame, __global const TraversalNode* restrict 
         gloss[i] = at.gloss[lane];
     }
 }
+#endif

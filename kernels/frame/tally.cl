@@ -6,7 +6,9 @@
 /// Adds up a plane's numbers within the rectangle.
 /// in      counts: a plane
 /// in out  tally: one sum of each work-item, which takes every so manieth row
-__kernel void addToTally(AnalysisParams p, __global const uint* restrict counts, __global ulong* restrict tally)
+#include "pass/addToTally.h"
+#ifdef PASS_addToTally
+__kernel void addToTally(PARAMETERS)
 {
     const uint item = get_global_id(0);
     if (item >= WEDGE_TALLY_STRIPES) {
@@ -20,10 +22,12 @@ __kernel void addToTally(AnalysisParams p, __global const uint* restrict counts,
     }
     tally[item] += sum;
 }
+#endif
 
 /// sum = before + counts.
-__kernel void addCounts(AnalysisParams p, __global const uint* restrict counts, __global const uint* restrict before,
-    __global uint* restrict sum)
+#include "pass/addCounts.h"
+#ifdef PASS_addCounts
+__kernel void addCounts(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -32,3 +36,4 @@ __kernel void addCounts(AnalysisParams p, __global const uint* restrict counts, 
         vstore16(loadIdBlock(before, i) + loadIdBlock(counts, i), 0, sum + i);
     }
 }
+#endif

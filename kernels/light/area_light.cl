@@ -8,8 +8,9 @@
 // in out  taken (samples so far), rays (rays traced for the pixel, all lights), and what the sinks have
 #include "light/light_sampling.h"
 #include "light/met_light.h"
-#include "light/sink.h"
 #include "trace/packet.h"
+
+#include "pass/sampleShadows.h"
 
 /// Samples that a receiver's strata are made for, which is to have `wanted`.
 WEDGE_FN uint strataCount(SampleParams params, uint wanted) { return params.strata > 0u ? params.strata : wanted; }
@@ -151,10 +152,7 @@ WEDGE_FN void dealLanes(const LightLanes* own, const Deal* deal, LightLanes* dea
     }
 }
 
-__kernel void sampleShadows(FrameParams frame, SampleParams params, AreaLight light,
-    __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
-    WEDGE_RECEIVER_PARAMETERS, __global const uint* restrict wanted, uint lastSample, __global uint* restrict taken,
-    __global uint* restrict rays, WEDGE_SINK_PARAMETERS, uint firstGroup)
+__kernel void sampleShadows(PARAMETERS)
 {
     LightLanes own, dealt;
     loadReceivers(frame, params.light, firstGroup, WEDGE_RECEIVER_ARGUMENTS, &own.receivers);

@@ -5,11 +5,9 @@
 #include "light/light_packet.h"
 #include "trace/packet.h"
 
-__kernel void deltaLights(FrameParams frame, __global const DeltaLight* restrict lights, uint lightCount,
-    float sceneDiameter, __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
-    WEDGE_RECEIVER_PARAMETERS, __global const float* restrict diffuse, __global const float* restrict specular,
-    __global float* restrict direct, __global float* restrict directNoisy, __global uint* restrict rays,
-    uint firstGroup)
+#include "pass/deltaLights.h"
+#ifdef PASS_deltaLights
+__kernel void deltaLights(PARAMETERS)
 {
     ReceiverPacket receivers;
     const ReceiverData data = WEDGE_RECEIVER_ARGUMENTS;
@@ -57,3 +55,4 @@ __kernel void deltaLights(FrameParams frame, __global const DeltaLight* restrict
         }
     }
 }
+#endif

@@ -6,7 +6,9 @@
 
 /// One row of cells. Each seed makes other samples, of which any one is anywhere in its cell with the same probability:
 /// so the mean over seeds is that of sampleMap(). rows: 0 in rehearsals
-__kernel void precomputeDirections(uint rows, uint seed, WEDGE_BEYOND_PARAMETERS, __global float* restrict samples)
+#include "pass/precomputeDirections.h"
+#ifdef PASS_precomputeDirections
+__kernel void precomputeDirections(PARAMETERS)
 {
     const uint row = (uint)get_global_id(0);
     if (row >= rows) {
@@ -24,3 +26,4 @@ __kernel void precomputeDirections(uint rows, uint seed, WEDGE_BEYOND_PARAMETERS
         vstore8(all, cell, samples);
     }
 }
+#endif

@@ -5,8 +5,9 @@
 
 /// in   sums: of light_sampling.h; taken: samples
 /// out  value: storeTermValues()
-__kernel void lightMeans(AnalysisParams p, SampleParams sampling, __global const float* restrict sums,
-    __global const uint* restrict taken, __global float* restrict value)
+#include "pass/lightMeans.h"
+#ifdef PASS_lightMeans
+__kernel void lightMeans(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -18,5 +19,6 @@ __kernel void lightMeans(AnalysisParams p, SampleParams sampling, __global const
     for (uint k = 0u; k < WEDGE_SUMS; ++k) {
         total[k] = sums[k * p.planeSize + i];
     }
-    storeTermValues(sampling.shading, p.planeSize, i, total, taken[i], value);
+    storeTermValues(params.shading, p.planeSize, i, total, taken[i], value);
 }
+#endif

@@ -19,8 +19,9 @@ WEDGE_INLINE void storeUnshadowed(uint size, int i, WEDGE_BEYOND_PARAMETERS, __g
 
 /// in   normal, diffuse: 3 planes each, of pixels
 /// out  unshadowed: 3 planes
-__kernel void environmentOfPixels(AnalysisParams p, WEDGE_BEYOND_PARAMETERS, __global const float* restrict normal,
-    __global const float* restrict diffuse, __global float* restrict unshadowed)
+#include "pass/environmentOfPixels.h"
+#ifdef PASS_environmentOfPixels
+__kernel void environmentOfPixels(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -29,14 +30,15 @@ __kernel void environmentOfPixels(AnalysisParams p, WEDGE_BEYOND_PARAMETERS, __g
             p.planeSize, (int)pixelIndex(x, y, p.stride), environment, environmentTable, normal, diffuse, unshadowed);
     }
 }
+#endif
 
 #ifdef WEDGE_SPECULAR
 /// The same of what lobes reflect, of whose samples fractions are made.
 /// in   rings: of unshadowedLobe(); position, normal, specular: 3 planes each; gloss
 /// out  unshadowed: 3 planes; whole: the luminance of what it multiplies specular by
-__kernel void lobesOfPixels(AnalysisParams p, FrameParams frame, uint rings, WEDGE_BEYOND_PARAMETERS,
-    __global const float* restrict position, __global const float* restrict normal, __global const uint* restrict gloss,
-    __global const float* restrict specular, __global float* restrict unshadowed, __global float* restrict whole)
+#include "pass/lobesOfPixels.h"
+#ifdef PASS_lobesOfPixels
+__kernel void lobesOfPixels(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -58,6 +60,7 @@ __kernel void lobesOfPixels(AnalysisParams p, FrameParams frame, uint rings, WED
     storeVec(unshadowed, p.planeSize, i, vecMul(light, reflectance));
     whole[i] = luminance(light);
 }
+#endif
 
 /// What unshadowedLobe() is to be multiplied by: samples know what is seen if nothing hides it, too, and in the mean.
 /// whole, samples: luminances of both; whole[i]: above 0
@@ -99,9 +102,9 @@ WEDGE_FN float correctionOf(AnalysisParams p, uint x, uint y, __global const flo
 ///
 /// in      specular: 3 planes; sums: of fractions (path_sampling.h); taken: samples; whole: of lobesOfPixels()
 /// in out  unshadowed
-__kernel void correctLobes(AnalysisParams p, __global const float* restrict specular,
-    __global const float* restrict sums, __global const uint* restrict taken, __global const uint* restrict objectId,
-    __global const float* restrict whole, __global float* restrict unshadowed)
+#include "pass/correctLobes.h"
+#ifdef PASS_correctLobes
+__kernel void correctLobes(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0);
     const uint y = p.y0 + get_global_id(1);
@@ -131,13 +134,16 @@ __kernel void correctLobes(AnalysisParams p, __global const float* restrict spec
     storeVec(unshadowed, p.planeSize, i, vecScale(light, factor));
 }
 #endif
+#endif
 
 /// The same of a wave's receivers.
-__kernel void environmentOfReceivers(FrameParams frame, WaveParams wave, WEDGE_BEYOND_PARAMETERS,
-    __global const float* restrict normal, __global const float* restrict diffuse, __global float* restrict unshadowed)
+#include "pass/environmentOfReceivers.h"
+#ifdef PASS_environmentOfReceivers
+__kernel void environmentOfReceivers(PARAMETERS)
 {
     const uint first = get_global_id(0) * WEDGE_BLOCK_PIXELS;
     if (frame.tileCount > 0u && first < wave.receivers) {
         storeUnshadowed(wave.planeSize, (int)first, environment, environmentTable, normal, diffuse, unshadowed);
     }
 }
+#endif

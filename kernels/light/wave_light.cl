@@ -24,11 +24,9 @@ WEDGE_FN Vec3x16 unpackDirection16(uint16 packed)
 /// out  unshadowed: mean geometry term over the light, 1/m^2, as the light's samples estimate it; 0 without a surface;
 /// in a
 ///      second plane, where something is specular, mean lobe times geometry term, 1/(sr m^2)
-__kernel void unshadowedReceivers(FrameParams frame, WaveParams wave, AreaLight light,
-    __global const float* restrict nodes, __global const uint* restrict pixelOf, __global const uint* restrict sampleOf,
-    __global const float* restrict position, __global const float* restrict normal,
-    __global const uint* restrict objectId, __global const float* restrict specular,
-    __global const uint* restrict gloss, __global const uint* restrict view, __global float* restrict unshadowed)
+#include "pass/unshadowedReceivers.h"
+#ifdef PASS_unshadowedReceivers
+__kernel void unshadowedReceivers(PARAMETERS)
 {
     const uint first = get_global_id(0) * WEDGE_BLOCK_PIXELS;
     if (frame.tileCount == 0u || first >= wave.receivers) {
@@ -62,3 +60,4 @@ __kernel void unshadowedReceivers(FrameParams frame, WaveParams wave, AreaLight 
     (void)view;
 #endif
 }
+#endif

@@ -7,7 +7,8 @@
 //         have
 #include "paths/path_packet.h"
 #include "paths/path_sampling.h"
-#include "paths/sink.h"
+
+#include "pass/samplePaths.h"
 
 // After the sinks, of which it asks whether they take distances.
 #include "paths/emitter_rays.h"
@@ -158,13 +159,7 @@ WEDGE_FN void numberPaths(const ReceiverPacket* receivers, const Deal* deal, Pat
     }
 }
 
-__kernel void samplePaths(FrameParams frame, PathParams params, __global const TraversalNode* restrict nodes,
-    __global const TriangleBlock* restrict blocks, WEDGE_SURFACE_PARAMETERS,
-    __global const AreaLight* restrict areaLights, __global const DeltaLight* restrict deltaLights,
-    WEDGE_EMITTER_PARAMETERS, WEDGE_BEYOND_PARAMETERS, __global const float* restrict environmentSamples,
-    WEDGE_RECEIVER_PARAMETERS, __global const float* restrict specular, __global const uint* restrict wanted,
-    uint lastSample, __global uint* restrict taken, __global uint* restrict rays, __global uint* restrict pathRays,
-    WEDGE_SINK_PARAMETERS, uint firstGroup)
+__kernel void samplePaths(PARAMETERS)
 {
     const SurfaceData surfaces = WEDGE_SURFACE_ARGUMENTS;
     LightData lights = lightData(params, areaLights, deltaLights, surfaces, emitters, emitterPicks, environment,

@@ -241,12 +241,9 @@ WEDGE_FN void followMirrors(FrameParams frame, __global const TraversalNode* res
         }
     }
 }
-__kernel void sampleMirrors(FrameParams frame, PathParams params, __global const TraversalNode* restrict nodes,
-    __global const TriangleBlock* restrict blocks, WEDGE_SURFACE_PARAMETERS,
-    __global const AreaLight* restrict areaLights, __global const DeltaLight* restrict deltaLights,
-    WEDGE_EMITTER_PARAMETERS, WEDGE_BEYOND_PARAMETERS, __global const float* restrict environmentSamples,
-    WEDGE_RECEIVER_PARAMETERS, __global const uint* restrict sampleOf, uint lastSample, __global uint* restrict taken,
-    __global uint* restrict rays, __global uint* restrict pathRays, __global float* restrict sums, uint firstGroup)
+#include "pass/sampleMirrors.h"
+#ifdef PASS_sampleMirrors
+__kernel void sampleMirrors(PARAMETERS)
 {
     const SurfaceData surfaces = WEDGE_SURFACE_ARGUMENTS;
     LightData lights = lightData(params, areaLights, deltaLights, surfaces, emitters, emitterPicks, environment,
@@ -312,11 +309,13 @@ __kernel void sampleMirrors(FrameParams frame, PathParams params, __global const
         }
     }
 }
+#endif
 
 /// Adds the means of what mirrors show to both images of direct light, where the pixels are the receivers (3 planes
 /// each).
-__kernel void addMirrored(FrameParams frame, __global const uint* restrict taken, __global const float* restrict sums,
-    __global float* restrict direct, __global float* restrict directNoisy, uint firstGroup)
+#include "pass/addMirrored.h"
+#ifdef PASS_addMirrored
+__kernel void addMirrored(PARAMETERS)
 {
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         uint x, y;
@@ -331,4 +330,5 @@ __kernel void addMirrored(FrameParams frame, __global const uint* restrict taken
         }
     }
 }
+#endif
 #endif

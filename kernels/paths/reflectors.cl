@@ -9,8 +9,9 @@
 
 /// Bounds of what the camera sees, one stripe of rows each: planes of WEDGE_EXTENT_STRIPES least x, y, z and largest x,
 /// y, z.
-__kernel void visibleBounds(ReflectorParams p, __global const float* restrict position,
-    __global const uint* restrict objectId, __global float* restrict bounds)
+#include "pass/visibleBounds.h"
+#ifdef PASS_visibleBounds
+__kernel void visibleBounds(PARAMETERS)
 {
     const uint stripe = get_global_id(0);
     if (stripe >= WEDGE_EXTENT_STRIPES) {
@@ -32,9 +33,12 @@ __kernel void visibleBounds(ReflectorParams p, __global const float* restrict po
         bounds[(3u + axis) * WEDGE_EXTENT_STRIPES + stripe] = largestOf(largest);
     }
 }
+#endif
 
 /// Largest dimension of the bounds, metres; 0 where nothing is seen. One work-item.
-__kernel void visibleExtent(__global const float* restrict bounds, __global float* restrict extent)
+#include "pass/visibleExtent.h"
+#ifdef PASS_visibleExtent
+__kernel void visibleExtent(PARAMETERS)
 {
     if (get_global_id(0) != 0u) {
         return;
@@ -51,6 +55,7 @@ __kernel void visibleExtent(__global const float* restrict bounds, __global floa
     }
     extent[0] = size;
 }
+#endif
 
 /// Image widths that what the camera sees counts as at most, as wide as they are where a pixel's surface is.
 #define WEDGE_MOST_VIEWS 4.0f
@@ -143,10 +148,9 @@ WEDGE_FN void nearestReflectors(ReflectorParams p, uint y, int i, __global const
 /// Widths in metres (4.15), (4.16), -1 where the pixel has no such term, 0, which filters nothing, of
 /// what lobes see beyond the scene. fixedWidth replaces the analysis. meanOnly:
 /// reflectors have but one plane, the sum of inverse distances, or what stands for it (WEDGE_NEAREST_FRACTION).
-__kernel void reflectorWidths(ReflectorParams p, __global const float* restrict reflectors,
-    __global const uint* restrict objectId, __global const float* restrict extent,
-    __global const float* restrict pixelSize, __global const uint* restrict gloss, __global const uint* restrict taken,
-    __global float* restrict beta)
+#include "pass/reflectorWidths.h"
+#ifdef PASS_reflectorWidths
+__kernel void reflectorWidths(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -166,12 +170,12 @@ __kernel void reflectorWidths(ReflectorParams p, __global const float* restrict 
     }
     vstore16(loadIdBlock(taken, i) > 0u ? vload16(0, width) : (float16)(-1.0f), 0, beta + i);
 }
+#endif
 
 /// Counts (4.21), 0 where the pixel has no such term. reflectors: of all planes
-__kernel void reflectorCounts(ReflectorParams p, __global const float* restrict reflectors,
-    __global const uint* restrict objectId, __global const float* restrict extent,
-    __global const float* restrict pixelSize, __global const uint* restrict gloss, __global const uint* restrict taken,
-    __global uint* restrict wanted)
+#include "pass/reflectorCounts.h"
+#ifdef PASS_reflectorCounts
+__kernel void reflectorCounts(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -192,12 +196,14 @@ __kernel void reflectorCounts(ReflectorParams p, __global const float* restrict 
         wanted[i] = taken[i] > 0u ? (uint)(bounded + 0.5f) : 0u;
     }
 }
+#endif
 
 /// Variance of a sample's luminance as the image shows it, (sum l^2 - n mean^2) / (n - 1) times the squared luminance
 /// of the reflectance: planes R, G, B, all 1 for ambient occlusion. Of fractions V it is n / (n - 1) V (1 - V) in the
 /// place of the first, as if a sample saw all or nothing.
-__kernel void sampleVariance(ReflectorParams p, __global const float* restrict sums,
-    __global const uint* restrict taken, __global const float* restrict reflectance, __global float* restrict variance)
+#include "pass/sampleVariance.h"
+#ifdef PASS_sampleVariance
+__kernel void sampleVariance(PARAMETERS)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
     const uint y = p.y0 + get_global_id(1);
@@ -220,3 +226,4 @@ __kernel void sampleVariance(ReflectorParams p, __global const float* restrict s
     const float16 v = max16(spread, (float16)(0.0f)) / max16(n - 1.0f, (float16)(1.0f));
     vstore16(n > 1.0f ? v * shown * shown : (float16)(0.0f), 0, variance + i);
 }
+#endif

@@ -30,12 +30,9 @@ WEDGE_FN void storeShadows(WaveParams wave, WavePixel p, uint pixels, __global f
 /// in out  of pixels: texture (3), value (visibility, 3), plain (its luminance, unweighted), squares and textureSquares
 ///         (mean squared luminance of a primary sample's radiance, and of its texture), termRadiance (3, as published),
 ///         extremes (slopes, and shadows' motions), deviation, samples (of all terms), termTaken
-__kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight light, uint exact,
-    __global const uint* restrict pixelFirst, __global const uint* restrict pixelCount,
-    __global const uint* restrict taken, __global const uint* restrict hits, WEDGE_RECEIVER_PARAMETERS,
-    __global const float* restrict diffuse, __global const float* restrict specular,
-    __global const float* restrict sums, __global const float* restrict unshadowed,
-    __global const float* restrict slopes, WEDGE_TERM_PARAMETERS, __global uint* restrict samples)
+#include "pass/accumulateLight.h"
+#ifdef PASS_accumulateLight
+__kernel void accumulateLight(PARAMETERS)
 {
     WavePixel p;
     if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
@@ -132,15 +129,15 @@ __kernel void accumulateLight(FrameParams frame, WaveParams wave, AreaLight ligh
     if ((wave.omits & WEDGE_OMITS_LAYERS) == 0u) {
         samples[p.i] += total;
     }
-    countTaken(wave, p.i, total, termTaken);
+    countTaken(wave, p.i, total, (__global uint*)termTaken);
 }
+#endif
 
 /// Point and directional lights: `lit`, the receivers' radiance from them. deltaSquares: mean squared luminance of a
 /// primary sample's.
-__kernel void accumulateDelta(FrameParams frame, WaveParams wave, __global const uint* restrict pixelFirst,
-    __global const uint* restrict pixelCount, __global const uint* restrict taken,
-    __global const uint* restrict objectId, __global const float* restrict lit, __global float* restrict delta,
-    __global float* restrict deltaSquares)
+#include "pass/accumulateDelta.h"
+#ifdef PASS_accumulateDelta
+__kernel void accumulateDelta(PARAMETERS)
 {
     WavePixel p;
     if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
@@ -156,18 +153,16 @@ __kernel void accumulateDelta(FrameParams frame, WaveParams wave, __global const
     storeMean(delta, frame.planeSize, p.i, (float)p.before, radiance, (float)p.count);
     deltaSquares[p.i] = meanWith(deltaSquares[p.i], (float)p.before, squared, (float)p.count);
 }
+#endif
 
 /// One component of indirect light.
 /// in      ambient: 1 for ambient occlusion: the irradiance is what is open of the hemisphere, the texture white
 ///         wave's planes: objectId, reflectance (3), sums (path_sampling.h), reflectors (distances.h); hits, as
 ///         of a light
 /// in out  as of a light; extremes: reflectors of pixels, like those of receivers; indirectSamples
-__kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient,
-    __global const uint* restrict pixelFirst, __global const uint* restrict pixelCount,
-    __global const uint* restrict taken, __global const uint* restrict hits, __global const uint* restrict objectId,
-    __global const float* restrict reflectance, __global const float* restrict sums,
-    __global const float* restrict reflectors, WEDGE_TERM_PARAMETERS, __global uint* restrict samples,
-    __global uint* restrict indirectSamples)
+#include "pass/accumulatePaths.h"
+#ifdef PASS_accumulatePaths
+__kernel void accumulatePaths(PARAMETERS)
 {
     WavePixel p;
     if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
@@ -223,8 +218,9 @@ __kernel void accumulatePaths(FrameParams frame, WaveParams wave, uint ambient,
         samples[p.i] += total;
         indirectSamples[p.i] += (wave.omits & WEDGE_OMITS_INDIRECT) == 0u ? total : 0u;
     }
-    countTaken(wave, p.i, total, termTaken);
+    countTaken(wave, p.i, total, (__global uint*)termTaken);
 }
+#endif
 
 /// Exponents of those receivers of a pixel that have a lobe, as of the first one's kind; 0 at first.
 typedef struct {
@@ -251,19 +247,9 @@ WEDGE_FN void addGloss(GlossSum* s, Gloss g)
 ///         the circle of confusion, pixels); motion (planes: mean x, mean y, largest difference from the mean; packed:
 ///         see accumulate.h);
 ///         rays, pathRays; taken
-__kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParams camera,
-    __global const uint* restrict pixelFirst, __global const uint* restrict pixelCount,
-    __global const uint* restrict objectId, __global const float* restrict position,
-    __global const float* restrict normal, __global const uint* restrict gloss, __global const float* restrict diffuse,
-    __global const float* restrict specular, __global const float* restrict emission,
-    __global const float* restrict pixelSize, __global const float* restrict depth,
-    __global const float* restrict motion, __global const uint* restrict rays, __global const uint* restrict pathRays,
-    __global uint* restrict taken, __global uint* restrict hitsOf, __global uint* restrict objectOf,
-    __global float* restrict positionOf, __global float* restrict normalOf, __global uint* restrict glossOf,
-    __global float* restrict diffuseOf, __global float* restrict specularOf, __global float* restrict emissionOf,
-    __global float* restrict emissionSquaresOf, __global float* restrict pixelSizeOf,
-    __global float* restrict distanceOf, __global float* restrict confusionOf, __global float* restrict motionOf,
-    __global uint* restrict raysOf, __global uint* restrict pathRaysOf)
+#include "pass/accumulateSurfaces.h"
+#ifdef PASS_accumulateSurfaces
+__kernel void accumulateSurfaces(PARAMETERS)
 {
     WavePixel p;
     if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
@@ -392,3 +378,4 @@ __kernel void accumulateSurfaces(FrameParams frame, WaveParams wave, CameraParam
     motionOf[pixels + p.i] = meanY;
     motionOf[2u * pixels + p.i] = spread;
 }
+#endif

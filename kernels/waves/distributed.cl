@@ -7,8 +7,9 @@
 #include "shared/distributed.h"
 
 /// The signed luminance of L - k E with plain means k and E. Packed, it is in `plain` already.
-__kernel void factoringError(DistributedParams p, __global const float* restrict texture,
-    __global const float* restrict value, __global const float* restrict plain, __global float* restrict error)
+#include "pass/factoringError.h"
+#ifdef PASS_factoringError
+__kernel void factoringError(PARAMETERS)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -17,13 +18,14 @@ __kernel void factoringError(DistributedParams p, __global const float* restrict
     const Vec3 k = loadVec(texture, p.planeSize, i);
     error[i] = luminance(vecMul(k, loadVec(value, p.planeSize, i))) - luminance(k) * plain[i];
 }
+#endif
 
 /// Narrows nothing and widens beta, metres, to what the lens has blurred already (5.18), (5.22); takes pixels out whose
 /// error is too large (beta = -1: they keep their own, and are nobody's neighbours). in   error; packed, the term's
 /// plain means, with which it lies
-__kernel void factoredWidths(DistributedParams p, __global const float* restrict error,
-    __global const float* restrict confusion, __global const float* restrict pixelSize,
-    __global const uint* restrict objectId, __global float* restrict beta)
+#include "pass/factoredWidths.h"
+#ifdef PASS_factoredWidths
+__kernel void factoredWidths(PARAMETERS)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -45,13 +47,13 @@ __kernel void factoredWidths(DistributedParams p, __global const float* restrict
         r >= p.leastRadius ? p.irradianceWidth * r * loadNumber(pixelSize, p.planeSize, i, p.packed, 0u) : 0.0f;
     beta[i] = apart && beta[i] >= 0.0f ? fmax(beta[i], blurred) : -1.0f;
 }
+#endif
 
 /// A term's variance a primary sample, in two: what the texture makes, which every pixel has to average by itself, and
 /// the rest, which the irradiance's filter averages. out  ofTexture, ofIrradiance
-__kernel void splitVariance(DistributedParams p, __global const float* restrict texture,
-    __global const float* restrict textureSquares, __global const float* restrict value,
-    __global const float* restrict squares, __global const uint* restrict taken, __global float* restrict ofTexture,
-    __global float* restrict ofIrradiance)
+#include "pass/splitVariance.h"
+#ifdef PASS_splitVariance
+__kernel void splitVariance(PARAMETERS)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -75,10 +77,12 @@ __kernel void splitVariance(DistributedParams p, __global const float* restrict 
     ofTexture[i] = texturePart;
     ofIrradiance[i] = all - texturePart;
 }
+#endif
 
 /// The variance of what is seen to emit, a primary sample.
-__kernel void emissionVariance(DistributedParams p, __global const float* restrict emission,
-    __global const float* restrict squares, __global const uint* restrict taken, __global float* restrict variance)
+#include "pass/emissionVariance.h"
+#ifdef PASS_emissionVariance
+__kernel void emissionVariance(PARAMETERS)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -87,6 +91,7 @@ __kernel void emissionVariance(DistributedParams p, __global const float* restri
     const float n = (float)taken[i], mean = luminance(loadVec(emission, p.planeSize, i));
     variance[i] = n > 1.0f ? fmax(squares[i] - mean * mean, 0.0f) * n / (n - 1.0f) : 0.0f;
 }
+#endif
 
 /// Equal samples that Gaussians one after the other amount to: that of the irradiance alone gathers so many, the
 /// image's have the standard deviations lens, and, along one direction, along (pixels). Their covariances add up.
@@ -99,9 +104,9 @@ WEDGE_FN float gatheredBy(float irradiance, float lens, float along)
 /// Uncertainty (demand.cl) of a term's samples for their rays: v / K / rays, of the whole image. variance: v;
 /// effective: pixels that the irradiance's filter gathers; lens, along: standard deviations of the image-space filters,
 /// pixels.
-__kernel void uncertaintyOfRays(DistributedParams p, __global const float* restrict variance,
-    __global const float* restrict effective, __global const float* restrict beta, __global const float* restrict lens,
-    __global const float* restrict along, __global float* restrict uncertainty)
+#include "pass/uncertaintyOfRays.h"
+#ifdef PASS_uncertaintyOfRays
+__kernel void uncertaintyOfRays(PARAMETERS)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -111,40 +116,50 @@ __kernel void uncertaintyOfRays(DistributedParams p, __global const float* restr
     const float gathered = gatheredBy(irradiance, lens[i], p.alongMotion != 0u ? along[i] : 0.0f);
     uncertainty[i] = variance[i] / (gathered * p.rays);
 }
+#endif
 
 /// sum += part.
-__kernel void addPlane(DistributedParams p, __global const float* restrict part, __global float* restrict sum)
+#include "pass/addPlane.h"
+#ifdef PASS_addPlane
+__kernel void addPlane(PARAMETERS)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
         sum[i] += part[i];
     }
 }
+#endif
 
 /// At least as many samples of one kind as of another, times apart where texture and irradiance are taken apart (beta
 /// >= 0), times together elsewhere.
-__kernel void atLeast(DistributedParams p, float apart, float together, __global const float* restrict beta,
-    __global const float* restrict least, __global float* restrict demand)
+#include "pass/atLeast.h"
+#ifdef PASS_atLeast
+__kernel void atLeast(PARAMETERS)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
         demand[i] = fmax(demand[i], (beta[i] >= 0.0f ? apart : together) * least[i]);
     }
 }
+#endif
 
 /// A term's value out of its packed planes.
-__kernel void unpackImage(DistributedParams p, __global const float* restrict in, __global float* restrict out)
+#include "pass/unpackImage.h"
+#ifdef PASS_unpackImage
+__kernel void unpackImage(PARAMETERS)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
         storeVec(out, p.planeSize, i, loadValue(p, in, i));
     }
 }
+#endif
 
 /// wanted = clamp(scale demand, least, most), nearer to `mean` by the share `even` of the way, and never less than
 /// `taken`. Both may be one plane: of each pixel demand is read first.
-__kernel void scaleCounts(DistributedParams p, float scale, float even, float mean, uint least, uint most,
-    __global const float* demand, __global const uint* restrict taken, __global uint* wanted)
+#include "pass/scaleCounts.h"
+#ifdef PASS_scaleCounts
+__kernel void scaleCounts(PARAMETERS)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
@@ -153,26 +168,32 @@ __kernel void scaleCounts(DistributedParams p, float scale, float even, float me
         wanted[i] = max((uint)(n + 0.5f), taken[i]);
     }
 }
+#endif
 
 /// Counts of a term's samples after the last wave of a lean frame: pixels without new primary samples took none of the
 /// term. in out  counts: wanted; taken
-__kernel void settleCounts(
-    DistributedParams p, uint first, __global const uint* restrict primaryTaken, __global uint* restrict counts)
+#include "pass/settleCounts.h"
+#ifdef PASS_settleCounts
+__kernel void settleCounts(PARAMETERS)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
         counts[i] = primaryTaken[i] > first ? counts[i] : primaryTaken[i];
     }
 }
+#endif
 
 /// No more new primary samples than a wave has room for.
-__kernel void limitStep(DistributedParams p, __global const uint* restrict taken, __global uint* restrict wanted)
+#include "pass/limitStep.h"
+#ifdef PASS_limitStep
+__kernel void limitStep(PARAMETERS)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
         wanted[i] = min(wanted[i], taken[i] + WEDGE_MOST_NEW_SAMPLES);
     }
 }
+#endif
 
 /// The filter along a motion (mx, my) of n samples; one: all that the pixel shows has it. Returns the standard
 /// deviation, pixels. out  directions: 2 planes, a unit vector; packed, one plane of two numbers, times the standard
@@ -196,9 +217,9 @@ WEDGE_FN float storeBlur(
 /// out  lens, along (the motion), directions of that (2 planes, unit; packed, see storeBlur); lens alone where all is
 /// still.
 ///      Directions may be in the place of packed motions: of each pixel those are read first.
-__kernel void blurs(DistributedParams p, __global const float* restrict confusion, __global const float* motion,
-    __global const uint* restrict taken, __global float* restrict lens, __global float* restrict along,
-    __global float* directions)
+#include "pass/blurs.h"
+#ifdef PASS_blurs
+__kernel void blurs(PARAMETERS)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -217,13 +238,14 @@ __kernel void blurs(DistributedParams p, __global const float* restrict confusio
     const bool alike = packed ? length < INFINITY : motion[2u * p.planeSize + i] <= p.oneVelocity * length;
     along[i] = storeBlur(p, i, alike && length >= p.leastRadius, mx, my, length, n, directions);
 }
+#endif
 
 /// Standard deviations in pixels of the filter of a light's irradiance along its shadows' motion (B.2): where all that
 /// move move alike, else 0. in   shadows: slopes and sums of motions (shadow_motions.h), or packed motions;
 /// taken: the light's samples out  along, directions as blurs() has them
-__kernel void shadowBlurs(DistributedParams p, __global const float* restrict shadows,
-    __global const uint* restrict taken, __global const float* restrict beta, __global float* restrict along,
-    __global float* restrict directions)
+#include "pass/shadowBlurs.h"
+#ifdef PASS_shadowBlurs
+__kernel void shadowBlurs(PARAMETERS)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -249,11 +271,13 @@ __kernel void shadowBlurs(DistributedParams p, __global const float* restrict sh
     along[i] =
         storeBlur(p, i, alike && length >= p.leastRadius && beta[i] >= 0.0f, mx, my, length, samples, directions);
 }
+#endif
 
 /// A term's value in one plane: of a light, whose filter averages it, what is seen. As published it is in the first one
 /// already.
-__kernel void visibilityOf(DistributedParams p, __global const float* restrict texture,
-    __global const float* restrict value, __global float* restrict visibility)
+#include "pass/visibilityOf.h"
+#ifdef PASS_visibilityOf
+__kernel void visibilityOf(PARAMETERS)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -263,14 +287,14 @@ __kernel void visibilityOf(DistributedParams p, __global const float* restrict t
     const float t = luminance(k);
     visibility[i] = p.published != 0u ? value[i] : t > 0.0f ? luminance(vecMul(k, loadValue(p, value, i))) / t : 0.0f;
 }
+#endif
 
 /// fallbackDifferences() of fallback.cl for a term, of the luminance that is seen.
 /// in   filtered: p.values planes; deviation: of the value; variance: gathered as filtered was, where `gathered`; beta:
 ///      pixels below 0 keep their own, and nothing is averaged of them
-__kernel void termDifferences(DistributedParams p, uint gathered, __global const float* restrict texture,
-    __global const float* restrict value, __global const float* restrict filtered,
-    __global const float* restrict deviation, __global const float* restrict variance,
-    __global const float* restrict beta, __global float* restrict differences)
+#include "pass/termDifferences.h"
+#ifdef PASS_termDifferences
+__kernel void termDifferences(PARAMETERS)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -290,10 +314,12 @@ __kernel void termDifferences(DistributedParams p, uint gathered, __global const
         storeShort(differences, n, i, 3u, counts ? t * t * variance[i] : 0.0f);
     }
 }
+#endif
 
 /// A term's filtered value falls back to its own. shares: as of ownShares().
-__kernel void fallBackTerm(DistributedParams p, __global const float* restrict texture,
-    __global const float* restrict value, __global const float* restrict shares, __global float* restrict filtered)
+#include "pass/fallBackTerm.h"
+#ifdef PASS_fallBackTerm
+__kernel void fallBackTerm(PARAMETERS)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -315,6 +341,7 @@ __kernel void fallBackTerm(DistributedParams p, __global const float* restrict t
     const float f = filtered[i] * (1.0f + ratio);
     filtered[i] = own > 0.0f ? f + own * (luminance(vecMul(k, u)) / fmax(luminance(k), 1e-30f) - f) : f;
 }
+#endif
 
 /// A term's own radiance, k E; as published L, termRadiance.
 WEDGE_FN Vec3 ownRadiance(DistributedParams p, uint i, __global const float* texture, __global const float* value,
@@ -341,10 +368,9 @@ WEDGE_FN float keptOf(float number, float difference)
 
 /// radiance += a term: where it is taken apart filteredTexture filtered (p.values planes), elsewhere its own. Of lights
 /// visibilities are filtered, in which colours have no part: each pixel keeps its own.
-__kernel void addFilteredTerm(DistributedParams p, __global const float* restrict texture,
-    __global const float* restrict filteredTexture, __global const float* restrict value,
-    __global const float* restrict filtered, __global const float* restrict beta,
-    __global const float* restrict termRadiance, __global float* restrict radiance)
+#include "pass/addFilteredTerm.h"
+#ifdef PASS_addFilteredTerm
+__kernel void addFilteredTerm(PARAMETERS)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -365,10 +391,12 @@ __kernel void addFilteredTerm(DistributedParams p, __global const float* restric
     }
     storeVec(radiance, n, i, vecAdd(loadVec(radiance, n, i), term));
 }
+#endif
 
 /// radiance += a term without any filter.
-__kernel void addTerm(DistributedParams p, __global const float* restrict texture, __global const float* restrict value,
-    __global const float* restrict termRadiance, __global float* restrict radiance)
+#include "pass/addTerm.h"
+#ifdef PASS_addTerm
+__kernel void addTerm(PARAMETERS)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
@@ -376,19 +404,24 @@ __kernel void addTerm(DistributedParams p, __global const float* restrict textur
         storeVec(radiance, p.planeSize, i, vecAdd(loadVec(radiance, p.planeSize, i), term));
     }
 }
+#endif
 
 /// sum += image (3 planes each).
-__kernel void addImage(DistributedParams p, __global const float* restrict image, __global float* restrict sum)
+#include "pass/addImage.h"
+#ifdef PASS_addImage
+__kernel void addImage(PARAMETERS)
 {
     uint x, y, i;
     if (pixelOf(p, &x, &y, &i)) {
         storeVec(sum, p.planeSize, i, vecAdd(loadVec(sum, p.planeSize, i), loadVec(image, p.planeSize, i)));
     }
 }
+#endif
 
 /// beauty = emission + direct + indirect (3 planes each).
-__kernel void addAll(DistributedParams p, __global const float* restrict emission,
-    __global const float* restrict direct, __global const float* restrict indirect, __global float* restrict beauty)
+#include "pass/addAll.h"
+#ifdef PASS_addAll
+__kernel void addAll(PARAMETERS)
 {
     uint x, y, i;
     if (!pixelOf(p, &x, &y, &i)) {
@@ -397,3 +430,4 @@ __kernel void addAll(DistributedParams p, __global const float* restrict emissio
     const uint n = p.planeSize;
     storeVec(beauty, n, i, vecAdd(vecAdd(loadVec(emission, n, i), loadVec(direct, n, i)), loadVec(indirect, n, i)));
 }
+#endif

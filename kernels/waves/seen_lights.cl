@@ -82,8 +82,9 @@ WEDGE_FN bool outOfView(FrameParams frame, CameraParams camera, AreaLight light)
 /// out  windows: of each light, 6 numbers: the rectangle x0, y0, x1, y1 of the image that rays which meet it go
 ///      through, pixels from the image's corner, empty if the camera does not see it; WEDGE_SHARE_*; the radius of the
 ///      largest circle of confusion, pixels
-__kernel void windowsOfLights(FrameParams frame, CameraParams camera, uint approximate,
-    __global const AreaLight* restrict lights, uint lightCount, __global float* restrict windows)
+#include "pass/windowsOfLights.h"
+#ifdef PASS_windowsOfLights
+__kernel void windowsOfLights(PARAMETERS)
 {
     const uint i = get_global_id(0);
     if (i >= lightCount) {
@@ -129,6 +130,7 @@ __kernel void windowsOfLights(FrameParams frame, CameraParams camera, uint appro
     w[4] = (float)(known ? way : WEDGE_SHARE_UNKNOWN);
     w[5] = most;
 }
+#endif
 
 /// The camera and one of its pixels.
 typedef struct {
@@ -330,9 +332,9 @@ WEDGE_FN bool seesLights(SeeingPixel from, __global const TraversalNode* restric
 
 /// in   frame, camera, BVH, lights; windows: of windowsOfLights
 /// out  known: radiance of the lights that the pixel sees, colours in 47 bits, 1e-4 exact; 0: not known, or none
-__kernel void seenLights(FrameParams frame, CameraParams camera, __global const TraversalNode* restrict nodes,
-    __global const TriangleBlock* restrict blocks, __global const AreaLight* restrict lights, uint lightCount,
-    __global const float* restrict windows, __global float* restrict known)
+#include "pass/seenLights.h"
+#ifdef PASS_seenLights
+__kernel void seenLights(PARAMETERS)
 {
     const uint x = frame.x0 + get_global_id(0), y = frame.y0 + get_global_id(1);
     if (x >= frame.x1 || y >= frame.y1) {
@@ -383,3 +385,4 @@ __kernel void seenLights(FrameParams frame, CameraParams camera, __global const 
     }
     storeColour(known, frame.planeSize, i, WEDGE_COLOUR_BITS, radiance);
 }
+#endif

@@ -115,17 +115,9 @@ WEDGE_INLINE void storeVecLanes(__global float* restrict planes, uint planeSize,
     storeLanes(planes + 2u * planeSize, v->z, count);
 }
 
-__kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wave,
-    __global const TraversalNode* restrict nodes, __global const TriangleBlock* restrict blocks,
-    WEDGE_SURFACE_PARAMETERS, __global const uint* restrict objectIds, __global const AreaLight* restrict lights,
-    uint lightCount, WEDGE_BEYOND_PARAMETERS, __global const uint* restrict pixelOf,
-    __global const uint* restrict sampleOf, __global const uint* restrict wanted, uint hasKnown,
-    __global const float* restrict known, __global float* restrict position, __global float* restrict normal,
-    __global float* restrict origin, __global uint* restrict geometric, __global uint* restrict objectId,
-    __global uint* restrict gloss, __global uint* restrict view, __global float* restrict time,
-    __global float* restrict diffuse, __global float* restrict specular, __global float* restrict emission,
-    __global float* restrict pixelSize, __global float* restrict depth, __global float* restrict motion,
-    __global uint* restrict rays, __global uint* restrict pathRays, uint firstGroup)
+#include "pass/wavePrimary.h"
+#ifdef PASS_wavePrimary
+__kernel void wavePrimary(PARAMETERS)
 {
     const SurfaceData data = WEDGE_SURFACE_ARGUMENTS;
     const uint size = wave.planeSize;
@@ -235,3 +227,4 @@ __kernel void wavePrimary(FrameParams frame, CameraParams camera, WaveParams wav
     storeLanes(motion + first, shift.x, count);
     storeLanes(motion + size + first, shift.y, count);
 }
+#endif

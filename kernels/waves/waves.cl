@@ -16,8 +16,9 @@ WEDGE_FN uint newSamples(WaveParams wave, uint taken, uint wanted)
 /// Receivers of each tile.
 /// in   taken, wanted: primary samples of each pixel
 /// out  tileReceivers: one a tile, in the order of tiles
-__kernel void countReceivers(FrameParams frame, WaveParams wave, __global const uint* restrict taken,
-    __global const uint* restrict wanted, __global uint* restrict tileReceivers)
+#include "pass/countReceivers.h"
+#ifdef PASS_countReceivers
+__kernel void countReceivers(PARAMETERS)
 {
     const uint slot = get_global_id(0);
     if (slot >= frame.tileCount) {
@@ -33,6 +34,7 @@ __kernel void countReceivers(FrameParams frame, WaveParams wave, __global const 
     }
     tileReceivers[slot] = sum;
 }
+#endif
 
 /// New samples of a tile's pixels where none takes more than `most`; no more than 2^32 / WEDGE_TILE_PIXELS.
 WEDGE_FN uint newSamplesOfTile(
@@ -51,8 +53,9 @@ WEDGE_FN uint newSamplesOfTile(
 
 /// No more new primary samples in a tile than a wave has room for: where its pixels want more, none of them takes more
 /// than as many as fit in then. frame: of the whole image, whose tiles a crop's are among
-__kernel void limitTiles(
-    FrameParams frame, uint capacity, __global const uint* restrict taken, __global uint* restrict wanted)
+#include "pass/limitTiles.h"
+#ifdef PASS_limitTiles
+__kernel void limitTiles(PARAMETERS)
 {
     const uint slot = get_global_id(0);
     if (slot >= frame.tileCount || newSamplesOfTile(frame, slot, capacity, taken, wanted) <= capacity) {
@@ -76,16 +79,16 @@ __kernel void limitTiles(
         }
     }
 }
+#endif
 
 /// The receivers of a wave.
 /// in   taken, wanted as above; tileFirst: of each tile, where its receivers start in the wave
 /// out  pixelOf: as in receivers.h; sampleOf: index of the primary sample; shareOf: which of its pixel's receivers of
 ///      this wave it is, and, in the upper 16 bits, how many they are; pixelFirst, pixelCount: of each pixel of the
 ///      wave's tiles, its receivers
-__kernel void listReceivers(FrameParams frame, WaveParams wave, __global const uint* restrict taken,
-    __global const uint* restrict wanted, __global const uint* restrict tileFirst, __global uint* restrict pixelOf,
-    __global uint* restrict sampleOf, __global uint* restrict shareOf, __global uint* restrict pixelFirst,
-    __global uint* restrict pixelCount)
+#include "pass/listReceivers.h"
+#ifdef PASS_listReceivers
+__kernel void listReceivers(PARAMETERS)
 {
     const uint tile = get_global_id(0);
     if (tile >= wave.tiles) {
@@ -107,14 +110,14 @@ __kernel void listReceivers(FrameParams frame, WaveParams wave, __global const u
         at += count;
     }
 }
+#endif
 
 /// The samples of one term that each receiver takes: those that its pixel takes now, shared out evenly.
 /// in   taken, wanted: the pixels' samples of the term
 /// out  first, last: of each receiver, half open; sums, extremes (planes of the wave): 0
-__kernel void shareSamples(FrameParams frame, WaveParams wave, __global const uint* restrict pixelOf,
-    __global const uint* restrict shareOf, __global const uint* restrict taken, __global const uint* restrict wanted,
-    uint sumPlanes, uint extremePlanes, __global uint* restrict first, __global uint* restrict last,
-    __global float* restrict sums, __global float* restrict extremes)
+#include "pass/shareSamples.h"
+#ifdef PASS_shareSamples
+__kernel void shareSamples(PARAMETERS)
 {
     const uint receiver = get_global_id(0);
     if (receiver >= wave.receivers) {
@@ -132,3 +135,4 @@ __kernel void shareSamples(FrameParams frame, WaveParams wave, __global const ui
         extremes[plane * wave.planeSize + receiver] = 0.0f;
     }
 }
+#endif

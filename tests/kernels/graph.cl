@@ -5,6 +5,7 @@ typedef struct {
 } Rectangle;
 
 #include "pass/numbered.h"
+#ifdef PASS_numbered
 __kernel void numbered(PARAMETERS)
 {
     const uint x = p.x0 + (uint)get_global_id(0), y = p.y0 + (uint)get_global_id(1);
@@ -12,9 +13,11 @@ __kernel void numbered(PARAMETERS)
         STORE_out(size, y * p.width + x, (float3)((float)x, (float)y, scale));
     }
 }
+#endif
 
 // Mean of a pixel and its neighbours to both sides.
 #include "pass/smoothed.h"
+#ifdef PASS_smoothed
 __kernel void smoothed(PARAMETERS)
 {
     const uint x = p.x0 + (uint)get_global_id(0), y = p.y0 + (uint)get_global_id(1);
@@ -28,8 +31,10 @@ __kernel void smoothed(PARAMETERS)
     }
     STORE_out(size, y * p.width + x, sum / (float)(to - from + 1u));
 }
+#endif
 
 #include "pass/added.h"
+#ifdef PASS_added
 __kernel void added(PARAMETERS)
 {
     const uint i = (uint)get_global_id(0);
@@ -37,9 +42,11 @@ __kernel void added(PARAMETERS)
         STORE_sum(size, i, LOAD_sum(size, i) + (float)(1u + iteration) * LOAD_in(size, i).x);
     }
 }
+#endif
 
 // As often as each item of each tile is visited, in 16 bits.
 #include "pass/visited.h"
+#ifdef PASS_visited
 __kernel void visited(PARAMETERS)
 {
     const uint i = (firstGroup + (uint)get_group_id(0)) * (uint)get_local_size(0) + (uint)get_local_id(0);
@@ -47,3 +54,4 @@ __kernel void visited(PARAMETERS)
         STORE_visits(size, i, LOAD_visits(size, i) + 1.0f);
     }
 }
+#endif

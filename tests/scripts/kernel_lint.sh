@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
-# kernel_lint.sh KERNELS: runs the front end of three GPU targets over every program in the folder KERNELS, with each
-# set of defines the host builds it with, warnings as errors. Fails if one complains.
+# kernel_lint.sh KERNELS PROGRAMS: runs the front end of three GPU targets over the programs that the command PROGRAMS
+# writes, warnings as errors: those of frames of many kinds, for one target; and of each file of the folder KERNELS all
+# kernels, with each set of defines that the host builds them with. Fails if one complains, or if a kernel is in none.
 set -euo pipefail
 cd "${1:?kernel_lint.sh: error: no folder of kernels: name it}"
+programs=${2:?kernel_lint.sh: error: no command that writes programs: name it}
 
 # Any clang from 15 on; the newest that is here.
 least=15
@@ -20,18 +22,28 @@ if [ "$newest" -lt $least ]; then
 fi
 export clang
 
-lint() { # TARGET FILE DEFINE...
-    "$clang" -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -fsyntax-only -Wall -Wextra -Werror -nogpulib -I. \
-        -target "$@" || { echo "kernel_lint: failed: $*" >&2; return 1; }
+lint() { # TARGET FOLDER FILE DEFINE...
+    local target=$1 folder=$2
+    shift 2
+    "$clang" -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -fsyntax-only -Wall -Wextra -Werror -nogpulib \
+        -I"$folder" -I"$(dirname "$folder")/none" -I. -target "$target" "$@" ||
+        { echo "kernel_lint: failed: $target $folder $*" >&2; return 1; }
 }
 export -f lint
 
-files=(*/*.cl)
-[ -f "${files[0]}" ] || { echo "kernel_lint: no .cl file in $PWD" >&2; exit 1; }
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+"$programs" "$work"
+mkdir "$work/all.trace.trace_test.cl"
+echo trace/trace_test.cl >"$work/all.trace.trace_test.cl/program"
+folders=("$work"/all.*)
+for kernel in $(grep -hoP '^__kernel void \K\w+(?=\(PARAMETERS)' */*.cl); do
+    ls "$work"/all.*/pass/"$kernel.h" >/dev/null || { echo "kernel_lint: no frame has the kernel $kernel" >&2; exit 1; }
+done
 
 # Rooms include what is in rooms before them.
 rooms=(shared core trace sinks light paths waves filter analysis frame)
-allowed=
+allowed="|pass"
 for room in "${rooms[@]}"; do
     allowed="$allowed|$room"
     if grep -nE '#include "[a-z_]+/' "$room"/* | grep -vE "#include \"(${allowed#|})/"; then
@@ -44,37 +56,31 @@ for room in */; do
 done
 
 # The linter itself must complain where there is something to complain of.
-if lint spir64 - <<<'kernel void f(global float* a) { int unused = *a; }' 2>/dev/null; then
+if lint spir64 . - <<<'kernel void f(global float* a) { int unused = *a; }' 2>/dev/null; then
     echo "kernel_lint: an unused variable went unnoticed" >&2
     exit 1
 fi
 
 for target in spir64 nvptx64 amdgcn; do
-    for file in "${files[@]}"; do
+    for folder in "${folders[@]}"; do
         for family in '' -DWEDGE_TRAVERSAL_SCALAR=1; do
             for motion in '' -DWEDGE_MOTION=1; do
-                printf '%s\0' "lint $target $file $family $motion" "lint $target $file $family $motion -DWEDGE_SPECULAR=1" \
-                    "lint $target $file $family $motion -DWEDGE_SPECULAR=1 -DWEDGE_ENVIRONMENT_MAP=1" \
-                    "lint $target $file $family $motion -DWEDGE_SPECULAR=1 -DWEDGE_GGX=1" \
-                    "lint $target $file $family $motion -DWEDGE_NORMAL_MAPS=1" \
-                    "lint $target $file $family $motion -DWEDGE_MIRRORS=1" \
-                    "lint $target $file $family $motion -DWEDGE_MIRRORS=1 -DWEDGE_TOUCHING_GLASS=1" \
-                    "lint $target $file $family $motion -DWEDGE_CUTOUTS=1" \
-                    "lint $target $file $family $motion -DWEDGE_EMITTER_TREES=1 -DWEDGE_EMITTER_TABLES=1"
+                program="lint $target $folder $(cat "$folder/program") $family $motion"
+                for more in '' -DWEDGE_SPECULAR=1 '-DWEDGE_SPECULAR=1 -DWEDGE_ENVIRONMENT_MAP=1' \
+                    '-DWEDGE_SPECULAR=1 -DWEDGE_GGX=1' -DWEDGE_NORMAL_MAPS=1 -DWEDGE_MIRRORS=1 \
+                    '-DWEDGE_MIRRORS=1 -DWEDGE_TOUCHING_GLASS=1' -DWEDGE_CUTOUTS=1 \
+                    '-DWEDGE_EMITTER_TREES=1 -DWEDGE_EMITTER_TABLES=1'; do
+                    printf '%s\0' "$program $more"
+                done
             done
         done
     done
-    # What passes hand the programs of a file besides.
-    for channels in 1 2 3 4; do
-        for more in '' -DWEDGE_GATHER_SHEARED '-DWEDGE_GATHER_SHEARED -DWEDGE_GATHER_CURVED' -DWEDGE_GATHER_MEAN_SQUARE \
-            -DWEDGE_PACKED '-DWEDGE_PACKED -DWEDGE_GATHER_VALUE_ONLY'; do
-            printf '%s\0' "lint $target filter/filter.cl -DWEDGE_GATHER_CHANNELS=$channels $more"
-        done
-    done
-    printf '%s\0' "lint $target filter/filter_counts.cl -DWEDGE_PACKED" "lint $target filter/compare_widths.cl -DWEDGE_PACKED"
-    for components in 1 5 7; do
-        printf '%s\0' "lint $target filter/components.cl -DWEDGE_COMPONENTS=$components" \
-            "lint $target filter/components.cl -DWEDGE_COMPONENTS=$components -DWEDGE_SPECULAR=1"
-    done
-done | xargs -0 -n 1 -P "$(nproc)" bash -c
-echo "kernel_lint: ${#files[@]} programs pass with $clang $newest, under both families of traversals, at rest and moving, for spir64, nvptx64 and amdgcn"
+done >"$work/list"
+frames=0
+for folder in "$work"/*.cl; do
+    case $folder in */all.*) continue ;; esac
+    printf '%s\0' "lint spir64 $folder $(cat "$folder/program")"
+    frames=$((frames + 1))
+done >>"$work/list"
+xargs -0 -n 1 -P "$(nproc)" bash -c <"$work/list"
+echo "kernel_lint: ${#folders[@]} files pass with $clang $newest, under both families of traversals, at rest and moving, for spir64, nvptx64 and amdgcn; and $frames programs of frames"

@@ -185,7 +185,7 @@ void demandOf(FrameBuilder& frame, const shared::AnalysisParams& params, const g
     frame.blocks("counts", PassKind::Analysis, { "analysis/demand.cl", "demandOf" },
         { frame.rectangle(params), value("oneObject", demanding.oneObject ? 1u : 0u),
             value("ownToo", demanding.ownToo ? 1u : 0u), reads("uncertainty", uncertainty, near),
-            demanding.oneObject ? reads("objectId", frame.surfaces.objectId, near) : frame.nothing("objectId"),
+            demanding.oneObject ? reads("objectId", frame.surfaces.objectId, near) : frame.nothing("objectId", "uint"),
             writes("demand", demand) });
 }
 
