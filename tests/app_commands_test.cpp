@@ -64,6 +64,7 @@ TEST_CASE("the report has what scripts read")
     CHECK(report.at("method").at("spp") == 16);
     CHECK(report.at("method").at("oblique").is_boolean());
     CHECK(report.at("setup").at("kernels_ms") > 0);
+    CHECK(report.at("setup").at("plan_ms") >= 0);
     REQUIRE(report.at("frames").size() == 1);
     const nlohmann::json& frame = report.at("frames").at(0);
     CHECK(frame.at("complete") == true);

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
@@ -248,6 +249,46 @@ TEST_CASE("a lamp in its ceiling is as one before it: antialiased")
     method.antialias = true;
     // Other demands are other counts, and so other noise.
     check(method, 2, 5, { Lamp::Quad, Lamp::Panel }, 0.2, 0.003);
+}
+
+TEST_CASE("lamps in a ceiling leave it dark, those that share a term, too")
+{
+    // 25 lamps that emit to both sides: sixteen have a term of their own.
+    const auto brightest = [](const device::Device& device, const Turn& turn, double below, render::Settings method) {
+        const glm::dmat4 rotation = glm::rotate(glm::dmat4(1), glm::radians(turn.degrees), glm::normalize(turn.axis));
+        const auto turned = [&](glm::dvec3 v) { return glm::vec3(rotation * glm::dvec4(v, 0)); };
+        const auto placed = [&](glm::dvec3 p) {
+            return glm::vec3(glm::dvec3(rotation * glm::dvec4(p, 1)) + turn.moved);
+        };
+        SceneBuilder b;
+        b.quad(placed({ 0.3, 3, 0 }), turned({ 3, 0, 0 }), turned({ 0, 0, 3 }));
+        for (int i = 0; i < 25; ++i) {
+            const int column = i % 5, row = i / 5;
+            b.light(placed({ column - 2, 3 - below, row - 2 }), turned({ 0.3, 0, 0 }), turned({ 0, 0, 0.2 }),
+                 scene::LightProfile::Uniform, 9)
+                .twoSided = true;
+        }
+        b.camera(placed({ 0.1, 1, 0.2 }), placed({ 0, 3, 0 }), turned({ 0, 0, 1 }), 70);
+        render::Renderer renderer(b.scene, device, renderOptions());
+        const std::vector<float> image = renderPixels(renderer, sized(method, width, height));
+        REQUIRE(notFinite(image) == 0);
+        return *std::ranges::max_element(image);
+    };
+    onEveryDevice([&](const device::Device& device) {
+        render::Settings antialiased = render::axisAligned(16);
+        antialiased.antialias = true;
+        for (const render::Settings& method : { render::monteCarlo(16), antialiased })
+            for (std::size_t i = 0; i < turns.size(); i += 3) {
+                CAPTURE(turns[i].degrees);
+                CAPTURE(method.antialias);
+                // The last are farther off than rays begin.
+                for (const double below : { 0.0, -1e-6 * roomSize, 1e-6 * roomSize, 4e-6 * roomSize }) {
+                    CAPTURE(below);
+                    CHECK(brightest(device, turns[i], below, method) == 0);
+                }
+                CHECK(brightest(device, turns[i], 1e-2, method) > 0.1f);
+            }
+    });
 }
 
 TEST_CASE("covers are where lamps are, but for a rim")

@@ -126,6 +126,7 @@ TEST_CASE("a scene that is changed has what follows from it anew")
         const render::Settings settings = sized(render::axisAligned(16), width, height);
         render::Renderer changed(before, device, renderOptions()), fresh(after, device, renderOptions());
         renderPixels(changed, settings);
+        const std::shared_ptr<const render::EnvironmentTable> beyond = changed.scene().lights().beyond;
         CHECK(changed.scene().directLights().own.size() == 2);
         changed.changeScene({ .lights = true }, [&](scene::Scene& scene) {
             scene.areaLights = after.areaLights;
@@ -133,6 +134,7 @@ TEST_CASE("a scene that is changed has what follows from it anew")
         });
         CHECK(changed.scene().directLights().own.size() == 1);
         CHECK(sameBits(renderPixels(changed, settings), renderPixels(fresh, settings)));
+        CHECK(changed.scene().lights().beyond == beyond); // of what did not change
     });
 }
 

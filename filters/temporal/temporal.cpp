@@ -45,10 +45,7 @@ bool hasIndirect(const Settings& settings, const render::PreparedScene& scene)
     return render::countOf(render::Part::Indirect, render::frameTerms(settings, scene)) > 0;
 }
 
-std::size_t keptOf(const Settings& settings, const render::PreparedScene& scene)
-{
-    return hasIndirect(settings, scene) ? keptCount : std::size_t { Indirect };
-}
+std::size_t keptOf(bool indirect) { return indirect ? keptCount : std::size_t { Indirect }; }
 
 bool equal(shared::Vec3 a, shared::Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
@@ -307,13 +304,14 @@ TemporalFilter::Kept& TemporalFilter::slotOf(std::uint32_t frame, const Settings
 void TemporalFilter::addTo(device::MemoryPlan& plan, const Settings& settings, const render::PreparedScene& scene)
 {
     const render::PlaneLayout layout(settings.width, settings.height);
-    for (std::size_t i = 0; i < keptOf(settings, scene); ++i) {
+    const bool indirect = hasIndirect(settings, scene);
+    for (std::size_t i = 0; i < keptOf(indirect); ++i) {
         // Allocated one by one.
         for (std::uint32_t k = 0; k < windowOf(settings.temporal); ++k) {
             plan.addItems(keptPlanes[i].name, layout.size, keptPlanes[i].format.bytes);
         }
     }
-    const std::uint64_t planes = hasIndirect(settings, scene) ? 12 : 6;
+    const std::uint64_t planes = indirect ? 12 : 6;
     plan.addItems("sums of the filter over time", layout.size, (planes + 4) * sizeof(float));
     plan.addItems("weights of the filter over time", layout.size / (WEDGE_TEMPORAL_BLOCK * WEDGE_TEMPORAL_BLOCK),
         5 * sizeof(float));
@@ -347,8 +345,9 @@ void TemporalFilter::run(render::Renderer& renderer, const Settings& settings,
     device::TimedQueue& queue = renderer.queue();
     Declaration d(renderer, settings, unused_);
     Kept& own = slotOf(number, settings);
+    const std::size_t planes = keptOf(d.indirect);
     const auto allocate = [&](Kept& kept) {
-        for (std::size_t i = kept.planes.size(); i < keptOf(settings, renderer.scene()); ++i) {
+        for (std::size_t i = kept.planes.size(); i < planes; ++i) {
             kept.planes.emplace_back(device_, d.frame.layout.size * keptPlanes[i].format.bytes, keptPlanes[i].name);
         }
     };

@@ -137,8 +137,9 @@ void applyPaths(const RenderOptions& o, const render::PreparedScene& scene, rend
     refuse(o.maxSurfaces && !scene.traits().mirrors, "without mirrors and glass",
         fmt::format("--max-surfaces {}", o.maxSurfaces.value_or(0)), "give the scene some");
     s.maxSurfaces = o.maxSurfaces.value_or(s.maxSurfaces);
-    refuse(o.lightSampling && s.bounces == 0 && s.method == Method::AxisAligned && !render::hasEmitters(scene)
-            && !scene.directLights().share,
+    const render::DirectLights& lights = scene.directLights();
+    refuse(o.lightSampling && s.bounces == 0 && s.method == Method::AxisAligned && lights.panelTriangles.empty()
+            && !lights.share,
         "without bounces", "--light-sampling", "add --bounces 1");
     if (o.lightSampling) {
         s.lightSampling = *o.lightSampling;

@@ -212,8 +212,8 @@ void DeviceScene::plan(device::MemoryPlan& plan, const PreparedScene& scene, con
         plan.addItems("shared lights", list.list.size(), sizeof(shared::Emitter));
         plan.addItems("shared lights' probabilities", list.picks.size(), sizeof(float));
     }
-    if (!lights.beyond.numbers.empty()) {
-        plan.addItems("environment's table", lights.beyond.numbers.size(), sizeof(float));
+    if (!lights.beyond->numbers.empty()) {
+        plan.addItems("environment's table", lights.beyond->numbers.size(), sizeof(float));
     }
     if (scene.traits().moves) {
         plan.addItems("positions at closing", g.positionsAtClose.size(), sizeof(float));
@@ -246,7 +246,7 @@ DeviceScene::DeviceScene(
     , emitterPicks(device, scene.lights().emitters.picks.size(), "emitters' probabilities")
     , sharedPicks(device, scene.lights().shared.picks.size(), "shared lights' probabilities")
     , environment(device, 1, "environment")
-    , environmentTable(device, scene.lights().beyond.numbers.size(), "environment's table")
+    , environmentTable(device, scene.lights().beyond->numbers.size(), "environment's table")
     , environmentBandwidth(scene.picture())
 {
     const SceneLights& lights = scene.lights();
@@ -279,11 +279,11 @@ DeviceScene::DeviceScene(
     diameter = bounds.empty() ? 1.0f : glm::length(extent);
     largestDimension = std::max({ extent.x, extent.y, extent.z });
     const Shares shares =
-        setPicks(areaLightList, delta, lights.emitters.power, lights.beyond.irradiance, bounds, diameter);
+        setPicks(areaLightList, delta, lights.emitters.power, lights.beyond->irradiance, bounds, diameter);
     emitterShare = shares.emitters;
     environmentShare = shares.environment;
-    environment.upload(queue, std::span(&lights.beyond.map, 1));
-    environmentTable.upload(queue, lights.beyond.numbers);
+    environment.upload(queue, std::span(&lights.beyond->map, 1));
+    environmentTable.upload(queue, lights.beyond->numbers);
     emitters.upload(queue, lights.emitters.list);
     emitterPicks.upload(queue, lights.emitters.picks);
     emitterCount = lights.emitters.count;

@@ -1,11 +1,8 @@
 #include "host/render/direct_lights.h"
 
 #include "host/render/cutouts.h"
-#include "host/render/flush_lights.h"
-
-#include "host/render/effect.h"
-
 #include "host/render/device_scene.h"
+#include "host/render/flush_lights.h"
 #include "kernels/shared/bsdf.h"
 
 #include <algorithm>
@@ -13,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 namespace wedge::render {
 namespace {
@@ -211,9 +209,10 @@ DirectLights directLights(const scene::Scene& scene)
     return out;
 }
 
-SceneLights::SceneLights(const scene::Scene& scene, const DirectLights& direct, const EnvironmentPicture* picture)
+SceneLights::SceneLights(
+    const scene::Scene& scene, const DirectLights& direct, std::shared_ptr<const EnvironmentTable> picture)
     : emitters(emitterList(scene))
-    , beyond(environmentTable(picture))
+    , beyond(std::move(picture))
 {
     if (direct.share && !direct.shareEmitters()) {
         shared = emitterList(scene, direct.panelTriangles, direct.sharedQuads);

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace wedge::render {
@@ -43,12 +44,12 @@ DirectLights directLights(const scene::Scene& scene);
 /// A scene's lights as kernels choose among them. Takes time in proportion to its triangles, and memory likewise where
 /// anything emits: a renderer makes it once.
 struct SceneLights {
-    /// picture: what is around the scene; null without.
-    SceneLights(const scene::Scene& scene, const DirectLights& direct, const EnvironmentPicture* picture);
+    /// picture: what is around the scene.
+    SceneLights(const scene::Scene& scene, const DirectLights& direct, std::shared_ptr<const EnvironmentTable> picture);
 
     EmitterList emitters; ///< what paths' vertices choose among
     EmitterList shared; ///< what the term that lights share does, where that is something else; else empty
-    EnvironmentTable beyond; ///< directions to what is beyond the scene
+    std::shared_ptr<const EnvironmentTable> beyond; ///< directions to what is beyond the scene
 };
 
 } // namespace wedge::render

@@ -87,14 +87,4 @@ bool isFoundAlone(const scene::Scene& scene, std::size_t triangle)
     return areaOf(g, triangle) > 0 || std::any_of(corner, corner + 3, [&](std::uint32_t v) { return movesAt(g, v); });
 }
 
-bool hasEmitters(const scene::Scene& scene)
-{
-    for (std::size_t t = 0; t < scene.geometry.materialIds.size(); ++t) {
-        if (plainPower(scene, t) > 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
 } // namespace wedge::render

@@ -10,9 +10,6 @@
 
 namespace wedge::render {
 
-/// Whether any triangle emits, when the shutter opens: one that has an area then.
-bool hasEmitters(const scene::Scene& scene);
-
 /// Triangles that emit, and area lights, as kernels choose among them (kernels/light/emitters.h): in proportion to
 /// their power, of triangles area times the luminance of what they emit, and where on them by their texture.
 struct EmitterList {

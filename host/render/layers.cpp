@@ -111,10 +111,8 @@ public:
     {
         const std::vector<float> pixelSize = frame().pixelSize.downloadAll(renderer_.queue());
         const std::vector<float> none(frame().layout.size, 0.0f);
-        for (const Term& term : frameTerms(settings_, renderer_.scene())) {
-            const auto known = std::ranges::find(renderer_.termPlanes(), term.name, &TermPlanes::name);
-            const bool analysed = known != renderer_.termPlanes().end() && !known->beta.empty();
-            const std::vector<float>& beta = analysed ? known->beta : none;
+        for (const TermPlanes& term : renderer_.termPlanes()) {
+            const std::vector<float>& beta = term.beta.empty() ? none : term.beta;
             const std::string name = widthLayer + term.name;
             channel(name + ".world", Where::OnSurfaces, [&](std::size_t i) { return std::max(0.0f, beta[i]); });
             channel(name + ".pixels", Where::OnSurfaces,
@@ -125,7 +123,7 @@ public:
     /// Of each term that has some; 0 of those that an early stop kept from being filtered.
     void ofTerms(const TermLayer& layer)
     {
-        for (const Term& term : frameTerms(settings_, renderer_.scene())) {
+        for (const TermPlanes& term : renderer_.termPlanes()) {
             const std::string name = layer.info.name + term.name;
             const auto known = frame().termLayers.find(name);
             if (known == frame().termLayers.end()) {

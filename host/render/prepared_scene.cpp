@@ -49,7 +49,10 @@ PreparedScene::PreparedScene(scene::Scene scene)
 const SceneLights& PreparedScene::lights() const
 {
     if (!lights_) {
-        lights_ = std::make_shared<const SceneLights>(*this, direct_, picture_.get());
+        if (!beyond_) {
+            beyond_ = std::make_shared<const EnvironmentTable>(environmentTable(picture_.get()));
+        }
+        lights_ = std::make_shared<const SceneLights>(*this, direct_, beyond_);
     }
     return *lights_;
 }

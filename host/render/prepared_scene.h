@@ -46,7 +46,9 @@ public:
 private:
     std::shared_ptr<const EnvironmentPicture> picture_;
     DirectLights direct_;
-    mutable std::shared_ptr<const SceneLights> lights_; ///< copies have it in common; null: not yet asked for
+    /// Copies have these in common; null: not yet asked for.
+    mutable std::shared_ptr<const SceneLights> lights_;
+    mutable std::shared_ptr<const EnvironmentTable> beyond_; ///< of the picture, which no change alters
     SceneTraits traits_;
 };
 

@@ -61,14 +61,17 @@ Renderer::Step Renderer::runStep(
     for (SampleMemory& memory : *halfMemories_) {
         memory.rewind();
     }
-    auto frame = std::make_unique<HalvesFrame>(scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal),
-        unused_, keepLayers, *halfMemories_, range.before, range.spp);
-    const HalvesFrame& halves = *frame;
     frame_.reset(); // it has parts of the memory
-    compile(std::move(frame));
+    const HalvesFrame* halves = nullptr;
+    compile([&] {
+        auto frame = std::make_unique<HalvesFrame>(scene_, deviceScene_.get(), settings,
+            packetSize(hierarchy_.traversal), unused_, keepLayers, *halfMemories_, range.before, range.spp);
+        halves = frame.get();
+        return frame;
+    });
     graph::Execution execution(compiled_->plan(), memory_, *kernels_, queue_);
     const bool whole = run(execution, stop, rehearsal);
-    return { rehearsal ? ErrorEstimate { 0, 0 } : halves.error(execution, queue_), whole };
+    return { rehearsal ? ErrorEstimate { 0, 0 } : halves->error(execution, queue_), whole };
 }
 
 FrameStatistics Renderer::renderProgressively(const Settings& wanted, const Control& control,

@@ -205,9 +205,11 @@ bool Renderer::uploadScene()
     return true;
 }
 
-void Renderer::compile(std::unique_ptr<FrameGraph> declared)
+void Renderer::compile(const std::function<std::unique_ptr<FrameGraph>()>& declare)
 {
-    compiled_ = std::make_unique<CompiledFrame>(std::move(declared), slabRules());
+    const Clock::time_point start = Clock::now();
+    compiled_ = std::make_unique<CompiledFrame>(declare(), slabRules());
+    compileSeconds_ += secondsSince(start);
     ++framesCompiled_;
 }
 
@@ -217,7 +219,9 @@ void Renderer::compile(const Settings& settings, bool keepLayers)
         return;
     }
     assert(deviceScene_);
-    compile(declare(scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal), unused_, keepLayers));
+    compile([&] {
+        return declare(scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal), unused_, keepLayers);
+    });
 }
 
 const device::MemoryPlan& Renderer::plan(const Settings& settings, bool keepLayers)

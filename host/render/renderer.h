@@ -144,6 +144,8 @@ public:
     double setupSeconds() const { return setupSeconds_; }
     /// Frames, or steps of progressive ones, that were declared and planned since this is there.
     std::size_t framesCompiled() const { return framesCompiled_; }
+    /// What declaring and planning them took.
+    double compileSeconds() const { return compileSeconds_; }
 
     /// Of the last frame: the image, counts and objects, and all else that layers show where those were kept.
     const Frame& frame() const { return *frame_; }
@@ -164,8 +166,8 @@ private:
     bool uploadScene();
     /// Makes compiled_ one of these settings, of frames that are not progressive, if it is not.
     void compile(const Settings& settings, bool keepLayers);
-    /// Makes compiled_ that frame.
-    void compile(std::unique_ptr<FrameGraph> declared);
+    /// Makes compiled_ the frame that it declares.
+    void compile(const std::function<std::unique_ptr<FrameGraph>()>& declare);
     /// Tests the settings and whether memory suffices, and makes compiled_ theirs if they are not progressive.
     void prepare(const Settings& settings, bool keepLayers);
     /// Runs compiled_, or rehearses it. Returns false if it was stopped before all samples were taken.
@@ -211,6 +213,7 @@ private:
     };
     std::optional<Planned> planned_;
     std::size_t framesCompiled_ = 0;
+    double compileSeconds_ = 0;
     std::unique_ptr<Frame> frame_; ///< parts of the memory
     std::vector<TermPlanes> termPlanes_;
     double setupSeconds_ = 0;

@@ -162,7 +162,7 @@ std::string jsonReport(const Renderer& renderer, const Settings& settings, const
     report["method"] = methodSection(settings);
     report["setup"] = { { "load_ms", extras.loadMilliseconds },
         { "bvh_ms", 1e3 * renderer.hierarchy().statistics.buildSeconds },
-        { "kernels_ms", 1e3 * renderer.setupSeconds() } };
+        { "kernels_ms", 1e3 * renderer.setupSeconds() }, { "plan_ms", 1e3 * renderer.compileSeconds() } };
     report["frames"] = Json::array();
     for (const FrameStatistics& frame : frames) {
         report["frames"].push_back(frameSection(frame, settings));
