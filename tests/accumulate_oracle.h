@@ -181,7 +181,7 @@ struct TermPixels {
     }
     std::uint32_t bitsOfTexture(const Accumulation& a) const { return shared::textureBits(a.packed, light); }
     std::uint32_t bitsOfValue(const Accumulation& a) const { return shared::valueBits(a.packed, light); }
-    /// For WEDGE_TERM_PARAMETERS.
+    /// For the planes of WEDGE_TERM_ARGUMENTS, termWanted and termTaken before them.
     auto planes() const
     {
         return std::tie(wanted, taken, texture, value, plain, squares, textureSquares, radiance, deviation, extremes);

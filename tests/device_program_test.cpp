@@ -84,6 +84,44 @@ TEST_CASE("options: defines, fast maths and what drivers could misread")
     CHECK(contains(errorOf([&] { ProgramLibrary(device, options); }), "1 + 1"));
 }
 
+TEST_CASE("programs of one file differ by defines, in memory and on the disk")
+{
+    const DriverForgets forgets;
+    for (const Device& device : wedge::test::usableDevices()) {
+        const TemporaryFolder folder;
+        ::setenv("WEDGE_CACHE_DIR", folder.path().c_str(), 1);
+        for (const unsigned loaded : { 0u, 2u }) {
+            BuildOptions options;
+            options.kernelDir = WEDGE_TEST_KERNELS;
+            ProgramLibrary library(device, options);
+            TimedQueue queue(device);
+            for (const int value : { 3, 4, 3 }) {
+                Kernel kernel =
+                    library.kernel({ "device_basic.cl", { { "TEST_VALUE", std::to_string(value) } } }, "testValue");
+                Buffer<int> result(device, 1, "result");
+                result.fill(queue, 0);
+                kernel.setArgs(result);
+                queue.launch("testValue", PassKind::Analysis, kernel, 1, 1);
+                CHECK(result.downloadAll(queue) == std::vector<int> { value });
+            }
+            CHECK(library.loaded() == loaded);
+            CHECK(library.compiled() == 2 - loaded);
+            CHECK(contains(errorOf([&] { library.program({ "device_basic.cl", { { "A", "1 + 1" } } }); }), "1 + 1"));
+        }
+    }
+}
+
+TEST_CASE("a kernel without its interface is told of it")
+{
+    for (const Device& device : wedge::test::usableDevices()) {
+        ProgramLibrary library = wedge::test::testLibrary(device);
+        const ProgramSource source("device_basic.cl", {}, { { "pass/addOne.h", "#define PASS_addOne 1\n" } });
+        const std::string message = errorOf([&] { library.kernel(source, "addOne"); });
+        CHECK(contains(message, "addOne (device_basic.cl)"));
+        CHECK(contains(message, "#include \"pass/addOne.h\""));
+    }
+}
+
 TEST_CASE("a program is built once and its kernels have arguments of their own")
 {
     for (const Device& device : wedge::test::usableDevices()) {

@@ -10,7 +10,7 @@ namespace wedge::test {
 /// The passes of filter.cl, compiled with these defines, on one device.
 class FilterRun {
 public:
-    explicit FilterRun(const device::Device& device, const Defines& defines = {})
+    explicit FilterRun(const device::Device& device, const Defines& defines = { { "WEDGE_GATHER_CHANNELS", "1" } })
         : bench_(device, defines)
     {
     }

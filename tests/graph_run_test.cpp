@@ -42,7 +42,7 @@ namespace {
 void numbered(Graph& graph, Handle<Colour>& out, float scale)
 {
     graph.add({ .name = "numbered",
-        .kernel = { "graph.cl", "numbered" },
+        .kernel = { .file = "graph.cl", .name = "numbered", .byFormats = true },
         .arguments = { made("p", rectangleOf), value("size", elements), value("scale", scale), writes("out", out) },
         .domain = Domain::Pixels });
 }
@@ -51,7 +51,7 @@ void smoothed(Graph& graph, const Handle<Colour>& in, Handle<Colour>& out)
 {
     graph.add({ .name = "smoothed",
         .kind = PassKind::Filter,
-        .kernel = { "graph.cl", "smoothed" },
+        .kernel = { .file = "graph.cl", .name = "smoothed", .byFormats = true },
         .arguments = { made("p", rectangleOf), value("size", elements), value("reach", std::uint32_t { smoothReach }),
             reads("in", in, { .x = smoothReach }), writes("out", out) },
         .domain = Domain::Pixels });
@@ -65,7 +65,7 @@ void added(Graph& graph, const Handle<Colour>& in, Handle<Sum>& sum)
     const auto iteration = [](const Launch& launch) { return static_cast<std::uint32_t>(launch.run.iteration()); };
     graph.add({ .name = "added",
         .kind = PassKind::Composite,
-        .kernel = { "graph.cl", "added" },
+        .kernel = { .file = "graph.cl", .name = "added", .byFormats = true },
         .arguments = { value("size", elements), made("count", allElements), made("iteration", iteration),
             reads("in", in, wholeImage), updates("sum", sum) },
         .domain = Domain::Items,
@@ -76,7 +76,7 @@ void added(Graph& graph, const Handle<Colour>& in, Handle<Sum>& sum)
 void visited(Graph& graph, Handle<Sum>& visits, std::size_t tiles)
 {
     graph.add({ .name = "visited",
-        .kernel = { "graph.cl", "visited" },
+        .kernel = { .file = "graph.cl", .name = "visited", .byFormats = true },
         .arguments = { value("size", elements), made("count", allElements), updates("visits", visits) },
         .domain = Domain::Tiles,
         .count = [tiles](const Launch&) { return tiles; },
@@ -311,7 +311,7 @@ TEST_CASE("faults of who declares are found before anything is launched")
     {
         auto more = graph.plane<Colour>("more", vectors);
         graph.add({ .name = "numbered",
-            .kernel = { "graph.cl", "numbered" },
+            .kernel = { .file = "graph.cl", .name = "numbered", .byFormats = true },
             .arguments = { made("p", rectangleOf), value("size", elements), writes("out", more) },
             .domain = Domain::Pixels });
         graph.want(more, { 0, 0, width, height });
@@ -323,7 +323,7 @@ TEST_CASE("faults of who declares are found before anything is launched")
     {
         auto more = graph.plane<Colour>("more", vectors);
         graph.add({ .name = "numbered",
-            .kernel = { "graph.cl", "numbered" },
+            .kernel = { .file = "graph.cl", .name = "numbered", .byFormats = true },
             .arguments = { made("p", rectangleOf), value("size", elements), value("scale", 1.0f), writes("to", more) },
             .domain = Domain::Pixels });
         graph.want(more, { 0, 0, width, height });

@@ -164,7 +164,6 @@ std::vector<glm::dvec2> randomMotions(std::mt19937& random)
 struct BlursFound {
     Planes<float> lens, along, directions;
 };
-/// Packed, directions take the place of motions.
 BlursFound blurs(KernelBench& bench, const Region& region, const shared::DistributedParams& p,
     const Planes<float>& confusion, const Planes<float>& motion, const Planes<std::uint32_t>& taken)
 {
@@ -181,10 +180,10 @@ BlursFound blurs(KernelBench& bench, const Region& region, const shared::Distrib
         ofY.values.begin());
     const Planes<float> both = packedNumbers(motion, ofY);
     const auto confusions = bench.buffer(packedNumbers(confusion, confusion).values),
-               motions = bench.buffer(both.values);
-    launchPixels(
-        bench, "waves/distributed.cl", "blurs", p, confusions, motions, takens, lens.buffer(), along.buffer(), motions);
-    return { lens.read(), along.read(), directionsOf(bench, region, motions, both) };
+               motions = bench.buffer(both.values), packedDirections = bench.buffer(both.values);
+    launchPixels(bench, "waves/distributed.cl", "blurs", p, confusions, motions, takens, lens.buffer(), along.buffer(),
+        packedDirections);
+    return { lens.read(), along.read(), directionsOf(bench, region, packedDirections, both) };
 }
 
 /// shadows: six planes, or packed the first two in one.

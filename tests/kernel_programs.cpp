@@ -1,7 +1,7 @@
 // kernel_programs FOLDER: writes what the programs of frames of many kinds are made of besides kernels/, for compilers
 // that read files: a folder a program with pass/KERNEL.h and whatever else is generated, and `program`, its file and
-// defines as a command line has them. all.FILE has all kernels of a file, each as the first frame has it; none/ has an
-// empty interface for kernels that a program has no pass for.
+// defines as a command line has them. all.N.FILE has all kernels of a file that are compiled with the same defines,
+// each as the first frame has it, N from 1; none/ has an empty interface for kernels that a program has no pass for.
 #include "tests/product_programs.h"
 
 #include <fmt/format.h>
@@ -13,6 +13,7 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <stdexcept>
 #include <string>
 
 namespace {
@@ -44,7 +45,11 @@ std::string contentsOf(const ProductProgram& program)
 void write(const fs::path& file, const std::string& text)
 {
     fs::create_directories(file.parent_path());
-    std::ofstream(file) << text;
+    std::ofstream stream(file);
+    stream << text << std::flush;
+    if (!stream) {
+        throw std::runtime_error("cannot write " + file.string());
+    }
 }
 
 void write(const fs::path& folder, const ProductProgram& program)
@@ -68,20 +73,23 @@ int main(int count, char** arguments)
     try {
         const fs::path folder = arguments[1];
         const wedge::device::Device device = wedge::device::Device::open("0");
-        std::map<std::string, ProductProgram> whole;
+        std::map<std::string, std::map<wedge::device::Defines, ProductProgram>> whole;
         wedge::test::everyProgram(device, [&](const ProductProgram& program) {
             std::string name = program.source.file;
             std::ranges::replace(name, '/', '.');
             write(folder / fmt::format("{:016x}.{}", std::hash<std::string>()(contentsOf(program)), name), program);
-            auto& all = whole.emplace(name, program).first->second.source.generated;
+            auto& all = whole[name].emplace(program.source.defines, program).first->second.source.generated;
             for (const auto& [interface, text] : program.source.generated) {
                 all.emplace(interface, text);
                 write(folder / "none" / interface, "");
             }
             return true;
         });
-        for (const auto& [name, program] : whole) {
-            write(folder / ("all." + name), program);
+        for (const auto& [name, programs] : whole) {
+            unsigned number = 0;
+            for (const auto& [defines, program] : programs) {
+                write(folder / fmt::format("all.{}.{}", ++number, name), program);
+            }
         }
     } catch (const std::exception& error) {
         fmt::print(stderr, "kernel_programs: {}\n", error.what());

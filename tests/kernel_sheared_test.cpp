@@ -10,7 +10,7 @@ using namespace wedge::test;
 
 namespace {
 
-const Defines program { { "WEDGE_GATHER_SHEARED", "1" } };
+const Defines program { { "WEDGE_GATHER_SHEARED", "1" }, { "WEDGE_GATHER_CHANNELS", "1" } };
 
 /// A floor of 5 cm pixels seen from above with a share of light h = 0.5 + a x^2 + b x z + c z^2 and its gradients,
 /// where filters are 2 to 3 pixels wide.

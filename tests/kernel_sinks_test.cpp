@@ -225,6 +225,7 @@ private:
         const std::string list = text.substr(from, text.find('\n', from) - from);
         std::sregex_iterator next(list.begin(), list.end(), parameter);
         for (graph::Argument& argument : arguments) {
+            REQUIRE(next != std::sregex_iterator());
             argument.name = (*next)[2];
             if (argument.type.starts_with("__global"))
                 argument.type = (*next)[1];

@@ -12,7 +12,8 @@ using namespace wedge::test;
 
 namespace {
 
-const Defines curvedProgram { { "WEDGE_GATHER_SHEARED", "1" }, { "WEDGE_GATHER_CURVED", "1" } };
+const Defines curvedProgram { { "WEDGE_GATHER_SHEARED", "1" }, { "WEDGE_GATHER_CURVED", "1" },
+    { "WEDGE_GATHER_CHANNELS", "1" } };
 
 /// A share of light on a floor, a polynomial of fourth order, and its derivatives along x, z, xx, xz, zz.
 std::array<double, 6> fieldAt(double x, double z)
@@ -87,7 +88,8 @@ std::vector<std::array<double, 6>> oraclePass(
 TEST_CASE("a field of fourth order comes out as it is, which first derivatives alone leave flatter")
 {
     onEveryDevice([](const device::Device& device) {
-        FilterRun curved(device, curvedProgram), sheared(device, { { "WEDGE_GATHER_SHEARED", "1" } });
+        FilterRun curved(device, curvedProgram),
+            sheared(device, { { "WEDGE_GATHER_SHEARED", "1" }, { "WEDGE_GATHER_CHANNELS", "1" } });
         FilterImage image = curvedField();
         image.slopeWidth = Planes<float>(image.value.layout, 1, 1.0f); // s = 1
         const auto worst = [&](const FilterResult& result) {
@@ -151,7 +153,7 @@ TEST_CASE("fitted lines, narrower pairs and what is left out are as in the filte
         for (const bool specular : { false, true }) {
             const std::size_t channels = specular ? 2 : 1;
             Defines defines = curvedProgram;
-            defines.emplace_back("WEDGE_GATHER_CHANNELS", specular ? "2" : "1");
+            defines.back().second = specular ? "2" : "1";
             FilterRun curved(device, defines);
             double left = 0;
             unsigned images = 0;

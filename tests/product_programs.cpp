@@ -44,20 +44,30 @@ std::vector<Settings> manySettings()
     return out;
 }
 
+/// Whether the scene has frames of that kind.
+bool allows(const render::PreparedScene& scene, const Settings& settings)
+{
+    try {
+        render::validate(settings, render::isDistributed(settings, scene));
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
 /// False: no more.
 bool ofFrames(const render::Renderer& renderer, const std::function<bool(const ProductProgram&)>& visit)
 {
     for (Settings settings : manySettings()) {
         settings.width = settings.height = 16;
+        if (!allows(renderer.scene(), settings)) {
+            continue;
+        }
         for (const bool layers : { true, false }) {
-            try {
-                for (const device::ProgramSource& source : renderer.programs(settings, layers)) {
-                    if (!visit({ renderer.programOptions(), source })) {
-                        return false;
-                    }
+            for (const device::ProgramSource& source : renderer.programs(settings, layers)) {
+                if (!visit({ renderer.programOptions(), source })) {
+                    return false;
                 }
-            } catch (const Error&) {
-                break; // no frames of that kind of this scene
             }
         }
     }
@@ -74,11 +84,10 @@ bool overTime(const device::Device& device, const std::function<bool(const Produ
         settings.width = settings.height = 8;
         settings.bounces = 1;
         settings.temporal = temporal;
-        render::Renderer& r = renderer;
         for (std::uint32_t frame = 0; frame < 2; ++frame) {
             settings.frame = frame;
-            render::FrameStatistics statistics = r.render(settings, {}, true);
-            filter.filter(r, settings, nullptr, statistics);
+            render::FrameStatistics statistics = renderer.render(settings, {}, true);
+            filter.filter(renderer, settings, nullptr, statistics);
         }
     }
     for (const device::ProgramSource& source : renderer.kernels().programs()) {
@@ -108,21 +117,23 @@ void everyProgram(const device::Device& device, const std::function<bool(const P
 
 device::ProgramSource productProgram(const device::Device& device, const std::string& file, const std::string& kernel)
 {
-    static std::map<std::pair<std::string, std::string>, device::ProgramSource> known;
-    const std::pair key(file, kernel);
-    if (const auto found = known.find(key); found != known.end()) {
-        return found->second;
-    }
+    // Interfaces are the same on all devices.
+    static const std::map<std::pair<std::string, std::string>, std::string> known = [&] {
+        std::map<std::pair<std::string, std::string>, std::string> found;
+        everyProgram(device, [&](const ProductProgram& program) {
+            for (const auto& [interface, text] : program.source.generated) {
+                found.emplace(std::pair(program.source.file, interface), text);
+            }
+            return true;
+        });
+        return found;
+    }();
     device::ProgramSource out(file);
-    const std::string name = "pass/" + kernel + ".h";
-    everyProgram(device, [&](const ProductProgram& program) {
-        const bool has = program.source.file == file && program.source.generated.contains(name);
-        if (has) {
-            out.generated.emplace(name, program.source.generated.at(name));
-        }
-        return !has;
-    });
-    return known.emplace(key, out).first->second;
+    const std::string interface = "pass/" + kernel + ".h";
+    if (const auto found = known.find({ file, interface }); found != known.end()) {
+        out.generated.emplace(interface, found->second);
+    }
+    return out;
 }
 
 } // namespace wedge::test

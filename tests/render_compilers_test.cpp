@@ -112,7 +112,7 @@ TEST_CASE("work is done whether other processes start, fail, or help")
         CAPTURE(program);
         render::CompileWork work = workOf(device, { "CASE" + std::to_string(++number) });
         work.programs.push_back({ trialOf("device_basic.cl", "testValue", 1) });
-        work.options.defines.emplace_back("TEST_VALUE", "3");
+        work.programs.back().back().program.defines.emplace_back("TEST_VALUE", "3"); // without which it does not build
         device::ProgramLibrary programs(device, work.options);
         graph::Kernels kernels(programs);
         device::TimedQueue queue(device);

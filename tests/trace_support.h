@@ -79,11 +79,13 @@ inline device::ProgramSource withSinks(const device::Device& device, const std::
     std::string& all = out.generated.at(name);
     const auto parametersOf = [](const std::string& of) {
         const std::string macro = "#define WEDGE_SINK_PARAMETERS ";
+        REQUIRE(of.find(macro) != std::string::npos);
         const auto from = of.find(macro) + macro.size();
         return of.substr(from, of.find('\n', from) - from);
     };
     const std::string before = parametersOf(all);
-    const auto list = all.find(before);
+    const auto list = all.find(before); // at the end of PARAMETERS
+    REQUIRE(list != std::string::npos);
     all.replace(list, before.size(), parametersOf(text));
     all = all.substr(0, all.find('\n', list) + 1) + text;
     for (const graph::Sink& sink : sinks) {

@@ -93,6 +93,9 @@ void RenderJob::checkCall() const
             throw UsageError("--explain renders nothing", name, "leave one of them out");
         }
     }
+    if (!options_.programs.empty() && options_.explain.empty()) {
+        throw UsageError("programs are written of frames that are explained", "--programs", "add --explain FILE.svg");
+    }
     const std::vector<Output>& outputs = images_.outputs();
     const bool anyExr = std::ranges::any_of(outputs, [](const Output& o) { return o.format == ImageFormat::Exr; });
     if (!options_.layers.empty() && !anyExr) {
@@ -221,7 +224,27 @@ void RenderJob::explain()
     say("{}", explanation.text);
     writeText(options_.explain, explanation.drawing);
     tell("wrote {}\n", printable(options_.explain));
+    if (!options_.programs.empty()) {
+        writePrograms();
+    }
     std::fflush(stdout);
+}
+
+void RenderJob::writePrograms() const
+{
+    const std::filesystem::path folder = options_.programs;
+    const auto files =
+        device::programFiles(renderer_->programOptions(), renderer_->programs(settings_, !layers_.empty()));
+    for (const auto& [name, text] : files) {
+        std::error_code failed;
+        std::filesystem::create_directories((folder / name).parent_path(), failed);
+        if (failed) {
+            throw Error(fmt::format("folder of programs ({})", failed.message()), options_.programs,
+                "name a folder that can be written to with --programs");
+        }
+        writeText((folder / name).string(), text);
+    }
+    tell("wrote {} files to {}\n", files.size(), printable(options_.programs));
 }
 
 device::MemoryPlan RenderJob::checkedPlan() const

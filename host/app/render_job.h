@@ -65,6 +65,7 @@ private:
     void load();
     void build();
     void explain();
+    void writePrograms() const;
     /// What a frame takes, with what filters it over time. Throws where that is more than there may be.
     device::MemoryPlan checkedPlan() const;
     void prepare();

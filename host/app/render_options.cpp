@@ -291,6 +291,10 @@ void addRenderOptions(CLI::App& parser, RenderOptions& options)
     addValue(parser, talkGroup, "--explain", "FILE",
         "Render nothing: print the frame's passes, what they use and its memory, and draw them into FILE (.svg)",
         [&options](const std::string& text) { options.explain = svgPath(text); });
+    addValue(parser, talkGroup, "--programs", "DIR",
+        "With --explain: write the programs of the frame's kernels into the folder DIR, as the device's compiler gets "
+        "them",
+        [&options](const std::string& text) { options.programs = text; });
     parser.add_flag("--quiet", options.quiet, "Say nothing but errors")->group(talkGroup);
     parser.add_flag("--verbose", options.verbose, "Say more: memory by buffer, the settings")->group(talkGroup);
     parser.footer(footer());

@@ -44,6 +44,7 @@ struct RenderOptions {
     std::vector<std::string> devices;
     std::string reference, report;
     std::string explain; ///< file of the drawing
+    std::string programs; ///< folder for the programs of a frame that is explained
     double timeLimitSeconds = 0; ///< 0: none
     bool progressive = false;
     std::optional<double> targetError; ///< radiance

@@ -99,6 +99,31 @@ std::string textOf(const BuildOptions& options, const ProgramSource& source)
     return flattenKernel(options.kernelDir, source.file, generated).text;
 }
 
+std::map<std::string, std::string> programFiles(const BuildOptions& options, const std::vector<ProgramSource>& programs)
+{
+    std::map<std::string, std::string> files;
+    std::map<std::string, unsigned> known;
+    for (const ProgramSource& program : programs) {
+        std::string name = program.file.substr(0, program.file.rfind(".cl"));
+        std::ranges::replace(name, '/', '.');
+        const unsigned number = ++known[name];
+        name += number > 1 ? fmt::format(".{}", number) : "";
+        std::string defines;
+        for (const Defines* of : { &options.defines, &program.defines }) {
+            for (const auto& [define, value] : *of) {
+                defines += fmt::format("#define {} {}\n", define, value.empty() ? "1" : value);
+            }
+        }
+        files.emplace(name + ".cl", defines + textOf(options, program));
+        for (const GeneratedSources* of : { &options.generated, &program.generated }) {
+            for (const auto& [path, text] : *of) {
+                files.emplace(fmt::format("{}/{}", name, path), text);
+            }
+        }
+    }
+    return files;
+}
+
 std::string compilerEnvironment()
 {
     std::vector<std::string> settings;
@@ -128,6 +153,11 @@ cl::Program& ProgramLibrary::program(const ProgramSource& source)
 
 Kernel ProgramLibrary::kernel(const ProgramSource& source, const std::string& name)
 {
+    const auto interface = source.generated.find("pass/" + name + ".h");
+    if (interface != source.generated.end() && textOf(options_, source).find(interface->second) == std::string::npos) {
+        throw Error("kernel does not include its interface", fmt::format("{} ({})", name, source.file),
+            fmt::format("put #include \"{}\" before it", interface->first));
+    }
     return Kernel(device_, program(source), source.file, name);
 }
 

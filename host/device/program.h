@@ -5,6 +5,7 @@
 #include "host/device/program_cache.h"
 #include "host/device/source.h"
 
+#include <compare>
 #include <map>
 #include <string>
 #include <utility>
@@ -47,6 +48,12 @@ struct ProgramSource {
 /// Its text, flattened (source.h), by options. Throws what flattenKernel() does.
 std::string textOf(const BuildOptions& options, const ProgramSource& source);
 
+/// Files for people who read or compile programs by themselves, their contents by path: of each program NAME.cl, its
+/// text with its defines before it, and NAME/PATH, what was generated, as its includes name it. NAME is that of the
+/// program's file with dots for slashes, numbered from the second program of a file on. Throws as textOf().
+std::map<std::string, std::string> programFiles(
+    const BuildOptions& options, const std::vector<ProgramSource>& programs);
+
 /// The environment's settings for a driver's compiler, which a binary depends on as on the options: without them
 /// someone who compares two settings would measure one binary twice.
 std::string compilerEnvironment();
@@ -63,7 +70,8 @@ public:
     /// the flattened source.
     cl::Program& program(const ProgramSource& source);
 
-    /// A new kernel, with arguments of its own, of that program.
+    /// A new kernel, with arguments of its own, of that program. Throws Error where the program does not include the
+    /// kernel's interface, if it has one, and as program() and Kernel do.
     Kernel kernel(const ProgramSource& source, const std::string& name);
 
     /// What the compiler is called with, "-cl-std=CL1.2 -DNAME=VALUE". defines: of a program, after those of all.

@@ -100,6 +100,9 @@ private:
         if (const auto made = generated_.find(path); made != generated_.end()) {
             return SourceFile { path, "generated/" + path, made->second };
         }
+        if (path.starts_with("pass/")) {
+            return std::nullopt; // a file of that name is of another program
+        }
         if (!kernelDir_.empty()) {
             const fs::path onDisk = (kernelDir_ / path).lexically_normal();
             std::error_code unknown; // what is there and cannot be looked at is told, and not passed over

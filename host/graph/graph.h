@@ -14,6 +14,7 @@
 #include <deque>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -75,6 +76,7 @@ struct Argument {
     Reach reach = {};
     bool tally = false; ///< for whose sake no pass covers a pixel
     Version* handle = nullptr; ///< of who declares what changes a resource: becomes the new version
+    std::shared_ptr<const Format> format = {}; ///< of memory in the place of a resource that there is none of
 
     bool isUse() const { return !value; }
 };
@@ -163,6 +165,8 @@ struct KernelName {
     std::string file, name;
     std::vector<Sink> sinks = {}; ///< of kernels that have any; what they are handed are the pass's last arguments
     device::Defines defines = {}; ///< what tells its program from others of the file
+    /// Its text has LOAD_NAME and STORE_NAME; one that has not is the same program whatever the formats are.
+    bool byFormats = false;
 };
 
 /// One step of a frame.

@@ -27,6 +27,18 @@ std::string macro(const std::string& name, const std::string& parameters, const 
     return fmt::format("#undef {0}\n#define {0}{1} {2}\n", name, parameters, meaning);
 }
 
+/// Where in a pass's rectangle an item is, and the end of those beside it. Blocks have indices with signs, which
+/// vectors are loaded by.
+std::string pixelMacro(Domain domain)
+{
+    const bool blocks = domain == Domain::Blocks;
+    return macro("WEDGE_PIXEL", "(p, x, y, i)",
+        fmt::format(
+            "const uint x = (p).x0 + (uint)get_global_id(0){}, y = (p).y0 + (uint)get_global_id(1); "
+            "if (x >= (p).x1 || y >= (p).y1) {{ return; }} const {} i = ({})pixelIndex(x, y, (p).stride); (void)i",
+            blocks ? " * WEDGE_BLOCK_PIXELS" : "", blocks ? "int" : "uint", blocks ? "int" : "uint"));
+}
+
 std::string parameterOf(const Graph& graph, const Pass& pass, const Argument& argument)
 {
     if (argument.isUse()) {
@@ -86,27 +98,26 @@ std::string sinkFunction(const Pass& pass, const std::string& step, const std::s
 std::string interfaceText(const Graph& graph, const Pass& pass)
 {
     std::string formats, macros = macro("PASS_" + pass.kernel.name, "", "1"), parameters;
+    std::set<std::string_view> known;
     for (const Argument& argument : pass.arguments) {
         parameters += (parameters.empty() ? "" : ", ") + parameterOf(graph, pass, argument);
-        if (!argument.isUse()) {
+        const Format* format =
+            argument.isUse() ? &graph.resources()[argument.version.resource].format : argument.format.get();
+        if (!pass.kernel.byFormats || format == nullptr || format->value.empty()) {
             continue;
         }
-        const Format& format = graph.resources()[argument.version.resource].format;
-        if (format.value.empty()) {
-            continue;
-        }
-        formats += formatText(format);
-        if (argument.access != Access::Write) {
-            macros += macro("LOAD_" + argument.name, "(size, at)",
-                fmt::format("load_{}({}, size, at)", format.name, argument.name));
-        }
-        if (argument.access != Access::Read) {
-            macros += macro("STORE_" + argument.name, "(size, at, value)",
-                fmt::format("store_{}({}, size, at, value)", format.name, argument.name));
-        }
+        formats += known.insert(format->name).second ? formatText(*format) : "";
+        // Both, whatever the pass does: the parameter's type says what may be done.
+        macros += macro(
+            "LOAD_" + argument.name, "(size, at)", fmt::format("load_{}({}, size, at)", format->name, argument.name));
+        macros += macro("STORE_" + argument.name, "(size, at, value)",
+            fmt::format("store_{}({}, size, at, value)", format->name, argument.name));
     }
     if (pass.domain == Domain::Tiles) {
         parameters += ", const uint firstGroup";
+    }
+    if (pass.domain == Domain::Pixels || pass.domain == Domain::Blocks) {
+        macros += pixelMacro(pass.domain);
     }
     const std::string sinks = pass.kernel.sinks.empty() ? "" : sinkText(graph, pass);
     return formats + macros + macro("PARAMETERS", "", parameters) + sinks;

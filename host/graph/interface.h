@@ -10,10 +10,11 @@
 namespace wedge::graph {
 
 /// What a pass's kernel is written with, OpenCL C: PASS_KERNEL, which says that there is one; PARAMETERS, its list of
-/// parameters as the pass declares them; and for each resource NAME that it uses LOAD_NAME(size, at) and
-/// STORE_NAME(size, at, value), as far as it may, by the resource's format. size: elements of the resource. Then, of
-/// kernels that have sinks, sinkText(). A kernel that takes something else does not compile. Throws std::logic_error
-/// for a value of a type that kernelType does not know.
+/// parameters as the pass declares them, each restrict; of kernels that go by formats, for each resource NAME that it
+/// uses LOAD_NAME(size, at) and STORE_NAME(size, at, value). size: elements of the resource. Of passes
+/// over pixels WEDGE_PIXEL(p, x, y, i): it declares which pixel of p's rectangle, or first pixel of a block, the item
+/// is, and its index, and returns where it is none. Then, of kernels that have sinks, sinkText(). A kernel that takes
+/// something else does not compile. Throws std::logic_error for a value of a type that kernelType does not know.
 std::string interfaceText(const Graph& graph, const Pass& pass);
 
 /// What a kernel that takes samples goes by: WEDGE_SINK_PARAMETERS and WEDGE_SINK_ARGUMENTS, the end of its list of

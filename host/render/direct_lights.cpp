@@ -210,9 +210,9 @@ DirectLights directLights(const scene::Scene& scene)
 }
 
 SceneLights::SceneLights(
-    const scene::Scene& scene, const DirectLights& direct, std::shared_ptr<const EnvironmentTable> picture)
+    const scene::Scene& scene, const DirectLights& direct, std::shared_ptr<const EnvironmentTable> table)
     : emitters(emitterList(scene))
-    , beyond(std::move(picture))
+    , beyond(std::move(table))
 {
     if (direct.share && !direct.shareEmitters()) {
         shared = emitterList(scene, direct.panelTriangles, direct.sharedQuads);

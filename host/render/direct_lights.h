@@ -44,8 +44,8 @@ DirectLights directLights(const scene::Scene& scene);
 /// A scene's lights as kernels choose among them. Takes time in proportion to its triangles, and memory likewise where
 /// anything emits: a renderer makes it once.
 struct SceneLights {
-    /// picture: what is around the scene.
-    SceneLights(const scene::Scene& scene, const DirectLights& direct, std::shared_ptr<const EnvironmentTable> picture);
+    /// table: of what is beyond the scene, never null.
+    SceneLights(const scene::Scene& scene, const DirectLights& direct, std::shared_ptr<const EnvironmentTable> table);
 
     EmitterList emitters; ///< what paths' vertices choose among
     EmitterList shared; ///< what the term that lights share does, where that is something else; else empty

@@ -19,9 +19,11 @@ void DistributedSamples::blurs(float samples, Blurs& out)
     const auto sets = samples > 0 || !shape_.layers ? writes : updates; // what is shown without motion is 0
     f_.pixels("widths", PassKind::Analysis, { "waves/distributed.cl", "blurs" },
         { f_.rectangle(p), reads("confusion", confusion_),
-            keepsMotion() ? reads("motion", motion_) : f_.nothing("motion"), reads("taken", counts_.taken),
-            sets("lens", out.lens), keepsMotion() ? sets("along", out.along) : f_.nowhere("along"),
-            keepsMotion() ? writes("directions", out.directions) : f_.nowhere("directions") });
+            keepsMotion() ? reads("motion", motion_) : f_.nothing("motion", f_.packed ? shortPairs : graph::vectors),
+            reads("taken", counts_.taken), sets("lens", out.lens),
+            keepsMotion() ? sets("along", out.along) : f_.nowhere("along"),
+            keepsMotion() ? writes("directions", out.directions)
+                          : f_.nowhere("directions", f_.packed ? shortPairs : graph::floatPlanes(2)) });
 }
 
 graph::Handle<Radiance>& DistributedSamples::sumOf(WaveTerm& term)
@@ -134,7 +136,7 @@ void DistributedSamples::addOwn(WaveTerm& term, graph::Handle<Radiance>& radianc
     const auto condition = [state = state_](const Run&) { return !state->analysed; };
     f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "addTerm" },
         { f_.rectangle(term.of(params())), reads("texture", term.means.texture), reads("value", term.means.value),
-            shape_.published ? reads("termRadiance", term.means.radiance) : f_.nothing("termRadiance"),
+            shape_.published ? reads("termRadiance", term.means.radiance) : f_.nothing("termRadiance", graph::vectors),
             updates("radiance", radiance) },
         unlessAnalysed ? condition : std::function<bool(const Run&)>());
 }
@@ -156,7 +158,7 @@ void DistributedSamples::addFiltered(
     f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "addFilteredTerm" },
         { f_.rectangle(p), reads("texture", term.means.texture), reads("filteredTexture", texture),
             reads("value", term.means.value), reads("filtered", value), reads("beta", term.means.beta),
-            shape_.published ? reads("termRadiance", term.means.radiance) : f_.nothing("termRadiance"),
+            shape_.published ? reads("termRadiance", term.means.radiance) : f_.nothing("termRadiance", graph::vectors),
             updates("radiance", radiance) });
 }
 

@@ -151,8 +151,7 @@ void DistributedSamples::keepTerm(WaveTerm& term)
         m.deviation = kept<Deviation>("deviation", packed ? shortFloats : graph::floats);
     }
     if (term.extremePlanes() > 0) {
-        m.extremes =
-            kept<Extremes>("slopes and distances", packed ? shortPairs : graph::floatPlanes(term.extremePlanes()));
+        m.extremes = kept<Extremes>("slopes and distances", term.extremesFormat());
     }
     if (shape_.published) {
         m.radiance = kept<Radiance>("radiance of the term", graph::vectors);
@@ -366,8 +365,8 @@ void DistributedSamples::accumulateSurfaces(Waves& waves, const Adding& adding)
     const Receivers& r = waves.receivers();
     Surfaces& s = f_.surfaces;
     const bool measures = (adding.omits & WEDGE_OMITS_ANALYSIS) == 0, layers = shape_.layers;
-    const auto keeps = [&](bool keep, const char* name, graph::Version& plane, std::string_view type = "float") {
-        return keep ? updates(name, plane) : f_.nowhere(name, type);
+    const auto keeps = [&](bool keep, const char* name, graph::Version& plane, const graph::Format& format) {
+        return keep ? updates(name, plane) : f_.nowhere(name, format);
     };
     waves.pixels("accumulateSurfaces",
         joined({ waves.pixelParams(), waves.params(), value("camera", camera_) }, waves.pixelLists(),
@@ -377,12 +376,14 @@ void DistributedSamples::accumulateSurfaces(Waves& waves, const Adding& adding)
                 reads("motion", r.motion), reads("rays", r.rays), reads("pathRays", r.pathRays),
                 updates("taken", waves.counts().taken), updates("hitsOf", hits_), updates("objectOf", s.objectId),
                 updates("positionOf", s.position), updates("normalOf", s.normal),
-                keeps(measures, "glossOf", s.gloss, "uint"), keeps(layers, "diffuseOf", s.diffuse),
-                keeps(layers, "specularOf", s.specular), updates("emissionOf", s.emission),
-                keeps(measures, "emissionSquaresOf", emissionSquares_), keeps(measures, "pixelSizeOf", s.pixelSize),
-                keeps(layers, "distanceOf", s.depth), updates("confusionOf", confusion_),
-                keeps(keepsMotion(), "motionOf", motion_), updates("raysOf", f_.totals.rays),
-                updates("pathRaysOf", f_.totals.pathRays) }));
+                keeps(measures, "glossOf", s.gloss, f_.packed ? shortGloss : graph::counts),
+                keeps(layers, "diffuseOf", s.diffuse, graph::vectors),
+                keeps(layers, "specularOf", s.specular, graph::vectors), updates("emissionOf", s.emission),
+                keeps(measures, "emissionSquaresOf", emissionSquares_, graph::floats),
+                keeps(measures, "pixelSizeOf", s.pixelSize, f_.packed ? shortFloats : graph::floats),
+                keeps(layers, "distanceOf", s.depth, graph::floats), updates("confusionOf", confusion_),
+                keeps(keepsMotion(), "motionOf", motion_, f_.packed ? shortPairs : graph::vectors),
+                updates("raysOf", f_.totals.rays), updates("pathRaysOf", f_.totals.pathRays) }));
 }
 
 } // namespace wedge::render

@@ -3,6 +3,10 @@
 #include "host/graph/execution.h"
 #include "host/render/effect.h"
 
+#include <fmt/format.h>
+
+#include <memory>
+
 namespace wedge::render {
 
 using device::PassKind;
@@ -37,6 +41,20 @@ graph::Argument FrameBuilder::frame() const
 graph::Argument FrameBuilder::outside(std::string name, std::string_view type, const cl::Buffer* memory) const
 {
     return graph::outside(std::move(name), type, memory != nullptr ? *memory : unused);
+}
+
+graph::Argument FrameBuilder::nothing(std::string name, const graph::Format& format) const
+{
+    graph::Argument out = outside(std::move(name), format.storage, nullptr);
+    out.format = std::make_shared<graph::Format>(format);
+    return out;
+}
+
+graph::Argument FrameBuilder::nowhere(std::string name, const graph::Format& format) const
+{
+    graph::Argument out = nothing(std::move(name), format);
+    out.type = fmt::format("__global {} *", format.storage);
+    return out;
 }
 
 std::vector<graph::Argument> FrameBuilder::hierarchy() const

@@ -142,28 +142,21 @@ struct FrameBuilder {
     }
     /// The hierarchy.
     std::vector<graph::Argument> hierarchy() const;
-    /// WEDGE_SURFACE_PARAMETERS.
+    /// By the names of WEDGE_SURFACE_ARGUMENTS.
     std::vector<graph::Argument> geometry() const;
-    /// WEDGE_BEYOND_PARAMETERS.
+    /// By the names of WEDGE_BEYOND_ARGUMENTS.
     std::vector<graph::Argument> beyond() const;
     /// Declares the frame's pre-computed samples of what is beyond the scene, where there is a map and the settings
     /// want them: before any pass that chooses lights.
     void precomputeDirections();
-    /// WEDGE_RECEIVER_PARAMETERS, the pixels being the receivers.
+    /// By the names of WEDGE_RECEIVER_ARGUMENTS, the pixels being the receivers.
     std::vector<graph::Argument> receivers() const;
     /// A buffer that outlives the frame; null: none, and nothing reads it.
     graph::Argument outside(std::string name, std::string_view type, const cl::Buffer* memory) const;
-    /// In the place of a plane that nothing is read from, or, nowhere(), written to. type: OpenCL's, of its elements.
-    graph::Argument nothing(std::string name, std::string_view type = "float") const
-    {
-        return outside(std::move(name), type, nullptr);
-    }
-    graph::Argument nowhere(std::string name, std::string_view type = "float") const
-    {
-        graph::Argument out = nothing(std::move(name), type);
-        out.type = "__global " + std::string(type) + " *";
-        return out;
-    }
+    /// In the place of a plane that nothing is read from, or, nowhere(), written to. format: which that would have,
+    /// so that kernels are compiled once with it and without.
+    graph::Argument nothing(std::string name, const graph::Format& format = graph::floats) const;
+    graph::Argument nowhere(std::string name, const graph::Format& format = graph::floats) const;
     /// One of the scene's.
     template <class T>
     graph::Argument ofScene(std::string name, std::string_view type, device::Buffer<T> DeviceScene::*member) const

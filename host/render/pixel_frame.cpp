@@ -149,7 +149,7 @@ void PixelFrame::fallBack(Sum& sum)
             f_.blocks("fallback", PassKind::Filter, { "analysis/fallback.cl", "fallbackDifferences" },
                 { p, flag, reads("filtered", sum.filtered), reads("noisy", sum.noisy),
                     reads("deviation", sum.deviation),
-                    gathered ? reads("variance", sum.variance) : f_.nothing("variance"),
+                    gathered ? reads("variance", sum.variance) : f_.nothing("variance", shortFloats),
                     writes("differences", differences) });
             f_.blocks("fallback", PassKind::Filter, { "analysis/fallback.cl", "fallBack" },
                 { p, flag, reads("differences", differences, near), reads("objectId", f_.surfaces.objectId, near),

@@ -44,21 +44,24 @@ WaveTerm::Shared WaveTerm::share(
 std::vector<graph::Argument> WaveTerm::accumulated(const Adding& adding, const PrimaryCounts& counts)
 {
     const bool measures = (adding.omits & WEDGE_OMITS_ANALYSIS) == 0;
-    const auto kept = [&](const char* name, graph::Version& plane, bool used) {
-        return used && plane.graph != 0 ? updates(name, plane) : f_.nowhere(name);
+    const auto kept = [&](const char* name, graph::Version& plane, bool used, const graph::Format& format) {
+        return used && plane.graph != 0 ? updates(name, plane) : f_.nowhere(name, format);
     };
+    const graph::Format sums = f_.packed ? shortPairs : graph::floats;
     const bool counted = (adding.omits & WEDGE_OMITS_COUNTS) == 0;
-    return { counted ? reads("termWanted", means.wanted) : f_.nothing("termWanted", "uint"),
+    return { counted ? reads("termWanted", means.wanted) : f_.nothing("termWanted", graph::counts),
         shape_.full ? updates("termTaken", means.taken) : reads("termTaken", counts.taken),
-        updates("texture", means.texture), updates("value", means.value), kept("plain", means.plain, measures),
-        kept("squares", means.squares, measures), kept("textureSquares", means.textureSquares, measures),
-        kept("termRadiance", means.radiance, true), kept("deviation", means.deviation, true),
-        kept("extremes", means.extremes, measures) };
+        updates("texture", means.texture), updates("value", means.value), kept("plain", means.plain, measures, sums),
+        kept("squares", means.squares, measures, sums),
+        kept("textureSquares", means.textureSquares, measures, graph::floats),
+        kept("termRadiance", means.radiance, true, graph::vectors),
+        kept("deviation", means.deviation, true, f_.packed ? shortFloats : graph::floats),
+        kept("extremes", means.extremes, measures, extremesFormat()) };
 }
 
 graph::Argument WaveTerm::samplesOf(std::string name, graph::Handle<Count>& total) const
 {
-    return shape_.layers ? updates(std::move(name), total) : f_.nowhere(std::move(name), "uint");
+    return shape_.layers ? updates(std::move(name), total) : f_.nowhere(std::move(name), graph::counts);
 }
 
 graph::Handle<Extremes> WaveTerm::leastExtreme() const

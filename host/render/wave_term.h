@@ -87,6 +87,7 @@ public:
     shared::DistributedParams of(shared::DistributedParams params) const;
     /// Extremes that pixels keep; 0: none.
     virtual std::uint32_t extremePlanes() const = 0;
+    graph::Format extremesFormat() const { return f_.packed ? shortPairs : graph::floatPlanes(extremePlanes()); }
 
     const float rays;
     TermMeans means;
@@ -103,7 +104,7 @@ protected:
         std::uint32_t extremes) const;
     /// What of the term is left out in adding to it.
     std::uint32_t omits() const;
-    /// WEDGE_TERM_PARAMETERS.
+    /// The planes of WEDGE_TERM_ARGUMENTS, termWanted and termTaken before them.
     std::vector<graph::Argument> accumulated(const Adding& adding, const PrimaryCounts& counts);
     /// The counts of samples of all terms that pixels keep.
     graph::Argument samplesOf(std::string name, graph::Handle<Count>& total) const;

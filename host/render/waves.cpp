@@ -267,7 +267,7 @@ void Waves::trace(bool lit)
             f_.beyond(),
             Arguments { reads("pixelOf", r_.pixelOf), reads("sampleOf", r_.sampleOf), reads("wanted", counts_.wanted),
                 value("hasKnown", sampling_.seenLights ? 1u : 0u),
-                sampling_.seenLights ? reads("known", *sampling_.seenLights) : f_.nothing("known"),
+                sampling_.seenLights ? reads("known", *sampling_.seenLights) : f_.nothing("known", packedColours),
                 writes("position", r_.position), writes("normal", r_.normal), writes("origin", r_.origin),
                 writes("geometric", r_.geometric), writes("objectId", r_.objectId), writes("gloss", r_.gloss),
                 writes("view", r_.view), writes("time", r_.time), writes("diffuse", r_.diffuse),

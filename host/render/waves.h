@@ -102,7 +102,7 @@ public:
     graph::Argument receiverParams() const;
     /// The wave, which leaves out what `omits` has, too.
     graph::Argument params(std::uint32_t omits = 0) const;
-    /// WEDGE_RECEIVER_PARAMETERS
+    /// By the names of WEDGE_RECEIVER_ARGUMENTS.
     std::vector<graph::Argument> receiverArguments() const;
     /// pixelFirst, pixelCount
     std::vector<graph::Argument> pixelLists() const;

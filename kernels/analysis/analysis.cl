@@ -20,12 +20,7 @@
 #ifdef PASS_erodeSlopes
 __kernel void erodeSlopes(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const uint16 object = loadIdBlock(objectId, i);
     float16 least = (float16)(2.0f * WEDGE_SLOPE_MAX);
     for (int dy = y > 0u ? -1 : 0; dy <= (y + 1u < p.height ? 1 : 0); ++dy) {
@@ -46,12 +41,7 @@ __kernel void erodeSlopes(PARAMETERS)
 #ifdef PASS_smoothSlopes
 __kernel void smoothSlopes(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const uint16 object = loadIdBlock(objectId, i);
     const int16 has = (loadBlock(eroded, i) > 0.0f) & (object != 0u);
     float16 mean = (float16)(0.0f);
@@ -70,12 +60,7 @@ __kernel void smoothSlopes(PARAMETERS)
 #ifdef PASS_publishedDistances
 __kernel void publishedDistances(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const float16 sMin = loadBlock(slopes, i);
     const float16 sMax = loadBlock(slopes + p.planeSize, i);
     const Vec3x16 toLight = sub16(splat3(p.lightCentre), loadVecBlock(position, p.planeSize, i));
@@ -118,11 +103,8 @@ WEDGE_FN void spreadLine(AnalysisParams p, uint x, uint y, int element, int befo
 #ifdef PASS_spreadRows
 __kernel void spreadRows(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x < p.x1 && y < p.y1) {
-        spreadLine(p, x, y, 1, (int)p.fillRadius, (int)p.fillRadius, planes, in, out);
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    spreadLine(p, x, y, 1, (int)p.fillRadius, (int)p.fillRadius, planes, in, out);
 }
 #endif
 
@@ -130,11 +112,8 @@ __kernel void spreadRows(PARAMETERS)
 #ifdef PASS_spreadColumns
 __kernel void spreadColumns(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x < p.x1 && y < p.y1) {
-        spreadLine(p, x, y, (int)p.stride, (int)y, (int)(p.height - 1u - y), planes, in, out);
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    spreadLine(p, x, y, (int)p.stride, (int)y, (int)(p.height - 1u - y), planes, in, out);
 }
 #endif
 
@@ -144,12 +123,8 @@ __kernel void spreadColumns(PARAMETERS)
 #ifdef PASS_luminanceOf
 __kernel void luminanceOf(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0);
-    const uint y = p.y0 + get_global_id(1);
-    if (x < p.x1 && y < p.y1) {
-        const uint i = pixelIndex(x, y, p.stride);
-        out[i] = luminance(loadColour(image, p.planeSize, i, bits));
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    out[i] = luminance(loadColour(image, p.planeSize, i, bits));
 }
 #endif
 
@@ -158,12 +133,8 @@ __kernel void luminanceOf(PARAMETERS)
 #ifdef PASS_unpackSecond
 __kernel void unpackSecond(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0);
-    const uint y = p.y0 + get_global_id(1);
-    if (x < p.x1 && y < p.y1) {
-        const uint i = pixelIndex(x, y, p.stride);
-        out[i] = loadShort(packed, p.planeSize, i, 1u);
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    out[i] = loadShort(packed, p.planeSize, i, 1u);
 }
 #endif
 
@@ -173,12 +144,7 @@ __kernel void unpackSecond(PARAMETERS)
 #ifdef PASS_widths
 __kernel void widths(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0);
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const uint i = pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const float size = loadNumber(pixelSize, p.planeSize, i, p.packed, 0u);
     const float own = logSlopes[p.planeSize + i];
     const float near = spread[p.planeSize + i];
@@ -214,12 +180,7 @@ WEDGE_FN float narrowed(AnalysisParams p, Vec3 toLight, Vec3 toEye, Gloss lobe, 
 #ifdef PASS_narrowForLobes
 __kernel void narrowForLobes(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0);
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const uint i = pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const float wide = beta[i];
     const float lobes = wide > 0.0f ? luminance(loadVec(specular, p.planeSize, i)) * sums[2u * p.planeSize + i] : 0.0f;
     if (!(lobes > 0.0f)) {
@@ -240,12 +201,7 @@ __kernel void narrowForLobes(PARAMETERS)
 #ifdef PASS_narrowForHighlights
 __kernel void narrowForHighlights(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0);
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const uint i = pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const float wide = beta[i];
     if (!(wide > 0.0f) || objectId[i] == 0u) {
         return;
@@ -270,12 +226,7 @@ __kernel void narrowForHighlights(PARAMETERS)
 #ifdef PASS_publishedWidths
 __kernel void publishedWidths(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0);
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const uint i = pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const uint size = p.planeSize;
     const bool lit = objectId[i] != 0u && sums[i] > 0.0f;
     const bool occluded = slopes[i] > 0.0f;

@@ -104,12 +104,7 @@ __kernel void solveCountScale(PARAMETERS)
 #ifdef PASS_countsFromDemand
 __kernel void countsFromDemand(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0);
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const uint i = pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const float count = fmin(fmax(scale[0] * demand[i], (float)p.leastCount), (float)p.countCap);
     wanted[i] = mask[i] != 0u ? (uint)(count + 0.5f) : 0u;
 }
@@ -120,12 +115,7 @@ __kernel void countsFromDemand(PARAMETERS)
 #ifdef PASS_uniformCounts
 __kernel void uniformCounts(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0);
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const uint i = pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     wanted[i] = mask[i] != 0u ? count : 0u;
 }
 #endif

@@ -44,12 +44,8 @@ WEDGE_FN float16 curvatureAlong(CurvatureParams p, int i, int before, int after,
 #ifdef PASS_nearestOccluders
 __kernel void nearestOccluders(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride), reach = WEDGE_OCCLUDER_REACH;
+    WEDGE_PIXEL(p, x, y, i);
+    const int reach = WEDGE_OCCLUDER_REACH;
     const uint16 object = loadIdBlock(objectId, i);
     float16 least = (float16)(INFINITY);
     for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
@@ -69,12 +65,8 @@ __kernel void nearestOccluders(PARAMETERS)
 #ifdef PASS_meanOccluders
 __kernel void meanOccluders(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride), reach = WEDGE_OCCLUDER_MEAN_REACH;
+    WEDGE_PIXEL(p, x, y, i);
+    const int reach = WEDGE_OCCLUDER_MEAN_REACH;
     const uint16 object = loadIdBlock(objectId, i);
     const float16 none = (float16)(0.0f), one = (float16)(1.0f);
     float16 sum = none, pixels = none;
@@ -97,12 +89,7 @@ __kernel void meanOccluders(PARAMETERS)
 #ifdef PASS_curvatureWidths
 __kernel void curvatureWidths(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const int above = y > 0u ? i - (int)p.stride : i, below = y + 1u < p.height ? i + (int)p.stride : i;
     float bendX[WEDGE_BLOCK_PIXELS], bendY[WEDGE_BLOCK_PIXELS], occluded[WEDGE_BLOCK_PIXELS], size[WEDGE_BLOCK_PIXELS];
     float along[WEDGE_BLOCK_PIXELS], across[WEDGE_BLOCK_PIXELS];

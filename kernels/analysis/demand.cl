@@ -13,12 +13,7 @@
 #ifdef PASS_visibilityUncertainty
 __kernel void visibilityUncertainty(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const float16 one = (float16)(1.0f), seen = min16(max16(loadBlock(filtered, i), (float16)(0.0f)), one);
     const float16 v = max16(seen * (one - seen), (float16)(p.varianceFloor));
     vstore16(loadBlock(beta, i) > 0.0f ? v / max16(loadBlock(effective, i), one) : -one, 0, uncertainty + i);
@@ -30,12 +25,7 @@ __kernel void visibilityUncertainty(PARAMETERS)
 #ifdef PASS_uncertaintyOf
 __kernel void uncertaintyOf(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const float16 one = (float16)(1.0f);
     const float16 u = loadBlock(variance, i) / max16(loadBlock(effective, i), one);
     vstore16(loadBlock(beta, i) >= 0.0f ? u : -one, 0, uncertainty + i);
@@ -70,12 +60,7 @@ WEDGE_INLINE void addAround(Around* a, float16 there, int16 counts, bool nearest
 #ifdef PASS_demandOf
 __kernel void demandOf(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const float16 own = loadBlock(uncertainty, i), one = (float16)(1.0f), none = (float16)(0.0f);
     if (!any(own >= 0.0f)) {
         vstore16(none, 0, demand + i);

@@ -41,12 +41,7 @@
 #ifdef PASS_fallbackDifferences
 __kernel void fallbackDifferences(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const Vec3x16 f = loadVecBlock(filtered, p.planeSize, i);
     const float16 v = loadShortsBlock(deviation, p.planeSize, i, 0u);
     storeShortsBlock(differences, p.planeSize, i, 0u, luminance16(sub16(loadVecBlock(noisy, p.planeSize, i), f)));
@@ -63,12 +58,7 @@ __kernel void fallbackDifferences(PARAMETERS)
 #ifdef PASS_termVariance
 __kernel void termVariance(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const float16 d = loadDeviations16(deviation, i, p.packed);
     vstore16(d * d, 0, variance + i);
 }
@@ -181,12 +171,7 @@ WEDGE_INLINE float16 fallenBack(Fallback fallback, float16 f, float16 u)
 #ifdef PASS_fallBack
 __kernel void fallBack(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const int16 differs = differing(differences, objectId, i);
     if (!any(differs)) {
         return;
@@ -209,12 +194,7 @@ __kernel void fallBack(PARAMETERS)
 #ifdef PASS_ownShares
 __kernel void ownShares(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const int16 differs = differing(differences, objectId, i);
     Fallback fallback;
     fallback.ratio = fallback.own = (float16)(0.0f);

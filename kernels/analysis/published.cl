@@ -21,10 +21,7 @@ WEDGE_FN float largestConfusion(DistributedParams p, __global const float* confu
 #ifdef PASS_publishedFlags
 __kernel void publishedFlags(PARAMETERS)
 {
-    uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const Vec3 k = loadVec(texture, p.planeSize, i);
     const Vec3 e = p.values == 3u ? loadVec(value, p.planeSize, i) : vec3(value[i], value[i], value[i]);
     const float error = vecLength(vecSub(loadVec(termRadiance, p.planeSize, i), vecMul(k, e)));
@@ -60,10 +57,7 @@ WEDGE_FN float publishedWidth(bool apart, float bandlimit, float pixelSize)
 #ifdef PASS_publishedShadows
 __kernel void publishedShadows(PARAMETERS)
 {
-    uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const float sMin = slopes[i], sMax = slopes[p.planeSize + i];
     const float rMin = leastConfusion(p, confusion, i), rMax = largestConfusion(p, confusion, i);
     const bool apart = medianFlag(p, flags, x, y);
@@ -80,10 +74,7 @@ __kernel void publishedShadows(PARAMETERS)
 #ifdef PASS_publishedReflectors
 __kernel void publishedReflectors(PARAMETERS)
 {
-    uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const Gloss lobe = unpackGloss(gloss[i]);
     const float transfer =
         WEDGE_IS_GLOSSY(component) ? glossyBandlimit(lobe.exponent, lobe.kind) : WEDGE_DIFFUSE_BANDLIMIT;
@@ -103,10 +94,7 @@ __kernel void publishedReflectors(PARAMETERS)
 #ifdef PASS_publishedPrimary
 __kernel void publishedPrimary(PARAMETERS)
 {
-    uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const float band = scaledBandlimit(defocusBandlimit(leastConfusion(p, confusion, i)), mu);
     const float ofLens = primaryCount(band, largestConfusion(p, confusion, i));
     const float speed = sqrt(motion[i] * motion[i] + motion[p.planeSize + i] * motion[p.planeSize + i]);
@@ -122,10 +110,7 @@ __kernel void publishedPrimary(PARAMETERS)
 #ifdef PASS_publishedCounts
 __kernel void publishedCounts(PARAMETERS)
 {
-    uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     float largest = 0.0f;
     for (int dy = -min((int)y, 1); dy <= min((int)(p.height - 1u - y), 1); ++dy) {
         for (int dx = -min((int)x, 1); dx <= min((int)(p.width - 1u - x), 1); ++dx) {

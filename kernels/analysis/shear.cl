@@ -22,12 +22,7 @@
 #ifdef PASS_shadowGradients
 __kernel void shadowGradients(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     for (uint channel = 0u; channel < WEDGE_CHANNELS; ++channel) {
         const float16 all = loadBlock(sums + 2u * channel * p.planeSize, i);
         const float16 perAll = all > 0.0f ? 1.0f / all : (float16)(0.0f);
@@ -54,12 +49,7 @@ __kernel void shadowGradients(PARAMETERS)
 #ifdef PASS_narrowSheared
 __kernel void narrowSheared(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0);
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const uint i = pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const float width = beta[i];
     storeShort(slopeWidth, 0u, i, 0u, width);
     if (width > 0.0f) {

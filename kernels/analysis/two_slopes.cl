@@ -22,12 +22,7 @@
 #ifdef PASS_smoothLargest
 __kernel void smoothLargest(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const uint16 object = loadIdBlock(objectId, i);
     const int16 has = loadBlock(logSlopes + p.planeSize, i) > 0.0f;
     float16 mean = (float16)(0.0f);
@@ -50,12 +45,7 @@ __kernel void smoothLargest(PARAMETERS)
 #ifdef PASS_slopeRatios
 __kernel void slopeRatios(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const float16 own = loadBlock(logSlopes + 2u * p.planeSize, i) - loadBlock(logSlopes, i);
     const float16 near = loadBlock(spread + p.planeSize, i);
     const float16 apart = loadBlock(spread + 2u * p.planeSize, i) - loadBlock(spread, i);
@@ -83,12 +73,8 @@ WEDGE_FN float betweenSlopes(float ratio)
 #ifdef PASS_widenBetweenSlopes
 __kernel void widenBetweenSlopes(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0);
-    const uint y = p.y0 + get_global_id(1);
-    if (x < p.x1 && y < p.y1) {
-        const uint i = pixelIndex(x, y, p.stride);
-        beta[i] *= beta[i] > 0.0f ? betweenSlopes(loadShort(ratio, 0u, i, 0u)) : 1.0f;
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    beta[i] *= beta[i] > 0.0f ? betweenSlopes(loadShort(ratio, 0u, i, 0u)) : 1.0f;
 }
 #endif
 
@@ -97,12 +83,8 @@ __kernel void widenBetweenSlopes(PARAMETERS)
 #ifdef PASS_widthOfMeanSlope
 __kernel void widthOfMeanSlope(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0);
-    const uint y = p.y0 + get_global_id(1);
-    if (x < p.x1 && y < p.y1) {
-        const uint i = pixelIndex(x, y, p.stride);
-        const float r = loadShort(ratio, 0u, i, 0u);
-        storeShort(slopeWidth, 0u, i, 0u, loadShort(slopeWidth, 0u, i, 0u) * meanSlope(r) / betweenSlopes(r));
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    const float r = loadShort(ratio, 0u, i, 0u);
+    storeShort(slopeWidth, 0u, i, 0u, loadShort(slopeWidth, 0u, i, 0u) * meanSlope(r) / betweenSlopes(r));
 }
 #endif

@@ -60,12 +60,7 @@ WEDGE_FN bool noiseAround(AnalysisParams p, uint x, uint y, __global const float
 #ifdef PASS_comparedWidths
 __kernel void comparedWidths(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const float16 own = loadBlock(beta, i);
     const int16 has = (loadIdBlock(objectId, i) != 0u) & (own >= 0.0f);
     float16 wide = (float16)(0.0f);
@@ -98,13 +93,8 @@ WEDGE_FN void storeOne(float16 weights, float16 seen, float16 ofPart, uint16 tak
 #ifdef PASS_oneOfLight
 __kernel void oneOfLight(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const uint size = p.planeSize;
-    const int i = (int)pixelIndex(x, y, p.stride);
     const uint16 count = loadIdBlock(taken, i);
     const float16 scale = 1.0f / max16(convert_float16(count), (float16)(1.0f));
     float16 weight = WEDGE_INV_PI * luminance16(loadVecBlock(diffuse, size, i)) * loadBlock(sums, i) * scale;
@@ -131,13 +121,8 @@ __kernel void oneOfLight(PARAMETERS)
 #ifdef PASS_oneOfPaths
 __kernel void oneOfPaths(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const uint size = p.planeSize;
-    const int i = (int)pixelIndex(x, y, p.stride);
     const Vec3x16 k =
         component == WEDGE_COMPONENT_AMBIENT ? splat3(vec3(1.0f, 1.0f, 1.0f)) : loadVecBlock(reflectance, size, i);
     const uint16 count = loadIdBlock(taken, i);
@@ -173,12 +158,7 @@ __kernel void oneOfPaths(PARAMETERS)
 #ifdef PASS_widenSquares
 __kernel void widenSquares(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const float16 ofVariance = loadBlock(apart, i), t = loadBlock(weights, i);
     const int16 wider = ofVariance > 0.0f;
     const float16 own = t * loadDeviations16(deviation, i, p.packed), d = t * loadBlock(difference, i);
@@ -202,12 +182,7 @@ WEDGE_FN float16 wideShare(float16 difference, float16 variance, float16 ratio)
 #ifdef PASS_wideShares
 __kernel void wideShares(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     vstore16((float16)(-1.0f), 0, shares + i);
     const int16 differs = (loadIdBlock(objectId, i) != 0u) & (loadBlock(difference, i) > 0.0f);
     if (!any(differs)) {
@@ -230,12 +205,7 @@ __kernel void wideShares(PARAMETERS)
 #ifdef PASS_widen
 __kernel void widen(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const float16 own = loadBlock(shares, i);
     if (!any((own >= 0.0f) & (loadIdBlock(objectId, i) != 0u))) {
         return;

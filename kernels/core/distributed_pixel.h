@@ -6,15 +6,6 @@
 #include "shared/distributed.h"
 #include "shared/frame.h"
 
-/// Coordinates and index of the work-item's pixel; false beyond the rectangle.
-WEDGE_FN bool pixelOf(DistributedParams p, uint* x, uint* y, uint* i)
-{
-    *x = p.x0 + get_global_id(0);
-    *y = p.y0 + get_global_id(1);
-    *i = pixelIndex(*x, *y, p.stride);
-    return *x < p.x1 && *y < p.y1;
-}
-
 /// A term's texture and value; of a light its value has one plane where it is filtered.
 WEDGE_FN Vec3 loadTexture(DistributedParams p, __global const float* texture, uint i)
 {

@@ -38,10 +38,8 @@ WEDGE_FN void blurLine(DistributedParams p, uint i, int before, int after, int e
 #ifdef PASS_blurRows
 __kernel void blurRows(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0), y = p.y0 + get_global_id(1);
-    if (x < p.x1 && y < p.y1) {
-        blurLine(p, pixelIndex(x, y, p.stride), (int)x, (int)(p.width - 1u - x), 1, lens, in, out);
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    blurLine(p, i, (int)x, (int)(p.width - 1u - x), 1, lens, in, out);
 }
 #endif
 
@@ -49,10 +47,8 @@ __kernel void blurRows(PARAMETERS)
 #ifdef PASS_blurColumns
 __kernel void blurColumns(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0), y = p.y0 + get_global_id(1);
-    if (x < p.x1 && y < p.y1) {
-        blurLine(p, pixelIndex(x, y, p.stride), (int)y, (int)(p.height - 1u - y), (int)p.stride, lens, in, out);
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    blurLine(p, i, (int)y, (int)(p.height - 1u - y), (int)p.stride, lens, in, out);
 }
 #endif
 
@@ -112,11 +108,8 @@ WEDGE_FN void loadChannels(DistributedParams p, uint channels, __global const fl
 #ifdef PASS_blurMotion
 __kernel void blurMotion(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0), y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const uint n = p.planeSize, i = pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
+    const uint n = p.planeSize;
     const MotionBlur here = motionBlur(p, i, along, directions);
     const int reach = min((int)(WEDGE_BLUR_CUT * here.sigma), WEDGE_MOTION_REACH);
     float sum[3], there[3];

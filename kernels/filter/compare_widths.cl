@@ -81,12 +81,7 @@ WEDGE_INLINE LineMeans compareLine(FilterParams p, int i, int element, Vec3 step
 #ifdef PASS_compareRows
 __kernel void compareRows(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     LineMeans own;
     own.narrow.value = own.wide.value = loadBlock(value, i);
     own.narrow.count = own.wide.count = (float16)(1.0f);
@@ -108,12 +103,7 @@ __kernel void compareRows(PARAMETERS)
 #ifdef PASS_compareColumns
 __kernel void compareColumns(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     LineMeans own;
     own.narrow.value = loadBlock(narrowRows, i);
     own.wide.value = loadBlock(wideRows, i);

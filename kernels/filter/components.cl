@@ -11,10 +11,6 @@
 //     g_p = sigma_x exp(-(sigma_x d)^2 / 2)
 //
 // Weights mu are those of (10), or from a table (refitted_weights.h), then of sines apart.
-#ifndef WEDGE_COMPONENTS
-#define WEDGE_COMPONENTS 3 // compiled alone
-#endif
-
 #include "filter/gather.h"
 #include "shared/components.h"
 #if WEDGE_COMPONENTS > 1
@@ -225,14 +221,9 @@ WEDGE_INLINE void addNeighbours(FilterParams p, LightAxes light, GatherBlock b, 
 #ifdef PASS_filterComponents
 __kernel void filterComponents(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const ComponentPlanes in = { value, beta, slopeWidth, ratio, position, normal, pixelSize, sums, components,
         objectId };
-    const int i = (int)pixelIndex(x, y, p.stride);
     const uint16 object = loadIdBlock(objectId, i);
     const float16 width = loadShortBlock(slopeWidth, i);
     // Where a standard deviation of the light is less than a pixel in shadows, widths are those of pixels and tell no

@@ -9,10 +9,6 @@
 //      16 bits
 // out  filtered (like value), effective: the number of equal samples that the gather amounts to (countOfLine()), times
 //      that of the pass before
-#ifndef WEDGE_GATHER_CHANNELS
-#define WEDGE_GATHER_CHANNELS 1 // compiled alone
-#endif
-
 #include "filter/gather.h"
 
 WEDGE_INLINE void storeEffective(float16 count, __global float* effective)
@@ -129,7 +125,7 @@ WEDGE_INLINE void gatherRow(FilterParams p, GatherPlanes in, GatheredPlanes out)
     }
 }
 
-/// Along y. The effective counts may be in the place of those of the rows: of each block these are read first.
+/// Along y. Effective counts are multiplied by those of the rows.
 WEDGE_INLINE void gatherColumn(FilterParams p, GatherPlanes in, __global const float* effectiveRows, GatheredPlanes out)
 {
     const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
@@ -139,11 +135,6 @@ WEDGE_INLINE void gatherColumn(FilterParams p, GatherPlanes in, __global const f
             loadBlock(effectiveRows, (int)pixelIndex(x, y, p.stride)), out);
     }
 }
-
-#define WEDGE_GATHER_PARAMETERS                                                                                        \
-    __global const float* restrict value, __global const float* restrict beta,                                         \
-        __global const float* restrict position, __global const float* restrict normal,                                \
-        __global const float* restrict pixelSize, __global const uint* restrict objectId
 
 #ifndef WEDGE_GATHER_SHEARED
 #include "pass/filterRows.h"

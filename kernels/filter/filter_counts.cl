@@ -39,12 +39,7 @@ WEDGE_INLINE float16 countAlong(FilterParams p, GatherBlock b, int i, int elemen
 #ifdef PASS_gatherCounts
 __kernel void gatherCounts(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const float16 betaHere = loadBlock(beta, i);
     const uint16 object = loadIdBlock(objectId, i);
     const int16 gathers = (betaHere > 0.0f) & (object != 0u);

@@ -18,15 +18,6 @@
 #include "filter/temporal_lookup.h"
 #include "shared/bsdf.h"
 
-/// The pixel of this work-item; false beyond the rectangle.
-WEDGE_FN bool temporalPixel(TemporalParams p, uint* x, uint* y, uint* i)
-{
-    *x = p.x0 + (uint)get_global_id(0);
-    *y = p.y0 + (uint)get_global_id(1);
-    *i = pixelIndex(*x, *y, p.stride);
-    return *x < p.x1 && *y < p.y1;
-}
-
 /// What light is divided by to make E of it, never 0.
 WEDGE_FN Vec3 shownBy(TemporalParams p, __global const float* diffuse, __global const float* specular, uint i)
 {
@@ -49,10 +40,7 @@ WEDGE_FN Vec3 over(Vec3 a, Vec3 b) { return vec3(a.x / b.x, a.y / b.y, a.z / b.z
 #ifdef PASS_keepFrame
 __kernel void keepFrame(PARAMETERS)
 {
-    uint x, y, i;
-    if (!temporalPixel(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const uint n = p.planeSize;
     const bool reflects = p.mixed != 0u || objectId[i] != 0u;
     const Vec3 black = vec3(0.0f, 0.0f, 0.0f), k = shownBy(p, diffuse, specular, i);
@@ -99,10 +87,7 @@ WEDGE_FN float roughness(float before, float own, float after, uint measured)
 #ifdef PASS_findVariation
 __kernel void findVariation(PARAMETERS)
 {
-    uint x, y, i;
-    if (!temporalPixel(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const uint n = p.planeSize, id = object[i];
     // Of what mirrors show no deviation is known.
     const uint measured = id != 0u ? p.measured : 0u;
@@ -134,10 +119,7 @@ __kernel void findVariation(PARAMETERS)
 #ifdef PASS_differFromFrame
 __kernel void differFromFrame(PARAMETERS)
 {
-    uint x, y, i;
-    if (!temporalPixel(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const uint n = p.planeSize;
     SoughtPoint point;
     point.object = object[i];
@@ -307,8 +289,8 @@ WEDGE_FN float weightAt(TemporalParams p, __global const float* weights, uint x,
 #ifdef PASS_addFrame
 __kernel void addFrame(PARAMETERS)
 {
-    uint x, y, i;
-    if (!temporalPixel(p, &x, &y, &i) || share[i] == 0.0f) {
+    WEDGE_PIXEL(p, x, y, i);
+    if (share[i] == 0.0f) {
         return;
     }
     const float w = p.published != 0u ? 1.0f : weightAt(p, weights, x, y);
@@ -328,10 +310,7 @@ __kernel void addFrame(PARAMETERS)
 #ifdef PASS_finishTemporal
 __kernel void finishTemporal(PARAMETERS)
 {
-    uint x, y, i;
-    if (!temporalPixel(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const uint n = p.planeSize;
     const Vec3 k = vecScale(shownBy(p, diffuse, specular, i), 1.0f / (1.0f + counts[i]));
     Vec3 more = vecMul(k, loadVec(sum, n, i));

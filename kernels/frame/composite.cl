@@ -38,13 +38,8 @@ WEDGE_FN void addDeviation(__global float* plane, uint size, int i, float16 devi
 #ifdef PASS_addDiffuse
 __kernel void addDiffuse(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const uint size = p.planeSize;
-    const int i = (int)pixelIndex(x, y, p.stride);
     const int16 surface = loadIdBlock(objectId, i) != 0u;
     if (!any(surface)) {
         return;
@@ -92,13 +87,8 @@ WEDGE_FN float16 specularShading(SampleParams params, AreaLight light, Receivers
 #ifdef PASS_addSpecular
 __kernel void addSpecular(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const uint size = p.planeSize;
-    const int i = (int)pixelIndex(x, y, p.stride);
     const Vec3x16 ks = loadVecBlock(specular, size, i);
     const int16 mirrors = (loadIdBlock(objectId, i) != 0u) & (ks.x + ks.y + ks.z > 0.0f);
     if (!any(mirrors)) {
@@ -161,12 +151,7 @@ WEDGE_FN void addTerm(AnalysisParams p, uint component, Vec3x16 k, int16 has, __
 #ifdef PASS_addPathSamples
 __kernel void addPathSamples(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const int16 has = loadIdBlock(taken, i) != 0u;
     const Vec3x16 k = reflectanceOf(p, component, reflectance, i);
     addTerm(p, component, k, has, value, i, indirectNoisy);
@@ -185,12 +170,7 @@ __kernel void addPathSamples(PARAMETERS)
 #ifdef PASS_addLobeSamples
 __kernel void addLobeSamples(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const uint16 count = loadIdBlock(taken, i);
     const int16 has = count != 0u;
     const float16 per = 1.0f / max16(convert_float16(count), (float16)(1.0f));
@@ -213,12 +193,7 @@ __kernel void addLobeSamples(PARAMETERS)
 #ifdef PASS_addIndirect
 __kernel void addIndirect(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const int16 has = loadIdBlock(taken, i) != 0u;
     const Vec3x16 k = reflectanceOf(p, component, reflectance, i);
     addTerm(p, component, k, has, value, i, indirect);
@@ -234,12 +209,7 @@ __kernel void addIndirect(PARAMETERS)
 #ifdef PASS_addReflected
 __kernel void addReflected(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const int16 surface = loadIdBlock(objectId, i) != 0u;
     for (uint plane = 0u; plane < 3u; ++plane) {
         const int j = i + (int)(plane * p.planeSize);

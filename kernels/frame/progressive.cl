@@ -10,10 +10,8 @@
 #ifdef PASS_copyImage
 __kernel void copyImage(PARAMETERS)
 {
-    uint x, y, i;
-    if (pixelOf(p, &x, &y, &i)) {
-        storeVec(out, p.planeSize, i, loadVec(in, p.planeSize, i));
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    storeVec(out, p.planeSize, i, loadVec(in, p.planeSize, i));
 }
 #endif
 
@@ -25,10 +23,7 @@ WEDGE_FN float shareOfFirst(uint first, uint second) { return second == 0u ? 1.0
 #ifdef PASS_meanOfHalves
 __kernel void meanOfHalves(PARAMETERS)
 {
-    uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const float share = shareOfFirst(takenA[i], takenB[i]);
     for (uint plane = 0u; plane < planes; ++plane) {
         const uint at = plane * p.planeSize + i;
@@ -42,11 +37,9 @@ __kernel void meanOfHalves(PARAMETERS)
 #ifdef PASS_joinObjects
 __kernel void joinObjects(PARAMETERS)
 {
-    uint x, y, i;
-    if (pixelOf(p, &x, &y, &i)) {
-        const uint a = objectA[i], b = objectB[i];
-        object[i] = a == 0u || a == b ? b : b == 0u ? a : WEDGE_MIXED;
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    const uint a = objectA[i], b = objectB[i];
+    object[i] = a == 0u || a == b ? b : b == 0u ? a : WEDGE_MIXED;
 }
 #endif
 
@@ -56,10 +49,7 @@ __kernel void joinObjects(PARAMETERS)
 #ifdef PASS_joinSurfaces
 __kernel void joinSurfaces(PARAMETERS)
 {
-    uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const uint n = p.planeSize, a = hitsA[i], b = hitsB[i];
     const float share = a + b > 0u ? (float)a / (float)(a + b) : 0.5f, rest = 1.0f - share;
     storeVec(position, n, i, vecMad(vecScale(loadVec(positionA, n, i), share), loadVec(positionB, n, i), rest));
@@ -76,10 +66,8 @@ __kernel void joinSurfaces(PARAMETERS)
 #ifdef PASS_sumOfHalves
 __kernel void sumOfHalves(PARAMETERS)
 {
-    uint x, y, i;
-    if (pixelOf(p, &x, &y, &i)) {
-        sum[i] = a[i] + b[i];
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    sum[i] = a[i] + b[i];
 }
 #endif
 
@@ -104,10 +92,7 @@ __kernel void sumOfLists(PARAMETERS)
 #ifdef PASS_errorOfHalves
 __kernel void errorOfHalves(PARAMETERS)
 {
-    uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const uint n = p.planeSize;
     const Vec3 a = loadVec(beautyA, n, i), b = loadVec(beautyB, n, i), d = vecSub(a, b);
     const Vec3 changeA = vecSub(a, loadVec(plainA, n, i)), changeB = vecSub(b, loadVec(plainB, n, i));

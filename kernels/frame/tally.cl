@@ -29,11 +29,7 @@ __kernel void addToTally(PARAMETERS)
 #ifdef PASS_addCounts
 __kernel void addCounts(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x < p.x1 && y < p.y1) {
-        const int i = (int)pixelIndex(x, y, p.stride);
-        vstore16(loadIdBlock(before, i) + loadIdBlock(counts, i), 0, sum + i);
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    vstore16(loadIdBlock(before, i) + loadIdBlock(counts, i), 0, sum + i);
 }
 #endif

@@ -9,12 +9,7 @@
 #ifdef PASS_lightMeans
 __kernel void lightMeans(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0);
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const uint i = pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     float total[WEDGE_SUMS];
     for (uint k = 0u; k < WEDGE_SUMS; ++k) {
         total[k] = sums[k * p.planeSize + i];

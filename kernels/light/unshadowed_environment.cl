@@ -23,12 +23,9 @@ WEDGE_INLINE void storeUnshadowed(uint size, int i, WEDGE_BEYOND_PARAMETERS, __g
 #ifdef PASS_environmentOfPixels
 __kernel void environmentOfPixels(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x < p.x1 && y < p.y1) {
-        storeUnshadowed(
-            p.planeSize, (int)pixelIndex(x, y, p.stride), environment, environmentTable, normal, diffuse, unshadowed);
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    storeUnshadowed(
+        p.planeSize, (int)pixelIndex(x, y, p.stride), environment, environmentTable, normal, diffuse, unshadowed);
 }
 #endif
 
@@ -40,12 +37,7 @@ __kernel void environmentOfPixels(PARAMETERS)
 #ifdef PASS_lobesOfPixels
 __kernel void lobesOfPixels(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0);
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const uint i = pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const Vec3 reflectance = loadVec(specular, p.planeSize, i);
     Vec3 light = vec3(0.0f, 0.0f, 0.0f);
     bool reflects = luminance(reflectance) > 0.0f;
@@ -106,12 +98,7 @@ WEDGE_FN float correctionOf(AnalysisParams p, uint x, uint y, __global const flo
 #ifdef PASS_correctLobes
 __kernel void correctLobes(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0);
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const uint i = pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const float n = (float)taken[i], all = sums[3u * p.planeSize + i];
     if (taken[i] == 0u || !(all > 0.0f)) {
         return;

@@ -152,12 +152,7 @@ WEDGE_FN void nearestReflectors(ReflectorParams p, uint y, int i, __global const
 #ifdef PASS_reflectorWidths
 __kernel void reflectorWidths(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     float zMin[WEDGE_BLOCK_PIXELS], size[WEDGE_BLOCK_PIXELS], width[WEDGE_BLOCK_PIXELS];
     const float16 sizes = p.meanOnly != 0u ? loadShortBlock(pixelSize, i) : loadBlock(pixelSize, i);
     nearestReflectors(p, y, i, reflectors, objectId, extent, taken, sizes, zMin);
@@ -177,11 +172,7 @@ __kernel void reflectorWidths(PARAMETERS)
 #ifdef PASS_reflectorCounts
 __kernel void reflectorCounts(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const uint first = pixelIndex(x, y, p.stride);
     float zMin[WEDGE_BLOCK_PIXELS];
     nearestReflectors(p, y, (int)first, reflectors, objectId, extent, taken, loadBlock(pixelSize, (int)first), zMin);
@@ -205,12 +196,7 @@ __kernel void reflectorCounts(PARAMETERS)
 #ifdef PASS_sampleVariance
 __kernel void sampleVariance(PARAMETERS)
 {
-    const uint x = p.x0 + get_global_id(0) * WEDGE_BLOCK_PIXELS;
-    const uint y = p.y0 + get_global_id(1);
-    if (x >= p.x1 || y >= p.y1) {
-        return;
-    }
-    const int i = (int)pixelIndex(x, y, p.stride);
+    WEDGE_PIXEL(p, x, y, i);
     const float16 n = convert_float16(loadIdBlock(taken, i));
     const Vec3x16 sum = loadVecBlock(sums, p.planeSize, i);
     const float16 total = 0.2126f * sum.x + 0.7152f * sum.y + 0.0722f * sum.z;

@@ -1,7 +1,7 @@
 // The sink of sums: what the samples of each receiver add up to.
 //
 // A sink is what becomes of samples. A kernel that samples defines Sampling, the receivers of a packet and how many
-// samples each has, and Samples, one of each lane, and hands them to the functions of its sink.h, which is generated
+// samples each has, and Samples, one of each lane, and hands them to the functions of its interface, which is generated
 // from what the pass declares (host/graph/interface.h); they call beginX(), takeX() and finishX() of each sink X. What
 // they keep is of the packet's receivers, and a lane's sample may be of any of them (core/deal.h):
 //

@@ -218,12 +218,7 @@ WEDGE_FN void countTaken(WaveParams wave, uint i, uint total, __global uint* tak
     }
 }
 
-/// Parameters of the kernels that add to a term, and its planes made of them.
-#define WEDGE_TERM_PARAMETERS                                                                                          \
-    __global const uint *restrict termWanted, __global uint *restrict termTaken, __global float *restrict texture,     \
-        __global float *restrict value, __global float *restrict plain, __global float *restrict squares,              \
-        __global float *restrict textureSquares, __global float *restrict termRadiance,                                \
-        __global float *restrict deviation, __global float *restrict extremes
+/// The planes of the term that a kernel adds to, of its parameters of these names.
 /// light: of a light; false: of indirect light.
 #define WEDGE_TERM_ARGUMENTS(light)                                                                                    \
     termPlanes(wave.packed, light, texture, value, plain, squares, textureSquares, termRadiance, deviation)

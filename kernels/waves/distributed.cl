@@ -11,10 +11,7 @@
 #ifdef PASS_factoringError
 __kernel void factoringError(PARAMETERS)
 {
-    uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const Vec3 k = loadVec(texture, p.planeSize, i);
     error[i] = luminance(vecMul(k, loadVec(value, p.planeSize, i))) - luminance(k) * plain[i];
 }
@@ -27,10 +24,7 @@ __kernel void factoringError(PARAMETERS)
 #ifdef PASS_factoredWidths
 __kernel void factoredWidths(PARAMETERS)
 {
-    uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     float sum = 0.0f, count = 0.0f;
     const int reach = (int)p.factoringRadius;
     for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
@@ -55,10 +49,7 @@ __kernel void factoredWidths(PARAMETERS)
 #ifdef PASS_splitVariance
 __kernel void splitVariance(PARAMETERS)
 {
-    uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const Vec3 k = loadTexture(p, texture, i);
     const float mean = luminance(vecMul(k, loadValue(p, value, i))), t = luminance(k);
     const float n = (float)taken[i];
@@ -84,10 +75,7 @@ __kernel void splitVariance(PARAMETERS)
 #ifdef PASS_emissionVariance
 __kernel void emissionVariance(PARAMETERS)
 {
-    uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const float n = (float)taken[i], mean = luminance(loadVec(emission, p.planeSize, i));
     variance[i] = n > 1.0f ? fmax(squares[i] - mean * mean, 0.0f) * n / (n - 1.0f) : 0.0f;
 }
@@ -108,10 +96,7 @@ WEDGE_FN float gatheredBy(float irradiance, float lens, float along)
 #ifdef PASS_uncertaintyOfRays
 __kernel void uncertaintyOfRays(PARAMETERS)
 {
-    uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const float irradiance = beta[i] > 0.0f ? fmax(effective[i], 1.0f) : 1.0f;
     const float gathered = gatheredBy(irradiance, lens[i], p.alongMotion != 0u ? along[i] : 0.0f);
     uncertainty[i] = variance[i] / (gathered * p.rays);
@@ -123,10 +108,8 @@ __kernel void uncertaintyOfRays(PARAMETERS)
 #ifdef PASS_addPlane
 __kernel void addPlane(PARAMETERS)
 {
-    uint x, y, i;
-    if (pixelOf(p, &x, &y, &i)) {
-        sum[i] += part[i];
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    sum[i] += part[i];
 }
 #endif
 
@@ -136,10 +119,8 @@ __kernel void addPlane(PARAMETERS)
 #ifdef PASS_atLeast
 __kernel void atLeast(PARAMETERS)
 {
-    uint x, y, i;
-    if (pixelOf(p, &x, &y, &i)) {
-        demand[i] = fmax(demand[i], (beta[i] >= 0.0f ? apart : together) * least[i]);
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    demand[i] = fmax(demand[i], (beta[i] >= 0.0f ? apart : together) * least[i]);
 }
 #endif
 
@@ -148,10 +129,8 @@ __kernel void atLeast(PARAMETERS)
 #ifdef PASS_unpackImage
 __kernel void unpackImage(PARAMETERS)
 {
-    uint x, y, i;
-    if (pixelOf(p, &x, &y, &i)) {
-        storeVec(out, p.planeSize, i, loadValue(p, in, i));
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    storeVec(out, p.planeSize, i, loadValue(p, in, i));
 }
 #endif
 
@@ -161,12 +140,10 @@ __kernel void unpackImage(PARAMETERS)
 #ifdef PASS_scaleCounts
 __kernel void scaleCounts(PARAMETERS)
 {
-    uint x, y, i;
-    if (pixelOf(p, &x, &y, &i)) {
-        const float asked = clamp(scale * demand[i], (float)least, (float)most);
-        const float n = even > 0.0f ? asked + even * (mean - asked) : asked;
-        wanted[i] = max((uint)(n + 0.5f), taken[i]);
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    const float asked = clamp(scale * demand[i], (float)least, (float)most);
+    const float n = even > 0.0f ? asked + even * (mean - asked) : asked;
+    wanted[i] = max((uint)(n + 0.5f), taken[i]);
 }
 #endif
 
@@ -176,10 +153,8 @@ __kernel void scaleCounts(PARAMETERS)
 #ifdef PASS_settleCounts
 __kernel void settleCounts(PARAMETERS)
 {
-    uint x, y, i;
-    if (pixelOf(p, &x, &y, &i)) {
-        counts[i] = primaryTaken[i] > first ? counts[i] : primaryTaken[i];
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    counts[i] = primaryTaken[i] > first ? counts[i] : primaryTaken[i];
 }
 #endif
 
@@ -188,10 +163,8 @@ __kernel void settleCounts(PARAMETERS)
 #ifdef PASS_limitStep
 __kernel void limitStep(PARAMETERS)
 {
-    uint x, y, i;
-    if (pixelOf(p, &x, &y, &i)) {
-        wanted[i] = min(wanted[i], taken[i] + WEDGE_MOST_NEW_SAMPLES);
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    wanted[i] = min(wanted[i], taken[i] + WEDGE_MOST_NEW_SAMPLES);
 }
 #endif
 
@@ -216,15 +189,11 @@ WEDGE_FN float storeBlur(
 /// Standard deviations in pixels of the image-space filters: of the blur that all of a pixel has, else 0.
 /// out  lens, along (the motion), directions of that (2 planes, unit; packed, see storeBlur); lens alone where all is
 /// still.
-///      Directions may be in the place of packed motions: of each pixel those are read first.
 #include "pass/blurs.h"
 #ifdef PASS_blurs
 __kernel void blurs(PARAMETERS)
 {
-    uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const float n = p.frames * (p.samples > 0.0f ? p.samples : fmax((float)taken[i], 1.0f));
     const float r = leastConfusion(p, confusion, i);
     lens[i] = r >= p.leastRadius ? p.blurWidth * r * pow(n * r * r, -p.blurExponent) : 0.0f;
@@ -247,10 +216,7 @@ __kernel void blurs(PARAMETERS)
 #ifdef PASS_shadowBlurs
 __kernel void shadowBlurs(PARAMETERS)
 {
-    uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const uint n = p.planeSize;
     const float samples = p.frames * (p.samples > 0.0f ? p.samples : fmax((float)taken[i], 1.0f));
     float mx, my, length;
@@ -279,10 +245,7 @@ __kernel void shadowBlurs(PARAMETERS)
 #ifdef PASS_visibilityOf
 __kernel void visibilityOf(PARAMETERS)
 {
-    uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const Vec3 k = loadTexture(p, texture, i);
     const float t = luminance(k);
     visibility[i] = p.published != 0u ? value[i] : t > 0.0f ? luminance(vecMul(k, loadValue(p, value, i))) / t : 0.0f;
@@ -296,10 +259,7 @@ __kernel void visibilityOf(PARAMETERS)
 #ifdef PASS_termDifferences
 __kernel void termDifferences(PARAMETERS)
 {
-    uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const uint n = p.planeSize;
     const Vec3 k = loadTexture(p, texture, i);
     const Vec3 f = p.values == 3u ? loadVec(filtered, n, i) : vec3(filtered[i], filtered[i], filtered[i]);
@@ -321,10 +281,7 @@ __kernel void termDifferences(PARAMETERS)
 #ifdef PASS_fallBackTerm
 __kernel void fallBackTerm(PARAMETERS)
 {
-    uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const uint n = p.planeSize;
     const float own = loadShort(shares, n, i, 0u), ratio = loadShort(shares, n, i, 1u);
     // Where nothing is shared what is not filtered is not looked at.
@@ -372,10 +329,7 @@ WEDGE_FN float keptOf(float number, float difference)
 #ifdef PASS_addFilteredTerm
 __kernel void addFilteredTerm(PARAMETERS)
 {
-    uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const uint n = p.planeSize;
     const Vec3 e = p.values == 3u ? loadVec(filtered, n, i) : vec3(filtered[i], filtered[i], filtered[i]);
     Vec3 term;
@@ -398,11 +352,9 @@ __kernel void addFilteredTerm(PARAMETERS)
 #ifdef PASS_addTerm
 __kernel void addTerm(PARAMETERS)
 {
-    uint x, y, i;
-    if (pixelOf(p, &x, &y, &i)) {
-        const Vec3 term = ownRadiance(p, i, texture, value, termRadiance);
-        storeVec(radiance, p.planeSize, i, vecAdd(loadVec(radiance, p.planeSize, i), term));
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    const Vec3 term = ownRadiance(p, i, texture, value, termRadiance);
+    storeVec(radiance, p.planeSize, i, vecAdd(loadVec(radiance, p.planeSize, i), term));
 }
 #endif
 
@@ -411,10 +363,8 @@ __kernel void addTerm(PARAMETERS)
 #ifdef PASS_addImage
 __kernel void addImage(PARAMETERS)
 {
-    uint x, y, i;
-    if (pixelOf(p, &x, &y, &i)) {
-        storeVec(sum, p.planeSize, i, vecAdd(loadVec(sum, p.planeSize, i), loadVec(image, p.planeSize, i)));
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    storeVec(sum, p.planeSize, i, vecAdd(loadVec(sum, p.planeSize, i), loadVec(image, p.planeSize, i)));
 }
 #endif
 
@@ -423,10 +373,7 @@ __kernel void addImage(PARAMETERS)
 #ifdef PASS_addAll
 __kernel void addAll(PARAMETERS)
 {
-    uint x, y, i;
-    if (!pixelOf(p, &x, &y, &i)) {
-        return;
-    }
+    WEDGE_PIXEL(p, x, y, i);
     const uint n = p.planeSize;
     storeVec(beauty, n, i, vecAdd(vecAdd(loadVec(emission, n, i), loadVec(direct, n, i)), loadVec(indirect, n, i)));
 }

@@ -336,11 +336,7 @@ WEDGE_FN bool seesLights(SeeingPixel from, __global const TraversalNode* restric
 #ifdef PASS_seenLights
 __kernel void seenLights(PARAMETERS)
 {
-    const uint x = frame.x0 + get_global_id(0), y = frame.y0 + get_global_id(1);
-    if (x >= frame.x1 || y >= frame.y1) {
-        return;
-    }
-    const uint i = pixelIndex(x, y, frame.stride);
+    WEDGE_PIXEL(frame, x, y, i);
     storeColour(known, frame.planeSize, i, WEDGE_COLOUR_BITS, vec3(0.0f, 0.0f, 0.0f));
     SeeingPixel from;
     from.camera = camera;

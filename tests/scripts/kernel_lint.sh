@@ -3,8 +3,8 @@
 # writes, warnings as errors: those of frames of many kinds, for one target; and of each file of the folder KERNELS all
 # kernels, with each set of defines that the host builds them with. Fails if one complains, or if a kernel is in none.
 set -euo pipefail
+programs=$(realpath "${2:?kernel_lint.sh: error: no command that writes programs: name it}")
 cd "${1:?kernel_lint.sh: error: no folder of kernels: name it}"
-programs=${2:?kernel_lint.sh: error: no command that writes programs: name it}
 
 # Any clang from 15 on; the newest that is here.
 least=15
@@ -34,11 +34,15 @@ export -f lint
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 "$programs" "$work"
-mkdir "$work/all.trace.trace_test.cl"
-echo trace/trace_test.cl >"$work/all.trace.trace_test.cl/program"
-folders=("$work"/all.*)
-for kernel in $(grep -hoP '^__kernel void \K\w+(?=\(PARAMETERS)' */*.cl); do
+mkdir "$work/all.1.trace.trace_test.cl"
+echo trace/trace_test.cl >"$work/all.1.trace.trace_test.cl/program"
+for file in */*.cl; do
+    [ -d "$work/all.1.${file//\//.}" ] || { echo "kernel_lint: no frame has a program of $file" >&2; exit 1; }
+done
+kernels=$(grep -hoP '^__kernel void \K\w+(?=\(PARAMETERS)' */*.cl)
+for kernel in $kernels; do
     ls "$work"/all.*/pass/"$kernel.h" >/dev/null || { echo "kernel_lint: no frame has the kernel $kernel" >&2; exit 1; }
+    grep -qF "#include \"pass/$kernel.h\"" */*.cl || { echo "kernel_lint: $kernel has no interface" >&2; exit 1; }
 done
 
 # Rooms include what is in rooms before them.
@@ -62,15 +66,17 @@ if lint spir64 . - <<<'kernel void f(global float* a) { int unused = *a; }' 2>/d
 fi
 
 for target in spir64 nvptx64 amdgcn; do
-    for folder in "${folders[@]}"; do
+    for folder in "$work"/all.*; do
+        program="lint $target $folder $(cat "$folder/program")"
+        # Of a file that is compiled with several sets of defines one goes by what scenes have.
+        case $folder in */all.1.*) ;; *) printf '%s\0' "$program" "$program -DWEDGE_SPECULAR=1" && continue ;; esac
         for family in '' -DWEDGE_TRAVERSAL_SCALAR=1; do
             for motion in '' -DWEDGE_MOTION=1; do
-                program="lint $target $folder $(cat "$folder/program") $family $motion"
                 for more in '' -DWEDGE_SPECULAR=1 '-DWEDGE_SPECULAR=1 -DWEDGE_ENVIRONMENT_MAP=1' \
                     '-DWEDGE_SPECULAR=1 -DWEDGE_GGX=1' -DWEDGE_NORMAL_MAPS=1 -DWEDGE_MIRRORS=1 \
                     '-DWEDGE_MIRRORS=1 -DWEDGE_TOUCHING_GLASS=1' -DWEDGE_CUTOUTS=1 \
                     '-DWEDGE_EMITTER_TREES=1 -DWEDGE_EMITTER_TABLES=1'; do
-                    printf '%s\0' "$program $more"
+                    printf '%s\0' "$program $family $motion $more"
                 done
             done
         done
@@ -83,4 +89,4 @@ for folder in "$work"/*.cl; do
     frames=$((frames + 1))
 done >>"$work/list"
 xargs -0 -n 1 -P "$(nproc)" bash -c <"$work/list"
-echo "kernel_lint: ${#folders[@]} files pass with $clang $newest, under both families of traversals, at rest and moving, for spir64, nvptx64 and amdgcn; and $frames programs of frames"
+echo "kernel_lint: $(wc -w <<<"$kernels") kernels pass with $clang $newest, under both families of traversals, at rest and moving, for spir64, nvptx64 and amdgcn; and $frames programs of frames"

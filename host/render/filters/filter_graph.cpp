@@ -28,7 +28,8 @@ std::vector<graph::Argument> gathered(const FrameBuilder& frame, const shared::F
 {
     const Surfaces& s = frame.surfaces;
     return { reads("position", s.position, reach), reads("normal", s.normal, reach),
-        params.surface != 0 ? reads("pixelSize", s.pixelSize, reach) : frame.nothing("pixelSize"),
+        params.surface != 0 ? reads("pixelSize", s.pixelSize, reach)
+                            : frame.nothing("pixelSize", frame.packed ? shortFloats : graph::floats),
         reads("objectId", s.objectId, reach) };
 }
 
@@ -185,7 +186,8 @@ void demandOf(FrameBuilder& frame, const shared::AnalysisParams& params, const g
     frame.blocks("counts", PassKind::Analysis, { "analysis/demand.cl", "demandOf" },
         { frame.rectangle(params), value("oneObject", demanding.oneObject ? 1u : 0u),
             value("ownToo", demanding.ownToo ? 1u : 0u), reads("uncertainty", uncertainty, near),
-            demanding.oneObject ? reads("objectId", frame.surfaces.objectId, near) : frame.nothing("objectId", "uint"),
+            demanding.oneObject ? reads("objectId", frame.surfaces.objectId, near)
+                                : frame.nothing("objectId", graph::counts),
             writes("demand", demand) });
 }
 

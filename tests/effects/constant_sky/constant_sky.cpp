@@ -46,7 +46,7 @@ void ofPixels(FrameBuilder& f, graph::Handle<Radiance>* own)
             render::Arguments { f.outside("sampleOf", "uint", nullptr), reads("diffuse", f.surfaces.diffuse),
                 reads("specular", f.surfaces.specular), updates("direct", t.direct.filtered),
                 updates("directNoisy", t.direct.noisy), value("keepsOwn", own != nullptr ? 1u : 0u),
-                own != nullptr ? updates("own", *own) : f.nothing("own"), tallies("rays", rays) }),
+                own != nullptr ? updates("own", *own) : f.nowhere("own", graph::vectors), tallies("rays", rays) }),
         false, [spp = f.settings.spp](const graph::Launch&) { return static_cast<double>(spp); });
     f.count(rays, true, t.tallies.rays, &t.rays);
 }
@@ -62,7 +62,7 @@ void ofWaves(FrameBuilder& f, render::Waves& waves, graph::Handle<Radiance>& rad
             waves.receiverArguments(),
             render::Arguments { reads("sampleOf", r.sampleOf), reads("diffuse", r.diffuse),
                 reads("specular", r.specular), updates("direct", radiance), updates("directNoisy", noisy),
-                value("keepsOwn", 0u), f.nothing("own"), waves.tallyRays() }),
+                value("keepsOwn", 0u), f.nowhere("own", graph::vectors), waves.tallyRays() }),
         false);
 }
 

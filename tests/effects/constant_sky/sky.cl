@@ -57,11 +57,9 @@ WEDGE_FN void addTo(__global float* planes, uint size, uint i, Vec3 radiance)
     storeVec(planes, size, i, vecAdd(loadVec(planes, size, i), radiance));
 }
 
-__kernel void skyLight(FrameParams frame, uint sampling, uint samples, __global const TraversalNode* restrict nodes,
-    __global const TriangleBlock* restrict blocks, WEDGE_RECEIVER_PARAMETERS, __global const uint* restrict sampleOf,
-    __global const float* restrict diffuse, __global const float* restrict specular, __global float* restrict direct,
-    __global float* restrict directNoisy, uint keepsOwn, __global float* restrict own, __global uint* restrict rays,
-    uint firstGroup)
+#include "pass/skyLight.h"
+#ifdef PASS_skyLight
+__kernel void skyLight(PARAMETERS)
 {
     const uint size = frame.planeSize;
     const ReceiverData data = WEDGE_RECEIVER_ARGUMENTS;
@@ -128,3 +126,4 @@ __kernel void skyLight(FrameParams frame, uint sampling, uint samples, __global 
         rays[i] += traced[lane];
     }
 }
+#endif
