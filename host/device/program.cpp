@@ -154,7 +154,8 @@ cl::Program& ProgramLibrary::program(const ProgramSource& source)
 Kernel ProgramLibrary::kernel(const ProgramSource& source, const std::string& name)
 {
     const auto interface = source.generated.find("pass/" + name + ".h");
-    if (interface != source.generated.end() && textOf(options_, source).find(interface->second) == std::string::npos) {
+    const std::string sign = "#define PASS_" + name + " ";
+    if (interface != source.generated.end() && textOf(options_, source).find(sign) == std::string::npos) {
         throw Error("kernel does not include its interface", fmt::format("{} ({})", name, source.file),
             fmt::format("put #include \"{}\" before it", interface->first));
     }
