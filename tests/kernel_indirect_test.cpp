@@ -73,11 +73,15 @@ public:
     {
         const render::DeviceScene& s = traced.onDevice;
         const SurfaceBuffers& f = traced.frame;
-        traced.bench.passes.tiles("paths", device::PassKind::Trace, "paths/indirect.cl", "samplePaths", traced.params,
-            1.0, params, s.nodes, s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, s.emitters,
-            s.emitterPicks, s.environment, s.environmentTable, /* no pre-computed samples */ s.environmentTable,
-            f.receivers(), f.specular, traced.bench.buffer(wanted), last, traced.taken, f.rays, f.pathRays, sums_,
-            value_, parts_, reflectors_);
+        using namespace render;
+        const device::ProgramSource program = withSinks(traced.bench.device, "paths/indirect.cl", "samplePaths",
+            { sinks::sums(), sinks::means(), sinks::parts(), sinks::distances() },
+            { "sums", "value", "parts", "reflectors" });
+        traced.bench.passes.tiles("paths", device::PassKind::Trace, program, "samplePaths", traced.params, 1.0, params,
+            s.nodes, s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, s.emitters, s.emitterPicks,
+            s.environment, s.environmentTable, /* no pre-computed samples */ s.environmentTable, f.receivers(),
+            f.specular, traced.bench.buffer(wanted), last, traced.taken, f.rays, f.pathRays, sums_, value_, parts_,
+            reflectors_);
     }
     PathResult result()
     {

@@ -4,9 +4,11 @@
 #include "host/error.h"
 #include "host/render/renderer.h"
 #include "host/scene/scene.h"
+#include "kernels/embedded_kernels.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -37,10 +39,16 @@ std::vector<Settings> manySettings()
         add(like, [](Settings& s) { s.progressive = true; });
     }
     add(0, [](Settings& s) { s.integrator = render::Integrator::AmbientOcclusion; });
-    add(0, [](Settings& s) { s.sampling = render::Sampling::Uniform, s.filtering = render::Filtering::Fixed; });
+    add(0, [](Settings& s) {
+        s.sampling = render::Sampling::Uniform;
+        s.filtering = render::Filtering::Fixed;
+    });
     add(0, [](Settings& s) { s.environment.widths = render::EnvironmentWidths::Corrected; });
     add(1, [](Settings& s) { s.environment.sampling = render::EnvironmentSampling::Precomputed; });
-    add(3, [](Settings& s) { s.maaf = render::Maaf::Refitted, s.components = 3; });
+    add(3, [](Settings& s) {
+        s.maaf = render::Maaf::Refitted;
+        s.components = 3;
+    });
     return out;
 }
 
@@ -74,20 +82,22 @@ bool ofFrames(const render::Renderer& renderer, const std::function<bool(const P
     return true;
 }
 
-/// The same of two frames with the filter over time, whose passes are declared when they are run.
+/// The same of two frames each with the filter over time, whose passes are declared when they are run.
 bool overTime(const device::Device& device, const std::function<bool(const ProductProgram&)>& visit)
 {
     render::Renderer renderer(scene::loadScene(WEDGE_SOURCE_DATA "/scenes/penumbra.toml"), device);
-    filters::TemporalFilter filter(device);
     for (const render::Temporal temporal : { render::Temporal::On, render::Temporal::Published }) {
-        Settings settings = render::axisAligned(16);
-        settings.width = settings.height = 8;
-        settings.bounces = 1;
-        settings.temporal = temporal;
-        for (std::uint32_t frame = 0; frame < 2; ++frame) {
-            settings.frame = frame;
-            render::FrameStatistics statistics = renderer.render(settings, {}, true);
-            filter.filter(renderer, settings, nullptr, statistics);
+        for (const int bounces : { 1, 0 }) {
+            filters::TemporalFilter filter(device);
+            Settings settings = render::axisAligned(16);
+            settings.width = settings.height = 8;
+            settings.bounces = bounces;
+            settings.temporal = temporal;
+            for (std::uint32_t frame = 0; frame < 2; ++frame) {
+                settings.frame = frame;
+                render::FrameStatistics statistics = renderer.render(settings, {}, true);
+                filter.filter(renderer, settings, nullptr, statistics);
+            }
         }
     }
     for (const device::ProgramSource& source : renderer.kernels().programs()) {
@@ -117,21 +127,23 @@ void everyProgram(const device::Device& device, const std::function<bool(const P
 
 device::ProgramSource productProgram(const device::Device& device, const std::string& file, const std::string& kernel)
 {
-    // Interfaces are the same on all devices.
-    static const std::map<std::pair<std::string, std::string>, std::string> known = [&] {
-        std::map<std::pair<std::string, std::string>, std::string> found;
+    static std::map<std::pair<std::string, std::string>, std::string> known; // the same on all devices
+    device::ProgramSource out(file);
+    const std::pair wanted(file, "pass/" + kernel + ".h");
+    const auto embedded = embeddedKernels();
+    if (std::ranges::none_of(embedded, [&](const EmbeddedKernel& each) { return each.path == file; })) {
+        return out;
+    }
+    if (!known.contains(wanted)) {
         everyProgram(device, [&](const ProductProgram& program) {
             for (const auto& [interface, text] : program.source.generated) {
-                found.emplace(std::pair(program.source.file, interface), text);
+                known.emplace(std::pair(program.source.file, interface), text);
             }
-            return true;
+            return !known.contains(wanted);
         });
-        return found;
-    }();
-    device::ProgramSource out(file);
-    const std::string interface = "pass/" + kernel + ".h";
-    if (const auto found = known.find({ file, interface }); found != known.end()) {
-        out.generated.emplace(interface, found->second);
+    }
+    if (const auto found = known.find(wanted); found != known.end()) {
+        out.generated.emplace(wanted.second, found->second);
     }
     return out;
 }

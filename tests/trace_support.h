@@ -130,14 +130,17 @@ public:
             frame.position, frame.normal, frame.origin, frame.geometric, frame.objectId, frame.depth, frame.pixelSize,
             frame.diffuse, frame.specular, frame.emission, frame.gloss);
     }
-    /// p.firstPass samples of each pixel, the first of their light. Their sinks are those that the kernel has alone.
+    /// p.firstPass samples of each pixel, the first of their light.
     void firstPass(const shared::SampleParams& p)
     {
         taken.fill(bench.queue, 0u);
         for (device::Buffer<float>* b : { &sums, &slopes })
             b->fill(bench.queue, 0.0f);
         firstWanted.fill(bench.queue, p.firstPass);
-        bench.passes.tiles("first", device::PassKind::Trace, "light/area_light.cl", "sampleShadows", params, 1.0, p,
+        using namespace render;
+        const device::ProgramSource program = withSinks(bench.device, "light/area_light.cl", "sampleShadows",
+            { sinks::sums(), sinks::means(), sinks::parts(), sinks::slopes() }, { "sums", "value", "parts", "slopes" });
+        bench.passes.tiles("first", device::PassKind::Trace, program, "sampleShadows", params, 1.0, p,
             onDevice.areaLightList[p.light], onDevice.nodes, onDevice.blocks, frame.receivers(), firstWanted,
             p.firstPass, taken, frame.rays, sums, value, parts, slopes);
     }
