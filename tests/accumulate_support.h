@@ -83,8 +83,8 @@ inline SeenPoint seenPoint(Receivers kind, int x, int y, std::uint32_t index)
     p.reflectors[0] = random() % 3 == 0 ? 0 : uniform(random, 0.1, 2);
     p.reflectors[1] = p.reflectors[0] > 0 ? p.reflectors[0] + uniform(random) : 0;
     p.reflectors[2] = p.reflectors[0] > 0 ? uniform(random, 0.5, 5) : 0;
-    for (int k = 0; k < 2; ++k)
-        p.unshadowed[k] = lit ? uniform(random, 0.1, 2) : 0;
+    for (auto& unshadowed : p.unshadowed)
+        unshadowed = lit ? uniform(random, 0.1, 2) : 0;
     if (all && random() % 3 == 0)
         p.unshadowed[1] = -1;
     for (int k = 2; k < 6; ++k)

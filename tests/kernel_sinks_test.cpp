@@ -215,7 +215,7 @@ private:
     }
 
     /// Gives arguments the names and types that they have in the product's frames.
-    void nameAs(const graph::KernelName& kernel, std::vector<graph::Argument>& arguments)
+    void nameAs(const graph::KernelName& kernel, std::vector<graph::Argument>& arguments) const
     {
         const std::string text =
             productProgram(traced_.bench.device, kernel.file, kernel.name).generated.at("pass/" + kernel.name + ".h");

@@ -9,7 +9,7 @@
 namespace wedge::test {
 
 /// A wave's lists on the device and as read back.
-struct WaveLists {
+struct WaveLists { // NOLINT(bugprone-exception-escape): as Buffer
     shared::WaveParams wave;
     device::Buffer<std::uint32_t> pixelOf, sampleOf, shareOf, pixelFirst, pixelCount;
     std::vector<std::uint32_t> pixels, samples, shares, firsts, counts;

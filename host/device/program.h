@@ -42,7 +42,7 @@ struct ProgramSource {
     std::string file; ///< of kernels/, "frame/primary.cl"
     Defines defines; ///< what tells it from others of that file
     GeneratedSources generated;
-    auto operator<=>(const ProgramSource&) const = default;
+    auto operator<=>(const ProgramSource&) const = default; // NOLINT(modernize-use-nullptr)
 };
 
 /// Its text, flattened (source.h), by options. Throws what flattenKernel() does.
