@@ -90,6 +90,18 @@ void requirePlain(const Defines& defines)
     }
 }
 
+/// Each interface is to be in the text, or its kernel takes what nobody declared.
+void requireInterfaces(const ProgramSource& source, const std::string& text)
+{
+    for (const auto& [path, made] : source.generated) {
+        const std::string kernel = std::filesystem::path(path).stem().string();
+        if (path.starts_with("pass/") && text.find(fmt::format("#define PASS_{} ", kernel)) == std::string::npos) {
+            throw Error("kernel does not include its interface", fmt::format("{} ({})", kernel, source.file),
+                fmt::format("put #include \"{}\" before it", path));
+        }
+    }
+}
+
 } // namespace
 
 std::string textOf(const BuildOptions& options, const ProgramSource& source)
@@ -153,12 +165,6 @@ cl::Program& ProgramLibrary::program(const ProgramSource& source)
 
 Kernel ProgramLibrary::kernel(const ProgramSource& source, const std::string& name)
 {
-    const auto interface = source.generated.find("pass/" + name + ".h");
-    const std::string sign = "#define PASS_" + name + " ";
-    if (interface != source.generated.end() && textOf(options_, source).find(sign) == std::string::npos) {
-        throw Error("kernel does not include its interface", fmt::format("{} ({})", name, source.file),
-            fmt::format("put #include \"{}\" before it", interface->first));
-    }
     return Kernel(device_, program(source), source.file, name);
 }
 
@@ -187,6 +193,7 @@ cl::Program ProgramLibrary::obtain(const ProgramSource& source)
 {
     requirePlain(source.defines);
     const std::string text = textOf(options_, source);
+    requireInterfaces(source, text);
     const DriverCache::Mark mark;
     if (driverKeepsKernels(device_.info().platformVersion)) {
         ++compiled_;
