@@ -84,20 +84,24 @@ PassBench::PassBench(render::Renderer& renderer, const graph::Graph& graph, cons
     const std::string& pass, std::size_t nth)
     : layout(graph.image().width(), graph.image().height())
     , renderer_(renderer)
-    , graph_(graph)
 {
     std::size_t found = 0;
     for (const graph::Pass& each : graph.passes()) {
         if (each.kernel.name == kernel && (pass.empty() || each.name == pass) && found++ == nth) {
-            pass_ = &each;
+            pass_ = each;
         }
     }
-    if (pass_ == nullptr) {
+    if (found <= nth) {
         refuse(fmt::format("of kernel {} the frame has {} passes \"{}\", not {}", kernel, found, pass, nth + 1));
     }
-    for (const graph::Argument& use : pass_->arguments) {
+    for (int loop = pass_.loop; loop >= 0; loop = graph.loops()[static_cast<std::size_t>(loop)].parent) {
+        ++loops_;
+    }
+    for (const graph::Argument& use : pass_.arguments) {
         if (use.isUse()) {
-            contents_[use.name].resize(static_cast<std::size_t>(resource(use).bytes()));
+            const graph::Resource& of = graph.resources()[use.version.resource];
+            planes_.emplace(use.name, of);
+            contents_[use.name].resize(static_cast<std::size_t>(of.bytes()));
         }
     }
 }
@@ -105,27 +109,21 @@ PassBench::PassBench(render::Renderer& renderer, const graph::Graph& graph, cons
 const graph::Argument& PassBench::argument(const std::string& name) const
 {
     std::string names;
-    for (const graph::Argument& each : pass_->arguments) {
+    for (const graph::Argument& each : pass_.arguments) {
         if (each.name == name) {
             return each;
         }
         names += " " + each.name;
     }
-    refuse(fmt::format("kernel {} is not handed \"{}\", but{}", pass_->kernel.name, name, names));
-}
-
-const graph::Resource& PassBench::resource(const graph::Argument& use) const
-{
-    return graph_.resources()[use.version.resource];
+    refuse(fmt::format("kernel {} is not handed \"{}\", but{}", pass_.kernel.name, name, names));
 }
 
 const graph::Resource& PassBench::planeOf(const std::string& name) const
 {
-    const graph::Argument& use = argument(name);
-    if (!use.isUse()) {
-        refuse(fmt::format("\"{}\" of kernel {} is no plane, and no list", name, pass_->kernel.name));
+    if (!argument(name).isUse()) {
+        refuse(fmt::format("\"{}\" of kernel {} is no plane, and no list", name, pass_.kernel.name));
     }
-    return resource(use);
+    return planes_.at(name);
 }
 
 bool PassBench::has(const std::string& name) const { return contents_.contains(name); }
@@ -168,7 +166,7 @@ const graph::Argument& PassBench::valueOf(const std::string& name, std::string_v
 {
     const graph::Argument& found = argument(name);
     if (found.isUse() || type.empty() || found.type != type) {
-        refuse(fmt::format("\"{}\" of kernel {} is {}, not a value {}", name, pass_->kernel.name,
+        refuse(fmt::format("\"{}\" of kernel {} is {}, not a value {}", name, pass_.kernel.name,
             found.isUse() ? "a plane" : found.type, type));
     }
     return found;
@@ -180,16 +178,25 @@ void PassBench::setValue(const std::string& name, std::string_view type, std::sp
     values_[name].assign(bytes.begin(), bytes.end());
 }
 
-template <class Add>
-void PassBench::inLoops(graph::Graph& graph, int loop, const Add& add) const
+Window PassBench::covered() const
 {
-    if (loop < 0) {
+    return window_.value_or(Window { 0, 0, static_cast<int>(layout.width), static_cast<int>(layout.height) });
+}
+
+graph::Graph PassBench::emptyGraph() const
+{
+    return { static_cast<int>(layout.width), static_cast<int>(layout.height), layout.size };
+}
+
+template <class Add>
+void PassBench::inLoops(graph::Graph& graph, std::size_t loops, const Add& add) const
+{
+    if (loops == 0) {
         add();
         return;
     }
-    const int parent = graph_.loops()[static_cast<std::size_t>(loop)].parent;
     graph.loop(
-        "once", [](graph::Run&) { return std::size_t { 1 }; }, [&] { inLoops(graph, parent, add); });
+        "once", [](graph::Run&) { return std::size_t { 1 }; }, [&] { inLoops(graph, loops - 1, add); });
 }
 
 void PassBench::execute(graph::Graph& graph, bool planned) const
@@ -210,8 +217,8 @@ std::vector<std::byte> PassBench::ownValue(const std::string& name, std::string_
 {
     const graph::Argument& found = valueOf(name, type);
     std::vector<std::byte> out;
-    graph::Graph graph(graph_.image().width(), graph_.image().height(), layout.size);
-    inLoops(graph, pass_->loop, [&] {
+    graph::Graph graph = emptyGraph();
+    inLoops(graph, loops_, [&] {
         graph.add({ .name = "value",
             .domain = graph::Domain::Host,
             .step =
@@ -226,8 +233,8 @@ std::vector<std::byte> PassBench::ownValue(const std::string& name, std::string_
 
 void PassBench::run()
 {
-    graph::Graph graph(graph_.image().width(), graph_.image().height(), layout.size);
-    graph::Pass pass = *pass_;
+    graph::Graph graph = emptyGraph();
+    graph::Pass pass = pass_;
     pass.workUnits = {};
     pass.condition = {};
     pass.constant = pass.everywhere = false;
@@ -246,7 +253,7 @@ void PassBench::run()
             }
             continue;
         }
-        const graph::Resource& of = resource(argument);
+        const graph::Resource& of = planes_.at(argument.name);
         const Guarded& own =
             memory.try_emplace(argument.name, renderer_.device(), renderer_.queue(), contents_.at(argument.name))
                 .first->second;
@@ -255,8 +262,8 @@ void PassBench::run()
         argument.version = version;
         argument.handle = &version;
     }
-    inLoops(graph, pass_->loop, [&] { graph.add(pass); });
-    for (const graph::Argument& use : pass_->arguments) {
+    inLoops(graph, loops_, [&] { graph.add(pass); });
+    for (const graph::Argument& use : pass_.arguments) {
         if (window_ && use.isUse() && use.access != graph::Access::Read) {
             graph.want(versions.at(use.name), *window_);
         }
@@ -265,7 +272,7 @@ void PassBench::run()
     for (const auto& [name, own] : memory) {
         auto [contents, whole] = own.read();
         if (!whole) {
-            refuse(fmt::format("kernel {} has written beside \"{}\"", pass_->kernel.name, name));
+            refuse(fmt::format("kernel {} has written beside \"{}\"", pass_.kernel.name, name));
         }
         contents_[name] = std::move(contents);
     }

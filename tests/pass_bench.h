@@ -52,7 +52,7 @@ public:
         : PassBench(frame.renderer, frame.graph(), kernel, pass, nth)
     {
     }
-    /// Of a graph that the renderer's programs run.
+    /// Of a graph that the renderer's programs run, and which this does not refer to.
     PassBench(render::Renderer& renderer, const graph::Graph& graph, const std::string& kernel,
         const std::string& pass = "", std::size_t nth = 0);
 
@@ -108,20 +108,21 @@ public:
 
 private:
     const graph::Argument& argument(const std::string& name) const;
-    const graph::Resource& resource(const graph::Argument& use) const;
     const graph::Resource& planeOf(const std::string& name) const;
-    Window covered() const { return window_.value_or(graph_.image()); }
+    Window covered() const;
+    graph::Graph emptyGraph() const; ///< of the frame's size
     void setValue(const std::string& name, std::string_view type, std::span<const std::byte> bytes);
     std::vector<std::byte> ownValue(const std::string& name, std::string_view type, bool planned) const;
     const graph::Argument& valueOf(const std::string& name, std::string_view type) const;
     void execute(graph::Graph& graph, bool planned) const;
-    /// Calls add() inside of as many loops, which run once, as the pass is in.
+    /// Calls add() inside of that many loops, which run once.
     template <class Add>
-    void inLoops(graph::Graph& graph, int loop, const Add& add) const;
+    void inLoops(graph::Graph& graph, std::size_t loops, const Add& add) const;
 
     render::Renderer& renderer_;
-    const graph::Graph& graph_;
-    const graph::Pass* pass_ = nullptr;
+    graph::Pass pass_;
+    std::size_t loops_ = 0; ///< that it is in
+    std::map<std::string, graph::Resource> planes_;
     std::map<std::string, std::vector<std::byte>> contents_; ///< of planes, as they are stored
     std::map<std::string, std::vector<std::byte>> values_; ///< replaced
     std::optional<Window> window_;
