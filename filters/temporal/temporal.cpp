@@ -332,13 +332,15 @@ void TemporalFilter::filter(render::Renderer& renderer, const Settings& settings
     run(renderer, settings, std::move(places), true, &statistics);
 }
 
-void TemporalFilter::rehearse(render::Renderer& renderer, const Settings& settings)
+void TemporalFilter::rehearse(
+    render::Renderer& renderer, const Settings& settings, const std::function<void(const graph::Graph&)>& look)
 {
-    run(renderer, settings, nullptr, true, nullptr);
+    run(renderer, settings, nullptr, true, nullptr, look);
 }
 
 void TemporalFilter::run(render::Renderer& renderer, const Settings& settings,
-    std::shared_ptr<const ObjectPlaces> places, bool filters, render::FrameStatistics* statistics)
+    std::shared_ptr<const ObjectPlaces> places, bool filters, render::FrameStatistics* statistics,
+    const std::function<void(const graph::Graph&)>& look)
 {
     const auto start = std::chrono::steady_clock::now();
     const bool rehearsal = statistics == nullptr;
@@ -381,6 +383,9 @@ void TemporalFilter::run(render::Renderer& renderer, const Settings& settings,
             add(slotOf(number + 1, settings));
         }
         d.finish();
+    }
+    if (look) {
+        look(d.graph);
     }
     const graph::Plan plan(d.graph, device::partAlignment, renderer.slabRules());
     graph::Execution execution(plan, memory_, renderer.kernels(), queue);

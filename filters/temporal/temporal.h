@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -52,8 +53,10 @@ public:
     void filter(render::Renderer& renderer, const render::Settings& settings,
         std::shared_ptr<const ObjectPlaces> places, render::FrameStatistics& statistics);
 
-    /// Launches its kernels over nothing, so that none is compiled later. After Renderer::rehearse().
-    void rehearse(render::Renderer& renderer, const render::Settings& settings);
+    /// Launches its kernels over nothing, so that none is compiled later. After Renderer::rehearse(). look: is called
+    /// with all of its passes.
+    void rehearse(render::Renderer& renderer, const render::Settings& settings,
+        const std::function<void(const graph::Graph&)>& look = {});
 
 private:
     struct Kept;
@@ -61,7 +64,7 @@ private:
 
     Kept& slotOf(std::uint32_t frame, const render::Settings& settings);
     void run(render::Renderer& renderer, const render::Settings& settings, std::shared_ptr<const ObjectPlaces> places,
-        bool filters, render::FrameStatistics* statistics);
+        bool filters, render::FrameStatistics* statistics, const std::function<void(const graph::Graph&)>& look = {});
 
     const device::Device& device_;
     std::vector<Kept> kept_;
