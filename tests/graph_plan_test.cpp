@@ -621,7 +621,8 @@ TEST_CASE("planes of a group are read and written together, those that there are
     add(graph, "shade",
         group("seen", { reads("depth", depth), updates("colour", colour), absent("weight"), updates("black", black) }));
     const std::string text = interfaceText(graph, graph.passes().back());
-    CHECK(text.find("__global const float *restrict seen_depth, __global float *restrict seen_colour") != std::string::npos);
+    CHECK(text.find("__global const float *restrict seen_depth, __global float *restrict seen_colour")
+        != std::string::npos);
     CHECK(text.find("#define LOAD_seen(size, at, out) do { (out)->depth = LOAD_seen_depth(size, at); "
                     "(out)->colour = LOAD_seen_colour(size, at); (out)->black = LOAD_seen_black(size, at); "
                     "(out)->weight = LOAD_seen_weight(size, at); } while (0)\n")

@@ -5,12 +5,12 @@ typedef struct {
 } Rectangle;
 
 // A format of the tests' own: 11 bits of precision.
-static inline float load_half1(__global const half *plane, size_t size, size_t at)
+static inline float load_half1(__global const half* plane, size_t size, size_t at)
 {
     (void)size;
     return vload_half(at, plane);
 }
-static inline void store_half1(__global half *plane, size_t size, size_t at, float value)
+static inline void store_half1(__global half* plane, size_t size, size_t at, float value)
 {
     (void)size;
     vstore_half(value, at, plane);
