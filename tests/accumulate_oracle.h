@@ -199,7 +199,7 @@ struct TermPixels {
                 onlyIf(sums, plane("textureSquares", textureSquares)),
                 onlyIf(once, plane("error", error, render::shortFloats)),
                 onlyIf(once, plane("spreads", spreads, render::shortPairs)) });
-        const graph::Format ends = light ? graph::floatPlanes(2) : graph::vectors;
+        const graph::Format ends = light ? graph::pairs : graph::vectors;
         const std::vector<Handed> others { plane("wanted", wanted), plane("termTaken", taken),
             onlyIf(sums, plane("extremes", extremes, ends)),
             onlyIf(once, plane("extreme", extreme, render::shortFloats)),
@@ -388,7 +388,7 @@ inline void accumulateLight(
             onlyIf(exact,
                 plane("unshadowed",
                     a.receiverBuffer<float>(2, [](const SeenPoint& p, std::size_t k) { return p.unshadowed[k]; }),
-                    graph::floatPlanes(2))),
+                    graph::pairs)),
             plane(
                 "slopes", a.receiverBuffer<float>(6, [](const SeenPoint& p, std::size_t k) { return p.slopes[k]; })) },
         term.planes(a));

@@ -301,7 +301,7 @@ inline void accumulateSurfaces(Accumulation& a, SurfacePixels& out, const shared
             plane("motion",
                 a.receiverBuffer<float>(
                     2, [](const SeenPoint& p, std::size_t axis) { return p.motion[static_cast<int>(axis)]; }),
-                graph::floatPlanes(2)),
+                graph::pairs),
             plane("rays", a.receiverBuffer<std::uint32_t>(1, [](const SeenPoint& p, std::size_t) { return p.rays; })),
             plane("pathRays",
                 a.receiverBuffer<std::uint32_t>(1, [](const SeenPoint& p, std::size_t) { return p.pathRays; })) },
@@ -313,8 +313,8 @@ inline void accumulateSurfaces(Accumulation& a, SurfacePixels& out, const shared
                 vectors("emission", out.emission), onlyIf(a.measures, plane("emissionSquares", out.emissionSquares)),
                 onlyIf(a.measures, plane("pixelSize", out.pixelSize, a.number())),
                 onlyIf(layers, plane("distance", out.distance)),
-                plane("confusion", out.confusion, a.lean ? render::shortRanges : graph::floatPlanes(2)),
-                onlyIf(a.moves, plane("motion", out.motion, a.lean ? render::shortPairs : graph::floatPlanes(2))),
+                plane("confusion", out.confusion, a.lean ? render::shortRanges : graph::pairs),
+                onlyIf(a.moves, plane("motion", out.motion, a.lean ? render::shortPairs : graph::pairs)),
                 onlyIf(spread, plane("motionSpread", out.motionSpread)), plane("rays", out.rays),
                 plane("pathRays", out.pathRays) }));
     a.end();

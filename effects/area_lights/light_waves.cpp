@@ -66,7 +66,7 @@ void LightWaves::sample(
                 waves.tallyRays() },
             sunk));
     const bool exact = settings().method == Method::AxisAligned && !shape_.published;
-    auto unshadowed = waves.list<Value>("unshadowed shading", graph::floatPlanes(2));
+    auto unshadowed = waves.list<Value>("unshadowed shading", graph::pairs);
     if (exact) {
         waves.list("unshadowed shading", { "light/wave_light.cl", "unshadowedReceivers" }, WEDGE_BLOCK_PIXELS,
             { waves.receiverParams(), waves.params(), light,
@@ -79,7 +79,7 @@ void LightWaves::sample(
         joined({ waves.pixelParams(), waves.params(), light }, waves.pixelLists(),
             Arguments { reads("taken", counts.taken), reads("hits", hits) }, waves.receiverArguments(),
             Arguments { reads("diffuse", r.diffuse), reads("specular", r.specular), reads("sums", own.sums),
-                exact ? reads("unshadowed", unshadowed) : graph::absent("unshadowed", graph::floatPlanes(2)),
+                exact ? reads("unshadowed", unshadowed) : graph::absent("unshadowed", graph::pairs),
                 reads("slopes", own.extremes) },
             accumulated(adding, counts)));
 }
@@ -147,8 +147,7 @@ graph::Handle<Value> LightWaves::alongShadows(
     const graph::Argument p = f_.rectangle(of(params));
     const graph::Reach far = graph::around(WEDGE_MOTION_REACH);
     auto along = f_.graph.plane<Pixels>("width along shadows' motion", graph::floats);
-    auto directions =
-        f_.graph.plane<Pixels>("direction of shadows' motion", f_.lean ? shortPairs : graph::floatPlanes(2));
+    auto directions = f_.graph.plane<Pixels>("direction of shadows' motion", f_.lean ? shortPairs : graph::pairs);
     auto out = f_.graph.plane<Value>("filtered along shadows' motion", graph::floats);
     f_.pixels(pass, PassKind::Filter, { "waves/distributed.cl", "shadowBlurs" },
         { p, f_.lean ? graph::absent("shadowSums", graph::floatPlanes(4)) : reads("shadowSums", means.shadowSums),

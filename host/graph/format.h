@@ -20,19 +20,11 @@ struct Format {
 inline constexpr Format floats { .name = "float1", .bytes = 4, .storage = "float", .blocks = true };
 inline constexpr Format vectors { .name = "float3", .bytes = 12, .storage = "float", .blocks = true };
 inline constexpr Format counts { .name = "uint1", .bytes = 4, .storage = "uint", .blocks = true };
-/// As many floats, each in a plane of its own.
+inline constexpr Format pairs { .name = "float2", .bytes = 8, .storage = "float" };
+/// As many floats, each in a plane of its own, of which kernels take those that they need.
 constexpr Format floatPlanes(std::uint32_t count)
 {
-    switch (count) {
-    case 1:
-        return floats;
-    case 2:
-        return { .name = "float2", .bytes = 8, .storage = "float" };
-    case 3:
-        return vectors;
-    default:
-        return { .name = "floats", .bytes = 4 * count, .storage = "float", .whole = false };
-    }
+    return count == 1 ? floats : Format { .name = "floats", .bytes = 4 * count, .storage = "float", .whole = false };
 }
 
 } // namespace wedge::graph

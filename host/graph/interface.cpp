@@ -20,9 +20,9 @@ std::string macro(const std::string& name, const std::string& parameters, const 
 /// How a plane is read and written. Both, whatever the pass does: the parameter's type says what may be done.
 std::string planeMacros(const std::string& name, const Format& format)
 {
-    std::string out = macro("HAS_" + name, "", "1") + macro("FORMAT_" + name, "", std::string(format.name))
-        + macro("PLANE_" + name, "", name);
+    std::string out = macro("HAS_" + name, "", "1") + macro("PLANE_" + name, "", name);
     if (format.whole) {
+        out += macro("FORMAT_" + name, "", std::string(format.name));
         out += macro("LOAD_" + name, "(size, at)", fmt::format("load_{}({}, size, at)", format.name, name));
         out += macro(
             "STORE_" + name, "(size, at, value)", fmt::format("store_{}({}, size, at, value)", format.name, name));

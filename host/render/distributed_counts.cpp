@@ -114,7 +114,7 @@ void DistributedSamples::demands()
     // Of what pixels will have: there are more samples to come.
     Blurs own { f_.graph.plane<Pixels>("lens filter width to come", graph::floats),
         f_.graph.plane<Pixels>("motion filter width to come", graph::floats),
-        f_.graph.plane<Pixels>("direction of motion", f_.lean ? shortPairs : graph::floatPlanes(2)) };
+        f_.graph.plane<Pixels>("direction of motion", f_.lean ? shortPairs : graph::pairs) };
     blurs(static_cast<float>(f_.settings.spp), own);
     auto ofTextures = plane("variance of textures");
     const auto variance = [&](const graph::Handle<Radiance>& image, const graph::Handle<Squares>& squares,

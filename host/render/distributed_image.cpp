@@ -190,7 +190,7 @@ void DistributedSamples::compose()
     const bool filters = shape_.analysed && f_.settings.filtering != Filtering::None;
     Blurs own { f_.graph.plane<Pixels>("lens filter width", graph::floats),
         f_.graph.plane<Pixels>("motion filter width", graph::floats),
-        f_.graph.plane<Pixels>("direction of motion", f_.lean ? shortPairs : graph::floatPlanes(2)) };
+        f_.graph.plane<Pixels>("direction of motion", f_.lean ? shortPairs : graph::pairs) };
     if (shape_.layers) {
         f_.zero(own.lens, own.along); // they are shown, filtered or not
     }

@@ -102,14 +102,14 @@ void DistributedSamples::keepPixels()
     s.emission = kept<Radiance>("emission", graph::vectors);
     counts_.taken = kept<Count>("primary samples taken", graph::counts);
     hits_ = kept<Count>("hits", f_.lean ? shortCounts : graph::counts);
-    confusion_ = kept<Pixels>("circles of confusion", f_.lean ? shortRanges : graph::floatPlanes(2));
+    confusion_ = kept<Pixels>("circles of confusion", f_.lean ? shortRanges : graph::pairs);
     if (shape_.measures()) {
         s.pixelSize = kept<Metres>("pixel size", f_.lean ? shortFloats : graph::floats);
         s.gloss = kept<Gloss>("gloss", f_.lean ? shortGloss : wholeGloss);
         emissionSquares_ = kept<Squares>("emission squares", graph::floats);
     }
     if (keepsMotion()) {
-        motion_ = kept<Pixels>("motion", f_.lean ? shortPairs : graph::floatPlanes(2));
+        motion_ = kept<Pixels>("motion", f_.lean ? shortPairs : graph::pairs);
         if (!f_.lean) {
             motionSpread_ = kept<Pixels>("differences of motions", graph::floats);
         }
@@ -154,7 +154,7 @@ void DistributedSamples::keepTerm(WaveTerm& term)
         m.plain = kept<Value>("plain mean", graph::floats);
         m.squares = kept<Squares>("squares", graph::floats);
         m.textureSquares = kept<Squares>("texture squares", graph::floats);
-        m.extremes = kept<Extremes>("slopes or distances", graph::floatPlanes(term.extremePlanes()));
+        m.extremes = kept<Extremes>("slopes or distances", term.extremesFormat());
         if (term.shadowsMove()) {
             m.shadowSums = kept<Pixels>("sums of shadows' motions", graph::floatPlanes(4));
         }

@@ -3,8 +3,6 @@
 #include "host/render/filters/filter_graph.h"
 #include "host/render/filters/widening.h"
 
-#include <algorithm>
-
 namespace wedge::render {
 
 using device::PassKind;
@@ -63,8 +61,8 @@ std::vector<graph::Argument> WaveTerm::accumulated(const Adding& adding, const P
                 measured("plain", m.plain, graph::floats), measured("squares", m.squares, graph::floats),
                 measured("textureSquares", m.textureSquares, graph::floats), measured("error", m.error, shortFloats),
                 measured("spreads", m.spreads, shortPairs) }),
-        Arguments { measured("extremes", m.extremes, graph::floatPlanes(std::max(2u, extremePlanes()))),
-            measured("extreme", m.extreme, shortFloats), measured("shadowSums", m.shadowSums, graph::floatPlanes(4)),
+        Arguments { measured("extremes", m.extremes, extremesFormat()), measured("extreme", m.extreme, shortFloats),
+            measured("shadowSums", m.shadowSums, graph::floatPlanes(4)),
             measured("shadowMotion", m.shadowMotion, shortPairs),
             kept("samples", t.samples, shape_.layers, graph::counts),
             kept("indirectSamples", t.indirectSamples, shape_.layers && indirect, graph::counts) });

@@ -98,8 +98,9 @@ public:
     Sum& sum() const { return sum_; }
     /// params with what the kernels ask for of the term.
     shared::DistributedParams of(shared::DistributedParams params) const;
-    /// Extremes that pixels keep where they are not lean; of lights and moving things their shadows' motions besides.
-    virtual std::uint32_t extremePlanes() const = 0;
+    /// What pixels keep of extremes where they are not lean; of lights and moving things their shadows' motions
+    /// besides.
+    virtual graph::Format extremesFormat() const = 0;
     virtual bool shadowsMove() const { return false; }
 
     const float rays;
