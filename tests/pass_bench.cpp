@@ -51,19 +51,18 @@ private:
 };
 
 std::unique_ptr<render::FrameGraph> declare(const render::PreparedScene& scene, const render::DeviceScene& onDevice,
-    const render::Settings& settings, std::size_t packet, const cl::Buffer& unused, bool keepLayers,
-    render::HalfMemories& memories)
+    const render::Settings& settings, std::size_t packet, bool keepLayers, render::HalfMemories& memories)
 {
     render::validate(settings, render::isDistributed(settings, scene));
     if (settings.progressive) {
         const render::StepRange step = render::firstStep(settings);
         return std::make_unique<render::HalvesFrame>(
-            scene, &onDevice, settings, packet, unused, keepLayers, memories, step.before, step.spp);
+            scene, &onDevice, settings, packet, keepLayers, memories, step.before, step.spp);
     }
     if (render::isDistributed(settings, scene)) {
-        return std::make_unique<render::DistributedFrame>(scene, &onDevice, settings, packet, unused, keepLayers);
+        return std::make_unique<render::DistributedFrame>(scene, &onDevice, settings, packet, keepLayers);
     }
-    return std::make_unique<render::PixelFrame>(scene, &onDevice, settings, packet, unused, keepLayers);
+    return std::make_unique<render::PixelFrame>(scene, &onDevice, settings, packet, keepLayers);
 }
 
 } // namespace
@@ -74,10 +73,9 @@ DeclaredFrame::DeclaredFrame(
     , layout(settings.width, settings.height)
     , hierarchy_(render::buildHierarchy(renderer.scene(), renderer.bvhMode(), renderer.traversal()))
     , deviceScene_(renderer.scene(), hierarchy_, renderer.device(), renderer.queue())
-    , unused_(device::Buffer<std::uint32_t>(device, 0, "nothing").cl())
     , memories_ { render::SampleMemory(&renderer.device()), render::SampleMemory(&renderer.device()) }
-    , declared_(declare(renderer.scene(), deviceScene_, settings, render::packetSize(renderer.traversal()), unused_,
-          keepLayers, memories_))
+    , declared_(declare(
+          renderer.scene(), deviceScene_, settings, render::packetSize(renderer.traversal()), keepLayers, memories_))
 {
 }
 
@@ -98,6 +96,8 @@ PassBench::PassBench(render::Renderer& renderer, const graph::Graph& graph, cons
     for (int loop = pass_.loop; loop >= 0; loop = graph.loops()[static_cast<std::size_t>(loop)].parent) {
         ++loops_;
     }
+    pass_.arguments.insert(pass_.arguments.end(), pass_.absent.begin(), pass_.absent.end());
+    pass_.absent.clear(); // the graph that it is added to says it anew
     for (const graph::Argument& use : pass_.arguments) {
         if (use.isUse()) {
             const graph::Resource& of = graph.resources()[use.version.resource];
@@ -248,6 +248,9 @@ void PassBench::run()
     std::map<std::string, graph::Version> versions;
     for (graph::Argument& argument : pass.arguments) {
         if (!argument.isUse()) {
+            if (argument.absent != nullptr) {
+                continue;
+            }
             const auto instead = values_.find(argument.name);
             if (instead != values_.end()) {
                 argument.value = [bytes = instead->second](const graph::Launch&) { return bytes; };

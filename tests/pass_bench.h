@@ -37,7 +37,6 @@ public:
 private:
     render::Hierarchy hierarchy_;
     render::DeviceScene deviceScene_;
-    cl::Buffer unused_;
     render::HalfMemories memories_;
     std::unique_ptr<render::FrameGraph> declared_;
 };

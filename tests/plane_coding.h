@@ -118,6 +118,19 @@ inline std::optional<Coding<float>> codingOf(const graph::Format& format, float)
     if (name == "fraction32") {
         return vectorsInWords(1, shared::packFraction, shared::unpackFraction);
     }
+    if (name == "range16") { // the end that is nearer to 0, or 0 between both
+        return Coding<float> { 2,
+            [](std::byte* plane, std::size_t size, std::size_t at, const float* v) {
+                const float low = v[0], high = v[size];
+                storeAt(plane, at, static_cast<std::uint16_t>(shared::packShort(low > 0 ? low : high < 0 ? high : 0)));
+            },
+            [](const std::byte* plane, std::size_t size, std::size_t at, float* out) {
+                out[0] = out[size] = shared::unpackShort(storedAt<std::uint16_t>(plane, at));
+            } };
+    }
+    if (name == "normal192") {
+        return plain<float>(6);
+    }
     if (name == "normal32" || name == "normal64") {
         return vectorsInWords(format.bytes / 4, shared::packNormal, shared::unpackNormal);
     }
@@ -127,7 +140,7 @@ inline std::optional<Coding<float>> codingOf(const graph::Format& format, float)
 inline std::optional<Coding<std::uint32_t>> codingOf(const graph::Format& format, std::uint32_t)
 {
     const auto same = [](std::uint32_t v) { return v; };
-    if (format.name == "uint1") {
+    if (format.name == "uint1" || format.name == "gloss32") {
         return plain<std::uint32_t>(1);
     }
     if (format.name == "ushort1") {

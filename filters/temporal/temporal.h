@@ -70,7 +70,6 @@ private:
     const device::Device& device_;
     std::vector<Kept> kept_;
     graph::Memory memory_;
-    cl::Buffer unused_;
 };
 
 } // namespace wedge::filters

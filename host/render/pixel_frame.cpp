@@ -13,9 +13,9 @@ using graph::value;
 using graph::writes;
 
 PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
-    std::size_t packetSize, const cl::Buffer& unused, bool keepLayers)
+    std::size_t packetSize, bool keepLayers)
     : FrameGraph(settings, scene, keepLayers)
-    , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize, unused }
+    , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize }
 {
     f_.narrowLobes = scene.traits().narrowLobes;
     const bool lit = settings.integrator == Integrator::Path;
@@ -83,7 +83,7 @@ void PixelFrame::primary(bool lit)
     s.diffuse = graph_.plane<Reflectance>("diffuse", graph::vectors);
     s.specular = graph_.plane<Reflectance>("specular", graph::vectors);
     s.emission = graph_.plane<Radiance>("emission", graph::vectors);
-    s.gloss = graph_.plane<Gloss>("gloss", graph::counts);
+    s.gloss = graph_.plane<Gloss>("gloss", wholeGloss);
     Totals& t = f_.totals;
     for (Sum* sum : { &t.direct, &t.indirect }) {
         const std::string name = sum == &t.direct ? "direct" : "indirect";
@@ -149,7 +149,7 @@ void PixelFrame::fallBack(Sum& sum)
             f_.blocks("fallback", PassKind::Filter, { "analysis/fallback.cl", "fallbackDifferences" },
                 { p, flag, reads("filtered", sum.filtered), reads("noisy", sum.noisy),
                     reads("deviation", sum.deviation),
-                    gathered ? reads("variance", sum.variance) : f_.nothing("variance", shortFloats),
+                    gathered ? reads("variance", sum.variance) : reads("variance", sum.deviation),
                     writes("differences", differences) });
             f_.blocks("fallback", PassKind::Filter, { "analysis/fallback.cl", "fallBack" },
                 { p, flag, reads("differences", differences, near), reads("objectId", f_.surfaces.objectId, near),

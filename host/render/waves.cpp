@@ -108,13 +108,17 @@ graph::Argument Waves::receiverParams() const
         });
 }
 
-graph::Argument Waves::params(std::uint32_t omits) const
+graph::Argument Waves::params() const
 {
-    return made("wave", [state = state_, omits](const Launch& launch) {
-        shared::WaveParams wave = state->wave(launch.run);
-        wave.omits |= omits;
-        return wave;
-    });
+    return made("wave", [state = state_](const Launch& launch) { return state->wave(launch.run); });
+}
+
+std::vector<graph::Argument> Waves::receiverSurfaces() const
+{
+    return { reads("objectId", r_.objectId), reads("position", r_.position), reads("normal", r_.normal),
+        reads("gloss", r_.gloss), reads("diffuse", r_.diffuse), reads("specular", r_.specular),
+        reads("emission", r_.emission), reads("pixelSize", r_.pixelSize), reads("depth", r_.depth),
+        reads("motion", r_.motion), reads("rays", r_.rays), reads("pathRays", r_.pathRays) };
 }
 
 std::vector<graph::Argument> Waves::receiverArguments() const
@@ -241,7 +245,7 @@ void Waves::trace(bool lit)
     r_.origin = list<Position>("origins", graph::vectors);
     r_.geometric = list<Packed>("geometric normals", graph::counts);
     r_.objectId = list<ObjectId>("object ids", graph::counts);
-    r_.gloss = list<Gloss>("gloss", graph::counts);
+    r_.gloss = list<Gloss>("gloss", wholeGloss);
     r_.view = list<Packed>("views", graph::counts);
     r_.time = list<Share>("times", graph::floats);
     r_.diffuse = list<Reflectance>("diffuse", graph::vectors);
@@ -266,8 +270,7 @@ void Waves::trace(bool lit)
                 f_.ofScene("lights", "AreaLight", &DeviceScene::areaLights), value("lightCount", lights) },
             f_.beyond(),
             Arguments { reads("pixelOf", r_.pixelOf), reads("sampleOf", r_.sampleOf), reads("wanted", counts_.wanted),
-                value("hasKnown", sampling_.seenLights ? 1u : 0u),
-                sampling_.seenLights ? reads("known", *sampling_.seenLights) : f_.nothing("known", packedColours),
+                sampling_.seenLights ? reads("known", *sampling_.seenLights) : graph::absent("known", packedColours),
                 writes("position", r_.position), writes("normal", r_.normal), writes("origin", r_.origin),
                 writes("geometric", r_.geometric), writes("objectId", r_.objectId), writes("gloss", r_.gloss),
                 writes("view", r_.view), writes("time", r_.time), writes("diffuse", r_.diffuse),

@@ -24,7 +24,8 @@ typedef struct {
         __global const float *restrict origin, __global const uint *restrict geometric,                                \
         __global const uint *restrict objectId, __global const uint *restrict gloss,                                   \
         __global const uint *restrict pixelOf, __global const uint *restrict view, __global const float *restrict time
-#define WEDGE_RECEIVER_ARGUMENTS receiverData(position, normal, origin, geometric, objectId, gloss, pixelOf, view, time)
+#define WEDGE_RECEIVER_ARGUMENTS                                                                                       \
+    receiverData(position, normal, origin, geometric, objectId, gloss, PLANE_pixelOf, PLANE_view, PLANE_time)
 
 WEDGE_FN ReceiverData receiverData(WEDGE_RECEIVER_PARAMETERS)
 {

@@ -31,7 +31,7 @@ WEDGE_FN Vec3 shownBy(TemporalParams p, __global const float* diffuse, __global 
 WEDGE_FN Vec3 over(Vec3 a, Vec3 b) { return vec3(a.x / b.x, a.y / b.y, a.z / b.z); }
 
 /// What of a frame is kept for those after it.
-/// in   planes of the frame; indirect, indirectNoisy: not read unless p.indirect
+/// in   planes of the frame; indirect, indirectNoisy: of frames that have some
 /// out  depth: along the camera's axis; facing: packNormal(); object; E of direct and of indirect light, 47 bits each;
 /// and
 ///      its luminance before the filter, 16 bits;
@@ -52,19 +52,16 @@ __kernel void keepFrame(PARAMETERS)
     const Vec3 colour = vecAdd(loadVec(diffuse, n, i), loadVec(specular, n, i));
     object[i] = p.open == 0u && colour.x + colour.y + colour.z == 0.0f ? 0u : object[i];
 #endif
-    storeColour(directLight, n, i, WEDGE_COLOUR_BITS, vecChoose(reflects, over(loadVec(direct, n, i), k), black));
+    storeColour(directLight, n, i, vecChoose(reflects, over(loadVec(direct, n, i), k), black));
     Vec3 unfiltered = loadVec(directNoisy, n, i);
-    if (p.indirect != 0u) {
-        storeColour(
-            indirectLight, n, i, WEDGE_COLOUR_BITS, vecChoose(reflects, over(loadVec(indirect, n, i), k), black));
-        unfiltered = vecAdd(unfiltered, loadVec(indirectNoisy, n, i));
-    }
+    STORE_indirectLight(n, i, vecChoose(reflects, over(LOAD_indirect(n, i), k), black));
+    unfiltered = HAS_indirectNoisy ? vecAdd(unfiltered, LOAD_indirectNoisy(n, i)) : unfiltered;
     storeShort(noisy, n, i, 0u, reflects ? luminance(over(unfiltered, k)) : 0.0f);
     float deviation = 0.0f;
     if (p.measured != 0u && reflects) {
         // Of light of one colour.
-        deviation = loadShort(directDeviation, n, i, 0u) / luminance(k);
-        deviation += p.indirect != 0u ? loadShort(indirectDeviation, n, i, 0u) / luminance(k) : 0.0f;
+        deviation = LOAD_directDeviation(n, i) / luminance(k);
+        deviation += HAS_indirectDeviation ? LOAD_indirectDeviation(n, i) / luminance(k) : 0.0f;
     }
     storeShort(variation, n, i, 0u, deviation * deviation);
 }
@@ -137,8 +134,8 @@ __kernel void differFromFrame(PARAMETERS)
                 || seesSurface(
                     p, point, planeOf(p, point), (int)x, (int)y, earlierDepth, earlierFacing, earlierObject)) {
                 weight = 1.0f;
-                direct = loadColour(earlierDirect, n, i, WEDGE_COLOUR_BITS);
-                indirect = p.indirect != 0u ? loadColour(earlierIndirect, n, i, WEDGE_COLOUR_BITS) : black;
+                direct = loadColour(earlierDirect, n, i);
+                indirect = LOAD_earlierIndirect(n, i);
                 unfiltered = loadShort(earlierNoisy, n, i, 0u);
                 varies = loadShort(earlierVariation, n, i, 0u);
             }
@@ -158,10 +155,8 @@ __kernel void differFromFrame(PARAMETERS)
                 if (w > 0.0f && seesSurface(p, point, plane, tx, ty, earlierDepth, earlierFacing, earlierObject)) {
                     const uint j = pixelIndex((uint)tx, (uint)ty, p.stride);
                     weight += w;
-                    direct = vecMad(direct, loadColour(earlierDirect, n, j, WEDGE_COLOUR_BITS), w);
-                    if (p.indirect != 0u) {
-                        indirect = vecMad(indirect, loadColour(earlierIndirect, n, j, WEDGE_COLOUR_BITS), w);
-                    }
+                    direct = vecMad(direct, loadColour(earlierDirect, n, j), w);
+                    indirect = vecMad(indirect, LOAD_earlierIndirect(n, j), w);
                     if (w > nearest) {
                         nearestX = tx;
                         nearestY = ty;
@@ -178,9 +173,9 @@ __kernel void differFromFrame(PARAMETERS)
                 const Vec2 curve =
                     weight > WEDGE_ALL_TAPS ? vec2(0.5f * fx * (1.0f - fx), 0.5f * fy * (1.0f - fy)) : vec2(0.0f, 0.0f);
                 shift = straighten(n, around, earlierDirect, away, curve, &direct);
-                if (p.indirect != 0u) {
-                    shift += straighten(n, around, earlierIndirect, away, curve, &indirect);
-                }
+#if HAS_earlierIndirect
+                shift += straighten(n, around, earlierIndirect, away, curve, &indirect);
+#endif
             }
         }
     }
@@ -189,10 +184,10 @@ __kernel void differFromFrame(PARAMETERS)
     share[i] = seen ? 1.0f : 0.0f;
     noise[i] = seen ? unfiltered - loadShort(noisy, n, i, 0u) - shift : 0.0f;
     variations[i] = seen ? varies + loadShort(variation, n, i, 0u) : 0.0f;
-    const Vec3 own = loadColour(directLight, n, i, WEDGE_COLOUR_BITS);
+    const Vec3 own = loadColour(directLight, n, i);
     storeVec(difference, n, i, seen ? vecMad(vecScale(own, -1.0f), direct, scale) : black);
-    if (p.indirect != 0u) {
-        const Vec3 ownIndirect = loadColour(indirectLight, n, i, WEDGE_COLOUR_BITS);
+    if (HAS_indirectLight) {
+        const Vec3 ownIndirect = LOAD_indirectLight(n, i);
         storeVec(difference + 3u * n, n, i, seen ? vecMad(vecScale(ownIndirect, -1.0f), indirect, scale) : black);
     }
 }
@@ -293,7 +288,11 @@ __kernel void addFrame(PARAMETERS)
     if (share[i] == 0.0f) {
         return;
     }
-    const float w = p.published != 0u ? 1.0f : weightAt(p, weights, x, y);
+#if HAS_weights
+    const float w = weightAt(p, weights, x, y);
+#else
+    const float w = 1.0f;
+#endif
     const uint planes = p.indirect != 0u ? 6u : 3u;
     for (uint plane = 0u; plane < planes; ++plane) {
         const uint at = plane * p.planeSize + i;
@@ -305,7 +304,7 @@ __kernel void addFrame(PARAMETERS)
 
 /// Puts the mean in the frame's place.
 /// in      sum, counts: of all earlier frames
-/// in out  direct, indirect (where p.indirect), beauty
+/// in out  direct, indirect (where there is some), beauty
 #include "pass/finishTemporal.h"
 #ifdef PASS_finishTemporal
 __kernel void finishTemporal(PARAMETERS)
@@ -315,9 +314,9 @@ __kernel void finishTemporal(PARAMETERS)
     const Vec3 k = vecScale(shownBy(p, diffuse, specular, i), 1.0f / (1.0f + counts[i]));
     Vec3 more = vecMul(k, loadVec(sum, n, i));
     storeVec(direct, n, i, vecAdd(loadVec(direct, n, i), more));
-    if (p.indirect != 0u) {
+    if (HAS_indirect) {
         const Vec3 other = vecMul(k, loadVec(sum + 3u * n, n, i));
-        storeVec(indirect, n, i, vecAdd(loadVec(indirect, n, i), other));
+        STORE_indirect(n, i, vecAdd(LOAD_indirect(n, i), other));
         more = vecAdd(more, other);
     }
     storeVec(beauty, n, i, vecAdd(loadVec(beauty, n, i), more));

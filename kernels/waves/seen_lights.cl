@@ -337,7 +337,7 @@ WEDGE_FN bool seesLights(SeeingPixel from, __global const TraversalNode* restric
 __kernel void seenLights(PARAMETERS)
 {
     WEDGE_PIXEL(frame, x, y, i);
-    storeColour(known, frame.planeSize, i, WEDGE_COLOUR_BITS, vec3(0.0f, 0.0f, 0.0f));
+    storeColour(known, frame.planeSize, i, vec3(0.0f, 0.0f, 0.0f));
     SeeingPixel from;
     from.camera = camera;
     from.width = (float)frame.width;
@@ -379,6 +379,6 @@ __kernel void seenLights(PARAMETERS)
             radiance = vecMad(radiance, light.radiance, shareOfLight(from, light, share, near.area[k]));
         }
     }
-    storeColour(known, frame.planeSize, i, WEDGE_COLOUR_BITS, radiance);
+    storeColour(known, frame.planeSize, i, radiance);
 }
 #endif

@@ -143,8 +143,7 @@ __kernel void wavePrimary(PARAMETERS)
     uint lit = 0u, metCount[WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const uint pixel = pixelIndex(samples.x[lane], samples.y[lane], frame.stride);
-        const Vec3 k =
-            hasKnown != 0u ? loadColour(known, frame.planeSize, pixel, WEDGE_COLOUR_BITS) : vec3(0.0f, 0.0f, 0.0f);
+        const Vec3 k = LOAD_known(frame.planeSize, pixel);
         setLaneVec(&light, lane, k);
         setLaneVec(&met, lane, k);
         lit |= luminance(k) > 0.0f ? 1u : 0u;
@@ -206,7 +205,7 @@ __kernel void wavePrimary(PARAMETERS)
     storeVecLanes(position + first, size, &at.position, count);
     storeVecLanes(normal + first, size, &at.normal, count);
 #ifdef WEDGE_NORMAL_MAPS
-    storeVecLanes(normal + unmappedNormals(size, 0u) + first, size, &at.unmapped, count);
+    storeVecLanes(normal + 3u * size + first, size, &at.unmapped, count);
 #endif
     storeVecLanes(origin + first, size, &at.origin, count);
     storeVecLanes(diffuse + first, size, &at.diffuse, count);
