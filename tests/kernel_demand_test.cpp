@@ -65,10 +65,12 @@ PassBench splitVariance(DeclaredFrame& frame, const Region& region, std::mt19937
     });
     bench.plane("texture", texture);
     bench.plane("value", numbersIn(region, 3, [&] { return black(2); }));
-    const bool squares = bench.has("textureSquares");
-    bench.plane("squares", numbersIn(region, squares ? 1 : 2, [&] { return uniform(random, 0, 2); }));
-    if (squares)
+    if (bench.has("spreads")) {
+        bench.plane("spreads", numbersIn(region, 2, [&] { return uniform(random, 0, 2); }));
+    } else {
+        bench.plane("squares", numbersIn(region, 1, [&] { return uniform(random, 0, 2); }));
         bench.plane("textureSquares", numbersIn(region, 1, [&] { return uniform(random); }));
+    }
     bench.plane("taken", someCounts(random, region.layout.size, 12));
     return bench;
 }
@@ -148,8 +150,8 @@ TEST_CASE("variances: of the texture at most all of it, of the irradiance the re
                 const auto ofTexture = bench.pixels<float>("ofTexture");
                 const auto ofIrradiance = bench.pixels<float>("ofIrradiance");
                 const auto texture = bench.pixels<float>("texture"), value = bench.pixels<float>("value");
-                const auto squares = bench.pixels<float>("squares");
-                const bool plain = bench.has("textureSquares");
+                const bool plain = bench.has("squares");
+                const auto squares = bench.pixels<float>(plain ? "squares" : "spreads");
                 const auto textureSquares = plain ? bench.pixels<float>("textureSquares") : squares;
                 const auto taken = bench.pixels<std::uint32_t>("taken");
                 int all = 0, some = 0;

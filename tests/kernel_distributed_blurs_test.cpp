@@ -5,6 +5,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 
 using namespace wedge;
 using namespace wedge::test;
@@ -88,15 +89,31 @@ struct Motion {
     }
 };
 
-void requireAlong(bool packed, const shared::DistributedParams& p, const Motion& m, bool apart, double n, float along,
-    float dx, float dy)
+/// Filters along motions.
+struct Along {
+    explicit Along(const PassBench& bench)
+        : directions(bench.pixels<float>(bench.has("vectors") ? "vectors" : "directions"))
+    {
+        if (bench.has("along"))
+            widths = bench.pixels<float>("along");
+    }
+
+    Planes<float> directions;
+    std::optional<Planes<float>> widths;
+};
+
+/// What a pass has made of pixel (x, y): deviations, if it keeps them, and directions, or both in one.
+void requireAlong(const PassBench& bench, const shared::DistributedParams& p, const Motion& m, bool apart, double n,
+    const Along& found, int x, int y)
 {
-    if (packed) {
+    const float dx = found.directions.at(x, y), dy = found.directions.at(x, y, 1);
+    const float along = found.widths ? found.widths->at(x, y) : std::hypot(dx, dy);
+    if (bench.has("vectors")) {
         // Direction times deviation, of 8 bits.
         const double expected =
             apart && m.one(p) ? bestWidth(p.shutterWidth, p.shutterExponent, m.speed() / 2, n, 1) : 0;
         const double scale = expected > 0 ? expected / m.speed() : 0;
-        REQUIRE(agree(along, expected));
+        REQUIRE(agree(along, expected, found.widths ? 1e-5 : 1.0 / 256));
         REQUIRE(agree(dx, scale > 0 ? scale * m.x : 0, 1.0 / 256));
         REQUIRE(agree(dy, scale > 0 ? scale * m.y : 0, 1.0 / 256));
         return;
@@ -171,14 +188,6 @@ std::vector<glm::dvec2> randomMotions(std::mt19937& random)
     return out;
 }
 
-/// The first planes of those, as many as a plane of the pass has.
-void fillFirst(PassBench& bench, const std::string& name, const Planes<float>& planes)
-{
-    std::vector<float> values = planes.values;
-    values.resize(bench.read<float>(name).size());
-    bench.plane(name, values);
-}
-
 } // namespace
 
 TEST_CASE("blurs: of the lens where all of the pixel is blurred, of the shutter where it has one motion")
@@ -201,29 +210,29 @@ TEST_CASE("blurs: of the lens where all of the pixel is blurred, of the shutter 
                 return;
             const Motion m = packedMotion(p, { motion.at(x, y), motion.at(x, y, 1), motion.at(x, y, 2) });
             motion.setVector(x, y, { m.x, m.y, 0 });
-            const float low = confusion.at(x, y), high = confusion.at(x, y, 1);
-            confusion.at(x, y) = low > 0 ? low : high < 0 ? high : 0.0f;
         });
         const auto taken = randomTaken(region, random);
         bench.value("p", p);
         bench.plane("taken", taken);
-        fillFirst(bench, "confusion", confusion);
-        fillFirst(bench, "motion", motion);
-        confusion = bench.pixels<float>("confusion");
+        bench.plane("confusion", confusion);
+        confusion = bench.pixels<float>("confusion"); // as its format holds it
+        const auto third = motion.values.begin() + static_cast<std::ptrdiff_t>(2 * region.layout.size);
+        bench.plane("motion", std::vector<float>(motion.values.begin(), third));
+        if (!kind.packed)
+            bench.plane("motionSpread", std::vector<float>(third, motion.values.end()));
         bench.run();
-        const auto lens = bench.pixels<float>("lens"), along = bench.pixels<float>("along");
-        const auto directions = bench.pixels<float>("directions");
+        const auto lens = bench.pixels<float>("lens");
+        const Along along(bench);
         everyPixel(region.window, [&](int x, int y) {
             CAPTURE(x);
             CAPTURE(y);
-            const double low = confusion.at(x, y), high = confusion.at(x, y, kind.packed ? 0 : 1),
-                         n = kind.samples.of(taken.at(x, y));
+            const double low = confusion.at(x, y), high = confusion.at(x, y, 1), n = kind.samples.of(taken.at(x, y));
             const double r = low <= 0 && high >= 0 ? 0 : std::min(std::fabs(low), std::fabs(high));
             if (std::fabs(r - p.leastRadius) > 1e-5)
                 REQUIRE(agree(lens.at(x, y), r > p.leastRadius ? bestWidth(p.blurWidth, p.blurExponent, r, n, 2) : 0));
             const Motion m { motion.at(x, y), motion.at(x, y, 1), motion.at(x, y, 2) };
             if (!m.uncertain(p))
-                requireAlong(kind.packed, p, m, true, n, along.at(x, y), directions.at(x, y), directions.at(x, y, 1));
+                requireAlong(bench, p, m, true, n, along, x, y);
         });
     });
 }
@@ -235,15 +244,17 @@ TEST_CASE("shadows' blurs: of the mean motion of those that move, where they mov
     inEveryKind(
         "shadowBlurs", 500, [&](PassBench& bench, const Region& region, const Kind& kind, std::mt19937& random) {
             const shared::DistributedParams p = kind.params(bench);
-            auto shadows = filledPlanes(region, 6, 1e30f, [&](int, int, std::size_t) { return uniform(random, 1, 9); });
+            // Sums of four kinds, or the motion itself.
+            auto shadows = filledPlanes(region, kind.packed ? 2 : 4, 1e30f, [](int, int, std::size_t) { return 0; });
             std::vector<Motion> motions(region.layout.size);
             everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
                 const std::vector<glm::dvec2> all = randomMotions(random);
                 const Motion mean = all.empty() ? Motion {} : motionOf(all);
                 const Motion m = motions[shadows.index(x, y)] = kind.packed ? packedMotion(p, mean) : mean;
                 const ShadowSums sums = sumsOf(all);
-                const double values[] = { m.x, m.y, sums.x, sums.y, sums.squared, sums.count };
-                for (std::size_t k = kind.packed ? 0 : 2; k < 6; ++k)
+                const std::vector<double> values =
+                    kind.packed ? std::vector { m.x, m.y } : std::vector { sums.x, sums.y, sums.squared, sums.count };
+                for (std::size_t k = 0; k < values.size(); ++k)
                     shadows.at(x, y, k) = static_cast<float>(values[k]);
             });
             const auto beta = filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) {
@@ -253,9 +264,9 @@ TEST_CASE("shadows' blurs: of the mean motion of those that move, where they mov
             bench.value("p", p);
             bench.plane("taken", taken);
             bench.plane("beta", beta);
-            fillFirst(bench, "shadows", shadows);
+            bench.plane(kind.packed ? "shadowMotion" : "shadowSums", shadows);
             bench.run();
-            const auto along = bench.pixels<float>("along"), directions = bench.pixels<float>("directions");
+            const Along along(bench);
             everyPixel(region.window, [&](int x, int y) {
                 CAPTURE(x);
                 CAPTURE(y);
@@ -266,8 +277,7 @@ TEST_CASE("shadows' blurs: of the mean motion of those that move, where they mov
                     return;
                 }
                 ++found[m.one(p) ? 1 : 0];
-                requireAlong(kind.packed, p, m, beta.at(x, y) >= 0, kind.samples.of(taken.at(x, y)), along.at(x, y),
-                    directions.at(x, y), directions.at(x, y, 1));
+                requireAlong(bench, p, m, beta.at(x, y) >= 0, kind.samples.of(taken.at(x, y)), along, x, y);
             });
         });
     CHECK(uncertain < 0.01 * pixels);
