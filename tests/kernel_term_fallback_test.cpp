@@ -1,5 +1,5 @@
-// What a term falls back by: termDifferences, termVariance and fallBackTerm, against the same in double. Of frames of
-// one image, whose planes are packed, and of those with layers.
+// What a term falls back by: termDifferences, termVariance and fallBackTerm; and unpackNumber: against the same in
+// double. Of frames of one image, whose planes are packed, and of those with layers.
 #include "tests/pass_bench.h"
 
 #include <cmath>
@@ -169,5 +169,18 @@ TEST_CASE("termVariance: squares of deviations")
             const double d = deviation.at(x, y);
             REQUIRE(variance.at(x, y) == doctest::Approx(d * d).epsilon(1e-6));
         });
+    });
+}
+
+TEST_CASE("unpackNumber: a number of fewer bits as it is")
+{
+    onEveryDevice([](const device::Device& device) {
+        DeclaredFrame frame(device, smallScene(), antialiased());
+        PassBench bench(frame, "unpackNumber");
+        std::mt19937 random(4);
+        bench.plane("in", someNumbers(random, frame.layout.size, -100, 100));
+        bench.run();
+        const auto in = bench.pixels<float>("in"), out = bench.pixels<float>("out");
+        everyPixel(frame.layout, [&](int x, int y) { REQUIRE(out.at(x, y) == in.at(x, y)); });
     });
 }
