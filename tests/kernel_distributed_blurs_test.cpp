@@ -1,9 +1,11 @@
 // distributed.cl alone: deviations and directions of the filters of what lens and shutter blur.
 #include "tests/distributed_support.h"
-#include "tests/packed_support.h"
+#include "tests/lens_support.h"
+#include "tests/pass_bench.h"
 
 #include <array>
 #include <limits>
+#include <optional>
 
 using namespace wedge;
 using namespace wedge::test;
@@ -23,24 +25,51 @@ struct Samples {
 };
 constexpr std::array<Samples, 3> sampleKinds = { { { 1, 0 }, { 1, 16 }, { 2, 0 } } };
 
-/// The default exponents, and those of the setting as published; each plain and packed.
-std::vector<shared::DistributedParams> settingsOf(const Region& region, const Samples& samples)
-{
-    std::vector<shared::DistributedParams> out(2, paramsOf(region));
-    out[1].blurWidth = 0.177f;
-    out[1].blurExponent = 0;
-    out[1].shutterWidth = 0.177f;
-    out[1].shutterExponent = 0;
-    out[1].leastRadius = 0.5f;
-    for (shared::DistributedParams& p : out) {
+/// The frame's own, the setting as published, and what of it a kernel is run with.
+struct Kind {
+    bool packed, published;
+    Samples samples;
+
+    shared::DistributedParams params(const PassBench& bench) const
+    {
+        auto p = bench.own<shared::DistributedParams>("p");
+        p.blurWidth = published ? 0.177f : 0.65f;
+        p.blurExponent = published ? 0 : 0.176f;
+        p.shutterWidth = published ? 0.177f : 0.86f;
+        p.shutterExponent = published ? 0 : 0.25f;
+        p.leastRadius = published ? 0.5f : 2;
+        p.oneVelocity = 0.1f;
         p.frames = samples.frames;
         p.samples = samples.expected;
+        return p;
     }
-    for (std::size_t k = 0; k < 2; ++k) {
-        out.push_back(out[k]);
-        out.back().packed = 1;
-    }
-    return out;
+};
+
+/// Calls test(bench, region, kind, random) with the pass of that kernel over every region's window, in frames of one
+/// image, whose planes are packed, and in those with layers.
+template <class Test>
+void inEveryKind(const std::string& kernel, unsigned seed, const Test& test)
+{
+    scene::Scene scene = smallScene();
+    displace(scene, { 0.3f, 0, 0 });
+    scene.shutterClose = 1;
+    onEveryDevice([&](const device::Device& device) {
+        unsigned of = seed;
+        for (const Region& region : regions())
+            for (const bool packed : { false, true }) {
+                DeclaredFrame frame(
+                    device, scene, sized(render::axisAligned(16), region.width, region.height), !packed);
+                for (const Samples& samples : sampleKinds)
+                    for (const bool published : { false, true }) {
+                        CAPTURE(packed);
+                        CAPTURE(published);
+                        PassBench bench(frame, kernel);
+                        bench.window(region.window);
+                        std::mt19937 random(++of);
+                        test(bench, region, Kind { packed, published, samples }, random);
+                    }
+            }
+    });
 }
 
 struct Motion {
@@ -60,15 +89,31 @@ struct Motion {
     }
 };
 
-void requireAlong(
-    const shared::DistributedParams& p, const Motion& m, bool apart, double n, float along, float dx, float dy)
+/// Filters along motions.
+struct Along {
+    explicit Along(const PassBench& bench)
+        : directions(bench.pixels<float>(bench.has("vectors") ? "vectors" : "directions"))
+    {
+        if (bench.has("along"))
+            widths = bench.pixels<float>("along");
+    }
+
+    Planes<float> directions;
+    std::optional<Planes<float>> widths;
+};
+
+/// What a pass has made of pixel (x, y): deviations, if it keeps them, and directions, or both in one.
+void requireAlong(const PassBench& bench, const shared::DistributedParams& p, const Motion& m, bool apart, double n,
+    const Along& found, int x, int y)
 {
-    if (p.packed != 0) {
+    const float dx = found.directions.at(x, y), dy = found.directions.at(x, y, 1);
+    const float along = found.widths ? found.widths->at(x, y) : std::hypot(dx, dy);
+    if (bench.has("vectors")) {
         // Direction times deviation, of 8 bits.
         const double expected =
             apart && m.one(p) ? bestWidth(p.shutterWidth, p.shutterExponent, m.speed() / 2, n, 1) : 0;
         const double scale = expected > 0 ? expected / m.speed() : 0;
-        REQUIRE(agree(along, expected));
+        REQUIRE(agree(along, expected, found.widths ? 1e-5 : 1.0 / 256));
         REQUIRE(agree(dx, scale > 0 ? scale * m.x : 0, 1.0 / 256));
         REQUIRE(agree(dy, scale > 0 ? scale * m.y : 0, 1.0 / 256));
         return;
@@ -89,26 +134,8 @@ Motion packedMotion(const shared::DistributedParams& p, const Motion& m)
 {
     if (m.spread > p.oneVelocity * m.speed())
         return { std::numeric_limits<double>::infinity(), 0, 0 };
+    const auto rounded = [](double v) { return shared::unpackShort(shared::packShort(static_cast<float>(v))); };
     return { rounded(m.x), rounded(m.y), 0 };
-}
-
-/// The directions that a kernel has stored in a plane that was `before`; fails if it has changed others than the
-/// window's.
-Planes<float> directionsOf(
-    KernelBench& bench, const Region& region, const device::Buffer<float>& buffer, const Planes<float>& before)
-{
-    const Planes<float> after = planesOf(region.layout, bench.read(buffer));
-    Planes<float> out(region.layout, 2, 0.0f);
-    for (std::size_t k = 0; k < 2; ++k) {
-        const Planes<float> numbers = numbersOf(after, k), old = numbersOf(before, k);
-        everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
-            const image::Window& w = region.window;
-            const bool inside = x >= w.x0 && x < w.x1 && y >= w.y0 && y < w.y1;
-            REQUIRE((inside || numbers.at(x, y) == old.at(x, y)));
-            out.at(x, y, k) = numbers.at(x, y);
-        });
-    }
-    return out;
 }
 
 Planes<std::uint32_t> randomTaken(const Region& region, std::mt19937& random)
@@ -161,150 +188,99 @@ std::vector<glm::dvec2> randomMotions(std::mt19937& random)
     return out;
 }
 
-struct BlursFound {
-    Planes<float> lens, along, directions;
-};
-BlursFound blurs(KernelBench& bench, const Region& region, const shared::DistributedParams& p,
-    const Planes<float>& confusion, const Planes<float>& motion, const Planes<std::uint32_t>& taken)
-{
-    Output<float> lens(bench, region, 1), along(bench, region, 1), directions(bench, region, 2);
-    const auto takens = bench.buffer(taken.values);
-    if (p.packed == 0) {
-        const auto confusions = bench.buffer(confusion.values), motions = bench.buffer(motion.values);
-        launchPixels(bench, "waves/distributed.cl", "blurs", p, confusions, motions, takens, lens.buffer(),
-            along.buffer(), directions.buffer());
-        return { lens.read(), along.read(), directions.read() };
-    }
-    Planes<float> ofY = motion;
-    std::copy_n(motion.values.begin() + static_cast<std::ptrdiff_t>(region.layout.size), region.layout.size,
-        ofY.values.begin());
-    const Planes<float> both = packedNumbers(motion, ofY);
-    const auto confusions = bench.buffer(packedNumbers(confusion, confusion).values),
-               motions = bench.buffer(both.values), packedDirections = bench.buffer(both.values);
-    launchPixels(bench, "waves/distributed.cl", "blurs", p, confusions, motions, takens, lens.buffer(), along.buffer(),
-        packedDirections);
-    return { lens.read(), along.read(), directionsOf(bench, region, packedDirections, both) };
-}
-
-/// shadows: six planes, or packed the first two in one.
-BlursFound shadowBlurs(KernelBench& bench, const Region& region, const shared::DistributedParams& p,
-    const Planes<float>& shadows, const Planes<float>& beta, const Planes<std::uint32_t>& taken)
-{
-    Planes<float> ofY = shadows;
-    std::copy_n(shadows.values.begin() + static_cast<std::ptrdiff_t>(region.layout.size), region.layout.size,
-        ofY.values.begin());
-    const auto shadowed = bench.buffer((p.packed != 0 ? packedNumbers(shadows, ofY) : shadows).values);
-    const auto betas = bench.buffer(beta.values);
-    const auto takens = bench.buffer(taken.values);
-    Output<float> along(bench, region, 1), directions(bench, region, 2);
-    const Planes<float> before(region.layout, 1, 0.0f);
-    const auto packed = bench.buffer(before.values);
-    launchPixels(bench, "waves/distributed.cl", "shadowBlurs", p, shadowed, takens, betas, along.buffer(),
-        p.packed != 0 ? packed : directions.buffer());
-    const Planes<float> width = along.read();
-    return { width, width, p.packed != 0 ? directionsOf(bench, region, packed, before) : directions.read() };
-}
-
 } // namespace
 
 TEST_CASE("blurs: of the lens where all of the pixel is blurred, of the shutter where it has one motion")
 {
-    onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        unsigned seed = 0;
-        for (const Region& region : regions())
-            for (const Samples& samples : sampleKinds)
-                for (const shared::DistributedParams& p : settingsOf(region, samples)) {
-                    std::mt19937 random(++seed);
-                    auto confusion = filledPlanes(region, 2, 1e30f, [&](int x, int y, std::size_t plane) {
-                        const double middle = ((x + y) % 3 - 1) * 12,
-                                     half = random() % 4 == 0 ? 20 : uniform(random, 0, 12);
-                        return plane == 0 ? middle - half : middle + half;
-                    });
-                    auto motion = filledPlanes(region, 3, 1e30f, [](int, int, std::size_t) { return 0; });
-                    everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
-                        const double speed = uniform(random) * uniform(random, 0, 40), angle = uniform(random, 0, 7);
-                        motion.setVector(x, y,
-                            { speed * std::cos(angle), speed * std::sin(angle),
-                                random() % 3 == 0 ? 0 : speed * uniform(random, 0, 0.2) });
-                        if (random() % 5 == 0)
-                            motion.setVector(x, y, { 0, 0, uniform(random, 0, 9) });
-                        if (p.packed == 0)
-                            return;
-                        const Motion m = packedMotion(p, { motion.at(x, y), motion.at(x, y, 1), motion.at(x, y, 2) });
-                        motion.setVector(x, y, { m.x, m.y, 0 });
-                        const float low = confusion.at(x, y), high = confusion.at(x, y, 1);
-                        confusion.at(x, y) = confusion.at(x, y, 1) = rounded(low > 0 ? low : high < 0 ? high : 0.0);
-                    });
-                    const auto taken = randomTaken(region, random);
-                    const BlursFound found = blurs(bench, region, p, confusion, motion, taken);
-                    everyPixel(region.window, [&](int x, int y) {
-                        CAPTURE(x);
-                        CAPTURE(y);
-                        const double low = confusion.at(x, y), high = confusion.at(x, y, 1),
-                                     n = samples.of(taken.at(x, y));
-                        const double r = low <= 0 && high >= 0 ? 0 : std::min(std::fabs(low), std::fabs(high));
-                        if (std::fabs(r - p.leastRadius) > 1e-5)
-                            REQUIRE(agree(found.lens.at(x, y),
-                                r > p.leastRadius ? bestWidth(p.blurWidth, p.blurExponent, r, n, 2) : 0));
-                        const Motion m { motion.at(x, y), motion.at(x, y, 1), motion.at(x, y, 2) };
-                        if (!m.uncertain(p))
-                            requireAlong(p, m, true, n, found.along.at(x, y), found.directions.at(x, y),
-                                found.directions.at(x, y, 1));
-                    });
-                }
+    inEveryKind("blurs", 0, [](PassBench& bench, const Region& region, const Kind& kind, std::mt19937& random) {
+        const shared::DistributedParams p = kind.params(bench);
+        auto confusion = filledPlanes(region, 2, 1e30f, [&](int x, int y, std::size_t plane) {
+            const double middle = ((x + y) % 3 - 1) * 12, half = random() % 4 == 0 ? 20 : uniform(random, 0, 12);
+            return plane == 0 ? middle - half : middle + half;
+        });
+        auto motion = filledPlanes(region, 3, 1e30f, [](int, int, std::size_t) { return 0; });
+        everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
+            const double speed = uniform(random) * uniform(random, 0, 40), angle = uniform(random, 0, 7);
+            motion.setVector(x, y,
+                { speed * std::cos(angle), speed * std::sin(angle),
+                    random() % 3 == 0 ? 0 : speed * uniform(random, 0, 0.2) });
+            if (random() % 5 == 0)
+                motion.setVector(x, y, { 0, 0, uniform(random, 0, 9) });
+            if (!kind.packed)
+                return;
+            const Motion m = packedMotion(p, { motion.at(x, y), motion.at(x, y, 1), motion.at(x, y, 2) });
+            motion.setVector(x, y, { m.x, m.y, 0 });
+        });
+        const auto taken = randomTaken(region, random);
+        bench.value("p", p);
+        bench.plane("taken", taken);
+        bench.plane("confusion", confusion);
+        confusion = bench.pixels<float>("confusion"); // as its format holds it
+        const auto third = motion.values.begin() + static_cast<std::ptrdiff_t>(2 * region.layout.size);
+        bench.plane("motion", std::vector<float>(motion.values.begin(), third));
+        if (!kind.packed)
+            bench.plane("motionSpread", std::vector<float>(third, motion.values.end()));
+        bench.run();
+        const auto lens = bench.pixels<float>("lens");
+        const Along along(bench);
+        everyPixel(region.window, [&](int x, int y) {
+            CAPTURE(x);
+            CAPTURE(y);
+            const double low = confusion.at(x, y), high = confusion.at(x, y, 1), n = kind.samples.of(taken.at(x, y));
+            const double r = low <= 0 && high >= 0 ? 0 : std::min(std::fabs(low), std::fabs(high));
+            if (std::fabs(r - p.leastRadius) > 1e-5)
+                REQUIRE(agree(lens.at(x, y), r > p.leastRadius ? bestWidth(p.blurWidth, p.blurExponent, r, n, 2) : 0));
+            const Motion m { motion.at(x, y), motion.at(x, y, 1), motion.at(x, y, 2) };
+            if (!m.uncertain(p))
+                requireAlong(bench, p, m, true, n, along, x, y);
+        });
     });
 }
 
 TEST_CASE("shadows' blurs: of the mean motion of those that move, where they move alike and the light is taken apart")
 {
-    onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        unsigned seed = 500;
-        int uncertain = 0, pixels = 0;
-        std::array<int, 2> found {};
-        for (const Region& region : regions())
-            for (const Samples& samples : sampleKinds)
-                for (const shared::DistributedParams& p : settingsOf(region, samples)) {
-                    std::mt19937 random(++seed);
-                    auto shadows =
-                        filledPlanes(region, 6, 1e30f, [&](int, int, std::size_t) { return uniform(random, 1, 9); });
-                    std::vector<std::vector<glm::dvec2>> motions(region.layout.size);
-                    everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
-                        const std::vector<glm::dvec2> all = motions[shadows.index(x, y)] = randomMotions(random);
-                        const ShadowSums sums = sumsOf(all);
-                        const double values[] = { sums.x, sums.y, sums.squared, sums.count };
-                        for (std::size_t k = 0; k < 4; ++k)
-                            shadows.at(x, y, 2 + k) = static_cast<float>(values[k]);
-                        if (p.packed != 0) {
-                            const Motion m = packedMotion(p, all.empty() ? Motion {} : motionOf(all));
-                            shadows.at(x, y) = static_cast<float>(m.x);
-                            shadows.at(x, y, 1) = static_cast<float>(m.y);
-                        }
-                    });
-                    const auto beta = filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) {
-                        return random() % 4 == 0 ? -1 : random() % 4 == 0 ? 0 : 0.1;
-                    });
-                    const auto taken = randomTaken(region, random);
-                    const BlursFound is = shadowBlurs(bench, region, p, shadows, beta, taken);
-                    everyPixel(region.window, [&](int x, int y) {
-                        CAPTURE(x);
-                        CAPTURE(y);
-                        const auto& all = motions[shadows.index(x, y)];
-                        const Motion mean = all.empty() ? Motion {} : motionOf(all);
-                        const Motion m = p.packed != 0 ? packedMotion(p, mean) : mean;
-                        ++pixels;
-                        if (m.uncertain(p)) {
-                            ++uncertain;
-                            return;
-                        }
-                        ++found[m.one(p) ? 1 : 0];
-                        requireAlong(p, m, beta.at(x, y) >= 0, samples.of(taken.at(x, y)), is.along.at(x, y),
-                            is.directions.at(x, y), is.directions.at(x, y, 1));
-                    });
+    int uncertain = 0, pixels = 0;
+    std::array<int, 2> found {};
+    inEveryKind(
+        "shadowBlurs", 500, [&](PassBench& bench, const Region& region, const Kind& kind, std::mt19937& random) {
+            const shared::DistributedParams p = kind.params(bench);
+            // Sums of four kinds, or the motion itself.
+            auto shadows = filledPlanes(region, kind.packed ? 2 : 4, 1e30f, [](int, int, std::size_t) { return 0; });
+            std::vector<Motion> motions(region.layout.size);
+            everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
+                const std::vector<glm::dvec2> all = randomMotions(random);
+                const Motion mean = all.empty() ? Motion {} : motionOf(all);
+                const Motion m = motions[shadows.index(x, y)] = kind.packed ? packedMotion(p, mean) : mean;
+                const ShadowSums sums = sumsOf(all);
+                const std::vector<double> values =
+                    kind.packed ? std::vector { m.x, m.y } : std::vector { sums.x, sums.y, sums.squared, sums.count };
+                for (std::size_t k = 0; k < values.size(); ++k)
+                    shadows.at(x, y, k) = static_cast<float>(values[k]);
+            });
+            const auto beta = filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) {
+                return random() % 4 == 0 ? -1 : random() % 4 == 0 ? 0 : 0.1;
+            });
+            const auto taken = randomTaken(region, random);
+            bench.value("p", p);
+            bench.plane("taken", taken);
+            bench.plane("beta", beta);
+            bench.plane(kind.packed ? "shadowMotion" : "shadowSums", shadows);
+            bench.run();
+            const Along along(bench);
+            everyPixel(region.window, [&](int x, int y) {
+                CAPTURE(x);
+                CAPTURE(y);
+                const Motion& m = motions[shadows.index(x, y)];
+                ++pixels;
+                if (m.uncertain(p)) {
+                    ++uncertain;
+                    return;
                 }
-        CHECK(uncertain < 0.01 * pixels);
-        CHECK(found[0] > 1000);
-        CHECK(found[1] > 1000);
-    });
+                ++found[m.one(p) ? 1 : 0];
+                requireAlong(bench, p, m, beta.at(x, y) >= 0, kind.samples.of(taken.at(x, y)), along, x, y);
+            });
+        });
+    CHECK(uncertain < 0.01 * pixels);
+    CHECK(found[0] > 1000);
+    CHECK(found[1] > 1000);
 }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace wedge::test {
@@ -277,8 +278,34 @@ void PassBench::run()
         if (!whole) {
             refuse(fmt::format("kernel {} has written beside \"{}\"", pass_.kernel.name, name));
         }
+        if (changesBeside(name, contents)) {
+            refuse(fmt::format("kernel {} has written to \"{}\" beside its window", pass_.kernel.name, name));
+        }
         contents_[name] = std::move(contents);
     }
+}
+
+bool PassBench::changesBeside(const std::string& name, const std::vector<std::byte>& contents) const
+{
+    const graph::Resource& of = planes_.at(name);
+    const bool exact = pass_.domain == graph::Domain::Pixels || pass_.domain == graph::Domain::Tiles;
+    if (!exact || !of.plane || contents == contents_.at(name)) {
+        return false; // blocks may reach beyond it
+    }
+    const std::vector<double> before = anyNumbers(of, name, contents_.at(name)), after = anyNumbers(of, name, contents);
+    std::vector<char> inside(layout.size, 0);
+    const Window window = covered();
+    for (int y = window.y0; y < window.y1; ++y) {
+        const auto first = inside.begin() + layout.stride * y + WEDGE_ROW_PADDING;
+        std::fill(first + window.x0, first + window.x1, char { 1 });
+    }
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        const bool same = before[i] == after[i] || (std::isnan(before[i]) && std::isnan(after[i]));
+        if (!same && inside[i % layout.size] == 0) {
+            return true;
+        }
+    }
+    return false;
 }
 
 } // namespace wedge::test

@@ -43,7 +43,8 @@ private:
 
 /// One of a frame's passes. Planes are vectors of all their elements, padding included, and lists likewise; those of
 /// several parts have one part after the other. All are 0 at first. A name that the pass has not, a wrong type, a wrong
-/// size, and what a kernel writes before or behind its planes are a std::logic_error, which fails the test.
+/// size, and what a kernel writes before or behind its planes, or beside its window, are a std::logic_error, which
+/// fails the test.
 class PassBench {
 public:
     /// The pass that has that kernel: the first, or the nth, of those called `pass`, or of all.
@@ -114,6 +115,8 @@ private:
     std::vector<std::byte> ownValue(const std::string& name, std::string_view type, bool planned) const;
     const graph::Argument& valueOf(const std::string& name, std::string_view type) const;
     void execute(graph::Graph& graph, bool planned) const;
+    /// Whether a pass that covers its window and no more has changed anything else of a plane.
+    bool changesBeside(const std::string& name, const std::vector<std::byte>& contents) const;
     /// Calls add() inside of that many loops, which run once.
     template <class Add>
     void inLoops(graph::Graph& graph, std::size_t loops, const Add& add) const;

@@ -201,4 +201,18 @@ std::vector<T> decoded(const graph::Resource& resource, const std::string& name,
     return out;
 }
 
+/// Numbers of any type that a plane's format has, for comparing them.
+inline std::vector<double> anyNumbers(
+    const graph::Resource& resource, const std::string& name, const std::vector<std::byte>& contents)
+{
+    const auto widened = [](const auto& numbers) { return std::vector<double>(numbers.begin(), numbers.end()); };
+    if (codingOf(resource.format, 0.0f)) {
+        return widened(decoded<float>(resource, name, contents));
+    }
+    if (codingOf(resource.format, std::uint32_t { 0 })) {
+        return widened(decoded<std::uint32_t>(resource, name, contents));
+    }
+    return widened(decoded<std::uint64_t>(resource, name, contents));
+}
+
 } // namespace wedge::test

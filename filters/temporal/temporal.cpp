@@ -332,7 +332,12 @@ void TemporalFilter::filter(render::Renderer& renderer, const Settings& settings
     run(renderer, settings, std::move(places), true, &statistics);
 }
 
-void TemporalFilter::rehearse(
+void TemporalFilter::rehearse(render::Renderer& renderer, const Settings& settings)
+{
+    run(renderer, settings, nullptr, true, nullptr);
+}
+
+void TemporalFilter::show(
     render::Renderer& renderer, const Settings& settings, const std::function<void(const graph::Graph&)>& look)
 {
     run(renderer, settings, nullptr, true, nullptr, look);
@@ -386,6 +391,7 @@ void TemporalFilter::run(render::Renderer& renderer, const Settings& settings,
     }
     if (look) {
         look(d.graph);
+        return;
     }
     const graph::Plan plan(d.graph, device::partAlignment, renderer.slabRules());
     graph::Execution execution(plan, memory_, renderer.kernels(), queue);

@@ -53,10 +53,11 @@ public:
     void filter(render::Renderer& renderer, const render::Settings& settings,
         std::shared_ptr<const ObjectPlaces> places, render::FrameStatistics& statistics);
 
-    /// Launches its kernels over nothing, so that none is compiled later. After Renderer::rehearse(). look: is called
-    /// with all of its passes.
-    void rehearse(render::Renderer& renderer, const render::Settings& settings,
-        const std::function<void(const graph::Graph&)>& look = {});
+    /// Launches its kernels over nothing, so that none is compiled later. After Renderer::rehearse().
+    void rehearse(render::Renderer& renderer, const render::Settings& settings);
+    /// Calls look() with all of its passes, and runs none. After Renderer::rehearse().
+    void show(render::Renderer& renderer, const render::Settings& settings,
+        const std::function<void(const graph::Graph&)>& look);
 
 private:
     struct Kept;
