@@ -51,13 +51,17 @@ inline std::vector<Region> regions()
 /// How a frame keeps its planes: all in floats, or those of one image in fewer bits.
 enum class Kept { Full, Lean };
 
-/// Of two area lights, a point light and paths, through a lens and a shutter while all moves.
+/// Of two area lights, a point light and paths on glossy surfaces, through a lens and a shutter while all moves.
 class MovingFrame : public DeclaredFrame {
 public:
-    MovingFrame(const device::Device& device, Kept kept, render::Settings settings = render::axisAligned(16),
+    MovingFrame(const device::Device& device, Kept kept, const render::Settings& settings = render::axisAligned(16),
         const render::PlaneLayout& size = framesLayout())
         : DeclaredFrame(device, moving(), distributed(settings, size), kept == Kept::Full)
         , lean(kept == Kept::Lean)
+    {
+    }
+    MovingFrame(const device::Device& device, Kept kept, const render::PlaneLayout& size)
+        : MovingFrame(device, kept, render::axisAligned(16), size)
     {
     }
 
@@ -72,6 +76,7 @@ private:
             coordinate += 0.1f;
         out.geometry.normalsAtClose = out.geometry.normals;
         out.shutterClose = 1;
+        out.materials[0].specular = glm::vec3(0.3f);
         out.pointLights.push_back({ glm::vec3(0, 3, 2), glm::vec3(1) });
         out.camera.apertureRadius = 0.05f;
         return out;

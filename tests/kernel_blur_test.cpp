@@ -337,7 +337,7 @@ TEST_CASE("kernels reach as far as their limits and no farther")
         for (const bool upright : { false, true }) {
             const int width = upright ? 3 : 401, height = upright ? 401 : 3;
             const render::PlaneLayout layout(width, height);
-            MovingFrame frame(device, Kept::Full, render::axisAligned(16), layout);
+            MovingFrame frame(device, Kept::Full, layout);
             const Region region(width, height, { 0, 0, width, height }, layout);
             Blurred image(region);
             image.everywhere([&](int x, int y) {
