@@ -50,8 +50,7 @@ private:
 };
 
 std::unique_ptr<render::FrameGraph> declare(const render::PreparedScene& scene, const render::DeviceScene& onDevice,
-    const render::Settings& settings, std::size_t packet, bool keepLayers,
-    render::HalfMemories& memories)
+    const render::Settings& settings, std::size_t packet, bool keepLayers, render::HalfMemories& memories)
 {
     render::validate(settings, render::isDistributed(settings, scene));
     if (settings.progressive) {
@@ -74,8 +73,8 @@ DeclaredFrame::DeclaredFrame(
     , hierarchy_(render::buildHierarchy(renderer.scene(), renderer.bvhMode(), renderer.traversal()))
     , deviceScene_(renderer.scene(), hierarchy_, renderer.device(), renderer.queue())
     , memories_ { render::SampleMemory(&renderer.device()), render::SampleMemory(&renderer.device()) }
-    , declared_(declare(renderer.scene(), deviceScene_, settings, render::packetSize(renderer.traversal()),
-          keepLayers, memories_))
+    , declared_(declare(
+          renderer.scene(), deviceScene_, settings, render::packetSize(renderer.traversal()), keepLayers, memories_))
 {
 }
 

@@ -62,7 +62,7 @@ void ofWaves(FrameBuilder& f, render::Waves& waves, graph::Handle<Radiance>& rad
             waves.receiverArguments(),
             render::Arguments { reads("sampleOf", r.sampleOf), reads("diffuse", r.diffuse),
                 reads("specular", r.specular), updates("direct", radiance), updates("directNoisy", noisy),
-                value("keepsOwn", 0u), f.nowhere("own", graph::vectors), waves.tallyRays() }),
+                graph::absent("own", graph::vectors), waves.tallyRays() }),
         false);
 }
 
