@@ -117,18 +117,6 @@ inline Planes<float> packedNumbers(const Planes<float>& first, const Planes<floa
     return out;
 }
 
-/// packGloss() of all pixels in 16 bits.
-inline Planes<std::uint32_t> shortGlosses(const Planes<std::uint32_t>& plane)
-{
-    Planes<std::uint32_t> out(plane.layout, 1, 0u);
-    char* bytes = reinterpret_cast<char*>(out.values.data());
-    for (std::size_t i = 0; i < plane.values.size(); ++i) {
-        const auto bits = static_cast<std::uint16_t>(shared::packGlossShort(shared::unpackGloss(plane.values[i])));
-        std::memcpy(bytes + sizeof(bits) * i, &bits, sizeof(bits));
-    }
-    return out;
-}
-
 /// Three planes of colours in fewer bits, or as they are.
 inline Planes<float> packedColours(const Planes<float>& colours, std::uint32_t bits)
 {
