@@ -59,18 +59,10 @@ inline std::vector<Handed> group(const std::string& name, std::vector<Handed> me
     return members;
 }
 
-/// Launches a kernel over so many items.
-inline void launchDeclared(
-    KernelBench& bench, const graph::KernelName& kernel, std::size_t items, const std::vector<Handed>& handed)
+/// Adds a pass that is handed these, and runs it; elements: of planes, 0: of the graph's pixels.
+inline void runDeclared(KernelBench& bench, graph::Graph& graph, graph::Pass pass, const std::vector<Handed>& handed,
+    std::uint64_t elements)
 {
-    constexpr std::size_t itemsOfGroup = 16;
-    graph::Graph graph(1, 1, 1);
-    graph::Pass pass { .name = kernel.name,
-        .kernel = kernel,
-        .domain = graph::Domain::Items,
-        .count = [items](const graph::Launch&) { return items; },
-        .mostItems = items,
-        .always = true };
     std::vector<graph::Handle<render::Value>> planes(handed.size());
     for (std::size_t i = 0; i < handed.size(); ++i) {
         const Handed& each = handed[i];
@@ -78,17 +70,46 @@ inline void launchDeclared(
             pass.arguments.push_back(each.argument);
             continue;
         }
-        planes[i] = graph.imported<render::Value>(each.argument.name, each.format, each.memory, 1);
+        planes[i] = graph.imported<render::Value>(each.argument.name, each.format, each.memory, elements);
         graph::Argument use = graph::updates(each.argument.name, planes[i]);
         use.group = each.argument.group;
         pass.arguments.push_back(use);
     }
-    pass.mostOfGroup = itemsOfGroup;
+    pass.name = pass.kernel.name;
+    pass.always = true;
     graph.add(pass);
-    const graph::Plan plan(graph, device::partAlignment, {});
+    const graph::Plan plan(graph, device::partAlignment);
     graph::Memory memory(bench.device);
     graph::Kernels kernels(bench.library);
     graph::Execution(plan, memory, kernels, bench.queue).run();
+}
+
+/// Launches a kernel over so many items.
+inline void launchDeclared(
+    KernelBench& bench, const graph::KernelName& kernel, std::size_t items, const std::vector<Handed>& handed)
+{
+    graph::Graph graph(1, 1, 1);
+    runDeclared(bench, graph,
+        { .kernel = kernel,
+            .domain = graph::Domain::Items,
+            .count = [items](const graph::Launch&) { return items; },
+            .mostItems = items },
+        handed, 1);
+}
+
+/// Over pixels; params: the kernel's first, "p", which get the rectangle.
+template <class Params>
+void launchDeclared(KernelBench& bench, const graph::KernelName& kernel, const render::PlaneLayout& layout,
+    const Params& params, std::vector<Handed> handed)
+{
+    graph::Graph graph(static_cast<int>(layout.width), static_cast<int>(layout.height), layout.size);
+    const auto rectangle = [params](const graph::Launch& launch) {
+        Params p = params;
+        render::setRectangle(p, launch.window);
+        return p;
+    };
+    handed.insert(handed.begin(), Handed { graph::made("p", rectangle) });
+    runDeclared(bench, graph, { .kernel = kernel, .domain = graph::Domain::Pixels }, handed, 0);
 }
 
 } // namespace wedge::test

@@ -12,6 +12,19 @@ using graph::updates;
 using graph::value;
 using graph::writes;
 
+namespace {
+
+/// What primary rays fill in.
+std::vector<graph::Argument> filled(Surfaces& s)
+{
+    return { updates("position", s.position), updates("normal", s.normal), updates("origin", s.origin),
+        updates("geometric", s.geometric), updates("objectId", s.objectId), updates("depth", s.depth),
+        updates("pixelSize", s.pixelSize), updates("diffuse", s.diffuse), updates("specular", s.specular),
+        updates("emission", s.emission), updates("gloss", s.gloss) };
+}
+
+} // namespace
+
 PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
     std::size_t packetSize, bool keepLayers)
     : FrameGraph(settings, scene, keepLayers)
@@ -108,11 +121,7 @@ void PixelFrame::primary(bool lit)
             Arguments { f_.ofScene("objectIds", "uint", &DeviceScene::objectIds),
                 f_.ofScene("lights", "AreaLight", &DeviceScene::areaLights),
                 value("lightCount", static_cast<std::uint32_t>(lit ? f_.description.areaLights.size() : 0)) },
-            f_.beyond(),
-            Arguments { updates("position", s.position), updates("normal", s.normal), updates("origin", s.origin),
-                updates("geometric", s.geometric), updates("objectId", s.objectId), updates("depth", s.depth),
-                updates("pixelSize", s.pixelSize), updates("diffuse", s.diffuse), updates("specular", s.specular),
-                updates("emission", s.emission), updates("gloss", s.gloss) }),
+            f_.beyond(), filled(s)),
         f_.analysed(), [](const graph::Launch&) { return 1.0; });
     if (!lit) {
         f_.zero(s.emission);

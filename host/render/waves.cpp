@@ -32,6 +32,16 @@ std::size_t mostTiles(const PlaneLayout& layout)
 
 std::uint32_t tilesOf(std::uint32_t receivers) { return (receivers + receiversOfTile - 1) / receiversOfTile; }
 
+/// What primary rays find.
+std::vector<graph::Argument> written(Receivers& r)
+{
+    return { writes("position", r.position), writes("normal", r.normal), writes("origin", r.origin),
+        writes("geometric", r.geometric), writes("objectId", r.objectId), writes("gloss", r.gloss),
+        writes("view", r.view), writes("time", r.time), writes("diffuse", r.diffuse), writes("specular", r.specular),
+        writes("emission", r.emission), writes("pixelSize", r.pixelSize), writes("depth", r.depth),
+        writes("motion", r.motion), writes("rays", r.rays), writes("pathRays", r.pathRays) };
+}
+
 } // namespace
 
 std::uint32_t roomOfWaves(const PlaneLayout& layout, double most)
@@ -270,13 +280,8 @@ void Waves::trace(bool lit)
                 f_.ofScene("lights", "AreaLight", &DeviceScene::areaLights), value("lightCount", lights) },
             f_.beyond(),
             Arguments { reads("pixelOf", r_.pixelOf), reads("sampleOf", r_.sampleOf), reads("wanted", counts_.wanted),
-                sampling_.seenLights ? reads("known", *sampling_.seenLights) : graph::absent("known", packedColours),
-                writes("position", r_.position), writes("normal", r_.normal), writes("origin", r_.origin),
-                writes("geometric", r_.geometric), writes("objectId", r_.objectId), writes("gloss", r_.gloss),
-                writes("view", r_.view), writes("time", r_.time), writes("diffuse", r_.diffuse),
-                writes("specular", r_.specular), writes("emission", r_.emission), writes("pixelSize", r_.pixelSize),
-                writes("depth", r_.depth), writes("motion", r_.motion), writes("rays", r_.rays),
-                writes("pathRays", r_.pathRays) }));
+                sampling_.seenLights ? reads("known", *sampling_.seenLights) : graph::absent("known", packedColours) },
+            written(r_)));
 }
 
 std::uint32_t waveSampler(const Settings& settings)
