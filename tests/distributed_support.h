@@ -140,9 +140,9 @@ template <class T = float>
 class RegionPass : public PassBench {
 public:
     /// outputs: planes that are not to change beside the window, with something in them.
-    RegionPass(DeclaredFrame& frame, const std::string& kernel, const std::vector<std::string>& outputs,
-        std::size_t nth = 0, const std::string& pass = "")
-        : PassBench(frame, kernel, pass, nth)
+    RegionPass(
+        DeclaredFrame& frame, const std::string& kernel, const std::vector<std::string>& outputs, std::size_t nth = 0)
+        : PassBench(frame, kernel, "", nth)
         , outputs_(outputs)
     {
         for (const std::string& name : outputs_)
