@@ -1,6 +1,5 @@
 // distributed.cl alone: variances of pixels, how uncertain they leave an image, and bounds of counts.
 #include "tests/distributed_support.h"
-#include "tests/pass_bench.h"
 
 #include <array>
 
@@ -14,65 +13,69 @@ constexpr double pi = 3.14159265358979;
 /// n / (n - 1), which makes the variance of n samples about their own mean unbiased; 0 where there is none to speak of.
 double unbiased(double n) { return n > 1 ? n / (n - 1) : 0; }
 
-/// Frames of so many pixels. Of one image their planes are packed, with layers they are not.
-enum class Frames { OneImage, Layers, Progressive };
-DeclaredFrame frameOf(const device::Device& device, Frames frames, int width, int height)
-{
-    render::Settings settings = sized(render::axisAligned(16), width, height);
-    settings.antialias = true;
-    settings.bounces = 1;
-    settings.progressive = frames == Frames::Progressive;
-    return DeclaredFrame(device, smallScene(), settings, frames == Frames::Layers);
-}
+/// What splitVariance takes, and what it is to make of it.
+struct Moments {
+    Planes<float> texture, textureSquares, value, squares;
+    Planes<std::uint32_t> taken;
 
-/// Calls test(frame, region, random) for every device and each of regions(), with random numbers that go on.
-template <class Test>
-void inRegions(Frames frames, unsigned seed, const Test& test)
-{
-    onEveryDevice([&](const device::Device& device) {
-        std::mt19937 random(seed);
-        for (const Region& region : regions()) {
-            DeclaredFrame frame = frameOf(device, frames, region.width, region.height);
-            test(frame, region, random);
-        }
-    });
-}
-
-/// A pass of the frame, over the region's window.
-PassBench benchOf(DeclaredFrame& frame, const Region& region, const std::string& kernel, std::size_t nth = 0)
-{
-    PassBench bench(frame, kernel, "", nth);
-    bench.window(region.window);
-    return bench;
-}
-
-/// A value in each pixel, and beside the image what is to come from nowhere.
-template <class Value>
-Planes<float> numbersIn(const Region& region, std::size_t planes, const Value& value)
-{
-    return filledPlanes(region, planes, 1e30f, [&](int, int, std::size_t) { return value(); });
-}
-
-/// Fills what splitVariance takes. Squares of frames of one image are kept as two deviations.
-PassBench splitVariance(DeclaredFrame& frame, const Region& region, std::mt19937& random, std::size_t nth)
-{
-    PassBench bench = benchOf(frame, region, "splitVariance", nth);
-    const auto black = [&](double most) { return random() % 6 == 0 ? 0 : uniform(random, 0, most); };
-    Planes<float> texture = numbersIn(region, 3, [&] { return black(1); });
-    everyPixel(region.window, [&](int x, int y) {
-        if (random() % 9 == 0)
-            texture.setVector(x, y, { 0, 0, 0 });
-    });
-    bench.plane("texture", texture);
-    bench.plane("value", numbersIn(region, 3, [&] { return black(2); }));
-    if (bench.has("spreads")) {
-        bench.plane("spreads", numbersIn(region, 2, [&] { return uniform(random, 0, 2); }));
-    } else {
-        bench.plane("squares", numbersIn(region, 1, [&] { return uniform(random, 0, 2); }));
-        bench.plane("textureSquares", numbersIn(region, 1, [&] { return uniform(random); }));
+    Moments(const Region& region, std::mt19937& random)
+        : texture(filledPlanes(
+            region, 3, 1e30f, [&](int, int, std::size_t) { return random() % 6 == 0 ? 0 : uniform(random); }))
+        , textureSquares(filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random); }))
+        , value(filledPlanes(
+              region, 3, 1e30f, [&](int, int, std::size_t) { return random() % 6 == 0 ? 0 : uniform(random, 0, 2); }))
+        , squares(filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random, 0, 2); }))
+        , taken(filledPlanes(region, 1, 1000u, [&](int, int, std::size_t) { return random() % 12; }))
+    {
+        everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
+            if (random() % 9 == 0)
+                texture.setVector(x, y, { 0, 0, 0 });
+        });
     }
-    bench.plane("taken", someCounts(random, region.layout.size, 12));
-    return bench;
+    /// Fills a pass, and is then what the pass has of it: of lean frames squares become those of deviations.
+    void fill(PassBench& pass, const Region& region)
+    {
+        pass.plane("texture", texture);
+        pass.plane("value", value);
+        pass.plane("taken", taken);
+        texture = pass.pixels<float>("texture");
+        value = pass.pixels<float>("value");
+        if (!pass.has("spreads")) {
+            pass.plane("squares", squares);
+            pass.plane("textureSquares", textureSquares);
+            return;
+        }
+        pass.plane("spreads", filledPlanes(region, 2, 1e30f, [&](int x, int y, std::size_t which) {
+            return (which == 0 ? squares : textureSquares).at(x, y);
+        }));
+        const auto spreads = pass.pixels<float>("spreads");
+        everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
+            const glm::dvec3 k = texture.vector(x, y);
+            const double l = luminanceOf(k * value.vector(x, y)), t = luminanceOf(k);
+            squares.at(x, y) = static_cast<float>(l * l + std::pow(spreads.at(x, y), 2));
+            textureSquares.at(x, y) = static_cast<float>(t * t + std::pow(spreads.at(x, y, 1), 2));
+        });
+    }
+    std::array<double, 2> expected(int x, int y) const
+    {
+        const double k = luminanceOf(texture.vector(x, y)), l = luminanceOf(texture.vector(x, y) * value.vector(x, y));
+        const double all = std::max(0.0, squares.at(x, y) - l * l) * unbiased(taken.at(x, y));
+        const double spread = std::max(0.0, textureSquares.at(x, y) - k * k) * unbiased(taken.at(x, y));
+        const double ofTexture = std::min(all, k > 0 ? spread * std::pow(l / k, 2) : 0.0);
+        return { ofTexture, all - ofTexture };
+    }
+};
+
+/// Of the texture, and of the irradiance.
+std::array<Planes<float>, 2> splitVariance(
+    DeclaredFrame& frame, const Region& region, Moments& in, std::uint32_t values = 1)
+{
+    RegionPass pass(frame, "splitVariance", { "ofTexture", "ofIrradiance" }, termOf(values));
+    in.fill(pass, region);
+    shared::DistributedParams p = paramsOf(region);
+    p.values = values;
+    pass.runIn(region, p);
+    return { pass.floats("ofTexture"), pass.floats("ofIrradiance") };
 }
 
 /// What uncertaintyOfRays takes.
@@ -80,43 +83,41 @@ struct Filters {
     Planes<float> variance, effective, beta, lens, along;
 
     Filters(const Region& region, std::mt19937& random)
-        : variance(numbersIn(region, 1,
-            [&] { return random() % 3 != 0 ? 0
-                      : random() % 9 == 0  ? 1e-35
-                                           : std::exp(uniform(random, -9, 3)); }))
-        , effective(numbersIn(region, 1, [&] { return uniform(random, 0.2, 40); }))
-        , beta(numbersIn(
-              region, 1, [&] { return random() % 3 == 0 ? -1.0
-                                   : random() % 4 == 0  ? 0.0
-                                                        : uniform(random); }))
-        , lens(numbersIn(region, 1, [&] { return random() % 3 == 0 ? 0 : uniform(random, 0, 6); }))
-        , along(numbersIn(region, 1, [&] { return random() % 3 == 0 ? 0 : uniform(random, 0, 6); }))
+        : variance(filledPlanes(region, 1, 1e30f,
+            [&](int, int, std::size_t) {
+                return random() % 3 != 0 ? 0 : random() % 9 == 0 ? 1e-35 : std::exp(uniform(random, -9, 3));
+            }))
+        , effective(filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random, 0.2, 40); }))
+        , beta(filledPlanes(region, 1, 1e30f,
+              [&](int, int, std::size_t) {
+                  return random() % 3 == 0 ? -1.0 : random() % 4 == 0 ? 0.0 : uniform(random);
+              }))
+        , lens(filledPlanes(
+              region, 1, 1e30f, [&](int, int, std::size_t) { return random() % 3 == 0 ? 0 : uniform(random, 0, 6); }))
+        , along(filledPlanes(
+              region, 1, 1e30f, [&](int, int, std::size_t) { return random() % 3 == 0 ? 0 : uniform(random, 0, 6); }))
     {
     }
     /// Equal samples: of a Gaussian of deviations a and b pixels 4 pi a b; covariances of one after the other add up.
-    double gathered(bool alongMotion, int x, int y) const
+    double gathered(const shared::DistributedParams& p, int x, int y) const
     {
         const double own = beta.at(x, y) > 0 ? std::max(1.0, double { effective.at(x, y) }) : 1;
         const double across = own / (4 * pi) + std::pow(lens.at(x, y), 2);
-        const double lengthwise = across + (alongMotion ? std::pow(along.at(x, y), 2) : 0);
+        const double lengthwise = across + (p.alongMotion != 0 ? std::pow(along.at(x, y), 2) : 0);
         return std::max(1.0, 4 * pi * std::sqrt(across) * std::sqrt(lengthwise));
     }
 };
 Planes<float> uncertaintyOfRays(
-    DeclaredFrame& frame, const Region& region, bool alongMotion, float rays, const Filters& in)
+    DeclaredFrame& frame, const Region& region, const shared::DistributedParams& p, const Filters& in)
 {
-    PassBench bench = benchOf(frame, region, "uncertaintyOfRays");
-    auto p = bench.own<shared::DistributedParams>("p");
-    p.alongMotion = alongMotion ? 1 : 0;
-    p.rays = rays;
-    bench.value("p", p);
-    bench.plane("variance", in.variance);
-    bench.plane("effective", in.effective);
-    bench.plane("beta", in.beta);
-    bench.plane("lens", in.lens);
-    bench.plane("along", in.along);
-    bench.run();
-    return bench.pixels<float>("uncertainty");
+    RegionPass pass(frame, "uncertaintyOfRays", { "uncertainty" });
+    pass.plane("variance", in.variance);
+    pass.plane("effective", in.effective);
+    pass.plane("beta", in.beta);
+    pass.plane("lens", in.lens);
+    pass.plane("along", in.along);
+    pass.runIn(region, p);
+    return pass.floats("uncertainty");
 }
 
 /// Sum of the squares of Gaussians of those deviations, one convolved with the other, on whole numbers.
@@ -138,58 +139,47 @@ double squaredWeights(const std::vector<double>& deviations)
     return out;
 }
 
+/// Random numbers of samples, some of them 0.
+Planes<std::uint32_t> someCounts(const Region& region, std::mt19937& random, std::uint32_t most)
+{
+    return filledPlanes(region, 1, 1u << 20,
+        [&](int, int, std::size_t) { return random() % 4 == 0 ? 0u : static_cast<std::uint32_t>(random()) % most; });
+}
+
 } // namespace
 
 TEST_CASE("variances: of the texture at most all of it, of the irradiance the rest; none of a sample or less")
 {
-    for (const Frames frames : { Frames::OneImage, Frames::Layers })
-        inRegions(frames, 0, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
-            for (const std::size_t nth : { std::size_t { 0 }, std::size_t { 2 } }) { // of a light, and indirect light
-                PassBench bench = splitVariance(frame, region, random, nth);
-                bench.run();
-                const auto ofTexture = bench.pixels<float>("ofTexture");
-                const auto ofIrradiance = bench.pixels<float>("ofIrradiance");
-                const auto texture = bench.pixels<float>("texture"), value = bench.pixels<float>("value");
-                const bool plain = bench.has("squares");
-                const auto squares = bench.pixels<float>(plain ? "squares" : "spreads");
-                const auto textureSquares = plain ? bench.pixels<float>("textureSquares") : squares;
-                const auto taken = bench.pixels<std::uint32_t>("taken");
-                int all = 0, some = 0;
-                everyPixel(region.window, [&](int x, int y) {
-                    const double k = luminanceOf(texture.vector(x, y));
-                    const double l = luminanceOf(texture.vector(x, y) * value.vector(x, y));
-                    // In squares, or in deviations, the luminance's and the texture's.
-                    const double whole =
-                        plain ? std::max(0.0, squares.at(x, y) - l * l) : std::pow(squares.at(x, y), 2);
-                    const double spread =
-                        plain ? std::max(0.0, textureSquares.at(x, y) - k * k) : std::pow(squares.at(x, y, 1), 2);
-                    const double n = unbiased(taken.at(x, y));
-                    const double part = std::min(n * whole, k > 0 ? n * spread * std::pow(l / k, 2) : 0.0);
-                    REQUIRE(agree(ofTexture.at(x, y), part, 1e-4, 4e-6));
-                    REQUIRE(agree(ofIrradiance.at(x, y), n * whole - part, 1e-4, 4e-6));
-                    all += part > 0 && n * whole - part < 1e-6 ? 1 : 0;
-                    some += part > 0 && n * whole - part > 1e-6 ? 1 : 0;
-                });
-                CHECK((all > 3 || region.width * region.height < 100));
-                CHECK((some > 3 || region.width * region.height < 100));
-            }
-        });
+    onEveryRegion(0, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
+        for (const std::uint32_t values : { 1u, 3u }) {
+            CAPTURE(values);
+            Moments in(region, random);
+            const auto found = splitVariance(frame, region, in, values);
+            int all = 0, some = 0;
+            everyPixel(region.window, [&](int x, int y) {
+                const std::array<double, 2> expected = in.expected(x, y);
+                for (std::size_t k = 0; k < 2; ++k)
+                    REQUIRE(agree(found[k].at(x, y), expected[k], 1e-4, 4e-6));
+                all += expected[0] > 0 && expected[1] < 1e-6 ? 1 : 0;
+                some += expected[0] > 0 && expected[1] > 1e-6 ? 1 : 0;
+            });
+            CHECK((all > 3 || region.width * region.height < 100));
+            CHECK((some > 3 || region.width * region.height < 100));
+        }
+    });
 }
 
 TEST_CASE("variances: in the mean over pixels of few samples they are those of a sample")
 {
     onEveryDevice([](const device::Device& device) {
+        MovingFrame frame(device, Kept::Full);
         const Region region(120, 90);
-        DeclaredFrame frame = frameOf(device, Frames::Layers, region.width, region.height);
-        PassBench bench(frame, "splitVariance");
         std::mt19937 random(70);
-        constexpr unsigned n = 5;
-        bench.plane("taken", Planes<std::uint32_t>(region.layout, 1, n));
-        Planes<float> texture(region.layout, 3, 0.0f), value = texture, textureSquares(region.layout, 1, 0.0f),
-                                                       squares = textureSquares;
+        Moments in(region, random);
         // Grey textures of 0 to 1 under light that is the same, or of 0 to 2: var(t) is 1/12, of t e it is 4/9 - 1/4.
         for (const bool noisy : { false, true }) {
             everyPixel(region.window, [&](int x, int y) {
+                constexpr unsigned n = 5;
                 double t[2] = {}, l[2] = {};
                 for (unsigned k = 0; k < n; ++k) {
                     const double ti = uniform(random), li = ti * (noisy ? uniform(random, 0, 2) : 1);
@@ -198,41 +188,40 @@ TEST_CASE("variances: in the mean over pixels of few samples they are those of a
                     l[0] += li / n;
                     l[1] += li * li / n;
                 }
-                texture.setVector(x, y, glm::dvec3(t[0]));
-                value.setVector(x, y, glm::dvec3(l[0] / t[0]));
-                textureSquares.at(x, y) = static_cast<float>(t[1]);
-                squares.at(x, y) = static_cast<float>(l[1]);
+                in.texture.setVector(x, y, glm::dvec3(t[0]));
+                in.value.setVector(x, y, glm::dvec3(l[0] / t[0]));
+                in.textureSquares.at(x, y) = static_cast<float>(t[1]);
+                in.squares.at(x, y) = static_cast<float>(l[1]);
+                in.taken.at(x, y) = n;
             });
-            bench.plane("texture", texture);
-            bench.plane("value", value);
-            bench.plane("textureSquares", textureSquares);
-            bench.plane("squares", squares);
-            bench.run();
-            const auto found = bench.pixels<float>("ofTexture"), rest = bench.pixels<float>("ofIrradiance");
-            double ofTexture = 0, ofIrradiance = 0;
+            const auto found = splitVariance(frame, region, in);
+            double texture = 0, irradiance = 0;
             everyPixel(region.window, [&](int x, int y) {
-                ofTexture += found.at(x, y) / (120.0 * 90.0);
-                ofIrradiance += rest.at(x, y) / (120.0 * 90.0);
+                texture += found[0].at(x, y) / (120.0 * 90.0);
+                irradiance += found[1].at(x, y) / (120.0 * 90.0);
             });
             CAPTURE(noisy);
-            CHECK(ofTexture + ofIrradiance == doctest::Approx(noisy ? 4.0 / 9 - 0.25 : 1.0 / 12).epsilon(0.02));
+            CHECK(texture + irradiance == doctest::Approx(noisy ? 4.0 / 9 - 0.25 : 1.0 / 12).epsilon(0.02));
             if (!noisy)
-                CHECK(ofIrradiance < 1e-5);
+                CHECK(irradiance < 1e-5);
         }
     });
 }
 
 TEST_CASE("emission: the variance of its luminance, none of a sample or less")
 {
-    inRegions(Frames::Layers, 20, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
-        PassBench bench = benchOf(frame, region, "emissionVariance");
-        bench.plane("emission", numbersIn(region, 3, [&] { return uniform(random, 0, 5); }));
-        bench.plane("squares", numbersIn(region, 1, [&] { return uniform(random, 0, 30); }));
-        bench.plane("taken", someCounts(random, region.layout.size, 6));
-        bench.run();
-        const auto found = bench.pixels<float>("variance");
-        const auto emission = bench.pixels<float>("emission"), squares = bench.pixels<float>("squares");
-        const auto taken = bench.pixels<std::uint32_t>("taken");
+    onEveryRegion(20, Kept::Full, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
+        const auto emission =
+            filledPlanes(region, 3, 1e30f, [&](int, int, std::size_t) { return uniform(random, 0, 5); });
+        const auto squares =
+            filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random, 0, 30); });
+        const auto taken = someCounts(region, random, 6);
+        RegionPass pass(frame, "emissionVariance", { "variance" });
+        pass.plane("emission", emission);
+        pass.plane("squares", squares);
+        pass.plane("taken", taken);
+        pass.runIn(region, paramsOf(region));
+        const auto found = pass.floats("variance");
         everyPixel(region.window, [&](int x, int y) {
             const double rest = squares.at(x, y) - std::pow(luminanceOf(emission.vector(x, y)), 2);
             REQUIRE(agree(found.at(x, y), std::max(0.0, rest) * unbiased(taken.at(x, y)), 1e-4, 2e-5));
@@ -242,15 +231,18 @@ TEST_CASE("emission: the variance of its luminance, none of a sample or less")
 
 TEST_CASE("uncertainty: variance over what filters gather and rays cost")
 {
-    inRegions(Frames::Layers, 40, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
-        for (const bool alongMotion : { false, true })
+    onEveryRegion(40, Kept::Full, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
+        for (const std::uint32_t alongMotion : { 0u, 1u })
             for (const float rays : { 1.0f, 4.0f }) {
                 const Filters in(region, random);
-                const Planes<float> found = uncertaintyOfRays(frame, region, alongMotion, rays, in);
+                shared::DistributedParams p = paramsOf(region);
+                p.alongMotion = alongMotion;
+                p.rays = rays;
+                const Planes<float> found = uncertaintyOfRays(frame, region, p, in);
                 everyPixel(region.window, [&](int x, int y) {
                     CAPTURE(x);
                     CAPTURE(y);
-                    REQUIRE(agree(found.at(x, y), in.variance.at(x, y) / in.gathered(alongMotion, x, y) / rays, 1e-4));
+                    REQUIRE(agree(found.at(x, y), in.variance.at(x, y) / in.gathered(p, x, y) / rays, 1e-4));
                 });
             }
     });
@@ -259,8 +251,8 @@ TEST_CASE("uncertainty: variance over what filters gather and rays cost")
 TEST_CASE("uncertainty: filters one after the other gather what their kernels, convolved, do")
 {
     onEveryDevice([](const device::Device& device) {
+        MovingFrame frame(device, Kept::Full);
         const Region region(1, 1);
-        DeclaredFrame frame = frameOf(device, Frames::Layers, 1, 1);
         std::mt19937 random(5);
         for (const double own : { 1.0, 2.5 })
             for (const double lens : { 1.5, 6.0 })
@@ -271,30 +263,33 @@ TEST_CASE("uncertainty: filters one after the other gather what their kernels, c
                     in.effective.at(0, 0) = static_cast<float>(1 / std::pow(squaredWeights({ own }), 2));
                     in.lens.at(0, 0) = static_cast<float>(lens);
                     in.along.at(0, 0) = static_cast<float>(along);
+                    shared::DistributedParams p = paramsOf(region);
+                    p.alongMotion = 1;
                     const double gathered = 1 / (squaredWeights({ own, lens }) * squaredWeights({ own, lens, along }));
-                    REQUIRE(agree(uncertaintyOfRays(frame, region, true, 1, in).at(0, 0), 1 / gathered, 1e-3));
+                    REQUIRE(agree(uncertaintyOfRays(frame, region, p, in).at(0, 0), 1 / gathered, 1e-3));
                 }
     });
 }
 
 TEST_CASE("at least so many samples of one kind as of another, where taken apart and where not")
 {
-    inRegions(Frames::OneImage, 90, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
+    onEveryRegion(90, Kept::Full, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
         const Filters in(region, random);
-        PassBench bench = benchOf(frame, region, "atLeast");
-        bench.value("apart", 0.5f);
-        bench.value("together", 8.0f);
-        bench.plane("beta", in.beta);
-        bench.plane("least", in.along);
-        bench.plane("demand", in.effective);
-        bench.run();
-        const auto found = bench.pixels<float>("demand");
+        const Planes<float> before = in.effective;
+        RegionPass pass(frame, "atLeast", { "demand" });
+        pass.plane("demand", before);
+        pass.plane("beta", in.beta);
+        pass.plane("least", in.along);
+        pass.value("apart", 0.5f);
+        pass.value("together", 8.0f);
+        pass.runIn(region, paramsOf(region));
+        const auto found = pass.floats("demand");
         int raised[2] = {};
         everyPixel(region.window, [&](int x, int y) {
             const bool apart = in.beta.at(x, y) >= 0;
-            const double bound = (apart ? 0.5 : 8.0) * in.along.at(x, y), before = in.effective.at(x, y);
-            REQUIRE(agree(found.at(x, y), std::max(before, bound)));
-            raised[apart ? 1 : 0] += bound > before ? 1 : 0;
+            const double bound = (apart ? 0.5 : 8.0) * in.along.at(x, y);
+            REQUIRE(agree(found.at(x, y), std::max<double>(before.at(x, y), bound)));
+            raised[apart ? 1 : 0] += bound > before.at(x, y) ? 1 : 0;
         });
         CHECK((region.width * region.height < 100 || (raised[0] > 0 && raised[1] > 0)));
     });
@@ -302,20 +297,23 @@ TEST_CASE("at least so many samples of one kind as of another, where taken apart
 
 TEST_CASE("counts: no more new primary samples than a wave has room for")
 {
-    inRegions(Frames::Progressive, 110, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
-        PassBench bench = benchOf(frame, region, "limitStep");
-        const std::vector<std::uint32_t> taken = someCounts(random, region.layout.size, 900);
-        std::vector<std::uint32_t> wanted = someCounts(random, region.layout.size, 4000);
+    const auto test = [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
+        const auto taken = someCounts(region, random, 900), wanted = someCounts(region, random, 4000);
         // Never fewer than there are.
-        std::ranges::transform(wanted, taken, wanted.begin(), [](auto a, auto b) { return std::max(a, b); });
-        bench.plane("taken", taken);
-        bench.plane("wanted", wanted);
-        const auto has = bench.pixels<std::uint32_t>("taken"), wants = bench.pixels<std::uint32_t>("wanted");
-        bench.run();
-        const auto found = bench.pixels<std::uint32_t>("wanted");
+        Planes<std::uint32_t> atLeastTaken = wanted;
+        everyPixel({ 0, 0, region.width, region.height },
+            [&](int x, int y) { atLeastTaken.at(x, y) = std::max(wanted.at(x, y), taken.at(x, y)); });
+        RegionPass<std::uint32_t> pass(frame, "limitStep", { "wanted" });
+        pass.plane("wanted", atLeastTaken);
+        pass.plane("taken", taken);
+        pass.runIn(region, paramsOf(region));
+        const auto found = pass.pixels<std::uint32_t>("wanted");
         everyPixel(region.window, [&](int x, int y) {
-            const std::uint32_t steps = std::min(wants.at(x, y) - has.at(x, y), 1024u);
-            REQUIRE(found.at(x, y) == has.at(x, y) + steps);
+            const std::uint32_t steps = std::min(atLeastTaken.at(x, y) - taken.at(x, y), 1024u);
+            REQUIRE(found.at(x, y) == taken.at(x, y) + steps);
         });
-    });
+    };
+    render::Settings progressive = render::axisAligned(16);
+    progressive.progressive = true;
+    onEveryRegion(110, Kept::Full, test, progressive);
 }

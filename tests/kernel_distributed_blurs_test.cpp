@@ -1,11 +1,8 @@
 // distributed.cl alone: deviations and directions of the filters of what lens and shutter blur.
 #include "tests/distributed_support.h"
-#include "tests/lens_support.h"
-#include "tests/pass_bench.h"
 
 #include <array>
 #include <limits>
-#include <optional>
 
 using namespace wedge;
 using namespace wedge::test;
@@ -25,51 +22,20 @@ struct Samples {
 };
 constexpr std::array<Samples, 3> sampleKinds = { { { 1, 0 }, { 1, 16 }, { 2, 0 } } };
 
-/// The frame's own, the setting as published, and what of it a kernel is run with.
-struct Kind {
-    bool packed, published;
-    Samples samples;
-
-    shared::DistributedParams params(const PassBench& bench) const
-    {
-        auto p = bench.own<shared::DistributedParams>("p");
-        p.blurWidth = published ? 0.177f : 0.65f;
-        p.blurExponent = published ? 0 : 0.176f;
-        p.shutterWidth = published ? 0.177f : 0.86f;
-        p.shutterExponent = published ? 0 : 0.25f;
-        p.leastRadius = published ? 0.5f : 2;
-        p.oneVelocity = 0.1f;
+/// The default exponents, and those of the setting as published.
+std::vector<shared::DistributedParams> settingsOf(const Region& region, const Samples& samples)
+{
+    std::vector<shared::DistributedParams> out(2, paramsOf(region));
+    out[1].blurWidth = 0.177f;
+    out[1].blurExponent = 0;
+    out[1].shutterWidth = 0.177f;
+    out[1].shutterExponent = 0;
+    out[1].leastRadius = 0.5f;
+    for (shared::DistributedParams& p : out) {
         p.frames = samples.frames;
         p.samples = samples.expected;
-        return p;
     }
-};
-
-/// Calls test(bench, region, kind, random) with the pass of that kernel over every region's window, in frames of one
-/// image, whose planes are packed, and in those with layers.
-template <class Test>
-void inEveryKind(const std::string& kernel, unsigned seed, const Test& test)
-{
-    scene::Scene scene = smallScene();
-    displace(scene, { 0.3f, 0, 0 });
-    scene.shutterClose = 1;
-    onEveryDevice([&](const device::Device& device) {
-        unsigned of = seed;
-        for (const Region& region : regions())
-            for (const bool packed : { false, true }) {
-                DeclaredFrame frame(
-                    device, scene, sized(render::axisAligned(16), region.width, region.height), !packed);
-                for (const Samples& samples : sampleKinds)
-                    for (const bool published : { false, true }) {
-                        CAPTURE(packed);
-                        CAPTURE(published);
-                        PassBench bench(frame, kernel);
-                        bench.window(region.window);
-                        std::mt19937 random(++of);
-                        test(bench, region, Kind { packed, published, samples }, random);
-                    }
-            }
-    });
+    return out;
 }
 
 struct Motion {
@@ -89,53 +55,37 @@ struct Motion {
     }
 };
 
-/// Filters along motions.
+/// What a pass says of blurs along motions: in two planes, or in one the direction times the deviation, of 8 bits.
 struct Along {
-    explicit Along(const PassBench& bench)
-        : directions(bench.pixels<float>(bench.has("vectors") ? "vectors" : "directions"))
+    explicit Along(const PassBench& pass)
+        : inOne(pass.has("vectors"))
+        , apart(pass.has("along"))
+        , directions(pass.pixels<float>(inOne ? "vectors" : "directions"))
+        , widths(apart ? pass.pixels<float>("along") : directions)
     {
-        if (bench.has("along"))
-            widths = bench.pixels<float>("along");
+        if (!apart)
+            everyPixel(directions.layout,
+                [&](int x, int y) { widths.at(x, y) = std::hypot(directions.at(x, y), directions.at(x, y, 1)); });
+    }
+    void require(const shared::DistributedParams& p, const Motion& m, bool filtered, double n, int x, int y) const
+    {
+        const bool one = filtered && m.one(p);
+        const double width = one ? bestWidth(p.shutterWidth, p.shutterExponent, m.speed() / 2, n, 1) : 0;
+        const double scale = inOne ? width : 1, tolerance = inOne ? 1.0 / 256 : 1e-4;
+        REQUIRE(agree(widths.at(x, y), width, apart ? 1e-5 : tolerance));
+        REQUIRE(agree(directions.at(x, y), scale * (one ? m.x / m.speed() : 1), tolerance));
+        REQUIRE(agree(directions.at(x, y, 1), scale * (one ? m.y / m.speed() : 0), tolerance));
     }
 
-    Planes<float> directions;
-    std::optional<Planes<float>> widths;
+    bool inOne, apart;
+    Planes<float> directions, widths;
 };
 
-/// What a pass has made of pixel (x, y): deviations, if it keeps them, and directions, or both in one.
-void requireAlong(const PassBench& bench, const shared::DistributedParams& p, const Motion& m, bool apart, double n,
-    const Along& found, int x, int y)
+/// What lean frames have of a motion: infinity where there are several.
+Motion inLeanFrames(const shared::DistributedParams& p, const Motion& m)
 {
-    const float dx = found.directions.at(x, y), dy = found.directions.at(x, y, 1);
-    const float along = found.widths ? found.widths->at(x, y) : std::hypot(dx, dy);
-    if (bench.has("vectors")) {
-        // Direction times deviation, of 8 bits.
-        const double expected =
-            apart && m.one(p) ? bestWidth(p.shutterWidth, p.shutterExponent, m.speed() / 2, n, 1) : 0;
-        const double scale = expected > 0 ? expected / m.speed() : 0;
-        REQUIRE(agree(along, expected, found.widths ? 1e-5 : 1.0 / 256));
-        REQUIRE(agree(dx, scale > 0 ? scale * m.x : 0, 1.0 / 256));
-        REQUIRE(agree(dy, scale > 0 ? scale * m.y : 0, 1.0 / 256));
-        return;
-    }
-    if (!apart || !m.one(p)) {
-        REQUIRE(along == 0);
-        REQUIRE(dx == 1);
-        REQUIRE(dy == 0);
-        return;
-    }
-    REQUIRE(agree(along, bestWidth(p.shutterWidth, p.shutterExponent, m.speed() / 2, n, 1)));
-    REQUIRE(agree(dx, m.x / m.speed(), 1e-4));
-    REQUIRE(agree(dy, m.y / m.speed(), 1e-4));
-}
-
-/// A packed motion, or infinity where there are several.
-Motion packedMotion(const shared::DistributedParams& p, const Motion& m)
-{
-    if (m.spread > p.oneVelocity * m.speed())
-        return { std::numeric_limits<double>::infinity(), 0, 0 };
-    const auto rounded = [](double v) { return shared::unpackShort(shared::packShort(static_cast<float>(v))); };
-    return { rounded(m.x), rounded(m.y), 0 };
+    return m.spread > p.oneVelocity * m.speed() ? Motion { std::numeric_limits<double>::infinity(), 0, 0 }
+                                                : Motion { m.x, m.y, 0 };
 }
 
 Planes<std::uint32_t> randomTaken(const Region& region, std::mt19937& random)
@@ -144,7 +94,7 @@ Planes<std::uint32_t> randomTaken(const Region& region, std::mt19937& random)
         region, 1, 1u << 20, [&](int, int, std::size_t) { return random() % 4 == 0 ? 0 : random() % 100; });
 }
 
-/// What a light's first pass keeps of the motions of one pixel's shadows, of which that is the mean and the deviation.
+/// What a light's first pass keeps of the motions of one pixel's shadows.
 struct ShadowSums {
     double x, y, squared, count;
 };
@@ -192,48 +142,53 @@ std::vector<glm::dvec2> randomMotions(std::mt19937& random)
 
 TEST_CASE("blurs: of the lens where all of the pixel is blurred, of the shutter where it has one motion")
 {
-    inEveryKind("blurs", 0, [](PassBench& bench, const Region& region, const Kind& kind, std::mt19937& random) {
-        const shared::DistributedParams p = kind.params(bench);
-        auto confusion = filledPlanes(region, 2, 1e30f, [&](int x, int y, std::size_t plane) {
-            const double middle = ((x + y) % 3 - 1) * 12, half = random() % 4 == 0 ? 20 : uniform(random, 0, 12);
-            return plane == 0 ? middle - half : middle + half;
-        });
-        auto motion = filledPlanes(region, 3, 1e30f, [](int, int, std::size_t) { return 0; });
-        everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
-            const double speed = uniform(random) * uniform(random, 0, 40), angle = uniform(random, 0, 7);
-            motion.setVector(x, y,
-                { speed * std::cos(angle), speed * std::sin(angle),
-                    random() % 3 == 0 ? 0 : speed * uniform(random, 0, 0.2) });
-            if (random() % 5 == 0)
-                motion.setVector(x, y, { 0, 0, uniform(random, 0, 9) });
-            if (!kind.packed)
-                return;
-            const Motion m = packedMotion(p, { motion.at(x, y), motion.at(x, y, 1), motion.at(x, y, 2) });
-            motion.setVector(x, y, { m.x, m.y, 0 });
-        });
-        const auto taken = randomTaken(region, random);
-        bench.value("p", p);
-        bench.plane("taken", taken);
-        bench.plane("confusion", confusion);
-        confusion = bench.pixels<float>("confusion"); // as its format holds it
-        const auto third = motion.values.begin() + static_cast<std::ptrdiff_t>(2 * region.layout.size);
-        bench.plane("motion", std::vector<float>(motion.values.begin(), third));
-        if (!kind.packed)
-            bench.plane("motionSpread", std::vector<float>(third, motion.values.end()));
-        bench.run();
-        const auto lens = bench.pixels<float>("lens");
-        const Along along(bench);
-        everyPixel(region.window, [&](int x, int y) {
-            CAPTURE(x);
-            CAPTURE(y);
-            const double low = confusion.at(x, y), high = confusion.at(x, y, 1), n = kind.samples.of(taken.at(x, y));
-            const double r = low <= 0 && high >= 0 ? 0 : std::min(std::fabs(low), std::fabs(high));
-            if (std::fabs(r - p.leastRadius) > 1e-5)
-                REQUIRE(agree(lens.at(x, y), r > p.leastRadius ? bestWidth(p.blurWidth, p.blurExponent, r, n, 2) : 0));
-            const Motion m { motion.at(x, y), motion.at(x, y, 1), motion.at(x, y, 2) };
-            if (!m.uncertain(p))
-                requireAlong(bench, p, m, true, n, along, x, y);
-        });
+    onEveryRegion(1, [](MovingFrame& frame, const Region& region, std::mt19937& random) {
+        RegionPass pass(frame, "blurs", { "lens", "along", frame.lean ? "vectors" : "directions" });
+        for (const Samples& samples : sampleKinds)
+            for (const shared::DistributedParams& p : settingsOf(region, samples)) {
+                auto confusion = filledPlanes(region, 2, 1e30f, [](int, int, std::size_t) { return 0; });
+                auto motion = confusion;
+                auto spread = filledPlanes(region, 1, 1e30f, [](int, int, std::size_t) { return 0; });
+                everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
+                    const double middle = ((x + y) % 3 - 1) * 12,
+                                 half = random() % 4 == 0 ? 20 : uniform(random, 0, 12);
+                    confusion.at(x, y) = static_cast<float>(middle - half);
+                    confusion.at(x, y, 1) = static_cast<float>(middle + half);
+                    const double speed = uniform(random) * uniform(random, 0, 40), angle = uniform(random, 0, 7);
+                    Motion m { speed * std::cos(angle), speed * std::sin(angle),
+                        random() % 3 == 0 ? 0 : speed * uniform(random, 0, 0.2) };
+                    if (random() % 5 == 0)
+                        m = { 0, 0, uniform(random, 0, 9) };
+                    if (frame.lean)
+                        m = inLeanFrames(p, m);
+                    motion.at(x, y) = static_cast<float>(m.x);
+                    motion.at(x, y, 1) = static_cast<float>(m.y);
+                    spread.at(x, y) = static_cast<float>(m.spread);
+                });
+                const auto taken = randomTaken(region, random);
+                pass.plane("taken", taken);
+                pass.plane("confusion", confusion);
+                pass.plane("motion", motion);
+                if (!frame.lean)
+                    pass.plane("motionSpread", spread);
+                confusion = pass.floats("confusion");
+                motion = pass.floats("motion");
+                pass.runIn(region, p);
+                const auto lens = pass.floats("lens");
+                const Along along(pass);
+                everyPixel(region.window, [&](int x, int y) {
+                    CAPTURE(x);
+                    CAPTURE(y);
+                    const double low = confusion.at(x, y), high = confusion.at(x, y, 1), n = samples.of(taken.at(x, y));
+                    const double r = low <= 0 && high >= 0 ? 0 : std::min(std::fabs(low), std::fabs(high));
+                    if (std::fabs(r - p.leastRadius) > 1e-5)
+                        REQUIRE(agree(
+                            lens.at(x, y), r > p.leastRadius ? bestWidth(p.blurWidth, p.blurExponent, r, n, 2) : 0));
+                    const Motion m { motion.at(x, y), motion.at(x, y, 1), spread.at(x, y) };
+                    if (!m.uncertain(p))
+                        along.require(p, m, true, n, x, y);
+                });
+            }
     });
 }
 
@@ -241,45 +196,50 @@ TEST_CASE("shadows' blurs: of the mean motion of those that move, where they mov
 {
     int uncertain = 0, pixels = 0;
     std::array<int, 2> found {};
-    inEveryKind(
-        "shadowBlurs", 500, [&](PassBench& bench, const Region& region, const Kind& kind, std::mt19937& random) {
-            const shared::DistributedParams p = kind.params(bench);
-            // Sums of four kinds, or the motion itself.
-            auto shadows = filledPlanes(region, kind.packed ? 2 : 4, 1e30f, [](int, int, std::size_t) { return 0; });
-            std::vector<Motion> motions(region.layout.size);
-            everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
-                const std::vector<glm::dvec2> all = randomMotions(random);
-                const Motion mean = all.empty() ? Motion {} : motionOf(all);
-                const Motion m = motions[shadows.index(x, y)] = kind.packed ? packedMotion(p, mean) : mean;
-                const ShadowSums sums = sumsOf(all);
-                const std::vector<double> values =
-                    kind.packed ? std::vector { m.x, m.y } : std::vector { sums.x, sums.y, sums.squared, sums.count };
-                for (std::size_t k = 0; k < values.size(); ++k)
-                    shadows.at(x, y, k) = static_cast<float>(values[k]);
-            });
-            const auto beta = filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) {
-                return random() % 4 == 0 ? -1 : random() % 4 == 0 ? 0 : 0.1;
-            });
-            const auto taken = randomTaken(region, random);
-            bench.value("p", p);
-            bench.plane("taken", taken);
-            bench.plane("beta", beta);
-            bench.plane(kind.packed ? "shadowMotion" : "shadowSums", shadows);
-            bench.run();
-            const Along along(bench);
-            everyPixel(region.window, [&](int x, int y) {
-                CAPTURE(x);
-                CAPTURE(y);
-                const Motion& m = motions[shadows.index(x, y)];
-                ++pixels;
-                if (m.uncertain(p)) {
-                    ++uncertain;
-                    return;
-                }
-                ++found[m.one(p) ? 1 : 0];
-                requireAlong(bench, p, m, beta.at(x, y) >= 0, kind.samples.of(taken.at(x, y)), along, x, y);
-            });
-        });
+    onEveryRegion(500, [&](MovingFrame& frame, const Region& region, std::mt19937& random) {
+        RegionPass pass(frame, "shadowBlurs",
+            frame.lean ? std::vector<std::string> { "vectors" } : std::vector<std::string> { "along", "directions" });
+        const std::string name = frame.lean ? "shadowMotion" : "shadowSums";
+        for (const Samples& samples : sampleKinds)
+            for (const shared::DistributedParams& p : settingsOf(region, samples)) {
+                auto shadows = filledPlanes(region, frame.lean ? 2 : 4, 1e30f, [](int, int, std::size_t) { return 0; });
+                std::vector<Motion> motions(region.layout.size);
+                everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
+                    const std::vector<glm::dvec2> all = randomMotions(random);
+                    Motion& m = motions[shadows.index(x, y)] = all.empty() ? Motion {} : motionOf(all);
+                    if (frame.lean)
+                        m = inLeanFrames(p, m);
+                    const ShadowSums sums = sumsOf(all);
+                    const double values[] = { frame.lean ? m.x : sums.x, frame.lean ? m.y : sums.y, sums.squared,
+                        sums.count };
+                    for (std::size_t k = 0; k < (frame.lean ? 2 : 4); ++k)
+                        shadows.at(x, y, k) = static_cast<float>(values[k]);
+                });
+                const auto beta = filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) {
+                    return random() % 4 == 0 ? -1 : random() % 4 == 0 ? 0 : 0.1;
+                });
+                const auto taken = randomTaken(region, random);
+                pass.plane(name, shadows);
+                pass.plane("beta", beta);
+                pass.plane("taken", taken);
+                shadows = pass.floats(name);
+                pass.runIn(region, p);
+                const Along along(pass);
+                everyPixel(region.window, [&](int x, int y) {
+                    CAPTURE(x);
+                    CAPTURE(y);
+                    const Motion m =
+                        frame.lean ? Motion { shadows.at(x, y), shadows.at(x, y, 1), 0 } : motions[shadows.index(x, y)];
+                    ++pixels;
+                    if (m.uncertain(p)) {
+                        ++uncertain;
+                        return;
+                    }
+                    ++found[m.one(p) ? 1 : 0];
+                    along.require(p, m, beta.at(x, y) >= 0, samples.of(taken.at(x, y)), x, y);
+                });
+            }
+    });
     CHECK(uncertain < 0.01 * pixels);
     CHECK(found[0] > 1000);
     CHECK(found[1] > 1000);
