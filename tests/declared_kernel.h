@@ -14,7 +14,7 @@
 namespace wedge::test {
 
 /// What a kernel is handed: a plane in memory, a value, or nothing.
-struct Handed {
+struct Handed { // NOLINT(bugprone-exception-escape): as Buffer
     graph::Argument argument; ///< of a plane its name and group alone
     graph::Format format = graph::floats;
     cl::Buffer memory = {}; ///< of a plane

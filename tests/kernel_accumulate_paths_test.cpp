@@ -10,6 +10,12 @@ using namespace wedge::test;
 
 namespace {
 
+/// How pixels keep a term.
+struct Kept {
+    std::uint32_t published;
+    bool lean;
+};
+
 constexpr double leastTexture = 1e-6; ///< as accumulate.cl has it
 
 /// Indirect light of one component after all rounds, and what it is expected to be.
@@ -48,17 +54,17 @@ TEST_CASE(
 {
     onEveryDevice([](const device::Device& device) {
         for (const bool glossy : { false, true })
-            for (const auto& [published, lean] : { std::pair(0u, false), { 1u, false }, { 0u, true } })
+            for (const Kept& kept : { Kept { 0, false }, { 1, false }, { 0, true } })
                 for (const TermCount count : { more, oneEach, fewer, skipping })
                     for (const Rounds& rounds : { oneRound, threeRounds }) {
                         CAPTURE(glossy);
-                        CAPTURE(published);
-                        CAPTURE(lean);
+                        CAPTURE(kept.published);
+                        CAPTURE(kept.lean);
                         CAPTURE(rounds.size());
                         CAPTURE(nameOf(count));
                         Accumulation a(device, width, height, window, Receivers::All);
-                        a.published = published;
-                        a.lean = lean;
+                        a.published = kept.published;
+                        a.lean = kept.lean;
                         const auto arrives = [](const SeenPoint& p) { return p.irradiance; };
                         const TermPixels term = accumulated(
                             a, rounds, count, false,

@@ -6,7 +6,8 @@
 // integrals over the surface, and pixels are not alike in what they see of it. Of the neighbours along a line comes,
 // fitted, not their mean but what a straight line through them has at the pixel. Here is what neighbours weigh, and
 // their sums; filter.cl has the passes. Each program that filters sets WEDGE_GATHER_CHANNELS, the planes of value.
-// WEDGE_NORMAL_FORMAT and WEDGE_SIZE_FORMAT are the formats of the planes of normals and of pixels' sizes.
+// WEDGE_NORMAL_FORMAT and WEDGE_SIZE_FORMAT are the formats of the planes of normals and of pixels' sizes: floats, if
+// they are not set.
 // Those of WEDGE_GATHER_MEAN_SQUARE weigh a pair by the mean of both bandwidths' squares (6.23), whatever `narrower`
 // says. They are programs of their own since a test of a parameter in each tap takes several times as long. And all is
 // inlined by order: compilers leave calls, with vectors in memory, to functions of this size, and gathers took twice as
@@ -38,6 +39,11 @@
 #define WEDGE_WIDEST_PAIR 1.41421356f
 #else
 #define WEDGE_WIDEST_PAIR 1.0f
+#endif
+
+#ifndef WEDGE_NORMAL_FORMAT
+#define WEDGE_NORMAL_FORMAT float3
+#define WEDGE_SIZE_FORMAT float1
 #endif
 
 /// What a block of pixels needs to weigh its neighbours.
