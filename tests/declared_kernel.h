@@ -75,7 +75,6 @@ inline void runDeclared(KernelBench& bench, graph::Graph& graph, graph::Pass pas
         use.group = each.argument.group;
         pass.arguments.push_back(use);
     }
-    pass.name = pass.kernel.name;
     pass.always = true;
     graph.add(pass);
     const graph::Plan plan(graph, device::partAlignment);
@@ -90,7 +89,8 @@ inline void launchDeclared(
 {
     graph::Graph graph(1, 1, 1);
     runDeclared(bench, graph,
-        { .kernel = kernel,
+        { .name = kernel.name,
+            .kernel = kernel,
             .domain = graph::Domain::Items,
             .count = [items](const graph::Launch&) { return items; },
             .mostItems = items },
@@ -109,7 +109,7 @@ void launchDeclared(KernelBench& bench, const graph::KernelName& kernel, const r
         return p;
     };
     handed.insert(handed.begin(), Handed { graph::made("p", rectangle) });
-    runDeclared(bench, graph, { .kernel = kernel, .domain = graph::Domain::Pixels }, handed, 0);
+    runDeclared(bench, graph, { .name = kernel.name, .kernel = kernel, .domain = graph::Domain::Pixels }, handed, 0);
 }
 
 } // namespace wedge::test

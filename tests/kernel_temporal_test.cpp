@@ -1,6 +1,6 @@
 // temporal.cl alone: against the same on the host, in double.
 #include "kernels/shared/temporal.h"
-#include "tests/render_support.h"
+#include "tests/declared_kernel.h"
 
 #include <cmath>
 
