@@ -141,7 +141,7 @@ struct TermPixels {
     device::Buffer<float> texture, value, plain, squares, textureSquares, radiance, deviation, extremes, shadows;
     device::Buffer<float> error, extreme, spreads; ///< of lean frames
     device::Buffer<std::uint32_t> wanted, taken, samples, ofPaths;
-    std::vector<TermMeans> means, measured; ///< measured: after the first wave, which alone measures packed terms
+    std::vector<TermMeans> means, measured; ///< measured: after the first wave, which alone measures in lean frames
     std::size_t round = 0;
     TermCount count;
     bool light = false; ///< or indirect light
@@ -251,7 +251,7 @@ struct TermPixels {
             CAPTURE(x);
             CAPTURE(y);
             const TermMeans& m = means[after.index(x, y)];
-            // A rounding decides between two of packed ones.
+            // In fewer bits a rounding decides between two.
             const double unitOfTexture = unitOf(m.texture, bitsOfTexture(a)),
                          unitOfValue = unitOf(m.value, bitsOfValue(a));
             const bool nearTexture = nearTo(k.vector(x, y), m.texture),

@@ -290,7 +290,7 @@ inline void accumulateSurfaces(Accumulation& a, SurfacePixels& out, const shared
     };
     const bool layers = !a.lean, spread = a.moves && !a.lean;
     a.launch("accumulateSurfaces",
-        std::vector { value("camera", camera), plane("objectId", a.objectId),
+        std::vector { value("camera", camera), value("raysOfImage", layers ? 1u : 0u), plane("objectId", a.objectId),
             vectors("position", a.vectors([](const SeenPoint& p) { return p.position; })),
             vectors("normal", a.vectors([](const SeenPoint& p) { return p.normal; })), plane("gloss", a.glosses()),
             vectors("diffuse", a.vectors([](const SeenPoint& p) { return p.diffuse; })),

@@ -48,12 +48,6 @@ inline std::uint32_t wordOf(float x)
     std::memcpy(&out, &x, sizeof(out));
     return out;
 }
-inline float floatOf(std::uint32_t word)
-{
-    float out;
-    std::memcpy(&out, &word, sizeof(out));
-    return out;
-}
 
 /// The vectors of planes of so many bits.
 inline Planes<float> coloursOf(const Planes<float>& packed, std::uint32_t bits)
@@ -113,24 +107,6 @@ inline Planes<float> packedNumbers(const Planes<float>& first, const Planes<floa
     for (std::size_t i = 0; i < 2 * n; ++i) {
         const auto bits = static_cast<std::uint16_t>(shared::packShort(i < n ? first.values[i] : second.values[i - n]));
         std::memcpy(bytes + sizeof(bits) * i, &bits, sizeof(bits));
-    }
-    return out;
-}
-
-/// Three planes of colours in fewer bits, or as they are.
-inline Planes<float> packedColours(const Planes<float>& colours, std::uint32_t bits)
-{
-    if (bits == plainBits)
-        return colours;
-    const std::size_t n = colours.layout.size;
-    Planes<float> out(colours.layout, 2, 0.0f);
-    char* high = reinterpret_cast<char*>(out.values.data() + n);
-    for (std::size_t i = 0; i < n; ++i) {
-        const shared::Vec3 c = shared::vec3(colours.values[i], colours.values[n + i], colours.values[2 * n + i]);
-        const shared::PackedColour packed = shared::packColour(c);
-        const auto bits16 = static_cast<std::uint16_t>(packed.high);
-        out.values[i] = floatOf(bits == fractionBits ? shared::packFraction(c) : packed.low);
-        std::memcpy(high + sizeof(bits16) * i, &bits16, sizeof(bits16));
     }
     return out;
 }

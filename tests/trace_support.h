@@ -41,7 +41,7 @@ struct SurfaceBuffers {
         , ofWaves(bench.filled(1, 0u))
     {
     }
-    /// What kernels take for WEDGE_RECEIVER_PARAMETERS, the pixels being the receivers.
+    /// What kernels take for WEDGE_RECEIVER_ARGUMENTS, the pixels being the receivers.
     auto receivers() const
     {
         return std::tie(position, normal, origin, geometric, objectId, gloss, ofWaves, ofWaves, ofWaves);

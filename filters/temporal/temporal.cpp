@@ -268,7 +268,6 @@ struct TemporalFilter::Declaration {
         f.pixels(pass, PassKind::Filter, { file, "finishTemporal" },
             { f.rectangle(params), reads("diffuse", f.surfaces.diffuse), reads("specular", f.surfaces.specular),
                 reads("sum", sum), reads("counts", counts), updates("direct", t.direct.filtered),
-
                 indirect ? updates("indirect", t.indirect.filtered) : graph::absent("indirect", graph::vectors),
                 updates("beauty", t.beauty) });
         want(t.direct.filtered, t.beauty);

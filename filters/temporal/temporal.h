@@ -55,7 +55,7 @@ public:
 
     /// Launches its kernels over nothing, so that none is compiled later. After Renderer::rehearse().
     void rehearse(render::Renderer& renderer, const render::Settings& settings);
-    /// Calls look() with all of its passes, and runs none. After Renderer::rehearse().
+    /// Calls look() with all of its passes, and runs none: for tests of single ones. After Renderer::rehearse().
     void show(render::Renderer& renderer, const render::Settings& settings,
         const std::function<void(const graph::Graph&)>& look);
 

@@ -147,8 +147,8 @@ inline Argument tallies(std::string name, Version& version)
 /// STORE_GROUP(size, at, in) read and write the members NAME of a structure; those that are only read are not written.
 std::vector<Argument> group(const std::string& name, std::vector<Argument> arguments);
 
-/// There is no resource of that name: the kernel has no parameter for it, reads nothing, `format`'s, and writes
-/// nothing.
+/// There is no resource of that name: the kernel has no parameter for it, reads zero as that format has it, and
+/// writes nothing.
 inline Argument absent(std::string name, const Format& format = floats)
 {
     Argument out { std::move(name) };

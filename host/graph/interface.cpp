@@ -17,29 +17,27 @@ std::string macro(const std::string& name, const std::string& parameters, const 
     return fmt::format("#undef {0}\n#define {0}{1} {2}\n", name, parameters, meaning);
 }
 
-/// How a plane is read and written. Both, whatever the pass does: the parameter's type says what may be done.
-std::string planeMacros(const std::string& name, const Format& format)
+/// How a plane is read and written. Both, whatever the pass does: the parameter's type says what may be done. What
+/// another kernel of the file had of that name is forgotten.
+std::string planeMacros(const std::string& name, const Format& format, bool absent)
 {
-    std::string out = macro("HAS_" + name, "", "1") + macro("PLANE_" + name, "", name);
-    if (format.whole) {
-        out += macro("FORMAT_" + name, "", std::string(format.name));
-        out += macro("LOAD_" + name, "(size, at)", fmt::format("load_{}({}, size, at)", format.name, name));
-        out += macro(
-            "STORE_" + name, "(size, at, value)", fmt::format("store_{}({}, size, at, value)", format.name, name));
+    std::string out;
+    for (const char* what : { "FORMAT_", "LOAD_", "STORE_", "LOAD16_" }) {
+        out += fmt::format("#undef {}{}\n", what, name);
     }
-    if (format.blocks) {
-        out += macro("LOAD16_" + name, "(size, at)", fmt::format("load16_{}({}, size, at)", format.name, name));
+    out += macro("HAS_" + name, "", absent ? "0" : "1");
+    out += macro("PLANE_" + name, "", absent ? fmt::format("((__global const {} *)0)", format.storage) : name);
+    if (format.whole) {
+        out += fmt::format("#define FORMAT_{} {}\n", name, format.name);
+        out += fmt::format("#define LOAD_{}(size, at) {}\n", name,
+            absent ? fmt::format("none_{}()", format.name) : fmt::format("load_{}({}, size, at)", format.name, name));
+        out += fmt::format("#define STORE_{}(size, at, value) {}\n", name,
+            absent ? "(void)(value)" : fmt::format("store_{}({}, size, at, value)", format.name, name));
+    }
+    if (format.blocks && !absent) {
+        out += fmt::format("#define LOAD16_{0}(size, at) load16_{1}({0}, size, at)\n", name, format.name);
     }
     return out;
-}
-
-/// The same where there is none.
-std::string absentMacros(const std::string& name, const Format& format)
-{
-    return macro("HAS_" + name, "", "0")
-        + macro("PLANE_" + name, "", fmt::format("((__global const {} *)0)", format.storage))
-        + macro("LOAD_" + name, "(size, at)", fmt::format("none_{}()", format.name))
-        + macro("STORE_" + name, "(size, at, value)", "(void)(value)");
 }
 
 /// Where in a pass's rectangle an item is, and the end of those beside it. Blocks have indices with signs, which
@@ -141,11 +139,11 @@ std::string interfaceText(const Graph& graph, const Pass& pass)
     for (const Argument& argument : pass.arguments) {
         parameters += (parameters.empty() ? "" : ", ") + parameterOf(graph, pass, argument);
         if (argument.isUse()) {
-            macros += planeMacros(argument.name, graph.resources()[argument.version.resource].format);
+            macros += planeMacros(argument.name, graph.resources()[argument.version.resource].format, false);
         }
     }
     for (const Argument& argument : pass.absent) {
-        macros += absentMacros(argument.name, *argument.absent);
+        macros += planeMacros(argument.name, *argument.absent, true);
     }
     macros += groupMacros(pass);
     if (pass.domain == Domain::Tiles) {

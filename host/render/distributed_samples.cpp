@@ -371,8 +371,9 @@ void DistributedSamples::accumulateSurfaces(Waves& waves, const Adding& adding)
     };
     const bool measures = adding.measures, layers = shape_.layers, moves = keepsMotion();
     waves.pixels("accumulateSurfaces",
-        joined({ waves.pixelParams(), waves.params(), value("camera", camera_) }, waves.pixelLists(),
-            waves.receiverSurfaces(), Arguments { updates("taken", waves.counts().taken) },
+        joined(
+            { waves.pixelParams(), waves.params(), value("camera", camera_), value("raysOfImage", layers ? 1u : 0u) },
+            waves.pixelLists(), waves.receiverSurfaces(), Arguments { updates("taken", waves.counts().taken) },
             graph::group("kept",
                 { updates("hits", hits_), updates("objectId", s.objectId), updates("position", s.position),
                     updates("normal", s.normal), kept(measures, "gloss", s.gloss, wholeGloss),

@@ -111,7 +111,7 @@ struct FrameBuilder {
     PlaneLayout layout;
     std::size_t packetSize; ///< pixels of a work-item over tiles
     bool narrowLobes = false; ///< SceneTraits::narrowLobes, and the pixels are the receivers
-    bool lean = false; ///< pixels that have several receivers keep little, see SampleShape::full
+    bool lean = false; ///< pixels that have several receivers keep little, see SampleShape::lean()
     Surfaces surfaces = {};
     Totals totals = {};
     /// By names of layers of terms, each with its term's (effect.h), what terms keep for them; null where no layers are

@@ -121,7 +121,7 @@ __kernel void oneOfPaths(PARAMETERS)
     const uint16 count = loadIdBlock(taken, i);
     const float16 scale = 1.0f / max16(convert_float16(count), (float16)(1.0f));
     Vec3x16 all = loadVecBlock(value, size, i);
-    Vec3x16 ofPart = loadColours16(parts, size, i);
+    Vec3x16 ofPart = LOAD16_parts(size, i);
     if (fractions != 0u) {
         const float16 whole = loadBlock(value + 3u * size, i);
         // Where no sample would have brought anything, nothing is hidden: 0 would darken neighbours.

@@ -45,12 +45,16 @@ WEDGE_FORMAT(range16, float, float2, (float2)(0.0f), (float2)(loadShort(plane, s
                              : 0.0f))
 
 /// Unit vectors, alone or with another behind: the normal without its map, which filters tell planes by
-/// (load_unmapped_X).
+/// (load_unmapped_X). Alone it is its own.
 WEDGE_FORMAT(normal32, float, Vec3, WEDGE_NO_VECTOR, unpackNormal(((__global const uint*)plane)[at]),
     ((__global uint*)plane)[at] = packNormal(value))
 WEDGE_FORMAT(
     normal64, float, Vec3, WEDGE_NO_VECTOR, load_normal32(plane, size, at), store_normal32(plane, size, at, value))
 WEDGE_FORMAT(normal192, float, Vec3, WEDGE_NO_VECTOR, loadVec(plane, size, at), storeVec(plane, size, at, value))
+WEDGE_FORMAT(
+    unmapped_float3, float, Vec3, WEDGE_NO_VECTOR, load_float3(plane, size, at), store_float3(plane, size, at, value))
+WEDGE_FORMAT(unmapped_normal32, float, Vec3, WEDGE_NO_VECTOR, load_normal32(plane, size, at),
+    store_normal32(plane, size, at, value))
 WEDGE_FORMAT(unmapped_normal64, float, Vec3, WEDGE_NO_VECTOR, load_normal32(plane + size, size, at),
     store_normal32(plane + size, size, at, value))
 WEDGE_FORMAT(unmapped_normal192, float, Vec3, WEDGE_NO_VECTOR, load_float3(plane + 3u * size, size, at),

@@ -179,7 +179,7 @@ __kernel void addLobeSamples(PARAMETERS)
     const int16 has = count != 0u;
     const float16 per = 1.0f / max16(convert_float16(count), (float16)(1.0f));
     Vec3x16 k = loadVecBlock(specular, p.planeSize, i);
-    const Vec3x16 part = loadColours16(parts, p.planeSize, i);
+    const Vec3x16 part = LOAD16_parts(p.planeSize, i);
     const float16 mean = per * luminance16(loadVecBlock(sums, p.planeSize, i));
     const float16 off = luminance16(k) * deviation16(mean, part.x, count, firstPass);
     addShorts(deviation, p.planeSize, i, has ? off : (float16)(0.0f));

@@ -224,8 +224,8 @@ WEDGE_FN void addGloss(GlossSum* s, Gloss g)
 ///         wave that saw a lobe), diffuse, specular, emission, emissionSquares (squared luminance), motion; objectId
 ///         (0: no surface, WEDGE_MIXED: several objects); hits; confusion: least and largest signed radius of the
 ///         circle of confusion, pixels; motionSpread: largest difference of motions from the mean; where there is none,
-///         the mean motion of pixels whose motions differ is infinite; rays, pathRays: of pixels, or, without layers,
-///         of the wave's; taken
+///         the mean motion of pixels whose motions differ is infinite; rays, pathRays: of the image's pixels where
+///         raysOfImage is 1, else of the wave's; taken
 #include "pass/accumulateSurfaces.h"
 #ifdef PASS_accumulateSurfaces
 __kernel void accumulateSurfaces(PARAMETERS)
@@ -284,8 +284,9 @@ __kernel void accumulateSurfaces(PARAMETERS)
     STORE_kept_specular(pixels, p.i, meanVec(LOAD_kept_specular(pixels, p.i), before, ks, count));
     STORE_kept_confusion(pixels, p.i, (float2)(low, high));
     taken[p.i] = p.before + p.count;
-    kept_rays[HAS_kept_distance ? p.i : p.slot] += traced;
-    kept_pathRays[HAS_kept_distance ? p.i : p.slot] += paths;
+    const uint counted = raysOfImage != 0u ? p.i : p.slot;
+    kept_rays[counted] += traced;
+    kept_pathRays[counted] += paths;
     if (hit == 0.0f) {
         // Misses, or a light that is seen.
         STORE_kept_distance(pixels, p.i, hits > 0.0f ? LOAD_kept_distance(pixels, p.i) : depth[p.first]);

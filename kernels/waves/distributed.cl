@@ -277,7 +277,8 @@ __kernel void fallBackTerm(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
     const uint n = p.planeSize;
-    const float own = loadShort(shares, n, i, 0u), ratio = loadShort(shares, n, i, 1u);
+    const float2 share = LOAD_shares(n, i);
+    const float own = share.x, ratio = share.y;
     // Where nothing is shared what is not filtered is not looked at.
     if (!(own > 0.0f) && ratio == 0.0f) {
         return;
