@@ -97,10 +97,10 @@ inline void launchDeclared(
         handed, 1);
 }
 
-/// Over pixels; params: the kernel's first, "p", which get the rectangle.
+/// Over pixels, or blocks of them; params: the kernel's first, "p", which get the rectangle.
 template <class Params>
 void launchDeclared(KernelBench& bench, const graph::KernelName& kernel, const render::PlaneLayout& layout,
-    const Params& params, std::vector<Handed> handed)
+    const Params& params, std::vector<Handed> handed, graph::Domain domain = graph::Domain::Pixels)
 {
     graph::Graph graph(static_cast<int>(layout.width), static_cast<int>(layout.height), layout.size);
     const auto rectangle = [params](const graph::Launch& launch) {
@@ -109,7 +109,7 @@ void launchDeclared(KernelBench& bench, const graph::KernelName& kernel, const r
         return p;
     };
     handed.insert(handed.begin(), Handed { graph::made("p", rectangle) });
-    runDeclared(bench, graph, { .name = kernel.name, .kernel = kernel, .domain = graph::Domain::Pixels }, handed, 0);
+    runDeclared(bench, graph, { .name = kernel.name, .kernel = kernel, .domain = domain }, handed, 0);
 }
 
 } // namespace wedge::test

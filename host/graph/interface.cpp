@@ -30,9 +30,11 @@ std::string planeMacros(const std::string& name, const Format& format, bool abse
     if (format.whole) {
         out += fmt::format("#define FORMAT_{} {}\n", name, format.name);
         out += fmt::format("#define LOAD_{}(size, at) {}\n", name,
-            absent ? fmt::format("none_{}()", format.name) : fmt::format("load_{}({}, size, at)", format.name, name));
+            absent ? fmt::format("((void)(size), (void)(at), none_{}())", format.name)
+                   : fmt::format("load_{}({}, size, at)", format.name, name));
         out += fmt::format("#define STORE_{}(size, at, value) {}\n", name,
-            absent ? "(void)(value)" : fmt::format("store_{}({}, size, at, value)", format.name, name));
+            absent ? "((void)(size), (void)(at), (void)(value))"
+                   : fmt::format("store_{}({}, size, at, value)", format.name, name));
     }
     if (format.blocks && !absent) {
         out += fmt::format("#define LOAD16_{0}(size, at) load16_{1}({0}, size, at)\n", name, format.name);

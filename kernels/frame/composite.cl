@@ -61,12 +61,10 @@ __kernel void addDiffuse(PARAMETERS)
     addBlock(direct, size, i, loadBlock(value, i), reflected);
     const float16 mean = loadBlock(noisy, i);
     addBlock(directNoisy, size, i, mean, reflected);
-#if HAS_parts
-    if (params.firstPass > 0u) {
-        const float16 ofPart = loadShortsBlock(parts, size, i, 0u);
+    if (HAS_parts && params.firstPass > 0u) {
+        const float16 ofPart = loadShortsBlock(PLANE_parts, size, i, 0u);
         addDeviation(deviation, size, i, deviation16(mean, ofPart, loadIdBlock(taken, i), params.firstPass), reflected);
     }
-#endif
 }
 #endif
 
@@ -113,12 +111,10 @@ __kernel void addSpecular(PARAMETERS)
     addBlock(direct, size, i, mirrors ? loadBlock(value + size, i) : (float16)(0.0f), reflected);
     const float16 mean = mirrors ? loadBlock(noisy + size, i) : (float16)(0.0f);
     addBlock(directNoisy, size, i, mean, reflected);
-#if HAS_parts
-    if (params.firstPass > 0u) {
-        const float16 ofPart = mirrors ? loadShortsBlock(parts, size, i, 1u) : (float16)(0.0f);
+    if (HAS_parts && params.firstPass > 0u) {
+        const float16 ofPart = mirrors ? loadShortsBlock(PLANE_parts, size, i, 1u) : (float16)(0.0f);
         addDeviation(deviation, size, i, deviation16(mean, ofPart, loadIdBlock(taken, i), params.firstPass), reflected);
     }
-#endif
 }
 #endif
 
@@ -159,10 +155,10 @@ __kernel void addPathSamples(PARAMETERS)
     const int16 has = loadIdBlock(taken, i) != 0u;
     const Vec3x16 k = reflectanceOf(p, component, reflectance, i);
     addTerm(p, component, k, has, value, i, indirectNoisy);
-#if HAS_deviations
-    const float16 off = luminance16(k) * loadBlock(deviations, i);
-    addShorts(deviation, p.planeSize, i, has ? off : (float16)(0.0f));
-#endif
+    if (HAS_deviations) {
+        const float16 off = luminance16(k) * loadBlock(PLANE_deviations, i);
+        addShorts(deviation, p.planeSize, i, has ? off : (float16)(0.0f));
+    }
 }
 #endif
 

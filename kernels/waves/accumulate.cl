@@ -322,6 +322,9 @@ __kernel void accumulateSurfaces(PARAMETERS)
     STORE_kept_motion(
         pixels, p.i, HAS_kept_motionSpread ? (float2)(meanX, meanY) : oneMotion(wave, meanX, meanY, spread));
     STORE_kept_motionSpread(pixels, p.i, spread);
+#else
+    (void)moveX;
+    (void)moveY;
 #endif
 }
 #endif

@@ -2,6 +2,7 @@
 // is before a light, it is that of the light times the share of the pixel, and of the lens, that it covers. Primary
 // samples then add what they see besides (wave_primary.cl): the edge of a bright light has no noise.
 #include "core/pixel.h"
+#include "light/seen_light.h"
 #include "shared/camera.h"
 #include "shared/coverage.h"
 
