@@ -138,12 +138,14 @@ inline std::string nameOf(TermCount count)
 /// A term's planes of pixels, and what they are to hold.
 struct TermPixels {
     Planes<std::uint32_t> before, after; ///< samples taken before and after a round
-    device::Buffer<float> texture, value, plain, squares, textureSquares, radiance, deviation, extremes;
+    device::Buffer<float> texture, value, plain, squares, textureSquares, radiance, deviation, extremes, shadows;
+    device::Buffer<float> error, extreme, spreads; ///< of lean frames
     device::Buffer<std::uint32_t> wanted, taken, samples, ofPaths;
-    std::vector<TermMeans> means, measured; ///< measured: after the first wave, which alone measures packed terms
+    std::vector<TermMeans> means, measured; ///< measured: after the first wave, which alone measures in lean frames
     std::size_t round = 0;
     TermCount count;
     bool light = false; ///< or indirect light
+    bool moves = false; ///< things whose shadows are seen
 
     TermPixels(Accumulation& a, TermCount counts, double floor = 0)
         : before(a.waves.layout, 1, 0u)
@@ -155,7 +157,11 @@ struct TermPixels {
         , textureSquares(a.pixelBuffer(1))
         , radiance(a.pixelBuffer(3))
         , deviation(a.pixelBuffer(1))
-        , extremes(a.pixelBuffer(6))
+        , extremes(a.pixelBuffer(3))
+        , shadows(a.pixelBuffer(4))
+        , error(a.pixelBuffer(1))
+        , extreme(a.pixelBuffer(1))
+        , spreads(a.pixelBuffer(1))
         , wanted(a.waves.bench.filled(a.waves.layout.size, 0u))
         , taken(a.waves.bench.filled(a.waves.layout.size, 0u))
         , samples(a.waves.bench.filled(a.waves.layout.size, 0u))
@@ -176,15 +182,32 @@ struct TermPixels {
         });
         wanted = a.waves.bench.buffer(after.values);
         // Lean frames know from elsewhere how many there are before a wave.
-        taken = a.packed != 0 ? a.waves.bench.buffer(before.values) : taken;
+        taken = a.lean ? a.waves.bench.buffer(before.values) : taken;
         ++round;
     }
-    std::uint32_t bitsOfTexture(const Accumulation& a) const { return shared::textureBits(a.packed, light); }
-    std::uint32_t bitsOfValue(const Accumulation& a) const { return shared::valueBits(a.packed, light); }
-    /// For the planes of WEDGE_TERM_ARGUMENTS, termWanted and termTaken before them.
-    auto planes() const
+    std::uint32_t bitsOfTexture(const Accumulation& a) const { return textureBits(a.lean, light); }
+    std::uint32_t bitsOfValue(const Accumulation& a) const { return valueBits(a.lean, light); }
+    /// What the kernels are handed of it.
+    std::vector<Handed> planes(const Accumulation& a) const
     {
-        return std::tie(wanted, taken, texture, value, plain, squares, textureSquares, radiance, deviation, extremes);
+        const bool sums = a.measures && !a.lean, once = a.measures && a.lean;
+        std::vector<Handed> out = group("term",
+            { plane("texture", texture, Accumulation::colour(bitsOfTexture(a))),
+                plane("value", value, Accumulation::colour(bitsOfValue(a))),
+                onlyIf(a.published != 0, vectors("radiance", radiance)), plane("deviation", deviation, a.number()),
+                onlyIf(sums, plane("plain", plain)), onlyIf(sums, plane("squares", squares)),
+                onlyIf(sums, plane("textureSquares", textureSquares)),
+                onlyIf(once, plane("error", error, render::shortFloats)),
+                onlyIf(once, plane("spreads", spreads, render::shortPairs)) });
+        const graph::Format ends = light ? graph::pairs : graph::vectors;
+        const std::vector<Handed> others { plane("wanted", wanted), plane("termTaken", taken),
+            onlyIf(sums, plane("extremes", extremes, ends)),
+            onlyIf(once, plane("extreme", extreme, render::shortFloats)),
+            onlyIf(sums && moves, plane("shadowSums", shadows, graph::floatPlanes(4))),
+            onlyIf(once && moves, plane("shadowMotion", shadows, render::shortPairs)),
+            onlyIf(!a.lean, plane("samples", samples)), onlyIf(!a.lean, plane("indirectSamples", ofPaths)) };
+        out.insert(out.end(), others.begin(), others.end());
+        return out;
     }
 
     /// Adds the receivers' slopes or distances to the expected ones; before expect().
@@ -210,7 +233,7 @@ struct TermPixels {
         for (TermMeans& m : means) {
             m.texture = rounded(m.texture, bitsOfTexture(a));
             m.value = rounded(m.value, bitsOfValue(a));
-            if (a.packed != 0)
+            if (a.lean)
                 m.deviation =
                     static_cast<double>(shared::unpackShort(shared::packShort(static_cast<float>(m.deviation))));
         }
@@ -220,7 +243,7 @@ struct TermPixels {
     void check(Accumulation& a) const
     {
         const auto k = coloursOf(a.read(texture), bitsOfTexture(a)), e = coloursOf(a.read(value), bitsOfValue(a));
-        const auto own = a.read(radiance), noise = a.packed != 0 ? numbersOf(a.read(deviation), 0) : a.read(deviation);
+        const auto own = a.read(radiance), noise = a.lean ? numbersOf(a.read(deviation), 0) : a.read(deviation);
         for (const Planes<float>* plane : { &k, &e, &own, &noise })
             checkElsewhere(a, *plane);
         int apart = 0, noisy = 0, pixels = 0;
@@ -228,7 +251,7 @@ struct TermPixels {
             CAPTURE(x);
             CAPTURE(y);
             const TermMeans& m = means[after.index(x, y)];
-            // A rounding decides between two of packed ones.
+            // In fewer bits a rounding decides between two.
             const double unitOfTexture = unitOf(m.texture, bitsOfTexture(a)),
                          unitOfValue = unitOf(m.value, bitsOfValue(a));
             const bool nearTexture = nearTo(k.vector(x, y), m.texture),
@@ -238,23 +261,23 @@ struct TermPixels {
                 REQUIRE(std::fabs(e.at(x, y, c) - m.value[static_cast<int>(c)])
                     <= 1e-4 * m.value[static_cast<int>(c)] + 1e-6 + unitOfValue);
             REQUIRE(std::fabs(noise.at(x, y) - m.deviation)
-                <= 2e-4 * luminanceOf(m.value) + 1e-5 + (a.packed != 0 ? std::fabs(m.deviation) / 64 : 0));
+                <= 2e-4 * luminanceOf(m.value) + 1e-5 + (a.lean ? std::fabs(m.deviation) / 64 : 0));
             noisy += std::fabs(m.deviation) > 0.1 * luminanceOf(m.value) ? 1 : 0;
             apart += nearTexture && nearValue ? 0 : 1;
             ++pixels;
             REQUIRE(nearTo(own.vector(x, y), a.published != 0 ? m.radiance : glm::dvec3(0), 1e-4));
         });
-        CHECK((a.packed == 0 || apart < 0.1 * pixels));
+        CHECK((!a.lean || apart < 0.1 * pixels));
         CHECK(noisy > 0);
-        if (a.packed != 0)
-            checkMeasuredPacked(a);
+        if (a.lean)
+            checkMeasuredOnce(a);
         else
             checkMeasured(a);
     }
     void checkMeasured(Accumulation& a) const
     {
         const auto unweighted = a.read(plain), squared = a.read(squares), squaredTexture = a.read(textureSquares);
-        const auto found = a.read(extremes);
+        const auto found = a.read(extremes), motions = a.read(shadows);
         const auto ran = a.read(taken), all = a.read(samples);
         for (const Planes<float>* plane : { &unweighted, &squared, &squaredTexture, &found })
             checkElsewhere(a, *plane);
@@ -267,19 +290,21 @@ struct TermPixels {
             REQUIRE(nearTo(squaredTexture.at(x, y), m.textureSquares, 1e-4));
             REQUIRE(nearTo(found.at(x, y), m.leastOrNone()));
             REQUIRE(nearTo(found.at(x, y, 1), m.largest));
-            for (std::size_t plane = 2; plane < 6; ++plane)
-                REQUIRE(nearTo(found.at(x, y, plane), m.sums[plane - 2]));
+            if (!light)
+                REQUIRE(nearTo(found.at(x, y, 2), m.sums[0]));
+            for (std::size_t plane = 0; light && plane < 4; ++plane)
+                REQUIRE(nearTo(motions.at(x, y, plane), m.sums[plane]));
             REQUIRE(ran.at(x, y) == after.at(x, y));
             REQUIRE(all.at(x, y) == after.at(x, y));
         });
     }
     /// The error of taking the term apart, deviations, and the least slope or the sum of inverse distances, of the
     /// first wave.
-    void checkMeasuredPacked(Accumulation& a) const
+    void checkMeasuredOnce(Accumulation& a) const
     {
-        const auto error = numbersOf(a.read(plain), 0), extreme = numbersOf(a.read(plain), 1);
-        const auto ofSample = numbersOf(a.read(squares), 0), ofTexture = numbersOf(a.read(squares), 1);
-        for (const Planes<float>* plane : { &error, &extreme, &ofSample, &ofTexture })
+        const auto apart = numbersOf(a.read(error), 0), least = numbersOf(a.read(extreme), 0);
+        const auto ofSample = numbersOf(a.read(spreads), 0), ofTexture = numbersOf(a.read(spreads), 1);
+        for (const Planes<float>* plane : { &apart, &least, &ofSample, &ofTexture })
             checkElsewhere(a, *plane);
         int errors[2] = {}, deviations = 0;
         a.waves.everyPixel([&](int x, int y) {
@@ -287,13 +312,13 @@ struct TermPixels {
             CAPTURE(y);
             const TermMeans& m = measured[after.index(x, y)];
             const double t = luminanceOf(m.texture), l = luminanceOf(m.texture * m.value), difference = l - t * m.plain;
-            REQUIRE(std::fabs(error.at(x, y) - difference) <= unitOf(difference) + 1e-5 * (l + t * m.plain));
+            REQUIRE(std::fabs(apart.at(x, y) - difference) <= unitOf(difference) + 1e-5 * (l + t * m.plain));
             const double variances[] = { std::max(0.0, m.squares - l * l), std::max(0.0, m.textureSquares - t * t) };
             REQUIRE(
                 nearTo(std::pow(ofSample.at(x, y), 2), variances[0], 0.01 + 1e-5 * m.squares / (variances[0] + 1e-9)));
             REQUIRE(nearTo(
                 std::pow(ofTexture.at(x, y), 2), variances[1], 0.01 + 1e-5 * m.textureSquares / (variances[1] + 1e-9)));
-            REQUIRE(nearTo(extreme.at(x, y), light ? m.leastOrNone() : m.nearness(), 1.0 / 256));
+            REQUIRE(nearTo(least.at(x, y), light ? m.leastOrNone() : m.nearness(), 1.0 / 256));
             ++errors[difference > 0 ? 1 : 0];
             deviations += variances[0] > 0.01 && variances[1] > 0.01 ? 1 : 0;
         });
@@ -306,7 +331,7 @@ struct TermPixels {
     /// The one motion of a light's shadows in the first wave, or that there are several.
     void checkShadows(Accumulation& a) const
     {
-        const auto motions = a.read(extremes);
+        const auto motions = a.read(shadows);
         int one = 0, several = 0;
         a.waves.everyPixel([&](int x, int y) {
             CAPTURE(x);
@@ -347,31 +372,41 @@ inline void accumulateLight(
     const auto mean = [](const SeenPoint& p, std::size_t plane) {
         return p.weight[plane / 2] * (plane % 2 == 1 ? p.visible[plane / 2] : 1.0);
     };
-    a.launch("accumulateLight", light, exact ? 1u : 0u, a.lists.pixelFirst, a.lists.pixelCount, a.primaryTaken, a.hits,
-        a.vectors([](const SeenPoint& p) { return p.position; }),
-        a.vectors([](const SeenPoint& p) { return p.normal; }),
-        a.vectors([](const SeenPoint& p) { return p.position; }), a.objectId, a.objectId, a.glosses(), a.lists.pixelOf,
-        a.receiverBuffer<std::uint32_t>(
-            1, [](const SeenPoint& p, std::size_t) { return shared::packDirection(viewOf(p)); }),
-        a.receiverBuffer<float>(1, [](const SeenPoint&, std::size_t) { return 0; }),
-        a.vectors([](const SeenPoint& p) { return p.diffuse; }),
-        a.vectors([](const SeenPoint& p) { return p.specular; }),
-        a.sums(specular ? 4 : 2, term.before, term.after, mean),
-        a.receiverBuffer<float>(2, [](const SeenPoint& p, std::size_t k) { return p.unshadowed[k]; }),
-        a.receiverBuffer<float>(6, [](const SeenPoint& p, std::size_t k) { return p.slopes[k]; }), term.planes(),
-        term.samples);
+    a.launch("accumulateLight",
+        std::vector { value("light", light), plane("hits", a.hits, a.hitCounts()),
+            vectors("position", a.vectors([](const SeenPoint& p) { return p.position; })),
+            vectors("normal", a.vectors([](const SeenPoint& p) { return p.normal; })),
+            vectors("origin", a.vectors([](const SeenPoint& p) { return p.position; })), plane("geometric", a.objectId),
+            plane("objectId", a.objectId), plane("gloss", a.glosses()), plane("pixelOf", a.lists.pixelOf),
+            plane("view",
+                a.receiverBuffer<std::uint32_t>(
+                    1, [](const SeenPoint& p, std::size_t) { return shared::packDirection(viewOf(p)); })),
+            plane("time", a.receiverBuffer<float>(1, [](const SeenPoint&, std::size_t) { return 0; })),
+            vectors("diffuse", a.vectors([](const SeenPoint& p) { return p.diffuse; })),
+            vectors("specular", a.vectors([](const SeenPoint& p) { return p.specular; })),
+            plane("sums", a.sums(specular ? 4 : 2, term.before, term.after, mean)),
+            onlyIf(exact,
+                plane("unshadowed",
+                    a.receiverBuffer<float>(2, [](const SeenPoint& p, std::size_t k) { return p.unshadowed[k]; }),
+                    graph::pairs)),
+            plane(
+                "slopes", a.receiverBuffer<float>(6, [](const SeenPoint& p, std::size_t k) { return p.slopes[k]; })) },
+        term.planes(a));
 }
 
 /// Launches accumulatePaths for the wave; mean: of the samples of a receiver, in each channel.
 template <class Reflectance, class Mean>
 void accumulatePaths(Accumulation& a, TermPixels& term, bool ambient, const Reflectance& reflectance, const Mean& mean)
 {
-    a.launch("accumulatePaths", ambient ? 1u : 0u, a.lists.pixelFirst, a.lists.pixelCount, a.primaryTaken, a.hits,
-        a.objectId, a.vectors(reflectance),
-        a.sums(4, term.before, term.after,
-            [&](const SeenPoint& p, std::size_t c) { return c < 3 ? mean(p)[static_cast<int>(c)] : 1.0; }),
-        a.receiverBuffer<float>(3, [](const SeenPoint& p, std::size_t k) { return p.reflectors[k]; }), term.planes(),
-        term.samples, term.ofPaths);
+    a.launch("accumulatePaths",
+        std::vector { value("ambient", ambient ? 1u : 0u), plane("hits", a.hits, a.hitCounts()),
+            plane("objectId", a.objectId), vectors("reflectance", a.vectors(reflectance)),
+            plane("sums",
+                a.sums(4, term.before, term.after,
+                    [&](const SeenPoint& p, std::size_t c) { return c < 3 ? mean(p)[static_cast<int>(c)] : 1.0; })),
+            plane("reflectors",
+                a.receiverBuffer<float>(3, [](const SeenPoint& p, std::size_t k) { return p.reflectors[k]; })) },
+        term.planes(a));
 }
 
 } // namespace wedge::test

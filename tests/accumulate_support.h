@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/shared/camera.h"
+#include "tests/declared_kernel.h"
 #include "tests/packed_support.h"
 #include "tests/wave_support.h"
 
@@ -118,8 +119,6 @@ public:
         waves.everyPixel([&](int x, int y) { wanted.at(x, y) = upTo(x, y); });
         lists = waves.oneWave(taken, wanted);
         lists.wave.published = published;
-        lists.wave.packed = packed;
-        lists.wave.omits = omits;
         lists.wave.oneVelocity = oneVelocity;
         points.clear();
         for (std::size_t r = 0; r < lists.wave.receivers; ++r)
@@ -129,7 +128,7 @@ public:
     /// In lean frames the first wave alone measures.
     void end()
     {
-        omits |= packed != 0 ? WEDGE_OMITS_ANALYSIS : 0;
+        measures = measures && !lean;
         waves.everyPixel([&](int x, int y) { taken.at(x, y) = std::max(taken.at(x, y), wanted.at(x, y)); });
     }
 
@@ -179,8 +178,8 @@ public:
         return waves.bench.buffer(out);
     }
 
-    /// What planes hold beside the window. Packed, bits beside it in one layout are in it in the other.
-    float beside() const { return packed != 0 ? 0.0f : elsewhere; }
+    /// What planes hold beside the window. In fewer bits what is beside it in one layout is in it in the other.
+    float beside() const { return lean ? 0.0f : elsewhere; }
 
     /// A pixel's planes: 0 in the window.
     device::Buffer<float> pixelBuffer(std::size_t planes)
@@ -196,12 +195,25 @@ public:
         return planesOf(waves.layout, waves.bench.read(buffer));
     }
 
-    /// Launches a kernel of accumulate.cl over the wave's pixels.
-    template <class... Args>
-    void launch(const std::string& kernel, const Args&... args)
+    /// Launches a kernel of accumulate.cl over the wave's pixels. It is handed the frame, the wave and its lists, too.
+    template <class... Lists>
+    void launch(const std::string& kernel, const Lists&... more)
     {
-        waves.bench.passes.list("accumulate", device::PassKind::Trace, "waves/accumulate.cl", kernel,
-            std::size_t { lists.wave.tiles } * WEDGE_TILE_PIXELS, waves.params, lists.wave, args...);
+        std::vector<Handed> handed { value("frame", waves.params), value("wave", lists.wave),
+            plane("pixelFirst", lists.pixelFirst), plane("pixelCount", lists.pixelCount),
+            plane("taken", primaryTaken) };
+        (handed.insert(handed.end(), more.begin(), more.end()), ...);
+        launchDeclared(waves.bench, { "waves/accumulate.cl", kernel },
+            std::size_t { lists.wave.tiles } * WEDGE_TILE_PIXELS, handed);
+    }
+    /// As frames keep a number, normals and colours of so many bits.
+    graph::Format number() const { return lean ? render::shortFloats : graph::floats; }
+    graph::Format hitCounts() const { return lean ? render::shortCounts : graph::counts; }
+    static graph::Format colour(std::uint32_t bits)
+    {
+        return bits == plainBits ? graph::vectors
+            : bits == colourBits ? render::packedColours
+                                 : render::packedFractions;
     }
 
     /// All points that a pixel has seen.
@@ -218,14 +230,11 @@ public:
     device::Buffer<std::uint32_t> primaryTaken, hits; ///< as accumulateSurfaces keeps them
     WaveLists lists;
     Receivers kind;
-    /// As lean frames with filters have it. Call it before there are planes.
-    void pack()
-    {
-        packed = 1;
-        omits = WEDGE_OMITS_LAYERS | WEDGE_OMITS_EXTREMES | WEDGE_OMITS_TAKEN;
-    }
 
-    std::uint32_t published = 0, packed = 0, omits = 0; ///< as of WaveParams
+    std::uint32_t published = 0; ///< as of WaveParams
+    bool lean = false; ///< as frames of one image have it; set it before there are planes
+    bool measures = true; ///< the wave to come
+    bool moves = true; ///< there are planes of motions
     float oneVelocity = 0.1f;
     std::vector<SeenPoint> points; ///< of the wave's receivers
     device::Buffer<std::uint32_t> objectId;
@@ -244,7 +253,7 @@ inline const Rounds threeRounds = { [](int x, int y) { return total(x, y) / 3; }
 struct SurfacePixels {
     device::Buffer<std::uint32_t> object, rays, pathRays, gloss;
     device::Buffer<float> position, normal, diffuse, specular, emission, emissionSquares, pixelSize, distance,
-        confusion, motion;
+        confusion, motion, motionSpread;
     explicit SurfacePixels(Accumulation& a)
         : object(a.waves.bench.filled(a.waves.layout.size, 0u))
         , rays(a.waves.bench.filled(a.waves.layout.size, 0u))
@@ -259,7 +268,8 @@ struct SurfacePixels {
         , pixelSize(a.pixelBuffer(1))
         , distance(a.pixelBuffer(1))
         , confusion(a.pixelBuffer(2))
-        , motion(a.pixelBuffer(3))
+        , motion(a.pixelBuffer(2))
+        , motionSpread(a.pixelBuffer(1))
     {
     }
 };
@@ -278,19 +288,35 @@ inline void accumulateSurfaces(Accumulation& a, SurfacePixels& out, const shared
     const auto single = [&](const auto& value) {
         return a.receiverBuffer<float>(1, [&](const SeenPoint& p, std::size_t) { return value(p); });
     };
-    a.launch("accumulateSurfaces", camera, a.lists.pixelFirst, a.lists.pixelCount, a.objectId,
-        a.vectors([](const SeenPoint& p) { return p.position; }),
-        a.vectors([](const SeenPoint& p) { return p.normal; }), a.glosses(),
-        a.vectors([](const SeenPoint& p) { return p.diffuse; }),
-        a.vectors([](const SeenPoint& p) { return p.specular; }),
-        a.vectors([](const SeenPoint& p) { return p.emission; }),
-        single([](const SeenPoint& p) { return p.pixelSize; }), single([](const SeenPoint& p) { return p.depth; }),
-        a.receiverBuffer<float>(
-            2, [](const SeenPoint& p, std::size_t axis) { return p.motion[static_cast<int>(axis)]; }),
-        a.receiverBuffer<std::uint32_t>(1, [](const SeenPoint& p, std::size_t) { return p.rays; }),
-        a.receiverBuffer<std::uint32_t>(1, [](const SeenPoint& p, std::size_t) { return p.pathRays; }), a.primaryTaken,
-        a.hits, out.object, out.position, out.normal, out.gloss, out.diffuse, out.specular, out.emission,
-        out.emissionSquares, out.pixelSize, out.distance, out.confusion, out.motion, out.rays, out.pathRays);
+    const bool layers = !a.lean, spread = a.moves && !a.lean;
+    a.launch("accumulateSurfaces",
+        std::vector { value("camera", camera), value("raysOfImage", layers ? 1u : 0u), plane("objectId", a.objectId),
+            vectors("position", a.vectors([](const SeenPoint& p) { return p.position; })),
+            vectors("normal", a.vectors([](const SeenPoint& p) { return p.normal; })), plane("gloss", a.glosses()),
+            vectors("diffuse", a.vectors([](const SeenPoint& p) { return p.diffuse; })),
+            vectors("specular", a.vectors([](const SeenPoint& p) { return p.specular; })),
+            vectors("emission", a.vectors([](const SeenPoint& p) { return p.emission; })),
+            plane("pixelSize", single([](const SeenPoint& p) { return p.pixelSize; })),
+            plane("depth", single([](const SeenPoint& p) { return p.depth; })),
+            plane("motion",
+                a.receiverBuffer<float>(
+                    2, [](const SeenPoint& p, std::size_t axis) { return p.motion[static_cast<int>(axis)]; }),
+                graph::pairs),
+            plane("rays", a.receiverBuffer<std::uint32_t>(1, [](const SeenPoint& p, std::size_t) { return p.rays; })),
+            plane("pathRays",
+                a.receiverBuffer<std::uint32_t>(1, [](const SeenPoint& p, std::size_t) { return p.pathRays; })) },
+        group("kept",
+            { plane("hits", a.hits, a.hitCounts()), plane("objectId", out.object), vectors("position", out.position),
+                plane("normal", out.normal, a.lean ? render::packedNormals : graph::vectors),
+                onlyIf(a.measures, plane("gloss", out.gloss, a.lean ? render::shortGloss : render::wholeGloss)),
+                onlyIf(layers, vectors("diffuse", out.diffuse)), onlyIf(layers, vectors("specular", out.specular)),
+                vectors("emission", out.emission), onlyIf(a.measures, plane("emissionSquares", out.emissionSquares)),
+                onlyIf(a.measures, plane("pixelSize", out.pixelSize, a.number())),
+                onlyIf(layers, plane("distance", out.distance)),
+                plane("confusion", out.confusion, a.lean ? render::shortRanges : graph::pairs),
+                onlyIf(a.moves, plane("motion", out.motion, a.lean ? render::shortPairs : graph::pairs)),
+                onlyIf(spread, plane("motionSpread", out.motionSpread)), plane("rays", out.rays),
+                plane("pathRays", out.pathRays) }));
     a.end();
 }
 

@@ -1,19 +1,25 @@
-// What the tests of blur.cl, published.cl and distributed.cl share: planes with something else beside the image, and
-// launches that check that nothing was written but the window.
+// What the tests of blur.cl, published.cl and distributed.cl share: passes of frames whose pixels have several
+// receivers, in images that are parts of their planes, with something else beside them; a pass is to write nothing but
+// its window.
 #pragma once
 
 #include "kernels/shared/distributed.h"
-#include "tests/render_support.h"
+#include "tests/pass_bench.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 namespace wedge::test {
+
+/// Of frames in whose planes images lie from the corner on.
+inline const render::PlaneLayout& framesLayout()
+{
+    static const render::PlaneLayout layout(128, 96);
+    return layout;
+}
 
 /// An image and the window of it that kernels fill.
 struct Region {
@@ -21,8 +27,8 @@ struct Region {
         : Region(imageWidth, imageHeight, { 0, 0, imageWidth, imageHeight })
     {
     }
-    Region(int imageWidth, int imageHeight, image::Window filled)
-        : layout(imageWidth, imageHeight)
+    Region(int imageWidth, int imageHeight, image::Window filled, const render::PlaneLayout& planes = framesLayout())
+        : layout(planes)
         , window(filled)
         , width(imageWidth)
         , height(imageHeight)
@@ -42,17 +48,70 @@ inline std::vector<Region> regions()
         { 45, 29, { 16, 20, 45, 29 } } };
 }
 
-/// Calls test(bench, region, random) for every device and each of regions(), with random numbers that go on from region
+/// How a frame keeps its planes: all in floats, or those of one image in fewer bits.
+enum class Kept { Full, Lean };
+
+/// Of two area lights, a point light and paths on glossy surfaces, through a lens and a shutter while all moves.
+class MovingFrame : public DeclaredFrame {
+public:
+    MovingFrame(const device::Device& device, Kept kept, const render::Settings& settings = render::axisAligned(16),
+        const render::PlaneLayout& size = framesLayout())
+        : DeclaredFrame(device, moving(), distributed(settings, size), kept == Kept::Full)
+        , lean(kept == Kept::Lean)
+    {
+    }
+    MovingFrame(const device::Device& device, Kept kept, const render::PlaneLayout& size)
+        : MovingFrame(device, kept, render::axisAligned(16), size)
+    {
+    }
+
+    const bool lean;
+
+private:
+    static scene::Scene moving()
+    {
+        scene::Scene out = smallScene();
+        out.geometry.positionsAtClose = out.geometry.positions;
+        for (float& coordinate : out.geometry.positionsAtClose)
+            coordinate += 0.1f;
+        out.geometry.normalsAtClose = out.geometry.normals;
+        out.shutterClose = 1;
+        out.materials[0].specular = glm::vec3(0.3f);
+        out.pointLights.push_back({ glm::vec3(0, 3, 2), glm::vec3(1) });
+        out.camera.apertureRadius = 0.05f;
+        return out;
+    }
+    static render::Settings distributed(render::Settings settings, const render::PlaneLayout& size)
+    {
+        settings.antialias = true;
+        settings.bounces = 1;
+        return sized(settings, static_cast<int>(size.width), static_cast<int>(size.height));
+    }
+};
+
+/// Numbers of terms' passes: each light has one, then paths.
+inline std::size_t termOf(std::uint32_t values) { return values == 1 ? 0 : 2; }
+
+/// Calls test(frame, region, random) for every device and each of regions(), with random numbers that go on from region
 /// to region.
+template <class Test>
+void onEveryRegion(
+    unsigned seed, Kept kept, const Test& test, const render::Settings& settings = render::axisAligned(16))
+{
+    onEveryDevice([&](const device::Device& device) {
+        CAPTURE(kept);
+        MovingFrame frame(device, kept, settings);
+        std::mt19937 random(seed);
+        for (const Region& region : regions())
+            test(frame, region, random);
+    });
+}
+/// Of both kinds of frames.
 template <class Test>
 void onEveryRegion(unsigned seed, const Test& test)
 {
-    onEveryDevice([&](const device::Device& device) {
-        KernelBench bench(device);
-        std::mt19937 random(seed);
-        for (const Region& region : regions())
-            test(bench, region, random);
-    });
+    for (const Kept kept : { Kept::Full, Kept::Lean })
+        onEveryRegion(seed, kept, test);
 }
 
 inline double luminanceOf(glm::dvec3 c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
@@ -76,48 +135,45 @@ Planes<T> filledPlanes(const Region& region, std::size_t planes, T beside, const
     return out;
 }
 
-/// What output planes hold before a launch.
-template <class T>
-T untouched()
-{
-    return std::is_same_v<T, float> ? static_cast<T>(-7) : static_cast<T>(1000000007);
-}
-
-/// Planes before a launch and what they are after it.
-template <class T>
-class Output {
+/// A pass of a frame that writes planes of T, in a region.
+template <class T = float>
+class RegionPass : public PassBench {
 public:
-    Output(KernelBench& bench, const Region& region, std::size_t planes)
-        : Output(bench, region, Planes<T>(region.layout, planes, untouched<T>()))
+    /// outputs: planes that are not to change beside the window, with something in them.
+    RegionPass(
+        DeclaredFrame& frame, const std::string& kernel, const std::vector<std::string>& outputs, std::size_t nth = 0)
+        : PassBench(frame, kernel, "", nth)
+        , outputs_(outputs)
     {
+        for (const std::string& name : outputs_)
+            plane(name, std::vector<T>(read<T>(name).size(), static_cast<T>(7)));
     }
-    Output(KernelBench& bench, const Region& region, const Planes<T>& before)
-        : bench_(bench)
-        , region_(region)
-        , before_(before)
-        , buffer_(bench.buffer(before.values))
-    {
-    }
-    const device::Buffer<T>& buffer() const { return buffer_; }
 
-    /// The planes; fails if anything beside the window has changed.
-    Planes<T> read()
+    /// Over the window; fails if anything beside it has changed.
+    void runIn(const Region& region, const shared::DistributedParams& p)
     {
-        Planes<T> after = planesOf(region_.layout, bench_.read(buffer_));
-        std::vector<char> inside(region_.layout.size, 0);
-        everyPixel(region_.window, [&](int x, int y) { inside[after.index(x, y)] = 1; });
-        std::size_t written = 0;
-        for (std::size_t i = 0; i < after.values.size(); ++i)
-            written += inside[i % inside.size()] == 0 && after.values[i] != before_.values[i] ? 1 : 0;
-        REQUIRE(written == 0);
-        return after;
+        std::vector<std::vector<T>> before;
+        before.reserve(outputs_.size());
+        for (const std::string& name : outputs_)
+            before.push_back(read<T>(name));
+        value("p", p);
+        window(region.window);
+        run();
+        const std::size_t size = region.layout.size;
+        std::vector<char> inside(size, 0);
+        everyPixel(region.window, [&](int x, int y) { inside[Planes<T>(region.layout, 0, T {}).index(x, y)] = 1; });
+        for (std::size_t k = 0; k < outputs_.size(); ++k) {
+            const std::vector<T> after = read<T>(outputs_[k]);
+            std::size_t written = 0;
+            for (std::size_t i = 0; i < after.size(); ++i)
+                written += inside[i % size] == 0 && after[i] != before[k][i] ? 1 : 0;
+            REQUIRE(written == 0);
+        }
     }
+    Planes<float> floats(const std::string& name) const { return pixels<float>(name); }
 
 private:
-    KernelBench& bench_;
-    Region region_;
-    Planes<T> before_;
-    device::Buffer<T> buffer_;
+    std::vector<std::string> outputs_;
 };
 
 /// Parameters of that region, the settings as frames have them by default.
@@ -128,8 +184,8 @@ inline shared::DistributedParams paramsOf(const Region& region)
     p.y0 = static_cast<std::uint32_t>(region.window.y0);
     p.x1 = static_cast<std::uint32_t>(region.window.x1);
     p.y1 = static_cast<std::uint32_t>(region.window.y1);
-    p.width = region.layout.width;
-    p.height = region.layout.height;
+    p.width = static_cast<std::uint32_t>(region.width);
+    p.height = static_cast<std::uint32_t>(region.height);
     p.stride = region.layout.stride;
     p.planeSize = static_cast<std::uint32_t>(region.layout.size);
     p.factoringError = 0.01f;
@@ -145,14 +201,6 @@ inline shared::DistributedParams paramsOf(const Region& region)
     p.oneVelocity = 0.1f;
     p.frames = 1;
     return p;
-}
-
-/// Launches a kernel with one work-item a pixel of the window. Arguments are to outlive the launch.
-template <class... Args>
-void launchPixels(KernelBench& bench, const std::string& file, const std::string& kernel,
-    const shared::DistributedParams& p, const Args&... args)
-{
-    bench.passes.rows("test", device::PassKind::Analysis, file, kernel, p, 1, args...);
 }
 
 /// Within a fraction of b, or a little of 0.

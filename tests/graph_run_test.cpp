@@ -14,6 +14,8 @@ using test::usableDevices;
 
 namespace {
 
+constexpr Format halfFloats { .name = "half1", .bytes = 2, .storage = "half" };
+
 struct Rectangle {
     std::uint32_t x0, y0, x1, y1, width;
 };
@@ -42,7 +44,7 @@ namespace {
 void numbered(Graph& graph, Handle<Colour>& out, float scale)
 {
     graph.add({ .name = "numbered",
-        .kernel = { .file = "graph.cl", .name = "numbered", .byFormats = true },
+        .kernel = { .file = "graph.cl", .name = "numbered" },
         .arguments = { made("p", rectangleOf), value("size", elements), value("scale", scale), writes("out", out) },
         .domain = Domain::Pixels });
 }
@@ -51,7 +53,7 @@ void smoothed(Graph& graph, const Handle<Colour>& in, Handle<Colour>& out)
 {
     graph.add({ .name = "smoothed",
         .kind = PassKind::Filter,
-        .kernel = { .file = "graph.cl", .name = "smoothed", .byFormats = true },
+        .kernel = { .file = "graph.cl", .name = "smoothed" },
         .arguments = { made("p", rectangleOf), value("size", elements), value("reach", std::uint32_t { smoothReach }),
             reads("in", in, { .x = smoothReach }), writes("out", out) },
         .domain = Domain::Pixels });
@@ -65,7 +67,7 @@ void added(Graph& graph, const Handle<Colour>& in, Handle<Sum>& sum)
     const auto iteration = [](const Launch& launch) { return static_cast<std::uint32_t>(launch.run.iteration()); };
     graph.add({ .name = "added",
         .kind = PassKind::Composite,
-        .kernel = { .file = "graph.cl", .name = "added", .byFormats = true },
+        .kernel = { .file = "graph.cl", .name = "added" },
         .arguments = { value("size", elements), made("count", allElements), made("iteration", iteration),
             reads("in", in, wholeImage), updates("sum", sum) },
         .domain = Domain::Items,
@@ -76,7 +78,7 @@ void added(Graph& graph, const Handle<Colour>& in, Handle<Sum>& sum)
 void visited(Graph& graph, Handle<Sum>& visits, std::size_t tiles)
 {
     graph.add({ .name = "visited",
-        .kernel = { .file = "graph.cl", .name = "visited", .byFormats = true },
+        .kernel = { .file = "graph.cl", .name = "visited" },
         .arguments = { value("size", elements), made("count", allElements), updates("visits", visits) },
         .domain = Domain::Tiles,
         .count = [tiles](const Launch&) { return tiles; },
@@ -196,7 +198,7 @@ TEST_CASE("what is imported outlives the frames")
         history.fill(lab.queue, std::uint16_t { 0 });
         for (int frame = 0; frame < 3; ++frame) {
             Graph graph(width, height, elements);
-            auto visits = graph.imported<Sum>("visits", halves, history.cl());
+            auto visits = graph.imported<Sum>("visits", halfFloats, history.cl());
             visited(graph, visits, 10);
             graph.want(visits, { 0, 0, width, height });
             const Plan plan(graph, device::partAlignment, slabRulesOf(device.info()));
@@ -223,7 +225,7 @@ TEST_CASE("a rehearsal launches every kernel, and computes nothing")
         image.fill(lab.queue, 7.0f);
         sums.fill(lab.queue, 7.0f);
         Graph graph(width, height, elements);
-        auto visits = graph.imported<Sum>("visits", halves, history.cl());
+        auto visits = graph.imported<Sum>("visits", halfFloats, history.cl());
         auto colour = graph.imported<Colour>("colour", vectors, image.cl());
         auto sum = graph.imported<Sum>("sum", floats, sums.cl());
         bool asked = false;
@@ -311,7 +313,7 @@ TEST_CASE("faults of who declares are found before anything is launched")
     {
         auto more = graph.plane<Colour>("more", vectors);
         graph.add({ .name = "numbered",
-            .kernel = { .file = "graph.cl", .name = "numbered", .byFormats = true },
+            .kernel = { .file = "graph.cl", .name = "numbered" },
             .arguments = { made("p", rectangleOf), value("size", elements), writes("out", more) },
             .domain = Domain::Pixels });
         graph.want(more, { 0, 0, width, height });
@@ -323,7 +325,7 @@ TEST_CASE("faults of who declares are found before anything is launched")
     {
         auto more = graph.plane<Colour>("more", vectors);
         graph.add({ .name = "numbered",
-            .kernel = { .file = "graph.cl", .name = "numbered", .byFormats = true },
+            .kernel = { .file = "graph.cl", .name = "numbered" },
             .arguments = { made("p", rectangleOf), value("size", elements), value("scale", 1.0f), writes("to", more) },
             .domain = Domain::Pixels });
         graph.want(more, { 0, 0, width, height });

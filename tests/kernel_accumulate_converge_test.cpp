@@ -92,6 +92,7 @@ TEST_CASE("lights: few samples converge where the unshadowed shading is known")
                 Accumulation a(device, width, height, window, Receivers::Related,
                     specular ? Defines { { "WEDGE_SPECULAR", "1" } } : Defines());
                 TermPixels term(a, count);
+                term.light = true;
                 shared::AreaLight light {};
                 light.power = shared::vec3(3, 2, 1);
                 checkConverges(

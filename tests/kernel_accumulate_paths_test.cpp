@@ -10,6 +10,12 @@ using namespace wedge::test;
 
 namespace {
 
+/// How pixels keep a term.
+struct Kept {
+    std::uint32_t published;
+    bool lean;
+};
+
 constexpr double leastTexture = 1e-6; ///< as accumulate.cl has it
 
 /// Indirect light of one component after all rounds, and what it is expected to be.
@@ -44,31 +50,29 @@ TermPixels accumulated(Accumulation& a, const Rounds& rounds, TermCount count, b
 } // namespace
 
 TEST_CASE(
-    "paths: the means over receivers, each with samples, few with some, or a wave without any; as published, packed")
+    "paths: the means over receivers, each with samples, few with some, or a wave without any; as published, lean")
 {
     onEveryDevice([](const device::Device& device) {
         for (const bool glossy : { false, true })
-            for (const auto& [published, packed] : { std::pair(0u, false), { 1u, false }, { 0u, true } })
+            for (const Kept& kept : { Kept { 0, false }, { 1, false }, { 0, true } })
                 for (const TermCount count : { more, oneEach, fewer, skipping })
                     for (const Rounds& rounds : { oneRound, threeRounds }) {
                         CAPTURE(glossy);
-                        CAPTURE(published);
-                        CAPTURE(packed);
+                        CAPTURE(kept.published);
+                        CAPTURE(kept.lean);
                         CAPTURE(rounds.size());
                         CAPTURE(nameOf(count));
                         Accumulation a(device, width, height, window, Receivers::All);
-                        a.published = published;
-                        if (packed)
-                            a.pack();
+                        a.published = kept.published;
+                        a.lean = kept.lean;
                         const auto arrives = [](const SeenPoint& p) { return p.irradiance; };
                         const TermPixels term = accumulated(
                             a, rounds, count, false,
                             [&](const SeenPoint& p) { return glossy ? p.specular : p.diffuse; }, arrives, arrives);
                         term.check(a);
                         const auto ofPaths = a.read(term.ofPaths);
-                        a.waves.everyPixel([&](int x, int y) {
-                            REQUIRE(ofPaths.at(x, y) == (a.packed != 0 ? 0 : term.after.at(x, y)));
-                        });
+                        a.waves.everyPixel(
+                            [&](int x, int y) { REQUIRE(ofPaths.at(x, y) == (a.lean ? 0 : term.after.at(x, y))); });
                     }
     });
 }

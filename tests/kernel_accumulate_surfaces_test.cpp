@@ -14,8 +14,10 @@ TEST_CASE("point lights: the mean of the receivers' radiance, black where there 
             SurfacePixels surfaces(a);
             for (const auto& upTo : rounds) {
                 a.begin(upTo);
-                a.launch("accumulateDelta", a.lists.pixelFirst, a.lists.pixelCount, a.primaryTaken, a.objectId,
-                    a.vectors([](const SeenPoint& p) { return p.irradiance; }), direct, squares);
+                a.launch("accumulateDelta",
+                    std::vector { plane("objectId", a.objectId),
+                        vectors("lit", a.vectors([](const SeenPoint& p) { return p.irradiance; })),
+                        vectors("delta", direct), plane("deltaSquares", squares) });
                 accumulateSurfaces(a, surfaces);
             }
             const auto radiance = a.read(direct), squared = a.read(squares);
@@ -36,20 +38,19 @@ TEST_CASE("point lights: the mean of the receivers' radiance, black where there 
 }
 
 TEST_CASE("surfaces: means over hits of where they are, over samples of how they look; least, largest and counts; "
-          "packed, too")
+          "of lean frames, too")
 {
     onEveryDevice([](const device::Device& device) {
         for (const Keeping& keeping :
-            { Keeping { 0, 0, true }, { 1, 0.1f, true }, { 1, 1.5f, true }, { 1, 0.1f, false } })
+            { Keeping { false, 0, true }, { true, 0.1f, true }, { true, 1.5f, true }, { true, 0.1f, false } })
             for (const Rounds& rounds : { oneRound, threeRounds }) {
-                CAPTURE(keeping.packed);
+                CAPTURE(keeping.lean);
                 CAPTURE(keeping.oneVelocity);
                 CAPTURE(rounds.size());
                 Accumulation a(device, width, height, window, Receivers::All);
-                if (keeping.packed != 0)
-                    a.pack();
+                a.lean = keeping.lean;
                 a.oneVelocity = keeping.oneVelocity;
-                a.omits |= keeping.motion ? 0 : WEDGE_OMITS_MOTION;
+                a.moves = keeping.motion;
                 SurfacePixels out(a);
                 for (const auto& upTo : rounds) {
                     a.begin(upTo);
@@ -61,7 +62,7 @@ TEST_CASE("surfaces: means over hits of where they are, over samples of how they
                 CHECK(kinds.sharp > 20);
                 CHECK(kinds.nearer > 10);
                 CHECK(kinds.farther > 10);
-                if (keeping.packed != 0 && keeping.motion) {
+                if (keeping.lean && keeping.motion) {
                     CHECK(kinds.motions[static_cast<int>(OneMotion::One)] > 20);
                     CHECK(kinds.motions[static_cast<int>(OneMotion::Several)] > 20);
                     CHECK(kinds.motions[static_cast<int>(OneMotion::Uncertain)] < 5);

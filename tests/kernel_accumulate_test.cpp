@@ -95,6 +95,7 @@ void addWave(Accumulation& a, TermPixels& term, const LightCase& how, bool motio
 TermPixels accumulated(Accumulation& a, const Rounds& rounds, const LightCase& how, bool motion)
 {
     TermPixels term(a, how.count);
+    term.moves = motion;
     SurfacePixels surfaces(a);
     for (const auto& upTo : rounds) {
         a.begin(upTo);
@@ -106,7 +107,7 @@ TermPixels accumulated(Accumulation& a, const Rounds& rounds, const LightCase& h
 
 } // namespace
 
-TEST_CASE("lights: the means over receivers, each with samples, few with some, or a wave without any; packed, too")
+TEST_CASE("lights: the means over receivers, each with samples, few with some, or a wave without any; lean, too")
 {
     onEveryDevice([](const device::Device& device) {
         for (const bool exact : { false, true })
@@ -116,19 +117,18 @@ TEST_CASE("lights: the means over receivers, each with samples, few with some, o
                         // Without a second round it skips none.
                         if (rounds.size() == 1 && count == skipping)
                             continue;
-                        for (const bool packed : { false, true }) {
+                        for (const bool lean : { false, true }) {
                             CAPTURE(exact);
                             CAPTURE(specular);
                             CAPTURE(rounds.size());
                             CAPTURE(nameOf(count));
-                            CAPTURE(packed);
+                            CAPTURE(lean);
                             const bool motion = count == fewer;
                             Accumulation a(device, width, height, window, Receivers::All, definesOf(specular, motion));
-                            if (packed)
-                                a.pack();
+                            a.lean = lean;
                             const TermPixels term = accumulated(a, rounds, { exact, specular, count }, motion);
                             term.check(a);
-                            if (packed && motion)
+                            if (lean && motion)
                                 term.checkShadows(a);
                         }
                     }
@@ -202,6 +202,7 @@ TEST_CASE(
                     return glm::dvec3(300, 200, 100) * (p.diffuse / std::numbers::pi + p.specular * lobe);
                 };
                 TermPixels term(a, count);
+                term.light = true;
                 SurfacePixels surfaces(a);
                 for (const auto& upTo : rounds) {
                     a.begin(upTo);

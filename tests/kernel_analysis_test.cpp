@@ -1,10 +1,6 @@
 // analysis.cl alone: slopes to widths, against the same in double.
-#include "kernels/shared/filter_params.h"
-#include "kernels/shared/packed.h"
 #include "kernels/shared/wedge.h"
 #include "tests/distributed_support.h"
-#include "tests/packed_support.h"
-#include "tests/render_support.h"
 
 #include <algorithm>
 #include <functional>
@@ -26,29 +22,25 @@ struct Slopes {
         : Slopes(render::PlaneLayout(width, height))
     {
         std::mt19937 random(seed);
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x) {
-                objectId.at(x, y) = random() % 9 == 0 ? 0 : 1 + static_cast<std::uint32_t>(x / 13 + y / 11) % 2;
-                const bool has = uniform(random) < occluded && objectId.at(x, y) != 0;
-                const double sMin = std::pow(10.0, uniform(random, -4, 2));
-                slopes.at(x, y) = has ? static_cast<float>(sMin) : 0.0f;
-                slopes.at(x, y, 1) = has ? static_cast<float>(sMin * (1 + uniform(random, 0, 3))) : 0.0f;
-                position.setVector(x, y, { 0.1 * x, 0.3 * uniform(random), 0.1 * y });
-                pixelSize.at(x, y) = static_cast<float>(uniform(random, 0.005, 0.02));
-                sums.at(x, y) = random() % 10 == 0 ? 0.0f : 9.0f;
-            }
+        everyPixel(layout(), [&](int x, int y) {
+            objectId.at(x, y) = random() % 9 == 0 ? 0 : 1 + static_cast<std::uint32_t>(x / 13 + y / 11) % 2;
+            const bool has = uniform(random) < occluded && objectId.at(x, y) != 0;
+            const double sMin = std::pow(10.0, uniform(random, -4, 2));
+            slopes.at(x, y) = has ? static_cast<float>(sMin) : 0.0f;
+            slopes.at(x, y, 1) = has ? static_cast<float>(sMin * (1 + uniform(random, 0, 3))) : 0.0f;
+            position.setVector(x, y, { 0.1 * x, 0.3 * uniform(random), 0.1 * y });
+            pixelSize.at(x, y) = static_cast<float>(uniform(random, 0.005, 0.02));
+            sums.at(x, y) = random() % 10 == 0 ? 0.0f : 9.0f;
+        });
     }
     explicit Slopes(const render::PlaneLayout& layout)
         : slopes(layout, 2, 0.0f)
         , position(layout, 3, 0.0f)
         , pixelSize(layout, 1, 0.0f)
-        , sums(layout, 2, 0.0f)
+        , sums(layout, 1, 0.0f)
         , objectId(layout, 1, 0u)
     {
-        params.x1 = params.width = layout.width;
-        params.y1 = params.height = layout.height;
-        params.stride = layout.stride;
-        params.planeSize = static_cast<std::uint32_t>(layout.size);
+        params = paramsOf(layout);
         params.sigma = 0.25f;
         params.lightSize = 0.5f;
         params.k = 3;
@@ -61,6 +53,12 @@ struct Slopes {
     const render::PlaneLayout& layout() const { return slopes.layout; }
     int width() const { return static_cast<int>(layout().width); }
     int height() const { return static_cast<int>(layout().height); }
+};
+
+/// What published settings make of slopes.
+struct Published {
+    Planes<float> beta;
+    Planes<std::uint32_t> wanted;
 };
 
 class Analysis {
@@ -82,7 +80,7 @@ public:
     }
     Planes<float> smoothed(const Slopes& in, int radius)
     {
-        const auto out = bench.filled(4 * in.layout().size, 0.0f);
+        const auto out = bench.filled(2 * in.layout().size, 0.0f);
         launch("smoothSlopes", in.params, block, radius, bench.buffer(in.slopes.values),
             bench.buffer(in.objectId.values), out);
         return planesOf(in.layout(), bench.read(out));
@@ -93,6 +91,16 @@ public:
         launch("spreadRows", in.params, block, planes, bench.buffer(from.values), rows);
         launch("spreadColumns", in.params, block, planes, rows, out);
         return planesOf(in.layout(), bench.read(out));
+    }
+    /// distances: sums that spread
+    Published published(const Slopes& in, const shared::AnalysisParams& p, const Planes<float>& distances)
+    {
+        const auto beta = bench.filled(in.layout().size, -7.0f);
+        const auto wanted = bench.filled(in.layout().size, 777u);
+        launch("publishedWidths", p, 1, in.params.mu, bench.buffer(in.slopes.values), bench.buffer(distances.values),
+            bench.buffer(in.objectId.values), bench.buffer(in.pixelSize.values), bench.buffer(in.sums.values), beta,
+            wanted);
+        return { planesOf(in.layout(), bench.read(beta)), planesOf(in.layout(), bench.read(wanted)) };
     }
 
     KernelBench bench;
@@ -106,14 +114,6 @@ void around(const Slopes& in, int x, int y, int radius, const std::function<void
             visit(qx, qy);
 }
 
-template <class Visit>
-void everyPixel(const Slopes& in, const Visit& visit)
-{
-    for (int y = 0; y < in.height(); ++y)
-        for (int x = 0; x < in.width(); ++x)
-            visit(x, y);
-}
-
 /// The sizes and densities that every kernel here is tried with, degenerate first.
 std::vector<Slopes> cases()
 {
@@ -123,27 +123,25 @@ std::vector<Slopes> cases()
 
 } // namespace
 
-TEST_CASE("luminanceOf reads colours of all kinds of planes")
+TEST_CASE("luminanceOf reads textures of all kinds of terms and frames")
 {
     onEveryDevice([](const device::Device& device) {
-        Analysis analysis(device);
         for (const Slopes& in : cases())
-            for (const std::uint32_t bits : { WEDGE_PLAIN_BITS, WEDGE_COLOUR_BITS, WEDGE_FRACTION_BITS }) {
-                Planes<float> colours(in.layout(), 3, 0.0f);
-                std::mt19937 random(bits);
-                everyPixel(in, [&](int x, int y) {
-                    const double most = random() % 5 == 0 ? 0 : uniform(random);
-                    colours.setVector(x, y, most * glm::dvec3(uniform(random), uniform(random), uniform(random)));
-                });
-                const Planes<float> kept = packedColours(colours, bits);
-                const auto out = analysis.bench.filled(in.layout().size, -1.0f);
-                analysis.launch("luminanceOf", in.params, 1, bits, analysis.bench.buffer(kept.values), out);
-                const Planes<float> found = planesOf(in.layout(), analysis.bench.read(out));
-                const Planes<float> expected = coloursOf(kept, bits);
-                everyPixel(in, [&](int x, int y) {
-                    const glm::dvec3 c = expected.vector(x, y);
-                    REQUIRE(found.at(x, y) == doctest::Approx(luminanceOf(c)).epsilon(1e-5));
-                });
+            for (const Kept kept : { Kept::Full, Kept::Lean }) {
+                MovingFrame frame(device, kept, in.layout());
+                for (const char* name : { "widths", "filter of indirect" }) {
+                    PassBench pass(frame, "luminanceOf", name);
+                    std::mt19937 random(1);
+                    std::vector<float> colours = someNumbers(random, 3 * in.layout().size, 0, 1);
+                    for (std::size_t i = 0; i < colours.size(); ++i)
+                        colours[i] *= i % in.layout().size % 5 == 0 ? 0.0f : 1.0f;
+                    pass.plane("image", colours);
+                    pass.run();
+                    const auto image = pass.pixels<float>("image"), found = pass.pixels<float>("out");
+                    everyPixel(in.layout(), [&](int x, int y) {
+                        REQUIRE(found.at(x, y) == doctest::Approx(luminanceOf(image.vector(x, y))).epsilon(1e-5));
+                    });
+                }
             }
     });
 }
@@ -154,7 +152,7 @@ TEST_CASE("erodeSlopes takes the least slope of the same object within 3x3")
         Analysis analysis(device);
         for (const Slopes& in : cases()) {
             const Planes<float> found = analysis.eroded(in);
-            everyPixel(in, [&](int x, int y) {
+            everyPixel(in.layout(), [&](int x, int y) {
                 float least = 0;
                 around(in, x, y, 1, [&](int qx, int qy) {
                     const float s = in.slopes.at(qx, qy);
@@ -174,7 +172,7 @@ TEST_CASE("smoothSlopes averages the logarithm over the object's slopes near by,
         for (const Slopes& in : cases())
             for (const int radius : { 1, 2 }) {
                 const Planes<float> found = analysis.smoothed(in, radius);
-                everyPixel(in, [&](int x, int y) {
+                everyPixel(in.layout(), [&](int x, int y) {
                     double sum = 0, count = 0;
                     around(in, x, y, radius, [&](int qx, int qy) {
                         if (in.slopes.at(qx, qy) > 0 && in.objectId.at(qx, qy) == in.objectId.at(x, y)) {
@@ -200,12 +198,12 @@ TEST_CASE("spreadRows and spreadColumns sum a window, plain or with Gaussian wei
                 in.params.fillScale = sigma > 0 ? -0.5f * 1.44269504f / (sigma * sigma) : 0.0f;
                 Planes<float> from(in.layout(), 2, 0.0f);
                 std::mt19937 random(11);
-                everyPixel(in, [&](int x, int y) {
+                everyPixel(in.layout(), [&](int x, int y) {
                     from.at(x, y) = static_cast<float>(uniform(random, -3, 3));
                     from.at(x, y, 1) = static_cast<float>(random() % 2);
                 });
                 const Planes<float> found = analysis.spread(in, from, 2);
-                everyPixel(in, [&](int x, int y) {
+                everyPixel(in.layout(), [&](int x, int y) {
                     double sums[2] = { 0, 0 };
                     around(in, x, y, 7, [&](int qx, int qy) {
                         const double d = (qx - x) * (qx - x) + (qy - y) * (qy - y);
@@ -225,25 +223,33 @@ TEST_CASE("widths are (3.13) of the pixel's own slope, else of what spread to it
     onEveryDevice([](const device::Device& device) {
         Analysis analysis(device);
         for (Slopes in : cases())
-            for (const float fixedWidth : { 0.0f, 2.5f }) {
-                in.params.fixedWidth = fixedWidth;
+            for (const Kept kept : { Kept::Full, Kept::Lean }) {
+                MovingFrame frame(device, kept, in.layout());
                 in.params.fillScale = -0.05f;
                 const Planes<float> logs = analysis.smoothed(in, 1), spread = analysis.spread(in, logs, 2);
-                const auto out = analysis.bench.filled(in.layout().size, -7.0f);
-                analysis.launch("widths", in.params, 1, analysis.bench.buffer(logs.values),
-                    analysis.bench.buffer(spread.values), analysis.bench.buffer(in.objectId.values),
-                    analysis.bench.buffer(in.pixelSize.values), analysis.bench.buffer(in.sums.values), out);
-                const Planes<float> beta = planesOf(in.layout(), analysis.bench.read(out));
-                everyPixel(in, [&](int x, int y) {
-                    const double d = in.pixelSize.at(x, y), own = logs.at(x, y, 1), near = spread.at(x, y, 1);
-                    const double s = std::exp2(own > 0 ? logs.at(x, y) : spread.at(x, y) / near);
-                    double expected = std::max(0.25 * s, (1 + s) * d) / 6;
-                    expected = own > 0 || near > 1e-4 ? expected : 0.0;
-                    expected = fixedWidth > 0 ? fixedWidth * d : expected;
-                    if (in.objectId.at(x, y) == 0 || !(in.sums.at(x, y) > 0))
-                        expected = -1;
-                    REQUIRE(beta.at(x, y) == doctest::Approx(expected).epsilon(1e-4));
-                });
+                PassBench pass(frame, "widths");
+                pass.plane("logSlopes", logs);
+                pass.plane("spread", spread);
+                pass.plane("objectId", in.objectId);
+                pass.plane("pixelSize", in.pixelSize);
+                pass.plane("sums", in.sums);
+                in.pixelSize = pass.pixels<float>("pixelSize");
+                for (const float fixedWidth : { 0.0f, 2.5f }) {
+                    in.params.fixedWidth = fixedWidth;
+                    pass.value("p", in.params);
+                    pass.run();
+                    const auto beta = pass.pixels<float>("beta");
+                    everyPixel(in.layout(), [&](int x, int y) {
+                        const double d = in.pixelSize.at(x, y), own = logs.at(x, y, 1), near = spread.at(x, y, 1);
+                        const double s = std::exp2(own > 0 ? logs.at(x, y) : spread.at(x, y) / near);
+                        double expected = std::max(0.25 * s, (1 + s) * d) / 6;
+                        expected = own > 0 || near > 1e-4 ? expected : 0.0;
+                        expected = fixedWidth > 0 ? fixedWidth * d : expected;
+                        if (in.objectId.at(x, y) == 0 || !(in.sums.at(x, y) > 0))
+                            expected = -1;
+                        REQUIRE(beta.at(x, y) == doctest::Approx(expected).epsilon(1e-4));
+                    });
+                }
             }
     });
 }
@@ -270,13 +276,13 @@ TEST_CASE("highlights narrow widths by their share, those of no width and of no 
         light.halfU = shared::vec3(0.5f, 0, 0);
         light.halfV = shared::vec3(0, 0, 0.3f);
         light.power = shared::vec3(20, 30, 10);
-        const double power = 0.2126 * 20 + 0.7152 * 30 + 0.0722 * 10;
+        const double pi = 3.14159265358979, power = 0.2126 * 20 + 0.7152 * 30 + 0.0722 * 10;
         for (const Slopes& in : cases()) {
             std::mt19937 random(9);
             Planes<float> sums(in.layout(), 4, 0.0f), diffuse(in.layout(), 3, 0.0f), specular(in.layout(), 3, 0.0f),
                 texture(in.layout(), 3, 0.0f), before(in.layout(), 1, 0.0f);
             Planes<std::uint32_t> gloss(in.layout(), 1, 0u);
-            everyPixel(in, [&](int x, int y) {
+            everyPixel(in.layout(), [&](int x, int y) {
                 sums.at(x, y) = static_cast<float>(uniform(random));
                 sums.at(x, y, 2) = random() % 4 == 0 ? 0.0f : static_cast<float>(uniform(random, 0, 5));
                 diffuse.setVector(x, y, glm::dvec3(uniform(random)));
@@ -288,33 +294,45 @@ TEST_CASE("highlights narrow widths by their share, those of no width and of no 
                 before.at(x, y) = random() % 5 == 0 ? static_cast<float>(random() % 2) - 1.0f
                                                     : static_cast<float>(uniform(random, 0.001, 0.5));
             });
-            const auto run = [&](const char* kernel, const auto&... arguments) {
-                const auto beta = analysis.bench.buffer(before.values);
-                analysis.launch(kernel, in.params, 1, frame, arguments..., beta);
-                return planesOf(in.layout(), analysis.bench.read(beta));
-            };
-            const auto position = analysis.bench.buffer(in.position.values);
-            const auto glosses = analysis.bench.buffer(gloss.values);
-            const Planes<float> one = run("narrowForLobes", analysis.bench.buffer(sums.values), position, glosses,
-                                    analysis.bench.buffer(diffuse.values), analysis.bench.buffer(specular.values)),
-                                many = run("narrowForHighlights", light, WEDGE_PLAIN_BITS,
-                                    analysis.bench.buffer(texture.values), position, glosses,
-                                    analysis.bench.buffer(in.objectId.values));
-            everyPixel(in, [&](int x, int y) {
+            const auto beta = analysis.bench.buffer(before.values);
+            analysis.launch("narrowForLobes", in.params, 1, frame, analysis.bench.buffer(sums.values),
+                analysis.bench.buffer(in.position.values), analysis.bench.buffer(gloss.values),
+                analysis.bench.buffer(diffuse.values), analysis.bench.buffer(specular.values), beta);
+            const Planes<float> one = planesOf(in.layout(), analysis.bench.read(beta));
+            everyPixel(in.layout(), [&](int x, int y) {
                 const glm::dvec3 at = in.position.vector(x, y), toLight = centre - at, toEye = eye - at;
-                const double wide = before.at(x, y), pi = 3.14159265358979;
+                const double wide = before.at(x, y);
                 const double lobes = specular.at(x, y) * sums.at(x, y, 2), matt = diffuse.at(x, y) * sums.at(x, y) / pi;
                 const double expected = wide > 0 && lobes > 0
                     ? narrowedWidth(toLight, toEye, shared::unpackGloss(gloss.at(x, y)), lobes / (lobes + matt), wide)
                     : wide;
                 REQUIRE(one.at(x, y) == doctest::Approx(expected).epsilon(1e-4));
-                const double nearest = std::max(glm::length(toLight) - 0.8, 0.0);
-                const double white = power / pi / (nearest * nearest), shown = texture.at(x, y);
-                const double narrowest = wide > 0 && in.objectId.at(x, y) != 0 && shown > white
-                    ? narrowedWidth(toLight, toEye, shared::unpackGloss(gloss.at(x, y)), 1 - white / shown, wide)
-                    : wide;
-                REQUIRE(many.at(x, y) == doctest::Approx(narrowest).epsilon(1e-4));
             });
+            for (const Kept kept : { Kept::Full, Kept::Lean }) {
+                MovingFrame declared(device, kept, in.layout());
+                PassBench pass(declared, "narrowForHighlights");
+                pass.value("p", in.params);
+                pass.value("frame", frame);
+                pass.value("light", light);
+                pass.plane("texture", texture);
+                pass.plane("position", in.position);
+                pass.plane("gloss", gloss);
+                pass.plane("objectId", in.objectId);
+                pass.plane("beta", before);
+                const auto shown = pass.pixels<float>("texture");
+                const auto lobe = pass.pixels<std::uint32_t>("gloss");
+                pass.run();
+                const auto many = pass.pixels<float>("beta");
+                everyPixel(in.layout(), [&](int x, int y) {
+                    const glm::dvec3 at = in.position.vector(x, y), toLight = centre - at, toEye = eye - at;
+                    const double wide = before.at(x, y), nearest = std::max(glm::length(toLight) - 0.8, 0.0);
+                    const double share = 1 - power / pi / (nearest * nearest) / shown.at(x, y);
+                    const double expected = wide > 0 && in.objectId.at(x, y) != 0 && share > 0
+                        ? narrowedWidth(toLight, toEye, shared::unpackGloss(lobe.at(x, y)), share, wide)
+                        : wide;
+                    REQUIRE(many.at(x, y) == doctest::Approx(expected).epsilon(1e-4));
+                });
+            }
         }
     });
 }
@@ -329,16 +347,10 @@ TEST_CASE("the published fallback: mean distances within 5 pixels, then (3.13) a
             analysis.launch("publishedDistances", in.params, block, bench.buffer(in.slopes.values),
                 bench.buffer(in.position.values), bench.buffer(in.objectId.values), distances);
             const Planes<float> spread = analysis.spread(in, planesOf(in.layout(), bench.read(distances)), 4);
-            const auto betaOut = bench.filled(in.layout().size, -7.0f);
-            const auto wantedOut = bench.filled(in.layout().size, 777u);
             shared::AnalysisParams narrower = in.params; // filters: counts keep their own mu
             narrower.mu = 3;
-            analysis.launch("publishedWidths", narrower, 1, in.params.mu, bench.buffer(in.slopes.values),
-                bench.buffer(spread.values), bench.buffer(in.objectId.values), bench.buffer(in.pixelSize.values),
-                bench.buffer(in.sums.values), betaOut, wantedOut);
-            const Planes<float> beta = planesOf(in.layout(), bench.read(betaOut));
-            const Planes<std::uint32_t> wanted = planesOf(in.layout(), bench.read(wantedOut));
-            everyPixel(in, [&](int x, int y) {
+            const Published found = analysis.published(in, narrower, spread);
+            everyPixel(in.layout(), [&](int x, int y) {
                 double d1 = 0, farthest = 0, nearest = 0;
                 around(in, x, y, 5, [&](int qx, int qy) {
                     if (in.slopes.at(qx, qy) > 0) {
@@ -355,15 +367,15 @@ TEST_CASE("the published fallback: mean distances within 5 pixels, then (3.13) a
                 const double width = d1 > 0 ? std::max(0.25 * sMin, (1 + sMin) * d) / 9 : 0.0;
                 // Distances are floats: s = d1/d2 - 1 has lost digits where it is small.
                 const double slack = d1 > 0 ? 1e-5 * (1 + 1 / sMin) : 1e-5;
-                REQUIRE(beta.at(x, y) == doctest::Approx(lit ? width : -1.0).epsilon(slack));
+                REQUIRE(found.beta.at(x, y) == doctest::Approx(lit ? width : -1.0).epsilon(slack));
                 const double exact =
                     4 * std::pow(1 + 2 * sMax / sMin, 2) * std::pow(2 * (2 / sMin) * d / 0.5 + 1 / (1 + sMin), 2);
                 const double count = d1 > 0 && lit ? std::clamp(exact, 9.0, 100.0) : 9.0;
                 const double tolerance = 0.51 + 4 * slack * count;
                 if (in.objectId.at(x, y) == 0)
-                    REQUIRE(wanted.at(x, y) == 0);
+                    REQUIRE(found.wanted.at(x, y) == 0);
                 else
-                    REQUIRE(std::fabs(wanted.at(x, y) - count) <= tolerance);
+                    REQUIRE(std::fabs(found.wanted.at(x, y) - count) <= tolerance);
             });
         }
     });
@@ -373,7 +385,6 @@ TEST_CASE("an occluder at the receiver or at the light gives widths and counts w
 {
     onEveryDevice([](const device::Device& device) {
         Analysis analysis(device);
-        KernelBench& bench = analysis.bench;
         Slopes in(2, 1, 1, 1.0);
         for (int x = 0; x < 2; ++x) {
             const float s = x == 0 ? WEDGE_SLOPE_MIN : WEDGE_SLOPE_MAX;
@@ -382,17 +393,10 @@ TEST_CASE("an occluder at the receiver or at the light gives widths and counts w
             in.sums.at(x, 0) = 9;
             in.pixelSize.at(x, 0) = 0.01f;
         }
-        const auto none = bench.filled(4 * in.layout().size, 0.0f);
-        const auto beta = bench.filled(in.layout().size, -7.0f);
-        const auto wanted = bench.filled(in.layout().size, 777u);
-        analysis.launch("publishedWidths", in.params, 1, in.params.mu, bench.buffer(in.slopes.values), none,
-            bench.buffer(in.objectId.values), bench.buffer(in.pixelSize.values), bench.buffer(in.sums.values), beta,
-            wanted);
-        const Planes<float> widths = planesOf(in.layout(), bench.read(beta));
-        const Planes<std::uint32_t> counts = planesOf(in.layout(), bench.read(wanted));
-        CHECK(widths.at(0, 0) == doctest::Approx(0.01 * 1.0001 / 6)); // the pixel's own bandlimit
-        CHECK(widths.at(1, 0) == doctest::Approx(0.25 * 1e3 / 6));
-        CHECK(counts.at(0, 0) == 100);
-        CHECK(counts.at(1, 0) == 9);
+        const Published found = analysis.published(in, in.params, Planes<float>(in.layout(), 4, 0.0f));
+        CHECK(found.beta.at(0, 0) == doctest::Approx(0.01 * 1.0001 / 6)); // the pixel's own bandlimit
+        CHECK(found.beta.at(1, 0) == doctest::Approx(0.25 * 1e3 / 6));
+        CHECK(found.wanted.at(0, 0) == 100);
+        CHECK(found.wanted.at(1, 0) == 9);
     });
 }

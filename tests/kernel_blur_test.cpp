@@ -1,7 +1,6 @@
 // blur.cl alone: rows, columns and lines along motions against gathers over the whole image in double.
 #include "kernels/shared/frame.h"
 #include "tests/distributed_support.h"
-#include "tests/packed_support.h"
 
 using namespace wedge;
 using namespace wedge::test;
@@ -39,26 +38,23 @@ struct Blurred {
         everyPixel({ 0, 0, region.width, region.height }, visit);
     }
 
-    /// What is left of it in fewer bits: of directions times widths, and of a light's texture.
-    void round()
+    /// Directions times widths, as lean frames have them, and back.
+    Planes<float> vectors() const
+    {
+        Planes<float> out = direction;
+        for (std::size_t i = 0; i < out.values.size(); ++i)
+            out.values[i] *= sigma.values[i % sigma.values.size()];
+        return out;
+    }
+    void setVectors(const Planes<float>& vectors)
     {
         everywhere([&](int x, int y) {
-            const glm::dvec2 along(rounded(double { sigma.at(x, y) } * direction.at(x, y)),
-                rounded(double { sigma.at(x, y) } * direction.at(x, y, 1)));
+            const glm::dvec2 along(vectors.at(x, y), vectors.at(x, y, 1));
             const double width = glm::length(along);
             sigma.at(x, y) = static_cast<float>(width);
             direction.at(x, y) = static_cast<float>(width > 0 ? along.x / width : 1);
             direction.at(x, y, 1) = static_cast<float>(width > 0 ? along.y / width : 0);
-            value.setVector(x, y, rounded(value.vector(x, y), shared::textureBits(1, true)));
         });
-    }
-    /// One plane of the product of both parts of directions with widths.
-    Planes<float> packedDirections() const
-    {
-        Planes<float> parts[2] = { sigma, sigma };
-        for (std::size_t i = 0; i < 2 * sigma.values.size(); ++i)
-            parts[i / sigma.values.size()].values[i % sigma.values.size()] *= direction.values[i];
-        return packedNumbers(parts[0], parts[1]);
     }
 
     Region region;
@@ -79,27 +75,36 @@ Blurred randomImage(const Region& region, unsigned seed)
     return out;
 }
 
-Planes<float> lensFiltered(KernelBench& bench, const Blurred& image, const std::string& kernel)
+Planes<float> lensFiltered(DeclaredFrame& frame, const Blurred& image, const std::string& kernel)
 {
-    Output<float> out(bench, image.region, 3);
-    const auto sigma = bench.buffer(image.sigma.values), value = bench.buffer(image.value.values);
-    launchPixels(bench, "filter/blur.cl", kernel, paramsOf(image.region), sigma, value, out.buffer());
-    return out.read();
+    RegionPass pass(frame, kernel, { "out" });
+    pass.plane("lens", image.sigma);
+    pass.plane("in", image.value);
+    pass.runIn(image.region, paramsOf(image.region));
+    return pass.floats("out");
 }
 
-Planes<float> motionFiltered(
-    KernelBench& bench, const Blurred& image, std::uint32_t channels = 3, std::uint32_t packed = 0)
+/// A texture, or, of one channel, the first of its numbers as a light's value. image: becomes what the pass has of it.
+Planes<float> motionFiltered(MovingFrame& frame, Blurred& image, std::uint32_t channels = 3)
 {
-    Output<float> out(bench, image.region, 3);
-    shared::DistributedParams p = paramsOf(image.region);
-    p.packed = packed;
-    // Packed, widths are read from directions alone.
-    const auto sigma = packed != 0 ? bench.filled(1, 0.0f) : bench.buffer(image.sigma.values);
-    const auto direction = bench.buffer((packed != 0 ? image.packedDirections() : image.direction).values);
-    const auto value = bench.buffer(
-        channels == 3 ? packedColours(image.value, shared::textureBits(packed, true)).values : image.value.values);
-    launchPixels(bench, "filter/blur.cl", "blurMotion", p, channels, sigma, direction, value, out.buffer());
-    return out.read();
+    RegionPass pass(frame, "blurMotion", { "out" }, channels == 3 ? 1 : 0);
+    if (frame.lean) {
+        pass.plane("vectors", image.vectors());
+        image.setVectors(pass.floats("vectors"));
+    } else {
+        pass.plane("along", image.sigma);
+        pass.plane("directions", image.direction);
+    }
+    if (channels == 3) {
+        pass.plane("texture", image.value);
+        image.value = pass.floats("texture");
+    } else {
+        pass.plane("value",
+            std::vector(image.value.values.begin(),
+                image.value.values.begin() + static_cast<std::ptrdiff_t>(image.region.layout.size)));
+    }
+    pass.runIn(image.region, paramsOf(image.region));
+    return pass.floats("out");
 }
 
 /// blurRows (step 1, 0) or blurColumns (0, 1) of one pixel.
@@ -155,10 +160,10 @@ void requireColour(const Planes<float>& found, int x, int y, glm::dvec3 expected
 }
 
 /// Rows, then columns.
-Planes<float> bothFiltered(KernelBench& bench, Blurred image)
+Planes<float> bothFiltered(DeclaredFrame& frame, Blurred image)
 {
-    image.value = lensFiltered(bench, image, "blurRows");
-    return lensFiltered(bench, image, "blurColumns");
+    image.value = lensFiltered(frame, image, "blurRows");
+    return lensFiltered(frame, image, "blurColumns");
 }
 
 } // namespace
@@ -166,12 +171,12 @@ Planes<float> bothFiltered(KernelBench& bench, Blurred image)
 TEST_CASE("rows and columns are the gather over all pixels, the narrower kernel of each pair")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        MovingFrame frame(device, Kept::Full);
         unsigned seed = 0;
         for (const Region& region : regions()) {
             const Blurred image = randomImage(region, ++seed);
-            const auto rows = lensFiltered(bench, image, "blurRows"),
-                       columns = lensFiltered(bench, image, "blurColumns");
+            const auto rows = lensFiltered(frame, image, "blurRows"),
+                       columns = lensFiltered(frame, image, "blurColumns");
             everyPixel(region.window, [&](int x, int y) {
                 requireColour(rows, x, y, lensOracle(image, x, y, 1, 0));
                 requireColour(columns, x, y, lensOracle(image, x, y, 0, 1));
@@ -180,70 +185,52 @@ TEST_CASE("rows and columns are the gather over all pixels, the narrower kernel 
     });
 }
 
-TEST_CASE("lines along motions are the gather over all steps, in every direction; packed, too")
+TEST_CASE("lines along motions are the gather over all steps, in every direction")
 {
-    onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        unsigned seed = 10;
-        int uncertain = 0, pixels = 0;
-        for (const Region& region : regions())
-            for (const auto& [angle, packed] : { std::pair(0.0, 0u), { 0.7, 0u }, { 1.7, 0u }, { 2.9, 0u },
-                     { -0.5, 0u }, { -1.3, 0u }, { -2.6, 0u }, { 0.0, 1u }, { 1.7, 1u }, { -2.6, 1u } }) {
-                CAPTURE(angle);
-                CAPTURE(packed);
-                const double middle = angle;
-                Blurred image = randomImage(region, ++seed);
-                std::mt19937 random(seed);
-                image.everywhere(
-                    [&](int x, int y) { image.setDirection(x, y, middle + uniform(random, -0.25, 0.25)); });
-                if (packed != 0)
-                    image.round();
-                const auto found = motionFiltered(bench, image, 3, packed);
-                everyPixel(region.window, [&](int x, int y) {
-                    const MotionOracle expected = motionOracle(image, x, y);
-                    ++pixels;
-                    uncertain += expected.uncertain ? 1 : 0;
-                    if (!expected.uncertain)
-                        requireColour(found, x, y, expected.value);
-                });
-            }
-        CHECK(uncertain < 0.05 * pixels);
-    });
-}
-
-TEST_CASE("one channel leaves the other planes alone and is what the first of three is")
-{
-    onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        const Region region(45, 29, { 16, 3, 41, 20 });
-        Blurred image = randomImage(region, 3);
-        for (const std::uint32_t packed : { 0u, 1u }) {
-            if (packed != 0)
-                image.round();
-            const auto three = motionFiltered(bench, image, 3, packed), one = motionFiltered(bench, image, 1, packed);
+    int uncertain = 0, pixels = 0;
+    unsigned seed = 10;
+    onEveryRegion(10, [&](MovingFrame& frame, const Region& region, std::mt19937& random) {
+        for (const double angle : { 0.0, 0.7, 1.7, 2.9, -0.5, -1.3, -2.6 }) {
+            CAPTURE(angle);
+            const double middle = angle;
+            Blurred image = randomImage(region, ++seed);
+            image.everywhere([&](int x, int y) { image.setDirection(x, y, middle + uniform(random, -0.25, 0.25)); });
+            const auto found = motionFiltered(frame, image);
             everyPixel(region.window, [&](int x, int y) {
-                REQUIRE(one.at(x, y) == three.at(x, y));
-                REQUIRE(one.at(x, y, 1) == untouched<float>());
-                REQUIRE(one.at(x, y, 2) == untouched<float>());
+                const MotionOracle expected = motionOracle(image, x, y);
+                ++pixels;
+                uncertain += expected.uncertain ? 1 : 0;
+                if (!expected.uncertain)
+                    requireColour(found, x, y, expected.value);
             });
         }
+    });
+    CHECK(uncertain < 0.05 * pixels);
+}
+
+TEST_CASE("a light's value becomes what the first channel of a texture does")
+{
+    onEveryRegion(3, [](MovingFrame& frame, const Region& region, std::mt19937& random) {
+        Blurred image = randomImage(region, static_cast<unsigned>(random()));
+        const auto three = motionFiltered(frame, image), one = motionFiltered(frame, image, 1);
+        everyPixel(region.window, [&](int x, int y) { REQUIRE(one.at(x, y) == three.at(x, y)); });
     });
 }
 
 TEST_CASE("of width 0 each pixel is as it was, to the bit; a constant image stays what it is at any widths")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        MovingFrame frame(device, Kept::Full);
         for (const Region& region : regions()) {
             Blurred still = randomImage(region, 4), constant = randomImage(region, 5);
             still.everywhere([&](int x, int y) {
                 still.sigma.at(x, y) = 0;
                 constant.value.setVector(x, y, { 0.3, 5, 1e-3 });
             });
-            const Planes<float> stills[] = { lensFiltered(bench, still, "blurRows"),
-                lensFiltered(bench, still, "blurColumns"), motionFiltered(bench, still) };
-            const Planes<float> constants[] = { lensFiltered(bench, constant, "blurRows"),
-                lensFiltered(bench, constant, "blurColumns"), motionFiltered(bench, constant) };
+            const Planes<float> stills[] = { lensFiltered(frame, still, "blurRows"),
+                lensFiltered(frame, still, "blurColumns"), motionFiltered(frame, still) };
+            const Planes<float> constants[] = { lensFiltered(frame, constant, "blurRows"),
+                lensFiltered(frame, constant, "blurColumns"), motionFiltered(frame, constant) };
             everyPixel(region.window, [&](int x, int y) {
                 for (const Planes<float>& found : stills)
                     REQUIRE(found.vector(x, y) == still.value.vector(x, y));
@@ -257,7 +244,7 @@ TEST_CASE("of width 0 each pixel is as it was, to the bit; a constant image stay
 TEST_CASE("what is sharp neither gets anything from what is blurred nor gives it anything")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        MovingFrame frame(device, Kept::Full);
         const Region region(45, 29);
         Blurred image(region);
         std::mt19937 random(6);
@@ -268,7 +255,7 @@ TEST_CASE("what is sharp neither gets anything from what is blurred nor gives it
             const double value = sharp(x, y) ? 1e6 * uniform(random) : 2;
             image.value.setVector(x, y, glm::dvec3(value));
         });
-        const Planes<float> all[] = { bothFiltered(bench, image), motionFiltered(bench, image) };
+        const Planes<float> all[] = { bothFiltered(frame, image), motionFiltered(frame, image) };
         for (const Planes<float>& found : all)
             everyPixel(region.window, [&](int x, int y) {
                 if (sharp(x, y))
@@ -282,7 +269,7 @@ TEST_CASE("what is sharp neither gets anything from what is blurred nor gives it
 TEST_CASE("motions in other directions do not mix, whichever way they turn")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        MovingFrame frame(device, Kept::Full);
         const Region region(45, 29);
         const double degree = std::acos(-1.0) / 180;
         for (const double own : { 0.0, 37.0, 90.0, -120.0 })
@@ -296,7 +283,7 @@ TEST_CASE("motions in other directions do not mix, whichever way they turn")
                     image.setDirection(x, y, (own + (other ? turn : 0)) * degree);
                     image.value.setVector(x, y, glm::dvec3(other ? 1e6 : 2));
                 });
-                const auto found = motionFiltered(bench, image);
+                const auto found = motionFiltered(frame, image);
                 const glm::dvec3 middle = found.vector(22, 15); // 22 + 30 = 52: not one of the others
                 if (std::fabs(turn) < 25) {
                     REQUIRE(middle.x > 1e4);
@@ -313,7 +300,7 @@ TEST_CASE("motions in other directions do not mix, whichever way they turn")
 TEST_CASE("a point becomes a Gaussian of that deviation: along axes, and of the lens in both")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        MovingFrame frame(device, Kept::Full);
         const Region region(73, 71); // no kernel of a pixel that the point reaches ends at a border
         const int cx = 36, cy = 35;
         for (const float sigma : { 0.8f, 1.0f, 2.5f, 7.0f }) {
@@ -327,13 +314,13 @@ TEST_CASE("a point becomes a Gaussian of that deviation: along axes, and of the 
             Blurred image(region);
             image.everywhere([&](int x, int y) { image.sigma.at(x, y) = sigma; });
             image.value.setVector(cx, cy, { 1, 10, 0 });
-            const auto lens = bothFiltered(bench, image);
-            const auto right = motionFiltered(bench, image);
+            const auto lens = bothFiltered(frame, image);
+            const auto right = motionFiltered(frame, image);
             image.everywhere([&](int x, int y) {
                 image.direction.at(x, y, 0) = 0;
                 image.direction.at(x, y, 1) = -1;
             });
-            const auto up = motionFiltered(bench, image);
+            const auto up = motionFiltered(frame, image);
             everyPixel(region.window, [&](int x, int y) {
                 const double gx = gaussian(x - cx) / sum, gy = gaussian(y - cy) / sum;
                 requireColour(right, x, y, (y == cy ? gx : 0) * glm::dvec3(1, 10, 0));
@@ -347,9 +334,11 @@ TEST_CASE("a point becomes a Gaussian of that deviation: along axes, and of the 
 TEST_CASE("kernels reach as far as their limits and no farther")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
         for (const bool upright : { false, true }) {
-            const Region region = upright ? Region(3, 401) : Region(401, 3);
+            const int width = upright ? 3 : 401, height = upright ? 401 : 3;
+            const render::PlaneLayout layout(width, height);
+            MovingFrame frame(device, Kept::Full, layout);
+            const Region region(width, height, { 0, 0, width, height }, layout);
             Blurred image(region);
             image.everywhere([&](int x, int y) {
                 image.sigma.at(x, y) = 1e4f;
@@ -357,9 +346,9 @@ TEST_CASE("kernels reach as far as their limits and no farther")
                 image.direction.at(x, y, 1) = upright ? 1 : 0;
             });
             image.value.setVector(upright ? 1 : 200, upright ? 200 : 1, glm::dvec3(1));
-            const auto lens = lensFiltered(bench, image, upright ? "blurColumns" : "blurRows");
-            const auto motion = motionFiltered(bench, image);
-            const auto across = lensFiltered(bench, image, upright ? "blurRows" : "blurColumns");
+            const auto lens = lensFiltered(frame, image, upright ? "blurColumns" : "blurRows");
+            const auto motion = motionFiltered(frame, image);
+            const auto across = lensFiltered(frame, image, upright ? "blurRows" : "blurColumns");
             for (int k = 0; k < 401; ++k) {
                 CAPTURE(k);
                 const int x = upright ? 1 : k, y = upright ? k : 1;

@@ -191,6 +191,9 @@ TEST_CASE("two widths at once with packed normals and sizes")
                 size = test::rounded(size);
             }
         const Planes<float> sizes = packedNumbers(in.image.pixelSize, in.image.pixelSize);
-        check(in, differenceOf(bench, in, packed, sizes, { "filter/compare_widths.cl", { { "WEDGE_PACKED", "" } } }));
+        check(in,
+            differenceOf(bench, in, packed, sizes,
+                { "filter/compare_widths.cl",
+                    { { "WEDGE_NORMAL_FORMAT", "normal32" }, { "WEDGE_SIZE_FORMAT", "short1" } } }));
     });
 }

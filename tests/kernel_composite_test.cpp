@@ -321,7 +321,7 @@ TEST_CASE("addPathSamples, addIndirect: terms times reflectance add up; ambient 
                 const auto k = bench.buffer(reflectance.values);
                 const auto taken = bench.buffer(in.taken.values);
                 bench.passes.rows("composite", device::PassKind::Composite, "frame/composite.cl", "addPathSamples",
-                    in.params, WEDGE_BLOCK_PIXELS, component, 1u, k, bench.buffer(noisy.values),
+                    in.params, WEDGE_BLOCK_PIXELS, component, k, bench.buffer(noisy.values),
                     bench.buffer(deviations.values), taken, indirectNoisy, deviation);
                 bench.passes.rows("composite", device::PassKind::Composite, "frame/composite.cl", "addIndirect",
                     in.params, WEDGE_BLOCK_PIXELS, component, 1u, k, bench.buffer(value.values), taken, indirect,

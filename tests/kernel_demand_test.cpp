@@ -1,6 +1,5 @@
 // distributed.cl alone: variances of pixels, how uncertain they leave an image, and bounds of counts.
 #include "tests/distributed_support.h"
-#include "tests/packed_support.h"
 
 #include <array>
 
@@ -17,40 +16,45 @@ double unbiased(double n) { return n > 1 ? n / (n - 1) : 0; }
 /// What splitVariance takes, and what it is to make of it.
 struct Moments {
     Planes<float> texture, textureSquares, value, squares;
-    Planes<float> deviation, textureDeviation; ///< packed
     Planes<std::uint32_t> taken;
 
-    /// Packed with p.packed: what they are then.
-    Moments(const Region& region, std::mt19937& random, const shared::DistributedParams& p = {})
+    Moments(const Region& region, std::mt19937& random)
         : texture(filledPlanes(
             region, 3, 1e30f, [&](int, int, std::size_t) { return random() % 6 == 0 ? 0 : uniform(random); }))
         , textureSquares(filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random); }))
         , value(filledPlanes(
               region, 3, 1e30f, [&](int, int, std::size_t) { return random() % 6 == 0 ? 0 : uniform(random, 0, 2); }))
         , squares(filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random, 0, 2); }))
-        , deviation(squares)
-        , textureDeviation(squares)
         , taken(filledPlanes(region, 1, 1000u, [&](int, int, std::size_t) { return random() % 12; }))
     {
         everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
             if (random() % 9 == 0)
                 texture.setVector(x, y, { 0, 0, 0 });
-            if (p.packed != 0)
-                round(p, x, y);
         });
     }
-    /// Packed, squares are those of deviations of so many bits.
-    void round(const shared::DistributedParams& p, int x, int y)
+    /// Fills a pass, and is then what the pass has of it: of lean frames squares become those of deviations.
+    void fill(PassBench& pass, const Region& region)
     {
-        const glm::dvec3 k = rounded(texture.vector(x, y), shared::textureBits(1, p.values == 1));
-        const glm::dvec3 e = rounded(value.vector(x, y), shared::valueBits(1, p.values == 1));
-        texture.setVector(x, y, k);
-        value.setVector(x, y, e);
-        const double l = luminanceOf(k * e), t = luminanceOf(k);
-        deviation.at(x, y) = rounded(squares.at(x, y));
-        textureDeviation.at(x, y) = rounded(textureSquares.at(x, y));
-        squares.at(x, y) = static_cast<float>(l * l + std::pow(deviation.at(x, y), 2));
-        textureSquares.at(x, y) = static_cast<float>(t * t + std::pow(textureDeviation.at(x, y), 2));
+        pass.plane("texture", texture);
+        pass.plane("value", value);
+        pass.plane("taken", taken);
+        texture = pass.pixels<float>("texture");
+        value = pass.pixels<float>("value");
+        if (!pass.has("spreads")) {
+            pass.plane("squares", squares);
+            pass.plane("textureSquares", textureSquares);
+            return;
+        }
+        pass.plane("spreads", filledPlanes(region, 2, 1e30f, [&](int x, int y, std::size_t which) {
+            return (which == 0 ? squares : textureSquares).at(x, y);
+        }));
+        const auto spreads = pass.pixels<float>("spreads");
+        everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
+            const glm::dvec3 k = texture.vector(x, y);
+            const double l = luminanceOf(k * value.vector(x, y)), t = luminanceOf(k);
+            squares.at(x, y) = static_cast<float>(l * l + std::pow(spreads.at(x, y), 2));
+            textureSquares.at(x, y) = static_cast<float>(t * t + std::pow(spreads.at(x, y, 1), 2));
+        });
     }
     std::array<double, 2> expected(int x, int y) const
     {
@@ -62,23 +66,16 @@ struct Moments {
     }
 };
 
-struct SplitPlanes {
-    Planes<float> ofTexture, ofIrradiance;
-};
-SplitPlanes splitVariance(
-    KernelBench& bench, const Region& region, const Moments& in, const shared::DistributedParams& p)
+/// Of the texture, and of the irradiance.
+std::array<Planes<float>, 2> splitVariance(
+    DeclaredFrame& frame, const Region& region, Moments& in, std::uint32_t values = 1)
 {
-    Output<float> first(bench, region, 1), second(bench, region, 1);
-    const bool light = p.values == 1;
-    const auto k = bench.buffer(packedColours(in.texture, shared::textureBits(p.packed, light)).values),
-               e = bench.buffer(packedColours(in.value, shared::valueBits(p.packed, light)).values),
-               k2 = bench.buffer(in.textureSquares.values),
-               l2 =
-                   bench.buffer((p.packed != 0 ? packedNumbers(in.deviation, in.textureDeviation) : in.squares).values);
-    const auto taken = bench.buffer(in.taken.values);
-    launchPixels(
-        bench, "waves/distributed.cl", "splitVariance", p, k, k2, e, l2, taken, first.buffer(), second.buffer());
-    return { first.read(), second.read() };
+    RegionPass pass(frame, "splitVariance", { "ofTexture", "ofIrradiance" }, termOf(values));
+    in.fill(pass, region);
+    shared::DistributedParams p = paramsOf(region);
+    p.values = values;
+    pass.runIn(region, p);
+    return { pass.floats("ofTexture"), pass.floats("ofIrradiance") };
 }
 
 /// What uncertaintyOfRays takes.
@@ -111,15 +108,16 @@ struct Filters {
     }
 };
 Planes<float> uncertaintyOfRays(
-    KernelBench& bench, const Region& region, const shared::DistributedParams& p, const Filters& in)
+    DeclaredFrame& frame, const Region& region, const shared::DistributedParams& p, const Filters& in)
 {
-    Output<float> uncertainty(bench, region, 1);
-    const auto variance = bench.buffer(in.variance.values), effective = bench.buffer(in.effective.values),
-               beta = bench.buffer(in.beta.values), lens = bench.buffer(in.lens.values),
-               along = bench.buffer(in.along.values);
-    launchPixels(bench, "waves/distributed.cl", "uncertaintyOfRays", p, variance, effective, beta, lens, along,
-        uncertainty.buffer());
-    return uncertainty.read();
+    RegionPass pass(frame, "uncertaintyOfRays", { "uncertainty" });
+    pass.plane("variance", in.variance);
+    pass.plane("effective", in.effective);
+    pass.plane("beta", in.beta);
+    pass.plane("lens", in.lens);
+    pass.plane("along", in.along);
+    pass.runIn(region, p);
+    return pass.floats("uncertainty");
 }
 
 /// Sum of the squares of Gaussians of those deviations, one convolved with the other, on whole numbers.
@@ -150,25 +148,20 @@ Planes<std::uint32_t> someCounts(const Region& region, std::mt19937& random, std
 
 } // namespace
 
-TEST_CASE(
-    "variances: of the texture at most all of it, of the irradiance the rest; none of a sample or less; packed, too")
+TEST_CASE("variances: of the texture at most all of it, of the irradiance the rest; none of a sample or less")
 {
-    onEveryRegion(0, [](KernelBench& bench, const Region& region, std::mt19937& random) {
-        for (const auto& [packed, values] : { std::pair(0u, 1u), { 1u, 1u }, { 1u, 3u } }) {
-            CAPTURE(packed);
+    onEveryRegion(0, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
+        for (const std::uint32_t values : { 1u, 3u }) {
             CAPTURE(values);
-            shared::DistributedParams p = paramsOf(region);
-            p.packed = packed;
-            p.values = values;
-            const Moments in(region, random, p);
-            const SplitPlanes found = splitVariance(bench, region, in, p);
+            Moments in(region, random);
+            const auto found = splitVariance(frame, region, in, values);
             int all = 0, some = 0;
             everyPixel(region.window, [&](int x, int y) {
-                const auto [texture, irradiance] = in.expected(x, y);
-                REQUIRE(agree(found.ofTexture.at(x, y), texture, 1e-4, 4e-6));
-                REQUIRE(agree(found.ofIrradiance.at(x, y), irradiance, 1e-4, 4e-6));
-                all += texture > 0 && irradiance < 1e-6 ? 1 : 0;
-                some += texture > 0 && irradiance > 1e-6 ? 1 : 0;
+                const std::array<double, 2> expected = in.expected(x, y);
+                for (std::size_t k = 0; k < 2; ++k)
+                    REQUIRE(agree(found[k].at(x, y), expected[k], 1e-4, 4e-6));
+                all += expected[0] > 0 && expected[1] < 1e-6 ? 1 : 0;
+                some += expected[0] > 0 && expected[1] > 1e-6 ? 1 : 0;
             });
             CHECK((all > 3 || region.width * region.height < 100));
             CHECK((some > 3 || region.width * region.height < 100));
@@ -179,7 +172,7 @@ TEST_CASE(
 TEST_CASE("variances: in the mean over pixels of few samples they are those of a sample")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        MovingFrame frame(device, Kept::Full);
         const Region region(120, 90);
         std::mt19937 random(70);
         Moments in(region, random);
@@ -201,11 +194,11 @@ TEST_CASE("variances: in the mean over pixels of few samples they are those of a
                 in.squares.at(x, y) = static_cast<float>(l[1]);
                 in.taken.at(x, y) = n;
             });
-            const SplitPlanes found = splitVariance(bench, region, in, paramsOf(region));
+            const auto found = splitVariance(frame, region, in);
             double texture = 0, irradiance = 0;
             everyPixel(region.window, [&](int x, int y) {
-                texture += found.ofTexture.at(x, y) / (120.0 * 90.0);
-                irradiance += found.ofIrradiance.at(x, y) / (120.0 * 90.0);
+                texture += found[0].at(x, y) / (120.0 * 90.0);
+                irradiance += found[1].at(x, y) / (120.0 * 90.0);
             });
             CAPTURE(noisy);
             CHECK(texture + irradiance == doctest::Approx(noisy ? 4.0 / 9 - 0.25 : 1.0 / 12).epsilon(0.02));
@@ -217,17 +210,18 @@ TEST_CASE("variances: in the mean over pixels of few samples they are those of a
 
 TEST_CASE("emission: the variance of its luminance, none of a sample or less")
 {
-    onEveryRegion(20, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+    onEveryRegion(20, Kept::Full, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
         const auto emission =
             filledPlanes(region, 3, 1e30f, [&](int, int, std::size_t) { return uniform(random, 0, 5); });
         const auto squares =
             filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random, 0, 30); });
         const auto taken = someCounts(region, random, 6);
-        Output<float> variance(bench, region, 1);
-        const auto e = bench.buffer(emission.values), e2 = bench.buffer(squares.values);
-        const auto n = bench.buffer(taken.values);
-        launchPixels(bench, "waves/distributed.cl", "emissionVariance", paramsOf(region), e, e2, n, variance.buffer());
-        const Planes<float> found = variance.read();
+        RegionPass pass(frame, "emissionVariance", { "variance" });
+        pass.plane("emission", emission);
+        pass.plane("squares", squares);
+        pass.plane("taken", taken);
+        pass.runIn(region, paramsOf(region));
+        const auto found = pass.floats("variance");
         everyPixel(region.window, [&](int x, int y) {
             const double rest = squares.at(x, y) - std::pow(luminanceOf(emission.vector(x, y)), 2);
             REQUIRE(agree(found.at(x, y), std::max(0.0, rest) * unbiased(taken.at(x, y)), 1e-4, 2e-5));
@@ -237,14 +231,14 @@ TEST_CASE("emission: the variance of its luminance, none of a sample or less")
 
 TEST_CASE("uncertainty: variance over what filters gather and rays cost")
 {
-    onEveryRegion(40, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+    onEveryRegion(40, Kept::Full, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
         for (const std::uint32_t alongMotion : { 0u, 1u })
             for (const float rays : { 1.0f, 4.0f }) {
                 const Filters in(region, random);
                 shared::DistributedParams p = paramsOf(region);
                 p.alongMotion = alongMotion;
                 p.rays = rays;
-                const Planes<float> found = uncertaintyOfRays(bench, region, p, in);
+                const Planes<float> found = uncertaintyOfRays(frame, region, p, in);
                 everyPixel(region.window, [&](int x, int y) {
                     CAPTURE(x);
                     CAPTURE(y);
@@ -257,7 +251,7 @@ TEST_CASE("uncertainty: variance over what filters gather and rays cost")
 TEST_CASE("uncertainty: filters one after the other gather what their kernels, convolved, do")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        MovingFrame frame(device, Kept::Full);
         const Region region(1, 1);
         std::mt19937 random(5);
         for (const double own : { 1.0, 2.5 })
@@ -272,21 +266,24 @@ TEST_CASE("uncertainty: filters one after the other gather what their kernels, c
                     shared::DistributedParams p = paramsOf(region);
                     p.alongMotion = 1;
                     const double gathered = 1 / (squaredWeights({ own, lens }) * squaredWeights({ own, lens, along }));
-                    REQUIRE(agree(uncertaintyOfRays(bench, region, p, in).at(0, 0), 1 / gathered, 1e-3));
+                    REQUIRE(agree(uncertaintyOfRays(frame, region, p, in).at(0, 0), 1 / gathered, 1e-3));
                 }
     });
 }
 
 TEST_CASE("at least so many samples of one kind as of another, where taken apart and where not")
 {
-    onEveryRegion(90, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+    onEveryRegion(90, Kept::Full, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
         const Filters in(region, random);
         const Planes<float> before = in.effective;
-        Output<float> demand(bench, region, before);
-        const auto beta = bench.buffer(in.beta.values), least = bench.buffer(in.along.values);
-        launchPixels(
-            bench, "waves/distributed.cl", "atLeast", paramsOf(region), 0.5f, 8.0f, beta, least, demand.buffer());
-        const Planes<float> found = demand.read();
+        RegionPass pass(frame, "atLeast", { "demand" });
+        pass.plane("demand", before);
+        pass.plane("beta", in.beta);
+        pass.plane("least", in.along);
+        pass.value("apart", 0.5f);
+        pass.value("together", 8.0f);
+        pass.runIn(region, paramsOf(region));
+        const auto found = pass.floats("demand");
         int raised[2] = {};
         everyPixel(region.window, [&](int x, int y) {
             const bool apart = in.beta.at(x, y) >= 0;
@@ -300,19 +297,23 @@ TEST_CASE("at least so many samples of one kind as of another, where taken apart
 
 TEST_CASE("counts: no more new primary samples than a wave has room for")
 {
-    onEveryRegion(110, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+    const auto test = [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
         const auto taken = someCounts(region, random, 900), wanted = someCounts(region, random, 4000);
-        const auto takenBuffer = bench.buffer(taken.values);
         // Never fewer than there are.
         Planes<std::uint32_t> atLeastTaken = wanted;
         everyPixel({ 0, 0, region.width, region.height },
             [&](int x, int y) { atLeastTaken.at(x, y) = std::max(wanted.at(x, y), taken.at(x, y)); });
-        Output<std::uint32_t> primary(bench, region, atLeastTaken);
-        launchPixels(bench, "waves/distributed.cl", "limitStep", paramsOf(region), takenBuffer, primary.buffer());
-        const Planes<std::uint32_t> found = primary.read();
+        RegionPass<std::uint32_t> pass(frame, "limitStep", { "wanted" });
+        pass.plane("wanted", atLeastTaken);
+        pass.plane("taken", taken);
+        pass.runIn(region, paramsOf(region));
+        const auto found = pass.pixels<std::uint32_t>("wanted");
         everyPixel(region.window, [&](int x, int y) {
             const std::uint32_t steps = std::min(atLeastTaken.at(x, y) - taken.at(x, y), 1024u);
             REQUIRE(found.at(x, y) == taken.at(x, y) + steps);
         });
-    });
+    };
+    render::Settings progressive = render::axisAligned(16);
+    progressive.progressive = true;
+    onEveryRegion(110, Kept::Full, test, progressive);
 }

@@ -1,6 +1,5 @@
 // distributed.cl alone: where texture and irradiance may be taken apart, how wide filters are, and counts of demands.
 #include "tests/distributed_support.h"
-#include "tests/packed_support.h"
 
 using namespace wedge;
 using namespace wedge::test;
@@ -36,8 +35,7 @@ struct Widths {
     Planes<float> error, confusion, pixelSize, beta;
     Planes<std::uint32_t> objectId;
 
-    /// packed: rounded to what is left of them.
-    Widths(const Region& region, std::mt19937& random, std::uint32_t packed = 0)
+    Widths(const Region& region, std::mt19937& random)
         : error(filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random, -0.05, 0.07); }))
         , confusion(randomConfusion(region, random))
         , pixelSize(filledPlanes(region, 1, 1e30f, [&](int, int, std::size_t) { return uniform(random, 1e-3, 0.1); }))
@@ -49,12 +47,6 @@ struct Widths {
             return random() % 9 == 0 ? random() % 3 : 1u + static_cast<unsigned>(x / 9 + y / 7) % 2;
         }))
     {
-        everyPixel({ 0, 0, packed != 0 ? region.width : 0, region.height }, [&](int x, int y) {
-            error.at(x, y) = rounded(error.at(x, y));
-            pixelSize.at(x, y) = rounded(pixelSize.at(x, y));
-            const float low = confusion.at(x, y), high = confusion.at(x, y, 1);
-            confusion.at(x, y) = confusion.at(x, y, 1) = rounded(low > 0 ? low : high < 0 ? high : 0.0);
-        });
     }
     ExpectedWidth expected(const Region& region, const shared::DistributedParams& p, int x, int y) const
     {
@@ -75,33 +67,34 @@ struct Widths {
     }
 };
 
-Planes<float> factoredWidths(
-    KernelBench& bench, const Region& region, const shared::DistributedParams& p, const Widths& in)
+/// in: becomes what the pass has of it.
+Planes<float> factoredWidths(DeclaredFrame& frame, const Region& region, const shared::DistributedParams& p, Widths& in)
 {
-    Output<float> beta(bench, region, in.beta);
-    // With what else there is in these planes: slopes, or nothing.
-    const Planes<float> other = filledPlanes(region, 1, 1e30f, [](int x, int, std::size_t) { return x; });
-    const bool packed = p.packed != 0;
-    const auto error = bench.buffer((packed ? packedNumbers(in.error, other) : in.error).values),
-               confusion = bench.buffer((packed ? packedNumbers(in.confusion, other) : in.confusion).values),
-               size = bench.buffer((packed ? packedNumbers(in.pixelSize, other) : in.pixelSize).values);
-    const auto objects = bench.buffer(in.objectId.values);
-    launchPixels(bench, "waves/distributed.cl", "factoredWidths", p, error, confusion, size, objects, beta.buffer());
-    return beta.read();
+    RegionPass pass(frame, "factoredWidths", { "beta" });
+    pass.plane("objectId", in.objectId);
+    for (const auto& [name, plane] : { std::pair("error", &in.error), { "confusion", &in.confusion },
+             { "pixelSize", &in.pixelSize }, { "beta", &in.beta } }) {
+        pass.plane(name, *plane);
+        *plane = pass.floats(name);
+    }
+    pass.runIn(region, p);
+    return pass.floats("beta");
 }
 
 } // namespace
 
 TEST_CASE("the factoring error is the signed luminance of k E - k mean(e)")
 {
-    onEveryRegion(0, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+    onEveryRegion(0, Kept::Full, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
         const auto any = [&](int, int, std::size_t) { return random() % 6 == 0 ? 0 : uniform(random); };
         const auto texture = filledPlanes(region, 3, 1e30f, any), value = filledPlanes(region, 3, 1e30f, any),
                    plain = filledPlanes(region, 1, 1e30f, any);
-        Output<float> error(bench, region, 1);
-        const auto k = bench.buffer(texture.values), e = bench.buffer(value.values), m = bench.buffer(plain.values);
-        launchPixels(bench, "waves/distributed.cl", "factoringError", paramsOf(region), k, e, m, error.buffer());
-        const Planes<float> found = error.read();
+        RegionPass pass(frame, "factoringError", { "error" });
+        pass.plane("texture", texture);
+        pass.plane("value", value);
+        pass.plane("plain", plain);
+        pass.runIn(region, paramsOf(region));
+        const auto found = pass.floats("error");
         int negative = 0;
         everyPixel(region.window, [&](int x, int y) {
             const glm::dvec3 t = texture.vector(x, y);
@@ -113,19 +106,17 @@ TEST_CASE("the factoring error is the signed luminance of k E - k mean(e)")
     });
 }
 
-TEST_CASE("widths: apart where the mean error around of the same object is small, and as wide as the lens blurs at "
-          "least; packed, too")
+TEST_CASE(
+    "widths: apart where the mean error around of the same object is small, and as wide as the lens blurs at least")
 {
-    onEveryRegion(50, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+    onEveryRegion(50, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
         for (const std::uint32_t radius : { 0u, 1u, 2u, 5u })
-            for (const auto& [never, packed] : { std::pair(0u, 0u), { 1u, 0u }, { 0u, 1u }, { 1u, 1u } }) {
-                const Widths in(region, random, packed);
+            for (const std::uint32_t never : { 0u, 1u }) {
+                Widths in(region, random);
                 shared::DistributedParams p = paramsOf(region);
-                p.packed = packed;
                 p.factoringRadius = radius;
                 p.never = never;
-                CAPTURE(p.packed);
-                const Planes<float> found = factoredWidths(bench, region, p, in);
+                const Planes<float> found = factoredWidths(frame, region, p, in);
                 everyPixel(region.window, [&](int x, int y) {
                     CAPTURE(x);
                     CAPTURE(y);
@@ -140,7 +131,7 @@ TEST_CASE("widths: apart where the mean error around of the same object is small
 TEST_CASE("widths: errors without a sign cancel, those of one sign do not, and other objects have no say")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        MovingFrame frame(device, Kept::Full);
         const Region region(30, 20);
         std::mt19937 random(3);
         Widths in(region, random);
@@ -151,7 +142,7 @@ TEST_CASE("widths: errors without a sign cancel, those of one sign do not, and o
             // Of 5x5 pixels 13 and 12: 0.2 / 25 are left. On the right of the middle always the same.
             in.error.at(x, y) = x < 15 ? ((x + y) % 2 == 0 ? 0.2f : -0.2f) : (y < 10 ? 0.0101f : -0.0101f);
         });
-        const Planes<float> found = factoredWidths(bench, region, paramsOf(region), in);
+        const Planes<float> found = factoredWidths(frame, region, paramsOf(region), in);
         everyPixel({ 2, 2, 28, 18 }, [&](int x, int y) {
             CAPTURE(x);
             CAPTURE(y);
@@ -167,18 +158,22 @@ TEST_CASE("widths: errors without a sign cancel, those of one sign do not, and o
 
 TEST_CASE("counts are the scaled demand to the nearest, within bounds, and never fewer than there are")
 {
-    onEveryRegion(150, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+    onEveryRegion(150, Kept::Full, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
+        RegionPass<std::uint32_t> pass(frame, "scaleCounts", { "wanted" });
         for (const float scale : { 0.0f, 1.0f, 37.5f, 1e30f }) {
             const float even = scale == 1.0f ? 0.75f : 0.0f, mean = 26.0f;
             const auto demand = filledPlanes(region, 1, 1e30f,
                 [&](int, int, std::size_t) { return random() % 5 == 0 ? 0.0 : std::exp(uniform(random, -6, 6)); });
             const auto taken = filledPlanes(region, 1, 1u << 20, [&](int, int, std::size_t) { return random() % 40; });
-            Output<std::uint32_t> wanted(bench, region, 1);
-            const auto demands = bench.buffer(demand.values);
-            const auto takens = bench.buffer(taken.values);
-            launchPixels(bench, "waves/distributed.cl", "scaleCounts", paramsOf(region), scale, even, mean, 8u, 100u,
-                demands, takens, wanted.buffer());
-            const Planes<std::uint32_t> found = wanted.read();
+            pass.value("scale", scale);
+            pass.value("even", even);
+            pass.value("mean", mean);
+            pass.value("least", 8u);
+            pass.value("most", 100u);
+            pass.plane("demand", demand);
+            pass.plane("taken", taken);
+            pass.runIn(region, paramsOf(region));
+            const auto found = pass.pixels<std::uint32_t>("wanted");
             everyPixel(region.window, [&](int x, int y) {
                 const double asked = std::clamp(static_cast<double>(scale) * demand.at(x, y), 8.0, 100.0);
                 const double n = asked + double { even } * (mean - asked);

@@ -255,13 +255,13 @@ void packNormals(FilterImage& plain, FilterImage& packed)
 
 } // namespace
 
-TEST_CASE("packed programs: what the others make of the same normals, without counts of three planes")
+TEST_CASE("programs of lean frames: what the others make of the same normals, without counts of three planes")
 {
     onEveryDevice([](const device::Device& device) {
         for (const int planes : { 3, 1 }) {
             CAPTURE(planes);
             const bool counts = planes == 1;
-            Defines packedDefines { { "WEDGE_PACKED", "1" } };
+            Defines packedDefines { { "WEDGE_NORMAL_FORMAT", "normal32" }, { "WEDGE_SIZE_FORMAT", "short1" } };
             if (!counts)
                 packedDefines.emplace_back("WEDGE_GATHER_VALUE_ONLY", "1");
             FilterRun filter(device, program(planes)), packedFilter(device, program(planes, packedDefines));

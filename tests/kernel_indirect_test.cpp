@@ -79,9 +79,8 @@ public:
             { "sums", "value", "parts", "reflectors" });
         traced.bench.passes.tiles("paths", device::PassKind::Trace, program, "samplePaths", traced.params, 1.0, params,
             s.nodes, s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, s.emitters, s.emitterPicks,
-            s.environment, s.environmentTable, /* no pre-computed samples */ s.environmentTable, f.receivers(),
-            f.specular, traced.bench.buffer(wanted), last, traced.taken, f.rays, f.pathRays, sums_, value_, parts_,
-            reflectors_);
+            s.environment, s.environmentTable, f.receivers(), f.specular, traced.bench.buffer(wanted), last,
+            traced.taken, f.rays, f.pathRays, sums_, value_, parts_, reflectors_);
     }
     PathResult result()
     {

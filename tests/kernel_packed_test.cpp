@@ -249,13 +249,3 @@ TEST_CASE("normals: each part to half a unit of 1/511, with its sign; no bits ar
     }
     CHECK(vecDot(unpackNormal(0), unpackNormal(0)) == 0);
 }
-
-TEST_CASE("terms: the fraction has the fewer bits, the other the more, and what is not packed all")
-{
-    for (const bool light : { false, true }) {
-        CHECK(textureBits(0, light) == WEDGE_PLAIN_BITS);
-        CHECK(valueBits(0, light) == WEDGE_PLAIN_BITS);
-        CHECK(textureBits(1, light) == (light ? WEDGE_COLOUR_BITS : WEDGE_FRACTION_BITS));
-        CHECK(valueBits(1, light) == (light ? WEDGE_FRACTION_BITS : WEDGE_COLOUR_BITS));
-    }
-}

@@ -8,15 +8,16 @@ using namespace wedge::test;
 
 namespace {
 
-Planes<std::uint32_t> counts(KernelBench& bench, const Region& region, std::uint32_t most, const Planes<float>& demand,
-    const Planes<std::uint32_t>& least, const Planes<std::uint32_t>& taken)
+Planes<std::uint32_t> counts(DeclaredFrame& frame, const Region& region, std::uint32_t most,
+    const Planes<float>& demand, const Planes<std::uint32_t>& least, const Planes<std::uint32_t>& taken)
 {
-    Output<std::uint32_t> wanted(bench, region, 1);
-    const auto demands = bench.buffer(demand.values);
-    const auto leasts = bench.buffer(least.values), takens = bench.buffer(taken.values);
-    launchPixels(bench, "analysis/published.cl", "publishedCounts", paramsOf(region), most, demands, leasts, takens,
-        wanted.buffer());
-    return wanted.read();
+    RegionPass<std::uint32_t> pass(frame, "publishedCounts", { "wanted" });
+    pass.value("most", most);
+    pass.plane("demand", demand);
+    pass.plane("least", least);
+    pass.plane("taken", taken);
+    pass.runIn(region, paramsOf(region));
+    return pass.pixels<std::uint32_t>("wanted");
 }
 
 Planes<std::uint32_t> constant(const Region& region, std::uint32_t value)
@@ -29,14 +30,14 @@ Planes<std::uint32_t> constant(const Region& region, std::uint32_t value)
 TEST_CASE("flags (5.30): |L - k E| below the threshold, of one value and of three, never where never")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        MovingFrame frame(device, Kept::Full, render::asPublished());
         for (const Region& region : regions())
             for (const std::uint32_t values : { 1u, 3u })
                 for (const std::uint32_t never : { 0u, 1u }) {
                     std::mt19937 random(values + never);
                     const auto any = [&](int, int, std::size_t) { return uniform(random); };
                     const auto texture = filledPlanes(region, 3, 1e30f, any),
-                               value = filledPlanes(region, values, 1e30f, any);
+                               value = filledPlanes(region, 3, 1e30f, any);
                     // Off by up to 0.01 in each channel, to either side, and now and then by much.
                     const auto radiance = filledPlanes(region, 3, 1e30f, [&](int x, int y, std::size_t c) {
                         const double own = texture.at(x, y, c) * value.at(x, y, values == 3 ? c : 0);
@@ -45,11 +46,12 @@ TEST_CASE("flags (5.30): |L - k E| below the threshold, of one value and of thre
                     shared::DistributedParams p = paramsOf(region);
                     p.values = values;
                     p.never = never;
-                    Output<float> flags(bench, region, 1);
-                    const auto k = bench.buffer(texture.values), e = bench.buffer(value.values),
-                               l = bench.buffer(radiance.values);
-                    launchPixels(bench, "analysis/published.cl", "publishedFlags", p, k, e, l, flags.buffer());
-                    const Planes<float> found = flags.read();
+                    RegionPass pass(frame, "publishedFlags", { "flags" });
+                    pass.plane("texture", texture);
+                    pass.plane("value", value);
+                    pass.plane("termRadiance", radiance);
+                    pass.runIn(region, p);
+                    const auto found = pass.floats("flags");
                     everyPixel(region.window, [&](int x, int y) {
                         const glm::dvec3 arrives = values == 3 ? value.vector(x, y) : glm::dvec3(value.at(x, y));
                         const double error = glm::length(radiance.vector(x, y) - texture.vector(x, y) * arrives);
@@ -63,7 +65,7 @@ TEST_CASE("flags (5.30): |L - k E| below the threshold, of one value and of thre
 TEST_CASE("counts are the largest demand of 3x3 pixels rounded up, within bounds")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        MovingFrame frame(device, Kept::Full, render::asPublished());
         unsigned seed = 0;
         for (const Region& region : regions())
             for (const std::uint32_t most : { 1u, 40u, 512u }) {
@@ -74,7 +76,7 @@ TEST_CASE("counts are the largest demand of 3x3 pixels rounded up, within bounds
                 const auto few = [&](int, int, std::size_t) { return random() % 70; };
                 const auto least = filledPlanes(region, 1, 1u << 20, few),
                            taken = filledPlanes(region, 1, 1u << 20, few);
-                const Planes<std::uint32_t> found = counts(bench, region, most, demand, least, taken);
+                const Planes<std::uint32_t> found = counts(frame, region, most, demand, least, taken);
                 everyPixel(region.window, [&](int x, int y) {
                     double largest = 0;
                     for (int py = y - 1; py <= y + 1; ++py)
@@ -90,18 +92,18 @@ TEST_CASE("counts are the largest demand of 3x3 pixels rounded up, within bounds
 TEST_CASE("counts: in focus one, next to a demand as many as it, of endless and undefined ones no more than the most")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        MovingFrame frame(device, Kept::Full, render::asPublished());
         const Region region(9, 9);
         auto demand = filledPlanes(region, 1, 1e30f, [](int, int, std::size_t) { return 1; });
         demand.at(4, 4) = 7.01f;
-        const auto peak = counts(bench, region, 512, demand, constant(region, 0), constant(region, 0));
+        const auto peak = counts(frame, region, 512, demand, constant(region, 0), constant(region, 0));
         everyPixel(region.window,
             [&](int x, int y) { REQUIRE(peak.at(x, y) == (std::abs(x - 4) <= 1 && std::abs(y - 4) <= 1 ? 8 : 1)); });
         for (const float endless : { 1e30f, std::numeric_limits<float>::infinity() }) {
             demand.at(4, 4) = endless;
-            CHECK(counts(bench, region, 512, demand, constant(region, 2), constant(region, 0)).at(5, 5) == 512);
+            CHECK(counts(frame, region, 512, demand, constant(region, 2), constant(region, 0)).at(5, 5) == 512);
         }
         demand.at(4, 4) = std::numeric_limits<float>::quiet_NaN();
-        CHECK(counts(bench, region, 512, demand, constant(region, 2), constant(region, 0)).at(5, 5) == 2);
+        CHECK(counts(frame, region, 512, demand, constant(region, 2), constant(region, 0)).at(5, 5) == 2);
     });
 }

@@ -1,6 +1,5 @@
 // published.cl alone: widths and counts of terms and of primary rays against the equations of thesis chapter 5 and
 // appendix B as printed, in double, with the differences that docs/multiple-effects.md names.
-#include "kernels/shared/path.h"
 #include "tests/distributed_support.h"
 
 #include <limits>
@@ -56,9 +55,10 @@ struct Pixels {
               plane(1, [&](int x, int y, std::size_t) { return (x / 4 + y / 5) % 2 == 0 ? chance(0.8) : chance(0.2); }))
         , confusion(plane(2, [](int, int, std::size_t) { return 0; }))
         , slopes(plane(2, [](int, int, std::size_t) { return 0; }))
-        , reflectors(slopes)
+        , reflectors(plane(3, [](int, int, std::size_t) { return 0; }))
         , pixelSize(plane(1, [&](int, int, std::size_t) { return std::exp(uniform(random, -7, -3)); }))
-        , motion(plane(3, [](int, int, std::size_t) { return 0; }))
+        , motion(slopes)
+        , motionSpread(plane(1, [](int, int, std::size_t) { return 0; }))
         , objectId(
               filledPlanes(of, 1, 3u, [&](int, int, std::size_t) { return random() % 7 == 0 ? 0 : 1 + random() % 3; }))
         , gloss(filledPlanes(
@@ -105,7 +105,7 @@ struct Pixels {
 
     Region region;
     std::mt19937 random;
-    Planes<float> flags, confusion, slopes, reflectors, pixelSize, motion;
+    Planes<float> flags, confusion, slopes, reflectors, pixelSize, motion, motionSpread;
     Planes<std::uint32_t> objectId, gloss;
 };
 
@@ -113,35 +113,50 @@ struct Found {
     Planes<float> beta, demand;
 };
 
-Found shadows(KernelBench& bench, const Pixels& in, float mu, float extent)
+MovingFrame published(const device::Device& device) { return MovingFrame(device, Kept::Full, render::asPublished()); }
+
+/// own: of the two kinds of terms, planes and values that only they have.
+template <class Own>
+Found widthsOf(DeclaredFrame& frame, const Pixels& in, const std::string& kernel, float mu, const Own& own)
 {
-    Output<float> beta(bench, in.region, 1), demand(bench, in.region, 1);
-    const auto flags = bench.buffer(in.flags.values), slopes = bench.buffer(in.slopes.values),
-               confusion = bench.buffer(in.confusion.values), size = bench.buffer(in.pixelSize.values);
-    const auto objects = bench.buffer(in.objectId.values);
-    launchPixels(bench, "analysis/published.cl", "publishedShadows", paramsOf(in.region), mu, extent, flags, slopes,
-        confusion, size, objects, beta.buffer(), demand.buffer());
-    return { beta.read(), demand.read() };
+    RegionPass pass(frame, kernel, { "beta", "demand" });
+    pass.value("mu", mu);
+    pass.plane("flags", in.flags);
+    pass.plane("confusion", in.confusion);
+    pass.plane("pixelSize", in.pixelSize);
+    pass.plane("objectId", in.objectId);
+    own(pass);
+    pass.runIn(in.region, paramsOf(in.region));
+    return { pass.floats("beta"), pass.floats("demand") };
 }
 
-Found reflectors(KernelBench& bench, const Pixels& in, float mu, std::uint32_t component)
+Found shadows(DeclaredFrame& frame, const Pixels& in, float mu, float extent)
 {
-    Output<float> beta(bench, in.region, 1), demand(bench, in.region, 1);
-    const auto flags = bench.buffer(in.flags.values), distances = bench.buffer(in.reflectors.values),
-               confusion = bench.buffer(in.confusion.values), size = bench.buffer(in.pixelSize.values);
-    const auto objects = bench.buffer(in.objectId.values), gloss = bench.buffer(in.gloss.values);
-    launchPixels(bench, "analysis/published.cl", "publishedReflectors", paramsOf(in.region), mu, component, flags,
-        distances, gloss, confusion, size, objects, beta.buffer(), demand.buffer());
-    return { beta.read(), demand.read() };
+    return widthsOf(frame, in, "publishedShadows", mu, [&](PassBench& pass) {
+        pass.value("lightExtent", extent);
+        pass.plane("slopes", in.slopes);
+    });
 }
 
-Planes<float> primaries(KernelBench& bench, const Pixels& in, float mu, float mixed = 64)
+Found reflectors(DeclaredFrame& frame, const Pixels& in, float mu, std::uint32_t component)
 {
-    Output<float> demand(bench, in.region, 1);
-    const auto confusion = bench.buffer(in.confusion.values), motion = bench.buffer(in.motion.values);
-    launchPixels(bench, "analysis/published.cl", "publishedPrimary", paramsOf(in.region), mu, mixed, confusion, motion,
-        demand.buffer());
-    return demand.read();
+    return widthsOf(frame, in, "publishedReflectors", mu, [&](PassBench& pass) {
+        pass.value("component", component);
+        pass.plane("reflectors", in.reflectors);
+        pass.plane("gloss", in.gloss);
+    });
+}
+
+Planes<float> primaries(DeclaredFrame& frame, const Pixels& in, float mu, float mixed = 64)
+{
+    RegionPass pass(frame, "publishedPrimary", { "demand" });
+    pass.value("mu", mu);
+    pass.value("mixed", mixed);
+    pass.plane("confusion", in.confusion);
+    pass.plane("motion", in.motion);
+    pass.plane("motionSpread", in.motionSpread);
+    pass.runIn(in.region, paramsOf(in.region));
+    return pass.floats("demand");
 }
 
 /// A term's width and count, of what `secondary` is at its least and largest.
@@ -167,13 +182,13 @@ void requireTerm(const Pixels& in, const Found& found, int x, int y, double leas
 TEST_CASE("shadows: widths (5.18), counts (5.25) where taken apart and (5.27) where not, scaled by (5.29)")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        MovingFrame frame = published(device);
         unsigned seed = 0;
         for (const Region& region : regions())
             for (const float mu : { 1.0f, 0.6f, 3.0f, 1e6f })
                 for (const float extent : { 0.0f, 0.01f, 0.4f }) {
                     const Pixels in(region, ++seed);
-                    const Found found = shadows(bench, in, mu, extent);
+                    const Found found = shadows(frame, in, mu, extent);
                     everyPixel(region.window, [&](int x, int y) {
                         const double perSlope = extent / static_cast<double>(in.pixelSize.at(x, y));
                         requireTerm(
@@ -186,14 +201,14 @@ TEST_CASE("shadows: widths (5.18), counts (5.25) where taken apart and (5.27) wh
 TEST_CASE("reflectors: widths (5.22), counts (5.26) and (5.28) over Omega_v^2, of diffuse surfaces and of lobes")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        MovingFrame frame = published(device);
         unsigned seed = 100;
         for (const Region& region : regions())
             for (const float mu : { 1.0f, 0.6f, 3.0f, 1e6f })
                 for (const bool glossy : { false, true }) {
                     const Pixels in(region, ++seed);
                     const Found found =
-                        reflectors(bench, in, mu, glossy ? WEDGE_COMPONENT_GLOSSY : WEDGE_COMPONENT_DIFFUSE);
+                        reflectors(frame, in, mu, glossy ? WEDGE_COMPONENT_GLOSSY : WEDGE_COMPONENT_DIFFUSE);
                     everyPixel(region.window, [&](int x, int y) {
                         const double transfer = glossy ? lobeBand(in.gloss.at(x, y)) : diffuseBand;
                         const double perMetre = 1 / (transfer * in.pixelSize.at(x, y));
@@ -207,7 +222,7 @@ TEST_CASE("reflectors: widths (5.22), counts (5.26) and (5.28) over Omega_v^2, o
 TEST_CASE("primary rays: (5.24); (B.3) along one motion, a fixed count where motions differ, the largest of them")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        MovingFrame frame = published(device);
         unsigned seed = 200;
         for (const Region& region : regions())
             for (const float mu : { 1.0f, 0.6f, 3.0f }) {
@@ -215,17 +230,17 @@ TEST_CASE("primary rays: (5.24); (B.3) along one motion, a fixed count where mot
                 everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
                     const double speed = in.chance(0.8) * uniform(in.random, 0, 5) * uniform(in.random, 0, 9),
                                  angle = uniform(in.random, 0, 7);
-                    in.motion.setVector(x, y,
-                        { speed * std::cos(angle), speed * std::sin(angle),
-                            in.chance(0.5) * speed * uniform(in.random, 0, 0.3) });
-                    if (in.random() % 8 == 0) // opposite ones: no mean at all
-                        in.motion.setVector(x, y, { 0, 0, uniform(in.random, 0, 5) });
+                    const bool opposite = in.random() % 8 == 0; // no mean at all
+                    in.motion.at(x, y) = opposite ? 0 : static_cast<float>(speed * std::cos(angle));
+                    in.motion.at(x, y, 1) = opposite ? 0 : static_cast<float>(speed * std::sin(angle));
+                    in.motionSpread.at(x, y) = static_cast<float>(
+                        opposite ? uniform(in.random, 0, 5) : in.chance(0.5) * speed * uniform(in.random, 0, 0.3));
                 });
-                const Planes<float> found = primaries(bench, in, mu);
+                const Planes<float> found = primaries(frame, in, mu);
                 everyPixel(region.window, [&](int x, int y) {
                     const Circles r = in.circles(x, y);
-                    const glm::dvec3 m = in.motion.vector(x, y);
-                    const double speed = std::hypot(m.x, m.y), spread = m.z, half = speed / 2; // Omega_t = 2
+                    const double speed = std::hypot(in.motion.at(x, y), in.motion.at(x, y, 1)),
+                                 spread = in.motionSpread.at(x, y), half = speed / 2; // Omega_t = 2
                     if (std::fabs(speed - 2) < 1e-5 || std::fabs(spread - 2) < 1e-5
                         || std::fabs(spread - 0.1 * speed) < 1e-5)
                         return;
@@ -240,7 +255,7 @@ TEST_CASE("primary rays: (5.24); (B.3) along one motion, a fixed count where mot
 TEST_CASE("in focus one primary ray; of a point light, and of reflectors at the surface, as many rays as primary ones")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        MovingFrame frame = published(device);
         const Region region(45, 29);
         for (const float mu : { 0.6f, 1.0f, 4.0f })
             for (const float apart : { 0.0f, 1.0f }) {
@@ -250,9 +265,9 @@ TEST_CASE("in focus one primary ray; of a point light, and of reflectors at the 
                     in.flags.at(x, y) = apart;
                     Pixels::pair(in.reflectors, x, y, 0, 0);
                 });
-                const Planes<float> primary = primaries(bench, in, mu);
-                const Planes<float> point = shadows(bench, in, mu, 0).demand;
-                const Planes<float> contact = reflectors(bench, in, mu, WEDGE_COMPONENT_DIFFUSE).demand;
+                const Planes<float> primary = primaries(frame, in, mu);
+                const Planes<float> point = shadows(frame, in, mu, 0).demand;
+                const Planes<float> contact = reflectors(frame, in, mu, WEDGE_COMPONENT_DIFFUSE).demand;
                 Pixels focused = in;
                 everyPixel(region.window, [&](int x, int y) {
                     // Of primary rays there is one at least, whatever mu.
@@ -260,7 +275,7 @@ TEST_CASE("in focus one primary ray; of a point light, and of reflectors at the 
                     REQUIRE(std::max(contact.at(x, y), 1.0f) == primary.at(x, y));
                     Pixels::pair(focused.confusion, x, y, 0, 0);
                 });
-                const Planes<float> one = primaries(bench, focused, mu);
+                const Planes<float> one = primaries(frame, focused, mu);
                 everyPixel(region.window, [&](int x, int y) { REQUIRE(one.at(x, y) == 1); });
             }
     });
@@ -269,7 +284,7 @@ TEST_CASE("in focus one primary ray; of a point light, and of reflectors at the 
 TEST_CASE("no input makes anything but a width and a count within bounds")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        MovingFrame frame = published(device);
         const Region region(36, 36);
         Pixels in(region, 8);
         const float values[] = { 0, 1e-30f, 1e-6f, 1, 1e6f, 1e30f };
@@ -282,9 +297,9 @@ TEST_CASE("no input makes anything but a width and a count within bounds")
             Pixels::pair(in.confusion, x, y, (x + y) % 3 == 0 ? -1e4f : 1e4f, y % 4 == 0 ? 0 : 1e4f);
         });
         for (const float mu : { 1e-3f, 1.0f, 1e30f }) {
-            const Found all[] = { shadows(bench, in, mu, 0), shadows(bench, in, mu, 0.5f),
-                shadows(bench, in, mu, 1e30f), reflectors(bench, in, mu, WEDGE_COMPONENT_DIFFUSE),
-                reflectors(bench, in, mu, WEDGE_COMPONENT_GLOSSY) };
+            const Found all[] = { shadows(frame, in, mu, 0), shadows(frame, in, mu, 0.5f),
+                shadows(frame, in, mu, 1e30f), reflectors(frame, in, mu, WEDGE_COMPONENT_DIFFUSE),
+                reflectors(frame, in, mu, WEDGE_COMPONENT_GLOSSY) };
             for (const Found& found : all)
                 everyPixel(region.window, [&](int x, int y) {
                     REQUIRE(std::isfinite(found.beta.at(x, y)));

@@ -1,6 +1,6 @@
 // reflectors.cl alone: distances of reflectors to widths and counts, against the same in double.
 #include "kernels/shared/indirect.h"
-#include "tests/packed_support.h"
+#include "tests/pass_bench.h"
 #include "tests/reflector_support.h"
 
 #include <algorithm>
@@ -11,20 +11,28 @@ using namespace wedge::test;
 
 namespace {
 
-/// visibleBounds and visibleExtent one after the other, garbage in what they write.
-float extentOf(KernelBench& bench, const Planes<float>& position, const Planes<std::uint32_t>& objectId)
+/// With counts of distances; lean: of several receivers a pixel, in fewer bits.
+DeclaredFrame frameOf(const device::Device& device, int width, int height, bool lean = false)
 {
-    // Arguments are to outlive the launch.
-    const auto positions = bench.buffer(position.values), bounds = bench.filled(6 * WEDGE_EXTENT_STRIPES, 1e9f),
-               extent = bench.filled(1, -7.0f);
-    const auto objects = bench.buffer(objectId.values);
-    device::Kernel& first = bench.passes.find("paths/reflectors.cl", "visibleBounds");
-    first.setArgs(paramsFor(position.layout), positions, objects, bounds);
-    bench.queue.launch("widths", device::PassKind::Analysis, first, WEDGE_EXTENT_STRIPES, 1);
-    device::Kernel& second = bench.passes.find("paths/reflectors.cl", "visibleExtent");
-    second.setArgs(bounds, extent);
-    bench.queue.launch("widths", device::PassKind::Analysis, second, 1, 1);
-    return bench.read(extent).at(0);
+    render::Settings settings = sized(render::axisAligned(16), width, height);
+    settings.bounces = 1;
+    settings.antialias = lean;
+    settings.indirect.counts = lean ? settings.indirect.counts : render::IndirectCounts::Spectrum;
+    return DeclaredFrame(device, smallScene(), settings);
+}
+
+/// visibleBounds and visibleExtent one after the other, garbage in what they write.
+float extentOf(DeclaredFrame& frame, const Planes<float>& position, const Planes<std::uint32_t>& objectId)
+{
+    PassBench first(frame, "visibleBounds"), second(frame, "visibleExtent");
+    first.plane("position", position);
+    first.plane("objectId", objectId);
+    first.plane("bounds", std::vector(6 * WEDGE_EXTENT_STRIPES, 1e9f));
+    first.run();
+    second.plane("bounds", first.read<float>("bounds"));
+    second.plane("extent", std::vector(1, -7.0f));
+    second.run();
+    return second.read<float>("extent").at(0);
 }
 
 /// What a pixel's first pass found, and what it shows.
@@ -43,58 +51,50 @@ struct Widths {
     std::vector<std::uint32_t> wanted;
 };
 
-constexpr std::uint32_t noCount = 777; ///< before the kernel
-
-/// Pixels of rows of `width`, each of an object of its own or of that of the numbers given. p.meanOnly: as lean frames
-/// have pixels, with sums of inverse distances alone and gloss beside sizes.
-Widths widthsOf(KernelBench& bench, shared::ReflectorParams p, float extent, const std::vector<Found>& pixels,
-    const std::vector<std::uint32_t>& objects, int width)
+/// Of all of a frame's pixels, row by row, each of an object of its own or of that of the numbers given. p.meanOnly: of
+/// a lean frame, with sums of inverse distances alone and without counts.
+Widths widthsOf(DeclaredFrame& frame, shared::ReflectorParams p, float extent, const std::vector<Found>& pixels,
+    const std::vector<std::uint32_t>& objects = {})
 {
-    const render::PlaneLayout layout(width, static_cast<int>(pixels.size()) / width);
+    const render::PlaneLayout& layout = frame.layout;
+    REQUIRE(pixels.size() == std::size_t { layout.width } * layout.height);
     const shared::ReflectorParams sized = paramsFor(layout);
     std::tie(p.x1, p.width, p.y1, p.height, p.stride, p.planeSize) =
         std::tie(sized.x1, sized.width, sized.y1, sized.height, sized.stride, sized.planeSize);
-    Planes<float> reflectors(layout, 3, 0.0f), pixelSize(layout, 1, 0.0f);
+    Planes<float> reflectors(layout, p.meanOnly != 0 ? 1 : 3, 0.0f), pixelSize(layout, 1, 0.0f);
     Planes<std::uint32_t> gloss(layout, 1, 0u), taken(layout, 1, 0u), objectId(layout, 1, 0u);
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-        const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+    std::size_t next = 0;
+    everyPixel(layout, [&](int x, int y) {
+        const Found& f = pixels[next++];
         if (p.meanOnly != 0)
-            reflectors.at(x, y) = pixels[i].inverse;
+            reflectors.at(x, y) = f.inverse;
         else
-            reflectors.setVector(x, y, { pixels[i].nearest, pixels[i].farthest, pixels[i].inverse });
-        pixelSize.at(x, y) = pixels[i].pixelSize;
-        gloss.at(x, y) = shared::packGloss(pixels[i].gloss());
-        taken.at(x, y) = pixels[i].taken;
-        objectId.at(x, y) = objects.empty() ? static_cast<std::uint32_t>(i + 1) : objects[i];
-    }
-    if (p.meanOnly != 0) {
-        pixelSize = packedNumbers(pixelSize, pixelSize);
-        gloss = shortGlosses(gloss);
-    }
-    const auto beta = bench.filled(layout.size, -7.0f);
-    const auto wanted = bench.filled(layout.size, noCount);
-    const auto launch = [&](const char* kernel, const auto& out) {
-        launchRows(bench, kernel, p, WEDGE_BLOCK_PIXELS, bench.buffer(reflectors.values), bench.buffer(objectId.values),
-            bench.filled(1, extent), bench.buffer(pixelSize.values), bench.buffer(gloss.values),
-            bench.buffer(taken.values), out);
+            reflectors.setVector(x, y, { f.nearest, f.farthest, f.inverse });
+        pixelSize.at(x, y) = f.pixelSize;
+        gloss.at(x, y) = shared::packGloss(f.gloss());
+        taken.at(x, y) = f.taken;
+        objectId.at(x, y) = objects.empty() ? static_cast<std::uint32_t>(next) : objects[next - 1];
+    });
+    const auto made = [&](const char* kernel) {
+        PassBench pass(frame, kernel);
+        pass.value("p", p);
+        pass.plane("reflectors", reflectors);
+        pass.plane("objectId", objectId);
+        pass.plane("extent", std::vector(1, extent));
+        pass.plane("pixelSize", pixelSize);
+        pass.plane("gloss", gloss);
+        pass.plane("taken", taken);
+        pass.run();
+        return pass;
     };
-    launch("reflectorWidths", beta);
-    if (p.meanOnly == 0)
-        launch("reflectorCounts", wanted);
-    const Planes<float> betas = planesOf(layout, bench.read(beta));
-    const Planes<std::uint32_t> counts = planesOf(layout, bench.read(wanted));
+    const auto beta = made("reflectorWidths").pixels<float>("beta");
+    const auto wanted = p.meanOnly != 0 ? taken : made("reflectorCounts").pixels<std::uint32_t>("wanted");
     Widths out;
-    for (int i = 0; i < static_cast<int>(pixels.size()); ++i) {
-        out.beta.push_back(betas.at(i % width, i / width));
-        out.wanted.push_back(counts.at(i % width, i / width));
-    }
+    everyPixel(layout, [&](int x, int y) {
+        out.beta.push_back(beta.at(x, y));
+        out.wanted.push_back(wanted.at(x, y));
+    });
     return out;
-}
-
-/// Of pixels in a row, each of an object of its own.
-Widths widthsOf(KernelBench& bench, const shared::ReflectorParams& p, float extent, const std::vector<Found>& pixels)
-{
-    return widthsOf(bench, p, extent, pixels, {}, static_cast<int>(pixels.size()));
 }
 
 struct Expected {
@@ -207,9 +207,9 @@ std::vector<Found> pooled(
     return out;
 }
 
-void checkWidths(KernelBench& bench, const shared::ReflectorParams& p, float extent, const std::vector<Found>& pixels)
+void checkWidths(DeclaredFrame& frame, const shared::ReflectorParams& p, float extent, const std::vector<Found>& pixels)
 {
-    const Widths found = widthsOf(bench, p, extent, pixels);
+    const Widths found = widthsOf(frame, p, extent, pixels);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const Expected expected = expectedOf(p, extent, pixels[i], pixels.size());
         CAPTURE(pixels[i].nearest);
@@ -219,9 +219,7 @@ void checkWidths(KernelBench& bench, const shared::ReflectorParams& p, float ext
         CAPTURE(p.component);
         REQUIRE(std::isfinite(found.beta[i]));
         REQUIRE(close(found.beta[i], expected.beta, 1e-4));
-        if (p.meanOnly != 0)
-            REQUIRE(found.wanted[i] == noCount);
-        else
+        if (p.meanOnly == 0)
             REQUIRE(std::fabs(found.wanted[i] - expected.wanted) <= 0.501 + 1e-3 * expected.wanted);
     }
 }
@@ -231,12 +229,13 @@ void checkWidths(KernelBench& bench, const shared::ReflectorParams& p, float ext
 TEST_CASE("the visible extent is the largest side of what is seen; holes do not count, and nothing seen has none")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
         unsigned seed = 1;
-        for (const glm::ivec2 pixels : { glm::ivec2(1, 1), { 1, 70 }, { 70, 1 }, { 16, 32 }, { 47, 29 }, { 33, 131 } })
+        for (const glm::ivec2 pixels :
+            { glm::ivec2(1, 1), { 1, 70 }, { 70, 1 }, { 16, 32 }, { 47, 29 }, { 33, 131 } }) {
+            DeclaredFrame frame = frameOf(device, pixels.x, pixels.y);
             for (const double holes : { 0.0, 0.3, 0.97, 1.0 }) {
                 std::mt19937 random(++seed);
-                const render::PlaneLayout layout(pixels.x, pixels.y);
+                const render::PlaneLayout& layout = frame.layout;
                 Planes<float> position(layout, 3, 0.0f);
                 Planes<std::uint32_t> objectId(layout, 1, 0u);
                 glm::dvec3 least(1e30), largest(-1e30);
@@ -254,24 +253,25 @@ TEST_CASE("the visible extent is the largest side of what is seen; holes do not 
                 CAPTURE(pixels.x);
                 CAPTURE(pixels.y);
                 CAPTURE(holes);
-                CHECK(extentOf(bench, position, objectId)
+                CHECK(extentOf(frame, position, objectId)
                     == doctest::Approx(std::max({ size.x, size.y, size.z })).epsilon(1e-6));
             }
+        }
     });
 }
 
 TEST_CASE("the visible extent counts every row, and both ends of a row")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        const render::PlaneLayout layout(17, 3 * WEDGE_EXTENT_STRIPES + 1);
+        DeclaredFrame frame = frameOf(device, 17, 3 * WEDGE_EXTENT_STRIPES + 1);
+        const render::PlaneLayout& layout = frame.layout;
         Planes<std::uint32_t> objectId(layout, 1, 0u);
         everyPixel(layout, [&](int x, int y) { objectId.at(x, y) = 1; });
         for (int y = 0; y < static_cast<int>(layout.height); ++y) {
             Planes<float> position(layout, 3, 1.0f);
             position.at(y % 2 == 0 ? 0 : 16, y, static_cast<std::size_t>(y) % 3) = y % 4 < 2 ? 3.5f : -1.5f;
             CAPTURE(y);
-            REQUIRE(extentOf(bench, position, objectId) == 2.5f);
+            REQUIRE(extentOf(frame, position, objectId) == 2.5f);
         }
     });
 }
@@ -279,25 +279,25 @@ TEST_CASE("the visible extent counts every row, and both ends of a row")
 TEST_CASE("widths are (4.16) and counts (4.21) of the least distance, or of a fraction of the harmonic mean")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        DeclaredFrame frame = frameOf(device, 150, 1);
         for (const shared::ReflectorParams& p : settings())
-            checkWidths(bench, p, 4.0f, randomPixels(150, 3, 9));
+            checkWidths(frame, p, 4.0f, randomPixels(150, 3, 9));
     });
 }
 
-TEST_CASE("widths of lean frames: from the mean alone, with sizes and exponents of 16 bits, and no counts")
+TEST_CASE("widths of lean frames: from the mean alone, with sizes and exponents of 16 bits")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        DeclaredFrame frame = frameOf(device, 150, 1, true);
         std::vector<Found> pixels = randomPixels(150, 3, 10);
         for (Found& f : pixels) {
-            f.pixelSize = rounded(f.pixelSize);
+            f.pixelSize = shared::unpackShort(shared::packShort(f.pixelSize));
             f.exponent = shared::unpackGlossShort(shared::packGlossShort(f.gloss())).exponent;
         }
         for (shared::ReflectorParams p : settings()) {
             p.meanOnly = 1;
             if (p.meanFraction > 0)
-                checkWidths(bench, p, 4.0f, pixels);
+                checkWidths(frame, p, 4.0f, pixels);
         }
     });
 }
@@ -305,7 +305,6 @@ TEST_CASE("widths of lean frames: from the mean alone, with sizes and exponents 
 TEST_CASE("distances that say little: none, all the same, 0, tiny and huge ones, and pixels without a term")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
         const std::vector<Found> pixels = {
             { 0, 0, 0 }, // no ray hit anything
             { 2, 2, 16 / 2.0f }, { 2, 2, 1 / 2.0f }, // z_min = z_max; of all rays and of one
@@ -315,11 +314,12 @@ TEST_CASE("distances that say little: none, all the same, 0, tiny and huge ones,
             { 1, 2, 10, 1e-6f }, { 1, 2, 10, 1e3f }, // tiny and huge pixels
             { 1, 2, 10, 0.01f, 5, 1 }, // a single sample
         };
+        DeclaredFrame frame = frameOf(device, static_cast<int>(pixels.size()), 1), one = frameOf(device, 1, 1);
         for (const shared::ReflectorParams& p : settings())
             for (const float extent : { 0.0f, 4.0f, 1e6f })
-                checkWidths(bench, p, extent, pixels);
+                checkWidths(frame, p, extent, pixels);
         // Where no ray hit anything, the width is that of a reflector as far as the image is large.
-        const Widths none = widthsOf(bench, paramsFor(render::PlaneLayout(1, 1)), 4.0f, { { 0, 0, 0, 0.01f } });
+        const Widths none = widthsOf(one, paramsFor(one.layout), 4.0f, { { 0, 0, 0, 0.01f } });
         CHECK(none.beta[0] == doctest::Approx(0.5 / (0.9 * 2.8 / 4)).epsilon(1e-5));
     });
 }
@@ -327,18 +327,19 @@ TEST_CASE("distances that say little: none, all the same, 0, tiny and huge ones,
 TEST_CASE("exponents outside of the fit's range give widths and counts within bounds")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
         shared::ReflectorParams p = paramsFor(render::PlaneLayout(1, 1));
         p.component = WEDGE_COMPONENT_GLOSSY;
         std::vector<Found> pixels, sharp;
         for (const float exponent : { 0.0f, 0.1f, 1.0f, 3.9f, 4.0f, 50.0f, 51.0f, 1000.0f })
             for (const std::uint32_t kind : { WEDGE_PHONG, WEDGE_BLINN_PHONG })
                 pixels.push_back({ 1, 3, 8, 0.01f, exponent, 16, kind });
-        checkWidths(bench, p, 4, pixels);
+        DeclaredFrame frame = frameOf(device, static_cast<int>(pixels.size()), 1);
+        checkWidths(frame, p, 4, pixels);
         for (const float exponent : { 1e4f, 1e6f, 1e8f, 1e20f, 1e37f })
             for (const std::uint32_t kind : { WEDGE_PHONG, WEDGE_BLINN_PHONG })
                 sharp.push_back({ 1, 3, 8, 0.01f, exponent, 16, kind });
-        const Widths found = widthsOf(bench, p, 4, sharp);
+        DeclaredFrame ofSharp = frameOf(device, static_cast<int>(sharp.size()), 1);
+        const Widths found = widthsOf(ofSharp, p, 4, sharp);
         for (std::size_t i = 0; i < sharp.size(); ++i) {
             // Their bandlimit is the pixel's at most.
             CAPTURE(sharp[i].exponent);
@@ -353,8 +354,8 @@ TEST_CASE("exponents outside of the fit's range give widths and counts within bo
 TEST_CASE("widths go by what the object's other pixels around found, as published by each pixel's own rays")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
         constexpr int width = 23, height = 11;
+        DeclaredFrame full = frameOf(device, width, height), lean = frameOf(device, width, height, true);
         const std::vector<Found> pixels = randomPixels(width * height, 2, 31);
         std::mt19937 random(32);
         std::vector<std::uint32_t> objects;
@@ -375,7 +376,7 @@ TEST_CASE("widths go by what the object's other pixels around found, as publishe
             p.meanFraction = setting.meanFraction;
             p.meanOnly = setting.meanOnly;
             p.component = setting.component;
-            const Widths found = widthsOf(bench, p, 20, pixels, objects, width);
+            const Widths found = widthsOf(setting.meanOnly != 0 ? lean : full, p, 20, pixels, objects);
             int changed = 0;
             for (std::size_t i = 0; i < pixels.size(); ++i) {
                 const Expected own = expectedOf(p, 20, pixels[i], width),

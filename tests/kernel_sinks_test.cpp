@@ -117,7 +117,6 @@ public:
         , library_(traced.bench.device, { { { "WEDGE_SPECULAR", "1" } }, false, WEDGE_TEST_KERNELS })
         , kernels_(library_)
         , memory_(traced.bench.device)
-        , none_(traced.bench.filled(1, 0u))
     {
     }
 
@@ -141,7 +140,6 @@ public:
         surfaces.push_back(graph::outside("", "", s.emitterPicks.cl()));
         surfaces.push_back(graph::outside("", "", s.environment.cl()));
         surfaces.push_back(graph::outside("", "", s.environmentTable.cl()));
-        surfaces.push_back(graph::outside("", "", s.environmentTable.cl())); // no pre-computed samples
         return run({ "paths/indirect.cl", "samplePaths", becoming },
             { graph::value("frame", points.frame), graph::value("params", params) }, surfaces, true, points);
     }
@@ -163,19 +161,26 @@ private:
             fill(graph, *list, {});
         fill(graph, taken, points.first);
         const auto outside = [&](const auto& values) { return graph::outside("", "", b.buffer(values).cl()); };
-        const graph::Argument nobody = graph::outside("", "", none_.cl());
+        // Of waves, and of pixels that do not look at them.
+        const auto ofWave = [&](const char* name, const graph::Format& format, const auto& values) {
+            return graph::reads(name, graph.imported<Listed>(name, format, b.buffer(values).cl(), size));
+        };
         std::vector<graph::Argument> own = params;
         own.push_back(graph::outside("", "", traced_.onDevice.nodes.cl()));
         own.push_back(graph::outside("", "", traced_.onDevice.blocks.cl()));
         own.insert(own.end(), surfaces.begin(), surfaces.end());
         own.insert(own.end(),
             { outside(points.position), outside(points.normal), outside(points.origin), outside(points.geometric),
-                outside(points.objectId), outside(points.gloss), outside(points.pixelOf), outside(points.view),
-                nobody });
+                outside(points.objectId), outside(points.gloss) });
         if (ofPaths)
             own.push_back(outside(points.specular));
         own.push_back(outside(points.wanted));
         nameAs(kernel, own);
+        own.insert(own.end(),
+            { ofWave("pixelOf", graph::counts, points.pixelOf), ofWave("view", graph::counts, points.view),
+                ofWave("time", graph::floats, std::vector<float>(size, 0.0f)) });
+        if (ofPaths)
+            own.push_back(graph::absent("environmentSamples"));
         for (const std::uint32_t last : { 6u, 1000u }) {
             std::vector<graph::Argument> all = own;
             all.insert(all.end(),
@@ -253,7 +258,6 @@ private:
     device::ProgramLibrary library_;
     graph::Kernels kernels_;
     graph::Memory memory_;
-    device::Buffer<std::uint32_t> none_;
 };
 
 /// Checks that each sink gets the same samples, alone or beside another, and calls visit(i, direction, values) for each

@@ -1,6 +1,6 @@
 // temporal.cl alone: against the same on the host, in double.
 #include "kernels/shared/temporal.h"
-#include "tests/render_support.h"
+#include "tests/declared_kernel.h"
 
 #include <cmath>
 
@@ -150,6 +150,36 @@ Camera cameraThen()
     return then;
 }
 
+/// What differFromFrame() fills.
+struct DifferencePlanes { // NOLINT(bugprone-exception-escape): as Buffer
+    device::Buffer<float> difference, noise, variations, share;
+};
+
+/// Of frames without indirect light.
+void differFromFrame(KernelBench& bench, const shared::TemporalParams& p, const std::vector<float>& motions,
+    const Seen& own, const Seen& earlier, const device::Buffer<float>& variation, const DifferencePlanes& out)
+{
+    const render::PlaneLayout& layout = own.depth.layout;
+    const auto colours = [&](const char* name, const Seen& seen) {
+        return plane(name, bench.buffer(packed(layout, seen.light)), render::packedColours);
+    };
+    const auto shorts = [](const char* name, const device::Buffer<float>& numbers) {
+        return plane(name, numbers, render::shortFloats);
+    };
+    launchDeclared(bench, { file, "differFromFrame" }, layout, p,
+        { plane("motions", bench.buffer(motions)), vectors("position", bench.buffer(own.position.values)),
+            vectors("normal", bench.buffer(own.normal.values)), plane("object", bench.buffer(own.object.values)),
+            colours("directLight", own), lacks("indirectLight", render::packedColours),
+            shorts("noisy", bench.buffer(inShorts(own.noisy))), shorts("variation", variation),
+            plane("earlierDepth", bench.buffer(earlier.depth.values)),
+            plane("earlierFacing", bench.buffer(earlier.facing.values)),
+            plane("earlierObject", bench.buffer(earlier.object.values)), colours("earlierDirect", earlier),
+            lacks("earlierIndirect", render::packedColours),
+            shorts("earlierNoisy", bench.buffer(inShorts(earlier.noisy))), shorts("earlierVariation", variation),
+            vectors("difference", out.difference), plane("noise", out.noise), plane("variations", out.variations),
+            plane("share", out.share) });
+}
+
 /// What differFromFrame() finds, of the disk that has moved.
 struct Differences {
     Planes<float> light, seen, unfiltered, variations;
@@ -173,13 +203,7 @@ Differences differ(KernelBench& bench, std::uint32_t published, const Seen& own,
     const auto noise = bench.filled(layout.size, 7.0f), variations = bench.filled(layout.size, 7.0f),
                share = bench.filled(layout.size, 7.0f);
     const auto variation = bench.buffer(inShorts(Planes<float>(layout, 1, 0.25f)));
-    const auto nothing = bench.filled(1, 0.0f);
-    bench.passes.rows("filter over time", filterPass, file, "differFromFrame", p, 1, bench.buffer(motions),
-        bench.buffer(own.position.values), bench.buffer(own.normal.values), bench.buffer(own.object.values),
-        bench.buffer(packed(layout, own.light)), nothing, bench.buffer(inShorts(own.noisy)), variation,
-        bench.buffer(earlier.depth.values), bench.buffer(earlier.facing.values), bench.buffer(earlier.object.values),
-        bench.buffer(packed(layout, earlier.light)), nothing, bench.buffer(inShorts(earlier.noisy)), variation,
-        difference, noise, variations, share);
+    differFromFrame(bench, p, motions, own, earlier, variation, { difference, noise, variations, share });
     return { planesOf(layout, bench.read(difference)), planesOf(layout, bench.read(share)),
         planesOf(layout, bench.read(noise)), planesOf(layout, bench.read(variations)) };
 }
@@ -303,12 +327,8 @@ TEST_CASE("temporal: a still camera's pixels are looked up where they are, whate
         p.cameraStill = p.objectsStill = 1;
         const auto difference = bench.filled(3 * layout.size, 7.0f), plane = bench.filled(layout.size, 7.0f),
                    noise = bench.filled(layout.size, 7.0f), share = bench.filled(layout.size, 0.0f);
-        const auto light = bench.buffer(packed(layout, seen.light));
-        const auto noisy = bench.buffer(inShorts(seen.noisy)), nothing = bench.filled(layout.size, 0.0f);
-        bench.passes.rows("filter over time", filterPass, file, "differFromFrame", p, 1, nothing,
-            bench.buffer(seen.position.values), bench.buffer(seen.normal.values), bench.buffer(seen.object.values),
-            light, nothing, noisy, nothing, bench.buffer(seen.depth.values), bench.buffer(seen.facing.values),
-            bench.buffer(seen.object.values), light, nothing, noisy, nothing, difference, noise, plane, share);
+        differFromFrame(
+            bench, p, { 0.0f }, seen, seen, bench.filled(layout.size, 0.0f), { difference, noise, plane, share });
         const Planes<float> found = planesOf(layout, bench.read(difference)), all = planesOf(layout, bench.read(share));
         everyPixel(layout, [&](int x, int y) {
             CHECK(all.at(x, y) == 1.0f);
@@ -391,19 +411,23 @@ TEST_CASE("temporal: blocks are weighed by Student's t of differences and by the
         CHECK(right < 1e-6);
         // And what is made of them.
         const auto sum = bench.filled(3 * layout.size, 0.0f), counts = bench.filled(layout.size, 0.0f);
-        bench.passes.rows("filter over time", filterPass, file, "addFrame", p, 1, bench.buffer(difference.values),
-            shares, weights, sum, counts);
+        const auto add = [&](const shared::TemporalParams& how, const Handed& weighed, const auto& to,
+                             const auto& seen) {
+            launchDeclared(bench, { file, "addFrame" }, layout, how,
+                { vectors("difference", bench.buffer(difference.values)), plane("share", shares), weighed,
+                    vectors("sum", to), plane("counts", seen) });
+        };
+        add(p, plane("weights", weights), sum, counts);
         // As published it counts whatever has changed.
-        shared::TemporalParams published = p;
-        published.published = 1;
         const auto unweighed = bench.filled(3 * layout.size, 0.0f);
-        bench.passes.rows("filter over time", filterPass, file, "addFrame", published, 1,
-            bench.buffer(difference.values), shares, weights, unweighed, bench.filled(layout.size, 0.0f));
+        add(p, lacks("weights"), unweighed, bench.filled(layout.size, 0.0f));
         CHECK(bench.read(unweighed) == difference.values);
         Planes<float> direct(layout, 3, 1.0f), beauty(layout, 3, 2.0f), diffuse(layout, 3, 0.49f);
         const auto directOut = bench.buffer(direct.values), beautyOut = bench.buffer(beauty.values);
-        bench.passes.rows("filter over time", filterPass, file, "finishTemporal", p, 1, bench.buffer(diffuse.values),
-            bench.filled(3 * layout.size, 0.0f), sum, counts, directOut, bench.filled(1, 0.0f), beautyOut);
+        launchDeclared(bench, { file, "finishTemporal" }, layout, p,
+            { vectors("diffuse", bench.buffer(diffuse.values)),
+                vectors("specular", bench.filled(3 * layout.size, 0.0f)), vectors("sum", sum), plane("counts", counts),
+                vectors("direct", directOut), lacks("indirect", graph::vectors), vectors("beauty", beautyOut) });
         const Planes<float> made = planesOf(layout, bench.read(beautyOut)),
                             madeDirect = planesOf(layout, bench.read(directOut));
         everyPixel(layout, [&](int x, int y) {

@@ -1,6 +1,5 @@
 // distributed.cl alone: filtered terms back into radiance.
 #include "tests/distributed_support.h"
-#include "tests/packed_support.h"
 
 using namespace wedge;
 using namespace wedge::test;
@@ -11,8 +10,7 @@ namespace {
 struct TermPlanes {
     Planes<float> texture, filteredTexture, value, filtered, beta, own, radiance;
 
-    /// With p.packed texture and value are rounded as such; buffers of them have what textureOf() and valueOf() return.
-    TermPlanes(const Region& region, std::mt19937& random, const shared::DistributedParams& p = {})
+    TermPlanes(const Region& region, std::mt19937& random)
         : texture(planes(region, 3, random))
         , filteredTexture(planes(region, 3, random))
         , value(planes(region, 3, random))
@@ -27,28 +25,19 @@ struct TermPlanes {
         everyPixel({ 0, 0, region.width, region.height }, [&](int x, int y) {
             if (random() % 9 == 0)
                 texture.setVector(x, y, { 0, 0, 0 });
-            texture.setVector(x, y, rounded(texture.vector(x, y), bitsOfTexture(p)));
-            value.setVector(x, y, rounded(value.vector(x, y), bitsOfValue(p)));
-            if (p.plainTexture == 0)
-                filteredTexture.setVector(x, y, rounded(filteredTexture.vector(x, y), bitsOfTexture(p)));
         });
     }
-    static std::uint32_t bitsOfTexture(const shared::DistributedParams& p)
+    /// Fills the planes that a pass has, and is then what the pass has of them.
+    void fill(PassBench& pass, std::uint32_t values)
     {
-        return shared::textureBits(p.packed, p.values == 1);
-    }
-    static std::uint32_t bitsOfValue(const shared::DistributedParams& p)
-    {
-        return shared::valueBits(p.packed, p.values == 1);
-    }
-    Planes<float> textureOf(const shared::DistributedParams& p) const
-    {
-        return packedColours(texture, bitsOfTexture(p));
-    }
-    Planes<float> valueOf(const shared::DistributedParams& p) const { return packedColours(value, bitsOfValue(p)); }
-    Planes<float> filteredTextureOf(const shared::DistributedParams& p) const
-    {
-        return p.plainTexture != 0 ? filteredTexture : packedColours(filteredTexture, bitsOfTexture(p));
+        filtered.values.resize(values * filtered.layout.size);
+        for (const auto& [name, plane] :
+            { std::pair("texture", &texture), { "filteredTexture", &filteredTexture }, { "value", &value },
+                { "filtered", &filtered }, { "beta", &beta }, { "termRadiance", &own }, { "radiance", &radiance } })
+            if (pass.has(name)) {
+                pass.plane(name, *plane);
+                *plane = pass.pixels<float>(name);
+            }
     }
     static Planes<float> planes(const Region& region, std::size_t count, std::mt19937& random)
     {
@@ -67,35 +56,37 @@ bool nearTo(glm::dvec3 found, glm::dvec3 expected)
     return glm::length(found - expected) <= 1e-6 * (1 + glm::length(expected));
 }
 
-/// How terms are kept: as of DistributedParams.
-struct Kept {
-    std::uint32_t published, packed, plainTexture;
-};
-
-/// What `launch(p, term, buffer of radiance)` leaves there, against expected(p, term, x, y) added to what was.
-template <class Launch, class Expected>
-void checkAdds(const Launch& launch, const Expected& expected)
+/// What a pass adds to `radiance`, against expected(p, term, x, y), in frames of all kinds.
+template <class Expected>
+void checkAdds(const std::string& kernel, const Expected& expected)
 {
-    onEveryRegion(0, [&](KernelBench& bench, const Region& region, std::mt19937& random) {
-        for (const Kept& kept : { Kept { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 1, 1 } })
+    struct Frames {
+        Kept kept;
+        bool published, blurs; ///< else filtered textures are those of the term
+    };
+    for (const Frames& kind : { Frames { Kept::Full, false, true }, { Kept::Full, true, true },
+             { Kept::Lean, false, false }, { Kept::Lean, false, true } }) {
+        render::Settings settings = kind.published ? render::asPublished() : render::axisAligned(16);
+        settings.distributed.blur = kind.blurs;
+        const auto test = [&](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
             for (const std::uint32_t values : { 1u, 3u }) {
-                CAPTURE(kept.published);
-                CAPTURE(kept.packed);
                 CAPTURE(values);
                 shared::DistributedParams p = paramsOf(region);
-                p.published = kept.published;
-                p.packed = kept.packed;
-                p.plainTexture = kept.plainTexture;
+                p.published = kind.published ? 1 : 0;
                 p.values = values;
-                const TermPlanes term(region, random, p);
-                Output<float> radiance(bench, region, term.radiance);
-                launch(bench, p, term, radiance.buffer());
-                const Planes<float> found = radiance.read();
+                TermPlanes term(region, random);
+                RegionPass pass(frame, kernel, { "radiance" }, termOf(values));
+                REQUIRE(pass.has("termRadiance") == kind.published);
+                term.fill(pass, values);
+                pass.runIn(region, p);
+                const auto found = pass.floats("radiance");
                 everyPixel(region.window, [&](int x, int y) {
                     REQUIRE(nearTo(found.vector(x, y), term.radiance.vector(x, y) + expected(p, term, x, y)));
                 });
             }
-    });
+        };
+        onEveryRegion(0, kind.kept, test, settings);
+    }
 }
 
 } // namespace
@@ -104,65 +95,47 @@ TEST_CASE(
     "a filtered term adds the filtered texture times the filtered value, and of lights its own colour, where they are "
     "apart, elsewhere its own")
 {
-    checkAdds(
-        [](KernelBench& bench, const shared::DistributedParams& p, const TermPlanes& term,
-            const device::Buffer<float>& radiance) {
-            const auto k = bench.buffer(term.textureOf(p).values),
-                       filteredK = bench.buffer(term.filteredTextureOf(p).values),
-                       e = bench.buffer(term.valueOf(p).values), filteredE = bench.buffer(term.filtered.values),
-                       beta = bench.buffer(term.beta.values), own = bench.buffer(term.own.values);
-            launchPixels(
-                bench, "waves/distributed.cl", "addFilteredTerm", p, k, filteredK, e, filteredE, beta, own, radiance);
-        },
-        [](const shared::DistributedParams& p, const TermPlanes& term, int x, int y) {
-            if (term.beta.at(x, y) < 0)
-                return term.ownRadiance(p.published != 0, x, y);
-            const glm::dvec3 k = term.filteredTexture.vector(x, y);
-            if (p.values == 3)
-                return k * term.filtered.vector(x, y);
-            const glm::dvec3 one = k * static_cast<double>(term.filtered.at(x, y));
-            if (p.published != 0)
-                return one;
-            // Of the colour that textures have which see the light differently each pixel keeps its own.
-            const glm::dvec3 texture = term.texture.vector(x, y), own = term.ownRadiance(false, x, y);
-            const double t = luminanceOf(texture);
-            const glm::dvec3 colour = t > 0 ? own - texture * (luminanceOf(own) / t) : glm::dvec3(0);
-            // As much of it as leaves no channel below 0: it has no luminance, and adds none.
-            double kept = 1;
-            for (int c = 0; c < 3; ++c)
-                kept = one[c] + colour[c] < 0 ? std::min(kept, -one[c] / colour[c]) : kept;
-            REQUIRE(std::fabs(luminanceOf(colour)) < 1e-9 * (1 + luminanceOf(own)));
-            return one + kept * colour;
-        });
+    checkAdds("addFilteredTerm", [](const shared::DistributedParams& p, const TermPlanes& term, int x, int y) {
+        if (term.beta.at(x, y) < 0)
+            return term.ownRadiance(p.published != 0, x, y);
+        const glm::dvec3 k = term.filteredTexture.vector(x, y);
+        if (p.values == 3)
+            return k * term.filtered.vector(x, y);
+        const glm::dvec3 one = k * static_cast<double>(term.filtered.at(x, y));
+        if (p.published != 0)
+            return one;
+        // Of the colour that textures have which see the light differently each pixel keeps its own.
+        const glm::dvec3 texture = term.texture.vector(x, y), own = term.ownRadiance(false, x, y);
+        const double t = luminanceOf(texture);
+        const glm::dvec3 colour = t > 0 ? own - texture * (luminanceOf(own) / t) : glm::dvec3(0);
+        // As much of it as leaves no channel below 0: it has no luminance, and adds none.
+        double kept = 1;
+        for (int c = 0; c < 3; ++c)
+            kept = one[c] + colour[c] < 0 ? std::min(kept, -one[c] / colour[c]) : kept;
+        REQUIRE(std::fabs(luminanceOf(colour)) < 1e-9 * (1 + luminanceOf(own)));
+        return one + kept * colour;
+    });
 }
 
 TEST_CASE("a term without a filter adds texture times value, or as published what is kept of it")
 {
-    checkAdds(
-        [](KernelBench& bench, const shared::DistributedParams& p, const TermPlanes& term,
-            const device::Buffer<float>& radiance) {
-            const auto k = bench.buffer(term.textureOf(p).values), e = bench.buffer(term.valueOf(p).values),
-                       own = bench.buffer(term.own.values);
-            launchPixels(bench, "waves/distributed.cl", "addTerm", p, k, e, own, radiance);
-        },
-        [](const shared::DistributedParams& p, const TermPlanes& term, int x, int y) {
-            return term.ownRadiance(p.published != 0, x, y);
-        });
+    checkAdds("addTerm", [](const shared::DistributedParams& p, const TermPlanes& term, int x, int y) {
+        return term.ownRadiance(p.published != 0, x, y);
+    });
 }
 
 TEST_CASE("a light's visibility: of its channels the mean that keeps the radiance's luminance; as published the first")
 {
-    onEveryRegion(30, [](KernelBench& bench, const Region& region, std::mt19937& random) {
-        for (const auto& [published, packed] : { std::pair(0u, 0u), { 1u, 0u }, { 0u, 1u } }) {
-            CAPTURE(packed);
+    const auto test = [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
+        for (const std::uint32_t published : { 0u, 1u }) {
+            CAPTURE(published);
             shared::DistributedParams p = paramsOf(region);
             p.published = published;
-            p.packed = packed;
-            const TermPlanes term(region, random, p);
-            Output<float> visibility(bench, region, 1);
-            const auto k = bench.buffer(term.textureOf(p).values), e = bench.buffer(term.valueOf(p).values);
-            launchPixels(bench, "waves/distributed.cl", "visibilityOf", p, k, e, visibility.buffer());
-            const Planes<float> found = visibility.read();
+            TermPlanes term(region, random);
+            RegionPass pass(frame, "visibilityOf", { "visibility" });
+            term.fill(pass, 1);
+            pass.runIn(region, p);
+            const auto found = pass.floats("visibility");
             everyPixel(region.window, [&](int x, int y) {
                 if (published != 0) {
                     REQUIRE(found.at(x, y) == term.value.at(x, y));
@@ -173,67 +146,68 @@ TEST_CASE("a light's visibility: of its channels the mean that keeps the radianc
                 REQUIRE((t > 0 || found.at(x, y) == 0));
             });
         }
-    });
+    };
+    onEveryRegion(30, test);
 }
 
 TEST_CASE("planes add up")
 {
-    onEveryRegion(50, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+    onEveryRegion(50, Kept::Full, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
         const TermPlanes term(region, random);
-        const shared::DistributedParams p = paramsOf(region);
-        Output<float> sum(bench, region, term.radiance), all(bench, region, 3);
-        const auto k = bench.buffer(term.texture.values), e = bench.buffer(term.value.values),
-                   own = bench.buffer(term.own.values);
-        launchPixels(bench, "waves/distributed.cl", "addPlane", p, own, sum.buffer());
-        launchPixels(bench, "waves/distributed.cl", "addAll", p, k, e, own, all.buffer());
-        const Planes<float> added = sum.read(), beauty = all.read();
+        const Planes<float>&a = term.texture, &b = term.value, &c = term.own;
+        RegionPass parts(frame, "addPlane", { "sum" });
+        const Planes<float> part = TermPlanes::planes(region, 1, random), sum = TermPlanes::planes(region, 1, random);
+        parts.plane("part", part);
+        parts.plane("sum", sum);
+        parts.runIn(region, paramsOf(region));
+        RegionPass all(frame, "addAll", { "beauty" });
+        all.plane("emission", a);
+        all.plane("direct", b);
+        all.plane("indirect", c);
+        all.runIn(region, paramsOf(region));
+        const auto added = parts.floats("sum"), beauty = all.floats("beauty");
         everyPixel(region.window, [&](int x, int y) {
-            REQUIRE(added.at(x, y) == term.radiance.at(x, y) + term.own.at(x, y));
-            REQUIRE(added.at(x, y, 1) == term.radiance.at(x, y, 1));
-            REQUIRE(nearTo(
-                beauty.vector(x, y), term.texture.vector(x, y) + term.value.vector(x, y) + term.own.vector(x, y)));
+            REQUIRE(added.at(x, y) == sum.at(x, y) + part.at(x, y));
+            REQUIRE(nearTo(beauty.vector(x, y), a.vector(x, y) + b.vector(x, y) + c.vector(x, y)));
         });
     });
 }
 
 TEST_CASE("images add up, and a term's value is the same unpacked")
 {
-    onEveryRegion(60, [](KernelBench& bench, const Region& region, std::mt19937& random) {
-        for (const std::uint32_t packed : { 0u, 1u })
-            for (const std::uint32_t values : { 1u, 3u }) {
-                CAPTURE(packed);
-                CAPTURE(values);
-                shared::DistributedParams p = paramsOf(region);
-                p.packed = packed;
-                p.values = values;
-                const TermPlanes term(region, random, p);
-                Output<float> sum(bench, region, term.radiance), unpacked(bench, region, 3);
-                const auto own = bench.buffer(term.own.values), value = bench.buffer(term.valueOf(p).values);
-                launchPixels(bench, "waves/distributed.cl", "addImage", p, own, sum.buffer());
-                launchPixels(bench, "waves/distributed.cl", "unpackImage", p, value, unpacked.buffer());
-                const Planes<float> added = sum.read(), image = unpacked.read();
-                everyPixel(region.window, [&](int x, int y) {
-                    REQUIRE(nearTo(added.vector(x, y), term.radiance.vector(x, y) + term.own.vector(x, y)));
-                    REQUIRE(image.vector(x, y) == term.value.vector(x, y));
-                });
-            }
+    onEveryRegion(60, Kept::Lean, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
+        RegionPass pass(frame, "unpackImage", { "out" });
+        pass.plane("in", TermPlanes::planes(region, 3, random));
+        pass.runIn(region, paramsOf(region));
+        const TermPlanes term(region, random);
+        RegionPass images(frame, "addImage", { "sum" });
+        images.plane("image", term.own);
+        images.plane("sum", term.radiance);
+        images.runIn(region, paramsOf(region));
+        const auto in = pass.floats("in"), out = pass.floats("out"), added = images.floats("sum");
+        everyPixel(region.window, [&](int x, int y) {
+            REQUIRE(out.vector(x, y) == in.vector(x, y));
+            REQUIRE(nearTo(added.vector(x, y), term.radiance.vector(x, y) + term.own.vector(x, y)));
+        });
     });
 }
 
 TEST_CASE(
     "counts of a lean frame's term: those wanted where the pixel had new primary samples, else those of the first pass")
 {
-    onEveryRegion(70, [](KernelBench& bench, const Region& region, std::mt19937& random) {
+    onEveryRegion(70, Kept::Lean, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
         const auto counts = [&](std::uint32_t least, std::uint32_t most) {
             return filledPlanes(region, 1, 1u << 20,
                 [&](int, int, std::size_t) { return least + static_cast<std::uint32_t>(random()) % (most - least); });
         };
         const Planes<std::uint32_t> primary = counts(6, 12), wanted = counts(1, 100);
         constexpr std::uint32_t first = 8;
-        Output<std::uint32_t> settled(bench, region, wanted);
-        const auto taken = bench.buffer(primary.values);
-        launchPixels(bench, "waves/distributed.cl", "settleCounts", paramsOf(region), first, taken, settled.buffer());
-        const Planes<std::uint32_t> found = settled.read();
+        RegionPass<std::uint32_t> pass(frame, "settleCounts", { "counts" });
+        pass.value("first", first);
+        pass.plane("primaryTaken", primary);
+        pass.plane("counts", wanted);
+        pass.runIn(region, paramsOf(region));
+        const auto found = pass.pixels<std::uint32_t>("counts");
         everyPixel(region.window, [&](int x, int y) {
             REQUIRE(found.at(x, y) == (primary.at(x, y) > first ? wanted.at(x, y) : primary.at(x, y)));
         });

@@ -1,13 +1,6 @@
 // widen.cl alone: against the same in double.
-#include "kernels/shared/filter_params.h"
-#include "kernels/shared/indirect.h"
-#include "kernels/shared/packed.h"
 #include "kernels/shared/path.h"
-#include "kernels/shared/wedge.h"
-#include "tests/render_support.h"
-
-#include <bit>
-#include <cstring>
+#include "tests/pass_bench.h"
 
 using namespace wedge;
 using namespace wedge::test;
@@ -15,6 +8,14 @@ using namespace wedge::test;
 namespace {
 
 constexpr float wideInPixels = 2;
+
+/// A frame that widens its filters. layers: with planes of floats; else in fewer bits.
+DeclaredFrame widening(const device::Device& device, int width, int height, bool layers = true)
+{
+    render::Settings settings = sized(render::axisAligned(16), width, height);
+    settings.antialias = true;
+    return DeclaredFrame(device, smallScene(), settings, layers);
+}
 
 /// A camera that looks down -z from 5 m, at a pixel of 1 cm there.
 shared::FrameParams cameraOf(const render::PlaneLayout& layout)
@@ -70,23 +71,34 @@ struct Pixels {
 
 double squared(double x) { return x * x; }
 
+/// One of the passes that ask where pixels are, filled with that.
+template <class Where>
+PassBench passOf(DeclaredFrame& frame, const std::string& kernel, const shared::FrameParams& camera, const Where& in)
+{
+    PassBench pass(frame, kernel);
+    pass.value("frame", camera);
+    pass.value("pixels", wideInPixels);
+    pass.plane("position", in.position);
+    pass.plane("normal", in.normal);
+    pass.plane("objectId", in.objectId);
+    pass.plane("beta", in.beta);
+    return pass;
+}
+
 } // namespace
 
 TEST_CASE("widen: narrow pixels are compared with a width of that many pixels, where there is noise around")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        const render::PlaneLayout layout(83, 31);
+        DeclaredFrame frame = widening(device, 83, 31);
         std::mt19937 random(3);
-        const Pixels in(layout, random, 0, 0.1, 20);
-        const auto wide = bench.filled(layout.size, -7.0f);
-        bench.passes.rows("widen", device::PassKind::Filter, "analysis/widen.cl", "comparedWidths", paramsOf(layout),
-            WEDGE_BLOCK_PIXELS, cameraOf(layout), wideInPixels, bench.buffer(in.deviation.values),
-            bench.buffer(in.position.values), bench.buffer(in.normal.values), bench.buffer(in.objectId.values),
-            bench.buffer(in.beta.values), wide);
-        const Planes<float> w = planesOf(layout, bench.read(wide));
+        const Pixels in(frame.layout, random, 0, 0.1, 20);
+        PassBench pass = passOf(frame, "comparedWidths", cameraOf(frame.layout), in);
+        pass.plane("deviation", in.deviation);
+        pass.run();
+        const auto w = pass.pixels<float>("compared");
         int compared = 0, left = 0;
-        everyPixel(layout, [&](int x, int y) {
+        everyPixel(frame.layout, [&](int x, int y) {
             const double own = in.beta.at(x, y);
             if (in.objectId.at(x, y) == 0 || own < 0) {
                 REQUIRE(w.at(x, y) == -1);
@@ -113,12 +125,15 @@ namespace {
 /// Seen at all angles, from nearby and far off, off the view's axis: positions, normals and widths.
 struct Surfaces {
     shared::FrameParams camera;
-    Planes<float> position, normal;
+    Planes<float> position, normal, beta;
+    Planes<std::uint32_t> objectId;
 
     Surfaces(const render::PlaneLayout& layout, std::mt19937& random)
         : camera(cameraOf(layout))
         , position(layout, 3, 0.0f)
         , normal(layout, 3, 0.0f)
+        , beta(layout, 1, 0.0f)
+        , objectId(layout, 1, 3u)
     {
         const glm::dvec3 forward = glm::normalize(glm::dvec3(0.3, -0.7, 0.4)),
                          right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0)));
@@ -160,42 +175,24 @@ struct Surfaces {
 
 } // namespace
 
-TEST_CASE("widen: widths in pixels are those of the tangent planes that pixels see, packed or not")
+TEST_CASE("widen: widths in pixels are those of the tangent planes that pixels see, in all frames")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        const render::PlaneLayout layout(53, 37);
-        std::mt19937 random(11);
-        Surfaces in(layout, random);
-        Planes<float> packedNormals(layout, 1, 0.0f), deviation(layout, 1, 0.0f);
-        std::vector<std::uint16_t> shorts(2 * layout.size, 0);
-        everyPixel(layout, [&](int x, int y) {
-            const glm::vec3 n(in.normal.vector(x, y));
-            const std::uint32_t bits = shared::packNormal(shared::vec3(n.x, n.y, n.z));
-            packedNormals.at(x, y) = std::bit_cast<float>(bits);
-            const shared::Vec3 rounded = shared::unpackNormal(bits);
-            in.normal.setVector(x, y, { rounded.x, rounded.y, rounded.z });
+        for (const bool layers : { true, false }) {
+            CAPTURE(layers);
+            DeclaredFrame frame = widening(device, 53, 37, layers);
+            std::mt19937 random(11);
+            Surfaces in(frame.layout, random);
+            PassBench pass = passOf(frame, "comparedWidths", in.camera, in);
+            in.normal = pass.pixels<float>("normal");
             // Noise in the left half alone: read wrong, widths would be missed there or made on the right.
-            deviation.at(x, y) = x < 10 ? 0.25f : 0.0f;
-            shorts[shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), layout.stride)] =
-                static_cast<std::uint16_t>(shared::packShort(deviation.at(x, y)));
-        });
-        Planes<float> packedDeviation(layout, 1, 0.0f);
-        std::memcpy(packedDeviation.values.data(), shorts.data(), shorts.size() * sizeof(std::uint16_t));
-        const Planes<std::uint32_t> objectId(layout, 1, 3u);
-        for (const bool packed : { false, true }) {
-            CAPTURE(packed);
-            shared::AnalysisParams p = paramsOf(layout);
-            p.packed = packed ? 1 : 0;
-            const auto wide = bench.filled(layout.size, -7.0f);
-            bench.passes.rows("widen", device::PassKind::Filter, "analysis/widen.cl", "comparedWidths", p,
-                WEDGE_BLOCK_PIXELS, in.camera, wideInPixels,
-                bench.buffer((packed ? packedDeviation : deviation).values), bench.buffer(in.position.values),
-                bench.buffer((packed ? packedNormals : in.normal).values), bench.buffer(objectId.values),
-                bench.filled(layout.size, 0.0f), wide);
-            const Planes<float> w = planesOf(layout, bench.read(wide));
+            Planes<float> deviation(frame.layout, 1, 0.0f);
+            everyPixel(frame.layout, [&](int x, int y) { deviation.at(x, y) = x < 10 ? 0.25f : 0.0f; });
+            pass.plane("deviation", deviation);
+            pass.run();
+            const auto w = pass.pixels<float>("compared");
             int seen = 0;
-            everyPixel(layout, [&](int x, int y) {
+            everyPixel(frame.layout, [&](int x, int y) {
                 const double side = in.side(x, y);
                 REQUIRE(w.at(x, y) >= 0);
                 if (x >= 32)
@@ -239,37 +236,36 @@ double shareOf(const Pixels& in, int x, int y, double c)
 TEST_CASE("widen: the width is as far between both as noise and difference of the object around say")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        DeclaredFrame frame = widening(device, 41, 23);
+        const render::PlaneLayout& layout = frame.layout;
         for (const float c : { 0.5f, 1.0f })
             for (const auto& errors : { std::pair(0.0, 0.1), { 0.1, 0.1 }, { 0.3, 0.1 }, { 0.2, 0.0 }, { 0.0, 0.0 } }) {
                 const double bias = errors.first, noise = errors.second;
                 CAPTURE(bias);
                 CAPTURE(noise);
-                const render::PlaneLayout layout(41, 23);
                 std::mt19937 random(7);
                 const Pixels in(layout, random, bias, noise);
-                const shared::AnalysisParams p = paramsOf(layout);
-                const shared::FrameParams camera = cameraOf(layout);
                 Planes<float> difference(layout, 1, 0.0f), apart(layout, 1, 0.0f);
                 everyPixel(layout, [&](int x, int y) {
                     const float k = in.counts.at(x, y), kWide = in.countsWide.at(x, y);
                     difference.at(x, y) = in.narrow.at(x, y) - in.wide.at(x, y);
                     apart.at(x, y) = kWide > k ? 1 / k - 2 / (k + kWide) : 0.0f;
                 });
-                const auto squares = bench.filled(layout.size, -7.0f), variance = bench.filled(layout.size, -7.0f),
-                           shares = bench.filled(layout.size, -7.0f), beta = bench.buffer(in.beta.values),
-                           position = bench.buffer(in.position.values), normal = bench.buffer(in.normal.values);
-                const auto objectId = bench.buffer(in.objectId.values);
-                bench.passes.rows("widen", device::PassKind::Filter, "analysis/widen.cl", "widenSquares", p,
-                    WEDGE_BLOCK_PIXELS, bench.buffer(difference.values), bench.buffer(apart.values),
-                    bench.buffer(in.deviation.values), bench.buffer(in.weights.values), squares, variance);
-                bench.passes.rows("widen", device::PassKind::Filter, "analysis/widen.cl", "wideShares", p,
-                    WEDGE_BLOCK_PIXELS, camera, wideInPixels, c, squares, variance, position, normal, objectId, beta,
-                    shares);
-                bench.passes.rows("widen", device::PassKind::Filter, "analysis/widen.cl", "widen", p,
-                    WEDGE_BLOCK_PIXELS, camera, wideInPixels, shares, position, normal, objectId, beta);
-                const Planes<float> t = planesOf(layout, bench.read(shares)),
-                                    found = planesOf(layout, bench.read(beta));
+                PassBench first(frame, "widenSquares");
+                first.plane("difference", difference);
+                first.plane("apart", apart);
+                first.plane("deviation", in.deviation);
+                first.plane("weights", in.weights);
+                first.run();
+                PassBench second = passOf(frame, "wideShares", cameraOf(layout), in);
+                second.value("noise", c);
+                second.plane("difference", first.read<float>("squares"));
+                second.plane("variance", first.read<float>("variance"));
+                second.run();
+                PassBench last = passOf(frame, "widen", cameraOf(layout), in);
+                last.plane("shares", second.read<float>("shares"));
+                last.run();
+                const auto t = second.pixels<float>("shares"), found = last.pixels<float>("beta");
                 int kept = 0, widened = 0, between = 0;
                 everyPixel(layout, [&](int x, int y) {
                     const double share = shareOf(in, x, y, static_cast<double>(c));
@@ -302,8 +298,8 @@ TEST_CASE("widen: the width is as far between both as noise and difference of th
 TEST_CASE("widen: squares that are no number widen nothing around them, and nothing else changes")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        const render::PlaneLayout layout(41, 23);
+        DeclaredFrame frame = widening(device, 41, 23);
+        const render::PlaneLayout& layout = frame.layout;
         std::mt19937 random(8);
         const Pixels in(layout, random, 0, 0.1);
         Planes<float> squares(layout, 1, 0.0f), variance(layout, 1, 0.0f);
@@ -311,13 +307,13 @@ TEST_CASE("widen: squares that are no number widen nothing around them, and noth
             squares.at(x, y) = static_cast<float>(uniform(random, 0.1, 1));
             variance.at(x, y) = static_cast<float>(uniform(random, 0.1, 1));
         });
+        PassBench pass = passOf(frame, "wideShares", cameraOf(layout), in);
+        pass.value("noise", 1.0f);
+        pass.plane("variance", variance);
         const auto sharesOf = [&] {
-            const auto shares = bench.filled(layout.size, -7.0f);
-            bench.passes.rows("widen", device::PassKind::Filter, "analysis/widen.cl", "wideShares", paramsOf(layout),
-                WEDGE_BLOCK_PIXELS, cameraOf(layout), wideInPixels, 1.0f, bench.buffer(squares.values),
-                bench.buffer(variance.values), bench.buffer(in.position.values), bench.buffer(in.normal.values),
-                bench.buffer(in.objectId.values), bench.buffer(in.beta.values), shares);
-            return planesOf(layout, bench.read(shares));
+            pass.plane("difference", squares);
+            pass.run();
+            return pass.pixels<float>("shares");
         };
         const Planes<float> sound = sharesOf();
         constexpr int brokenX = 22, brokenY = 8;

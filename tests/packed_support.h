@@ -11,6 +11,16 @@
 
 namespace wedge::test {
 
+/// Bits of a colour: three floats, packColour(), packFraction().
+constexpr std::uint32_t plainBits = 96, colourBits = 47, fractionBits = 32;
+/// Of a term's texture and value. Of lights the value is a visibility, of indirect light the texture a reflectance:
+/// both are fractions. The other has any range.
+constexpr std::uint32_t textureBits(bool lean, bool light)
+{
+    return !lean ? plainBits : light ? colourBits : fractionBits;
+}
+constexpr std::uint32_t valueBits(bool lean, bool light) { return textureBits(lean, !light); }
+
 /// The 16 bits of pixel (x, y) in the first (which: 0) or second half of a plane.
 template <class T>
 std::uint16_t shortOf(const Planes<T>& plane, int x, int y, std::size_t which)
@@ -38,26 +48,19 @@ inline std::uint32_t wordOf(float x)
     std::memcpy(&out, &x, sizeof(out));
     return out;
 }
-inline float floatOf(std::uint32_t word)
-{
-    float out;
-    std::memcpy(&out, &word, sizeof(out));
-    return out;
-}
 
-/// The vectors of planes of so many bits (shared/packed.h).
+/// The vectors of planes of so many bits.
 inline Planes<float> coloursOf(const Planes<float>& packed, std::uint32_t bits)
 {
-    if (bits == WEDGE_PLAIN_BITS)
+    if (bits == plainBits)
         return packed;
     Planes<float> out(packed.layout, 3, 0.0f);
     for (int y = 0; y < static_cast<int>(packed.layout.height); ++y)
         for (int x = 0; x < static_cast<int>(packed.layout.width); ++x) {
             const std::uint32_t low = wordOf(packed.at(x, y));
             // The upper bits are in the second plane's first half.
-            const shared::Vec3 c = bits == WEDGE_FRACTION_BITS
-                ? shared::unpackFraction(low)
-                : shared::unpackColour({ low, shortOf(packed, x, y, 2) });
+            const shared::Vec3 c = bits == fractionBits ? shared::unpackFraction(low)
+                                                        : shared::unpackColour({ low, shortOf(packed, x, y, 2) });
             out.setVector(x, y, { c.x, c.y, c.z });
         }
     return out;
@@ -78,11 +81,11 @@ inline Planes<float> normalsOf(const Planes<float>& packed)
 inline float rounded(double x) { return shared::unpackShort(shared::packShort(static_cast<float>(x))); }
 inline glm::dvec3 rounded(glm::dvec3 c, std::uint32_t bits)
 {
-    if (bits == WEDGE_PLAIN_BITS)
+    if (bits == plainBits)
         return c;
     const shared::Vec3 v = shared::vec3(static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z));
-    const shared::Vec3 out = bits == WEDGE_FRACTION_BITS ? shared::unpackFraction(shared::packFraction(v))
-                                                         : shared::unpackColour(shared::packColour(v));
+    const shared::Vec3 out = bits == fractionBits ? shared::unpackFraction(shared::packFraction(v))
+                                                  : shared::unpackColour(shared::packColour(v));
     return { out.x, out.y, out.z };
 }
 
@@ -92,7 +95,7 @@ inline double unitOf(double x) { return std::fabs(x) / 127; }
 inline double unitOf(glm::dvec3 c, std::uint32_t bits)
 {
     const double largest = std::max({ c.x, c.y, c.z });
-    return bits == WEDGE_PLAIN_BITS ? 0 : bits == WEDGE_FRACTION_BITS ? std::max(largest / 255, 1e-7) : largest / 4095;
+    return bits == plainBits ? 0 : bits == fractionBits ? std::max(largest / 255, 1e-7) : largest / 4095;
 }
 
 /// Two planes of numbers in one, rounded.
@@ -104,36 +107,6 @@ inline Planes<float> packedNumbers(const Planes<float>& first, const Planes<floa
     for (std::size_t i = 0; i < 2 * n; ++i) {
         const auto bits = static_cast<std::uint16_t>(shared::packShort(i < n ? first.values[i] : second.values[i - n]));
         std::memcpy(bytes + sizeof(bits) * i, &bits, sizeof(bits));
-    }
-    return out;
-}
-
-/// packGloss() of all pixels in 16 bits.
-inline Planes<std::uint32_t> shortGlosses(const Planes<std::uint32_t>& plane)
-{
-    Planes<std::uint32_t> out(plane.layout, 1, 0u);
-    char* bytes = reinterpret_cast<char*>(out.values.data());
-    for (std::size_t i = 0; i < plane.values.size(); ++i) {
-        const auto bits = static_cast<std::uint16_t>(shared::packGlossShort(shared::unpackGloss(plane.values[i])));
-        std::memcpy(bytes + sizeof(bits) * i, &bits, sizeof(bits));
-    }
-    return out;
-}
-
-/// Three planes of colours in fewer bits, or as they are.
-inline Planes<float> packedColours(const Planes<float>& colours, std::uint32_t bits)
-{
-    if (bits == WEDGE_PLAIN_BITS)
-        return colours;
-    const std::size_t n = colours.layout.size;
-    Planes<float> out(colours.layout, 2, 0.0f);
-    char* high = reinterpret_cast<char*>(out.values.data() + n);
-    for (std::size_t i = 0; i < n; ++i) {
-        const shared::Vec3 c = shared::vec3(colours.values[i], colours.values[n + i], colours.values[2 * n + i]);
-        const shared::PackedColour packed = shared::packColour(c);
-        const auto bits16 = static_cast<std::uint16_t>(packed.high);
-        out.values[i] = floatOf(bits == WEDGE_FRACTION_BITS ? shared::packFraction(c) : packed.low);
-        std::memcpy(high + sizeof(bits16) * i, &bits16, sizeof(bits16));
     }
     return out;
 }

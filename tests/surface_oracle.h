@@ -1,4 +1,4 @@
-// What accumulateSurfaces is to make of the points that pixels have seen, in double; planes plain or packed.
+// What accumulateSurfaces is to make of the points that pixels have seen, in double; planes in all bits or in few.
 #pragma once
 
 #include "tests/accumulate_support.h"
@@ -7,9 +7,9 @@
 
 namespace wedge::test {
 
-/// How pixels keep what they see. Packed, the first wave alone measures, as in lean frames.
+/// How pixels keep what they see. In lean frames the first wave alone measures.
 struct Keeping {
-    std::uint32_t packed;
+    bool lean;
     float oneVelocity;
     bool motion; ///< whether there is a plane of it
 };
@@ -18,7 +18,7 @@ struct Keeping {
 struct SurfacesFound {
     Planes<std::uint32_t> object, rays, pathRays, taken, hits, gloss;
     Planes<float> position, normal, diffuse, specular, emission, emissionSquares, pixelSize, distance, confusion,
-        motion;
+        motion, motionSpread;
 
     SurfacesFound(Accumulation& a, const SurfacePixels& p)
         : object(a.read(p.object))
@@ -28,21 +28,23 @@ struct SurfacesFound {
         , hits(a.read(a.hits))
         , gloss(a.read(p.gloss))
         , position(a.read(p.position))
-        , normal(a.packed != 0 ? normalsOf(a.read(p.normal)) : a.read(p.normal))
+        , normal(a.lean ? normalsOf(a.read(p.normal)) : a.read(p.normal))
         , diffuse(a.read(p.diffuse))
         , specular(a.read(p.specular))
         , emission(a.read(p.emission))
         , emissionSquares(a.read(p.emissionSquares))
-        , pixelSize(a.packed != 0 ? numbersOf(a.read(p.pixelSize), 0) : a.read(p.pixelSize))
+        , pixelSize(a.lean ? numbersOf(a.read(p.pixelSize), 0) : a.read(p.pixelSize))
         , distance(a.read(p.distance))
-        , confusion(a.packed != 0 ? numbersOf(a.read(p.confusion), 0) : a.read(p.confusion))
+        , confusion(a.lean ? numbersOf(a.read(p.confusion), 0) : a.read(p.confusion))
         , motion(a.read(p.motion))
+        , motionSpread(a.read(p.motionSpread))
     {
         for (const Planes<float>* planes :
             { &position, &normal, &pixelSize, &diffuse, &emission, &emissionSquares, &distance, &confusion })
             checkElsewhere(a, *planes);
-        if (a.packed == 0) {
+        if (!a.lean) {
             checkElsewhere(a, motion);
+            checkElsewhere(a, motionSpread);
             return;
         }
         // Nothing but what it shares its plane with is beside these.
@@ -64,8 +66,7 @@ inline std::vector<SeenPoint> hitsOf(std::vector<SeenPoint> seen)
 }
 
 /// Least and largest radius; packed, the one nearest to 0, or 0 where there are both signs. Returns the latter.
-inline double requireConfusion(
-    const SurfacesFound& found, std::uint32_t packed, const std::vector<SeenPoint>& seen, int x, int y)
+inline double requireConfusion(const SurfacesFound& found, bool lean, const std::vector<SeenPoint>& seen, int x, int y)
 {
     const shared::CameraParams camera = lens();
     double low = 1e30, high = -1e30;
@@ -75,7 +76,7 @@ inline double requireConfusion(
         high = std::max(high, r);
     }
     const double nearest = low > 0 ? low : high < 0 ? high : 0;
-    if (packed == 0) {
+    if (!lean) {
         REQUIRE(nearTo(found.confusion.at(x, y), low));
         REQUIRE(nearTo(found.confusion.at(x, y, 1), high));
     } else {
@@ -97,10 +98,10 @@ inline void requireMotion(const SurfacesFound& found, const std::vector<SeenPoin
             apart = std::max(apart, glm::distance(p.motion, q.motion));
     }
     if (oneWave)
-        REQUIRE(nearTo(motion.at(x, y, 2), spread));
+        REQUIRE(nearTo(found.motionSpread.at(x, y), spread));
     // From a mean that itself moves while waves come in.
-    REQUIRE(motion.at(x, y, 2) >= (hit.size() > 1 ? 0.1 * apart : 0.0) - 1e-5);
-    REQUIRE(motion.at(x, y, 2) <= apart + 1e-5);
+    REQUIRE(found.motionSpread.at(x, y) >= (hit.size() > 1 ? 0.1 * apart : 0.0) - 1e-5);
+    REQUIRE(found.motionSpread.at(x, y) <= apart + 1e-5);
 }
 
 /// What waves keep of motions in one plane: the mean, infinite once one of a wave's is too far from the mean so far.
@@ -142,22 +143,21 @@ inline OneMotion requireOneMotion(const Accumulation& a, const SurfacesFound& fo
 }
 
 /// What the waves that measure have seen of a pixel: of all, or packed of the first one.
-inline void requireMeasured(
-    const SurfacesFound& found, std::uint32_t packed, const std::vector<SeenPoint>& seen, int x, int y)
+inline void requireMeasured(const SurfacesFound& found, bool lean, const std::vector<SeenPoint>& seen, int x, int y)
 {
     // What is seen to emit may have no surface, like a light.
     REQUIRE(nearTo(found.emissionSquares.at(x, y), sumOf(seen, [](const SeenPoint& p) {
         return std::pow(luminanceOf(p.emission), 2);
     }) / std::max<double>(1, static_cast<double>(seen.size()))));
     const std::vector<SeenPoint> hit = hitsOf(seen);
-    const double h = std::max<double>(1, static_cast<double>(hit.size())), tolerance = packed != 0 ? 1.0 / 256 : 2e-5;
+    const double h = std::max<double>(1, static_cast<double>(hit.size())), tolerance = lean ? 1.0 / 256 : 2e-5;
     REQUIRE(
         nearTo(found.pixelSize.at(x, y), sumOf(hit, [](const SeenPoint& p) { return p.pixelSize; }) / h, tolerance));
 }
 
 /// Kind and mean exponent of the lobes that the first round with a lobe has seen.
-inline void requireGloss(const SurfacesFound& found, std::uint32_t packed, const std::vector<SeenPoint>& seen,
-    const Rounds& rounds, int x, int y)
+inline void requireGloss(
+    const SurfacesFound& found, bool lean, const std::vector<SeenPoint>& seen, const Rounds& rounds, int x, int y)
 {
     double sum = 0, lobes = 0;
     std::uint32_t kind = WEDGE_LAMBERT, first = 0;
@@ -174,10 +174,10 @@ inline void requireGloss(const SurfacesFound& found, std::uint32_t packed, const
         if (lobes > 0)
             break;
     }
-    const shared::Gloss gloss = packed != 0 ? shared::unpackGlossShort(shortOf(found.gloss, x, y, 0))
-                                            : shared::unpackGloss(found.gloss.at(x, y));
+    const shared::Gloss gloss =
+        lean ? shared::unpackGlossShort(shortOf(found.gloss, x, y, 0)) : shared::unpackGloss(found.gloss.at(x, y));
     REQUIRE(gloss.kind == kind);
-    REQUIRE((lobes == 0 || nearTo(gloss.exponent, sum / lobes, packed != 0 ? 1.0 / 500 : 2e-5)));
+    REQUIRE((lobes == 0 || nearTo(gloss.exponent, sum / lobes, lean ? 1.0 / 500 : 2e-5)));
 }
 
 /// What layers show: lean frames leave it as it was.
@@ -185,7 +185,7 @@ inline void requireLayers(const Accumulation& a, const SurfacesFound& found, int
 {
     const std::vector<SeenPoint> seen = a.seen(x, y), hit = hitsOf(seen);
     const double n = std::max<double>(1, static_cast<double>(seen.size())), h = static_cast<double>(hit.size());
-    if (a.packed != 0) {
+    if (a.lean) {
         REQUIRE(found.diffuse.vector(x, y) == glm::dvec3(0));
         REQUIRE(found.specular.vector(x, y) == glm::dvec3(0));
         REQUIRE(found.distance.at(x, y) == 0);
@@ -214,7 +214,7 @@ inline void requirePlace(
     REQUIRE(nearTo(found.position.vector(x, y), sumOf(hit, [](const SeenPoint& p) { return p.position; }) / h));
     // A unit vector is added to as if it were the sum: of much the same normals that makes little.
     const glm::dvec3 facing = glm::normalize(sumOf(hit, [](const SeenPoint& p) { return p.normal; }));
-    const double packing = a.packed != 0 ? 0.5 * std::sqrt(3.0) / WEDGE_NORMAL_UNITS : 0;
+    const double packing = a.lean ? 0.5 * std::sqrt(3.0) / WEDGE_NORMAL_UNITS : 0;
     REQUIRE(glm::length(found.normal.vector(x, y) - facing) < (oneWave ? 1e-5 + packing : 1e-3 + 2 * packing));
 }
 
@@ -255,21 +255,21 @@ inline SurfaceKinds requireSurfaces(
             return p.emission;
         }) / std::max<double>(1, static_cast<double>(seen.size()))));
         std::vector<SeenPoint> measured = seen;
-        if (a.packed != 0)
+        if (a.lean)
             measured.resize(rounds[0](x, y));
-        requireMeasured(found, a.packed, measured, x, y);
-        requireGloss(found, a.packed, seen, a.packed != 0 ? Rounds { rounds[0] } : rounds, x, y);
+        requireMeasured(found, a.lean, measured, x, y);
+        requireGloss(found, a.lean, seen, a.lean ? Rounds { rounds[0] } : rounds, x, y);
         requireLayers(a, found, x, y);
         if (seen.empty())
             return;
-        const double nearest = requireConfusion(found, a.packed, seen, x, y);
+        const double nearest = requireConfusion(found, a.lean, seen, x, y);
         ++(nearest == 0 ? kinds.sharp : nearest > 0 ? kinds.nearer : kinds.farther);
         if (hit.empty()) {
             ++kinds.missed;
             return;
         }
         requirePlace(a, found, hit, rounds.size() == 1, x, y);
-        if (a.packed == 0)
+        if (!a.lean)
             requireMotion(found, hit, rounds.size() == 1, x, y);
         else if (keeping.motion)
             ++kinds.motions[static_cast<int>(requireOneMotion(a, found, rounds, x, y))];

@@ -38,18 +38,13 @@ struct SurfaceBuffers {
         , gloss(counts(bench, layout))
         , rays(counts(bench, layout))
         , pathRays(counts(bench, layout))
-        , ofWaves(bench.filled(1, 0u))
     {
     }
-    /// What kernels take for WEDGE_RECEIVER_PARAMETERS, the pixels being the receivers.
-    auto receivers() const
-    {
-        return std::tie(position, normal, origin, geometric, objectId, gloss, ofWaves, ofWaves, ofWaves);
-    }
+    /// What kernels take for WEDGE_RECEIVER_ARGUMENTS, the pixels being the receivers.
+    auto receivers() const { return std::tie(position, normal, origin, geometric, objectId, gloss); }
 
     device::Buffer<float> position, normal, origin, depth, pixelSize, diffuse, specular, emission;
     device::Buffer<std::uint32_t> geometric, objectId, gloss, rays, pathRays;
-    device::Buffer<std::uint32_t> ofWaves; ///< which nobody reads
 
 private:
     static device::Buffer<float> floats(KernelBench& bench, const render::PlaneLayout& layout, std::size_t planes)

@@ -371,13 +371,14 @@ graph::Handle<Value>* LightGraph::keptParts()
 void LightGraph::shade(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition)
 {
     const graph::Argument p = f_.rectangle(analysisParams());
+    const graph::Format parts = f_.specular() ? shortPairs : shortFloats;
     const Surfaces& s = f_.surfaces;
     Sum& direct = f_.totals.direct;
     f_.blocks("composite", PassKind::Composite, { "frame/composite.cl", "addDiffuse" },
         { p, sampleParams(), light(), quadrature(), reads("position", s.position), reads("normal", s.normal),
             reads("objectId", s.objectId), reads("diffuse", s.diffuse), reads("value", shown), reads("noisy", value_),
-            f_.analysed() ? reads("parts", parts_) : f_.nothing("parts", f_.specular() ? shortPairs : shortFloats),
-            reads("taken", taken_), updates("direct", direct.filtered), updates("directNoisy", direct.noisy),
+            f_.analysed() ? reads("parts", parts_) : graph::absent("parts", parts), reads("taken", taken_),
+            updates("direct", direct.filtered), updates("directNoisy", direct.noisy),
             updates("deviation", direct.deviation) },
         condition);
     if (f_.specular()) {
@@ -385,8 +386,8 @@ void LightGraph::shade(const graph::Handle<Value>& shown, const std::function<bo
             { p, sampleParams(), light(), value("frame", f_.wholeFrame()), value("directions", lobeDirections(s_.spp)),
                 quadrature(), reads("position", s.position), reads("normal", s.normal), reads("objectId", s.objectId),
                 reads("gloss", s.gloss), reads("specular", s.specular), reads("value", shown), reads("noisy", value_),
-                f_.analysed() ? reads("parts", parts_) : f_.nothing("parts", f_.specular() ? shortPairs : shortFloats),
-                reads("taken", taken_), updates("direct", direct.filtered), updates("directNoisy", direct.noisy),
+                f_.analysed() ? reads("parts", parts_) : graph::absent("parts", parts), reads("taken", taken_),
+                updates("direct", direct.filtered), updates("directNoisy", direct.noisy),
                 updates("deviation", direct.deviation) },
             condition);
     }

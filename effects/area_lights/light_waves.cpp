@@ -5,7 +5,6 @@
 #include "host/render/filters/filter_graph.h"
 #include "host/render/filters/widening.h"
 #include "host/render/sinks.h"
-#include "kernels/shared/packed.h"
 
 #include <limits>
 
@@ -29,15 +28,6 @@ LightWaves::LightWaves(FrameBuilder& frame, const SampleShape& shape, const Term
     , light_(light.light)
     , channels_(frame.specular() ? 2 : 1)
 {
-}
-
-std::uint32_t LightWaves::extremePlanes() const
-{
-    // Slopes, and where things move what their shadows' motions add up to; packed, the motions alone.
-    if (shape_.full) {
-        return !shape_.measures() ? 0 : shape_.geometryMoves ? 6 : 2;
-    }
-    return shape_.analysed && shape_.geometryMoves ? 1 : 0;
 }
 
 shared::AnalysisParams LightWaves::analysisParams() const
@@ -76,7 +66,7 @@ void LightWaves::sample(
                 waves.tallyRays() },
             sunk));
     const bool exact = settings().method == Method::AxisAligned && !shape_.published;
-    auto unshadowed = waves.list<Value>("unshadowed shading", graph::floatPlanes(2));
+    auto unshadowed = waves.list<Value>("unshadowed shading", graph::pairs);
     if (exact) {
         waves.list("unshadowed shading", { "light/wave_light.cl", "unshadowedReceivers" }, WEDGE_BLOCK_PIXELS,
             { waves.receiverParams(), waves.params(), light,
@@ -86,12 +76,12 @@ void LightWaves::sample(
                 reads("gloss", r.gloss), reads("view", r.view), writes("unshadowed", unshadowed) });
     }
     waves.pixels("accumulateLight",
-        joined({ waves.pixelParams(), waves.params(omits()), light, value("exact", exact ? 1u : 0u) },
-            waves.pixelLists(), Arguments { reads("taken", counts.taken), reads("hits", hits) },
-            waves.receiverArguments(),
+        joined({ waves.pixelParams(), waves.params(), light }, waves.pixelLists(),
+            Arguments { reads("taken", counts.taken), reads("hits", hits) }, waves.receiverArguments(),
             Arguments { reads("diffuse", r.diffuse), reads("specular", r.specular), reads("sums", own.sums),
-                exact ? reads("unshadowed", unshadowed) : f_.nothing("unshadowed"), reads("slopes", own.extremes) },
-            accumulated(adding, counts), Arguments { samplesOf("samples", f_.totals.samples) }));
+                exact ? reads("unshadowed", unshadowed) : graph::absent("unshadowed", graph::pairs),
+                reads("slopes", own.extremes) },
+            accumulated(adding, counts)));
 }
 
 void LightWaves::widths()
@@ -117,9 +107,8 @@ void LightWaves::narrowForHighlights()
     const Surfaces& s = f_.surfaces;
     f_.pixels("widths", PassKind::Analysis, { "analysis/analysis.cl", "narrowForHighlights" },
         { f_.rectangle(analysisParams()), value("frame", f_.wholeFrame()), value("light", light_),
-            value("bits", shared::textureBits(f_.packed ? 1 : 0, true)), reads("texture", means.texture),
-            reads("position", s.position), reads("gloss", s.gloss), reads("objectId", s.objectId),
-            updates("beta", means.beta) });
+            reads("texture", means.texture), reads("position", s.position), reads("gloss", s.gloss),
+            reads("objectId", s.objectId), updates("beta", means.beta) });
 }
 
 void LightWaves::publishedWidths(
@@ -158,15 +147,18 @@ graph::Handle<Value> LightWaves::alongShadows(
     const graph::Argument p = f_.rectangle(of(params));
     const graph::Reach far = graph::around(WEDGE_MOTION_REACH);
     auto along = f_.graph.plane<Pixels>("width along shadows' motion", graph::floats);
-    auto directions =
-        f_.graph.plane<Pixels>("direction of shadows' motion", f_.packed ? shortPairs : graph::floatPlanes(2));
+    auto directions = f_.graph.plane<Pixels>("direction of shadows' motion", f_.lean ? shortPairs : graph::pairs);
     auto out = f_.graph.plane<Value>("filtered along shadows' motion", graph::floats);
     f_.pixels(pass, PassKind::Filter, { "waves/distributed.cl", "shadowBlurs" },
-        { p, reads("shadows", means.extremes), reads("taken", shape_.full ? means.taken : means.wanted),
-            reads("beta", means.beta), writes("along", along), writes("directions", directions) });
+        { p, f_.lean ? graph::absent("shadowSums", graph::floatPlanes(4)) : reads("shadowSums", means.shadowSums),
+            f_.lean ? reads("shadowMotion", means.shadowMotion) : graph::absent("shadowMotion", shortPairs),
+            reads("taken", shape_.full ? means.taken : means.wanted), reads("beta", means.beta),
+            f_.lean ? graph::absent("along") : writes("along", along),
+            f_.lean ? graph::absent("directions", shortPairs) : writes("directions", directions),
+            f_.lean ? writes("vectors", directions) : graph::absent("vectors", shortPairs) });
     f_.pixels(pass, PassKind::Filter, { "filter/blur.cl", "blurMotion" },
-        { p, value("channels", 1u), reads("along", along, far), reads("directions", directions, far),
-            reads("in", seen, far), writes("out", out) });
+        joined({ p }, readsMotion(f_, along, directions),
+            Arguments { graph::absent("texture", graph::vectors), reads("value", seen, far), writes("out", out) }));
     return out;
 }
 

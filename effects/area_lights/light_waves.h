@@ -17,7 +17,8 @@ public:
     void publishedWidths(const shared::DistributedParams& params, const graph::Handle<Share>& flags,
         const graph::Handle<Pixels>& confusion) override;
     graph::Handle<Value> filtered(const shared::DistributedParams& params) override;
-    std::uint32_t extremePlanes() const override;
+    graph::Format extremesFormat() const override { return graph::pairs; }
+    bool shadowsMove() const override { return shape_.geometryMoves; }
 
 private:
     shared::AnalysisParams analysisParams() const;

@@ -85,7 +85,7 @@ shared::LightAxes axesOf(const shared::AreaLight& light, int components)
 
 graph::Format momentsFormat(std::uint32_t channels)
 {
-    return { channels == 2 ? "short10" : "short5", 10 * channels, "float", "", "", "" };
+    return shortPlanes(channels == 2 ? "short10" : "short5", 5 * channels);
 }
 
 graph::Format componentsFormat(int components, std::uint32_t channels)
@@ -98,17 +98,17 @@ graph::Format componentsFormat(int components, std::uint32_t channels)
     case 4:
         return shortQuadruples;
     case 18:
-        return { "short18", 36, "float", "", "", "" };
+        return shortPlanes("short18", count);
     case 36:
-        return { "short36", 72, "float", "", "", "" };
+        return shortPlanes("short36", count);
     case 50:
-        return { "short50", 100, "float", "", "", "" };
+        return shortPlanes("short50", count);
     case 100:
-        return { "short100", 200, "float", "", "", "" };
+        return shortPlanes("short100", count);
     case 98:
-        return { "short98", 196, "float", "", "", "" };
+        return shortPlanes("short98", count);
     case 196:
-        return { "short196", 392, "float", "", "", "" };
+        return shortPlanes("short196", count);
     default:
         throw std::logic_error(fmt::format("no format of {} components", components));
     }
@@ -174,18 +174,17 @@ void componentFilter(FrameBuilder& frame, const shared::FilterParams& params, co
     const Surfaces& s = frame.surfaces;
     frame.blocks("filter", PassKind::Filter,
         { "filter/components.cl", "filterComponents", {},
-            { { "WEDGE_COMPONENTS", std::to_string(settings.components) } } },
+            frame.surfaceFormats({ { "WEDGE_COMPONENTS", std::to_string(settings.components) } }) },
         { frame.rectangle(params), value("light", axesOf(light, settings.components)),
             value("slopesPerWidth", analysis.k * analysis.mu / analysis.sigma),
             value("floorPerPixel", 1.0f / (analysis.alpha * analysis.sigma)),
-            value("refitted", settings.maaf == Maaf::Refitted ? 1u : 0u),
-            value("keepsParts", parts != nullptr ? 1u : 0u), reads("value", shown), reads("beta", beta, around),
-            reads("slopeWidth", term.slopeWidth, around), reads("ratio", term.ratio),
+            value("refitted", settings.maaf == Maaf::Refitted ? 1u : 0u), reads("value", shown),
+            reads("beta", beta, around), reads("slopeWidth", term.slopeWidth, around), reads("ratio", term.ratio),
             reads("position", s.position, around), reads("normal", s.normal, around),
             reads("pixelSize", s.pixelSize, around), reads("objectId", s.objectId, around),
             reads("sums", term.sums, around), reads("components", term.components, around),
             writes("filtered", out.value), writes("effective", out.effective),
-            parts != nullptr ? updates("parts", *parts) : frame.nowhere("parts") });
+            parts != nullptr ? updates("parts", *parts) : graph::absent("parts") });
 }
 
 } // namespace wedge::render

@@ -26,7 +26,7 @@ std::vector<graph::Argument> sceneLights(const FrameBuilder& frame, Component co
             frame.ofScene("emitterPicks", "float", other ? &DeviceScene::sharedPicks : &DeviceScene::emitterPicks) },
         frame.beyond(),
         Arguments { frame.environmentSamples ? reads("environmentSamples", *frame.environmentSamples)
-                                             : frame.nothing("environmentSamples") });
+                                             : graph::absent("environmentSamples") });
 }
 
 shared::PathParams pathParams(const FrameBuilder& frame, Component component)

@@ -313,8 +313,8 @@ void PathGraph::addSamples()
 {
     f_.blocks("composite", PassKind::Composite, { "frame/composite.cl", "addPathSamples" },
         { f_.rectangle(countParams()), value("component", static_cast<std::uint32_t>(component_)),
-            value("varies", varies() ? 1u : 0u), reads("reflectance", reflectance_), reads("value", value_),
-            varies() ? reads("deviations", deviation_) : f_.nothing("deviations"), reads("taken", taken_),
+            reads("reflectance", reflectance_), reads("value", value_),
+            varies() ? reads("deviations", deviation_) : graph::absent("deviations"), reads("taken", taken_),
             updates("indirectNoisy", sum_.noisy), updates("deviation", sum_.deviation) });
 }
 

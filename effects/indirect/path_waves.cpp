@@ -54,20 +54,17 @@ void PathWaves::sample(
                     reads("normal", r.normal), reads("diffuse", r.diffuse), writes("unshadowed", reflectance) }));
     }
     waves.pixels("accumulatePaths",
-        joined({ waves.pixelParams(), waves.params(omits() | (isDirect(component_) ? WEDGE_OMITS_INDIRECT : 0u)),
-                   value("ambient", component_ == Component::Ambient ? 1u : 0u) },
+        joined({ waves.pixelParams(), waves.params(), value("ambient", component_ == Component::Ambient ? 1u : 0u) },
             waves.pixelLists(),
             Arguments { reads("taken", counts.taken), reads("hits", hits), reads("objectId", r.objectId),
                 reads("reflectance", reflectance), reads("sums", own.sums), reads("reflectors", own.extremes) },
-            accumulated(adding, counts),
-            Arguments {
-                samplesOf("samples", f_.totals.samples), samplesOf("indirectSamples", f_.totals.indirectSamples) }));
+            accumulated(adding, counts)));
 }
 
 void PathWaves::widths()
 {
     shared::ReflectorParams p = reflectorParams(f_, component_);
-    p.meanOnly = f_.packed ? 1 : 0;
+    p.meanOnly = f_.lean ? 1 : 0;
     p.widthScale = settings().indirect.widthScale;
     reflectorWidths(f_, p, leastExtreme(), means.taken, means.beta);
 }
@@ -98,7 +95,7 @@ graph::Handle<Value> PathWaves::filtered(const shared::DistributedParams& params
         widen("filter of indirect", params, filter, wideningOf(component_, settings()));
     }
     graph::Handle<Value> plain = means.value;
-    if (f_.packed) {
+    if (f_.lean) {
         plain = f_.graph.plane<Value>("value", graph::vectors);
         f_.pixels("filter of indirect", PassKind::Filter, { "waves/distributed.cl", "unpackImage" },
             { f_.rectangle(of(params)), reads("in", means.value), writes("out", plain) });

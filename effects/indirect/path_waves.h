@@ -17,7 +17,7 @@ public:
     void publishedWidths(const shared::DistributedParams& params, const graph::Handle<Share>& flags,
         const graph::Handle<Pixels>& confusion) override;
     graph::Handle<Value> filtered(const shared::DistributedParams& params) override;
-    std::uint32_t extremePlanes() const override { return shape_.full && shape_.measures() ? 3 : 0; }
+    graph::Format extremesFormat() const override { return graph::vectors; }
 
 private:
     shared::PathParams pathParams() const;

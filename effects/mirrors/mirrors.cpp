@@ -45,7 +45,7 @@ void ofPixels(FrameBuilder& f, graph::Handle<Radiance>* /*own*/)
     f.graph.loop("slices", slices.counter(), [&] {
         f.trace("mirrors", { program, "sampleMirrors" },
             joined({ f.frame() }, scene(f), f.receivers(),
-                Arguments { f.nothing("sampleOf", graph::counts), slices.last(), updates("taken", taken),
+                Arguments { graph::absent("sampleOf", graph::counts), slices.last(), updates("taken", taken),
                     tallies("rays", rays), tallies("pathRays", pathRays), updates("sums", sums) }),
             false, slices.workUnits(static_cast<double>(f.settings.spp) * vertices(f.settings)));
     });
@@ -62,7 +62,7 @@ void ofWaves(FrameBuilder& f, Waves& waves, graph::Handle<Radiance>& radiance)
     waves.tiles("mirrors", { program, "sampleMirrors" },
         joined({ waves.receiverParams() }, scene(f), waves.receiverArguments(),
             Arguments { reads("sampleOf", waves.receivers().sampleOf), value("lastSample", 0u),
-                f.nowhere("taken", graph::counts), waves.tallyRays(), waves.tallyPathRays(),
+                graph::absent("taken", graph::counts), waves.tallyRays(), waves.tallyPathRays(),
                 updates("sums", radiance) }),
         false);
 }

@@ -83,12 +83,12 @@ struct TemporalFilter::Declaration {
         graph::Handle<render::Squares> variation;
     };
 
-    Declaration(render::Renderer& theRenderer, const Settings& theSettings, const cl::Buffer& unused)
+    Declaration(render::Renderer& theRenderer, const Settings& theSettings)
         : renderer(theRenderer)
         , settings(theSettings)
         , frame(theRenderer.frame())
         , graph(settings.width, settings.height, frame.layout.size)
-        , f { graph, theRenderer.scene(), nullptr, settings, frame.layout, 1, unused }
+        , f { graph, theRenderer.scene(), nullptr, settings, frame.layout, 1 }
         , indirect(hasIndirect(settings, theRenderer.scene()))
     {
         params.width = frame.layout.width;
@@ -156,14 +156,10 @@ struct TemporalFilter::Declaration {
     }
 
     template <class Quantity>
-    graph::Argument readsIf(bool there, const char* name, const graph::Handle<Quantity>& handle) const
+    static graph::Argument readsIf(
+        bool there, const char* name, const graph::Handle<Quantity>& handle, const graph::Format& format)
     {
-        return there ? reads(name, handle) : f.nothing(name);
-    }
-    template <class Quantity>
-    graph::Argument changesIndirect(const char* name, graph::Handle<Quantity>& handle) const
-    {
-        return indirect ? updates(name, handle) : f.nowhere(name);
+        return there ? reads(name, handle) : graph::absent(name, format);
     }
 
     /// Keeps the frame in `own`.
@@ -176,12 +172,15 @@ struct TemporalFilter::Declaration {
             { f.rectangle(params), reads("position", s.position), reads("normal", s.normal),
                 reads("objectId", s.objectId), reads("diffuse", s.diffuse), reads("specular", s.specular),
                 reads("direct", t.direct.filtered), reads("directNoisy", t.direct.noisy),
-                readsIf(indirect, "indirect", t.indirect.filtered),
-                readsIf(indirect, "indirectNoisy", t.indirect.noisy),
-                readsIf(params.measured != 0, "directDeviation", t.direct.deviation),
-                readsIf(params.measured != 0 && indirect, "indirectDeviation", t.indirect.deviation),
+                readsIf(indirect, "indirect", t.indirect.filtered, graph::vectors),
+                readsIf(indirect, "indirectNoisy", t.indirect.noisy, graph::vectors),
+                readsIf(params.measured != 0, "directDeviation", t.direct.deviation, render::shortFloats),
+                readsIf(
+                    params.measured != 0 && indirect, "indirectDeviation", t.indirect.deviation, render::shortFloats),
                 updates("depth", own.depth), updates("facing", own.facing), updates("object", own.object),
-                updates("directLight", own.direct), changesIndirect("indirectLight", own.indirect),
+                updates("directLight", own.direct),
+                indirect ? updates("indirectLight", own.indirect)
+                         : graph::absent("indirectLight", render::packedColours),
                 updates("noisy", own.before), updates("variation", own.variation) });
         f.pixels(pass, PassKind::Filter, { file, "findVariation" },
             { f.rectangle(params), reads("noisy", own.before, graph::around(1)),
@@ -240,12 +239,13 @@ struct TemporalFilter::Declaration {
         f.pixels(pass, PassKind::Filter, { file, "differFromFrame" },
             { p, f.outside("motions", "float", &motionMemory), reads("position", f.surfaces.position),
                 reads("normal", f.surfaces.normal), reads("object", own.object), reads("directLight", own.direct),
-                readsIf(indirect, "indirectLight", own.indirect), reads("noisy", own.before),
+                readsIf(indirect, "indirectLight", own.indirect, render::packedColours), reads("noisy", own.before),
                 reads("variation", own.variation), reads("earlierDepth", earlier.depth, graph::wholeImage),
                 reads("earlierFacing", earlier.facing, graph::wholeImage),
                 reads("earlierObject", earlier.object, graph::wholeImage),
                 reads("earlierDirect", earlier.direct, graph::wholeImage),
-                indirect ? reads("earlierIndirect", earlier.indirect, graph::wholeImage) : f.nothing("earlierIndirect"),
+                indirect ? reads("earlierIndirect", earlier.indirect, graph::wholeImage)
+                         : graph::absent("earlierIndirect", render::packedColours),
                 reads("earlierNoisy", earlier.before, graph::wholeImage),
                 reads("earlierVariation", earlier.variation, graph::wholeImage), writes("difference", difference),
                 writes("noise", noise), writes("variations", variations), writes("share", share) });
@@ -258,8 +258,8 @@ struct TemporalFilter::Declaration {
             blocks("weighBlocks", { reads("sums", sums), writes("weights", weights) });
         }
         f.pixels(pass, PassKind::Filter, { file, "addFrame" },
-            { p, reads("difference", difference), reads("share", share), readsIf(weighed, "weights", weights),
-                updates("sum", sum), updates("counts", counts) });
+            { p, reads("difference", difference), reads("share", share),
+                readsIf(weighed, "weights", weights, graph::floats), updates("sum", sum), updates("counts", counts) });
     }
 
     void finish()
@@ -268,7 +268,8 @@ struct TemporalFilter::Declaration {
         f.pixels(pass, PassKind::Filter, { file, "finishTemporal" },
             { f.rectangle(params), reads("diffuse", f.surfaces.diffuse), reads("specular", f.surfaces.specular),
                 reads("sum", sum), reads("counts", counts), updates("direct", t.direct.filtered),
-                changesIndirect("indirect", t.indirect.filtered), updates("beauty", t.beauty) });
+                indirect ? updates("indirect", t.indirect.filtered) : graph::absent("indirect", graph::vectors),
+                updates("beauty", t.beauty) });
         want(t.direct.filtered, t.beauty);
         if (indirect) {
             want(t.indirect.filtered);
@@ -290,7 +291,6 @@ TemporalFilter::TemporalFilter(const device::Device& device)
     : device_(device)
     , kept_(temporalWindow)
     , memory_(device_)
-    , unused_(device::Buffer<std::uint32_t>(device_, 0, "nothing").cl())
 {
 }
 
@@ -336,14 +336,21 @@ void TemporalFilter::rehearse(render::Renderer& renderer, const Settings& settin
     run(renderer, settings, nullptr, true, nullptr);
 }
 
+void TemporalFilter::show(
+    render::Renderer& renderer, const Settings& settings, const std::function<void(const graph::Graph&)>& look)
+{
+    run(renderer, settings, nullptr, true, nullptr, look);
+}
+
 void TemporalFilter::run(render::Renderer& renderer, const Settings& settings,
-    std::shared_ptr<const ObjectPlaces> places, bool filters, render::FrameStatistics* statistics)
+    std::shared_ptr<const ObjectPlaces> places, bool filters, render::FrameStatistics* statistics,
+    const std::function<void(const graph::Graph&)>& look)
 {
     const auto start = std::chrono::steady_clock::now();
     const bool rehearsal = statistics == nullptr;
     const std::uint32_t number = settings.frame.value_or(0);
     device::TimedQueue& queue = renderer.queue();
-    Declaration d(renderer, settings, unused_);
+    Declaration d(renderer, settings);
     Kept& own = slotOf(number, settings);
     const std::size_t planes = keptOf(d.indirect);
     const auto allocate = [&](Kept& kept) {
@@ -380,6 +387,10 @@ void TemporalFilter::run(render::Renderer& renderer, const Settings& settings,
             add(slotOf(number + 1, settings));
         }
         d.finish();
+    }
+    if (look) {
+        look(d.graph);
+        return;
     }
     const graph::Plan plan(d.graph, device::partAlignment, renderer.slabRules());
     graph::Execution execution(plan, memory_, renderer.kernels(), queue);

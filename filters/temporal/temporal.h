@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -54,6 +55,9 @@ public:
 
     /// Launches its kernels over nothing, so that none is compiled later. After Renderer::rehearse().
     void rehearse(render::Renderer& renderer, const render::Settings& settings);
+    /// Calls look() with all of its passes, and runs none: for tests of single ones. After Renderer::rehearse().
+    void show(render::Renderer& renderer, const render::Settings& settings,
+        const std::function<void(const graph::Graph&)>& look);
 
 private:
     struct Kept;
@@ -61,12 +65,11 @@ private:
 
     Kept& slotOf(std::uint32_t frame, const render::Settings& settings);
     void run(render::Renderer& renderer, const render::Settings& settings, std::shared_ptr<const ObjectPlaces> places,
-        bool filters, render::FrameStatistics* statistics);
+        bool filters, render::FrameStatistics* statistics, const std::function<void(const graph::Graph&)>& look = {});
 
     const device::Device& device_;
     std::vector<Kept> kept_;
     graph::Memory memory_;
-    cl::Buffer unused_;
 };
 
 } // namespace wedge::filters

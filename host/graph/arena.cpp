@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace wedge::graph {
 namespace {
@@ -68,24 +69,28 @@ Placement placeInOrder(const std::vector<Tenant>& tenants, const std::vector<std
     return out;
 }
 
-/// Bytes of all that meets somewhere, at most.
-std::uint64_t mostAtOnce(const std::vector<Tenant>& tenants, const std::function<std::uint64_t(std::uint64_t)>& aligned)
+/// Bytes of all that meets somewhere, at most, and at which step.
+std::pair<std::uint64_t, std::uint64_t> mostAtOnce(
+    const std::vector<Tenant>& tenants, const std::function<std::uint64_t(std::uint64_t)>& aligned)
 {
     std::map<std::uint64_t, std::uint64_t> begins, ends; // of each step
     for (const Tenant& tenant : tenants) {
         begins[tenant.first] += aligned(tenant.bytes);
         ends[std::uint64_t { tenant.last } + 1] += aligned(tenant.bytes);
     }
-    std::uint64_t now = 0, largest = 0;
+    std::uint64_t now = 0, largest = 0, busiest = 0;
     for (const auto& [step, bytes] : begins) {
         while (!ends.empty() && ends.begin()->first <= step) {
             now -= ends.begin()->second;
             ends.erase(ends.begin());
         }
         now += bytes;
-        largest = std::max(largest, now);
+        if (now > largest) {
+            largest = now;
+            busiest = step;
+        }
     }
-    return largest;
+    return { largest, busiest };
 }
 
 } // namespace
@@ -98,6 +103,9 @@ Placement place(const std::vector<Tenant>& tenants, std::uint64_t alignment, con
     };
     const auto life = [&](std::size_t i) { return tenants[i].last - tenants[i].first; };
     const auto bytes = [&](std::size_t i) { return tenants[i].bytes; };
+    const auto [least, busiest] = mostAtOnce(tenants, aligned);
+    const auto crowded = [&, step = busiest](
+                             std::size_t i) { return tenants[i].first <= step && step <= tenants[i].last; };
     // None of these is the best for all graphs.
     const std::function<bool(std::size_t, std::size_t)> rules[] = {
         [&](std::size_t a, std::size_t b) { return bytes(a) != bytes(b) ? bytes(a) > bytes(b) : life(a) > life(b); },
@@ -106,23 +114,47 @@ Placement place(const std::vector<Tenant>& tenants, std::uint64_t alignment, con
         [&](std::size_t a, std::size_t b) {
             return static_cast<double>(bytes(a)) * (life(a) + 1.0) > static_cast<double>(bytes(b)) * (life(b) + 1.0);
         },
+        // Where most is held at once no gaps are left.
+        [&](std::size_t a, std::size_t b) {
+            return crowded(a) != crowded(b) ? crowded(a)
+                : bytes(a) != bytes(b)      ? bytes(a) > bytes(b)
+                                            : life(a) > life(b);
+        },
+        [&](std::size_t a, std::size_t b) {
+            return crowded(a) != crowded(b) ? crowded(a) : life(a) != life(b) ? life(a) > life(b) : bytes(a) > bytes(b);
+        },
     };
-    const std::uint64_t least = mostAtOnce(tenants, aligned);
     const auto sum = [](const Placement& placement) {
         return std::accumulate(placement.slabs.begin(), placement.slabs.end(), std::uint64_t { 0 });
     };
     Placement best;
+    std::vector<std::size_t> bestOrder;
+    const auto tries = [&](const std::vector<std::size_t>& order) {
+        Placement found = placeInOrder(tenants, order, aligned, slabRules);
+        const bool better = best.places.empty() || sum(found) < sum(best);
+        if (better) {
+            best = found;
+            bestOrder = order;
+        }
+        return found;
+    };
     for (const auto& before : rules) {
         std::vector<std::size_t> order(tenants.size());
         std::iota(order.begin(), order.end(), 0u);
         std::stable_sort(order.begin(), order.end(), before);
-        Placement found = placeInOrder(tenants, order, aligned, slabRules);
-        if (best.places.empty() || sum(found) < sum(best)) {
-            best = std::move(found);
-        }
+        tries(order);
         if (slabRules.sharing == Sharing::Apart || sum(best) <= least) {
-            break;
+            return best;
         }
+    }
+    // Who sticks out is placed first the next time.
+    std::vector<std::size_t> order = bestOrder;
+    Placement last = best;
+    for (int k = 0; k < 16 && sum(best) > least; ++k) {
+        const auto top = [&](std::size_t i) { return end(last.places[i].offset, tenants[i].bytes); };
+        const auto highest = std::ranges::max_element(order, {}, top);
+        std::rotate(order.begin(), highest, highest + 1);
+        last = tries(order);
     }
     return best;
 }

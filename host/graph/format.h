@@ -5,32 +5,26 @@
 
 namespace wedge::graph {
 
-/// How the elements of a resource are stored in device memory, and how kernels read and write one. A resource has one
-/// format for good, so that its bits are the same in whatever frame it occurs, and a kernel never asks for it.
+/// How the elements of a resource are stored in device memory. A resource has one format for good, so that its bits are
+/// the same in whatever frame it occurs. Kernels read and write elements by functions of the format's name
+/// (kernels/core/formats.h), and never ask which it is.
 struct Format {
     std::string_view name; ///< an identifier
     std::uint32_t bytes; ///< of an element (a pixel, a receiver), all its parts together
     std::string_view storage; ///< OpenCL type of what kernels' pointers point to
-    std::string_view value; ///< OpenCL type of an element when it is loaded; empty: kernels index the memory themselves
-    /// OpenCL expressions over `plane`, the pointer, `size`, elements of the resource, and `at`, which element; the
-    /// second a statement without its semicolon, over `value` as well. Parts of an element lie `size` apart.
-    std::string_view load, store;
-    bool operator==(const Format& other) const { return name == other.name; }
+    bool whole = true; ///< false: there are no such functions, and kernels take the parts that they need
+    bool blocks = false; ///< there is one that reads sixteen elements
+    bool operator==(const Format& other) const { return name == other.name && bytes == other.bytes; }
 };
 
-inline constexpr Format floats { "float1", 4, "float", "float", "plane[at]", "plane[at] = value" };
-inline constexpr Format vectors { "float3", 12, "float", "float3",
-    "(float3)(plane[at], plane[size + at], plane[2 * size + at])",
-    "plane[at] = value.x, plane[size + at] = value.y, plane[2 * size + at] = value.z" };
-inline constexpr Format counts { "uint1", 4, "uint", "uint", "plane[at]", "plane[at] = value" };
-/// As many floats, each in a plane of its own.
+inline constexpr Format floats { .name = "float1", .bytes = 4, .storage = "float", .blocks = true };
+inline constexpr Format vectors { .name = "float3", .bytes = 12, .storage = "float", .blocks = true };
+inline constexpr Format counts { .name = "uint1", .bytes = 4, .storage = "uint", .blocks = true };
+inline constexpr Format pairs { .name = "float2", .bytes = 8, .storage = "float" };
+/// As many floats, each in a plane of its own, of which kernels take those that they need.
 constexpr Format floatPlanes(std::uint32_t count)
 {
-    constexpr std::string_view names[] = { "float0", "float1", "float2", "float3", "float4", "float5", "float6" };
-    return count == 1 ? floats : count == 3 ? vectors : Format { names[count], 4 * count, "float", "", "", "" };
+    return count == 1 ? floats : Format { .name = "floats", .bytes = 4 * count, .storage = "float", .whole = false };
 }
-/// 11 bits of precision, magnitudes up to 65504.
-inline constexpr Format halves { "half1", 2, "half", "float", "vload_half(at, plane)",
-    "vstore_half(value, at, plane)" };
 
 } // namespace wedge::graph

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cassert>
+#include <iterator>
 #include <stdexcept>
 
 namespace wedge::graph {
@@ -12,6 +14,8 @@ namespace {
 constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
 
 constexpr const char* verbs[] = { "reads", "writes", "updates" };
+
+bool isAbsent(const Argument& argument) { return argument.absent != nullptr; }
 
 } // namespace
 
@@ -32,11 +36,22 @@ Version Graph::declare(Resource resource)
     return { id_, static_cast<std::uint32_t>(resources_.size() - 1), newest };
 }
 
+std::vector<Argument> group(const std::string& name, std::vector<Argument> arguments)
+{
+    for (Argument& argument : arguments) {
+        argument.name = name + "_" + argument.name;
+        argument.group = name;
+    }
+    return arguments;
+}
+
 void Graph::add(Pass pass)
 {
     assert((pass.domain == Domain::Host) == static_cast<bool>(pass.step));
     assert((pass.domain == Domain::Tiles || pass.domain == Domain::Items) == static_cast<bool>(pass.count));
     pass.loop = loop_;
+    std::ranges::copy_if(pass.arguments, std::back_inserter(pass.absent), isAbsent);
+    std::erase_if(pass.arguments, isAbsent);
     for (Argument& use : pass.arguments) {
         if (use.isUse()) {
             checkedUse(pass, use);

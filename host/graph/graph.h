@@ -76,9 +76,10 @@ struct Argument {
     Reach reach = {};
     bool tally = false; ///< for whose sake no pass covers a pixel
     Version* handle = nullptr; ///< of who declares what changes a resource: becomes the new version
-    std::shared_ptr<const Format> format = {}; ///< of memory in the place of a resource that there is none of
+    std::shared_ptr<const Format> absent = {}; ///< of a resource that there is none of
+    std::string group = {}; ///< which it is of, if any
 
-    bool isUse() const { return !value; }
+    bool isUse() const { return !value && absent == nullptr; }
 };
 
 /// A value that make(launch) returns.
@@ -142,6 +143,19 @@ inline Argument tallies(std::string name, Version& version)
     return { std::move(name), {}, {}, Access::Update, version, {}, true, &version };
 }
 
+/// Planes of what belongs together: each is the parameter GROUP_NAME, and LOAD_GROUP(size, at, out) and
+/// STORE_GROUP(size, at, in) read and write the members NAME of a structure; those that are only read are not written.
+std::vector<Argument> group(const std::string& name, std::vector<Argument> arguments);
+
+/// There is no resource of that name: the kernel has no parameter for it, reads zero as that format has it, and
+/// writes nothing.
+inline Argument absent(std::string name, const Format& format = floats)
+{
+    Argument out { std::move(name) };
+    out.absent = std::make_shared<const Format>(format);
+    return out;
+}
+
 /// What a pass is launched over.
 enum class Domain {
     Blocks, ///< one item for 16 pixels of a row of the window, which for that begins and ends at such blocks
@@ -165,8 +179,6 @@ struct KernelName {
     std::string file, name;
     std::vector<Sink> sinks = {}; ///< of kernels that have any; what they are handed are the pass's last arguments
     device::Defines defines = {}; ///< what tells its program from others of the file
-    /// Its text has LOAD_NAME and STORE_NAME; one that has not is the same program whatever the formats are.
-    bool byFormats = false;
 };
 
 /// One step of a frame.
@@ -175,6 +187,7 @@ struct Pass {
     device::PassKind kind = device::PassKind::Trace;
     KernelName kernel = {};
     std::vector<Argument> arguments = {}; ///< in the order of the kernel's parameters
+    std::vector<Argument> absent = {}; ///< of those, what is absent: the graph's to say
     Domain domain = Domain::Blocks;
     std::function<std::size_t(const Launch&)> count = {}; ///< of tiles or items
     std::size_t itemsOfTile = 0;

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <span>
 #include <stdexcept>
@@ -11,20 +12,34 @@
 namespace wedge::graph {
 namespace {
 
-/// The functions of a format, once a program.
-std::string formatText(const Format& format)
-{
-    return fmt::format("#ifndef FORMAT_{0}\n#define FORMAT_{0}\n"
-                       "static inline {1} load_{0}(__global const {2} *plane, size_t size, size_t at)\n"
-                       "{{\n    (void)size;\n    return {3};\n}}\n"
-                       "static inline void store_{0}(__global {2} *plane, size_t size, size_t at, {1} value)\n"
-                       "{{\n    (void)size;\n    {4};\n}}\n#endif\n",
-        format.name, format.value, format.storage, format.load, format.store);
-}
-
 std::string macro(const std::string& name, const std::string& parameters, const std::string& meaning)
 {
     return fmt::format("#undef {0}\n#define {0}{1} {2}\n", name, parameters, meaning);
+}
+
+/// How a plane is read and written. Both, whatever the pass does: the parameter's type says what may be done. What
+/// another kernel of the file had of that name is forgotten.
+std::string planeMacros(const std::string& name, const Format& format, bool absent)
+{
+    std::string out;
+    for (const char* what : { "FORMAT_", "LOAD_", "STORE_", "LOAD16_" }) {
+        out += fmt::format("#undef {}{}\n", what, name);
+    }
+    out += macro("HAS_" + name, "", absent ? "0" : "1");
+    out += macro("PLANE_" + name, "", absent ? fmt::format("((__global const {} *)0)", format.storage) : name);
+    if (format.whole) {
+        out += fmt::format("#define FORMAT_{} {}\n", name, format.name);
+        out += fmt::format("#define LOAD_{}(size, at) {}\n", name,
+            absent ? fmt::format("((void)(size), (void)(at), none_{}())", format.name)
+                   : fmt::format("load_{}({}, size, at)", format.name, name));
+        out += fmt::format("#define STORE_{}(size, at, value) {}\n", name,
+            absent ? "((void)(size), (void)(at), (void)(value))"
+                   : fmt::format("store_{}({}, size, at, value)", format.name, name));
+    }
+    if (format.blocks && !absent) {
+        out += fmt::format("#define LOAD16_{0}(size, at) load16_{1}({0}, size, at)\n", name, format.name);
+    }
+    return out;
 }
 
 /// Where in a pass's rectangle an item is, and the end of those beside it. Blocks have indices with signs, which
@@ -37,6 +52,31 @@ std::string pixelMacro(Domain domain)
             "const uint x = (p).x0 + (uint)get_global_id(0){}, y = (p).y0 + (uint)get_global_id(1); "
             "if (x >= (p).x1 || y >= (p).y1) {{ return; }} const {} i = ({})pixelIndex(x, y, (p).stride); (void)i",
             blocks ? " * WEDGE_BLOCK_PIXELS" : "", blocks ? "int" : "uint", blocks ? "int" : "uint"));
+}
+
+/// How the groups' structures are read and written.
+std::string groupMacros(const Pass& pass)
+{
+    std::map<std::string, std::pair<std::string, std::string>> groups;
+    for (const std::vector<Argument>* list : { &pass.arguments, &pass.absent }) {
+        for (const Argument& argument : *list) {
+            if (argument.group.empty()) {
+                continue;
+            }
+            auto& [load, store] = groups[argument.group];
+            const std::string member = argument.name.substr(argument.group.size() + 1);
+            load += fmt::format(" (out)->{} = LOAD_{}(size, at);", member, argument.name);
+            if (argument.isUse() && argument.access != Access::Read) {
+                store += fmt::format(" STORE_{}(size, at, (in)->{});", argument.name, member);
+            }
+        }
+    }
+    std::string out;
+    for (const auto& [name, both] : groups) {
+        out += macro("LOAD_" + name, "(size, at, out)", fmt::format("do {{{} }} while (0)", both.first));
+        out += macro("STORE_" + name, "(size, at, in)", fmt::format("do {{{} }} while (0)", both.second));
+    }
+    return out;
 }
 
 std::string parameterOf(const Graph& graph, const Pass& pass, const Argument& argument)
@@ -97,22 +137,17 @@ std::string sinkFunction(const Pass& pass, const std::string& step, const std::s
 
 std::string interfaceText(const Graph& graph, const Pass& pass)
 {
-    std::string formats, macros = macro("PASS_" + pass.kernel.name, "", "1"), parameters;
-    std::set<std::string_view> known;
+    std::string macros = macro("PASS_" + pass.kernel.name, "", "1"), parameters;
     for (const Argument& argument : pass.arguments) {
         parameters += (parameters.empty() ? "" : ", ") + parameterOf(graph, pass, argument);
-        const Format* format =
-            argument.isUse() ? &graph.resources()[argument.version.resource].format : argument.format.get();
-        if (!pass.kernel.byFormats || format == nullptr || format->value.empty()) {
-            continue;
+        if (argument.isUse()) {
+            macros += planeMacros(argument.name, graph.resources()[argument.version.resource].format, false);
         }
-        formats += known.insert(format->name).second ? formatText(*format) : "";
-        // Both, whatever the pass does: the parameter's type says what may be done.
-        macros += macro(
-            "LOAD_" + argument.name, "(size, at)", fmt::format("load_{}({}, size, at)", format->name, argument.name));
-        macros += macro("STORE_" + argument.name, "(size, at, value)",
-            fmt::format("store_{}({}, size, at, value)", format->name, argument.name));
     }
+    for (const Argument& argument : pass.absent) {
+        macros += planeMacros(argument.name, *argument.absent, true);
+    }
+    macros += groupMacros(pass);
     if (pass.domain == Domain::Tiles) {
         parameters += ", const uint firstGroup";
     }
@@ -120,7 +155,7 @@ std::string interfaceText(const Graph& graph, const Pass& pass)
         macros += pixelMacro(pass.domain);
     }
     const std::string sinks = pass.kernel.sinks.empty() ? "" : sinkText(graph, pass);
-    return formats + macros + macro("PARAMETERS", "", parameters) + sinks;
+    return "#include \"core/formats.h\"\n" + macros + macro("PARAMETERS", "", parameters) + sinks;
 }
 
 std::string sinkText(const Graph& graph, const Pass& pass)

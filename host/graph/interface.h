@@ -10,11 +10,13 @@
 namespace wedge::graph {
 
 /// What a pass's kernel is written with, OpenCL C: PASS_KERNEL, which says that there is one; PARAMETERS, its list of
-/// parameters as the pass declares them, each restrict; of kernels that go by formats, for each resource NAME that it
-/// uses LOAD_NAME(size, at) and STORE_NAME(size, at, value). size: elements of the resource. Of passes
-/// over pixels WEDGE_PIXEL(p, x, y, i): it declares which pixel of p's rectangle, or first pixel of a block, the item
-/// is, and its index, and returns where it is none. Then, of kernels that have sinks, sinkText(). A kernel that takes
-/// something else does not compile. Throws std::logic_error for a value of a type that kernelType does not know.
+/// parameters as the pass declares them, each restrict. For each plane and list NAME: HAS_NAME, whether there is one;
+/// LOAD_NAME(size, at) and STORE_NAME(size, at, value), and LOAD16_NAME(size, at) where its format has blocks, by
+/// kernels/core/formats.h; FORMAT_NAME, which it is; PLANE_NAME, the pointer. size: elements of the resource. What is
+/// absent is no parameter, is read as nothing and not written; its pointer is null. Of passes over pixels
+/// WEDGE_PIXEL(p, x, y, i): it declares which pixel of p's rectangle, or first pixel of a block, the item is, and its
+/// index, and returns where it is none. Then, of kernels that have sinks, sinkText(). A kernel that takes something
+/// else does not compile. Throws std::logic_error for a value of a type that kernelType does not know.
 std::string interfaceText(const Graph& graph, const Pass& pass);
 
 /// What a kernel that takes samples goes by: WEDGE_SINK_PARAMETERS and WEDGE_SINK_ARGUMENTS, the end of its list of

@@ -37,7 +37,7 @@ void DistributedSamples::publishedCounts()
     const auto most = static_cast<std::uint32_t>(d.maxSpp);
     f_.pixels("counts", PassKind::Analysis, { "analysis/published.cl", "publishedPrimary" },
         { pixels(), value("mu", d.mu), value("mixed", static_cast<float>(d.mixedPaths)), reads("confusion", confusion_),
-            reads("motion", motion_), writes("demand", demand_) });
+            reads("motion", motion_), reads("motionSpread", motionSpread_), writes("demand", demand_) });
     const auto count = [&](const graph::Handle<Demand>& demand, const graph::Handle<Count>& least,
                            const graph::Handle<Count>& taken, graph::Handle<Count>& wanted) {
         f_.pixels("counts", PassKind::Analysis, { "analysis/published.cl", "publishedCounts" },
@@ -55,8 +55,8 @@ void DistributedSamples::widths()
     const int reach = f_.settings.distributed.factoringRadius;
     for (const std::unique_ptr<WaveTerm>& term : terms_) {
         TermMeans& m = term->means;
-        graph::Version error = m.plain; // packed, which has it
-        if (!f_.packed) {
+        graph::Version error = m.error;
+        if (!f_.lean) {
             auto made = f_.graph.plane<Value>("error of taking apart", graph::floats);
             f_.pixels("widths", PassKind::Analysis, { "waves/distributed.cl", "factoringError" },
                 { pixels(), reads("texture", m.texture), reads("value", m.value), reads("plain", m.plain),
@@ -78,10 +78,11 @@ void DistributedSamples::demandOfTerm(WaveTerm& term, const Blurs& blurs, graph:
     auto ofTexture = f_.graph.plane<Squares>("variance of texture", graph::floats);
     auto ofIrradiance = f_.graph.plane<Value>("variance of irradiance", graph::floats);
     f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "splitVariance" },
-        { p, reads("texture", m.texture),
-            f_.packed ? f_.nothing("textureSquares") : reads("textureSquares", m.textureSquares),
-            reads("value", m.value), reads("squares", m.squares), reads("taken", counts_.taken),
-            writes("ofTexture", ofTexture), writes("ofIrradiance", ofIrradiance) });
+        { p, reads("texture", m.texture), reads("value", m.value),
+            f_.lean ? reads("spreads", m.spreads) : graph::absent("spreads", shortPairs),
+            f_.lean ? graph::absent("squares") : reads("squares", m.squares),
+            f_.lean ? graph::absent("textureSquares") : reads("textureSquares", m.textureSquares),
+            reads("taken", counts_.taken), writes("ofTexture", ofTexture), writes("ofIrradiance", ofIrradiance) });
     f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "addPlane" },
         { p, reads("part", ofTexture), updates("sum", ofTextures) });
     const auto effective = gatheredCounts(f_, "pixels gathered", PassKind::Analysis,
@@ -96,7 +97,7 @@ void DistributedSamples::demandOfRays(const graph::Argument& p, const graph::Ver
     uncertainty = f_.graph.plane<Uncertainty>("uncertainty", graph::floats);
     f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "uncertaintyOfRays" },
         { p, reads("variance", variance), reads("effective", effective), reads("beta", beta), reads("lens", blurs.lens),
-            keepsMotion() ? reads("along", blurs.along) : f_.nothing("along"), writes("uncertainty", uncertainty) });
+            keepsMotion() ? reads("along", blurs.along) : graph::absent("along"), writes("uncertainty", uncertainty) });
     shared::AnalysisParams params = f_.analysisParams();
     params.countExponent = f_.settings.distributed.countExponent;
     params.varianceSpread = f_.settings.distributed.varianceSpread;
@@ -107,13 +108,13 @@ void DistributedSamples::demands()
 {
     shared::DistributedParams p = params();
     p.rays = 1.0f;
-    p.alongMotion = 1 - p.still;
+    p.alongMotion = keepsMotion() ? 1 : 0;
     const graph::Argument pixels = f_.rectangle(p);
     const auto plane = [&](const char* name) { return f_.graph.plane<Squares>(name, graph::floats); };
     // Of what pixels will have: there are more samples to come.
     Blurs own { f_.graph.plane<Pixels>("lens filter width to come", graph::floats),
         f_.graph.plane<Pixels>("motion filter width to come", graph::floats),
-        f_.graph.plane<Pixels>("direction of motion", f_.packed ? shortPairs : graph::floatPlanes(2)) };
+        f_.graph.plane<Pixels>("direction of motion", f_.lean ? shortPairs : graph::pairs) };
     blurs(static_cast<float>(f_.settings.spp), own);
     auto ofTextures = plane("variance of textures");
     const auto variance = [&](const graph::Handle<Radiance>& image, const graph::Handle<Squares>& squares,

@@ -3,9 +3,9 @@
 namespace wedge::render {
 
 DistributedFrame::DistributedFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
-    std::size_t packetSize, const cl::Buffer& unused, bool keepLayers)
+    std::size_t packetSize, bool keepLayers)
     : FrameGraph(settings, scene, keepLayers)
-    , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize, unused }
+    , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize }
     , samples_(f_, sampleShape(settings, scene, keepLayers), {})
 {
     samples_.take(nullptr);

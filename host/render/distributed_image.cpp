@@ -19,11 +19,12 @@ void DistributedSamples::blurs(float samples, Blurs& out)
     const auto sets = samples > 0 || !shape_.layers ? writes : updates; // what is shown without motion is 0
     f_.pixels("widths", PassKind::Analysis, { "waves/distributed.cl", "blurs" },
         { f_.rectangle(p), reads("confusion", confusion_),
-            keepsMotion() ? reads("motion", motion_) : f_.nothing("motion", f_.packed ? shortPairs : graph::vectors),
+            keepsMotion() ? reads("motion", motion_) : graph::absent("motion", shortPairs),
+            keepsMotion() && !f_.lean ? reads("motionSpread", motionSpread_) : graph::absent("motionSpread"),
             reads("taken", counts_.taken), sets("lens", out.lens),
-            keepsMotion() ? sets("along", out.along) : f_.nowhere("along"),
-            keepsMotion() ? writes("directions", out.directions)
-                          : f_.nowhere("directions", f_.packed ? shortPairs : graph::floatPlanes(2)) });
+            keepsMotion() ? sets("along", out.along) : graph::absent("along"),
+            keepsMotion() && !f_.lean ? writes("directions", out.directions) : graph::absent("directions", shortPairs),
+            keepsMotion() && f_.lean ? writes("vectors", out.directions) : graph::absent("vectors", shortPairs) });
 }
 
 graph::Handle<Radiance>& DistributedSamples::sumOf(WaveTerm& term)
@@ -136,7 +137,8 @@ void DistributedSamples::addOwn(WaveTerm& term, graph::Handle<Radiance>& radianc
     const auto condition = [state = state_](const Run&) { return !state->analysed; };
     f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "addTerm" },
         { f_.rectangle(term.of(params())), reads("texture", term.means.texture), reads("value", term.means.value),
-            shape_.published ? reads("termRadiance", term.means.radiance) : f_.nothing("termRadiance", graph::vectors),
+            shape_.published ? reads("termRadiance", term.means.radiance)
+                             : graph::absent("termRadiance", graph::vectors),
             updates("radiance", radiance) },
         unlessAnalysed ? condition : std::function<bool(const Run&)>());
 }
@@ -144,21 +146,21 @@ void DistributedSamples::addOwn(WaveTerm& term, graph::Handle<Radiance>& radianc
 void DistributedSamples::addFiltered(
     WaveTerm& term, const graph::Handle<Value>& value, const Blurs& own, graph::Handle<Radiance>& radiance)
 {
-    shared::DistributedParams p = term.of(params());
+    const shared::DistributedParams p = term.of(params());
     graph::Version texture = term.means.texture;
     if (shape_.moves && f_.settings.distributed.blur) {
         const graph::Reach far = graph::around(WEDGE_MOTION_REACH);
         auto along = f_.graph.plane<Texture>("texture filtered along motion", graph::vectors);
         f_.pixels("filter of motion", PassKind::Filter, { "filter/blur.cl", "blurMotion" },
-            { f_.rectangle(p), graph::value("channels", 3u), reads("along", own.along, far),
-                reads("directions", own.directions, far), reads("in", term.means.texture, far), writes("out", along) });
+            joined({ f_.rectangle(p) }, readsMotion(f_, own.along, own.directions),
+                Arguments { reads("texture", term.means.texture, far), graph::absent("value"), writes("out", along) }));
         texture = along;
-        p.plainTexture = 1;
     }
     f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "addFilteredTerm" },
         { f_.rectangle(p), reads("texture", term.means.texture), reads("filteredTexture", texture),
             reads("value", term.means.value), reads("filtered", value), reads("beta", term.means.beta),
-            shape_.published ? reads("termRadiance", term.means.radiance) : f_.nothing("termRadiance", graph::vectors),
+            shape_.published ? reads("termRadiance", term.means.radiance)
+                             : graph::absent("termRadiance", graph::vectors),
             updates("radiance", radiance) });
 }
 
@@ -188,7 +190,7 @@ void DistributedSamples::compose()
     const bool filters = shape_.analysed && f_.settings.filtering != Filtering::None;
     Blurs own { f_.graph.plane<Pixels>("lens filter width", graph::floats),
         f_.graph.plane<Pixels>("motion filter width", graph::floats),
-        f_.graph.plane<Pixels>("direction of motion", f_.packed ? shortPairs : graph::floatPlanes(2)) };
+        f_.graph.plane<Pixels>("direction of motion", f_.lean ? shortPairs : graph::pairs) };
     if (shape_.layers) {
         f_.zero(own.lens, own.along); // they are shown, filtered or not
     }

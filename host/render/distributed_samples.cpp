@@ -51,7 +51,7 @@ DistributedSamples::DistributedSamples(FrameBuilder& frame, const SampleShape& s
     , camera_(cameraParams(frame.description, frame.layout.height, pixelFilterOf(frame.settings)))
     , lit_(frame.settings.integrator == Integrator::Path)
 {
-    f_.packed = shape.analysed && !shape.full;
+    f_.lean = shape.lean();
     f_.host(
         "samples", [state = state_, analysed = shape.analysed && before.taken > 0, complete = before.taken > 0](Run&) {
             state->analysed = analysed;
@@ -97,19 +97,22 @@ void DistributedSamples::keepPixels()
 {
     Surfaces& s = f_.surfaces;
     s.position = kept<Position>("position", graph::vectors);
-    s.normal = kept<Normal>("normal", f_.normals(f_.packed));
+    s.normal = kept<Normal>("normal", f_.normals(f_.lean));
     s.objectId = kept<ObjectId>("object id", graph::counts);
     s.emission = kept<Radiance>("emission", graph::vectors);
     counts_.taken = kept<Count>("primary samples taken", graph::counts);
-    hits_ = kept<Count>("hits", f_.packed ? shortCounts : graph::counts);
-    confusion_ = kept<Pixels>("circles of confusion", f_.packed ? shortFloats : graph::floatPlanes(2));
+    hits_ = kept<Count>("hits", f_.lean ? shortCounts : graph::counts);
+    confusion_ = kept<Pixels>("circles of confusion", f_.lean ? shortRanges : graph::pairs);
     if (shape_.measures()) {
-        s.pixelSize = kept<Metres>("pixel size", f_.packed ? shortFloats : graph::floats);
-        s.gloss = kept<Gloss>("gloss", f_.packed ? shortGloss : graph::counts);
+        s.pixelSize = kept<Metres>("pixel size", f_.lean ? shortFloats : graph::floats);
+        s.gloss = kept<Gloss>("gloss", f_.lean ? shortGloss : wholeGloss);
         emissionSquares_ = kept<Squares>("emission squares", graph::floats);
     }
     if (keepsMotion()) {
-        motion_ = kept<Pixels>("motion", f_.packed ? shortPairs : graph::vectors);
+        motion_ = kept<Pixels>("motion", f_.lean ? shortPairs : graph::pairs);
+        if (!f_.lean) {
+            motionSpread_ = kept<Pixels>("differences of motions", graph::floats);
+        }
     }
     for (UnfilteredOf& of : frameUnfiltered(f_.settings, f_.description)) {
         auto radiance = kept<Radiance>(of.light.name, graph::vectors);
@@ -137,21 +140,27 @@ void DistributedSamples::keepPixels()
 void DistributedSamples::keepTerm(WaveTerm& term)
 {
     TermMeans& m = term.means;
-    const bool fraction = term.isFraction(), packed = f_.packed;
-    m.texture = kept<Texture>("texture", !packed ? graph::vectors : fraction ? packedColours : packedFractions);
-    m.value = kept<Value>("value", !packed ? graph::vectors : fraction ? packedFractions : packedColours);
-    if (shape_.measures()) {
-        m.plain = kept<Value>("plain mean", packed ? shortPairs : graph::floats);
-        m.squares = kept<Squares>("squares", packed ? shortPairs : graph::floats);
-        if (!packed) {
-            m.textureSquares = kept<Squares>("texture squares", graph::floats);
+    const bool fraction = term.isFraction(), lean = shape_.lean();
+    m.texture = kept<Texture>("texture", !lean ? graph::vectors : fraction ? packedColours : packedFractions);
+    m.value = kept<Value>("value", !lean ? graph::vectors : fraction ? packedFractions : packedColours);
+    if (lean) {
+        m.error = kept<Value>("error of taking apart", shortFloats);
+        m.extreme = kept<Extremes>("slope or distance", shortFloats);
+        m.spreads = kept<Deviation>("spreads", shortPairs);
+        if (term.shadowsMove()) {
+            m.shadowMotion = kept<Pixels>("motion of shadows", shortPairs);
+        }
+    } else if (shape_.measures()) {
+        m.plain = kept<Value>("plain mean", graph::floats);
+        m.squares = kept<Squares>("squares", graph::floats);
+        m.textureSquares = kept<Squares>("texture squares", graph::floats);
+        m.extremes = kept<Extremes>("slopes or distances", term.extremesFormat());
+        if (term.shadowsMove()) {
+            m.shadowSums = kept<Pixels>("sums of shadows' motions", graph::floatPlanes(4));
         }
     }
     if (shape_.analysed && !shape_.published) {
-        m.deviation = kept<Deviation>("deviation", packed ? shortFloats : graph::floats);
-    }
-    if (term.extremePlanes() > 0) {
-        m.extremes = kept<Extremes>("slopes and distances", term.extremesFormat());
+        m.deviation = kept<Deviation>("deviation", lean ? shortFloats : graph::floats);
     }
     if (shape_.published) {
         m.radiance = kept<Radiance>("radiance of the term", graph::vectors);
@@ -199,8 +208,6 @@ shared::DistributedParams DistributedSamples::params() const
     p.irradianceWidth = d.irradianceWidth;
     p.oneVelocity = d.oneVelocity;
     p.published = d.published ? 1 : 0;
-    p.packed = f_.packed ? 1 : 0;
-    p.still = keepsMotion() ? 0 : 1;
     p.frames = static_cast<float>(d.frames);
     p.never = d.factoring == Factoring::Never ? 1 : 0;
     return p;
@@ -251,9 +258,9 @@ void DistributedSamples::adaptive(const DistributedSamples* guide)
     const std::uint32_t first = firstPaths();
     const bool fixed = hasFixedCounts();
     if (before_.taken < first) {
-        // Packed planes do not hold what is wanted: the wave says it.
+        // Of lean frames the wave says what is wanted.
         PrimaryCounts counts { counts_.taken, counts_.taken };
-        if (!f_.packed) {
+        if (!f_.lean) {
             counts.wanted = f_.graph.plane<Count>("primary samples wanted first", graph::counts);
             f_.fill("counts", counts.wanted, first);
             for (const std::unique_ptr<WaveTerm>& term : terms_) {
@@ -310,15 +317,11 @@ double DistributedSamples::raysOfPath() const
 void DistributedSamples::sample(bool first, PrimaryCounts& counts, Waves::Sampling sampling)
 {
     const bool measures = shape_.full ? shape_.measures() : first;
-    const Adding adding { first,
-        (shape_.layers ? 0u : WEDGE_OMITS_LAYERS) | (keepsMotion() ? 0u : WEDGE_OMITS_MOTION)
-            | (measures ? 0u : WEDGE_OMITS_ANALYSIS) | (shape_.full ? 0u : WEDGE_OMITS_TAKEN)
-            | (first && f_.packed ? WEDGE_OMITS_COUNTS : 0u) };
+    const Adding adding { first, measures };
     shared::WaveParams settings {};
     settings.sampler = waveSampler(f_.settings);
     settings.published = shape_.published ? 1 : 0;
-    settings.omits = adding.omits;
-    settings.packed = f_.packed ? 1 : 0;
+    settings.alike = first && f_.lean ? 1 : 0;
     settings.oneVelocity = f_.settings.distributed.oneVelocity;
     sampling.terms = terms_.size();
     sampling.seenLights = seenLights_;
@@ -362,28 +365,26 @@ std::map<std::string, graph::Handle<Radiance>> DistributedSamples::unfiltered() 
 
 void DistributedSamples::accumulateSurfaces(Waves& waves, const Adding& adding)
 {
-    const Receivers& r = waves.receivers();
     Surfaces& s = f_.surfaces;
-    const bool measures = (adding.omits & WEDGE_OMITS_ANALYSIS) == 0, layers = shape_.layers;
-    const auto keeps = [&](bool keep, const char* name, graph::Version& plane, const graph::Format& format) {
-        return keep ? updates(name, plane) : f_.nowhere(name, format);
+    const auto kept = [](bool keep, const char* name, graph::Version& plane, const graph::Format& format) {
+        return keep ? updates(name, plane) : graph::absent(name, format);
     };
+    const bool measures = adding.measures, layers = shape_.layers, moves = keepsMotion();
     waves.pixels("accumulateSurfaces",
-        joined({ waves.pixelParams(), waves.params(), value("camera", camera_) }, waves.pixelLists(),
-            Arguments { reads("objectId", r.objectId), reads("position", r.position), reads("normal", r.normal),
-                reads("gloss", r.gloss), reads("diffuse", r.diffuse), reads("specular", r.specular),
-                reads("emission", r.emission), reads("pixelSize", r.pixelSize), reads("depth", r.depth),
-                reads("motion", r.motion), reads("rays", r.rays), reads("pathRays", r.pathRays),
-                updates("taken", waves.counts().taken), updates("hitsOf", hits_), updates("objectOf", s.objectId),
-                updates("positionOf", s.position), updates("normalOf", s.normal),
-                keeps(measures, "glossOf", s.gloss, f_.packed ? shortGloss : graph::counts),
-                keeps(layers, "diffuseOf", s.diffuse, graph::vectors),
-                keeps(layers, "specularOf", s.specular, graph::vectors), updates("emissionOf", s.emission),
-                keeps(measures, "emissionSquaresOf", emissionSquares_, graph::floats),
-                keeps(measures, "pixelSizeOf", s.pixelSize, f_.packed ? shortFloats : graph::floats),
-                keeps(layers, "distanceOf", s.depth, graph::floats), updates("confusionOf", confusion_),
-                keeps(keepsMotion(), "motionOf", motion_, f_.packed ? shortPairs : graph::vectors),
-                updates("raysOf", f_.totals.rays), updates("pathRaysOf", f_.totals.pathRays) }));
+        joined(
+            { waves.pixelParams(), waves.params(), value("camera", camera_), value("raysOfImage", layers ? 1u : 0u) },
+            waves.pixelLists(), waves.receiverSurfaces(), Arguments { updates("taken", waves.counts().taken) },
+            graph::group("kept",
+                { updates("hits", hits_), updates("objectId", s.objectId), updates("position", s.position),
+                    updates("normal", s.normal), kept(measures, "gloss", s.gloss, wholeGloss),
+                    kept(layers, "diffuse", s.diffuse, graph::vectors),
+                    kept(layers, "specular", s.specular, graph::vectors), updates("emission", s.emission),
+                    kept(measures, "emissionSquares", emissionSquares_, graph::floats),
+                    kept(measures, "pixelSize", s.pixelSize, graph::floats),
+                    kept(layers, "distance", s.depth, graph::floats), updates("confusion", confusion_),
+                    kept(moves, "motion", motion_, shortPairs),
+                    kept(moves && !f_.lean, "motionSpread", motionSpread_, graph::floats),
+                    updates("rays", f_.totals.rays), updates("pathRays", f_.totals.pathRays) })));
 }
 
 } // namespace wedge::render

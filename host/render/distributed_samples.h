@@ -139,9 +139,10 @@ private:
 
     PrimaryCounts counts_;
     graph::Handle<Count> hits_; ///< primary samples that met a surface
-    /// Planes: least and largest signed radius of the circle of confusion; packed, the one nearest to 0.
+    /// Least and largest signed radius of the circle of confusion.
     graph::Handle<Pixels> confusion_;
-    graph::Handle<Pixels> motion_; ///< planes: mean x and y, largest difference; packed, see accumulate.h
+    graph::Handle<Pixels> motion_; ///< mean
+    graph::Handle<Pixels> motionSpread_; ///< largest difference from it; lean frames have none, see accumulate.h
     graph::Handle<Squares> emissionSquares_; ///< mean squared luminance of a primary sample's emission
     /// Direct light that is not filtered.
     struct Added {

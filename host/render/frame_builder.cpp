@@ -3,8 +3,6 @@
 #include "host/graph/execution.h"
 #include "host/render/effect.h"
 
-#include <fmt/format.h>
-
 #include <memory>
 
 namespace wedge::render {
@@ -26,7 +24,6 @@ shared::AnalysisParams FrameBuilder::analysisParams() const
     p.height = layout.height;
     p.stride = layout.stride;
     p.planeSize = static_cast<std::uint32_t>(layout.size);
-    p.packed = packed ? 1 : 0;
     return p;
 }
 
@@ -40,21 +37,17 @@ graph::Argument FrameBuilder::frame() const
 
 graph::Argument FrameBuilder::outside(std::string name, std::string_view type, const cl::Buffer* memory) const
 {
-    return graph::outside(std::move(name), type, memory != nullptr ? *memory : unused);
+    return graph::outside(std::move(name), type, memory != nullptr ? *memory : cl::Buffer());
 }
 
-graph::Argument FrameBuilder::nothing(std::string name, const graph::Format& format) const
+device::Defines FrameBuilder::surfaceFormats(device::Defines more) const
 {
-    graph::Argument out = outside(std::move(name), format.storage, nullptr);
-    out.format = std::make_shared<graph::Format>(format);
-    return out;
-}
-
-graph::Argument FrameBuilder::nowhere(std::string name, const graph::Format& format) const
-{
-    graph::Argument out = nothing(std::move(name), format);
-    out.type = fmt::format("__global {} *", format.storage);
-    return out;
+    const auto of = [this](const char* name, const graph::Version& plane) {
+        return std::pair(std::string(name), std::string(graph.resources()[plane.resource].format.name));
+    };
+    more.push_back(of("WEDGE_NORMAL_FORMAT", surfaces.normal));
+    more.push_back(of("WEDGE_SIZE_FORMAT", surfaces.pixelSize));
+    return more;
 }
 
 std::vector<graph::Argument> FrameBuilder::hierarchy() const
@@ -100,7 +93,7 @@ std::vector<graph::Argument> FrameBuilder::receivers() const
     const Surfaces& s = surfaces;
     return { reads("position", s.position), reads("normal", s.normal), reads("origin", s.origin),
         reads("geometric", s.geometric), reads("objectId", s.objectId), reads("gloss", s.gloss),
-        outside("pixelOf", "uint", nullptr), outside("view", "uint", nullptr), outside("time", "float", nullptr) };
+        graph::absent("pixelOf", graph::counts), graph::absent("view", graph::counts), graph::absent("time") };
 }
 
 void FrameBuilder::trace(std::string name, graph::KernelName kernel, std::vector<graph::Argument> arguments,

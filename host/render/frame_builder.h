@@ -44,20 +44,27 @@ struct Pixels { }; ///< lengths in the image
 struct Listed { }; ///< of waves' lists, see waves.cl
 struct Directions { }; ///< to what is beyond the scene, see kernels/shared/environment.h
 
-// Formats of packed planes, see kernels/core/packed_planes.h.
-inline constexpr graph::Format shortFloats { "short1", 2, "float", "", "", "" };
-inline constexpr graph::Format shortPairs { "short2", 4, "float", "", "", "" };
-inline constexpr graph::Format shortTriples { "short3", 6, "float", "", "", "" };
-inline constexpr graph::Format shortQuadruples { "short4", 8, "float", "", "", "" };
+// Formats of fewer bits, see kernels/core/formats.h.
+inline constexpr graph::Format shortFloats { .name = "short1", .bytes = 2, .storage = "float", .blocks = true };
+inline constexpr graph::Format shortPairs { .name = "short2", .bytes = 4, .storage = "float" };
+constexpr graph::Format shortPlanes(std::string_view name, std::uint32_t count)
+{
+    return { .name = name, .bytes = 2 * count, .storage = "float", .whole = false };
+}
+inline constexpr graph::Format shortTriples = shortPlanes("short3", 3), shortQuadruples = shortPlanes("short4", 4);
 /// Along both axes of a light, of as many channels.
 constexpr graph::Format gradientsOf(std::uint32_t channels) { return channels == 2 ? shortQuadruples : shortPairs; }
-inline constexpr graph::Format shortCounts { "ushort1", 2, "uint", "", "", "" };
-inline constexpr graph::Format shortGloss { "gloss16", 2, "uint", "", "", "" };
-inline constexpr graph::Format tallySums { "ulong1", 8, "ulong", "", "", "" };
-inline constexpr graph::Format packedNormals { "normal32", 4, "float", "", "", "" };
-inline constexpr graph::Format packedNormalPairs { "normal64", 8, "float", "", "", "" };
-inline constexpr graph::Format packedColours { "colour48", 6, "float", "", "", "" };
-inline constexpr graph::Format packedFractions { "fraction32", 4, "float", "", "", "" };
+inline constexpr graph::Format shortCounts { .name = "ushort1", .bytes = 2, .storage = "ushort" };
+inline constexpr graph::Format shortRanges { .name = "range16", .bytes = 2, .storage = "float" };
+inline constexpr graph::Format wholeGloss { .name = "gloss32", .bytes = 4, .storage = "uint" };
+inline constexpr graph::Format shortGloss { .name = "gloss16", .bytes = 2, .storage = "ushort" };
+inline constexpr graph::Format tallySums { .name = "ulong1", .bytes = 8, .storage = "ulong", .whole = false };
+/// Normals, alone or with those without their maps behind, in parts of 32 bits and of 10.
+inline constexpr graph::Format normalPairs { .name = "normal192", .bytes = 24, .storage = "float", .blocks = true };
+inline constexpr graph::Format packedNormals { .name = "normal32", .bytes = 4, .storage = "float", .blocks = true };
+inline constexpr graph::Format packedNormalPairs { .name = "normal64", .bytes = 8, .storage = "float", .blocks = true };
+inline constexpr graph::Format packedColours { .name = "colour48", .bytes = 6, .storage = "float", .blocks = true };
+inline constexpr graph::Format packedFractions { .name = "fraction32", .bytes = 4, .storage = "uint" };
 
 /// What the camera sees through each pixel, see kernels/frame/primary.cl; or means over the receivers of pixels that
 /// have several.
@@ -103,9 +110,8 @@ struct FrameBuilder {
     const Settings& settings;
     PlaneLayout layout;
     std::size_t packetSize; ///< pixels of a work-item over tiles
-    cl::Buffer unused; ///< for parameters that nothing is read from, or written to
     bool narrowLobes = false; ///< SceneTraits::narrowLobes, and the pixels are the receivers
-    bool packed = false; ///< planes of pixels that have several receivers are packed, see kernels/waves/accumulate.h
+    bool lean = false; ///< pixels that have several receivers keep little, see SampleShape::lean()
     Surfaces surfaces = {};
     Totals totals = {};
     /// By names of layers of terms, each with its term's (effect.h), what terms keep for them; null where no layers are
@@ -117,12 +123,12 @@ struct FrameBuilder {
     graph::Format normals(bool inOne) const
     {
         const bool mapped = description.traits().normalMaps;
-        return inOne ? (mapped ? packedNormalPairs : packedNormals) : mapped ? graph::floatPlanes(6) : graph::vectors;
+        return inOne ? (mapped ? packedNormalPairs : packedNormals) : mapped ? normalPairs : graph::vectors;
     }
     bool specular() const { return description.traits().specular; }
     bool analysed() const { return settings.method == Method::AxisAligned; }
-    /// What programs that read packed planes or plain ones are compiled with.
-    device::Defines packing() const { return packed ? device::Defines { { "WEDGE_PACKED", "" } } : device::Defines {}; }
+    /// The formats of surfaces, for programs that gather over them, and more defines.
+    device::Defines surfaceFormats(device::Defines more = {}) const;
     /// Of the whole image.
     shared::FrameParams wholeFrame() const;
     /// Where kernels of analysis find pixels; the rectangle is to come.
@@ -151,12 +157,8 @@ struct FrameBuilder {
     void precomputeDirections();
     /// By the names of WEDGE_RECEIVER_ARGUMENTS, the pixels being the receivers.
     std::vector<graph::Argument> receivers() const;
-    /// A buffer that outlives the frame; null: none, and nothing reads it.
+    /// A buffer that outlives the frame; null where the graph is not run.
     graph::Argument outside(std::string name, std::string_view type, const cl::Buffer* memory) const;
-    /// In the place of a plane that nothing is read from, or, nowhere(), written to. format: which that would have,
-    /// so that kernels are compiled once with it and without.
-    graph::Argument nothing(std::string name, const graph::Format& format = graph::floats) const;
-    graph::Argument nowhere(std::string name, const graph::Format& format = graph::floats) const;
     /// One of the scene's.
     template <class T>
     graph::Argument ofScene(std::string name, std::string_view type, device::Buffer<T> DeviceScene::*member) const

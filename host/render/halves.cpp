@@ -24,7 +24,7 @@ constexpr std::uint32_t secondSeed = 0x9e3779b9u;
 double ErrorEstimate::rmse() const { return std::sqrt(noise + (std::isnan(bias) ? bias : std::max(bias, 0.0))); }
 
 HalvesFrame::HalvesFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
-    std::size_t packetSize, const cl::Buffer& unused, bool keepLayers, HalfMemories& memories, int before, int spp)
+    std::size_t packetSize, bool keepLayers, HalfMemories& memories, int before, int spp)
     : FrameGraph(settings, scene, keepLayers)
     , layout_(settings.width, settings.height)
 {
@@ -35,7 +35,7 @@ HalvesFrame::HalvesFrame(const PreparedScene& scene, const DeviceScene* deviceSc
         half.settings = halfAt(settings, spp);
         half.settings.seed += static_cast<std::uint32_t>(i) * secondSeed;
         half.frame = std::make_unique<FrameBuilder>(
-            FrameBuilder { graph_, scene, deviceScene, half.settings, layout_, packetSize, unused });
+            FrameBuilder { graph_, scene, deviceScene, half.settings, layout_, packetSize });
         half.samples = std::make_unique<DistributedSamples>(
             *half.frame, shape, DistributedSamples::Before { &memories[i], taken, i == 1 });
     }

@@ -30,7 +30,7 @@ public:
     /// of both together that there are, 0 at the first step, and that there are to be; each half has half of them,
     /// rounded down, but one at least.
     HalvesFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
-        std::size_t packetSize, const cl::Buffer& unused, bool keepLayers, HalfMemories& memories, int before, int spp);
+        std::size_t packetSize, bool keepLayers, HalfMemories& memories, int before, int spp);
 
     /// Of the image shown, over its window.
     ErrorEstimate error(const graph::Execution& execution, device::TimedQueue& queue) const;

@@ -12,10 +12,23 @@ using graph::updates;
 using graph::value;
 using graph::writes;
 
+namespace {
+
+/// What primary rays fill in.
+std::vector<graph::Argument> filled(Surfaces& s)
+{
+    return { updates("position", s.position), updates("normal", s.normal), updates("origin", s.origin),
+        updates("geometric", s.geometric), updates("objectId", s.objectId), updates("depth", s.depth),
+        updates("pixelSize", s.pixelSize), updates("diffuse", s.diffuse), updates("specular", s.specular),
+        updates("emission", s.emission), updates("gloss", s.gloss) };
+}
+
+} // namespace
+
 PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
-    std::size_t packetSize, const cl::Buffer& unused, bool keepLayers)
+    std::size_t packetSize, bool keepLayers)
     : FrameGraph(settings, scene, keepLayers)
-    , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize, unused }
+    , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize }
 {
     f_.narrowLobes = scene.traits().narrowLobes;
     const bool lit = settings.integrator == Integrator::Path;
@@ -83,7 +96,7 @@ void PixelFrame::primary(bool lit)
     s.diffuse = graph_.plane<Reflectance>("diffuse", graph::vectors);
     s.specular = graph_.plane<Reflectance>("specular", graph::vectors);
     s.emission = graph_.plane<Radiance>("emission", graph::vectors);
-    s.gloss = graph_.plane<Gloss>("gloss", graph::counts);
+    s.gloss = graph_.plane<Gloss>("gloss", wholeGloss);
     Totals& t = f_.totals;
     for (Sum* sum : { &t.direct, &t.indirect }) {
         const std::string name = sum == &t.direct ? "direct" : "indirect";
@@ -108,11 +121,7 @@ void PixelFrame::primary(bool lit)
             Arguments { f_.ofScene("objectIds", "uint", &DeviceScene::objectIds),
                 f_.ofScene("lights", "AreaLight", &DeviceScene::areaLights),
                 value("lightCount", static_cast<std::uint32_t>(lit ? f_.description.areaLights.size() : 0)) },
-            f_.beyond(),
-            Arguments { updates("position", s.position), updates("normal", s.normal), updates("origin", s.origin),
-                updates("geometric", s.geometric), updates("objectId", s.objectId), updates("depth", s.depth),
-                updates("pixelSize", s.pixelSize), updates("diffuse", s.diffuse), updates("specular", s.specular),
-                updates("emission", s.emission), updates("gloss", s.gloss) }),
+            f_.beyond(), filled(s)),
         f_.analysed(), [](const graph::Launch&) { return 1.0; });
     if (!lit) {
         f_.zero(s.emission);
@@ -149,7 +158,7 @@ void PixelFrame::fallBack(Sum& sum)
             f_.blocks("fallback", PassKind::Filter, { "analysis/fallback.cl", "fallbackDifferences" },
                 { p, flag, reads("filtered", sum.filtered), reads("noisy", sum.noisy),
                     reads("deviation", sum.deviation),
-                    gathered ? reads("variance", sum.variance) : f_.nothing("variance", shortFloats),
+                    gathered ? reads("variance", sum.variance) : reads("variance", sum.deviation),
                     writes("differences", differences) });
             f_.blocks("fallback", PassKind::Filter, { "analysis/fallback.cl", "fallBack" },
                 { p, flag, reads("differences", differences, near), reads("objectId", f_.surfaces.objectId, near),

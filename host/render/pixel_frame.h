@@ -10,10 +10,10 @@ namespace wedge::render {
 /// A frame whose pixels are the receivers of light, through a pinhole, with nothing that moves.
 class PixelFrame : public FrameGraph {
 public:
-    /// deviceScene: null for a graph that is planned and not run. unused: for parameters that nothing is read from.
+    /// deviceScene: null for a graph that is planned and not run.
     /// keepLayers: the widths of the terms' filters are wanted, too.
     PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
-        std::size_t packetSize, const cl::Buffer& unused, bool keepLayers);
+        std::size_t packetSize, bool keepLayers);
 
 private:
     void primary(bool lit);

@@ -65,7 +65,7 @@ Renderer::Step Renderer::runStep(
     const HalvesFrame* halves = nullptr;
     compile([&] {
         auto frame = std::make_unique<HalvesFrame>(scene_, deviceScene_.get(), settings,
-            packetSize(hierarchy_.traversal), unused_, keepLayers, *halfMemories_, range.before, range.spp);
+            packetSize(hierarchy_.traversal), keepLayers, *halfMemories_, range.before, range.spp);
         halves = frame.get();
         return frame;
     });

@@ -104,7 +104,6 @@ Renderer::Renderer(PreparedScene scene, const device::Device& device, Options op
     , hierarchy_(buildHierarchy(scene_, options_.bvh, resolveTraversal(options_.traversal, device.info())))
     , queue_(device, options_.checkLaunches)
     , memory_(device_)
-    , unused_(device::Buffer<std::uint32_t>(device_, 0, "nothing").cl())
 {
     buildPrograms();
 }
@@ -147,12 +146,12 @@ graph::SlabRules Renderer::slabRules() const
 }
 
 std::unique_ptr<FrameGraph> Renderer::declare(const PreparedScene& scene, const DeviceScene* deviceScene,
-    const Settings& settings, std::size_t packet, const cl::Buffer& unused, bool keepLayers)
+    const Settings& settings, std::size_t packet, bool keepLayers)
 {
     if (isDistributed(settings, scene)) {
-        return std::make_unique<DistributedFrame>(scene, deviceScene, settings, packet, unused, keepLayers);
+        return std::make_unique<DistributedFrame>(scene, deviceScene, settings, packet, keepLayers);
     }
-    return std::make_unique<PixelFrame>(scene, deviceScene, settings, packet, unused, keepLayers);
+    return std::make_unique<PixelFrame>(scene, deviceScene, settings, packet, keepLayers);
 }
 
 device::MemoryPlan Renderer::plan(const PreparedScene& scene, const Hierarchy& hierarchy, const Settings& settings,
@@ -186,10 +185,9 @@ std::unique_ptr<FrameGraph> Renderer::declareUnbacked(const PreparedScene& scene
 {
     const std::size_t packet = packetSize(hierarchy.traversal);
     if (!settings.progressive) {
-        return declare(scene, nullptr, settings, packet, cl::Buffer(), keepLayers);
+        return declare(scene, nullptr, settings, packet, keepLayers);
     }
-    return std::make_unique<HalvesFrame>(
-        scene, nullptr, settings, packet, cl::Buffer(), keepLayers, memories, step.before, step.spp);
+    return std::make_unique<HalvesFrame>(scene, nullptr, settings, packet, keepLayers, memories, step.before, step.spp);
 }
 
 bool Renderer::uploadScene()
@@ -219,9 +217,8 @@ void Renderer::compile(const Settings& settings, bool keepLayers)
         return;
     }
     assert(deviceScene_);
-    compile([&] {
-        return declare(scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal), unused_, keepLayers);
-    });
+    compile(
+        [&] { return declare(scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal), keepLayers); });
 }
 
 const device::MemoryPlan& Renderer::plan(const Settings& settings, bool keepLayers)

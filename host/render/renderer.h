@@ -157,7 +157,7 @@ public:
 
 private:
     static std::unique_ptr<FrameGraph> declare(const PreparedScene& scene, const DeviceScene* deviceScene,
-        const Settings& settings, std::size_t packet, const cl::Buffer& unused, bool keepLayers);
+        const Settings& settings, std::size_t packet, bool keepLayers);
     /// Of a frame that is only to be planned, or of a step of a progressive one.
     static std::unique_ptr<FrameGraph> declareUnbacked(const PreparedScene& scene, const Hierarchy& hierarchy,
         const Settings& settings, bool keepLayers, HalfMemories& memories, const StepRange& step);
@@ -202,7 +202,6 @@ private:
     std::unique_ptr<DeviceScene> deviceScene_;
     std::optional<graph::Kernels> kernels_; ///< of the programs
     graph::Memory memory_; ///< of the frame
-    cl::Buffer unused_; ///< for parameters that nothing is read from
     std::unique_ptr<HalfMemories> halfMemories_; ///< of progressive frames
     std::unique_ptr<CompiledFrame> compiled_; ///< of the last frame, or step of a progressive one
     /// plan() of the last settings.

@@ -2,7 +2,6 @@
 
 #include "host/render/filters/filter_graph.h"
 #include "host/render/filters/widening.h"
-#include "kernels/shared/packed.h"
 
 namespace wedge::render {
 
@@ -12,17 +11,21 @@ using graph::updates;
 using graph::value;
 using graph::writes;
 
+std::vector<graph::Argument> readsMotion(
+    const FrameBuilder& frame, const graph::Handle<Pixels>& along, const graph::Handle<Pixels>& directions)
+{
+    const graph::Reach far = graph::around(WEDGE_MOTION_REACH);
+    if (frame.lean) {
+        return { graph::absent("along"), graph::absent("directions", shortPairs), reads("vectors", directions, far) };
+    }
+    return { reads("along", along, far), reads("directions", directions, far), graph::absent("vectors", shortPairs) };
+}
+
 shared::DistributedParams WaveTerm::of(shared::DistributedParams params) const
 {
     params.values = values_;
     params.rays = rays;
     return params;
-}
-
-std::uint32_t WaveTerm::omits() const
-{
-    return (extremePlanes() < 2 ? WEDGE_OMITS_EXTREMES : 0u)
-        | (means.deviation.graph == 0 ? WEDGE_OMITS_DEVIATION : 0u);
 }
 
 WaveTerm::Shared WaveTerm::share(
@@ -34,8 +37,7 @@ WaveTerm::Shared WaveTerm::share(
     const Receivers& r = waves.receivers();
     waves.list("lists", { "waves/waves.cl", "shareSamples" }, 1,
         { waves.pixelParams(), waves.params(), reads("pixelOf", r.pixelOf), reads("shareOf", r.shareOf),
-            reads("taken", shape_.full ? means.taken : counts.taken),
-            reads("wanted", (adding.omits & WEDGE_OMITS_COUNTS) != 0 ? counts.taken : means.wanted),
+            reads("taken", shape_.full ? means.taken : counts.taken), reads("wanted", wantedOf(adding, counts)),
             value("sumPlanes", sums), value("extremePlanes", extremes), writes("first", out.first),
             writes("last", out.last), writes("sums", out.sums), writes("extremes", out.extremes) });
     return out;
@@ -43,35 +45,42 @@ WaveTerm::Shared WaveTerm::share(
 
 std::vector<graph::Argument> WaveTerm::accumulated(const Adding& adding, const PrimaryCounts& counts)
 {
-    const bool measures = (adding.omits & WEDGE_OMITS_ANALYSIS) == 0;
-    const auto kept = [&](const char* name, graph::Version& plane, bool used, const graph::Format& format) {
-        return used && plane.graph != 0 ? updates(name, plane) : f_.nowhere(name, format);
+    const auto kept = [](const char* name, graph::Version& plane, bool used, const graph::Format& format) {
+        return used && plane.graph != 0 ? updates(name, plane) : graph::absent(name, format);
     };
-    const graph::Format sums = f_.packed ? shortPairs : graph::floats;
-    const bool counted = (adding.omits & WEDGE_OMITS_COUNTS) == 0;
-    return { counted ? reads("termWanted", means.wanted) : f_.nothing("termWanted", graph::counts),
-        shape_.full ? updates("termTaken", means.taken) : reads("termTaken", counts.taken),
-        updates("texture", means.texture), updates("value", means.value), kept("plain", means.plain, measures, sums),
-        kept("squares", means.squares, measures, sums),
-        kept("textureSquares", means.textureSquares, measures, graph::floats),
-        kept("termRadiance", means.radiance, true, graph::vectors),
-        kept("deviation", means.deviation, true, f_.packed ? shortFloats : graph::floats),
-        kept("extremes", means.extremes, measures, extremesFormat()) };
+    const auto measured = [&](const char* name, graph::Version& plane, const graph::Format& format) {
+        return kept(name, plane, adding.measures, format);
+    };
+    TermMeans& m = means;
+    Totals& t = f_.totals;
+    const bool indirect = &sum_ == &t.indirect;
+    return joined({ reads("wanted", wantedOf(adding, counts)), kept("termTaken", m.taken, shape_.full, graph::counts) },
+        graph::group("term",
+            { updates("texture", m.texture), updates("value", m.value),
+                kept("radiance", m.radiance, true, graph::vectors), kept("deviation", m.deviation, true, graph::floats),
+                measured("plain", m.plain, graph::floats), measured("squares", m.squares, graph::floats),
+                measured("textureSquares", m.textureSquares, graph::floats), measured("error", m.error, shortFloats),
+                measured("spreads", m.spreads, shortPairs) }),
+        Arguments { measured("extremes", m.extremes, extremesFormat()), measured("extreme", m.extreme, shortFloats),
+            measured("shadowSums", m.shadowSums, graph::floatPlanes(4)),
+            measured("shadowMotion", m.shadowMotion, shortPairs),
+            kept("samples", t.samples, shape_.layers, graph::counts),
+            kept("indirectSamples", t.indirectSamples, shape_.layers && indirect, graph::counts) });
 }
 
-graph::Argument WaveTerm::samplesOf(std::string name, graph::Handle<Count>& total) const
+graph::Version WaveTerm::wantedOf(const Adding& adding, const PrimaryCounts& counts) const
 {
-    return shape_.layers ? updates(std::move(name), total) : f_.nowhere(std::move(name), graph::counts);
+    return adding.first && shape_.lean() ? counts.taken : means.wanted;
 }
 
 graph::Handle<Extremes> WaveTerm::leastExtreme() const
 {
-    if (!f_.packed) {
+    if (!shape_.lean()) {
         return means.extremes;
     }
     auto extreme = f_.graph.plane<Extremes>("slopes or distances", graph::floats);
-    f_.pixels("widths", PassKind::Analysis, { "analysis/analysis.cl", "unpackSecond" },
-        { f_.rectangle(f_.analysisParams()), reads("packed", means.plain), writes("out", extreme) });
+    f_.pixels("widths", PassKind::Analysis, { "analysis/analysis.cl", "unpackNumber" },
+        { f_.rectangle(f_.analysisParams()), reads("in", means.extreme), writes("out", extreme) });
     return extreme;
 }
 
@@ -79,8 +88,7 @@ graph::Handle<Share> WaveTerm::weights(std::string_view pass, PassKind kind) con
 {
     auto weights = f_.graph.plane<Share>("luminance of texture", graph::floats);
     f_.pixels(pass, kind, { "analysis/analysis.cl", "luminanceOf" },
-        { f_.rectangle(f_.analysisParams()), value("bits", shared::textureBits(f_.packed ? 1 : 0, isFraction())),
-            reads("image", means.texture), writes("out", weights) });
+        { f_.rectangle(f_.analysisParams()), reads("image", means.texture), writes("out", weights) });
     return weights;
 }
 
@@ -123,9 +131,9 @@ void WaveTerm::fallBack(
     }
     auto differences = f_.graph.plane<Share>("what filters are off", gathered ? shortQuadruples : shortTriples);
     f_.pixels(pass, PassKind::Filter, { "waves/distributed.cl", "termDifferences" },
-        { f_.rectangle(of(params)), flag, reads("texture", means.texture), reads("value", means.value),
+        { f_.rectangle(of(params)), reads("texture", means.texture), reads("value", means.value),
             reads("filtered", filtered), reads("deviation", means.deviation),
-            gathered ? reads("variance", variance) : f_.nothing("variance"), reads("beta", means.beta),
+            gathered ? reads("variance", variance) : graph::absent("variance"), reads("beta", means.beta),
             writes("differences", differences) });
     const graph::Reach near = graph::around(WEDGE_SHRINK_REACH);
     auto shares = f_.graph.plane<Share>("share of own samples", shortPairs);

@@ -15,11 +15,18 @@ namespace wedge::render {
 struct TermMeans {
     graph::Handle<Texture> texture;
     graph::Handle<Value> value;
-    graph::Handle<Value> plain; ///< mean; packed, the factoring error and the one extreme
+    graph::Handle<Value> plain; ///< mean
     graph::Handle<Squares> squares, textureSquares;
+    // What lean frames measure in place of these:
+    graph::Handle<Value> error;
+    graph::Handle<Deviation> spreads; ///< standard deviations of a sample's radiance and of its texture
+    graph::Handle<Extremes> extreme; ///< the one that widths are made of
+    // Of lights, where things move:
+    graph::Handle<Pixels> shadowSums; ///< of shadows' motions
+    graph::Handle<Pixels> shadowMotion; ///< of lean frames: their mean
     graph::Handle<Radiance> radiance; ///< as published
     graph::Handle<Deviation> deviation;
-    graph::Handle<Extremes> extremes; ///< slopes and motions of shadows, or distances; packed, motions
+    graph::Handle<Extremes> extremes; ///< slopes, or distances
     graph::Handle<Count> taken; ///< samples; where none are kept they are the primary ones, between two passes
     graph::Handle<Count> wanted;
     // Made of these:
@@ -34,19 +41,25 @@ struct SampleShape {
     bool published = false; ///< as thesis chapter 5 has them
     bool layers = false; ///< what only they show, too, and direct and indirect light apart
     /// All samples' sums in planes of floats, which layers show, steps of a progressive frame go on with, and other
-    /// than the default analysis asks for; else pixels keep what one image is made of, packed where it is analysed.
+    /// than the default analysis asks for; else pixels keep what one image is made of, in fewer bits where it is
+    /// analysed.
     bool full = false;
     bool moves = false; ///< something moves while the shutter is open
     bool geometryMoves = false;
 
     bool measures() const { return layers || analysed; } ///< what the analysis is made of, and layers of pixels' sizes
+    bool lean() const { return analysed && !full; }
 };
+
+/// What blurMotion of blur.cl asks of filters along motions: standard deviations and unit vectors, or, of lean frames,
+/// both in one.
+std::vector<graph::Argument> readsMotion(
+    const FrameBuilder& frame, const graph::Handle<Pixels>& along, const graph::Handle<Pixels>& directions);
 
 /// How one sampling adds to what there is.
 struct Adding {
     bool first = false; ///< the analysis is made of these samples
-    /// WEDGE_OMITS_* of all terms.
-    std::uint32_t omits = 0;
+    bool measures = false; ///< what the analysis is made of, and not the means alone
 };
 
 /// A term of a frame whose pixels have several receivers: what an effect declares for it.
@@ -85,9 +98,10 @@ public:
     Sum& sum() const { return sum_; }
     /// params with what the kernels ask for of the term.
     shared::DistributedParams of(shared::DistributedParams params) const;
-    /// Extremes that pixels keep; 0: none.
-    virtual std::uint32_t extremePlanes() const = 0;
-    graph::Format extremesFormat() const { return f_.packed ? shortPairs : graph::floatPlanes(extremePlanes()); }
+    /// What pixels keep of extremes where they are not lean; of lights and moving things their shadows' motions
+    /// besides.
+    virtual graph::Format extremesFormat() const = 0;
+    virtual bool shadowsMove() const { return false; }
 
     const float rays;
     TermMeans means;
@@ -100,14 +114,12 @@ protected:
         graph::Handle<Sums> sums;
         graph::Handle<Extremes> extremes;
     };
+    /// Samples that pixels want of it; any plane of counts where the wave says how many they take.
+    graph::Version wantedOf(const Adding& adding, const PrimaryCounts& counts) const;
     Shared share(Waves& waves, const Adding& adding, const PrimaryCounts& counts, std::uint32_t sums,
         std::uint32_t extremes) const;
-    /// What of the term is left out in adding to it.
-    std::uint32_t omits() const;
-    /// The planes of WEDGE_TERM_ARGUMENTS, termWanted and termTaken before them.
+    /// What receivers are added to: the term's means, extremes and counts of samples.
     std::vector<graph::Argument> accumulated(const Adding& adding, const PrimaryCounts& counts);
-    /// The counts of samples of all terms that pixels keep.
-    graph::Argument samplesOf(std::string name, graph::Handle<Count>& total) const;
     /// Widens the filter by what one number a pixel says, which visibilityOf of distributed.cl makes.
     void widen(std::string_view pass, const shared::DistributedParams& params, const shared::FilterParams& filter,
         float pixels);

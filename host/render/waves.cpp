@@ -32,6 +32,16 @@ std::size_t mostTiles(const PlaneLayout& layout)
 
 std::uint32_t tilesOf(std::uint32_t receivers) { return (receivers + receiversOfTile - 1) / receiversOfTile; }
 
+/// What primary rays find.
+std::vector<graph::Argument> written(Receivers& r)
+{
+    return { writes("position", r.position), writes("normal", r.normal), writes("origin", r.origin),
+        writes("geometric", r.geometric), writes("objectId", r.objectId), writes("gloss", r.gloss),
+        writes("view", r.view), writes("time", r.time), writes("diffuse", r.diffuse), writes("specular", r.specular),
+        writes("emission", r.emission), writes("pixelSize", r.pixelSize), writes("depth", r.depth),
+        writes("motion", r.motion), writes("rays", r.rays), writes("pathRays", r.pathRays) };
+}
+
 } // namespace
 
 std::uint32_t roomOfWaves(const PlaneLayout& layout, double most)
@@ -108,13 +118,17 @@ graph::Argument Waves::receiverParams() const
         });
 }
 
-graph::Argument Waves::params(std::uint32_t omits) const
+graph::Argument Waves::params() const
 {
-    return made("wave", [state = state_, omits](const Launch& launch) {
-        shared::WaveParams wave = state->wave(launch.run);
-        wave.omits |= omits;
-        return wave;
-    });
+    return made("wave", [state = state_](const Launch& launch) { return state->wave(launch.run); });
+}
+
+std::vector<graph::Argument> Waves::receiverSurfaces() const
+{
+    return { reads("objectId", r_.objectId), reads("position", r_.position), reads("normal", r_.normal),
+        reads("gloss", r_.gloss), reads("diffuse", r_.diffuse), reads("specular", r_.specular),
+        reads("emission", r_.emission), reads("pixelSize", r_.pixelSize), reads("depth", r_.depth),
+        reads("motion", r_.motion), reads("rays", r_.rays), reads("pathRays", r_.pathRays) };
 }
 
 std::vector<graph::Argument> Waves::receiverArguments() const
@@ -241,7 +255,7 @@ void Waves::trace(bool lit)
     r_.origin = list<Position>("origins", graph::vectors);
     r_.geometric = list<Packed>("geometric normals", graph::counts);
     r_.objectId = list<ObjectId>("object ids", graph::counts);
-    r_.gloss = list<Gloss>("gloss", graph::counts);
+    r_.gloss = list<Gloss>("gloss", wholeGloss);
     r_.view = list<Packed>("views", graph::counts);
     r_.time = list<Share>("times", graph::floats);
     r_.diffuse = list<Reflectance>("diffuse", graph::vectors);
@@ -266,14 +280,8 @@ void Waves::trace(bool lit)
                 f_.ofScene("lights", "AreaLight", &DeviceScene::areaLights), value("lightCount", lights) },
             f_.beyond(),
             Arguments { reads("pixelOf", r_.pixelOf), reads("sampleOf", r_.sampleOf), reads("wanted", counts_.wanted),
-                value("hasKnown", sampling_.seenLights ? 1u : 0u),
-                sampling_.seenLights ? reads("known", *sampling_.seenLights) : f_.nothing("known", packedColours),
-                writes("position", r_.position), writes("normal", r_.normal), writes("origin", r_.origin),
-                writes("geometric", r_.geometric), writes("objectId", r_.objectId), writes("gloss", r_.gloss),
-                writes("view", r_.view), writes("time", r_.time), writes("diffuse", r_.diffuse),
-                writes("specular", r_.specular), writes("emission", r_.emission), writes("pixelSize", r_.pixelSize),
-                writes("depth", r_.depth), writes("motion", r_.motion), writes("rays", r_.rays),
-                writes("pathRays", r_.pathRays) }));
+                sampling_.seenLights ? reads("known", *sampling_.seenLights) : graph::absent("known", packedColours) },
+            written(r_)));
 }
 
 std::uint32_t waveSampler(const Settings& settings)

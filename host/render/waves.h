@@ -100,8 +100,9 @@ public:
     /// FrameParams: of the pixels; of passes over receivers.
     graph::Argument pixelParams() const;
     graph::Argument receiverParams() const;
-    /// The wave, which leaves out what `omits` has, too.
-    graph::Argument params(std::uint32_t omits = 0) const;
+    graph::Argument params() const;
+    /// What accumulateSurfaces reads of the receivers.
+    std::vector<graph::Argument> receiverSurfaces() const;
     /// By the names of WEDGE_RECEIVER_ARGUMENTS.
     std::vector<graph::Argument> receiverArguments() const;
     /// pixelFirst, pixelCount

@@ -4,7 +4,7 @@
 // pixels. Default: s_min is eroded over 3x3 pixels of the same object (but for components, docs/maaf.md), smoothed in
 // the logarithm, and spread to unoccluded pixels with Gaussian weights, so that the widths have no border of their own.
 #include "analysis/smooth_slopes.h"
-#include "core/packed_planes.h"
+#include "core/formats.h"
 #include "core/vector16.h"
 #include "shared/bsdf.h"
 #include "shared/filter_params.h"
@@ -118,23 +118,23 @@ __kernel void spreadColumns(PARAMETERS)
 #endif
 
 /// The luminance of a texture: what widths() takes for the sums of a light's unshadowed samples, and what a pixel's
-/// irradiance is worth in the image. bits: WEDGE_*_BITS.
+/// irradiance is worth in the image.
 #include "pass/luminanceOf.h"
 #ifdef PASS_luminanceOf
 __kernel void luminanceOf(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
-    out[i] = luminance(loadColour(image, p.planeSize, i, bits));
+    out[i] = luminance(LOAD_image(p.planeSize, i));
 }
 #endif
 
-/// The second of the numbers that a packed plane holds.
-#include "pass/unpackSecond.h"
-#ifdef PASS_unpackSecond
-__kernel void unpackSecond(PARAMETERS)
+/// A number of fewer bits in 32.
+#include "pass/unpackNumber.h"
+#ifdef PASS_unpackNumber
+__kernel void unpackNumber(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
-    out[i] = loadShort(packed, p.planeSize, i, 1u);
+    out[i] = LOAD_in(p.planeSize, i);
 }
 #endif
 
@@ -145,7 +145,7 @@ __kernel void unpackSecond(PARAMETERS)
 __kernel void widths(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
-    const float size = loadNumber(pixelSize, p.planeSize, i, p.packed, 0u);
+    const float size = LOAD_pixelSize(p.planeSize, i);
     const float own = logSlopes[p.planeSize + i];
     const float near = spread[p.planeSize + i];
     const bool has = own > 0.0f || near > WEDGE_LEAST_SPREAD;
@@ -195,7 +195,7 @@ __kernel void narrowForLobes(PARAMETERS)
 
 /// narrowed() of pixels of many receivers, which keep what they reflect of the light as one. At least what a white matt
 /// surface that faced all of the light, as near as its nearest corner may be, would not reflect is a highlight's.
-/// in      texture: of the light's term, bits: WEDGE_*_BITS of it; gloss: may be packed
+/// in      texture: of the light's term
 /// in out  beta
 #include "pass/narrowForHighlights.h"
 #ifdef PASS_narrowForHighlights
@@ -211,10 +211,10 @@ __kernel void narrowForHighlights(PARAMETERS)
     const float reach = vecLength(light.halfU) + vecLength(light.halfV);
     const float nearest = fmax(vecLength(toLight) - reach, 0.0f);
     const float white = WEDGE_INV_PI * luminance(light.power) / fmax(nearest * nearest, 1e-20f);
-    const float reflected = luminance(loadColour(texture, p.planeSize, i, bits));
+    const float reflected = luminance(LOAD_texture(p.planeSize, i));
     if (reflected > white) {
         beta[i] =
-            narrowed(p, toLight, vecSub(frame.eye, at), loadGloss(gloss, i, p.packed), 1.0f - white / reflected, wide);
+            narrowed(p, toLight, vecSub(frame.eye, at), LOAD_gloss(p.planeSize, i), 1.0f - white / reflected, wide);
     }
 }
 #endif

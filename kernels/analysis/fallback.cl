@@ -21,7 +21,7 @@
 //
 // Where pixels have several receivers u and f are a term's values, and d and f in the sums are luminances of what they
 // make with its texture.
-#include "core/packed_planes.h"
+#include "core/formats.h"
 #include "core/vector16.h"
 #include "shared/filter_params.h"
 
@@ -59,7 +59,7 @@ __kernel void fallbackDifferences(PARAMETERS)
 __kernel void termVariance(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
-    const float16 d = loadDeviations16(deviation, i, p.packed);
+    const float16 d = LOAD16_deviation(p.planeSize, i);
     vstore16(d * d, 0, variance + i);
 }
 #endif

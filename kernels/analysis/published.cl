@@ -11,10 +11,7 @@
 /// (5.31) and (5.33).
 #define WEDGE_PUBLISHED_KERNEL_FACTOR 16.0f
 
-WEDGE_FN float largestConfusion(DistributedParams p, __global const float* confusion, uint i)
-{
-    return fmax(fabs(confusion[i]), fabs(confusion[p.planeSize + i]));
-}
+WEDGE_FN float largestConfusion(float2 confusion) { return fmax(fabs(confusion.x), fabs(confusion.y)); }
 
 /// 1 where |L - k E| is small enough (5.30), else 0.
 #include "pass/publishedFlags.h"
@@ -59,7 +56,8 @@ __kernel void publishedShadows(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
     const float sMin = slopes[i], sMax = slopes[p.planeSize + i];
-    const float rMin = leastConfusion(p, confusion, i), rMax = largestConfusion(p, confusion, i);
+    const float2 range = LOAD_confusion(p.planeSize, i);
+    const float rMin = leastConfusion(range), rMax = largestConfusion(range);
     const bool apart = medianFlag(p, flags, x, y);
     const float factored = scaledBandlimit(shadowBandlimit(sMin, lightExtent, pixelSize[i], rMin), mu);
     const float combined = scaledBandlimit(defocusBandlimit(rMin), mu);
@@ -78,7 +76,8 @@ __kernel void publishedReflectors(PARAMETERS)
     const Gloss lobe = unpackGloss(gloss[i]);
     const float transfer =
         WEDGE_IS_GLOSSY(component) ? glossyBandlimit(lobe.exponent, lobe.kind) : WEDGE_DIFFUSE_BANDLIMIT;
-    const float rMin = leastConfusion(p, confusion, i), rMax = largestConfusion(p, confusion, i);
+    const float2 range = LOAD_confusion(p.planeSize, i);
+    const float rMin = leastConfusion(range), rMax = largestConfusion(range);
     const bool apart = medianFlag(p, flags, x, y);
     const float factored = scaledBandlimit(indirectBandlimit(reflectors[i], transfer, pixelSize[i], rMin), mu);
     const float combined = scaledBandlimit(defocusBandlimit(rMin), mu);
@@ -95,10 +94,11 @@ __kernel void publishedReflectors(PARAMETERS)
 __kernel void publishedPrimary(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
-    const float band = scaledBandlimit(defocusBandlimit(leastConfusion(p, confusion, i)), mu);
-    const float ofLens = primaryCount(band, largestConfusion(p, confusion, i));
-    const float speed = sqrt(motion[i] * motion[i] + motion[p.planeSize + i] * motion[p.planeSize + i]);
-    const float spread = motion[2u * p.planeSize + i];
+    const float2 range = LOAD_confusion(p.planeSize, i), moved = LOAD_motion(p.planeSize, i);
+    const float band = scaledBandlimit(defocusBandlimit(leastConfusion(range)), mu);
+    const float ofLens = primaryCount(band, largestConfusion(range));
+    const float speed = sqrt(moved.x * moved.x + moved.y * moved.y);
+    const float spread = LOAD_motionSpread(p.planeSize, i);
     const float ofMotion = motionCountPrinted(scaledBandlimit(motionBandlimit(speed), mu), speed);
     const bool several = fmax(speed, spread) >= p.leastRadius && spread > p.oneVelocity * speed;
     demand[i] = fmax(ofLens, several ? mixed : speed >= p.leastRadius ? ofMotion : 1.0f);

@@ -15,42 +15,27 @@
 // between both widths. That blurs edges more than the blend and keeps less noise.
 #include "analysis/deviation.h"
 #include "analysis/shrink.h"
-#include "core/packed_planes.h"
+#include "core/formats.h"
 #include "shared/bsdf.h"
 #include "shared/path.h"
 
 /// The widths to compare with, `pixels` on the surfaces that a block of pixels sees, in metres: projectedPixel() of
-/// sixteen. normal: packed where p says so
-WEDGE_FN float16 comparedWidth16(AnalysisParams p, FrameParams frame, float pixels, __global const float* position,
-    __global const float* normal, int i)
+/// sixteen. normal: without its map
+WEDGE_FN float16 comparedWidth16(FrameParams frame, float pixels, Vec3x16 position, Vec3x16 normal)
 {
-    const Vec3x16 ray = sub16(loadVecBlock(position, p.planeSize, i), splat3(frame.eye));
+    const Vec3x16 ray = sub16(position, splat3(frame.eye));
     const float16 squared = max16(dot16(ray, ray), (float16)(1e-30f)), inverse = rsqrt(squared);
     // Solid angle of a pixel off the axis: area / distance^2 times the cosine to the image plane.
     const float16 axis = max16(
         (ray.x * frame.forward.x + ray.y * frame.forward.y + ray.z * frame.forward.z) * inverse, (float16)(1e-10f));
-    __global const float* unmapped = normal + unmappedNormals(p.planeSize, p.packed);
-    const float16 facing = fabs(dot16(loadNormals16(unmapped, p.planeSize, i, p.packed), ray)) * inverse;
+    const float16 facing = fabs(dot16(normal, ray)) * inverse;
     const float pixel = vecLength(vecCross(frame.right, frame.down));
     return pixels * sqrt(pixel * squared * axis * axis * axis / max16(facing, (float16)(WEDGE_MIN_VIEW_COSINE)));
 }
 
-/// Whether there is noise in a block of pixels or in those whose squares count where its own do: where there is none,
-/// V is 0, and no width changes.
-WEDGE_FN bool noiseAround(AnalysisParams p, uint x, uint y, __global const float* deviation)
-{
-    const int reach = 3 * WEDGE_SHRINK_REACH, block = (int)WEDGE_BLOCK_PIXELS;
-    const int first = x >= WEDGE_BLOCK_PIXELS ? -block : 0, last = x + WEDGE_BLOCK_PIXELS < p.width ? block : 0;
-    for (int dy = -min((int)y, reach); dy <= min((int)(p.height - 1u - y), reach); ++dy) {
-        for (int dx = first; dx <= last; dx += block) {
-            const int j = (int)pixelIndex(x, y, p.stride) + dy * (int)p.stride + dx;
-            if (any(loadDeviations16(deviation, j, p.packed) != 0.0f)) {
-                return true;
-            }
-        }
-    }
-    return false;
-}
+#define COMPARED_WIDTH(i)                                                                                              \
+    comparedWidth16(frame, pixels, LOAD16_position(p.planeSize, i),                                                    \
+        WEDGE_OF_FORMAT(load16_unmapped, FORMAT_normal)(normal, p.planeSize, i))
 
 /// The widths to compare with, where a pixel's own is narrower; 0 where it is not or nothing is noisy, -1 where it has
 /// none.
@@ -63,10 +48,18 @@ __kernel void comparedWidths(PARAMETERS)
     WEDGE_PIXEL(p, x, y, i);
     const float16 own = loadBlock(beta, i);
     const int16 has = (loadIdBlock(objectId, i) != 0u) & (own >= 0.0f);
-    float16 wide = (float16)(0.0f);
-    if (noiseAround(p, x, y, deviation)) {
-        wide = comparedWidth16(p, frame, pixels, position, normal, i);
+    // Where there is no noise in the block or in those whose squares count where its own do, V is 0, and no width
+    // changes.
+    const int reach = 3 * WEDGE_SHRINK_REACH, block = (int)WEDGE_BLOCK_PIXELS;
+    const int first = x >= WEDGE_BLOCK_PIXELS ? -block : 0, last = x + WEDGE_BLOCK_PIXELS < p.width ? block : 0;
+    const int end = min((int)(p.height - 1u - y), reach);
+    bool noisy = false;
+    for (int dy = -min((int)y, reach); !noisy && dy <= end; ++dy) {
+        for (int dx = first; dx <= last; dx += block) {
+            noisy = noisy || any(LOAD16_deviation(p.planeSize, i + dy * (int)p.stride + dx) != 0.0f);
+        }
     }
+    const float16 wide = noisy ? COMPARED_WIDTH(i) : (float16)(0.0f);
     vstore16(!has ? (float16)(-1.0f) : own < wide ? wide : (float16)(0.0f), 0, compared + i);
 }
 #endif
@@ -128,7 +121,7 @@ __kernel void oneOfPaths(PARAMETERS)
     const uint16 count = loadIdBlock(taken, i);
     const float16 scale = 1.0f / max16(convert_float16(count), (float16)(1.0f));
     Vec3x16 all = loadVecBlock(value, size, i);
-    Vec3x16 ofPart = loadColours16(parts, size, i);
+    Vec3x16 ofPart = LOAD16_parts(size, i);
     if (fractions != 0u) {
         const float16 whole = loadBlock(value + 3u * size, i);
         // Where no sample would have brought anything, nothing is hidden: 0 would darken neighbours.
@@ -161,7 +154,7 @@ __kernel void widenSquares(PARAMETERS)
     WEDGE_PIXEL(p, x, y, i);
     const float16 ofVariance = loadBlock(apart, i), t = loadBlock(weights, i);
     const int16 wider = ofVariance > 0.0f;
-    const float16 own = t * loadDeviations16(deviation, i, p.packed), d = t * loadBlock(difference, i);
+    const float16 own = t * LOAD16_deviation(p.planeSize, i), d = t * loadBlock(difference, i);
     vstore16(wider ? own * own * ofVariance : (float16)(0.0f), 0, variance + i);
     vstore16(wider ? d * d : (float16)(0.0f), 0, squares + i);
 }
@@ -189,7 +182,7 @@ __kernel void wideShares(PARAMETERS)
         return;
     }
     const SquaresAround around = squaresAround(p, y, i, objectId, difference, variance);
-    const float16 wide = comparedWidth16(p, frame, pixels, position, normal, i), own = loadBlock(beta, i);
+    const float16 wide = COMPARED_WIDTH(i), own = loadBlock(beta, i);
     const float16 ratio = own * own / max16(wide * wide, (float16)(1e-30f));
     const float16 share = wideShare(around.difference, noise * around.variance, ratio);
     // Of a sum that is no number nothing follows.
@@ -223,7 +216,7 @@ __kernel void widen(PARAMETERS)
         }
     }
     const int16 compared = (object != 0u) & (own >= 0.0f);
-    const float16 narrow = loadBlock(beta, i), wide = comparedWidth16(p, frame, pixels, position, normal, i);
+    const float16 narrow = loadBlock(beta, i), wide = COMPARED_WIDTH(i);
     const float16 mean = sum / max16(count, (float16)(1.0f));
     vstore16(compared ? narrow + mean * max16(wide - narrow, (float16)(0.0f)) : narrow, 0, beta + i);
 }

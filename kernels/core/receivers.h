@@ -18,15 +18,13 @@ typedef struct {
     __global const float* time; ///< of a wave: in [0, 1] while the shutter is open
 } ReceiverData;
 
-/// A kernel's parameters that say where its receivers are, and the ReceiverData made of them.
-#define WEDGE_RECEIVER_PARAMETERS                                                                                      \
-    __global const float *restrict position, __global const float *restrict normal,                                    \
-        __global const float *restrict origin, __global const uint *restrict geometric,                                \
-        __global const uint *restrict objectId, __global const uint *restrict gloss,                                   \
-        __global const uint *restrict pixelOf, __global const uint *restrict view, __global const float *restrict time
-#define WEDGE_RECEIVER_ARGUMENTS receiverData(position, normal, origin, geometric, objectId, gloss, pixelOf, view, time)
+/// The ReceiverData of a kernel's parameters of these names.
+#define WEDGE_RECEIVER_ARGUMENTS                                                                                       \
+    receiverData(position, normal, origin, geometric, objectId, gloss, PLANE_pixelOf, PLANE_view, PLANE_time)
 
-WEDGE_FN ReceiverData receiverData(WEDGE_RECEIVER_PARAMETERS)
+WEDGE_FN ReceiverData receiverData(__global const float* position, __global const float* normal,
+    __global const float* origin, __global const uint* geometric, __global const uint* objectId,
+    __global const uint* gloss, __global const uint* pixelOf, __global const uint* view, __global const float* time)
 {
     ReceiverData data;
     data.position = position;

@@ -1,7 +1,7 @@
 // The image-space filters of lens and shutter (thesis 5.33, B.1): Gaussians around each pixel, as wide as what it shows
 // is blurred already. A pair of pixels is weighted by the narrower of both kernels, so that what is sharp does not leak
 // into what is blurred.
-#include "core/distributed_pixel.h"
+#include "core/formats.h"
 #include "core/pixel.h"
 #include "shared/distributed.h"
 
@@ -64,22 +64,22 @@ typedef struct {
     float sigma, x, y;
 } MotionBlur;
 
-/// As distributed.cl stores them: packed, `directions` have it all.
-WEDGE_FN MotionBlur motionBlur(
-    DistributedParams p, uint i, __global const float* along, __global const float* directions)
+/// Of one whose standard deviation is the length of v, as lean frames keep it.
+WEDGE_FN MotionBlur blurOfVector(float2 v)
 {
     MotionBlur b;
-    if (p.packed == 0u) {
-        b.sigma = along[i];
-        b.x = directions[i];
-        b.y = directions[p.planeSize + i];
-        return b;
-    }
-    b.x = loadShort(directions, p.planeSize, i, 0u);
-    b.y = loadShort(directions, p.planeSize, i, 1u);
-    b.sigma = sqrt(b.x * b.x + b.y * b.y);
-    b.x = b.sigma > 0.0f ? b.x / b.sigma : 1.0f;
-    b.y = b.sigma > 0.0f ? b.y / b.sigma : 0.0f;
+    b.sigma = sqrt(v.x * v.x + v.y * v.y);
+    b.x = b.sigma > 0.0f ? v.x / b.sigma : 1.0f;
+    b.y = b.sigma > 0.0f ? v.y / b.sigma : 0.0f;
+    return b;
+}
+
+WEDGE_FN MotionBlur blurAlongUnit(float sigma, float2 direction)
+{
+    MotionBlur b;
+    b.sigma = sigma;
+    b.x = direction.x;
+    b.y = direction.y;
     return b;
 }
 
@@ -90,44 +90,33 @@ WEDGE_FN float motionWeight(MotionBlur here, MotionBlur there, int k)
     return turn > WEDGE_SAME_DIRECTION ? blurWeight(here.sigma, there.sigma, fabs((float)k)) : 0.0f;
 }
 
-/// What is filtered along motions: one plane, or a term's texture.
-WEDGE_FN void loadChannels(DistributedParams p, uint channels, __global const float* in, uint i, float* out)
-{
-    if (channels == 1u) {
-        out[0] = in[i];
-        return;
-    }
-    const Vec3 k = loadTexture(p, in, i);
-    out[0] = k.x;
-    out[1] = k.y;
-    out[2] = k.z;
-}
-
-/// Along the motion; channels: 1, or 3 of a term's texture.
+/// Along the motion: of a term its texture, or a value of one number. along, directions, or vectors: of blurs() or
+/// shadowBlurs() of distributed.cl
 #include "pass/blurMotion.h"
 #ifdef PASS_blurMotion
+#define MOTION_BLUR(n, i)                                                                                              \
+    (HAS_vectors ? blurOfVector(LOAD_vectors(n, i)) : blurAlongUnit(LOAD_along(n, i), LOAD_directions(n, i)))
+#define BLURRED(n, i) (HAS_texture ? LOAD_texture(n, i) : vec3(LOAD_value(n, i), 0.0f, 0.0f))
 __kernel void blurMotion(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
     const uint n = p.planeSize;
-    const MotionBlur here = motionBlur(p, i, along, directions);
+    const MotionBlur here = MOTION_BLUR(n, i);
     const int reach = min((int)(WEDGE_BLUR_CUT * here.sigma), WEDGE_MOTION_REACH);
-    float sum[3], there[3];
-    loadChannels(p, channels, in, i, sum);
+    Vec3 sum = BLURRED(n, i);
     float weights = 1.0f;
     for (int k = -reach; k <= reach; ++k) {
         const uint j = pixelAlong(p, x, y, i, here.x, here.y, k);
-        const float w = j != i ? motionWeight(here, motionBlur(p, j, along, directions), k) : 0.0f;
+        const float w = j != i ? motionWeight(here, MOTION_BLUR(n, j), k) : 0.0f;
         if (w > 0.0f) {
             weights += w;
-            loadChannels(p, channels, in, j, there);
-            for (uint c = 0u; c < channels; ++c) {
-                sum[c] += w * there[c];
-            }
+            sum = vecMad(sum, BLURRED(n, j), w);
         }
     }
-    for (uint c = 0u; c < channels; ++c) {
-        out[c * n + i] = sum[c] / weights;
-    }
+#if HAS_texture
+    storeVec(out, n, i, vec3(sum.x / weights, sum.y / weights, sum.z / weights));
+#else
+    out[i] = sum.x / weights;
+#endif
 }
 #endif

@@ -214,7 +214,7 @@ WEDGE_INLINE void addNeighbours(FilterParams p, LightAxes light, GatherBlock b, 
 ///      alone, and ratio: s_max / s_min, both of 16 bits; sums (light_sampling.h), components (light/components.h), and
 ///      the gather's planes. slopesPerWidth: s_min over slopeWidth, 1/m. floorPerPixel: the least that slopes come out
 ///      as, over (1 + s) and the pixel's metres. refitted: 1, or 0 for weights as printed
-/// out  filtered; effective: the number of equal pixels that the weights amount to; parts, if keepsParts is not 0: of
+/// out  filtered; effective: the number of equal pixels that the weights amount to; parts, where they are shown: of
 ///      the first channel, before it is bounded, what each pair of components along u and v has of it (v running
 ///      fastest), all of it of the pair 0, 0 where nothing is gathered
 #include "pass/filterComponents.h"
@@ -265,10 +265,12 @@ __kernel void filterComponents(PARAMETERS)
     const float16 count = sum.all[0] * sum.all[0] / max16(sum.squared, (float16)(1e-30f));
     const int16 known = gathers & (sum.all[0] > WEDGE_LEAST_SHARE * sum.size[0]);
     vstore16(known ? count : (float16)(1.0f), 0, effective + i);
-    for (uint pair = 0u; keepsParts != 0u && pair < WEDGE_PAIRS * WEDGE_PAIRS; ++pair) {
+#if HAS_parts
+    for (uint pair = 0u; pair < WEDGE_PAIRS * WEDGE_PAIRS; ++pair) {
         const float16 unfiltered = pair == 0u ? loadBlock(value, i) : (float16)(0.0f);
         const float16 all = known ? sum.all[0] : (float16)(1.0f);
         vstore16(known ? sum.part[pair] / all : unfiltered, 0, parts + pair * p.planeSize + i);
     }
+#endif
 }
 #endif

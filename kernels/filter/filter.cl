@@ -1,5 +1,5 @@
 // The passes of gather.h's filter, of as many planes as WEDGE_GATHER_CHANNELS says. Programs whose filters follow
-// gradients set WEDGE_GATHER_SHEARED, and WEDGE_GATHER_CURVED for second derivatives too; those of packed frames in
+// gradients set WEDGE_GATHER_SHEARED, and WEDGE_GATHER_CURVED for second derivatives too; those of lean frames in
 // which nothing reads the effective counts set WEDGE_GATHER_VALUE_ONLY.
 //
 // in   value, beta (metres, along the pass's axis; 0: keep the pixel's own value, still a neighbour of others;

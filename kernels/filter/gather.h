@@ -6,7 +6,8 @@
 // integrals over the surface, and pixels are not alike in what they see of it. Of the neighbours along a line comes,
 // fitted, not their mean but what a straight line through them has at the pixel. Here is what neighbours weigh, and
 // their sums; filter.cl has the passes. Each program that filters sets WEDGE_GATHER_CHANNELS, the planes of value.
-// Those of packed frames set WEDGE_PACKED, too: normals are packed, and pixels' sizes have 16 bits (packed_planes.h).
+// WEDGE_NORMAL_FORMAT and WEDGE_SIZE_FORMAT are the formats of the planes of normals and of pixels' sizes: floats, if
+// they are not set.
 // Those of WEDGE_GATHER_MEAN_SQUARE weigh a pair by the mean of both bandwidths' squares (6.23), whatever `narrower`
 // says. They are programs of their own since a test of a parameter in each tap takes several times as long. And all is
 // inlined by order: compilers leave calls, with vectors in memory, to functions of this size, and gathers took twice as
@@ -14,7 +15,7 @@
 #ifndef WEDGE_GATHER_H
 #define WEDGE_GATHER_H
 
-#include "core/packed_planes.h"
+#include "core/formats.h"
 #include "core/vector16.h"
 #include "shared/filter_params.h"
 
@@ -40,6 +41,11 @@
 #define WEDGE_WIDEST_PAIR 1.0f
 #endif
 
+#ifndef WEDGE_NORMAL_FORMAT
+#define WEDGE_NORMAL_FORMAT float3
+#define WEDGE_SIZE_FORMAT float1
+#endif
+
 /// What a block of pixels needs to weigh its neighbours.
 typedef struct {
     Vec3x16 position, normal, plane, slant; ///< plane: the normal without its map; slant: what a motion of 1 along the
@@ -59,25 +65,15 @@ typedef struct {
 #endif
 } GatherWidth;
 
-/// Normals of three planes, or of one that is packed.
 WEDGE_INLINE Vec3x16 loadNormalBlock(FilterParams p, __global const float* normal, int i)
 {
-#ifdef WEDGE_PACKED
-    (void)p;
-    return unpackNormals16(normal, i);
-#else
-    return loadVecBlock(normal, p.planeSize, i);
-#endif
+    return WEDGE_OF_FORMAT(load16, WEDGE_NORMAL_FORMAT)(normal, p.planeSize, i);
 }
 
 /// The same without their maps.
 WEDGE_INLINE Vec3x16 loadPlaneBlock(FilterParams p, __global const float* normal, int i)
 {
-#ifdef WEDGE_PACKED
-    return loadNormalBlock(p, normal + unmappedNormals(p.planeSize, 1u), i);
-#else
-    return loadNormalBlock(p, normal + unmappedNormals(p.planeSize, 0u), i);
-#endif
+    return WEDGE_OF_FORMAT(load16_unmapped, WEDGE_NORMAL_FORMAT)(normal, p.planeSize, i);
 }
 
 /// The offset d of a pixel's neighbour as far as the light's shadow is concerned: less its part along the light's
@@ -96,14 +92,10 @@ WEDGE_INLINE float16 distance16(FilterParams p, Vec3x16 slant, Vec3x16 d)
     return dot16(e, e);
 }
 
-/// Sides of the surface that pixels see, metres (projectedPixel()); packed, these have 16 bits.
+/// Sides of the surface that pixels see, metres (projectedPixel()).
 WEDGE_INLINE float16 loadSizeBlock(__global const float* pixelSize, int i)
 {
-#ifdef WEDGE_PACKED
-    return loadShortBlock(pixelSize, i);
-#else
-    return loadBlock(pixelSize, i);
-#endif
+    return WEDGE_OF_FORMAT(load16, WEDGE_SIZE_FORMAT)(pixelSize, 0u, i);
 }
 
 WEDGE_INLINE Vec3x16 slantOf(FilterParams p, Vec3x16 position)

@@ -31,7 +31,7 @@ WEDGE_FN Vec3 shownBy(TemporalParams p, __global const float* diffuse, __global 
 WEDGE_FN Vec3 over(Vec3 a, Vec3 b) { return vec3(a.x / b.x, a.y / b.y, a.z / b.z); }
 
 /// What of a frame is kept for those after it.
-/// in   planes of the frame; indirect, indirectNoisy: not read unless p.indirect
+/// in   planes of the frame; indirect, indirectNoisy: of frames that have some
 /// out  depth: along the camera's axis; facing: packNormal(); object; E of direct and of indirect light, 47 bits each;
 /// and
 ///      its luminance before the filter, 16 bits;
@@ -52,21 +52,18 @@ __kernel void keepFrame(PARAMETERS)
     const Vec3 colour = vecAdd(loadVec(diffuse, n, i), loadVec(specular, n, i));
     object[i] = p.open == 0u && colour.x + colour.y + colour.z == 0.0f ? 0u : object[i];
 #endif
-    storeColour(directLight, n, i, WEDGE_COLOUR_BITS, vecChoose(reflects, over(loadVec(direct, n, i), k), black));
+    STORE_directLight(n, i, vecChoose(reflects, over(loadVec(direct, n, i), k), black));
     Vec3 unfiltered = loadVec(directNoisy, n, i);
-    if (p.indirect != 0u) {
-        storeColour(
-            indirectLight, n, i, WEDGE_COLOUR_BITS, vecChoose(reflects, over(loadVec(indirect, n, i), k), black));
-        unfiltered = vecAdd(unfiltered, loadVec(indirectNoisy, n, i));
-    }
-    storeShort(noisy, n, i, 0u, reflects ? luminance(over(unfiltered, k)) : 0.0f);
+    STORE_indirectLight(n, i, vecChoose(reflects, over(LOAD_indirect(n, i), k), black));
+    unfiltered = HAS_indirectNoisy ? vecAdd(unfiltered, LOAD_indirectNoisy(n, i)) : unfiltered;
+    STORE_noisy(n, i, reflects ? luminance(over(unfiltered, k)) : 0.0f);
     float deviation = 0.0f;
     if (p.measured != 0u && reflects) {
         // Of light of one colour.
-        deviation = loadShort(directDeviation, n, i, 0u) / luminance(k);
-        deviation += p.indirect != 0u ? loadShort(indirectDeviation, n, i, 0u) / luminance(k) : 0.0f;
+        deviation = LOAD_directDeviation(n, i) / luminance(k);
+        deviation += HAS_indirectDeviation ? LOAD_indirectDeviation(n, i) / luminance(k) : 0.0f;
     }
-    storeShort(variation, n, i, 0u, deviation * deviation);
+    STORE_variation(n, i, deviation * deviation);
 }
 #endif
 
@@ -91,21 +88,21 @@ __kernel void findVariation(PARAMETERS)
     const uint n = p.planeSize, id = object[i];
     // Of what mirrors show no deviation is known.
     const uint measured = id != 0u ? p.measured : 0u;
-    const float own = loadShort(noisy, n, i, 0u);
+    const float own = LOAD_noisy(n, i);
     float across = 0.0f, down = 0.0f, count = 0.0f;
     if (x > 0u && x + 1u < p.width && object[i - 1u] == id && object[i + 1u] == id) {
-        across = roughness(loadShort(noisy, n, i - 1u, 0u), own, loadShort(noisy, n, i + 1u, 0u), measured);
+        across = roughness(LOAD_noisy(n, i - 1u), own, LOAD_noisy(n, i + 1u), measured);
         count += 1.0f;
     }
     if (y > 0u && y + 1u < p.height && object[i - p.stride] == id && object[i + p.stride] == id) {
-        down = roughness(loadShort(noisy, n, i - p.stride, 0u), own, loadShort(noisy, n, i + p.stride, 0u), measured);
+        down = roughness(LOAD_noisy(n, i - p.stride), own, LOAD_noisy(n, i + p.stride), measured);
         count += 1.0f;
     }
     float sum = across + down;
     if (measured == 0u) {
         sum = count > 0.0f ? sum / count : own * own; // nothing is known of pixels by themselves
     }
-    storeShort(variation, n, i, 0u, loadShort(variation, n, i, 0u) + sum);
+    STORE_variation(n, i, LOAD_variation(n, i) + sum);
 }
 #endif
 
@@ -137,10 +134,10 @@ __kernel void differFromFrame(PARAMETERS)
                 || seesSurface(
                     p, point, planeOf(p, point), (int)x, (int)y, earlierDepth, earlierFacing, earlierObject)) {
                 weight = 1.0f;
-                direct = loadColour(earlierDirect, n, i, WEDGE_COLOUR_BITS);
-                indirect = p.indirect != 0u ? loadColour(earlierIndirect, n, i, WEDGE_COLOUR_BITS) : black;
-                unfiltered = loadShort(earlierNoisy, n, i, 0u);
-                varies = loadShort(earlierVariation, n, i, 0u);
+                direct = LOAD_earlierDirect(n, i);
+                indirect = LOAD_earlierIndirect(n, i);
+                unfiltered = LOAD_earlierNoisy(n, i);
+                varies = LOAD_earlierVariation(n, i);
             }
         } else if (temporalProject(p, point.position, &at, &depth)) {
             const SoughtPlane plane = planeOf(p, point);
@@ -158,15 +155,13 @@ __kernel void differFromFrame(PARAMETERS)
                 if (w > 0.0f && seesSurface(p, point, plane, tx, ty, earlierDepth, earlierFacing, earlierObject)) {
                     const uint j = pixelIndex((uint)tx, (uint)ty, p.stride);
                     weight += w;
-                    direct = vecMad(direct, loadColour(earlierDirect, n, j, WEDGE_COLOUR_BITS), w);
-                    if (p.indirect != 0u) {
-                        indirect = vecMad(indirect, loadColour(earlierIndirect, n, j, WEDGE_COLOUR_BITS), w);
-                    }
+                    direct = vecMad(direct, LOAD_earlierDirect(n, j), w);
+                    indirect = vecMad(indirect, LOAD_earlierIndirect(n, j), w);
                     if (w > nearest) {
                         nearestX = tx;
                         nearestY = ty;
-                        unfiltered = loadShort(earlierNoisy, n, j, 0u);
-                        varies = loadShort(earlierVariation, n, j, 0u);
+                        unfiltered = LOAD_earlierNoisy(n, j);
+                        varies = LOAD_earlierVariation(n, j);
                     }
                     nearest = fmax(nearest, w);
                 }
@@ -178,8 +173,8 @@ __kernel void differFromFrame(PARAMETERS)
                 const Vec2 curve =
                     weight > WEDGE_ALL_TAPS ? vec2(0.5f * fx * (1.0f - fx), 0.5f * fy * (1.0f - fy)) : vec2(0.0f, 0.0f);
                 shift = straighten(n, around, earlierDirect, away, curve, &direct);
-                if (p.indirect != 0u) {
-                    shift += straighten(n, around, earlierIndirect, away, curve, &indirect);
+                if (HAS_earlierIndirect) {
+                    shift += straighten(n, around, PLANE_earlierIndirect, away, curve, &indirect);
                 }
             }
         }
@@ -187,12 +182,12 @@ __kernel void differFromFrame(PARAMETERS)
     const bool seen = weight > WEDGE_LEAST_TAPS;
     const float scale = seen ? 1.0f / weight : 0.0f;
     share[i] = seen ? 1.0f : 0.0f;
-    noise[i] = seen ? unfiltered - loadShort(noisy, n, i, 0u) - shift : 0.0f;
-    variations[i] = seen ? varies + loadShort(variation, n, i, 0u) : 0.0f;
-    const Vec3 own = loadColour(directLight, n, i, WEDGE_COLOUR_BITS);
+    noise[i] = seen ? unfiltered - LOAD_noisy(n, i) - shift : 0.0f;
+    variations[i] = seen ? varies + LOAD_variation(n, i) : 0.0f;
+    const Vec3 own = LOAD_directLight(n, i);
     storeVec(difference, n, i, seen ? vecMad(vecScale(own, -1.0f), direct, scale) : black);
-    if (p.indirect != 0u) {
-        const Vec3 ownIndirect = loadColour(indirectLight, n, i, WEDGE_COLOUR_BITS);
+    if (HAS_indirectLight) {
+        const Vec3 ownIndirect = LOAD_indirectLight(n, i);
         storeVec(difference + 3u * n, n, i, seen ? vecMad(vecScale(ownIndirect, -1.0f), indirect, scale) : black);
     }
 }
@@ -283,7 +278,7 @@ WEDGE_FN float weightAt(TemporalParams p, __global const float* weights, uint x,
 }
 
 /// Adds an earlier frame.
-/// in      difference, share; weights: as published not looked at
+/// in      difference, share; weights: none as published
 /// in out  sum: of g w times the difference, as many planes; counts: of g
 #include "pass/addFrame.h"
 #ifdef PASS_addFrame
@@ -293,7 +288,7 @@ __kernel void addFrame(PARAMETERS)
     if (share[i] == 0.0f) {
         return;
     }
-    const float w = p.published != 0u ? 1.0f : weightAt(p, weights, x, y);
+    const float w = HAS_weights ? weightAt(p, PLANE_weights, x, y) : 1.0f;
     const uint planes = p.indirect != 0u ? 6u : 3u;
     for (uint plane = 0u; plane < planes; ++plane) {
         const uint at = plane * p.planeSize + i;
@@ -305,7 +300,7 @@ __kernel void addFrame(PARAMETERS)
 
 /// Puts the mean in the frame's place.
 /// in      sum, counts: of all earlier frames
-/// in out  direct, indirect (where p.indirect), beauty
+/// in out  direct, indirect (where there is some), beauty
 #include "pass/finishTemporal.h"
 #ifdef PASS_finishTemporal
 __kernel void finishTemporal(PARAMETERS)
@@ -315,9 +310,9 @@ __kernel void finishTemporal(PARAMETERS)
     const Vec3 k = vecScale(shownBy(p, diffuse, specular, i), 1.0f / (1.0f + counts[i]));
     Vec3 more = vecMul(k, loadVec(sum, n, i));
     storeVec(direct, n, i, vecAdd(loadVec(direct, n, i), more));
-    if (p.indirect != 0u) {
+    if (HAS_indirect) {
         const Vec3 other = vecMul(k, loadVec(sum + 3u * n, n, i));
-        storeVec(indirect, n, i, vecAdd(loadVec(indirect, n, i), other));
+        STORE_indirect(n, i, vecAdd(LOAD_indirect(n, i), other));
         more = vecAdd(more, other);
     }
     storeVec(beauty, n, i, vecAdd(loadVec(beauty, n, i), more));

@@ -121,18 +121,18 @@ WEDGE_FN AroundTap aroundTap(TemporalParams p, SoughtPoint point, SoughtPlane pl
 WEDGE_FN float straighten(
     uint n, AroundTap around, __global const float* light, Vec2 away, Vec2 curve, Vec3* interpolated)
 {
-    const Vec3 own = loadColour(light, n, around.at, WEDGE_COLOUR_BITS);
+    const Vec3 own = loadColour(light, n, around.at);
     Vec3 bend = vec3(0.0f, 0.0f, 0.0f);
     float shift = 0.0f;
     if (around.across) {
-        const Vec3 before = loadColour(light, n, around.at - 1u, WEDGE_COLOUR_BITS);
-        const Vec3 after = loadColour(light, n, around.at + 1u, WEDGE_COLOUR_BITS);
+        const Vec3 before = loadColour(light, n, around.at - 1u);
+        const Vec3 after = loadColour(light, n, around.at + 1u);
         bend = vecMad(bend, vecMad(vecAdd(before, after), own, -2.0f), curve.x);
         shift += 0.5f * away.x * (luminance(after) - luminance(before));
     }
     if (around.along) {
-        const Vec3 before = loadColour(light, n, around.at - around.stride, WEDGE_COLOUR_BITS);
-        const Vec3 after = loadColour(light, n, around.at + around.stride, WEDGE_COLOUR_BITS);
+        const Vec3 before = loadColour(light, n, around.at - around.stride);
+        const Vec3 after = loadColour(light, n, around.at + around.stride);
         bend = vecMad(bend, vecMad(vecAdd(before, after), own, -2.0f), curve.y);
         shift += 0.5f * away.y * (luminance(after) - luminance(before));
     }

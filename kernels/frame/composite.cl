@@ -61,8 +61,8 @@ __kernel void addDiffuse(PARAMETERS)
     addBlock(direct, size, i, loadBlock(value, i), reflected);
     const float16 mean = loadBlock(noisy, i);
     addBlock(directNoisy, size, i, mean, reflected);
-    if (params.firstPass > 0u) {
-        const float16 ofPart = loadShortsBlock(parts, size, i, 0u);
+    if (HAS_parts && params.firstPass > 0u) {
+        const float16 ofPart = loadShortsBlock(PLANE_parts, size, i, 0u);
         addDeviation(deviation, size, i, deviation16(mean, ofPart, loadIdBlock(taken, i), params.firstPass), reflected);
     }
 }
@@ -111,8 +111,8 @@ __kernel void addSpecular(PARAMETERS)
     addBlock(direct, size, i, mirrors ? loadBlock(value + size, i) : (float16)(0.0f), reflected);
     const float16 mean = mirrors ? loadBlock(noisy + size, i) : (float16)(0.0f);
     addBlock(directNoisy, size, i, mean, reflected);
-    if (params.firstPass > 0u) {
-        const float16 ofPart = mirrors ? loadShortsBlock(parts, size, i, 1u) : (float16)(0.0f);
+    if (HAS_parts && params.firstPass > 0u) {
+        const float16 ofPart = mirrors ? loadShortsBlock(PLANE_parts, size, i, 1u) : (float16)(0.0f);
         addDeviation(deviation, size, i, deviation16(mean, ofPart, loadIdBlock(taken, i), params.firstPass), reflected);
     }
 }
@@ -155,8 +155,8 @@ __kernel void addPathSamples(PARAMETERS)
     const int16 has = loadIdBlock(taken, i) != 0u;
     const Vec3x16 k = reflectanceOf(p, component, reflectance, i);
     addTerm(p, component, k, has, value, i, indirectNoisy);
-    if (varies != 0u) {
-        const float16 off = luminance16(k) * loadBlock(deviations, i);
+    if (HAS_deviations) {
+        const float16 off = luminance16(k) * loadBlock(PLANE_deviations, i);
         addShorts(deviation, p.planeSize, i, has ? off : (float16)(0.0f));
     }
 }
@@ -175,7 +175,7 @@ __kernel void addLobeSamples(PARAMETERS)
     const int16 has = count != 0u;
     const float16 per = 1.0f / max16(convert_float16(count), (float16)(1.0f));
     Vec3x16 k = loadVecBlock(specular, p.planeSize, i);
-    const Vec3x16 part = loadColours16(parts, p.planeSize, i);
+    const Vec3x16 part = LOAD16_parts(p.planeSize, i);
     const float16 mean = per * luminance16(loadVecBlock(sums, p.planeSize, i));
     const float16 off = luminance16(k) * deviation16(mean, part.x, count, firstPass);
     addShorts(deviation, p.planeSize, i, has ? off : (float16)(0.0f));

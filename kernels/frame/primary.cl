@@ -6,7 +6,7 @@
 //      distance, +inf on a miss), pixelSize (projected edge of the pixel on the surface, metres), diffuse, specular,
 //      emission (3 each; emission holds background and light radiance where nothing is shaded), gloss (packed;
 //      negative: Phong)
-#include "core/packed_planes.h"
+#include "core/formats.h"
 #include "core/pixel.h"
 #include "light/environment_map.h"
 #include "light/seen_light.h"
@@ -60,7 +60,7 @@ __kernel void primary(PARAMETERS)
         storeVec(position, size, i, laneVec(&at.position, lane));
         storeVec(normal, size, i, laneVec(&at.normal, lane));
 #ifdef WEDGE_NORMAL_MAPS
-        storeVec(normal + unmappedNormals(size, 0u), size, i, laneVec(&at.unmapped, lane));
+        WEDGE_OF_FORMAT(store_unmapped, FORMAT_normal)(normal, size, i, laneVec(&at.unmapped, lane));
 #endif
         storeVec(origin, size, i, laneVec(&at.origin, lane));
         geometric[i] = packDirection(facing);

@@ -1,8 +1,8 @@
 // Progressive frames: two independent halves, of which the image is the mean, and how far from the truth they say it
 // is.
-#include "core/distributed_pixel.h"
 #include "core/pixel.h"
 #include "shared/distributed.h"
+#include "shared/frame.h"
 #include "shared/wave.h"
 
 /// Copies an image (3 planes).

@@ -163,7 +163,7 @@ __kernel void samplePaths(PARAMETERS)
 {
     const SurfaceData surfaces = WEDGE_SURFACE_ARGUMENTS;
     LightData lights = lightData(params, areaLights, deltaLights, surfaces, emitters, emitterPicks, environment,
-        environmentTable, environmentSamples);
+        environmentTable, PLANE_environmentSamples);
 #ifdef WEDGE_CUTOUTS
     lights.emitters.cutouts = WEDGE_CUTOUT_TABLE(nodes, blocks);
 #endif

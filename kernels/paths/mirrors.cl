@@ -247,7 +247,7 @@ __kernel void sampleMirrors(PARAMETERS)
 {
     const SurfaceData surfaces = WEDGE_SURFACE_ARGUMENTS;
     LightData lights = lightData(params, areaLights, deltaLights, surfaces, emitters, emitterPicks, environment,
-        environmentTable, environmentSamples);
+        environmentTable, PLANE_environmentSamples);
 #ifdef WEDGE_CUTOUTS
     lights.emitters.cutouts = WEDGE_CUTOUT_TABLE(nodes, blocks);
 #endif
@@ -261,7 +261,7 @@ __kernel void sampleMirrors(PARAMETERS)
     MirrorPacket own, dealt;
     Wanted wanted;
     Deal deal;
-    loadMirrors(frame, firstGroup, data, sampleOf, lastSample, taken, &own, &wanted);
+    loadMirrors(frame, firstGroup, data, PLANE_sampleOf, lastSample, PLANE_taken, &own, &wanted);
     float sum[WEDGE_CHANNELS][WEDGE_PACKET_SIZE];
     uint traced[WEDGE_PACKET_SIZE], followed[WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
@@ -304,7 +304,7 @@ __kernel void sampleMirrors(PARAMETERS)
             rays[i] += traced[lane];
             pathRays[i] += followed[lane];
             if (frame.receivers == 0u) {
-                taken[i] = wanted.last[lane];
+                STORE_taken(frame.planeSize, i, wanted.last[lane]);
             }
         }
     }

@@ -39,7 +39,7 @@ WEDGE_INLINE void storePart(const Sampling* at, uint i, const float* sums, uint 
 {
     const Vec3 seen = vec3(sums[0], sums[1], sums[2]);
     const Vec3 stored = at->fractions != 0u ? vec3(luminance(seen), sums[3], 0.0f) : seen;
-    storeColour(part, at->size, i, WEDGE_COLOUR_BITS, vecScale(stored, 1.0f / (float)n));
+    storeColour(part, at->size, i, vecScale(stored, 1.0f / (float)n));
 }
 
 #endif

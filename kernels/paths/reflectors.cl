@@ -2,7 +2,7 @@
 //
 // Published (thesis section 4.5): widths and counts from each pixel's least and largest distance. Default: widths from
 // the harmonic mean of distances, counts from the variance of what the filter gathers.
-#include "core/packed_planes.h"
+#include "core/formats.h"
 #include "core/vector16.h"
 #include "shared/indirect.h"
 #include "shared/path.h"
@@ -154,11 +154,11 @@ __kernel void reflectorWidths(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
     float zMin[WEDGE_BLOCK_PIXELS], size[WEDGE_BLOCK_PIXELS], width[WEDGE_BLOCK_PIXELS];
-    const float16 sizes = p.meanOnly != 0u ? loadShortBlock(pixelSize, i) : loadBlock(pixelSize, i);
+    const float16 sizes = LOAD16_pixelSize(p.planeSize, i);
     nearestReflectors(p, y, i, reflectors, objectId, extent, taken, sizes, zMin);
     vstore16(sizes, 0, size);
     for (uint lane = 0u; lane < WEDGE_BLOCK_PIXELS; ++lane) {
-        const float bandlimit = bandlimitOf(p.component, loadGloss(gloss, (uint)i + lane, p.meanOnly));
+        const float bandlimit = bandlimitOf(p.component, LOAD_gloss(p.planeSize, (uint)i + lane));
         const float bandwidth = indirectBandwidth(zMin[lane], bandlimit, size[lane], p.mu, p.alpha);
         const float adaptive = p.component == WEDGE_COMPONENT_ENVIRONMENT_GLOSSY ? 0.0f : p.widthScale / bandwidth;
         width[lane] = p.fixedWidth > 0.0f ? p.fixedWidth * size[lane] : adaptive;

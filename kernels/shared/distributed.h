@@ -35,9 +35,6 @@ typedef struct {
     float samples; ///< primary samples that a pixel is expected to have; 0: those that it has
     uint published; ///< 1: terms are kept as published, see accumulate.h
     float frames; ///< of which the image is the mean: each has as many samples
-    uint still; ///< 1: nothing moves, and there are no planes of motions
-    uint packed; ///< 1: terms' planes are packed, see accumulate.h
-    uint plainTexture; ///< 1: filtered textures are not
     uint alongMotion; ///< of demands: 1, of textures, which are filtered along the motion, too
 } DistributedParams;
 

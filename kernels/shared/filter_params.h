@@ -56,7 +56,6 @@ typedef struct {
     float varianceFloor; ///< least variance where there are slopes
     float varianceSpread; ///< fraction of the 5x5 neighbours' largest v / K that a pixel takes at least
     Vec3 lightCentre; ///< metres
-    uint packed; ///< 1: sizes of pixels are packed, packed_planes.h
     uint leastCount; ///< samples that every pixel takes, at least those of the first pass
 } AnalysisParams;
 

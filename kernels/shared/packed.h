@@ -4,21 +4,7 @@
 
 #include "vec.h"
 
-/// Bits of a colour: three floats, packColour(), packFraction().
-#define WEDGE_PLAIN_BITS 96u
-#define WEDGE_COLOUR_BITS 47u
-#define WEDGE_FRACTION_BITS 32u
-
 WEDGE_SHARED_BEGIN
-
-/// Bits of a term's texture and value. Of lights the value is a visibility, of indirect light the texture a
-/// reflectance: both are fractions. The other has any range.
-WEDGE_FN uint textureBits(uint packed, bool light)
-{
-    return packed == 0u ? WEDGE_PLAIN_BITS : light ? WEDGE_COLOUR_BITS : WEDGE_FRACTION_BITS;
-}
-
-WEDGE_FN uint valueBits(uint packed, bool light) { return textureBits(packed, !light); }
 
 /// A colour in 47 bits: an exponent of 8 bits and 13 bits a channel, which are exact to 1/16384 of twice the largest.
 typedef struct {

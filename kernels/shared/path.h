@@ -69,7 +69,7 @@ typedef struct {
     float meanFraction; ///< of the harmonic mean distance that stands for the least one; 0: the least one itself
     uint countCap; ///< most samples a pixel may take
     float fixedWidth; ///< pixels; more than 0: this width everywhere in place of the analysis
-    uint meanOnly; ///< 1: of reflectors there is but the sum of inverse distances; pixels' sizes and gloss are packed
+    uint meanOnly; ///< 1: of reflectors there is but the sum of inverse distances
     uint fractions; ///< 1: sums are those of fractions (path_sampling.h)
 } ReflectorParams;
 

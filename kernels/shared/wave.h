@@ -10,19 +10,6 @@
 /// Receivers of a wave at most: enough to fill a large device, few enough to stay in a CPU's caches.
 #define WEDGE_WAVE_RECEIVERS (1u << 17)
 
-/// What a wave is not to add to its pixels, which have no planes of it, or have other things in them: what layers show,
-/// with rays counted for the wave's pixels in place of the image's; motion; all that the analysis is made of; of that,
-/// slopes and distances but for one plane; the pixels' wanted samples, which are then as many as the last of the wave;
-/// samples taken of a term, which then follow from others.
-#define WEDGE_OMITS_LAYERS 1u
-#define WEDGE_OMITS_MOTION 2u
-#define WEDGE_OMITS_ANALYSIS 4u
-#define WEDGE_OMITS_EXTREMES 8u
-#define WEDGE_OMITS_COUNTS 16u
-#define WEDGE_OMITS_DEVIATION 32u
-#define WEDGE_OMITS_INDIRECT 64u ///< a term's samples are of direct light
-#define WEDGE_OMITS_TAKEN 128u
-
 WEDGE_SHARED_BEGIN
 
 /// One wave: the receivers of some tiles' pixels, pixel by pixel.
@@ -34,15 +21,14 @@ typedef struct {
     uint sampler; ///< WEDGE_SAMPLER_*
     uint firstPass; ///< primary samples of a first pass with strata of its own; 0: none
     uint published; ///< 1: terms are kept as the thesis has them, see accumulate.h
-    uint omits; ///< sum of WEDGE_OMITS_*
-    uint packed; ///< 1: the pixels' planes are packed, see accumulate.h
-    float oneVelocity; ///< largest difference of motions that packed planes take for one, as a fraction of the motion
+    uint alike; ///< 1: every pixel takes samples up to lastSample, whatever it wants
+    float oneVelocity; ///< largest difference of motions that lean frames take for one, as a fraction of the motion
 } WaveParams;
 
-/// Samples that a pixel has when the wave is done, if its planes say that it wants so many.
+/// Samples that a pixel that wants so many has when the wave is done.
 WEDGE_FN uint wantedSamples(WaveParams wave, uint wanted)
 {
-    return (wave.omits & WEDGE_OMITS_COUNTS) != 0u ? wave.lastSample : min(wanted, wave.lastSample);
+    return wave.alike != 0u ? wave.lastSample : min(wanted, wave.lastSample);
 }
 
 /// Of `total` samples that `count` receivers of a pixel share evenly, those that the first `index` of them have.

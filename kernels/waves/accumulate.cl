@@ -7,29 +7,16 @@
 #include "shared/indirect.h"
 #include "waves/accumulate.h"
 
-#ifdef WEDGE_MOTION
-/// What the first samples of a light tell of its shadows' motions: sums of x, y, squared lengths and ones.
-WEDGE_FN void storeShadows(WaveParams wave, WavePixel p, uint pixels, __global float* extremes, const float* sums)
-{
-    if (wave.packed == 0u) {
-        for (uint k = 0u; k < 4u; ++k) {
-            extremes[(2u + k) * pixels + p.i] += sums[k];
-        }
-        return;
-    }
-    const float count = fmax(sums[3], 1.0f), x = sums[0] / count, y = sums[1] / count;
-    storeOneMotion(wave, pixels, p.i, extremes, x, y, sqrt(fmax(sums[2] / count - x * x - y * y, 0.0f)));
-}
-#endif
-
 /// One area light.
 /// in      wave's planes: receivers, diffuse, specular, sums (see light_sampling.h), slopes
-///         exact: 1: unshadowed has the receivers' shading (wave_light.cl); 0: it is that of their samples
+///         unshadowed: the receivers' shading (wave_light.cl); absent: it is that of their samples
 ///         hits: the pixels' primary samples with a surface, before the wave
-///         termTaken, termWanted: the pixels' samples of the light before and after the wave
-/// in out  of pixels: texture (3), value (visibility, 3), plain (its luminance, unweighted), squares and textureSquares
-///         (mean squared luminance of a primary sample's radiance, and of its texture), termRadiance (3, as published),
-///         extremes (slopes, and shadows' motions), deviation, samples (of all terms), termTaken
+///         wanted: the pixels' samples of the light after the wave
+/// in out  of pixels: term (TermMeans): texture, value (visibility), plain (its luminance, unweighted), squares and
+///         textureSquares (mean squared luminance of a primary sample's radiance, and of its texture), radiance (as
+///         published), deviation, error, spreads; extremes: slopes; shadowSums: of shadows' motions x, y, their squared
+///         lengths and ones; of lean frames extreme: the least slope, shadowMotion: the mean of all that moves alike;
+///         samples (of all terms); termTaken: samples of the light, where they are not the primary ones
 #include "pass/accumulateLight.h"
 #ifdef PASS_accumulateLight
 __kernel void accumulateLight(PARAMETERS)
@@ -43,19 +30,17 @@ __kernel void accumulateLight(PARAMETERS)
     receivers.planeSize = wave.planeSize;
     receivers.receivers = wave.receivers;
     const uint size = wave.planeSize, pixels = frame.planeSize;
-    const TermPlanes planes = WEDGE_TERM_ARGUMENTS(true);
-    const uint total = newTermSamples(wave, p.i, termTaken, termWanted);
-    const bool measures = (wave.omits & WEDGE_OMITS_ANALYSIS) == 0u, all = (wave.omits & WEDGE_OMITS_EXTREMES) == 0u;
-    // Packed, there is none before.
-    float sMin = measures && wave.packed == 0u && extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY;
-    float sMax = measures && all ? extremes[pixels + p.i] : 0.0f;
+    const uint before = HAS_termTaken ? LOAD_termTaken(pixels, p.i) : taken[p.i];
+    const uint total = newTermSamples(wave, before, LOAD_wanted(pixels, p.i));
+    const float2 known = LOAD_extremes(pixels, p.i);
+    float sMin = known.x > 0.0f ? known.x : INFINITY, sMax = known.y;
     float weight = 0.0f, specularWeight = 0.0f;
     const bool weighed = total < p.count && wave.published == 0u
         && meanWeights(wave, p, total, objectId, diffuse, specular, sums, &weight, &specularWeight);
 #ifdef WEDGE_MOTION
     float shadows[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
 #endif
-    bool known = true;
+    bool textured = true;
     TermSums sum = noTermSums((float)p.count);
     for (uint k = 0u; k < p.count; ++k) {
         const uint r = p.first + k;
@@ -72,13 +57,14 @@ __kernel void accumulateLight(PARAMETERS)
             l = vecScale(t, seen);
         } else {
             sampled = vecScale(kd, WEDGE_INV_PI * scale * sums[r]);
-            const float whole = exact != 0u ? unshadowed[r] : -1.0f;
-            known = known && (n > 0u || weighed || whole >= 0.0f);
+            const float2 shading = HAS_unshadowed ? LOAD_unshadowed(size, r) : (float2)(-1.0f);
+            const float whole = shading.x;
+            textured = textured && (n > 0u || weighed || whole >= 0.0f);
             t = whole >= 0.0f || n == 0u ? vecScale(kd, WEDGE_INV_PI * (whole >= 0.0f ? whole : weight)) : sampled;
             l = vecScale(kd, WEDGE_INV_PI * scale * sums[size + r]);
 #ifdef WEDGE_SPECULAR
-            const float mirrored = exact != 0u ? unshadowed[size + r] : -1.0f;
-            known = known && (n > 0u || weighed || mirrored >= 0.0f);
+            const float mirrored = shading.y;
+            textured = textured && (n > 0u || weighed || mirrored >= 0.0f);
             t = vecMad(t, ks, mirrored >= 0.0f ? mirrored : n > 0u ? scale * sums[2u * size + r] : specularWeight);
             sampled = vecMad(sampled, ks, scale * sums[2u * size + r]);
             l = vecMad(l, ks, scale * sums[3u * size + r]);
@@ -95,7 +81,7 @@ __kernel void accumulateLight(PARAMETERS)
         sMin = slopes[r] > 0.0f ? fmin(sMin, slopes[r]) : sMin;
         sMax = fmax(sMax, slopes[size + r]);
 #ifdef WEDGE_MOTION
-        for (uint plane = 0u; measures && plane < 4u; ++plane) {
+        for (uint plane = 0u; (HAS_shadowSums || HAS_shadowMotion) && plane < 4u; ++plane) {
             shadows[plane] += slopes[(2u + plane) * size + r];
         }
 #endif
@@ -103,33 +89,35 @@ __kernel void accumulateLight(PARAMETERS)
         if (wave.published != 0u) {
             addSamples(&sum, l, seen, vec3(seen, seen, seen), vec3(1.0f, 1.0f, 1.0f), early);
         } else {
-            addSamples(&sum, exact != 0u ? vecScale(t, seen) : l, seen, vecScale(l, (float)n),
+            addSamples(&sum, HAS_unshadowed ? vecScale(t, seen) : l, seen, vecScale(l, (float)n),
                 vecScale(sampled, (float)n), early);
         }
     }
-    if (!known) {
+    if (!textured) {
         sum.texture = vec3(0.0f, 0.0f, 0.0f);
         sum.textureSquared = sum.textures = 0.0f;
     }
-    const float plainWeight = (float)loadHits(hits, p.i, wave.packed);
-    const Vec3 weights = wave.published != 0u
-        ? vec3(plainWeight, plainWeight, plainWeight)
-        : vecScale(loadColour(texture, pixels, p.i, planes.textureBits), (float)termTaken[p.i]);
-    storeTermSums(
-        wave, p, pixels, planes, termTaken[p.i], total, (float)loadHits(hits, p.i, wave.packed), weights, &sum);
-    storeExtreme(wave, p, pixels, plain, extremes, sMin < INFINITY ? sMin : 0.0f);
-    if (measures && all) {
-        extremes[pixels + p.i] = sMax;
-    }
-#ifdef WEDGE_MOTION
-    if (measures) {
-        storeShadows(wave, p, pixels, extremes, shadows);
+    const float hit = (float)LOAD_hits(pixels, p.i);
+    TermMeans means;
+    LOAD_term(pixels, p.i, &means);
+    const Vec3 weights = wave.published != 0u ? vec3(hit, hit, hit) : vecScale(means.texture, (float)before);
+    addTermSums(&means, p, before, total, hit, weights, &sum);
+    STORE_term(pixels, p.i, &means);
+    sMin = sMin < INFINITY ? sMin : 0.0f;
+    STORE_extremes(pixels, p.i, (float2)(sMin, sMax));
+    STORE_extreme(pixels, p.i, sMin);
+#if HAS_shadowSums
+    for (uint k = 0u; k < 4u; ++k) {
+        shadowSums[k * pixels + p.i] += shadows[k];
     }
 #endif
-    if ((wave.omits & WEDGE_OMITS_LAYERS) == 0u) {
-        samples[p.i] += total;
-    }
-    countTaken(wave, p.i, total, (__global uint*)termTaken);
+#if HAS_shadowMotion
+    const float count = fmax(shadows[3], 1.0f), moveX = shadows[0] / count, moveY = shadows[1] / count;
+    const float spread = sqrt(fmax(shadows[2] / count - moveX * moveX - moveY * moveY, 0.0f));
+    STORE_shadowMotion(pixels, p.i, oneMotion(wave, moveX, moveY, spread));
+#endif
+    STORE_samples(pixels, p.i, LOAD_samples(pixels, p.i) + total);
+    STORE_termTaken(pixels, p.i, before + total);
 }
 #endif
 
@@ -150,7 +138,8 @@ __kernel void accumulateDelta(PARAMETERS)
         radiance = vecAdd(radiance, l);
         squared += luminance(l) * luminance(l);
     }
-    storeMean(delta, frame.planeSize, p.i, (float)p.before, radiance, (float)p.count);
+    const uint pixels = frame.planeSize;
+    STORE_delta(pixels, p.i, meanVec(LOAD_delta(pixels, p.i), (float)p.before, radiance, (float)p.count));
     deltaSquares[p.i] = meanWith(deltaSquares[p.i], (float)p.before, squared, (float)p.count);
 }
 #endif
@@ -169,14 +158,10 @@ __kernel void accumulatePaths(PARAMETERS)
         return;
     }
     const uint size = wave.planeSize, pixels = frame.planeSize;
-    const TermPlanes planes = WEDGE_TERM_ARGUMENTS(false);
-    const uint total = newTermSamples(wave, p.i, termTaken, termWanted);
-    const bool measures = (wave.omits & WEDGE_OMITS_ANALYSIS) == 0u, all = (wave.omits & WEDGE_OMITS_EXTREMES) == 0u;
-    float nearest = measures && all && extremes[p.i] > 0.0f ? extremes[p.i] : INFINITY;
-    float farthest = measures && all ? extremes[pixels + p.i] : 0.0f;
-    float inverse = measures && all     ? extremes[2u * pixels + p.i]
-        : measures && wave.packed == 0u ? extremes[p.i]
-                                        : 0.0f;
+    const uint had = HAS_termTaken ? LOAD_termTaken(pixels, p.i) : taken[p.i];
+    const uint total = newTermSamples(wave, had, LOAD_wanted(pixels, p.i));
+    const Vec3 known = LOAD_extremes(pixels, p.i);
+    float nearest = known.x > 0.0f ? known.x : INFINITY, farthest = known.y, inverse = known.z;
     const float floor = wave.published != 0u ? 1.0f : WEDGE_LEAST_TEXTURE, own = wave.published != 0u ? 0.0f : 1.0f;
     const Vec3 floors = vec3(floor, floor, floor), white = vec3(1.0f, 1.0f, 1.0f);
     TermSums sum = noTermSums((float)p.count);
@@ -200,25 +185,20 @@ __kernel void accumulatePaths(PARAMETERS)
         farthest = fmax(farthest, reflectors[size + r]);
         inverse += reflectors[2u * size + r];
     }
-    const float counted = wave.published != 0u ? (float)loadHits(hits, p.i, wave.packed)
-        : p.before > 0u ? (float)loadHits(hits, p.i, wave.packed) / (float)p.before * (float)termTaken[p.i]
-                        : 0.0f;
-    const Vec3 before = loadColour(texture, pixels, p.i, planes.textureBits);
-    const Vec3 known = vecMad(vecScale(floors, counted), before, own * (float)termTaken[p.i]);
-    storeTermSums(wave, p, pixels, planes, termTaken[p.i], total, (float)loadHits(hits, p.i, wave.packed), known, &sum);
-    // Of one number for both, a mean that is as near as its fraction and the nearest distance say.
+    const float hit = (float)LOAD_hits(pixels, p.i);
+    const float counted = wave.published != 0u ? hit : p.before > 0u ? hit / (float)p.before * (float)had : 0.0f;
+    TermMeans means;
+    LOAD_term(pixels, p.i, &means);
+    const Vec3 weights = vecMad(vecScale(floors, counted), means.texture, own * (float)had);
+    addTermSums(&means, p, had, total, hit, weights, &sum);
+    STORE_term(pixels, p.i, &means);
+    // Of one number for all three, a mean that is as near as its fraction and the nearest distance say.
     const float closest = nearest < INFINITY ? WEDGE_NEAREST_FRACTION * (float)total / fmax(nearest, 1e-20f) : 0.0f;
-    storeExtreme(
-        wave, p, pixels, plain, extremes, all ? (nearest < INFINITY ? nearest : 0.0f) : fmax(inverse, closest));
-    if (measures && all) {
-        extremes[pixels + p.i] = farthest;
-        extremes[2u * pixels + p.i] = inverse;
-    }
-    if ((wave.omits & WEDGE_OMITS_LAYERS) == 0u) {
-        samples[p.i] += total;
-        indirectSamples[p.i] += (wave.omits & WEDGE_OMITS_INDIRECT) == 0u ? total : 0u;
-    }
-    countTaken(wave, p.i, total, (__global uint*)termTaken);
+    STORE_extreme(pixels, p.i, fmax(inverse, closest));
+    STORE_extremes(pixels, p.i, vec3(nearest < INFINITY ? nearest : 0.0f, farthest, inverse));
+    STORE_samples(pixels, p.i, LOAD_samples(pixels, p.i) + total);
+    STORE_indirectSamples(pixels, p.i, LOAD_indirectSamples(pixels, p.i) + total);
+    STORE_termTaken(pixels, p.i, had + total);
 }
 #endif
 
@@ -240,13 +220,12 @@ WEDGE_FN void addGloss(GlossSum* s, Gloss g)
 
 /// Where and what the receivers are, and what they emit; closes the wave.
 /// in      wave's planes: as wave_primary.cl fills them, rays, pathRays
-/// in out  of pixels: means of position, normal, pixelSize, distance, gloss (of the first wave that saw a lobe),
-/// diffuse,
-///         specular, emission, emissionSquares (squared luminance); objectId (0:
-///         no surface, WEDGE_MIXED: several objects); hits; confusion (planes: least and largest signed radius of
-///         the circle of confusion, pixels); motion (planes: mean x, mean y, largest difference from the mean; packed:
-///         see accumulate.h);
-///         rays, pathRays; taken
+/// in out  of pixels, kept_*: means of position, normal, pixelSize (of the first wave), distance, gloss (of the first
+///         wave that saw a lobe), diffuse, specular, emission, emissionSquares (squared luminance), motion; objectId
+///         (0: no surface, WEDGE_MIXED: several objects); hits; confusion: least and largest signed radius of the
+///         circle of confusion, pixels; motionSpread: largest difference of motions from the mean; where there is none,
+///         the mean motion of pixels whose motions differ is infinite; rays, pathRays: of the image's pixels where
+///         raysOfImage is 1, else of the wave's; taken
 #include "pass/accumulateSurfaces.h"
 #ifdef PASS_accumulateSurfaces
 __kernel void accumulateSurfaces(PARAMETERS)
@@ -263,9 +242,9 @@ __kernel void accumulateSurfaces(PARAMETERS)
 #endif
     GlossSum lobes = { { 0.0f, WEDGE_LAMBERT, 0.0f }, 0.0f };
     float hit = 0.0f, edge = 0.0f, moveX = 0.0f, moveY = 0.0f, squared = 0.0f;
-    const bool has = p.before > 0u && wave.packed == 0u;
-    float low = has ? confusionOf[p.i] : INFINITY, high = has ? confusionOf[pixels + p.i] : -INFINITY;
-    uint object = objectOf[p.i], traced = 0u, paths = 0u;
+    const float2 range = p.before > 0u ? LOAD_kept_confusion(pixels, p.i) : (float2)(INFINITY, -INFINITY);
+    float low = range.x, high = range.y;
+    uint object = LOAD_kept_objectId(pixels, p.i), traced = 0u, paths = 0u;
     for (uint r = p.first; r < p.first + p.count; ++r) {
         const Vec3 e = loadVec(emission, size, r);
         emitted = vecAdd(emitted, e);
@@ -289,7 +268,7 @@ __kernel void accumulateSurfaces(PARAMETERS)
         at = vecAdd(at, loadVec(position, size, r));
         facing = vecAdd(facing, loadVec(normal, size, r));
 #ifdef WEDGE_NORMAL_MAPS
-        unmapped = vecAdd(unmapped, loadVec(normal + unmappedNormals(size, 0u), size, r));
+        unmapped = vecAdd(unmapped, WEDGE_OF_FORMAT(load_unmapped, FORMAT_normal)(normal, size, r));
 #endif
         kd = vecAdd(kd, loadVec(diffuse, size, r));
         ks = vecAdd(ks, loadVec(specular, size, r));
@@ -298,84 +277,54 @@ __kernel void accumulateSurfaces(PARAMETERS)
         moveX += motion[r];
         moveY += motion[size + r];
     }
-    const float before = (float)p.before, count = (float)p.count, hits = (float)loadHits(hitsOf, p.i, wave.packed);
-    storeMean(emissionOf, pixels, p.i, before, emitted, count);
-    const bool measures = (wave.omits & WEDGE_OMITS_ANALYSIS) == 0u, layers = (wave.omits & WEDGE_OMITS_LAYERS) == 0u;
-    if (measures) {
-        emissionSquaresOf[p.i] = meanWith(emissionSquaresOf[p.i], before, squared, count);
-    }
-    if (layers) {
-        storeMean(diffuseOf, pixels, p.i, before, kd, count);
-        storeMean(specularOf, pixels, p.i, before, ks, count);
-    }
+    const float before = (float)p.before, count = (float)p.count, hits = (float)LOAD_kept_hits(pixels, p.i);
+    STORE_kept_emission(pixels, p.i, meanVec(LOAD_kept_emission(pixels, p.i), before, emitted, count));
+    STORE_kept_emissionSquares(pixels, p.i, meanWith(LOAD_kept_emissionSquares(pixels, p.i), before, squared, count));
+    STORE_kept_diffuse(pixels, p.i, meanVec(LOAD_kept_diffuse(pixels, p.i), before, kd, count));
+    STORE_kept_specular(pixels, p.i, meanVec(LOAD_kept_specular(pixels, p.i), before, ks, count));
+    STORE_kept_confusion(pixels, p.i, (float2)(low, high));
     taken[p.i] = p.before + p.count;
-    if (wave.packed != 0u) {
-        // The signed radius nearest to 0, or 0 where it changes its sign.
-        const float least = low > 0.0f ? low : high < 0.0f ? high : 0.0f;
-        const float had = p.before > 0u ? loadShort(confusionOf, pixels, p.i, 0u) : least;
-        const float nearest = fabs(had) < fabs(least) ? had : least;
-        storeShort(confusionOf, pixels, p.i, 0u,
-            (had > 0.0f) == (least > 0.0f) && (had < 0.0f) == (least < 0.0f) ? nearest : 0.0f);
-    } else {
-        confusionOf[p.i] = low;
-        confusionOf[pixels + p.i] = high;
-    }
-    raysOf[layers ? p.i : p.slot] += traced;
-    pathRaysOf[layers ? p.i : p.slot] += paths;
+    const uint counted = raysOfImage != 0u ? p.i : p.slot;
+    kept_rays[counted] += traced;
+    kept_pathRays[counted] += paths;
     if (hit == 0.0f) {
-        if (layers) {
-            // Misses, or a light that is seen.
-            distanceOf[p.i] = hits > 0.0f ? distanceOf[p.i] : depth[p.first];
-        }
+        // Misses, or a light that is seen.
+        STORE_kept_distance(pixels, p.i, hits > 0.0f ? LOAD_kept_distance(pixels, p.i) : depth[p.first]);
         return;
     }
-    storeHits(hitsOf, p.i, wave.packed, (uint)hits + (uint)hit);
-    objectOf[p.i] = object;
-    storeMean(positionOf, pixels, p.i, hits, at, hit);
-    const Vec3 faced = loadNormal(normalOf, pixels, p.i, wave.packed);
-    storeNormal(normalOf, pixels, p.i, wave.packed, vecNormalize(vecMad(facing, faced, hits)));
+    STORE_kept_hits(pixels, p.i, (uint)hits + (uint)hit);
+    STORE_kept_objectId(pixels, p.i, object);
+    const Vec3 middle = meanVec(LOAD_kept_position(pixels, p.i), hits, at, hit);
+    STORE_kept_position(pixels, p.i, middle);
+    STORE_kept_normal(pixels, p.i, vecNormalize(vecMad(facing, LOAD_kept_normal(pixels, p.i), hits)));
 #ifdef WEDGE_NORMAL_MAPS
-    __global float* unmappedOf = normalOf + unmappedNormals(pixels, wave.packed);
-    const Vec3 had = loadNormal(unmappedOf, pixels, p.i, wave.packed);
-    storeNormal(unmappedOf, pixels, p.i, wave.packed, vecNormalize(vecMad(unmapped, had, hits)));
+    const Vec3 had = WEDGE_OF_FORMAT(load_unmapped, FORMAT_kept_normal)(kept_normal, pixels, p.i);
+    WEDGE_OF_FORMAT(store_unmapped, FORMAT_kept_normal)
+    (kept_normal, pixels, p.i, vecNormalize(vecMad(unmapped, had, hits)));
 #endif
-    if (measures && wave.packed != 0u) {
-        storeShort(pixelSizeOf, pixels, p.i, 0u, edge / hit);
-    } else if (measures) {
-        pixelSizeOf[p.i] = meanWith(pixelSizeOf[p.i], hits, edge, hit);
+    STORE_kept_pixelSize(pixels, p.i, meanWith(LOAD_kept_pixelSize(pixels, p.i), hits, edge, hit));
+    // Of the first wave that has a lobe: how many of the receivers before another did is not known.
+    if (!(hits > 0.0f && LOAD_kept_gloss(pixels, p.i).kind != WEDGE_LAMBERT)) {
+        STORE_kept_gloss(pixels, p.i, makeGloss(lobes.sum.exponent / fmax(lobes.count, 1.0f), lobes.sum.kind));
     }
-    if (measures) {
-        // Of the first wave that has a lobe: how many of the receivers before another did is not known.
-        const bool known = hits > 0.0f && loadGloss(glossOf, p.i, wave.packed).kind != WEDGE_LAMBERT;
-        const Gloss mean = makeGloss(lobes.sum.exponent / fmax(lobes.count, 1.0f), lobes.sum.kind);
-        if (!known) {
-            storeGloss(glossOf, p.i, wave.packed, mean);
-        }
-    }
-    if (layers) {
-        distanceOf[p.i] = vecLength(vecSub(loadVec(positionOf, pixels, p.i), frame.eye));
-    }
-    if ((wave.omits & WEDGE_OMITS_MOTION) != 0u) {
+    STORE_kept_distance(pixels, p.i, vecLength(vecSub(middle, frame.eye)));
+#if HAS_kept_motion
+    const float2 moved = LOAD_kept_motion(pixels, p.i);
+    if (moved.x == INFINITY) {
         return;
     }
-    const bool packed = wave.packed != 0u;
-    const float hadX = packed ? loadShort(motionOf, pixels, p.i, 0u) : motionOf[p.i];
-    const float hadY = packed ? loadShort(motionOf, pixels, p.i, 1u) : motionOf[pixels + p.i];
-    if (packed && hadX == INFINITY) {
-        return;
-    }
-    const float meanX = meanWith(hadX, hits, moveX, hit), meanY = meanWith(hadY, hits, moveY, hit);
-    float spread = packed ? 0.0f : motionOf[2u * pixels + p.i];
+    const float meanX = meanWith(moved.x, hits, moveX, hit), meanY = meanWith(moved.y, hits, moveY, hit);
+    float spread = LOAD_kept_motionSpread(pixels, p.i);
     for (uint r = p.first; r < p.first + p.count; ++r) {
         const float dx = motion[r] - meanX, dy = motion[size + r] - meanY;
         spread = objectId[r] != 0u ? fmax(spread, sqrt(dx * dx + dy * dy)) : spread;
     }
-    if (packed) {
-        storeOneMotion(wave, pixels, p.i, motionOf, meanX, meanY, spread);
-        return;
-    }
-    motionOf[p.i] = meanX;
-    motionOf[pixels + p.i] = meanY;
-    motionOf[2u * pixels + p.i] = spread;
+    STORE_kept_motion(
+        pixels, p.i, HAS_kept_motionSpread ? (float2)(meanX, meanY) : oneMotion(wave, meanX, meanY, spread));
+    STORE_kept_motionSpread(pixels, p.i, spread);
+#else
+    (void)moveX;
+    (void)moveY;
+#endif
 }
 #endif

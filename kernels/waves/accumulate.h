@@ -7,17 +7,14 @@
 // be taken apart. As published (wave.published) E is the plain mean, that of lights holds the light's form factor
 // (5.14), k the lobe towards its centre (5.20), and the term's radiance L is kept apart.
 //
-// Packed planes (wave.packed) hold of k and E the one that is a fraction in 32 bits and the other in 47
-// (packed_planes.h), normals in one plane, and what one wave alone measures in 16 bits: in `plain` the factoring error
-// (distributed.cl) and, after it, the one of the extremes that there is; in `squares` the standard deviations of a
-// primary sample's radiance and of its texture; in 16 bits of its own the deviation of the value. Sizes of pixels,
-// gloss, hits and the signed radius nearest to 0 of the circles of confusion have 16 bits each. Motions are the mean's
-// two numbers, the first of which is infinite where the pixel's motions differ (storeOneMotion): of surfaces in
-// `motion`, of a light's shadows in `extremes`.
+// Lean frames keep of that what one image is made of. Their first wave alone measures: the factoring error
+// (distributed.cl), the standard deviations of a primary sample's radiance and of its texture, and the one of the
+// extremes that widths are made of, in place of sums. A mean motion is infinite there where the pixel's motions differ.
+// And their planes have fewer bits (core/formats.h).
 #ifndef WEDGE_ACCUMULATE_H
 #define WEDGE_ACCUMULATE_H
 
-#include "core/packed_planes.h"
+#include "core/formats.h"
 #include "light/light_sample.h"
 #include "shared/bsdf.h"
 #include "shared/wave.h"
@@ -56,12 +53,10 @@ WEDGE_FN float meanWith(float mean, float before, float sum, float count)
     return (mean * before + sum) / fmax(before + count, 1e-20f);
 }
 
-WEDGE_FN void storeMean(__global float* planes, uint size, uint i, float before, Vec3 sum, float count)
+WEDGE_FN Vec3 meanVec(Vec3 mean, float before, Vec3 sum, float count)
 {
-    const Vec3 mean = loadVec(planes, size, i);
-    storeVec(planes, size, i,
-        vec3(meanWith(mean.x, before, sum.x, count), meanWith(mean.y, before, sum.y, count),
-            meanWith(mean.z, before, sum.z, count)));
+    return vec3(meanWith(mean.x, before, sum.x, count), meanWith(mean.y, before, sum.y, count),
+        meanWith(mean.z, before, sum.z, count));
 }
 
 /// Texture and irradiance of a receiver under one light as published; visible: of its samples, the fraction that sees
@@ -118,29 +113,31 @@ WEDGE_FN void addSamples(TermSums* s, Vec3 l, float irradiance, Vec3 weighted, V
     s->squared += luminance(l) * luminance(l);
 }
 
-/// The planes of pixels that terms keep.
+/// What pixels keep of a term, by the names of its planes; those that there are none of are of no use.
 typedef struct {
-    __global float *texture, *value, *plain, *squares, *textureSquares;
-    __global float* radiance; ///< of the term alone, as published
-    __global float* deviation;
-    uint textureBits, valueBits;
-} TermPlanes;
+    Vec3 texture, value;
+    Vec3 radiance; ///< of the term alone, as published
+    float deviation;
+    float plain, squares, textureSquares;
+    float error; ///< of lean frames
+    float2 spreads; ///< standard deviations of the radiance and of the texture, of lean frames
+} TermMeans;
 
 WEDGE_FN float weightedMean(float mean, float known, float weighted, float weights)
 {
     return known + weights > 0.0f ? (mean * known + weighted) / (known + weights) : 0.0f;
 }
 
-/// What the analysis is made of, of the first wave of a pixel's; t, e: its mean texture and irradiance, of `have`
+/// What the analysis is made of in lean frames, of a pixel's first wave, whose sums and means these are; have:
 /// receivers with samples.
-WEDGE_FN void storeMeasured(WavePixel p, uint pixels, TermPlanes planes, Vec3 t, Vec3 e, float have, const TermSums* s)
+WEDGE_FN void measureTerm(TermMeans* m, float have, const TermSums* s)
 {
-    const float mean = luminance(vecMul(t, e)), texture = luminance(t);
+    const float mean = luminance(vecMul(m->texture, m->value)), texture = luminance(m->texture);
     const float squared = meanWith(0.0f, 0.0f, s->squared, have), plain = meanWith(0.0f, 0.0f, s->plain, s->counted);
     const float textureSquared = meanWith(0.0f, 0.0f, s->textureSquared, s->textures);
-    storeShort(planes.plain, pixels, p.i, 0u, mean - texture * plain);
-    storeShort(planes.squares, pixels, p.i, 0u, sqrt(fmax(squared - mean * mean, 0.0f)));
-    storeShort(planes.squares, pixels, p.i, 1u, sqrt(fmax(textureSquared - texture * texture, 0.0f)));
+    m->error = mean - texture * plain;
+    m->spreads =
+        (float2)(sqrt(fmax(squared - mean * mean, 0.0f)), sqrt(fmax(textureSquared - texture * texture, 0.0f)));
 }
 
 /// A number whose square is, in the mean, the variance of a pixel's mean value, in luminance, as deviation16() of
@@ -148,96 +145,42 @@ WEDGE_FN void storeMeasured(WavePixel p, uint pixels, TermPlanes planes, Vec3 t,
 /// samples and the second, over the weights of all. Each wave's mean is taken out, so that halves of different weights
 /// do not count for noise. Of a wave that has but one half, a single sample, the difference from what is known already:
 /// were it left out, a rare bright path there would count for none of the noise that it makes.
-/// known, before: weights and mean value before the wave, luminances
-WEDGE_FN void storeDeviation(
-    WaveParams wave, uint pixels, uint i, __global float* deviation, float known, float before, const TermSums* s)
+/// deviation: before the wave. known, before: weights and mean value then, luminances
+WEDGE_FN float deviationWith(float deviation, float known, float before, const TermSums* s)
 {
     const float weights = luminance(s->weights), all = luminance(s->weighted);
     const float mean = weights > 0.0f ? all / weights : 0.0f;
     const bool whole = s->earlyWeights == 0.0f || s->lateWeights == 0.0f;
     const float apart = whole ? sqrt(known / fmax(known + weights, 1e-30f)) * (all - weights * before)
                               : 2.0f * (s->early - mean * s->earlyWeights);
-    if (wave.packed != 0u) {
-        storeShort(deviation, pixels, i, 0u, weightedMean(loadShort(deviation, pixels, i, 0u), known, apart, weights));
-    } else {
-        deviation[i] = weightedMean(deviation[i], known, apart, weights);
-    }
+    return weightedMean(deviation, known, apart, weights);
 }
 
-/// taken: samples of the term before the wave, total: in it; hits: receivers with a surface before; known: what the
-/// mean value weighs so far.
-WEDGE_FN void storeTermSums(WaveParams wave, WavePixel p, uint pixels, TermPlanes planes, uint taken, uint total,
-    float hits, Vec3 known, const TermSums* s)
+/// Adds a wave's receivers to what is kept. taken: samples of the term before the wave, total: in it; hits: receivers
+/// with a surface before; known: what the mean value weighs so far.
+WEDGE_FN void addTermSums(TermMeans* m, WavePixel p, uint taken, uint total, float hits, Vec3 known, const TermSums* s)
 {
     const float before = (float)p.before;
     // Receivers that took samples, misses included: samples are shared evenly.
     const float had = (float)min(taken, p.before), have = (float)min(total, p.count);
-    Vec3 e = loadColour(planes.value, pixels, p.i, planes.valueBits);
-    if ((wave.omits & WEDGE_OMITS_DEVIATION) == 0u) {
-        const float weight = luminance(known);
-        const float mean = weight > 0.0f ? luminance(vecMul(e, known)) / weight : 0.0f;
-        storeDeviation(wave, pixels, p.i, planes.deviation, weight, mean, s);
-    }
-    Vec3 t = loadColour(planes.texture, pixels, p.i, planes.textureBits);
-    e = vec3(weightedMean(e.x, known.x, s->weighted.x, s->weights.x),
-        weightedMean(e.y, known.y, s->weighted.y, s->weights.y),
-        weightedMean(e.z, known.z, s->weighted.z, s->weights.z));
-    t = vec3(meanWith(t.x, before, s->texture.x, s->textures), meanWith(t.y, before, s->texture.y, s->textures),
-        meanWith(t.z, before, s->texture.z, s->textures));
-    storeColour(planes.value, pixels, p.i, planes.valueBits, e);
-    storeColour(planes.texture, pixels, p.i, planes.textureBits, t);
-    if (wave.packed != 0u) {
-        if ((wave.omits & WEDGE_OMITS_ANALYSIS) == 0u) {
-            storeMeasured(p, pixels, planes, t, e, have, s);
-        }
-    } else if ((wave.omits & WEDGE_OMITS_ANALYSIS) == 0u) {
-        planes.textureSquares[p.i] = meanWith(planes.textureSquares[p.i], before, s->textureSquared, s->textures);
-        const float hadHits = p.before > 0u ? hits * had / before : 0.0f;
-        planes.plain[p.i] = meanWith(planes.plain[p.i], hadHits, s->plain, s->counted);
-        planes.squares[p.i] = meanWith(planes.squares[p.i], had, s->squared, have);
-    }
-    if (wave.published != 0u) {
-        storeMean(planes.radiance, pixels, p.i, had, s->radiance, have);
-    }
+    const float weight = luminance(known);
+    m->deviation =
+        deviationWith(m->deviation, weight, weight > 0.0f ? luminance(vecMul(m->value, known)) / weight : 0.0f, s);
+    m->value = vec3(weightedMean(m->value.x, known.x, s->weighted.x, s->weights.x),
+        weightedMean(m->value.y, known.y, s->weighted.y, s->weights.y),
+        weightedMean(m->value.z, known.z, s->weighted.z, s->weights.z));
+    m->texture = meanVec(m->texture, before, s->texture, s->textures);
+    measureTerm(m, have, s);
+    m->textureSquares = meanWith(m->textureSquares, before, s->textureSquared, s->textures);
+    m->plain = meanWith(m->plain, p.before > 0u ? hits * had / before : 0.0f, s->plain, s->counted);
+    m->squares = meanWith(m->squares, had, s->squared, have);
+    m->radiance = meanVec(m->radiance, had, s->radiance, have);
 }
 
-/// Samples of a term that the wave takes for pixel i. What is wanted is not looked at where the planes do not hold it:
-/// squares are in its place then.
-WEDGE_FN uint newTermSamples(WaveParams wave, uint i, __global const uint* taken, __global const uint* wanted)
+/// Samples of a term that the wave takes for a pixel that has `before` and wants `wanted` of them.
+WEDGE_FN uint newTermSamples(WaveParams wave, uint before, uint wanted)
 {
-    const uint before = taken[i];
-    const uint after = (wave.omits & WEDGE_OMITS_COUNTS) != 0u ? wave.lastSample : wantedSamples(wave, wanted[i]);
-    return max(after, before) - before;
-}
-
-/// The wave's samples of a term are taken.
-WEDGE_FN void countTaken(WaveParams wave, uint i, uint total, __global uint* taken)
-{
-    if ((wave.omits & WEDGE_OMITS_TAKEN) == 0u) {
-        taken[i] += total;
-    }
-}
-
-/// The planes of the term that a kernel adds to, of its parameters of these names.
-/// light: of a light; false: of indirect light.
-#define WEDGE_TERM_ARGUMENTS(light)                                                                                    \
-    termPlanes(wave.packed, light, texture, value, plain, squares, textureSquares, termRadiance, deviation)
-
-WEDGE_FN TermPlanes termPlanes(uint packed, bool light, __global float* texture, __global float* value,
-    __global float* plain, __global float* squares, __global float* textureSquares, __global float* radiance,
-    __global float* deviation)
-{
-    TermPlanes planes;
-    planes.textureBits = textureBits(packed, light);
-    planes.valueBits = valueBits(packed, light);
-    planes.texture = texture;
-    planes.value = value;
-    planes.plain = plain;
-    planes.squares = squares;
-    planes.textureSquares = textureSquares;
-    planes.radiance = radiance;
-    planes.deviation = deviation;
-    return planes;
+    return max(wantedSamples(wave, wanted), before) - before;
 }
 
 /// Mean unshadowed weights of a light's samples, diffuse and specular, over the receivers that took some, each as much
@@ -272,26 +215,11 @@ WEDGE_FN bool meanWeights(WaveParams wave, WavePixel p, uint total, __global con
     return known > 0.0f;
 }
 
-/// A mean motion as packed planes have it. differing: length of a difference between the mean and what it is made of.
-WEDGE_FN void storeOneMotion(
-    WaveParams wave, uint pixels, uint i, __global float* plane, float x, float y, float differing)
+/// A mean motion as lean frames keep it. differing: length of a difference between the mean and what it is made of.
+WEDGE_FN float2 oneMotion(WaveParams wave, float x, float y, float differing)
 {
     const bool one = differing <= wave.oneVelocity * sqrt(x * x + y * y);
-    storePair(plane, pixels, i, one ? x : INFINITY, one ? y : 0.0f);
-}
-
-/// The one extreme that widths are made with.
-WEDGE_FN void storeExtreme(
-    WaveParams wave, WavePixel p, uint pixels, __global float* plain, __global float* extremes, float x)
-{
-    if ((wave.omits & WEDGE_OMITS_ANALYSIS) != 0u) {
-        return;
-    }
-    if (wave.packed != 0u) {
-        storeShort(plain, pixels, p.i, 1u, x);
-    } else {
-        extremes[p.i] = x;
-    }
+    return (float2)(one ? x : INFINITY, one ? y : 0.0f);
 }
 
 #endif

@@ -1,12 +1,12 @@
 // The analysis of distributed frames (thesis 5.7, 5.8): where texture and irradiance may be taken apart, how wide the
 // irradiance's filter is then, which samples are worth most, and what becomes of the filtered term.
 #include "core/distributed_pixel.h"
-#include "core/packed_planes.h"
+#include "core/formats.h"
 #include "core/pixel.h"
 #include "shared/bsdf.h"
 #include "shared/distributed.h"
 
-/// The signed luminance of L - k E with plain means k and E. Packed, it is in `plain` already.
+/// The signed luminance of L - k E with plain means k and E. Lean frames have measured it.
 #include "pass/factoringError.h"
 #ifdef PASS_factoringError
 __kernel void factoringError(PARAMETERS)
@@ -18,8 +18,7 @@ __kernel void factoringError(PARAMETERS)
 #endif
 
 /// Narrows nothing and widens beta, metres, to what the lens has blurred already (5.18), (5.22); takes pixels out whose
-/// error is too large (beta = -1: they keep their own, and are nobody's neighbours). in   error; packed, the term's
-/// plain means, with which it lies
+/// error is too large (beta = -1: they keep their own, and are nobody's neighbours). in   error
 #include "pass/factoredWidths.h"
 #ifdef PASS_factoredWidths
 __kernel void factoredWidths(PARAMETERS)
@@ -31,38 +30,36 @@ __kernel void factoredWidths(PARAMETERS)
         for (int dx = -min((int)x, reach); dx <= min((int)(p.width - 1u - x), reach); ++dx) {
             const int j = (int)i + dy * (int)p.stride + dx;
             const bool same = objectId[j] == objectId[i];
-            sum += same ? loadNumber(error, p.planeSize, (uint)j, p.packed, 0u) : 0.0f;
+            sum += same ? LOAD_error(p.planeSize, (uint)j) : 0.0f;
             count += same ? 1.0f : 0.0f;
         }
     }
     const bool apart = p.never == 0u && fabs(sum) <= p.factoringError * count;
-    const float r = leastConfusion(p, confusion, i);
-    const float blurred =
-        r >= p.leastRadius ? p.irradianceWidth * r * loadNumber(pixelSize, p.planeSize, i, p.packed, 0u) : 0.0f;
+    const float r = leastConfusion(LOAD_confusion(p.planeSize, i));
+    const float blurred = r >= p.leastRadius ? p.irradianceWidth * r * LOAD_pixelSize(p.planeSize, i) : 0.0f;
     beta[i] = apart && beta[i] >= 0.0f ? fmax(beta[i], blurred) : -1.0f;
 }
 #endif
 
 /// A term's variance a primary sample, in two: what the texture makes, which every pixel has to average by itself, and
-/// the rest, which the irradiance's filter averages. out  ofTexture, ofIrradiance
+/// the rest, which the irradiance's filter averages. in   squares and textureSquares, means, or, of lean frames,
+/// spreads, standard deviations. out  ofTexture, ofIrradiance
 #include "pass/splitVariance.h"
 #ifdef PASS_splitVariance
 __kernel void splitVariance(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
-    const Vec3 k = loadTexture(p, texture, i);
-    const float mean = luminance(vecMul(k, loadValue(p, value, i))), t = luminance(k);
+    const Vec3 k = LOAD_texture(p.planeSize, i);
+    const float mean = luminance(vecMul(k, LOAD_value(p.planeSize, i))), t = luminance(k);
     const float n = (float)taken[i];
     const float unbiased = n > 1.0f ? n / (n - 1.0f) : 0.0f;
-    float all, spread;
-    if (p.packed != 0u) {
-        const float d = loadShort(squares, p.planeSize, i, 0u), dTexture = loadShort(squares, p.planeSize, i, 1u);
-        all = d * d * unbiased;
-        spread = dTexture * dTexture * unbiased;
-    } else {
-        all = fmax(squares[i] - mean * mean, 0.0f) * unbiased;
-        spread = fmax(textureSquares[i] - t * t, 0.0f) * unbiased;
-    }
+#if HAS_spreads
+    const float2 d = LOAD_spreads(p.planeSize, i);
+    const float all = d.x * d.x * unbiased, spread = d.y * d.y * unbiased;
+#else
+    const float all = fmax(squares[i] - mean * mean, 0.0f) * unbiased;
+    const float spread = fmax(textureSquares[i] - t * t, 0.0f) * unbiased;
+#endif
     const float irradiance = t > 0.0f ? mean / t : 0.0f;
     const float texturePart = fmin(spread * irradiance * irradiance, all);
     ofTexture[i] = texturePart;
@@ -98,7 +95,7 @@ __kernel void uncertaintyOfRays(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
     const float irradiance = beta[i] > 0.0f ? fmax(effective[i], 1.0f) : 1.0f;
-    const float gathered = gatheredBy(irradiance, lens[i], p.alongMotion != 0u ? along[i] : 0.0f);
+    const float gathered = gatheredBy(irradiance, lens[i], p.alongMotion != 0u ? LOAD_along(p.planeSize, i) : 0.0f);
     uncertainty[i] = variance[i] / (gathered * p.rays);
 }
 #endif
@@ -124,13 +121,13 @@ __kernel void atLeast(PARAMETERS)
 }
 #endif
 
-/// A term's value out of its packed planes.
+/// A term's value in three planes.
 #include "pass/unpackImage.h"
 #ifdef PASS_unpackImage
 __kernel void unpackImage(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
-    storeVec(out, p.planeSize, i, loadValue(p, in, i));
+    STORE_out(p.planeSize, i, LOAD_in(p.planeSize, i));
 }
 #endif
 
@@ -168,50 +165,50 @@ __kernel void limitStep(PARAMETERS)
 }
 #endif
 
-/// The filter along a motion (mx, my) of n samples; one: all that the pixel shows has it. Returns the standard
-/// deviation, pixels. out  directions: 2 planes, a unit vector; packed, one plane of two numbers, times the standard
-/// deviation
-WEDGE_FN float storeBlur(
-    DistributedParams p, uint i, bool one, float mx, float my, float length, float n, __global float* directions)
+/// The filter along a motion of n samples, where all that a pixel shows has it (one): a unit vector, and the standard
+/// deviation along it, pixels.
+typedef struct {
+    float along, x, y;
+} Blur;
+
+WEDGE_FN Blur blurAlong(DistributedParams p, bool one, float2 motion, float length, float n)
 {
     const float h = 0.5f * length;
-    const float along = one ? p.shutterWidth * h * pow(n * h, -p.shutterExponent) : 0.0f;
-    const float x = one ? mx / length : 1.0f, y = one ? my / length : 0.0f;
-    if (p.packed != 0u) {
-        storePair(directions, p.planeSize, i, along * x, along * y);
-    } else {
-        directions[i] = x;
-        directions[p.planeSize + i] = y;
-    }
-    return along;
+    Blur b;
+    b.along = one ? p.shutterWidth * h * pow(n * h, -p.shutterExponent) : 0.0f;
+    b.x = one ? motion.x / length : 1.0f;
+    b.y = one ? motion.y / length : 0.0f;
+    return b;
 }
 
 /// Standard deviations in pixels of the image-space filters: of the blur that all of a pixel has, else 0.
-/// out  lens, along (the motion), directions of that (2 planes, unit; packed, see storeBlur); lens alone where all is
-/// still.
+/// in   motion, motionSpread: as accumulateSurfaces keeps them
+/// out  lens; where something moves, along (the motion), directions of that (unit vectors), or, of lean frames, both in
+///      one: vectors, whose length is the standard deviation
 #include "pass/blurs.h"
 #ifdef PASS_blurs
 __kernel void blurs(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
     const float n = p.frames * (p.samples > 0.0f ? p.samples : fmax((float)taken[i], 1.0f));
-    const float r = leastConfusion(p, confusion, i);
+    const float r = leastConfusion(LOAD_confusion(p.planeSize, i));
     lens[i] = r >= p.leastRadius ? p.blurWidth * r * pow(n * r * r, -p.blurExponent) : 0.0f;
-    if (p.still != 0u) {
-        return;
-    }
-    const bool packed = p.packed != 0u;
-    const float mx = loadNumber(motion, p.planeSize, i, p.packed, 0u);
-    const float my = packed ? loadShort(motion, p.planeSize, i, 1u) : motion[p.planeSize + i];
-    const float length = sqrt(mx * mx + my * my);
-    const bool alike = packed ? length < INFINITY : motion[2u * p.planeSize + i] <= p.oneVelocity * length;
-    along[i] = storeBlur(p, i, alike && length >= p.leastRadius, mx, my, length, n, directions);
+#if HAS_motion
+    const float2 m = LOAD_motion(p.planeSize, i);
+    const float length = sqrt(m.x * m.x + m.y * m.y);
+    const bool alike =
+        HAS_motionSpread ? LOAD_motionSpread(p.planeSize, i) <= p.oneVelocity * length : length < INFINITY;
+    const Blur b = blurAlong(p, alike && length >= p.leastRadius, m, length, n);
+    STORE_along(p.planeSize, i, b.along);
+    STORE_directions(p.planeSize, i, (float2)(b.x, b.y));
+    STORE_vectors(p.planeSize, i, (float2)(b.along * b.x, b.along * b.y));
+#endif
 }
 #endif
 
 /// Standard deviations in pixels of the filter of a light's irradiance along its shadows' motion (B.2): where all that
-/// move move alike, else 0. in   shadows: slopes and sums of motions (shadow_motions.h), or packed motions;
-/// taken: the light's samples out  along, directions as blurs() has them
+/// move move alike, else 0. in   shadowSums: sums of motions (shadow_motions.h), or, of lean frames, shadowMotion:
+/// their mean; taken: the light's samples out  along, directions, vectors as blurs() has them
 #include "pass/shadowBlurs.h"
 #ifdef PASS_shadowBlurs
 __kernel void shadowBlurs(PARAMETERS)
@@ -219,23 +216,20 @@ __kernel void shadowBlurs(PARAMETERS)
     WEDGE_PIXEL(p, x, y, i);
     const uint n = p.planeSize;
     const float samples = p.frames * (p.samples > 0.0f ? p.samples : fmax((float)taken[i], 1.0f));
-    float mx, my, length;
-    bool alike;
-    if (p.packed != 0u) {
-        mx = loadShort(shadows, n, i, 0u);
-        my = loadShort(shadows, n, i, 1u);
-        length = sqrt(mx * mx + my * my);
-        alike = length < INFINITY;
-    } else {
-        const float count = fmax(shadows[5u * n + i], 1.0f);
-        mx = shadows[2u * n + i] / count;
-        my = shadows[3u * n + i] / count;
-        const float squared = mx * mx + my * my;
-        length = sqrt(squared);
-        alike = sqrt(fmax(shadows[4u * n + i] / count - squared, 0.0f)) <= p.oneVelocity * length;
-    }
-    along[i] =
-        storeBlur(p, i, alike && length >= p.leastRadius && beta[i] >= 0.0f, mx, my, length, samples, directions);
+#if HAS_shadowMotion
+    const float2 m = LOAD_shadowMotion(n, i);
+    const float length = sqrt(m.x * m.x + m.y * m.y);
+    const bool alike = length < INFINITY;
+#else
+    const float count = fmax(shadowSums[3u * n + i], 1.0f);
+    const float2 m = (float2)(shadowSums[i] / count, shadowSums[n + i] / count);
+    const float squared = m.x * m.x + m.y * m.y, length = sqrt(squared);
+    const bool alike = sqrt(fmax(shadowSums[2u * n + i] / count - squared, 0.0f)) <= p.oneVelocity * length;
+#endif
+    const Blur b = blurAlong(p, alike && length >= p.leastRadius && beta[i] >= 0.0f, m, length, samples);
+    STORE_along(n, i, b.along);
+    STORE_directions(n, i, (float2)(b.x, b.y));
+    STORE_vectors(n, i, (float2)(b.along * b.x, b.along * b.y));
 }
 #endif
 
@@ -246,14 +240,14 @@ __kernel void shadowBlurs(PARAMETERS)
 __kernel void visibilityOf(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
-    const Vec3 k = loadTexture(p, texture, i);
+    const Vec3 k = LOAD_texture(p.planeSize, i), v = LOAD_value(p.planeSize, i);
     const float t = luminance(k);
-    visibility[i] = p.published != 0u ? value[i] : t > 0.0f ? luminance(vecMul(k, loadValue(p, value, i))) / t : 0.0f;
+    visibility[i] = p.published != 0u ? v.x : t > 0.0f ? luminance(vecMul(k, v)) / t : 0.0f;
 }
 #endif
 
 /// fallbackDifferences() of fallback.cl for a term, of the luminance that is seen.
-/// in   filtered: p.values planes; deviation: of the value; variance: gathered as filtered was, where `gathered`; beta:
+/// in   filtered: p.values planes; deviation: of the value; variance: gathered as filtered was, where it is; beta:
 ///      pixels below 0 keep their own, and nothing is averaged of them
 #include "pass/termDifferences.h"
 #ifdef PASS_termDifferences
@@ -261,17 +255,17 @@ __kernel void termDifferences(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
     const uint n = p.planeSize;
-    const Vec3 k = loadTexture(p, texture, i);
+    const Vec3 k = LOAD_texture(n, i);
     const Vec3 f = p.values == 3u ? loadVec(filtered, n, i) : vec3(filtered[i], filtered[i], filtered[i]);
     const bool counts = beta[i] >= 0.0f;
     const float t = luminance(k);
-    const float d = luminance(vecMul(k, vecSub(loadValue(p, value, i), f)));
-    const float v = t * loadNumber(deviation, n, i, p.packed, 0u);
+    const float d = luminance(vecMul(k, vecSub(LOAD_value(n, i), f)));
+    const float v = t * LOAD_deviation(n, i);
     storeShort(differences, n, i, 0u, counts ? d : 0.0f);
     storeShort(differences, n, i, 1u, counts ? v * v : 0.0f);
     storeShort(differences, n, i, 2u, counts ? luminance(vecMul(k, f)) : 0.0f);
-    if (gathered != 0u) {
-        storeShort(differences, n, i, 3u, counts ? t * t * variance[i] : 0.0f);
+    if (HAS_variance) {
+        storeShort(differences, n, i, 3u, counts ? t * t * LOAD_variance(n, i) : 0.0f);
     }
 }
 #endif
@@ -283,30 +277,26 @@ __kernel void fallBackTerm(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
     const uint n = p.planeSize;
-    const float own = loadShort(shares, n, i, 0u), ratio = loadShort(shares, n, i, 1u);
+    const float2 share = LOAD_shares(n, i);
+    const float own = share.x, ratio = share.y;
     // Where nothing is shared what is not filtered is not looked at.
     if (!(own > 0.0f) && ratio == 0.0f) {
         return;
     }
-    const Vec3 u = loadValue(p, value, i);
+    const Vec3 u = LOAD_value(n, i);
     if (p.values == 3u) {
         const Vec3 f = vecScale(loadVec(filtered, n, i), 1.0f + ratio);
         storeVec(filtered, n, i, own > 0.0f ? vecMad(f, vecSub(u, f), own) : f);
         return;
     }
-    const Vec3 k = loadTexture(p, texture, i);
+    const Vec3 k = LOAD_texture(n, i);
     const float f = filtered[i] * (1.0f + ratio);
     filtered[i] = own > 0.0f ? f + own * (luminance(vecMul(k, u)) / fmax(luminance(k), 1e-30f) - f) : f;
 }
 #endif
 
 /// A term's own radiance, k E; as published L, termRadiance.
-WEDGE_FN Vec3 ownRadiance(DistributedParams p, uint i, __global const float* texture, __global const float* value,
-    __global const float* termRadiance)
-{
-    return p.published != 0u ? loadVec(termRadiance, p.planeSize, i)
-                             : vecMul(loadTexture(p, texture, i), loadValue(p, value, i));
-}
+#define OWN_RADIANCE(n, i) (HAS_termRadiance ? LOAD_termRadiance(n, i) : vecMul(LOAD_texture(n, i), LOAD_value(n, i)))
 
 /// What a light's own radiance k V has of colour that its luminance times k has not: textures of several colours that
 /// see the light differently. It has no luminance, and is 0 where all that a pixel shows has one colour.
@@ -334,14 +324,14 @@ __kernel void addFilteredTerm(PARAMETERS)
     const Vec3 e = p.values == 3u ? loadVec(filtered, n, i) : vec3(filtered[i], filtered[i], filtered[i]);
     Vec3 term;
     if (beta[i] >= 0.0f) {
-        term = vecMul(p.plainTexture != 0u ? loadVec(filteredTexture, n, i) : loadTexture(p, filteredTexture, i), e);
+        term = vecMul(LOAD_filteredTexture(n, i), e);
         if (p.values == 1u && p.published == 0u) {
-            const Vec3 colour = ownColour(loadTexture(p, texture, i), loadValue(p, value, i));
+            const Vec3 colour = ownColour(LOAD_texture(n, i), LOAD_value(n, i));
             const float kept = fmin(keptOf(term.x, colour.x), fmin(keptOf(term.y, colour.y), keptOf(term.z, colour.z)));
             term = vecMad(term, colour, kept);
         }
     } else {
-        term = ownRadiance(p, i, texture, value, termRadiance);
+        term = OWN_RADIANCE(n, i);
     }
     storeVec(radiance, n, i, vecAdd(loadVec(radiance, n, i), term));
 }
@@ -353,7 +343,7 @@ __kernel void addFilteredTerm(PARAMETERS)
 __kernel void addTerm(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
-    const Vec3 term = ownRadiance(p, i, texture, value, termRadiance);
+    const Vec3 term = OWN_RADIANCE(p.planeSize, i);
     storeVec(radiance, p.planeSize, i, vecAdd(loadVec(radiance, p.planeSize, i), term));
 }
 #endif

@@ -1,7 +1,6 @@
 // The radiance that pixels receive from the lights that they see, where that is known without sampling: where nothing
 // is before a light, it is that of the light times the share of the pixel, and of the lens, that it covers. Primary
 // samples then add what they see besides (wave_primary.cl): the edge of a bright light has no noise.
-#include "core/packed_planes.h"
 #include "core/pixel.h"
 #include "light/seen_light.h"
 #include "shared/camera.h"
@@ -337,7 +336,7 @@ WEDGE_FN bool seesLights(SeeingPixel from, __global const TraversalNode* restric
 __kernel void seenLights(PARAMETERS)
 {
     WEDGE_PIXEL(frame, x, y, i);
-    storeColour(known, frame.planeSize, i, WEDGE_COLOUR_BITS, vec3(0.0f, 0.0f, 0.0f));
+    STORE_known(frame.planeSize, i, vec3(0.0f, 0.0f, 0.0f));
     SeeingPixel from;
     from.camera = camera;
     from.width = (float)frame.width;
@@ -379,6 +378,6 @@ __kernel void seenLights(PARAMETERS)
             radiance = vecMad(radiance, light.radiance, shareOfLight(from, light, share, near.area[k]));
         }
     }
-    storeColour(known, frame.planeSize, i, WEDGE_COLOUR_BITS, radiance);
+    STORE_known(frame.planeSize, i, radiance);
 }
 #endif

@@ -1,14 +1,13 @@
 // The primary pass of a wave: each receiver's ray through its pixel, the lens and the shutter, and what it hits.
 //
 // in   frame, camera, wave, BVH, surfaces, area lights (the camera sees those that are visible); pixelOf, sampleOf,
-//      wanted: primary samples of each pixel; known, if hasKnown: what pixels see of lights (seen_lights.cl)
+//      wanted: primary samples of each pixel; known: what pixels see of lights (seen_lights.cl)
 // out  planes of the wave: position, normal, origin (3 each; normals as primary.cl has them), geometric (normal,
 // packed), objectId (0: nothing to shade),
 //      gloss (packed), view (packed direction back along the ray), time, diffuse, specular, emission
 //      (3 each; emission holds background and light radiance where nothing is shaded), pixelSize (metres), depth
 //      (along the view axis; +inf on a miss), motion (2 planes: pixels that the point moves in the image from shutter
 //      open to close), rays and pathRays (0: for the effects to count in)
-#include "core/packed_planes.h"
 #include "core/receivers.h"
 #include "light/environment_map.h"
 #include "light/seen_light.h"
@@ -143,8 +142,7 @@ __kernel void wavePrimary(PARAMETERS)
     uint lit = 0u, metCount[WEDGE_PACKET_SIZE];
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const uint pixel = pixelIndex(samples.x[lane], samples.y[lane], frame.stride);
-        const Vec3 k =
-            hasKnown != 0u ? loadColour(known, frame.planeSize, pixel, WEDGE_COLOUR_BITS) : vec3(0.0f, 0.0f, 0.0f);
+        const Vec3 k = LOAD_known(frame.planeSize, pixel);
         setLaneVec(&light, lane, k);
         setLaneVec(&met, lane, k);
         lit |= luminance(k) > 0.0f ? 1u : 0u;
@@ -206,7 +204,7 @@ __kernel void wavePrimary(PARAMETERS)
     storeVecLanes(position + first, size, &at.position, count);
     storeVecLanes(normal + first, size, &at.normal, count);
 #ifdef WEDGE_NORMAL_MAPS
-    storeVecLanes(normal + unmappedNormals(size, 0u) + first, size, &at.unmapped, count);
+    storeVecLanes(normal + 3u * size + first, size, &at.unmapped, count);
 #endif
     storeVecLanes(origin + first, size, &at.origin, count);
     storeVecLanes(diffuse + first, size, &at.diffuse, count);

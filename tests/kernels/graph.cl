@@ -4,13 +4,25 @@ typedef struct {
     uint width;
 } Rectangle;
 
+// A format of the tests' own: 11 bits of precision.
+static inline float load_half1(__global const half* plane, size_t size, size_t at)
+{
+    (void)size;
+    return vload_half(at, plane);
+}
+static inline void store_half1(__global half* plane, size_t size, size_t at, float value)
+{
+    (void)size;
+    vstore_half(value, at, plane);
+}
+
 #include "pass/numbered.h"
 #ifdef PASS_numbered
 __kernel void numbered(PARAMETERS)
 {
     const uint x = p.x0 + (uint)get_global_id(0), y = p.y0 + (uint)get_global_id(1);
     if (x < p.x1 && y < p.y1) {
-        STORE_out(size, y * p.width + x, (float3)((float)x, (float)y, scale));
+        STORE_out(size, y * p.width + x, vec3((float)x, (float)y, scale));
     }
 }
 #endif
@@ -24,12 +36,12 @@ __kernel void smoothed(PARAMETERS)
     if (x >= p.x1 || y >= p.y1) {
         return;
     }
-    float3 sum = (float3)(0.0f);
+    Vec3 sum = vec3(0.0f, 0.0f, 0.0f);
     const uint from = x < reach ? 0u : x - reach, to = min(x + reach, p.width - 1u);
     for (uint i = from; i <= to; ++i) {
-        sum += LOAD_in(size, y * p.width + i);
+        sum = vecAdd(sum, LOAD_in(size, y * p.width + i));
     }
-    STORE_out(size, y * p.width + x, sum / (float)(to - from + 1u));
+    STORE_out(size, y * p.width + x, vecScale(sum, 1.0f / (float)(to - from + 1u)));
 }
 #endif
 

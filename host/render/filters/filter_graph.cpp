@@ -24,25 +24,21 @@ std::vector<graph::Argument> neighbours(const Surfaces& s, graph::Reach reach)
 }
 
 /// And what a gather asks of them.
-std::vector<graph::Argument> gathered(const FrameBuilder& frame, const shared::FilterParams& params, graph::Reach reach)
+std::vector<graph::Argument> gathered(const FrameBuilder& frame, graph::Reach reach)
 {
     const Surfaces& s = frame.surfaces;
     return { reads("position", s.position, reach), reads("normal", s.normal, reach),
-        params.surface != 0 ? reads("pixelSize", s.pixelSize, reach)
-                            : frame.nothing("pixelSize", frame.packed ? shortFloats : graph::floats),
-        reads("objectId", s.objectId, reach) };
+        reads("pixelSize", s.pixelSize, reach), reads("objectId", s.objectId, reach) };
 }
 
 /// What the passes of kernels/filter/filter.cl are compiled with; more: besides.
 device::Defines gatherDefines(const FrameBuilder& frame, std::uint32_t channels, device::Defines more = {})
 {
     more.emplace_back("WEDGE_GATHER_CHANNELS", std::to_string(channels));
-    const device::Defines packing = frame.packing();
-    more.insert(more.end(), packing.begin(), packing.end());
-    if (frame.packed && channels == 3) {
+    if (frame.lean && channels == 3) {
         more.emplace_back("WEDGE_GATHER_VALUE_ONLY", ""); // of indirect light nobody reads the effective counts
     }
-    return more;
+    return frame.surfaceFormats(std::move(more));
 }
 
 /// Both passes, into planes that are there. apart: pairs have the mean of both squared bandwidths.
@@ -57,10 +53,10 @@ void filterAlong(FrameBuilder& frame, const FilterRun& run, std::uint32_t channe
         frame, channels, apart ? device::Defines { { "WEDGE_GATHER_MEAN_SQUARE", "" } } : device::Defines {});
     frame.blocks(run.pass, run.kind, { "filter/filter.cl", "filterRows", {}, defines },
         joined({ frame.rectangle(params), reads("value", value, along), reads("beta", widths.x, along) },
-            gathered(frame, params, along), Arguments { writes("filtered", rows), writes("effective", rowCounts) }));
+            gathered(frame, along), Arguments { writes("filtered", rows), writes("effective", rowCounts) }));
     frame.blocks(run.pass, run.kind, { "filter/filter.cl", "filterColumns", {}, defines },
         joined({ frame.rectangle(params), reads("value", rows, across), reads("beta", widths.y, across) },
-            gathered(frame, params, across),
+            gathered(frame, across),
             Arguments { reads("effectiveRows", rowCounts), writes("filtered", out.value),
                 writes("effective", out.effective) }));
 }
@@ -111,12 +107,12 @@ void shearedFilter(FrameBuilder& frame, const FilterRun& run, std::uint32_t chan
     }
     frame.blocks(run.pass, run.kind, { "filter/filter.cl", "shearRows", {}, defines },
         joined({ frame.rectangle(params), reads("value", value, along), reads("beta", beta, along) },
-            gathered(frame, params, along),
+            gathered(frame, along),
             Arguments { reads("gradients", shearing.gradients, along), reads("slopeWidth", shearing.slopeWidth),
                 writes("filtered", rows), writes("effective", rowCounts), writes("gradientsOfRows", rowGradients) }));
     frame.blocks(run.pass, run.kind, { "filter/filter.cl", "shearColumns", {}, defines },
         joined({ frame.rectangle(params), reads("value", rows, across), reads("beta", beta, across) },
-            gathered(frame, params, across),
+            gathered(frame, across),
             Arguments { reads("gradients", rowGradients, across), reads("slopeWidth", shearing.slopeWidth),
                 reads("effectiveRows", rowCounts), writes("filtered", out.value),
                 writes("effective", out.effective) }));
@@ -128,8 +124,8 @@ graph::Handle<Count> gatheredCounts(FrameBuilder& frame, std::string_view pass, 
     const int pixels = static_cast<int>(params.maxRadius);
     const graph::Reach across { .x = pixels, .y = pixels };
     auto effective = frame.graph.plane<Count>("effective count", graph::floats);
-    frame.blocks(pass, kind, { "filter/filter_counts.cl", "gatherCounts", {}, frame.packing() },
-        joined({ frame.rectangle(params), reads("beta", beta, across) }, gathered(frame, params, across),
+    frame.blocks(pass, kind, { "filter/filter_counts.cl", "gatherCounts", {}, frame.surfaceFormats() },
+        joined({ frame.rectangle(params), reads("beta", beta, across) }, gathered(frame, across),
             Arguments { writes("effective", effective) }));
     return effective;
 }
@@ -156,16 +152,16 @@ void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams para
     frame.blocks(pass, PassKind::Filter, { "analysis/widen.cl", "comparedWidths" },
         joined({ frame.rectangle(p), all, value("pixels", pixels), reads("deviation", compared.deviation, noisy) },
             neighbours(frame.surfaces, {}), Arguments { reads("beta", beta), writes("compared", wider) }));
-    frame.blocks(pass, PassKind::Filter, { "filter/compare_widths.cl", "compareRows", {}, frame.packing() },
+    frame.blocks(pass, PassKind::Filter, { "filter/compare_widths.cl", "compareRows", {}, frame.surfaceFormats() },
         joined({ frame.rectangle(params), reads("value", compared.value, along), reads("beta", beta, along),
                    reads("compared", wider, along) },
-            gathered(frame, params, along),
+            gathered(frame, along),
             Arguments { writes("narrowRows", narrowRows), writes("wideRows", wideRows),
                 writes("narrowCounts", difference), writes("wideCounts", apart) }));
-    frame.blocks(pass, PassKind::Filter, { "filter/compare_widths.cl", "compareColumns", {}, frame.packing() },
+    frame.blocks(pass, PassKind::Filter, { "filter/compare_widths.cl", "compareColumns", {}, frame.surfaceFormats() },
         joined({ frame.rectangle(params), reads("narrowRows", narrowRows, across), reads("wideRows", wideRows, across),
                    reads("beta", beta, across), reads("compared", wider, across) },
-            gathered(frame, params, across), Arguments { updates("difference", difference), updates("apart", apart) }));
+            gathered(frame, across), Arguments { updates("difference", difference), updates("apart", apart) }));
     frame.blocks(pass, PassKind::Filter, { "analysis/widen.cl", "widenSquares" },
         { frame.rectangle(p), reads("difference", difference), reads("apart", apart),
             reads("deviation", compared.deviation), reads("weights", compared.weights), writes("squares", squares),
@@ -186,9 +182,7 @@ void demandOf(FrameBuilder& frame, const shared::AnalysisParams& params, const g
     frame.blocks("counts", PassKind::Analysis, { "analysis/demand.cl", "demandOf" },
         { frame.rectangle(params), value("oneObject", demanding.oneObject ? 1u : 0u),
             value("ownToo", demanding.ownToo ? 1u : 0u), reads("uncertainty", uncertainty, near),
-            demanding.oneObject ? reads("objectId", frame.surfaces.objectId, near)
-                                : frame.nothing("objectId", graph::counts),
-            writes("demand", demand) });
+            reads("objectId", frame.surfaces.objectId, near), writes("demand", demand) });
 }
 
 void countsFromDemand(FrameBuilder& frame, const shared::AnalysisParams& params, float mean,

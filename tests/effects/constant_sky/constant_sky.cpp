@@ -43,10 +43,10 @@ void ofPixels(FrameBuilder& f, graph::Handle<Radiance>* own)
     f.trace("sky", kernel,
         render::joined({ f.frame(), sampling(f), value("samples", static_cast<std::uint32_t>(f.settings.spp)) },
             f.hierarchy(), f.receivers(),
-            render::Arguments { f.outside("sampleOf", "uint", nullptr), reads("diffuse", f.surfaces.diffuse),
+            render::Arguments { graph::absent("sampleOf", graph::counts), reads("diffuse", f.surfaces.diffuse),
                 reads("specular", f.surfaces.specular), updates("direct", t.direct.filtered),
-                updates("directNoisy", t.direct.noisy), value("keepsOwn", own != nullptr ? 1u : 0u),
-                own != nullptr ? updates("own", *own) : f.nowhere("own", graph::vectors), tallies("rays", rays) }),
+                updates("directNoisy", t.direct.noisy),
+                own != nullptr ? updates("own", *own) : graph::absent("own", graph::vectors), tallies("rays", rays) }),
         false, [spp = f.settings.spp](const graph::Launch&) { return static_cast<double>(spp); });
     f.count(rays, true, t.tallies.rays, &t.rays);
 }
@@ -62,7 +62,7 @@ void ofWaves(FrameBuilder& f, render::Waves& waves, graph::Handle<Radiance>& rad
             waves.receiverArguments(),
             render::Arguments { reads("sampleOf", r.sampleOf), reads("diffuse", r.diffuse),
                 reads("specular", r.specular), updates("direct", radiance), updates("directNoisy", noisy),
-                value("keepsOwn", 0u), f.nowhere("own", graph::vectors), waves.tallyRays() }),
+                graph::absent("own", graph::vectors), waves.tallyRays() }),
         false);
 }
 

@@ -2,7 +2,7 @@
 // surface reflects, combined by the power heuristic.
 //
 // in      frame, BVH, receivers; sampling: WEDGE_LIGHTS_*; samples of each technique a receiver; sampleOf: of a wave
-// in out  direct, directNoisy and, where keepsOwn, own (3 planes each, radiance), rays
+// in out  direct, directNoisy and, where it is kept, own (3 planes each, radiance), rays
 #include "light/light_packet.h"
 #include "light/scene_light.h"
 #include "trace/environment.h"
@@ -93,7 +93,7 @@ __kernel void skyLight(PARAMETERS)
             Vec3 l = vec3(0.0f, 0.0f, 1.0f);
             arrives[lane] = vec3(0.0f, 0.0f, 0.0f);
             if (i != WEDGE_NO_PIXEL) {
-                const uint index = step / 2u + (frame.receivers > 0u ? sampleOf[i] : 0u);
+                const uint index = step / 2u + LOAD_sampleOf(size, i);
                 const uint seed = hashCombine(receivers.seed[lane], reflected ? 1u : 0u);
                 const Vec2 u = sobolOwen(index, seed);
                 const float choice = sobolOwen(index, hashCombine(seed, 2u)).x;
@@ -120,9 +120,9 @@ __kernel void skyLight(PARAMETERS)
         const Vec3 radiance = vecScale(sum[lane], 1.0f / (float)samples);
         addTo(direct, size, i, radiance);
         addTo(directNoisy, size, i, radiance);
-        if (keepsOwn != 0u) {
-            addTo(own, size, i, radiance);
-        }
+#if HAS_own
+        addTo(own, size, i, radiance);
+#endif
         rays[i] += traced[lane];
     }
 }

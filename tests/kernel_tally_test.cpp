@@ -1,0 +1,100 @@
+// frame/tally.cl and addMirrored: what is added to a frame's sums.
+#include "tests/glass_support.h"
+#include "tests/pass_bench.h"
+
+#include <cmath>
+#include <numeric>
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+constexpr int width = 53, height = 33;
+
+scene::Scene mirrored()
+{
+    SceneBuilder b;
+    b.quad({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, addMaterial(b, mirror(glm::vec3(0.9f))));
+    b.camera({ 0, 0, 3 }, { 0, 0, 0 });
+    return b.scene;
+}
+
+} // namespace
+
+TEST_CASE("addToTally: a rectangle's counts, past 32 bits, added to what was there")
+{
+    onEveryDevice([](const device::Device& device) {
+        // More rows than there are sums, so that each adds several.
+        render::Settings settings = sized(render::axisAligned(16), 3, 2 * WEDGE_TALLY_STRIPES + 77);
+        DeclaredFrame frame(device, smallScene(), settings);
+        PassBench bench(frame, "addToTally");
+        std::mt19937 random(1);
+        bench.plane("counts", someCounts(random, frame.layout.size, 0xffffffffu));
+        const auto counts = bench.pixels<std::uint32_t>("counts");
+        const std::vector<std::uint64_t> before(bench.elements("tally"), 1000);
+        auto p = bench.own<shared::AnalysisParams>("p");
+        REQUIRE(p.x1 == frame.layout.width);
+        REQUIRE(p.y1 == frame.layout.height);
+        for (const Window window : { frame.graph().image(), Window { 1, 9, 2, 2000 }, Window { 0, 5, 3, 6 } }) {
+            render::setRectangle(p, window);
+            bench.value("p", p);
+            bench.plane("tally", before);
+            bench.run();
+            std::uint64_t expected = 1000 * before.size();
+            for (int y = window.y0; y < window.y1; ++y)
+                for (int x = window.x0; x < window.x1; ++x)
+                    expected += counts.at(x, y);
+            const auto tally = bench.read<std::uint64_t>("tally");
+            CHECK(std::accumulate(tally.begin(), tally.end(), std::uint64_t { 0 }) == expected);
+        }
+    });
+}
+
+TEST_CASE("addCounts: pixel by pixel")
+{
+    onEveryDevice([](const device::Device& device) {
+        DeclaredFrame frame(device, mirrored(), sized(render::axisAligned(16), width, height));
+        PassBench bench(frame, "addCounts");
+        std::mt19937 random(2);
+        for (const char* name : { "counts", "before" })
+            bench.plane(name, someCounts(random, frame.layout.size, 1u << 31));
+        bench.run();
+        const auto counts = bench.pixels<std::uint32_t>("counts"), before = bench.pixels<std::uint32_t>("before");
+        const auto sum = bench.pixels<std::uint32_t>("sum");
+        everyPixel(frame.layout, [&](int x, int y) { REQUIRE(sum.at(x, y) == counts.at(x, y) + before.at(x, y)); });
+    });
+}
+
+TEST_CASE("addMirrored: means of samples to both images, nothing where there are none or beside the window")
+{
+    onEveryDevice([](const device::Device& device) {
+        DeclaredFrame frame(device, mirrored(), sized(render::monteCarlo(4), width, height));
+        PassBench bench(frame, "addMirrored");
+        std::mt19937 random(3);
+        bench.plane("taken", someCounts(random, frame.layout.size, 4));
+        for (const char* name : { "sums", "direct", "directNoisy" })
+            bench.plane(name, someNumbers(random, 3 * frame.layout.size));
+        const auto taken = bench.pixels<std::uint32_t>("taken");
+        const auto sums = bench.pixels<float>("sums");
+        const Window window { 8, 3, 45, 29 };
+        bench.window(window);
+        for (const char* name : { "direct", "directNoisy" }) {
+            CAPTURE(name);
+            const auto before = bench.pixels<float>(name);
+            PassBench once = bench;
+            once.run();
+            const auto after = once.pixels<float>(name);
+            unsigned added = 0;
+            everyPixel(frame.layout, [&](int x, int y) {
+                const std::uint32_t n = taken.at(x, y);
+                const bool inside = x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1;
+                const bool adds = inside && n > 0;
+                const glm::dvec3 mean = adds ? sums.vector(x, y) / static_cast<double>(n) : glm::dvec3(0);
+                REQUIRE(glm::length(after.vector(x, y) - before.vector(x, y) - mean) < (adds ? 1e-6 : 1e-30));
+                added += adds ? 1 : 0;
+            });
+            CHECK(added > 500);
+        }
+    });
+}
