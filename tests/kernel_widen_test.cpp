@@ -1,4 +1,4 @@
-// widen.cl alone: against the same in double.
+// widening.cl alone: against the same in double.
 #include "kernels/shared/path.h"
 #include "tests/pass_bench.h"
 

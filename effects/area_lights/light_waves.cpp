@@ -156,7 +156,7 @@ graph::Handle<Value> LightWaves::alongShadows(
             f_.lean ? graph::absent("along") : writes("along", along),
             f_.lean ? graph::absent("directions", shortPairs) : writes("directions", directions),
             f_.lean ? writes("vectors", directions) : graph::absent("vectors", shortPairs) });
-    f_.pixels(pass, PassKind::Filter, { "filter/blur.cl", "blurMotion" },
+    f_.pixels(pass, PassKind::Filter, { "waves/distributed.cl", "blurMotion" },
         joined({ p }, readsMotion(f_, along, directions),
             Arguments { graph::absent("texture", graph::vectors), reads("value", seen, far), writes("out", out) }));
     return out;

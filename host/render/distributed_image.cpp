@@ -151,7 +151,7 @@ void DistributedSamples::addFiltered(
     if (shape_.moves && f_.settings.distributed.blur) {
         const graph::Reach far = graph::around(WEDGE_MOTION_REACH);
         auto along = f_.graph.plane<Texture>("texture filtered along motion", graph::vectors);
-        f_.pixels("filter of motion", PassKind::Filter, { "filter/blur.cl", "blurMotion" },
+        f_.pixels("filter of motion", PassKind::Filter, { "waves/distributed.cl", "blurMotion" },
             joined({ f_.rectangle(p) }, readsMotion(f_, own.along, own.directions),
                 Arguments { reads("texture", term.means.texture, far), graph::absent("value"), writes("out", along) }));
         texture = along;

@@ -79,7 +79,7 @@ graph::Handle<Extremes> WaveTerm::leastExtreme() const
         return means.extremes;
     }
     auto extreme = f_.graph.plane<Extremes>("slopes or distances", graph::floats);
-    f_.pixels("widths", PassKind::Analysis, { "analysis/analysis.cl", "unpackNumber" },
+    f_.pixels("widths", PassKind::Analysis, { "waves/distributed.cl", "unpackNumber" },
         { f_.rectangle(f_.analysisParams()), reads("in", means.extreme), writes("out", extreme) });
     return extreme;
 }
@@ -87,7 +87,7 @@ graph::Handle<Extremes> WaveTerm::leastExtreme() const
 graph::Handle<Share> WaveTerm::weights(std::string_view pass, PassKind kind) const
 {
     auto weights = f_.graph.plane<Share>("luminance of texture", graph::floats);
-    f_.pixels(pass, kind, { "analysis/analysis.cl", "luminanceOf" },
+    f_.pixels(pass, kind, { "waves/distributed.cl", "luminanceOf" },
         { f_.rectangle(f_.analysisParams()), reads("image", means.texture), writes("out", weights) });
     return weights;
 }

@@ -51,8 +51,8 @@ struct SampleShape {
     bool lean() const { return analysed && !full; }
 };
 
-/// What blurMotion of blur.cl asks of filters along motions: standard deviations and unit vectors, or, of lean frames,
-/// both in one.
+/// What blurMotion of distributed.cl asks of filters along motions: standard deviations and unit vectors, or, of lean
+/// frames, both in one.
 std::vector<graph::Argument> readsMotion(
     const FrameBuilder& frame, const graph::Handle<Pixels>& along, const graph::Handle<Pixels>& directions);
 

@@ -117,27 +117,6 @@ __kernel void spreadColumns(PARAMETERS)
 }
 #endif
 
-/// The luminance of a texture: what widths() takes for the sums of a light's unshadowed samples, and what a pixel's
-/// irradiance is worth in the image.
-#include "pass/luminanceOf.h"
-#ifdef PASS_luminanceOf
-__kernel void luminanceOf(PARAMETERS)
-{
-    WEDGE_PIXEL(p, x, y, i);
-    out[i] = luminance(LOAD_image(p.planeSize, i));
-}
-#endif
-
-/// A number of fewer bits in 32.
-#include "pass/unpackNumber.h"
-#ifdef PASS_unpackNumber
-__kernel void unpackNumber(PARAMETERS)
-{
-    WEDGE_PIXEL(p, x, y, i);
-    out[i] = LOAD_in(p.planeSize, i);
-}
-#endif
-
 /// Widths of the default setting, metres: from the pixel's own smoothed slope, else from what spread to it, else 0
 /// (nothing near is in shadow). -1 where the pixel sees nothing of the light. fixedWidth replaces the analysis.
 #include "pass/widths.h"

@@ -3,8 +3,10 @@
 #include "core/distributed_pixel.h"
 #include "core/formats.h"
 #include "core/pixel.h"
+#include "filter/blur.h"
 #include "shared/bsdf.h"
 #include "shared/distributed.h"
+#include "shared/filter_params.h"
 
 /// The signed luminance of L - k E with plain means k and E. Lean frames have measured it.
 #include "pass/factoringError.h"
@@ -233,6 +235,27 @@ __kernel void shadowBlurs(PARAMETERS)
 }
 #endif
 
+/// The luminance of a texture: what widths() of analysis.cl takes for the sums of a light's unshadowed samples, and
+/// what a pixel's irradiance is worth in the image.
+#include "pass/luminanceOf.h"
+#ifdef PASS_luminanceOf
+__kernel void luminanceOf(PARAMETERS)
+{
+    WEDGE_PIXEL(p, x, y, i);
+    out[i] = luminance(LOAD_image(p.planeSize, i));
+}
+#endif
+
+/// A number of fewer bits in 32.
+#include "pass/unpackNumber.h"
+#ifdef PASS_unpackNumber
+__kernel void unpackNumber(PARAMETERS)
+{
+    WEDGE_PIXEL(p, x, y, i);
+    out[i] = LOAD_in(p.planeSize, i);
+}
+#endif
+
 /// A term's value in one plane: of a light, whose filter averages it, what is seen. As published it is in the first one
 /// already.
 #include "pass/visibilityOf.h"
@@ -292,6 +315,37 @@ __kernel void fallBackTerm(PARAMETERS)
     const Vec3 k = LOAD_texture(n, i);
     const float f = filtered[i] * (1.0f + ratio);
     filtered[i] = own > 0.0f ? f + own * (luminance(vecMul(k, u)) / fmax(luminance(k), 1e-30f) - f) : f;
+}
+#endif
+
+/// Along the motion: of a term its texture, or a value of one number. along, directions, or vectors: of blurs() or
+/// shadowBlurs()
+#include "pass/blurMotion.h"
+#ifdef PASS_blurMotion
+#define MOTION_BLUR(n, i)                                                                                              \
+    (HAS_vectors ? blurOfVector(LOAD_vectors(n, i)) : blurAlongUnit(LOAD_along(n, i), LOAD_directions(n, i)))
+#define BLURRED(n, i) (HAS_texture ? LOAD_texture(n, i) : vec3(LOAD_value(n, i), 0.0f, 0.0f))
+__kernel void blurMotion(PARAMETERS)
+{
+    WEDGE_PIXEL(p, x, y, i);
+    const uint n = p.planeSize;
+    const MotionBlur here = MOTION_BLUR(n, i);
+    const int reach = min((int)(WEDGE_BLUR_CUT * here.sigma), WEDGE_MOTION_REACH);
+    Vec3 sum = BLURRED(n, i);
+    float weights = 1.0f;
+    for (int k = -reach; k <= reach; ++k) {
+        const uint j = pixelAlong(p, x, y, i, here.x, here.y, k);
+        const float w = j != i ? motionWeight(here, MOTION_BLUR(n, j), k) : 0.0f;
+        if (w > 0.0f) {
+            weights += w;
+            sum = vecMad(sum, BLURRED(n, j), w);
+        }
+    }
+#if HAS_texture
+    storeVec(out, n, i, vec3(sum.x / weights, sum.y / weights, sum.z / weights));
+#else
+    out[i] = sum.x / weights;
+#endif
 }
 #endif
 
