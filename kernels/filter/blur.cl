@@ -1,6 +1,6 @@
 // The lens' filter, of the whole image: along rows, then along columns.
+#include "core/blur.h"
 #include "core/formats.h"
-#include "filter/blur.h"
 
 /// One direction of the lens' filter. element: 1 along x, the stride along y.
 WEDGE_FN void blurLine(DistributedParams p, uint i, int before, int after, int element, __global const float* lens,

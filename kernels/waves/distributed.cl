@@ -1,9 +1,9 @@
 // The analysis of distributed frames (thesis 5.7, 5.8): where texture and irradiance may be taken apart, how wide the
 // irradiance's filter is then, which samples are worth most, and what becomes of the filtered term.
+#include "core/blur.h"
 #include "core/distributed_pixel.h"
 #include "core/formats.h"
 #include "core/pixel.h"
-#include "filter/blur.h"
 #include "shared/bsdf.h"
 #include "shared/distributed.h"
 #include "shared/filter_params.h"
