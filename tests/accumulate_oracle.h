@@ -107,6 +107,7 @@ struct TermMeans {
                     sums[k - 2] += of(s.point)[k];
             }
     }
+    double luminance() const { return luminanceOf(texture * value); }
     double leastOrNone() const { return std::isinf(least) ? 0 : least; }
     /// The sum of inverse distances, or what has three tenths of its mean as near as the least.
     double nearness() const { return std::max(sums[0], std::isinf(least) ? 0.0 : 0.3 * taken / least); }
@@ -182,28 +183,32 @@ struct TermPixels {
         });
         wanted = a.waves.bench.buffer(after.values);
         // Lean frames know from elsewhere how many there are before a wave.
-        taken = a.lean ? a.waves.bench.buffer(before.values) : taken;
+        taken = a.once() ? a.waves.bench.buffer(before.values) : taken;
         ++round;
     }
-    std::uint32_t bitsOfTexture(const Accumulation& a) const { return textureBits(a.lean, light); }
-    std::uint32_t bitsOfValue(const Accumulation& a) const { return valueBits(a.lean, light); }
+    std::uint32_t bitsOfTexture(const Accumulation& a) const
+    {
+        return a.steps ? colourBits : textureBits(a.lean, light);
+    }
+    std::uint32_t bitsOfValue(const Accumulation& a) const { return a.steps ? colourBits : valueBits(a.lean, light); }
     /// What the kernels are handed of it.
     std::vector<Handed> planes(const Accumulation& a) const
     {
-        const bool sums = a.measures && !a.lean, once = a.measures && a.lean;
+        const bool sums = a.measures && !a.lean, spread = a.measures && a.lean, once = a.measures && a.once();
+        const bool both = sums || (a.measures && a.steps && !light), motions = sums || (a.measures && a.steps);
         std::vector<Handed> out = group("term",
             { plane("texture", texture, Accumulation::colour(bitsOfTexture(a))),
                 plane("value", value, Accumulation::colour(bitsOfValue(a))),
                 onlyIf(a.published != 0, vectors("radiance", radiance)), plane("deviation", deviation, a.number()),
-                onlyIf(sums, plane("plain", plain)), onlyIf(sums, plane("squares", squares)),
+                onlyIf(a.measures && !once, plane("plain", plain)), onlyIf(sums, plane("squares", squares)),
                 onlyIf(sums, plane("textureSquares", textureSquares)),
                 onlyIf(once, plane("error", error, render::shortFloats)),
-                onlyIf(once, plane("spreads", spreads, render::shortPairs)) });
-        const graph::Format ends = light ? graph::pairs : graph::vectors;
+                onlyIf(spread, plane("spreads", spreads, render::shortPairs)) });
+        const graph::Format ends = light ? graph::pairs : a.steps ? render::shortReflectors : graph::vectors;
         const std::vector<Handed> others { plane("wanted", wanted), plane("termTaken", taken),
-            onlyIf(sums, plane("extremes", extremes, ends)),
-            onlyIf(once, plane("extreme", extreme, render::shortFloats)),
-            onlyIf(sums && moves, plane("shadowSums", shadows, graph::floatPlanes(4))),
+            onlyIf(both, plane("extremes", extremes, ends)),
+            onlyIf(spread && !both, plane("extreme", extreme, render::shortFloats)),
+            onlyIf(motions && moves, plane("shadowSums", shadows, graph::floatPlanes(4))),
             onlyIf(once && moves, plane("shadowMotion", shadows, render::shortPairs)),
             onlyIf(!a.lean, plane("samples", samples)), onlyIf(!a.lean, plane("indirectSamples", ofPaths)) };
         out.insert(out.end(), others.begin(), others.end());
@@ -229,13 +234,17 @@ struct TermPixels {
             of(waves[i]);
             means[i].add(waves[i], a.published != 0);
         }
-        measured = round == 1 ? means : measured;
+        measured = round == 1 || a.steps ? means : measured;
         for (TermMeans& m : means) {
+            const double spread = m.squares - std::pow(m.luminance(), 2);
             m.texture = rounded(m.texture, bitsOfTexture(a));
             m.value = rounded(m.value, bitsOfValue(a));
             if (a.lean)
                 m.deviation =
                     static_cast<double>(shared::unpackShort(shared::packShort(static_cast<float>(m.deviation))));
+            // Squares go on from spreads, which are not below 0 where the weighted mean is more than the plain one.
+            if (a.steps)
+                m.squares = std::max(0.0, spread) + std::pow(m.luminance(), 2);
         }
     }
 
@@ -259,7 +268,7 @@ struct TermPixels {
             REQUIRE((nearTexture || glm::length(k.vector(x, y) - m.texture) <= 1.5 * unitOfTexture));
             for (std::size_t c = 0; c < 3; ++c)
                 REQUIRE(std::fabs(e.at(x, y, c) - m.value[static_cast<int>(c)])
-                    <= 1e-4 * m.value[static_cast<int>(c)] + 1e-6 + unitOfValue);
+                    <= 1e-4 * m.value[static_cast<int>(c)] + 1e-6 + (a.steps ? 3 : 1) * unitOfValue);
             REQUIRE(std::fabs(noise.at(x, y) - m.deviation)
                 <= 2e-4 * luminanceOf(m.value) + 1e-5 + (a.lean ? std::fabs(m.deviation) / 64 : 0));
             noisy += std::fabs(m.deviation) > 0.1 * luminanceOf(m.value) ? 1 : 0;
@@ -270,7 +279,7 @@ struct TermPixels {
         CHECK((!a.lean || apart < 0.1 * pixels));
         CHECK(noisy > 0);
         if (a.lean)
-            checkMeasuredOnce(a);
+            checkDifferences(a);
         else
             checkMeasured(a);
     }
@@ -298,13 +307,17 @@ struct TermPixels {
             REQUIRE(all.at(x, y) == after.at(x, y));
         });
     }
-    /// The error of taking the term apart, deviations, and the least slope or the sum of inverse distances, of the
-    /// first wave.
-    void checkMeasuredOnce(Accumulation& a) const
+    /// The error of taking the term apart, deviations, and the least slope or the sum of inverse distances: of the
+    /// first wave, or of all, where each wave's means are rounded before the next one goes on with them.
+    void checkDifferences(Accumulation& a) const
     {
-        const auto apart = numbersOf(a.read(error), 0), least = numbersOf(a.read(extreme), 0);
+        const bool distances = a.steps && !light;
+        const auto apart = numbersOf(a.read(error), 0), least = numbersOf(a.read(distances ? extremes : extreme), 0),
+                   inverse = numbersOf(a.read(extremes), 1);
+        const auto unweighted = a.read(plain);
+        const double off = a.steps ? 3e-3 : 1e-5, near = a.steps ? 0.03 : 0.01;
         const auto ofSample = numbersOf(a.read(spreads), 0), ofTexture = numbersOf(a.read(spreads), 1);
-        for (const Planes<float>* plane : { &apart, &least, &ofSample, &ofTexture })
+        for (const Planes<float>* plane : { &apart, &least, &inverse, &ofSample, &ofTexture })
             checkElsewhere(a, *plane);
         int errors[2] = {}, deviations = 0;
         a.waves.everyPixel([&](int x, int y) {
@@ -312,13 +325,17 @@ struct TermPixels {
             CAPTURE(y);
             const TermMeans& m = measured[after.index(x, y)];
             const double t = luminanceOf(m.texture), l = luminanceOf(m.texture * m.value), difference = l - t * m.plain;
-            REQUIRE(std::fabs(apart.at(x, y) - difference) <= unitOf(difference) + 1e-5 * (l + t * m.plain));
+            if (a.steps)
+                REQUIRE(nearTo(unweighted.at(x, y), m.plain, 1e-4));
+            else
+                REQUIRE(std::fabs(apart.at(x, y) - difference) <= unitOf(difference) + off * (l + t * m.plain));
             const double variances[] = { std::max(0.0, m.squares - l * l), std::max(0.0, m.textureSquares - t * t) };
             REQUIRE(
-                nearTo(std::pow(ofSample.at(x, y), 2), variances[0], 0.01 + 1e-5 * m.squares / (variances[0] + 1e-9)));
+                nearTo(std::pow(ofSample.at(x, y), 2), variances[0], near + off * m.squares / (variances[0] + 1e-9)));
             REQUIRE(nearTo(
-                std::pow(ofTexture.at(x, y), 2), variances[1], 0.01 + 1e-5 * m.textureSquares / (variances[1] + 1e-9)));
-            REQUIRE(nearTo(least.at(x, y), light ? m.leastOrNone() : m.nearness(), 1.0 / 256));
+                std::pow(ofTexture.at(x, y), 2), variances[1], near + off * m.textureSquares / (variances[1] + 1e-9)));
+            REQUIRE(nearTo(least.at(x, y), light || distances ? m.leastOrNone() : m.nearness(), 1.0 / 256));
+            REQUIRE((!distances || nearTo(inverse.at(x, y), m.sums[0], 1.0 / 64)));
             ++errors[difference > 0 ? 1 : 0];
             deviations += variances[0] > 0.01 && variances[1] > 0.01 ? 1 : 0;
         });

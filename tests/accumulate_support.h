@@ -125,10 +125,10 @@ public:
             points.push_back(seenPoint(kind, lists.x(r), lists.y(r), lists.samples[r]));
         objectId = receiverBuffer<std::uint32_t>(1, [](const SeenPoint& p, std::size_t) { return p.object; });
     }
-    /// In lean frames the first wave alone measures.
+    /// In frames of one image the first wave alone measures.
     void end()
     {
-        measures = measures && !lean;
+        measures = measures && !once();
         waves.everyPixel([&](int x, int y) { taken.at(x, y) = std::max(taken.at(x, y), wanted.at(x, y)); });
     }
 
@@ -232,7 +232,9 @@ public:
     Receivers kind;
 
     std::uint32_t published = 0; ///< as of WaveParams
-    bool lean = false; ///< as frames of one image have it; set it before there are planes
+    bool lean = false; ///< in fewer bits, as frames of one image have it; set it before there are planes
+    bool steps = false; ///< likewise, as frames that go on with it have it
+    bool once() const { return lean && !steps; }
     bool measures = true; ///< the wave to come
     bool moves = true; ///< there are planes of motions
     float oneVelocity = 0.1f;

@@ -24,7 +24,7 @@ TEST_CASE("memory of five kinds of frames, beside what it may be")
     CHECK(of("lens.mebibytes")["value"] < 144);
     CHECK(of("layers.mebibytes")["value"] < 400);
     CHECK(of("pinhole.mebibytes")["value"] < 165);
-    CHECK(of("progressive.mebibytes")["value"] < 620);
+    CHECK(of("progressive.mebibytes")["value"] < 420);
     CHECK(of("direct_4k.bytes_per_pixel")["value"] < 150);
     CHECK(of("pinhole.further_light_mebibytes")["value"] < 24);
     // The frame of one light is at what it has in use at once, that of two is not: it is the sum that counts.

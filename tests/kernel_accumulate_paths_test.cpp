@@ -13,7 +13,7 @@ namespace {
 /// How pixels keep a term.
 struct Kept {
     std::uint32_t published;
-    bool lean;
+    bool lean, steps;
 };
 
 constexpr double leastTexture = 1e-6; ///< as accumulate.cl has it
@@ -49,22 +49,25 @@ TermPixels accumulated(Accumulation& a, const Rounds& rounds, TermCount count, b
 
 } // namespace
 
-TEST_CASE(
-    "paths: the means over receivers, each with samples, few with some, or a wave without any; as published, lean")
+TEST_CASE("paths: the means over receivers, each with samples, few with some, or a wave without any; as published, "
+          "lean, in steps")
 {
     onEveryDevice([](const device::Device& device) {
         for (const bool glossy : { false, true })
-            for (const Kept& kept : { Kept { 0, false }, { 1, false }, { 0, true } })
+            for (const Kept& kept :
+                { Kept { 0, false, false }, { 1, false, false }, { 0, true, false }, { 0, true, true } })
                 for (const TermCount count : { more, oneEach, fewer, skipping })
                     for (const Rounds& rounds : { oneRound, threeRounds }) {
                         CAPTURE(glossy);
                         CAPTURE(kept.published);
                         CAPTURE(kept.lean);
+                        CAPTURE(kept.steps);
                         CAPTURE(rounds.size());
                         CAPTURE(nameOf(count));
                         Accumulation a(device, width, height, window, Receivers::All);
                         a.published = kept.published;
                         a.lean = kept.lean;
+                        a.steps = kept.steps;
                         const auto arrives = [](const SeenPoint& p) { return p.irradiance; };
                         const TermPixels term = accumulated(
                             a, rounds, count, false,

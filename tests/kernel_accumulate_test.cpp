@@ -107,7 +107,9 @@ TermPixels accumulated(Accumulation& a, const Rounds& rounds, const LightCase& h
 
 } // namespace
 
-TEST_CASE("lights: the means over receivers, each with samples, few with some, or a wave without any; lean, too")
+TEST_CASE(
+    "lights: the means over receivers, each with samples, few with some, or a wave without any; lean and in steps, "
+    "too")
 {
     onEveryDevice([](const device::Device& device) {
         for (const bool exact : { false, true })
@@ -117,18 +119,19 @@ TEST_CASE("lights: the means over receivers, each with samples, few with some, o
                         // Without a second round it skips none.
                         if (rounds.size() == 1 && count == skipping)
                             continue;
-                        for (const bool lean : { false, true }) {
+                        for (const char* kept : { "all", "lean", "steps" }) {
                             CAPTURE(exact);
                             CAPTURE(specular);
                             CAPTURE(rounds.size());
                             CAPTURE(nameOf(count));
-                            CAPTURE(lean);
+                            CAPTURE(kept);
                             const bool motion = count == fewer;
                             Accumulation a(device, width, height, window, Receivers::All, definesOf(specular, motion));
-                            a.lean = lean;
+                            a.lean = kept != std::string_view("all");
+                            a.steps = kept == std::string_view("steps");
                             const TermPixels term = accumulated(a, rounds, { exact, specular, count }, motion);
                             term.check(a);
-                            if (lean && motion)
+                            if (a.once() && motion)
                                 term.checkShadows(a);
                         }
                     }

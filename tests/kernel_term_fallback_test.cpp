@@ -184,3 +184,23 @@ TEST_CASE("unpackNumber: a number of fewer bits as it is")
         everyPixel(frame.layout, [&](int x, int y) { REQUIRE(out.at(x, y) == in.at(x, y)); });
     });
 }
+
+TEST_CASE("unpackImage: of distances that steps of a frame keep, the least and the sum of inverse ones")
+{
+    onEveryDevice([](const device::Device& device) {
+        render::Settings steps = antialiased();
+        steps.progressive = true;
+        DeclaredFrame frame(device, smallScene(), steps);
+        PassBench bench(frame, "unpackImage", "widths");
+        std::mt19937 random(5);
+        const std::vector<float> distances = someNumbers(random, 3 * frame.layout.size, 0, 100);
+        bench.plane("in", distances);
+        bench.run();
+        const auto in = planesOf(frame.layout, distances), out = bench.pixels<float>("out");
+        everyPixel(frame.layout, [&](int x, int y) {
+            for (const std::size_t k : { 0, 2 }) {
+                REQUIRE(out.at(x, y, k) == doctest::Approx(in.at(x, y, k)).epsilon(1.0 / 256));
+            }
+        });
+    });
+}

@@ -128,6 +128,18 @@ inline std::optional<Coding<float>> codingOf(const graph::Format& format, float)
                 out[0] = out[size] = shared::unpackShort(storedAt<std::uint16_t>(plane, at));
             } };
     }
+    if (name == "reflectors32") { // the least and the sum, not the largest between
+        return Coding<float> { 3,
+            [](std::byte* plane, std::size_t size, std::size_t at, const float* v) {
+                storeAt(plane, at, static_cast<std::uint16_t>(shared::packShort(v[0])));
+                storeAt(plane, size + at, static_cast<std::uint16_t>(shared::packShort(v[2 * size])));
+            },
+            [](const std::byte* plane, std::size_t size, std::size_t at, float* out) {
+                out[0] = shared::unpackShort(storedAt<std::uint16_t>(plane, at));
+                out[size] = 0;
+                out[2 * size] = shared::unpackShort(storedAt<std::uint16_t>(plane, size + at));
+            } };
+    }
     if (name == "normal192") {
         return plain<float>(6);
     }

@@ -137,7 +137,8 @@ TEST_CASE("steps double their samples, up to the number asked for")
     CHECK(render::stepCounts(131) == std::vector<int> { 16, 32, 64, 128, 130 });
 }
 
-TEST_CASE("without layers a progressive render keeps less, and has the same image, error and counts")
+TEST_CASE("without layers a progressive render keeps less, and has the same image, error and counts, in fewer "
+          "bits nearly")
 {
     onEveryDevice([](const device::Device& device) {
         scene::Scene scene = lensScene();
@@ -156,15 +157,29 @@ TEST_CASE("without layers a progressive render keeps less, and has the same imag
                 REQUIRE(all.size() == 3);
                 for (std::size_t i = 0; i < less.size(); ++i) {
                     REQUIRE(less[i].image.size() == all[i].image.size());
-                    for (std::size_t k = 0; k < less[i].image.size(); ++k)
-                        REQUIRE(less[i].image[k] == doctest::Approx(all[i].image[k]).epsilon(1e-5));
+                    // What is filtered is kept in fewer bits: widths and counts change by roundings, and with them the
+                    // image, by a part of its noise.
+                    const bool rounds = settings.method == render::Method::AxisAligned;
+                    const double near = rounds ? 0.02 : 1e-4, error = all[i].step.error.rmse();
+                    double squares = 0;
+                    for (std::size_t k = 0; k < less[i].image.size(); ++k) {
+                        squares += std::pow(less[i].image[k] - all[i].image[k], 2);
+                        REQUIRE((rounds || less[i].image[k] == doctest::Approx(all[i].image[k]).epsilon(1e-5)));
+                    }
+                    CAPTURE(error);
+                    CHECK(std::sqrt(squares / static_cast<double>(less[i].image.size())) < 0.2 * error);
                     const render::FrameStatistics &a = less[i].step.statistics, &b = all[i].step.statistics;
-                    CHECK(less[i].step.error.rmse() == doctest::Approx(all[i].step.error.rmse()).epsilon(1e-4));
-                    CHECK(a.primaryRays == b.primaryRays);
-                    CHECK(a.shadowRays == b.shadowRays);
-                    CHECK(a.indirectRays == b.indirectRays);
-                    CHECK(a.directSpp == b.directSpp);
-                    CHECK(a.indirectSpp == b.indirectSpp);
+                    CHECK(less[i].step.error.rmse() == doctest::Approx(error).epsilon(near));
+                    const auto agrees = [rounds](auto one, auto other) {
+                        return rounds
+                            ? static_cast<double>(one) == doctest::Approx(static_cast<double>(other)).epsilon(0.01)
+                            : one == other;
+                    };
+                    CHECK(agrees(a.primaryRays, b.primaryRays));
+                    CHECK(agrees(a.shadowRays, b.shadowRays));
+                    CHECK(agrees(a.indirectRays, b.indirectRays));
+                    CHECK(agrees(a.directSpp, b.directSpp));
+                    CHECK(agrees(a.indirectSpp, b.indirectSpp));
                     CHECK(a.memoryBytes < b.memoryBytes);
                     CHECK(a.indirectSpp > 1);
                 }

@@ -87,7 +87,7 @@ void LightWaves::sample(
 void LightWaves::widths()
 {
     const bool spectrum = settings().sampling == Sampling::Adaptive && settings().counts == Counts::Spectrum;
-    const graph::Handle<Extremes> slopes = leastExtreme();
+    const graph::Handle<Extremes> slopes = wholeExtremes();
     const auto lit = [this]() -> graph::Version { return weights("widths", PassKind::Analysis); };
     if (spectrum || settings().slopes == Slopes::Published) {
         render::publishedWidths(f_, analysisParams(), slopes, lit, means.beta, means.wanted);

@@ -18,6 +18,7 @@ public:
         const graph::Handle<Pixels>& confusion) override;
     graph::Handle<Value> filtered(const shared::DistributedParams& params) override;
     graph::Format extremesFormat() const override { return graph::pairs; }
+    bool oneExtreme() const override { return shape_.compact; }
     bool shadowsMove() const override { return shape_.geometryMoves; }
 
 private:

@@ -64,9 +64,9 @@ void PathWaves::sample(
 void PathWaves::widths()
 {
     shared::ReflectorParams p = reflectorParams(f_, component_);
-    p.meanOnly = f_.lean ? 1 : 0;
+    p.meanOnly = oneExtreme() ? 1 : 0;
     p.widthScale = settings().indirect.widthScale;
-    reflectorWidths(f_, p, leastExtreme(), means.taken, means.beta);
+    reflectorWidths(f_, p, wholeExtremes(), means.taken, means.beta);
 }
 
 std::uint32_t PathWaves::publishedSamples() const
@@ -95,7 +95,7 @@ graph::Handle<Value> PathWaves::filtered(const shared::DistributedParams& params
         widen("filter of indirect", params, filter, wideningOf(component_, settings()));
     }
     graph::Handle<Value> plain = means.value;
-    if (f_.lean) {
+    if (shape_.compact) {
         plain = f_.graph.plane<Value>("value", graph::vectors);
         f_.pixels("filter of indirect", PassKind::Filter, { "waves/distributed.cl", "unpackImage" },
             { f_.rectangle(of(params)), reads("in", means.value), writes("out", plain) });

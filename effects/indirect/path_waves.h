@@ -17,7 +17,8 @@ public:
     void publishedWidths(const shared::DistributedParams& params, const graph::Handle<Share>& flags,
         const graph::Handle<Pixels>& confusion) override;
     graph::Handle<Value> filtered(const shared::DistributedParams& params) override;
-    graph::Format extremesFormat() const override { return graph::vectors; }
+    graph::Format extremesFormat() const override { return shape_.compact ? shortReflectors : graph::vectors; }
+    bool oneExtreme() const override { return shape_.lean(); }
 
 private:
     shared::PathParams pathParams() const;

@@ -79,9 +79,9 @@ void DistributedSamples::demandOfTerm(WaveTerm& term, const Blurs& blurs, graph:
     auto ofIrradiance = f_.graph.plane<Value>("variance of irradiance", graph::floats);
     f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "splitVariance" },
         { p, reads("texture", m.texture), reads("value", m.value),
-            f_.lean ? reads("spreads", m.spreads) : graph::absent("spreads", shortPairs),
-            f_.lean ? graph::absent("squares") : reads("squares", m.squares),
-            f_.lean ? graph::absent("textureSquares") : reads("textureSquares", m.textureSquares),
+            shape_.compact ? reads("spreads", m.spreads) : graph::absent("spreads", shortPairs),
+            shape_.compact ? graph::absent("squares") : reads("squares", m.squares),
+            shape_.compact ? graph::absent("textureSquares") : reads("textureSquares", m.textureSquares),
             reads("taken", counts_.taken), writes("ofTexture", ofTexture), writes("ofIrradiance", ofIrradiance) });
     f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "addPlane" },
         { p, reads("part", ofTexture), updates("sum", ofTextures) });

@@ -39,6 +39,7 @@ SampleShape sampleShape(const Settings& settings, const scene::Scene& scene, boo
         && settings.indirect.meanFraction > 0;
     shape.layers = keepLayers;
     shape.full = keepLayers || settings.progressive || (shape.analysed && !usual);
+    shape.compact = shape.analysed && usual && !keepLayers;
     shape.moves = somethingMoves(scene);
     shape.geometryMoves = scene::geometryMoves(scene);
     return shape;
@@ -97,15 +98,15 @@ void DistributedSamples::keepPixels()
 {
     Surfaces& s = f_.surfaces;
     s.position = kept<Position>("position", graph::vectors);
-    s.normal = kept<Normal>("normal", f_.normals(f_.lean));
+    s.normal = kept<Normal>("normal", f_.normals(shape_.compact));
     s.objectId = kept<ObjectId>("object id", graph::counts);
     s.emission = kept<Radiance>("emission", graph::vectors);
     counts_.taken = kept<Count>("primary samples taken", graph::counts);
-    hits_ = kept<Count>("hits", f_.lean ? shortCounts : graph::counts);
-    confusion_ = kept<Pixels>("circles of confusion", f_.lean ? shortRanges : graph::pairs);
+    hits_ = kept<Count>("hits", shape_.compact ? shortCounts : graph::counts);
+    confusion_ = kept<Pixels>("circles of confusion", shape_.compact ? shortRanges : graph::pairs);
     if (shape_.measures()) {
-        s.pixelSize = kept<Metres>("pixel size", f_.lean ? shortFloats : graph::floats);
-        s.gloss = kept<Gloss>("gloss", f_.lean ? shortGloss : wholeGloss);
+        s.pixelSize = kept<Metres>("pixel size", shape_.compact ? shortFloats : graph::floats);
+        s.gloss = kept<Gloss>("gloss", shape_.compact ? shortGloss : wholeGloss);
         emissionSquares_ = kept<Squares>("emission squares", graph::floats);
     }
     if (keepsMotion()) {
@@ -140,27 +141,34 @@ void DistributedSamples::keepPixels()
 void DistributedSamples::keepTerm(WaveTerm& term)
 {
     TermMeans& m = term.means;
-    const bool fraction = term.isFraction(), lean = shape_.lean();
-    m.texture = kept<Texture>("texture", !lean ? graph::vectors : fraction ? packedColours : packedFractions);
-    m.value = kept<Value>("value", !lean ? graph::vectors : fraction ? packedFractions : packedColours);
-    if (lean) {
+    // Means that samples are added to again and again have more bits than those that are made once.
+    const bool fraction = term.isFraction(), compact = shape_.compact;
+    const graph::Format fractions = shape_.full ? packedColours : packedFractions;
+    m.texture = kept<Texture>("texture", !compact ? graph::vectors : fraction ? packedColours : fractions);
+    m.value = kept<Value>("value", !compact ? graph::vectors : fraction ? fractions : packedColours);
+    if (shape_.lean()) {
         m.error = kept<Value>("error of taking apart", shortFloats);
-        m.extreme = kept<Extremes>("slope or distance", shortFloats);
-        m.spreads = kept<Deviation>("spreads", shortPairs);
-        if (term.shadowsMove()) {
-            m.shadowMotion = kept<Pixels>("motion of shadows", shortPairs);
-        }
     } else if (shape_.measures()) {
         m.plain = kept<Value>("plain mean", graph::floats);
+    }
+    if (compact) {
+        m.spreads = kept<Deviation>("spreads", shortPairs);
+    } else if (shape_.measures()) {
         m.squares = kept<Squares>("squares", graph::floats);
         m.textureSquares = kept<Squares>("texture squares", graph::floats);
+    }
+    if (compact && term.oneExtreme()) {
+        m.extreme = kept<Extremes>("slope or distance", shortFloats);
+    } else if (shape_.measures()) {
         m.extremes = kept<Extremes>("slopes or distances", term.extremesFormat());
-        if (term.shadowsMove()) {
-            m.shadowSums = kept<Pixels>("sums of shadows' motions", graph::floatPlanes(4));
-        }
+    }
+    if (term.shadowsMove() && shape_.lean()) {
+        m.shadowMotion = kept<Pixels>("motion of shadows", shortPairs);
+    } else if (term.shadowsMove() && shape_.measures()) {
+        m.shadowSums = kept<Pixels>("sums of shadows' motions", graph::floatPlanes(4));
     }
     if (shape_.analysed && !shape_.published) {
-        m.deviation = kept<Deviation>("deviation", lean ? shortFloats : graph::floats);
+        m.deviation = kept<Deviation>("deviation", compact ? shortFloats : graph::floats);
     }
     if (shape_.published) {
         m.radiance = kept<Radiance>("radiance of the term", graph::vectors);

@@ -56,6 +56,7 @@ inline constexpr graph::Format shortTriples = shortPlanes("short3", 3), shortQua
 constexpr graph::Format gradientsOf(std::uint32_t channels) { return channels == 2 ? shortQuadruples : shortPairs; }
 inline constexpr graph::Format shortCounts { .name = "ushort1", .bytes = 2, .storage = "ushort" };
 inline constexpr graph::Format shortRanges { .name = "range16", .bytes = 2, .storage = "float" };
+inline constexpr graph::Format shortReflectors { .name = "reflectors32", .bytes = 4, .storage = "float" };
 inline constexpr graph::Format wholeGloss { .name = "gloss32", .bytes = 4, .storage = "uint" };
 inline constexpr graph::Format shortGloss { .name = "gloss16", .bytes = 2, .storage = "ushort" };
 inline constexpr graph::Format tallySums { .name = "ulong1", .bytes = 8, .storage = "ulong", .whole = false };

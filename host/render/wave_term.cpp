@@ -73,15 +73,16 @@ graph::Version WaveTerm::wantedOf(const Adding& adding, const PrimaryCounts& cou
     return adding.first && shape_.lean() ? counts.taken : means.wanted;
 }
 
-graph::Handle<Extremes> WaveTerm::leastExtreme() const
+graph::Handle<Extremes> WaveTerm::wholeExtremes() const
 {
-    if (!shape_.lean()) {
+    if (!shape_.compact) {
         return means.extremes;
     }
-    auto extreme = f_.graph.plane<Extremes>("slopes or distances", graph::floats);
-    f_.pixels("widths", PassKind::Analysis, { "waves/distributed.cl", "unpackNumber" },
-        { f_.rectangle(f_.analysisParams()), reads("in", means.extreme), writes("out", extreme) });
-    return extreme;
+    const bool one = oneExtreme();
+    auto whole = f_.graph.plane<Extremes>("slopes or distances", one ? graph::floats : graph::vectors);
+    f_.pixels("widths", PassKind::Analysis, { "waves/distributed.cl", one ? "unpackNumber" : "unpackImage" },
+        { f_.rectangle(f_.analysisParams()), reads("in", one ? means.extreme : means.extremes), writes("out", whole) });
+    return whole;
 }
 
 graph::Handle<Share> WaveTerm::weights(std::string_view pass, PassKind kind) const

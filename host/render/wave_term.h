@@ -16,11 +16,11 @@ struct TermMeans {
     graph::Handle<Texture> texture;
     graph::Handle<Value> value;
     graph::Handle<Value> plain; ///< mean
+    graph::Handle<Value> error; ///< of lean frames, in its place
     graph::Handle<Squares> squares, textureSquares;
-    // What lean frames measure in place of these:
-    graph::Handle<Value> error;
-    graph::Handle<Deviation> spreads; ///< standard deviations of a sample's radiance and of its texture
-    graph::Handle<Extremes> extreme; ///< the one that widths are made of
+    /// Of compact frames, in their place: standard deviations of a sample's radiance and of its texture.
+    graph::Handle<Deviation> spreads;
+    graph::Handle<Extremes> extreme; ///< the one that widths are made of, where it says all
     // Of lights, where things move:
     graph::Handle<Pixels> shadowSums; ///< of shadows' motions
     graph::Handle<Pixels> shadowMotion; ///< of lean frames: their mean
@@ -40,15 +40,17 @@ struct SampleShape {
     bool analysed = false; ///< filters and counts of their own
     bool published = false; ///< as thesis chapter 5 has them
     bool layers = false; ///< what only they show, too, and direct and indirect light apart
-    /// All samples' sums in planes of floats, which layers show, steps of a progressive frame go on with, and other
-    /// than the default analysis asks for; else pixels keep what one image is made of, in fewer bits where it is
-    /// analysed.
+    /// Terms' counts, and sums of all samples, which layers show, steps of a progressive frame go on with, and other
+    /// than the default analysis asks for; else pixels keep what one image is made of.
     bool full = false;
+    /// In fewer bits: of analysed frames, where no layers are shown and no other than the default analysis asks for
+    /// more.
+    bool compact = false;
     bool moves = false; ///< something moves while the shutter is open
     bool geometryMoves = false;
 
     bool measures() const { return layers || analysed; } ///< what the analysis is made of, and layers of pixels' sizes
-    bool lean() const { return analysed && !full; }
+    bool lean() const { return compact && !full; }
 };
 
 /// What blurMotion of distributed.cl asks of filters along motions: standard deviations and unit vectors, or, of lean
@@ -98,9 +100,10 @@ public:
     Sum& sum() const { return sum_; }
     /// params with what the kernels ask for of the term.
     shared::DistributedParams of(shared::DistributedParams params) const;
-    /// What pixels keep of extremes where they are not lean; of lights and moving things their shadows' motions
-    /// besides.
+    /// What pixels keep of extremes, and whether the one that widths are made of is enough.
     virtual graph::Format extremesFormat() const = 0;
+    virtual bool oneExtreme() const = 0;
+    /// Whether they keep shadows' motions besides: of lights, where things move.
     virtual bool shadowsMove() const { return false; }
 
     const float rays;
@@ -129,8 +132,8 @@ protected:
     void fallBack(
         const shared::DistributedParams& params, const shared::FilterParams* filter, graph::Handle<Value>& filtered);
     graph::Handle<Value> visibility(std::string_view pass, const shared::DistributedParams& params) const;
-    /// The plane of extremes that widths are made of.
-    graph::Handle<Extremes> leastExtreme() const;
+    /// The extremes that widths are made of, in floats.
+    graph::Handle<Extremes> wholeExtremes() const;
     /// Luminance of the texture.
     graph::Handle<Share> weights(std::string_view pass, device::PassKind kind) const;
 

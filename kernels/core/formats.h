@@ -43,6 +43,10 @@ WEDGE_FORMAT(range16, float, float2, (float2)(0.0f), (float2)(loadShort(plane, s
         value.x > 0.0f       ? value.x
             : value.y < 0.0f ? value.y
                              : 0.0f))
+/// Distances: the least, the largest, which 32 bits have no room for, and the sum of inverse ones.
+WEDGE_FORMAT(reflectors32, float, Vec3, WEDGE_NO_VECTOR,
+    vec3(loadShort(plane, size, at, 0u), 0.0f, loadShort(plane, size, at, 1u)),
+    storePair(plane, size, at, value.x, value.z))
 
 /// Unit vectors, alone or with another behind: the normal without its map, which filters tell planes by
 /// (load_unmapped_X). Alone it is its own.

@@ -33,7 +33,8 @@ __kernel void accumulateLight(PARAMETERS)
     const uint before = HAS_termTaken ? LOAD_termTaken(pixels, p.i) : taken[p.i];
     const uint total = newTermSamples(wave, before, LOAD_wanted(pixels, p.i));
     const float2 known = LOAD_extremes(pixels, p.i);
-    float sMin = known.x > 0.0f ? known.x : INFINITY, sMax = known.y;
+    const float least = HAS_extreme ? LOAD_extreme(pixels, p.i) : known.x;
+    float sMin = least > 0.0f ? least : INFINITY, sMax = known.y;
     float weight = 0.0f, specularWeight = 0.0f;
     const bool weighed = total < p.count && wave.published == 0u
         && meanWeights(wave, p, total, objectId, diffuse, specular, sums, &weight, &specularWeight);
@@ -100,6 +101,9 @@ __kernel void accumulateLight(PARAMETERS)
     const float hit = (float)LOAD_hits(pixels, p.i);
     TermMeans means;
     LOAD_term(pixels, p.i, &means);
+#if HAS_term_spreads
+    recallSquares(&means);
+#endif
     const Vec3 weights = wave.published != 0u ? vec3(hit, hit, hit) : vecScale(means.texture, (float)before);
     addTermSums(&means, p, before, total, hit, weights, &sum);
     STORE_term(pixels, p.i, &means);
@@ -189,6 +193,9 @@ __kernel void accumulatePaths(PARAMETERS)
     const float counted = wave.published != 0u ? hit : p.before > 0u ? hit / (float)p.before * (float)had : 0.0f;
     TermMeans means;
     LOAD_term(pixels, p.i, &means);
+#if HAS_term_spreads
+    recallSquares(&means);
+#endif
     const Vec3 weights = vecMad(vecScale(floors, counted), means.texture, own * (float)had);
     addTermSums(&means, p, had, total, hit, weights, &sum);
     STORE_term(pixels, p.i, &means);

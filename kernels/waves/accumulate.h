@@ -7,10 +7,10 @@
 // be taken apart. As published (wave.published) E is the plain mean, that of lights holds the light's form factor
 // (5.14), k the lobe towards its centre (5.20), and the term's radiance L is kept apart.
 //
-// Lean frames keep of that what one image is made of. Their first wave alone measures: the factoring error
-// (distributed.cl), the standard deviations of a primary sample's radiance and of its texture, and the one of the
-// extremes that widths are made of, in place of sums. A mean motion is infinite there where the pixel's motions differ.
-// And their planes have fewer bits (core/formats.h).
+// Compact frames keep it in fewer bits (core/formats.h), and the standard deviations of a primary sample's radiance and
+// of its texture in place of mean squares, whose differences would be lost in these. Lean frames, those of one image,
+// keep nothing that only further steps would ask for: their first wave alone measures, they have the factoring error
+// (distributed.cl) in place of the plain mean, and a mean motion is infinite where the pixel's motions differ.
 #ifndef WEDGE_ACCUMULATE_H
 #define WEDGE_ACCUMULATE_H
 
@@ -120,7 +120,7 @@ typedef struct {
     float deviation;
     float plain, squares, textureSquares;
     float error; ///< of lean frames
-    float2 spreads; ///< standard deviations of the radiance and of the texture, of lean frames
+    float2 spreads; ///< standard deviations of the radiance and of the texture, of compact frames
 } TermMeans;
 
 WEDGE_FN float weightedMean(float mean, float known, float weighted, float weights)
@@ -128,16 +128,20 @@ WEDGE_FN float weightedMean(float mean, float known, float weighted, float weigh
     return known + weights > 0.0f ? (mean * known + weighted) / (known + weights) : 0.0f;
 }
 
-/// What the analysis is made of in lean frames, of a pixel's first wave, whose sums and means these are; have:
-/// receivers with samples.
-WEDGE_FN void measureTerm(TermMeans* m, float have, const TermSums* s)
+/// What compact frames keep of measures, and back.
+WEDGE_FN void recallSquares(TermMeans* m)
 {
     const float mean = luminance(vecMul(m->texture, m->value)), texture = luminance(m->texture);
-    const float squared = meanWith(0.0f, 0.0f, s->squared, have), plain = meanWith(0.0f, 0.0f, s->plain, s->counted);
-    const float textureSquared = meanWith(0.0f, 0.0f, s->textureSquared, s->textures);
-    m->error = mean - texture * plain;
+    m->squares = m->spreads.x * m->spreads.x + mean * mean;
+    m->textureSquares = m->spreads.y * m->spreads.y + texture * texture;
+}
+
+WEDGE_FN void compactMeasures(TermMeans* m)
+{
+    const float mean = luminance(vecMul(m->texture, m->value)), texture = luminance(m->texture);
+    m->error = mean - texture * m->plain;
     m->spreads =
-        (float2)(sqrt(fmax(squared - mean * mean, 0.0f)), sqrt(fmax(textureSquared - texture * texture, 0.0f)));
+        (float2)(sqrt(fmax(m->squares - mean * mean, 0.0f)), sqrt(fmax(m->textureSquares - texture * texture, 0.0f)));
 }
 
 /// A number whose square is, in the mean, the variance of a pixel's mean value, in luminance, as deviation16() of
@@ -170,11 +174,11 @@ WEDGE_FN void addTermSums(TermMeans* m, WavePixel p, uint taken, uint total, flo
         weightedMean(m->value.y, known.y, s->weighted.y, s->weights.y),
         weightedMean(m->value.z, known.z, s->weighted.z, s->weights.z));
     m->texture = meanVec(m->texture, before, s->texture, s->textures);
-    measureTerm(m, have, s);
     m->textureSquares = meanWith(m->textureSquares, before, s->textureSquared, s->textures);
     m->plain = meanWith(m->plain, p.before > 0u ? hits * had / before : 0.0f, s->plain, s->counted);
     m->squares = meanWith(m->squares, had, s->squared, have);
     m->radiance = meanVec(m->radiance, had, s->radiance, have);
+    compactMeasures(m);
 }
 
 /// Samples of a term that the wave takes for a pixel that has `before` and wants `wanted` of them.

@@ -14,8 +14,8 @@
 __kernel void factoringError(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
-    const Vec3 k = loadVec(texture, p.planeSize, i);
-    error[i] = luminance(vecMul(k, loadVec(value, p.planeSize, i))) - luminance(k) * plain[i];
+    const Vec3 k = LOAD_texture(p.planeSize, i);
+    error[i] = luminance(vecMul(k, LOAD_value(p.planeSize, i))) - luminance(k) * plain[i];
 }
 #endif
 
@@ -44,7 +44,7 @@ __kernel void factoredWidths(PARAMETERS)
 #endif
 
 /// A term's variance a primary sample, in two: what the texture makes, which every pixel has to average by itself, and
-/// the rest, which the irradiance's filter averages. in   squares and textureSquares, means, or, of lean frames,
+/// the rest, which the irradiance's filter averages. in   squares and textureSquares, means, or, of compact frames,
 /// spreads, standard deviations. out  ofTexture, ofIrradiance
 #include "pass/splitVariance.h"
 #ifdef PASS_splitVariance
