@@ -161,8 +161,8 @@ struct FrameBuilder {
     void precomputeDirections();
     /// What primary rays meet: all of that, and lights, if any are lit.
     std::vector<graph::Argument> met(bool lit) const;
-    /// Calls visit(name in kernels, plane, format, who reads it) for all planes that primary rays fill in: of pixels that
-    /// are the receivers, or of a wave's receivers. What pixels keep of those has formats of its own.
+    /// Calls visit(name in kernels, plane, format, who reads it) for all planes that primary rays fill in: of pixels
+    /// that are the receivers, or of a wave's receivers. What pixels keep of those has formats of its own.
     template <class Points, class Visit>
     void eachFound(Points& p, const Visit& visit) const
     {
@@ -264,5 +264,21 @@ std::vector<graph::Argument> joined(std::vector<graph::Argument> first, const Li
 }
 
 using Arguments = std::vector<graph::Argument>;
+
+/// Where points lie, and on which objects.
+inline Arguments places(const Surfaces& s, graph::Reach reach = {})
+{
+    return graph::together("places",
+        { graph::reads("position", s.position, reach), graph::reads("normal", s.normal, reach),
+            graph::reads("objectId", s.objectId, reach) });
+}
+
+/// Of a pass that takes samples how many are wanted, up to which the launch goes, and what counts them and their rays.
+inline Arguments sampleCounts(
+    const graph::Version& wanted, graph::Argument last, graph::Version& taken, const Arguments& rays)
+{
+    return graph::together(
+        "samples", joined({ graph::reads("wanted", wanted), std::move(last), graph::updates("taken", taken) }, rays));
+}
 
 } // namespace wedge::render

@@ -119,9 +119,10 @@ std::vector<graph::Argument> Waves::receiverArguments() const
         "receivers", joined(f_.readBy(ReadBy::Samplers, r_), Arguments { reads("pixelOf", r_.pixelOf) }));
 }
 
-std::vector<graph::Argument> Waves::pixelLists() const
+std::vector<graph::Argument> Waves::pixelLists(graph::Argument taken) const
 {
-    return { reads("pixelFirst", r_.pixelFirst), reads("pixelCount", r_.pixelCount) };
+    return graph::together("pixels of the wave",
+        { reads("pixelFirst", r_.pixelFirst), reads("pixelCount", r_.pixelCount), std::move(taken) });
 }
 
 void Waves::tiles(std::string name, graph::KernelName kernel, std::vector<graph::Argument> arguments, bool rays)

@@ -101,8 +101,8 @@ public:
     }
     /// By the names of WEDGE_RECEIVER_ARGUMENTS.
     std::vector<graph::Argument> receiverArguments() const;
-    /// pixelFirst, pixelCount
-    std::vector<graph::Argument> pixelLists() const;
+    /// Of wavePixel() of accumulate.h; taken: counts().taken, read or updated.
+    std::vector<graph::Argument> pixelLists(graph::Argument taken) const;
 
     /// A pass over tiles of receivers; rays: whether it has a share in the work.
     void tiles(std::string name, graph::KernelName kernel, std::vector<graph::Argument> arguments, bool rays = true);
