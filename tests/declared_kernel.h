@@ -73,6 +73,7 @@ inline void runDeclared(KernelBench& bench, graph::Graph& graph, graph::Pass pas
         planes[i] = graph.imported<render::Value>(each.argument.name, each.format, each.memory, elements);
         graph::Argument use = graph::updates(each.argument.name, planes[i]);
         use.group = each.argument.group;
+        use.member = each.argument.member;
         pass.arguments.push_back(use);
     }
     pass.always = true;

@@ -633,6 +633,23 @@ TEST_CASE("planes of a group are read and written together, those that there are
         != std::string::npos);
 }
 
+TEST_CASE("what belongs together keeps its own names, and is no structure of kernels")
+{
+    Graph graph(width, height, 1024);
+    auto colour = graph.plane<Radiance>("colour", vectors);
+    auto depth = graph.plane<Metres>("depth", floats);
+    add(graph, "trace", { writes("colour", colour), writes("depth", depth) });
+    const auto shade = [&](std::vector<Argument> arguments) {
+        add(graph, "shade", std::move(arguments));
+        return interfaceText(graph, graph.passes().back());
+    };
+    const std::vector<Argument> apart { reads("depth", depth), reads("colour", colour), absent("weight") };
+    const std::string text = shade(together("seen", apart));
+    CHECK(text == shade(apart));
+    CHECK(std::ranges::all_of(graph.passes()[1].arguments, [](const Argument& use) { return use.group == "seen"; }));
+    CHECK(std::ranges::all_of(graph.passes()[1].absent, [](const Argument& use) { return use.group == "seen"; }));
+}
+
 TEST_CASE("a plan explains itself, in words and as a drawing")
 {
     Graph graph(width, height, 1024);

@@ -1,9 +1,7 @@
 #include "tests/pass_bench.h"
 
-#include "host/render/distributed_frame.h"
-#include "host/render/pixel_frame.h"
-#include "host/render/progressive.h"
 #include "tests/plane_coding.h"
+#include "tests/product_programs.h"
 
 #include <fmt/format.h>
 
@@ -50,21 +48,6 @@ private:
     device::Buffer<std::byte> all_, plane_;
 };
 
-std::unique_ptr<render::FrameGraph> declare(const render::PreparedScene& scene, const render::DeviceScene& onDevice,
-    const render::Settings& settings, std::size_t packet, bool keepLayers, render::HalfMemories& memories)
-{
-    render::validate(settings, render::isDistributed(settings, scene));
-    if (settings.progressive) {
-        const render::StepRange step = render::firstStep(settings);
-        return std::make_unique<render::HalvesFrame>(
-            scene, &onDevice, settings, packet, keepLayers, memories, step.before, step.spp);
-    }
-    if (render::isDistributed(settings, scene)) {
-        return std::make_unique<render::DistributedFrame>(scene, &onDevice, settings, packet, keepLayers);
-    }
-    return std::make_unique<render::PixelFrame>(scene, &onDevice, settings, packet, keepLayers);
-}
-
 } // namespace
 
 DeclaredFrame::DeclaredFrame(
@@ -74,8 +57,7 @@ DeclaredFrame::DeclaredFrame(
     , hierarchy_(render::buildHierarchy(renderer.scene(), renderer.bvhMode(), renderer.traversal()))
     , deviceScene_(renderer.scene(), hierarchy_, renderer.device(), renderer.queue())
     , memories_ { render::SampleMemory(&renderer.device()), render::SampleMemory(&renderer.device()) }
-    , declared_(declare(
-          renderer.scene(), deviceScene_, settings, render::packetSize(renderer.traversal()), keepLayers, memories_))
+    , declared_(declareFrame(renderer, &deviceScene_, settings, keepLayers, memories_))
 {
 }
 

@@ -2,7 +2,9 @@
 
 #include "filters/temporal/temporal.h"
 #include "host/error.h"
-#include "host/render/renderer.h"
+#include "host/render/distributed_frame.h"
+#include "host/render/pixel_frame.h"
+#include "host/render/progressive.h"
 #include "host/scene/scene.h"
 #include "kernels/embedded_kernels.hpp"
 
@@ -63,27 +65,42 @@ bool allows(const render::PreparedScene& scene, const Settings& settings)
     }
 }
 
-/// False: no more.
-bool ofFrames(const render::Renderer& renderer, const std::function<bool(const ProductProgram&)>& visit)
+using OfFrame = std::function<bool(render::Renderer&, const Settings&, bool layers)>;
+
+/// Calls visit() for frames of many kinds of the scene; false: no more.
+bool ofFrames(render::Renderer& renderer, const OfFrame& visit)
 {
     for (Settings settings : manySettings()) {
         settings.width = settings.height = 16;
         if (!allows(renderer.scene(), settings)) {
             continue;
         }
-        for (const bool layers : { true, false }) {
-            for (const device::ProgramSource& source : renderer.programs(settings, layers)) {
-                if (!visit({ renderer.programOptions(), source })) {
-                    return false;
-                }
+        if (!visit(renderer, settings, true) || !visit(renderer, settings, false)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool everyFrame(const device::Device& device, const OfFrame& visit)
+{
+    for (const char* name : { "penumbra", "materials", "motion", "sky", "mirrors" }) {
+        const scene::Scene scene = scene::loadScene(fmt::format("{}/scenes/{}.toml", WEDGE_SOURCE_DATA, name));
+        for (const render::Traversal family : { render::Traversal::Wide, render::Traversal::Scalar }) {
+            render::Options options;
+            options.traversal = family;
+            render::Renderer renderer(scene, device, options);
+            if (!ofFrames(renderer, visit)) {
+                return false;
             }
         }
     }
     return true;
 }
 
-/// The same of two frames each with the filter over time, whose passes are declared when they are run.
-bool overTime(const device::Device& device, const std::function<bool(const ProductProgram&)>& visit)
+/// Calls visit() with filters over time of two frames each, and what the second left.
+void overTime(const device::Device& device,
+    const std::function<void(render::Renderer&, filters::TemporalFilter&, const Settings&)>& visit)
 {
     render::Renderer renderer(scene::loadScene(WEDGE_SOURCE_DATA "/scenes/penumbra.toml"), device);
     for (const render::Temporal temporal : { render::Temporal::On, render::Temporal::Published }) {
@@ -98,31 +115,59 @@ bool overTime(const device::Device& device, const std::function<bool(const Produ
                 render::FrameStatistics statistics = renderer.render(settings, {}, true);
                 filter.filter(renderer, settings, nullptr, statistics);
             }
+            visit(renderer, filter, settings);
         }
     }
-    for (const device::ProgramSource& source : renderer.kernels().programs()) {
-        if (!visit({ renderer.programOptions(), source })) {
-            return false;
-        }
-    }
-    return true;
 }
 
 } // namespace
 
+std::unique_ptr<render::FrameGraph> declareFrame(const render::Renderer& renderer,
+    const render::DeviceScene* deviceScene, const Settings& settings, bool keepLayers, render::HalfMemories& memories)
+{
+    const render::PreparedScene& scene = renderer.scene();
+    const std::size_t packet = render::packetSize(renderer.traversal());
+    render::validate(settings, render::isDistributed(settings, scene));
+    if (settings.progressive) {
+        const render::StepRange step = render::firstStep(settings);
+        return std::make_unique<render::HalvesFrame>(
+            scene, deviceScene, settings, packet, keepLayers, memories, step.before, step.spp);
+    }
+    if (render::isDistributed(settings, scene)) {
+        return std::make_unique<render::DistributedFrame>(scene, deviceScene, settings, packet, keepLayers);
+    }
+    return std::make_unique<render::PixelFrame>(scene, deviceScene, settings, packet, keepLayers);
+}
+
+void everyGraph(const device::Device& device, const std::function<void(const graph::Graph&)>& visit)
+{
+    everyFrame(device, [&](const render::Renderer& renderer, const Settings& settings, bool layers) {
+        render::HalfMemories memories { render::SampleMemory(nullptr), render::SampleMemory(nullptr) };
+        visit(declareFrame(renderer, nullptr, settings, layers, memories)->graph());
+        return true;
+    });
+    overTime(device, [&](render::Renderer& renderer, filters::TemporalFilter& filter, const Settings& settings) {
+        filter.show(renderer, settings, visit);
+    });
+}
+
 void everyProgram(const device::Device& device, const std::function<bool(const ProductProgram&)>& visit)
 {
-    for (const char* name : { "penumbra", "materials", "motion", "sky", "mirrors" }) {
-        const scene::Scene scene = scene::loadScene(fmt::format("{}/scenes/{}.toml", WEDGE_SOURCE_DATA, name));
-        for (const render::Traversal family : { render::Traversal::Wide, render::Traversal::Scalar }) {
-            render::Options options;
-            options.traversal = family;
-            if (!ofFrames(render::Renderer(scene, device, options), visit)) {
-                return;
-            }
-        }
+    const bool more = everyFrame(device, [&](const render::Renderer& renderer, const Settings& settings, bool layers) {
+        const std::vector<device::ProgramSource> sources = renderer.programs(settings, layers);
+        return std::ranges::all_of(sources, [&](const device::ProgramSource& source) {
+            return visit({ renderer.programOptions(), source });
+        });
+    });
+    if (!more) {
+        return;
     }
-    overTime(device, visit);
+    overTime(device, [&](render::Renderer& renderer, const filters::TemporalFilter&, const Settings&) {
+        // Declared when they are run.
+        for (const device::ProgramSource& source : renderer.kernels().programs()) {
+            visit({ renderer.programOptions(), source });
+        }
+    });
 }
 
 device::ProgramSource productProgram(const device::Device& device, const std::string& file, const std::string& kernel)

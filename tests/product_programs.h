@@ -4,8 +4,12 @@
 
 #include "host/device/device.h"
 #include "host/device/program.h"
+#include "host/render/frame_graph.h"
+#include "host/render/halves.h"
+#include "host/render/renderer.h"
 
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace wedge::test {
@@ -16,7 +20,16 @@ struct ProductProgram {
     device::ProgramSource source;
 };
 
-/// Calls visit(program) for those of frames of many kinds on a device, until it returns false.
+/// A frame of the renderer's scene, of a progressive one the first step, that is declared and not run. deviceScene:
+/// null for one that cannot be run.
+std::unique_ptr<render::FrameGraph> declareFrame(const render::Renderer& renderer,
+    const render::DeviceScene* deviceScene, const render::Settings& settings, bool keepLayers,
+    render::HalfMemories& memories);
+
+/// Calls visit(graph) for frames of many kinds, and for filters over time.
+void everyGraph(const device::Device& device, const std::function<void(const graph::Graph&)>& visit);
+
+/// Calls visit(program) for those of the same frames on a device, until it returns false.
 void everyProgram(const device::Device& device, const std::function<bool(const ProductProgram&)>& visit);
 
 /// The first program of that file in which there is the kernel; without interfaces where no frame has it, as of

@@ -260,8 +260,7 @@ void LightGraph::firstPass()
     sunk.push_back(updates("slopes", extremes_));
     f_.trace("first pass", { "light/area_light.cl", "sampleShadows", std::move(sinks) },
         joined({ f_.frame(), sampleParams(), light() }, f_.hierarchy(), f_.receivers(),
-            Arguments { reads("wanted", wanted_), value("lastSample", WEDGE_FIRST_PASS_RAYS), updates("taken", taken_),
-                tallies("rays", rays_) },
+            sampleCounts(wanted_, value("lastSample", WEDGE_FIRST_PASS_RAYS), taken_, { tallies("rays", rays_) }),
             sunk),
         true, [](const graph::Launch&) { return WEDGE_FIRST_PASS_RAYS; });
     f_.host("analysable", [state = state_](Run& run) { state->analysed = !run.cut(); });
@@ -275,8 +274,7 @@ void LightGraph::samples(const char* pass, std::uint32_t from, std::uint32_t sli
         const auto [sinks, sunk] = becoming();
         f_.trace(pass, { "light/area_light.cl", "sampleShadows", sinks },
             joined({ f_.frame(), sampleParams(), light() }, f_.hierarchy(), f_.receivers(),
-                Arguments { reads("wanted", wanted_), slices.last(), updates("taken", taken_), tallies("rays", rays_) },
-                sunk),
+                sampleCounts(wanted_, slices.last(), taken_, { tallies("rays", rays_) }), sunk),
             false, slices.workUnits(std::max(1.0, static_cast<double>(s_.spp) - from)));
     });
 }
@@ -371,24 +369,25 @@ graph::Handle<Value>* LightGraph::keptParts()
 void LightGraph::shade(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition)
 {
     const graph::Argument p = f_.rectangle(analysisParams());
-    const graph::Format parts = f_.specular() ? shortPairs : shortFloats;
     const Surfaces& s = f_.surfaces;
-    Sum& direct = f_.totals.direct;
+    const Arguments values = graph::together("values",
+        { reads("value", shown), reads("noisy", value_),
+            f_.analysed() ? reads("parts", parts_) : graph::absent("parts", f_.specular() ? shortPairs : shortFloats),
+            reads("taken", taken_) });
+    const auto sum = [&direct = f_.totals.direct] {
+        return graph::together("sum",
+            { updates("direct", direct.filtered), updates("directNoisy", direct.noisy),
+                updates("deviation", direct.deviation) });
+    };
     f_.blocks("composite", PassKind::Composite, { "frame/composite.cl", "addDiffuse" },
-        { p, sampleParams(), light(), quadrature(), reads("position", s.position), reads("normal", s.normal),
-            reads("objectId", s.objectId), reads("diffuse", s.diffuse), reads("value", shown), reads("noisy", value_),
-            f_.analysed() ? reads("parts", parts_) : graph::absent("parts", parts), reads("taken", taken_),
-            updates("direct", direct.filtered), updates("directNoisy", direct.noisy),
-            updates("deviation", direct.deviation) },
+        joined({ p, sampleParams(), light(), quadrature() }, places(s), Arguments { reads("diffuse", s.diffuse) },
+            values, sum()),
         condition);
     if (f_.specular()) {
         f_.blocks("composite", PassKind::Composite, { "frame/composite.cl", "addSpecular" },
-            { p, sampleParams(), light(), value("frame", f_.wholeFrame()), value("directions", lobeDirections(s_.spp)),
-                quadrature(), reads("position", s.position), reads("normal", s.normal), reads("objectId", s.objectId),
-                reads("gloss", s.gloss), reads("specular", s.specular), reads("value", shown), reads("noisy", value_),
-                f_.analysed() ? reads("parts", parts_) : graph::absent("parts", parts), reads("taken", taken_),
-                updates("direct", direct.filtered), updates("directNoisy", direct.noisy),
-                updates("deviation", direct.deviation) },
+            joined({ p, sampleParams(), light(), value("frame", f_.wholeFrame()),
+                       value("directions", lobeDirections(s_.spp)), quadrature() },
+                places(s), Arguments { reads("gloss", s.gloss), reads("specular", s.specular) }, values, sum()),
             condition);
     }
 }

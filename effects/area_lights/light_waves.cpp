@@ -62,25 +62,27 @@ void LightWaves::sample(
     }
     waves.tiles(adding.first ? "first pass" : "shadow rays", { "light/area_light.cl", "sampleShadows", becoming },
         joined({ waves.receiverParams(), params, light }, f_.hierarchy(), waves.receiverArguments(),
-            Arguments { reads("wanted", own.last), value("lastSample", allSamples), updates("taken", own.first),
-                waves.tallyRays() },
-            sunk));
+            sampleCounts(own.last, value("lastSample", allSamples), own.first, { waves.tallyRays() }), sunk));
     const bool exact = settings().method == Method::AxisAligned && !shape_.published;
     auto unshadowed = waves.list<Value>("unshadowed shading", graph::pairs);
     if (exact) {
         waves.list("unshadowed shading", { "light/wave_light.cl", "unshadowedReceivers" }, WEDGE_BLOCK_PIXELS,
-            { waves.receiverParams(), waves.params(), light,
-                f_.outside("nodes", "float", f_.scene != nullptr ? &f_.scene->quadratures[index_].cl() : nullptr),
-                reads("pixelOf", r.pixelOf), reads("sampleOf", r.sampleOf), reads("position", r.position),
-                reads("normal", r.normal), reads("objectId", r.objectId), reads("specular", r.specular),
-                reads("gloss", r.gloss), reads("view", r.view), writes("unshadowed", unshadowed) });
+            joined(
+                { waves.receiverParams(), waves.params(), light,
+                    f_.outside("nodes", "float", f_.scene != nullptr ? &f_.scene->quadratures[index_].cl() : nullptr),
+                    reads("pixelOf", r.pixelOf), reads("sampleOf", r.sampleOf) },
+                places(r),
+                Arguments { reads("specular", r.specular), reads("gloss", r.gloss), reads("view", r.view),
+                    writes("unshadowed", unshadowed) }));
     }
     waves.pixels("accumulateLight",
-        joined({ waves.pixelParams(), waves.params(), light }, waves.pixelLists(),
-            Arguments { reads("taken", counts.taken), reads("hits", hits) }, waves.receiverArguments(),
-            Arguments { reads("diffuse", r.diffuse), reads("specular", r.specular), reads("sums", own.sums),
-                exact ? reads("unshadowed", unshadowed) : graph::absent("unshadowed", graph::pairs),
-                reads("slopes", own.extremes) },
+        joined({ waves.pixelParams(), waves.params(), light }, waves.pixelLists(reads("taken", counts.taken)),
+            Arguments { reads("hits", hits) }, waves.receiverArguments(),
+            Arguments { reads("diffuse", r.diffuse), reads("specular", r.specular) },
+            graph::together("sampled",
+                { reads("sums", own.sums),
+                    exact ? reads("unshadowed", unshadowed) : graph::absent("unshadowed", graph::pairs),
+                    reads("slopes", own.extremes) }),
             accumulated(adding, counts)));
 }
 

@@ -171,20 +171,20 @@ void componentFilter(FrameBuilder& frame, const shared::FilterParams& params, co
     const Settings& settings = frame.settings;
     const int pixels = static_cast<int>(params.maxRadius);
     const graph::Reach around { .x = pixels, .y = pixels };
-    const Surfaces& s = frame.surfaces;
     frame.blocks("filter", PassKind::Filter,
         { "filter/components.cl", "filterComponents", {},
             frame.surfaceFormats({ { "WEDGE_COMPONENTS", std::to_string(settings.components) } }) },
-        { frame.rectangle(params), value("light", axesOf(light, settings.components)),
-            value("slopesPerWidth", analysis.k * analysis.mu / analysis.sigma),
-            value("floorPerPixel", 1.0f / (analysis.alpha * analysis.sigma)),
-            value("refitted", settings.maaf == Maaf::Refitted ? 1u : 0u), reads("value", shown),
-            reads("beta", beta, around), reads("slopeWidth", term.slopeWidth, around), reads("ratio", term.ratio),
-            reads("position", s.position, around), reads("normal", s.normal, around),
-            reads("pixelSize", s.pixelSize, around), reads("objectId", s.objectId, around),
-            reads("sums", term.sums, around), reads("components", term.components, around),
-            writes("filtered", out.value), writes("effective", out.effective),
-            parts != nullptr ? updates("parts", *parts) : graph::absent("parts") });
+        joined({ frame.rectangle(params), value("light", axesOf(light, settings.components)),
+                   value("slopesPerWidth", analysis.k * analysis.mu / analysis.sigma),
+                   value("floorPerPixel", 1.0f / (analysis.alpha * analysis.sigma)),
+                   value("refitted", settings.maaf == Maaf::Refitted ? 1u : 0u), reads("value", shown),
+                   reads("beta", beta, around) },
+            gathered(frame, around),
+            graph::together("term",
+                { reads("sums", term.sums, around), reads("components", term.components, around),
+                    reads("slopeWidth", term.slopeWidth, around), reads("ratio", term.ratio) }),
+            Arguments { writes("filtered", out.value), writes("effective", out.effective),
+                parts != nullptr ? updates("parts", *parts) : graph::absent("parts") }));
 }
 
 } // namespace wedge::render

@@ -15,9 +15,10 @@ constexpr const char* program = "light/delta_lights.cl";
 /// The lights, as the kernel takes them.
 std::vector<graph::Argument> lights(const FrameBuilder& f)
 {
-    return { f.ofScene("lights", "DeltaLight", &DeviceScene::deltaLights),
-        value("lightCount", f.scene != nullptr ? f.scene->deltaLightCount : 0u),
-        value("sceneDiameter", f.scene != nullptr ? f.scene->diameter : 0.0f) };
+    return graph::together("lights",
+        { f.ofScene("lights", "DeltaLight", &DeviceScene::deltaLights),
+            value("lightCount", f.scene != nullptr ? f.scene->deltaLightCount : 0u),
+            value("sceneDiameter", f.scene != nullptr ? f.scene->diameter : 0.0f) });
 }
 
 void ofPixels(FrameBuilder& f, graph::Handle<Radiance>* /*own*/)

@@ -19,14 +19,15 @@ using graph::writes;
 std::vector<graph::Argument> sceneLights(const FrameBuilder& frame, Component component)
 {
     const bool other = isOfEmitters(component) && frame.scene != nullptr && !frame.scene->sharedTerm.ofEmitters;
-    return joined(
-        { frame.ofScene("areaLights", "AreaLight", &DeviceScene::areaLights),
-            frame.ofScene("deltaLights", "DeltaLight", &DeviceScene::deltaLights),
-            frame.ofScene("emitters", "Emitter", other ? &DeviceScene::sharedLights : &DeviceScene::emitters),
-            frame.ofScene("emitterPicks", "float", other ? &DeviceScene::sharedPicks : &DeviceScene::emitterPicks) },
-        frame.beyond(),
-        Arguments { frame.environmentSamples ? reads("environmentSamples", *frame.environmentSamples)
-                                             : graph::absent("environmentSamples") });
+    return graph::together("lights",
+        joined({ frame.ofScene("areaLights", "AreaLight", &DeviceScene::areaLights),
+                   frame.ofScene("deltaLights", "DeltaLight", &DeviceScene::deltaLights),
+                   frame.ofScene("emitters", "Emitter", other ? &DeviceScene::sharedLights : &DeviceScene::emitters),
+                   frame.ofScene(
+                       "emitterPicks", "float", other ? &DeviceScene::sharedPicks : &DeviceScene::emitterPicks) },
+            frame.beyond(),
+            Arguments { frame.environmentSamples ? reads("environmentSamples", *frame.environmentSamples)
+                                                 : graph::absent("environmentSamples") }));
 }
 
 shared::PathParams pathParams(const FrameBuilder& frame, Component component)

@@ -247,9 +247,9 @@ void PathGraph::paths(const char* pass, std::uint32_t from, std::uint32_t most, 
     g_.loop("slices", slices.counter(), [&] {
         f_.trace(pass, { "paths/indirect.cl", "samplePaths", becoming },
             joined({ f_.frame(), value("params", pathParams(f_, component_)) }, f_.hierarchy(), f_.geometry(),
-                sceneLights(f_, component_), f_.receivers(),
-                Arguments { reads("specular", f_.surfaces.specular), reads("wanted", wanted_), slices.last(),
-                    updates("taken", taken_), tallies("rays", rays_), tallies("pathRays", pathRays_) },
+                sceneLights(f_, component_), f_.receivers(), Arguments { reads("specular", f_.surfaces.specular) },
+                sampleCounts(
+                    wanted_, slices.last(), taken_, { tallies("rays", rays_), tallies("pathRays", pathRays_) }),
                 sunk),
             everywhere, slices.workUnits(std::max(1.0, mean - from) * vertices_));
     });

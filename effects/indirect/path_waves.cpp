@@ -40,11 +40,10 @@ void PathWaves::sample(
     Shared own = share(waves, adding, counts, 4, 3);
     waves.tiles("paths", { "paths/indirect.cl", "samplePaths", { sinks::sums(), sinks::distances() } },
         joined({ waves.receiverParams(), value("params", pathParams()) }, f_.hierarchy(), f_.geometry(),
-            sceneLights(f_, component_), waves.receiverArguments(),
-            Arguments { reads("specular", r.specular), reads("wanted", own.last),
-                value("lastSample", std::numeric_limits<std::uint32_t>::max()), updates("taken", own.first),
-                waves.tallyRays(), waves.tallyPathRays(), updates("sums", own.sums),
-                updates("reflectors", own.extremes) }));
+            sceneLights(f_, component_), waves.receiverArguments(), Arguments { reads("specular", r.specular) },
+            sampleCounts(own.last, value("lastSample", std::numeric_limits<std::uint32_t>::max()), own.first,
+                { waves.tallyRays(), waves.tallyPathRays() }),
+            Arguments { updates("sums", own.sums), updates("reflectors", own.extremes) }));
     graph::Handle<Reflectance> reflectance = isGlossy(component_) ? r.specular : r.diffuse;
     if (isRelative(component_, settings())) {
         reflectance = waves.list<Reflectance>("reflectance times unshadowed light", graph::vectors);
@@ -55,9 +54,9 @@ void PathWaves::sample(
     }
     waves.pixels("accumulatePaths",
         joined({ waves.pixelParams(), waves.params(), value("ambient", component_ == Component::Ambient ? 1u : 0u) },
-            waves.pixelLists(),
-            Arguments { reads("taken", counts.taken), reads("hits", hits), reads("objectId", r.objectId),
-                reads("reflectance", reflectance), reads("sums", own.sums), reads("reflectors", own.extremes) },
+            waves.pixelLists(reads("taken", counts.taken)),
+            Arguments { reads("hits", hits), reads("objectId", r.objectId), reads("reflectance", reflectance),
+                reads("sums", own.sums), reads("reflectors", own.extremes) },
             accumulated(adding, counts)));
 }
 

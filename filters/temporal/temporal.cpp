@@ -169,19 +169,21 @@ struct TemporalFilter::Declaration {
         const render::Totals& t = f.totals;
         setCamera(params, camera);
         f.pixels(pass, PassKind::Filter, { file, "keepFrame" },
-            { f.rectangle(params), reads("position", s.position), reads("normal", s.normal),
-                reads("objectId", s.objectId), reads("diffuse", s.diffuse), reads("specular", s.specular),
-                reads("direct", t.direct.filtered), reads("directNoisy", t.direct.noisy),
-                readsIf(indirect, "indirect", t.indirect.filtered, graph::vectors),
-                readsIf(indirect, "indirectNoisy", t.indirect.noisy, graph::vectors),
-                readsIf(params.measured != 0, "directDeviation", t.direct.deviation, render::shortFloats),
-                readsIf(
-                    params.measured != 0 && indirect, "indirectDeviation", t.indirect.deviation, render::shortFloats),
-                updates("depth", own.depth), updates("facing", own.facing), updates("object", own.object),
-                updates("directLight", own.direct),
-                indirect ? updates("indirectLight", own.indirect)
-                         : graph::absent("indirectLight", render::packedColours),
-                updates("noisy", own.before), updates("variation", own.variation) });
+            render::joined({ f.rectangle(params), reads("diffuse", s.diffuse), reads("specular", s.specular) },
+                render::places(s),
+                graph::together("light",
+                    { reads("direct", t.direct.filtered), reads("directNoisy", t.direct.noisy),
+                        readsIf(indirect, "indirect", t.indirect.filtered, graph::vectors),
+                        readsIf(indirect, "indirectNoisy", t.indirect.noisy, graph::vectors),
+                        readsIf(params.measured != 0, "directDeviation", t.direct.deviation, render::shortFloats),
+                        readsIf(params.measured != 0 && indirect, "indirectDeviation", t.indirect.deviation,
+                            render::shortFloats) }),
+                graph::together("kept",
+                    { updates("depth", own.depth), updates("facing", own.facing), updates("object", own.object),
+                        updates("directLight", own.direct),
+                        indirect ? updates("indirectLight", own.indirect)
+                                 : graph::absent("indirectLight", render::packedColours),
+                        updates("noisy", own.before), updates("variation", own.variation) })));
         f.pixels(pass, PassKind::Filter, { file, "findVariation" },
             { f.rectangle(params), reads("noisy", own.before, graph::around(1)),
                 reads("object", own.object, graph::around(1)), updates("variation", own.variation) });
@@ -237,18 +239,23 @@ struct TemporalFilter::Declaration {
         auto weights = graph.list<Blocks>("weights of blocks", graph::floats, all);
         const graph::Argument p = f.rectangle(params);
         f.pixels(pass, PassKind::Filter, { file, "differFromFrame" },
-            { p, f.outside("motions", "float", &motionMemory), reads("position", f.surfaces.position),
-                reads("normal", f.surfaces.normal), reads("object", own.object), reads("directLight", own.direct),
-                readsIf(indirect, "indirectLight", own.indirect, render::packedColours), reads("noisy", own.before),
-                reads("variation", own.variation), reads("earlierDepth", earlier.depth, graph::wholeImage),
-                reads("earlierFacing", earlier.facing, graph::wholeImage),
-                reads("earlierObject", earlier.object, graph::wholeImage),
-                reads("earlierDirect", earlier.direct, graph::wholeImage),
-                indirect ? reads("earlierIndirect", earlier.indirect, graph::wholeImage)
-                         : graph::absent("earlierIndirect", render::packedColours),
-                reads("earlierNoisy", earlier.before, graph::wholeImage),
-                reads("earlierVariation", earlier.variation, graph::wholeImage), writes("difference", difference),
-                writes("noise", noise), writes("variations", variations), writes("share", share) });
+            render::joined({ p, f.outside("motions", "float", &motionMemory), reads("position", f.surfaces.position),
+                               reads("normal", f.surfaces.normal) },
+                graph::together("kept",
+                    { reads("object", own.object), reads("directLight", own.direct),
+                        readsIf(indirect, "indirectLight", own.indirect, render::packedColours),
+                        reads("noisy", own.before), reads("variation", own.variation) }),
+                graph::together("earlier",
+                    { reads("earlierDepth", earlier.depth, graph::wholeImage),
+                        reads("earlierFacing", earlier.facing, graph::wholeImage),
+                        reads("earlierObject", earlier.object, graph::wholeImage),
+                        reads("earlierDirect", earlier.direct, graph::wholeImage),
+                        indirect ? reads("earlierIndirect", earlier.indirect, graph::wholeImage)
+                                 : graph::absent("earlierIndirect", render::packedColours),
+                        reads("earlierNoisy", earlier.before, graph::wholeImage),
+                        reads("earlierVariation", earlier.variation, graph::wholeImage) }),
+                render::Arguments { writes("difference", difference), writes("noise", noise),
+                    writes("variations", variations), writes("share", share) }));
         const bool weighed = params.published == 0;
         if (weighed) {
             auto sums = graph.list<Blocks>("sums of blocks", graph::floatPlanes(4), all);

@@ -36,13 +36,21 @@ Version Graph::declare(Resource resource)
     return { id_, static_cast<std::uint32_t>(resources_.size() - 1), newest };
 }
 
+std::vector<Argument> together(const std::string& name, std::vector<Argument> arguments)
+{
+    for (Argument& argument : arguments) {
+        argument.group = name;
+    }
+    return arguments;
+}
+
 std::vector<Argument> group(const std::string& name, std::vector<Argument> arguments)
 {
     for (Argument& argument : arguments) {
         argument.name = name + "_" + argument.name;
-        argument.group = name;
+        argument.member = true;
     }
-    return arguments;
+    return together(name, std::move(arguments));
 }
 
 void Graph::add(Pass pass)

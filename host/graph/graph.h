@@ -78,6 +78,7 @@ struct Argument {
     Version* handle = nullptr; ///< of who declares what changes a resource: becomes the new version
     std::shared_ptr<const Format> absent = {}; ///< of a resource that there is none of
     std::string group = {}; ///< which it is of, if any
+    bool member = false; ///< of the structure that the group is to kernels
 
     bool isUse() const { return !value && absent == nullptr; }
 };
@@ -143,8 +144,12 @@ inline Argument tallies(std::string name, Version& version)
     return { std::move(name), {}, {}, Access::Update, version, {}, true, &version };
 }
 
-/// Planes of what belongs together: each is the parameter GROUP_NAME, and LOAD_GROUP(size, at, out) and
-/// STORE_GROUP(size, at, in) read and write the members NAME of a structure; those that are only read are not written.
+/// What belongs together, under one name: a pass that is handed it is handed one thing. Kernels know the arguments by
+/// their own names.
+std::vector<Argument> together(const std::string& name, std::vector<Argument> arguments);
+
+/// The same of planes that kernels have a structure of: each is the parameter GROUP_NAME, and LOAD_GROUP(size, at, out)
+/// and STORE_GROUP(size, at, in) read and write its members NAME; those that are only read are not written.
 std::vector<Argument> group(const std::string& name, std::vector<Argument> arguments);
 
 /// There is no resource of that name: the kernel has no parameter for it, reads zero as that format has it, and

@@ -60,7 +60,7 @@ std::string groupMacros(const Pass& pass)
     std::map<std::string, std::pair<std::string, std::string>> groups;
     for (const std::vector<Argument>* list : { &pass.arguments, &pass.absent }) {
         for (const Argument& argument : *list) {
-            if (argument.group.empty()) {
+            if (!argument.member) {
                 continue;
             }
             auto& [load, store] = groups[argument.group];

@@ -205,7 +205,7 @@ void DistributedSamples::counts(const DistributedSamples& guide)
             state->scale = run.rehearsal() ? 1.0f : scaleOf(asked, budget, most, layout);
             state->even = run.rehearsal() ? EvenCounts() : evenCounts(asked, state->scale, most, layout);
         },
-        uses);
+        graph::together("asked", uses));
     const auto scale = made("scale", [state = state_](const graph::Launch&) { return state->scale; });
     const auto even = made("even", [state = state_](const graph::Launch&) { return state->even.share; });
     const auto mean = made("mean", [state = state_](const graph::Launch&) { return state->even.mean; });

@@ -353,10 +353,9 @@ void DistributedSamples::addUnfiltered(Waves& waves)
         f_.zero(radiance);
         added.of.light.ofWaves(f_, waves, radiance);
         waves.pixels("accumulateDelta",
-            joined({ waves.pixelParams(), waves.params() }, waves.pixelLists(),
-                Arguments { reads("taken", waves.counts().taken), reads("objectId", waves.receivers().objectId),
-                    reads("lit", radiance), updates("delta", added.radiance),
-                    updates("deltaSquares", added.squares) }));
+            joined({ waves.pixelParams(), waves.params() }, waves.pixelLists(reads("taken", waves.counts().taken)),
+                Arguments { reads("objectId", waves.receivers().objectId), reads("lit", radiance),
+                    updates("delta", added.radiance), updates("deltaSquares", added.squares) }));
     }
 }
 
@@ -381,7 +380,7 @@ void DistributedSamples::accumulateSurfaces(Waves& waves, const Adding& adding)
     waves.pixels("accumulateSurfaces",
         joined(
             { waves.pixelParams(), waves.params(), value("camera", camera_), value("raysOfImage", layers ? 1u : 0u) },
-            waves.pixelLists(), waves.receiverSurfaces(), Arguments { updates("taken", waves.counts().taken) },
+            waves.pixelLists(updates("taken", waves.counts().taken)), waves.receiverSurfaces(),
             graph::group("kept",
                 { updates("hits", hits_), updates("objectId", s.objectId), updates("position", s.position),
                     updates("normal", s.normal), kept(measures, "gloss", s.gloss, wholeGloss),

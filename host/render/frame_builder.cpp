@@ -52,25 +52,39 @@ device::Defines FrameBuilder::surfaceFormats(device::Defines more) const
 
 std::vector<graph::Argument> FrameBuilder::hierarchy() const
 {
-    return { ofScene("nodes", "TraversalNode", &DeviceScene::nodes),
-        ofScene("blocks", "TriangleBlock", &DeviceScene::blocks) };
+    return graph::together("hierarchy",
+        { ofScene("nodes", "TraversalNode", &DeviceScene::nodes),
+            ofScene("blocks", "TriangleBlock", &DeviceScene::blocks) });
 }
 
 std::vector<graph::Argument> FrameBuilder::geometry() const
 {
     using S = DeviceScene;
-    return { ofScene("positions", "float", &S::positions), ofScene("normals", "float", &S::normals),
-        ofScene("texcoords", "float", &S::texcoords), ofScene("indices", "uint", &S::indices),
-        ofScene("materialIds", "uint", &S::materialIds), ofScene("materials", "MaterialData", &S::materials),
-        ofScene("textures", "TextureData", &S::textures), ofScene("texels", "uint", &S::texels),
-        ofScene("srgbToLinear", "float", &S::srgbToLinear), ofScene("positionsAtClose", "float", &S::positionsAtClose),
-        ofScene("normalsAtClose", "float", &S::normalsAtClose) };
+    return graph::together("geometry",
+        { ofScene("positions", "float", &S::positions), ofScene("normals", "float", &S::normals),
+            ofScene("texcoords", "float", &S::texcoords), ofScene("indices", "uint", &S::indices),
+            ofScene("materialIds", "uint", &S::materialIds), ofScene("materials", "MaterialData", &S::materials),
+            ofScene("textures", "TextureData", &S::textures), ofScene("texels", "uint", &S::texels),
+            ofScene("srgbToLinear", "float", &S::srgbToLinear),
+            ofScene("positionsAtClose", "float", &S::positionsAtClose),
+            ofScene("normalsAtClose", "float", &S::normalsAtClose) });
 }
 
 std::vector<graph::Argument> FrameBuilder::beyond() const
 {
-    return { ofScene("environment", "EnvironmentMap", &DeviceScene::environment),
-        ofScene("environmentTable", "float", &DeviceScene::environmentTable) };
+    return graph::together("beyond",
+        { ofScene("environment", "EnvironmentMap", &DeviceScene::environment),
+            ofScene("environmentTable", "float", &DeviceScene::environmentTable) });
+}
+
+std::vector<graph::Argument> FrameBuilder::met(bool lit) const
+{
+    const auto lights = static_cast<std::uint32_t>(lit ? description.areaLights.size() : 0);
+    return graph::together("met",
+        joined(hierarchy(), geometry(),
+            Arguments { ofScene("objectIds", "uint", &DeviceScene::objectIds),
+                ofScene("lights", "AreaLight", &DeviceScene::areaLights), graph::value("lightCount", lights) },
+            beyond()));
 }
 
 void FrameBuilder::precomputeDirections()
@@ -90,10 +104,10 @@ void FrameBuilder::precomputeDirections()
 
 std::vector<graph::Argument> FrameBuilder::receivers() const
 {
-    const Surfaces& s = surfaces;
-    return { reads("position", s.position), reads("normal", s.normal), reads("origin", s.origin),
-        reads("geometric", s.geometric), reads("objectId", s.objectId), reads("gloss", s.gloss),
-        graph::absent("pixelOf", graph::counts), graph::absent("view", graph::counts), graph::absent("time") };
+    return graph::together("receivers",
+        joined(readBy(ReadBy::Samplers, surfaces),
+            Arguments { graph::absent("pixelOf", graph::counts), graph::absent("view", graph::counts),
+                graph::absent("time") }));
 }
 
 void FrameBuilder::trace(std::string name, graph::KernelName kernel, std::vector<graph::Argument> arguments,

@@ -80,6 +80,10 @@ struct Surfaces {
     graph::Handle<Gloss> gloss;
 };
 
+/// Who reads a plane of what primary rays find: passes that sample light there (WEDGE_RECEIVER_ARGUMENTS), the one that
+/// adds a wave's receivers to their pixels (accumulateSurfaces), or both.
+enum class ReadBy { Samplers, Pixels, Both };
+
 /// What a frame adds up, and what it counts.
 struct Sum {
     graph::Handle<Radiance> filtered, noisy;
@@ -156,6 +160,54 @@ struct FrameBuilder {
     /// Declares the frame's pre-computed samples of what is beyond the scene, where there is a map and the settings
     /// want them: before any pass that chooses lights.
     void precomputeDirections();
+    /// What primary rays meet: all of that, and lights, if any are lit.
+    std::vector<graph::Argument> met(bool lit) const;
+    /// Calls visit(name in kernels, plane, format, who reads it) for all planes that primary rays fill in: of pixels
+    /// that are the receivers, or of a wave's receivers. What pixels keep of those has formats of its own.
+    template <class Points, class Visit>
+    void eachFound(Points& p, const Visit& visit) const
+    {
+        visit("position", p.position, graph::vectors, ReadBy::Both);
+        visit("normal", p.normal, normals(false), ReadBy::Both);
+        visit("origin", p.origin, graph::vectors, ReadBy::Samplers);
+        visit("geometric", p.geometric, graph::counts, ReadBy::Samplers);
+        visit("objectId", p.objectId, graph::counts, ReadBy::Both);
+        visit("depth", p.depth, graph::floats, ReadBy::Pixels);
+        visit("pixelSize", p.pixelSize, graph::floats, ReadBy::Pixels);
+        visit("diffuse", p.diffuse, graph::vectors, ReadBy::Pixels);
+        visit("specular", p.specular, graph::vectors, ReadBy::Pixels);
+        visit("emission", p.emission, graph::vectors, ReadBy::Pixels);
+        visit("gloss", p.gloss, wholeGloss, ReadBy::Both);
+        if constexpr (requires { p.view; }) {
+            visit("view", p.view, graph::counts, ReadBy::Samplers);
+            visit("time", p.time, graph::floats, ReadBy::Samplers);
+            visit("motion", p.motion, graph::floatPlanes(2), ReadBy::Pixels);
+            visit("rays", p.rays, graph::counts, ReadBy::Pixels);
+            visit("pathRays", p.pathRays, graph::counts, ReadBy::Pixels);
+        }
+    }
+    /// All of these: graph::writes or graph::updates.
+    template <class Points>
+    std::vector<graph::Argument> found(Points& points, graph::Argument (*fills)(std::string, graph::Version&)) const
+    {
+        std::vector<graph::Argument> out;
+        eachFound(points, [&](const char* name, graph::Version& plane, const graph::Format&, ReadBy) {
+            out.push_back(fills(name, plane));
+        });
+        return graph::together("found", std::move(out));
+    }
+    /// Those that are read, by samplers or by pixels.
+    template <class Points>
+    std::vector<graph::Argument> readBy(ReadBy reader, const Points& points) const
+    {
+        std::vector<graph::Argument> out;
+        eachFound(points, [&](const char* name, const graph::Version& plane, const graph::Format&, ReadBy by) {
+            if (by == reader || by == ReadBy::Both) {
+                out.push_back(graph::reads(name, plane));
+            }
+        });
+        return out;
+    }
     /// By the names of WEDGE_RECEIVER_ARGUMENTS, the pixels being the receivers.
     std::vector<graph::Argument> receivers() const;
     /// A buffer that outlives the frame; null where the graph is not run.
@@ -213,5 +265,21 @@ std::vector<graph::Argument> joined(std::vector<graph::Argument> first, const Li
 }
 
 using Arguments = std::vector<graph::Argument>;
+
+/// Where points lie, and on which objects.
+inline Arguments places(const Surfaces& s, graph::Reach reach = {})
+{
+    return graph::together("places",
+        { graph::reads("position", s.position, reach), graph::reads("normal", s.normal, reach),
+            graph::reads("objectId", s.objectId, reach) });
+}
+
+/// Of a pass that takes samples how many are wanted, up to which the launch goes, and what counts them and their rays.
+inline Arguments sampleCounts(
+    const graph::Version& wanted, graph::Argument last, graph::Version& taken, const Arguments& rays)
+{
+    return graph::together(
+        "samples", joined({ graph::reads("wanted", wanted), std::move(last), graph::updates("taken", taken) }, rays));
+}
 
 } // namespace wedge::render

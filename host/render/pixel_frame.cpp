@@ -12,19 +12,6 @@ using graph::updates;
 using graph::value;
 using graph::writes;
 
-namespace {
-
-/// What primary rays fill in.
-std::vector<graph::Argument> filled(Surfaces& s)
-{
-    return { updates("position", s.position), updates("normal", s.normal), updates("origin", s.origin),
-        updates("geometric", s.geometric), updates("objectId", s.objectId), updates("depth", s.depth),
-        updates("pixelSize", s.pixelSize), updates("diffuse", s.diffuse), updates("specular", s.specular),
-        updates("emission", s.emission), updates("gloss", s.gloss) };
-}
-
-} // namespace
-
 PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
     std::size_t packetSize, bool keepLayers)
     : FrameGraph(settings, scene, keepLayers)
@@ -86,17 +73,13 @@ PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScen
 void PixelFrame::primary(bool lit)
 {
     Surfaces& s = f_.surfaces;
-    s.position = graph_.plane<Position>("position", graph::vectors);
-    s.normal = graph_.plane<Normal>("normal", f_.normals(false));
-    s.origin = graph_.plane<Position>("origin", graph::vectors);
-    s.geometric = graph_.plane<Packed>("geometric normal", graph::counts);
-    s.objectId = graph_.plane<ObjectId>("object id", graph::counts);
-    s.depth = graph_.plane<Metres>("depth", graph::floats);
-    s.pixelSize = graph_.plane<Metres>("pixel size", graph::floats);
-    s.diffuse = graph_.plane<Reflectance>("diffuse", graph::vectors);
-    s.specular = graph_.plane<Reflectance>("specular", graph::vectors);
-    s.emission = graph_.plane<Radiance>("emission", graph::vectors);
-    s.gloss = graph_.plane<Gloss>("gloss", wholeGloss);
+    // Gathers read the padding, which is of no object; and what is not hit, or not seen before a frame is stopped, is
+    // 0.
+    f_.eachFound(s,
+        [this]<class Quantity>(const char* name, graph::Handle<Quantity>& plane, const graph::Format& format, ReadBy) {
+            plane = graph_.plane<Quantity>(name, format);
+            f_.zero(plane);
+        });
     Totals& t = f_.totals;
     for (Sum* sum : { &t.direct, &t.indirect }) {
         const std::string name = sum == &t.direct ? "direct" : "indirect";
@@ -112,17 +95,9 @@ void PixelFrame::primary(bool lit)
         tally("tally of path rays") };
     t.beauty = graph_.plane<Radiance>("beauty", graph::vectors);
     f_.zero(t.samples, t.rays, t.tallies.samples, t.tallies.indirectSamples, t.tallies.rays, t.tallies.pathRays);
-    // Gathers read the padding, which is of no object; and what is not hit, or not seen before a frame is stopped, is
-    // 0.
-    f_.zero(s.position, s.normal, s.origin, s.geometric, s.objectId, s.depth, s.pixelSize, s.diffuse, s.specular,
-        s.emission, s.gloss);
     f_.trace("primary rays", { "frame/primary.cl", "primary" },
-        joined({ f_.frame() }, f_.hierarchy(), f_.geometry(),
-            Arguments { f_.ofScene("objectIds", "uint", &DeviceScene::objectIds),
-                f_.ofScene("lights", "AreaLight", &DeviceScene::areaLights),
-                value("lightCount", static_cast<std::uint32_t>(lit ? f_.description.areaLights.size() : 0)) },
-            f_.beyond(), filled(s)),
-        f_.analysed(), [](const graph::Launch&) { return 1.0; });
+        joined({ f_.frame() }, f_.met(lit), f_.found(s, updates)), f_.analysed(),
+        [](const graph::Launch&) { return 1.0; });
     if (!lit) {
         f_.zero(s.emission);
     }

@@ -15,10 +15,11 @@ std::vector<graph::Argument> readsMotion(
     const FrameBuilder& frame, const graph::Handle<Pixels>& along, const graph::Handle<Pixels>& directions)
 {
     const graph::Reach far = graph::around(WEDGE_MOTION_REACH);
-    if (frame.lean) {
-        return { graph::absent("along"), graph::absent("directions", shortPairs), reads("vectors", directions, far) };
-    }
-    return { reads("along", along, far), reads("directions", directions, far), graph::absent("vectors", shortPairs) };
+    const bool lean = frame.lean;
+    return graph::together("motion",
+        { lean ? graph::absent("along") : reads("along", along, far),
+            lean ? graph::absent("directions", shortPairs) : reads("directions", directions, far),
+            lean ? reads("vectors", directions, far) : graph::absent("vectors", shortPairs) });
 }
 
 shared::DistributedParams WaveTerm::of(shared::DistributedParams params) const
@@ -54,18 +55,21 @@ std::vector<graph::Argument> WaveTerm::accumulated(const Adding& adding, const P
     TermMeans& m = means;
     Totals& t = f_.totals;
     const bool indirect = &sum_ == &t.indirect;
-    return joined({ reads("wanted", wantedOf(adding, counts)), kept("termTaken", m.taken, shape_.full, graph::counts) },
+    return joined(
+        graph::together("samples of the term",
+            { reads("wanted", wantedOf(adding, counts)), kept("termTaken", m.taken, shape_.full, graph::counts),
+                kept("samples", t.samples, shape_.layers, graph::counts),
+                kept("indirectSamples", t.indirectSamples, shape_.layers && indirect, graph::counts) }),
         graph::group("term",
             { updates("texture", m.texture), updates("value", m.value),
                 kept("radiance", m.radiance, true, graph::vectors), kept("deviation", m.deviation, true, graph::floats),
                 measured("plain", m.plain, graph::floats), measured("squares", m.squares, graph::floats),
                 measured("textureSquares", m.textureSquares, graph::floats), measured("error", m.error, shortFloats),
                 measured("spreads", m.spreads, shortPairs) }),
-        Arguments { measured("extremes", m.extremes, extremesFormat()), measured("extreme", m.extreme, shortFloats),
-            measured("shadowSums", m.shadowSums, graph::floatPlanes(4)),
-            measured("shadowMotion", m.shadowMotion, shortPairs),
-            kept("samples", t.samples, shape_.layers, graph::counts),
-            kept("indirectSamples", t.indirectSamples, shape_.layers && indirect, graph::counts) });
+        graph::together("extremes of the term",
+            { measured("extremes", m.extremes, extremesFormat()), measured("extreme", m.extreme, shortFloats),
+                measured("shadowSums", m.shadowSums, graph::floatPlanes(4)),
+                measured("shadowMotion", m.shadowMotion, shortPairs) }));
 }
 
 graph::Version WaveTerm::wantedOf(const Adding& adding, const PrimaryCounts& counts) const

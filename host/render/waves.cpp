@@ -32,16 +32,6 @@ std::size_t mostTiles(const PlaneLayout& layout)
 
 std::uint32_t tilesOf(std::uint32_t receivers) { return (receivers + receiversOfTile - 1) / receiversOfTile; }
 
-/// What primary rays find.
-std::vector<graph::Argument> written(Receivers& r)
-{
-    return { writes("position", r.position), writes("normal", r.normal), writes("origin", r.origin),
-        writes("geometric", r.geometric), writes("objectId", r.objectId), writes("gloss", r.gloss),
-        writes("view", r.view), writes("time", r.time), writes("diffuse", r.diffuse), writes("specular", r.specular),
-        writes("emission", r.emission), writes("pixelSize", r.pixelSize), writes("depth", r.depth),
-        writes("motion", r.motion), writes("rays", r.rays), writes("pathRays", r.pathRays) };
-}
-
 } // namespace
 
 std::uint32_t roomOfWaves(const PlaneLayout& layout, double most)
@@ -123,24 +113,16 @@ graph::Argument Waves::params() const
     return made("wave", [state = state_](const Launch& launch) { return state->wave(launch.run); });
 }
 
-std::vector<graph::Argument> Waves::receiverSurfaces() const
-{
-    return { reads("objectId", r_.objectId), reads("position", r_.position), reads("normal", r_.normal),
-        reads("gloss", r_.gloss), reads("diffuse", r_.diffuse), reads("specular", r_.specular),
-        reads("emission", r_.emission), reads("pixelSize", r_.pixelSize), reads("depth", r_.depth),
-        reads("motion", r_.motion), reads("rays", r_.rays), reads("pathRays", r_.pathRays) };
-}
-
 std::vector<graph::Argument> Waves::receiverArguments() const
 {
-    return { reads("position", r_.position), reads("normal", r_.normal), reads("origin", r_.origin),
-        reads("geometric", r_.geometric), reads("objectId", r_.objectId), reads("gloss", r_.gloss),
-        reads("pixelOf", r_.pixelOf), reads("view", r_.view), reads("time", r_.time) };
+    return graph::together(
+        "receivers", joined(f_.readBy(ReadBy::Samplers, r_), Arguments { reads("pixelOf", r_.pixelOf) }));
 }
 
-std::vector<graph::Argument> Waves::pixelLists() const
+std::vector<graph::Argument> Waves::pixelLists(graph::Argument taken) const
 {
-    return { reads("pixelFirst", r_.pixelFirst), reads("pixelCount", r_.pixelCount) };
+    return graph::together("pixels of the wave",
+        { reads("pixelFirst", r_.pixelFirst), reads("pixelCount", r_.pixelCount), std::move(taken) });
 }
 
 void Waves::tiles(std::string name, graph::KernelName kernel, std::vector<graph::Argument> arguments, bool rays)
@@ -250,22 +232,10 @@ void Waves::trace(bool lit)
         .count = [state = state_](const Launch& launch) -> std::size_t { return state->wave(launch.run).tiles; },
         .mostItems = tilesOfWave(),
         .everywhere = sampling_.everywhere });
-    r_.position = list<Position>("positions", graph::vectors);
-    r_.normal = list<Normal>("normals", f_.normals(false));
-    r_.origin = list<Position>("origins", graph::vectors);
-    r_.geometric = list<Packed>("geometric normals", graph::counts);
-    r_.objectId = list<ObjectId>("object ids", graph::counts);
-    r_.gloss = list<Gloss>("gloss", wholeGloss);
-    r_.view = list<Packed>("views", graph::counts);
-    r_.time = list<Share>("times", graph::floats);
-    r_.diffuse = list<Reflectance>("diffuse", graph::vectors);
-    r_.specular = list<Reflectance>("specular", graph::vectors);
-    r_.emission = list<Radiance>("emission", graph::vectors);
-    r_.pixelSize = list<Metres>("pixel sizes", graph::floats);
-    r_.depth = list<Metres>("depths", graph::floats);
-    r_.motion = list<Pixels>("motion", graph::floatPlanes(2));
-    r_.rays = list<Count>("rays", graph::counts);
-    r_.pathRays = list<Count>("path rays", graph::counts);
+    f_.eachFound(r_,
+        [this]<class Quantity>(const char* name, graph::Handle<Quantity>& plane, const graph::Format& format, ReadBy) {
+            plane = list<Quantity>(name, format);
+        });
     const auto traced = made("frame",
         [state = state_, &scene = f_.description, layout = f_.layout, seed = frameSeed(f_.settings)](
             const Launch& launch) {
@@ -273,15 +243,11 @@ void Waves::trace(bool lit)
             p.tileCount = tilesOf(state->wave(launch.run).receivers);
             return p;
         });
-    const auto lights = static_cast<std::uint32_t>(lit ? f_.description.areaLights.size() : 0);
     tiles("primary rays", { "waves/wave_primary.cl", "wavePrimary" },
-        joined({ traced, value("camera", camera_), params() }, f_.hierarchy(), f_.geometry(),
-            Arguments { f_.ofScene("objectIds", "uint", &DeviceScene::objectIds),
-                f_.ofScene("lights", "AreaLight", &DeviceScene::areaLights), value("lightCount", lights) },
-            f_.beyond(),
+        joined({ traced, value("camera", camera_), params() }, f_.met(lit),
             Arguments { reads("pixelOf", r_.pixelOf), reads("sampleOf", r_.sampleOf), reads("wanted", counts_.wanted),
                 sampling_.seenLights ? reads("known", *sampling_.seenLights) : graph::absent("known", packedColours) },
-            written(r_)));
+            f_.found(r_, writes)));
 }
 
 std::uint32_t waveSampler(const Settings& settings)

@@ -27,18 +27,11 @@ struct WaveSchedule {
 };
 
 /// Planes of a wave's receivers, see kernels/waves/wave_primary.cl and waves.cl.
-struct Receivers {
-    graph::Handle<Position> position, origin;
-    graph::Handle<Normal> normal;
-    graph::Handle<Packed> geometric, view;
-    graph::Handle<ObjectId> objectId;
-    graph::Handle<Gloss> gloss;
+struct Receivers : Surfaces {
+    graph::Handle<Packed> view;
     graph::Handle<Listed> pixelOf, sampleOf, shareOf; ///< of receivers
     graph::Handle<Listed> pixelFirst, pixelCount; ///< of the pixels of the wave's tiles
     graph::Handle<Share> time;
-    graph::Handle<Reflectance> diffuse, specular;
-    graph::Handle<Radiance> emission;
-    graph::Handle<Metres> pixelSize, depth;
     graph::Handle<Pixels> motion;
     graph::Handle<Count> rays, pathRays;
 };
@@ -102,11 +95,14 @@ public:
     graph::Argument receiverParams() const;
     graph::Argument params() const;
     /// What accumulateSurfaces reads of the receivers.
-    std::vector<graph::Argument> receiverSurfaces() const;
+    std::vector<graph::Argument> receiverSurfaces() const
+    {
+        return graph::together("surfaces", f_.readBy(ReadBy::Pixels, r_));
+    }
     /// By the names of WEDGE_RECEIVER_ARGUMENTS.
     std::vector<graph::Argument> receiverArguments() const;
-    /// pixelFirst, pixelCount
-    std::vector<graph::Argument> pixelLists() const;
+    /// Of wavePixel() of accumulate.h; taken: counts().taken, read or updated.
+    std::vector<graph::Argument> pixelLists(graph::Argument taken) const;
 
     /// A pass over tiles of receivers; rays: whether it has a share in the work.
     void tiles(std::string name, graph::KernelName kernel, std::vector<graph::Argument> arguments, bool rays = true);

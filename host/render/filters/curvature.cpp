@@ -21,12 +21,10 @@ void curvatureWidths(FrameBuilder& frame, shared::CurvatureParams params, const 
     const graph::Handle<Count>& taken, AxisWidths& widths, graph::Handle<Metres>& beta)
 {
     const Surfaces& s = frame.surfaces;
-    const graph::Reach near = graph::around(1);
     frame.blocks("widths", device::PassKind::Analysis, { "analysis/curvature.cl", "curvatureWidths" },
-        { frame.rectangle(placed(frame, params)), reads("occluders", occluders), reads("position", s.position, near),
-            reads("normal", s.normal, near), reads("objectId", s.objectId, near), reads("pixelSize", s.pixelSize),
-            reads("gloss", s.gloss), reads("taken", taken), writes("widthX", widths.x), writes("widthY", widths.y),
-            writes("beta", beta) });
+        joined({ frame.rectangle(placed(frame, params)), reads("occluders", occluders) }, places(s, graph::around(1)),
+            Arguments { reads("pixelSize", s.pixelSize), reads("gloss", s.gloss), reads("taken", taken),
+                writes("widthX", widths.x), writes("widthY", widths.y), writes("beta", beta) }));
 }
 
 graph::Handle<Extremes> smoothedOccluders(FrameBuilder& frame, const graph::Handle<Extremes>& occluders)

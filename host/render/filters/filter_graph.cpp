@@ -16,21 +16,6 @@ using graph::writes;
 
 namespace {
 
-/// Where pixels and those that they may reach are.
-std::vector<graph::Argument> neighbours(const Surfaces& s, graph::Reach reach)
-{
-    return { reads("position", s.position, reach), reads("normal", s.normal, reach),
-        reads("objectId", s.objectId, reach) };
-}
-
-/// And what a gather asks of them.
-std::vector<graph::Argument> gathered(const FrameBuilder& frame, graph::Reach reach)
-{
-    const Surfaces& s = frame.surfaces;
-    return { reads("position", s.position, reach), reads("normal", s.normal, reach),
-        reads("pixelSize", s.pixelSize, reach), reads("objectId", s.objectId, reach) };
-}
-
 /// What the passes of kernels/filter/filter.cl are compiled with; more: besides.
 device::Defines gatherDefines(const FrameBuilder& frame, std::uint32_t channels, device::Defines more = {})
 {
@@ -62,6 +47,14 @@ void filterAlong(FrameBuilder& frame, const FilterRun& run, std::uint32_t channe
 }
 
 } // namespace
+
+Arguments gathered(const FrameBuilder& frame, graph::Reach reach)
+{
+    const Surfaces& s = frame.surfaces;
+    return graph::together("gathered",
+        { reads("position", s.position, reach), reads("normal", s.normal, reach),
+            reads("pixelSize", s.pixelSize, reach), reads("objectId", s.objectId, reach) });
+}
 
 Gathered filteredPlanes(FrameBuilder& frame, std::uint32_t channels)
 {
@@ -151,7 +144,7 @@ void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams para
     auto shares = g.plane<Share>("shares", graph::floats);
     frame.blocks(pass, PassKind::Filter, { "filter/widening.cl", "comparedWidths", {}, frame.surfaceFormats() },
         joined({ frame.rectangle(p), all, value("pixels", pixels), reads("deviation", compared.deviation, noisy) },
-            neighbours(frame.surfaces, {}), Arguments { reads("beta", beta), writes("compared", wider) }));
+            places(frame.surfaces), Arguments { reads("beta", beta), writes("compared", wider) }));
     frame.blocks(pass, PassKind::Filter, { "filter/widening.cl", "compareRows", {}, frame.surfaceFormats() },
         joined({ frame.rectangle(params), reads("value", compared.value, along), reads("beta", beta, along),
                    reads("compared", wider, along) },
@@ -169,10 +162,10 @@ void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams para
     frame.blocks(pass, PassKind::Filter, { "filter/widening.cl", "wideShares", {}, frame.surfaceFormats() },
         joined({ frame.rectangle(p), all, value("pixels", pixels), value("noise", noise),
                    reads("difference", squares, near), reads("variance", variance, near) },
-            neighbours(frame.surfaces, near), Arguments { reads("beta", beta, near), writes("shares", shares) }));
+            places(frame.surfaces, near), Arguments { reads("beta", beta, near), writes("shares", shares) }));
     frame.blocks(pass, PassKind::Filter, { "filter/widening.cl", "widen", {}, frame.surfaceFormats() },
         joined({ frame.rectangle(p), all, value("pixels", pixels), reads("shares", shares, near) },
-            neighbours(frame.surfaces, near), Arguments { updates("beta", beta) }));
+            places(frame.surfaces, near), Arguments { updates("beta", beta) }));
 }
 
 void demandOf(FrameBuilder& frame, const shared::AnalysisParams& params, const graph::Handle<Uncertainty>& uncertainty,

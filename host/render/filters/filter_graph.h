@@ -8,6 +8,9 @@
 
 namespace wedge::render {
 
+/// What gathers ask of the pixels that they may reach.
+Arguments gathered(const FrameBuilder& frame, graph::Reach reach);
+
 /// A value filtered, and the equal samples that the gather amounts to.
 struct Gathered {
     graph::Handle<Value> value;
