@@ -49,7 +49,8 @@ struct Difference {
 
 /// normals, sizes: of the image, as the program has them; window: the pixels to compare, all by default
 Difference differenceOf(KernelBench& bench, const Compared& in, const Planes<float>& normals,
-    const Planes<float>& sizes, const device::ProgramSource& program = "filter/widening.cl", image::Window window = {})
+    const Planes<float>& sizes, const device::ProgramSource& program = "analysis/widening.cl",
+    image::Window window = {})
 {
     const FilterImage& image = in.image;
     const std::size_t size = image.value.layout.size;
@@ -163,7 +164,7 @@ TEST_CASE("two widths at once in a window are the whole image's, bit by bit")
         const Difference whole = differenceOf(bench, in, in.image.normal, in.image.pixelSize);
         const image::Window window { 16, 7, 48, 19 };
         const Difference part =
-            differenceOf(bench, in, in.image.normal, in.image.pixelSize, "filter/widening.cl", window);
+            differenceOf(bench, in, in.image.normal, in.image.pixelSize, "analysis/widening.cl", window);
         for (int y = 0; y < in.image.height(); ++y)
             for (int x = 0; x < in.image.width(); ++x) {
                 const bool inside = x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1;
@@ -192,7 +193,7 @@ TEST_CASE("two widths at once with packed normals and sizes")
         const Planes<float> sizes = packedNumbers(in.image.pixelSize, in.image.pixelSize);
         check(in,
             differenceOf(bench, in, packed, sizes,
-                { "filter/widening.cl",
+                { "analysis/widening.cl",
                     { { "WEDGE_NORMAL_FORMAT", "normal32" }, { "WEDGE_SIZE_FORMAT", "short1" } } }));
     });
 }

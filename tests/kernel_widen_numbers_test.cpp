@@ -58,7 +58,7 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
                 CHECK(black > 10);
                 CHECK(noisy > 100);
             };
-            bench.passes.rows("widen", device::PassKind::Filter, "filter/widening.cl", "oneOfLight", paramsOf(layout),
+            bench.passes.rows("widen", device::PassKind::Filter, "analysis/widening.cl", "oneOfLight", paramsOf(layout),
                 WEDGE_BLOCK_PIXELS, WEDGE_FIRST_PASS_RAYS, bench.buffer(value.values), bench.buffer(inShorts(parts)),
                 bench.buffer(taken.values), bench.buffer(sums.values), bench.buffer(kd.values), bench.buffer(ks.values),
                 seen, deviation, weights);
@@ -92,7 +92,7 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
                 std::memcpy(bytes + 4 * layout.size + 2 * i, &high, 2);
             });
             const auto paths = bench.buffer(sums.values);
-            bench.passes.rows("widen", device::PassKind::Filter, "filter/widening.cl", "oneOfPaths", paramsOf(layout),
+            bench.passes.rows("widen", device::PassKind::Filter, "analysis/widening.cl", "oneOfPaths", paramsOf(layout),
                 WEDGE_BLOCK_PIXELS, WEDGE_COMPONENT_DIFFUSE, 0u, WEDGE_INDIRECT_FIRST_RAYS, bench.buffer(kd.values),
                 paths, bench.buffer(packedParts), bench.buffer(taken.values), seen, deviation, weights);
             constexpr double luminances[] = { 0.2126, 0.7152, 0.0722 };
@@ -130,7 +130,7 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
                     some.at(x, y, plane) = 0;
             });
             const auto fractions = bench.buffer(some.values);
-            bench.passes.rows("widen", device::PassKind::Filter, "filter/widening.cl", "oneOfPaths", paramsOf(layout),
+            bench.passes.rows("widen", device::PassKind::Filter, "analysis/widening.cl", "oneOfPaths", paramsOf(layout),
                 WEDGE_BLOCK_PIXELS, WEDGE_COMPONENT_ENVIRONMENT_GLOSSY, 1u, WEDGE_INDIRECT_FIRST_RAYS,
                 bench.buffer(ks.values), fractions, bench.buffer(packedParts), bench.buffer(taken.values), seen,
                 deviation, weights);

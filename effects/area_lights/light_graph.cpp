@@ -343,7 +343,7 @@ void LightGraph::widened()
     auto visibility = g_.plane<Value>("visibility", graph::floats);
     auto deviation = g_.plane<Deviation>("deviation", graph::floats);
     auto weights = g_.plane<Share>("weights", graph::floats);
-    f_.blocks("filter", PassKind::Filter, { "filter/widening.cl", "oneOfLight", {}, f_.surfaceFormats() },
+    f_.blocks("filter", PassKind::Filter, { "analysis/widening.cl", "oneOfLight", {}, f_.surfaceFormats() },
         { f_.rectangle(analysisParams()), value("firstPass", WEDGE_FIRST_PASS_RAYS), reads("value", value_),
             reads("parts", parts_), reads("taken", taken_), reads("sums", sums_), reads("diffuse", f_.surfaces.diffuse),
             reads("specular", f_.surfaces.specular), writes("visibility", visibility), writes("deviation", deviation),

@@ -81,7 +81,7 @@ std::vector<graph::Argument> sceneLights(const FrameBuilder& frame, Component co
 /// How paths are traced where the pixels are the receivers.
 shared::PathParams pathParams(const FrameBuilder& frame, Component component);
 
-/// Pixels: filters of a component that are narrower are compared with one of this width (kernels/filter/widening.cl).
+/// Pixels: filters of a component that are narrower are compared with one of this width (kernels/analysis/widening.cl).
 float wideningOf(Component component, const Settings& settings);
 
 /// Samples that the analysis of a component begins with where the pixels are the receivers.

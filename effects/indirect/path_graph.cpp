@@ -300,7 +300,7 @@ void PathGraph::countsFromVariance()
 
 void PathGraph::deviations()
 {
-    f_.blocks("filter of indirect", PassKind::Filter, { "filter/widening.cl", "oneOfPaths", {}, f_.surfaceFormats() },
+    f_.blocks("filter of indirect", PassKind::Filter, { "analysis/widening.cl", "oneOfPaths", {}, f_.surfaceFormats() },
         { f_.rectangle(countParams()), value("component", static_cast<std::uint32_t>(component_)),
             value("fractions", isOfFractions(f_, component_) ? 1u : 0u),
             value("firstPass", firstPathsOf(component_, s_)), reads("reflectance", reflectance_),

@@ -127,13 +127,17 @@ void HalvesFrame::join(bool analysed)
     s.normal = graph_.plane<Normal>("normal", graph::vectors);
     s.pixelSize = graph_.plane<Metres>("pixel size", graph::floats);
     s.depth = graph_.plane<Metres>("depth", graph::floats);
+    const auto half = [](const char* name, const DistributedSamples& samples) {
+        const Surfaces& own = samples.frame().surfaces;
+        const auto of = [name](const char* plane) { return std::string(plane) + name; };
+        return graph::together(name,
+            { reads(of("hits"), samples.hits()), reads(of("position"), own.position), reads(of("normal"), own.normal),
+                reads(of("pixelSize"), own.pixelSize), reads(of("depth"), own.depth) });
+    };
     f.pixels(pass, PassKind::Composite, { file, "joinSurfaces" },
-        { p, reads("hitsA", first.hits()), reads("hitsB", second.hits()), reads("positionA", a.surfaces.position),
-            reads("positionB", b.surfaces.position), reads("normalA", a.surfaces.normal),
-            reads("normalB", b.surfaces.normal), reads("pixelSizeA", a.surfaces.pixelSize),
-            reads("pixelSizeB", b.surfaces.pixelSize), reads("depthA", a.surfaces.depth),
-            reads("depthB", b.surfaces.depth), writes("position", s.position), writes("normal", s.normal),
-            writes("pixelSize", s.pixelSize), writes("depth", s.depth) });
+        joined({ p }, half("A", first), half("B", second),
+            Arguments { writes("position", s.position), writes("normal", s.normal), writes("pixelSize", s.pixelSize),
+                writes("depth", s.depth) }));
     s.diffuse = mean(a.surfaces.diffuse, b.surfaces.diffuse);
     s.specular = mean(a.surfaces.specular, b.surfaces.specular);
     s.emission = mean(first.emission(), second.emission());

@@ -240,7 +240,7 @@ struct Settings {
     bool fallback =
         true; ///< where filters are off by more than noise explains, samples show (kernels/analysis/fallback.cl)
     /// Pixels: lights' filters that are narrower are compared with one of this width, and widened where nothing speaks
-    /// for them (kernels/filter/widening.cl); 0: never.
+    /// for them (kernels/analysis/widening.cl); 0: never.
     float widening = 2.0f;
     float normalDegrees = 10.0f; ///< neighbours whose normals differ by more are not gathered (by components: 20)
     float cut = 3.0f; ///< kernel radius in standard deviations

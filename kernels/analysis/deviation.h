@@ -18,4 +18,17 @@ WEDGE_FN float16 deviation16(float16 mean, float16 ofPart, uint16 taken, uint fi
     return n > h ? (ofPart - mean) * sqrt(h / max16(n - h, (float16)(1.0f))) : (float16)(0.0f);
 }
 
+/// A term of pixels that are the receivers in one number. weights: what it is multiplied by in the image; seen, ofPart:
+/// the products, of all samples and of the first of two parts of them
+WEDGE_FN void storeOne(float16 weights, float16 seen, float16 ofPart, uint16 taken, uint firstPass, int i,
+    __global float* value, __global float* deviation, __global float* weight)
+{
+    const int16 counts = weights > 0.0f;
+    const float16 over = counts ? 1.0f / weights : (float16)(0.0f);
+    const float16 mean = counts ? seen * over : (float16)(0.0f), part = counts ? ofPart * over : (float16)(0.0f);
+    vstore16(mean, 0, value + i);
+    vstore16(deviation16(mean, part, taken, firstPass), 0, deviation + i);
+    vstore16(counts ? weights : (float16)(0.0f), 0, weight + i);
+}
+
 #endif

@@ -142,28 +142,28 @@ void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams para
     auto squares = g.plane<Value>("squares", graph::floats);
     auto variance = g.plane<Value>("variance", graph::floats);
     auto shares = g.plane<Share>("shares", graph::floats);
-    frame.blocks(pass, PassKind::Filter, { "filter/widening.cl", "comparedWidths", {}, frame.surfaceFormats() },
+    frame.blocks(pass, PassKind::Filter, { "analysis/widening.cl", "comparedWidths", {}, frame.surfaceFormats() },
         joined({ frame.rectangle(p), all, value("pixels", pixels), reads("deviation", compared.deviation, noisy) },
             places(frame.surfaces), Arguments { reads("beta", beta), writes("compared", wider) }));
-    frame.blocks(pass, PassKind::Filter, { "filter/widening.cl", "compareRows", {}, frame.surfaceFormats() },
+    frame.blocks(pass, PassKind::Filter, { "analysis/widening.cl", "compareRows", {}, frame.surfaceFormats() },
         joined({ frame.rectangle(params), reads("value", compared.value, along), reads("beta", beta, along),
                    reads("compared", wider, along) },
             gathered(frame, along),
             Arguments { writes("narrowRows", narrowRows), writes("wideRows", wideRows),
                 writes("narrowCounts", difference), writes("wideCounts", apart) }));
-    frame.blocks(pass, PassKind::Filter, { "filter/widening.cl", "compareColumns", {}, frame.surfaceFormats() },
+    frame.blocks(pass, PassKind::Filter, { "analysis/widening.cl", "compareColumns", {}, frame.surfaceFormats() },
         joined({ frame.rectangle(params), reads("narrowRows", narrowRows, across), reads("wideRows", wideRows, across),
                    reads("beta", beta, across), reads("compared", wider, across) },
             gathered(frame, across), Arguments { updates("difference", difference), updates("apart", apart) }));
-    frame.blocks(pass, PassKind::Filter, { "filter/widening.cl", "widenSquares", {}, frame.surfaceFormats() },
+    frame.blocks(pass, PassKind::Filter, { "analysis/widening.cl", "widenSquares", {}, frame.surfaceFormats() },
         { frame.rectangle(p), reads("difference", difference), reads("apart", apart),
             reads("deviation", compared.deviation), reads("weights", compared.weights), writes("squares", squares),
             writes("variance", variance) });
-    frame.blocks(pass, PassKind::Filter, { "filter/widening.cl", "wideShares", {}, frame.surfaceFormats() },
+    frame.blocks(pass, PassKind::Filter, { "analysis/widening.cl", "wideShares", {}, frame.surfaceFormats() },
         joined({ frame.rectangle(p), all, value("pixels", pixels), value("noise", noise),
                    reads("difference", squares, near), reads("variance", variance, near) },
             places(frame.surfaces, near), Arguments { reads("beta", beta, near), writes("shares", shares) }));
-    frame.blocks(pass, PassKind::Filter, { "filter/widening.cl", "widen", {}, frame.surfaceFormats() },
+    frame.blocks(pass, PassKind::Filter, { "analysis/widening.cl", "widen", {}, frame.surfaceFormats() },
         joined({ frame.rectangle(p), all, value("pixels", pixels), reads("shares", shares, near) },
             places(frame.surfaces, near), Arguments { updates("beta", beta) }));
 }

@@ -64,8 +64,8 @@ struct Compared {
     graph::Handle<Share> weights;
 };
 
-/// Declares the passes that widen beta where the samples do not speak against it (kernels/filter/widening.cl), towards
-/// `pixels`. noise: how much of their variance counts, pinholeNoise or distributedNoise.
+/// Declares the passes that widen beta where the samples do not speak against it (kernels/analysis/widening.cl),
+/// towards `pixels`. noise: how much of their variance counts, pinholeNoise or distributedNoise.
 void widen(FrameBuilder& frame, std::string_view pass, shared::FilterParams params, float pixels, float noise,
     Compared compared, graph::Handle<Metres>& beta);
 

@@ -67,19 +67,6 @@ __kernel void comparedWidths(PARAMETERS)
 }
 #endif
 
-/// A term of pixels that are the receivers in one number. weights: what it is multiplied by in the image; seen, ofPart:
-/// the products, of all samples and of the first of two parts of them
-WEDGE_FN void storeOne(float16 weights, float16 seen, float16 ofPart, uint16 taken, uint firstPass, int i,
-    __global float* value, __global float* deviation, __global float* weight)
-{
-    const int16 counts = weights > 0.0f;
-    const float16 over = counts ? 1.0f / weights : (float16)(0.0f);
-    const float16 mean = counts ? seen * over : (float16)(0.0f), part = counts ? ofPart * over : (float16)(0.0f);
-    vstore16(mean, 0, value + i);
-    vstore16(deviation16(mean, part, taken, firstPass), 0, deviation + i);
-    vstore16(counts ? weights : (float16)(0.0f), 0, weight + i);
-}
-
 /// Of pixels that are the receivers, a light in one number: what is seen of it, diffuse and specular together.
 /// in   value: diffuse and, where something is specular, specular visibility, and both of the first of two parts of the
 ///      samples; taken: these samples; sums: of them, see light_sampling.h
