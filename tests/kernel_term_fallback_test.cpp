@@ -1,5 +1,5 @@
-// What a term falls back by: termDifferences, termVariance and fallBackTerm; and unpackNumber: against the same in
-// double. Of frames of one image, whose planes are packed, and of those with layers.
+// What a term falls back by: termDifferences and termVariance; and unpackNumber: against the same in double. Of frames
+// of one image, whose planes are packed, and of those with layers.
 #include "tests/pass_bench.h"
 
 #include <cmath>
@@ -51,15 +51,6 @@ std::vector<float> someColours(std::mt19937& random, std::size_t count, double m
     return out;
 }
 
-/// Numbers >= 0 of which every fifth is 0.
-std::vector<float> someShares(std::mt19937& random, std::size_t count, double most)
-{
-    std::vector<float> out = someNumbers(random, count, 0, most);
-    for (float& v : out)
-        v *= random() % 5 == 0 ? 0.0f : 1.0f;
-    return out;
-}
-
 double luminance(glm::dvec3 c) { return glm::dot(weights, c); }
 
 /// A pixel of a filtered value, of one channel or three.
@@ -108,51 +99,6 @@ TEST_CASE("termDifferences: what filters are off, and its noise, as luminances o
                 if (gathered)
                     REQUIRE(nearShort(found.at(x, y, 3), counts * luminance(k) * luminance(k) * variance.at(x, y)));
             });
-        }
-    });
-}
-
-TEST_CASE("fallBackTerm: what is filtered is scaled, then moved towards the pixel's own; untouched without a share")
-{
-    inBothFrames([](DeclaredFrame& frame) {
-        for (const TermKind& kind : kinds) {
-            CAPTURE(kind.nth);
-            PassBench bench(frame, "fallBackTerm", "fallback", kind.nth);
-            std::mt19937 random(2);
-            const std::size_t size = frame.layout.size;
-            bench.plane("texture", someColours(random, size, 0.9));
-            bench.plane("filtered", someNumbers(random, kind.values * size, 0, 0.9));
-            auto shares = someShares(random, size, 1);
-            const auto ratios = someShares(random, size, 3);
-            shares.insert(shares.end(), ratios.begin(), ratios.end());
-            bench.plane("shares", shares);
-            auto values = someColours(random, size, 0.9);
-            for (std::size_t i = 0; i < size; ++i)
-                for (std::size_t k = 0; shares[i] == 0 && k < 3; ++k)
-                    values[k * size + i] = std::numeric_limits<float>::quiet_NaN(); // nobody looks at it
-            bench.plane("value", values);
-            const auto of = [&](const char* name) { return bench.pixels<float>(name); };
-            const auto before = of("filtered");
-            bench.run();
-            const auto after = of("filtered"), texture = of("texture"), value = of("value"), share = of("shares");
-            unsigned untouched = 0, scaled = 0;
-            everyPixel(frame.layout, [&](int x, int y) {
-                const double own = share.at(x, y, 0), ratio = share.at(x, y, 1);
-                const glm::dvec3 k = texture.vector(x, y);
-                for (std::size_t c = 0; c < kind.values; ++c) {
-                    const double f = before.at(x, y, c) * (1 + ratio);
-                    double u = value.at(x, y, c);
-                    if (kind.values == 1)
-                        u = luminance(k) > 0 ? luminance(k * value.vector(x, y)) / luminance(k) : 0.0;
-                    REQUIRE(std::fabs(after.at(x, y, c) - (own > 0 ? f + own * (u - f) : f)) < 1e-5);
-                    if (own == 0 && ratio == 0)
-                        REQUIRE(after.at(x, y, c) == before.at(x, y, c));
-                }
-                untouched += own == 0 && ratio == 0 ? 1 : 0;
-                scaled += own == 0 && ratio > 0 ? 1 : 0;
-            });
-            CHECK(untouched > 15);
-            CHECK(scaled > 50);
         }
     });
 }

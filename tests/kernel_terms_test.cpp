@@ -1,6 +1,8 @@
 // distributed.cl alone: filtered terms back into radiance.
 #include "tests/distributed_support.h"
 
+#include <limits>
+
 using namespace wedge;
 using namespace wedge::test;
 
@@ -8,13 +10,17 @@ namespace {
 
 /// A term and what filters made of it.
 struct TermPlanes {
-    Planes<float> texture, filteredTexture, value, filtered, beta, own, radiance;
+    Planes<float> texture, filteredTexture, value, filtered, shares, beta, own, radiance;
 
     TermPlanes(const Region& region, std::mt19937& random)
         : texture(planes(region, 3, random))
         , filteredTexture(planes(region, 3, random))
         , value(planes(region, 3, random))
         , filtered(planes(region, 3, random))
+        , shares(filledPlanes(region, 2, 1e30f,
+              [&](int, int, std::size_t plane) {
+                  return random() % 4 == 0 ? 0 : uniform(random, 0, plane == 0 ? 1 : 3);
+              }))
         , beta(filledPlanes(region, 1, 1e30f,
               [&](int, int, std::size_t) {
                   return random() % 2 == 0 ? -1.0 : random() % 3 == 0 ? 0.0 : uniform(random);
@@ -30,10 +36,14 @@ struct TermPlanes {
     /// Fills the planes that a pass has, and is then what the pass has of them.
     void fill(PassBench& pass, std::uint32_t values)
     {
-        filtered.values.resize(values * filtered.layout.size);
-        for (const auto& [name, plane] :
-            { std::pair("texture", &texture), { "filteredTexture", &filteredTexture }, { "value", &value },
-                { "filtered", &filtered }, { "beta", &beta }, { "termRadiance", &own }, { "radiance", &radiance } })
+        const std::size_t size = filtered.layout.size;
+        filtered.values.resize(values * size);
+        for (std::size_t i = 0; i < size && values == 3 && pass.has("shares"); ++i)
+            for (std::size_t c = 0; beta.values[i] >= 0 && shares.values[i] == 0 && c < 3; ++c)
+                value.values[c * size + i] = std::numeric_limits<float>::quiet_NaN(); // nobody looks at it
+        for (const auto& [name, plane] : { std::pair("texture", &texture), { "filteredTexture", &filteredTexture },
+                 { "value", &value }, { "filtered", &filtered }, { "shares", &shares }, { "beta", &beta },
+                 { "termRadiance", &own }, { "radiance", &radiance } })
             if (pass.has(name)) {
                 pass.plane(name, *plane);
                 *plane = pass.pixels<float>(name);
@@ -43,6 +53,18 @@ struct TermPlanes {
     {
         return filledPlanes(
             region, count, 1e30f, [&](int, int, std::size_t) { return random() % 7 == 0 ? 0 : uniform(random, 0, 2); });
+    }
+    /// What was filtered, scaled, then moved towards the term's own: the channel, or of one number all in one.
+    glm::dvec3 fallenBack(const shared::DistributedParams& p, int x, int y) const
+    {
+        const glm::dvec3 f = p.values == 3 ? filtered.vector(x, y) : glm::dvec3(filtered.at(x, y));
+        if (p.published != 0)
+            return f;
+        const glm::dvec3 k = texture.vector(x, y), u = value.vector(x, y);
+        const double t = luminanceOf(k), seen = t > 0 ? luminanceOf(k * u) / t : 0.0;
+        const glm::dvec3 scaled = f * (1.0 + shares.at(x, y, 1));
+        const double share = shares.at(x, y, 0);
+        return share > 0 ? glm::mix(scaled, p.values == 3 ? u : glm::dvec3(seen), share) : scaled;
     }
     /// The term's radiance as sampled.
     glm::dvec3 ownRadiance(bool published, int x, int y) const
@@ -77,6 +99,7 @@ void checkAdds(const std::string& kernel, const Expected& expected)
                 TermPlanes term(region, random);
                 RegionPass pass(frame, kernel, { "radiance" }, termOf(values));
                 REQUIRE(pass.has("termRadiance") == kind.published);
+                REQUIRE(pass.has("shares") == (kernel == "addFilteredTerm" && !kind.published));
                 term.fill(pass, values);
                 pass.runIn(region, p);
                 const auto found = pass.floats("radiance");
@@ -91,18 +114,15 @@ void checkAdds(const std::string& kernel, const Expected& expected)
 
 } // namespace
 
-TEST_CASE(
-    "a filtered term adds the filtered texture times the filtered value, and of lights its own colour, where they are "
-    "apart, elsewhere its own")
+TEST_CASE("a filtered term adds the filtered texture times the filtered value, which falls back to its own, and of "
+          "lights its "
+          "own colour, where they are apart, elsewhere its own")
 {
     checkAdds("addFilteredTerm", [](const shared::DistributedParams& p, const TermPlanes& term, int x, int y) {
         if (term.beta.at(x, y) < 0)
             return term.ownRadiance(p.published != 0, x, y);
-        const glm::dvec3 k = term.filteredTexture.vector(x, y);
-        if (p.values == 3)
-            return k * term.filtered.vector(x, y);
-        const glm::dvec3 one = k * static_cast<double>(term.filtered.at(x, y));
-        if (p.published != 0)
+        const glm::dvec3 one = term.filteredTexture.vector(x, y) * term.fallenBack(p, x, y);
+        if (p.values == 3 || p.published != 0)
             return one;
         // Of the colour that textures have which see the light differently each pixel keeps its own.
         const glm::dvec3 texture = term.texture.vector(x, y), own = term.ownRadiance(false, x, y);

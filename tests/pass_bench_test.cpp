@@ -28,7 +28,7 @@ TEST_CASE("a plane holds what it is filled with, as exactly as its format does")
     std::mt19937 random(1);
     for (const char* name : { "texture", "value", "shares", "filtered" }) {
         CAPTURE(name);
-        PassBench bench = onFirst("fallBackTerm");
+        PassBench bench = onFirst("addFilteredTerm");
         const std::size_t parts = bench.read<float>(name).size() / bench.elements(name);
         const std::vector<float> values = someNumbers(random, parts * bench.elements(name), 0, 1);
         bench.plane(name, values);
@@ -44,7 +44,7 @@ TEST_CASE("a plane holds what it is filled with, as exactly as its format does")
 
 TEST_CASE("a value is the pass's own, or the test's")
 {
-    PassBench bench = onFirst("fallBackTerm");
+    PassBench bench = onFirst("addFilteredTerm");
     CHECK(bench.own<shared::DistributedParams>("p").width == 19);
     bench.window({ 16, 2, 19, 7 });
     CHECK(bench.own<shared::DistributedParams>("p").y1 == 7);

@@ -125,7 +125,7 @@ void LightWaves::publishedWidths(
             writes("beta", means.beta), writes("demand", means.demand) });
 }
 
-graph::Handle<Value> LightWaves::filtered(const shared::DistributedParams& params)
+FilteredTerm LightWaves::filtered(const shared::DistributedParams& params)
 {
     const shared::FilterParams filter = shape_.published
         ? publishedParams(settings(), f_.wholeFrame(), f_.graph.image())
@@ -138,8 +138,7 @@ graph::Handle<Value> LightWaves::filtered(const shared::DistributedParams& param
     if (shape_.geometryMoves && settings().distributed.blur) {
         out = alongShadows(params, out);
     }
-    fallBack(params, nullptr, out);
-    return out;
+    return fallingBack(params, nullptr, out);
 }
 
 graph::Handle<Value> LightWaves::alongShadows(

@@ -16,7 +16,7 @@ public:
     void widths() override;
     void publishedWidths(const shared::DistributedParams& params, const graph::Handle<Share>& flags,
         const graph::Handle<Pixels>& confusion) override;
-    graph::Handle<Value> filtered(const shared::DistributedParams& params) override;
+    FilteredTerm filtered(const shared::DistributedParams& params) override;
     graph::Format extremesFormat() const override { return graph::pairs; }
     bool oneExtreme() const override { return shape_.compact; }
     bool shadowsMove() const override { return shape_.geometryMoves; }

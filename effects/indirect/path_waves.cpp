@@ -85,7 +85,7 @@ void PathWaves::publishedWidths(
             reads("objectId", f_.surfaces.objectId), writes("beta", means.beta), writes("demand", means.demand) });
 }
 
-graph::Handle<Value> PathWaves::filtered(const shared::DistributedParams& params)
+FilteredTerm PathWaves::filtered(const shared::DistributedParams& params)
 {
     const shared::FilterParams filter = shape_.published
         ? publishedParams(settings(), f_.wholeFrame(), f_.graph.image())
@@ -99,10 +99,9 @@ graph::Handle<Value> PathWaves::filtered(const shared::DistributedParams& params
         f_.pixels("filter of indirect", PassKind::Filter, { "waves/distributed.cl", "unpackImage" },
             { f_.rectangle(of(params)), reads("in", means.value), writes("out", plain) });
     }
-    graph::Handle<Value> out =
+    const graph::Handle<Value> out =
         gaussianFilter(f_, { "filter of indirect", PassKind::Filter }, 3, filter, plain, means.beta).value;
-    fallBack(params, &filter, out);
-    return out;
+    return fallingBack(params, &filter, out);
 }
 
 } // namespace wedge::render

@@ -16,7 +16,7 @@ public:
     std::uint32_t publishedSamples() const override;
     void publishedWidths(const shared::DistributedParams& params, const graph::Handle<Share>& flags,
         const graph::Handle<Pixels>& confusion) override;
-    graph::Handle<Value> filtered(const shared::DistributedParams& params) override;
+    FilteredTerm filtered(const shared::DistributedParams& params) override;
     graph::Format extremesFormat() const override { return shape_.compact ? shortReflectors : graph::vectors; }
     bool oneExtreme() const override { return shape_.lean(); }
 

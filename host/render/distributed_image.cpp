@@ -144,7 +144,7 @@ void DistributedSamples::addOwn(WaveTerm& term, graph::Handle<Radiance>& radianc
 }
 
 void DistributedSamples::addFiltered(
-    WaveTerm& term, const graph::Handle<Value>& value, const Blurs& own, graph::Handle<Radiance>& radiance)
+    WaveTerm& term, const FilteredTerm& filtered, const Blurs& own, graph::Handle<Radiance>& radiance)
 {
     const shared::DistributedParams p = term.of(params());
     graph::Version texture = term.means.texture;
@@ -158,7 +158,8 @@ void DistributedSamples::addFiltered(
     }
     f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "addFilteredTerm" },
         { f_.rectangle(p), reads("texture", term.means.texture), reads("filteredTexture", texture),
-            reads("value", term.means.value), reads("filtered", value), reads("beta", term.means.beta),
+            reads("value", term.means.value), reads("filtered", filtered.value), reads("beta", term.means.beta),
+            filtered.shares.graph != 0 ? reads("shares", filtered.shares) : graph::absent("shares", shortPairs),
             shape_.published ? reads("termRadiance", term.means.radiance)
                              : graph::absent("termRadiance", graph::vectors),
             updates("radiance", radiance) });
@@ -197,11 +198,11 @@ void DistributedSamples::compose()
     if (filters) {
         f_.graph.only("filters", analysed(), [&] {
             for (const std::unique_ptr<WaveTerm>& term : terms_) {
-                const graph::Handle<Value> value = term->filtered(params());
+                const FilteredTerm filtered = term->filtered(params());
                 if (term == terms_.front()) { // not before, for the memory's sake
                     blurs(0.0f, own);
                 }
-                addFiltered(*term, value, own, sumOf(*term));
+                addFiltered(*term, filtered, own, sumOf(*term));
             }
             if (terms_.empty()) {
                 blurs(0.0f, own);

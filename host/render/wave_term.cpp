@@ -114,11 +114,11 @@ void WaveTerm::widen(
     render::widen(f_, pass, filter, pixels, distributedNoise, { seen, means.deviation, worth }, means.beta);
 }
 
-void WaveTerm::fallBack(
-    const shared::DistributedParams& params, const shared::FilterParams* filter, graph::Handle<Value>& filtered)
+FilteredTerm WaveTerm::fallingBack(const shared::DistributedParams& params, const shared::FilterParams* filter,
+    const graph::Handle<Value>& filtered) const
 {
     if (!usesFallback(settings()) || means.deviation.graph == 0) {
-        return;
+        return { filtered, {} };
     }
     const char* pass = "fallback";
     const graph::Argument p = f_.rectangle(f_.analysisParams());
@@ -145,9 +145,7 @@ void WaveTerm::fallBack(
     f_.blocks(pass, PassKind::Filter, { "analysis/fallback.cl", "ownShares" },
         { p, flag, reads("differences", differences, near), reads("objectId", f_.surfaces.objectId, near),
             writes("shares", shares) });
-    f_.pixels(pass, PassKind::Filter, { "waves/distributed.cl", "fallBackTerm" },
-        { f_.rectangle(of(params)), reads("texture", means.texture), reads("value", means.value),
-            reads("shares", shares), updates("filtered", filtered) });
+    return { filtered, shares };
 }
 
 } // namespace wedge::render

@@ -64,6 +64,12 @@ struct Adding {
     bool measures = false; ///< what the analysis is made of, and not the means alone
 };
 
+/// What filters made of a term's value.
+struct FilteredTerm {
+    graph::Handle<Value> value;
+    graph::Handle<Share> shares; ///< how far it falls back to the term's own; of no graph where it does not
+};
+
 /// A term of a frame whose pixels have several receivers: what an effect declares for it.
 class WaveTerm {
 public:
@@ -91,8 +97,8 @@ public:
     /// widths() as published, and means.demand; flags: 1 where texture and value are taken apart.
     virtual void publishedWidths(const shared::DistributedParams& params, const graph::Handle<Share>& flags,
         const graph::Handle<Pixels>& confusion) = 0;
-    /// Widens means.beta once the samples are complete, and filters the value; returns one of valuePlanes().
-    virtual graph::Handle<Value> filtered(const shared::DistributedParams& params) = 0;
+    /// Widens means.beta once the samples are complete, and filters the value.
+    virtual FilteredTerm filtered(const shared::DistributedParams& params) = 0;
 
     /// Whether what is filtered is one number, from 0 to 1, and the texture a radiance; else it is an irradiance, and
     /// the texture a reflectance.
@@ -126,11 +132,11 @@ protected:
     /// Widens the filter by what one number a pixel says, which visibilityOf of distributed.cl makes.
     void widen(std::string_view pass, const shared::DistributedParams& params, const shared::FilterParams& filter,
         float pixels);
-    /// Where filtered is off by more than noise it becomes the term's own values (kernels/analysis/fallback.cl).
-    /// filter: what made it, if pixels that seem to have no noise are to have that of the pixels that it gathers; else
-    /// null.
-    void fallBack(
-        const shared::DistributedParams& params, const shared::FilterParams* filter, graph::Handle<Value>& filtered);
+    /// filtered, and how far it falls back to the term's own values where it is off by more than noise
+    /// (kernels/analysis/fallback.cl). filter: what made it, if pixels that seem to have no noise are to have that of
+    /// the pixels that it gathers; else null.
+    FilteredTerm fallingBack(const shared::DistributedParams& params, const shared::FilterParams* filter,
+        const graph::Handle<Value>& filtered) const;
     graph::Handle<Value> visibility(std::string_view pass, const shared::DistributedParams& params) const;
     /// The extremes that widths are made of, in floats.
     graph::Handle<Extremes> wholeExtremes() const;

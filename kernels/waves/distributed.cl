@@ -293,31 +293,6 @@ __kernel void termDifferences(PARAMETERS)
 }
 #endif
 
-/// A term's filtered value falls back to its own. shares: as of ownShares().
-#include "pass/fallBackTerm.h"
-#ifdef PASS_fallBackTerm
-__kernel void fallBackTerm(PARAMETERS)
-{
-    WEDGE_PIXEL(p, x, y, i);
-    const uint n = p.planeSize;
-    const float2 share = LOAD_shares(n, i);
-    const float own = share.x, ratio = share.y;
-    // Where nothing is shared what is not filtered is not looked at.
-    if (!(own > 0.0f) && ratio == 0.0f) {
-        return;
-    }
-    const Vec3 u = LOAD_value(n, i);
-    if (p.values == 3u) {
-        const Vec3 f = vecScale(loadVec(filtered, n, i), 1.0f + ratio);
-        storeVec(filtered, n, i, own > 0.0f ? vecMad(f, vecSub(u, f), own) : f);
-        return;
-    }
-    const Vec3 k = LOAD_texture(n, i);
-    const float f = filtered[i] * (1.0f + ratio);
-    filtered[i] = own > 0.0f ? f + own * (luminance(vecMul(k, u)) / fmax(luminance(k), 1e-30f) - f) : f;
-}
-#endif
-
 /// Along the motion: of a term its texture, or a value of one number. along, directions, or vectors: of blurs() or
 /// shadowBlurs()
 #include "pass/blurMotion.h"
@@ -367,17 +342,35 @@ WEDGE_FN float keptOf(float number, float difference)
     return number + difference < 0.0f ? -number / difference : 1.0f;
 }
 
-/// radiance += a term: where it is taken apart filteredTexture filtered (p.values planes), elsewhere its own. Of lights
-/// visibilities are filtered, in which colours have no part: each pixel keeps its own.
+/// What is shown of a filtered number f that falls back to u. share: of ownShares(); where it is none u is not looked
+/// at.
+WEDGE_FN float fallenBack(float f, float u, float2 share)
+{
+    const float own = share.x, scaled = share.y != 0.0f ? f * (1.0f + share.y) : f;
+    return own > 0.0f ? scaled + own * (u - scaled) : scaled;
+}
+
+/// radiance += a term: where it is taken apart filteredTexture filtered (p.values planes), which where there are shares
+/// falls back to the term's own; elsewhere its own. Of lights visibilities are filtered, in which colours have no part:
+/// each pixel keeps its own.
 #include "pass/addFilteredTerm.h"
 #ifdef PASS_addFilteredTerm
 __kernel void addFilteredTerm(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
     const uint n = p.planeSize;
-    const Vec3 e = p.values == 3u ? loadVec(filtered, n, i) : vec3(filtered[i], filtered[i], filtered[i]);
     Vec3 term;
     if (beta[i] >= 0.0f) {
+        Vec3 e = p.values == 3u ? loadVec(filtered, n, i) : vec3(filtered[i], filtered[i], filtered[i]);
+#if HAS_shares
+        const float2 share = LOAD_shares(n, i);
+        const Vec3 k = LOAD_texture(n, i), u = LOAD_value(n, i);
+        const float seen = luminance(vecMul(k, u)) / fmax(luminance(k), 1e-30f);
+        const bool one = p.values == 1u;
+        e.x = fallenBack(e.x, one ? seen : u.x, share);
+        e.y = fallenBack(e.y, one ? seen : u.y, share);
+        e.z = fallenBack(e.z, one ? seen : u.z, share);
+#endif
         term = vecMul(LOAD_filteredTexture(n, i), e);
         if (p.values == 1u && p.published == 0u) {
             const Vec3 colour = ownColour(LOAD_texture(n, i), LOAD_value(n, i));
