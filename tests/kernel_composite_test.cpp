@@ -4,6 +4,7 @@
 #include "kernels/shared/bsdf.h"
 #include "kernels/shared/path.h"
 #include "tests/lamp.h"
+#include "tests/pass_bench.h"
 #include "tests/render_oracles.h"
 #include "tests/render_support.h"
 
@@ -371,21 +372,55 @@ TEST_CASE("addPathSamples, addIndirect: terms times reflectance add up; ambient 
     });
 }
 
-TEST_CASE("addReflected: what is below and reflection on surfaces, what is below alone elsewhere")
+TEST_CASE("addReflected: what is below and reflection on surfaces, fallen back as shares say, what is below elsewhere")
 {
-    onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
-        const Receivers in(37, 5, 6);
-        const auto emission = bench.buffer(in.position.values), direct = bench.buffer(in.diffuse.values);
-        const auto beauty = bench.filled(3 * in.layout().size, -7.0f);
-        bench.passes.rows("composite", device::PassKind::Composite, "frame/composite.cl", "addReflected", in.params,
-            WEDGE_BLOCK_PIXELS, emission, direct, bench.buffer(in.objectId.values), beauty);
-        const Planes<float> found = planesOf(in.layout(), bench.read(beauty));
-        in.everyPixel([&](int x, int y) {
-            for (std::size_t c = 0; c < 3; ++c) {
-                const float reflected = in.objectId.at(x, y) != 0 ? in.diffuse.at(x, y, c) : 0.0f;
-                REQUIRE(found.at(x, y, c) == in.position.at(x, y, c) + reflected);
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    onEveryDevice([&](const device::Device& device) {
+        for (const auto& of : { std::pair(render::monteCarlo(4), true), { render::axisAligned(16), false },
+                 { render::axisAligned(16), true } }) {
+            const bool fallsBack = of.first.method == render::Method::AxisAligned, layers = of.second;
+            DeclaredFrame frame(device, smallScene(), sized(of.first, 37, 5), layers);
+            PassBench bench(frame, "addReflected");
+            REQUIRE(bench.has("shares") == fallsBack);
+            REQUIRE(bench.has("reflected") == (fallsBack && layers)); // what layers show
+            std::mt19937 random(6);
+            const std::size_t size = frame.layout.size;
+            bench.plane("below", someNumbers(random, 3 * size, 0, 2));
+            bench.plane("light", someNumbers(random, 3 * size, 0, 2));
+            std::vector<std::uint32_t> objects(size);
+            for (std::uint32_t& id : objects)
+                id = static_cast<std::uint32_t>(random() % 3);
+            bench.plane("objectId", objects);
+            if (fallsBack) {
+                auto shares = someNumbers(random, 2 * size, -1, 1), noisy = someNumbers(random, 3 * size, 0, 2);
+                for (std::size_t i = 0; i < size; ++i) {
+                    shares[i] = std::max(shares[i], 0.0f);
+                    shares[size + i] *= i % 3 == 0 ? 0.0f : 1.0f;
+                    for (std::size_t c = 0; shares[i] == 0 && c < 3; ++c)
+                        noisy[c * size + i] = nan; // nobody looks at it
+                }
+                bench.plane("shares", shares);
+                bench.plane("noisy", noisy);
             }
-        });
+            bench.run();
+            const auto plane = [&](const char* name) { return bench.pixels<float>(name); };
+            const auto below = plane("below"), light = plane("light"), sum = plane("sum");
+            const auto shares = fallsBack ? plane("shares") : Planes<float>(frame.layout, 2, 0.0f);
+            const auto noisy = fallsBack ? plane("noisy") : light;
+            const auto reflected = layers && fallsBack ? plane("reflected") : light;
+            const auto ids = bench.pixels<std::uint32_t>("objectId");
+            everyPixel(frame.layout, [&](int x, int y) {
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const double scaled = light.at(x, y, c) * (1.0 + shares.at(x, y, 1));
+                    const double own = shares.at(x, y, 0);
+                    const double shown = own > 0 ? scaled + own * (noisy.at(x, y, c) - scaled) : scaled;
+                    REQUIRE(std::fabs(sum.at(x, y, c) - below.at(x, y, c) - (ids.at(x, y) != 0 ? shown : 0.0)) < 1e-6);
+                    if (layers && fallsBack)
+                        REQUIRE(std::fabs(reflected.at(x, y, c) - shown) < 1e-6);
+                    if (own == 0 && shares.at(x, y, 1) == 0)
+                        REQUIRE(sum.at(x, y, c) == below.at(x, y, c) + (ids.at(x, y) != 0 ? light.at(x, y, c) : 0.0f));
+                }
+            });
+        }
     });
 }

@@ -1,9 +1,9 @@
-// fallback.cl alone: against the same in double.
-#include "kernels/shared/filter_params.h"
+// How far filtered pixels fall back, and what is shown of them then: against the same in double.
 #include "kernels/shared/packed.h"
-#include "tests/render_support.h"
+#include "tests/pass_bench.h"
 
-#include <bit>
+#include <limits>
+#include <optional>
 
 using namespace wedge;
 using namespace wedge::test;
@@ -41,48 +41,82 @@ struct Images {
     }
 };
 
-/// Several numbers of 16 bits a pixel.
-struct Shorts {
-    std::vector<float> words;
-    render::PlaneLayout layout;
-
-    float at(int x, int y, std::size_t which) const
+/// A frame that filters light and paths, of one receiver a pixel, or, where pixels do not count for themselves
+/// (`others`), of several.
+class FallbackFrame : public DeclaredFrame {
+public:
+    FallbackFrame(const device::Device& device, const render::PlaneLayout& size, bool ofOthers)
+        : DeclaredFrame(device, smallScene(), settings(size, ofOthers), true)
+        , others(ofOthers)
     {
-        const std::size_t i = which * layout.size + shared::pixelIndex(x, y, layout.stride);
-        return shared::unpackShort(std::bit_cast<std::uint32_t>(words[i / 2]) >> 16 * (i % 2) & 0xffffu);
+    }
+
+    const bool others;
+
+private:
+    static render::Settings settings(const render::PlaneLayout& size, bool ofOthers)
+    {
+        render::Settings out =
+            sized(render::axisAligned(16), static_cast<int>(size.width), static_cast<int>(size.height));
+        out.bounces = 1;
+        out.antialias = ofOthers;
+        return out;
     }
 };
 
-/// Differences of the whole image, and what is shown of the rectangle; gathered: whether variances are, too; others:
-/// pixels do not count for themselves.
-Planes<float> fallBack(KernelBench& bench, const shared::AnalysisParams& rectangle, const Images& in, bool gathered,
-    bool others = false, Shorts* found = nullptr)
+/// Differences of the whole image, and what is shown of a window of it; gathered: whether variances are, too.
+Planes<float> fallBack(FallbackFrame& frame, const Images& in, bool gathered, Planes<float>* found = nullptr,
+    const std::optional<Window>& window = {})
 {
-    const auto filtered = bench.buffer(in.filtered.values), noisy = bench.buffer(in.noisy.values);
-    const auto differences = bench.filled(2 * in.filtered.layout.size, 0.0f);
-    const std::uint32_t flag = gathered ? 1 : 0;
-    bench.passes.rows("fallback", device::PassKind::Filter, "analysis/fallback.cl", "fallbackDifferences",
-        paramsOf(in.filtered.layout), WEDGE_BLOCK_PIXELS, flag, filtered, noisy, bench.buffer(inShorts(in.deviation)),
-        bench.buffer(inShorts(in.variance)), differences);
+    // One light of two, or paths; pixels of one receiver have one sum of lights.
+    const std::size_t nth = !gathered ? 0 : frame.others ? 2 : 1;
+    PassBench differences(frame, "fallbackDifferences", "fallback", nth);
+    REQUIRE(differences.has("variance") == gathered);
+    REQUIRE(differences.has("texture") == frame.others);
+    const std::size_t size = frame.layout.size;
+    std::vector<float> filtered = in.filtered.values; // of one number they are grey
+    filtered.resize(differences.own<std::uint32_t>("values") * size);
+    differences.plane("filtered", filtered);
+    differences.plane("noisy", in.noisy);
+    differences.plane("deviation", in.deviation);
+    if (gathered)
+        differences.plane("variance", in.variance);
+    if (frame.others)
+        differences.plane("texture", std::vector<float>(3 * size, 1.0f));
+    differences.run();
     if (found != nullptr)
-        *found = { bench.read(differences), in.filtered.layout };
-    if (others) {
-        const auto shares = bench.filled(in.filtered.layout.size, 0.0f);
-        bench.passes.rows("fallback", device::PassKind::Filter, "analysis/fallback.cl", "ownShares", rectangle,
-            WEDGE_BLOCK_PIXELS, flag, differences, bench.buffer(in.objectId.values), shares);
+        *found = differences.pixels<float>("differences");
+    PassBench ownShares(frame, "ownShares", "fallback", nth);
+    ownShares.plane("differences", differences.read<float>("differences"));
+    ownShares.plane("objectId", in.objectId);
+    if (window)
+        ownShares.window(*window);
+    ownShares.run();
+    if (frame.others) {
+        const Planes<float> share = ownShares.pixels<float>("shares");
         Planes<float> out = in.filtered;
-        const Shorts share { bench.read(shares), in.filtered.layout };
-        for (std::size_t c = 0; c < 3; ++c)
-            for (int y = 0; y < static_cast<int>(in.filtered.layout.height); ++y)
-                for (int x = 0; x < static_cast<int>(in.filtered.layout.width); ++x) {
-                    const float f = in.filtered.at(x, y, c) * (1 + share.at(x, y, 1));
-                    out.at(x, y, c) = f + share.at(x, y, 0) * (in.noisy.at(x, y, c) - f);
-                }
+        everyPixel(frame.layout, [&](int x, int y) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                const float f = in.filtered.at(x, y, c) * (1 + share.at(x, y, 1));
+                out.at(x, y, c) = f + share.at(x, y, 0) * (in.noisy.at(x, y, c) - f);
+            }
+        });
         return out;
     }
-    bench.passes.rows("fallback", device::PassKind::Filter, "analysis/fallback.cl", "fallBack", rectangle,
-        WEDGE_BLOCK_PIXELS, flag, differences, bench.buffer(in.objectId.values), noisy, filtered);
-    return planesOf(in.filtered.layout, bench.read(filtered));
+    PassBench reflected(frame, "addReflected", "composite", nth);
+    reflected.plane("light", in.filtered);
+    reflected.plane("noisy", in.noisy);
+    reflected.plane("objectId", in.objectId);
+    reflected.plane("shares", ownShares.read<float>("shares"));
+    if (window)
+        reflected.window(*window);
+    reflected.run();
+    const auto out = reflected.pixels<float>("reflected"), sum = reflected.pixels<float>("sum");
+    everyPixel(frame.layout, [&](int x, int y) {
+        if (std::isfinite(out.at(x, y)))
+            REQUIRE(sum.at(x, y) == (in.objectId.at(x, y) != 0 ? out.at(x, y) : 0.0f));
+    });
+    return out;
 }
 
 double squared(double x) { return x * x; }
@@ -96,7 +130,7 @@ Summed summed(const Images& in, int x, int y)
     return { in.noisy.at(x, y) - in.filtered.at(x, y), squared(in.deviation.at(x, y)), in.filtered.at(x, y),
         in.variance.at(x, y) };
 }
-Summed summed(const Shorts& found, int x, int y, bool gathered)
+Summed summed(const Planes<float>& found, int x, int y, bool gathered)
 {
     return { found.at(x, y, 0), found.at(x, y, 1), found.at(x, y, 2), gathered ? found.at(x, y, 3) : 0.0 };
 }
@@ -106,7 +140,6 @@ Summed summed(const Shorts& found, int x, int y, bool gathered)
 TEST_CASE("fallback: shrinks samples towards what is filtered by the noise and difference of the object around")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
         for (const auto& [width, height, gathered, others] :
             { std::tuple(1, 1, false, false), { 1, 9, false, false }, { 41, 23, false, false }, { 41, 23, true, false },
                 { 1, 1, false, true }, { 41, 23, false, true }, { 41, 23, true, true } })
@@ -116,8 +149,9 @@ TEST_CASE("fallback: shrinks samples towards what is filtered by the noise and d
                 const render::PlaneLayout layout(width, height);
                 std::mt19937 random(7);
                 const Images in(layout, random, bias, noise, uneven);
-                Shorts differences { {}, layout };
-                const Planes<float> found = fallBack(bench, paramsOf(layout), in, gathered, others, &differences);
+                FallbackFrame frame(device, layout, others);
+                Planes<float> differences(layout, 1, 0.0f);
+                const Planes<float> found = fallBack(frame, in, gathered, &differences);
                 int kept = 0, scaled = 0, replaced = 0, between = 0;
                 for (int y = 0; y < height; ++y)
                     for (int x = 0; x < width; ++x) {
@@ -188,32 +222,25 @@ TEST_CASE("fallback: shrinks samples towards what is filtered by the noise and d
 TEST_CASE("fallback: pixels of a rectangle are those of the whole image")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
         const render::PlaneLayout layout(53, 31);
         std::mt19937 random(9);
         const Images in(layout, random, 0.2, 0.1);
-        const Planes<float> whole = fallBack(bench, paramsOf(layout), in, true);
-        shared::AnalysisParams p = paramsOf(layout);
-        p.x0 = 16;
-        p.x1 = 32;
-        p.y0 = 7;
-        p.y1 = 19;
-        const Planes<float> found = fallBack(bench, p, in, true);
-        for (int y = 0; y < 31; ++y)
-            for (int x = 0; x < 53; ++x) {
-                const bool inside = x >= 16 && x < 32 && y >= 7 && y < 19;
+        FallbackFrame frame(device, layout, false);
+        const Window window { 16, 7, 32, 19 };
+        const Planes<float> whole = fallBack(frame, in, true), found = fallBack(frame, in, true, nullptr, window);
+        for (int y = window.y0; y < window.y1; ++y)
+            for (int x = window.x0; x < window.x1; ++x)
                 if (in.objectId.at(x, y) != 0)
-                    REQUIRE(found.at(x, y) == (inside ? whole : in.filtered).at(x, y));
-            }
+                    REQUIRE(found.at(x, y) == whole.at(x, y));
     });
 }
 
 TEST_CASE("fallback: numbers that are none stay where they are")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
         const render::PlaneLayout layout(41, 23);
-        for (const bool others : { false, true })
+        for (const bool others : { false, true }) {
+            FallbackFrame frame(device, layout, others);
             for (const bool gathered : { false, true })
                 for (const int where : { 0, 1, 2 })
                     for (const float wrong : { std::numeric_limits<float>::infinity(), std::nanf("") }) {
@@ -230,11 +257,12 @@ TEST_CASE("fallback: numbers that are none stay where they are")
                             in.deviation.at(badX, badY) = wrong;
                         else
                             (where == 0 ? in.filtered : in.noisy).setVector(badX, badY, glm::dvec3(wrong));
-                        const Planes<float> found = fallBack(bench, paramsOf(layout), in, gathered, others);
+                        const Planes<float> found = fallBack(frame, in, gathered);
                         everyPixel(layout, [&](int x, int y) {
                             if (x != badX || y != badY)
                                 REQUIRE(std::isfinite(found.at(x, y)));
                         });
                     }
+        }
     });
 }

@@ -1,5 +1,5 @@
-// What a term falls back by: termDifferences and termVariance; and unpackNumber: against the same in double. Of frames
-// of one image, whose planes are packed, and of those with layers.
+// What a term falls back by: fallbackDifferences of it and termVariance; and unpackNumber: against the same in double.
+// Of frames of one image, whose planes are packed, and of those with layers.
 #include "tests/pass_bench.h"
 
 #include <cmath>
@@ -67,17 +67,17 @@ bool nearShort(double found, double expected)
 
 } // namespace
 
-TEST_CASE("termDifferences: what filters are off, and its noise, as luminances of what is seen")
+TEST_CASE("fallbackDifferences of a term: what filters are off, and its noise, as luminances of what is seen")
 {
     inBothFrames([](DeclaredFrame& frame) {
         for (const TermKind& kind : kinds) {
             CAPTURE(kind.nth);
-            PassBench bench(frame, "termDifferences", "fallback", kind.nth);
-            REQUIRE(bench.own<shared::DistributedParams>("p").values == kind.values);
+            PassBench bench(frame, "fallbackDifferences", "fallback", kind.nth);
+            REQUIRE(bench.own<std::uint32_t>("values") == kind.values);
             std::mt19937 random(1);
             const std::size_t size = frame.layout.size;
             bench.plane("texture", someColours(random, size, 0.9));
-            bench.plane("value", someColours(random, size, 0.9));
+            bench.plane("noisy", someColours(random, size, 0.9));
             bench.plane("filtered", someNumbers(random, kind.values * size, 0, 0.9));
             bench.plane("deviation", someNumbers(random, size));
             bench.plane("beta", someNumbers(random, size));
@@ -86,14 +86,14 @@ TEST_CASE("termDifferences: what filters are off, and its noise, as luminances o
                 bench.plane("variance", someNumbers(random, size, 0, 1));
             bench.run();
             const auto of = [&](const char* name) { return bench.pixels<float>(name); };
-            const auto texture = of("texture"), value = of("value"), filtered = of("filtered"), beta = of("beta");
+            const auto texture = of("texture"), noisy = of("noisy"), filtered = of("filtered"), beta = of("beta");
             const auto deviation = of("deviation"), found = of("differences");
             const auto variance = gathered ? of("variance") : Planes<float>(frame.layout, 1, 0.0f);
             everyPixel(frame.layout, [&](int x, int y) {
                 const double counts = beta.at(x, y) >= 0 ? 1 : 0;
                 const glm::dvec3 k = texture.vector(x, y), f = filteredAt(filtered, kind.values, x, y);
                 const double v = luminance(k) * deviation.at(x, y);
-                REQUIRE(nearShort(found.at(x, y, 0), counts * luminance(k * (value.vector(x, y) - f))));
+                REQUIRE(nearShort(found.at(x, y, 0), counts * luminance(k * (noisy.vector(x, y) - f))));
                 REQUIRE(nearShort(found.at(x, y, 1), counts * v * v));
                 REQUIRE(nearShort(found.at(x, y, 2), counts * luminance(k * f)));
                 if (gathered)

@@ -76,13 +76,13 @@ TEST_CASE("what a test asks for and there is not, and what a kernel writes besid
         == "\"variance\" of kernel termVariance is a plane, not a value uint");
     CHECK(refused([](PassBench& b) { b.run(); }).empty());
     CHECK(refused([](PassBench&) {
-        PassBench b = onFirst("termDifferences");
+        PassBench b = onFirst("fallbackDifferences");
         b.plane("deviation", std::vector<float>(b.elements("deviation"), 1.0f));
         b.plane("texture", std::vector<float>(3 * b.elements("texture"), 1.0f));
-        b.value("p", b.own<shared::DistributedParams>("p")); // of the whole image
+        b.value("p", b.own<shared::AnalysisParams>("p")); // of the whole image
         b.window({ 3, 2, 9, 5 });
         b.run();
-    }).starts_with("kernel termDifferences has written to \"differences\" beside its window"));
+    }).starts_with("kernel fallbackDifferences has written to \"differences\" beside its window"));
     CHECK(refused([](PassBench& b) {
         auto p = b.own<shared::AnalysisParams>("p");
         p.stride = (p.planeSize - WEDGE_ROW_PADDING) / (p.height - 1) + 1; // the last row is behind the plane

@@ -138,7 +138,7 @@ FilteredTerm LightWaves::filtered(const shared::DistributedParams& params)
     if (shape_.geometryMoves && settings().distributed.blur) {
         out = alongShadows(params, out);
     }
-    return fallingBack(params, nullptr, out);
+    return fallingBack(nullptr, out);
 }
 
 graph::Handle<Value> LightWaves::alongShadows(

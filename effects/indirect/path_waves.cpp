@@ -101,7 +101,7 @@ FilteredTerm PathWaves::filtered(const shared::DistributedParams& params)
     }
     const graph::Handle<Value> out =
         gaussianFilter(f_, { "filter of indirect", PassKind::Filter }, 3, filter, plain, means.beta).value;
-    return fallingBack(params, &filter, out);
+    return fallingBack(&filter, out);
 }
 
 } // namespace wedge::render

@@ -1,15 +1,15 @@
 #include "host/render/pixel_frame.h"
 
+#include "host/render/filters/fallback.h"
+
 #include <algorithm>
 
 namespace wedge::render {
 
 using device::PassKind;
-using graph::around;
 using graph::reads;
 using graph::Run;
 using graph::updates;
-using graph::value;
 using graph::writes;
 
 PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
@@ -34,24 +34,12 @@ PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScen
         added.light.ofPixels(f_, own);
     }
     const bool fallsBack = usesFallback(settings), reflects = countOf(Part::Indirect, terms_) > 0;
-    if (fallsBack && countOf(Part::Direct, terms_) > 0) {
-        fallBack(f_.totals.direct);
-    }
     // Two planes become one before paths are traced.
     auto beauty = graph_.plane<Radiance>("emission and direct light", graph::vectors);
-    const auto add = [this](const graph::Handle<Radiance>& below, const graph::Handle<Radiance>& light,
-                         graph::Handle<Radiance>& sum) {
-        f_.blocks("composite", PassKind::Composite, { "frame/composite.cl", "addReflected" },
-            { f_.rectangle(f_.analysisParams()), reads("below", below), reads("light", light),
-                reads("objectId", f_.surfaces.objectId), writes("sum", sum) });
-    };
-    add(f_.surfaces.emission, f_.totals.direct.filtered, beauty);
+    addReflected(f_.surfaces.emission, f_.totals.direct, fallsBack && countOf(Part::Direct, terms_) > 0, beauty);
     addTerms(Part::Indirect);
-    if (fallsBack && reflects) {
-        fallBack(f_.totals.indirect);
-    }
     if (reflects) {
-        add(beauty, f_.totals.indirect.filtered, f_.totals.beauty);
+        addReflected(beauty, f_.totals.indirect, fallsBack, f_.totals.beauty);
     } else {
         f_.totals.beauty = beauty;
     }
@@ -119,26 +107,38 @@ void PixelFrame::addTerms(Part part)
     }
 }
 
-void PixelFrame::fallBack(Sum& sum)
+void PixelFrame::addReflected(
+    const graph::Handle<Radiance>& below, Sum& sum, bool fallsBack, graph::Handle<Radiance>& out)
 {
-    const graph::Argument p = f_.rectangle(f_.analysisParams());
-    const graph::Reach near = around(WEDGE_SHRINK_REACH);
-    // What was stopped has not the counts that the parts of samples were made for.
-    graph_.only(
-        "fallback", [](const Run& run) { return !run.cut(); },
-        [&] {
-            const bool gathered = sum.variance.graph != 0;
-            auto differences = graph_.plane<Share>("what filters are off", gathered ? shortQuadruples : shortTriples);
-            const auto flag = value("gathered", gathered ? 1u : 0u);
-            f_.blocks("fallback", PassKind::Filter, { "analysis/fallback.cl", "fallbackDifferences" },
-                { p, flag, reads("filtered", sum.filtered), reads("noisy", sum.noisy),
-                    reads("deviation", sum.deviation),
-                    gathered ? reads("variance", sum.variance) : reads("variance", sum.deviation),
-                    writes("differences", differences) });
-            f_.blocks("fallback", PassKind::Filter, { "analysis/fallback.cl", "fallBack" },
-                { p, flag, reads("differences", differences, near), reads("objectId", f_.surfaces.objectId, near),
-                    reads("noisy", sum.noisy), updates("filtered", sum.filtered) });
-        });
+    auto shares = graph_.plane<Share>("share of own samples", graph::pairs);
+    auto reflected = graph_.plane<Radiance>("fallen back", graph::vectors);
+    const bool shown = fallsBack && f_.termLayers != nullptr;
+    if (fallsBack) {
+        f_.zero(shares);
+        // What was stopped has not the counts that the parts of samples were made for.
+        graph_.only(
+            "fallback", [](const Run& run) { return !run.cut(); },
+            [&] {
+                ownShares(f_,
+                    { .values = 3,
+                        .others = false,
+                        .filtered = reads("filtered", sum.filtered),
+                        .noisy = reads("noisy", sum.noisy),
+                        .deviation = reads("deviation", sum.deviation),
+                        .variance = sum.variance.graph != 0 ? reads("variance", sum.variance)
+                                                            : graph::absent("variance", shortFloats) },
+                    updates("shares", shares));
+            });
+    }
+    f_.blocks("composite", PassKind::Composite, { "frame/composite.cl", "addReflected" },
+        { f_.rectangle(f_.analysisParams()), reads("below", below), reads("light", sum.filtered),
+            reads("objectId", f_.surfaces.objectId),
+            fallsBack ? reads("shares", shares) : graph::absent("shares", graph::pairs),
+            fallsBack ? reads("noisy", sum.noisy) : graph::absent("noisy", graph::vectors),
+            shown ? writes("reflected", reflected) : graph::absent("reflected", graph::vectors), writes("sum", out) });
+    if (shown) {
+        sum.filtered = reflected;
+    }
 }
 
 } // namespace wedge::render

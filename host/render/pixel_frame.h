@@ -19,7 +19,8 @@ private:
     void primary(bool lit);
     /// Terms of the one part, of all those of the frame.
     void addTerms(Part part);
-    void fallBack(Sum& sum);
+    /// out = below + what surfaces reflect, which, where it fallsBack, falls back to the pixel's own samples.
+    void addReflected(const graph::Handle<Radiance>& below, Sum& sum, bool fallsBack, graph::Handle<Radiance>& out);
 
     FrameBuilder f_;
 };

@@ -1,5 +1,6 @@
 #include "host/render/wave_term.h"
 
+#include "host/render/filters/fallback.h"
 #include "host/render/filters/filter_graph.h"
 #include "host/render/filters/widening.h"
 
@@ -114,37 +115,34 @@ void WaveTerm::widen(
     render::widen(f_, pass, filter, pixels, distributedNoise, { seen, means.deviation, worth }, means.beta);
 }
 
-FilteredTerm WaveTerm::fallingBack(const shared::DistributedParams& params, const shared::FilterParams* filter,
-    const graph::Handle<Value>& filtered) const
+FilteredTerm WaveTerm::fallingBack(const shared::FilterParams* filter, const graph::Handle<Value>& filtered) const
 {
     if (!usesFallback(settings()) || means.deviation.graph == 0) {
         return { filtered, {} };
     }
     const char* pass = "fallback";
-    const graph::Argument p = f_.rectangle(f_.analysisParams());
     const bool gathered = filter != nullptr;
-    const auto flag = value("gathered", gathered ? 1u : 0u);
     graph::Handle<Value> variance;
     if (gathered) {
         auto squared = f_.graph.plane<Value>("variance of the term", graph::floats);
         f_.blocks(pass, PassKind::Filter, { "analysis/fallback.cl", "termVariance" },
-            { p, reads("deviation", means.deviation), writes("variance", squared) });
+            { f_.rectangle(f_.analysisParams()), reads("deviation", means.deviation), writes("variance", squared) });
         const FilterRun run { pass, PassKind::Filter };
         shared::FilterParams plain = *filter;
         plain.fitted = 0; // of variances the mean, which is not negative
         variance = gaussianFilter(f_, run, 1, plain, squared, means.beta).value;
     }
-    auto differences = f_.graph.plane<Share>("what filters are off", gathered ? shortQuadruples : shortTriples);
-    f_.pixels(pass, PassKind::Filter, { "waves/distributed.cl", "termDifferences" },
-        { f_.rectangle(of(params)), reads("texture", means.texture), reads("value", means.value),
-            reads("filtered", filtered), reads("deviation", means.deviation),
-            gathered ? reads("variance", variance) : graph::absent("variance"), reads("beta", means.beta),
-            writes("differences", differences) });
-    const graph::Reach near = graph::around(WEDGE_SHRINK_REACH);
     auto shares = f_.graph.plane<Share>("share of own samples", shortPairs);
-    f_.blocks(pass, PassKind::Filter, { "analysis/fallback.cl", "ownShares" },
-        { p, flag, reads("differences", differences, near), reads("objectId", f_.surfaces.objectId, near),
-            writes("shares", shares) });
+    ownShares(f_,
+        { .values = values_,
+            .others = true,
+            .filtered = reads("filtered", filtered),
+            .noisy = reads("noisy", means.value),
+            .deviation = reads("deviation", means.deviation),
+            .variance = gathered ? reads("variance", variance) : graph::absent("variance"),
+            .texture = reads("texture", means.texture),
+            .beta = reads("beta", means.beta) },
+        writes("shares", shares));
     return { filtered, shares };
 }
 

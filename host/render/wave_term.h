@@ -135,8 +135,7 @@ protected:
     /// filtered, and how far it falls back to the term's own values where it is off by more than noise
     /// (kernels/analysis/fallback.cl). filter: what made it, if pixels that seem to have no noise are to have that of
     /// the pixels that it gathers; else null.
-    FilteredTerm fallingBack(const shared::DistributedParams& params, const shared::FilterParams* filter,
-        const graph::Handle<Value>& filtered) const;
+    FilteredTerm fallingBack(const shared::FilterParams* filter, const graph::Handle<Value>& filtered) const;
     graph::Handle<Value> visibility(std::string_view pass, const shared::DistributedParams& params) const;
     /// The extremes that widths are made of, in floats.
     graph::Handle<Extremes> wholeExtremes() const;

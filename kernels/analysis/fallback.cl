@@ -23,6 +23,7 @@
 // make with its texture.
 #include "core/formats.h"
 #include "core/vector16.h"
+#include "shared/bsdf.h"
 #include "shared/filter_params.h"
 
 /// c1: sums count as different where the square of their difference is more than this times its variance. Where few
@@ -33,22 +34,33 @@
 /// but they are estimates, and what is taken for bias by mistake brings noise back.
 #define WEDGE_FALLBACK_NOISE 2.0f
 
-/// What is summed, of luminances.
-/// in   filtered, noisy: 3 planes each; deviation: of noisy's luminance (composite.cl); variance: gathered as filtered
-///      was, where `gathered`
-/// out  differences: d, V, f, and, where `gathered`, that variance, in 16 bits each
+/// What is summed, of luminances. texture: what both are multiplied by to be seen; beta: pixels below 0 keep their own,
+/// and nothing is averaged of them; both where there are such.
+/// in   filtered: of `values` planes; noisy; deviation: of noisy's luminance, where it is seen without a texture;
+///      variance: gathered as filtered was, where it is
+/// out  differences: d, V, f, and, where there is a variance, that
 #include "pass/fallbackDifferences.h"
 #ifdef PASS_fallbackDifferences
 __kernel void fallbackDifferences(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
-    const Vec3x16 f = loadVecBlock(filtered, p.planeSize, i);
-    const float16 v = loadShortsBlock(deviation, p.planeSize, i, 0u);
-    storeShortsBlock(differences, p.planeSize, i, 0u, luminance16(sub16(loadVecBlock(noisy, p.planeSize, i), f)));
-    storeShortsBlock(differences, p.planeSize, i, 1u, v * v);
-    storeShortsBlock(differences, p.planeSize, i, 2u, luminance16(f));
-    if (gathered != 0u) {
-        storeShortsBlock(differences, p.planeSize, i, 3u, loadShortsBlock(variance, p.planeSize, i, 0u));
+    const uint n = p.planeSize;
+    const Vec3 f = values == 3u ? loadVec(filtered, n, i) : vec3(filtered[i], filtered[i], filtered[i]);
+    const Vec3 u = LOAD_noisy(n, i);
+#if HAS_texture
+    const Vec3 k = LOAD_texture(n, i);
+    const float t = luminance(k), v = t * LOAD_deviation(n, i);
+    const float d = luminance(vecMul(k, vecSub(u, f))), level = luminance(vecMul(k, f));
+#else
+    const float t = 1.0f, v = LOAD_deviation(n, i);
+    const float d = luminance(vecSub(u, f)), level = luminance(f);
+#endif
+    const bool counts = !HAS_beta || LOAD_beta(n, i) >= 0.0f;
+    storeShort(differences, n, i, 0u, counts ? d : 0.0f);
+    storeShort(differences, n, i, 1u, counts ? v * v : 0.0f);
+    storeShort(differences, n, i, 2u, counts ? level : 0.0f);
+    if (HAS_variance) {
+        storeShort(differences, n, i, 3u, counts ? t * t * LOAD_variance(n, i) : 0.0f);
     }
 }
 #endif
@@ -159,37 +171,14 @@ WEDGE_FN int16 differing(__global const float* differences, __global const uint*
     return (loadIdBlock(objectId, i) != 0u) & (loadShortBlock(differences, i) != 0.0f);
 }
 
-/// What is shown of one channel: f where nothing is shared, whatever the other holds.
-WEDGE_INLINE float16 fallenBack(Fallback fallback, float16 f, float16 u)
-{
-    const float16 scaled = fallback.ratio != 0.0f ? f + fallback.ratio * f : f;
-    return fallback.own > 0.0f ? scaled + fallback.own * (u - scaled) : scaled;
-}
-
-/// in out  filtered
-#include "pass/fallBack.h"
-#ifdef PASS_fallBack
-__kernel void fallBack(PARAMETERS)
-{
-    WEDGE_PIXEL(p, x, y, i);
-    const int16 differs = differing(differences, objectId, i);
-    if (!any(differs)) {
-        return;
-    }
-    const Fallback fallback = fallbackOf(p, gathered, false, y, i, differs, differences, objectId);
-    const Vec3x16 f = loadVecBlock(filtered, p.planeSize, i), u = loadVecBlock(noisy, p.planeSize, i);
-    vstore16(fallenBack(fallback, f.x, u.x), 0, filtered + i);
-    vstore16(fallenBack(fallback, f.y, u.y), 0, filtered + p.planeSize + i);
-    vstore16(fallenBack(fallback, f.z, u.z), 0, filtered + 2u * p.planeSize + i);
-}
-#endif
-
-/// How far terms fall back, from sums without the pixel's own: two bright paths in one pixel, one in each half of its
+/// How far pixels fall back: ratio and own of Fallback, what addReflected() and addFilteredTerm() are handed.
+///
+/// Of terms, `others`, sums are without the pixel's own: two bright paths in one pixel, one in each half of its
 /// samples, leave no trace in V, and would be all of d. (They are in the filtered values of the pixels around, too,
 /// where others' noise is to outweigh them.) Where none around differs, as where none is of the object, twigs and
 /// grains, it is the pixel's own that count.
 ///
-/// out  shares: the share of own samples, and r, in 16 bits each
+/// out  shares: the share of own samples, and r
 #include "pass/ownShares.h"
 #ifdef PASS_ownShares
 __kernel void ownShares(PARAMETERS)
@@ -199,9 +188,8 @@ __kernel void ownShares(PARAMETERS)
     Fallback fallback;
     fallback.ratio = fallback.own = (float16)(0.0f);
     if (any(differs)) {
-        fallback = fallbackOf(p, gathered, true, y, i, differs, differences, objectId);
+        fallback = fallbackOf(p, gathered, others != 0u, y, i, differs, differences, objectId);
     }
-    storeShortsBlock(shares, p.planeSize, i, 0u, fallback.own);
-    storeShortsBlock(shares, p.planeSize, i, 1u, fallback.ratio);
+    WEDGE_OF_FORMAT(storePair16, FORMAT_shares)(shares, p.planeSize, i, fallback.own, fallback.ratio);
 }
 #endif

@@ -84,6 +84,18 @@ WEDGE_BLOCK_FORMAT(unmapped_normal32, float, Vec3x16, unpackNormals16(plane, at)
 WEDGE_BLOCK_FORMAT(unmapped_normal64, float, Vec3x16, unpackNormals16(plane + size, at))
 WEDGE_BLOCK_FORMAT(unmapped_normal192, float, Vec3x16, loadVecBlock(plane + 3u * size, size, at))
 
+/// Of pairs of numbers.
+WEDGE_FN void storePair16_float2(__global float* plane, uint size, int at, float16 first, float16 second)
+{
+    vstore16(first, 0, plane + at);
+    vstore16(second, 0, plane + size + at);
+}
+WEDGE_FN void storePair16_short2(__global float* plane, uint size, int at, float16 first, float16 second)
+{
+    storeShortsBlock(plane, size, at, 0u, first);
+    storeShortsBlock(plane, size, at, 1u, second);
+}
+
 /// A function of a format that a macro has the name of: WEDGE_OF_FORMAT(load16_unmapped, FORMAT_normal)(normal, size,
 /// i).
 #define WEDGE_OF_FORMAT(function, format) WEDGE_JOINED(function, format)

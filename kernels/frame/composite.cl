@@ -1,6 +1,7 @@
 // From filtered terms to radiance: each light's value times its unshadowed shading and the surface's reflectance,
 // added up over lights, then with what surfaces and background emit.
 #include "analysis/deviation.h"
+#include "core/fallen_back.h"
 #include "core/packed_planes.h"
 #include "light/light_sample.h"
 #include "light/unshadowed.h"
@@ -204,16 +205,27 @@ __kernel void addIndirect(PARAMETERS)
 }
 #endif
 
-/// Adds what a surface reflects, `light`, to what is there without, `below` (3 planes each).
+/// Adds what a surface reflects, `light`, to what is there without, `below` (3 planes each). Where there are shares, of
+/// ownShares(), light falls back to `noisy`, and is kept as that in `reflected` where somebody asks for it.
 #include "pass/addReflected.h"
 #ifdef PASS_addReflected
 __kernel void addReflected(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
     const int16 surface = loadIdBlock(objectId, i) != 0u;
+#if HAS_shares
+    const float16 own = loadBlock(shares, i), ratio = loadBlock(shares + p.planeSize, i);
+#endif
     for (uint plane = 0u; plane < 3u; ++plane) {
         const int j = i + (int)(plane * p.planeSize);
-        vstore16(loadBlock(below, j) + (surface ? loadBlock(light, j) : (float16)(0.0f)), 0, sum + j);
+        float16 shown = loadBlock(light, j);
+#if HAS_shares
+        shown = fallenBack16(shown, loadBlock(noisy, j), own, ratio);
+#endif
+#if HAS_reflected
+        vstore16(shown, 0, reflected + j);
+#endif
+        vstore16(loadBlock(below, j) + (surface ? shown : (float16)(0.0f)), 0, sum + j);
     }
 }
 #endif

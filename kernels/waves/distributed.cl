@@ -2,6 +2,7 @@
 // irradiance's filter is then, which samples are worth most, and what becomes of the filtered term.
 #include "core/blur.h"
 #include "core/distributed_pixel.h"
+#include "core/fallen_back.h"
 #include "core/formats.h"
 #include "core/pixel.h"
 #include "shared/bsdf.h"
@@ -269,30 +270,6 @@ __kernel void visibilityOf(PARAMETERS)
 }
 #endif
 
-/// fallbackDifferences() of fallback.cl for a term, of the luminance that is seen.
-/// in   filtered: p.values planes; deviation: of the value; variance: gathered as filtered was, where it is; beta:
-///      pixels below 0 keep their own, and nothing is averaged of them
-#include "pass/termDifferences.h"
-#ifdef PASS_termDifferences
-__kernel void termDifferences(PARAMETERS)
-{
-    WEDGE_PIXEL(p, x, y, i);
-    const uint n = p.planeSize;
-    const Vec3 k = LOAD_texture(n, i);
-    const Vec3 f = p.values == 3u ? loadVec(filtered, n, i) : vec3(filtered[i], filtered[i], filtered[i]);
-    const bool counts = beta[i] >= 0.0f;
-    const float t = luminance(k);
-    const float d = luminance(vecMul(k, vecSub(LOAD_value(n, i), f)));
-    const float v = t * LOAD_deviation(n, i);
-    storeShort(differences, n, i, 0u, counts ? d : 0.0f);
-    storeShort(differences, n, i, 1u, counts ? v * v : 0.0f);
-    storeShort(differences, n, i, 2u, counts ? luminance(vecMul(k, f)) : 0.0f);
-    if (HAS_variance) {
-        storeShort(differences, n, i, 3u, counts ? t * t * LOAD_variance(n, i) : 0.0f);
-    }
-}
-#endif
-
 /// Along the motion: of a term its texture, or a value of one number. along, directions, or vectors: of blurs() or
 /// shadowBlurs()
 #include "pass/blurMotion.h"
@@ -342,14 +319,6 @@ WEDGE_FN float keptOf(float number, float difference)
     return number + difference < 0.0f ? -number / difference : 1.0f;
 }
 
-/// What is shown of a filtered number f that falls back to u. share: of ownShares(); where it is none u is not looked
-/// at.
-WEDGE_FN float fallenBack(float f, float u, float2 share)
-{
-    const float own = share.x, scaled = share.y != 0.0f ? f * (1.0f + share.y) : f;
-    return own > 0.0f ? scaled + own * (u - scaled) : scaled;
-}
-
 /// radiance += a term: where it is taken apart filteredTexture filtered (p.values planes), which where there are shares
 /// falls back to the term's own; elsewhere its own. Of lights visibilities are filtered, in which colours have no part:
 /// each pixel keeps its own.
@@ -367,9 +336,9 @@ __kernel void addFilteredTerm(PARAMETERS)
         const Vec3 k = LOAD_texture(n, i), u = LOAD_value(n, i);
         const float seen = luminance(vecMul(k, u)) / fmax(luminance(k), 1e-30f);
         const bool one = p.values == 1u;
-        e.x = fallenBack(e.x, one ? seen : u.x, share);
-        e.y = fallenBack(e.y, one ? seen : u.y, share);
-        e.z = fallenBack(e.z, one ? seen : u.z, share);
+        e.x = fallenBack(e.x, one ? seen : u.x, share.x, share.y);
+        e.y = fallenBack(e.y, one ? seen : u.y, share.x, share.y);
+        e.z = fallenBack(e.z, one ? seen : u.z, share.x, share.y);
 #endif
         term = vecMul(LOAD_filteredTexture(n, i), e);
         if (p.values == 1u && p.published == 0u) {
