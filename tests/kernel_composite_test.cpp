@@ -9,6 +9,7 @@
 #include "tests/render_support.h"
 
 #include <array>
+#include <limits>
 
 using namespace wedge;
 using namespace wedge::test;

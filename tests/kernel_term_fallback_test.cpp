@@ -3,7 +3,6 @@
 #include "tests/pass_bench.h"
 
 #include <cmath>
-#include <limits>
 
 using namespace wedge;
 using namespace wedge::test;

@@ -116,7 +116,7 @@ private:
     graph::Handle<Radiance> sumOfAll(
         const char* name, const graph::Handle<Radiance>& direct, const graph::Handle<Radiance>& indirect);
     void addOwn(WaveTerm& term, graph::Handle<Radiance>& radiance, bool unlessAnalysed);
-    /// value: the term's, filtered. own: of the pixels.
+    /// own: blurs of the pixels.
     void addFiltered(WaveTerm& term, const FilteredTerm& filtered, const Blurs& own, graph::Handle<Radiance>& radiance);
     void blur(graph::Handle<Radiance>& image);
     graph::Handle<Radiance>& sumOf(WaveTerm& term);

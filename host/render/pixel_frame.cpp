@@ -112,7 +112,7 @@ void PixelFrame::addReflected(
 {
     auto shares = graph_.plane<Share>("share of own samples", graph::pairs);
     auto reflected = graph_.plane<Radiance>("fallen back", graph::vectors);
-    const bool shown = fallsBack && f_.termLayers != nullptr;
+    const bool layered = fallsBack && keepsLayers_; // they show light apart
     if (fallsBack) {
         f_.zero(shares);
         // What was stopped has not the counts that the parts of samples were made for.
@@ -135,8 +135,9 @@ void PixelFrame::addReflected(
             reads("objectId", f_.surfaces.objectId),
             fallsBack ? reads("shares", shares) : graph::absent("shares", graph::pairs),
             fallsBack ? reads("noisy", sum.noisy) : graph::absent("noisy", graph::vectors),
-            shown ? writes("reflected", reflected) : graph::absent("reflected", graph::vectors), writes("sum", out) });
-    if (shown) {
+            layered ? writes("reflected", reflected) : graph::absent("reflected", graph::vectors),
+            writes("sum", out) });
+    if (layered) {
         sum.filtered = reflected;
     }
 }

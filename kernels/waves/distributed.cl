@@ -333,12 +333,16 @@ __kernel void addFilteredTerm(PARAMETERS)
         Vec3 e = p.values == 3u ? loadVec(filtered, n, i) : vec3(filtered[i], filtered[i], filtered[i]);
 #if HAS_shares
         const float2 share = LOAD_shares(n, i);
-        const Vec3 k = LOAD_texture(n, i), u = LOAD_value(n, i);
-        const float seen = luminance(vecMul(k, u)) / fmax(luminance(k), 1e-30f);
-        const bool one = p.values == 1u;
-        e.x = fallenBack(e.x, one ? seen : u.x, share.x, share.y);
-        e.y = fallenBack(e.y, one ? seen : u.y, share.x, share.y);
-        e.z = fallenBack(e.z, one ? seen : u.z, share.x, share.y);
+        if (share.x > 0.0f || share.y != 0.0f) {
+            Vec3 u = LOAD_value(n, i);
+            if (p.values == 1u) {
+                const Vec3 k = LOAD_texture(n, i);
+                u.x = u.y = u.z = luminance(vecMul(k, u)) / fmax(luminance(k), 1e-30f);
+            }
+            e.x = fallenBack(e.x, u.x, share.x, share.y);
+            e.y = fallenBack(e.y, u.y, share.x, share.y);
+            e.z = fallenBack(e.z, u.z, share.x, share.y);
+        }
 #endif
         term = vecMul(LOAD_filteredTexture(n, i), e);
         if (p.values == 1u && p.published == 0u) {
