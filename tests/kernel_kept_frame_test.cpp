@@ -5,6 +5,7 @@
 #include "tests/pass_bench.h"
 
 #include <cmath>
+#include <set>
 
 using namespace wedge;
 using namespace wedge::test;
@@ -225,5 +226,31 @@ TEST_CASE("findVariation: noise beside the pixel and the light's slope, of pixel
             for (int x = 1; x < width - 1; ++x)
                 mean += found.at(x, y) / ((width - 2.0) * (height - 2.0));
         CHECK(std::fabs(mean - 1) < 0.15); // three standard deviations
+    });
+}
+
+TEST_CASE("a rehearsed sequence builds no program: neither in its first frame, nor in one that is kept alone")
+{
+    onEveryDevice([](const device::Device& device) {
+        for (const bool keptFirst : { false, true }) {
+            CAPTURE(keptFirst);
+            render::Renderer renderer(sceneOf(kinds[0]), device, renderOptions());
+            render::Settings settings = settingsOf(kinds[0]);
+            settings.temporal = render::Temporal::On;
+            filters::TemporalFilter filter(device);
+            renderer.rehearse(settings, true);
+            filter.rehearse(renderer, settings);
+            const std::set<device::ProgramSource> rehearsed = renderer.kernels().programs();
+            for (std::uint32_t frame = 0; frame < 3; ++frame) {
+                CAPTURE(frame);
+                settings.frame = frame;
+                render::FrameStatistics statistics = renderer.render(settings, {}, true);
+                if (keptFirst && frame == 0)
+                    filter.keep(renderer, settings, nullptr, statistics);
+                else
+                    filter.filter(renderer, settings, nullptr, statistics);
+                CHECK((renderer.kernels().programs() == rehearsed));
+            }
+        }
     });
 }

@@ -382,19 +382,30 @@ void TemporalFilter::run(render::Renderer& renderer, const Settings& settings,
         }
         d.add(handles, kept, equalCameras(own.camera, kept.camera), motion, memory.cl());
     };
-    if (filters) {
+    // Programs are of the kernels that a graph has. Each frame declares all, so that none builds its own amid a
+    // sequence: where nothing is filtered, or no frame was before, passes that are not run.
+    const auto addNext = [&] {
+        allocate(slotOf(number + 1, settings));
+        add(slotOf(number + 1, settings));
+    };
+    const auto onlyIf = [&d](bool runs, const std::function<void()>& declare) {
+        d.graph.only(
+            "filter over time", [runs](const graph::Run&) { return runs; }, declare);
+    };
+    onlyIf(filters, [&] {
         d.startSums();
+        bool before = false;
         for (std::uint32_t frame = number; frame-- > firstOfWindow(number, settings.temporal);) {
             if (slotOf(frame, settings).frame == frame) {
                 add(slotOf(frame, settings));
+                before = true;
             }
         }
-        if (rehearsal) {
-            allocate(slotOf(number + 1, settings));
-            add(slotOf(number + 1, settings));
+        if (!before) {
+            onlyIf(rehearsal, addNext);
         }
         d.finish();
-    }
+    });
     if (look) {
         look(d.graph);
         return;
