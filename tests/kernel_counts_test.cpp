@@ -1,9 +1,10 @@
 // demand.cl and counts.cl alone: from variances to demands, and from those to counts.
 #include "kernels/shared/filter_params.h"
-#include "tests/render_support.h"
+#include "tests/distributed_support.h"
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 
 using namespace wedge;
 using namespace wedge::test;
@@ -25,30 +26,112 @@ shared::AnalysisParams paramsFor(const render::PlaneLayout& layout)
     return p;
 }
 
-/// demandHistogram, solveCountScale and countsFromDemand one after the other.
-Planes<std::uint32_t> countsOf(KernelBench& bench, const Planes<float>& demand, const Planes<std::uint32_t>& objectId,
+/// One kind of samples, of pixels.
+struct Asked {
+    Planes<float> demand;
+    float rays = 1, least = 9;
+    std::optional<Planes<std::uint32_t>> taken = {};
+    std::optional<Planes<float>> uncertainty = {};
+};
+
+/// What comes of it.
+struct Scaled {
+    std::vector<Planes<std::uint32_t>> counts; ///< of each kind
+    std::vector<float> numbers; ///< WEDGE_SCALE_NUMBERS
+};
+
+/// The passes that make counts of demands, of a frame of one kind of samples with a mask, or of several kinds without.
+class CountPasses {
+public:
+    CountPasses(DeclaredFrame& frame, std::size_t kinds)
+        : frame_(frame)
+        , kinds_(kinds)
+    {
+    }
+
+    /// rays: a pixel in the mean; mask: where it is 0 there are no samples.
+    Scaled run(const std::vector<Asked>& kinds, float rays, float most, const Planes<std::uint32_t>* mask = nullptr)
+    {
+        REQUIRE(kinds.size() == kinds_);
+        Scaled out;
+        PassBench first(frame_, "firstScales");
+        first.run();
+        out.numbers = first.read<float>("scale");
+        for (int round = 0; round < WEDGE_SCALE_ROUNDS; ++round) {
+            const auto [own, others] = sums("samplesAtScales", kinds, most, out.numbers, mask);
+            PassBench refine(frame_, "refineScales");
+            refine.value("rays", rays);
+            refine.plane("sums", own);
+            if (kinds_ > 1)
+                refine.plane("sumsOfOthers", others);
+            refine.plane("scale", out.numbers);
+            refine.run();
+            out.numbers = refine.read<float>("scale");
+        }
+        if (kinds[0].uncertainty) {
+            const auto [own, others] = sums("noiseOfCounts", kinds, most, out.numbers, nullptr);
+            PassBench share(frame_, "shareOfEven");
+            share.plane("noise", own);
+            share.plane("noiseOfOthers", others);
+            share.plane("scale", out.numbers);
+            share.run();
+            out.numbers = share.read<float>("scale");
+        }
+        for (std::size_t k = 0; k < kinds.size(); ++k) {
+            PassBench pass = filled("countsFromDemand", kinds[k], k, most, out.numbers, mask);
+            pass.plane("wanted", std::vector<std::uint32_t>(frame_.layout.size, 777));
+            pass.run();
+            out.counts.push_back(pass.pixels<std::uint32_t>("wanted"));
+        }
+        return out;
+    }
+
+private:
+    PassBench filled(const std::string& kernel, const Asked& kind, std::size_t number, float most,
+        const std::vector<float>& scale, const Planes<std::uint32_t>* mask)
+    {
+        PassBench pass(frame_, kernel, "", number);
+        pass.value("least", kind.least);
+        pass.value("most", most);
+        pass.plane("scale", scale);
+        pass.plane("demand", kind.demand);
+        REQUIRE(pass.has("taken") == kind.taken.has_value());
+        if (kind.taken)
+            pass.plane("taken", *kind.taken);
+        if (mask != nullptr)
+            pass.plane("mask", *mask);
+        return pass;
+    }
+
+    /// What a pass adds up of the first kind, and of all others.
+    std::pair<std::vector<float>, std::vector<float>> sums(const std::string& kernel, const std::vector<Asked>& kinds,
+        float most, const std::vector<float>& scale, const Planes<std::uint32_t>* mask)
+    {
+        std::vector<float> own, others;
+        for (std::size_t k = 0; k < kinds.size(); ++k) {
+            PassBench pass = filled(kernel, kinds[k], k, most, scale, mask);
+            pass.value("rays", kinds[k].rays);
+            if (pass.has("uncertainty"))
+                pass.plane("uncertainty", kinds[k].uncertainty.value());
+            // Garbage of an earlier frame in what is written anew.
+            pass.plane("sums", k > 1 ? others : std::vector<float>(pass.elements("sums"), 1e9f));
+            pass.run();
+            (k == 0 ? own : others) = pass.read<float>("sums");
+        }
+        return { own, others };
+    }
+
+    DeclaredFrame& frame_;
+    std::size_t kinds_;
+};
+
+/// A frame of one light, one receiver a pixel.
+render::Settings oneKind(int width, int height) { return sized(render::axisAligned(28), width, height); }
+
+Planes<std::uint32_t> countsOf(DeclaredFrame& frame, const Planes<float>& demand, const Planes<std::uint32_t>& objectId,
     float mean, std::uint32_t cap)
 {
-    shared::AnalysisParams p = paramsFor(demand.layout);
-    p.countCap = cap;
-    constexpr std::size_t bins = WEDGE_DEMAND_BINS, stripes = WEDGE_DEMAND_STRIPES;
-    // Garbage in what they work in, as after an earlier frame.
-    const auto counts = bench.filled(bins * stripes, 12345u), shaded = bench.filled(stripes, 99u),
-               binCounts = bench.filled(bins, 5u);
-    const auto sums = bench.filled(bins * stripes, 1e9f), binSums = bench.filled(bins, 3.0f),
-               scale = bench.filled(1, -1.0f);
-    const auto demands = bench.buffer(demand.values);
-    const auto objects = bench.buffer(objectId.values);
-    device::Kernel& histogram = bench.passes.find("analysis/counts.cl", "demandHistogram");
-    histogram.setArgs(p, demands, objects, counts, sums, shaded);
-    bench.queue.launch("counts", device::PassKind::Analysis, histogram, stripes, 1);
-    device::Kernel& solve = bench.passes.find("analysis/counts.cl", "solveCountScale");
-    solve.setArgs(mean, 9.0f, static_cast<float>(cap), counts, sums, shaded, binCounts, binSums, scale);
-    bench.queue.launch("counts", device::PassKind::Analysis, solve, 1, 1);
-    const auto wanted = bench.filled(demand.layout.size, 777u);
-    bench.passes.rows("counts", device::PassKind::Analysis, "analysis/counts.cl", "countsFromDemand", p, 1, demands,
-        scale, objects, wanted);
-    return planesOf(demand.layout, bench.read(wanted));
+    return CountPasses(frame, 1).run({ { demand } }, mean, static_cast<float>(cap), &objectId).counts[0];
 }
 
 /// Demands 2^normal(centre, spread) at a fraction of the pixels, holes in the image.
@@ -104,7 +187,7 @@ Summary summarise(const Planes<std::uint32_t>& counts, const Planes<std::uint32_
 TEST_CASE("no demand at all: nine samples each; nothing shaded: none")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        DeclaredFrame bench(device, smallScene(), oneKind(37, 21));
         Demands in(37, 21, 0, 1, 0.0);
         const Summary s = summarise(countsOf(bench, in.demand, in.objectId, 28, 256), in.objectId);
         CHECK(s.least == 9);
@@ -121,7 +204,7 @@ TEST_CASE("no demand at all: nine samples each; nothing shaded: none")
 TEST_CASE("a single pixel gets the mean itself, up to the cap")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        DeclaredFrame bench(device, smallScene(), oneKind(1, 1));
         for (const double centre : { -20.0, -5.0, 0.0, 6.0 }) {
             const Demands one(1, 1, centre, 0, 1);
             CAPTURE(centre);
@@ -135,7 +218,7 @@ TEST_CASE("a single pixel gets the mean itself, up to the cap")
 TEST_CASE("the mean count is what was asked for, within 1 %, and counts stay within 9 and the cap")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        DeclaredFrame bench(device, smallScene(), oneKind(93, 61));
         for (const double centre : { -15.0, -6.0, -1.0 })
             for (const double spread : { 0.01, 0.5, 2.5 })
                 for (const double fraction : { 0.4, 1.0 })
@@ -161,7 +244,7 @@ TEST_CASE("the mean count is what was asked for, within 1 %, and counts stay wit
 TEST_CASE("counts follow the demand")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        DeclaredFrame bench(device, smallScene(), oneKind(64, 40));
         const Demands in(64, 40, 0, 1, 1);
         const Planes<std::uint32_t> counts = countsOf(bench, in.demand, in.objectId, 40, 256);
         for (int y = 0; y < 40; ++y)
@@ -169,6 +252,104 @@ TEST_CASE("counts follow the demand")
                 if (in.objectId.at(x, y) != 0 && in.objectId.at(x - 1, y) != 0
                     && in.demand.at(x, y) > in.demand.at(x - 1, y))
                     REQUIRE(counts.at(x, y) >= counts.at(x - 1, y));
+    });
+}
+
+TEST_CASE("kinds of samples share one scale: their rays are what was asked for, and no count goes below what there is")
+{
+    onEveryDevice([](const device::Device& device) {
+        const render::PlaneLayout layout(61, 47);
+        MovingFrame frame(device, Kept::Full, layout);
+        std::mt19937 random(11);
+        CountPasses passes(frame, 4); // primary samples, those of two lights, and paths
+        for (const std::uint32_t most : { 60u, 5000u })
+            for (const double spread : { 0.01, 3.0, 12.0 }) {
+                std::vector<Asked> kinds;
+                for (std::size_t k = 0; k < 4; ++k) {
+                    Asked kind { Planes<float>(layout, 1, 1e30f), k == 3 ? 2.0f : 1.0f, static_cast<float>(4 + k) };
+                    kind.taken.emplace(layout, 1, 1u << 20);
+                    kind.uncertainty.emplace(layout, 1, 0.0f);
+                    everyPixel(layout, [&](int x, int y) {
+                        const double d = std::exp2(uniform(random, -spread, spread));
+                        kind.demand.at(x, y) = random() % 9 == 0 ? 0.0f : static_cast<float>(d);
+                        kind.taken->at(x, y) = random() % 11 == 0 ? 90 : 8;
+                    });
+                    kinds.push_back(std::move(kind));
+                }
+                const float asked = 150;
+                const Scaled found = passes.run(kinds, asked, static_cast<float>(most));
+                CAPTURE(most);
+                CAPTURE(spread);
+                const float scale = found.numbers[WEDGE_SCALE_FOUND];
+                double rays = 0, primary = 0, pixels = 0;
+                for (std::size_t k = 0; k < 4; ++k)
+                    everyPixel(layout, [&](int x, int y) {
+                        const double n = std::max(std::clamp(static_cast<double>(scale) * kinds[k].demand.at(x, y),
+                                                      double { kinds[k].least }, double { static_cast<float>(most) }),
+                            static_cast<double>(kinds[k].taken->at(x, y)));
+                        rays += kinds[k].rays * n;
+                        primary += k == 0 ? n : 0;
+                        pixels += k == 0 ? 1 : 0;
+                        const std::uint32_t count = found.counts[k].at(x, y);
+                        if (std::fabs(n - std::floor(n) - 0.5) > 1e-3)
+                            REQUIRE(count == static_cast<std::uint32_t>(std::floor(n + 0.5)));
+                    });
+                CHECK(rays / pixels == doctest::Approx(asked).epsilon(0.005));
+                CHECK(found.numbers[WEDGE_SCALE_MEAN] == doctest::Approx(primary / pixels).epsilon(0.005));
+                CHECK(found.numbers[WEDGE_SCALE_EVEN] == 0); // nothing is uncertain
+            }
+    });
+}
+
+TEST_CASE("counts are even where demands say nothing of the pixels that have them")
+{
+    onEveryDevice([](const device::Device& device) {
+        const int width = 40, height = 30;
+        const render::PlaneLayout layout(width, height);
+        MovingFrame frame(device, Kept::Full, layout);
+        std::mt19937 random(3);
+        Planes<float> found(layout, 1, 0.0f); // one of eight samples found something
+        everyPixel(layout, [&](int x, int y) { found.at(x, y) = random() % 25 == 0 ? 1.0f : 0.0f; });
+        const auto around = [&](int x, int y) {
+            float sum = 0;
+            for (int qy = std::max(0, y - 1); qy <= std::min(height - 1, y + 1); ++qy)
+                for (int qx = std::max(0, x - 1); qx <= std::min(width - 1, x + 1); ++qx)
+                    sum += qx == x && qy == y ? 0.0f : found.at(qx, qy);
+            return sum;
+        };
+        const auto numbers = [&](const auto& demand, const auto& uncertainty, float ofOthers) {
+            std::vector<Asked> kinds;
+            for (std::size_t k = 0; k < 4; ++k) {
+                Asked kind { Planes<float>(layout, 1, 0.0f) };
+                kind.taken.emplace(layout, 1, 8u);
+                kind.uncertainty.emplace(layout, 1, k == 0 ? 0.0f : ofOthers);
+                if (k == 0)
+                    everyPixel(layout, [&](int x, int y) {
+                        kind.demand.at(x, y) = demand(x, y);
+                        kind.uncertainty->at(x, y) = uncertainty(x, y);
+                    });
+                kinds.push_back(std::move(kind));
+            }
+            const Scaled scaled = CountPasses(frame, 4).run(kinds, 28 + 3 * 9, 256);
+            const float even = scaled.numbers[WEDGE_SCALE_EVEN], mean = scaled.numbers[WEDGE_SCALE_MEAN];
+            everyPixel(layout, [&](int x, int y) {
+                const double asked = std::clamp(scaled.numbers[WEDGE_SCALE_FOUND] * demand(x, y), 9.0f, 256.0f);
+                const double n = asked + double { even } * (mean - asked);
+                if (std::fabs(n - std::floor(n) - 0.5) > 1e-3)
+                    REQUIRE(scaled.counts[0].at(x, y) == static_cast<std::uint32_t>(std::floor(n + 0.5)));
+                REQUIRE(scaled.counts[1].at(x, y) == 9); // of primary samples alone
+            });
+            return std::pair(even, mean);
+        };
+        const auto own = [&](int x, int y) { return found.at(x, y); };
+        const auto [share, mean] = numbers(around, own, 0.0f);
+        CHECK(share >= 0.75f);
+        CHECK(mean == doctest::Approx(28).epsilon(0.02));
+        // Where all else has far more noise there is nothing to gain.
+        CHECK(numbers(around, own, 10.0f).first == 0);
+        // A quarter that is uncertain, and knows it of its neighbours.
+        const auto uncertain = [](int x, int) { return x < width / 4 ? 1.0f : 0.01f; };
+        CHECK(numbers([&](int x, int y) { return std::sqrt(uncertain(x, y)); }, uncertain, 0.0f).first == 0);
     });
 }
 

@@ -161,32 +161,3 @@ TEST_CASE("widths: errors without a sign cancel, those of one sign do not, and o
         });
     });
 }
-
-TEST_CASE("counts are the scaled demand to the nearest, within bounds, and never fewer than there are")
-{
-    onEveryRegion(150, Kept::Full, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
-        RegionPass<std::uint32_t> pass(frame, "scaleCounts", { "wanted" });
-        for (const float scale : { 0.0f, 1.0f, 37.5f, 1e30f }) {
-            const float even = scale == 1.0f ? 0.75f : 0.0f, mean = 26.0f;
-            const auto demand = filledPlanes(region, 1, 1e30f,
-                [&](int, int, std::size_t) { return random() % 5 == 0 ? 0.0 : std::exp(uniform(random, -6, 6)); });
-            const auto taken = filledPlanes(region, 1, 1u << 20, [&](int, int, std::size_t) { return random() % 40; });
-            pass.value("scale", scale);
-            pass.value("even", even);
-            pass.value("mean", mean);
-            pass.value("least", 8u);
-            pass.value("most", 100u);
-            pass.plane("demand", demand);
-            pass.plane("taken", taken);
-            pass.runIn(region, paramsOf(region));
-            const auto found = pass.pixels<std::uint32_t>("wanted");
-            everyPixel(region.window, [&](int x, int y) {
-                const double asked = std::clamp(static_cast<double>(scale) * demand.at(x, y), 8.0, 100.0);
-                const double n = asked + double { even } * (mean - asked);
-                if (std::fabs(n - std::floor(n) - 0.5) > 1e-4)
-                    REQUIRE(
-                        found.at(x, y) == std::max(static_cast<std::uint32_t>(std::floor(n + 0.5)), taken.at(x, y)));
-            });
-        }
-    });
-}

@@ -4,6 +4,7 @@
 #include "effects/area_lights/maaf.h"
 #include "effects/area_lights/soft_shadows.h"
 #include "host/graph/execution.h"
+#include "host/render/filters/count_scale.h"
 #include "host/render/filters/filter_graph.h"
 #include "host/render/filters/widening.h"
 #include "host/render/sample_slices.h"
@@ -335,7 +336,8 @@ void LightGraph::countsFromVariance()
             writes("uncertainty", uncertainty) });
     auto demand = g_.plane<Demand>("demand", graph::floats);
     demandOf(f_, p, uncertainty, { .oneObject = true, .ownToo = true }, demand);
-    countsFromDemand(f_, p, static_cast<float>(s_.spp), demand, f_.surfaces.objectId, wanted_);
+    countsFromDemands(f_, { { demand, 1.0f, static_cast<float>(p.leastCount), &wanted_ } },
+        { static_cast<float>(s_.spp), static_cast<float>(p.countCap), f_.surfaces.objectId });
 }
 
 void LightGraph::widened()

@@ -1,5 +1,6 @@
 #include "effects/indirect/path_graph.h"
 
+#include "host/render/filters/count_scale.h"
 #include "host/render/filters/curvature.h"
 #include "host/render/filters/filter_graph.h"
 #include "host/render/filters/widening.h"
@@ -295,7 +296,8 @@ void PathGraph::countsFromVariance()
             writes("uncertainty", uncertainty) });
     auto demand = g_.plane<Demand>("demand", graph::floats);
     demandOf(f_, countParams(), uncertainty, { .oneObject = true, .ownToo = false }, demand);
-    countsFromDemand(f_, countParams(), static_cast<float>(s_.spp), demand, taken_, wanted_);
+    countsFromDemands(f_, { { demand, 1.0f, static_cast<float>(countParams().leastCount), &wanted_ } },
+        { static_cast<float>(s_.spp), static_cast<float>(countParams().countCap), taken_ });
 }
 
 void PathGraph::deviations()

@@ -2,20 +2,17 @@
 // frame of several receivers a pixel are worth most.
 #include "host/render/distributed_samples.h"
 
-#include "host/render/count_scale.h"
+#include "host/render/filters/count_scale.h"
 #include "host/render/filters/filter_graph.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace wedge::render {
 
 using device::PassKind;
 using graph::around;
-using graph::made;
 using graph::reads;
-using graph::Run;
 using graph::updates;
 using graph::value;
 using graph::writes;
@@ -160,7 +157,6 @@ void DistributedSamples::demands()
 void DistributedSamples::counts(const DistributedSamples& guide)
 {
     demands();
-    // The scale of all demands that makes the mean number of rays what uniform counts would have.
     const DistributedSettings& d = f_.settings.distributed;
     const auto spp = static_cast<float>(f_.settings.spp);
     const auto first = static_cast<float>(std::min(d.firstPaths, f_.settings.spp));
@@ -170,57 +166,14 @@ void DistributedSamples::counts(const DistributedSamples& guide)
     const float leastOfTerms = leastOf(std::max(d.leastShare, d.leastTermShare));
     // Samples of terms go to new receivers: one at least.
     const float least = std::min(std::max(leastOf(d.leastShare), first + 1.0f), spp);
-    struct Kind {
-        graph::Handle<Demand> demand;
-        graph::Handle<Uncertainty> uncertainty;
-        graph::Handle<Count> taken;
-        float rays, least, room;
-    };
-    std::vector<Kind> kinds { { guide.demand_, uncertainty_, counts_.taken, 1.0f, least,
-        static_cast<float>(roomOfWaves(f_.layout, mostNew())) } }; // limitTiles()
+    std::vector<AskedSamples> kinds { { guide.demand_, 1.0f, least, &counts_.wanted, counts_.taken, uncertainty_ } };
     for (std::size_t i = 0; i < terms_.size(); ++i) {
-        const TermMeans& m = terms_[i]->means;
-        kinds.push_back({ guide.terms_[i]->means.demand, m.uncertainty, m.taken, terms_[i]->rays, leastOfTerms,
-            std::numeric_limits<float>::infinity() });
+        TermMeans& m = terms_[i]->means;
+        kinds.push_back(
+            { guide.terms_[i]->means.demand, terms_[i]->rays, leastOfTerms, &m.wanted, m.taken, m.uncertainty });
     }
-    std::vector<graph::Argument> uses;
-    for (const Kind& kind : kinds) {
-        uses.push_back(reads("demand", kind.demand));
-        uses.push_back(reads("uncertainty", kind.uncertainty));
-        // Of frames that keep no counts of terms it is one plane for all.
-        if (shape_.full || &kind == kinds.data()) {
-            uses.push_back(reads("taken", kind.taken));
-        }
-    }
-    const double budget = raysOfPath() * f_.settings.spp * static_cast<double>(f_.layout.width) * f_.layout.height;
-    f_.host(
-        "count scale",
-        [kinds, budget, most, layout = f_.layout, state = state_](Run& run) {
-            std::vector<AskedSamples> asked;
-            for (const Kind& kind : run.rehearsal() ? std::vector<Kind>() : kinds) {
-                asked.push_back({ run.buffer<float>(kind.demand).downloadAll(run.queue()),
-                    run.buffer<std::uint32_t>(kind.taken).downloadAll(run.queue()),
-                    run.buffer<float>(kind.uncertainty).downloadAll(run.queue()), kind.rays, kind.least, kind.room });
-            }
-            state->scale = run.rehearsal() ? 1.0f : scaleOf(asked, budget, most, layout);
-            state->even = run.rehearsal() ? EvenCounts() : evenCounts(asked, state->scale, most, layout);
-        },
-        graph::together("asked", uses));
-    const auto scale = made("scale", [state = state_](const graph::Launch&) { return state->scale; });
-    const auto even = made("even", [state = state_](const graph::Launch&) { return state->even.share; });
-    const auto mean = made("mean", [state = state_](const graph::Launch&) { return state->even.mean; });
-    const graph::Argument zero = value("even", 0.0f), noMean = value("mean", 0.0f);
-    const auto wants = [&](const Kind& kind, graph::Handle<Count>& wanted) {
-        const bool primary = &kind == kinds.data();
-        f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "scaleCounts" },
-            { pixels(), scale, primary ? even : zero, primary ? mean : noMean,
-                value("least", static_cast<std::uint32_t>(kind.least)), value("most", static_cast<std::uint32_t>(most)),
-                reads("demand", kind.demand), reads("taken", kind.taken), writes("wanted", wanted) });
-    };
-    wants(kinds[0], counts_.wanted);
-    for (std::size_t i = 0; i < terms_.size(); ++i) {
-        wants(kinds[i + 1], terms_[i]->means.wanted);
-    }
+    // What uniform counts would take.
+    countsFromDemands(f_, kinds, { static_cast<float>(raysOfPath() * f_.settings.spp), most });
     if (f_.settings.progressive) {
         f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "limitStep" },
             { pixels(), reads("taken", counts_.taken), updates("wanted", counts_.wanted) });

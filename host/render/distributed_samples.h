@@ -1,6 +1,5 @@
 #pragma once
 
-#include "host/render/count_scale.h"
 #include "host/render/effect.h"
 #include "host/render/frame_builder.h"
 #include "host/render/sample_memory.h"
@@ -64,8 +63,6 @@ public:
     /// Filled in by a run.
     struct State : TermState {
         bool complete = false; ///< once all samples that a frame, or a step of it, asks for were taken
-        float scale = 1.0f; ///< of demands
-        EvenCounts even; ///< of primary samples
     };
     const std::shared_ptr<State>& state() const { return state_; }
 

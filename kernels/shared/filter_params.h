@@ -4,9 +4,20 @@
 
 #include "vec.h"
 
-/// Bins of the histogram of demands, and stripes of rows that make one each.
-#define WEDGE_DEMAND_BINS 512u
-#define WEDGE_DEMAND_STRIPES 32u
+/// Scales of demands that are tried at once (counts.cl), how often, and stripes of rows that add up what each would
+/// take. A stripe's sums: of each scale, and the pixels that take samples.
+#define WEDGE_SCALES 16u
+#define WEDGE_SCALE_ROUNDS 3
+#define WEDGE_SCALE_STRIPES 128u
+#define WEDGE_SCALE_SUMS 17u
+/// What a list of scales holds after those that are tried: the one that was found, the first kind's mean count, and
+/// how far those counts are to be even.
+#define WEDGE_SCALE_FOUND 16u
+#define WEDGE_SCALE_MEAN 17u
+#define WEDGE_SCALE_EVEN 18u
+#define WEDGE_SCALE_NUMBERS 19u
+/// Shares of even counts that are tried, in a vector: quarters from 0 to 1, and 1 again.
+#define WEDGE_EVEN_SHARES 8u
 
 /// Sums that a plane of counts is added up to (tally.cl), each of so manieth rows.
 #define WEDGE_TALLY_STRIPES 1024u

@@ -134,19 +134,6 @@ __kernel void unpackImage(PARAMETERS)
 }
 #endif
 
-/// wanted = clamp(scale demand, least, most), nearer to `mean` by the share `even` of the way, and never less than
-/// `taken`. Both may be one plane: of each pixel demand is read first.
-#include "pass/scaleCounts.h"
-#ifdef PASS_scaleCounts
-__kernel void scaleCounts(PARAMETERS)
-{
-    WEDGE_PIXEL(p, x, y, i);
-    const float asked = clamp(scale * demand[i], (float)least, (float)most);
-    const float n = even > 0.0f ? asked + even * (mean - asked) : asked;
-    wanted[i] = max((uint)(n + 0.5f), taken[i]);
-}
-#endif
-
 /// Counts of a term's samples after the last wave of a lean frame: pixels without new primary samples took none of the
 /// term. in out  counts: wanted; taken
 #include "pass/settleCounts.h"

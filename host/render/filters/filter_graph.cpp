@@ -178,35 +178,4 @@ void demandOf(FrameBuilder& frame, const shared::AnalysisParams& params, const g
             reads("objectId", frame.surfaces.objectId, near), writes("demand", demand) });
 }
 
-void countsFromDemand(FrameBuilder& frame, const shared::AnalysisParams& params, float mean,
-    const graph::Handle<Demand>& demand, const graph::Version& mask, graph::Handle<Count>& wanted)
-{
-    constexpr std::uint64_t bins = WEDGE_DEMAND_BINS, stripes = WEDGE_DEMAND_STRIPES;
-    graph::Graph& g = frame.graph;
-    auto counts = g.list<Count>("demand histogram", graph::counts, stripes * bins);
-    auto sums = g.list<Demand>("demand sums", graph::floats, stripes * bins);
-    auto shaded = g.list<Count>("shaded pixels", graph::counts, stripes);
-    auto binCounts = g.list<Count>("demand bins", graph::counts, bins);
-    auto binSums = g.list<Demand>("demand bin sums", graph::floats, bins);
-    auto scale = g.list<Share>("count scale", graph::floats, 1);
-    frame.items("counts", PassKind::Analysis, { "analysis/counts.cl", "demandHistogram" }, stripes,
-        { frame.rectangle(params), reads("demand", demand), reads("mask", mask), writes("counts", counts),
-            writes("sums", sums), writes("shaded", shaded) });
-    frame.items("counts", PassKind::Analysis, { "analysis/counts.cl", "solveCountScale" }, 1,
-        { value("mean", mean), value("least", static_cast<float>(params.leastCount)),
-            value("cap", static_cast<float>(params.countCap)), reads("counts", counts), reads("sums", sums),
-            reads("shaded", shaded), writes("binCounts", binCounts), writes("binSums", binSums),
-            writes("scale", scale) });
-    frame.pixels("counts", PassKind::Analysis, { "analysis/counts.cl", "countsFromDemand" },
-        { frame.rectangle(params), reads("demand", demand), reads("scale", scale), reads("mask", mask),
-            writes("wanted", wanted) });
-}
-
-void uniformCounts(FrameBuilder& frame, std::uint32_t count, const graph::Version& mask, graph::Handle<Count>& wanted)
-{
-    frame.pixels("counts", PassKind::Analysis, { "analysis/counts.cl", "uniformCounts" },
-        { frame.rectangle(frame.analysisParams()), value("count", count), reads("mask", mask),
-            writes("wanted", wanted) });
-}
-
 } // namespace wedge::render

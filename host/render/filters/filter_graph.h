@@ -79,12 +79,4 @@ struct Demanding {
 void demandOf(FrameBuilder& frame, const shared::AnalysisParams& params, const graph::Handle<Uncertainty>& uncertainty,
     Demanding demanding, graph::Handle<Demand>& demand);
 
-/// Declares how counts follow from demands: clamp(C demand, params.leastCount, params.countCap) where mask is not 0,
-/// with C such that their mean is `mean` (kernels/analysis/counts.cl).
-void countsFromDemand(FrameBuilder& frame, const shared::AnalysisParams& params, float mean,
-    const graph::Handle<Demand>& demand, const graph::Version& mask, graph::Handle<Count>& wanted);
-
-/// The same of equal counts.
-void uniformCounts(FrameBuilder& frame, std::uint32_t count, const graph::Version& mask, graph::Handle<Count>& wanted);
-
 } // namespace wedge::render
