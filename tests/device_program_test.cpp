@@ -93,6 +93,7 @@ TEST_CASE("programs of one file differ by defines, in memory and on the disk")
         for (const unsigned loaded : { 0u, 2u }) {
             BuildOptions options;
             options.kernelDir = WEDGE_TEST_KERNELS;
+            options.defines = { { "NAMED_NOWHERE", std::to_string(loaded) } }; // another one, which tells nothing apart
             ProgramLibrary library(device, options);
             TimedQueue queue(device);
             for (const int value : { 3, 4, 3 }) {

@@ -14,6 +14,7 @@
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <string_view>
 
 namespace wedge::device {
@@ -76,6 +77,19 @@ std::string remedyOfFailure(const std::string& kernelDir)
         return "make room on the disk of " + cache.string();
     }
     return kernelDir.empty() ? "update the driver or choose another device, or report it" : "correct the kernel";
+}
+
+/// Whether the identifier occurs in a program's text.
+bool names(const std::string& text, const std::string& identifier)
+{
+    const auto isPart = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    for (auto at = text.find(identifier); at != std::string::npos; at = text.find(identifier, at + 1)) {
+        const std::size_t end = at + identifier.size();
+        if ((at == 0 || !isPart(text[at - 1])) && (end == text.size() || !isPart(text[end]))) {
+            return true;
+        }
+    }
+    return false;
 }
 
 void requirePlain(const Defines& defines)
@@ -168,6 +182,18 @@ Kernel ProgramLibrary::kernel(const ProgramSource& source, const std::string& na
     return Kernel(device_, program(source), source.file, name);
 }
 
+std::string ProgramLibrary::optionsString() const { return optionsString(options_.defines); }
+
+std::string ProgramLibrary::optionsString(const ProgramSource& source, const std::string& text) const
+{
+    Defines used;
+    for (const Defines* of : { &options_.defines, &source.defines }) {
+        std::ranges::copy_if(
+            *of, std::back_inserter(used), [&](const auto& define) { return names(text, define.first); });
+    }
+    return optionsString(used);
+}
+
 std::string ProgramLibrary::optionsString(const Defines& defines) const
 {
     std::string text = "-cl-std=CL1.2";
@@ -181,10 +207,8 @@ std::string ProgramLibrary::optionsString(const Defines& defines) const
     } else if (device_.info().exactDivision) {
         text += exactDivisionOption;
     }
-    for (const Defines* of : { &options_.defines, &defines }) {
-        for (const auto& [name, value] : *of) {
-            text += value.empty() ? fmt::format(" -D{}", name) : fmt::format(" -D{}={}", name, value);
-        }
+    for (const auto& [name, value] : defines) {
+        text += value.empty() ? fmt::format(" -D{}", name) : fmt::format(" -D{}={}", name, value);
     }
     return text;
 }
@@ -199,9 +223,9 @@ cl::Program ProgramLibrary::obtain(const ProgramSource& source)
         ++compiled_;
         return compile(source, text);
     }
-    const std::string key = cacheKey(source.defines, text);
+    const std::string options = optionsString(source, text), key = cacheKey(options, text);
     if (const auto binary = disk_.load(key)) {
-        if (cl::Program program; load(*binary, source.defines, program)) {
+        if (cl::Program program; load(*binary, options, program)) {
             ++loaded_;
             return program;
         }
@@ -221,7 +245,7 @@ cl::Program ProgramLibrary::compile(const ProgramSource& source, const std::stri
     return checked("program " + source.file, device_.info().name, [&] {
         cl::Program program(device_.context(), text);
         try {
-            program.build(device_.cl(), optionsString(source.defines).c_str());
+            program.build(device_.cl(), optionsString(source, text).c_str());
         } catch (const cl::Error& error) {
             if (error.err() != CL_BUILD_PROGRAM_FAILURE) {
                 throw;
@@ -232,31 +256,31 @@ cl::Program ProgramLibrary::compile(const ProgramSource& source, const std::stri
     });
 }
 
-bool ProgramLibrary::load(const ProgramCache::Binary& binary, const Defines& defines, cl::Program& program)
+bool ProgramLibrary::load(const ProgramCache::Binary& binary, const std::string& options, cl::Program& program)
 {
     try {
         program = cl::Program(device_.context(), { device_.cl() }, cl::Program::Binaries { binary });
-        program.build(device_.cl(), optionsString(defines).c_str());
+        program.build(device_.cl(), options.c_str());
         return true;
     } catch (const cl::Error&) {
         return false; // drivers may refuse binaries at any time; the source is at hand
     }
 }
 
-std::string ProgramLibrary::cacheKey(const Defines& defines, const std::string& text) const
+std::string ProgramLibrary::cacheKey(const std::string& options, const std::string& text) const
 {
     const DeviceInfo& info = device_.info();
     return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", info.platform, info.platformVersion, info.name,
-        info.vendor, info.deviceVersion, info.driver, optionsString(defines), compilerEnvironment(), text);
+        info.vendor, info.deviceVersion, info.driver, options, compilerEnvironment(), text);
 }
 
 void ProgramLibrary::reportFailure(const ProgramSource& source, const std::string& text, const std::string& log) const
 {
     const std::string report = writeTemporary(fmt::format(
         "program: {}\ndevice: {} ({}, driver {})\noptions: {}\n\n{}\n\n{}", source.file, device_.info().name,
-        device_.info().platform, device_.info().driver, optionsString(source.defines), log, text));
+        device_.info().platform, device_.info().driver, optionsString(source, text), log, text));
     const std::string remedy = remedyOfFailure(options_.kernelDir);
-    std::string options = optionsString(source.defines);
+    std::string options = optionsString(source, text);
     if (const auto at = options.find(exactDivisionOption); at != std::string::npos) {
         options.erase(at, exactDivisionOption.size()); // one line has to hold the place in the kernel
     }

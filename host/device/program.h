@@ -74,18 +74,21 @@ public:
     /// kernel's interface, if it has one, and as program() and Kernel do.
     Kernel kernel(const ProgramSource& source, const std::string& name);
 
-    /// What the compiler is called with, "-cl-std=CL1.2 -DNAME=VALUE". defines: of a program, after those of all.
-    std::string optionsString(const Defines& defines = {}) const;
+    /// What the compiler is called with, "-cl-std=CL1.2 -DNAME=VALUE": with the defines of all programs, of which each
+    /// gets those that its text names. So programs that scenes and frames do not tell apart are compiled once for all.
+    std::string optionsString() const;
 
     /// Programs compiled from source (or fetched from the driver's own cache by it), and loaded from the disk, so far.
     unsigned compiled() const { return compiled_; }
     unsigned loaded() const { return loaded_; }
 
 private:
+    std::string optionsString(const Defines& defines) const;
+    std::string optionsString(const ProgramSource& source, const std::string& text) const;
     cl::Program obtain(const ProgramSource& source);
     cl::Program compile(const ProgramSource& source, const std::string& text);
-    bool load(const ProgramCache::Binary& binary, const Defines& defines, cl::Program& program);
-    std::string cacheKey(const Defines& defines, const std::string& text) const;
+    bool load(const ProgramCache::Binary& binary, const std::string& options, cl::Program& program);
+    std::string cacheKey(const std::string& options, const std::string& text) const;
     [[noreturn]] void reportFailure(const ProgramSource& source, const std::string& text, const std::string& log) const;
 
     Device device_;
