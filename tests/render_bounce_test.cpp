@@ -340,8 +340,10 @@ TEST_CASE("points exactly on the edge of two walls do not see past either")
         settings.integrator = render::Integrator::AmbientOcclusion;
         settings.indirect.ambientDistance = 0.5f;
         renderer.render(settings);
-        const auto open = planesOf(renderer.frame().layout, renderer.frame().beauty.downloadAll(renderer.queue()));
-        const auto object = planesOf(renderer.frame().layout, renderer.frame().objectId.downloadAll(renderer.queue()));
+        const auto open =
+            planesOf(renderer.frame().layout, renderer.frame().planes("beauty").downloadAll(renderer.queue()));
+        const auto object =
+            planesOf(renderer.frame().layout, renderer.frame().counts("objectId").downloadAll(renderer.queue()));
         // The edge of ceiling and wall runs along the image's diagonal, through the pixels' very centres.
         int onEdge = 0;
         for (int i = 0; i < 64; ++i) {

@@ -61,8 +61,8 @@ EdgeErrors edgeErrors(render::Renderer& renderer, const render::Settings& settin
 {
     renderer.render(settings, {}, true);
     const image::Window all { 0, 0, width, height };
-    const std::vector<float> beauty = pixels(renderer, renderer.frame().beauty, all);
-    const std::vector<float> position = pixels(renderer, renderer.frame().position, all);
+    const std::vector<float> beauty = pixels(renderer, "beauty", all);
+    const std::vector<float> position = pixels(renderer, "position", all);
     for (std::size_t i = expected.size(); i < beauty.size() / 3; ++i) {
         const glm::dvec3 at(position[3 * i], position[3 * i + 1], position[3 * i + 2]);
         expected.push_back(edgeRadiance(renderer.scene().areaLights[0], at, 0.8));
@@ -111,8 +111,8 @@ TEST_CASE("a straight edge's penumbra: error function for a Gaussian light, ramp
             separate.shading = render::Shading::Separate;
             renderer.render(separate, {}, true);
             const image::Window all { 0, 0, width, height };
-            const std::vector<float> beauty = pixels(renderer, renderer.frame().beauty, all);
-            const std::vector<float> position = pixels(renderer, renderer.frame().position, all);
+            const std::vector<float> beauty = pixels(renderer, "beauty", all);
+            const std::vector<float> position = pixels(renderer, "position", all);
             const scene::AreaLight& light = scene.areaLights[0];
             const double power = render::deviceLight(light).power.x;
             double sum = 0, count = 0;
@@ -141,8 +141,8 @@ TEST_CASE("an unoccluded uniform quad gives Lambert's formula")
                 sized(filtered ? render::axisAligned(28) : render::monteCarlo(1024), 60, 44);
             const std::vector<float> beauty = renderPixels(renderer, settings, true);
             const image::Window all { 0, 0, 60, 44 };
-            const std::vector<float> position = pixels(renderer, renderer.frame().position, all);
-            const std::vector<float> id = pixels(renderer, renderer.frame().depth, all);
+            const std::vector<float> position = pixels(renderer, "position", all);
+            const std::vector<float> id = pixels(renderer, "depth", all);
             double worst = 0;
             for (std::size_t i = 0; i < id.size(); ++i) {
                 if (!std::isfinite(id[i]))
@@ -192,8 +192,8 @@ TEST_CASE("lights that the floor's horizon cuts, and lights next to it: no pixel
                 const render::Settings settings =
                     sized(filtered ? render::axisAligned(28) : render::monteCarlo(256), 60, 44);
                 const std::vector<float> beauty = renderPixels(renderer, settings, true);
-                const std::vector<float> position = pixels(renderer, renderer.frame().position, all);
-                const std::vector<float> id = pixels(renderer, renderer.frame().depth, all);
+                const std::vector<float> position = pixels(renderer, "position", all);
+                const std::vector<float> id = pixels(renderer, "depth", all);
                 double worst = 0, squared = 0, total = 0;
                 unsigned dark = 0;
                 for (std::size_t i = 0; i < id.size(); ++i) {
@@ -245,10 +245,8 @@ TEST_CASE("point and directional lights are exact")
         render::Renderer renderer(scene, device, renderOptions());
         const std::vector<float> beauty = renderPixels(renderer, sized(render::monteCarlo(1), 50, 37), true);
         const image::Window all { 0, 0, 50, 37 };
-        const auto position = pixels(renderer, renderer.frame().position, all),
-                   normal = pixels(renderer, renderer.frame().normal, all);
-        const auto origin = pixels(renderer, renderer.frame().origin, all),
-                   depth = pixels(renderer, renderer.frame().depth, all);
+        const auto position = pixels(renderer, "position", all), normal = pixels(renderer, "normal", all);
+        const auto origin = pixels(renderer, "origin", all), depth = pixels(renderer, "depth", all);
         unsigned shaded = 0, wrong = 0;
         for (std::size_t i = 0; i < depth.size(); ++i) {
             if (!std::isfinite(depth[i]))
@@ -302,9 +300,9 @@ TEST_CASE("shading normals that face away from the viewer are lit as the round s
                 render::Renderer renderer(b.scene, device, renderOptions());
                 const std::vector<float> beauty =
                     renderPixels(renderer, sized(render::monteCarlo(1), all.x1, all.y1), true);
-                const std::vector<float> position = pixels(renderer, renderer.frame().position, all);
-                const std::vector<float> normal = pixels(renderer, renderer.frame().normal, all);
-                const std::vector<float> depth = pixels(renderer, renderer.frame().depth, all);
+                const std::vector<float> position = pixels(renderer, "position", all);
+                const std::vector<float> normal = pixels(renderer, "normal", all);
+                const std::vector<float> depth = pixels(renderer, "depth", all);
                 const glm::dvec3 eye(b.scene.camera.eye);
                 for (std::size_t i = 0; i < depth.size(); ++i) {
                     const glm::dvec3 at(position[3 * i], position[3 * i + 1], position[3 * i + 2]);
@@ -353,17 +351,15 @@ TEST_CASE("plain Monte Carlo is unbiased: no pixel is off by more than chance al
                 settings.sampler = sampler;
                 settings.seed = run;
                 renderer.render(settings, {}, true);
-                const std::vector<float> direct = pixels(renderer, renderer.frame().direct, all);
+                const std::vector<float> direct = pixels(renderer, "direct", all);
                 for (std::size_t i = 0; i < mean.size(); ++i) {
                     mean[i] += direct[3 * i] / static_cast<double>(runs);
                     square[i] += static_cast<double>(direct[3 * i]) * direct[3 * i] / runs;
                 }
             }
             // The same integrals with independent uniform points on the lights and the host's traversal.
-            const auto position = pixels(renderer, renderer.frame().position, all),
-                       normal = pixels(renderer, renderer.frame().normal, all);
-            const auto origin = pixels(renderer, renderer.frame().origin, all),
-                       depth = pixels(renderer, renderer.frame().depth, all);
+            const auto position = pixels(renderer, "position", all), normal = pixels(renderer, "normal", all);
+            const auto origin = pixels(renderer, "origin", all), depth = pixels(renderer, "depth", all);
             std::mt19937 random(99);
             double worst = 0, sum = 0, sumVariance = 0;
             std::vector<double> squares;

@@ -156,7 +156,7 @@ TEST_CASE("pixels alone in a small penumbra take the samples that they need")
         const std::vector<float> reference = renderPixels(renderer, sized(render::monteCarlo(4096), width, height));
         renderPixels(renderer, sized(render::axisAligned(28), width, height), true);
         const render::PlaneLayout layout(width, height);
-        const std::vector<std::uint32_t> samples = renderer.frame().samples.downloadAll(renderer.queue());
+        const std::vector<std::uint32_t> samples = renderer.frame().counts("samples").downloadAll(renderer.queue());
         double lit = 0, darker = 0;
         int penumbrae = 0, others = 0;
         for (int y = 2; y < height - 2; ++y)

@@ -13,8 +13,7 @@ namespace {
 Planes<float> widthsOf(render::Renderer& renderer, const render::Settings& settings)
 {
     renderPixels(renderer, settings, true);
-    REQUIRE(!renderer.termPlanes().empty());
-    return planesOf(renderer.frame().layout, renderer.termPlanes()[0].beta);
+    return planesOf(renderer.frame().layout, test::widthsOf(renderer, termsOf(renderer).at(0)));
 }
 
 } // namespace

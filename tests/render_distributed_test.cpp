@@ -70,7 +70,7 @@ void requireCropOfWhole(
         settings.seed = seed;
         settings.crop = crop;
         renderer.render(settings, {}, keepLayers);
-        return pixels(renderer, renderer.frame().beauty, window);
+        return pixels(renderer, "beauty", window);
     };
     const std::vector<float> whole = part(3, {});
     // Another seed in between, so that what is left over from the whole image does not help.
@@ -146,7 +146,7 @@ TEST_CASE("more samples asked for are taken: where the first ones saw little, an
                 settings.seed = 5;
                 const render::FrameStatistics frame = renderer.render(settings);
                 primary[k] = frame.primarySpp;
-                const std::vector<float> found = pixels(renderer, renderer.frame().beauty, { 0, 0, 40, 30 });
+                const std::vector<float> found = pixels(renderer, "beauty", { 0, 0, 40, 30 });
                 for (std::size_t i = 0; i < found.size(); ++i)
                     errors[k] += (found[i] - expected[i]) * (found[i] - expected[i]);
             }
@@ -174,9 +174,9 @@ TEST_CASE("a frame of the image alone, in fewer bits, is the one with all of its
             settings.bounces = 1;
             const image::Window all { 0, 0, 61, 43 };
             const render::FrameStatistics full = renderer.render(settings, {}, true);
-            const std::vector<float> layered = pixels(renderer, renderer.frame().beauty, all);
+            const std::vector<float> layered = pixels(renderer, "beauty", all);
             const render::FrameStatistics lean = renderer.render(settings);
-            const std::vector<float> alone = pixels(renderer, renderer.frame().beauty, all);
+            const std::vector<float> alone = pixels(renderer, "beauty", all);
             CHECK(lean.memoryBytes < full.memoryBytes);
             double squares = 0, sum = 0;
             for (std::size_t i = 0; i < alone.size(); ++i) {
@@ -209,10 +209,10 @@ TEST_CASE("a stop within the first pass leaves the pixels that it has come to, u
             const render::FrameStatistics frame =
                 renderer.render(sized(render::axisAligned(16), across, down), control, keepLayers);
             CHECK_FALSE(frame.complete);
-            const std::vector<float> found = pixels(renderer, renderer.frame().beauty, { 0, 0, across, down });
+            const std::vector<float> found = pixels(renderer, "beauty", { 0, 0, across, down });
             CHECK(notFinite(found) == 0);
-            const auto taken =
-                planesOf(renderer.frame().layout, renderer.frame().primaryTaken.downloadAll(renderer.queue()));
+            const auto taken = planesOf(
+                renderer.frame().layout, renderer.frame().counts("primarySamples").downloadAll(renderer.queue()));
             double sampled = 0, sum = 0, expected = 0;
             std::size_t wrong = 0;
             for (int y = 0; y < down; ++y)
@@ -277,7 +277,7 @@ TEST_CASE(
         const render::Settings settings = sized(render::axisAligned(600), 64, 48);
         REQUIRE(renderer.render(settings, {}, true).complete);
         const Planes<std::uint32_t> taken =
-            planesOf(renderer.frame().layout, renderer.frame().primaryTaken.downloadAll(renderer.queue()));
+            planesOf(renderer.frame().layout, renderer.frame().counts("primarySamples").downloadAll(renderer.queue()));
         std::uint32_t most = 0, largest = 0;
         for (int ty = 0; ty < 48; ty += 8)
             for (int tx = 0; tx < 64; tx += 8) {

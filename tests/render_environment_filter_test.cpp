@@ -71,11 +71,10 @@ TEST_CASE("with as many samples, filters are ahead of none over matt and curved 
         CHECK(filtered < error(own));
         for (const render::Settings& s : { sized(render::axisAligned(16), 64, 64), own, fixed }) {
             renderPixels(renderer, s, true);
-            REQUIRE(renderer.termPlanes().size() == 2);
-            CHECK(renderer.termPlanes()[1].name == "EnvironmentGlossy");
-            const float widest = *std::ranges::max_element(renderer.termPlanes()[1].beta);
+            REQUIRE(termsOf(renderer) == std::vector<std::string> { "Environment", "EnvironmentGlossy" });
+            const float widest = std::ranges::max(widthsOf(renderer, "EnvironmentGlossy"));
             CHECK((widest > 0) == (s.filtering == render::Filtering::Fixed || s.environment.lobeWidening > 0));
-            CHECK(*std::ranges::max_element(renderer.termPlanes()[0].beta) > 0);
+            CHECK(std::ranges::max(widthsOf(renderer, "Environment")) > 0);
         }
     });
 }
@@ -122,7 +121,7 @@ TEST_CASE("samples of what lies beyond the scene go to where they vary and few p
         CHECK(error < 0.85 * before);
         const render::FrameStatistics frame = renderer.render(adaptive, {}, true);
         CHECK(frame.sppMean == doctest::Approx(16).epsilon(0.02));
-        std::vector<std::uint32_t> taken = pixels(renderer, renderer.frame().samples, { 0, 0, 96, 96 });
+        std::vector<std::uint32_t> taken = pixels(renderer, renderer.frame().counts("samples"), { 0, 0, 96, 96 });
         std::erase(taken, 0u); // where nothing is seen
         const auto [least, most] = std::ranges::minmax(taken);
         CHECK(least >= 4); // what the analysis begins with, and a quarter of the mean

@@ -201,9 +201,8 @@ TEST_CASE("an environment that the camera does not see lights all the same; ambi
         ambient.integrator = render::Integrator::AmbientOcclusion;
         CHECK(renderPixels(renderer, ambient)[3 * (23 * 24 + 12)] == doctest::Approx(1).epsilon(1e-5));
         renderPixels(renderer, settings(true), true);
-        REQUIRE(renderer.termPlanes().size() == 1);
-        CHECK(renderer.termPlanes()[0].name == "Environment"); // what its layer's name ends in
-        CHECK(*std::ranges::max_element(renderer.termPlanes()[0].beta) > 0);
+        REQUIRE(termsOf(renderer) == std::vector<std::string> { "Environment" });
+        CHECK(std::ranges::max(widthsOf(renderer, "Environment")) > 0);
     });
 }
 

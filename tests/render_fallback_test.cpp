@@ -21,10 +21,9 @@ render::Settings wide(bool fallback, int bounces, bool antialias)
 std::vector<float> reflected(render::Renderer& renderer, const render::Settings& settings, bool filtered)
 {
     renderer.render(settings, {}, true);
-    const render::Frame& f = renderer.frame();
     const image::Window all { 0, 0, width, height };
-    std::vector<float> sum = pixels(renderer, filtered ? f.direct : f.directNoisy, all);
-    const std::vector<float> more = pixels(renderer, filtered ? f.indirect : f.indirectNoisy, all);
+    std::vector<float> sum = pixels(renderer, filtered ? "direct" : "directNoisy", all);
+    const std::vector<float> more = pixels(renderer, filtered ? "indirect" : "indirectNoisy", all);
     for (std::size_t i = 0; i < sum.size(); ++i)
         sum[i] += more[i];
     return sum;
@@ -47,11 +46,11 @@ DirectLight directLight(render::Renderer& renderer, render::Settings settings)
     for (settings.seed = 1; settings.seed <= 16; ++settings.seed) {
         settings.fallback = false;
         renderer.render(settings, {}, true);
-        add(sum.plain, renderer.frame().directNoisy);
-        add(sum.filtered, renderer.frame().direct);
+        add(sum.plain, renderer.frame().planes("directNoisy"));
+        add(sum.filtered, renderer.frame().planes("direct"));
         settings.fallback = true;
         renderer.render(settings, {}, true);
-        add(sum.shown, renderer.frame().direct);
+        add(sum.shown, renderer.frame().planes("direct"));
     }
     return sum;
 }
@@ -179,14 +178,14 @@ TEST_CASE("a crop that falls back has the whole image's pixels")
             render::Settings settings = wide(true, 1, antialias);
             renderer.render(settings);
             const image::Window crop { 37, 21, 62, 44 };
-            const std::vector<float> whole = pixels(renderer, renderer.frame().beauty, crop);
+            const std::vector<float> whole = pixels(renderer, "beauty", crop);
             // What another image leaves in the buffers is not to be mistaken for what is around the crop.
             settings.seed = 77;
             renderer.render(settings);
             settings.seed = render::Settings {}.seed;
             settings.crop = crop;
             renderer.render(settings);
-            CHECK(pixels(renderer, renderer.frame().beauty, crop) == whole);
+            CHECK(pixels(renderer, "beauty", crop) == whole);
         }
     });
 }

@@ -62,7 +62,7 @@ image::Window all(const render::Settings& settings) { return { 0, 0, settings.wi
 std::vector<float> indirectPixels(render::Renderer& renderer, const render::Settings& settings)
 {
     renderer.render(settings, {}, true);
-    return pixels(renderer, renderer.frame().indirect, all(settings));
+    return pixels(renderer, "indirect", all(settings));
 }
 
 /// Mean of (a - b)(a - c): for references b and c that err independently, the mean squared error of a alone.
@@ -124,7 +124,7 @@ TEST_CASE("indirect light: any crop has the bits of the whole image")
                             expected.push_back(whole[static_cast<std::size_t>(3 * (y * width + x) + c)]);
                 CAPTURE(crop.x0);
                 CAPTURE(crop.y0);
-                CHECK(sameBits(pixels(renderer, renderer.frame().beauty, crop), expected));
+                CHECK(sameBits(pixels(renderer, "beauty", crop), expected));
             }
         }
     });
@@ -213,9 +213,9 @@ TEST_CASE(
             const render::Settings settings = ambient(sized(method, width, height));
             renderer.render(settings, {}, true);
             const render::Frame& f = renderer.frame();
-            const std::vector<float> beauty = pixels(renderer, f.beauty, all(settings)),
-                                     open = pixels(renderer, f.indirect, all(settings));
-            const std::vector<std::uint32_t> id = f.objectId.downloadAll(renderer.queue());
+            const std::vector<float> beauty = pixels(renderer, "beauty", all(settings)),
+                                     open = pixels(renderer, "indirect", all(settings));
+            const std::vector<std::uint32_t> id = f.counts("objectId").downloadAll(renderer.queue());
             unsigned surfaces = 0, holes = 0, shaded = 0;
             double sum = 0;
             for (int y = 0; y < height; ++y)
@@ -323,14 +323,13 @@ TEST_CASE("paths through scenes that a renderer may stumble over bring back numb
                     { sized(m.settings, 21, 16), ambient(sized(m.settings, 1, 1)) }) {
                     CAPTURE(m.name);
                     renderer.render(settings, {}, true);
-                    const render::Frame& f = renderer.frame();
-                    const std::vector<float> beauty = pixels(renderer, f.beauty, all(settings));
+                    const std::vector<float> beauty = pixels(renderer, "beauty", all(settings));
                     CHECK(notFinite(beauty) == 0);
                     CHECK(std::ranges::all_of(beauty, [](float v) { return v >= 0; }));
-                    CHECK(notFinite(pixels(renderer, f.indirect, all(settings))) == 0);
-                    CHECK(notFinite(pixels(renderer, f.indirectNoisy, all(settings))) == 0);
-                    for (const render::TermPlanes& term : renderer.termPlanes())
-                        CHECK(notFinite(term.beta) == 0);
+                    CHECK(notFinite(pixels(renderer, "indirect", all(settings))) == 0);
+                    CHECK(notFinite(pixels(renderer, "indirectNoisy", all(settings))) == 0);
+                    for (const std::string& term : termsOf(renderer))
+                        CHECK(notFinite(widthsOf(renderer, term)) == 0);
                 }
         }
     });

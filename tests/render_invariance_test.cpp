@@ -189,10 +189,8 @@ TEST_CASE("nothing shows of what lay in the memory before")
             const auto planes = [&](render::Renderer& by) {
                 by.render(frame.settings, {}, true);
                 std::vector<float> out;
-                const render::Frame& f = by.frame();
-                for (const device::Buffer<float>* plane :
-                    { &f.beauty, &f.direct, &f.directNoisy, &f.indirect, &f.indirectNoisy }) {
-                    const std::vector<float> shown = pixels(by, *plane, window);
+                for (const char* plane : { "beauty", "direct", "directNoisy", "indirect", "indirectNoisy" }) {
+                    const std::vector<float> shown = pixels(by, plane, window);
                     out.insert(out.end(), shown.begin(), shown.end());
                 }
                 return out;
@@ -223,9 +221,7 @@ TEST_CASE("a frame that is stopped anywhere has no pixel that is no number")
                 return renderer.render(settings, control).complete;
             };
             CHECK(rendered(1 << 30));
-            const auto shown = [&] {
-                return pixels(renderer, renderer.frame().beauty, render::outputWindow(settings));
-            };
+            const auto shown = [&] { return pixels(renderer, "beauty", render::outputWindow(settings)); };
             const std::vector<float> finished = shown();
             const int all = looks;
             CHECK(all > 4);
@@ -237,11 +233,11 @@ TEST_CASE("a frame that is stopped anywhere has no pixel that is no number")
                 CHECK((!complete || image == finished));
                 CHECK(std::ranges::all_of(image, [](float x) { return std::isfinite(x); }));
                 // What was sampled is shown.
-                const auto sum = [&](const device::Buffer<std::uint64_t>& counts) {
-                    const std::vector<std::uint64_t> each = counts.downloadAll(renderer.queue());
+                const auto sum = [&](const char* tally) {
+                    const auto each = renderer.frame().planes<std::uint64_t>(tally).downloadAll(renderer.queue());
                     return std::accumulate(each.begin(), each.end(), std::uint64_t { 0 });
                 };
-                CHECK((sum(renderer.frame().raysTally) > 0) == (sum(renderer.frame().samplesTally) > 0));
+                CHECK((sum("raysTally") > 0) == (sum("samplesTally") > 0));
             }
             // Who asks when all has been sampled has the whole image. In batches whose number does not depend on time:
             renderer.queue().setTargetMilliseconds(1e9);
@@ -275,7 +271,7 @@ TEST_CASE("any crop has the bits of the whole image")
                 settings.seed = m.settings.seed;
                 settings.crop = crop;
                 renderer.render(settings);
-                const std::vector<float> part = pixels(renderer, renderer.frame().beauty, crop);
+                const std::vector<float> part = pixels(renderer, "beauty", crop);
                 std::vector<float> expected;
                 for (int y = crop.y0; y < crop.y1; ++y)
                     for (int x = crop.x0; x < crop.x1; ++x)
@@ -321,9 +317,9 @@ TEST_CASE("a crop in the middle of a large image has its bits, and reads nothing
             render::Settings settings = frame.settings;
             const auto shown = [&](render::Renderer& by) {
                 by.render(settings, {}, frame.layers);
-                std::vector<float> out = pixels(by, by.frame().beauty, crop);
-                for (const device::Buffer<float>* layer : { &by.frame().direct, &by.frame().indirect }) {
-                    const std::vector<float> more = frame.layers ? pixels(by, *layer, crop) : std::vector<float>();
+                std::vector<float> out = pixels(by, "beauty", crop);
+                for (const char* layer : { "direct", "indirect" }) {
+                    const std::vector<float> more = frame.layers ? pixels(by, layer, crop) : std::vector<float>();
                     out.insert(out.end(), more.begin(), more.end());
                 }
                 return out;
@@ -351,7 +347,7 @@ TEST_CASE("two lights give the sum of each: every light is a term of its own")
                 render::Settings settings = m.settings;
                 settings.fallback = false; // which looks at the lights' sum
                 r.render(settings, {}, true);
-                return pixels(r, r.frame().direct, all);
+                return pixels(r, "direct", all);
             };
             const std::vector<float> sum = direct(together), a = direct(one), b = direct(two);
             unsigned wrong = 0;
@@ -383,8 +379,7 @@ TEST_CASE("aaf without filter and with uniform counts is the plain image of the 
             unfiltered.shading = shading;
             renderer.render(unfiltered, {}, true);
             const image::Window all { 0, 0, width, height };
-            CHECK(sameBits(
-                pixels(renderer, renderer.frame().direct, all), pixels(renderer, renderer.frame().directNoisy, all)));
+            CHECK(sameBits(pixels(renderer, "direct", all), pixels(renderer, "directNoisy", all)));
         }
     });
 }
@@ -401,9 +396,8 @@ TEST_CASE("a pixel without a kernel keeps its own Monte Carlo value")
             CAPTURE(m.name);
             renderer.render(m.settings, {}, true);
             const image::Window all { 0, 0, width, height };
-            const auto direct = pixels(renderer, renderer.frame().direct, all),
-                       noisy = pixels(renderer, renderer.frame().directNoisy, all);
-            const std::vector<float>& beta = renderer.termPlanes().at(0).beta;
+            const auto direct = pixels(renderer, "direct", all), noisy = pixels(renderer, "directNoisy", all);
+            const std::vector<float> beta = widthsOf(renderer, termsOf(renderer).at(0));
             unsigned without = 0, changed = 0;
             for (int y = 0; y < height; ++y)
                 for (int x = 0; x < width; ++x) {

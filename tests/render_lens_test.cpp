@@ -301,11 +301,11 @@ TEST_CASE("a crop is the same pixels as the whole image, which takes several wav
             render::Renderer renderer(scene, device, renderOptions());
             const image::Window window { 37, 30, 94, 61 };
             renderer.render(settings);
-            const std::vector<float> whole = pixels(renderer, renderer.frame().beauty, window);
+            const std::vector<float> whole = pixels(renderer, "beauty", window);
             settings.crop = window;
             renderer.queue().setTargetMilliseconds(0.5);
             renderer.render(settings);
-            CHECK(sameBits(pixels(renderer, renderer.frame().beauty, window), whole));
+            CHECK(sameBits(pixels(renderer, "beauty", window), whole));
             CHECK(*std::ranges::max_element(whole) > 0.1f);
         }
     });
@@ -330,7 +330,8 @@ TEST_CASE("counts that follow the demand, without filters, change the noise and 
             // What the first samples say decides how many follow: a bias of a few percent, where they say little.
             checkAgreement(moments(renderer, settings, Part::Beauty, 12), expected, 0.02);
             // Some pixels have more samples than the strata were made for.
-            const std::vector<std::uint32_t> taken = renderer.frame().primaryTaken.downloadAll(renderer.queue());
+            const std::vector<std::uint32_t> taken =
+                renderer.frame().counts("primarySamples").downloadAll(renderer.queue());
             CHECK(*std::ranges::max_element(taken) > 30);
         }
     });

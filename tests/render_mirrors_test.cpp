@@ -86,7 +86,7 @@ Mirrored mirrored(SceneBuilder plain, glm::vec3 colour, float half = 30)
 std::vector<int> showing(render::Renderer& renderer, std::uint32_t object)
 {
     const render::PlaneLayout& layout = renderer.frame().layout;
-    const std::vector<std::uint32_t> ids = renderer.frame().objectId.downloadAll(renderer.queue());
+    const std::vector<std::uint32_t> ids = renderer.frame().counts("objectId").downloadAll(renderer.queue());
     std::vector<int> out;
     everyPixel(layout, [&](int x, int y) {
         const bool shows =
@@ -370,7 +370,7 @@ TEST_CASE("mirrors keep their own samples: filters leave their pixels as plain M
         render::Settings mc = sized(render::monteCarlo(32), 48, 36), aaf = sized(render::axisAligned(32), 48, 36);
         mc.bounces = aaf.bounces = 1;
         const std::vector<float> plain = renderPixels(renderer, mc, true);
-        const std::vector<float> kd = pixels(renderer, renderer.frame().diffuse, { 0, 0, 48, 36 });
+        const std::vector<float> kd = pixels(renderer, "albedo", { 0, 0, 48, 36 });
         const std::vector<float> filtered = renderPixels(renderer, aaf, true);
         const std::vector<int> shows =
             showing(renderer, static_cast<std::uint32_t>(b.scene.geometry.objectNames.size()));

@@ -79,7 +79,7 @@ std::vector<glm::dvec3> normalsOf(
     options.traversal = traversal;
     render::Renderer renderer(scene, device, options);
     renderer.render(sized(render::monteCarlo(1), side, side), {}, true);
-    const std::vector<float> planes = pixels(renderer, renderer.frame().normal, { 0, 0, side, side });
+    const std::vector<float> planes = pixels(renderer, "normal", { 0, 0, side, side });
     std::vector<glm::dvec3> out;
     for (std::size_t i = 0; i < planes.size(); i += planes.size() / (side * side)) // those without maps lie behind
         out.emplace_back(planes[i], planes[i + 1], planes[i + 2]);

@@ -31,9 +31,8 @@ inline Moments moments(render::Renderer& renderer, render::Settings settings, Pa
     for (int run = 0; run < runs; ++run) {
         settings.seed = static_cast<std::uint32_t>(1 + run);
         renderer.render(settings, {}, part != Part::Beauty);
-        const render::Frame& frame = renderer.frame();
-        const std::vector<float> values = pixels(
-            renderer, part == Part::Beauty ? frame.beauty : frame.indirect, { 0, 0, settings.width, settings.height });
+        const std::vector<float> values =
+            pixels(renderer, part == Part::Beauty ? "beauty" : "indirect", { 0, 0, settings.width, settings.height });
         REQUIRE(notFinite(values) == 0);
         out.mean.resize(values.size());
         squares.resize(values.size());

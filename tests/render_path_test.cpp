@@ -113,8 +113,8 @@ Moments glossyFurnace(render::Renderer& renderer, const render::Settings& settin
     const scene::Material& m = renderer.scene().materials[0];
     const image::Window all { 0, 0, settings.width, settings.height };
     renderer.render(settings, {}, true);
-    const std::vector<float> position = pixels(renderer, renderer.frame().position, all);
-    const std::vector<float> normal = pixels(renderer, renderer.frame().normal, all);
+    const std::vector<float> position = pixels(renderer, "position", all);
+    const std::vector<float> normal = pixels(renderer, "normal", all);
     const shared::Lobe lobe = shared::makeLobe(m.exponent, modelOf(m));
     std::vector<double> out;
     for (std::size_t i = 0; i < position.size(); i += 3) {
@@ -206,7 +206,7 @@ TEST_CASE("a white furnace of textured surfaces")
         b.scene.textures[0].rgba = { 0xff203040u, 0xffc0e0ffu, 0xffc0e0ffu, 0xff203040u };
         render::Renderer checked(b.scene, device, renderOptions());
         const std::vector<float> image = renderPixels(checked, bounced(16, 0, 24, 18), true);
-        const std::vector<float> kd = pixels(checked, checked.frame().diffuse, { 0, 0, 24, 18 });
+        const std::vector<float> kd = pixels(checked, "albedo", { 0, 0, 24, 18 });
         double worst = 0, least = 1, most = 0;
         for (std::size_t i = 0; i < image.size(); ++i) {
             worst = std::max(worst, std::fabs(image[i] / (emitted[static_cast<int>(i % 3)] * (1.0 + kd[i])) - 1));

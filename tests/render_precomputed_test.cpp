@@ -145,10 +145,10 @@ TEST_CASE("each frame has samples of its own, and a crop has the whole image's")
             s.environment.sampling = render::EnvironmentSampling::Precomputed;
             renderer.render(s);
             const image::Window crop { 3, 5, 17, 20 };
-            const std::vector<float> whole = pixels(renderer, renderer.frame().beauty, crop);
+            const std::vector<float> whole = pixels(renderer, "beauty", crop);
             s.crop = crop;
             renderer.render(s);
-            CHECK(pixels(renderer, renderer.frame().beauty, crop) == whole);
+            CHECK(pixels(renderer, "beauty", crop) == whole);
         }
     });
 }

@@ -53,7 +53,7 @@ std::vector<Step> steps(render::Renderer& renderer, const render::Settings& sett
     renderer.renderProgressively(
         settings, control,
         [&](const render::ProgressiveStep& step) {
-            out.push_back({ step, pixels(renderer, renderer.frame().beauty, render::outputWindow(settings)) });
+            out.push_back({ step, pixels(renderer, "beauty", render::outputWindow(settings)) });
         },
         keepLayers);
     return out;
@@ -235,7 +235,7 @@ TEST_CASE("no pixel's counts ever fall")
         int fallen = 0, stuck = 0;
         renderer.renderProgressively(filtered(128), {}, [&](const render::ProgressiveStep& step) {
             const render::Frame& f = renderer.frame();
-            const std::vector<std::uint32_t> taken = f.primaryTaken.downloadAll(renderer.queue());
+            const std::vector<std::uint32_t> taken = f.counts("primarySamples").downloadAll(renderer.queue());
             for (std::uint32_t y = 0; y < height; ++y)
                 for (std::uint32_t x = 0; x < width; ++x) {
                     const std::size_t i = shared::pixelIndex(x, y, f.layout.stride);
@@ -324,7 +324,7 @@ TEST_CASE("a stop within a step or between two leaves a whole image")
         std::vector<Step> some;
         const render::FrameStatistics between =
             renderer.renderProgressively(filtered(64), control, [&](const render::ProgressiveStep& step) {
-                some.push_back({ step, pixels(renderer, renderer.frame().beauty, whole) });
+                some.push_back({ step, pixels(renderer, "beauty", whole) });
                 cancel = true;
             });
         CHECK_FALSE(between.complete);

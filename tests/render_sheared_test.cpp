@@ -109,13 +109,14 @@ TEST_CASE("filters narrow where a light's deviation blurs shadows over many pixe
             s.sampling = render::Sampling::Uniform; // so that counts change nothing
             s.widening = 0;
             renderer.render(s, {}, true);
-            return renderer.termPlanes().front().beta;
+            return test::widthsOf(renderer, termsOf(renderer).front());
         };
         render::Settings s = sized(render::axisAligned(28), width, height);
         s.wideBlur = 1e9f;
         const std::vector<float> wide = widthsOf(s);
         s.wideBlur = 4;
-        const std::vector<float> narrow = widthsOf(s), size = renderer.frame().pixelSize.downloadAll(renderer.queue());
+        const std::vector<float> narrow = widthsOf(s),
+                                 size = renderer.frame().planes("pixelSize").downloadAll(renderer.queue());
         const shared::AreaLight light = render::directLights(scene).own.front().onDevice();
         const double mu = s.mu * (1 + 0.5 * render::scoreOf(light).edge) / s.shearedWidth;
         int narrowed = 0, same = 0;

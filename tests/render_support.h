@@ -325,6 +325,30 @@ std::vector<T> pixels(render::Renderer& renderer, const device::Buffer<T>& plane
     return out;
 }
 
+/// The same of what the frame shows by that name.
+inline std::vector<float> pixels(render::Renderer& renderer, const std::string& name, const image::Window& window)
+{
+    return pixels(renderer, renderer.frame().planes(name), window);
+}
+
+/// The terms of a frame of which layers are kept that have filters.
+inline std::vector<std::string> termsOf(const render::Renderer& renderer)
+{
+    std::vector<std::string> out;
+    for (const render::Frame::Shown& shown : renderer.frame().shown)
+        if (shown.output.layer == "filterWidth")
+            out.push_back(shown.output.term);
+    return out;
+}
+
+/// Standard deviations of a term's filter, metres, a plane; 0 where it is not filtered.
+inline std::vector<float> widthsOf(render::Renderer& renderer, const std::string& term)
+{
+    std::vector<float> planes = renderer.frame().planes("filterWidth" + term).downloadAll(renderer.queue());
+    planes.resize(renderer.frame().layout.size);
+    return planes;
+}
+
 /// The beauty of the whole frame, rendered with these settings, or the last of a progressive one.
 inline std::vector<float> renderPixels(
     render::Renderer& renderer, const render::Settings& settings, bool keepLayers = false)
@@ -333,7 +357,7 @@ inline std::vector<float> renderPixels(
         renderer.renderProgressively(settings, {}, {}, keepLayers);
     else
         renderer.render(settings, {}, keepLayers);
-    return pixels(renderer, renderer.frame().beauty, { 0, 0, settings.width, settings.height });
+    return pixels(renderer, "beauty", { 0, 0, settings.width, settings.height });
 }
 
 inline render::Settings sized(render::Settings settings, int width, int height)

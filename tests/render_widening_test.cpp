@@ -102,14 +102,14 @@ TEST_CASE("a crop whose filters widen has the whole image's pixels")
                 settings.maxRadius = 8;
                 renderer.render(settings);
                 const image::Window crop { 42, 31, 57, 44 };
-                const std::vector<float> whole = pixels(renderer, renderer.frame().beauty, crop);
+                const std::vector<float> whole = pixels(renderer, "beauty", crop);
                 // What another image leaves in the buffers is not to be mistaken for what is around the crop.
                 settings.seed = 77;
                 renderer.render(settings);
                 settings.seed = render::Settings {}.seed;
                 settings.crop = crop;
                 renderer.render(settings);
-                CHECK(pixels(renderer, renderer.frame().beauty, crop) == whole);
+                CHECK(pixels(renderer, "beauty", crop) == whole);
             }
         }
     });

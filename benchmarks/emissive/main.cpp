@@ -38,7 +38,7 @@ struct Lit {
         settings.seed = seed;
         const render::FrameStatistics frame = renderer->render(settings, {}, false);
         milliseconds.push_back(frame.deviceMilliseconds);
-        const std::vector<float> image = renderer->frame().beauty.downloadAll(renderer->queue());
+        const std::vector<float> image = renderer->frame().planes("beauty").downloadAll(renderer->queue());
         sum.resize(image.size());
         squares.resize(image.size());
         for (std::size_t i = 0; i < image.size(); ++i) {

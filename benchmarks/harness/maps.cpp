@@ -39,22 +39,6 @@ public:
         maps.push_back(std::move(map));
     }
 
-    /// A plane of the frame's.
-    template <class T>
-    void plane(const std::string& quantity, const std::string& unit, const device::Buffer<T>& buffer, bool logarithmic)
-    {
-        const std::vector<T> all = buffer.downloadAll(lab_.renderer().queue());
-        const std::uint32_t stride = lab_.renderer().frame().layout.stride;
-        std::vector<float> values;
-        for (int y = 0; y < settings_.height; ++y) {
-            for (int x = 0; x < settings_.width; ++x) {
-                const auto i = shared::pixelIndex(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), stride);
-                values.push_back(static_cast<float>(all[i]));
-            }
-        }
-        write(quantity, unit, values, logarithmic);
-    }
-
     std::string pathOf(const std::string& suffix) const
     {
         return (fs::path(folder_) / fmt::format("{}{}.png", lab_.name(), suffix)).string();
@@ -94,17 +78,18 @@ std::vector<Map> writeMaps(Lab& lab, render::Settings settings, const std::strin
     settings.seed = 1;
     render::Renderer& renderer = lab.renderer();
     const render::FrameStatistics frame = renderer.render(settings, {}, true);
-    const image::LayeredImage layers = render::readLayers(renderer, settings, frame, { "samples", "filterWidth" });
+    const image::LayeredImage layers = render::readLayers(renderer, settings, frame,
+        { "samples", "filterWidth", "filterWidthLens", "filterWidthMotion", "primarySamples" });
     MapWriter writer(lab, settings, folder);
     image::writePng(writer.pathOf(""), image::beauty(layers));
     writer.write("samples", "samples/pixel", layers.find("samples.Y")->values, true);
     // A pinhole scene file has none of the rest.
     if (renderer.frame().distributed) {
-        writer.plane("primary", "samples/pixel", renderer.frame().primaryTaken, true);
-        writer.plane("width_lens", "pixels", renderer.frame().lensWidth, false);
+        writer.write("primary", "samples/pixel", layers.find("primarySamples.Y")->values, true);
+        writer.write("width_lens", "pixels", layers.find("filterWidthLens.pixels")->values, false);
     }
     if (scene::geometryMoves(renderer.scene()) || scene::cameraMoves(renderer.scene())) {
-        writer.plane("width_motion", "pixels", renderer.frame().motionWidth, false);
+        writer.write("width_motion", "pixels", layers.find("filterWidthMotion.pixels")->values, false);
     }
     for (const image::Channel& channel : layers.channels) {
         if (const std::string name = widthName(channel.name); !name.empty()) {

@@ -114,8 +114,8 @@ std::vector<TimingColumn> columns() { return withFrameColumns({ tracing(), width
 double filteredShare(render::Renderer& renderer)
 {
     const render::Frame& frame = renderer.frame();
-    const std::vector<float>& beta = renderer.termPlanes().front().beta;
-    const std::vector<std::uint32_t> objects = frame.objectId.downloadAll(renderer.queue());
+    const std::vector<float> beta = frame.planes("filterWidth").downloadAll(renderer.queue());
+    const std::vector<std::uint32_t> objects = frame.counts("objectId").downloadAll(renderer.queue());
     double filtered = 0, seen = 0;
     for (std::uint32_t y = 0; y < frame.layout.height; ++y) {
         for (std::uint32_t x = 0; x < frame.layout.width; ++x) {

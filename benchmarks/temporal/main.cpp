@@ -101,7 +101,7 @@ std::size_t planeIndex(const render::PlaneLayout& layout, std::size_t i)
 std::vector<double> luminances(render::Renderer& renderer, std::size_t pixels)
 {
     const render::Frame& frame = renderer.frame();
-    const std::vector<float> planes = frame.beauty.downloadAll(renderer.queue());
+    const std::vector<float> planes = frame.planes("beauty").downloadAll(renderer.queue());
     std::vector<double> out(pixels);
     for (std::size_t i = 0; i < pixels; ++i) {
         const std::size_t at = planeIndex(frame.layout, i);
@@ -199,7 +199,7 @@ Measured measure(const Arguments& a, const std::string& file, const Path& path, 
             settings.frame = number;
             render::FrameStatistics statistics = renderer.render(settings, {}, true);
             if (seed == 0) {
-                objects[number] = renderer.frame().objectId.downloadAll(renderer.queue());
+                objects[number] = renderer.frame().counts("objectId").downloadAll(renderer.queue());
             }
             if (number < last) {
                 temporal.keep(renderer, settings, course.places(), statistics);

@@ -34,7 +34,10 @@ public:
 
     std::string widthLayers() const override { return "of the area light; of several filterWidth1, filterWidth2, ..."; }
 
-    std::optional<TermLayer> termLayer(const Settings& settings) const override { return componentsLayer(settings); }
+    std::vector<LayerInfo> layers(const Settings& settings, const PreparedScene*) const override
+    {
+        return { componentsLayer(settings) };
+    }
 };
 
 } // namespace

@@ -95,12 +95,12 @@ public:
             return;
         }
         Gathered filtered = filteredPlanes(f_, channels_);
-        graph::Handle<Value>* parts = ofComponents() ? keptParts() : nullptr;
+        graph::Handle<Value> parts = shownParts();
         g_.only("filter of light", analysed, [&] {
             const std::optional<Shearing> shearing = sheared() || maaf_ ? std::optional(shears()) : std::nullopt;
             if (ofComponents()) {
                 componentFilter(f_, withComponents(filterParams()), analysisParams(), light_, value_, beta_,
-                    { sums_, gradients_, shearing->slopeWidth, ratio_ }, filtered, parts);
+                    { sums_, gradients_, shearing->slopeWidth, ratio_ }, filtered, parts.graph != 0 ? &parts : nullptr);
                 return;
             }
             // What was stopped early has not the counts that the parts of samples were made for.
@@ -118,6 +118,9 @@ public:
                 gaussianFilter(f_, { "filter", PassKind::Filter }, channels_, filterParams(), value_, beta_, filtered);
             }
         });
+        if (parts.graph != 0) {
+            f_.layers->add({ componentsLayer(s_).name, term_, parts, Where::OnSurfaces });
+        }
         // Not in that group: what is added up need not be there before it.
         shade(filtered.value, analysed);
         shade(value_, [analysed](const Run& run) { return !analysed(run); });
@@ -161,7 +164,7 @@ private:
     void narrowForLobes();
     void countsFromVariance();
     void widened();
-    graph::Handle<Value>* keptParts();
+    graph::Handle<Value> shownParts();
     void shade(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition);
 
     shared::AnalysisParams analysisParams() const
@@ -353,19 +356,16 @@ void LightGraph::widened()
     widen(f_, "filter", filterParams(), s_.widening, pinholeNoise, { visibility, deviation, weights }, beta_);
 }
 
-/// The planes of componentsLayer(), where layers are read.
-graph::Handle<Value>* LightGraph::keptParts()
+/// What componentsLayer() shows, where layers are read; else of no graph.
+graph::Handle<Value> LightGraph::shownParts()
 {
-    if (f_.termLayers == nullptr) {
-        return nullptr;
+    if (f_.layers == nullptr || !ofComponents()) {
+        return {};
     }
-    const TermLayer layer = componentsLayer(s_);
-    const auto planes = static_cast<std::uint32_t>(layer.channels.size());
-    auto& parts =
-        f_.termLayers->emplace(layer.info.name + term_, g_.plane<Value>(layer.info.name, graph::floatPlanes(planes)))
-            .first->second;
+    const auto planes = static_cast<std::uint32_t>(componentsLayer(s_).channels.size());
+    auto parts = g_.plane<Value>("components", graph::floatPlanes(planes));
     f_.zero(parts);
-    return &parts;
+    return parts;
 }
 
 void LightGraph::shade(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition)

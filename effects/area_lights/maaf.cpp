@@ -114,14 +114,17 @@ graph::Format componentsFormat(int components, std::uint32_t channels)
     }
 }
 
-TermLayer componentsLayer(const Settings& settings)
+LayerInfo componentsLayer(const Settings& settings)
 {
-    TermLayer layer { { "components",
-                          "00 01 ...: what each pair of components along a light's axes adds to the part of it that "
-                          "matt surfaces see (--maaf printed or refitted; of several lights components1, components2, "
-                          "...)" },
-        {}, "the frame is not filtered by components (--method maaf, --maaf printed or refitted)" };
-    const int pairs = settings.maaf && *settings.maaf != Maaf::TwoSlope ? (settings.components + 1) / 2 : 0;
+    LayerInfo layer { "components", {},
+        "what each pair of components along a light's axes adds to the part of it that matt surfaces see (--maaf "
+        "printed or refitted; of several lights components1, components2, ...)" };
+    if (!settings.maaf || *settings.maaf == Maaf::TwoSlope) {
+        layer.channels = { "00", "01", "..." };
+        layer.absence = "the frame is not filtered by components (--method maaf, --maaf printed or refitted)";
+        return layer;
+    }
+    const int pairs = (settings.components + 1) / 2;
     for (int pair = 0; pair < pairs * pairs; ++pair) {
         layer.channels.push_back(fmt::format("{}{}", pair / pairs, pair % pairs));
     }

@@ -41,7 +41,7 @@ shared::FilterParams withTwoSlopes(
     shared::FilterParams params, const shared::AnalysisParams& analysis, const shared::AreaLight& light);
 
 /// The layer of what each pair of components along u and along v (which runs fastest) has of a light's visibility.
-TermLayer componentsLayer(const Settings& settings);
+LayerInfo componentsLayer(const Settings& settings);
 
 /// Over which pixels slopes are taken together: by components as the paper has it, plain means over 5 x 5 pixels.
 /// maaf: maafOf() of the light

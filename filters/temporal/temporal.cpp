@@ -101,39 +101,36 @@ struct TemporalFilter::Declaration {
         params.published = settings.temporal == render::Temporal::Published ? 1 : 0;
         params.open = settings.integrator == render::Integrator::AmbientOcclusion ? 1 : 0;
         params.mixed = frame.distributed ? 1 : 0;
-        params.measured = frame.directDeviation.size() > 0 ? 1 : 0;
+        params.measured = frame.has("directDeviation") ? 1 : 0;
         params.normalCosine = std::cos(glm::radians(normalDegrees));
         importFrame();
     }
 
     void importFrame()
     {
-        const auto vectors = [&]<class Quantity>(const char* name, const device::Buffer<float>& memory,
-                                 graph::Handle<Quantity>& handle) {
-            handle = graph.imported<Quantity>(name, graph::vectors, memory.cl());
+        const auto import = [&]<class Quantity>(
+                                const char* name, graph::Handle<Quantity>& handle, const graph::Format& format) {
+            handle = graph.imported<Quantity>(name, format, frame.find(name).memory);
         };
-        vectors("position", frame.position, f.surfaces.position);
-        vectors("normal", frame.normal, f.surfaces.normal);
-        vectors("diffuse", frame.diffuse, f.surfaces.diffuse);
-        vectors("specular", frame.specular, f.surfaces.specular);
-        vectors("direct", frame.direct, f.totals.direct.filtered);
-        vectors("direct noisy", frame.directNoisy, f.totals.direct.noisy);
-        vectors("beauty", frame.beauty, f.totals.beauty);
+        import("position", f.surfaces.position, graph::vectors);
+        import("normal", f.surfaces.normal, graph::vectors);
+        import("albedo", f.surfaces.diffuse, graph::vectors);
+        import("specular", f.surfaces.specular, graph::vectors);
+        import("objectId", f.surfaces.objectId, graph::counts);
+        import("direct", f.totals.direct.filtered, graph::vectors);
+        import("directNoisy", f.totals.direct.noisy, graph::vectors);
+        import("beauty", f.totals.beauty, graph::vectors);
+        const bool measured = params.measured != 0;
+        if (measured) {
+            import("directDeviation", f.totals.direct.deviation, render::shortFloats);
+        }
         if (indirect) {
-            vectors("indirect", frame.indirect, f.totals.indirect.filtered);
-            vectors("indirect noisy", frame.indirectNoisy, f.totals.indirect.noisy);
+            import("indirect", f.totals.indirect.filtered, graph::vectors);
+            import("indirectNoisy", f.totals.indirect.noisy, graph::vectors);
         }
-        const auto shorts = [&](const char* name, const device::Buffer<float>& memory,
-                                graph::Handle<render::Deviation>& handle) {
-            handle = graph.imported<render::Deviation>(name, render::shortFloats, memory.cl());
-        };
-        if (params.measured != 0) {
-            shorts("direct deviation", frame.directDeviation, f.totals.direct.deviation);
+        if (measured && indirect) {
+            import("indirectDeviation", f.totals.indirect.deviation, render::shortFloats);
         }
-        if (params.measured != 0 && indirect) {
-            shorts("indirect deviation", frame.indirectDeviation, f.totals.indirect.deviation);
-        }
-        f.surfaces.objectId = graph.imported<render::ObjectId>("object id", graph::counts, frame.objectId.cl());
     }
 
     Handles handlesOf(const Kept& kept)

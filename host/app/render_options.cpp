@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace wedge::app {
 namespace {
@@ -268,7 +269,8 @@ std::string footer()
 {
     std::string text = "Layers of an EXR besides the beauty (R G B):\n";
     for (const render::LayerInfo& layer : render::knownLayers()) {
-        text += fmt::format("  {:<17} {}\n", layer.name, layer.meaning);
+        text += fmt::format(
+            "  {:<17} {}\n", layer.name, fmt::format("{}: {}", fmt::join(layer.channels, " "), layer.meaning));
     }
     return text
         + "\nExit status: 0 done, 1 failure, 2 wrong call, 130 interrupted by a signal (what was there is "

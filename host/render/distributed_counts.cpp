@@ -126,7 +126,7 @@ void DistributedSamples::demands()
         f_.zero(ofTextures); // what emits is not shown
     }
     for (const Added& added : added_) {
-        auto ofLight = f_.graph.plane<Squares>("variance of " + added.of.light.name, graph::floats);
+        auto ofLight = f_.graph.plane<Squares>("variance of " + added.of.name, graph::floats);
         variance(added.radiance, added.squares, ofLight);
         f_.pixels("counts", PassKind::Analysis, { "waves/distributed.cl", "addPlane" },
             { pixels, reads("part", ofLight), updates("sum", ofTextures) });

@@ -188,14 +188,13 @@ void DistributedSamples::compose()
         countSamples();
         startSums();
     }
-    const bool filters = shape_.analysed && f_.settings.filtering != Filtering::None;
     Blurs own { f_.graph.plane<Pixels>("lens filter width", graph::floats),
         f_.graph.plane<Pixels>("motion filter width", graph::floats),
         f_.graph.plane<Pixels>("direction of motion", f_.lean ? shortPairs : graph::pairs) };
     if (shape_.layers) {
         f_.zero(own.lens, own.along); // they are shown, filtered or not
     }
-    if (filters) {
+    if (filters()) {
         f_.graph.only("filters", analysed(), [&] {
             for (const std::unique_ptr<WaveTerm>& term : terms_) {
                 const FilteredTerm filtered = term->filtered(params());
@@ -210,7 +209,7 @@ void DistributedSamples::compose()
         });
     }
     for (const std::unique_ptr<WaveTerm>& term : terms_) {
-        addOwn(*term, sumOf(*term), filters);
+        addOwn(*term, sumOf(*term), filters());
     }
     lens_ = own.lens;
     along_ = own.along;
@@ -220,7 +219,7 @@ void DistributedSamples::compose()
         emission_ =
             before_.memory != nullptr ? copyOf("emission, filtered", f_.surfaces.emission) : f_.surfaces.emission;
     }
-    if (!filters || !f_.settings.distributed.blur || camera_.apertureRadius <= 0) {
+    if (!filters() || !f_.settings.distributed.blur || camera_.apertureRadius <= 0) {
         return;
     }
     f_.graph.only("filter of the image", analysed(), [&] {
@@ -231,6 +230,49 @@ void DistributedSamples::compose()
             blur(t.indirect.filtered);
         }
     });
+}
+
+void DistributedSamples::show(Outputs& to)
+{
+    const Totals& t = f_.totals;
+    const Surfaces& s = f_.surfaces;
+    to.add("beauty", t.beauty, Where::Everywhere, Join::Mean);
+    to.add("objectId", s.objectId, Where::Everywhere, Join::Surface);
+    to.add("primarySamples", counts_.taken, Where::Everywhere, Join::SumOfTraced);
+    to.add("samples", t.samples, Where::OnSurfaces, Join::Sum);
+    to.add("indirectSamples", t.indirectSamples, Where::OnSurfaces, Join::Sum);
+    to.add("raysTraced", t.rays, Where::Everywhere, Join::SumOfTraced);
+    to.add("pathRays", t.pathRays, Where::Everywhere, Join::SumOfTraced);
+    if (!shape_.layers) {
+        return;
+    }
+    auto rays = f_.graph.plane<Count>("rays, the camera's included", graph::counts);
+    f_.blocks("composite", PassKind::Composite, { "frame/tally.cl", "addCounts" },
+        { f_.rectangle(f_.analysisParams()), reads("counts", t.rays), reads("before", counts_.taken),
+            graph::writes("sum", rays) });
+    to.add("rays", rays, Where::Everywhere, Join::Sum);
+    to.add("position", s.position, Where::OnSurfaces, Join::Surface);
+    to.add("normal", s.normal, Where::OnSurfaces, Join::Surface);
+    to.add("pixelSize", s.pixelSize, Where::Everywhere, Join::Surface);
+    to.add("depth", s.depth, Where::Everywhere, Join::Surface);
+    to.add("albedo", s.diffuse, Where::OnSurfaces, Join::Mean);
+    to.add("specular", s.specular, Where::Everywhere, Join::Mean);
+    to.add("emission", emission_, Where::Everywhere, Join::Mean);
+    // Filters carry light to pixels that hit nothing themselves.
+    to.add("direct", t.direct.filtered, Where::Everywhere, Join::Mean);
+    to.add("directNoisy", t.direct.noisy, Where::Everywhere, Join::Mean);
+    to.add("indirect", t.indirect.filtered, Where::Everywhere, Join::Mean);
+    to.add("indirectNoisy", t.indirect.noisy, Where::Everywhere, Join::Mean);
+    for (const Added& added : added_) {
+        if (!added.of.layer.empty()) {
+            to.add(added.of.layer, added.radiance, Where::Everywhere, Join::Mean);
+        }
+    }
+    to.add("motion", motion_);
+    if (filters() && f_.settings.distributed.blur) {
+        to.add("filterWidthLens", lens_);
+        to.add("filterWidthMotion", along_);
+    }
 }
 
 } // namespace wedge::render

@@ -115,9 +115,9 @@ void DistributedSamples::keepPixels()
             motionSpread_ = kept<Pixels>("differences of motions", graph::floats);
         }
     }
-    for (UnfilteredOf& of : frameUnfiltered(f_.settings, f_.description)) {
-        auto radiance = kept<Radiance>(of.light.name, graph::vectors);
-        auto squares = kept<Squares>("squares of " + of.light.name, graph::floats);
+    for (Unfiltered& of : frameUnfiltered(f_.settings, f_.description)) {
+        auto radiance = kept<Radiance>(of.name, graph::vectors);
+        auto squares = kept<Squares>("squares of " + of.name, graph::floats);
         added_.push_back({ std::move(of), radiance, squares });
     }
     Totals& t = f_.totals;
@@ -351,23 +351,12 @@ void DistributedSamples::addUnfiltered(Waves& waves)
     for (Added& added : added_) {
         auto radiance = waves.list<Radiance>("radiance", graph::vectors);
         f_.zero(radiance);
-        added.of.light.ofWaves(f_, waves, radiance);
+        added.of.ofWaves(f_, waves, radiance);
         waves.pixels("accumulateDelta",
             joined({ waves.pixelParams(), waves.params() }, waves.pixelLists(reads("taken", waves.counts().taken)),
                 Arguments { reads("objectId", waves.receivers().objectId), reads("lit", radiance),
                     updates("delta", added.radiance), updates("deltaSquares", added.squares) }));
     }
-}
-
-std::map<std::string, graph::Handle<Radiance>> DistributedSamples::unfiltered() const
-{
-    std::map<std::string, graph::Handle<Radiance>> out;
-    for (const Added& added : added_) {
-        if (!added.of.layer.empty()) {
-            out.emplace(added.of.layer, added.radiance);
-        }
-    }
-    return out;
 }
 
 void DistributedSamples::accumulateSurfaces(Waves& waves, const Adding& adding)

@@ -48,17 +48,14 @@ public:
 
     const std::vector<std::unique_ptr<WaveTerm>>& terms() const { return terms_; }
     const FrameBuilder& frame() const { return f_; }
-    /// Once composed: what is seen to emit, as the image has it. Of layers alone.
-    const graph::Handle<Radiance>& emission() const { return emission_; }
     /// Once composed, of samples that stay: the image before any filter.
     const graph::Handle<Radiance>& plainImage() const { return plain_; }
-    /// Means of direct light that is not filtered, by effects' layers.
-    std::map<std::string, graph::Handle<Radiance>> unfiltered() const;
+    /// Once composed: adds all that layers show of it, or, without layers, the image and what it counts.
+    void show(Outputs& to);
     const graph::Handle<Count>& taken() const { return counts_.taken; }
+    /// Whether terms are.
+    bool filters() const { return shape_.analysed && f_.settings.filtering != Filtering::None; }
     const graph::Handle<Count>& hits() const { return hits_; }
-    const graph::Handle<Pixels>& lensWidth() const { return lens_; }
-    const graph::Handle<Pixels>& motionWidth() const { return along_; }
-    const graph::Handle<Pixels>& motion() const { return motion_; }
 
     /// Filled in by a run.
     struct State : TermState {
@@ -142,7 +139,7 @@ private:
     graph::Handle<Squares> emissionSquares_; ///< mean squared luminance of a primary sample's emission
     /// Direct light that is not filtered.
     struct Added {
-        UnfilteredOf of;
+        Unfiltered of;
         graph::Handle<Radiance> radiance;
         graph::Handle<Squares> squares;
     };

@@ -41,13 +41,12 @@ std::size_t countOf(Part part, const std::vector<Term>& terms)
     return static_cast<std::size_t>(std::ranges::count(terms, part, &Term::part));
 }
 
-std::vector<UnfilteredOf> frameUnfiltered(const Settings& settings, const PreparedScene& scene)
+std::vector<Unfiltered> frameUnfiltered(const Settings& settings, const PreparedScene& scene)
 {
-    std::vector<UnfilteredOf> out;
+    std::vector<Unfiltered> out;
     for (const auto& effect : effects()) {
         if (std::optional<Unfiltered> light = effect->unfiltered(settings, scene)) {
-            const std::optional<LayerInfo> layer = effect->layer();
-            out.push_back({ std::move(*light), layer ? layer->name : "" });
+            out.push_back(std::move(*light));
         }
     }
     return out;

@@ -31,23 +31,20 @@ struct Term {
     std::function<std::unique_ptr<WaveTerm>(FrameBuilder&, const SampleShape&)> ofWaves;
 };
 
-/// A layer that wedge can write, and what its channels hold.
+/// A layer that wedge can write: what a frame shows by its name (outputs.h).
 struct LayerInfo {
     std::string name;
-    std::string meaning; ///< one line, channels and units
-};
-
-/// A layer that shows what terms of an effect keep: each has planes of its own, and its channels are called by the
-/// layer's name and the term's.
-struct TermLayer {
-    LayerInfo info;
-    std::vector<std::string> channels; ///< of each plane; empty: terms keep nothing for it with these settings
-    std::string absence; ///< why they do not
+    std::vector<std::string> channels; ///< what those of its planes are called
+    std::string meaning; ///< one line, units
+    std::string absence = {}; ///< why frames of these settings have none of it; "" where they do
+    /// What all pixels have where a frame has no such output; none: then that is a fault.
+    std::optional<float> otherwise = {};
 };
 
 /// Direct light that is added as it is sampled.
 struct Unfiltered {
     std::string name; ///< of its planes
+    std::string layer = {}; ///< one of its effect's; "" where it has none
     double workUnits = 0;
     /// Declares its passes where the pixels are the receivers, which add to both images of totals.direct, and to `own`,
     /// which is null where nobody wants it.
@@ -84,10 +81,9 @@ public:
     virtual std::string absence(Part) const { return ""; }
     /// How its terms' layers of filter widths are called, for people; "" without terms.
     virtual std::string widthLayers() const { return ""; }
-    /// That of its unfiltered light, R G B.
-    virtual std::optional<LayerInfo> layer() const { return std::nullopt; }
-    /// One of its terms, which write it to FrameBuilder::termLayers: of all settings, or of none.
-    virtual std::optional<TermLayer> termLayer(const Settings&) const { return std::nullopt; }
+    /// Those of its own, whether or not frames have them: of unfiltered light, and what passes add to
+    /// FrameBuilder::layers. scene: null where it is not known.
+    virtual std::vector<LayerInfo> layers(const Settings&, const PreparedScene*) const { return {}; }
 
     /// Kernels of its own and what they include, by the paths that passes and includes name.
     virtual device::GeneratedSources sources() const { return {}; }
@@ -113,12 +109,8 @@ struct Registration {
 std::vector<Term> frameTerms(const Settings& settings, const PreparedScene& scene);
 std::size_t countOf(Part part, const std::vector<Term>& terms);
 
-/// Unfiltered light of a frame, and its effect's layer, "" without.
-struct UnfilteredOf {
-    Unfiltered light;
-    std::string layer;
-};
-std::vector<UnfilteredOf> frameUnfiltered(const Settings& settings, const PreparedScene& scene);
+/// Unfiltered light of a frame, by effects.
+std::vector<Unfiltered> frameUnfiltered(const Settings& settings, const PreparedScene& scene);
 
 /// What effects have programs made of.
 device::GeneratedSources programSources(const scene::Scene& scene);

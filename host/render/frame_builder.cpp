@@ -162,13 +162,15 @@ void FrameBuilder::items(std::string_view name, PassKind kind, graph::KernelName
         .mostOfGroup = 1 }); // each item has much to do
 }
 
-void FrameBuilder::count(
-    const graph::Handle<Count>& counted, bool everywhere, graph::Handle<Tally>& tally, graph::Handle<Count>* plane)
+void FrameBuilder::count(const graph::Version& counted, bool everywhere, graph::Handle<Tally>& tally,
+    graph::Handle<Count>* plane, const std::optional<graph::Version>& mask)
 {
     shared::AnalysisParams p = analysisParams();
     setRectangle(p, everywhere ? graph.image() : outputWindow(settings));
     items("composite", PassKind::Composite, { "frame/tally.cl", "addToTally" }, WEDGE_TALLY_STRIPES,
-        { graph::value("p", p), graph::readsAsIs("counts", counted), graph::updates("tally", tally) });
+        { graph::value("p", p), graph::readsAsIs("counts", counted),
+            mask ? graph::readsAsIs("mask", *mask) : graph::absent("mask", graph::counts),
+            graph::updates("tally", tally) });
     if (plane != nullptr) {
         auto sum = graph.plane<Count>("counts", graph::counts);
         blocks("composite", PassKind::Composite, { "frame/tally.cl", "addCounts" },

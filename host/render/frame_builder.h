@@ -5,11 +5,11 @@
 #include "host/render/device_scene.h"
 #include "host/render/frame.h"
 #include "host/render/kernel_types.h"
+#include "host/render/outputs.h"
 #include "host/render/prepared_scene.h"
 #include "host/render/settings.h"
 #include "kernels/shared/filter_params.h"
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -119,9 +119,7 @@ struct FrameBuilder {
     bool lean = false; ///< pixels that have several receivers keep little, see SampleShape::lean()
     Surfaces surfaces = {};
     Totals totals = {};
-    /// By names of layers of terms, each with its term's (effect.h), what terms keep for them; null where no layers are
-    /// read.
-    std::map<std::string, graph::Handle<Value>>* termLayers = nullptr;
+    Outputs* layers = nullptr; ///< where passes add what layers show; null where none are read
     std::optional<graph::Handle<Directions>> environmentSamples = {}; ///< pre-computed, where there are any
 
     /// Of normals, each in one number or in three. In scenes with normal maps the ones without them lie behind.
@@ -231,9 +229,9 @@ struct FrameBuilder {
     void items(std::string_view name, device::PassKind kind, graph::KernelName kernel, std::size_t count,
         std::vector<graph::Argument> arguments);
     /// Adds what pixels counted to the frame's tally of it, within the output or in the whole image, and to its plane
-    /// of it, where that is wanted; null: there is none.
-    void count(const graph::Handle<Count>& counted, bool everywhere, graph::Handle<Tally>& tally,
-        graph::Handle<Count>* plane = nullptr);
+    /// of it, where that is wanted; null: there is none. mask: pixels that do not count have 0 there.
+    void count(const graph::Version& counted, bool everywhere, graph::Handle<Tally>& tally,
+        graph::Handle<Count>* plane = nullptr, const std::optional<graph::Version>& mask = {});
     /// A step on the host, whatever is wanted.
     void host(std::string name, const std::function<void(graph::Run&)>& step, std::vector<graph::Argument> uses = {});
     /// Fills planes with zeros.

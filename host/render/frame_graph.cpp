@@ -1,86 +1,16 @@
 #include "host/render/frame_graph.h"
 
+#include "host/render/distributed_samples.h"
+
 namespace wedge::render {
-namespace {
 
-/// Calls visit(buffer of the frame, version that it shows) for each that is shown.
-template <class Shown, class Visit>
-void eachShown(const Shown& shown, Frame& frame, const Visit& visit)
-{
-    const Surfaces& s = shown.surfaces;
-    const Totals& t = shown.totals;
-    const auto one = [&](auto& buffer, const graph::Version& version) {
-        if (version.graph != 0) {
-            visit(buffer, version);
-        }
-    };
-    one(frame.position, s.position);
-    one(frame.normal, s.normal);
-    one(frame.origin, s.origin);
-    one(frame.objectId, s.objectId);
-    one(frame.depth, s.depth);
-    one(frame.pixelSize, s.pixelSize);
-    one(frame.diffuse, s.diffuse);
-    one(frame.specular, s.specular);
-    one(frame.emission, s.emission);
-    one(frame.beauty, t.beauty);
-    one(frame.direct, t.direct.filtered);
-    one(frame.directNoisy, t.direct.noisy);
-    one(frame.directDeviation, t.direct.deviation);
-    one(frame.indirectDeviation, t.indirect.deviation);
-    one(frame.indirect, t.indirect.filtered);
-    one(frame.indirectNoisy, t.indirect.noisy);
-    one(frame.samples, t.samples);
-    one(frame.indirectSamples, t.indirectSamples);
-    one(frame.rays, t.rays);
-    one(frame.pathRays, t.pathRays);
-    one(frame.samplesTally, t.tallies.samples);
-    one(frame.indirectTally, t.tallies.indirectSamples);
-    one(frame.raysTally, t.tallies.rays);
-    one(frame.pathRaysTally, t.tallies.pathRays);
-    one(frame.primaryTaken, shown.primaryTaken);
-    one(frame.lensWidth, shown.lensWidth);
-    one(frame.motionWidth, shown.motionWidth);
-    one(frame.motion, shown.motion);
-    for (const auto& [layer, radiance] : shown.unfiltered) {
-        one(frame.unfiltered.try_emplace(layer, Frame::none<float>()).first->second, radiance);
-    }
-    for (const auto& [name, planes] : shown.termLayers) {
-        one(frame.termLayers.try_emplace(name, Frame::none<float>()).first->second, planes);
-    }
-}
+using graph::reads;
+using graph::updates;
 
-} // namespace
-
-Totals imageOf(const Totals& totals)
-{
-    Totals image;
-    image.beauty = totals.beauty;
-    image.tallies = totals.tallies;
-    if (totals.tallies.samples.graph == 0) {
-        static_cast<Counted<Count>&>(image) = totals;
-    }
-    return image;
-}
-
-void FrameGraph::show(const Shown& shown, bool distributed, bool analysed)
-{
-    shown_ = shown;
-    distributed_ = distributed;
-    const Window output = outputWindow(settings_);
-    Frame nobody { PlaneLayout(settings_.width, settings_.height) };
-    eachShown(shown_, nobody, [&](auto&, const graph::Version& version) { graph_.want(version, output); });
-    wantsWidths_ = keepsLayers_ && analysed;
-    for (const TermWidths& term : widths_) {
-        if (wantsWidths_) {
-            graph_.want(term.beta, output);
-        }
-    }
-}
-
-FrameGraph::FrameGraph(const Settings& settings, const PreparedScene& scene, bool keepLayers)
+FrameGraph::FrameGraph(const Settings& settings, const PreparedScene& scene, bool keepLayers, bool distributed)
     : settings_(settings)
     , keepsLayers_(keepLayers)
+    , distributed_(distributed)
     , graph_(settings.width, settings.height, PlaneLayout(settings.width, settings.height).size)
     , terms_(frameTerms(settings, scene))
     , unfiltered_(frameUnfiltered(settings, scene))
@@ -93,20 +23,102 @@ double FrameGraph::workUnits() const
     for (const Term& term : terms_) {
         units += term.workUnits;
     }
-    for (const UnfilteredOf& added : unfiltered_) {
-        units += added.light.workUnits;
+    for (const Unfiltered& added : unfiltered_) {
+        units += added.workUnits;
     }
     return units;
 }
 
+void FrameGraph::showSums(const Totals& totals, Where where)
+{
+    outputs_.add("direct", totals.direct.filtered, where);
+    outputs_.add("directNoisy", totals.direct.noisy, where);
+    outputs_.add("indirect", totals.indirect.filtered, where);
+    outputs_.add("indirectNoisy", totals.indirect.noisy, where);
+}
+
+void FrameGraph::showWidths(FrameBuilder& frame, const Term& term, const std::shared_ptr<TermState>& state,
+    const graph::Handle<Metres>& beta, const graph::Handle<Metres>& pixelSize)
+{
+    auto widths = graph_.plane<Metres>("filter widths shown", graph::floatPlanes(2));
+    frame.zero(widths);
+    if (beta.graph != 0) {
+        frame.pixels("widths", device::PassKind::Analysis, { "frame/layers.cl", "showWidths" },
+            { frame.rectangle(frame.analysisParams()), reads("beta", beta), reads("pixelSize", pixelSize),
+                updates("widths", widths) },
+            [state](const graph::Run&) { return state->analysed; });
+    }
+    outputs_.add({ "filterWidth", term.name, widths, Where::OnSurfaces });
+}
+
+void FrameGraph::showWidths(
+    FrameBuilder& frame, const DistributedSamples& samples, const graph::Handle<Metres>& pixelSize)
+{
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+        const graph::Handle<Metres> none;
+        showWidths(
+            frame, terms_[i], samples.state(), samples.filters() ? samples.terms()[i]->means.beta : none, pixelSize);
+    }
+}
+
+void FrameGraph::showTally(FrameBuilder& frame, const std::string& name, const std::string& output, Within within)
+{
+    const graph::Version counts = outputs_.find(output)->version;
+    const graph::Resource& resource = graph_.resources()[counts.resource];
+    auto tally = graph_.list<Tally>(name, tallySums, WEDGE_TALLY_STRIPES);
+    frame.zero(tally);
+    if (resource.plane) {
+        std::optional<graph::Version> mask;
+        if (within == Within::Surfaces) {
+            mask = outputs_.find("objectId")->version;
+        }
+        frame.count(counts, within == Within::Image, tally, nullptr, mask);
+    } else {
+        frame.items("composite", device::PassKind::Composite, { "frame/tally.cl", "addListToTally" },
+            WEDGE_TALLY_STRIPES,
+            { graph::value("count", static_cast<std::uint32_t>(resource.elements)), graph::readsAsIs("list", counts),
+                updates("tally", tally) });
+    }
+    outputs_.add(name, tally);
+}
+
+void FrameGraph::finish(FrameBuilder& frame)
+{
+    if (distributed_) {
+        showTally(frame, "samplesTally", "samples", Within::Surfaces);
+        showTally(frame, "indirectTally", "indirectSamples", Within::Surfaces);
+        showTally(frame, "raysTally", "raysTraced", Within::Image);
+        showTally(frame, "pathRaysTally", "pathRays", Within::Image);
+        showTally(frame, "primaryTally", "primarySamples", Within::Image);
+        showTally(frame, "primaryShownTally", "primarySamples", Within::Output);
+    }
+    auto shaded = graph_.list<Tally>("tally of shaded pixels", tallySums, WEDGE_TALLY_STRIPES);
+    auto matte = graph_.list<Tally>("tally of matte pixels", tallySums, WEDGE_TALLY_STRIPES);
+    shared::AnalysisParams p = frame.analysisParams();
+    const Window output = outputWindow(settings_);
+    setRectangle(p, output);
+    const Output* specular = outputs_.find("specular");
+    frame.items("composite", device::PassKind::Composite, { "frame/tally.cl", "countSurfaces" }, WEDGE_TALLY_STRIPES,
+        { graph::value("p", p), graph::readsAsIs("objectId", outputs_.find("objectId")->version),
+            specular != nullptr ? graph::readsAsIs("specular", specular->version)
+                                : graph::absent("specular", graph::vectors),
+            graph::writes("shaded", shaded), graph::writes("matte", matte) });
+    outputs_.add("shadedTally", shaded);
+    outputs_.add("matteTally", matte);
+    outputs_.want(graph_, output);
+}
+
 std::unique_ptr<Frame> FrameGraph::outputs(const graph::Execution& execution) const
 {
-    auto frame = std::make_unique<Frame>(Frame { PlaneLayout(settings_.width, settings_.height) });
-    frame->distributed = distributed_;
-    frame->keepsLayers = keepsLayers_;
-    eachShown(shown_, *frame, [&](auto& buffer, const graph::Version& version) {
-        buffer = execution.output<typename std::decay_t<decltype(buffer)>::Element>(version);
-    });
+    auto frame =
+        std::make_unique<Frame>(Frame { PlaneLayout(settings_.width, settings_.height), distributed_, keepsLayers_ });
+    for (const Output& output : outputs_.all()) {
+        const graph::Resource& resource = graph_.resources()[output.version.resource];
+        const auto memory = execution.output<std::byte>(output.version);
+        frame->shown.push_back({ output, memory.cl(), resource.bytes(),
+            resource.plane ? resource.format.bytes / std::uint32_t { sizeof(float) } : 0,
+            resource.format.storage == "uint" });
+    }
     return frame;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace wedge::render {
 
@@ -25,7 +26,7 @@ double ErrorEstimate::rmse() const { return std::sqrt(noise + (std::isnan(bias) 
 
 HalvesFrame::HalvesFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
     std::size_t packetSize, bool keepLayers, HalfMemories& memories, int before, int spp)
-    : FrameGraph(settings, scene, keepLayers)
+    : FrameGraph(settings, scene, keepLayers, true)
     , layout_(settings.width, settings.height)
 {
     const SampleShape shape = sampleShape(settings, scene, keepLayers);
@@ -46,83 +47,75 @@ HalvesFrame::HalvesFrame(const PreparedScene& scene, const DeviceScene* deviceSc
         half.samples->compose();
     }
     const bool analysed = shape.analysed && settings.filtering != Filtering::None;
-    for (const std::unique_ptr<WaveTerm>& term : halves_[0].samples->terms()) {
-        widths_.push_back({ halves_[0].samples->state(), term->means.beta });
-    }
     estimateError(analysed);
-    join(analysed);
+    join();
 }
 
-void HalvesFrame::join(bool analysed)
+graph::Version HalvesFrame::mean(const graph::Version& one, const graph::Version& other)
 {
-    const FrameBuilder& a = *halves_[0].frame;
-    const FrameBuilder& b = *halves_[1].frame;
-    const DistributedSamples &first = *halves_[0].samples, &second = *halves_[1].samples;
     FrameBuilder& f = *halves_[0].frame;
-    const graph::Argument p = f.rectangle(first.params());
-    const auto mean = [&]<class Quantity>(const graph::Handle<Quantity>& one, const graph::Handle<Quantity>& other) {
-        auto out = graph_.plane<Quantity>("mean of halves", graph::vectors);
-        f.pixels(pass, PassKind::Composite, { file, "meanOfHalves" },
-            { p, value("planes", 3u), reads("takenA", first.taken()), reads("takenB", second.taken()), reads("a", one),
-                reads("b", other), writes("mean", out) });
-        return out;
-    };
-    const auto sum = [&](const graph::Handle<Count>& one, const graph::Handle<Count>& other) {
+    auto out = graph_.plane<Radiance>("mean of halves", graph::vectors);
+    f.pixels(pass, PassKind::Composite, { file, "meanOfHalves" },
+        { f.rectangle(halves_[0].samples->params()), value("planes", 3u), reads("takenA", halves_[0].samples->taken()),
+            reads("takenB", halves_[1].samples->taken()), reads("a", one), reads("b", other), writes("mean", out) });
+    return out;
+}
+
+graph::Version HalvesFrame::sum(const graph::Version& one, const graph::Version& other)
+{
+    FrameBuilder& f = *halves_[0].frame;
+    auto out = graph_.plane<Count>("sum of halves", graph::counts);
+    f.pixels(pass, PassKind::Composite, { file, "sumOfHalves" },
+        { f.rectangle(halves_[0].samples->params()), reads("a", one), reads("b", other), writes("sum", out) });
+    return out;
+}
+
+graph::Version HalvesFrame::sumOfTraced(const graph::Version& one, const graph::Version& other)
+{
+    FrameBuilder& f = *halves_[0].frame;
+    const graph::Resource& resource = graph_.resources()[one.resource];
+    if (resource.plane) {
         // Of crops more pixels are sampled than shown, and all that was traced counts.
         auto out = graph_.plane<Count>("sum of halves", graph::counts);
         f.zero(out);
         graph_.add({ .name = pass,
             .kind = PassKind::Composite,
             .kernel = { file, "sumOfHalves" },
-            .arguments = { p, graph::readsAsIs("a", one), graph::readsAsIs("b", other), graph::updates("sum", out) },
+            .arguments = { f.rectangle(halves_[0].samples->params()), graph::readsAsIs("a", one),
+                graph::readsAsIs("b", other), graph::updates("sum", out) },
             .domain = graph::Domain::Pixels,
             .everywhere = true });
         return out;
-    };
-    // Of samples of terms those of the pixels that are shown.
-    const auto sumOfTerms = [&](const graph::Handle<Count>& one, const graph::Handle<Count>& other) {
-        auto out = graph_.plane<Count>("sum of halves", graph::counts);
-        f.pixels(pass, PassKind::Composite, { file, "sumOfHalves" },
-            { p, reads("a", one), reads("b", other), writes("sum", out) });
-        return out;
-    };
-    // Of rays that are counted apart, all pixels' together.
-    const auto sumOfLists = [&](const graph::Handle<Count>& one, const graph::Handle<Count>& other) {
-        const std::uint64_t count = graph_.resources()[one.resource].elements;
-        auto out = graph_.list<Count>("sum of halves", graph::counts, count);
-        const auto items = static_cast<std::size_t>(count);
-        graph_.add({ .name = pass,
-            .kind = PassKind::Composite,
-            .kernel = { file, "sumOfLists" },
-            .arguments = { graph::made("count",
-                               [count](const graph::Launch& launch) {
-                                   return launch.run.rehearsal() ? 0u : static_cast<std::uint32_t>(count);
-                               }),
-                graph::readsAsIs("a", one), graph::readsAsIs("b", other), writes("sum", out) },
-            .domain = graph::Domain::Items,
-            .count = [items](const graph::Launch&) { return items; },
-            .mostItems = items });
-        return out;
-    };
-    Shown shown;
-    Surfaces& s = shown.surfaces;
+    }
+    const std::uint64_t count = resource.elements;
+    auto out = graph_.list<Count>("sum of halves", graph::counts, count);
+    const auto items = static_cast<std::size_t>(count);
+    graph_.add({ .name = pass,
+        .kind = PassKind::Composite,
+        .kernel = { file, "sumOfLists" },
+        .arguments = { graph::made("count",
+                           [count](const graph::Launch& launch) {
+                               return launch.run.rehearsal() ? 0u : static_cast<std::uint32_t>(count);
+                           }),
+            graph::readsAsIs("a", one), graph::readsAsIs("b", other), writes("sum", out) },
+        .domain = graph::Domain::Items,
+        .count = [items](const graph::Launch&) { return items; },
+        .mostItems = items });
+    return out;
+}
+
+Surfaces HalvesFrame::joinedSurfaces()
+{
+    FrameBuilder& f = *halves_[0].frame;
+    const graph::Argument p = f.rectangle(halves_[0].samples->params());
+    Surfaces s;
     s.objectId = graph_.plane<ObjectId>("object id", graph::counts);
     f.pixels(pass, PassKind::Composite, { file, "joinObjects" },
-        { p, reads("objectA", a.surfaces.objectId), reads("objectB", b.surfaces.objectId),
+        { p, reads("objectA", f.surfaces.objectId), reads("objectB", halves_[1].frame->surfaces.objectId),
             writes("object", s.objectId) });
-    Totals& t = shown.totals;
-    t.beauty = mean(a.totals.beauty, b.totals.beauty);
-    t.samples = sumOfTerms(a.totals.samples, b.totals.samples);
-    t.indirectSamples = sumOfTerms(a.totals.indirectSamples, b.totals.indirectSamples);
-    shown.primaryTaken = sum(first.taken(), second.taken());
     if (!keepsLayers_) {
-        t.rays = sumOfLists(a.totals.rays, b.totals.rays);
-        t.pathRays = sumOfLists(a.totals.pathRays, b.totals.pathRays);
-        show(shown, true, analysed);
-        return;
+        return s;
     }
-    t.rays = sum(a.totals.rays, b.totals.rays);
-    t.pathRays = sum(a.totals.pathRays, b.totals.pathRays);
     s.position = graph_.plane<Position>("position", graph::vectors);
     s.normal = graph_.plane<Normal>("normal", graph::vectors);
     s.pixelSize = graph_.plane<Metres>("pixel size", graph::floats);
@@ -135,24 +128,46 @@ void HalvesFrame::join(bool analysed)
                 reads(of("pixelSize"), own.pixelSize), reads(of("depth"), own.depth) });
     };
     f.pixels(pass, PassKind::Composite, { file, "joinSurfaces" },
-        joined({ p }, half("A", first), half("B", second),
+        joined({ p }, half("A", *halves_[0].samples), half("B", *halves_[1].samples),
             Arguments { writes("position", s.position), writes("normal", s.normal), writes("pixelSize", s.pixelSize),
                 writes("depth", s.depth) }));
-    s.diffuse = mean(a.surfaces.diffuse, b.surfaces.diffuse);
-    s.specular = mean(a.surfaces.specular, b.surfaces.specular);
-    s.emission = mean(first.emission(), second.emission());
-    t.direct.filtered = mean(a.totals.direct.filtered, b.totals.direct.filtered);
-    t.direct.noisy = mean(a.totals.direct.noisy, b.totals.direct.noisy);
-    t.indirect.filtered = mean(a.totals.indirect.filtered, b.totals.indirect.filtered);
-    t.indirect.noisy = mean(a.totals.indirect.noisy, b.totals.indirect.noisy);
-    const auto ofSecond = second.unfiltered();
-    for (const auto& [layer, radiance] : first.unfiltered()) {
-        shown.unfiltered.emplace(layer, mean(radiance, ofSecond.at(layer)));
+    return s;
+}
+
+void HalvesFrame::join()
+{
+    const Surfaces s = joinedSurfaces();
+    const std::map<std::string, graph::Version> surfaces { { "objectId", s.objectId }, { "position", s.position },
+        { "normal", s.normal }, { "pixelSize", s.pixelSize }, { "depth", s.depth } };
+    std::array<Outputs, 2> halves;
+    for (std::size_t i = 0; i < halves.size(); ++i) {
+        halves_[i].samples->show(halves[i]);
     }
-    shown.lensWidth = first.lensWidth();
-    shown.motionWidth = first.motionWidth();
-    shown.motion = first.motion();
-    show(shown, true, analysed);
+    for (std::size_t i = 0; i < halves[0].all().size(); ++i) {
+        Output output = halves[0].all()[i];
+        const graph::Version &one = output.version, &other = halves[1].all()[i].version;
+        switch (output.join) {
+        case Join::First:
+            break;
+        case Join::Mean:
+            output.version = mean(one, other);
+            break;
+        case Join::Sum:
+            output.version = sum(one, other);
+            break;
+        case Join::SumOfTraced:
+            output.version = sumOfTraced(one, other);
+            break;
+        case Join::Surface:
+            output.version = surfaces.at(output.layer);
+            break;
+        }
+        outputs_.add(std::move(output));
+    }
+    if (keepsLayers_) {
+        showWidths(*halves_[0].frame, *halves_[0].samples, s.pixelSize);
+    }
+    finish(*halves_[0].frame);
 }
 
 void HalvesFrame::estimateError(bool analysed)

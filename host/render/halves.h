@@ -42,7 +42,12 @@ private:
         std::unique_ptr<DistributedSamples> samples;
     };
 
-    void join(bool analysed);
+    // Outputs of both halves become one. They are of the kinds that Join has.
+    graph::Version mean(const graph::Version& one, const graph::Version& other);
+    graph::Version sum(const graph::Version& one, const graph::Version& other);
+    graph::Version sumOfTraced(const graph::Version& one, const graph::Version& other);
+    Surfaces joinedSurfaces();
+    void join();
     void estimateError(bool analysed);
 
     PlaneLayout layout_;

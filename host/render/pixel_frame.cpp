@@ -14,24 +14,24 @@ using graph::writes;
 
 PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
     std::size_t packetSize, bool keepLayers)
-    : FrameGraph(settings, scene, keepLayers)
+    : FrameGraph(settings, scene, keepLayers, false)
     , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize }
 {
     f_.narrowLobes = scene.traits().narrowLobes;
     const bool lit = settings.integrator == Integrator::Path;
     primary(lit);
     f_.precomputeDirections();
-    std::map<std::string, graph::Handle<Value>> termLayers;
-    f_.termLayers = keepLayers ? &termLayers : nullptr;
+    f_.layers = keepLayers ? &outputs_ : nullptr;
     addTerms(Part::Direct);
-    std::map<std::string, graph::Handle<Radiance>> unfiltered;
-    for (const UnfilteredOf& added : unfiltered_) {
-        graph::Handle<Radiance>* own = nullptr;
+    for (const Unfiltered& added : unfiltered_) {
         if (keepLayers && !added.layer.empty()) {
-            own = &unfiltered.emplace(added.layer, graph_.plane<Radiance>(added.layer, graph::vectors)).first->second;
-            f_.zero(*own);
+            auto own = graph_.plane<Radiance>(added.layer, graph::vectors);
+            f_.zero(own);
+            added.ofPixels(f_, &own);
+            outputs_.add(added.layer, own, Where::OnSurfaces);
+        } else {
+            added.ofPixels(f_, nullptr);
         }
-        added.light.ofPixels(f_, own);
     }
     const bool fallsBack = usesFallback(settings), reflects = countOf(Part::Indirect, terms_) > 0;
     // Two planes become one before paths are traced.
@@ -43,19 +43,39 @@ PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScen
     } else {
         f_.totals.beauty = beauty;
     }
-    Shown shown { {}, imageOf(f_.totals), {}, {}, {}, {}, {}, {} };
-    if (keepLayers) {
-        shown = { f_.surfaces, f_.totals, {}, {}, {}, {}, unfiltered, termLayers };
-        if (settings.temporal == Temporal::Off || !fallsBack) {
-            shown.totals.direct.deviation = shown.totals.indirect.deviation = {};
+    show(fallsBack && settings.temporal != Temporal::Off);
+}
+
+void PixelFrame::show(bool deviations)
+{
+    const Surfaces& s = f_.surfaces;
+    const Totals& t = f_.totals;
+    outputs_.add("beauty", t.beauty);
+    outputs_.add("objectId", s.objectId);
+    outputs_.add("samplesTally", t.tallies.samples);
+    outputs_.add("indirectTally", t.tallies.indirectSamples);
+    outputs_.add("raysTally", t.tallies.rays);
+    outputs_.add("pathRaysTally", t.tallies.pathRays);
+    if (keepsLayers_ || std::ranges::any_of(terms_, &Term::ofLobes)) {
+        outputs_.add("specular", s.specular); // pixels that have some are sampled for more terms
+    }
+    if (keepsLayers_) {
+        outputs_.add("albedo", s.diffuse, Where::OnSurfaces);
+        outputs_.add("normal", s.normal, Where::OnSurfaces);
+        outputs_.add("position", s.position, Where::OnSurfaces);
+        outputs_.add("origin", s.origin);
+        outputs_.add("depth", s.depth);
+        outputs_.add("pixelSize", s.pixelSize);
+        outputs_.add("emission", s.emission);
+        outputs_.add("samples", t.samples, Where::OnSurfaces);
+        outputs_.add("rays", t.rays);
+        showSums(t, Where::OnSurfaces);
+        if (deviations) {
+            outputs_.add("directDeviation", t.direct.deviation);
+            outputs_.add("indirectDeviation", t.indirect.deviation);
         }
     }
-    shown.surfaces.objectId = f_.surfaces.objectId;
-    if (std::ranges::any_of(terms_, &Term::ofLobes)) {
-        shown.surfaces.specular = f_.surfaces.specular; // pixels that have some are sampled for more terms
-    }
-    f_.termLayers = nullptr;
-    show(shown, false, f_.analysed());
+    finish(f_);
 }
 
 void PixelFrame::primary(bool lit)
@@ -82,7 +102,8 @@ void PixelFrame::primary(bool lit)
     t.tallies = { tally("tally of samples"), tally("tally of indirect samples"), tally("tally of rays"),
         tally("tally of path rays") };
     t.beauty = graph_.plane<Radiance>("beauty", graph::vectors);
-    f_.zero(t.samples, t.rays, t.tallies.samples, t.tallies.indirectSamples, t.tallies.rays, t.tallies.pathRays);
+    f_.zero(t.samples, t.tallies.samples, t.tallies.indirectSamples, t.tallies.rays, t.tallies.pathRays);
+    f_.fill("camera rays", t.rays, std::uint32_t { 1 });
     f_.trace("primary rays", { "frame/primary.cl", "primary" },
         joined({ f_.frame() }, f_.met(lit), f_.found(s, updates)), f_.analysed(),
         [](const graph::Launch&) { return 1.0; });
@@ -100,9 +121,13 @@ void PixelFrame::addTerms(Part part)
     }
     for (const Term& term : terms_) {
         if (term.part == part) {
-            widths_.push_back({ std::make_shared<TermState>(), graph_.plane<Metres>("filter width", graph::floats) });
-            f_.host("term", [state = widths_.back().state](Run&) { *state = {}; });
-            term.ofPixels(f_, widths_.back().state, widths_.back().beta);
+            const auto state = std::make_shared<TermState>();
+            auto beta = graph_.plane<Metres>("filter width", graph::floats);
+            f_.host("term", [state](Run&) { *state = {}; });
+            term.ofPixels(f_, state, beta);
+            if (keepsLayers_ && f_.analysed()) {
+                showWidths(f_, term, state, beta, f_.surfaces.pixelSize);
+            }
         }
     }
 }

@@ -11,7 +11,7 @@ namespace wedge::render {
 class PixelFrame : public FrameGraph {
 public:
     /// deviceScene: null for a graph that is planned and not run.
-    /// keepLayers: the widths of the terms' filters are wanted, too.
+    /// keepLayers: what layers show is wanted, too.
     PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
         std::size_t packetSize, bool keepLayers);
 
@@ -21,6 +21,9 @@ private:
     void addTerms(Part part);
     /// out = below + what surfaces reflect, which, where it fallsBack, falls back to the pixel's own samples.
     void addReflected(const graph::Handle<Radiance>& below, Sum& sum, bool fallsBack, graph::Handle<Radiance>& out);
+
+    /// deviations: of both sums, for the filter over time.
+    void show(bool deviations);
 
     FrameBuilder f_;
 };

@@ -38,19 +38,6 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// A plane of which the window's pixels alone are known; the others are 0.
-std::vector<float> onlyInside(const image::Window& window, const PlaneLayout& layout, const std::vector<float>& plane)
-{
-    std::vector<float> out(plane.size(), 0.0f);
-    for (int y = window.y0; y < window.y1; ++y) {
-        const std::size_t row =
-            shared::pixelIndex(static_cast<std::uint32_t>(window.x0), static_cast<std::uint32_t>(y), layout.stride);
-        std::copy_n(plane.begin() + static_cast<std::ptrdiff_t>(row), window.width(),
-            out.begin() + static_cast<std::ptrdiff_t>(row));
-    }
-    return out;
-}
-
 device::BuildOptions optionsOf(const PreparedScene& scene, const Options& options, const Hierarchy& hierarchy)
 {
     const SceneTraits& traits = scene.traits();
@@ -354,13 +341,11 @@ bool Renderer::run(const std::atomic<bool>* stop, bool rehearsal)
 
 bool Renderer::run(graph::Execution& execution, const std::atomic<bool>* stop, bool rehearsal)
 {
-    termPlanes_.clear();
     bool whole = true;
     if (rehearsal) {
         rehearse(execution);
     } else {
         whole = execution.run(stop, options_.poison);
-        keepWidths(execution);
     }
     frame_ = compiled_->declared().outputs(execution);
     return whole;
@@ -390,22 +375,6 @@ void Renderer::rehearse(graph::Execution& execution)
     execution.rehearse();
     queue_.finish();
     kernels.remember();
-}
-
-void Renderer::keepWidths(const graph::Execution& execution)
-{
-    const FrameGraph& frame = compiled_->declared();
-    const Settings& settings = frame.settings();
-    const std::vector<Term>& terms = frame.terms();
-    const PlaneLayout layout(settings.width, settings.height);
-    for (std::size_t i = 0; frame.keepsLayers() && i < terms.size(); ++i) {
-        const FrameGraph::TermWidths& term = frame.widths()[i];
-        std::vector<float> shown;
-        if (term.state->analysed && frame.wantsWidths()) {
-            shown = onlyInside(outputWindow(settings), layout, execution.output<float>(term.beta).downloadAll(queue_));
-        }
-        termPlanes_.push_back({ terms[i].name, std::move(shown) });
-    }
 }
 
 } // namespace wedge::render

@@ -46,12 +46,6 @@ struct Control {
         0; ///< progressive renders stop when their estimated RMS error, radiance, is no larger; 0: never
 };
 
-/// Filter widths of one term, for the layers, a plane as on the device; empty if the term was not analysed.
-struct TermPlanes {
-    std::string name; ///< what its layer's name ends in
-    std::vector<float> beta;
-};
-
 /// What a frame cost and took.
 struct FrameStatistics {
     std::optional<std::uint32_t> frame; ///< its number in a sequence
@@ -116,8 +110,8 @@ public:
     const device::BuildOptions& programOptions() const { return programOptions_; }
 
     /// Renders; the result stays on the device until the next call. Throws Error if memory does not suffice or the
-    /// device fails. keepLayers: for frames of which layers will be read. It fills termPlanes() for those of widths,
-    /// and in distributed frames, which else keep little but the beauty, fills and filters all that layers show.
+    /// device fails. keepLayers: for frames of which layers will be read. Distributed frames, which else keep little
+    /// but the beauty, fill and filter all that layers show.
     FrameStatistics render(const Settings& settings, const Control& control = {}, bool keepLayers = false);
 
     /// Renders in steps of ever more samples, which all stay and count, up to wanted.spp (see stepCounts() in
@@ -149,7 +143,6 @@ public:
 
     /// Of the last frame: the image, counts and objects, and all else that layers show where those were kept.
     const Frame& frame() const { return *frame_; }
-    const std::vector<TermPlanes>& termPlanes() const { return termPlanes_; }
     device::TimedQueue& queue() { return queue_; }
     /// Of the programs, until the scene changes: for filters over whole frames.
     graph::Kernels& kernels() { return *kernels_; }
@@ -182,7 +175,6 @@ private:
     /// One step of a progressive frame.
     Step runStep(const Settings& settings, bool keepLayers, const StepRange& range, const std::atomic<bool>* stop,
         bool rehearsal);
-    void keepWidths(const graph::Execution& execution);
     /// Calls use(plan) with what was compiled, or is to look at alone.
     template <class Use>
     auto withPlan(const Settings& settings, bool keepLayers, const Use& use) const;
@@ -214,7 +206,6 @@ private:
     std::size_t framesCompiled_ = 0;
     double compileSeconds_ = 0;
     std::unique_ptr<Frame> frame_; ///< parts of the memory
-    std::vector<TermPlanes> termPlanes_;
     double setupSeconds_ = 0;
 };
 

@@ -88,14 +88,19 @@ public:
         if (settings.integrator != render::Integrator::Path || radianceOf(scene) == glm::vec3(0.0f)) {
             return std::nullopt;
         }
-        return render::Unfiltered {
-            .name = "sky", .workUnits = static_cast<double>(settings.spp), .ofPixels = ofPixels, .ofWaves = ofWaves
-        };
+        return render::Unfiltered { .name = "sky",
+            .layer = "sky",
+            .workUnits = static_cast<double>(settings.spp),
+            .ofPixels = ofPixels,
+            .ofWaves = ofWaves };
     }
 
-    std::optional<render::LayerInfo> layer() const override
+    std::vector<render::LayerInfo> layers(
+        const render::Settings& settings, const render::PreparedScene* scene) const override
     {
-        return render::LayerInfo { "sky", "R G B: radiance reflected from the sky" };
+        const bool absent = scene != nullptr && !unfiltered(settings, *scene);
+        return { { "sky", { "R", "G", "B" }, "radiance reflected from the sky",
+            absent ? "the frame has no " + name() : "" } };
     }
 
     device::GeneratedSources sources() const override

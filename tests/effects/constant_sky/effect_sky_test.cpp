@@ -37,13 +37,13 @@ std::vector<float> beauty(render::Renderer& renderer, const render::Settings& se
         return renderPixels(renderer, settings);
     }
     renderer.renderProgressively(settings, {}, [](const render::ProgressiveStep&) {});
-    return pixels(renderer, renderer.frame().beauty, { 0, 0, settings.width, settings.height });
+    return pixels(renderer, "beauty", { 0, 0, settings.width, settings.height });
 }
 
 /// The layer's sum.
 std::uint64_t raysOfPixels(render::Renderer& renderer, const render::Settings& settings)
 {
-    const std::vector<std::uint32_t> rays = renderer.frame().rays.downloadAll(renderer.queue());
+    const std::vector<std::uint32_t> rays = renderer.frame().counts("rays").downloadAll(renderer.queue());
     std::uint64_t sum = 0;
     for (int y = 0; y < settings.height; ++y)
         for (int x = 0; x < settings.width; ++x)
@@ -180,7 +180,7 @@ TEST_CASE("rays to the sky count in every kind of frame")
                 const render::FrameStatistics statistics = renderer.render(s, {}, true);
                 const std::uint64_t techniques = sampling == render::LightSampling::Both ? 2 : 1;
                 CHECK(statistics.shadowRays == 24u * 24u * 4u * techniques);
-                CHECK(raysOfPixels(renderer, s) == statistics.shadowRays);
+                CHECK(raysOfPixels(renderer, s) == statistics.primaryRays + statistics.shadowRays);
             }
         }
     });
@@ -200,8 +200,8 @@ TEST_CASE("the sky has a layer, and is seen where nothing is hit")
             REQUIRE(std::ranges::count(layers, std::string("sky")) == 1);
             const std::vector<float> all = renderPixels(renderer, s, true);
             const image::Window whole { 0, 0, s.width, s.height };
-            const std::vector<float> reflected = pixels(renderer, renderer.frame().unfiltered.at("sky"), whole);
-            const std::vector<float> emitted = pixels(renderer, renderer.frame().emission, whole);
+            const std::vector<float> reflected = pixels(renderer, "sky", whole);
+            const std::vector<float> emitted = pixels(renderer, "emission", whole);
             REQUIRE(reflected.size() == all.size());
             for (std::size_t i = 0; i < all.size(); ++i)
                 CHECK(emitted[i] + reflected[i] == doctest::Approx(all[i]).epsilon(1e-4));
