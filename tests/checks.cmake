@@ -2,6 +2,7 @@
 
 add_test(NAME kernel_lint COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/kernel_lint.sh ${CMAKE_SOURCE_DIR}/kernels
                                    $<TARGET_FILE:kernel_programs>)
+add_test(NAME docs_code COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/docs_code.sh ${CMAKE_SOURCE_DIR})
 add_test(NAME kernels_named COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/scripts/kernels_named.sh ${CMAKE_SOURCE_DIR})
 # In parts, which run beside each other and beside other tests; the last asks whether all kernels ran in one of them.
 foreach(part 1 2 3 4 kernels)

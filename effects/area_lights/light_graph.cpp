@@ -64,28 +64,17 @@ public:
     void declare()
     {
         f_.zero(sums_, taken_, rays_);
-        const auto spp = static_cast<std::uint32_t>(s_.spp);
         if (!f_.analysed()) {
-            f_.zero(value_);
-            uniformCounts(f_, spp, f_.surfaces.objectId, wanted_);
-            samples("shadow rays", 0, monteCarloSlice);
-            countSamples();
-            countRays();
-            shade(value_, {});
+            declarePlain();
             return;
         }
-        f_.zero(extremes_, parts_);
-        if (sheared() || maaf_) {
-            f_.zero(gradients_);
-        }
-        uniformCounts(f_, WEDGE_FIRST_PASS_RAYS, f_.surfaces.objectId, wanted_);
         firstPass();
         countRays();
-        const auto analysed = [state = state_](const Run&) { return state->analysed; };
         wanted_ = g_.plane<Count>("samples wanted", graph::counts); // no version of the first: that ends here
-        g_.only("analysis of light", analysed, [&] { widthsAndCounts(); });
+        g_.only("analysis of light", analysed(), [&] { widthsAndCounts(); });
         if (!takesFirstPassOnly()) {
-            g_.only("rest of light", analysed, [&] { samples("second pass", WEDGE_FIRST_PASS_RAYS, secondPassSlice); });
+            g_.only(
+                "rest of light", analysed(), [&] { samples("second pass", WEDGE_FIRST_PASS_RAYS, secondPassSlice); });
             countRays();
         }
         countSamples();
@@ -96,34 +85,13 @@ public:
         }
         Gathered filtered = filteredPlanes(f_, channels_);
         graph::Handle<Value> parts = shownParts();
-        g_.only("filter of light", analysed, [&] {
-            const std::optional<Shearing> shearing = sheared() || maaf_ ? std::optional(shears()) : std::nullopt;
-            if (ofComponents()) {
-                componentFilter(f_, withComponents(filterParams()), analysisParams(), light_, value_, beta_,
-                    { sums_, gradients_, shearing->slopeWidth, ratio_ }, filtered, parts.graph != 0 ? &parts : nullptr);
-                return;
-            }
-            // What was stopped early has not the counts that the parts of samples were made for.
-            if (widens(s_)) {
-                g_.only(
-                    "widening", [](const Run& run) { return !run.cut(); }, [&] { widened(); });
-            }
-            if (maaf_) {
-                shearedFilter(f_, { "filter", PassKind::Filter }, channels_,
-                    withTwoSlopes(filterParams(), analysisParams(), light_), value_, beta_, *shearing, filtered);
-            } else if (shearing) {
-                shearedFilter(f_, { "filter", PassKind::Filter }, channels_,
-                    withShear(filterParams(), analysisParams(), light_), value_, beta_, *shearing, filtered);
-            } else {
-                gaussianFilter(f_, { "filter", PassKind::Filter }, channels_, filterParams(), value_, beta_, filtered);
-            }
-        });
+        g_.only("filter of light", analysed(), [&] { filter(filtered, parts); });
         if (parts.graph != 0) {
             f_.layers->add({ componentsLayer(s_).name, term_, parts, Where::OnSurfaces });
         }
         // Not in that group: what is added up need not be there before it.
-        shade(filtered.value, analysed);
-        shade(value_, [analysed](const Run& run) { return !analysed(run); });
+        shade(filtered.value, analysed());
+        shade(value_, [state = state_](const Run&) { return !state->analysed; });
     }
 
 private:
@@ -154,6 +122,13 @@ private:
             : maaf_           ? momentsFormat(channels_)
                               : gradientsOf(channels_);
     }
+    /// Once the first pass is complete.
+    std::function<bool(const Run&)> analysed() const
+    {
+        return [state = state_](const Run&) { return state->analysed; };
+    }
+    /// Of a frame that is not analysed: all samples at once.
+    void declarePlain();
     /// The sinks of a pass that analysed frames have, and what they are handed.
     std::pair<std::vector<graph::Sink>, Arguments> becoming();
     graph::Handle<Value> means(const char* pass, PassKind kind);
@@ -164,6 +139,8 @@ private:
     void narrowForLobes();
     void countsFromVariance();
     void widened();
+    /// Into `filtered`; parts: of no graph where none are shown.
+    void filter(Gathered& filtered, graph::Handle<Value>& parts);
     graph::Handle<Value> shownParts();
     void shade(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition);
 
@@ -196,6 +173,16 @@ private:
     graph::Handle<Share> ratio_;
     graph::Handle<Count> taken_, rays_, wanted_;
 };
+
+void LightGraph::declarePlain()
+{
+    f_.zero(value_);
+    uniformCounts(f_, static_cast<std::uint32_t>(s_.spp), f_.surfaces.objectId, wanted_);
+    samples("shadow rays", 0, monteCarloSlice);
+    countSamples();
+    countRays();
+    shade(value_, {});
+}
 
 std::pair<std::vector<graph::Sink>, Arguments> LightGraph::becoming()
 {
@@ -259,6 +246,11 @@ Shearing LightGraph::shears()
 
 void LightGraph::firstPass()
 {
+    f_.zero(extremes_, parts_);
+    if (sheared() || maaf_) {
+        f_.zero(gradients_);
+    }
+    uniformCounts(f_, WEDGE_FIRST_PASS_RAYS, f_.surfaces.objectId, wanted_);
     auto [sinks, sunk] = becoming();
     sinks.push_back(sinks::slopes());
     sunk.push_back(updates("slopes", extremes_));
@@ -354,6 +346,29 @@ void LightGraph::widened()
             reads("specular", f_.surfaces.specular), writes("visibility", visibility), writes("deviation", deviation),
             writes("weights", weights) });
     widen(f_, "filter", filterParams(), s_.widening, pinholeNoise, { visibility, deviation, weights }, beta_);
+}
+
+void LightGraph::filter(Gathered& filtered, graph::Handle<Value>& parts)
+{
+    const std::optional<Shearing> shearing = sheared() || maaf_ ? std::optional(shears()) : std::nullopt;
+    if (ofComponents()) {
+        componentFilter(f_, withComponents(filterParams()), analysisParams(), light_, value_, beta_,
+            { sums_, gradients_, shearing->slopeWidth, ratio_ }, filtered, parts.graph != 0 ? &parts : nullptr);
+        return;
+    }
+    // What was stopped early has not the counts that the parts of samples were made for.
+    if (widens(s_)) {
+        g_.only(
+            "widening", [](const Run& run) { return !run.cut(); }, [&] { widened(); });
+    }
+    const FilterRun run { "filter", PassKind::Filter };
+    if (!shearing) {
+        gaussianFilter(f_, run, channels_, filterParams(), value_, beta_, filtered);
+        return;
+    }
+    const shared::FilterParams params = maaf_ ? withTwoSlopes(filterParams(), analysisParams(), light_)
+                                              : withShear(filterParams(), analysisParams(), light_);
+    shearedFilter(f_, run, channels_, params, value_, beta_, *shearing, filtered);
 }
 
 /// What componentsLayer() shows, where layers are read; else of no graph.

@@ -64,37 +64,19 @@ public:
         if (!f_.analysed() || !varies()) {
             f_.zero(value_);
         }
-        const auto spp = static_cast<std::uint32_t>(s_.spp);
         if (!f_.analysed()) {
-            uniformCounts(f_, spp, f_.surfaces.objectId, wanted_);
-            paths("paths", 0, spp, s_.spp, false);
-            countSamples();
-            countRays();
-            addSamples();
-            addFiltered(value_);
+            declarePlain();
             return;
         }
-        f_.zero(extremes_);
-        if (varies()) {
-            f_.zero(parts_);
-        }
-        unshadowed();
-        const std::uint32_t first = firstPathsOf(component_, s_);
-        uniformCounts(f_, first, f_.surfaces.objectId, wanted_);
-        paths("first paths", 0, first, first, true);
-        countRays();
-        f_.host("analysable", [state = state_](Run& run) { state->analysed = !run.cut(); });
-        f_.zero(beta_); // which filters nothing
-        if (byCurvature()) {
-            f_.zero(axes_.x, axes_.y);
-        }
+        firstPaths();
         wanted_ = g_.plane<Count>("samples wanted", graph::counts); // no version of the first: that ends here
         const auto analysed = [state = state_](const Run&) { return state->analysed; };
         g_.only("analysis of paths", analysed, [&] { widthsAndCounts(); });
-        const int most = isUniform() ? s_.spp : std::max(s_.indirect.maxSpp, s_.spp);
         if (!takesFirstPathsOnly(component_, s_)) {
-            g_.only("rest of paths", analysed,
-                [&] { paths("second paths", first, static_cast<std::uint32_t>(most), s_.spp, false); });
+            const int most = isUniform() ? s_.spp : std::max(s_.indirect.maxSpp, s_.spp);
+            g_.only("rest of paths", analysed, [&] {
+                paths("second paths", firstPathsOf(component_, s_), static_cast<std::uint32_t>(most), s_.spp, false);
+            });
             countRays();
         }
         countSamples();
@@ -107,31 +89,68 @@ public:
             addFiltered(value_);
             return;
         }
-        // What was stopped early has not the counts that the parts of samples were made for.
         if (widensHere()) {
-            g_.only(
-                "widening", [state = state_](const Run& run) { return state->analysed && !run.cut(); },
-                [&] {
-                    widen(f_, "filter of indirect", filterParams(), wideningOf(component_, s_), pinholeNoise,
-                        { irradiance_, deviation_, weights_ }, beta_);
-                });
+            widened();
         }
         if (!isOfFractions(f_, component_)) {
             addSamples(); // not before: widening takes the most memory
         }
-        shared::FilterParams params = filterParams();
-        params.fitted = std::min(params.fitted, channels); // of the variance the mean, which is not negative
-        const std::uint32_t planes = varies() ? channels + 1 : channels;
-        if (byCurvature()) {
-            addFiltered(
-                gaussianFilter(f_, { "filter of indirect", PassKind::Filter }, planes, params, value_, axes_).value);
-            return;
-        }
-        addFiltered(
-            gaussianFilter(f_, { "filter of indirect", PassKind::Filter }, planes, params, value_, beta_).value);
+        addFiltered(filtered());
     }
 
 private:
+    /// Of a frame that is not analysed: all samples at once.
+    void declarePlain()
+    {
+        const auto spp = static_cast<std::uint32_t>(s_.spp);
+        uniformCounts(f_, spp, f_.surfaces.objectId, wanted_);
+        paths("paths", 0, spp, s_.spp, false);
+        countSamples();
+        countRays();
+        addSamples();
+        addFiltered(value_);
+    }
+
+    /// What the analysis is made of, and widths that filter nothing.
+    void firstPaths()
+    {
+        f_.zero(extremes_);
+        if (varies()) {
+            f_.zero(parts_);
+        }
+        unshadowed();
+        const std::uint32_t first = firstPathsOf(component_, s_);
+        uniformCounts(f_, first, f_.surfaces.objectId, wanted_);
+        paths("first paths", 0, first, first, true);
+        countRays();
+        f_.host("analysable", [state = state_](Run& run) { state->analysed = !run.cut(); });
+        f_.zero(beta_);
+        if (byCurvature()) {
+            f_.zero(axes_.x, axes_.y);
+        }
+    }
+
+    void widened()
+    {
+        // What was stopped early has not the counts that the parts of samples were made for.
+        g_.only(
+            "widening", [state = state_](const Run& run) { return state->analysed && !run.cut(); },
+            [&] {
+                widen(f_, "filter of indirect", filterParams(), wideningOf(component_, s_), pinholeNoise,
+                    { irradiance_, deviation_, weights_ }, beta_);
+            });
+    }
+
+    graph::Handle<Value> filtered()
+    {
+        shared::FilterParams params = filterParams();
+        params.fitted = std::min(params.fitted, channels); // of the variance the mean, which is not negative
+        const std::uint32_t planes = varies() ? channels + 1 : channels;
+        const FilterRun run { "filter of indirect", PassKind::Filter };
+        return byCurvature() ? gaussianFilter(f_, run, planes, params, value_, axes_).value
+                             : gaussianFilter(f_, run, planes, params, value_, beta_).value;
+    }
+
     bool isUniform() const { return s_.sampling == Sampling::Uniform || s_.indirect.counts == IndirectCounts::Uniform; }
     /// Whether a pixel's samples are asked how much they vary, for what filters do.
     bool varies() const { return widensHere() || usesFallback(s_); }

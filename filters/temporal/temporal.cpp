@@ -71,18 +71,18 @@ struct TemporalFilter::Kept {
     std::vector<device::Buffer<std::uint8_t>> planes; ///< keptPlanes
 };
 
+/// A frame's planes in the graph.
+struct TemporalFilter::Handles {
+    graph::Handle<render::Metres> depth;
+    graph::Handle<render::Packed> facing;
+    graph::Handle<render::ObjectId> object;
+    graph::Handle<render::Value> direct, indirect;
+    graph::Handle<Noisy> before;
+    graph::Handle<render::Squares> variation;
+};
+
 /// The graph of one frame.
 struct TemporalFilter::Declaration {
-    /// A frame's planes in the graph.
-    struct Handles {
-        graph::Handle<render::Metres> depth;
-        graph::Handle<render::Packed> facing;
-        graph::Handle<render::ObjectId> object;
-        graph::Handle<render::Value> direct, indirect;
-        graph::Handle<Noisy> before;
-        graph::Handle<render::Squares> variation;
-    };
-
     Declaration(render::Renderer& theRenderer, const Settings& theSettings)
         : renderer(theRenderer)
         , settings(theSettings)
@@ -346,6 +346,46 @@ void TemporalFilter::show(
     run(renderer, settings, nullptr, true, nullptr, look);
 }
 
+void TemporalFilter::allocate(Kept& kept, const Declaration& d) const
+{
+    for (std::size_t i = kept.planes.size(); i < keptOf(d.indirect); ++i) {
+        kept.planes.emplace_back(device_, d.frame.layout.size * keptPlanes[i].format.bytes, keptPlanes[i].name);
+    }
+}
+
+void TemporalFilter::declareMeans(Declaration& d, const Handles& handles, std::uint32_t number, bool rehearsal,
+    std::vector<device::Buffer<float>>& motions)
+{
+    const Kept& own = slotOf(number, d.settings);
+    const auto add = [&](const Kept& kept) {
+        const bool moved =
+            own.places && kept.places && own.places != kept.places && !areStill(*own.places, *kept.places);
+        const std::vector<float> motion = moved ? motionsBetween(*own.places, *kept.places) : std::vector<float>();
+        device::Buffer<float>& memory = motions.emplace_back(device_, motion.size(), "motions");
+        if (moved) {
+            memory.upload(d.renderer.queue(), std::span<const float>(motion));
+        }
+        d.add(handles, kept, equalCameras(own.camera, kept.camera), motion, memory.cl());
+    };
+    d.startSums();
+    bool before = false;
+    for (std::uint32_t frame = number; frame-- > firstOfWindow(number, d.settings.temporal);) {
+        if (slotOf(frame, d.settings).frame == frame) {
+            add(slotOf(frame, d.settings));
+            before = true;
+        }
+    }
+    if (!before) {
+        // Programs are of the kernels that a graph has. Each frame declares all, so that none builds its own amid a
+        // sequence: where nothing is filtered, or no frame was before, passes that are not run.
+        Kept& next = slotOf(number + 1, d.settings);
+        allocate(next, d);
+        d.graph.only(
+            "filter over time", [rehearsal](const graph::Run&) { return rehearsal; }, [&] { add(next); });
+    }
+    d.finish();
+}
+
 void TemporalFilter::run(render::Renderer& renderer, const Settings& settings,
     std::shared_ptr<const ObjectPlaces> places, bool filters, render::FrameStatistics* statistics,
     const std::function<void(const graph::Graph&)>& look)
@@ -356,53 +396,16 @@ void TemporalFilter::run(render::Renderer& renderer, const Settings& settings,
     device::TimedQueue& queue = renderer.queue();
     Declaration d(renderer, settings);
     Kept& own = slotOf(number, settings);
-    const std::size_t planes = keptOf(d.indirect);
-    const auto allocate = [&](Kept& kept) {
-        for (std::size_t i = kept.planes.size(); i < planes; ++i) {
-            kept.planes.emplace_back(device_, d.frame.layout.size * keptPlanes[i].format.bytes, keptPlanes[i].name);
-        }
-    };
-    allocate(own);
+    allocate(own, d);
     own.frame = rehearsal ? std::nullopt : std::optional(number);
     own.camera = render::frameParams(renderer.scene(), d.frame.layout, d.graph.image(), 0);
     own.places = std::move(places);
-    Declaration::Handles handles = d.handlesOf(own);
+    Handles handles = d.handlesOf(own);
     d.keep(handles, own.camera);
     std::vector<device::Buffer<float>> motions;
-    const auto add = [&](const Kept& kept) {
-        const bool moved =
-            own.places && kept.places && own.places != kept.places && !areStill(*own.places, *kept.places);
-        const std::vector<float> motion = moved ? motionsBetween(*own.places, *kept.places) : std::vector<float>();
-        device::Buffer<float>& memory = motions.emplace_back(device_, motion.size(), "motions");
-        if (moved) {
-            memory.upload(queue, std::span<const float>(motion));
-        }
-        d.add(handles, kept, equalCameras(own.camera, kept.camera), motion, memory.cl());
-    };
-    // Programs are of the kernels that a graph has. Each frame declares all, so that none builds its own amid a
-    // sequence: where nothing is filtered, or no frame was before, passes that are not run.
-    const auto addNext = [&] {
-        allocate(slotOf(number + 1, settings));
-        add(slotOf(number + 1, settings));
-    };
-    const auto onlyIf = [&d](bool runs, const std::function<void()>& declare) {
-        d.graph.only(
-            "filter over time", [runs](const graph::Run&) { return runs; }, declare);
-    };
-    onlyIf(filters, [&] {
-        d.startSums();
-        bool before = false;
-        for (std::uint32_t frame = number; frame-- > firstOfWindow(number, settings.temporal);) {
-            if (slotOf(frame, settings).frame == frame) {
-                add(slotOf(frame, settings));
-                before = true;
-            }
-        }
-        if (!before) {
-            onlyIf(rehearsal, addNext);
-        }
-        d.finish();
-    });
+    d.graph.only(
+        "filter over time", [filters](const graph::Run&) { return filters; },
+        [&] { declareMeans(d, handles, number, rehearsal, motions); });
     if (look) {
         look(d.graph);
         return;

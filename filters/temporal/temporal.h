@@ -61,9 +61,16 @@ public:
 
 private:
     struct Kept;
+    struct Handles;
     struct Declaration;
 
     Kept& slotOf(std::uint32_t frame, const render::Settings& settings);
+    /// Its planes, where they are not there.
+    void allocate(Kept& kept, const Declaration& d) const;
+    /// Means of a frame, what it keeps being in the graph, and the frames before it. motions: memory that the graph
+    /// reads.
+    void declareMeans(Declaration& d, const Handles& handles, std::uint32_t number, bool rehearsal,
+        std::vector<device::Buffer<float>>& motions);
     void run(render::Renderer& renderer, const render::Settings& settings, std::shared_ptr<const ObjectPlaces> places,
         bool filters, render::FrameStatistics* statistics, const std::function<void(const graph::Graph&)>& look = {});
 

@@ -132,6 +132,31 @@ private:
     std::uint32_t side_ = 1;
 };
 
+/// One byte a texel.
+void storeOpacities(const scene::Texture& texture, std::uint32_t* words)
+{
+    auto* bytes = reinterpret_cast<std::uint8_t*>(words);
+    for (std::size_t i = 0; i < texture.rgba.size(); ++i) {
+        bytes[i] = opacityOf(texture, i);
+    }
+}
+
+/// The opacity texture of a triangle, whose bytes begin at that word of the table, and where the triangle lies in it.
+void setTexture(const scene::Scene& scene, std::size_t triangle, std::size_t begin, shared::Cutout& c)
+{
+    const scene::Geometry& g = scene.geometry;
+    const int number = materialOf(scene, triangle).opacityTexture;
+    const scene::Texture& texture = scene.textures[static_cast<std::size_t>(number)];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t vertex = g.indices[3 * triangle + k];
+        c.u[k] = g.texcoords[2 * vertex];
+        c.v[k] = g.texcoords[2 * vertex + 1];
+    }
+    c.alphas = static_cast<std::uint32_t>(begin);
+    c.width = static_cast<std::uint32_t>(texture.width);
+    c.height = static_cast<std::uint32_t>(texture.height);
+}
+
 } // namespace
 
 bool isCutout(const scene::Material& m) { return m.opacity < 1.0f || m.opacityTexture >= 0; }
@@ -147,8 +172,7 @@ std::uint8_t opacityOf(const scene::Texture& texture, std::size_t texel)
 
 std::vector<std::uint32_t> cutoutTable(const scene::Scene& scene)
 {
-    const scene::Geometry& g = scene.geometry;
-    const std::size_t triangles = g.materialIds.size();
+    const std::size_t triangles = scene.geometry.materialIds.size();
     std::map<std::size_t, std::vector<std::uint32_t>> grids;
     for (const auto& [triangle, covers] : coversOf(scene)) {
         grids.emplace(triangle, CoverGrid(covers).words());
@@ -196,15 +220,7 @@ std::vector<std::uint32_t> cutoutTable(const scene::Scene& scene)
             grids.erase(grid); // which may be large
         }
         if (m.opacityTexture >= 0) {
-            const scene::Texture& texture = scene.textures[static_cast<std::size_t>(m.opacityTexture)];
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::size_t vertex = g.indices[3 * t + k];
-                c.u[k] = g.texcoords[2 * vertex];
-                c.v[k] = g.texcoords[2 * vertex + 1];
-            }
-            c.alphas = static_cast<std::uint32_t>(textures[m.opacityTexture]);
-            c.width = static_cast<std::uint32_t>(texture.width);
-            c.height = static_cast<std::uint32_t>(texture.height);
+            setTexture(scene, t, textures[m.opacityTexture], c);
         }
         static_assert(sizeof(c) == WEDGE_CUTOUT_WORDS * sizeof(std::uint32_t));
         std::memcpy(&table[next], &c, sizeof(c));
@@ -212,11 +228,7 @@ std::vector<std::uint32_t> cutoutTable(const scene::Scene& scene)
         next += WEDGE_CUTOUT_WORDS;
     }
     for (const auto& [texture, begin] : textures) {
-        const scene::Texture& of = scene.textures[static_cast<std::size_t>(texture)];
-        auto* bytes = reinterpret_cast<std::uint8_t*>(&table[begin]);
-        for (std::size_t i = 0; i < of.rgba.size(); ++i) {
-            bytes[i] = opacityOf(of, i);
-        }
+        storeOpacities(scene.textures[static_cast<std::size_t>(texture)], &table[begin]);
     }
     return table;
 }

@@ -192,6 +192,20 @@ void halve(std::span<const float> finer, int columns, std::span<float> out)
 
 shared::Vec3 toVec3(glm::vec3 v) { return shared::vec3(v.x, v.y, v.z); }
 
+/// Means over ever larger parts of the picture, one level after the other.
+void averageLevels(const EnvironmentPicture& picture, std::span<float> averages)
+{
+    const auto levelOf = [&](std::uint32_t level) {
+        const std::uint32_t from = shared::coarseLevelAt(level);
+        return averages.subspan(from, shared::coarseLevelAt(level + 1) - from);
+    };
+    const std::uint32_t levels = shared::coarseLevels(static_cast<std::uint32_t>(picture.width));
+    average(picture, static_cast<int>(WEDGE_COARSE_COLUMNS << (levels - 1)), levelOf(levels - 1));
+    for (std::uint32_t level = levels - 1; level > 0; --level) {
+        halve(levelOf(level), static_cast<int>(WEDGE_COARSE_COLUMNS << level), levelOf(level - 1));
+    }
+}
+
 } // namespace
 
 EnvironmentTable environmentTable(const EnvironmentPicture* picture)
@@ -245,16 +259,7 @@ EnvironmentTable environmentTable(const EnvironmentPicture* picture)
             shared::environmentHarmonics(out.map.width, out.map.height) + WEDGE_HARMONICS * channel, WEDGE_HARMONICS);
         std::ranges::copy(unshadowedHarmonics(sums[channel]), to.begin());
     }
-    const std::span<float> averages = all.subspan(shared::environmentAverages(out.map.width, out.map.height));
-    const auto levelOf = [&](std::uint32_t level) {
-        const std::uint32_t from = shared::coarseLevelAt(level);
-        return averages.subspan(from, shared::coarseLevelAt(level + 1) - from);
-    };
-    const std::uint32_t levels = shared::coarseLevels(out.map.width);
-    average(*picture, static_cast<int>(WEDGE_COARSE_COLUMNS << (levels - 1)), levelOf(levels - 1));
-    for (std::uint32_t level = levels - 1; level > 0; --level) {
-        halve(levelOf(level), static_cast<int>(WEDGE_COARSE_COLUMNS << level), levelOf(level - 1));
-    }
+    averageLevels(*picture, all.subspan(shared::environmentAverages(out.map.width, out.map.height)));
     if (!picture->shown.empty()) { // no span is used from here on
         out.map.shown = static_cast<std::uint32_t>(out.numbers.size());
         out.numbers.insert(out.numbers.end(), picture->shown.begin(), picture->shown.end());

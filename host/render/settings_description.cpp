@@ -39,6 +39,34 @@ void describeDistributed(const DistributedSettings& d, Descriptions& out)
             { "distributedVarianceSpread", number(d.varianceSpread) }, { "oneVelocity", number(d.oneVelocity) } });
 }
 
+void describeAnalysis(const Settings& s, Descriptions& out)
+{
+    const auto number = [](auto value) { return fmt::format("{}", value); };
+    out.insert(out.end(),
+        { { "counts", s.counts == Counts::Spectrum ? "spectrum" : "variance" },
+            { "slopes", s.slopes == Slopes::Published ? "published" : "smoothed" }, { "mu", number(s.mu) },
+            { "k", number(s.k) }, { "alpha", number(s.alpha) }, { "oblique", number(s.oblique) },
+            { "narrower", number(s.narrower) }, { "surface", number(s.surface) }, { "fitted", number(s.fitted) },
+            { "sheared", number(s.sheared) }, { "shearedWidth", number(s.shearedWidth) },
+            { "countWidth", number(s.countWidth) }, { "wideBlur", number(s.wideBlur) },
+            { "wideBlurExponent", number(s.wideBlurExponent) }, { "fallback", number(s.fallback) },
+            { "widening", number(s.widening) }, { "normalDegrees", number(s.normalDegrees) }, { "cut", number(s.cut) },
+            { "maxRadius", number(s.maxRadius) }, { "fillSigma", number(s.fillSigma) },
+            { "fillRadius", number(s.fillRadius) }, { "countExponent", number(s.countExponent) },
+            { "varianceFloor", number(s.varianceFloor) }, { "varianceSpread", number(s.varianceSpread) } });
+}
+
+void describeEnvironment(const EnvironmentSettings& e, Descriptions& out)
+{
+    const auto number = [](auto value) { return fmt::format("{}", value); };
+    constexpr const char* widths[] = { "penumbrae", "curvature", "flt", "corrected" };
+    out.insert(out.end(),
+        { { "environmentRelative", number(e.relative) }, { "environmentNormalDegrees", number(e.normalDegrees) },
+            { "environmentWidthScale", number(e.widthScale) }, { "environmentLobeWidening", number(e.lobeWidening) },
+            { "environmentFirstShare", number(e.firstShare) }, { "environmentLeastShare", number(e.leastShare) },
+            { "environmentWidths", widths[static_cast<int>(e.widths)] } });
+}
+
 } // namespace
 
 std::string methodName(Method method) { return method == Method::MonteCarlo ? "mc" : "aaf"; }
@@ -83,31 +111,10 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
         out.emplace_back("ambientDistance", number(s.indirect.ambientDistance));
     }
     if (s.method == Method::AxisAligned) { // all of it with maaf, too: lights that it has no filter for go by it
-        out.insert(out.end(),
-            { { "counts", s.counts == Counts::Spectrum ? "spectrum" : "variance" },
-                { "slopes", s.slopes == Slopes::Published ? "published" : "smoothed" }, { "mu", number(s.mu) },
-                { "k", number(s.k) }, { "alpha", number(s.alpha) }, { "oblique", number(s.oblique) },
-                { "narrower", number(s.narrower) }, { "surface", number(s.surface) }, { "fitted", number(s.fitted) },
-                { "sheared", number(s.sheared) }, { "shearedWidth", number(s.shearedWidth) },
-                { "countWidth", number(s.countWidth) }, { "wideBlur", number(s.wideBlur) },
-                { "wideBlurExponent", number(s.wideBlurExponent) }, { "fallback", number(s.fallback) },
-                { "widening", number(s.widening) }, { "normalDegrees", number(s.normalDegrees) },
-                { "cut", number(s.cut) }, { "maxRadius", number(s.maxRadius) }, { "fillSigma", number(s.fillSigma) },
-                { "fillRadius", number(s.fillRadius) }, { "countExponent", number(s.countExponent) },
-                { "varianceFloor", number(s.varianceFloor) }, { "varianceSpread", number(s.varianceSpread) } });
-    }
-    constexpr const char* environmentWidths[] = { "penumbrae", "curvature", "flt", "corrected" };
-    if (s.method == Method::AxisAligned) { // bounces or not: light of meshes and environments goes by it, too
+        describeAnalysis(s, out);
+        // Bounces or not: light of meshes and environments goes by it, too.
         describeIndirect(s.indirect, out);
-        const EnvironmentSettings& e = s.environment;
-        out.insert(out.end(),
-            { { "environmentRelative", number(e.relative) }, { "environmentNormalDegrees", number(e.normalDegrees) },
-                { "environmentWidthScale", number(e.widthScale) },
-                { "environmentLobeWidening", number(e.lobeWidening) },
-                { "environmentFirstShare", number(e.firstShare) }, { "environmentLeastShare", number(e.leastShare) },
-                { "environmentWidths", environmentWidths[static_cast<int>(e.widths)] } });
-    }
-    if (s.method == Method::AxisAligned) {
+        describeEnvironment(s.environment, out);
         describeDistributed(s.distributed, out);
     }
     if (s.antialias) {
