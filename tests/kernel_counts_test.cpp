@@ -322,6 +322,8 @@ TEST_CASE("counts are even where demands say nothing of the pixels that have the
             for (std::size_t k = 0; k < 4; ++k) {
                 Asked kind { Planes<float>(layout, 1, 0.0f) };
                 kind.taken.emplace(layout, 1, 8u);
+                if (k == 0)
+                    kind.taken->at(5, 7) = kind.taken->at(30, 2) = 300; // more than any pixel is to have
                 kind.uncertainty.emplace(layout, 1, k == 0 ? 0.0f : ofOthers);
                 if (k == 0)
                     everyPixel(layout, [&](int x, int y) {
@@ -335,8 +337,10 @@ TEST_CASE("counts are even where demands say nothing of the pixels that have the
             everyPixel(layout, [&](int x, int y) {
                 const double asked = std::clamp(scaled.numbers[WEDGE_SCALE_FOUND] * demand(x, y), 9.0f, 256.0f);
                 const double n = asked + double { even } * (mean - asked);
+                const std::uint32_t there = kinds[0].taken->at(x, y);
                 if (std::fabs(n - std::floor(n) - 0.5) > 1e-3)
-                    REQUIRE(scaled.counts[0].at(x, y) == static_cast<std::uint32_t>(std::floor(n + 0.5)));
+                    REQUIRE(
+                        scaled.counts[0].at(x, y) == std::max(static_cast<std::uint32_t>(std::floor(n + 0.5)), there));
                 REQUIRE(scaled.counts[1].at(x, y) == 9); // of primary samples alone
             });
             return std::pair(even, mean);
@@ -344,12 +348,46 @@ TEST_CASE("counts are even where demands say nothing of the pixels that have the
         const auto own = [&](int x, int y) { return found.at(x, y); };
         const auto [share, mean] = numbers(around, own, 0.0f);
         CHECK(share >= 0.75f);
-        CHECK(mean == doctest::Approx(28).epsilon(0.02));
+        CHECK(mean == doctest::Approx(28).epsilon(0.02)); // of which two pixels have 300
         // Where all else has far more noise there is nothing to gain.
         CHECK(numbers(around, own, 10.0f).first == 0);
         // A quarter that is uncertain, and knows it of its neighbours.
         const auto uncertain = [](int x, int) { return x < width / 4 ? 1.0f : 0.01f; };
         CHECK(numbers([&](int x, int y) { return std::sqrt(uncertain(x, y)); }, uncertain, 0.0f).first == 0);
+    });
+}
+
+TEST_CASE("counts are those of a window's pixels, and nothing changes beside it")
+{
+    onEveryRegion(150, Kept::Full, [](DeclaredFrame& frame, const Region& region, std::mt19937& random) {
+        PassBench pass(frame, "countsFromDemand");
+        pass.value("least", 8.0f);
+        pass.value("most", 100.0f);
+        pass.value("evens", 1u);
+        std::vector<float> scale(WEDGE_SCALE_NUMBERS, 1e30f);
+        scale[WEDGE_SCALE_FOUND] = 37.5f;
+        scale[WEDGE_SCALE_MEAN] = 26;
+        scale[WEDGE_SCALE_EVEN] = 0.75f;
+        pass.plane("scale", scale);
+        const auto demand = filledPlanes(region, 1, 1e30f,
+            [&](int, int, std::size_t) { return random() % 5 == 0 ? 0.0 : std::exp(uniform(random, -6, 6)); });
+        const auto taken = filledPlanes(region, 1, 1u << 20, [&](int, int, std::size_t) { return random() % 80; });
+        pass.plane("demand", demand);
+        pass.plane("taken", taken);
+        pass.plane("wanted", std::vector<std::uint32_t>(region.layout.size, 777));
+        pass.window(region.window);
+        pass.run();
+        const auto found = pass.pixels<std::uint32_t>("wanted");
+        everyPixel(region.layout, [&](int x, int y) {
+            const image::Window& w = region.window;
+            if (x < w.x0 || x >= w.x1 || y < w.y0 || y >= w.y1) {
+                REQUIRE(found.at(x, y) == 777);
+                return;
+            }
+            const double asked = std::clamp(37.5 * demand.at(x, y), 8.0, 100.0), n = asked + 0.75 * (26 - asked);
+            if (std::fabs(n - std::floor(n) - 0.5) > 1e-4)
+                REQUIRE(found.at(x, y) == std::max(static_cast<std::uint32_t>(std::floor(n + 0.5)), taken.at(x, y)));
+        });
     });
 }
 

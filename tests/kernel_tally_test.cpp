@@ -1,4 +1,4 @@
-// frame/tally.cl and addMirrored: what is added to a frame's sums.
+// frame/tally.cl, frame/layers.cl and addMirrored: what is added to a frame's sums, and what is shown.
 #include "tests/glass_support.h"
 #include "tests/pass_bench.h"
 
@@ -48,6 +48,112 @@ TEST_CASE("addToTally: a rectangle's counts, past 32 bits, added to what was the
             const auto tally = bench.read<std::uint64_t>("tally");
             CHECK(std::accumulate(tally.begin(), tally.end(), std::uint64_t { 0 }) == expected);
         }
+    });
+}
+
+TEST_CASE("addToTally: nothing of pixels whose mask is 0")
+{
+    onEveryDevice([](const device::Device& device) {
+        render::Settings settings = sized(render::axisAligned(16), width, height);
+        settings.antialias = true;
+        DeclaredFrame frame(device, smallScene(), settings);
+        PassBench bench(frame, "addToTally"); // of samples
+        REQUIRE(bench.has("mask"));
+        std::mt19937 random(4);
+        bench.plane("counts", someCounts(random, frame.layout.size, 0xffffffffu));
+        bench.plane("mask", someCounts(random, frame.layout.size, 2));
+        const auto counts = bench.pixels<std::uint32_t>("counts"), mask = bench.pixels<std::uint32_t>("mask");
+        bench.run();
+        std::uint64_t expected = 0, left = 0;
+        everyPixel(frame.layout, [&](int x, int y) {
+            expected += mask.at(x, y) != 0 ? counts.at(x, y) : 0;
+            left += mask.at(x, y) == 0 ? 1 : 0;
+        });
+        CHECK(left > 100);
+        const auto tally = bench.read<std::uint64_t>("tally");
+        CHECK(std::accumulate(tally.begin(), tally.end(), std::uint64_t { 0 }) == expected);
+    });
+}
+
+TEST_CASE("addListToTally: all numbers of a list, past 32 bits")
+{
+    onEveryDevice([](const device::Device& device) {
+        render::Settings settings = sized(render::axisAligned(16), width, height);
+        settings.antialias = true;
+        DeclaredFrame frame(device, smallScene(), settings);
+        PassBench bench(frame, "addListToTally");
+        std::mt19937 random(5);
+        const std::vector<std::uint32_t> list = someCounts(random, bench.elements("list"), 0xffffffffu);
+        REQUIRE(list.size() > WEDGE_TALLY_STRIPES); // so that some add several
+        bench.plane("list", list);
+        bench.plane("tally", std::vector<std::uint64_t>(WEDGE_TALLY_STRIPES, 1000));
+        bench.run();
+        const auto tally = bench.read<std::uint64_t>("tally");
+        CHECK(std::accumulate(tally.begin(), tally.end(), std::uint64_t { 0 })
+            == std::accumulate(list.begin(), list.end(), std::uint64_t { 1000 } * WEDGE_TALLY_STRIPES));
+    });
+}
+
+TEST_CASE("countSurfaces: pixels of the rectangle that show something, and those of them without specular reflection")
+{
+    onEveryDevice([](const device::Device& device) {
+        DeclaredFrame frame(device, smallScene(), sized(render::axisAligned(16), width, height), true);
+        PassBench bench(frame, "countSurfaces");
+        std::mt19937 random(6);
+        bench.plane("objectId", someCounts(random, frame.layout.size, 2));
+        Planes<float> specular(frame.layout, 3, 0.0f);
+        everyPixel(frame.layout, [&](int x, int y) {
+            const auto channel = random() % 4; // of one channel alone, or none
+            if (channel < 3)
+                specular.at(x, y, channel) = 0.25f;
+        });
+        bench.plane("specular", specular);
+        const auto objectId = bench.pixels<std::uint32_t>("objectId");
+        auto p = bench.own<shared::AnalysisParams>("p");
+        const Window window { 7, 2, 50, 30 };
+        render::setRectangle(p, window);
+        bench.value("p", p);
+        for (const char* name : { "shaded", "matte" }) // of an earlier frame
+            bench.plane(name, std::vector<std::uint64_t>(WEDGE_TALLY_STRIPES, 99));
+        bench.run();
+        std::uint64_t shaded = 0, matte = 0;
+        for (int y = window.y0; y < window.y1; ++y)
+            for (int x = window.x0; x < window.x1; ++x) {
+                const bool hit = objectId.at(x, y) != 0, dull = specular.vector(x, y) == glm::dvec3(0);
+                shaded += hit ? 1 : 0;
+                matte += hit && dull ? 1 : 0;
+            }
+        CHECK(matte > 100);
+        const auto sumOf = [&](const char* name) {
+            const auto tally = bench.read<std::uint64_t>(name);
+            return std::accumulate(tally.begin(), tally.end(), std::uint64_t { 0 });
+        };
+        CHECK(sumOf("shaded") == shaded);
+        CHECK(sumOf("matte") == matte);
+    });
+}
+
+TEST_CASE("showWidths: metres and pixels of the surface, 0 where there is no filter or no surface")
+{
+    onEveryDevice([](const device::Device& device) {
+        DeclaredFrame frame(device, smallScene(), sized(render::axisAligned(16), width, height), true);
+        PassBench bench(frame, "showWidths");
+        std::mt19937 random(7);
+        Planes<float> beta(frame.layout, 1, 0.0f), size(frame.layout, 1, 0.0f);
+        everyPixel(frame.layout, [&](int x, int y) {
+            beta.at(x, y) = random() % 4 == 0 ? -1.0f : static_cast<float>(uniform(random));
+            size.at(x, y) = random() % 5 == 0 ? 0.0f : static_cast<float>(uniform(random, 0.001, 0.1));
+        });
+        bench.plane("beta", beta);
+        bench.plane("pixelSize", size);
+        bench.run();
+        const auto widths = bench.pixels<float>("widths");
+        everyPixel(frame.layout, [&](int x, int y) {
+            const float metres = std::max(beta.at(x, y), 0.0f);
+            REQUIRE(widths.at(x, y) == metres);
+            const double pixels = size.at(x, y) > 0 ? static_cast<double>(metres) / size.at(x, y) : 0.0;
+            REQUIRE(widths.at(x, y, 1) == doctest::Approx(pixels).epsilon(1e-5));
+        });
     });
 }
 

@@ -95,3 +95,74 @@ TEST_CASE("what a frame counts is the same with layers and without, and is what 
             }
     });
 }
+
+TEST_CASE("what a frame of several receivers counts is what its planes say, and with layers about the same as without")
+{
+    onEveryDevice([](const device::Device& device) {
+        scene::Scene scene = smallScene();
+        scene.pointLights.push_back({ .position = { 0, 2, 1 }, .intensity = glm::vec3(3) });
+        render::Renderer renderer(scene, device, renderOptions());
+        for (const bool progressive : { false, true })
+            for (const image::Window& crop : { image::Window {}, image::Window { 5, 3, 31, 27 } }) {
+                CAPTURE(progressive);
+                render::Settings settings = sized(render::axisAligned(16), 48, 32);
+                settings.antialias = true;
+                settings.bounces = 1;
+                settings.progressive = progressive;
+                if (crop.x1 > 0)
+                    settings.crop = crop;
+                const auto rendered = [&](bool layers) {
+                    return progressive ? renderer.renderProgressively(settings, {}, {}, layers)
+                                       : renderer.render(settings, {}, layers);
+                };
+                const render::FrameStatistics image = rendered(false), layers = rendered(true);
+                CHECK(image.shadedPixels == layers.shadedPixels);
+                // Without layers pixels keep fewer bits of what demands are made of.
+                CHECK(static_cast<double>(image.primaryRays)
+                    == doctest::Approx(static_cast<double>(layers.primaryRays)).epsilon(2e-3));
+                CHECK(image.primarySpp == doctest::Approx(layers.primarySpp).epsilon(2e-3));
+                CHECK(image.directSpp == doctest::Approx(layers.directSpp).epsilon(2e-3));
+                CHECK(image.indirectSpp == doctest::Approx(layers.indirectSpp).epsilon(2e-3));
+                CHECK(static_cast<double>(image.shadowRays)
+                    == doctest::Approx(static_cast<double>(layers.shadowRays)).epsilon(2e-3));
+                CHECK(static_cast<double>(image.indirectRays)
+                    == doctest::Approx(static_cast<double>(layers.indirectRays)).epsilon(2e-3));
+                const auto planeOf = [&](const char* name) {
+                    return planesOf(
+                        renderer.frame().layout, renderer.frame().counts(name).downloadAll(renderer.queue()));
+                };
+                const auto objects = planeOf("objectId"), samples = planeOf("samples"),
+                           indirect = planeOf("indirectSamples"), primary = planeOf("primarySamples"),
+                           rays = planeOf("raysTraced"), paths = planeOf("pathRays"), all = planeOf("rays");
+                std::uint64_t shaded = 0, taken = 0, takenIndirect = 0, primaries = 0, shown = 0, traced = 0,
+                              traversed = 0;
+                const image::Window output = render::outputWindow(settings);
+                everyPixel(renderer.frame().layout, [&](int x, int y) {
+                    primaries += primary.at(x, y);
+                    traced += rays.at(x, y);
+                    traversed += paths.at(x, y);
+                    if (x < output.x0 || x >= output.x1 || y < output.y0 || y >= output.y1)
+                        return;
+                    shown += primary.at(x, y);
+                    REQUIRE(all.at(x, y) == primary.at(x, y) + rays.at(x, y));
+                    if (objects.at(x, y) == 0)
+                        return;
+                    ++shaded;
+                    taken += samples.at(x, y);
+                    takenIndirect += indirect.at(x, y);
+                });
+                const auto pixels = static_cast<double>(output.width()) * output.height();
+                const auto each = static_cast<double>(shaded);
+                CHECK(shaded > 0);
+                CHECK(layers.shadedPixels == shaded);
+                CHECK(layers.primaryRays == primaries);
+                CHECK(layers.primarySpp == doctest::Approx(static_cast<double>(shown) / pixels).epsilon(1e-9));
+                CHECK(layers.indirectRays == traversed);
+                CHECK(layers.shadowRays == traced - traversed);
+                CHECK(layers.indirectSpp == doctest::Approx(static_cast<double>(takenIndirect) / each).epsilon(1e-9));
+                const double lights = static_cast<double>(scene.areaLights.size());
+                CHECK(layers.directSpp
+                    == doctest::Approx(static_cast<double>(taken - takenIndirect) / each / lights).epsilon(1e-9));
+            }
+    });
+}

@@ -218,19 +218,20 @@ cl::Program ProgramLibrary::obtain(const ProgramSource& source)
     requirePlain(source.defines);
     const std::string text = textOf(options_, source);
     requireInterfaces(source, text);
+    const std::string options = optionsString(source, text);
     const DriverCache::Mark mark;
     if (driverKeepsKernels(device_.info().platformVersion)) {
         ++compiled_;
-        return compile(source, text);
+        return compile(source, text, options);
     }
-    const std::string options = optionsString(source, text), key = cacheKey(options, text);
+    const std::string key = cacheKey(options, text);
     if (const auto binary = disk_.load(key)) {
         if (cl::Program program; load(*binary, options, program)) {
             ++loaded_;
             return program;
         }
     }
-    cl::Program program = compile(source, text);
+    cl::Program program = compile(source, text, options);
     ++compiled_;
     try {
         disk_.store(key, program.getInfo<CL_PROGRAM_BINARIES>().at(0));
@@ -240,17 +241,18 @@ cl::Program ProgramLibrary::obtain(const ProgramSource& source)
     return program;
 }
 
-cl::Program ProgramLibrary::compile(const ProgramSource& source, const std::string& text)
+cl::Program ProgramLibrary::compile(const ProgramSource& source, const std::string& text, const std::string& options)
 {
     return checked("program " + source.file, device_.info().name, [&] {
         cl::Program program(device_.context(), text);
         try {
-            program.build(device_.cl(), optionsString(source, text).c_str());
+            program.build(device_.cl(), options.c_str());
         } catch (const cl::Error& error) {
             if (error.err() != CL_BUILD_PROGRAM_FAILURE) {
                 throw;
             }
-            reportFailure(source, text, namePlaces(program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_.cl()), text));
+            reportFailure(
+                source, text, options, namePlaces(program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_.cl()), text));
         }
         return program;
     });
@@ -274,13 +276,13 @@ std::string ProgramLibrary::cacheKey(const std::string& options, const std::stri
         info.vendor, info.deviceVersion, info.driver, options, compilerEnvironment(), text);
 }
 
-void ProgramLibrary::reportFailure(const ProgramSource& source, const std::string& text, const std::string& log) const
+void ProgramLibrary::reportFailure(
+    const ProgramSource& source, const std::string& text, std::string options, const std::string& log) const
 {
-    const std::string report = writeTemporary(fmt::format(
-        "program: {}\ndevice: {} ({}, driver {})\noptions: {}\n\n{}\n\n{}", source.file, device_.info().name,
-        device_.info().platform, device_.info().driver, optionsString(source, text), log, text));
+    const std::string report =
+        writeTemporary(fmt::format("program: {}\ndevice: {} ({}, driver {})\noptions: {}\n\n{}\n\n{}", source.file,
+            device_.info().name, device_.info().platform, device_.info().driver, options, log, text));
     const std::string remedy = remedyOfFailure(options_.kernelDir);
-    std::string options = optionsString(source, text);
     if (const auto at = options.find(exactDivisionOption); at != std::string::npos) {
         options.erase(at, exactDivisionOption.size()); // one line has to hold the place in the kernel
     }

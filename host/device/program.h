@@ -77,6 +77,8 @@ public:
     /// What the compiler is called with, "-cl-std=CL1.2 -DNAME=VALUE": with the defines of all programs, of which each
     /// gets those that its text names. So programs that scenes and frames do not tell apart are compiled once for all.
     std::string optionsString() const;
+    /// The same of one program, whose text is that.
+    std::string optionsString(const ProgramSource& source, const std::string& text) const;
 
     /// Programs compiled from source (or fetched from the driver's own cache by it), and loaded from the disk, so far.
     unsigned compiled() const { return compiled_; }
@@ -84,12 +86,12 @@ public:
 
 private:
     std::string optionsString(const Defines& defines) const;
-    std::string optionsString(const ProgramSource& source, const std::string& text) const;
     cl::Program obtain(const ProgramSource& source);
-    cl::Program compile(const ProgramSource& source, const std::string& text);
+    cl::Program compile(const ProgramSource& source, const std::string& text, const std::string& options);
     bool load(const ProgramCache::Binary& binary, const std::string& options, cl::Program& program);
     std::string cacheKey(const std::string& options, const std::string& text) const;
-    [[noreturn]] void reportFailure(const ProgramSource& source, const std::string& text, const std::string& log) const;
+    [[noreturn]] void reportFailure(
+        const ProgramSource& source, const std::string& text, std::string options, const std::string& log) const;
 
     Device device_;
     BuildOptions options_;

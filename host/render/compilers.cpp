@@ -336,7 +336,7 @@ int compileShare(int file)
     return 0;
 }
 
-KnownKernels::KnownKernels(const device::Device& device, const std::string& optionsString,
+KnownKernels::KnownKernels(const device::Device& device, const device::ProgramLibrary& programs,
     const device::BuildOptions& options, const graph::Plan& plan)
 {
     const std::filesystem::path& folder = device::DriverCache::ofProcess().folder();
@@ -344,23 +344,21 @@ KnownKernels::KnownKernels(const device::Device& device, const std::string& opti
     if (folder.empty() || drivers == nullptr || folder != drivers) {
         return; // the driver's cache is elsewhere, or nowhere
     }
-    std::map<device::ProgramSource, std::set<std::string>> programs;
+    std::map<device::ProgramSource, std::set<std::string>> kernelsOf;
     for (const graph::PlannedPass& planned : plan.passes) {
         if (planned.pass->domain != graph::Domain::Host) {
             // Kernels are compiled once more for grids of 65535 items along one axis, which only lists have.
             const graph::Pass& pass = *planned.pass;
             const char* size = pass.domain == graph::Domain::Items && pass.mostItems >= largeGrid ? "large" : "";
-            programs[*planned.program].insert(pass.kernel.name + size);
+            kernelsOf[*planned.program].insert(pass.kernel.name + size);
         }
     }
     const device::DeviceInfo& info = device.info();
-    std::string all = fmt::format("{}\n{}\n{}\n{}\n{}\n", info.platformVersion, info.name, info.driver, optionsString,
-        device::compilerEnvironment());
-    for (const auto& [program, kernels] : programs) {
-        for (const auto& [name, value] : program.defines) {
-            all += fmt::format("{}={} ", name, value);
-        }
-        all += fmt::format("{}\n{}\n", fmt::join(kernels, " "), device::textOf(options, program));
+    std::string all =
+        fmt::format("{}\n{}\n{}\n{}\n", info.platformVersion, info.name, info.driver, device::compilerEnvironment());
+    for (const auto& [program, kernels] : kernelsOf) {
+        const std::string text = device::textOf(options, program);
+        all += fmt::format("{}\n{}\n{}\n", programs.optionsString(program, text), fmt::join(kernels, " "), text);
     }
     path_ = folder / fmt::format("{}{:016x}", device::knownKernels, std::hash<std::string>()(all));
 }

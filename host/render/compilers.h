@@ -44,8 +44,9 @@ int compileShare(int file);
 /// anything is removed from that.
 class KnownKernels {
 public:
-    KnownKernels(const device::Device& device, const std::string& optionsString, const device::BuildOptions& options,
-        const graph::Plan& plan);
+    /// programs: with those options.
+    KnownKernels(const device::Device& device, const device::ProgramLibrary& programs,
+        const device::BuildOptions& options, const graph::Plan& plan);
     /// Also where nobody could tell.
     bool areKnown() const;
     void remember() const;

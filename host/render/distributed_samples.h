@@ -6,7 +6,6 @@
 #include "host/render/waves.h"
 #include "kernels/shared/distributed.h"
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -42,7 +41,7 @@ public:
     /// for leave means unbiased. null: their own.
     void take(const DistributedSamples* guide);
 
-    /// Makes the image: surfaces.emission, totals, lensWidth(), motionWidth(). Of layers emission, direct and indirect
+    /// Makes the image: totals. Of layers emission, direct and indirect
     /// are filtered, too, so that they sum to the beauty.
     void compose();
 

@@ -82,7 +82,7 @@ public:
     /// How its terms' layers of filter widths are called, for people; "" without terms.
     virtual std::string widthLayers() const { return ""; }
     /// Those of its own, whether or not frames have them: of unfiltered light, and what passes add to
-    /// FrameBuilder::layers. scene: null where it is not known.
+    /// FrameBuilder::layers, in frames of one receiver a pixel. scene: null where it is not known.
     virtual std::vector<LayerInfo> layers(const Settings&, const PreparedScene*) const { return {}; }
 
     /// Kernels of its own and what they include, by the paths that passes and includes name.

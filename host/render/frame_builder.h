@@ -119,7 +119,9 @@ struct FrameBuilder {
     bool lean = false; ///< pixels that have several receivers keep little, see SampleShape::lean()
     Surfaces surfaces = {};
     Totals totals = {};
-    Outputs* layers = nullptr; ///< where passes add what layers show; null where none are read
+    /// Where passes add what layers show; null where none are read, and in frames of several receivers a pixel, which
+    /// have none of passes' own.
+    Outputs* layers = nullptr;
     std::optional<graph::Handle<Directions>> environmentSamples = {}; ///< pre-computed, where there are any
 
     /// Of normals, each in one number or in three. In scenes with normal maps the ones without them lie behind.

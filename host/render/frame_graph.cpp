@@ -29,14 +29,6 @@ double FrameGraph::workUnits() const
     return units;
 }
 
-void FrameGraph::showSums(const Totals& totals, Where where)
-{
-    outputs_.add("direct", totals.direct.filtered, where);
-    outputs_.add("directNoisy", totals.direct.noisy, where);
-    outputs_.add("indirect", totals.indirect.filtered, where);
-    outputs_.add("indirectNoisy", totals.indirect.noisy, where);
-}
-
 void FrameGraph::showWidths(FrameBuilder& frame, const Term& term, const std::shared_ptr<TermState>& state,
     const graph::Handle<Metres>& beta, const graph::Handle<Metres>& pixelSize)
 {
@@ -54,7 +46,7 @@ void FrameGraph::showWidths(FrameBuilder& frame, const Term& term, const std::sh
 void FrameGraph::showWidths(
     FrameBuilder& frame, const DistributedSamples& samples, const graph::Handle<Metres>& pixelSize)
 {
-    for (std::size_t i = 0; i < terms_.size(); ++i) {
+    for (std::size_t i = 0; frame.analysed() && i < terms_.size(); ++i) {
         const graph::Handle<Metres> none;
         showWidths(
             frame, terms_[i], samples.state(), samples.filters() ? samples.terms()[i]->means.beta : none, pixelSize);
@@ -64,10 +56,11 @@ void FrameGraph::showWidths(
 void FrameGraph::showTally(FrameBuilder& frame, const std::string& name, const std::string& output, Within within)
 {
     const graph::Version counts = outputs_.find(output)->version;
-    const graph::Resource& resource = graph_.resources()[counts.resource];
+    const bool plane = graph_.resources()[counts.resource].plane;
+    const auto elements = static_cast<std::uint32_t>(graph_.resources()[counts.resource].elements);
     auto tally = graph_.list<Tally>(name, tallySums, WEDGE_TALLY_STRIPES);
     frame.zero(tally);
-    if (resource.plane) {
+    if (plane) {
         std::optional<graph::Version> mask;
         if (within == Within::Surfaces) {
             mask = outputs_.find("objectId")->version;
@@ -76,8 +69,7 @@ void FrameGraph::showTally(FrameBuilder& frame, const std::string& name, const s
     } else {
         frame.items("composite", device::PassKind::Composite, { "frame/tally.cl", "addListToTally" },
             WEDGE_TALLY_STRIPES,
-            { graph::value("count", static_cast<std::uint32_t>(resource.elements)), graph::readsAsIs("list", counts),
-                updates("tally", tally) });
+            { graph::value("count", elements), graph::readsAsIs("list", counts), updates("tally", tally) });
     }
     outputs_.add(name, tally);
 }

@@ -35,13 +35,11 @@ public:
 protected:
     FrameGraph(const Settings& settings, const PreparedScene& scene, bool keepLayers, bool distributed);
 
-    /// Direct and indirect light, filtered and not.
-    void showSums(const Totals& totals, Where where);
     /// A term's filter widths, in metres and in pixels of that size on the surface: 0 where it is not filtered. beta:
     /// of no graph where no pixel is.
     void showWidths(FrameBuilder& frame, const Term& term, const std::shared_ptr<TermState>& state,
         const graph::Handle<Metres>& beta, const graph::Handle<Metres>& pixelSize);
-    /// The same of all terms.
+    /// The same of all terms, where frames are analysed.
     void showWidths(FrameBuilder& frame, const DistributedSamples& samples, const graph::Handle<Metres>& pixelSize);
     /// Once all of outputs_ are there: wants them, and shows what statistics are made of, sums over pixels by the names
     /// that Renderer::countWork() knows.

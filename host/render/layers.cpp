@@ -73,7 +73,6 @@ public:
     {
     }
 
-    /// The output of that name: a channel for each of its planes.
     void beauty() { planes("", frame_.find("beauty"), { "R", "G", "B" }); }
 
     /// All outputs of that layer.
@@ -95,9 +94,10 @@ public:
     }
 
 private:
+    /// A channel for each of its first planes: behind normals lie those without maps.
     void planes(const std::string& prefix, const Frame::Shown& shown, const std::vector<std::string>& channels)
     {
-        assert(shown.planes == channels.size());
+        assert(shown.planes >= channels.size());
         const std::string name = shown.output.name();
         const auto each = [&](const auto& values) {
             for (std::size_t plane = 0; plane < channels.size(); ++plane) {

@@ -61,7 +61,7 @@ struct Frame {
         Output output;
         cl::Buffer memory;
         std::uint64_t bytes = 0;
-        std::uint32_t planes = 0; ///< of pixels; 0 of lists
+        std::uint32_t planes = 0; ///< of whole numbers or floats, one of each pixel; 0 of lists and of what is packed
         bool whole = false; ///< of std::uint32_t; else of float
     };
 

@@ -69,7 +69,10 @@ void PixelFrame::show(bool deviations)
         outputs_.add("emission", s.emission);
         outputs_.add("samples", t.samples, Where::OnSurfaces);
         outputs_.add("rays", t.rays);
-        showSums(t, Where::OnSurfaces);
+        outputs_.add("direct", t.direct.filtered, Where::OnSurfaces);
+        outputs_.add("directNoisy", t.direct.noisy, Where::OnSurfaces);
+        outputs_.add("indirect", t.indirect.filtered, Where::OnSurfaces);
+        outputs_.add("indirectNoisy", t.indirect.noisy, Where::OnSurfaces);
         if (deviations) {
             outputs_.add("directDeviation", t.direct.deviation);
             outputs_.add("indirectDeviation", t.indirect.deviation);

@@ -359,7 +359,7 @@ void Renderer::rehearse(graph::Execution& execution)
         execution.rehearse();
         return;
     }
-    const KnownKernels kernels(device_, programs_->optionsString(), programOptions_, plan);
+    const KnownKernels kernels(device_, *programs_, programOptions_, plan);
     if (!kernels.areKnown()) {
         const CompileWork work = compileWork(device_, programOptions_, plan, execution.trials());
         if (options_.onCompile) {

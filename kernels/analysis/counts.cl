@@ -2,7 +2,8 @@
 // kinds of samples, such that their rays are what was asked for. demand.cl makes demands of variances.
 //
 // C is bracketed. Sixteen scales are tried at once: stripes of rows add up what each would take, of each kind of
-// samples, and between the two that enclose what was asked for the next sixteen lie. Sums of several devices add up.
+// samples, and between the two that enclose what was asked for the next sixteen lie. Several devices could add their
+// sums up.
 #include "core/vector16.h"
 #include "shared/filter_params.h"
 #include "shared/wedge.h"
@@ -43,10 +44,10 @@ __kernel void samplesAtScales(PARAMETERS)
     const float16 scales = vload16(0, scale);
     float16 sum = (float16)(0.0f);
     float pixels = 0.0f;
-    for (uint y = stripe; y < p.height; y += WEDGE_SCALE_STRIPES) {
+    for (uint y = p.y0 + stripe; y < p.y1; y += WEDGE_SCALE_STRIPES) {
         // Row by row: sums of few numbers are more exact.
         float16 ofRow = (float16)(0.0f);
-        for (uint x = 0u; x < p.width; ++x) {
+        for (uint x = p.x0; x < p.x1; ++x) {
             const uint i = pixelIndex(x, y, p.stride);
             const float there = HAS_taken ? (float)LOAD_taken(p.planeSize, i) : 0.0f;
             const bool takes = !HAS_mask || LOAD_mask(p.planeSize, i) != 0u;
@@ -123,9 +124,9 @@ __kernel void noiseOfCounts(PARAMETERS)
     const float8 shares = (float8)(0.0f, 0.25f, 0.5f, 0.75f, 1.0f, 1.0f, 1.0f, 1.0f);
     const float found = scale[WEDGE_SCALE_FOUND], mean = scale[WEDGE_SCALE_MEAN];
     float8 sum = (float8)(0.0f);
-    for (uint y = stripe; y < p.height; y += WEDGE_SCALE_STRIPES) {
+    for (uint y = p.y0 + stripe; y < p.y1; y += WEDGE_SCALE_STRIPES) {
         float8 ofRow = (float8)(0.0f);
-        for (uint x = 0u; x < p.width; ++x) {
+        for (uint x = p.x0; x < p.x1; ++x) {
             const uint i = pixelIndex(x, y, p.stride);
             const float n = fmax(clamp(found * demand[i], least, most), (float)LOAD_taken(p.planeSize, i));
             ofRow += fmax(uncertainty[i], 0.0f) / (n + shares * (mean - n));
@@ -170,8 +171,7 @@ __kernel void shareOfEven(PARAMETERS)
 #endif
 
 /// Wanted samples: clamp(C demand, least, most), nearer to the mean by the share of the way that counts are even
-/// (evens), to the nearest, and never less than `taken`; 0 where the mask is. Demands and counts may be one plane: of
-/// each pixel demand is read first.
+/// (evens), to the nearest, and never less than `taken`; 0 where the mask is.
 #include "pass/countsFromDemand.h"
 #ifdef PASS_countsFromDemand
 __kernel void countsFromDemand(PARAMETERS)

@@ -37,6 +37,7 @@ public:
         , scale_(frame.graph.list<Share>("scales of demands", graph::floats, WEDGE_SCALE_NUMBERS))
     {
         assert(!kinds.empty() && kinds[0].rays == 1.0f);
+        assert(!kinds[0].uncertainty || !scale.mask); // all pixels have noise
     }
 
     void declare()
