@@ -1,6 +1,5 @@
 // composite.cl alone: terms to radiance, against integrals over the light in double.
 #include "host/render/device_scene.h"
-#include "host/render/quadrature.h"
 #include "kernels/shared/bsdf.h"
 #include "kernels/shared/path.h"
 #include "tests/lamp.h"
@@ -18,7 +17,6 @@ namespace {
 
 /// Receivers scattered around a light at y = 2, with made-up terms.
 struct Receivers {
-    shared::AnalysisParams params {};
     Planes<float> position, normal, diffuse, specular, value, noisy, parts; ///< parts: numbers that 16 bits hold
     Planes<std::uint32_t> gloss, objectId, taken;
 
@@ -56,10 +54,6 @@ struct Receivers {
         , objectId(layout, 1, 0u)
         , taken(layout, 1, 0u)
     {
-        params.x1 = layout.width;
-        params.y1 = layout.height;
-        params.stride = layout.stride;
-        params.planeSize = static_cast<std::uint32_t>(layout.size);
     }
     const render::PlaneLayout& layout() const { return position.layout; }
     template <class Visit>
@@ -114,12 +108,52 @@ shared::Vec3 narrowed(glm::dvec3 v)
     return shared::vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
 }
 
+/// A frame of one light and nothing else that is sampled, or of paths, on surfaces that reflect specularly or not.
+class CompositeFrame : public DeclaredFrame {
+public:
+    CompositeFrame(
+        const device::Device& device, const render::PlaneLayout& size, const scene::AreaLight& light, bool specular)
+        : DeclaredFrame(device, lit(light, specular),
+            sized(render::axisAligned(16), static_cast<int>(size.width), static_cast<int>(size.height)))
+    {
+    }
+
+private:
+    static scene::Scene lit(const scene::AreaLight& light, bool specular)
+    {
+        scene::Scene out = smallScene();
+        out.areaLights = { light };
+        out.materials[0].specular = glm::vec3(specular ? 0.3f : 0.0f);
+        return out;
+    }
+};
+
+/// A pass that adds a light's term to sums that are there.
+PassBench lightPass(
+    CompositeFrame& frame, const std::string& kernel, const Receivers& in, std::uint32_t shading, float directBefore)
+{
+    PassBench pass(frame, kernel);
+    pass.value("params", shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} });
+    pass.plane("position", in.position);
+    pass.plane("normal", in.normal);
+    pass.plane("objectId", in.objectId);
+    pass.plane("taken", in.taken);
+    for (const auto& [name, planes] : { std::pair("value", &in.value), { "noisy", &in.noisy }, { "parts", &in.parts } })
+        pass.plane(name,
+            std::vector(planes->values.begin(),
+                planes->values.begin() + static_cast<std::ptrdiff_t>(pass.read<float>(name).size())));
+    const std::size_t size = in.layout().size;
+    pass.plane("direct", std::vector<float>(3 * size, directBefore));
+    pass.plane("directNoisy", std::vector<float>(3 * size, 0.25f));
+    pass.plane("deviation", std::vector<float>(size, 0.125f));
+    return pass;
+}
+
 } // namespace
 
 TEST_CASE("addDiffuse: value times unshadowed shading times reflectance, in each way of shading")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
         for (const auto& [width, height] : { std::pair(1, 1), { 37, 5 } })
             for (const bool twoSided : { false, true })
                 for (const std::uint32_t shading :
@@ -128,19 +162,12 @@ TEST_CASE("addDiffuse: value times unshadowed shading times reflectance, in each
                         lamp(twoSided ? scene::LightProfile::Uniform : scene::LightProfile::Gaussian, twoSided);
                     const shared::AreaLight made = render::deviceLight(light);
                     const Receivers in(width, height, 3);
-                    const auto direct = bench.filled(3 * in.layout().size, 0.5f),
-                               noisy = bench.filled(3 * in.layout().size, 0.25f);
-                    const auto deviation = bench.buffer(inShorts(Planes<float>(in.layout(), 1, 0.125f)));
-                    bench.passes.rows("composite", device::PassKind::Composite, "frame/composite.cl", "addDiffuse",
-                        in.params, WEDGE_BLOCK_PIXELS,
-                        shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made,
-                        bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values),
-                        bench.buffer(in.normal.values), bench.buffer(in.objectId.values),
-                        bench.buffer(in.diffuse.values), bench.buffer(in.value.values), bench.buffer(in.noisy.values),
-                        bench.buffer(inShorts(in.parts)), bench.buffer(in.taken.values), direct, noisy, deviation);
-                    const Planes<float> found = planesOf(in.layout(), bench.read(direct));
-                    const Planes<float> foundNoisy = planesOf(in.layout(), bench.read(noisy));
-                    const Planes<float> foundDeviation = ofShorts(in.layout(), 1, bench.read(deviation));
+                    CompositeFrame frame(device, in.layout(), light, false);
+                    PassBench pass = lightPass(frame, "addDiffuse", in, shading, 0.5f);
+                    pass.plane("diffuse", in.diffuse);
+                    pass.run();
+                    const auto found = pass.pixels<float>("direct"), foundNoisy = pass.pixels<float>("directNoisy"),
+                               foundDeviation = pass.pixels<float>("deviation");
                     CAPTURE(shading);
                     CAPTURE(twoSided);
                     in.everyPixel([&](int x, int y) {
@@ -173,7 +200,6 @@ TEST_CASE("addDiffuse: value times unshadowed shading times reflectance, in each
 TEST_CASE("addSpecular: the second term times the lobe's unshadowed shading times reflectance")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device, { { "WEDGE_SPECULAR", "1" } });
         const scene::AreaLight light = lamp(scene::LightProfile::Gaussian, false);
         const shared::AreaLight made = render::deviceLight(light);
         Receivers in(33, 6, 4);
@@ -185,21 +211,18 @@ TEST_CASE("addSpecular: the second term times the lobe's unshadowed shading time
                 glm::normalize(glm::normalize(eye - at) + glm::normalize(glm::dvec3(light.centre) - at)
                     + 0.4 * unitVector(random)));
         });
-        shared::FrameParams frame {};
-        frame.eye = shared::vec3(0.5f, 1, 6);
+        CompositeFrame frame(device, in.layout(), light, true);
+        shared::FrameParams seen {};
+        seen.eye = shared::vec3(0.5f, 1, 6);
         for (const std::uint32_t shading : { WEDGE_SHADING_SEPARATE, WEDGE_SHADING_INSIDE, WEDGE_SHADING_RATIO }) {
-            const auto direct = bench.filled(3 * in.layout().size, 0.5f),
-                       noisy = bench.filled(3 * in.layout().size, 0.25f),
-                       deviation = bench.buffer(inShorts(Planes<float>(in.layout(), 1, 0.125f)));
-            bench.passes.rows("composite", device::PassKind::Composite, "frame/composite.cl", "addSpecular", in.params,
-                WEDGE_BLOCK_PIXELS, shared::SampleParams { shading, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} }, made, frame,
-                std::uint32_t { 256 }, bench.buffer(render::lightNodes(light)), bench.buffer(in.position.values),
-                bench.buffer(in.normal.values), bench.buffer(in.objectId.values), bench.buffer(in.gloss.values),
-                bench.buffer(in.specular.values), bench.buffer(in.value.values), bench.buffer(in.noisy.values),
-                bench.buffer(inShorts(in.parts)), bench.buffer(in.taken.values), direct, noisy, deviation);
-            const Planes<float> foundDeviation = ofShorts(in.layout(), 1, bench.read(deviation));
-            const Planes<float> found = planesOf(in.layout(), bench.read(direct));
-            const Planes<float> foundNoisy = planesOf(in.layout(), bench.read(noisy));
+            PassBench pass = lightPass(frame, "addSpecular", in, shading, 0.5f);
+            pass.value("frame", seen);
+            pass.value("directions", 256u);
+            pass.plane("gloss", in.gloss);
+            pass.plane("specular", in.specular);
+            pass.run();
+            const auto found = pass.pixels<float>("direct"), foundNoisy = pass.pixels<float>("directNoisy"),
+                       foundDeviation = pass.pixels<float>("deviation");
             CAPTURE(shading);
             unsigned bright = 0;
             in.everyPixel([&](int x, int y) {
@@ -241,10 +264,8 @@ TEST_CASE("addSpecular: the second term times the lobe's unshadowed shading time
 TEST_CASE("addSpecular: a mirror shows the light's own radiance, where it shows the light")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device, { { "WEDGE_SPECULAR", "1" } });
         for (const scene::LightProfile profile : { scene::LightProfile::Uniform, scene::LightProfile::Gaussian }) {
             const scene::AreaLight light = lamp(profile, false);
-            const shared::AreaLight made = render::deviceLight(light);
             Receivers in(64, 6, 4);
             std::mt19937 random(11);
             const glm::dvec3 eye(0.5, 1, 6);
@@ -263,21 +284,19 @@ TEST_CASE("addSpecular: a mirror shows the light's own radiance, where it shows 
                         : hit                                                             ? profileAt(light, a, b)
                                                                                           : 0);
             });
-            shared::FrameParams frame {};
-            frame.eye = shared::vec3(0.5f, 1, 6);
-            const std::vector<std::uint32_t> sharp(
-                in.gloss.values.size(), shared::packGloss(shared::makeGloss(1e6f, WEDGE_PHONG)));
-            const std::vector<float> whole(in.value.values.size(), 1.0f);
-            const auto direct = bench.filled(3 * in.layout().size, 0.0f),
-                       noisy = bench.filled(3 * in.layout().size, 0.0f);
-            bench.passes.rows("composite", device::PassKind::Composite, "frame/composite.cl", "addSpecular", in.params,
-                WEDGE_BLOCK_PIXELS, shared::SampleParams { WEDGE_SHADING_RATIO, 0, 0, 9, WEDGE_LIGHTS_SAMPLED, 0, {} },
-                made, frame, std::uint32_t { 256 }, bench.buffer(render::lightNodes(light)),
-                bench.buffer(in.position.values), bench.buffer(in.normal.values), bench.buffer(in.objectId.values),
-                bench.buffer(sharp), bench.buffer(in.specular.values), bench.buffer(whole), bench.buffer(whole),
-                bench.buffer(whole), bench.buffer(in.taken.values), direct, noisy,
-                bench.filled(in.layout().size, 0.0f));
-            const Planes<float> found = planesOf(in.layout(), bench.read(direct));
+            CompositeFrame frame(device, in.layout(), light, true);
+            shared::FrameParams seen {};
+            seen.eye = shared::vec3(0.5f, 1, 6);
+            std::ranges::fill(in.gloss.values, shared::packGloss(shared::makeGloss(1e6f, WEDGE_PHONG)));
+            for (Planes<float>* all : { &in.value, &in.noisy, &in.parts })
+                std::ranges::fill(all->values, 1.0f);
+            PassBench pass = lightPass(frame, "addSpecular", in, WEDGE_SHADING_RATIO, 0.0f);
+            pass.value("frame", seen);
+            pass.value("directions", 256u);
+            pass.plane("gloss", in.gloss);
+            pass.plane("specular", in.specular);
+            pass.run();
+            const auto found = pass.pixels<float>("direct");
             std::size_t next = 0;
             int lit = 0;
             in.everyPixel([&](int x, int y) {
@@ -300,11 +319,10 @@ TEST_CASE("addPathSamples, addIndirect: terms times reflectance add up; ambient 
           "on white")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
         for (const auto& [width, height] : { std::pair(1, 1), { 37, 5 } }) {
             Receivers in(width, height, 8);
             const Receivers other(width, height, 9);
-            Planes<float> value(in.layout(), 4, 0.0f), noisy(in.layout(), 3, 0.0f), deviations(in.layout(), 1, 0.0f);
+            Planes<float> value(in.layout(), 4, 0.0f), noisy(in.layout(), 4, 0.0f), deviations(in.layout(), 1, 0.0f);
             in.everyPixel([&](int x, int y) {
                 for (std::size_t c = 0; c < 3; ++c) {
                     // What was never sampled holds anything.
@@ -315,26 +333,34 @@ TEST_CASE("addPathSamples, addIndirect: terms times reflectance add up; ambient 
                     deviations.at(x, y) = sampled ? other.specular.at(x, y, 1) - 0.5f : std::nanf("");
                 }
             });
-            const auto indirect = bench.filled(3 * in.layout().size, 0.5f),
-                       indirectNoisy = bench.filled(3 * in.layout().size, 0.25f);
-            const auto deviation = bench.buffer(inShorts(Planes<float>(in.layout(), 1, 0.125f))),
-                       variance = bench.buffer(inShorts(Planes<float>(in.layout(), 1, 0.25f)));
+            render::Settings settings = sized(render::axisAligned(16), width, height);
+            settings.bounces = 1;
+            DeclaredFrame frame(device, smallScene(), settings);
+            PassBench samples(frame, "addPathSamples"), filtered(frame, "addIndirect");
+            const std::size_t size = in.layout().size;
+            samples.plane("indirectNoisy", std::vector<float>(3 * size, 0.25f));
+            samples.plane("deviation", std::vector<float>(size, 0.125f));
+            filtered.plane("indirect", std::vector<float>(3 * size, 0.5f));
+            filtered.plane("variance", std::vector<float>(size, 0.25f));
             const auto add = [&](std::uint32_t component, const Planes<float>& reflectance) {
-                const auto k = bench.buffer(reflectance.values);
-                const auto taken = bench.buffer(in.taken.values);
-                bench.passes.rows("composite", device::PassKind::Composite, "frame/composite.cl", "addPathSamples",
-                    in.params, WEDGE_BLOCK_PIXELS, component, k, bench.buffer(noisy.values),
-                    bench.buffer(deviations.values), taken, indirectNoisy, deviation);
-                bench.passes.rows("composite", device::PassKind::Composite, "frame/composite.cl", "addIndirect",
-                    in.params, WEDGE_BLOCK_PIXELS, component, 1u, k, bench.buffer(value.values), taken, indirect,
-                    variance);
+                for (PassBench* pass : { &samples, &filtered }) {
+                    pass->value("component", component);
+                    pass->plane("reflectance", reflectance);
+                    pass->plane("taken", in.taken);
+                }
+                samples.plane("value", noisy);
+                samples.plane("deviations", deviations);
+                samples.run();
+                REQUIRE(filtered.own<std::uint32_t>("varies") == 1);
+                filtered.plane("value", value);
+                filtered.run();
             };
             // After each term, what the terms so far multiply value by, and add.
             const auto check = [&](const auto& expected, unsigned terms) {
-                const Planes<float> found = planesOf(in.layout(), bench.read(indirect));
-                const Planes<float> foundNoisy = planesOf(in.layout(), bench.read(indirectNoisy));
-                const Planes<float> foundDeviation = ofShorts(in.layout(), 1, bench.read(deviation));
-                const Planes<float> foundVariance = ofShorts(in.layout(), 1, bench.read(variance));
+                const auto found = filtered.pixels<float>("indirect"),
+                           foundNoisy = samples.pixels<float>("indirectNoisy"),
+                           foundDeviation = samples.pixels<float>("deviation"),
+                           foundVariance = filtered.pixels<float>("variance");
                 in.everyPixel([&](int x, int y) {
                     // What is open falls by as much as what is occluded rises: the deviation of a term in k has no
                     // sign.

@@ -128,6 +128,14 @@ private:
 /// A frame of one light, one receiver a pixel.
 render::Settings oneKind(int width, int height) { return sized(render::axisAligned(28), width, height); }
 
+/// One of lights and paths.
+DeclaredFrame pathsFrame(const device::Device& device, int width, int height)
+{
+    render::Settings settings = oneKind(width, height);
+    settings.bounces = 1;
+    return { device, smallScene(), settings };
+}
+
 Planes<std::uint32_t> countsOf(DeclaredFrame& frame, const Planes<float>& demand, const Planes<std::uint32_t>& objectId,
     float mean, std::uint32_t cap)
 {
@@ -396,7 +404,6 @@ TEST_CASE(
     "are no samples, or no slopes")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
         for (const auto& [width, height] : { std::pair(1, 1), { 19, 1 }, { 1, 7 }, { 50, 27 } }) {
             const render::PlaneLayout layout(width, height);
             const shared::AnalysisParams p = paramsFor(layout);
@@ -408,15 +415,18 @@ TEST_CASE(
                 effective.at(x, y) = static_cast<float>(uniform(random, 0, 40));
                 beta.at(x, y) = static_cast<float>(static_cast<int>(random() % 3) - 1) * 0.1f;
             });
-            const auto seen = bench.buffer(filtered.values), gathered = bench.buffer(effective.values),
-                       widths = bench.buffer(beta.values);
-            const auto run = [&](const char* kernel) {
-                const auto out = bench.filled(layout.size, -7.0f);
-                bench.passes.rows("counts", device::PassKind::Analysis, "analysis/demand.cl", kernel, p,
-                    WEDGE_BLOCK_PIXELS, seen, gathered, widths, out);
-                return planesOf(layout, bench.read(out));
+            DeclaredFrame frame = pathsFrame(device, width, height);
+            const auto run = [&](const char* kernel, const char* counted) {
+                PassBench pass(frame, kernel);
+                pass.value("p", p);
+                pass.plane(counted, filtered);
+                pass.plane("effective", effective);
+                pass.plane("beta", beta);
+                pass.run();
+                return pass.pixels<float>("uncertainty");
             };
-            const Planes<float> ofLight = run("visibilityUncertainty"), ofPaths = run("uncertaintyOf");
+            const Planes<float> ofLight = run("visibilityUncertainty", "filtered"),
+                                ofPaths = run("uncertaintyOf", "variance");
             everyPixel(layout, [&](int x, int y) {
                 const double k = std::max<double>(effective.at(x, y), 1);
                 const double visible = std::clamp<double>(filtered.at(x, y), 0, 1);
@@ -434,7 +444,6 @@ TEST_CASE(
     "where that is asked for, or there are no others; of one object, or of all pixels of the image")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
         for (const auto& [width, height] : { std::pair(1, 1), { 1, 9 }, { 40, 21 }, { 48, 3 } })
             for (const double dark : { 0.2, 1.0 }) {
                 // What lies beside and below the image does not count.
@@ -450,13 +459,17 @@ TEST_CASE(
                 });
                 shared::AnalysisParams p = paramsFor(layout);
                 p.y1 = p.height = static_cast<std::uint32_t>(height);
+                DeclaredFrame frame = pathsFrame(device, width, height + 2);
                 for (const std::uint32_t which : { 0u, 1u, 2u, 3u }) {
                     const std::uint32_t oneObject = which & 1u, ownToo = which >> 1;
-                    const auto out = bench.filled(layout.size, -7.0f);
-                    bench.passes.rows("counts", device::PassKind::Analysis, "analysis/demand.cl", "demandOf", p,
-                        WEDGE_BLOCK_PIXELS, oneObject, ownToo, bench.buffer(uncertainty.values),
-                        bench.buffer(objectId.values), out);
-                    const Planes<float> found = planesOf(layout, bench.read(out));
+                    PassBench pass(frame, "demandOf");
+                    pass.value("p", p);
+                    pass.value("oneObject", oneObject);
+                    pass.value("ownToo", ownToo);
+                    pass.plane("uncertainty", uncertainty);
+                    pass.plane("objectId", objectId);
+                    pass.run();
+                    const auto found = pass.pixels<float>("demand");
                     everyPixel(layout, [&](int x, int y) {
                         if (y >= height)
                             return;
@@ -489,16 +502,15 @@ TEST_CASE(
 TEST_CASE("uniformCounts gives each shaded pixel of its window the same count")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
         const Demands in(40, 12, 0, 1, 1);
-        shared::AnalysisParams p = paramsFor(in.demand.layout);
-        p.x0 = 16;
-        p.y0 = 3;
-        p.y1 = 9;
-        const auto wanted = bench.filled(in.demand.layout.size, 777u);
-        bench.passes.rows("counts", device::PassKind::Analysis, "analysis/counts.cl", "uniformCounts", p, 1,
-            std::uint32_t { 13 }, bench.buffer(in.objectId.values), wanted);
-        const Planes<std::uint32_t> found = planesOf(in.demand.layout, bench.read(wanted));
+        DeclaredFrame frame = pathsFrame(device, 40, 12);
+        PassBench pass(frame, "uniformCounts");
+        pass.value("count", 13u);
+        pass.plane("mask", in.objectId);
+        pass.plane("wanted", std::vector<std::uint32_t>(in.demand.layout.size, 777));
+        pass.window({ 16, 3, 40, 9 });
+        pass.run();
+        const auto found = pass.pixels<std::uint32_t>("wanted");
         for (int y = 0; y < 12; ++y)
             for (int x = 0; x < 40; ++x) {
                 const bool inside = x >= 16 && y >= 3 && y < 9;
