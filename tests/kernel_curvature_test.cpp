@@ -2,7 +2,8 @@
 // axes against the same in double.
 #include "kernels/shared/curvature.h"
 #include "kernels/shared/path.h"
-#include "tests/render_support.h"
+#include "tests/environment_support.h"
+#include "tests/pass_bench.h"
 
 #include <cmath>
 #include <functional>
@@ -70,16 +71,28 @@ struct Widths {
     Planes<float> x, y, mean;
 };
 
-Widths widthsOf(KernelBench& bench, const CurvedImage& image)
+/// A frame that filters an environment's light by curvature, with occluders smoothed.
+DeclaredFrame frameOf(const device::Device& device, const render::PlaneLayout& layout)
 {
-    const auto x = bench.filled(image.layout().size, -7.0f), y = bench.filled(image.layout().size, -7.0f),
-               mean = bench.filled(image.layout().size, -7.0f);
-    bench.passes.rows("widths", device::PassKind::Analysis, "analysis/curvature.cl", "curvatureWidths", image.params,
-        WEDGE_BLOCK_PIXELS, bench.buffer(image.occluders.values), bench.buffer(image.position.values),
-        bench.buffer(image.normal.values), bench.buffer(image.objectId.values), bench.buffer(image.pixelSize.values),
-        bench.buffer(image.gloss.values), bench.buffer(image.taken.values), x, y, mean);
-    return { planesOf(image.layout(), bench.read(x)), planesOf(image.layout(), bench.read(y)),
-        planesOf(image.layout(), bench.read(mean)) };
+    render::Settings settings =
+        sized(render::axisAligned(16), static_cast<int>(layout.width), static_cast<int>(layout.height));
+    settings.environment.widths = render::EnvironmentWidths::Corrected;
+    return { device, openFloor().scene, settings };
+}
+
+Widths widthsOf(DeclaredFrame& frame, const CurvedImage& image)
+{
+    PassBench pass(frame, "curvatureWidths");
+    pass.value("p", image.params);
+    pass.plane("occluders", image.occluders);
+    pass.plane("position", image.position);
+    pass.plane("normal", image.normal);
+    pass.plane("objectId", image.objectId);
+    pass.plane("pixelSize", image.pixelSize);
+    pass.plane("gloss", image.gloss);
+    pass.plane("taken", image.taken);
+    pass.run();
+    return { pass.pixels<float>("widthX"), pass.pixels<float>("widthY"), pass.pixels<float>("beta") };
 }
 
 /// (6.20) of pixel (x, y) along (dx, dy), as its definition has it, in double.
@@ -130,7 +143,7 @@ std::pair<glm::dvec3, glm::dvec3> onSphere(int x, int y, double radius, double s
 TEST_CASE("curvatures of spheres, cylinders and planes, from outside and from inside")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        DeclaredFrame frame = frameOf(device, render::PlaneLayout(17, 13));
         const double radius = 0.4, step = 0.03;
         for (const bool inside : { false, true }) {
             CAPTURE(inside);
@@ -147,8 +160,8 @@ TEST_CASE("curvatures of spheres, cylinders and planes, from outside and from in
                 image->params.lightBand = 7;
                 std::fill(image->occluders.values.begin(), image->occluders.values.end(), 4.0f);
             }
-            const Widths ofSphere = widthsOf(bench, sphere), ofCylinder = widthsOf(bench, cylinder),
-                         ofPlane = widthsOf(bench, plane);
+            const Widths ofSphere = widthsOf(frame, sphere), ofCylinder = widthsOf(frame, cylinder),
+                         ofPlane = widthsOf(frame, plane);
             const double curved = 0.5 / std::fabs(2 + (inside ? -2.5 : 2.5)), flat = 0.5 / 2;
             for (int y = 0; y < 13; ++y)
                 for (int x = 0; x < 17; ++x) {
@@ -170,7 +183,6 @@ TEST_CASE("curvatures of spheres, cylinders and planes, from outside and from in
 TEST_CASE("widths of pixels of any kind are those of the definition")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
         std::mt19937 random(7);
         for (const std::uint32_t component : { WEDGE_COMPONENT_ENVIRONMENT, WEDGE_COMPONENT_ENVIRONMENT_GLOSSY })
             for (const std::uint32_t isSigned : { 0u, 1u })
@@ -204,7 +216,8 @@ TEST_CASE("widths of pixels of any kind are those of the definition")
                                 shared::packGloss(shared::makeGloss(static_cast<float>(uniform(random, 0, 100)),
                                     random() % 2 == 0 ? WEDGE_PHONG : WEDGE_BLINN_PHONG));
                         }
-                    const Widths found = widthsOf(bench, image);
+                    DeclaredFrame frame = frameOf(device, image.layout());
+                    const Widths found = widthsOf(frame, image);
                     for (int y = 0; y < height; ++y)
                         for (int x = 0; x < width; ++x) {
                             CAPTURE(x);
@@ -226,7 +239,6 @@ TEST_CASE("widths of pixels of any kind are those of the definition")
 TEST_CASE("smoothed, occluders are the nearest of the pixels around, in the geometric mean over those around")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
         std::mt19937 random(11);
         for (const std::pair<int, int>& extent : { std::pair(41, 19), { 1, 1 }, { 3, 9 } }) {
             const int width = extent.first, height = extent.second;
@@ -238,18 +250,18 @@ TEST_CASE("smoothed, occluders are the nearest of the pixels around, in the geom
                     image.occluders.at(x, y) =
                         random() % 12 != 0 ? 0.0f : static_cast<float>(std::exp(uniform(random, -8, 4)));
                 }
-            const auto nearest = bench.filled(image.layout().size, -7.0f),
-                       mean = bench.filled(image.layout().size, -7.0f);
-            const auto objects = bench.buffer(image.objectId.values);
-            const auto pass = [&](const char* kernel, const auto& from, const auto& to) {
-                bench.passes.rows("widths", device::PassKind::Analysis, "analysis/curvature.cl", kernel, image.params,
-                    WEDGE_BLOCK_PIXELS, from, objects, to);
-            };
-            pass("nearestOccluders", bench.buffer(image.occluders.values), nearest);
-            // What lies between the rows is not written.
-            Planes<float> least = planesOf(image.layout(), bench.read(nearest));
-            pass("meanOccluders", nearest, mean);
-            const Planes<float> found = planesOf(image.layout(), bench.read(mean));
+            DeclaredFrame frame = frameOf(device, image.layout());
+            PassBench nearest(frame, "nearestOccluders"), mean(frame, "meanOccluders");
+            std::vector<float> occluders = image.occluders.values; // the first of three numbers of each pixel
+            occluders.resize(nearest.read<float>("occluders").size());
+            nearest.plane("occluders", occluders);
+            nearest.plane("objectId", image.objectId);
+            nearest.run();
+            const auto least = nearest.pixels<float>("nearest");
+            mean.plane("nearest", least);
+            mean.plane("objectId", image.objectId);
+            mean.run();
+            const auto found = mean.pixels<float>("mean");
             const auto around = [&](int x, int y, int reach, const Planes<float>& from) {
                 std::vector<double> out;
                 for (int qy = std::max(0, y - reach); qy <= std::min(height - 1, y + reach); ++qy)

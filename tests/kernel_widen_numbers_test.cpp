@@ -4,9 +4,8 @@
 #include "kernels/shared/packed.h"
 #include "kernels/shared/path.h"
 #include "kernels/shared/wedge.h"
-#include "tests/render_support.h"
+#include "tests/pass_bench.h"
 
-#include <cstring>
 #include <numbers>
 
 using namespace wedge;
@@ -16,8 +15,12 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
 {
     onEveryDevice([](const device::Device& device) {
         for (const bool specular : { false, true }) {
-            KernelBench bench(device, specular ? Defines { { "WEDGE_SPECULAR", "1" } } : Defines());
-            const render::PlaneLayout layout(37, 11);
+            scene::Scene scene = smallScene();
+            scene.materials[0].specular = glm::vec3(specular ? 0.3f : 0.0f);
+            render::Settings settings = sized(render::axisAligned(16), 37, 11);
+            settings.bounces = 1;
+            DeclaredFrame frame(device, scene, settings);
+            const render::PlaneLayout layout = frame.layout;
             const std::size_t channels = specular ? 2 : 1;
             std::mt19937 random(5);
             Planes<float> value(layout, 2, 0.0f), parts(layout, 2, 0.0f), sums(layout, 4, 0.0f), kd(layout, 3, 0.0f),
@@ -37,11 +40,10 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
                 if (random() % 3 != 0)
                     ks.setVector(x, y, { uniform(random), uniform(random), uniform(random) });
             });
-            const auto seen = bench.filled(layout.size, -7.0f), deviation = bench.filled(layout.size, -7.0f),
-                       weights = bench.filled(layout.size, -7.0f);
-            const auto check = [&](std::uint32_t firstPass, const auto& weightOf, const auto& meanOf) {
-                const Planes<float> v = planesOf(layout, bench.read(seen)), d = planesOf(layout, bench.read(deviation)),
-                                    w = planesOf(layout, bench.read(weights));
+            const auto check = [&](const PassBench& pass, const char* seen, std::uint32_t firstPass,
+                                   const auto& weightOf, const auto& meanOf) {
+                const auto v = pass.pixels<float>(seen), d = pass.pixels<float>("deviation"),
+                           w = pass.pixels<float>("weights");
                 int black = 0, noisy = 0;
                 everyPixel(layout, [&](int x, int y) {
                     const double weight = weightOf(x, y), n = taken.at(x, y),
@@ -58,10 +60,17 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
                 CHECK(black > 10);
                 CHECK(noisy > 100);
             };
-            bench.passes.rows("widen", device::PassKind::Filter, "analysis/widening.cl", "oneOfLight", paramsOf(layout),
-                WEDGE_BLOCK_PIXELS, WEDGE_FIRST_PASS_RAYS, bench.buffer(value.values), bench.buffer(inShorts(parts)),
-                bench.buffer(taken.values), bench.buffer(sums.values), bench.buffer(kd.values), bench.buffer(ks.values),
-                seen, deviation, weights);
+            PassBench light(frame, "oneOfLight");
+            REQUIRE(light.own<std::uint32_t>("firstPass") == WEDGE_FIRST_PASS_RAYS);
+            for (const auto& [name, planes] :
+                { std::pair("value", &value), { "parts", &parts }, { "sums", &sums } }) // of as many as there are
+                light.plane(name,
+                    std::vector(planes->values.begin(),
+                        planes->values.begin() + static_cast<std::ptrdiff_t>(light.read<float>(name).size())));
+            light.plane("taken", taken);
+            light.plane("diffuse", kd);
+            light.plane("specular", ks);
+            light.run();
             const auto reflected = [&](int x, int y, std::size_t c) {
                 const double n = std::max(1u, taken.at(x, y));
                 const auto luminance = [](glm::dvec3 k) { return 0.2126 * k.x + 0.7152 * k.y + 0.0722 * k.z; };
@@ -69,7 +78,7 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
                               : luminance(ks.vector(x, y)) * sums.at(x, y, 2) / n;
             };
             check(
-                WEDGE_FIRST_PASS_RAYS,
+                light, "visibility", WEDGE_FIRST_PASS_RAYS,
                 [&](int x, int y) { return reflected(x, y, 0) + (specular ? reflected(x, y, 1) : 0); },
                 [&](int x, int y, std::size_t part) {
                     double sum = 0;
@@ -77,27 +86,22 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
                         sum += reflected(x, y, c) * (part == 0 ? value : parts).at(x, y, c);
                     return sum;
                 });
-            // Colours in 48 bits: two planes' worth of floats.
-            Planes<float> ofPart(layout, 3, 0.0f);
-            std::vector<float> packedParts(2 * layout.size);
-            const auto bytes = reinterpret_cast<char*>(packedParts.data());
+            Planes<float> colours(layout, 3, 0.0f);
             everyPixel(layout, [&](int x, int y) {
-                const shared::PackedColour packed = shared::packColour(shared::vec3(static_cast<float>(uniform(random)),
-                    static_cast<float>(uniform(random)), static_cast<float>(uniform(random))));
-                const shared::Vec3 colour = shared::unpackColour(packed);
-                ofPart.setVector(x, y, { colour.x, colour.y, colour.z });
-                const std::size_t i = ofPart.index(x, y);
-                const auto high = static_cast<std::uint16_t>(packed.high);
-                std::memcpy(bytes + 4 * i, &packed.low, 4);
-                std::memcpy(bytes + 4 * layout.size + 2 * i, &high, 2);
+                colours.setVector(x, y, { uniform(random), uniform(random), uniform(random) });
             });
-            const auto paths = bench.buffer(sums.values);
-            bench.passes.rows("widen", device::PassKind::Filter, "analysis/widening.cl", "oneOfPaths", paramsOf(layout),
-                WEDGE_BLOCK_PIXELS, WEDGE_COMPONENT_DIFFUSE, 0u, WEDGE_INDIRECT_FIRST_RAYS, bench.buffer(kd.values),
-                paths, bench.buffer(packedParts), bench.buffer(taken.values), seen, deviation, weights);
+            PassBench paths(frame, "oneOfPaths");
+            REQUIRE(paths.own<std::uint32_t>("firstPass") == WEDGE_INDIRECT_FIRST_RAYS);
+            REQUIRE(paths.own<std::uint32_t>("component") == WEDGE_COMPONENT_DIFFUSE);
+            paths.plane("reflectance", kd);
+            paths.plane("value", sums);
+            paths.plane("parts", colours);
+            paths.plane("taken", taken);
+            const auto ofPart = paths.pixels<float>("parts"); // in 48 bits
+            paths.run();
             constexpr double luminances[] = { 0.2126, 0.7152, 0.0722 };
             check(
-                WEDGE_INDIRECT_FIRST_RAYS,
+                paths, "irradiance", WEDGE_INDIRECT_FIRST_RAYS,
                 [&](int x, int y) {
                     double sum = 0;
                     for (std::size_t c = 0; c < 3; ++c)
@@ -113,8 +117,7 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
                     return sum;
                 });
             // Sums become means, and their fourth plane the variance.
-            const Planes<float> after = planesOf(layout, bench.read(paths)),
-                                ofPaths = planesOf(layout, bench.read(deviation));
+            const auto after = paths.pixels<float>("value"), ofPaths = paths.pixels<float>("deviation");
             for (int y = 0; y < static_cast<int>(layout.height); ++y)
                 for (int x = 0; x < static_cast<int>(layout.width); ++x) {
                     REQUIRE(after.at(x, y, 3) == ofPaths.at(x, y) * ofPaths.at(x, y));
@@ -129,13 +132,12 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
                 for (std::size_t plane = 0; plane < 4 && x % 4 == 0; ++plane)
                     some.at(x, y, plane) = 0;
             });
-            const auto fractions = bench.buffer(some.values);
-            bench.passes.rows("widen", device::PassKind::Filter, "analysis/widening.cl", "oneOfPaths", paramsOf(layout),
-                WEDGE_BLOCK_PIXELS, WEDGE_COMPONENT_ENVIRONMENT_GLOSSY, 1u, WEDGE_INDIRECT_FIRST_RAYS,
-                bench.buffer(ks.values), fractions, bench.buffer(packedParts), bench.buffer(taken.values), seen,
-                deviation, weights);
-            const Planes<float> found = planesOf(layout, bench.read(fractions)),
-                                noise = planesOf(layout, bench.read(deviation));
+            paths.value("component", WEDGE_COMPONENT_ENVIRONMENT_GLOSSY);
+            paths.value("fractions", 1u);
+            paths.plane("reflectance", ks);
+            paths.plane("value", some);
+            paths.run();
+            const auto found = paths.pixels<float>("value"), noise = paths.pixels<float>("deviation");
             everyPixel(layout, [&](int x, int y) {
                 double sum = 0;
                 for (std::size_t c = 0; c < 3; ++c)
