@@ -10,8 +10,6 @@ using namespace wedge::test;
 
 namespace {
 
-constexpr std::uint32_t block = WEDGE_BLOCK_PIXELS;
-
 /// First-pass results of a made-up image: two objects and holes, slopes at some of the pixels.
 struct Slopes {
     shared::AnalysisParams params {};
@@ -61,49 +59,88 @@ struct Published {
     Planes<std::uint32_t> wanted;
 };
 
+/// Passes of frames of one receiver a pixel and one light, with the default analysis and the published one.
 class Analysis {
 public:
-    explicit Analysis(const device::Device& device)
-        : bench(device)
+    Analysis(const device::Device& device, const render::PlaneLayout& layout)
+        : smoothing_(device, glossy(), settings(render::axisAligned(16), layout))
+        , publishing_(device, glossy(), settings(render::asPublished(), layout))
     {
     }
-    template <class... Args>
-    void launch(const std::string& kernel, const shared::AnalysisParams& p, std::uint32_t across, const Args&... args)
+    PassBench smoothing(const std::string& kernel, const shared::AnalysisParams& p)
     {
-        bench.passes.rows("analysis", device::PassKind::Analysis, "analysis/analysis.cl", kernel, p, across, args...);
+        PassBench pass(smoothing_, kernel);
+        pass.value("p", p);
+        return pass;
     }
+    PassBench publishing(const std::string& kernel, const shared::AnalysisParams& p)
+    {
+        PassBench pass(publishing_, kernel);
+        pass.value("p", p);
+        return pass;
+    }
+
     Planes<float> eroded(const Slopes& in)
     {
-        const auto out = bench.filled(in.layout().size, 0.0f);
-        launch("erodeSlopes", in.params, block, bench.buffer(in.slopes.values), bench.buffer(in.objectId.values), out);
-        return planesOf(in.layout(), bench.read(out));
+        PassBench pass = smoothing("erodeSlopes", in.params);
+        pass.plane("slopes", in.slopes);
+        pass.plane("objectId", in.objectId);
+        pass.run();
+        return pass.pixels<float>("eroded");
     }
     Planes<float> smoothed(const Slopes& in, int radius)
     {
-        const auto out = bench.filled(2 * in.layout().size, 0.0f);
-        launch("smoothSlopes", in.params, block, radius, bench.buffer(in.slopes.values),
-            bench.buffer(in.objectId.values), out);
-        return planesOf(in.layout(), bench.read(out));
+        PassBench pass = smoothing("smoothSlopes", in.params);
+        pass.value("radius", radius);
+        pass.plane("eroded",
+            std::vector<float>(
+                in.slopes.values.begin(), in.slopes.values.begin() + static_cast<std::ptrdiff_t>(in.layout().size)));
+        pass.plane("objectId", in.objectId);
+        pass.run();
+        return pass.pixels<float>("logSlopes");
     }
-    Planes<float> spread(const Slopes& in, const Planes<float>& from, std::uint32_t planes)
+    /// Of two planes, or of the published four.
+    Planes<float> spread(const Slopes& in, const Planes<float>& from)
     {
-        const auto rows = bench.filled(from.values.size(), 0.0f), out = bench.filled(from.values.size(), 0.0f);
-        launch("spreadRows", in.params, block, planes, bench.buffer(from.values), rows);
-        launch("spreadColumns", in.params, block, planes, rows, out);
-        return planesOf(in.layout(), bench.read(out));
+        const bool two = from.values.size() == 2 * in.layout().size;
+        PassBench rows = two ? smoothing("spreadRows", in.params) : publishing("spreadRows", in.params);
+        PassBench columns = two ? smoothing("spreadColumns", in.params) : publishing("spreadColumns", in.params);
+        rows.plane("in", from);
+        rows.run();
+        columns.plane("in", rows.read<float>("out"));
+        columns.run();
+        return columns.pixels<float>("out");
     }
     /// distances: sums that spread
     Published published(const Slopes& in, const shared::AnalysisParams& p, const Planes<float>& distances)
     {
-        const auto beta = bench.filled(in.layout().size, -7.0f);
-        const auto wanted = bench.filled(in.layout().size, 777u);
-        launch("publishedWidths", p, 1, in.params.mu, bench.buffer(in.slopes.values), bench.buffer(distances.values),
-            bench.buffer(in.objectId.values), bench.buffer(in.pixelSize.values), bench.buffer(in.sums.values), beta,
-            wanted);
-        return { planesOf(in.layout(), bench.read(beta)), planesOf(in.layout(), bench.read(wanted)) };
+        PassBench pass = publishing("publishedWidths", p);
+        pass.value("countMu", in.params.mu);
+        pass.plane("slopes", in.slopes);
+        pass.plane("distances", distances);
+        pass.plane("objectId", in.objectId);
+        pass.plane("pixelSize", in.pixelSize);
+        std::vector<float> sums = in.sums.values; // the first of all
+        sums.resize(pass.read<float>("sums").size());
+        pass.plane("sums", sums);
+        pass.plane("wanted", std::vector<std::uint32_t>(in.layout().size, 777));
+        pass.run();
+        return { pass.pixels<float>("beta"), pass.pixels<std::uint32_t>("wanted") };
     }
 
-    KernelBench bench;
+private:
+    static scene::Scene glossy()
+    {
+        scene::Scene out = smallScene();
+        out.materials[0].specular = glm::vec3(0.3f);
+        return out;
+    }
+    static render::Settings settings(const render::Settings& method, const render::PlaneLayout& layout)
+    {
+        return sized(method, static_cast<int>(layout.width), static_cast<int>(layout.height));
+    }
+
+    DeclaredFrame smoothing_, publishing_;
 };
 
 /// Calls visit(qx, qy) for the pixels of the image within `radius` of (x, y).
@@ -149,9 +186,8 @@ TEST_CASE("luminanceOf reads textures of all kinds of terms and frames")
 TEST_CASE("erodeSlopes takes the least slope of the same object within 3x3")
 {
     onEveryDevice([](const device::Device& device) {
-        Analysis analysis(device);
         for (const Slopes& in : cases()) {
-            const Planes<float> found = analysis.eroded(in);
+            const Planes<float> found = Analysis(device, in.layout()).eroded(in);
             everyPixel(in.layout(), [&](int x, int y) {
                 float least = 0;
                 around(in, x, y, 1, [&](int qx, int qy) {
@@ -168,10 +204,9 @@ TEST_CASE("erodeSlopes takes the least slope of the same object within 3x3")
 TEST_CASE("smoothSlopes averages the logarithm over the object's slopes near by, where there is one")
 {
     onEveryDevice([](const device::Device& device) {
-        Analysis analysis(device);
         for (const Slopes& in : cases())
             for (const int radius : { 1, 2 }) {
-                const Planes<float> found = analysis.smoothed(in, radius);
+                const Planes<float> found = Analysis(device, in.layout()).smoothed(in, radius);
                 everyPixel(in.layout(), [&](int x, int y) {
                     double sum = 0, count = 0;
                     around(in, x, y, radius, [&](int qx, int qy) {
@@ -191,7 +226,6 @@ TEST_CASE("smoothSlopes averages the logarithm over the object's slopes near by,
 TEST_CASE("spreadRows and spreadColumns sum a window, plain or with Gaussian weights, the same on both sides")
 {
     onEveryDevice([](const device::Device& device) {
-        Analysis analysis(device);
         for (Slopes in : cases())
             for (const float sigma : { 0.0f, 2.5f }) {
                 in.params.fillRadius = 7;
@@ -202,7 +236,7 @@ TEST_CASE("spreadRows and spreadColumns sum a window, plain or with Gaussian wei
                     from.at(x, y) = static_cast<float>(uniform(random, -3, 3));
                     from.at(x, y, 1) = static_cast<float>(random() % 2);
                 });
-                const Planes<float> found = analysis.spread(in, from, 2);
+                const Planes<float> found = Analysis(device, in.layout()).spread(in, from);
                 everyPixel(in.layout(), [&](int x, int y) {
                     double sums[2] = { 0, 0 };
                     around(in, x, y, 7, [&](int qx, int qy) {
@@ -221,12 +255,12 @@ TEST_CASE("spreadRows and spreadColumns sum a window, plain or with Gaussian wei
 TEST_CASE("widths are (3.13) of the pixel's own slope, else of what spread to it; 0 far from shadows, -1 without light")
 {
     onEveryDevice([](const device::Device& device) {
-        Analysis analysis(device);
         for (Slopes in : cases())
             for (const Kept kept : { Kept::Full, Kept::Lean }) {
                 MovingFrame frame(device, kept, in.layout());
                 in.params.fillScale = -0.05f;
-                const Planes<float> logs = analysis.smoothed(in, 1), spread = analysis.spread(in, logs, 2);
+                Analysis analysis(device, in.layout());
+                const Planes<float> logs = analysis.smoothed(in, 1), spread = analysis.spread(in, logs);
                 PassBench pass(frame, "widths");
                 pass.plane("logSlopes", logs);
                 pass.plane("spread", spread);
@@ -268,7 +302,6 @@ double narrowedWidth(glm::dvec3 toLight, glm::dvec3 toEye, shared::Gloss gloss, 
 TEST_CASE("highlights narrow widths by their share, those of no width and of no highlight stay")
 {
     onEveryDevice([](const device::Device& device) {
-        Analysis analysis(device);
         shared::FrameParams frame {};
         frame.eye = shared::vec3(2, 3, 6);
         const glm::dvec3 eye(2, 3, 6), centre(1, 4, 1.5);
@@ -294,17 +327,23 @@ TEST_CASE("highlights narrow widths by their share, those of no width and of no 
                 before.at(x, y) = random() % 5 == 0 ? static_cast<float>(random() % 2) - 1.0f
                                                     : static_cast<float>(uniform(random, 0.001, 0.5));
             });
-            const auto beta = analysis.bench.buffer(before.values);
-            analysis.launch("narrowForLobes", in.params, 1, frame, analysis.bench.buffer(sums.values),
-                analysis.bench.buffer(in.position.values), analysis.bench.buffer(gloss.values),
-                analysis.bench.buffer(diffuse.values), analysis.bench.buffer(specular.values), beta);
-            const Planes<float> one = planesOf(in.layout(), analysis.bench.read(beta));
+            Analysis analysis(device, in.layout());
+            PassBench lobes = analysis.smoothing("narrowForLobes", in.params);
+            lobes.value("frame", frame);
+            lobes.plane("sums", sums);
+            lobes.plane("position", in.position);
+            lobes.plane("gloss", gloss);
+            lobes.plane("diffuse", diffuse);
+            lobes.plane("specular", specular);
+            lobes.plane("beta", before);
+            lobes.run();
+            const auto one = lobes.pixels<float>("beta");
             everyPixel(in.layout(), [&](int x, int y) {
                 const glm::dvec3 at = in.position.vector(x, y), toLight = centre - at, toEye = eye - at;
                 const double wide = before.at(x, y);
-                const double lobes = specular.at(x, y) * sums.at(x, y, 2), matt = diffuse.at(x, y) * sums.at(x, y) / pi;
-                const double expected = wide > 0 && lobes > 0
-                    ? narrowedWidth(toLight, toEye, shared::unpackGloss(gloss.at(x, y)), lobes / (lobes + matt), wide)
+                const double lobe = specular.at(x, y) * sums.at(x, y, 2), matt = diffuse.at(x, y) * sums.at(x, y) / pi;
+                const double expected = wide > 0 && lobe > 0
+                    ? narrowedWidth(toLight, toEye, shared::unpackGloss(gloss.at(x, y)), lobe / (lobe + matt), wide)
                     : wide;
                 REQUIRE(one.at(x, y) == doctest::Approx(expected).epsilon(1e-4));
             });
@@ -340,13 +379,14 @@ TEST_CASE("highlights narrow widths by their share, those of no width and of no 
 TEST_CASE("the published fallback: mean distances within 5 pixels, then (3.13) and (3.21)")
 {
     onEveryDevice([](const device::Device& device) {
-        Analysis analysis(device);
-        KernelBench& bench = analysis.bench;
         for (const Slopes& in : cases()) {
-            const auto distances = bench.filled(4 * in.layout().size, 0.0f);
-            analysis.launch("publishedDistances", in.params, block, bench.buffer(in.slopes.values),
-                bench.buffer(in.position.values), bench.buffer(in.objectId.values), distances);
-            const Planes<float> spread = analysis.spread(in, planesOf(in.layout(), bench.read(distances)), 4);
+            Analysis analysis(device, in.layout());
+            PassBench distances = analysis.publishing("publishedDistances", in.params);
+            distances.plane("slopes", in.slopes);
+            distances.plane("position", in.position);
+            distances.plane("objectId", in.objectId);
+            distances.run();
+            const Planes<float> spread = analysis.spread(in, distances.pixels<float>("distances"));
             shared::AnalysisParams narrower = in.params; // filters: counts keep their own mu
             narrower.mu = 3;
             const Published found = analysis.published(in, narrower, spread);
@@ -384,7 +424,6 @@ TEST_CASE("the published fallback: mean distances within 5 pixels, then (3.13) a
 TEST_CASE("an occluder at the receiver or at the light gives widths and counts within bounds")
 {
     onEveryDevice([](const device::Device& device) {
-        Analysis analysis(device);
         Slopes in(2, 1, 1, 1.0);
         for (int x = 0; x < 2; ++x) {
             const float s = x == 0 ? WEDGE_SLOPE_MIN : WEDGE_SLOPE_MAX;
@@ -393,7 +432,8 @@ TEST_CASE("an occluder at the receiver or at the light gives widths and counts w
             in.sums.at(x, 0) = 9;
             in.pixelSize.at(x, 0) = 0.01f;
         }
-        const Published found = analysis.published(in, in.params, Planes<float>(in.layout(), 4, 0.0f));
+        const Published found =
+            Analysis(device, in.layout()).published(in, in.params, Planes<float>(in.layout(), 4, 0.0f));
         CHECK(found.beta.at(0, 0) == doctest::Approx(0.01 * 1.0001 / 6)); // the pixel's own bandlimit
         CHECK(found.beta.at(1, 0) == doctest::Approx(0.25 * 1e3 / 6));
         CHECK(found.wanted.at(0, 0) == 100);
