@@ -1,12 +1,13 @@
 // What lobes would see beyond the scene if nothing were hidden, and what samples make of it, kernel by kernel.
-#include "host/render/environment_table.h"
 #include "kernels/shared/bsdf.h"
 #include "kernels/shared/filter_params.h"
 #include "kernels/shared/light.h"
+#include "tests/environment_support.h"
 #include "tests/filter_oracle.h"
+#include "tests/pass_bench.h"
 
 #include <algorithm>
-#include <cstring>
+#include <memory>
 
 using namespace wedge;
 using namespace wedge::test;
@@ -65,6 +66,25 @@ glm::dvec3 reflectedOf(shared::Gloss gloss, glm::dvec3 n, glm::dvec3 v)
     return sum * (pi / rings * 2 * pi / spokes);
 }
 
+/// Of a glossy floor under a map.
+class LobeFrame : public DeclaredFrame {
+public:
+    LobeFrame(const device::Device& device, const std::shared_ptr<render::EnvironmentPicture>& picture)
+        : DeclaredFrame(device, under(picture), sized(render::axisAligned(16), width, height))
+    {
+    }
+
+private:
+    static scene::Scene under(const std::shared_ptr<render::EnvironmentPicture>& picture)
+    {
+        SceneBuilder b = openFloor();
+        b.scene.materials[0].specular = glm::vec3(0.3f);
+        b.scene.materials[0].exponent = 100; // of wide lobes samples are what is filtered
+        render::setEnvironment(b.scene, picture);
+        return b.scene;
+    }
+};
+
 /// What correctLobes() is handed; all that samples found is as expected until a test says otherwise.
 struct Lobes {
     Planes<float> specular { layout, 3, 0.5f }, sums { layout, 4, 0.0f }, whole { layout, 1, 0.0f },
@@ -93,12 +113,16 @@ struct Lobes {
     glm::dvec3 light(int x, int y) const { return unshadowed.vector(x, y); }
     Planes<float> corrected(const device::Device& device) const
     {
-        KernelBench bench(device, { { "WEDGE_SPECULAR", "1" } });
-        const auto out = bench.buffer(unshadowed.values);
-        bench.passes.rows("correct", device::PassKind::Composite, "light/unshadowed_environment.cl", "correctLobes",
-            paramsOf(layout), 1, bench.buffer(specular.values), bench.buffer(sums.values), bench.buffer(taken.values),
-            bench.buffer(objectId.values), bench.buffer(whole.values), out);
-        return planesOf(layout, bench.read(out));
+        LobeFrame frame(device, even(sky));
+        PassBench pass(frame, "correctLobes");
+        pass.plane("specular", specular);
+        pass.plane("sums", sums);
+        pass.plane("taken", taken);
+        pass.plane("objectId", objectId);
+        pass.plane("whole", whole);
+        pass.plane("unshadowed", unshadowed);
+        pass.run();
+        return pass.pixels<float>("unshadowed");
     }
 };
 
@@ -106,17 +130,16 @@ struct Lobes {
 
 TEST_CASE("lobesOfPixels is the integral of map, lobe and cosine, whatever the lobe")
 {
-    const render::EnvironmentPicture picture = smoothMap();
-    const render::EnvironmentTable table = render::environmentTable(&picture);
-    shared::FrameParams frame {};
-    frame.eye = shared::vec3(0.3f, -0.2f, 4);
+    const auto picture = std::make_shared<render::EnvironmentPicture>(smoothMap());
+    shared::FrameParams camera {};
+    camera.eye = shared::vec3(0.3f, -0.2f, 4);
     Planes<float> position(layout, 3, 0.0f), normal(layout, 3, 0.0f), specular(layout, 3, 0.0f);
     Planes<std::uint32_t> gloss(layout, 1, 0u);
     Planes<double> expected(layout, 3, 0.0);
     std::mt19937 random(9);
     everyPixel(layout, [&](int x, int y) {
         const glm::dvec3 at(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
-        const glm::dvec3 v = glm::normalize(toGlm(frame.eye) - at);
+        const glm::dvec3 v = glm::normalize(toGlm(camera.eye) - at);
         glm::dvec3 n = glm::normalize(v + 0.8 * unitVector(random));
         const shared::Gloss g = shared::makeGloss(
             static_cast<float>(std::pow(2.0, uniform(random, 4, 10))), x % 2 == 0 ? WEDGE_PHONG : WEDGE_BLINN_PHONG);
@@ -130,14 +153,18 @@ TEST_CASE("lobesOfPixels is the integral of map, lobe and cosine, whatever the l
             expected.at(x, y, c) = all[static_cast<int>(c)];
     });
     onEveryDevice([&](const device::Device& device) {
-        KernelBench bench(device, { { "WEDGE_SPECULAR", "1" }, { "WEDGE_ENVIRONMENT_MAP", "1" } });
-        const auto unshadowed = bench.filled(3 * layout.size, -7.0f), whole = bench.filled(layout.size, -7.0f);
-        bench.passes.rows("lobes", device::PassKind::Composite, "light/unshadowed_environment.cl", "lobesOfPixels",
-            paramsOf(layout), 1, frame, 8u, bench.buffer(std::vector { table.map }), bench.buffer(table.numbers),
-            bench.buffer(position.values), bench.buffer(normal.values), bench.buffer(gloss.values),
-            bench.buffer(specular.values), unshadowed, whole);
-        const Planes<float> found = planesOf(layout, bench.read(unshadowed)),
-                            brightness = planesOf(layout, bench.read(whole));
+        LobeFrame frame(device, picture);
+        PassBench pass(frame, "lobesOfPixels");
+        pass.value("frame", camera);
+        pass.value("rings", 8u);
+        pass.plane("position", position);
+        std::vector<float> normals = normal.values;
+        normals.resize(pass.read<float>("normal").size());
+        pass.plane("normal", normals);
+        pass.plane("gloss", gloss);
+        pass.plane("specular", specular);
+        pass.run();
+        const auto found = pass.pixels<float>("unshadowed"), brightness = pass.pixels<float>("whole");
         double worst = 0;
         everyPixel(layout, [&](int x, int y) {
             const glm::dvec3 k = specular.vector(x, y);
@@ -222,12 +249,11 @@ TEST_CASE("correctLobes: colours become those of samples, the more is hidden, an
 TEST_CASE("addLobeSamples adds means of what is seen, and what their parts say of the noise")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device, { { "WEDGE_SPECULAR", "1" } });
+        LobeFrame frame(device, even(sky));
+        PassBench pass(frame, "addLobeSamples");
         Planes<float> specular(layout, 3, 0.0f), sums(layout, 4, 0.0f), noisy(layout, 3, 0.0f),
-            deviation(layout, 1, 0.0f), part(layout, 1, 0.0f);
+            deviation(layout, 1, 0.0f), parts(layout, 3, 0.0f);
         Planes<std::uint32_t> taken(layout, 1, 0u);
-        std::vector<float> parts(2 * layout.size);
-        const auto bytes = reinterpret_cast<char*>(parts.data());
         std::mt19937 random(2);
         everyPixel(layout, [&](int x, int y) {
             const auto any = [&] { return static_cast<float>(uniform(random, 0.1, 1)); };
@@ -237,20 +263,19 @@ TEST_CASE("addLobeSamples adds means of what is seen, and what their parts say o
             for (std::size_t plane = 0; plane < 4; ++plane)
                 sums.at(x, y, plane) = static_cast<float>(taken.at(x, y)) * any();
             deviation.at(x, y) = shared::unpackShort(shared::packShort(any()));
-            const shared::PackedColour packed = shared::packColour(shared::vec3(any(), any(), 0));
-            part.at(x, y) = shared::unpackColour(packed).x;
-            const std::size_t i = part.index(x, y);
-            const auto high = static_cast<std::uint16_t>(packed.high);
-            std::memcpy(bytes + 4 * i, &packed.low, 4);
-            std::memcpy(bytes + 4 * layout.size + 2 * i, &high, 2);
+            parts.setVector(x, y, { any(), any(), 0 });
         });
         constexpr std::uint32_t firstPass = 4;
-        const auto added = bench.buffer(noisy.values), deviations = bench.buffer(inShorts(deviation));
-        bench.passes.rows("composite", device::PassKind::Composite, "frame/composite.cl", "addLobeSamples",
-            paramsOf(layout), WEDGE_BLOCK_PIXELS, firstPass, bench.buffer(specular.values), bench.buffer(sums.values),
-            bench.buffer(parts), bench.buffer(taken.values), added, deviations);
-        const Planes<float> found = planesOf(layout, bench.read(added)),
-                            off = ofShorts(layout, 1, bench.read(deviations));
+        pass.value("firstPass", firstPass);
+        pass.plane("specular", specular);
+        pass.plane("sums", sums);
+        pass.plane("parts", parts);
+        pass.plane("taken", taken);
+        pass.plane("noisy", noisy);
+        pass.plane("deviation", deviation);
+        const auto part = pass.pixels<float>("parts"); // in 48 bits
+        pass.run();
+        const auto found = pass.pixels<float>("noisy"), off = pass.pixels<float>("deviation");
         everyPixel(layout, [&](int x, int y) {
             const double n = taken.at(x, y);
             const glm::dvec3 k = specular.vector(x, y), mean = n > 0 ? sums.vector(x, y) / n : glm::dvec3(0);
@@ -270,7 +295,9 @@ TEST_CASE(
     onEveryDevice([](const device::Device& device) {
         for (const std::uint32_t channels : { 1u, 2u })
             for (const std::uint32_t shading : { WEDGE_SHADING_SEPARATE, WEDGE_SHADING_INSIDE, WEDGE_SHADING_RATIO }) {
-                KernelBench bench(device, channels == 2 ? Defines { { "WEDGE_SPECULAR", "1" } } : Defines {});
+                scene::Scene scene = smallScene();
+                scene.materials[0].specular = glm::vec3(channels == 2 ? 0.3f : 0.0f);
+                DeclaredFrame frame(device, scene, sized(render::axisAligned(16), width, height));
                 Planes<float> sums(layout, 2 * channels, 0.0f);
                 Planes<std::uint32_t> taken(layout, 1, 0u);
                 std::mt19937 random(6);
@@ -284,10 +311,12 @@ TEST_CASE(
                 });
                 shared::SampleParams params {};
                 params.shading = shading;
-                const auto value = bench.filled(channels * layout.size, -7.0f);
-                bench.passes.rows("means", device::PassKind::Filter, "light/light_means.cl", "lightMeans",
-                    paramsOf(layout), 1, params, bench.buffer(sums.values), bench.buffer(taken.values), value);
-                const Planes<float> found = planesOf(layout, bench.read(value));
+                PassBench pass(frame, "lightMeans");
+                pass.value("params", params);
+                pass.plane("sums", sums);
+                pass.plane("taken", taken);
+                pass.run();
+                const auto found = pass.pixels<float>("value");
                 everyPixel(layout, [&](int x, int y) {
                     for (std::size_t c = 0; c < channels; ++c) {
                         const bool inside = shading == WEDGE_SHADING_INSIDE;
