@@ -128,33 +128,37 @@ Placement place(const std::vector<Tenant>& tenants, std::uint64_t alignment, con
         return std::accumulate(placement.slabs.begin(), placement.slabs.end(), std::uint64_t { 0 });
     };
     Placement best;
-    std::vector<std::size_t> bestOrder;
     const auto tries = [&](const std::vector<std::size_t>& order) {
         Placement found = placeInOrder(tenants, order, aligned, slabRules);
-        const bool better = best.places.empty() || sum(found) < sum(best);
-        if (better) {
+        if (best.places.empty() || sum(found) < sum(best)) {
             best = found;
-            bestOrder = order;
         }
         return found;
     };
+    struct Tried {
+        std::vector<std::size_t> order;
+        Placement found;
+    };
+    std::vector<Tried> tried;
     for (const auto& before : rules) {
         std::vector<std::size_t> order(tenants.size());
         std::iota(order.begin(), order.end(), 0u);
         std::stable_sort(order.begin(), order.end(), before);
-        tries(order);
+        Placement found = tries(order);
+        tried.push_back({ std::move(order), std::move(found) });
         if (slabRules.sharing == Sharing::Apart || sum(best) <= least) {
             return best;
         }
     }
-    // Who sticks out is placed first the next time.
-    std::vector<std::size_t> order = bestOrder;
-    Placement last = best;
-    for (int k = 0; k < 16 && sum(best) > least; ++k) {
-        const auto top = [&](std::size_t i) { return end(last.places[i].offset, tenants[i].bytes); };
-        const auto highest = std::ranges::max_element(order, {}, top);
-        std::rotate(order.begin(), highest, highest + 1);
-        last = tries(order);
+    // Who sticks out is placed first the next time. No order is the one to begin with for all graphs, either.
+    std::ranges::stable_sort(tried, {}, [&](const Tried& one) { return sum(one.found); });
+    for (Tried& one : tried) {
+        for (int k = 0; k < 16 && sum(best) > least; ++k) {
+            const auto top = [&](std::size_t i) { return end(one.found.places[i].offset, tenants[i].bytes); };
+            const auto highest = std::ranges::max_element(one.order, {}, top);
+            std::rotate(one.order.begin(), highest, highest + 1);
+            one.found = tries(one.order);
+        }
     }
     return best;
 }

@@ -43,8 +43,9 @@ public:
     void declare()
     {
         f_.items(pass, PassKind::Analysis, { file, "firstScales" }, 1, { writes("scale", scale_) });
+        StripeSums sums = stripes(WEDGE_SCALE_SUMS);
         for (int round = 0; round < WEDGE_SCALE_ROUNDS; ++round) {
-            const StripeSums sums = added("samplesAtScales", WEDGE_SCALE_SUMS, [&](const AskedSamples& kind) {
+            add("samplesAtScales", sums, [&](const AskedSamples& kind) {
                 return Arguments { reads("demand", kind.demand), readIfAny("taken", kind.taken),
                     readIfAny("mask", asked_.mask) };
             });
@@ -53,7 +54,8 @@ public:
                     updates("scale", scale_) });
         }
         if (kinds_[0].uncertainty) {
-            const StripeSums noise = added("noiseOfCounts", WEDGE_EVEN_SHARES, [](const AskedSamples& kind) {
+            StripeSums noise = stripes(WEDGE_EVEN_SHARES);
+            add("noiseOfCounts", noise, [](const AskedSamples& kind) {
                 return Arguments { reads("demand", kind.demand), readIfAny("taken", kind.taken),
                     reads("uncertainty", kind.uncertainty.value()) };
             });
@@ -75,13 +77,18 @@ private:
         return kinds_.size() > 1 ? reads(name, sums.others) : graph::absent(name);
     }
 
-    /// Sums of a kernel over all kinds of samples, so many numbers a stripe. planes(kind): what it reads of pixels.
-    template <class Planes>
-    StripeSums added(const char* kernel, std::uint64_t numbers, const Planes& planes)
+    /// So many numbers a stripe.
+    StripeSums stripes(std::uint64_t numbers)
     {
         const std::uint64_t elements = WEDGE_SCALE_STRIPES * numbers;
-        StripeSums out { f_.graph.list<Share>("sums of stripes", graph::floats, elements),
+        return { f_.graph.list<Share>("sums of stripes", graph::floats, elements),
             f_.graph.list<Share>("sums of stripes of others", graph::floats, elements) };
+    }
+
+    /// What a kernel adds up over all kinds of samples. planes(kind): what it reads of pixels.
+    template <class Planes>
+    void add(const char* kernel, StripeSums& out, const Planes& planes)
+    {
         for (std::size_t i = 0; i < kinds_.size(); ++i) {
             const AskedSamples& kind = kinds_[i];
             f_.items(pass, PassKind::Analysis, { file, kernel }, WEDGE_SCALE_STRIPES,
@@ -92,7 +99,6 @@ private:
                             : i == 1   ? writes("sums", out.others)
                                        : updates("sums", out.others) }));
         }
-        return out;
     }
 
     FrameBuilder& f_;
