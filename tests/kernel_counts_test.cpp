@@ -444,8 +444,9 @@ TEST_CASE(
     "where that is asked for, or there are no others; of one object, or of all pixels of the image")
 {
     onEveryDevice([](const device::Device& device) {
-        for (const auto& [width, height] : { std::pair(1, 1), { 1, 9 }, { 40, 21 }, { 48, 3 } })
+        for (const std::pair<int, int>& extent : { std::pair(1, 1), { 1, 9 }, { 40, 21 }, { 48, 3 } })
             for (const double dark : { 0.2, 1.0 }) {
+                const int width = extent.first, height = extent.second;
                 // What lies beside and below the image does not count.
                 const render::PlaneLayout layout(width, height + 2);
                 Planes<float> uncertainty(layout, 1, 1e30f);

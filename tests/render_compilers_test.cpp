@@ -33,9 +33,11 @@ device::Device opened()
     return device::Device::open("");
 }
 
-graph::Trial trialOf(const char* file, const char* kernel, std::size_t arguments)
+/// A program of a value of its own, which no other test has compiled.
+graph::Trial trialOf(const char* kernel, std::size_t arguments, int value)
 {
-    graph::Trial trial { file, kernel };
+    graph::Trial trial { device::ProgramSource("device_basic.cl", { { "TEST_VALUE", std::to_string(value) } }),
+        kernel };
     trial.items = 64;
     trial.itemsOfGroup = 16;
     trial.arguments.emplace_back(); // memory
@@ -45,13 +47,11 @@ graph::Trial trialOf(const char* file, const char* kernel, std::size_t arguments
 }
 
 /// Programs of the tests, one kernel each.
-render::CompileWork workOf(const device::Device& device, const std::vector<std::string>& defines)
+render::CompileWork workOf(const device::Device& device, int value)
 {
     render::CompileWork work { device.info().index, {}, 4096, {} };
     work.options.kernelDir = WEDGE_TEST_KERNELS;
-    for (const std::string& define : defines)
-        work.options.defines.emplace_back(define, "1");
-    work.programs.push_back({ trialOf("device_basic.cl", "addOne", 2) });
+    work.programs.push_back({ trialOf("addOne", 2, value) });
     return work;
 }
 
@@ -83,7 +83,7 @@ TEST_CASE("a process that is handed a file of work compiles what nobody has begu
     const device::Device device = opened();
     const bool keeps = device::driverKeepsKernels(device.info().platformVersion);
     const fs::path file = cache() / "work";
-    const auto bytes = render::workFile(workOf(device, { "OF_ANOTHER" }));
+    const auto bytes = render::workFile(workOf(device, 1));
     const auto write = [&](std::size_t count) {
         std::ofstream(file, std::ios::binary)
             .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(count));
@@ -110,9 +110,8 @@ TEST_CASE("work is done whether other processes start, fail, or help")
     int number = 0;
     for (const char* program : { "/nowhere/wedge", "/bin/false", WEDGE_PROGRAM }) {
         CAPTURE(program);
-        render::CompileWork work = workOf(device, { "CASE" + std::to_string(++number) });
-        work.programs.push_back({ trialOf("device_basic.cl", "testValue", 1) });
-        work.programs.back().back().program.defines.emplace_back("TEST_VALUE", "3"); // without which it does not build
+        render::CompileWork work = workOf(device, 10 + ++number);
+        work.programs.push_back({ trialOf("testValue", 1, 20 + number) });
         device::ProgramLibrary programs(device, work.options);
         graph::Kernels kernels(programs);
         device::TimedQueue queue(device);

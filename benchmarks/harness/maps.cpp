@@ -78,18 +78,19 @@ std::vector<Map> writeMaps(Lab& lab, render::Settings settings, const std::strin
     settings.seed = 1;
     render::Renderer& renderer = lab.renderer();
     const render::FrameStatistics frame = renderer.render(settings, {}, true);
-    const image::LayeredImage layers = render::readLayers(renderer, settings, frame,
-        { "samples", "filterWidth", "filterWidthLens", "filterWidthMotion", "primarySamples" });
+    const image::LayeredImage layers = render::readLayers(renderer, settings, frame, { "samples", "filterWidth" });
     MapWriter writer(lab, settings, folder);
     image::writePng(writer.pathOf(""), image::beauty(layers));
     writer.write("samples", "samples/pixel", layers.find("samples.Y")->values, true);
     // A pinhole scene file has none of the rest.
+    const image::LayeredImage blurs =
+        render::readLayers(renderer, settings, frame, { "filterWidthLens", "filterWidthMotion", "primarySamples" });
     if (renderer.frame().distributed) {
-        writer.write("primary", "samples/pixel", layers.find("primarySamples.Y")->values, true);
-        writer.write("width_lens", "pixels", layers.find("filterWidthLens.pixels")->values, false);
+        writer.write("primary", "samples/pixel", blurs.find("primarySamples.Y")->values, true);
+        writer.write("width_lens", "pixels", blurs.find("filterWidthLens.pixels")->values, false);
     }
     if (scene::geometryMoves(renderer.scene()) || scene::cameraMoves(renderer.scene())) {
-        writer.write("width_motion", "pixels", layers.find("filterWidthMotion.pixels")->values, false);
+        writer.write("width_motion", "pixels", blurs.find("filterWidthMotion.pixels")->values, false);
     }
     for (const image::Channel& channel : layers.channels) {
         if (const std::string name = widthName(channel.name); !name.empty()) {
