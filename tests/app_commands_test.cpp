@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <set>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -294,6 +295,30 @@ TEST_CASE("pixels that are not finite are counted and warned of")
     CHECK(rendered.err.rfind(warning, 0) == 0);
     CHECK(contains(rendered.out, "invalid pixels 3"));
     CHECK(nlohmann::json::parse(place.text("r.json")).at("error").at("invalid_pixels") == 3);
+}
+
+TEST_CASE("all layers that the help names are in the table of docs/command-line.md, with their channels")
+{
+    const Workplace place;
+    const std::string help = place.run({ "render", "--help" }).out;
+    std::ifstream page(WEDGE_SOURCE_DATA "/../docs/command-line.md");
+    const std::string table { std::istreambuf_iterator<char>(page), {} };
+    REQUIRE(contains(table, "## Layers of an EXR"));
+    std::istringstream lines(help.substr(help.find("Layers of an EXR")));
+    std::string line;
+    std::getline(lines, line);
+    int layers = 0;
+    while (std::getline(lines, line) && !line.empty()) {
+        CAPTURE(line);
+        std::istringstream words(line);
+        std::string name, channel;
+        words >> name >> channel;
+        if (channel.ends_with(':'))
+            channel.pop_back();
+        CHECK(contains(table, "`" + name + "." + channel));
+        ++layers;
+    }
+    CHECK(layers > 10);
 }
 
 TEST_CASE("devices, info, version and help")
