@@ -72,7 +72,8 @@ EdgeErrors edgeErrors(render::Renderer& renderer, const render::Settings& settin
     for (int x = 0; x < width; ++x) {
         double column = 0;
         for (int y = 0; y < height; ++y) {
-            const std::size_t i = static_cast<std::size_t>(y * width + x);
+            const std::size_t i =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
             const double e = (beauty[3 * i] - expected[i]) / peak;
             out.rms += e * e / (width * height);
             out.worst = std::max(out.worst, std::fabs(e));
@@ -428,13 +429,14 @@ TEST_CASE("an edge through an antialiased pixel is as its filter has it")
         b.quad({ static_cast<float>(shift * pixel - 50), 0, 0 }, { 50, 0, 0 }, { 0, 50, 0 });
         b.camera({ 0, 0, static_cast<float>(distance) }, { 0, 0, 0 });
         render::Renderer renderer(b.scene, device, renderOptions());
-        for (const auto& [filter, cumulative] :
-            std::vector<std::pair<render::PixelFilter, std::function<double(double)>>> {
-                { render::PixelFilter::Box, [](double x) { return std::clamp(x + 0.5, 0.0, 1.0); } },
-                { render::PixelFilter::Gaussian, [](double x) {
-                     return std::clamp(
-                         0.5 + 0.5 * std::erf(x * std::sqrt(2.0)) / std::erf(3 / std::sqrt(2.0)), 0.0, 1.0);
-                 } } }) {
+        for (const auto& each : std::vector<std::pair<render::PixelFilter, std::function<double(double)>>> {
+                 { render::PixelFilter::Box, [](double x) { return std::clamp(x + 0.5, 0.0, 1.0); } },
+                 { render::PixelFilter::Gaussian, [](double x) {
+                      return std::clamp(
+                          0.5 + 0.5 * std::erf(x * std::sqrt(2.0)) / std::erf(3 / std::sqrt(2.0)), 0.0, 1.0);
+                  } } }) {
+            const render::PixelFilter filter = each.first;
+            const std::function<double(double)>& cumulative = each.second;
             for (const render::Method method : { render::Method::MonteCarlo, render::Method::AxisAligned }) {
                 render::Settings s =
                     sized(method == render::Method::MonteCarlo ? render::monteCarlo(1024) : render::axisAligned(1024),
@@ -443,7 +445,7 @@ TEST_CASE("an edge through an antialiased pixel is as its filter has it")
                 s.pixelFilter = filter;
                 const std::vector<float> seen = renderPixels(renderer, s);
                 for (int x = 0; x < wide; ++x) {
-                    const double expected = cumulative(shift - (x + 0.5 - wide / 2));
+                    const double expected = cumulative(shift - (x + 0.5 - 0.5 * wide));
                     CAPTURE(x);
                     CAPTURE((filter == render::PixelFilter::Box));
                     CHECK(std::fabs(seen[static_cast<std::size_t>(3 * (4 * wide + x))] - expected) < 0.004);

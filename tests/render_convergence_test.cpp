@@ -162,7 +162,9 @@ TEST_CASE("pixels alone in a small penumbra take the samples that they need")
         for (int y = 2; y < height - 2; ++y)
             for (int x = 2; x < width - 2; ++x) {
                 const auto at = [&](int px, int py) {
-                    return reference[static_cast<std::size_t>(3 * (py * width + px))];
+                    return reference[3
+                        * (static_cast<std::size_t>(py) * static_cast<std::size_t>(width)
+                            + static_cast<std::size_t>(px))];
                 };
                 const double around = 0.25 * (at(x - 2, y) + at(x + 2, y) + at(x, y - 2) + at(x, y + 2));
                 const double seen = at(x, y) / around;
