@@ -315,7 +315,9 @@ TEST_CASE("all layers that the help names are in the table of docs/command-line.
         words >> name >> channel;
         if (channel.ends_with(':'))
             channel.pop_back();
-        CHECK(contains(table, "`" + name + "." + channel));
+        std::string entry = "`";
+        entry.append(name).append(".").append(channel);
+        CHECK(contains(table, entry));
         ++layers;
     }
     CHECK(layers > 10);
