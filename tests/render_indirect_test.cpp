@@ -120,8 +120,11 @@ TEST_CASE("indirect light: any crop has the bits of the whole image")
                 std::vector<float> expected;
                 for (int y = crop.y0; y < crop.y1; ++y)
                     for (int x = crop.x0; x < crop.x1; ++x)
-                        for (int c = 0; c < 3; ++c)
-                            expected.push_back(whole[static_cast<std::size_t>(3 * (y * width + x) + c)]);
+                        for (std::size_t c = 0; c < 3; ++c)
+                            expected.push_back(whole[3
+                                    * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width)
+                                        + static_cast<std::size_t>(x))
+                                + c]);
                 CAPTURE(crop.x0);
                 CAPTURE(crop.y0);
                 CHECK(sameBits(pixels(renderer, "beauty", crop), expected));
@@ -220,7 +223,8 @@ TEST_CASE(
             double sum = 0;
             for (int y = 0; y < height; ++y)
                 for (int x = 0; x < width; ++x) {
-                    const std::size_t i = static_cast<std::size_t>(3 * (y * width + x));
+                    const std::size_t i = 3
+                        * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
                     const bool surface = id[shared::pixelIndex(static_cast<std::uint32_t>(x),
                                              static_cast<std::uint32_t>(y), f.layout.stride)]
                         != 0;

@@ -102,12 +102,12 @@ TEST_CASE("no scene makes NaN, infinity or negative light, with any method")
         for (const NastyScene& nasty : nastyScenes()) {
             CAPTURE(nasty.name);
             render::Renderer renderer(nasty.scene, device, renderOptions());
-            for (const auto& [width, height] : { std::pair(1, 1), { 33, 25 } })
+            for (const std::pair<int, int>& size : { std::pair(1, 1), { 33, 25 } })
                 for (const render::Settings& settings :
                     { render::monteCarlo(3), render::axisAligned(16), render::asPublished() }) {
-                    CAPTURE(width);
+                    CAPTURE(size.first);
                     CAPTURE(methodName(settings.method));
-                    checkFinite(renderer, sized(settings, width, height));
+                    checkFinite(renderer, sized(settings, size.first, size.second));
                 }
         }
     });
