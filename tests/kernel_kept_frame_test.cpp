@@ -3,6 +3,7 @@
 #include "filters/temporal/temporal.h"
 #include "tests/glass_support.h"
 #include "tests/pass_bench.h"
+#include "tests/product_programs.h"
 
 #include <cmath>
 #include <set>
@@ -15,12 +16,14 @@ namespace {
 constexpr int width = 37, height = 21;
 constexpr glm::dvec3 weights(0.2126, 0.7152, 0.0722);
 
-/// A frame that is filtered over time: of filtered light, which has deviations, and indirect light; else of Monte
-/// Carlo's. Of one with mirrors pixels that reflect nothing diffusely are looked at.
+/// A frame that is filtered over time: of filtered light, and indirect light; else of Monte Carlo's. Of one with
+/// mirrors pixels that reflect nothing diffusely are looked at.
 struct Kind {
     bool filtered, antialias, mirrors;
+
+    bool measures() const { return filtered && !antialias; } ///< pixels know their own noise
 };
-constexpr Kind kinds[] = { { true, false, false }, { false, true, true } };
+constexpr Kind kinds[] = { { true, false, false }, { true, true, false }, { false, true, true } };
 
 render::Settings settingsOf(const Kind& kind)
 {
@@ -47,17 +50,13 @@ void inAllFrames(const std::string& kernel, const Test& test)
     onEveryDevice([&](const device::Device& device) {
         for (const Kind& kind : kinds) {
             CAPTURE(kind.filtered);
-            CAPTURE(kind.mirrors);
+            CAPTURE(kind.antialias);
             render::Renderer renderer(sceneOf(kind), device, renderOptions());
-            const render::Settings settings = settingsOf(kind);
-            render::Settings brief = settings; // of which there are the same planes, and fewer kernels to compile
-            brief.bounces = 0;
-            renderer.rehearse(brief, true);
-            std::optional<PassBench> bench;
-            filters::TemporalFilter(device).show(
-                renderer, settings, [&](const graph::Graph& graph) { bench.emplace(renderer, graph, kernel); });
-            REQUIRE(bench.has_value());
-            test(kind, *bench);
+            filters::TemporalFilter filter(device);
+            render::HalfMemories none { render::SampleMemory(nullptr), render::SampleMemory(nullptr) };
+            const auto frame = declareFrame(renderer, nullptr, settingsOf(kind), false, none, &filter);
+            PassBench bench(renderer, frame->graph(), kernel);
+            test(kind, bench);
         }
     });
 }
@@ -119,7 +118,7 @@ TEST_CASE("keepFrame: depths, normals, objects, and light over what reflects it"
         fillFrame(bench, kind);
         auto p = bench.own<shared::TemporalParams>("p");
         REQUIRE((p.mixed != 0) == kind.antialias);
-        REQUIRE((p.measured != 0) == kind.filtered);
+        REQUIRE((p.measured != 0) == kind.measures());
         const auto of = [&](const char* name) { return bench.pixels<float>(name); };
         const auto position = of("position"), normal = of("normal"), diffuse = of("diffuse"), specular = of("specular");
         const auto objectId = bench.pixels<std::uint32_t>("objectId");
@@ -189,7 +188,7 @@ TEST_CASE("findVariation: noise beside the pixel and the light's slope, of pixel
         bench.plane("variation", someNumbers(random, size, 0, 0.5));
         const auto noisy = bench.pixels<float>("noisy"), before = bench.pixels<float>("variation");
         const bool measures = bench.own<shared::TemporalParams>("p").measured != 0;
-        REQUIRE(measures == kind.filtered);
+        REQUIRE(measures == kind.measures());
         bench.run();
         const auto variation = bench.pixels<float>("variation");
         unsigned alone = 0;
@@ -236,19 +235,15 @@ TEST_CASE("a rehearsed sequence builds no program: neither in its first frame, n
             CAPTURE(keptFirst);
             render::Renderer renderer(sceneOf(kinds[0]), device, renderOptions());
             render::Settings settings = settingsOf(kinds[0]);
-            settings.temporal = render::Temporal::On;
-            filters::TemporalFilter filter(device);
-            renderer.rehearse(settings, true);
-            filter.rehearse(renderer, settings);
+            const auto filter = std::make_shared<filters::TemporalFilter>(device);
+            renderer.filterFrames(filter);
+            renderer.rehearse(settings);
             const std::set<device::ProgramSource> rehearsed = renderer.kernels().programs();
             for (std::uint32_t frame = 0; frame < 3; ++frame) {
                 CAPTURE(frame);
                 settings.frame = frame;
-                render::FrameStatistics statistics = renderer.render(settings, {}, true);
-                if (keptFirst && frame == 0)
-                    filter.keep(renderer, settings, nullptr, statistics);
-                else
-                    filter.filter(renderer, settings, nullptr, statistics);
+                filter->next(nullptr, !keptFirst || frame > 0);
+                renderer.render(settings);
                 CHECK((renderer.kernels().programs() == rehearsed));
             }
         }

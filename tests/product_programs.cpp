@@ -98,24 +98,23 @@ bool everyFrame(const device::Device& device, const OfFrame& visit)
     return true;
 }
 
-/// Calls visit() with filters over time of two frames each, and what the second left.
+/// Calls visit() for frames that are filtered over time.
 void overTime(const device::Device& device,
-    const std::function<void(render::Renderer&, filters::TemporalFilter&, const Settings&)>& visit)
+    const std::function<void(const render::Renderer&, const Settings&, render::FrameFilter&)>& visit)
 {
     render::Renderer renderer(scene::loadScene(WEDGE_SOURCE_DATA "/scenes/penumbra.toml"), device);
+    const auto filter = std::make_shared<filters::TemporalFilter>(device);
+    renderer.filterFrames(filter);
     for (const render::Temporal temporal : { render::Temporal::On, render::Temporal::Published }) {
         for (const int bounces : { 1, 0 }) {
-            filters::TemporalFilter filter(device);
-            Settings settings = render::axisAligned(16);
-            settings.width = settings.height = 8;
-            settings.bounces = bounces;
-            settings.temporal = temporal;
-            for (std::uint32_t frame = 0; frame < 2; ++frame) {
-                settings.frame = frame;
-                render::FrameStatistics statistics = renderer.render(settings, {}, true);
-                filter.filter(renderer, settings, nullptr, statistics);
+            for (const bool antialias : { false, true }) {
+                Settings settings = render::axisAligned(16);
+                settings.width = settings.height = 8;
+                settings.bounces = bounces;
+                settings.antialias = antialias;
+                settings.temporal = temporal;
+                visit(renderer, settings, *filter);
             }
-            visit(renderer, filter, settings);
         }
     }
 }
@@ -123,7 +122,8 @@ void overTime(const device::Device& device,
 } // namespace
 
 std::unique_ptr<render::FrameGraph> declareFrame(const render::Renderer& renderer,
-    const render::DeviceScene* deviceScene, const Settings& settings, bool keepLayers, render::HalfMemories& memories)
+    const render::DeviceScene* deviceScene, const Settings& settings, bool keepLayers, render::HalfMemories& memories,
+    render::FrameFilter* filter)
 {
     const render::PreparedScene& scene = renderer.scene();
     const std::size_t packet = render::packetSize(renderer.traversal());
@@ -134,9 +134,9 @@ std::unique_ptr<render::FrameGraph> declareFrame(const render::Renderer& rendere
             scene, deviceScene, settings, packet, keepLayers, memories, step.before, step.spp);
     }
     if (render::isDistributed(settings, scene)) {
-        return std::make_unique<render::DistributedFrame>(scene, deviceScene, settings, packet, keepLayers);
+        return std::make_unique<render::DistributedFrame>(scene, deviceScene, settings, packet, keepLayers, filter);
     }
-    return std::make_unique<render::PixelFrame>(scene, deviceScene, settings, packet, keepLayers);
+    return std::make_unique<render::PixelFrame>(scene, deviceScene, settings, packet, keepLayers, filter);
 }
 
 void everyGraph(const device::Device& device, const std::function<void(const graph::Graph&)>& visit)
@@ -146,8 +146,9 @@ void everyGraph(const device::Device& device, const std::function<void(const gra
         visit(declareFrame(renderer, nullptr, settings, layers, memories)->graph());
         return true;
     });
-    overTime(device, [&](render::Renderer& renderer, filters::TemporalFilter& filter, const Settings& settings) {
-        filter.show(renderer, settings, visit);
+    overTime(device, [&](const render::Renderer& renderer, const Settings& settings, render::FrameFilter& filter) {
+        render::HalfMemories memories { render::SampleMemory(nullptr), render::SampleMemory(nullptr) };
+        visit(declareFrame(renderer, nullptr, settings, false, memories, &filter)->graph());
     });
 }
 
@@ -162,9 +163,8 @@ void everyProgram(const device::Device& device, const std::function<bool(const P
     if (!more) {
         return;
     }
-    overTime(device, [&](render::Renderer& renderer, const filters::TemporalFilter&, const Settings&) {
-        // Declared when they are run.
-        for (const device::ProgramSource& source : renderer.kernels().programs()) {
+    overTime(device, [&](const render::Renderer& renderer, const Settings& settings, render::FrameFilter&) {
+        for (const device::ProgramSource& source : renderer.programs(settings)) {
             visit({ renderer.programOptions(), source });
         }
     });

@@ -24,9 +24,9 @@ struct ProductProgram {
 /// null for one that cannot be run.
 std::unique_ptr<render::FrameGraph> declareFrame(const render::Renderer& renderer,
     const render::DeviceScene* deviceScene, const render::Settings& settings, bool keepLayers,
-    render::HalfMemories& memories);
+    render::HalfMemories& memories, render::FrameFilter* filter = nullptr);
 
-/// Calls visit(graph) for frames of many kinds, and for filters over time.
+/// Calls visit(graph) for frames of many kinds, some of which are filtered over time.
 void everyGraph(const device::Device& device, const std::function<void(const graph::Graph&)>& visit);
 
 /// Calls visit(program) for those of the same frames on a device, until it returns false.

@@ -189,29 +189,34 @@ Measured measure(const Arguments& a, const std::string& file, const Path& path, 
     settings.temporal = a.published ? render::Temporal::Published : render::Temporal::On;
     const std::uint32_t first = filters::firstOfWindow(last, settings.temporal);
     std::vector<std::vector<std::uint32_t>> objects(filters::temporalWindow);
-    renderer.rehearse(settings, true);
-    filters::TemporalFilter(device).rehearse(renderer, settings);
+    auto temporal = std::make_shared<filters::TemporalFilter>(device);
+    renderer.filterFrames(temporal);
+    renderer.rehearse(settings);
     for (int seed = 0; seed < a.seeds; ++seed) {
-        filters::TemporalFilter temporal(device);
+        temporal = std::make_shared<filters::TemporalFilter>(device);
+        renderer.filterFrames(temporal);
         settings.seed = static_cast<std::uint32_t>(seed);
         for (std::uint32_t number = first; number <= last; ++number) {
             course.moveTo(number, renderer);
             settings.frame = number;
-            render::FrameStatistics statistics = renderer.render(settings, {}, true);
+            temporal->next(course.places(), false);
+            renderer.render(settings);
             if (seed == 0) {
                 objects[number] = renderer.frame().counts("objectId").downloadAll(renderer.queue());
             }
             if (number < last) {
-                temporal.keep(renderer, settings, course.places(), statistics);
                 continue;
             }
             without.add(luminances(renderer, pixels), reference);
-            const std::uint64_t before = statistics.memoryBytes;
-            temporal.filter(renderer, settings, course.places(), statistics);
+            temporal->next(course.places());
+            const render::FrameStatistics statistics = renderer.render(settings);
             with.add(luminances(renderer, pixels), reference);
             overhead.push_back(statistics.overheadFraction());
             filter.push_back(statistics.milliseconds("filter over time"));
             frame.push_back(statistics.deviceMilliseconds);
+            render::Settings single = settings;
+            single.temporal = render::Temporal::Off;
+            const std::uint64_t before = renderer.planUnbacked(single).total();
             out.memoryMebibytes = static_cast<double>(statistics.memoryBytes - before) / (1 << 20);
         }
     }

@@ -1,12 +1,14 @@
 #include "filters/temporal/temporal.h"
 
-#include "host/graph/plan.h"
+#include "host/device/buffer.h"
+#include "host/graph/execution.h"
+#include "host/render/distributed_samples.h"
 #include "host/render/effect.h"
 #include "host/render/frame_builder.h"
 #include "kernels/shared/temporal.h"
 
-#include <chrono>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include <glm/trigonometric.hpp>
@@ -15,8 +17,11 @@ namespace wedge::filters {
 
 using device::PassKind;
 using graph::reads;
+using graph::Run;
 using graph::updates;
 using graph::writes;
+using render::Arguments;
+using render::joined;
 using render::Settings;
 
 namespace {
@@ -28,6 +33,7 @@ constexpr float normalDegrees = 25.0f;
 
 struct Noisy { }; ///< luminance before the filter
 struct Blocks { }; ///< numbers of blocks of pixels
+struct Motions { }; ///< motionsBetween()
 
 /// What a frame keeps in a plane.
 struct KeptPlane {
@@ -62,374 +68,343 @@ void setCamera(shared::TemporalParams& p, const shared::FrameParams& camera)
     p.down = camera.down;
 }
 
+bool haveMoved(const std::shared_ptr<const ObjectPlaces>& from, const std::shared_ptr<const ObjectPlaces>& to)
+{
+    return from && to && from != to && !areStill(*from, *to);
+}
+
 } // namespace
 
 struct TemporalFilter::Kept {
     std::optional<std::uint32_t> frame; ///< which it is; none: nothing yet
     shared::FrameParams camera {};
     std::shared_ptr<const ObjectPlaces> places;
-    std::vector<device::Buffer<std::uint8_t>> planes; ///< keptPlanes
+    std::vector<device::Buffer<std::uint8_t>> planes; ///< keptPlanes, once allocated
 };
 
-/// A frame's planes in the graph.
-struct TemporalFilter::Handles {
-    graph::Handle<render::Metres> depth;
-    graph::Handle<render::Packed> facing;
-    graph::Handle<render::ObjectId> object;
-    graph::Handle<render::Value> direct, indirect;
-    graph::Handle<Noisy> before;
-    graph::Handle<render::Squares> variation;
-};
+/// Those of one frame.
+class TemporalFilter::Passes {
+public:
+    Passes(TemporalFilter& filter, render::FrameBuilder& frame);
 
-/// The graph of one frame.
-struct TemporalFilter::Declaration {
-    Declaration(render::Renderer& theRenderer, const Settings& theSettings)
-        : renderer(theRenderer)
-        , settings(theSettings)
-        , frame(theRenderer.frame())
-        , graph(settings.width, settings.height, frame.layout.size)
-        , f { graph, theRenderer.scene(), nullptr, settings, frame.layout, 1 }
-        , indirect(hasIndirect(settings, theRenderer.scene()))
-    {
-        params.width = frame.layout.width;
-        params.height = frame.layout.height;
-        params.stride = frame.layout.stride;
-        params.planeSize = static_cast<std::uint32_t>(frame.layout.size);
-        params.blocksX = (params.width + WEDGE_TEMPORAL_BLOCK - 1) / WEDGE_TEMPORAL_BLOCK;
-        params.blocksY = (params.height + WEDGE_TEMPORAL_BLOCK - 1) / WEDGE_TEMPORAL_BLOCK;
-        params.indirect = indirect ? 1 : 0;
-        params.published = settings.temporal == render::Temporal::Published ? 1 : 0;
-        params.open = settings.integrator == render::Integrator::AmbientOcclusion ? 1 : 0;
-        params.mixed = frame.distributed ? 1 : 0;
-        params.measured = frame.has("directDeviation") ? 1 : 0;
-        params.normalCosine = std::cos(glm::radians(normalDegrees));
-        importFrame();
-    }
+    void declare();
 
-    void importFrame()
-    {
-        const auto import = [&]<class Quantity>(
-                                const char* name, graph::Handle<Quantity>& handle, const graph::Format& format) {
-            handle = graph.imported<Quantity>(name, format, frame.find(name).memory);
-        };
-        import("position", f.surfaces.position, graph::vectors);
-        import("normal", f.surfaces.normal, graph::vectors);
-        import("albedo", f.surfaces.diffuse, graph::vectors);
-        import("specular", f.surfaces.specular, graph::vectors);
-        import("objectId", f.surfaces.objectId, graph::counts);
-        import("direct", f.totals.direct.filtered, graph::vectors);
-        import("directNoisy", f.totals.direct.noisy, graph::vectors);
-        import("beauty", f.totals.beauty, graph::vectors);
-        const bool measured = params.measured != 0;
-        if (measured) {
-            import("directDeviation", f.totals.direct.deviation, render::shortFloats);
-        }
-        if (indirect) {
-            import("indirect", f.totals.indirect.filtered, graph::vectors);
-            import("indirectNoisy", f.totals.indirect.noisy, graph::vectors);
-        }
-        if (measured && indirect) {
-            import("indirectDeviation", f.totals.indirect.deviation, render::shortFloats);
-        }
-    }
+private:
+    /// A kept frame's planes in the graph.
+    struct Planes {
+        graph::Handle<render::Metres> depth;
+        graph::Handle<render::Packed> facing;
+        graph::Handle<render::ObjectId> object;
+        graph::Handle<render::Value> direct, indirect;
+        graph::Handle<Noisy> before;
+        graph::Handle<render::Squares> variation;
+    };
+    /// What a frame differs by from an earlier one, pixel by pixel.
+    struct Differences {
+        graph::Handle<render::Value> light;
+        graph::Handle<Noisy> noise;
+        graph::Handle<render::Squares> variations;
+        graph::Handle<render::Share> share;
+    };
 
-    Handles handlesOf(const Kept& kept)
-    {
-        const auto one = [&]<class Quantity>(graph::Handle<Quantity>& handle, KeptIndex index) {
-            handle =
-                graph.imported<Quantity>(keptPlanes[index].name, keptPlanes[index].format, kept.planes[index].cl());
-        };
-        Handles out;
-        one(out.depth, Depth);
-        one(out.facing, Facing);
-        one(out.object, Object);
-        one(out.direct, Direct);
-        one(out.before, Before);
-        one(out.variation, Variation);
-        if (indirect) {
-            one(out.indirect, Indirect);
-        }
-        return out;
-    }
-
+    Kept& slotOf(std::uint32_t frame) const { return filter_.kept_.at(frame % windowOf(f_.settings.temporal)); }
+    Planes planesOf(const Kept& kept) const;
     template <class Quantity>
     static graph::Argument readsIf(
         bool there, const char* name, const graph::Handle<Quantity>& handle, const graph::Format& format)
     {
         return there ? reads(name, handle) : graph::absent(name, format);
     }
-
-    /// Keeps the frame in `own`.
-    void keep(Handles& own, const shared::FrameParams& camera)
-    {
-        const render::Surfaces& s = f.surfaces;
-        const render::Totals& t = f.totals;
-        setCamera(params, camera);
-        f.pixels(pass, PassKind::Filter, { file, "keepFrame" },
-            render::joined({ f.rectangle(params), reads("diffuse", s.diffuse), reads("specular", s.specular) },
-                render::places(s),
-                graph::together("light",
-                    { reads("direct", t.direct.filtered), reads("directNoisy", t.direct.noisy),
-                        readsIf(indirect, "indirect", t.indirect.filtered, graph::vectors),
-                        readsIf(indirect, "indirectNoisy", t.indirect.noisy, graph::vectors),
-                        readsIf(params.measured != 0, "directDeviation", t.direct.deviation, render::shortFloats),
-                        readsIf(params.measured != 0 && indirect, "indirectDeviation", t.indirect.deviation,
-                            render::shortFloats) }),
-                graph::together("kept",
-                    { updates("depth", own.depth), updates("facing", own.facing), updates("object", own.object),
-                        updates("directLight", own.direct),
-                        indirect ? updates("indirectLight", own.indirect)
-                                 : graph::absent("indirectLight", render::packedColours),
-                        updates("noisy", own.before), updates("variation", own.variation) })));
-        f.pixels(pass, PassKind::Filter, { file, "findVariation" },
-            { f.rectangle(params), reads("noisy", own.before, graph::around(1)),
-                reads("object", own.object, graph::around(1)), updates("variation", own.variation) });
-        want(own.depth, own.facing, own.object, own.direct, own.before, own.variation);
-        if (indirect) {
-            want(own.indirect);
-        }
-    }
-
-    template <class... Quantities>
-    void want(const graph::Handle<Quantities>&... handles)
-    {
-        (graph.want(handles, graph.image()), ...);
-    }
-
     /// A pass over blocks of pixels; `blocks` is its kernel's second parameter.
-    void blocks(const char* kernel, std::vector<graph::Argument> uses)
-    {
-        const std::uint32_t count = params.blocksX * params.blocksY;
-        std::vector<graph::Argument> arguments = { f.rectangle(params),
-            graph::made("blocks", [count](const graph::Launch& l) { return l.run.rehearsal() ? 0u : count; }) };
-        arguments.insert(arguments.end(), uses.begin(), uses.end());
-        graph.add({ .name = pass,
-            .kind = PassKind::Filter,
-            .kernel = { file, kernel },
-            .arguments = std::move(arguments),
-            .domain = graph::Domain::Items,
-            .count = [count](const graph::Launch&) { return std::size_t { count }; },
-            .mostItems = count });
-    }
+    void blocks(const char* kernel, const Arguments& uses);
 
-    void startSums()
-    {
-        sum = graph.plane<render::Value>("sum of differences", graph::floatPlanes(indirect ? 6 : 3));
-        counts = graph.plane<render::Share>("frames that see the surface", graph::floats);
-        f.zero(sum, counts);
-    }
+    void keep();
+    Arguments frameLight() const;
+    void startSums();
+    /// Adds a frame that was kept, if it was.
+    void add(const Kept& earlier);
+    graph::Handle<Motions> motionsTo(const Kept& earlier);
+    Differences differencesFrom(const Kept& earlier);
+    graph::Handle<Blocks> weightsOf(const Differences& differences);
+    void finish();
 
-    /// Adds a frame that was kept. motions: from this frame to that, empty: no object has moved.
-    void add(const Handles& own, const Kept& kept, bool cameraStill, const std::vector<float>& motions,
-        const cl::Buffer& motionMemory)
-    {
-        const std::uint64_t all = std::uint64_t { params.blocksX } * params.blocksY;
-        const Handles earlier = handlesOf(kept);
-        setCamera(params, kept.camera);
-        params.cameraStill = cameraStill ? 1 : 0;
-        params.objectsStill = motions.empty() ? 1 : 0;
-        params.objects = static_cast<std::uint32_t>(renderer.scene().geometry.objectNames.size());
-        auto difference = graph.plane<render::Value>("difference of frames", graph::floatPlanes(indirect ? 6 : 3));
-        auto noise = graph.plane<Noisy>("difference before the filter", graph::floats);
-        auto variations = graph.plane<render::Squares>("variation of both", graph::floats);
-        auto share = graph.plane<render::Share>("whether the surface was seen", graph::floats);
-        auto weights = graph.list<Blocks>("weights of blocks", graph::floats, all);
-        const graph::Argument p = f.rectangle(params);
-        f.pixels(pass, PassKind::Filter, { file, "differFromFrame" },
-            render::joined({ p, f.outside("motions", "float", &motionMemory), reads("position", f.surfaces.position),
-                               reads("normal", f.surfaces.normal) },
-                graph::together("kept",
-                    { reads("object", own.object), reads("directLight", own.direct),
-                        readsIf(indirect, "indirectLight", own.indirect, render::packedColours),
-                        reads("noisy", own.before), reads("variation", own.variation) }),
-                graph::together("earlier",
-                    { reads("earlierDepth", earlier.depth, graph::wholeImage),
-                        reads("earlierFacing", earlier.facing, graph::wholeImage),
-                        reads("earlierObject", earlier.object, graph::wholeImage),
-                        reads("earlierDirect", earlier.direct, graph::wholeImage),
-                        indirect ? reads("earlierIndirect", earlier.indirect, graph::wholeImage)
-                                 : graph::absent("earlierIndirect", render::packedColours),
-                        reads("earlierNoisy", earlier.before, graph::wholeImage),
-                        reads("earlierVariation", earlier.variation, graph::wholeImage) }),
-                render::Arguments { writes("difference", difference), writes("noise", noise),
-                    writes("variations", variations), writes("share", share) }));
-        const bool weighed = params.published == 0;
-        if (weighed) {
-            auto sums = graph.list<Blocks>("sums of blocks", graph::floatPlanes(4), all);
-            blocks("sumBlocks",
-                { reads("noise", noise), reads("variations", variations), reads("share", share),
-                    writes("sums", sums) });
-            blocks("weighBlocks", { reads("sums", sums), writes("weights", weights) });
-        }
-        f.pixels(pass, PassKind::Filter, { file, "addFrame" },
-            { p, reads("difference", difference), reads("share", share),
-                readsIf(weighed, "weights", weights, graph::floats), updates("sum", sum), updates("counts", counts) });
-    }
-
-    void finish()
-    {
-        render::Totals& t = f.totals;
-        f.pixels(pass, PassKind::Filter, { file, "finishTemporal" },
-            { f.rectangle(params), reads("diffuse", f.surfaces.diffuse), reads("specular", f.surfaces.specular),
-                reads("sum", sum), reads("counts", counts), updates("direct", t.direct.filtered),
-                indirect ? updates("indirect", t.indirect.filtered) : graph::absent("indirect", graph::vectors),
-                updates("beauty", t.beauty) });
-        want(t.direct.filtered, t.beauty);
-        if (indirect) {
-            want(t.indirect.filtered);
-        }
-    }
-
-    render::Renderer& renderer;
-    const Settings& settings;
-    const render::Frame& frame;
-    graph::Graph graph;
-    render::FrameBuilder f;
-    bool indirect;
-    shared::TemporalParams params {};
-    graph::Handle<render::Value> sum;
-    graph::Handle<render::Share> counts;
+    TemporalFilter& filter_;
+    render::FrameBuilder& f_;
+    graph::Graph& g_;
+    std::uint32_t number_;
+    bool indirect_;
+    bool mixed_; ///< pixels have several receivers
+    bool measured_; ///< they know their own noise
+    Kept& slot_; ///< the frame's own
+    Planes own_;
+    shared::FrameParams camera_;
+    shared::TemporalParams params_ {};
+    graph::Handle<render::Value> sum_;
+    graph::Handle<render::Share> counts_;
 };
+
+TemporalFilter::Passes::Passes(TemporalFilter& filter, render::FrameBuilder& frame)
+    : filter_(filter)
+    , f_(frame)
+    , g_(frame.graph)
+    , number_(frame.settings.frame.value_or(0))
+    , indirect_(hasIndirect(frame.settings, frame.description))
+    , mixed_(render::isDistributed(frame.settings, frame.description))
+    , measured_(!mixed_ && render::usesFallback(frame.settings))
+    , slot_(slotOf(number_))
+    , camera_(frame.wholeFrame())
+{
+    params_.width = f_.layout.width;
+    params_.height = f_.layout.height;
+    params_.stride = f_.layout.stride;
+    params_.planeSize = static_cast<std::uint32_t>(f_.layout.size);
+    params_.blocksX = (params_.width + WEDGE_TEMPORAL_BLOCK - 1) / WEDGE_TEMPORAL_BLOCK;
+    params_.blocksY = (params_.height + WEDGE_TEMPORAL_BLOCK - 1) / WEDGE_TEMPORAL_BLOCK;
+    params_.indirect = indirect_ ? 1 : 0;
+    params_.published = f_.settings.temporal == render::Temporal::Published ? 1 : 0;
+    params_.open = f_.settings.integrator == render::Integrator::AmbientOcclusion ? 1 : 0;
+    params_.mixed = mixed_ ? 1 : 0;
+    params_.measured = measured_ ? 1 : 0;
+    params_.normalCosine = std::cos(glm::radians(normalDegrees));
+    params_.objects = static_cast<std::uint32_t>(f_.description.geometry.objectNames.size());
+    setCamera(params_, camera_);
+    own_ = planesOf(slot_);
+}
+
+TemporalFilter::Passes::Planes TemporalFilter::Passes::planesOf(const Kept& kept) const
+{
+    const auto one = [&]<class Quantity>(graph::Handle<Quantity>& handle, KeptIndex index) {
+        const cl::Buffer memory = f_.scene != nullptr ? kept.planes.at(index).cl() : cl::Buffer();
+        handle = g_.imported<Quantity>(keptPlanes[index].name, keptPlanes[index].format, memory);
+    };
+    Planes out;
+    one(out.depth, Depth);
+    one(out.facing, Facing);
+    one(out.object, Object);
+    one(out.direct, Direct);
+    one(out.before, Before);
+    one(out.variation, Variation);
+    if (indirect_) {
+        one(out.indirect, Indirect);
+    }
+    return out;
+}
+
+void TemporalFilter::Passes::declare()
+{
+    f_.host(pass, [&slot = slot_, &places = filter_.places_, camera = camera_](Run& run) {
+        if (!run.rehearsal()) {
+            slot.frame.reset();
+            slot.camera = camera;
+            slot.places = places;
+        }
+    });
+    keep();
+    f_.host(pass, [&slot = slot_, number = number_](Run& run) {
+        if (!run.rehearsal() && !run.cut()) {
+            slot.frame = number;
+        }
+    });
+    g_.only(
+        pass, [&filters = filter_.filters_](const Run&) { return filters; },
+        [&] {
+            startSums();
+            // One at least, so that the first frame of a sequence builds the programs of all.
+            const std::uint32_t window = windowOf(f_.settings.temporal);
+            for (std::uint32_t back = 1; back <= std::clamp(number_, 1u, window - 1); ++back) {
+                const Kept& earlier = slotOf(number_ % window + window - back);
+                const auto seen = [&earlier, back, number = number_](
+                                      const Run&) { return number >= back && earlier.frame == number - back; };
+                g_.only(pass, seen, [&] { add(earlier); });
+            }
+            finish();
+        });
+}
+
+Arguments TemporalFilter::Passes::frameLight() const
+{
+    const render::Totals& t = f_.totals;
+    return graph::together("light",
+        { reads("direct", t.direct.filtered), reads("directNoisy", t.direct.noisy),
+            readsIf(indirect_, "indirect", t.indirect.filtered, graph::vectors),
+            readsIf(indirect_, "indirectNoisy", t.indirect.noisy, graph::vectors),
+            readsIf(measured_, "directDeviation", t.direct.deviation, render::shortFloats),
+            readsIf(measured_ && indirect_, "indirectDeviation", t.indirect.deviation, render::shortFloats) });
+}
+
+void TemporalFilter::Passes::keep()
+{
+    const render::Surfaces& s = f_.surfaces;
+    f_.pixels(pass, PassKind::Filter, { file, "keepFrame" },
+        joined({ f_.rectangle(params_), reads("diffuse", s.diffuse), reads("specular", s.specular) }, render::places(s),
+            frameLight(),
+            graph::together("kept",
+                { updates("depth", own_.depth), updates("facing", own_.facing), updates("object", own_.object),
+                    updates("directLight", own_.direct),
+                    indirect_ ? updates("indirectLight", own_.indirect)
+                              : graph::absent("indirectLight", render::packedColours),
+                    updates("noisy", own_.before), updates("variation", own_.variation) })));
+    f_.pixels(pass, PassKind::Filter, { file, "findVariation" },
+        { f_.rectangle(params_), reads("noisy", own_.before, graph::around(1)),
+            reads("object", own_.object, graph::around(1)), updates("variation", own_.variation) });
+    for (const graph::Version* plane :
+        { static_cast<const graph::Version*>(&own_.depth), static_cast<const graph::Version*>(&own_.facing),
+            static_cast<const graph::Version*>(&own_.object), static_cast<const graph::Version*>(&own_.direct),
+            static_cast<const graph::Version*>(&own_.before), static_cast<const graph::Version*>(&own_.variation) }) {
+        g_.want(*plane, g_.image());
+    }
+    if (indirect_) {
+        g_.want(own_.indirect, g_.image());
+    }
+}
+
+void TemporalFilter::Passes::blocks(const char* kernel, const Arguments& uses)
+{
+    const std::uint32_t count = params_.blocksX * params_.blocksY;
+    g_.add({ .name = pass,
+        .kind = PassKind::Filter,
+        .kernel = { file, kernel },
+        .arguments = joined(
+            { f_.rectangle(params_),
+                graph::made("blocks", [count](const graph::Launch& l) { return l.run.rehearsal() ? 0u : count; }) },
+            uses),
+        .domain = graph::Domain::Items,
+        .count = [count](const graph::Launch&) { return std::size_t { count }; },
+        .mostItems = count });
+}
+
+void TemporalFilter::Passes::startSums()
+{
+    sum_ = g_.plane<render::Value>("sum of differences", graph::floatPlanes(indirect_ ? 6 : 3));
+    counts_ = g_.plane<render::Share>("frames that see the surface", graph::floats);
+    f_.zero(sum_, counts_);
+}
+
+graph::Handle<Motions> TemporalFilter::Passes::motionsTo(const Kept& earlier)
+{
+    const std::uint64_t floats = std::uint64_t { std::max(params_.objects, 1u) } * WEDGE_TEMPORAL_MOTION;
+    auto motions = g_.list<Motions>("motions", graph::floats, floats);
+    g_.add({ .name = pass,
+        .kind = PassKind::Transfer,
+        .arguments = { writes("motions", motions) },
+        .domain = graph::Domain::Host,
+        .step =
+            [motions, &earlier, &places = filter_.places_](Run& run) {
+                if (!run.rehearsal() && haveMoved(places, earlier.places)) {
+                    run.buffer<float>(motions).upload(
+                        run.queue(), std::span<const float>(motionsBetween(*places, *earlier.places)));
+                }
+            },
+        .constant = true });
+    return motions;
+}
+
+TemporalFilter::Passes::Differences TemporalFilter::Passes::differencesFrom(const Kept& earlier)
+{
+    const Planes then = planesOf(earlier);
+    Differences out { g_.plane<render::Value>("difference of frames", graph::floatPlanes(indirect_ ? 6 : 3)),
+        g_.plane<Noisy>("difference before the filter", graph::floats),
+        g_.plane<render::Squares>("variation of both", graph::floats),
+        g_.plane<render::Share>("whether the surface was seen", graph::floats) };
+    const auto params = [params = params_, camera = camera_, &earlier, &places = filter_.places_](
+                            const graph::Launch& launch) {
+        shared::TemporalParams p = params;
+        render::setRectangle(p, launch.window);
+        setCamera(p, earlier.camera);
+        p.cameraStill = equalCameras(camera, earlier.camera) ? 1 : 0;
+        p.objectsStill = haveMoved(places, earlier.places) ? 0 : 1;
+        return p;
+    };
+    f_.pixels(pass, PassKind::Filter, { file, "differFromFrame" },
+        joined({ graph::made("p", params), reads("motions", motionsTo(earlier)),
+                   reads("position", f_.surfaces.position), reads("normal", f_.surfaces.normal) },
+            graph::together("kept",
+                { reads("object", own_.object), reads("directLight", own_.direct),
+                    readsIf(indirect_, "indirectLight", own_.indirect, render::packedColours),
+                    reads("noisy", own_.before), reads("variation", own_.variation) }),
+            graph::together("earlier",
+                { reads("earlierDepth", then.depth, graph::wholeImage),
+                    reads("earlierFacing", then.facing, graph::wholeImage),
+                    reads("earlierObject", then.object, graph::wholeImage),
+                    reads("earlierDirect", then.direct, graph::wholeImage),
+                    indirect_ ? reads("earlierIndirect", then.indirect, graph::wholeImage)
+                              : graph::absent("earlierIndirect", render::packedColours),
+                    reads("earlierNoisy", then.before, graph::wholeImage),
+                    reads("earlierVariation", then.variation, graph::wholeImage) }),
+            Arguments { writes("difference", out.light), writes("noise", out.noise),
+                writes("variations", out.variations), writes("share", out.share) }));
+    return out;
+}
+
+graph::Handle<Blocks> TemporalFilter::Passes::weightsOf(const Differences& differences)
+{
+    const std::uint64_t all = std::uint64_t { params_.blocksX } * params_.blocksY;
+    auto sums = g_.list<Blocks>("sums of blocks", graph::floatPlanes(4), all);
+    auto weights = g_.list<Blocks>("weights of blocks", graph::floats, all);
+    blocks("sumBlocks",
+        { reads("noise", differences.noise), reads("variations", differences.variations),
+            reads("share", differences.share), writes("sums", sums) });
+    blocks("weighBlocks", { reads("sums", sums), writes("weights", weights) });
+    return weights;
+}
+
+void TemporalFilter::Passes::add(const Kept& earlier)
+{
+    const Differences differences = differencesFrom(earlier);
+    const bool weighed = params_.published == 0;
+    const graph::Handle<Blocks> weights = weighed ? weightsOf(differences) : graph::Handle<Blocks>();
+    f_.pixels(pass, PassKind::Filter, { file, "addFrame" },
+        { f_.rectangle(params_), reads("difference", differences.light), reads("share", differences.share),
+            readsIf(weighed, "weights", weights, graph::floats), updates("sum", sum_), updates("counts", counts_) });
+}
+
+void TemporalFilter::Passes::finish()
+{
+    render::Totals& t = f_.totals;
+    f_.pixels(pass, PassKind::Filter, { file, "finishTemporal" },
+        { f_.rectangle(params_), reads("diffuse", f_.surfaces.diffuse), reads("specular", f_.surfaces.specular),
+            reads("sum", sum_), reads("counts", counts_), updates("direct", t.direct.filtered),
+            indirect_ ? updates("indirect", t.indirect.filtered) : graph::absent("indirect", graph::vectors),
+            updates("beauty", t.beauty) });
+}
 
 TemporalFilter::TemporalFilter(const device::Device& device)
     : device_(device)
     , kept_(temporalWindow)
-    , memory_(device_)
 {
 }
 
 TemporalFilter::~TemporalFilter() = default;
 
-TemporalFilter::Kept& TemporalFilter::slotOf(std::uint32_t frame, const Settings& settings)
+void TemporalFilter::next(std::shared_ptr<const ObjectPlaces> places, bool filters)
 {
-    return kept_.at(frame % windowOf(settings.temporal));
+    places_ = std::move(places);
+    filters_ = filters;
 }
 
-void TemporalFilter::addTo(device::MemoryPlan& plan, const Settings& settings, const render::PreparedScene& scene)
+void TemporalFilter::addTo(device::MemoryPlan& plan, const Settings& settings, const render::PreparedScene& scene) const
 {
     const render::PlaneLayout layout(settings.width, settings.height);
-    const bool indirect = hasIndirect(settings, scene);
-    for (std::size_t i = 0; i < keptOf(indirect); ++i) {
+    for (std::size_t i = 0; i < keptOf(hasIndirect(settings, scene)); ++i) {
         // Allocated one by one.
         for (std::uint32_t k = 0; k < windowOf(settings.temporal); ++k) {
             plan.addItems(keptPlanes[i].name, layout.size, keptPlanes[i].format.bytes);
         }
     }
-    const std::uint64_t planes = indirect ? 12 : 6;
-    plan.addItems("sums of the filter over time", layout.size, (planes + 4) * sizeof(float));
-    plan.addItems("weights of the filter over time", layout.size / (WEDGE_TEMPORAL_BLOCK * WEDGE_TEMPORAL_BLOCK),
-        5 * sizeof(float));
-    plan.addItems("motions", std::uint64_t { windowOf(settings.temporal) } * scene.geometry.objectNames.size(),
-        WEDGE_TEMPORAL_MOTION * sizeof(float));
 }
 
-void TemporalFilter::keep(render::Renderer& renderer, const Settings& settings,
-    std::shared_ptr<const ObjectPlaces> places, render::FrameStatistics& statistics)
+void TemporalFilter::allocate(const Settings& settings, const render::PreparedScene& scene)
 {
-    run(renderer, settings, std::move(places), false, &statistics);
-}
-
-void TemporalFilter::filter(render::Renderer& renderer, const Settings& settings,
-    std::shared_ptr<const ObjectPlaces> places, render::FrameStatistics& statistics)
-{
-    run(renderer, settings, std::move(places), true, &statistics);
-}
-
-void TemporalFilter::rehearse(render::Renderer& renderer, const Settings& settings)
-{
-    run(renderer, settings, nullptr, true, nullptr);
-}
-
-void TemporalFilter::show(
-    render::Renderer& renderer, const Settings& settings, const std::function<void(const graph::Graph&)>& look)
-{
-    run(renderer, settings, nullptr, true, nullptr, look);
-}
-
-void TemporalFilter::allocate(Kept& kept, const Declaration& d) const
-{
-    for (std::size_t i = kept.planes.size(); i < keptOf(d.indirect); ++i) {
-        kept.planes.emplace_back(device_, d.frame.layout.size * keptPlanes[i].format.bytes, keptPlanes[i].name);
-    }
-}
-
-void TemporalFilter::declareMeans(Declaration& d, const Handles& handles, std::uint32_t number, bool rehearsal,
-    std::vector<device::Buffer<float>>& motions)
-{
-    const Kept& own = slotOf(number, d.settings);
-    const auto add = [&](const Kept& kept) {
-        const bool moved =
-            own.places && kept.places && own.places != kept.places && !areStill(*own.places, *kept.places);
-        const std::vector<float> motion = moved ? motionsBetween(*own.places, *kept.places) : std::vector<float>();
-        device::Buffer<float>& memory = motions.emplace_back(device_, motion.size(), "motions");
-        if (moved) {
-            memory.upload(d.renderer.queue(), std::span<const float>(motion));
-        }
-        d.add(handles, kept, equalCameras(own.camera, kept.camera), motion, memory.cl());
-    };
-    d.startSums();
-    bool before = false;
-    for (std::uint32_t frame = number; frame-- > firstOfWindow(number, d.settings.temporal);) {
-        if (slotOf(frame, d.settings).frame == frame) {
-            add(slotOf(frame, d.settings));
-            before = true;
+    const render::PlaneLayout layout(settings.width, settings.height);
+    const std::size_t planes = keptOf(hasIndirect(settings, scene));
+    for (std::uint32_t k = 0; k < windowOf(settings.temporal); ++k) {
+        Kept& kept = kept_.at(k);
+        for (std::size_t i = kept.planes.size(); i < planes; ++i) {
+            kept.planes.emplace_back(device_, layout.size * keptPlanes[i].format.bytes, keptPlanes[i].name);
         }
     }
-    if (!before) {
-        // Programs are of the kernels that a graph has. Each frame declares all, so that none builds its own amid a
-        // sequence: where nothing is filtered, or no frame was before, passes that are not run.
-        Kept& next = slotOf(number + 1, d.settings);
-        allocate(next, d);
-        d.graph.only(
-            "filter over time", [rehearsal](const graph::Run&) { return rehearsal; }, [&] { add(next); });
-    }
-    d.finish();
 }
 
-void TemporalFilter::run(render::Renderer& renderer, const Settings& settings,
-    std::shared_ptr<const ObjectPlaces> places, bool filters, render::FrameStatistics* statistics,
-    const std::function<void(const graph::Graph&)>& look)
-{
-    const auto start = std::chrono::steady_clock::now();
-    const bool rehearsal = statistics == nullptr;
-    const std::uint32_t number = settings.frame.value_or(0);
-    device::TimedQueue& queue = renderer.queue();
-    Declaration d(renderer, settings);
-    Kept& own = slotOf(number, settings);
-    allocate(own, d);
-    own.frame = rehearsal ? std::nullopt : std::optional(number);
-    own.camera = render::frameParams(renderer.scene(), d.frame.layout, d.graph.image(), 0);
-    own.places = std::move(places);
-    Handles handles = d.handlesOf(own);
-    d.keep(handles, own.camera);
-    std::vector<device::Buffer<float>> motions;
-    d.graph.only(
-        "filter over time", [filters](const graph::Run&) { return filters; },
-        [&] { declareMeans(d, handles, number, rehearsal, motions); });
-    if (look) {
-        look(d.graph);
-        return;
-    }
-    const graph::Plan plan(d.graph, device::partAlignment, renderer.slabRules());
-    graph::Execution execution(plan, memory_, renderer.kernels(), queue);
-    if (rehearsal) {
-        execution.rehearse();
-        queue.finish();
-        queue.takeRecords();
-        queue.forgetCosts();
-        return;
-    }
-    execution.run();
-    queue.finish();
-    for (device::PassRecord& record : queue.takeRecords()) {
-        statistics->deviceMilliseconds += record.milliseconds;
-        statistics->passes.push_back(std::move(record));
-    }
-    device::MemoryPlan memory;
-    addTo(memory, settings, renderer.scene());
-    statistics->memoryBytes += memory.total();
-    statistics->wallMilliseconds +=
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
+void TemporalFilter::declare(render::FrameBuilder& frame) { Passes(*this, frame).declare(); }
 
 } // namespace wedge::filters

@@ -1,17 +1,13 @@
 #pragma once
 
 #include "filters/temporal/object_motion.h"
-#include "host/device/memory_plan.h"
-#include "host/graph/execution.h"
-#include "host/render/renderer.h"
+#include "host/device/device.h"
+#include "host/render/frame_filter.h"
 #include "host/render/settings.h"
-#include "kernels/shared/frame.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace wedge::filters {
@@ -31,52 +27,33 @@ constexpr std::uint32_t firstOfWindow(std::uint32_t frame, render::Temporal filt
     return frame - std::min(frame, windowOf(filter) - 1);
 }
 
-/// The filter over time (docs/temporal.md): keeps what frames of a sequence found, and takes means over those that are
-/// still in the window, each looked up where surfaces were in it.
-class TemporalFilter {
+/// The filter over time (docs/temporal.md): keeps what frames of a sequence found, and makes of beauty, direct and
+/// indirect light of a frame the means over those that are still in the window, each looked up where surfaces were in
+/// it. Frames are of one size and one filter, and come in their order, each by its number Settings::frame. A frame that
+/// was stopped is not kept.
+class TemporalFilter : public render::FrameFilter {
 public:
-    /// Frames are of one size, and of one filter. device must outlive this.
+    /// device must outlive this.
     explicit TemporalFilter(const device::Device& device);
-    ~TemporalFilter();
+    ~TemporalFilter() override;
 
-    /// Device memory that it takes besides a frame's, before anything of it is allocated.
-    static void addTo(device::MemoryPlan& plan, const render::Settings& settings, const render::PreparedScene& scene);
+    /// Of the next frame that is rendered. places: of the scene's objects in it; null where none ever moves. filters:
+    /// false: it is kept for those after it, and left as it is.
+    void next(std::shared_ptr<const ObjectPlaces> places, bool filters = true);
 
-    /// Keeps the renderer's frame, of which all layers and the whole image are there, for those after it. Frames come
-    /// in their order. places: of the scene's objects in this frame; null where none ever moves. statistics: of the
-    /// frame, to which this adds what it takes.
-    void keep(render::Renderer& renderer, const render::Settings& settings, std::shared_ptr<const ObjectPlaces> places,
-        render::FrameStatistics& statistics);
-
-    /// The same, and makes of beauty, direct and indirect light of the renderer's frame the means over the frames of
-    /// the window that were kept.
-    void filter(render::Renderer& renderer, const render::Settings& settings,
-        std::shared_ptr<const ObjectPlaces> places, render::FrameStatistics& statistics);
-
-    /// Launches its kernels over nothing, so that none is compiled later. After Renderer::rehearse().
-    void rehearse(render::Renderer& renderer, const render::Settings& settings);
-    /// Calls look() with all of its passes, and runs none: for tests of single ones. After Renderer::rehearse().
-    void show(render::Renderer& renderer, const render::Settings& settings,
-        const std::function<void(const graph::Graph&)>& look);
+    void addTo(
+        device::MemoryPlan& plan, const render::Settings& settings, const render::PreparedScene& scene) const override;
+    void allocate(const render::Settings& settings, const render::PreparedScene& scene) override;
+    void declare(render::FrameBuilder& frame) override;
 
 private:
     struct Kept;
-    struct Handles;
-    struct Declaration;
-
-    Kept& slotOf(std::uint32_t frame, const render::Settings& settings);
-    /// Its planes, where they are not there.
-    void allocate(Kept& kept, const Declaration& d) const;
-    /// Means of a frame, what it keeps being in the graph, and the frames before it. motions: memory that the graph
-    /// reads.
-    void declareMeans(Declaration& d, const Handles& handles, std::uint32_t number, bool rehearsal,
-        std::vector<device::Buffer<float>>& motions);
-    void run(render::Renderer& renderer, const render::Settings& settings, std::shared_ptr<const ObjectPlaces> places,
-        bool filters, render::FrameStatistics* statistics, const std::function<void(const graph::Graph&)>& look = {});
+    class Passes;
 
     const device::Device& device_;
-    std::vector<Kept> kept_;
-    graph::Memory memory_;
+    std::vector<Kept> kept_; ///< frame n at [n % window]
+    std::shared_ptr<const ObjectPlaces> places_; ///< next()
+    bool filters_ = true;
 };
 
 } // namespace wedge::filters

@@ -247,20 +247,10 @@ void RenderJob::writePrograms() const
     tell("wrote {} files to {}\n", files.size(), printable(options_.programs));
 }
 
-device::MemoryPlan RenderJob::checkedPlan() const
-{
-    device::MemoryPlan plan = renderer_->plan(renderedSettings(), keepsLayers());
-    if (filtersOverTime()) {
-        filters::TemporalFilter::addTo(plan, settings_, scene());
-        plan.check(renderer_->device().info(), options_.memoryLimitBytes);
-    }
-    return plan;
-}
-
 void RenderJob::prepare()
 {
     const device::DeviceInfo& device = renderer_->device().info();
-    const device::MemoryPlan plan = checkedPlan();
+    const device::MemoryPlan plan = renderer_->plan(renderedSettings(), keepsLayers());
     tell("scene {}: {} triangles\n", printable(scene().path), scene().geometry.indices.size() / 3);
     tell("device {} ({})\n", device.name, device.platform);
     if (options_.verbose) {

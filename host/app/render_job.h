@@ -49,13 +49,12 @@ private:
     void runVisits();
     /// Returns false if it was stopped.
     bool renderFrame(const Visit& visit, std::size_t number, Clock::time_point start);
-    void filterOverTime(const Visit& visit);
     bool filtersOverTime() const { return settings_.temporal != render::Temporal::Off; }
     /// Of a frame as it is rendered: what is to be filtered over time is all of the image, whatever is shown.
     render::Settings renderedSettings() const;
     image::Look look() const { return { options_.exposureStops, options_.view.value_or(image::View::Srgb) }; }
     const render::PreparedScene& scene() const { return renderer_ ? renderer_->scene() : *loaded_; }
-    bool keepsLayers() const { return !layers_.empty() || filtersOverTime(); }
+    bool keepsLayers() const { return !layers_.empty(); }
 
     void checkView() const;
     void warnOfPicture() const;
@@ -66,8 +65,6 @@ private:
     void build();
     void explain();
     void writePrograms() const;
-    /// What a frame takes, with what filters it over time. Throws where that is more than there may be.
-    device::MemoryPlan checkedPlan() const;
     void prepare();
     void render();
     void renderSteps(const render::Control& control);
@@ -106,7 +103,7 @@ private:
     std::vector<Visit> visits_;
     std::optional<filters::ObjectTracker> tracker_;
     std::shared_ptr<const filters::ObjectPlaces> places_; ///< null where nothing ever moves
-    std::unique_ptr<filters::TemporalFilter> temporal_;
+    std::shared_ptr<filters::TemporalFilter> temporal_;
     std::vector<render::FrameStatistics> rendered_;
     std::optional<bool> rehearsed_; // for distributed frames, or not
     bool interrupted_ = false, reported_ = false;

@@ -128,7 +128,8 @@ int RenderJob::runFrames()
     moveTo(visits_.empty() ? options_.frames->first : visits_.front().frame);
     build();
     if (filtersOverTime()) {
-        temporal_ = std::make_unique<filters::TemporalFilter>(renderer_->device());
+        temporal_ = std::make_shared<filters::TemporalFilter>(renderer_->device());
+        renderer_->filterFrames(temporal_);
     }
     runVisits();
     writeReport();
@@ -148,11 +149,7 @@ void RenderJob::prepareFrame(bool first)
     if (first) {
         prepare();
     } else {
-        checkedPlan();
         renderer_->rehearse(renderedSettings(), keepsLayers());
-    }
-    if (temporal_) {
-        temporal_->rehearse(*renderer_, renderedSettings());
     }
     rehearsed_ = distributed;
 }
@@ -199,13 +196,13 @@ bool RenderJob::renderFrame(const Visit& visit, std::size_t number, Clock::time_
     control.progress = [&](double fraction) {
         progress_.update((static_cast<double>(number) + fraction) / static_cast<double>(visits_.size()));
     };
+    if (temporal_) {
+        temporal_->next(places_, visit.written);
+    }
     statistics_ = renderer_->render(renderedSettings(), control, keepsLayers());
     progress_.clear();
     if (!statistics_.complete) {
         return false;
-    }
-    if (temporal_) {
-        filterOverTime(visit);
     }
     if (!visit.written) {
         return true;
@@ -221,15 +218,6 @@ bool RenderJob::renderFrame(const Visit& visit, std::size_t number, Clock::time_
         printable(fmt::format("{}", images_.written().front())));
     std::fflush(stdout);
     return true;
-}
-
-void RenderJob::filterOverTime(const Visit& visit)
-{
-    if (visit.written) {
-        temporal_->filter(*renderer_, renderedSettings(), places_, statistics_);
-    } else {
-        temporal_->keep(*renderer_, renderedSettings(), places_, statistics_);
-    }
 }
 
 } // namespace wedge::app

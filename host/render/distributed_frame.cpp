@@ -3,13 +3,16 @@
 namespace wedge::render {
 
 DistributedFrame::DistributedFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
-    std::size_t packetSize, bool keepLayers)
+    std::size_t packetSize, bool keepLayers, FrameFilter* filter)
     : FrameGraph(settings, scene, keepLayers, true)
     , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize }
-    , samples_(f_, sampleShape(settings, scene, keepLayers), {})
+    , samples_(f_, sampleShape(settings, scene, keepLayers, filter != nullptr), {})
 {
     samples_.take(nullptr);
     samples_.compose();
+    if (filter != nullptr) {
+        filter->declare(f_);
+    }
     samples_.show(outputs_);
     if (keepLayers) {
         showWidths(f_, samples_, f_.surfaces.pixelSize);

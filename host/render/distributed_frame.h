@@ -10,7 +10,7 @@ class DistributedFrame : public FrameGraph {
 public:
     /// As PixelFrame. keepLayers: what layers show is wanted, too, and else nothing but the beauty and what is counted.
     DistributedFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
-        std::size_t packetSize, bool keepLayers);
+        std::size_t packetSize, bool keepLayers, FrameFilter* filter = nullptr);
 
 private:
     FrameBuilder f_;

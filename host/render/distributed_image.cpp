@@ -29,7 +29,7 @@ void DistributedSamples::blurs(float samples, Blurs& out)
 
 graph::Handle<Radiance>& DistributedSamples::sumOf(WaveTerm& term)
 {
-    return shape_.layers ? term.sum().filtered : f_.totals.beauty;
+    return shape_.apart ? term.sum().filtered : f_.totals.beauty;
 }
 
 void DistributedSamples::countSamples()
@@ -96,7 +96,7 @@ void DistributedSamples::startSums()
     }
 }
 
-void DistributedSamples::startLayers()
+void DistributedSamples::startParts()
 {
     Totals& t = f_.totals;
     for (Sum* sum : { &t.direct, &t.indirect }) {
@@ -182,10 +182,12 @@ void DistributedSamples::compose()
     if (!lit_) {
         f_.zero(f_.surfaces.emission);
     }
-    if (shape_.layers) {
-        startLayers();
-    } else {
+    if (!shape_.layers) {
         countSamples();
+    }
+    if (shape_.apart) {
+        startParts();
+    } else {
         startSums();
     }
     Blurs own { f_.graph.plane<Pixels>("lens filter width", graph::floats),
@@ -213,8 +215,10 @@ void DistributedSamples::compose()
     }
     lens_ = own.lens;
     along_ = own.along;
-    if (shape_.layers) {
+    if (shape_.apart) {
         t.beauty = sumOfAll("beauty", t.direct.filtered, t.indirect.filtered);
+    }
+    if (shape_.layers) {
         // What is kept is not filtered.
         emission_ =
             before_.memory != nullptr ? copyOf("emission, filtered", f_.surfaces.emission) : f_.surfaces.emission;
@@ -226,6 +230,8 @@ void DistributedSamples::compose()
         blur(t.beauty);
         if (shape_.layers) {
             blur(emission_);
+        }
+        if (shape_.apart) {
             blur(t.direct.filtered);
             blur(t.indirect.filtered);
         }

@@ -28,7 +28,7 @@ bool isDistributed(const Settings& settings, const scene::Scene& scene)
     return scene.camera.apertureRadius > 0 || somethingMoves(scene) || settings.antialias || settings.progressive;
 }
 
-SampleShape sampleShape(const Settings& settings, const scene::Scene& scene, bool keepLayers)
+SampleShape sampleShape(const Settings& settings, const scene::Scene& scene, bool keepLayers, bool apart)
 {
     SampleShape shape;
     shape.analysed = settings.method == Method::AxisAligned;
@@ -38,6 +38,7 @@ SampleShape sampleShape(const Settings& settings, const scene::Scene& scene, boo
         && !(settings.sampling == Sampling::Adaptive && settings.counts == Counts::Spectrum)
         && settings.indirect.meanFraction > 0;
     shape.layers = keepLayers;
+    shape.apart = keepLayers || apart;
     shape.full = keepLayers || settings.progressive || (shape.analysed && !usual);
     shape.compact = shape.analysed && usual && !keepLayers;
     shape.moves = somethingMoves(scene);
@@ -120,11 +121,14 @@ void DistributedSamples::keepPixels()
         auto squares = kept<Squares>("squares of " + of.name, graph::floats);
         added_.push_back({ std::move(of), radiance, squares });
     }
+    if (shape_.apart) {
+        const graph::Format& format = shape_.compact ? packedColours : graph::vectors;
+        s.diffuse = kept<Reflectance>("diffuse", format);
+        s.specular = kept<Reflectance>("specular", format);
+    }
     Totals& t = f_.totals;
     if (shape_.layers) {
         s.depth = kept<Metres>("depth", graph::floats);
-        s.diffuse = kept<Reflectance>("diffuse", graph::vectors);
-        s.specular = kept<Reflectance>("specular", graph::vectors);
         t.samples = kept<Count>("samples", graph::counts);
         t.indirectSamples = kept<Count>("indirect samples", graph::counts);
         t.rays = kept<Count>("rays", graph::counts);
@@ -373,8 +377,8 @@ void DistributedSamples::accumulateSurfaces(Waves& waves, const Adding& adding)
             graph::group("kept",
                 { updates("hits", hits_), updates("objectId", s.objectId), updates("position", s.position),
                     updates("normal", s.normal), kept(measures, "gloss", s.gloss, wholeGloss),
-                    kept(layers, "diffuse", s.diffuse, graph::vectors),
-                    kept(layers, "specular", s.specular, graph::vectors), updates("emission", s.emission),
+                    kept(shape_.apart, "diffuse", s.diffuse, graph::vectors),
+                    kept(shape_.apart, "specular", s.specular, graph::vectors), updates("emission", s.emission),
                     kept(measures, "emissionSquares", emissionSquares_, graph::floats),
                     kept(measures, "pixelSize", s.pixelSize, graph::floats),
                     kept(layers, "distance", s.depth, graph::floats), updates("confusion", confusion_),

@@ -16,7 +16,8 @@ namespace wedge::render {
 bool isDistributed(const Settings& settings, const scene::Scene& scene);
 
 /// What pixels of frames of these settings keep of their samples.
-SampleShape sampleShape(const Settings& settings, const scene::Scene& scene, bool keepLayers);
+/// apart: as SampleShape has it, of frames whose layers are not read, too.
+SampleShape sampleShape(const Settings& settings, const scene::Scene& scene, bool keepLayers, bool apart = false);
 
 /// Samples of pixels that have several receivers each, and the image that is made of them, declared in a graph.
 /// Defocus, motion blur and antialiasing together with the other effects: thesis chapter 5 and appendix B,
@@ -102,7 +103,7 @@ private:
     void demandOfTerm(WaveTerm& term, const Blurs& blurs, graph::Handle<Squares>& ofTextures);
     void countSamples();
     void startSums();
-    void startLayers();
+    void startParts();
     graph::Handle<Radiance> copyOf(const std::string& name, const graph::Handle<Radiance>& image);
     void addImage(const graph::Handle<Radiance>& image, graph::Handle<Radiance>& sum);
     /// Emission, direct and indirect light.

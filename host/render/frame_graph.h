@@ -3,6 +3,7 @@
 #include "host/graph/execution.h"
 #include "host/render/effect.h"
 #include "host/render/frame_builder.h"
+#include "host/render/frame_filter.h"
 
 #include <memory>
 #include <string>

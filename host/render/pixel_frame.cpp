@@ -13,7 +13,7 @@ using graph::updates;
 using graph::writes;
 
 PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
-    std::size_t packetSize, bool keepLayers)
+    std::size_t packetSize, bool keepLayers, FrameFilter* filter)
     : FrameGraph(settings, scene, keepLayers, false)
     , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize }
 {
@@ -34,19 +34,23 @@ PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScen
         }
     }
     const bool fallsBack = usesFallback(settings), reflects = countOf(Part::Indirect, terms_) > 0;
+    const bool apart = keepLayers || filter != nullptr;
     // Two planes become one before paths are traced.
     auto beauty = graph_.plane<Radiance>("emission and direct light", graph::vectors);
-    addReflected(f_.surfaces.emission, f_.totals.direct, fallsBack && countOf(Part::Direct, terms_) > 0, beauty);
+    addReflected(f_.surfaces.emission, f_.totals.direct, fallsBack && countOf(Part::Direct, terms_) > 0, apart, beauty);
     addTerms(Part::Indirect);
     if (reflects) {
-        addReflected(beauty, f_.totals.indirect, fallsBack, f_.totals.beauty);
+        addReflected(beauty, f_.totals.indirect, fallsBack, apart, f_.totals.beauty);
     } else {
         f_.totals.beauty = beauty;
     }
-    show(fallsBack && settings.temporal != Temporal::Off);
+    if (filter != nullptr) {
+        filter->declare(f_);
+    }
+    show();
 }
 
-void PixelFrame::show(bool deviations)
+void PixelFrame::show()
 {
     const Surfaces& s = f_.surfaces;
     const Totals& t = f_.totals;
@@ -73,10 +77,6 @@ void PixelFrame::show(bool deviations)
         outputs_.add("directNoisy", t.direct.noisy, Where::OnSurfaces);
         outputs_.add("indirect", t.indirect.filtered, Where::OnSurfaces);
         outputs_.add("indirectNoisy", t.indirect.noisy, Where::OnSurfaces);
-        if (deviations) {
-            outputs_.add("directDeviation", t.direct.deviation);
-            outputs_.add("indirectDeviation", t.indirect.deviation);
-        }
     }
     finish(f_);
 }
@@ -136,11 +136,11 @@ void PixelFrame::addTerms(Part part)
 }
 
 void PixelFrame::addReflected(
-    const graph::Handle<Radiance>& below, Sum& sum, bool fallsBack, graph::Handle<Radiance>& out)
+    const graph::Handle<Radiance>& below, Sum& sum, bool fallsBack, bool apart, graph::Handle<Radiance>& out)
 {
     auto shares = graph_.plane<Share>("share of own samples", graph::pairs);
     auto reflected = graph_.plane<Radiance>("fallen back", graph::vectors);
-    const bool layered = fallsBack && keepsLayers_; // they show light apart
+    const bool writesOwn = fallsBack && apart;
     if (fallsBack) {
         f_.zero(shares);
         // What was stopped has not the counts that the parts of samples were made for.
@@ -163,9 +163,9 @@ void PixelFrame::addReflected(
             reads("objectId", f_.surfaces.objectId),
             fallsBack ? reads("shares", shares) : graph::absent("shares", graph::pairs),
             fallsBack ? reads("noisy", sum.noisy) : graph::absent("noisy", graph::vectors),
-            layered ? writes("reflected", reflected) : graph::absent("reflected", graph::vectors),
+            writesOwn ? writes("reflected", reflected) : graph::absent("reflected", graph::vectors),
             writes("sum", out) });
-    if (layered) {
+    if (writesOwn) {
         sum.filtered = reflected;
     }
 }

@@ -11,19 +11,19 @@ namespace wedge::render {
 class PixelFrame : public FrameGraph {
 public:
     /// deviceScene: null for a graph that is planned and not run.
-    /// keepLayers: what layers show is wanted, too.
+    /// keepLayers: what layers show is wanted, too. filter: what is done to the frame; null: nothing.
     PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
-        std::size_t packetSize, bool keepLayers);
+        std::size_t packetSize, bool keepLayers, FrameFilter* filter = nullptr);
 
 private:
     void primary(bool lit);
     /// Terms of the one part, of all those of the frame.
     void addTerms(Part part);
-    /// out = below + what surfaces reflect, which, where it fallsBack, falls back to the pixel's own samples.
-    void addReflected(const graph::Handle<Radiance>& below, Sum& sum, bool fallsBack, graph::Handle<Radiance>& out);
-
-    /// deviations: of both sums, for the filter over time.
-    void show(bool deviations);
+    /// out = below + what surfaces reflect, which, where it fallsBack, falls back to the pixel's own samples. Where the
+    /// light is read apart the sum becomes that.
+    void addReflected(
+        const graph::Handle<Radiance>& below, Sum& sum, bool fallsBack, bool apart, graph::Handle<Radiance>& out);
+    void show();
 
     FrameBuilder f_;
 };

@@ -133,23 +133,26 @@ graph::SlabRules Renderer::slabRules() const
 }
 
 std::unique_ptr<FrameGraph> Renderer::declare(const PreparedScene& scene, const DeviceScene* deviceScene,
-    const Settings& settings, std::size_t packet, bool keepLayers)
+    const Settings& settings, std::size_t packet, bool keepLayers, FrameFilter* filter)
 {
     if (isDistributed(settings, scene)) {
-        return std::make_unique<DistributedFrame>(scene, deviceScene, settings, packet, keepLayers);
+        return std::make_unique<DistributedFrame>(scene, deviceScene, settings, packet, keepLayers, filter);
     }
-    return std::make_unique<PixelFrame>(scene, deviceScene, settings, packet, keepLayers);
+    return std::make_unique<PixelFrame>(scene, deviceScene, settings, packet, keepLayers, filter);
 }
 
 device::MemoryPlan Renderer::plan(const PreparedScene& scene, const Hierarchy& hierarchy, const Settings& settings,
-    bool keepLayers, const graph::SlabRules& slabs)
+    bool keepLayers, const graph::SlabRules& slabs, FrameFilter* filter)
 {
     const auto planned = [&](const StepRange& step) {
         device::MemoryPlan plan;
         DeviceScene::plan(plan, scene, hierarchy);
+        if (filter != nullptr) {
+            filter->addTo(plan, settings, scene);
+        }
         HalfMemories memories { SampleMemory(nullptr), SampleMemory(nullptr) };
         const std::unique_ptr<FrameGraph> frame =
-            declareUnbacked(scene, hierarchy, settings, keepLayers, memories, step);
+            declareUnbacked(scene, hierarchy, settings, keepLayers, filter, memories, step);
         for (const SampleMemory& memory : memories) {
             memory.addTo(plan);
         }
@@ -168,24 +171,49 @@ device::MemoryPlan Renderer::plan(const PreparedScene& scene, const Hierarchy& h
 }
 
 std::unique_ptr<FrameGraph> Renderer::declareUnbacked(const PreparedScene& scene, const Hierarchy& hierarchy,
-    const Settings& settings, bool keepLayers, HalfMemories& memories, const StepRange& step)
+    const Settings& settings, bool keepLayers, FrameFilter* filter, HalfMemories& memories, const StepRange& step)
 {
     const std::size_t packet = packetSize(hierarchy.traversal);
     if (!settings.progressive) {
-        return declare(scene, nullptr, settings, packet, keepLayers);
+        return declare(scene, nullptr, settings, packet, keepLayers, filter);
     }
     return std::make_unique<HalvesFrame>(scene, nullptr, settings, packet, keepLayers, memories, step.before, step.spp);
 }
 
-bool Renderer::uploadScene()
+void Renderer::filterFrames(std::shared_ptr<FrameFilter> filter)
 {
+    queue_.finish();
+    frame_.reset();
+    compiled_.reset(); // it may refer to the other one
+    planned_.reset();
+    filter_ = std::move(filter);
+}
+
+FrameFilter* Renderer::filterOf(const Settings& settings) const
+{
+    return settings.temporal != Temporal::Off && !settings.progressive ? filter_.get() : nullptr;
+}
+
+void Renderer::addLasting(device::MemoryPlan& plan, const Settings& settings) const
+{
+    DeviceScene::plan(plan, scene_, hierarchy_);
+    if (const FrameFilter* filter = filterOf(settings)) {
+        filter->addTo(plan, settings, scene_);
+    }
+}
+
+bool Renderer::takeLasting(const Settings& settings)
+{
+    device::MemoryPlan plan;
+    addLasting(plan, settings);
+    if (!plan.fits(device_.info(), options_.memoryLimit)) {
+        return false;
+    }
     if (!deviceScene_) {
-        device::MemoryPlan plan;
-        DeviceScene::plan(plan, scene_, hierarchy_);
-        if (!plan.fits(device_.info(), options_.memoryLimit)) {
-            return false;
-        }
         deviceScene_ = std::make_unique<DeviceScene>(scene_, hierarchy_, device_, queue_);
+    }
+    if (FrameFilter* filter = filterOf(settings)) {
+        filter->allocate(settings, scene_);
     }
     return true;
 }
@@ -204,14 +232,16 @@ void Renderer::compile(const Settings& settings, bool keepLayers)
         return;
     }
     assert(deviceScene_);
-    compile(
-        [&] { return declare(scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal), keepLayers); });
+    compile([&] {
+        return declare(
+            scene_, deviceScene_.get(), settings, packetSize(hierarchy_.traversal), keepLayers, filterOf(settings));
+    });
 }
 
 const device::MemoryPlan& Renderer::plan(const Settings& settings, bool keepLayers)
 {
     validate(settings, isDistributed(settings, scene_));
-    const bool compiles = !settings.progressive && uploadScene();
+    const bool compiles = !settings.progressive && takeLasting(settings);
     if (compiles) {
         compile(settings, keepLayers);
     }
@@ -219,7 +249,7 @@ const device::MemoryPlan& Renderer::plan(const Settings& settings, bool keepLaye
         planned_.reset();
         device::MemoryPlan memory;
         if (compiles) {
-            DeviceScene::plan(memory, scene_, hierarchy_);
+            addLasting(memory, settings);
             compiled_->plan().addTo(memory);
         } else {
             memory = planUnbacked(settings, keepLayers);
@@ -238,7 +268,8 @@ auto Renderer::withPlan(const Settings& settings, bool keepLayers, const Use& us
     }
     HalfMemories memories { SampleMemory(nullptr), SampleMemory(nullptr) };
     const CompiledFrame frame(
-        declareUnbacked(scene_, hierarchy_, settings, keepLayers, memories, firstStep(settings)), slabRules());
+        declareUnbacked(scene_, hierarchy_, settings, keepLayers, filterOf(settings), memories, firstStep(settings)),
+        slabRules());
     return use(frame.plan());
 }
 
@@ -265,8 +296,8 @@ std::vector<device::ProgramSource> Renderer::programs(const Settings& settings, 
 void Renderer::prepare(const Settings& settings, bool keepLayers)
 {
     plan(settings, keepLayers).check(device_.info(), options_.memoryLimit);
-    [[maybe_unused]] const bool uploaded = uploadScene();
-    assert(uploaded); // as it is part of the plan
+    [[maybe_unused]] const bool taken = takeLasting(settings);
+    assert(taken); // as it is part of the plan
     frame_.reset(); // it has parts of the memory
     halfMemories_.reset();
     if (settings.progressive) {

@@ -6,6 +6,7 @@
 #include "host/render/compiled_frame.h"
 #include "host/render/device_scene.h"
 #include "host/render/frame.h"
+#include "host/render/frame_filter.h"
 #include "host/render/halves.h"
 #include "host/render/hierarchy.h"
 #include "host/render/prepared_scene.h"
@@ -90,16 +91,16 @@ public:
     /// Device memory that a frame of these settings takes, before anything of it is allocated; of a progressive one the
     /// step that takes most.
     /// keepLayers: as render() has it.
-    /// slabs: as graph::place() has them.
+    /// slabs: as graph::place() has them. filter: as filterFrames() has it.
     static device::MemoryPlan plan(const PreparedScene& scene, const Hierarchy& hierarchy, const Settings& settings,
-        bool keepLayers = false, const graph::SlabRules& slabs = {});
+        bool keepLayers = false, const graph::SlabRules& slabs = {}, FrameFilter* filter = nullptr);
     /// The same of this renderer's. Puts the scene on the device, where there is room for that: for frames that are to
     /// be rendered.
     const device::MemoryPlan& plan(const Settings& settings, bool keepLayers = false);
     /// The same of a frame that is not: allocates nothing.
     device::MemoryPlan planUnbacked(const Settings& settings, bool keepLayers = false) const
     {
-        return plan(scene_, hierarchy_, settings, keepLayers, slabRules());
+        return plan(scene_, hierarchy_, settings, keepLayers, slabRules(), filterOf(settings));
     }
 
     /// The passes of a frame, or of the first step of a progressive one, what they use, and the planes' memory.
@@ -125,6 +126,9 @@ public:
     /// Launches all kernels of these settings at full size over nothing, so that no compilation falls into render().
     void rehearse(const Settings& settings, bool keepLayers = false);
 
+    /// From now on frames of Settings::temporal have that filter's passes, after their own; null: none do.
+    void filterFrames(std::shared_ptr<FrameFilter> filter);
+
     /// Lets `alter` change the scene in the parts that `change` names, and in its camera. What was made of those is
     /// given up before and made anew after it.
     void changeScene(const scene::Change& change, const std::function<void(scene::Scene&)>& alter);
@@ -144,19 +148,23 @@ public:
     /// Of the last frame: the image, counts and objects, and all else that layers show where those were kept.
     const Frame& frame() const { return *frame_; }
     device::TimedQueue& queue() { return queue_; }
-    /// Of the programs, until the scene changes: for filters over whole frames.
+    /// Of the programs, until the scene changes.
     graph::Kernels& kernels() { return *kernels_; }
     graph::SlabRules slabRules() const;
 
 private:
     static std::unique_ptr<FrameGraph> declare(const PreparedScene& scene, const DeviceScene* deviceScene,
-        const Settings& settings, std::size_t packet, bool keepLayers);
+        const Settings& settings, std::size_t packet, bool keepLayers, FrameFilter* filter);
     /// Of a frame that is only to be planned, or of a step of a progressive one.
     static std::unique_ptr<FrameGraph> declareUnbacked(const PreparedScene& scene, const Hierarchy& hierarchy,
-        const Settings& settings, bool keepLayers, HalfMemories& memories, const StepRange& step);
-    /// Puts the scene on the device, where it is not there, if it does not take more than there may be. Returns whether
-    /// it is there.
-    bool uploadScene();
+        const Settings& settings, bool keepLayers, FrameFilter* filter, HalfMemories& memories, const StepRange& step);
+    /// That of frames of these settings; null: none.
+    FrameFilter* filterOf(const Settings& settings) const;
+    /// What outlives frames.
+    void addLasting(device::MemoryPlan& plan, const Settings& settings) const;
+    /// Puts that on the device, where it is not there, if it does not take more than there may be. Returns whether it
+    /// is there.
+    bool takeLasting(const Settings& settings);
     /// Makes compiled_ one of these settings, of frames that are not progressive, if it is not.
     void compile(const Settings& settings, bool keepLayers);
     /// Makes compiled_ the frame that it declares.
@@ -193,6 +201,7 @@ private:
     std::unique_ptr<device::ProgramLibrary> programs_;
     std::unique_ptr<DeviceScene> deviceScene_;
     std::optional<graph::Kernels> kernels_; ///< of the programs
+    std::shared_ptr<FrameFilter> filter_;
     graph::Memory memory_; ///< of the frame
     std::unique_ptr<HalfMemories> halfMemories_; ///< of progressive frames
     std::unique_ptr<CompiledFrame> compiled_; ///< of the last frame, or step of a progressive one

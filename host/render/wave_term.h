@@ -39,7 +39,10 @@ struct TermMeans {
 struct SampleShape {
     bool analysed = false; ///< filters and counts of their own
     bool published = false; ///< as thesis chapter 5 has them
-    bool layers = false; ///< what only they show, too, and direct and indirect light apart
+    bool layers = false; ///< what only they show, too
+    /// Direct and indirect light, filtered and not, and what reflects them: of frames whose layers are read, and of
+    /// those that are filtered over time.
+    bool apart = false;
     /// Terms' counts, and sums of all samples, which layers show, steps of a progressive frame go on with, and other
     /// than the default analysis asks for; else pixels keep what one image is made of.
     bool full = false;

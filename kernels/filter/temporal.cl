@@ -19,13 +19,12 @@
 #include "shared/bsdf.h"
 
 /// What light is divided by to make E of it, never 0.
-WEDGE_FN Vec3 shownBy(TemporalParams p, __global const float* diffuse, __global const float* specular, uint i)
+WEDGE_FN Vec3 shownBy(TemporalParams p, Vec3 diffuse, Vec3 specular)
 {
     if (p.open != 0u) {
         return vec3(1.0f, 1.0f, 1.0f);
     }
-    const Vec3 k = vecAdd(loadVec(diffuse, p.planeSize, i), loadVec(specular, p.planeSize, i));
-    return vecAdd(k, vec3(WEDGE_TEMPORAL_DARK, WEDGE_TEMPORAL_DARK, WEDGE_TEMPORAL_DARK));
+    return vecAdd(vecAdd(diffuse, specular), vec3(WEDGE_TEMPORAL_DARK, WEDGE_TEMPORAL_DARK, WEDGE_TEMPORAL_DARK));
 }
 
 WEDGE_FN Vec3 over(Vec3 a, Vec3 b) { return vec3(a.x / b.x, a.y / b.y, a.z / b.z); }
@@ -43,13 +42,14 @@ __kernel void keepFrame(PARAMETERS)
     WEDGE_PIXEL(p, x, y, i);
     const uint n = p.planeSize;
     const bool reflects = p.mixed != 0u || objectId[i] != 0u;
-    const Vec3 black = vec3(0.0f, 0.0f, 0.0f), k = shownBy(p, diffuse, specular, i);
+    const Vec3 black = vec3(0.0f, 0.0f, 0.0f), kd = LOAD_diffuse(n, i), ks = LOAD_specular(n, i);
+    const Vec3 k = shownBy(p, kd, ks);
     depth[i] = vecDot(vecSub(loadVec(position, n, i), p.eye), p.forward);
-    facing[i] = packNormal(loadVec(normal, n, i));
+    facing[i] = packNormal(LOAD_normal(n, i));
     object[i] = objectId[i];
 #ifdef WEDGE_MIRRORS
     // What a mirror shows does not move with it: nothing earlier is found of it unless all is still.
-    const Vec3 colour = vecAdd(loadVec(diffuse, n, i), loadVec(specular, n, i));
+    const Vec3 colour = vecAdd(kd, ks);
     object[i] = p.open == 0u && colour.x + colour.y + colour.z == 0.0f ? 0u : object[i];
 #endif
     STORE_directLight(n, i, vecChoose(reflects, over(loadVec(direct, n, i), k), black));
@@ -121,7 +121,7 @@ __kernel void differFromFrame(PARAMETERS)
     SoughtPoint point;
     point.object = object[i];
     point.position = loadVec(position, n, i);
-    point.normal = loadVec(normal, n, i);
+    point.normal = LOAD_normal(n, i);
     bool still;
     Vec2 at = vec2(0.0f, 0.0f);
     float depth;
@@ -307,7 +307,7 @@ __kernel void finishTemporal(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
     const uint n = p.planeSize;
-    const Vec3 k = vecScale(shownBy(p, diffuse, specular, i), 1.0f / (1.0f + counts[i]));
+    const Vec3 k = vecScale(shownBy(p, LOAD_diffuse(n, i), LOAD_specular(n, i)), 1.0f / (1.0f + counts[i]));
     Vec3 more = vecMul(k, loadVec(sum, n, i));
     storeVec(direct, n, i, vecAdd(loadVec(direct, n, i), more));
     if (HAS_indirect) {

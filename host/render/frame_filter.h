@@ -1,0 +1,29 @@
+#pragma once
+
+#include "host/device/memory_plan.h"
+#include "host/render/prepared_scene.h"
+#include "host/render/settings.h"
+
+namespace wedge::render {
+
+struct FrameBuilder;
+
+/// What is done to each frame of a sequence once it is made: passes of its graph, after its own, that may read what
+/// earlier frames left and leave something for later ones.
+class FrameFilter {
+public:
+    FrameFilter() = default;
+    FrameFilter(const FrameFilter&) = delete;
+    FrameFilter& operator=(const FrameFilter&) = delete;
+    virtual ~FrameFilter() = default;
+
+    /// Adds what it keeps from frame to frame, before anything of it is allocated.
+    virtual void addTo(device::MemoryPlan& plan, const Settings& settings, const PreparedScene& scene) const = 0;
+    /// Allocates that, where it is not there. Throws Error where the device refuses.
+    virtual void allocate(const Settings& settings, const PreparedScene& scene) = 0;
+    /// Declares its passes over a frame's surfaces and sums, before filters and after them, which it may change. Of a
+    /// frame that is not run (frame.scene is null) nothing need be allocated.
+    virtual void declare(FrameBuilder& frame) = 0;
+};
+
+} // namespace wedge::render
