@@ -1,24 +1,11 @@
 #include "host/render/frame.h"
 
-#include "host/device/buffer.h"
-
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
 namespace wedge::render {
 namespace {
-
-std::uint64_t strideFor(std::uint64_t width)
-{
-    const std::uint64_t blocks = (width + WEDGE_BLOCK_PIXELS - 1) / WEDGE_BLOCK_PIXELS;
-    return blocks * WEDGE_BLOCK_PIXELS + WEDGE_ROW_PADDING;
-}
-
-std::uint64_t wholeParts(std::uint64_t elements)
-{
-    constexpr std::uint64_t part = device::partAlignment / sizeof(float);
-    return (elements + part - 1) / part * part;
-}
 
 /// A step near the golden section of count and coprime to it, so that the next one of many strips is distant.
 std::uint32_t tileStep(std::uint32_t count)
@@ -31,18 +18,6 @@ std::uint32_t tileStep(std::uint32_t count)
 }
 
 shared::Vec3 toVec3(glm::vec3 v) { return shared::vec3(v.x, v.y, v.z); }
-
-} // namespace
-
-PlaneLayout::PlaneLayout(int imageWidth, int imageHeight)
-    : width(static_cast<std::uint32_t>(imageWidth))
-    , height(static_cast<std::uint32_t>(imageHeight))
-    , stride(static_cast<std::uint32_t>(strideFor(width)))
-    , size(wholeParts(static_cast<std::uint64_t>(stride) * height + 2 * WEDGE_ROW_PADDING))
-{
-}
-
-namespace {
 
 struct Axes {
     glm::vec3 eye, forward, right, down; ///< as in FrameParams

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/graph/layout.h"
 #include "host/image/image.h"
 #include "host/scene/scene.h"
 #include "kernels/shared/camera.h"
@@ -10,15 +11,7 @@
 
 namespace wedge::render {
 
-/// Where pixels lie in a plane: rows padded so that a gather may run past their ends (kernels/shared/frame.h).
-struct PlaneLayout {
-    PlaneLayout(int width, int height);
-
-    std::uint32_t width, height;
-    std::uint32_t stride; ///< elements from row to row
-    std::uint64_t size; ///< elements of a plane, whole parts of buffers (device::partAlignment)
-    bool operator==(const PlaneLayout&) const = default;
-};
+using graph::PlaneLayout;
 
 /// Sets the rectangle x0, y0, x1, y1 that a kernel's parameters have to window, which lies inside the image.
 template <class Params>
