@@ -1,7 +1,6 @@
 // Graphs on devices: kernels by their declarations, loops, crops, memory.
-#include "device_testing.h"
+#include "graph_lab.h"
 
-#include "host/graph/execution.h"
 #include "host/graph/interface.h"
 
 #include <cmath>
@@ -10,6 +9,7 @@
 using namespace wedge;
 using namespace wedge::graph;
 using device::PassKind;
+using test::Lab;
 using test::usableDevices;
 
 namespace {
@@ -102,22 +102,6 @@ void cleared(Graph& graph, Handle<Sum>& plane)
              run.buffer<float>(of).fill(run.queue(), 0.0f);
          } });
 }
-
-struct Lab {
-    explicit Lab(const device::Device& opened)
-        : device(opened)
-        , queue(device)
-        , library(device, { {}, false, WEDGE_TEST_KERNELS })
-        , kernels(library)
-        , memory(device)
-    {
-    }
-    device::Device device;
-    device::TimedQueue queue;
-    device::ProgramLibrary library;
-    Kernels kernels;
-    Memory memory;
-};
 
 } // namespace
 

@@ -293,7 +293,8 @@ Execution::Rows Execution::rowsOf(const PlannedPass& planned) const
     const int across = planned.pass->domain == Domain::Pixels ? 1 : static_cast<int>(WEDGE_BLOCK_PIXELS);
     // Results beside the window are nobody's, and may be of nothing.
     const Window all { planned.window.x0 / across * across, planned.window.y0,
-        std::min(plan_.graph.image().x1, (planned.window.x1 + across - 1) / across * across), planned.window.y1 };
+        std::min(plan_.graph.image(planned.pass->scale).x1, (planned.window.x1 + across - 1) / across * across),
+        planned.window.y1 };
     return { all, static_cast<std::size_t>((all.width() + across - 1) / across),
         std::max(16, bandPixels / std::max(1, all.width())), across == 1 ? std::size_t { 16 } : std::size_t { 4 } };
 }

@@ -50,6 +50,12 @@ std::string escaped(const std::string& text)
     return out;
 }
 
+/// Said of what is not of the frame's scale.
+std::string scaleOf(Scale scale)
+{
+    return scale == Scale::Full ? "" : fmt::format(" of 1/{}", static_cast<int>(scale));
+}
+
 std::string lifeOf(const Plan& plan, std::size_t resource)
 {
     const Tenant& life = *plan.lifetimes[resource];
@@ -71,9 +77,9 @@ std::string explain(const Plan& plan)
         for (int loop = pass.loop; loop >= 0; loop = plan.graph.loops()[static_cast<std::size_t>(loop)].parent) {
             loops = fmt::format("{}: {}", plan.graph.loops()[static_cast<std::size_t>(loop)].name, loops);
         }
-        text += fmt::format("{:>4}  {}{} [{}] {}, {}..{} x {}..{}: {}\n", i + 1, loops, pass.name,
+        text += fmt::format("{:>4}  {}{} [{}] {}, {}..{} x {}..{}{}: {}\n", i + 1, loops, pass.name,
             device::passKindName(pass.kind), pass.domain == Domain::Host ? "host" : pass.kernel.name, w.x0, w.x1, w.y0,
-            w.y1, usesOf(plan, pass));
+            w.y1, scaleOf(pass.scale), usesOf(plan, pass));
     }
     for (const Pass& pass : plan.graph.passes()) {
         if (!run.contains(&pass)) {
@@ -83,10 +89,11 @@ std::string explain(const Plan& plan)
     text += "\nresources\n";
     for (const std::size_t i : livingResources(plan)) {
         const Resource& resource = plan.graph.resources()[i];
-        text += fmt::format("  {:<32} {:<8} {:>12}  {:<9} {}\n", resource.name, resource.format.name,
+        text += fmt::format("  {:<32} {:<8} {:>12}  {:<9} {}{}\n", resource.name, resource.format.name,
             device::mebibytes(resource.bytes()), lifeOf(plan, i),
             resource.imported ? std::string("lives elsewhere")
-                              : fmt::format("part {} at {}", plan.places[i].slab + 1, plan.places[i].offset));
+                              : fmt::format("part {} at {}", plan.places[i].slab + 1, plan.places[i].offset),
+            scaleOf(resource.scale));
     }
     const std::uint64_t bytes = std::accumulate(plan.slabs.begin(), plan.slabs.end(), std::uint64_t { 0 });
     return text + fmt::format("\nmemory of the planes: {}\n", device::mebibytes(bytes));

@@ -36,6 +36,39 @@ Version Graph::declare(Resource resource)
     return { id_, static_cast<std::uint32_t>(resources_.size() - 1), newest };
 }
 
+Window Graph::image(Scale scale) const
+{
+    const int side = static_cast<int>(scale);
+    return { 0, 0, (image_.x1 + side - 1) / side, (image_.y1 + side - 1) / side };
+}
+
+Window Graph::converted(const Window& window, Scale from, Scale to) const
+{
+    if (from == to || window.empty()) {
+        return window;
+    }
+    const int a = static_cast<int>(from), b = static_cast<int>(to);
+    const Window frame = Window { a * window.x0, a * window.y0, a * window.x1, a * window.y1 }.within(image_);
+    return { frame.x0 / b, frame.y0 / b, (frame.x1 + b - 1) / b, (frame.y1 + b - 1) / b };
+}
+
+PlaneLayout Graph::layout(Scale scale) const { return { image(scale).x1, image(scale).y1 }; }
+
+std::uint64_t Graph::planeElements(Scale scale) const
+{
+    return scale == Scale::Full ? planeElements_ : layout(scale).size;
+}
+
+Argument Graph::grid(std::string name, Scale scale) const
+{
+    return made(std::move(name), [scale, layout = layout(scale)](const Launch& launch) {
+        const auto number = [](auto x) { return static_cast<std::uint32_t>(x); };
+        const Window& w = launch.window;
+        return shared::PixelGrid { number(scale), layout.width, layout.height, layout.stride, number(layout.size),
+            number(w.x0), number(w.y0), number(w.x1), number(w.y1) };
+    });
+}
+
 std::vector<Argument> together(const std::string& name, std::vector<Argument> arguments)
 {
     for (Argument& argument : arguments) {
@@ -100,6 +133,9 @@ bool Graph::holds(int loop, int inner) const
 void Graph::want(const Version& version, const Window& window)
 {
     Resource& resource = checkedUse({ .name = "the end" }, reads("", version));
+    if (resource.scale != Scale::Full && !image(resource.scale).contains(window)) {
+        throw std::logic_error(fmt::format("\"{}\" is wanted beyond its pixels, which are fewer", resource.name));
+    }
     resource.wanted = window.with(resource.wanted.value_or(window));
 }
 
@@ -129,6 +165,15 @@ Resource& Graph::checkedUse(const Pass& pass, const Argument& use)
     }
     if (use.access == Access::Write && pass.condition && version.number == 0) {
         refuse(name, "which nothing has written before, on a condition alone");
+    }
+    if (use.access != Access::Read && resource.plane && resource.scale != pass.scale) {
+        refuse(name, "which is of another scale than the pass");
+    }
+    for (int loop = pass.loop; loop >= 0 && pass.scale != Scale::Full;
+         loop = loops_[static_cast<std::size_t>(loop)].parent) {
+        if (loops_[static_cast<std::size_t>(loop)].tile > 0) {
+            refuse(name, "in a loop whose passes cover one window, and is of another scale");
+        }
     }
     for (const Argument& other : pass.arguments) {
         const bool changed = use.access != Access::Read || other.access != Access::Read;

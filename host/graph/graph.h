@@ -7,7 +7,9 @@
 #include "host/device/program.h"
 #include "host/device/queue.h"
 #include "host/graph/format.h"
+#include "host/graph/layout.h"
 #include "host/window.h"
+#include "kernels/shared/pixel_grid.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -46,6 +48,8 @@ template <>
 inline constexpr std::string_view kernelType<std::int32_t> = "int";
 template <>
 inline constexpr std::string_view kernelType<std::uint32_t> = "uint";
+template <>
+inline constexpr std::string_view kernelType<shared::PixelGrid> = "PixelGrid";
 
 enum class Access {
     Read,
@@ -53,7 +57,11 @@ enum class Access {
     Update, ///< reads and writes: one memory object
 };
 
-/// How far from a pixel its neighbours are read, in pixels to both sides.
+/// How many of the frame's pixels lie along each side of one of a plane's: of Half each side has half of the pixels,
+/// rounded up, and the plane a quarter of them.
+enum class Scale { Full = 1, Half = 2, Quarter = 4, Eighth = 8, Sixteenth = 16, ThirtySecond = 32 };
+
+/// How far from a pixel its neighbours are read, in pixels to both sides: those of the plane that is read.
 struct Reach {
     int x = 0, y = 0;
 };
@@ -114,7 +122,8 @@ inline Argument outside(std::string name, std::string_view type, const cl::Buffe
             } };
 }
 
-/// What the pixel and its neighbours within `reach` pixels hold, or a list.
+/// What the pixel and its neighbours within `reach` pixels hold, or a list. Of a plane of another scale than the
+/// pass's: all pixels that the pass's one lies over, in part or whole, and their neighbours.
 inline Argument reads(std::string name, const Version& version, Reach reach = {})
 {
     return { std::move(name), {}, {}, Access::Read, version, reach };
@@ -194,6 +203,7 @@ struct Pass {
     std::vector<Argument> arguments = {}; ///< in the order of the kernel's parameters
     std::vector<Argument> absent = {}; ///< of those, what is absent: the graph's to say
     Domain domain = Domain::Blocks;
+    Scale scale = Scale::Full; ///< of the pixels that its window is of, and of the planes that it changes
     std::function<std::size_t(const Launch&)> count = {}; ///< of tiles or items
     std::size_t itemsOfTile = 0;
     std::size_t mostItems = 0; ///< of a list: what rehearsals launch
@@ -233,22 +243,23 @@ struct Resource {
     std::optional<cl::Buffer> imported; ///< lives elsewhere
     std::uint32_t newest = 0; ///< version
     std::optional<Window> wanted; ///< at the end
+    Scale scale = Scale::Full; ///< of planes
 
     std::uint64_t bytes() const;
 };
 
 class Graph {
 public:
-    /// Of an image. planeElements: of each plane, padding included.
+    /// Of an image. planeElements: of each plane, padding included; planes of other scales lie as PlaneLayout says.
     Graph(int width, int height, std::uint64_t planeElements);
     Graph(const Graph&) = delete; // passes and handles know it
     Graph& operator=(const Graph&) = delete;
 
     /// Elements of pixels. Declared inside a loop's body: the body's own, whose contents no iteration hands on.
     template <class Quantity>
-    Handle<Quantity> plane(std::string name, const Format& format)
+    Handle<Quantity> plane(std::string name, const Format& format, Scale scale = Scale::Full)
     {
-        return { declare({ std::move(name), format, planeElements_, true, loop_, {}, 0, {} }) };
+        return { declare({ std::move(name), format, planeElements(scale), true, loop_, {}, 0, {}, scale }) };
     }
     /// As many elements of anything.
     template <class Quantity>
@@ -264,6 +275,16 @@ public:
         return { declare(
             { std::move(name), format, elements == 0 ? planeElements_ : elements, elements == 0, -1, memory, 1, {} }) };
     }
+    /// The same of a plane of any scale.
+    template <class Quantity>
+    Handle<Quantity> imported(std::string name, const Format& format, const cl::Buffer& memory, Scale scale)
+    {
+        return { declare({ std::move(name), format, planeElements(scale), true, -1, memory, 1, {}, scale }) };
+    }
+
+    /// What a kernel knows of the pixels of a scale, a shared::PixelGrid: for passes over pixels of their own scale,
+    /// and for each other one that they read planes of. The frame's planes have to lie as PlaneLayout says.
+    Argument grid(std::string name, Scale scale) const;
 
     /// Appends a pass, and makes new versions of what it changes. Throws std::logic_error with the names of the pass
     /// and the resource where it uses one wrongly.
@@ -297,18 +318,24 @@ public:
         leave();
     }
 
-    /// The newest version is wanted at the end, over those pixels.
+    /// The newest version is wanted at the end, over those of its pixels.
     void want(const Version& version, const Window& window);
 
     const std::deque<Pass>& passes() const { return passes_; }
     const std::vector<Loop>& loops() const { return loops_; }
     const std::vector<Resource>& resources() const { return resources_; }
     Window image() const { return image_; }
+    /// All pixels of a scale.
+    Window image(Scale scale) const;
+    /// The pixels of scale `to` that lie over those of a window, in part or whole.
+    Window converted(const Window& window, Scale from, Scale to) const;
     /// Whether a loop is that loop or inside it; -1 is outside of all, and so holds all.
     bool holds(int loop, int inner) const;
 
 private:
     Version declare(Resource resource);
+    PlaneLayout layout(Scale scale) const;
+    std::uint64_t planeElements(Scale scale) const;
     void enter(Loop loop);
     void leave();
     /// Throws unless the pass may use it, and use it so.

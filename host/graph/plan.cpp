@@ -121,7 +121,7 @@ private:
         const int tiled = tiledLoop(pass.loop);
         const bool all = pass.always || pass.everywhere || lists || !planes;
         if (!wanted || tiled < 0) {
-            return !wanted ? std::nullopt : all ? graph_.image() : ofPlanes;
+            return !wanted ? std::nullopt : all ? graph_.image(pass.scale) : ofPlanes;
         }
         std::optional<Window>& shared = shared_[static_cast<std::size_t>(tiled)];
         const std::optional<Window> own = pass.everywhere ? graph_.image() : ofPlanes;
@@ -164,7 +164,9 @@ private:
             }
             const std::uint32_t number = use.version.number;
             if (use.access == Access::Read) {
-                read(pass, use.version.resource, number, reached(*windows_[index], use.reach, graph_.image()));
+                const Scale scale = graph_.resources()[use.version.resource].scale;
+                const Window over = graph_.converted(*windows_[index], pass.scale, scale);
+                read(pass, use.version.resource, number, reached(over, use.reach, graph_.image(scale)));
             } else if (use.access == Access::Update || pass.condition
                 || pass.loop != graph_.resources()[use.version.resource].loop) { // which may run not once
                 // What the pass leaves alone is what was there before.

@@ -15,7 +15,7 @@ namespace wedge::graph {
 /// A pass that is run.
 struct PlannedPass {
     const Pass* pass = nullptr;
-    Window window; ///< the pixels that anybody wants of it
+    Window window; ///< the pixels that anybody wants of it, of its scale
     std::shared_ptr<const device::ProgramSource> program = {}; ///< of its kernel; null: the host's
 };
 

@@ -11,6 +11,7 @@
 #include "shared/light.h"
 #include "shared/material.h"
 #include "shared/path.h"
+#include "shared/pixel_grid.h"
 #include "shared/temporal.h"
 #include "shared/wave.h"
 
