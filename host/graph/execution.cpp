@@ -242,7 +242,7 @@ void Execution::launch(Run& run, const PlannedPass& planned)
         queue_.launchTiled(pass.name, pass.kind, kernel, pass.count({ run, window }) * (items / local), local,
             kernel.argCount() - 1, pass.workUnits ? pass.workUnits({ run, window }) : 0.0);
     } else {
-        const std::size_t items = pass.count({ run, window });
+        const std::size_t items = pass.count ? pass.count({ run, window }) : pass.mostItems;
         assert(items <= pass.mostItems);
         queue_.launch(pass.name, pass.kind, kernel, items, localSize(kernel, pass.mostOfGroup));
     }

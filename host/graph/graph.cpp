@@ -89,7 +89,12 @@ std::vector<Argument> group(const std::string& name, std::vector<Argument> argum
 void Graph::add(Pass pass)
 {
     assert((pass.domain == Domain::Host) == static_cast<bool>(pass.step));
-    assert((pass.domain == Domain::Tiles || pass.domain == Domain::Items) == static_cast<bool>(pass.count));
+    const auto counted = std::ranges::find_if(pass.arguments, [](const Argument& use) { return use.mostItems > 0; });
+    const bool items = pass.domain == Domain::Items && counted != pass.arguments.end();
+    assert((pass.domain == Domain::Tiles || pass.domain == Domain::Items) == (pass.count || items));
+    if (items && !pass.count) {
+        pass.mostItems = counted->mostItems;
+    }
     pass.loop = loop_;
     std::ranges::copy_if(pass.arguments, std::back_inserter(pass.absent), isAbsent);
     std::erase_if(pass.arguments, isAbsent);

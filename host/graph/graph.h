@@ -87,6 +87,7 @@ struct Argument {
     std::shared_ptr<const Format> absent = {}; ///< of a resource that there is none of
     std::string group = {}; ///< which it is of, if any
     bool member = false; ///< of the structure that the group is to kernels
+    std::size_t mostItems = 0; ///< of a list's length: the most that it can be (lists.h); 0: no length
 
     bool isUse() const { return !value && absent == nullptr; }
 };
@@ -176,7 +177,7 @@ enum class Domain {
     Pixels, ///< one item a pixel
     Tiles, ///< `count` tiles of itemsOfTile items, in batches of bounded time; the kernel's last argument, added to
            ///< those of the pass, is the first group of a batch
-    Items, ///< `count` items of a list
+    Items, ///< `count` items of a list, or as many as the device knows of (countedBy(), lists.h)
     Host, ///< no kernel: the host does a step
 };
 
@@ -206,7 +207,7 @@ struct Pass {
     Scale scale = Scale::Full; ///< of the pixels that its window is of, and of the planes that it changes
     std::function<std::size_t(const Launch&)> count = {}; ///< of tiles or items
     std::size_t itemsOfTile = 0;
-    std::size_t mostItems = 0; ///< of a list: what rehearsals launch
+    std::size_t mostItems = 0; ///< of a list: what rehearsals launch; where no host counts, the graph's to say
     std::size_t mostOfGroup = 16; ///< of a list: items of a work-group
     std::function<double(const Launch&)> workUnits = {}; ///< of the frame's progress: tiles
     std::function<void(Run&)> step = {}; ///< of the host

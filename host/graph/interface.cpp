@@ -54,6 +54,14 @@ std::string pixelMacro(Domain domain)
             blocks ? " * WEDGE_BLOCK_PIXELS" : "", blocks ? "int" : "uint", blocks ? "int" : "uint"));
 }
 
+/// Which element of a list an item is, and the end of those beyond its length.
+std::string itemMacro(const std::string& listed)
+{
+    return macro("WEDGE_ITEM", "(i)",
+        fmt::format(
+            "const uint i = (uint)get_global_id(0); if (i >= min({0}[0], {0}_most)) {{ return; }} (void)i", listed));
+}
+
 /// How the groups' structures are read and written.
 std::string groupMacros(const Pass& pass)
 {
@@ -142,6 +150,7 @@ std::string interfaceText(const Graph& graph, const Pass& pass)
         parameters += (parameters.empty() ? "" : ", ") + parameterOf(graph, pass, argument);
         if (argument.isUse()) {
             macros += planeMacros(argument.name, graph.resources()[argument.version.resource].format, false);
+            macros += argument.mostItems > 0 ? itemMacro(argument.name) : "";
         }
     }
     for (const Argument& argument : pass.absent) {

@@ -15,7 +15,8 @@ namespace wedge::graph {
 /// kernels/core/formats.h; FORMAT_NAME, which it is; PLANE_NAME, the pointer. size: elements of the resource. What is
 /// absent is no parameter, is read as nothing and not written; its pointer is null. Of passes over pixels
 /// WEDGE_PIXEL(p, x, y, i): it declares which pixel of p's rectangle, or first pixel of a block, the item is, and its
-/// index, and returns where it is none. Then, of kernels that have sinks, sinkText(). A kernel that takes something
+/// index, and returns where it is none. Of passes over a list whose length the device knows WEDGE_ITEM(i): the same of
+/// the element that the item is (lists.h). Then, of kernels that have sinks, sinkText(). A kernel that takes something
 /// else does not compile. Throws std::logic_error for a value of a type that kernelType does not know.
 std::string interfaceText(const Graph& graph, const Pass& pass);
 
