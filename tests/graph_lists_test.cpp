@@ -6,12 +6,10 @@
 #include "kernels/shared/frame.h"
 
 #include <algorithm>
-#include <cmath>
 #include <random>
 
 using namespace wedge;
 using namespace wedge::graph;
-using device::PassKind;
 using test::Lab;
 using test::usableDevices;
 
