@@ -37,9 +37,9 @@ __kernel void coarser(PARAMETERS)
 __kernel void blurred(PARAMETERS)
 {
     WEDGE_PIXEL(to, x, y, i);
-    const uint y0 = y < reach ? 0u : y - reach, y1 = min(y + reach + 1u, to.height);
+    const uint y0 = (uint)max((int)y - (int)reach, 0), y1 = min(y + reach + 1u, to.height);
     for (uint k = 0u; k < WEDGE_BLOCK_PIXELS && x + k < to.x1; ++k) {
-        const uint x0 = x + k < reach ? 0u : x + k - reach, x1 = min(x + k + reach + 1u, to.width);
+        const uint x0 = (uint)max((int)(x + k) - (int)reach, 0), x1 = min(x + k + reach + 1u, to.width);
         float sum = 0.0f;
         for (uint v = y0; v < y1; ++v) {
             for (uint u = x0; u < x1; ++u) {
