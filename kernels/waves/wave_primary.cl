@@ -99,6 +99,96 @@ WEDGE_FN void sendRays(FrameParams frame, CameraParams camera, WaveParams wave, 
     }
 }
 
+/// The samples that the receivers from `first` on are, `count` of them; lanes beyond have the first one's.
+WEDGE_FN void samplesOf(FrameParams frame, uint first, uint count, __global const uint* restrict pixelOf,
+    __global const uint* restrict sampleOf, __global const uint* restrict wanted, PrimaryLanes* samples)
+{
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const uint receiver = lane < count ? first + lane : first;
+        const uint x = pixelOf[receiver] & 0xffffu, y = pixelOf[receiver] >> 16;
+        samples->x[lane] = x;
+        samples->y[lane] = y;
+        samples->index[lane] = sampleOf[receiver];
+        samples->count[lane] = wanted[pixelIndex(x, y, frame.stride)];
+    }
+}
+
+/// What each lane meets of the lights that its pixel is known to see, whatever lies before them.
+WEDGE_FN void meetKnownLights(__global const AreaLight* restrict lights, uint lightCount, const RayPacket* rays,
+    const VecLanes* known, VecLanes* met)
+{
+    uint lit = 0u, metCount[WEDGE_PACKET_SIZE];
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const Vec3 k = laneVec(known, lane);
+        setLaneVec(met, lane, k);
+        lit |= luminance(k) > 0.0f ? 1u : 0u;
+    }
+    if (lit != 0u) {
+        lightsMet(lights, lightCount, rays, met, metCount);
+    }
+}
+
+/// What arrives along each lane's ray: what the surface emits, or lies beyond all. emitted: before, of lights that end
+/// rays. Where the pixel is known to see lights, that takes the place of what the sample meets of them.
+WEDGE_FN void arriving(FrameParams frame, __global const EnvironmentMap* restrict environment,
+    __global const float* restrict environmentTable, const RayPacket* rays, const PacketHits* hits,
+    const SurfaceLanes* at, const VecLanes* known, const VecLanes* met, VecLanes* emitted)
+{
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        if (at->live[lane] != 0u) {
+            setLaneVec(emitted, lane, laneVec(&at->emission, lane));
+        } else if (!(hits->t[lane] < INFINITY)) {
+            const Vec3 direction = vecNormalize(rayDirection(rays, lane));
+            setLaneVec(emitted, lane, vecAdd(frame.background, cameraBeyond(environment, environmentTable, direction)));
+        }
+        // The difference's mean is what lights do not send for things before them.
+        const Vec3 k = laneVec(known, lane);
+        const Vec3 besides = vecSub(laneVec(emitted, lane), laneVec(met, lane));
+        setLaneVecIf(emitted, lane, luminance(k) > 0.0f, vecAdd(besides, k));
+    }
+}
+
+/// Pixels that each lane's point moves in the image from shutter open to close: x and y.
+WEDGE_FN void imageMotions(SurfaceData data, CameraParams camera, const PacketHits* hits, const SurfaceLanes* at,
+    const float* restrict times, VecLanes* shift)
+{
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        setLaneVec(shift, lane, vec3(0.0f, 0.0f, 0.0f));
+    }
+    if (camera.shutter == 0u) {
+        return;
+    }
+    VecLanes moved;
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        setLaneVec(
+            &moved, lane, at->live[lane] != 0u ? hitMotion(data, packetHit(hits, lane)) : vec3(0.0f, 0.0f, 0.0f));
+    }
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const Vec3 p = laneVec(&at->position, lane), m = laneVec(&moved, lane);
+        const Vec2 open = projectPoint(camera, vecMad(p, m, -times[lane]), 0.0f);
+        const Vec2 close = projectPoint(camera, vecMad(p, m, 1.0f - times[lane]), 1.0f);
+        setLaneVec(shift, lane, vec3(close.x - open.x, close.y - open.y, 0.0f));
+    }
+}
+
+/// How each lane sees its surface.
+typedef struct {
+    uint geometric[WEDGE_PACKET_SIZE], view[WEDGE_PACKET_SIZE]; ///< packed, the view back along the ray
+    float pixelSize[WEDGE_PACKET_SIZE]; ///< metres
+} SightLanes;
+
+/// Of all lanes: what hits nothing has a surface that nobody asks for.
+WEDGE_FN void sightsOf(
+    FrameParams frame, const RayPacket* rays, const PacketHits* hits, const SurfaceLanes* at, SightLanes* sights)
+{
+    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
+        const Vec3 direction = rayDirection(rays, lane), facing = laneVec(&at->geometric, lane);
+        sights->geometric[lane] = packDirection(facing);
+        sights->view[lane] = packDirection(vecScale(vecNormalize(direction), -1.0f));
+        sights->pixelSize[lane] = projectedPixel(frame, facing, direction, hits->t[lane]);
+    }
+}
+
 /// The first `count` lanes to a plane.
 WEDGE_INLINE void storeLanes(__global float* restrict plane, const float* restrict lanes, uint count)
 {
@@ -126,30 +216,16 @@ __kernel void wavePrimary(PARAMETERS)
     }
     const uint count = min((uint)WEDGE_PACKET_SIZE, wave.receivers - first);
     PrimaryLanes samples;
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const uint receiver = lane < count ? first + lane : first;
-        const uint x = pixelOf[receiver] & 0xffffu, y = pixelOf[receiver] >> 16;
-        samples.x[lane] = x;
-        samples.y[lane] = y;
-        samples.index[lane] = sampleOf[receiver];
-        samples.count[lane] = wanted[pixelIndex(x, y, frame.stride)];
-    }
     RayPacket packet;
     float times[WEDGE_PACKET_SIZE];
-    VecLanes emitted;
+    samplesOf(frame, first, count, pixelOf, sampleOf, wanted, &samples);
     sendRays(frame, camera, wave, &samples, &packet, times);
-    VecLanes light, met;
-    uint lit = 0u, metCount[WEDGE_PACKET_SIZE];
+    VecLanes seen, met, emitted;
     for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
         const uint pixel = pixelIndex(samples.x[lane], samples.y[lane], frame.stride);
-        const Vec3 k = LOAD_known(frame.planeSize, pixel);
-        setLaneVec(&light, lane, k);
-        setLaneVec(&met, lane, k);
-        lit |= luminance(k) > 0.0f ? 1u : 0u;
+        setLaneVec(&seen, lane, LOAD_known(frame.planeSize, pixel));
     }
-    if (lit != 0u) {
-        lightsMet(lights, lightCount, &packet, &met, metCount);
-    }
+    meetKnownLights(lights, lightCount, &packet, &seen, &met);
     endAtLights(lights, lightCount, &packet, &emitted);
     for (uint lane = count; lane < WEDGE_PACKET_SIZE; ++lane) {
         packet.tMax[lane] = 0.0f;
@@ -158,49 +234,22 @@ __kernel void wavePrimary(PARAMETERS)
     closestHits(nodes, blocks, &packet, &hits);
 
     SurfaceLanes at;
+    VecLanes shift;
+    SightLanes sights;
     surfacesAt(data, &packet, &hits, &at);
-    VecLanes moved;
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const Hit hit = packetHit(&hits, lane);
-        const bool live = at.live[lane] != 0u;
-        Vec3 motionOfHit = vec3(0.0f, 0.0f, 0.0f);
-        uint object = 0u;
-        if (live) {
-            object = objectIds[hit.triangle];
-            motionOfHit = hitMotion(data, hit);
-            setLaneVec(&emitted, lane, laneVec(&at.emission, lane));
-        } else if (!(hit.t < INFINITY)) {
-            const Vec3 direction = vecNormalize(rayDirection(&packet, lane));
-            setLaneVec(
-                &emitted, lane, vecAdd(frame.background, cameraBeyond(environment, environmentTable, direction)));
-        }
-        // The difference's mean is what lights do not send for things before them.
-        const Vec3 l = laneVec(&light, lane);
-        const Vec3 besides = vecSub(laneVec(&emitted, lane), laneVec(&met, lane));
-        setLaneVecIf(&emitted, lane, luminance(l) > 0.0f, vecAdd(besides, l));
-        setLaneVec(&moved, lane, motionOfHit);
-        if (lane < count) {
-            objectId[first + lane] = object;
-            gloss[first + lane] = at.gloss[lane];
-            rays[first + lane] = pathRays[first + lane] = 0u;
-        }
-    }
-    // What hits nothing has a surface that nobody asks for.
-    uint geometrics[WEDGE_PACKET_SIZE], views[WEDGE_PACKET_SIZE];
-    float sizes[WEDGE_PACKET_SIZE];
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        const Vec3 direction = rayDirection(&packet, lane), facing = laneVec(&at.geometric, lane);
-        geometrics[lane] = packDirection(facing);
-        views[lane] = packDirection(vecScale(vecNormalize(direction), -1.0f));
-        sizes[lane] = projectedPixel(frame, facing, direction, hits.t[lane]);
-    }
+    arriving(frame, environment, environmentTable, &packet, &hits, &at, &seen, &met, &emitted);
+    imageMotions(data, camera, &hits, &at, times, &shift);
+    sightsOf(frame, &packet, &hits, &at, &sights);
     for (uint lane = 0u; lane < count; ++lane) {
-        geometric[first + lane] = geometrics[lane];
-        view[first + lane] = views[lane];
+        objectId[first + lane] = at.live[lane] != 0u ? objectIds[hits.triangle[lane]] : 0u;
+        gloss[first + lane] = at.gloss[lane];
+        geometric[first + lane] = sights.geometric[lane];
+        view[first + lane] = sights.view[lane];
+        rays[first + lane] = pathRays[first + lane] = 0u;
     }
     storeLanes(time + first, times, count);
     storeLanes(depth + first, hits.t, count);
-    storeLanes(pixelSize + first, sizes, count);
+    storeLanes(pixelSize + first, sights.pixelSize, count);
     storeVecLanes(position + first, size, &at.position, count);
     storeVecLanes(normal + first, size, &at.normal, count);
 #ifdef WEDGE_NORMAL_MAPS
@@ -210,18 +259,6 @@ __kernel void wavePrimary(PARAMETERS)
     storeVecLanes(diffuse + first, size, &at.diffuse, count);
     storeVecLanes(specular + first, size, &at.specular, count);
     storeVecLanes(emission + first, size, &emitted, count);
-    VecLanes shift;
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        setLaneVec(&shift, lane, vec3(0.0f, 0.0f, 0.0f));
-    }
-    if (camera.shutter != 0u) {
-        for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-            const Vec3 p = laneVec(&at.position, lane), m = laneVec(&moved, lane);
-            const Vec2 open = projectPoint(camera, vecMad(p, m, -times[lane]), 0.0f);
-            const Vec2 close = projectPoint(camera, vecMad(p, m, 1.0f - times[lane]), 1.0f);
-            setLaneVec(&shift, lane, vec3(close.x - open.x, close.y - open.y, 0.0f));
-        }
-    }
     storeLanes(motion + first, shift.x, count);
     storeLanes(motion + size + first, shift.y, count);
 }
