@@ -15,7 +15,7 @@
 #define WEDGE_ACCUMULATE_H
 
 #include "core/formats.h"
-#include "light/light_sample.h"
+#include "core/pixel.h"
 #include "shared/bsdf.h"
 #include "shared/wave.h"
 
@@ -59,16 +59,24 @@ WEDGE_FN Vec3 meanVec(Vec3 mean, float before, Vec3 sum, float count)
         meanWith(mean.z, before, sum.z, count));
 }
 
-/// Texture and irradiance of a receiver under one light as published; visible: of its samples, the fraction that sees
-/// it.
-WEDGE_FN void publishedReceiver(FrameParams frame, ReceiverData data, AreaLight light, uint r, Vec3 kd, Vec3 ks,
-    float visible, Vec3* texture, float* irradiance)
+/// Radiances, and their squared luminances.
+typedef struct {
+    Vec3 radiance;
+    float squared;
+} RadianceSums;
+
+WEDGE_FN RadianceSums noRadiance(void)
 {
-    const Receiver at = loadReceiver(frame, data, r);
-    const Vec3 d = vecSub(light.centre, at.position);
-    const Vec3 lobe = vecScale(ks, lobeValue(at.lobe, at.normal, at.view, vecNormalize(d)));
-    *texture = vecMul(vecMad(lobe, kd, WEDGE_INV_PI), light.power);
-    *irradiance = visible * geometryTerm(at.normal, d, light.normal, light.twoSided);
+    RadianceSums s;
+    s.radiance = vec3(0.0f, 0.0f, 0.0f);
+    s.squared = 0.0f;
+    return s;
+}
+
+WEDGE_FN void addRadiance(RadianceSums* s, Vec3 l)
+{
+    s->radiance = vecAdd(s->radiance, l);
+    s->squared += luminance(l) * luminance(l);
 }
 
 /// What a pixel's new receivers add to one term.
@@ -92,25 +100,45 @@ WEDGE_FN TermSums noTermSums(float textures)
     return s;
 }
 
-WEDGE_FN void addTexture(TermSums* s, Vec3 t)
+/// What a receiver has of a term: its texture, and what its samples found, if it took some.
+typedef struct {
+    Vec3 texture;
+    Vec3 radiance; ///< irradiance times texture
+    float irradiance; ///< luminance
+    Vec3 weighted, weights; ///< irradiance times its weight, and the weight
+} ReceiverTerm;
+
+/// Samples of a term that a pixel's receiver number k takes, of `total` in the wave.
+WEDGE_FN uint samplesOfReceiver(WavePixel p, uint k, uint total)
 {
-    s->texture = vecAdd(s->texture, t);
-    s->textureSquared += luminance(t) * luminance(t);
+    return sharedSamples(k + 1u, p.count, total) - sharedSamples(k, p.count, total);
 }
 
-/// Adds what the samples of a receiver found: radiance l, that is irradiance times texture, weighted as given. early:
-/// they are of the first half of the wave's
-WEDGE_FN void addSamples(TermSums* s, Vec3 l, float irradiance, Vec3 weighted, Vec3 weights, bool early)
+/// Adds a pixel's receiver number k. total: the pixel's samples in the wave
+WEDGE_FN void addReceiver(TermSums* s, WavePixel p, uint k, uint total, ReceiverTerm t)
 {
-    s->early += early ? luminance(weighted) : 0.0f;
-    s->earlyWeights += early ? luminance(weights) : 0.0f;
-    s->lateWeights += early ? 0.0f : luminance(weights);
-    s->radiance = vecAdd(s->radiance, l);
-    s->weighted = vecAdd(s->weighted, weighted);
-    s->weights = vecAdd(s->weights, weights);
-    s->plain += irradiance;
+    s->texture = vecAdd(s->texture, t.texture);
+    s->textureSquared += luminance(t.texture) * luminance(t.texture);
+    if (samplesOfReceiver(p, k, total) == 0u) {
+        return;
+    }
+    const bool early = 2u * sharedSamples(k, p.count, total) < total;
+    s->early += early ? luminance(t.weighted) : 0.0f;
+    s->earlyWeights += early ? luminance(t.weights) : 0.0f;
+    s->lateWeights += early ? 0.0f : luminance(t.weights);
+    s->radiance = vecAdd(s->radiance, t.radiance);
+    s->weighted = vecAdd(s->weighted, t.weighted);
+    s->weights = vecAdd(s->weights, t.weights);
+    s->plain += t.irradiance;
     s->counted += 1.0f;
-    s->squared += luminance(l) * luminance(l);
+    s->squared += luminance(t.radiance) * luminance(t.radiance);
+}
+
+/// Texture that some receivers do not know counts for none.
+WEDGE_FN void dropTexture(TermSums* s)
+{
+    s->texture = vec3(0.0f, 0.0f, 0.0f);
+    s->textureSquared = s->textures = 0.0f;
 }
 
 /// What pixels keep of a term, by the names of its planes; those that there are none of are of no use.
@@ -139,9 +167,14 @@ WEDGE_FN void recallSquares(TermMeans* m)
 WEDGE_FN void compactMeasures(TermMeans* m)
 {
     const float mean = luminance(vecMul(m->texture, m->value)), texture = luminance(m->texture);
-    m->error = mean - texture * m->plain;
     m->spreads =
         (float2)(sqrt(fmax(m->squares - mean * mean, 0.0f)), sqrt(fmax(m->textureSquares - texture * texture, 0.0f)));
+}
+
+/// The signed luminance of L - k E with plain means k and E (thesis 5.30).
+WEDGE_FN float errorOfFactoring(Vec3 texture, Vec3 value, float plain)
+{
+    return luminance(vecMul(texture, value)) - luminance(texture) * plain;
 }
 
 /// A number whose square is, in the mean, the variance of a pixel's mean value, in luminance, as deviation16() of
@@ -178,6 +211,7 @@ WEDGE_FN void addTermSums(TermMeans* m, WavePixel p, uint taken, uint total, flo
     m->plain = meanWith(m->plain, p.before > 0u ? hits * had / before : 0.0f, s->plain, s->counted);
     m->squares = meanWith(m->squares, had, s->squared, have);
     m->radiance = meanVec(m->radiance, had, s->radiance, have);
+    m->error = errorOfFactoring(m->texture, m->value, m->plain);
     compactMeasures(m);
 }
 
@@ -185,38 +219,6 @@ WEDGE_FN void addTermSums(TermMeans* m, WavePixel p, uint taken, uint total, flo
 WEDGE_FN uint newTermSamples(WaveParams wave, uint before, uint wanted)
 {
     return max(wantedSamples(wave, wanted), before) - before;
-}
-
-/// Mean unshadowed weights of a light's samples, diffuse and specular, over the receivers that took some, each as much
-/// as it reflects: what textures of the others are made with. Returns false if none of them is known.
-WEDGE_FN bool meanWeights(WaveParams wave, WavePixel p, uint total, __global const uint* objectId,
-    __global const float* diffuse, __global const float* specular, __global const float* sums, float* weight,
-    float* specularWeight)
-{
-    const uint size = wave.planeSize;
-    float reflected = 0.0f, mirrored = 0.0f, known = 0.0f;
-    *weight = *specularWeight = 0.0f;
-    for (uint k = 0u; k < p.count; ++k) {
-        const uint r = p.first + k;
-        const uint n = sharedSamples(k + 1u, p.count, total) - sharedSamples(k, p.count, total);
-        if (objectId[r] == 0u || n == 0u) {
-            continue;
-        }
-        const float scale = 1.0f / (float)n, kd = luminance(loadVec(diffuse, size, r));
-        known += 1.0f;
-        reflected += kd;
-        *weight += kd * scale * sums[r];
-#ifdef WEDGE_SPECULAR
-        const float ks = luminance(loadVec(specular, size, r));
-        mirrored += ks;
-        *specularWeight += ks * scale * sums[2u * size + r];
-#else
-        (void)specular;
-#endif
-    }
-    *weight = reflected > 0.0f ? *weight / reflected : 0.0f;
-    *specularWeight = mirrored > 0.0f ? *specularWeight / mirrored : 0.0f;
-    return known > 0.0f;
 }
 
 /// A mean motion as lean frames keep it. differing: length of a difference between the mean and what it is made of.

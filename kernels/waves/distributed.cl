@@ -8,15 +8,15 @@
 #include "shared/bsdf.h"
 #include "shared/distributed.h"
 #include "shared/filter_params.h"
+#include "waves/accumulate.h"
 
-/// The signed luminance of L - k E with plain means k and E. Lean frames have measured it.
+/// The signed luminance of L - k E (accumulate.h). Lean frames have measured it.
 #include "pass/factoringError.h"
 #ifdef PASS_factoringError
 __kernel void factoringError(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
-    const Vec3 k = LOAD_texture(p.planeSize, i);
-    error[i] = luminance(vecMul(k, LOAD_value(p.planeSize, i))) - luminance(k) * plain[i];
+    error[i] = errorOfFactoring(LOAD_texture(p.planeSize, i), LOAD_value(p.planeSize, i), plain[i]);
 }
 #endif
 
