@@ -35,7 +35,7 @@ ListPlaces placeBlocks(
             .count = [](const Launch&) { return std::size_t { parts }; },
             .mostItems = parts });
     };
-    pass("sumBlocks", { writes("sums", sums) });
+    pass("sumParts", { writes("sums", sums) });
     pass("placeBlocks",
         { reads("sums", sums), value("capacity", capacity), writes("first", out.first), writes("listed", out.listed) });
     return out;

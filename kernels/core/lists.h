@@ -14,10 +14,13 @@
     } while (0)
 
 /// Elements of the blocks of each part, which has as many consecutive ones as others. What is beyond 32 bits counts as
-/// the most that they hold. in   counts: elements of each block out  sums
-#include "pass/sumBlocks.h"
-#ifdef PASS_sumBlocks
-__kernel void sumBlocks(PARAMETERS)
+/// the most that they hold.
+///
+/// in   counts: elements of each block
+/// out  sums
+#include "pass/sumParts.h"
+#ifdef PASS_sumParts
+__kernel void sumParts(PARAMETERS)
 {
     const uint part = (uint)get_global_id(0), size = (blocks + parts - 1u) / parts;
     const uint begin = part * size, end = min(begin + size, blocks);
@@ -33,7 +36,7 @@ __kernel void sumBlocks(PARAMETERS)
 #endif
 
 /// Where each block's elements begin: one block's after the other's.
-/// in   counts; sums: of sumBlocks()
+/// in   counts; sums: of sumParts()
 /// out  first: of each block, may be beyond what there is room for; listed: how many elements there are, and how many
 ///      had no room
 #include "pass/placeBlocks.h"
