@@ -54,6 +54,7 @@ std::vector<LayerInfo> layersOf(const Settings& settings, const PreparedScene* s
         { "motion", { "U", "V" },
             "pixels to the right and down that the surface moves while the shutter is open, 0 on a miss", "", 0.0f },
         { "primarySamples", { "Y" }, "rays from the camera, 1 without lens, shutter and antialiasing", "", 1.0f },
+        { "pixelSize", { "Y" }, "side of the pixel as it projects to the surface, metres, 0 on a miss" },
         { "objectId", { "I" }, "number of the object hit, from 1; 0 on a miss, 4294967295 where several are" },
     };
     for (const auto& effect : effects()) {
