@@ -335,6 +335,7 @@ TEST_CASE("highlights narrow widths by their share, those of no width and of no 
             lobes.plane("gloss", gloss);
             lobes.plane("diffuse", diffuse);
             lobes.plane("specular", specular);
+            lobes.plane("objectId", in.objectId);
             lobes.plane("beta", before);
             lobes.run();
             const auto one = lobes.pixels<float>("beta");
@@ -342,14 +343,14 @@ TEST_CASE("highlights narrow widths by their share, those of no width and of no 
                 const glm::dvec3 at = in.position.vector(x, y), toLight = centre - at, toEye = eye - at;
                 const double wide = before.at(x, y);
                 const double lobe = specular.at(x, y) * sums.at(x, y, 2), matt = diffuse.at(x, y) * sums.at(x, y) / pi;
-                const double expected = wide > 0 && lobe > 0
+                const double expected = wide > 0 && in.objectId.at(x, y) != 0 && lobe > 0
                     ? narrowedWidth(toLight, toEye, shared::unpackGloss(gloss.at(x, y)), lobe / (lobe + matt), wide)
                     : wide;
                 REQUIRE(one.at(x, y) == doctest::Approx(expected).epsilon(1e-4));
             });
             for (const Kept kept : { Kept::Full, Kept::Lean }) {
                 MovingFrame declared(device, kept, in.layout());
-                PassBench pass(declared, "narrowForHighlights");
+                PassBench pass(declared, "narrowForLobes");
                 pass.value("p", in.params);
                 pass.value("frame", frame);
                 pass.value("light", light);

@@ -136,7 +136,6 @@ private:
     void firstPass();
     void samples(const char* pass, std::uint32_t from, std::uint32_t slice);
     void widthsAndCounts();
-    void narrowForLobes();
     void countsFromVariance();
     void widened();
     /// Into `filtered`; parts: of no graph where none are shown.
@@ -277,19 +276,10 @@ void LightGraph::samples(const char* pass, std::uint32_t from, std::uint32_t sli
 
 void LightGraph::widthsAndCounts()
 {
-    const auto lit = [this]() -> graph::Version { return sums_; };
-    const bool spectrum = s_.sampling == Sampling::Adaptive && s_.counts == Counts::Spectrum;
-    if (spectrum || s_.slopes == Slopes::Published) {
-        publishedWidths(f_, analysisParams(), extremes_, lit, beta_, wanted_);
-    }
-    if (s_.slopes == Slopes::Smoothed) {
-        smoothedWidths(f_, analysisParams(), extremes_, lit, beta_, maaf_ ? &ratio_ : nullptr, slopeWindowOf(maaf_));
-        if (twoSlopes()) {
-            f_.pixels("widths", PassKind::Analysis, { "analysis/two_slopes.cl", "widenBetweenSlopes" },
-                { f_.rectangle(analysisParams()), reads("ratio", ratio_), updates("beta", beta_) });
-        }
-        narrowForLobes();
-    }
+    const BothSlopes both { ratio_, twoSlopes(), slopeWindowOf(maaf_) };
+    lightWidths(f_, analysisParams(), light_,
+        { extremes_, [this]() -> graph::Version { return sums_; }, reflectedSums(f_, sums_) }, beta_, wanted_,
+        maaf_ ? &both : nullptr);
     if (takesFirstPassOnly()) {
         return;
     }
@@ -297,18 +287,6 @@ void LightGraph::widthsAndCounts()
         uniformCounts(f_, static_cast<std::uint32_t>(s_.spp), f_.surfaces.objectId, wanted_);
     } else if (s_.counts == Counts::Variance) {
         countsFromVariance();
-    }
-}
-
-void LightGraph::narrowForLobes()
-{
-    // With shading apart from visibility samples know nothing of the lobe.
-    if (f_.specular() && s_.filtering == Filtering::Adaptive && s_.shading != Shading::Separate) {
-        const Surfaces& s = f_.surfaces;
-        f_.pixels("widths", PassKind::Analysis, { "analysis/analysis.cl", "narrowForLobes" },
-            { f_.rectangle(analysisParams()), value("frame", f_.wholeFrame()), reads("sums", sums_),
-                reads("position", s.position), reads("gloss", s.gloss), reads("diffuse", s.diffuse),
-                reads("specular", s.specular), updates("beta", beta_) });
     }
 }
 

@@ -88,29 +88,10 @@ void LightWaves::sample(
 
 void LightWaves::widths()
 {
-    const bool spectrum = settings().sampling == Sampling::Adaptive && settings().counts == Counts::Spectrum;
-    const graph::Handle<Extremes> slopes = wholeExtremes();
-    const auto lit = [this]() -> graph::Version { return weights("widths", PassKind::Analysis); };
-    if (spectrum || settings().slopes == Slopes::Published) {
-        render::publishedWidths(f_, analysisParams(), slopes, lit, means.beta, means.wanted);
-    }
-    if (settings().slopes == Slopes::Smoothed) {
-        smoothedWidths(f_, analysisParams(), slopes, lit, means.beta);
-        narrowForHighlights();
-    }
-}
-
-void LightWaves::narrowForHighlights()
-{
-    // With shading apart from visibility samples know nothing of the lobe.
-    if (!f_.specular() || settings().filtering != Filtering::Adaptive || settings().shading == Shading::Separate) {
-        return;
-    }
-    const Surfaces& s = f_.surfaces;
-    f_.pixels("widths", PassKind::Analysis, { "analysis/analysis.cl", "narrowForHighlights" },
-        { f_.rectangle(analysisParams()), value("frame", f_.wholeFrame()), value("light", light_),
-            reads("texture", means.texture), reads("position", s.position), reads("gloss", s.gloss),
-            reads("objectId", s.objectId), updates("beta", means.beta) });
+    lightWidths(f_, analysisParams(), light_,
+        { wholeExtremes(), [this]() -> graph::Version { return weights("widths", PassKind::Analysis); },
+            reflectedTexture(means.texture) },
+        means.beta, means.wanted);
 }
 
 void LightWaves::publishedWidths(

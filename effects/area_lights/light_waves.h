@@ -24,7 +24,6 @@ public:
 private:
     shared::AnalysisParams analysisParams() const;
     shared::SampleParams sampleParams() const;
-    void narrowForHighlights();
     graph::Handle<Value> alongShadows(const shared::DistributedParams& params, const graph::Handle<Value>& seen) const;
 
     std::uint32_t index_;

@@ -152,48 +152,40 @@ WEDGE_FN float narrowed(AnalysisParams p, Vec3 toLight, Vec3 toEye, Gloss lobe, 
     return rsqrt(1.0f / (wide * wide) + share / (ofLobe * ofLobe));
 }
 
-/// narrowed() where the pixels are the receivers.
-/// in      sums: of the light's samples, see light_sampling.h, with the specular ones
+/// Of what a surface reflects of a light the part that is its lobe's, at least: what a white matt one that faced all of
+/// the light, as near as its nearest corner may be, would not reflect.
+WEDGE_FN float highlightShare(AreaLight light, Vec3 toLight, float reflected)
+{
+    const float reach = vecLength(light.halfU) + vecLength(light.halfV);
+    const float nearest = fmax(vecLength(toLight) - reach, 0.0f);
+    const float white = WEDGE_INV_PI * luminance(light.power) / fmax(nearest * nearest, 1e-20f);
+    return reflected > white ? 1.0f - white / reflected : 0.0f;
+}
+
+/// narrowed(), by the part of what a pixel reflects of the light that is lobes'.
+/// in      sums: of the light's samples, see light_sampling.h, with the specular ones; or, of pixels that keep what
+///         they reflect of the light as one, texture
 /// in out  beta
 #include "pass/narrowForLobes.h"
 #ifdef PASS_narrowForLobes
 __kernel void narrowForLobes(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
-    const float wide = beta[i];
-    const float lobes = wide > 0.0f ? luminance(loadVec(specular, p.planeSize, i)) * sums[2u * p.planeSize + i] : 0.0f;
-    if (!(lobes > 0.0f)) {
-        return;
-    }
-    const float matt = luminance(loadVec(diffuse, p.planeSize, i)) * WEDGE_INV_PI * sums[i];
-    const Vec3 at = loadVec(position, p.planeSize, i);
-    beta[i] = narrowed(
-        p, vecSub(p.lightCentre, at), vecSub(frame.eye, at), unpackGloss(gloss[i]), lobes / (lobes + matt), wide);
-}
-#endif
-
-/// narrowed() of pixels of many receivers, which keep what they reflect of the light as one. At least what a white matt
-/// surface that faced all of the light, as near as its nearest corner may be, would not reflect is a highlight's.
-/// in      texture: of the light's term
-/// in out  beta
-#include "pass/narrowForHighlights.h"
-#ifdef PASS_narrowForHighlights
-__kernel void narrowForHighlights(PARAMETERS)
-{
-    WEDGE_PIXEL(p, x, y, i);
+    const uint n = p.planeSize;
     const float wide = beta[i];
     if (!(wide > 0.0f) || objectId[i] == 0u) {
         return;
     }
-    const Vec3 at = loadVec(position, p.planeSize, i);
-    const Vec3 toLight = vecSub(p.lightCentre, at);
-    const float reach = vecLength(light.halfU) + vecLength(light.halfV);
-    const float nearest = fmax(vecLength(toLight) - reach, 0.0f);
-    const float white = WEDGE_INV_PI * luminance(light.power) / fmax(nearest * nearest, 1e-20f);
-    const float reflected = luminance(LOAD_texture(p.planeSize, i));
-    if (reflected > white) {
-        beta[i] =
-            narrowed(p, toLight, vecSub(frame.eye, at), LOAD_gloss(p.planeSize, i), 1.0f - white / reflected, wide);
+    const Vec3 at = loadVec(position, n, i), toLight = vecSub(p.lightCentre, at);
+#if HAS_sums
+    const float lobes = luminance(LOAD_specular(n, i)) * PLANE_sums[2u * n + i];
+    const float matt = luminance(LOAD_diffuse(n, i)) * WEDGE_INV_PI * PLANE_sums[i];
+    const float share = lobes > 0.0f ? lobes / (lobes + matt) : 0.0f;
+#else
+    const float share = highlightShare(light, toLight, luminance(LOAD_texture(n, i)));
+#endif
+    if (share > 0.0f) {
+        beta[i] = narrowed(p, toLight, vecSub(frame.eye, at), LOAD_gloss(n, i), share, wide);
     }
 }
 #endif
