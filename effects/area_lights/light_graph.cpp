@@ -2,6 +2,7 @@
 
 #include "effects/area_lights/light_widths.h"
 #include "effects/area_lights/maaf.h"
+#include "effects/area_lights/shadow_filter.h"
 #include "effects/area_lights/soft_shadows.h"
 #include "host/graph/execution.h"
 #include "host/render/filters/count_scale.h"
@@ -46,15 +47,13 @@ public:
         , term_(light.name)
         , light_(light.light)
         , channels_(frame.specular() ? 2 : 1)
-        , maaf_(maafOf(s_, light_))
+        , filter_(shadowFilterOf(frame, light_))
         , state_(state)
         , beta_(beta)
         , sums_(g_.plane<Sums>("sums", graph::floatPlanes(2 * channels_)))
         , value_(g_.plane<Value>("value", graph::floatPlanes(channels_)))
         , parts_(g_.plane<Value>("value of part", frame.specular() ? shortPairs : shortFloats))
         , extremes_(g_.plane<Extremes>("slopes", graph::floatPlanes(2)))
-        , gradients_(g_.plane<Value>("gradients", gradientsFormat()))
-        , ratio_(g_.plane<Share>("ratio of slopes", shortFloats))
         , taken_(g_.plane<Count>("samples taken", graph::counts))
         , rays_(g_.plane<Count>("rays of light", graph::counts))
         , wanted_(g_.plane<Count>("samples wanted", graph::counts))
@@ -84,10 +83,10 @@ public:
             return;
         }
         Gathered filtered = filteredPlanes(f_, channels_);
-        graph::Handle<Value> parts = shownParts();
-        g_.only("filter of light", analysed(), [&] { filter(filtered, parts); });
-        if (parts.graph != 0) {
-            f_.layers->add({ componentsLayer(s_).name, term_, parts, Where::OnSurfaces });
+        const bool shows = filter_->shown().graph != 0;
+        g_.only("filter of light", analysed(), [&] { filter(filtered); });
+        if (shows) {
+            f_.layers->add({ componentsLayer(s_).name, term_, filter_->shown(), Where::OnSurfaces });
         }
         // Not in that group: what is added up need not be there before it.
         shade(filtered.value, analysed());
@@ -112,16 +111,7 @@ private:
         const bool shared = s_.sampling == Sampling::Uniform || s_.counts == Counts::Variance;
         return shared && s_.spp <= static_cast<int>(WEDGE_FIRST_PASS_RAYS);
     }
-    bool sheared() const { return !maaf_ && isSheared(s_); }
-    bool twoSlopes() const { return maaf_ == Maaf::TwoSlope; }
-    bool ofComponents() const { return maaf_ && *maaf_ != Maaf::TwoSlope; }
-    /// What pixels keep of where on the light they see it.
-    graph::Format gradientsFormat() const
-    {
-        return ofComponents() ? componentsFormat(s_.components, channels_)
-            : maaf_           ? momentsFormat(channels_)
-                              : gradientsOf(channels_);
-    }
+    LightSamples lightSamples() const { return { sums_, value_, taken_ }; }
     /// Once the first pass is complete.
     std::function<bool(const Run&)> analysed() const
     {
@@ -132,21 +122,17 @@ private:
     /// The sinks of a pass that analysed frames have, and what they are handed.
     std::pair<std::vector<graph::Sink>, Arguments> becoming();
     graph::Handle<Value> means(const char* pass, PassKind kind);
-    Shearing shears();
     void firstPass();
     void samples(const char* pass, std::uint32_t from, std::uint32_t slice);
     void widthsAndCounts();
     void countsFromVariance();
     void widened();
-    /// Into `filtered`; parts: of no graph where none are shown.
-    void filter(Gathered& filtered, graph::Handle<Value>& parts);
-    graph::Handle<Value> shownParts();
+    void filter(Gathered& filtered);
     void shade(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition);
 
     shared::AnalysisParams analysisParams() const
     {
-        const shared::AnalysisParams p = lightParams(f_.analysisParams(), s_, light_);
-        return sheared() ? withShearedWidths(p, s_, light_) : twoSlopes() ? withTwoSlopeWidths(p, light_) : p;
+        return filter_->withWidths(lightParams(f_.analysisParams(), s_, light_));
     }
     graph::Argument sampleParams() const { return value("params", lightSampleParams(s_, index_)); }
     graph::Argument light() const { return value("light", light_); }
@@ -162,14 +148,12 @@ private:
     std::string term_;
     shared::AreaLight light_;
     std::uint32_t channels_;
-    std::optional<Maaf> maaf_; ///< none: one filter
+    std::unique_ptr<ShadowFilter> filter_;
     std::shared_ptr<TermState> state_;
     graph::Handle<Metres>& beta_;
     graph::Handle<Sums> sums_;
     graph::Handle<Value> value_, parts_;
     graph::Handle<Extremes> extremes_;
-    graph::Handle<Value> gradients_;
-    graph::Handle<Share> ratio_;
     graph::Handle<Count> taken_, rays_, wanted_;
 };
 
@@ -194,19 +178,7 @@ std::pair<std::vector<graph::Sink>, Arguments> LightGraph::becoming()
     }
     sinks.push_back(sinks::parts());
     sunk.push_back(updates("parts", parts_));
-    if (twoSlopes()) {
-        sinks.push_back(sinks::moments());
-        sunk.push_back(value("scores", momentsOf(light_)));
-        sunk.push_back(updates("moments", gradients_));
-    } else if (ofComponents()) {
-        sinks.push_back(sinks::components(s_.components));
-        sunk.push_back(value("axes", axesOf(light_, s_.components)));
-        sunk.push_back(updates("components", gradients_));
-    } else if (sheared()) {
-        sinks.push_back(sinks::scores());
-        sunk.push_back(value("score", scoreOf(light_).score));
-        sunk.push_back(updates("gradients", gradients_));
-    }
+    filter_->keep(sinks, sunk);
     return { std::move(sinks), std::move(sunk) };
 }
 
@@ -220,35 +192,10 @@ graph::Handle<Value> LightGraph::means(const char* pass, PassKind kind)
     return out;
 }
 
-/// And narrows filters by counts and where shadows are wide; components go by slopes alone.
-Shearing LightGraph::shears()
-{
-    auto slopeWidth = g_.plane<Metres>("width by slopes", shortFloats);
-    const graph::Argument p = f_.rectangle(analysisParams());
-    if (!ofComponents()) {
-        const bool both = twoSlopes();
-        f_.blocks("filter", PassKind::Filter, { "analysis/shear.cl", "shadowGradients" },
-            { p, value("each", both ? WEDGE_MOMENTS : 2u), value("first", both ? -WEDGE_ORDER1 : 1.0f),
-                value("second", WEDGE_ORDER2), reads("sums", sums_), updates("gradients", gradients_) });
-    }
-    const Narrowing narrowing = narrowingOf(s_, maaf_);
-    f_.pixels("filter", PassKind::Filter, { "analysis/shear.cl", "narrowSheared" },
-        { p, value("mean", static_cast<float>(s_.spp)), value("countPower", narrowing.countPower),
-            value("wideBlur", narrowing.wideBlur), value("blurPower", narrowing.blurPower), reads("taken", taken_),
-            reads("pixelSize", f_.surfaces.pixelSize), writes("slopeWidth", slopeWidth), updates("beta", beta_) });
-    if (twoSlopes()) {
-        f_.pixels("filter", PassKind::Filter, { "analysis/two_slopes.cl", "widthOfMeanSlope" },
-            { p, reads("ratio", ratio_), updates("slopeWidth", slopeWidth) });
-    }
-    return { gradients_, slopeWidth, gradientsFormat(), twoSlopes() };
-}
-
 void LightGraph::firstPass()
 {
     f_.zero(extremes_, parts_);
-    if (sheared() || maaf_) {
-        f_.zero(gradients_);
-    }
+    filter_->start();
     uniformCounts(f_, WEDGE_FIRST_PASS_RAYS, f_.surfaces.objectId, wanted_);
     auto [sinks, sunk] = becoming();
     sinks.push_back(sinks::slopes());
@@ -276,10 +223,9 @@ void LightGraph::samples(const char* pass, std::uint32_t from, std::uint32_t sli
 
 void LightGraph::widthsAndCounts()
 {
-    const BothSlopes both { ratio_, twoSlopes(), slopeWindowOf(maaf_) };
     lightWidths(f_, analysisParams(), light_,
         { extremes_, [this]() -> graph::Version { return sums_; }, reflectedSums(f_, sums_) }, beta_, wanted_,
-        maaf_ ? &both : nullptr);
+        filter_->bothSlopes());
     if (takesFirstPassOnly()) {
         return;
     }
@@ -326,39 +272,15 @@ void LightGraph::widened()
     widen(f_, "filter", filterParams(), s_.widening, pinholeNoise, { visibility, deviation, weights }, beta_);
 }
 
-void LightGraph::filter(Gathered& filtered, graph::Handle<Value>& parts)
+void LightGraph::filter(Gathered& filtered)
 {
-    const std::optional<Shearing> shearing = sheared() || maaf_ ? std::optional(shears()) : std::nullopt;
-    if (ofComponents()) {
-        componentFilter(f_, withComponents(filterParams()), analysisParams(), light_, value_, beta_,
-            { sums_, gradients_, shearing->slopeWidth, ratio_ }, filtered, parts.graph != 0 ? &parts : nullptr);
-        return;
-    }
+    filter_->narrow(analysisParams(), lightSamples(), beta_);
     // What was stopped early has not the counts that the parts of samples were made for.
-    if (widens(s_)) {
+    if (widens(s_) && filter_->widens()) {
         g_.only(
             "widening", [](const Run& run) { return !run.cut(); }, [&] { widened(); });
     }
-    const FilterRun run { "filter", PassKind::Filter };
-    if (!shearing) {
-        gaussianFilter(f_, run, channels_, filterParams(), value_, beta_, filtered);
-        return;
-    }
-    const shared::FilterParams params = maaf_ ? withTwoSlopes(filterParams(), analysisParams(), light_)
-                                              : withShear(filterParams(), analysisParams(), light_);
-    shearedFilter(f_, run, channels_, params, value_, beta_, *shearing, filtered);
-}
-
-/// What componentsLayer() shows, where layers are read; else of no graph.
-graph::Handle<Value> LightGraph::shownParts()
-{
-    if (f_.layers == nullptr || !ofComponents()) {
-        return {};
-    }
-    const auto planes = static_cast<std::uint32_t>(componentsLayer(s_).channels.size());
-    auto parts = g_.plane<Value>("components", graph::floatPlanes(planes));
-    f_.zero(parts);
-    return parts;
+    filter_->gather(filterParams(), analysisParams(), lightSamples(), beta_, filtered);
 }
 
 void LightGraph::shade(const graph::Handle<Value>& shown, const std::function<bool(const Run&)>& condition)

@@ -79,8 +79,8 @@ void publishedWidths(FrameBuilder& frame, const shared::AnalysisParams& params, 
     const auto spread = spreadOver(frame, params, 4, distances);
     frame.pixels("widths", PassKind::Analysis, { "analysis/analysis.cl", "publishedWidths" },
         { p, value("countMu", frame.settings.mu), reads("slopes", of.slopes), reads("distances", spread),
-            reads("objectId", s.objectId), reads("pixelSize", s.pixelSize), reads("sums", of.lit()), writes("beta", beta),
-            writes("wanted", wanted) });
+            reads("objectId", s.objectId), reads("pixelSize", s.pixelSize), reads("sums", of.lit()),
+            writes("beta", beta), writes("wanted", wanted) });
 }
 
 void narrowForLobes(FrameBuilder& frame, const shared::AnalysisParams& params, const shared::AreaLight& light,
