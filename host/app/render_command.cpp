@@ -250,7 +250,7 @@ void RenderJob::writePrograms() const
 void RenderJob::prepare()
 {
     const device::DeviceInfo& device = renderer_->device().info();
-    const device::MemoryPlan plan = renderer_->plan(renderedSettings(), keepsLayers());
+    const device::MemoryPlan plan = renderer_->plan(settings_, keepsLayers());
     tell("scene {}: {} triangles\n", printable(scene().path), scene().geometry.indices.size() / 3);
     tell("device {} ({})\n", device.name, device.platform);
     if (options_.verbose) {
@@ -265,7 +265,7 @@ void RenderJob::prepare()
     }
     std::fflush(stdout);
     progress_.show("building kernels");
-    renderer_->rehearse(renderedSettings(), keepsLayers());
+    renderer_->rehearse(settings_, keepsLayers());
     progress_.clear();
     keepInputs(); // kernels of --kernel-dir are among them
 }

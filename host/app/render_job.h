@@ -50,8 +50,6 @@ private:
     /// Returns false if it was stopped.
     bool renderFrame(const Visit& visit, std::size_t number, Clock::time_point start);
     bool filtersOverTime() const { return settings_.temporal != render::Temporal::Off; }
-    /// Of a frame as it is rendered: what is to be filtered over time is all of the image, whatever is shown.
-    render::Settings renderedSettings() const;
     image::Look look() const { return { options_.exposureStops, options_.view.value_or(image::View::Srgb) }; }
     const render::PreparedScene& scene() const { return renderer_ ? renderer_->scene() : *loaded_; }
     bool keepsLayers() const { return !layers_.empty(); }

@@ -102,15 +102,6 @@ void RenderJob::planVisits()
     }
 }
 
-render::Settings RenderJob::renderedSettings() const
-{
-    render::Settings settings = settings_;
-    if (filtersOverTime()) {
-        settings.crop = {};
-    }
-    return settings;
-}
-
 int RenderJob::runFrames()
 {
     findUnfinished();
@@ -149,7 +140,7 @@ void RenderJob::prepareFrame(bool first)
     if (first) {
         prepare();
     } else {
-        renderer_->rehearse(renderedSettings(), keepsLayers());
+        renderer_->rehearse(settings_, keepsLayers());
     }
     rehearsed_ = distributed;
 }
@@ -199,7 +190,7 @@ bool RenderJob::renderFrame(const Visit& visit, std::size_t number, Clock::time_
     if (temporal_) {
         temporal_->next(places_, visit.written);
     }
-    statistics_ = renderer_->render(renderedSettings(), control, keepsLayers());
+    statistics_ = renderer_->render(settings_, control, keepsLayers());
     progress_.clear();
     if (!statistics_.complete) {
         return false;

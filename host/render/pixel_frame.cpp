@@ -15,6 +15,7 @@ using graph::writes;
 PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,
     std::size_t packetSize, bool keepLayers, FrameFilter* filter)
     : FrameGraph(settings, scene, keepLayers, false)
+    , apart_(keepLayers || filter != nullptr)
     , f_ { graph_, scene, deviceScene, settings_, PlaneLayout(settings.width, settings.height), packetSize }
 {
     f_.narrowLobes = scene.traits().narrowLobes;
@@ -34,13 +35,12 @@ PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScen
         }
     }
     const bool fallsBack = usesFallback(settings), reflects = countOf(Part::Indirect, terms_) > 0;
-    const bool apart = keepLayers || filter != nullptr;
     // Two planes become one before paths are traced.
     auto beauty = graph_.plane<Radiance>("emission and direct light", graph::vectors);
-    addReflected(f_.surfaces.emission, f_.totals.direct, fallsBack && countOf(Part::Direct, terms_) > 0, apart, beauty);
+    addReflected(f_.surfaces.emission, f_.totals.direct, fallsBack && countOf(Part::Direct, terms_) > 0, beauty);
     addTerms(Part::Indirect);
     if (reflects) {
-        addReflected(beauty, f_.totals.indirect, fallsBack, apart, f_.totals.beauty);
+        addReflected(beauty, f_.totals.indirect, fallsBack, f_.totals.beauty);
     } else {
         f_.totals.beauty = beauty;
     }
@@ -136,11 +136,11 @@ void PixelFrame::addTerms(Part part)
 }
 
 void PixelFrame::addReflected(
-    const graph::Handle<Radiance>& below, Sum& sum, bool fallsBack, bool apart, graph::Handle<Radiance>& out)
+    const graph::Handle<Radiance>& below, Sum& sum, bool fallsBack, graph::Handle<Radiance>& out)
 {
     auto shares = graph_.plane<Share>("share of own samples", graph::pairs);
     auto reflected = graph_.plane<Radiance>("fallen back", graph::vectors);
-    const bool writesOwn = fallsBack && apart;
+    const bool writesOwn = fallsBack && apart_;
     if (fallsBack) {
         f_.zero(shares);
         // What was stopped has not the counts that the parts of samples were made for.

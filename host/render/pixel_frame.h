@@ -21,10 +21,10 @@ private:
     void addTerms(Part part);
     /// out = below + what surfaces reflect, which, where it fallsBack, falls back to the pixel's own samples. Where the
     /// light is read apart the sum becomes that.
-    void addReflected(
-        const graph::Handle<Radiance>& below, Sum& sum, bool fallsBack, bool apart, graph::Handle<Radiance>& out);
+    void addReflected(const graph::Handle<Radiance>& below, Sum& sum, bool fallsBack, graph::Handle<Radiance>& out);
     void show();
 
+    bool apart_; ///< light is read apart, as SampleShape has it
     FrameBuilder f_;
 };
 
