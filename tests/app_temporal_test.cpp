@@ -77,6 +77,8 @@ TEST_CASE("temporal: a frame has the same bits in any range, with any crop, and 
         CHECK(nine == values(place.exr("b9.exr"), "R"));
         const auto [off, mean] = difference(place, "d9.exr", "a9.exr");
         CHECK(off <= (kinds[kind].distributed ? 0.01 * mean : 0.0));
+        REQUIRE(frames(place, scene, "8:9", with({ "-o", "f%d.exr", "--layers", "direct,objectId" })).status == 0);
+        CHECK(values(place.exr("f9.exr"), "R") == values(place.exr("d9.exr"), "R"));
         CHECK(cropped(nine, 20, 9, 31, 22) == values(place.exr("c9.exr"), "R"));
         const std::vector<float> fifth = values(place.exr("a5.exr"), "R");
         std::filesystem::remove(place.path() / "a5.exr");
@@ -85,7 +87,7 @@ TEST_CASE("temporal: a frame has the same bits in any range, with any crop, and 
         // And it does something.
         REQUIRE(frames(place, scene, "9", with({ "-o", "e%d.exr", "--temporal", "off" })).status == 0);
         CHECK(nine != values(place.exr("e9.exr"), "R"));
-        for (const char* name : { "a", "b", "c", "d", "e" }) {
+        for (const char* name : { "a", "b", "c", "d", "e", "f" }) {
             for (int i = 1; i < 10; ++i) {
                 std::filesystem::remove(place.path() / (name + std::to_string(i) + ".exr"));
             }

@@ -80,6 +80,7 @@ struct TemporalFilter::Kept {
     shared::FrameParams camera {};
     std::shared_ptr<const ObjectPlaces> places;
     std::vector<device::Buffer<std::uint8_t>> planes; ///< keptPlanes, once allocated
+    std::uint64_t size = 0; ///< elements of a plane
 };
 
 /// Those of one frame.
@@ -123,7 +124,8 @@ private:
     void startSums();
     /// Adds a frame that was kept, if it was.
     void add(const Kept& earlier);
-    graph::Handle<Motions> motionsTo(const Kept& earlier);
+    /// moved: whether any object has, known once they are there.
+    graph::Handle<Motions> motionsTo(const Kept& earlier, const std::shared_ptr<bool>& moved);
     Differences differencesFrom(const Kept& earlier);
     graph::Handle<Blocks> weightsOf(const Differences& differences);
     void finish();
@@ -206,7 +208,7 @@ void TemporalFilter::Passes::declare()
         }
     });
     g_.only(
-        pass, [&filters = filter_.filters_](const Run&) { return filters; },
+        pass, [&filters = filter_.filters_](const Run& run) { return filters && !run.cut(); },
         [&] {
             startSums();
             // One at least, so that the first frame of a sequence builds the programs of all.
@@ -280,7 +282,7 @@ void TemporalFilter::Passes::startSums()
     f_.zero(sum_, counts_);
 }
 
-graph::Handle<Motions> TemporalFilter::Passes::motionsTo(const Kept& earlier)
+graph::Handle<Motions> TemporalFilter::Passes::motionsTo(const Kept& earlier, const std::shared_ptr<bool>& moved)
 {
     const std::uint64_t floats = std::uint64_t { std::max(params_.objects, 1u) } * WEDGE_TEMPORAL_MOTION;
     auto motions = g_.list<Motions>("motions", graph::floats, floats);
@@ -289,8 +291,9 @@ graph::Handle<Motions> TemporalFilter::Passes::motionsTo(const Kept& earlier)
         .arguments = { writes("motions", motions) },
         .domain = graph::Domain::Host,
         .step =
-            [motions, &earlier, &places = filter_.places_](Run& run) {
-                if (!run.rehearsal() && haveMoved(places, earlier.places)) {
+            [motions, moved, &earlier, &places = filter_.places_](Run& run) {
+                *moved = !run.rehearsal() && haveMoved(places, earlier.places);
+                if (*moved) {
                     run.buffer<float>(motions).upload(
                         run.queue(), std::span<const float>(motionsBetween(*places, *earlier.places)));
                 }
@@ -306,17 +309,17 @@ TemporalFilter::Passes::Differences TemporalFilter::Passes::differencesFrom(cons
         g_.plane<Noisy>("difference before the filter", graph::floats),
         g_.plane<render::Squares>("variation of both", graph::floats),
         g_.plane<render::Share>("whether the surface was seen", graph::floats) };
-    const auto params = [params = params_, camera = camera_, &earlier, &places = filter_.places_](
-                            const graph::Launch& launch) {
+    const auto moved = std::make_shared<bool>(false);
+    const auto params = [params = params_, camera = camera_, moved, &earlier](const graph::Launch& launch) {
         shared::TemporalParams p = params;
         render::setRectangle(p, launch.window);
         setCamera(p, earlier.camera);
         p.cameraStill = equalCameras(camera, earlier.camera) ? 1 : 0;
-        p.objectsStill = haveMoved(places, earlier.places) ? 0 : 1;
+        p.objectsStill = *moved ? 0 : 1;
         return p;
     };
     f_.pixels(pass, PassKind::Filter, { file, "differFromFrame" },
-        joined({ graph::made("p", params), reads("motions", motionsTo(earlier)),
+        joined({ graph::made("p", params), reads("motions", motionsTo(earlier, moved)),
                    reads("position", f_.surfaces.position), reads("normal", f_.surfaces.normal) },
             graph::together("kept",
                 { reads("object", own_.object), reads("directLight", own_.direct),
@@ -399,7 +402,13 @@ void TemporalFilter::allocate(const Settings& settings, const render::PreparedSc
     const std::size_t planes = keptOf(hasIndirect(settings, scene));
     for (std::uint32_t k = 0; k < windowOf(settings.temporal); ++k) {
         Kept& kept = kept_.at(k);
-        for (std::size_t i = kept.planes.size(); i < planes; ++i) {
+        if (kept.planes.size() == planes && kept.size == layout.size) {
+            continue;
+        }
+        kept.frame.reset();
+        kept.planes.clear(); // before there are more
+        kept.size = layout.size;
+        for (std::size_t i = 0; i < planes; ++i) {
             kept.planes.emplace_back(device_, layout.size * keptPlanes[i].format.bytes, keptPlanes[i].name);
         }
     }

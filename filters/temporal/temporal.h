@@ -29,8 +29,8 @@ constexpr std::uint32_t firstOfWindow(std::uint32_t frame, render::Temporal filt
 
 /// The filter over time (docs/temporal.md): keeps what frames of a sequence found, and makes of beauty, direct and
 /// indirect light of a frame the means over those that are still in the window, each looked up where surfaces were in
-/// it. Frames are of one size and one filter, and come in their order, each by its number Settings::frame. A frame that
-/// was stopped is not kept.
+/// it. Frames come in their order, each by its number Settings::frame. Those of another size or with other terms begin
+/// a sequence anew. A frame that was stopped is not kept.
 class TemporalFilter : public render::FrameFilter {
 public:
     /// device must outlive this.
@@ -41,6 +41,7 @@ public:
     /// false: it is kept for those after it, and left as it is.
     void next(std::shared_ptr<const ObjectPlaces> places, bool filters = true);
 
+    bool filters(const render::Settings& settings) const override { return settings.temporal != render::Temporal::Off; }
     void addTo(
         device::MemoryPlan& plan, const render::Settings& settings, const render::PreparedScene& scene) const override;
     void allocate(const render::Settings& settings, const render::PreparedScene& scene) override;

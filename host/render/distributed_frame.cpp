@@ -1,5 +1,7 @@
 #include "host/render/distributed_frame.h"
 
+#include "host/render/frame_filter.h"
+
 namespace wedge::render {
 
 DistributedFrame::DistributedFrame(const PreparedScene& scene, const DeviceScene* deviceScene, const Settings& settings,

@@ -3,7 +3,6 @@
 #include "host/graph/execution.h"
 #include "host/render/effect.h"
 #include "host/render/frame_builder.h"
-#include "host/render/frame_filter.h"
 
 #include <memory>
 #include <string>
@@ -12,6 +11,7 @@
 namespace wedge::render {
 
 class DistributedSamples;
+class FrameFilter;
 
 /// A frame that is declared, and not run yet: its graph, and what is to be read of it afterwards. The graph's passes
 /// refer to this and to what it was made of.

@@ -1,6 +1,7 @@
 #include "host/render/pixel_frame.h"
 
 #include "host/render/filters/fallback.h"
+#include "host/render/frame_filter.h"
 
 #include <algorithm>
 

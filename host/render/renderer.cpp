@@ -146,10 +146,7 @@ device::MemoryPlan Renderer::plan(const PreparedScene& scene, const Hierarchy& h
 {
     const auto planned = [&](const StepRange& step) {
         device::MemoryPlan plan;
-        DeviceScene::plan(plan, scene, hierarchy);
-        if (filter != nullptr) {
-            filter->addTo(plan, settings, scene);
-        }
+        addLasting(plan, scene, hierarchy, settings, filter);
         HalfMemories memories { SampleMemory(nullptr), SampleMemory(nullptr) };
         const std::unique_ptr<FrameGraph> frame =
             declareUnbacked(scene, hierarchy, settings, keepLayers, filter, memories, step);
@@ -191,21 +188,22 @@ void Renderer::filterFrames(std::shared_ptr<FrameFilter> filter)
 
 FrameFilter* Renderer::filterOf(const Settings& settings) const
 {
-    return settings.temporal != Temporal::Off && !settings.progressive ? filter_.get() : nullptr;
+    return filter_ && filter_->filters(settings) && !settings.progressive ? filter_.get() : nullptr;
 }
 
-void Renderer::addLasting(device::MemoryPlan& plan, const Settings& settings) const
+void Renderer::addLasting(device::MemoryPlan& plan, const PreparedScene& scene, const Hierarchy& hierarchy,
+    const Settings& settings, const FrameFilter* filter)
 {
-    DeviceScene::plan(plan, scene_, hierarchy_);
-    if (const FrameFilter* filter = filterOf(settings)) {
-        filter->addTo(plan, settings, scene_);
+    DeviceScene::plan(plan, scene, hierarchy);
+    if (filter != nullptr) {
+        filter->addTo(plan, settings, scene);
     }
 }
 
 bool Renderer::takeLasting(const Settings& settings)
 {
     device::MemoryPlan plan;
-    addLasting(plan, settings);
+    addLasting(plan, scene_, hierarchy_, settings, filterOf(settings));
     if (!plan.fits(device_.info(), options_.memoryLimit)) {
         return false;
     }
@@ -249,7 +247,7 @@ const device::MemoryPlan& Renderer::plan(const Settings& settings, bool keepLaye
         planned_.reset();
         device::MemoryPlan memory;
         if (compiles) {
-            addLasting(memory, settings);
+            addLasting(memory, scene_, hierarchy_, settings, filterOf(settings));
             compiled_->plan().addTo(memory);
         } else {
             memory = planUnbacked(settings, keepLayers);

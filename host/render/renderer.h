@@ -94,8 +94,8 @@ public:
     /// slabs: as graph::place() has them. filter: as filterFrames() has it.
     static device::MemoryPlan plan(const PreparedScene& scene, const Hierarchy& hierarchy, const Settings& settings,
         bool keepLayers = false, const graph::SlabRules& slabs = {}, FrameFilter* filter = nullptr);
-    /// The same of this renderer's. Puts the scene on the device, where there is room for that: for frames that are to
-    /// be rendered.
+    /// The same of this renderer's. Puts the scene on the device, and what its filter keeps, where there is room for
+    /// that: for frames that are to be rendered.
     const device::MemoryPlan& plan(const Settings& settings, bool keepLayers = false);
     /// The same of a frame that is not: allocates nothing.
     device::MemoryPlan planUnbacked(const Settings& settings, bool keepLayers = false) const
@@ -126,7 +126,7 @@ public:
     /// Launches all kernels of these settings at full size over nothing, so that no compilation falls into render().
     void rehearse(const Settings& settings, bool keepLayers = false);
 
-    /// From now on frames of Settings::temporal have that filter's passes, after their own; null: none do.
+    /// From now on frames that it filters have that filter's passes, after their own; null: none do.
     void filterFrames(std::shared_ptr<FrameFilter> filter);
 
     /// Lets `alter` change the scene in the parts that `change` names, and in its camera. What was made of those is
@@ -160,8 +160,9 @@ private:
         const Settings& settings, bool keepLayers, FrameFilter* filter, HalfMemories& memories, const StepRange& step);
     /// That of frames of these settings; null: none.
     FrameFilter* filterOf(const Settings& settings) const;
-    /// What outlives frames.
-    void addLasting(device::MemoryPlan& plan, const Settings& settings) const;
+    /// Adds what outlives frames. filter: null: none
+    static void addLasting(device::MemoryPlan& plan, const PreparedScene& scene, const Hierarchy& hierarchy,
+        const Settings& settings, const FrameFilter* filter);
     /// Puts that on the device, where it is not there, if it does not take more than there may be. Returns whether it
     /// is there.
     bool takeLasting(const Settings& settings);

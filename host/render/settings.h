@@ -196,7 +196,7 @@ struct Settings {
     image::Window crop; ///< pixels to render; empty: all
     std::uint32_t seed = 0;
     std::optional<std::uint32_t> frame; ///< its number in a sequence, which enters the random numbers
-    Temporal temporal = Temporal::Off; ///< of sequences: whose filter is run after each frame (filters/temporal)
+    Temporal temporal = Temporal::Off; ///< of sequences: whose filter each frame ends with (filters/temporal)
 
     Integrator integrator = Integrator::Path;
     int bounces = 0; ///< of indirect light: 0 is direct light alone

@@ -10,7 +10,7 @@
 // Compact frames keep it in fewer bits (core/formats.h), and the standard deviations of a primary sample's radiance and
 // of its texture in place of mean squares, whose differences would be lost in these. Lean frames, those of one image,
 // keep nothing that only further steps would ask for: their first wave alone measures, they have the factoring error
-// (distributed.cl) in place of the plain mean, and a mean motion is infinite where the pixel's motions differ.
+// (errorOfFactoring()) in place of the plain mean, and a mean motion is infinite where the pixel's motions differ.
 #ifndef WEDGE_ACCUMULATE_H
 #define WEDGE_ACCUMULATE_H
 
