@@ -1,92 +1,155 @@
 // The filter's passes on a device, and their comparison with the gather in double.
 #pragma once
 
+#include "effects/area_lights/maaf.h"
+#include "host/render/filters/filter_graph.h"
 #include "tests/filter_oracle.h"
+#include "tests/pass_bench.h"
 
 #include <string>
 
 namespace wedge::test {
 
-/// The passes of filter.cl, compiled with these defines, on one device.
+/// A graph that filters of an image are declared in, by the builder. lean: normals and sizes have fewer bits.
+struct FilterGraph {
+    FilterGraph(const render::Renderer& renderer, const FilterImage& image, bool lean)
+        : graph(image.width(), image.height(), image.value.layout.size)
+        , builder { graph, renderer.scene(), nullptr, settings, image.value.layout,
+            render::packetSize(renderer.traversal()) }
+        , channels(static_cast<std::uint32_t>(image.value.values.size() / image.value.layout.size))
+    {
+        builder.lean = lean;
+        builder.surfaces.position = there<render::Position>("position", graph::vectors);
+        builder.surfaces.normal = there<render::Normal>("normal", builder.normals(lean));
+        builder.surfaces.pixelSize = there<render::Metres>("pixelSize", lean ? render::shortFloats : graph::floats);
+        builder.surfaces.objectId = there<render::ObjectId>("objectId", graph::counts);
+    }
+    template <class Quantity>
+    graph::Handle<Quantity> there(const char* name, const graph::Format& format)
+    {
+        return graph.imported<Quantity>(name, format, cl::Buffer());
+    }
+
+    graph::Graph graph;
+    render::Settings settings;
+    render::FrameBuilder builder;
+    std::uint32_t channels; ///< of the image's value
+};
+
+/// Of one of these passes all that the image has for it.
+inline PassBench passOf(
+    render::Renderer& renderer, const FilterGraph& declared, const std::string& kernel, const FilterImage& image)
+{
+    PassBench out(renderer, declared.graph, kernel);
+    out.plane("beta", image.beta);
+    out.plane("position", image.position);
+    out.plane("normal", image.normal);
+    out.plane("pixelSize", image.pixelSize);
+    out.plane("objectId", image.objectId);
+    for (const char* name : { "filtered", "effective", "narrowRows", "wideRows", "narrowCounts", "wideCounts" })
+        if (out.has(name)) // garbage
+            out.plane(name, std::vector(out.read<float>(name).size(), -7.0f));
+    return out;
+}
+
+/// The product's filters on one device: sheared ones of images that have gradients.
 class FilterRun {
 public:
-    explicit FilterRun(const device::Device& device, const Defines& defines = { { "WEDGE_GATHER_CHANNELS", "1" } })
-        : bench_(device, defines)
+    explicit FilterRun(const device::Device& device, bool lean = false)
+        : renderer_(smallScene(), device, renderOptions())
+        , lean_(lean)
     {
     }
 
     /// Both passes over the pixels of `window`, or all; only the first if rowsOnly.
     FilterResult operator()(const FilterImage& image, bool rowsOnly = false, image::Window window = {})
     {
-        shared::FilterParams p = image.params;
-        if (window.width() > 0) {
-            p.x0 = static_cast<std::uint32_t>(window.x0);
-            p.x1 = static_cast<std::uint32_t>(window.x1);
+        FilterGraph declared(renderer_, image, lean_);
+        declare(declared, image);
+        const bool sheared = image.gradients.has_value();
+        const image::Window all = windowOf(image);
+        if (window.width() == 0)
+            window = all;
+        PassBench rows = passOf(renderer_, declared, sheared ? "shearRows" : "filterRows", image);
+        rows.plane("value", image.value);
+        if (sheared) {
+            rows.plane("gradients", *image.gradients);
+            rows.plane("slopeWidth", image.slopeWidth);
         }
-        const auto value = bench_.buffer(image.value.values);
-        const auto beta = bench_.buffer(image.beta.values),
-                   betaOfColumns = bench_.buffer(image.widthsAlong(false).values);
-        const auto position = bench_.buffer(image.position.values);
-        const auto normal = bench_.buffer(image.normal.values);
-        const auto pixelSize = bench_.buffer(image.pixelSize.values);
-        const auto objectId = bench_.buffer(image.objectId.values);
-        const auto rows = bench_.filled(image.value.values.size(), -7.0f);
-        const auto rowsEffective = bench_.filled(image.value.layout.size, -7.0f);
-        const auto gradients = bench_.buffer(image.gradients ? inShorts(*image.gradients) : std::vector<float>(1));
-        const auto slopeWidth = bench_.buffer(inShorts(image.slopeWidth));
-        const auto rowGradients = bench_.filled(gradients.size(), -7.0f);
-        if (image.gradients)
-            launch("shearRows", p, value, beta, position, normal, pixelSize, objectId, gradients, slopeWidth, rows,
-                rowsEffective, rowGradients);
-        else
-            launch("filterRows", p, value, beta, position, normal, pixelSize, objectId, rows, rowsEffective);
-        if (rowsOnly)
-            return result(image, rows, rowsEffective);
-        if (window.width() > 0) {
-            p.y0 = static_cast<std::uint32_t>(window.y0);
-            p.y1 = static_cast<std::uint32_t>(window.y1);
-        }
-        const auto out = bench_.filled(image.value.values.size(), -7.0f);
-        const auto effective = bench_.filled(image.value.layout.size, -7.0f);
-        if (image.gradients)
-            launch("shearColumns", p, rows, beta, position, normal, pixelSize, objectId, rowGradients, slopeWidth,
-                rowsEffective, out, effective);
-        else
-            launch("filterColumns", p, rows, betaOfColumns, position, normal, pixelSize, objectId, rowsEffective, out,
-                effective);
+        rows.window({ window.x0, all.y0, window.x1, all.y1 });
+        rows.run();
         // Filtering in place would race: what was filtered is still there.
-        const std::vector<float> after = bench_.read(value);
+        const auto after = rows.read<float>("value");
         CHECK(std::memcmp(after.data(), image.value.values.data(), after.size() * sizeof(float)) == 0);
-        return result(image, out, effective);
+        if (rowsOnly)
+            return { rows.pixels<float>("filtered"), rows.pixels<float>("effective") };
+        PassBench columns = passOf(renderer_, declared, sheared ? "shearColumns" : "filterColumns", image);
+        columns.plane("value", rows.read<float>("filtered"));
+        columns.plane("effectiveRows", rows.read<float>("effective"));
+        if (sheared) {
+            columns.plane("gradients", rows.read<float>("gradientsOfRows"));
+            columns.plane("slopeWidth", image.slopeWidth);
+        } else {
+            columns.plane("beta", image.widthsAlong(false));
+        }
+        columns.window(window);
+        columns.run();
+        return { columns.pixels<float>("filtered"), columns.pixels<float>("effective") };
     }
 
     /// What the program of counts alone makes of it.
     Planes<float> counts(const FilterImage& image)
     {
-        const auto effective = bench_.filled(image.value.layout.size, -7.0f);
-        bench_.passes.rows("counts", device::PassKind::Analysis, "filter/filter_counts.cl", "gatherCounts",
-            image.params, WEDGE_BLOCK_PIXELS, bench_.buffer(image.beta.values), bench_.buffer(image.position.values),
-            bench_.buffer(image.normal.values), bench_.buffer(image.pixelSize.values),
-            bench_.buffer(image.objectId.values), effective);
-        return planesOf(image.value.layout, bench_.read(effective));
+        FilterGraph declared(renderer_, image, lean_);
+        gatheredCounts(declared.builder, "counts", device::PassKind::Analysis, image.params,
+            declared.there<render::Metres>("beta", graph::floats));
+        PassBench pass = passOf(renderer_, declared, "gatherCounts", image);
+        pass.window(windowOf(image));
+        pass.run();
+        return pass.pixels<float>("effective");
     }
 
 private:
-    template <class... Args>
-    void launch(const std::string& kernel, const shared::FilterParams& p, const Args&... args)
+    static image::Window windowOf(const FilterImage& image)
     {
-        bench_.passes.rows(
-            "filter", device::PassKind::Filter, "filter/filter.cl", kernel, p, WEDGE_BLOCK_PIXELS, args...);
+        return { 0, 0, static_cast<int>(image.params.x1), static_cast<int>(image.params.y1) };
     }
-    FilterResult result(
-        const FilterImage& image, const device::Buffer<float>& value, const device::Buffer<float>& effective)
+    static void declare(FilterGraph& declared, const FilterImage& image)
     {
-        return { planesOf(image.value.layout, bench_.read(value)),
-            planesOf(image.value.layout, bench_.read(effective)) };
+        using namespace render;
+        const render::FilterRun run { "filter", device::PassKind::Filter };
+        const auto value = declared.there<Value>("value", graph::floatPlanes(declared.channels));
+        const auto beta = declared.there<Metres>("beta", graph::floats);
+        if (image.gradients) {
+            const bool curved = image.gradients->values.size() == 5 * image.value.values.size();
+            const graph::Format format = curved ? momentsFormat(declared.channels) : gradientsOf(declared.channels);
+            Gathered out = filteredPlanes(declared.builder, declared.channels);
+            shearedFilter(declared.builder, run, declared.channels, image.params, value, beta,
+                { declared.there<Value>("gradients", format), declared.there<Metres>("slopeWidth", shortFloats), format,
+                    curved },
+                out);
+        } else if (image.meanSquare) {
+            gaussianFilter(declared.builder, run, declared.channels, image.params, value,
+                { beta, declared.there<Metres>("beta of columns", graph::floats) });
+        } else {
+            gaussianFilter(declared.builder, run, declared.channels, image.params, value, beta);
+        }
     }
 
-    KernelBench bench_;
+    render::Renderer renderer_;
+    bool lean_;
 };
+
+/// The same image with normals and sizes as lean frames keep them.
+inline FilterImage keptLean(FilterImage image)
+{
+    everyPixel(image.value.layout, [&](int x, int y) {
+        const std::uint32_t bits = shared::packNormal(toShared(image.normal.vector(x, y)));
+        image.normal.setVector(x, y, toGlm(shared::unpackNormal(bits)));
+        image.pixelSize.at(x, y) = shared::unpackShort(shared::packShort(image.pixelSize.at(x, y)));
+    });
+    return image;
+}
 
 /// Compares with the oracle wherever no test of it hangs on a rounding. Returns the fraction of pixels left out.
 inline double compare(

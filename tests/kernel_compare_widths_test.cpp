@@ -1,9 +1,7 @@
 // widening.cl alone: a plane filtered with two widths at once, against the gather in double with one after the
 // other.
-#include "tests/filter_oracle.h"
-#include "tests/packed_support.h"
-
-#include <bit>
+#include "host/render/filters/widening.h"
+#include "tests/filter_run.h"
 
 using namespace wedge;
 using namespace wedge::test;
@@ -47,36 +45,38 @@ struct Difference {
     Planes<float> rowCounts; ///< what is in the difference's place before
 };
 
-/// normals, sizes: of the image, as the program has them; window: the pixels to compare, all by default
-Difference differenceOf(KernelBench& bench, const Compared& in, const Planes<float>& normals,
-    const Planes<float>& sizes, const device::ProgramSource& program = "analysis/widening.cl",
-    image::Window window = {})
+/// window: the pixels to compare, all by default
+Difference differenceOf(render::Renderer& renderer, const Compared& in, image::Window window = {}, bool lean = false)
 {
     const FilterImage& image = in.image;
-    const std::size_t size = image.value.layout.size;
-    shared::FilterParams p = image.params;
-    const auto run = [&](const char* kernel, const auto&... args) {
-        bench.passes.rows("compare", device::PassKind::Filter, program, kernel, p, WEDGE_BLOCK_PIXELS, args...);
+    FilterGraph declared(renderer, image, lean);
+    auto beta = declared.there<render::Metres>("beta", graph::floats);
+    render::widen(declared.builder, "compare", image.params, 8, render::pinholeNoise,
+        { declared.there<render::Value>("value", graph::floats),
+            declared.there<render::Deviation>("deviation", graph::floats),
+            declared.there<render::Share>("weights", graph::floats) },
+        beta);
+    if (window.width() == 0)
+        window = { 0, 0, image.width(), image.height() };
+    const int reach = static_cast<int>(image.params.maxRadius);
+    const auto run = [&](PassBench& pass, const image::Window& pixels) {
+        shared::FilterParams p = image.params; // of another radius than the pass's own
+        render::setRectangle(p, pixels);
+        pass.value("p", p);
+        pass.window(pixels);
+        pass.plane("compared", in.wide);
+        pass.run();
     };
-    if (window.width() > 0) {
-        const int reach = static_cast<int>(p.maxRadius);
-        render::setRectangle(
-            p, { window.x0, std::max(0, window.y0 - reach), window.x1, std::min(image.height(), window.y1 + reach) });
-    }
-    const auto value = bench.buffer(image.value.values), beta = bench.buffer(image.beta.values),
-               wide = bench.buffer(in.wide.values), position = bench.buffer(image.position.values),
-               normal = bench.buffer(normals.values), pixelSize = bench.buffer(sizes.values);
-    const auto objectId = bench.buffer(image.objectId.values);
-    const auto narrowRows = bench.filled(size, -7.0f), wideRows = bench.filled(size, -7.0f),
-               difference = bench.filled(size, -7.0f), apart = bench.filled(size, -7.0f);
-    run("compareRows", value, beta, wide, position, normal, pixelSize, objectId, narrowRows, wideRows, difference,
-        apart);
-    const std::vector<float> rowCounts = bench.read(difference);
-    if (window.width() > 0)
-        render::setRectangle(p, window);
-    run("compareColumns", narrowRows, wideRows, beta, wide, position, normal, pixelSize, objectId, difference, apart);
-    return { planesOf(image.value.layout, bench.read(difference)), planesOf(image.value.layout, bench.read(apart)),
-        planesOf(image.value.layout, rowCounts) };
+    PassBench rows = passOf(renderer, declared, "compareRows", image);
+    rows.plane("value", image.value);
+    run(rows, { window.x0, std::max(0, window.y0 - reach), window.x1, std::min(image.height(), window.y1 + reach) });
+    PassBench columns = passOf(renderer, declared, "compareColumns", image);
+    columns.plane("narrowRows", rows.read<float>("narrowRows"));
+    columns.plane("wideRows", rows.read<float>("wideRows"));
+    columns.plane("difference", rows.read<float>("narrowCounts"));
+    columns.plane("apart", rows.read<float>("wideCounts"));
+    run(columns, window);
+    return { columns.pixels<float>("difference"), columns.pixels<float>("apart"), rows.pixels<float>("narrowCounts") };
 }
 
 /// Compares with the oracle where no test of it hangs on a rounding.
@@ -107,14 +107,14 @@ void check(const Compared& in, const Difference& found)
 TEST_CASE("two widths at once are what a gather with each makes, and what noise both have apart")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        render::Renderer renderer(smallScene(), device, renderOptions());
         for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough }) {
             CAPTURE(static_cast<int>(shape));
             Compared in(shape, 40);
             in.image.params.fitted = 1;
-            check(in, differenceOf(bench, in, in.image.normal, in.image.pixelSize));
+            check(in, differenceOf(renderer, in));
             in.image = withoutLight(in.image);
-            check(in, differenceOf(bench, in, in.image.normal, in.image.pixelSize));
+            check(in, differenceOf(renderer, in));
         }
     });
 }
@@ -122,7 +122,7 @@ TEST_CASE("two widths at once are what a gather with each makes, and what noise 
 TEST_CASE("two widths at once by the settings of a gather: the pixel's own width for each, all surfaces, means")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        render::Renderer renderer(smallScene(), device, renderOptions());
         for (const bool narrower : { false, true })
             for (const bool surface : { false, true }) {
                 CAPTURE(narrower);
@@ -130,7 +130,7 @@ TEST_CASE("two widths at once by the settings of a gather: the pixel's own width
                 Compared in(Shape::Rough, 42);
                 in.image.params.narrower = narrower ? 1 : 0;
                 in.image.params.surface = surface ? 1 : 0;
-                check(in, differenceOf(bench, in, in.image.normal, in.image.pixelSize));
+                check(in, differenceOf(renderer, in));
             }
     });
 }
@@ -138,7 +138,7 @@ TEST_CASE("two widths at once by the settings of a gather: the pixel's own width
 TEST_CASE("what is no number where there is no value to take reaches no other pixel")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        render::Renderer renderer(smallScene(), device, renderOptions());
         Compared in(Shape::Steps, 43);
         int without = 0;
         for (int y = 0; y < in.image.height(); ++y)
@@ -148,7 +148,7 @@ TEST_CASE("what is no number where there is no value to take reaches no other pi
                     ++without;
                 }
         CHECK(without > 100);
-        const Difference found = differenceOf(bench, in, in.image.normal, in.image.pixelSize);
+        const Difference found = differenceOf(renderer, in);
         // The gather in double knows numbers alone, and takes none of these.
         for (float& v : in.image.value.values)
             v = std::isnan(v) ? 0.0f : v;
@@ -159,12 +159,11 @@ TEST_CASE("what is no number where there is no value to take reaches no other pi
 TEST_CASE("two widths at once in a window are the whole image's, bit by bit")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        render::Renderer renderer(smallScene(), device, renderOptions());
         const Compared in(Shape::Tilted, 44);
-        const Difference whole = differenceOf(bench, in, in.image.normal, in.image.pixelSize);
+        const Difference whole = differenceOf(renderer, in);
         const image::Window window { 16, 7, 48, 19 };
-        const Difference part =
-            differenceOf(bench, in, in.image.normal, in.image.pixelSize, "analysis/widening.cl", window);
+        const Difference part = differenceOf(renderer, in, window);
         for (int y = 0; y < in.image.height(); ++y)
             for (int x = 0; x < in.image.width(); ++x) {
                 const bool inside = x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1;
@@ -178,22 +177,9 @@ TEST_CASE("two widths at once in a window are the whole image's, bit by bit")
 TEST_CASE("two widths at once with packed normals and sizes")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        render::Renderer renderer(smallScene(), device, renderOptions());
         Compared in(Shape::Tilted, 41);
-        Planes<float> packed(in.image.value.layout, 1, 0.0f);
-        for (int y = 0; y < in.image.height(); ++y)
-            for (int x = 0; x < in.image.width(); ++x) {
-                const std::uint32_t bits = shared::packNormal(toShared(in.image.normal.vector(x, y)));
-                const shared::Vec3 rounded = shared::unpackNormal(bits);
-                packed.at(x, y) = std::bit_cast<float>(bits);
-                in.image.normal.setVector(x, y, { rounded.x, rounded.y, rounded.z });
-                float& size = in.image.pixelSize.at(x, y);
-                size = test::rounded(size);
-            }
-        const Planes<float> sizes = packedNumbers(in.image.pixelSize, in.image.pixelSize);
-        check(in,
-            differenceOf(bench, in, packed, sizes,
-                { "analysis/widening.cl",
-                    { { "WEDGE_NORMAL_FORMAT", "normal32" }, { "WEDGE_SIZE_FORMAT", "short1" } } }));
+        in.image = keptLean(in.image);
+        check(in, differenceOf(renderer, in, {}, true));
     });
 }

@@ -1,9 +1,7 @@
 // filter.cl alone: the gather over plain distances, of one plane, three and four.
 #include "tests/filter_run.h"
-#include "tests/packed_support.h"
 
 #include <algorithm>
-#include <bit>
 
 using namespace wedge;
 using namespace wedge::test;
@@ -12,21 +10,14 @@ namespace {
 
 const float notANumber = std::numeric_limits<float>::quiet_NaN();
 
-Defines program(int planes, const Defines& more = {})
-{
-    Defines defines { { "WEDGE_GATHER_CHANNELS", std::to_string(planes) } };
-    defines.insert(defines.end(), more.begin(), more.end());
-    return defines;
-}
-
 /// Calls test(filter, planes) for each number of planes on every device.
 template <class Test>
 void withEach(const Test& test)
 {
     onEveryDevice([&](const device::Device& device) {
+        FilterRun filter(device);
         for (const int planes : { 3, 4, 1 }) {
             CAPTURE(planes);
-            FilterRun filter(device, program(planes));
             test(filter, planes);
         }
     });
@@ -130,9 +121,9 @@ TEST_CASE("without a light: both passes gather over plain distances, all planes 
 TEST_CASE("along the axes: pairs have the mean of both squared bandwidths, and rows and columns widths of their own")
 {
     onEveryDevice([](const device::Device& device) {
+        FilterRun filter(device);
         for (const int planes : { 3, 4 }) {
             CAPTURE(planes);
-            FilterRun filter(device, program(planes, { { "WEDGE_GATHER_MEAN_SQUARE", "1" } }));
             double uncertain = 0;
             unsigned runs = 0, seed = 60;
             for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough })
@@ -213,7 +204,7 @@ TEST_CASE("without a light: NaN of another object, of another normal or of a pix
 TEST_CASE("on a smooth scene two passes over plain distances are close to the gather over squares of pixels")
 {
     onEveryDevice([](const device::Device& device) {
-        FilterRun filter(device, program(3));
+        FilterRun filter(device);
         for (const bool narrower : { false, true })
             for (const unsigned seed : { 41u, 42u, 43u }) {
                 FilterImage image = smoothImage(64, 48, seed);
@@ -239,43 +230,23 @@ TEST_CASE("on a smooth scene two passes over plain distances are close to the ga
     });
 }
 
-namespace {
-
-/// The normals as packed planes hold them, and that plane in the place of the three.
-void packNormals(FilterImage& plain, FilterImage& packed)
-{
-    everyPixel(plain, [&](int x, int y) {
-        const std::uint32_t bits = shared::packNormal(toShared(plain.normal.vector(x, y)));
-        packed.normal.at(x, y) = std::bit_cast<float>(bits);
-        plain.normal.setVector(x, y, toGlm(shared::unpackNormal(bits)));
-        plain.pixelSize.at(x, y) = rounded(plain.pixelSize.at(x, y));
-    });
-    packed.pixelSize = packedNumbers(plain.pixelSize, plain.pixelSize);
-}
-
-} // namespace
-
 TEST_CASE("programs of lean frames: what the others make of the same normals, without counts of three planes")
 {
     onEveryDevice([](const device::Device& device) {
+        FilterRun filter(device), lean(device, true);
         for (const int planes : { 3, 1 }) {
             CAPTURE(planes);
             const bool counts = planes == 1;
-            Defines packedDefines { { "WEDGE_NORMAL_FORMAT", "normal32" }, { "WEDGE_SIZE_FORMAT", "short1" } };
-            if (!counts)
-                packedDefines.emplace_back("WEDGE_GATHER_VALUE_ONLY", "1");
-            FilterRun filter(device, program(planes)), packedFilter(device, program(planes, packedDefines));
             for (const Shape shape : { Shape::Tilted, Shape::Steps, Shape::Rough }) {
-                FilterImage plain = unlit(61, 29, shape, 50, planes), packed = plain;
-                packNormals(plain, packed);
-                const FilterResult expected = filter(plain), found = packedFilter(packed);
+                const FilterImage image = keptLean(unlit(61, 29, shape, 50, planes));
+                const FilterResult expected = filter(image), found = lean(image);
                 int filtered = 0;
-                everyPixel(plain, [&](int x, int y) {
+                everyPixel(image, [&](int x, int y) {
                     CAPTURE(x);
                     CAPTURE(y);
                     for (std::size_t c = 0; c < static_cast<std::size_t>(planes); ++c) {
                         REQUIRE(found.value.at(x, y, c) == doctest::Approx(expected.value.at(x, y, c)).epsilon(1e-5));
-                        filtered += found.value.at(x, y, c) != plain.value.at(x, y, c) ? 1 : 0;
+                        filtered += found.value.at(x, y, c) != image.value.at(x, y, c) ? 1 : 0;
                     }
                     REQUIRE(found.effective.at(x, y) == doctest::Approx(counts ? expected.effective.at(x, y) : -7.0f));
                 });
@@ -288,7 +259,7 @@ TEST_CASE("programs of lean frames: what the others make of the same normals, wi
 TEST_CASE("the counts alone are those of the filter")
 {
     onEveryDevice([](const device::Device& device) {
-        FilterRun filter(device, program(1));
+        FilterRun filter(device);
         for (const auto& [width, height] : { std::pair(1, 1), { 1, 40 }, { 67, 33 } })
             for (const Shape shape : { Shape::Flat, Shape::Rough }) {
                 const FilterImage image = unlit(width, height, shape, 4, 1);

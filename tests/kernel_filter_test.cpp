@@ -64,7 +64,7 @@ TEST_CASE("both passes gather what their definition in double gathers")
 TEST_CASE("with a specular term both channels are gathered with the same weights")
 {
     onEveryDevice([](const device::Device& device) {
-        FilterRun filter(device, { { "WEDGE_GATHER_CHANNELS", "2" } });
+        FilterRun filter(device);
         const FilterImage image = randomImage(35, 20, Shape::Tilted, 5, 2);
         const OracleResult rows = oracleRows(image);
         compare(image, filter(image), oracleColumns(image, rows), 2);

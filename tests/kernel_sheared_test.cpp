@@ -10,8 +10,6 @@ using namespace wedge::test;
 
 namespace {
 
-const Defines program { { "WEDGE_GATHER_SHEARED", "1" }, { "WEDGE_GATHER_CHANNELS", "1" } };
-
 /// A floor of 5 cm pixels seen from above with a share of light h = 0.5 + a x^2 + b x z + c z^2 and its gradients,
 /// where filters are 2 to 3 pixels wide.
 FilterImage curvedField(double a, double b, double c)
@@ -51,12 +49,12 @@ double worst(const FilterImage& image, const FilterResult& result, int margin)
 TEST_CASE("a field of second order comes out as it is, and filters without its gradients flatten it")
 {
     onEveryDevice([](const device::Device& device) {
-        FilterRun sheared(device, program), plain(device);
+        FilterRun filter(device);
         FilterImage image = curvedField(0.2, -0.15, 0.3);
-        const FilterResult result = sheared(image);
+        const FilterResult result = filter(image);
         const double inside = worst(image, result, 8), anywhere = worst(image, result, 0);
         image.gradients.reset();
-        const FilterResult other = plain(image);
+        const FilterResult other = filter(image);
         MESSAGE("off by up to ", inside, ", at borders ", anywhere, "; without gradients ", worst(image, other, 8));
         CHECK(worst(image, other, 8) > 3e-3);
         CHECK(inside < 1e-4);
@@ -67,9 +65,8 @@ TEST_CASE("a field of second order comes out as it is, and filters without its g
 TEST_CASE("both passes gather what their definition in double gathers")
 {
     onEveryDevice([](const device::Device& device) {
-        for (const bool specular : { false, true }) {
-            const std::size_t channels = specular ? 2 : 1;
-            FilterRun sheared(device, { program.front(), { "WEDGE_GATHER_CHANNELS", specular ? "2" : "1" } });
+        FilterRun filter(device);
+        for (const std::size_t channels : { 1u, 2u }) {
             double left = 0;
             unsigned images = 0;
             for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough })
@@ -87,8 +84,8 @@ TEST_CASE("both passes gather what their definition in double gathers")
                     CAPTURE(static_cast<int>(shape));
                     CAPTURE(fitted);
                     const OracleResult rows = oracleRows(image);
-                    left += compare(image, sheared(image, true), rows, static_cast<int>(channels));
-                    left += compare(image, sheared(image), oracleColumns(image, rows), static_cast<int>(channels));
+                    left += compare(image, filter(image, true), rows, static_cast<int>(channels));
+                    left += compare(image, filter(image), oracleColumns(image, rows), static_cast<int>(channels));
                     images += 2;
                 }
             CHECK(left / images < 0.1);
@@ -99,13 +96,13 @@ TEST_CASE("both passes gather what their definition in double gathers")
 TEST_CASE("without gradients the filter is the other one, bit by bit")
 {
     onEveryDevice([](const device::Device& device) {
-        FilterRun sheared(device, program), plain(device);
+        FilterRun filter(device);
         for (const Shape shape : { Shape::Tilted, Shape::Steps, Shape::Rough }) {
             FilterImage image = randomImage(50, 19, shape, 7);
             image.params.fitted = 1;
-            const FilterResult expected = plain(image);
+            const FilterResult expected = filter(image);
             image.gradients.emplace(image.value.layout, 2, 0.0f);
-            const FilterResult result = sheared(image);
+            const FilterResult result = filter(image);
             for (int y = 0; y < image.height(); ++y)
                 for (int x = 0; x < image.width(); ++x) {
                     REQUIRE(result.value.at(x, y) == expected.value.at(x, y));
@@ -118,18 +115,18 @@ TEST_CASE("without gradients the filter is the other one, bit by bit")
 TEST_CASE("NaN of what is not gathered stays there")
 {
     onEveryDevice([](const device::Device& device) {
-        FilterRun sheared(device, program);
+        FilterRun filter(device);
         FilterImage image = curvedField(0.2, 0.1, 0.1);
-        const FilterResult clean = sheared(image);
+        const FilterResult clean = filter(image);
         for (int y = 0; y < image.height(); ++y) {
             image.objectId.at(20, y) = 2;
             image.value.at(20, y) = 0.5f;
         }
-        const FilterResult apart = sheared(image);
+        const FilterResult apart = filter(image);
         for (int y = 0; y < image.height(); ++y)
             for (std::size_t k = 0; k < 2; ++k)
                 image.gradients->at(20, y, k) = std::numeric_limits<float>::quiet_NaN();
-        const FilterResult result = sheared(image);
+        const FilterResult result = filter(image);
         for (int y = 0; y < image.height(); ++y)
             for (int x = 0; x < image.width(); ++x)
                 if (x != 20)

@@ -12,9 +12,6 @@ using namespace wedge::test;
 
 namespace {
 
-const Defines curvedProgram { { "WEDGE_GATHER_SHEARED", "1" }, { "WEDGE_GATHER_CURVED", "1" },
-    { "WEDGE_GATHER_CHANNELS", "1" } };
-
 /// A share of light on a floor, a polynomial of fourth order, and its derivatives along x, z, xx, xz, zz.
 std::array<double, 6> fieldAt(double x, double z)
 {
@@ -88,8 +85,7 @@ std::vector<std::array<double, 6>> oraclePass(
 TEST_CASE("a field of fourth order comes out as it is, which first derivatives alone leave flatter")
 {
     onEveryDevice([](const device::Device& device) {
-        FilterRun curved(device, curvedProgram),
-            sheared(device, { { "WEDGE_GATHER_SHEARED", "1" }, { "WEDGE_GATHER_CHANNELS", "1" } });
+        FilterRun filter(device);
         FilterImage image = curvedField();
         image.slopeWidth = Planes<float>(image.value.layout, 1, 1.0f); // s = 1
         const auto worst = [&](const FilterResult& result) {
@@ -99,7 +95,7 @@ TEST_CASE("a field of fourth order comes out as it is, which first derivatives a
                     off = std::max<double>(off, std::fabs(result.value.at(x, y) - image.value.at(x, y)));
             return off;
         };
-        const double both = worst(curved(image));
+        const double both = worst(filter(image));
         Planes<float> first(image.value.layout, 2, 0.0f);
         for (int y = 0; y < image.height(); ++y)
             for (int x = 0; x < image.width(); ++x)
@@ -108,7 +104,7 @@ TEST_CASE("a field of fourth order comes out as it is, which first derivatives a
         image.gradients = first;
         image.params.shearU = shared::vec3(0.5f, 0, 0);
         image.params.shearV = shared::vec3(0, 0, 0.5f);
-        const double one = worst(sheared(image));
+        const double one = worst(filter(image));
         MESSAGE("off by up to ", both, ", by first derivatives alone ", one);
         CHECK(both < 6e-5); // of 16 bits
         CHECK(both < 0.5 * one);
@@ -118,7 +114,7 @@ TEST_CASE("a field of fourth order comes out as it is, which first derivatives a
 TEST_CASE("both passes of the filter pass polynomials on as their definition in double does")
 {
     onEveryDevice([](const device::Device& device) {
-        FilterRun curved(device, curvedProgram);
+        FilterRun filter(device);
         FilterImage image = curvedField();
         image.params.cut = 6;
         image.params.maxRadius = 6;
@@ -139,7 +135,7 @@ TEST_CASE("both passes of the filter pass polynomials on as their definition in 
                 in.push_back(all);
             }
         const auto expected = oraclePass(image, oraclePass(image, in, 1, 0), 0, 1);
-        const FilterResult found = curved(image);
+        const FilterResult found = filter(image);
         for (int y = 0; y < image.height(); ++y)
             for (int x = 0; x < image.width(); ++x)
                 REQUIRE(std::fabs(found.value.at(x, y) - expected[indexOf(image, x, y)][0])
@@ -150,11 +146,8 @@ TEST_CASE("both passes of the filter pass polynomials on as their definition in 
 TEST_CASE("fitted lines, narrower pairs and what is left out are as in the filter of gradients")
 {
     onEveryDevice([](const device::Device& device) {
-        for (const bool specular : { false, true }) {
-            const std::size_t channels = specular ? 2 : 1;
-            Defines defines = curvedProgram;
-            defines.back().second = specular ? "2" : "1";
-            FilterRun curved(device, defines);
+        FilterRun filter(device);
+        for (const std::size_t channels : { 1u, 2u }) {
             double left = 0;
             unsigned images = 0;
             for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough })
@@ -173,8 +166,8 @@ TEST_CASE("fitted lines, narrower pairs and what is left out are as in the filte
                     CAPTURE(static_cast<int>(shape));
                     CAPTURE(fitted);
                     const OracleResult rows = oracleRows(image);
-                    left += compare(image, curved(image, true), rows, static_cast<int>(channels));
-                    left += compare(image, curved(image), oracleColumns(image, rows), static_cast<int>(channels));
+                    left += compare(image, filter(image, true), rows, static_cast<int>(channels));
+                    left += compare(image, filter(image), oracleColumns(image, rows), static_cast<int>(channels));
                     images += 2;
                 }
             CHECK(left / images < 0.1);
@@ -185,16 +178,16 @@ TEST_CASE("fitted lines, narrower pairs and what is left out are as in the filte
 TEST_CASE("NaN of moments that are not gathered stays there")
 {
     onEveryDevice([](const device::Device& device) {
-        FilterRun curved(device, curvedProgram);
+        FilterRun filter(device);
         FilterImage image = curvedField();
-        const FilterResult clean = curved(image);
+        const FilterResult clean = filter(image);
         for (int y = 0; y < image.height(); ++y)
             image.objectId.at(20, y) = 2;
-        const FilterResult apart = curved(image);
+        const FilterResult apart = filter(image);
         for (int y = 0; y < image.height(); ++y)
             for (std::size_t k = 0; k < 5; ++k)
                 image.gradients->at(20, y, k) = std::numeric_limits<float>::quiet_NaN();
-        const FilterResult result = curved(image);
+        const FilterResult result = filter(image);
         for (int y = 0; y < image.height(); ++y)
             for (int x = 0; x < image.width(); ++x)
                 if (x != 20)

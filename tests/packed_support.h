@@ -98,17 +98,4 @@ inline double unitOf(glm::dvec3 c, std::uint32_t bits)
     return bits == plainBits ? 0 : bits == fractionBits ? std::max(largest / 255, 1e-7) : largest / 4095;
 }
 
-/// Two planes of numbers in one, rounded.
-inline Planes<float> packedNumbers(const Planes<float>& first, const Planes<float>& second)
-{
-    Planes<float> out(first.layout, 1, 0.0f);
-    const std::size_t n = first.layout.size;
-    char* bytes = reinterpret_cast<char*>(out.values.data());
-    for (std::size_t i = 0; i < 2 * n; ++i) {
-        const auto bits = static_cast<std::uint16_t>(shared::packShort(i < n ? first.values[i] : second.values[i - n]));
-        std::memcpy(bytes + sizeof(bits) * i, &bits, sizeof(bits));
-    }
-    return out;
-}
-
 } // namespace wedge::test
