@@ -1,7 +1,8 @@
 // Directions of an environment's map: how often each is chosen, the densities that are told, what is seen there, and
 // pre-computed ones.
 #include "host/render/environment_table.h"
-#include "tests/render_support.h"
+#include "tests/environment_support.h"
+#include "tests/pass_bench.h"
 
 #include <algorithm>
 #include <array>
@@ -101,24 +102,80 @@ double solidAngle(int y)
     return 2 * pi / width * (std::cos(pi * y / height) - std::cos(pi * (y + 1) / height));
 }
 
-/// The frame's pre-computed samples with that seed, row by row.
-std::vector<Sample> precomputed(const device::Device& device, const render::EnvironmentTable& table, std::uint32_t seed)
+/// Of a floor that a map lights.
+DeclaredFrame frameUnder(const device::Device& device, const render::EnvironmentPicture& map, render::Settings settings)
 {
-    constexpr std::uint32_t rows = WEDGE_ENVIRONMENT_CELLS;
-    constexpr std::size_t cells = std::size_t { rows } * rows, floats = WEDGE_ENVIRONMENT_SAMPLE_FLOATS;
-    KernelBench bench(device, { { "WEDGE_ENVIRONMENT_MAP", "1" } });
-    const auto map = bench.buffer(std::vector { table.map });
-    const auto numbers = bench.buffer(table.numbers), out = bench.filled(floats * cells, -1.0f);
-    device::Kernel& kernel = bench.passes.find("light/environment_samples.cl", "precomputeDirections");
-    kernel.setArgs(rows, seed, map, numbers, out);
-    bench.queue.launch("environment samples", device::PassKind::Trace, kernel, rows, 1);
-    const std::vector<float> read = bench.read(out);
-    std::vector<Sample> all;
-    for (std::size_t i = 0; i < cells; ++i) {
-        const float* s = &read[floats * i];
-        all.push_back({ { s[0], s[1], s[2] }, { s[3], s[4], s[5] }, s[6], {}, 0 });
+    SceneBuilder b = openFloor();
+    render::setEnvironment(b.scene, std::make_shared<render::EnvironmentPicture>(map));
+    return { device, b.scene, settings };
+}
+
+/// Of plain Monte Carlo, with pre-computed samples.
+DeclaredFrame precomputing(const device::Device& device, const render::EnvironmentPicture& map)
+{
+    render::Settings settings = sized(render::monteCarlo(1), 1, 1);
+    settings.environment.sampling = render::EnvironmentSampling::Precomputed;
+    return frameUnder(device, map, settings);
+}
+
+/// Its pre-computed samples with that seed, row by row.
+std::vector<Sample> precomputed(DeclaredFrame& frame, std::uint32_t seed)
+{
+    PassBench pass(frame, "precomputeDirections");
+    pass.value("seed", seed);
+    pass.plane("samples", std::vector(pass.elements("samples"), -1.0f));
+    pass.run();
+    const auto read = pass.read<float>("samples");
+    std::vector<Sample> all(read.size() / WEDGE_ENVIRONMENT_SAMPLE_FLOATS);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const float* s = &read[WEDGE_ENVIRONMENT_SAMPLE_FLOATS * i];
+        all[i] = { { s[0], s[1], s[2] }, { s[3], s[4], s[5] }, s[6], {}, 0 };
     }
     return all;
+}
+
+/// What would light surfaces of half the reflectance, R G B of each normal, if nothing hid it: of receivers, which is
+/// that of pixels.
+std::vector<float> unshadowed(
+    const device::Device& device, const render::EnvironmentPicture& map, const std::vector<glm::dvec3>& normals)
+{
+    render::Settings settings = sized(render::axisAligned(16), static_cast<int>(normals.size()), 1);
+    DeclaredFrame ofPixels = frameUnder(device, map, settings);
+    settings.antialias = true;
+    DeclaredFrame ofWaves = frameUnder(device, map, settings);
+    PassBench pixels(ofPixels, "environmentOfPixels"), receivers(ofWaves, "environmentOfReceivers");
+    Planes<float> facing(ofPixels.layout, 3, 0.0f);
+    const std::size_t size = receivers.elements("normal");
+    std::vector<float> list(3 * size);
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        facing.setVector(static_cast<int>(i), 0, normals[i]);
+        for (std::size_t c = 0; c < 3; ++c)
+            list[c * size + i] = static_cast<float>(normals[i][static_cast<int>(c)]);
+    }
+    pixels.plane("normal", facing);
+    receivers.plane("normal", list);
+    shared::FrameParams frame {};
+    frame.tileCount = 1;
+    shared::WaveParams wave {};
+    wave.receivers = static_cast<std::uint32_t>(normals.size());
+    wave.planeSize = static_cast<std::uint32_t>(size);
+    receivers.value("frame", frame);
+    receivers.value("wave", wave);
+    receivers.items(normals.size() / WEDGE_BLOCK_PIXELS);
+    for (PassBench* pass : { &pixels, &receivers }) {
+        pass->plane("diffuse", std::vector(pass->read<float>("diffuse").size(), 0.5f));
+        pass->plane("unshadowed", std::vector(pass->read<float>("unshadowed").size(), -1.0f));
+        pass->run();
+    }
+    const auto image = pixels.pixels<float>("unshadowed");
+    const auto read = receivers.read<float>("unshadowed");
+    std::vector<float> out(3 * normals.size());
+    for (std::size_t i = 0; i < normals.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c) {
+            out[c * normals.size() + i] = read[c * size + i];
+            REQUIRE(image.at(static_cast<int>(i), 0, c) == read[c * size + i]);
+        }
+    return out;
 }
 
 /// Where sums up to an entry begin and end.
@@ -137,11 +194,11 @@ glm::dvec3 irradianceBy(const std::vector<Sample>& samples, glm::dvec3 normal)
     return sum / static_cast<double>(samples.size());
 }
 
-/// The same by quadrature; the lookup goes from one texel to the next.
-std::vector<glm::dvec3> irradiances(const render::EnvironmentPicture& p, const std::vector<glm::dvec3>& normals)
+/// The same by quadrature over so many parts of each texel along both axes; the lookup goes from one to the next.
+std::vector<glm::dvec3> irradiances(
+    const render::EnvironmentPicture& p, const std::vector<glm::dvec3>& normals, int parts)
 {
     std::vector<glm::dvec3> sums(normals.size(), glm::dvec3(0));
-    constexpr int parts = 32;
     const double pi = std::acos(-1.0);
     for (int y = 0; y < height * parts; ++y)
         for (int x = 0; x < width * parts; ++x) {
@@ -227,70 +284,19 @@ TEST_CASE("what is seen lies between the four texels around, and the columns mee
 TEST_CASE("unshadowed light is the irradiance by normal, over the largest")
 {
     const render::EnvironmentPicture p = picture();
-    constexpr std::uint32_t normals = 256;
+    constexpr std::size_t normals = 256;
     std::mt19937 random(11);
-    std::vector<glm::dvec3> directions;
-    std::vector<float> planes(3 * std::size_t { normals });
-    for (std::size_t i = 0; i < normals; ++i) {
+    std::vector<glm::dvec3> directions(normals);
+    for (glm::dvec3& d : directions) {
         const double z = uniform(random, -1, 1), turn = uniform(random, 0, 6.2831853), r = std::sqrt(1 - z * z);
-        directions.emplace_back(r * std::cos(turn), r * std::sin(turn), z);
-        for (std::size_t c = 0; c < 3; ++c)
-            planes[c * normals + i] = static_cast<float>(directions[i][static_cast<int>(c)]);
+        d = { r * std::cos(turn), r * std::sin(turn), z };
     }
-    // By quadrature over the texels' middles and quarters; the lookup goes from one texel to the next.
-    std::vector<glm::dvec3> expected(normals, glm::dvec3(0));
-    constexpr int parts = 4;
-    for (int y = 0; y < height * parts; ++y)
-        for (int x = 0; x < width * parts; ++x) {
-            const double fx = (x + 0.5) / parts, fy = (y + 0.5) / parts, pi = std::acos(-1.0);
-            const double polar = pi * fy / height, turn = 2 * pi * (fx / width - 0.5);
-            const glm::dvec3 d = std::cos(polar) * glm::dvec3(p.up)
-                + std::sin(polar) * (std::sin(turn) * glm::dvec3(p.right) - std::cos(turn) * glm::dvec3(p.back));
-            const double weight = 2 * pi * pi / (height * width * parts * parts) * std::sin(polar);
-            const glm::dvec3 radiance = lookup(p, { static_cast<int>(fx), static_cast<int>(fy), fx, fy });
-            for (std::size_t i = 0; i < normals; ++i)
-                expected[i] += weight * std::max(0.0, glm::dot(directions[i], d)) * radiance;
-        }
+    const std::vector<glm::dvec3> expected = irradiances(p, directions, 4);
     glm::dvec3 most(0);
     for (const glm::dvec3& e : expected)
         most = glm::max(most, e);
     onEveryDevice([&](const device::Device& device) {
-        const auto unshadowed = [&](const render::EnvironmentPicture& of) {
-            const render::EnvironmentTable table = render::environmentTable(&of);
-            KernelBench bench(device, { { "WEDGE_ENVIRONMENT_MAP", "1" } });
-            shared::FrameParams frame {};
-            frame.tileCount = 1;
-            shared::WaveParams wave {};
-            wave.receivers = wave.planeSize = normals;
-            const auto out = bench.filled(planes.size(), -1.0f);
-            device::Kernel& kernel = bench.passes.find("light/unshadowed_environment.cl", "environmentOfReceivers");
-            const auto map = bench.buffer(std::vector { table.map });
-            const auto numbers = bench.buffer(table.numbers), normal = bench.buffer(planes),
-                       white = bench.filled(planes.size(), 0.5f);
-            kernel.setArgs(frame, wave, map, numbers, normal, white, out);
-            bench.queue.launch("unshadowed", device::PassKind::Trace, kernel, normals / WEDGE_BLOCK_PIXELS, 1);
-            // The same as pixels of an image of one row.
-            const render::PlaneLayout layout(normals, 1);
-            Planes<float> facing(layout, 3, 0.0f), half(layout, 3, 0.5f);
-            for (std::size_t i = 0; i < normals; ++i)
-                facing.setVector(static_cast<int>(i), 0, directions[i]);
-            shared::AnalysisParams row {};
-            row.x1 = row.width = normals;
-            row.y1 = row.height = 1;
-            row.stride = layout.stride;
-            row.planeSize = static_cast<std::uint32_t>(layout.size);
-            const auto image = bench.filled(half.values.size(), -1.0f), normalPlanes = bench.buffer(facing.values),
-                       whitePlanes = bench.buffer(half.values);
-            device::Kernel& pixels = bench.passes.find("light/unshadowed_environment.cl", "environmentOfPixels");
-            pixels.setArgs(row, map, numbers, normalPlanes, whitePlanes, image);
-            bench.queue.launch("unshadowed", device::PassKind::Trace, pixels, normals / WEDGE_BLOCK_PIXELS, 1);
-            const Planes<float> read = planesOf(layout, bench.read(image));
-            const std::vector<float> ofReceivers = bench.read(out);
-            for (std::size_t i = 0; i < ofReceivers.size(); ++i)
-                REQUIRE(read.at(static_cast<int>(i % normals), 0, i / normals) == ofReceivers[i]);
-            return bench.read(out);
-        };
-        const std::vector<float> all = unshadowed(p);
+        const std::vector<float> all = unshadowed(device, p, directions);
         double off = 0;
         for (std::size_t i = 0; i < normals; ++i)
             for (std::size_t c = 0; c < 3; ++c) {
@@ -301,12 +307,9 @@ TEST_CASE("unshadowed light is the irradiance by normal, over the largest")
                 off += std::abs(2 * all[c * normals + i] - share) / (3 * normals);
             }
         CHECK(off < 0.04);
-        render::EnvironmentPicture grey;
-        grey.radiance.assign(3, 0.25f);
-        for (const float value : unshadowed(grey))
+        for (const float value : unshadowed(device, *even(glm::vec3(0.25f)), directions))
             REQUIRE(value == doctest::Approx(0.5).epsilon(0.01));
-        grey.radiance.assign(3, 0.0f);
-        for (const float value : unshadowed(grey))
+        for (const float value : unshadowed(device, *even(glm::vec3(0)), directions))
             REQUIRE(value == 0.5f);
     });
 }
@@ -321,8 +324,9 @@ TEST_CASE("pre-computed samples lie one in each cell, evenly in it, and tell wha
         constexpr int cells = WEDGE_ENVIRONMENT_CELLS, seeds = 8, parts = 4;
         std::array<std::size_t, std::size_t { parts } * parts> found {};
         std::size_t beside = 0, counted = 0;
+        DeclaredFrame frame = precomputing(device, p);
         for (std::uint32_t seed = 0; seed < seeds; ++seed) {
-            const std::vector<Sample> all = precomputed(device, table, seed);
+            const std::vector<Sample> all = precomputed(frame, seed);
             REQUIRE(all.size() == 4096);
             for (std::size_t i = 0; i < all.size(); ++i) {
                 const Sample& s = all[i];
@@ -365,26 +369,23 @@ TEST_CASE("pre-computed samples light as their map does, in the mean over seeds"
     std::vector<glm::dvec3> normals { { 0, 1, 0 }, { 0, -1, 0 }, { 1, 0, 0 }, { 0, 0, 1 } };
     normals.push_back(glm::normalize(glm::dvec3(-1, 0.5, -0.7)));
     onEveryDevice([&](const device::Device& device) {
-        render::EnvironmentPicture grey;
-        grey.width = width;
-        grey.height = height;
-        grey.radiance.assign(std::size_t { 3 } * width * height, 0.25f);
+        DeclaredFrame underGrey = precomputing(device, *even(glm::vec3(0.25f), width, height));
         // All that a sample of an even map brings is the same; what is left is where directions are.
-        const std::vector<Sample> even = precomputed(device, render::environmentTable(&grey), 0);
+        const std::vector<Sample> flat = precomputed(underGrey, 0);
         double whole = 0;
-        for (const Sample& s : even)
+        for (const Sample& s : flat)
             whole += s.radiance.y / s.pdf / 4096;
         CHECK(whole == doctest::Approx(std::acos(-1.0)).epsilon(1e-5)); // 4 pi / 4
         for (const glm::dvec3& n : normals)
-            CHECK(irradianceBy(even, n).y == doctest::Approx(std::acos(-1.0) / 4).epsilon(0.002));
+            CHECK(irradianceBy(flat, n).y == doctest::Approx(std::acos(-1.0) / 4).epsilon(0.002));
 
         const render::EnvironmentPicture p = picture();
-        const render::EnvironmentTable table = render::environmentTable(&p);
-        const std::vector<glm::dvec3> expected = irradiances(p, normals);
+        DeclaredFrame frame = precomputing(device, p);
+        const std::vector<glm::dvec3> expected = irradiances(p, normals, 32);
         constexpr std::uint32_t seeds = 32;
         std::vector<double> sums(normals.size()), squares(normals.size());
         for (std::uint32_t seed = 0; seed < seeds; ++seed) {
-            const std::vector<Sample> all = precomputed(device, table, seed);
+            const std::vector<Sample> all = precomputed(frame, seed);
             for (std::size_t i = 0; i < normals.size(); ++i) {
                 const double off = irradianceBy(all, normals[i]).y - expected[i].y;
                 sums[i] += off / seeds;
