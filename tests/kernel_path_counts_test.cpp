@@ -8,14 +8,27 @@ using namespace wedge::test;
 
 namespace {
 
-constexpr std::uint32_t block = WEDGE_BLOCK_PIXELS;
+/// Of samples of indirect light in a frame of that size.
+Planes<float> varianceOf(const device::Device& device, shared::ReflectorParams p, const Planes<float>& sums,
+    const Planes<std::uint32_t>& taken, const Planes<float>& reflectance)
+{
+    render::Settings settings = sized(render::axisAligned(32), static_cast<int>(p.width), static_cast<int>(p.height));
+    settings.bounces = 1;
+    DeclaredFrame frame(device, smallScene(), settings);
+    PassBench pass(frame, "sampleVariance");
+    pass.value("p", p);
+    pass.plane("sums", sums);
+    pass.plane("taken", taken);
+    pass.plane("reflectance", reflectance);
+    pass.run();
+    return pass.pixels<float>("variance");
+}
 
 } // namespace
 
 TEST_CASE("sampleVariance is the variance of the samples' luminance as the image shows it")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
         for (const auto& [width, height] : { std::pair(1, 1), { 37, 11 } })
             for (const std::uint32_t component : { WEDGE_COMPONENT_DIFFUSE, WEDGE_COMPONENT_AMBIENT }) {
                 const render::PlaneLayout layout(width, height);
@@ -51,10 +64,7 @@ TEST_CASE("sampleVariance is the variance of the samples' luminance as the image
                 });
                 shared::ReflectorParams p = paramsFor(layout);
                 p.component = component;
-                const auto variance = bench.filled(layout.size, -7.0f);
-                launchRows(bench, "sampleVariance", p, block, bench.buffer(sums.values), bench.buffer(taken.values),
-                    bench.buffer(reflectance.values), variance);
-                const Planes<float> found = planesOf(layout, bench.read(variance));
+                const Planes<float> found = varianceOf(device, p, sums, taken, reflectance);
                 everyPixel(layout, [&](int x, int y) {
                     REQUIRE(found.at(x, y) >= 0.0f);
                     REQUIRE(std::fabs(found.at(x, y) - exact.at(x, y)) <= 2e-6 * scale.at(x, y));
@@ -66,7 +76,6 @@ TEST_CASE("sampleVariance is the variance of the samples' luminance as the image
 TEST_CASE("sampleVariance of fractions is that of samples that see all or nothing")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
         const render::PlaneLayout layout(21, 3);
         Planes<float> sums(layout, 4, 0.0f), reflectance(layout, 3, 0.5f);
         Planes<std::uint32_t> taken(layout, 1, 0u);
@@ -83,10 +92,7 @@ TEST_CASE("sampleVariance of fractions is that of samples that see all or nothin
         shared::ReflectorParams p = paramsFor(layout);
         p.component = WEDGE_COMPONENT_ENVIRONMENT_GLOSSY;
         p.fractions = 1;
-        const auto variance = bench.filled(layout.size, -7.0f);
-        launchRows(bench, "sampleVariance", p, block, bench.buffer(sums.values), bench.buffer(taken.values),
-            bench.buffer(reflectance.values), variance);
-        const Planes<float> found = planesOf(layout, bench.read(variance));
+        const Planes<float> found = varianceOf(device, p, sums, taken, reflectance);
         everyPixel(layout, [&](int x, int y) {
             const double n = taken.at(x, y), f = n > 0 && x > 0 ? sums.at(x, y) / sums.at(x, y, 3) : 0;
             const double expected = n > 1 ? n / (n - 1) * f * (1 - f) * 0.25 : 0; // of the reflectance 0.5

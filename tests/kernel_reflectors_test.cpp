@@ -1,6 +1,5 @@
 // reflectors.cl alone: distances of reflectors to widths and counts, against the same in double.
 #include "kernels/shared/indirect.h"
-#include "tests/pass_bench.h"
 #include "tests/reflector_support.h"
 
 #include <algorithm>

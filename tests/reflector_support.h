@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernels/shared/path.h"
-#include "tests/render_support.h"
+#include "tests/pass_bench.h"
 
 #include <cmath>
 
@@ -22,14 +22,6 @@ inline shared::ReflectorParams paramsFor(const render::PlaneLayout& layout)
     p.leastReflector = 0.005f;
     p.countCap = 256;
     return p;
-}
-
-/// Launches a kernel of reflectors.cl; across as for Passes::rows().
-template <class... Args>
-void launchRows(KernelBench& bench, const std::string& kernel, const shared::ReflectorParams& p, std::uint32_t across,
-    const Args&... args)
-{
-    bench.passes.rows("widths", device::PassKind::Analysis, "paths/reflectors.cl", kernel, p, across, args...);
 }
 
 /// Within a fraction of b, however small that is.
