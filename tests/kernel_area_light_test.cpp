@@ -3,6 +3,7 @@
 #include "tests/trace_support.h"
 
 #include <algorithm>
+#include <optional>
 
 using namespace wedge;
 using namespace wedge::test;
@@ -40,18 +41,18 @@ struct HostSum {
 
 class HostSamples {
 public:
-    explicit HostSamples(TracedScene& traced)
+    explicit HostSamples(const TracedScene& traced)
         : traced_(traced)
-        , position_(traced.read(traced.frame.position))
-        , normal_(traced.read(traced.frame.normal))
-        , origin_(traced.read(traced.frame.origin))
+        , position_(traced.floats("position"))
+        , normal_(traced.floats("normal"))
+        , origin_(traced.floats("origin"))
     {
     }
 
     HostSum operator()(const shared::SampleParams& p, int x, int y, std::uint32_t wanted) const
     {
         const shared::FrameParams& f = traced_.params;
-        const shared::AreaLight& light = traced_.onDevice.areaLightList[p.light];
+        const shared::AreaLight& light = traced_.light(p.light);
         const std::uint32_t order = shared::hashCombine(f.seed, p.light);
         const std::uint32_t seed =
             shared::hashCombine(order, static_cast<std::uint32_t>(y) * f.width + static_cast<std::uint32_t>(x));
@@ -80,7 +81,7 @@ public:
             ++sum.rays;
             sum.weights += weight;
             sum.visible +=
-                bvh::anyHit(traced_.hierarchy, { origin, 0, shared::vecSub(point, origin), WEDGE_SHADOW_RAY_END })
+                bvh::anyHit(traced_.hierarchy(), { origin, 0, shared::vecSub(point, origin), WEDGE_SHADOW_RAY_END })
                 ? 0.0
                 : weight;
         }
@@ -93,12 +94,67 @@ private:
         return shared::vec3(planes.at(x, y), planes.at(x, y, 1), planes.at(x, y, 2));
     }
 
-    TracedScene& traced_;
+    const TracedScene& traced_;
     Planes<float> position_, normal_, origin_;
 };
 
-/// Uploads the same count for each pixel.
-void want(TracedScene& traced, std::uint32_t count) { traced.wanted.fill(traced.bench.queue, count); }
+/// A light's samples in an analysed frame, pass by pass.
+class LightRun {
+public:
+    explicit LightRun(TracedScene& traced)
+        : traced_(traced)
+    {
+    }
+    /// p.firstPass samples of each pixel, the first of their light.
+    void firstPass(const shared::SampleParams& p)
+    {
+        Samples pass = of("first pass", p);
+        pass.upTo(p.firstPass, p.firstPass);
+        latest_.emplace(pass);
+    }
+    void secondPass(const shared::SampleParams& p, std::uint32_t wanted, std::uint32_t last)
+    {
+        Samples pass = of("second pass", p);
+        pass.take(*latest_);
+        pass.upTo(last, wanted);
+        latest_.emplace(pass);
+    }
+    /// Of the latest pass.
+    Planes<float> floats(const std::string& name) const { return latest_->pixels<float>(name); }
+    Planes<std::uint32_t> counts(const std::string& name) const { return latest_->pixels<std::uint32_t>(name); }
+    /// What its samples are filtered as.
+    Planes<float> means(const shared::SampleParams& p) const
+    {
+        PassBench pass(traced_, "lightMeans");
+        pass.take(*latest_);
+        pass.value("params", p);
+        pass.run();
+        return pass.pixels<float>("value");
+    }
+
+private:
+    Samples of(const char* pass, const shared::SampleParams& p) const
+    {
+        Samples out(traced_, "sampleShadows", pass);
+        out.value("params", p);
+        out.value("light", traced_.light(p.light));
+        return out;
+    }
+
+    TracedScene& traced_;
+    std::optional<Samples> latest_;
+};
+
+/// The means that frames have which are not analysed, of so many samples in slices.
+Planes<float> plainMeans(TracedScene& plain, const shared::SampleParams& p, std::uint32_t wanted)
+{
+    Samples pass(plain, "sampleShadows");
+    pass.value("params", p);
+    pass.value("light", plain.light(p.light));
+    for (const std::uint32_t last : { p.firstPass, wanted })
+        pass.upTo(last, wanted);
+    return pass.pixels<float>("value");
+}
 
 } // namespace
 
@@ -108,18 +164,19 @@ TEST_CASE("no surface and no occluder: no rays and no slopes")
         SceneBuilder b;
         b.light({ 0, 4, 0 }, { 1, 0, 0 }, { 0, 0, 1 }, scene::LightProfile::Uniform, 1);
         TracedScene empty(b.scene, device, 5, 3);
-        empty.primary();
-        empty.firstPass(sampling(WEDGE_SHADING_RATIO, WEDGE_SAMPLER_SOBOL));
-        const auto rays = empty.read(empty.frame.rays), taken = empty.read(empty.taken);
+        LightRun ofEmpty(empty);
+        ofEmpty.firstPass(sampling(WEDGE_SHADING_RATIO, WEDGE_SAMPLER_SOBOL));
+        const auto rays = ofEmpty.counts("rays"), taken = ofEmpty.counts("taken");
         empty.everyPixel([&](int x, int y) {
             REQUIRE(rays.at(x, y) == 0);
             REQUIRE(taken.at(x, y) == 0);
         });
         TracedScene open(floorAndPlates({}), device, 12, 9);
-        open.primary();
-        open.firstPass(sampling(WEDGE_SHADING_SEPARATE, WEDGE_SAMPLER_SOBOL));
-        const auto slopes = open.read(open.slopes), value = open.read(open.value), sums = open.read(open.sums);
-        const auto openTaken = open.read(open.taken);
+        const shared::SampleParams p = sampling(WEDGE_SHADING_SEPARATE, WEDGE_SAMPLER_SOBOL);
+        LightRun run(open);
+        run.firstPass(p);
+        const auto slopes = run.floats("slopes"), value = run.means(p), sums = run.floats("sums");
+        const auto openTaken = run.counts("taken");
         open.everyPixel([&](int x, int y) {
             REQUIRE(slopes.at(x, y) == 0.0f);
             REQUIRE(slopes.at(x, y, 1) == 0.0f);
@@ -133,13 +190,14 @@ TEST_CASE("no surface and no occluder: no rays and no slopes")
 TEST_CASE("slopes are d1/d2 - 1 of the nearest occluder on each ray")
 {
     onEveryDevice([](const device::Device& device) {
+        const shared::SampleParams p = sampling(WEDGE_SHADING_RATIO, WEDGE_SAMPLER_STRATIFIED);
         // One plate over all: the same slope for each ray. With a second plate above it: still that of the lower one.
         for (const std::vector<Plate>& plates :
             { std::vector<Plate> { { 1, -20, 20 } }, { { 1, -20, 20 }, { 3, -20, 20 } } }) {
             TracedScene traced(floorAndPlates(plates), device, 24, 18);
-            traced.primary();
-            traced.firstPass(sampling(WEDGE_SHADING_RATIO, WEDGE_SAMPLER_STRATIFIED));
-            const auto slopes = traced.read(traced.slopes), value = traced.read(traced.value);
+            LightRun run(traced);
+            run.firstPass(p);
+            const auto slopes = run.floats("slopes"), value = run.means(p);
             traced.everyPixel([&](int x, int y) {
                 REQUIRE(slopes.at(x, y) == doctest::Approx(1.0 / 3).epsilon(1e-4));
                 REQUIRE(slopes.at(x, y, 1) == doctest::Approx(1.0 / 3).epsilon(1e-4));
@@ -150,9 +208,9 @@ TEST_CASE("slopes are d1/d2 - 1 of the nearest occluder on each ray")
         scene::Scene edge = floorAndPlates({ { 1, -20, 0 }, { 2, 0, 20 } });
         edge.camera.verticalFov = 20;
         TracedScene traced(edge, device, 48, 9);
-        traced.primary();
-        traced.firstPass(sampling(WEDGE_SHADING_RATIO, WEDGE_SAMPLER_STRATIFIED));
-        const auto slopes = traced.read(traced.slopes);
+        LightRun run(traced);
+        run.firstPass(p);
+        const auto slopes = run.floats("slopes");
         unsigned both = 0;
         traced.everyPixel([&](int x, int y) {
             const double lo = slopes.at(x, y), hi = slopes.at(x, y, 1);
@@ -169,22 +227,21 @@ TEST_CASE("both passes see what the same samples see on the host, with each samp
 {
     onEveryDevice([](const device::Device& device) {
         TracedScene traced(smallScene(), device, 40, 30);
-        traced.primary();
+        TracedScene plain(smallScene(), device, 40, 30, render::monteCarlo(1));
+        LightRun run(traced);
         const HostSamples host(traced);
-        const auto id = traced.read(traced.frame.objectId);
+        const auto id = traced.counts("objectId");
         for (const std::uint32_t light : { 0u, 1u })
             for (const std::uint32_t sampler : { WEDGE_SAMPLER_SOBOL, WEDGE_SAMPLER_STRATIFIED })
                 for (const std::uint32_t shading :
                     { WEDGE_SHADING_SEPARATE, WEDGE_SHADING_INSIDE, WEDGE_SHADING_RATIO }) {
                     const shared::SampleParams p = sampling(shading, sampler, light);
-                    traced.frame.rays.fill(traced.bench.queue, 0u);
-                    want(traced, 21);
-                    traced.firstPass(p);
+                    run.firstPass(p);
                     // In slices, as the renderer does; the last asks for more than is wanted.
-                    traced.secondPass(p, 14);
-                    traced.secondPass(p, 500);
-                    const auto sums = traced.read(traced.sums), value = traced.read(traced.value);
-                    const auto taken = traced.read(traced.taken), rays = traced.read(traced.frame.rays);
+                    run.secondPass(p, 21, 14);
+                    run.secondPass(p, 21, 500);
+                    const auto sums = run.floats("sums"), value = run.means(p), same = plainMeans(plain, p, 21);
+                    const auto taken = run.counts("taken"), rays = run.counts("rays");
                     unsigned differ = 0, partly = 0, shaded = 0;
                     traced.everyPixel([&](int x, int y) {
                         if (id.at(x, y) == 0)
@@ -194,6 +251,7 @@ TEST_CASE("both passes see what the same samples see on the host, with each samp
                         REQUIRE(taken.at(x, y) == 21);
                         REQUIRE(rays.at(x, y) == expected.rays);
                         REQUIRE(sums.at(x, y) == doctest::Approx(expected.weights).epsilon(1e-4));
+                        REQUIRE(same.at(x, y) == value.at(x, y));
                         partly += expected.rays < 21 && expected.rays > 0 ? 1 : 0;
                         // A logarithm of another library may move a sample across an edge.
                         if (std::fabs(sums.at(x, y, 1) - expected.visible) > 1e-4 * expected.weights) {
@@ -217,24 +275,22 @@ TEST_CASE("slices of any length give the same bits, and pixels that want no more
 {
     onEveryDevice([](const device::Device& device) {
         TracedScene traced(smallScene(), device, 33, 21);
-        traced.primary();
+        LightRun run(traced);
         const shared::SampleParams p = sampling(WEDGE_SHADING_RATIO, WEDGE_SAMPLER_SOBOL);
         std::vector<std::vector<float>> results;
         for (const std::vector<std::uint32_t>& slices :
             { std::vector<std::uint32_t> { 40 }, { 10, 11, 37, 40 }, { 9, 9, 40, 40 } }) {
-            want(traced, 40);
-            traced.firstPass(p);
+            run.firstPass(p);
             for (const std::uint32_t last : slices)
-                traced.secondPass(p, last);
-            results.push_back(traced.bench.read(traced.sums));
+                run.secondPass(p, 40, last);
+            results.push_back(run.floats("sums").values);
         }
         CHECK(results[1] == results[0]);
         CHECK(results[2] == results[0]);
-        want(traced, 9);
-        traced.firstPass(p);
-        const std::vector<float> before = traced.bench.read(traced.sums);
-        traced.secondPass(p, 400);
-        CHECK(traced.bench.read(traced.sums) == before);
+        run.firstPass(p);
+        const std::vector<float> before = run.floats("sums").values;
+        run.secondPass(p, 9, 400);
+        CHECK(run.floats("sums").values == before);
     });
 }
 
@@ -242,22 +298,17 @@ TEST_CASE("what the first part of the samples alone would be is kept beside the 
 {
     onEveryDevice([](const device::Device& device) {
         for (const bool glossy : { false, true }) {
-            scene::Scene scene = smallScene();
-            scene.materials[0].specular = glm::vec3(glossy ? 0.3f : 0.0f);
-            scene.materials[0].exponent = 20;
-            TracedScene traced(scene, device, 33, 21, glossy ? Defines { { "WEDGE_SPECULAR", "1" } } : Defines {});
-            traced.primary();
-            const auto id = traced.read(traced.frame.objectId);
+            TracedScene traced(glossy ? glossyScene() : smallScene(), device, 33, 21);
+            LightRun run(traced);
+            const auto id = traced.counts("objectId");
             shared::SampleParams p = sampling(WEDGE_SHADING_RATIO, WEDGE_SAMPLER_SOBOL);
             const auto values = [&](std::uint32_t wanted) {
-                want(traced, wanted);
                 p.firstPass = std::min(wanted, 9u);
-                traced.firstPass(p);
+                run.firstPass(p);
                 p.firstPass = 9;
-                traced.secondPass(p, 23);
-                traced.secondPass(p, 1000);
-                return std::pair(
-                    traced.read(traced.value), ofShorts(traced.layout, 2, traced.bench.read(traced.parts)));
+                run.secondPass(p, wanted, 23);
+                run.secondPass(p, wanted, 1000);
+                return std::pair(run.means(p), run.floats("parts"));
             };
             const std::size_t channels = glossy ? 2 : 1;
             for (const auto& counts : { std::pair(40u, 20u), { 70u, 35u }, { 18u, 9u }, { 12u, 4u }, { 9u, 4u } }) {
@@ -282,15 +333,13 @@ TEST_CASE("what the first part of the samples alone would be is kept beside the 
 TEST_CASE("with gloss the specular sums hold the lobe's weights of the same samples")
 {
     onEveryDevice([](const device::Device& device) {
-        scene::Scene scene = smallScene();
-        scene.materials[0].specular = glm::vec3(0.3f);
-        scene.materials[0].exponent = 20;
-        TracedScene traced(scene, device, 30, 22, { { "WEDGE_SPECULAR", "1" } });
-        traced.primary();
-        const auto id = traced.read(traced.frame.objectId);
+        TracedScene traced(glossyScene(), device, 30, 22);
+        LightRun run(traced);
+        const auto id = traced.counts("objectId");
         for (const std::uint32_t shading : { WEDGE_SHADING_SEPARATE, WEDGE_SHADING_INSIDE, WEDGE_SHADING_RATIO }) {
-            traced.firstPass(sampling(shading, WEDGE_SAMPLER_SOBOL));
-            const auto sums = traced.read(traced.sums), value = traced.read(traced.value);
+            const shared::SampleParams p = sampling(shading, WEDGE_SAMPLER_SOBOL);
+            run.firstPass(p);
+            const auto sums = run.floats("sums"), value = run.means(p);
             traced.everyPixel([&](int x, int y) {
                 if (id.at(x, y) == 0)
                     return;
@@ -310,18 +359,14 @@ TEST_CASE("with gloss the specular sums hold the lobe's weights of the same samp
 TEST_CASE("lobes narrower than the light are sampled, too: the same mean of what arrives, with far less noise")
 {
     onEveryDevice([](const device::Device& device) {
-        scene::Scene scene = smallScene();
-        scene.materials[0].specular = glm::vec3(0.3f);
-        scene.materials[0].exponent = 2000;
-        TracedScene traced(scene, device, 30, 22, { { "WEDGE_SPECULAR", "1" } });
-        traced.primary();
-        const auto id = traced.read(traced.frame.objectId);
+        TracedScene traced(glossyScene(2000), device, 30, 22);
+        LightRun run(traced);
+        const auto id = traced.counts("objectId");
         // Points on the light alone, whose mean is the integral, too.
         const auto means = [&](std::uint32_t shading, std::uint32_t count) {
-            want(traced, count);
-            traced.firstPass(sampling(shading, WEDGE_SAMPLER_SOBOL));
-            traced.secondPass(sampling(shading, WEDGE_SAMPLER_SOBOL), count);
-            Planes<float> sums = traced.read(traced.sums);
+            run.firstPass(sampling(shading, WEDGE_SAMPLER_SOBOL));
+            run.secondPass(sampling(shading, WEDGE_SAMPLER_SOBOL), count, count);
+            Planes<float> sums = run.floats("sums");
             for (float& v : sums.values)
                 v /= static_cast<float>(count);
             return sums;

@@ -1,5 +1,4 @@
 // light/components.h alone: what samples add up to, by components.
-#include "effects/area_lights/maaf.h"
 #include "tests/component_basis.h"
 #include "tests/trace_support.h"
 
@@ -21,29 +20,19 @@ TEST_CASE("components of samples are the light's integrals of the basis, of what
             b.light({ 0, 2, 0 }, { 0.3f, 0, 0 }, { 0, 0, 0.5f }, scene::LightProfile::Gaussian, 2);
         light.radiance = { 5, 5, 5 };
         b.camera({ 0, 1, 0.8f }, { 0, 0, 0 });
-        TracedScene traced(b.scene, device, 17, 9);
-        traced.primary();
         shared::SampleParams params {};
         params.shading = WEDGE_SHADING_SEPARATE; // samples weigh the same
         params.sampler = WEDGE_SAMPLER_SOBOL;
-        const shared::AreaLight& onDevice = traced.onDevice.areaLightList[0];
         for (const int count : { 3, 5 }) {
             const std::size_t products = static_cast<std::size_t>(count) * static_cast<std::size_t>(count);
-            const shared::LightAxes axes = render::axesOf(onDevice, count);
-            const device::ProgramSource program = withSinks(device, "light/area_light.cl", "sampleShadows",
-                { render::sinks::sums(), render::sinks::components(count) }, { "sums", "components" },
-                { graph::value("axes", shared::LightAxes {}) });
-            const auto components = traced.bench.filled(products * traced.layout.size, 0.0f);
-            traced.sums.fill(traced.bench.queue, 0.0f);
-            traced.taken.fill(traced.bench.queue, 0u);
-            traced.wanted.fill(traced.bench.queue, 4096u);
+            render::Settings settings = render::multipleAxisAligned(render::Maaf::Refitted, 16);
+            settings.components = count;
+            TracedScene traced(b.scene, device, 17, 9, settings);
+            Samples samples(traced, "sampleShadows", "second pass");
+            samples.value("params", params);
             for (const std::uint32_t last : { 1024u, 4096u })
-                traced.bench.passes.tiles("samples", device::PassKind::Trace,
-                    traced.bench.passes.find(program, "sampleShadows"), traced.params, 1.0, params, onDevice,
-                    traced.onDevice.nodes, traced.onDevice.blocks, traced.frame.receivers(), traced.wanted, last,
-                    traced.taken, traced.frame.rays, axes, traced.sums, components);
-            const Planes<float> found = ofShorts(traced.layout, 2 * products, traced.bench.read(components)),
-                                sums = traced.read(traced.sums);
+                samples.upTo(last, 4096);
+            const auto found = samples.pixels<float>("components"), sums = samples.pixels<float>("sums");
             // Of one axis: integrals of B over those of the profile, over all of it and over its negative half.
             std::vector<std::array<double, 2>> expected(static_cast<std::size_t>(count));
             double mass = 0;

@@ -1,9 +1,9 @@
 // filter/components.cl alone, against the definition; what it filters: kernel_component_sums_test.
 #include "effects/area_lights/maaf.h"
+#include "kernels/shared/wedge.h"
 #include "tests/component_basis.h"
 #include "tests/declared_kernel.h"
 #include "tests/filter_oracle.h"
-#include "tests/trace_support.h"
 
 #include <nlohmann/json.hpp>
 

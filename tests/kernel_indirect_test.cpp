@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 #include <numbers>
+#include <optional>
 
 using namespace wedge;
 using namespace wedge::test;
@@ -18,7 +19,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// What samplePaths leaves behind.
 struct PathResult {
-    Planes<float> sums, value, parts, reflectors; ///< parts: as they lie
+    Planes<float> sums, value, parts, reflectors;
     Planes<std::uint32_t> taken, rays, pathRays;
 
     bool operator==(const PathResult& other) const
@@ -32,17 +33,14 @@ struct PathResult {
     }
 };
 
-/// samplePaths over the G-buffer of a scene, any number of calls.
+/// samplePaths of a frame that keeps means, and of one that keeps what parts of samples are, any number of calls.
 class PathRun {
 public:
-    PathRun(const scene::Scene& scene, const device::Device& device, int width, int height, const Defines& defines = {})
-        : traced(scene, device, width, height, defines)
-        , sums_(device, 4 * traced.layout.size, "sums")
-        , value_(device, 3 * traced.layout.size, "value")
-        , parts_(device, 2 * traced.layout.size, "parts")
-        , reflectors_(device, 3 * traced.layout.size, "reflectors")
+    PathRun(const scene::Scene& scene, const device::Device& device, int width, int height,
+        const render::Options& options = renderOptions())
+        : traced(scene, device, width, height, keeping(false), options)
+        , ofParts_(scene, device, width, height, keeping(true), options)
     {
-        traced.primary();
         clear();
         params.bounces = 1;
         params.sampler = WEDGE_SAMPLER_SOBOL;
@@ -56,12 +54,9 @@ public:
     /// Forgets all samples.
     void clear()
     {
-        sums_.fill(traced.bench.queue, 0.0f);
-        value_.fill(traced.bench.queue, -7.0f);
-        parts_.fill(traced.bench.queue, 0.0f);
-        reflectors_.fill(traced.bench.queue, 0.0f);
-        for (device::Buffer<std::uint32_t>* b : { &traced.taken, &traced.frame.rays, &traced.frame.pathRays })
-            b->fill(traced.bench.queue, 0u);
+        means_.emplace(traced, "samplePaths", "first paths");
+        means_->plane("value", std::vector(3 * traced.layout.size, -7.0f));
+        parts_.emplace(ofParts_, "samplePaths", "first paths");
     }
 
     /// Samples up to `last`, of `wanted` each pixel.
@@ -71,28 +66,34 @@ public:
     }
     void sample(const std::vector<std::uint32_t>& wanted, std::uint32_t last)
     {
-        const render::DeviceScene& s = traced.onDevice;
-        const SurfaceBuffers& f = traced.frame;
-        using namespace render;
-        const device::ProgramSource program = withSinks(traced.bench.device, "paths/indirect.cl", "samplePaths",
-            { sinks::sums(), sinks::means(), sinks::parts(), sinks::distances() },
-            { "sums", "value", "parts", "reflectors" });
-        traced.bench.passes.tiles("paths", device::PassKind::Trace, program, "samplePaths", traced.params, 1.0, params,
-            s.nodes, s.blocks, surfaceArguments(s), s.areaLights, s.deltaLights, s.emitters, s.emitterPicks,
-            s.environment, s.environmentTable, f.receivers(), f.specular, traced.bench.buffer(wanted), last,
-            traced.taken, f.rays, f.pathRays, sums_, value_, parts_, reflectors_);
+        for (auto* pass : { &means_, &parts_ }) {
+            (*pass)->value("params", params);
+            (*pass)->upTo(last, wanted);
+        }
     }
-    PathResult result()
+    PathResult result() const
     {
-        return { traced.read(sums_), traced.read(value_), traced.read(parts_), traced.read(reflectors_),
-            traced.read(traced.taken), traced.read(traced.frame.rays), traced.read(traced.frame.pathRays) };
+        REQUIRE(parts_->read<float>("sums") == means_->read<float>("sums"));
+        return { means_->pixels<float>("sums"), means_->pixels<float>("value"), parts_->pixels<float>("parts"),
+            means_->pixels<float>("reflectors"), means_->pixels<std::uint32_t>("taken"),
+            means_->pixels<std::uint32_t>("rays"), means_->pixels<std::uint32_t>("pathRays") };
     }
 
     TracedScene traced;
     shared::PathParams params {};
 
 private:
-    device::Buffer<float> sums_, value_, parts_, reflectors_;
+    static render::Settings keeping(bool parts)
+    {
+        render::Settings settings = render::axisAligned(16);
+        settings.bounces = 1;
+        settings.fallback = parts;
+        settings.widening = 0;
+        return settings;
+    }
+
+    TracedScene ofParts_;
+    std::optional<Samples> means_, parts_;
 };
 
 /// A floor with a slanted plate and a sphere over it.
@@ -131,7 +132,8 @@ HostAmbient hostAmbient(
             continue;
         }
         ++out.rays;
-        const shared::Hit hit = bvh::closestHit(run.traced.hierarchy, { origin, 0.0f, l, run.params.ambientDistance });
+        const shared::Hit hit =
+            bvh::closestHit(run.traced.hierarchy(), { origin, 0.0f, l, run.params.ambientDistance });
         if (hit.triangle == WEDGE_NO_TRIANGLE)
             continue;
         out.hits += 1;
@@ -160,10 +162,9 @@ TEST_CASE("ambient: hits and their distances are those of the host's traversal a
             constexpr std::uint32_t count = 40;
             run.sample(count, count);
             const PathResult found = run.result();
-            const auto id = run.traced.read(run.traced.frame.objectId);
-            const auto origin = run.traced.read(run.traced.frame.origin),
-                       normal = run.traced.read(run.traced.frame.normal);
-            const auto geometric = run.traced.read(run.traced.frame.geometric);
+            const auto id = run.traced.counts("objectId");
+            const auto origin = run.traced.floats("origin"), normal = run.traced.floats("normal");
+            const auto geometric = run.traced.counts("geometric");
             unsigned differ = 0, surfaces = 0, partly = 0, none = 0, below = 0;
             run.traced.everyPixel([&](int x, int y) {
                 if (id.at(x, y) == 0) {
@@ -205,10 +206,7 @@ TEST_CASE("ambient: hits and their distances are those of the host's traversal a
 TEST_CASE("samples in two calls, the second with counts of its own, are the samples taken at once")
 {
     onEveryDevice([](const device::Device& device) {
-        scene::Scene scene = smallScene();
-        scene.materials[0].specular = glm::vec3(0.3f);
-        scene.materials[0].exponent = 20;
-        PathRun run(scene, device, 21, 14, { { "WEDGE_SPECULAR", "1" } });
+        PathRun run(glossyScene(), device, 21, 14);
         run.params.bounces = 2;
         run.params.firstPass = 16;
         std::vector<std::uint32_t> counts(run.traced.layout.size);
@@ -249,16 +247,6 @@ TEST_CASE("with a first pass, what the first part of the samples alone would be 
             run.sample(wanted, 1000);
             return run.result();
         };
-        // In 48 bits (kernels/core/packed_planes.h): 32 of all pixels, then 16.
-        const auto colourAt = [](const Planes<float>& planes, int x, int y) {
-            const auto bytes = reinterpret_cast<const char*>(planes.values.data());
-            shared::PackedColour packed {};
-            std::uint16_t high = 0;
-            std::memcpy(&packed.low, bytes + 4 * planes.index(x, y), 4);
-            std::memcpy(&high, bytes + 4 * planes.layout.size + 2 * planes.index(x, y), 2);
-            packed.high = high;
-            return shared::unpackColour(packed);
-        };
         for (const auto& counts : { std::pair(40u, 20u), { 90u, 45u }, { 33u, 16u }, { 25u, 8u }, { 16u, 8u } }) {
             const std::uint32_t wanted = counts.first, part = counts.second;
             CAPTURE(wanted);
@@ -269,13 +257,12 @@ TEST_CASE("with a first pass, what the first part of the samples alone would be 
             int differs = 0;
             run.traced.everyPixel([&](int x, int y) {
                 const bool surface = expected.at(x, y) != -7.0f;
-                const shared::Vec3 kept = colourAt(found.parts, x, y);
-                const shared::Vec3 whole = shared::unpackColour(shared::packColour(
-                    shared::vec3(found.value.at(x, y), found.value.at(x, y, 1), found.value.at(x, y, 2))));
-                const shared::Vec3 same = surface
-                    ? shared::unpackColour(
-                        shared::packColour(shared::vec3(expected.at(x, y), expected.at(x, y, 1), expected.at(x, y, 2))))
-                    : shared::vec3(0, 0, 0);
+                const shared::Vec3 kept = vectorOf(found.parts, x, y);
+                const auto rounded = [&](const Planes<float>& of) {
+                    return shared::unpackColour(shared::packColour(vectorOf(of, x, y)));
+                };
+                const shared::Vec3 whole = rounded(found.value);
+                const shared::Vec3 same = surface ? rounded(expected) : shared::vec3(0, 0, 0);
                 REQUIRE((kept.x == same.x && kept.y == same.y && kept.z == same.z));
                 for (const bool differ : { whole.x != kept.x, whole.y != kept.y, whole.z != kept.z })
                     differs += surface && differ ? 1 : 0;
@@ -317,8 +304,8 @@ TEST_CASE("light of an emitting quad converges to its form factor times the emis
             constexpr std::uint32_t count = 4096;
             run.sample(count, count);
             const PathResult found = run.result();
-            const auto id = run.traced.read(run.traced.frame.objectId);
-            const auto position = run.traced.read(run.traced.frame.position);
+            const auto id = run.traced.counts("objectId");
+            const auto position = run.traced.floats("position");
             unsigned floor = 0, directed = 0;
             double sum = 0, expected = 0, worst = 0;
             run.traced.everyPixel([&](int x, int y) {
@@ -377,7 +364,7 @@ TEST_CASE("pixels whose rays hit nothing have value and reflectors 0, those with
             });
             run.sample(wanted, 24);
             const PathResult found = run.result();
-            const auto id = run.traced.read(run.traced.frame.objectId);
+            const auto id = run.traced.counts("objectId");
             unsigned surfaces = 0, holes = 0;
             run.traced.everyPixel([&](int x, int y) {
                 const bool surface = id.at(x, y) != 0 && (x + y) % 5 != 0;
@@ -398,13 +385,12 @@ TEST_CASE("pixels whose rays hit nothing have value and reflectors 0, those with
 TEST_CASE("both families of traversals give the same sums")
 {
     onEveryDevice([](const device::Device& device) {
-        scene::Scene scene = smallScene();
-        scene.materials[0].specular = glm::vec3(0.3f);
-        scene.materials[0].exponent = 20;
+        scene::Scene scene = glossyScene();
         scene.pointLights.push_back({ { 1, 3, 2 }, { 2, 2, 2 } });
-        const Defines wideDefines { { "WEDGE_SPECULAR", "1" } };
-        const Defines scalarDefines { { "WEDGE_SPECULAR", "1" }, { "WEDGE_TRAVERSAL_SCALAR", "1" } };
-        PathRun wide(scene, device, 37, 23, wideDefines), scalar(scene, device, 37, 23, scalarDefines);
+        render::Options ofWide = renderOptions(), ofScalar = ofWide;
+        ofWide.traversal = render::Traversal::Wide;
+        ofScalar.traversal = render::Traversal::Scalar;
+        PathRun wide(scene, device, 37, 23, ofWide), scalar(scene, device, 37, 23, ofScalar);
         for (const std::uint32_t component :
             { WEDGE_COMPONENT_DIFFUSE, WEDGE_COMPONENT_GLOSSY, WEDGE_COMPONENT_AMBIENT }) {
             for (PathRun* run : { &wide, &scalar }) {

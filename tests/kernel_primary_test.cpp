@@ -52,9 +52,8 @@ TEST_CASE("nothing there: no object, the background, infinitely far")
         SceneBuilder b;
         b.scene.background = { 0.25f, 0.5f, 1.0f };
         TracedScene traced(b.scene, device, 9, 5);
-        traced.primary();
-        const auto id = traced.read(traced.frame.objectId);
-        const auto depth = traced.read(traced.frame.depth), emission = traced.read(traced.frame.emission);
+        const auto id = traced.counts("objectId");
+        const auto depth = traced.floats("depth"), emission = traced.floats("emission");
         traced.everyPixel([&](int x, int y) {
             REQUIRE(id.at(x, y) == 0);
             REQUIRE(depth.at(x, y) == infinity);
@@ -67,15 +66,14 @@ TEST_CASE("the G-buffer holds what the host's traversal finds")
 {
     onEveryDevice([](const device::Device& device) {
         TracedScene traced(smallScene(), device, 61, 47);
-        traced.primary();
-        const auto id = traced.read(traced.frame.objectId);
-        const auto depth = traced.read(traced.frame.depth), position = traced.read(traced.frame.position);
-        const auto normal = traced.read(traced.frame.normal), diffuse = traced.read(traced.frame.diffuse);
-        const scene::Geometry& g = traced.scene.geometry;
+        const auto id = traced.counts("objectId");
+        const auto depth = traced.floats("depth"), position = traced.floats("position");
+        const auto normal = traced.floats("normal"), diffuse = traced.floats("diffuse");
+        const scene::Geometry& g = traced.scene().geometry;
         unsigned hits = 0, differ = 0;
         traced.everyPixel([&](int x, int y) {
             const bvh::Ray ray = traced.cameraRay(x, y);
-            const shared::Hit hit = bvh::closestHit(traced.hierarchy, ray);
+            const shared::Hit hit = bvh::closestHit(traced.hierarchy(), ray);
             if (hit.triangle == WEDGE_NO_TRIANGLE || id.at(x, y) == 0 || g.objectIds[hit.triangle] != id.at(x, y)) {
                 // Rays through an edge may go either way.
                 differ += hit.triangle == WEDGE_NO_TRIANGLE && id.at(x, y) == 0 ? 0 : 1;
@@ -104,15 +102,14 @@ TEST_CASE("the packed geometric normal is the triangle's on the viewer's side, a
 {
     onEveryDevice([](const device::Device& device) {
         TracedScene traced(smallScene(), device, 61, 47);
-        traced.primary();
-        const auto id = traced.read(traced.frame.objectId), geometric = traced.read(traced.frame.geometric);
-        const auto normal = traced.read(traced.frame.normal);
-        const scene::Geometry& g = traced.scene.geometry;
+        const auto id = traced.counts("objectId"), geometric = traced.counts("geometric");
+        const auto normal = traced.floats("normal");
+        const scene::Geometry& g = traced.scene().geometry;
         unsigned flat = 0, smooth = 0, turned = 0;
         double worst = 0;
         traced.everyPixel([&](int x, int y) {
             const bvh::Ray ray = traced.cameraRay(x, y);
-            const shared::Hit hit = bvh::closestHit(traced.hierarchy, ray);
+            const shared::Hit hit = bvh::closestHit(traced.hierarchy(), ray);
             if (hit.triangle == WEDGE_NO_TRIANGLE || g.objectIds[hit.triangle] != id.at(x, y))
                 return;
             const shared::Vec3 packed = shared::unpackDirection(geometric.at(x, y));
@@ -141,8 +138,7 @@ TEST_CASE("normals and origins are on the viewer's side, whichever way the trian
             b.quad({ 0, 0, 0 }, { 2, 0, 0 }, { 0, side * 2, 0 });
             b.camera({ 0, 0, 3 }, { 0, 0, 0 });
             TracedScene traced(b.scene, device, 8, 8);
-            traced.primary();
-            const auto normal = traced.read(traced.frame.normal), origin = traced.read(traced.frame.origin);
+            const auto normal = traced.floats("normal"), origin = traced.floats("origin");
             CHECK(normal.at(4, 4, 2) == doctest::Approx(1));
             CHECK(origin.at(4, 4, 2) > 0.0f);
             CHECK(origin.at(4, 4, 2) < 1e-5f);
@@ -157,8 +153,7 @@ TEST_CASE("pixelSize: a plane across the view has distance times the pixel's ste
         b.quad({ 0, 0, -1 }, { 50, 0, 0 }, { 0, 50, 0 });
         b.camera({ 0, 0, 4 }, { 0, 0, 0 }, { 0, 1, 0 }, 80);
         TracedScene traced(b.scene, device, 40, 30);
-        traced.primary();
-        const auto size = traced.read(traced.frame.pixelSize);
+        const auto size = traced.floats("pixelSize");
         const double expected = 5 * 2 * std::tan(40 * 3.14159265358979 / 180) / 30;
         traced.everyPixel([&](int x, int y) { REQUIRE(size.at(x, y) == doctest::Approx(expected).epsilon(1e-5)); });
     });
@@ -171,8 +166,7 @@ TEST_CASE("pixelSize: on a slanted plane, the root of the area that the pixel's 
         b.quad({ 0, 0, 0 }, { 0, 0, 100 }, { 100, 0, 0 });
         b.camera({ 0, 1, 2 }, { 0, 0.2f, 0 });
         TracedScene traced(b.scene, device, 64, 48);
-        traced.primary();
-        const auto size = traced.read(traced.frame.pixelSize);
+        const auto size = traced.floats("pixelSize");
         for (int y = 24; y < 48; y += 3)
             for (int x = 0; x < 64; x += 7) {
                 const auto onFloor = [&](double px, double py) {
@@ -215,11 +209,10 @@ TEST_CASE("textures are bilinear, repeated, and linear: colours after the sRGB c
             scene::Scene scene = b.scene;
             for (std::size_t i = 0; i < scene.geometry.texcoords.size(); ++i)
                 scene.geometry.texcoords[i] = scene.geometry.texcoords[i] * 3 + offset;
-            TracedScene traced(scene, device, 33, 25, { { "WEDGE_SPECULAR", "1" } });
-            traced.primary();
-            const auto diffuse = traced.read(traced.frame.diffuse), emission = traced.read(traced.frame.emission);
-            const auto position = traced.read(traced.frame.position);
-            const auto id = traced.read(traced.frame.objectId), glosses = traced.read(traced.frame.gloss);
+            TracedScene traced(scene, device, 33, 25);
+            const auto diffuse = traced.floats("diffuse"), emission = traced.floats("emission");
+            const auto position = traced.floats("position");
+            const auto id = traced.counts("objectId"), glosses = traced.counts("gloss");
             double worst = 0;
             traced.everyPixel([&](int x, int y) {
                 if (id.at(x, y) == 0)
@@ -252,9 +245,8 @@ TEST_CASE("visible lights are seen with their profile, from their emitting side,
                 light.twoSided = twoSided;
                 b.camera({ 0, 0, 4 }, { 0, 0, 0 });
                 TracedScene traced(b.scene, device, 64, 48);
-                traced.primary();
-                const auto id = traced.read(traced.frame.objectId);
-                const auto emission = traced.read(traced.frame.emission), depth = traced.read(traced.frame.depth);
+                const auto id = traced.counts("objectId");
+                const auto emission = traced.floats("emission"), depth = traced.floats("depth");
                 unsigned seen = 0;
                 traced.everyPixel([&](int x, int y) {
                     const bvh::Ray ray = traced.cameraRay(x, y);

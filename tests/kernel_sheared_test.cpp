@@ -139,31 +139,25 @@ TEST_CASE("gradients that samples tell are how what is seen changes where the li
 {
     onEveryDevice([](const device::Device& device) {
         TracedScene traced(smallScene(), device, 40, 30);
-        traced.primary();
-        const device::ProgramSource program = withSinks(device, "light/area_light.cl", "sampleShadows",
-            { render::sinks::sums(), render::sinks::scores() }, { "sums", "gradients" },
-            { graph::value("score", shared::LightScore {}) });
         // Gaussian, and cut where its ends are next to nothing.
-        shared::AreaLight light = traced.onDevice.areaLightList[0];
+        shared::AreaLight light = traced.light(0);
         light.cut = 3;
         light.erfCut = static_cast<float>(std::erf(light.cut / std::sqrt(2.0)));
         shared::SampleParams params {};
         params.shading = WEDGE_SHADING_RATIO;
         params.sampler = WEDGE_SAMPLER_SOBOL;
-        auto gradients = traced.bench.filled(traced.layout.size, 0.0f);
-        const auto seen = [&](const shared::AreaLight& at) {
-            traced.sums.fill(traced.bench.queue, 0.0f);
-            gradients.fill(traced.bench.queue, 0.0f);
-            traced.taken.fill(traced.bench.queue, 0u);
-            traced.wanted.fill(traced.bench.queue, 4096u);
+        const auto sampled = [&](const shared::AreaLight& at) {
+            Samples samples(traced, "sampleShadows", "second pass");
+            samples.value("params", params);
+            samples.value("light", at);
+            samples.value("score", render::scoreOf(at).score);
             for (const std::uint32_t last : { 1024u, 4096u })
-                traced.bench.passes.tiles("samples", device::PassKind::Trace,
-                    traced.bench.passes.find(program, "sampleShadows"), traced.params, 1.0, params, at,
-                    traced.onDevice.nodes, traced.onDevice.blocks, traced.frame.receivers(), traced.wanted, last,
-                    traced.taken, traced.frame.rays, render::scoreOf(at).score, traced.sums, gradients);
-            return traced.read(traced.sums);
+                samples.upTo(last, 4096);
+            return samples;
         };
-        const Planes<float> sums = seen(light), found = ofShorts(traced.layout, 2, traced.bench.read(gradients));
+        const auto seen = [&](const shared::AreaLight& at) { return sampled(at).pixels<float>("sums"); };
+        const Samples own = sampled(light);
+        const auto sums = own.pixels<float>("sums"), found = own.pixels<float>("gradients");
         for (const std::size_t axis : { 0u, 1u }) {
             constexpr float step = 0.1f; // of local coordinates
             shared::AreaLight before = light, after = light;
@@ -191,8 +185,9 @@ TEST_CASE("gradients are means of what samples add up to, and widths follow coun
 {
     onEveryDevice([](const device::Device& device) {
         for (const std::uint32_t channels : { 1u, 2u }) {
-            KernelBench bench(device, channels == 2 ? Defines { { "WEDGE_SPECULAR", "1" } } : Defines {});
-            const render::PlaneLayout layout(19, 5);
+            DeclaredFrame frame(
+                device, channels == 2 ? glossyScene() : smallScene(), sized(render::axisAligned(16), 19, 5));
+            const render::PlaneLayout& layout = frame.layout;
             shared::AnalysisParams p = paramsOf(layout);
             p.k = 3;
             p.mu = 1.5f;
@@ -215,15 +210,22 @@ TEST_CASE("gradients are means of what samples add up to, and widths follow coun
                     size.at(x, y) = p.k * p.mu * 0.1f * static_cast<float>(y)
                         / (x % 2 == 0 ? 2.0f : 24.0f * static_cast<float>(y + 1));
                 }
-            const auto gradients = bench.buffer(inShorts(scores)), slopeWidth = bench.filled(layout.size, -7.0f),
-                       width = bench.buffer(beta.values);
-            bench.passes.rows("filter", device::PassKind::Filter, "analysis/shear.cl", "shadowGradients", p,
-                WEDGE_BLOCK_PIXELS, 2u, 1.0f, 0.0f, bench.buffer(sums.values), gradients);
-            bench.passes.rows("filter", device::PassKind::Filter, "analysis/shear.cl", "narrowSheared", p, 1, 28.0f,
-                0.2f, 12.0f, 0.4f, bench.buffer(taken.values), bench.buffer(size.values), slopeWidth, width);
-            const Planes<float> found = ofShorts(layout, 2 * channels, bench.read(gradients)),
-                                before = ofShorts(layout, 1, bench.read(slopeWidth)),
-                                after = planesOf(layout, bench.read(width));
+            PassBench gradients(frame, "shadowGradients"), narrow(frame, "narrowSheared");
+            gradients.value("p", p);
+            gradients.plane("sums", sums);
+            gradients.plane("gradients", scores);
+            gradients.run();
+            narrow.value("p", p);
+            narrow.value("mean", 28.0f);
+            narrow.value("countPower", 0.2f);
+            narrow.value("wideBlur", 12.0f);
+            narrow.value("blurPower", 0.4f);
+            narrow.plane("taken", taken);
+            narrow.plane("pixelSize", size);
+            narrow.plane("beta", beta);
+            narrow.run();
+            const auto found = gradients.pixels<float>("gradients"), before = narrow.pixels<float>("slopeWidth"),
+                       after = narrow.pixels<float>("beta");
             for (int y = 0; y < 5; ++y)
                 for (int x = 0; x < 19; ++x) {
                     for (std::uint32_t c = 0; c < channels; ++c)

@@ -1,10 +1,10 @@
 // Sinks: the kernels that sample, with a sink of this test's own beside the renderer's and in their place, over pixels
 // and over receivers of a wave.
-#include "host/graph/execution.h"
+#include "host/graph/interface.h"
+#include "host/render/sinks.h"
 #include "kernels/shared/path.h"
 #include "tests/trace_support.h"
 
-#include <regex>
 #include <set>
 #include <stdexcept>
 
@@ -35,14 +35,6 @@ graph::Sink storedPoints()
     return out;
 }
 
-scene::Scene glossyScene()
-{
-    scene::Scene scene = smallScene();
-    scene.materials[0].specular = glm::vec3(0.3f);
-    scene.materials[0].exponent = 20;
-    return scene;
-}
-
 /// Points that are sampled, and which samples each is to take.
 struct Points {
     shared::FrameParams frame;
@@ -58,27 +50,27 @@ struct Points {
 };
 
 /// All pixels, each with the same samples.
-Points pixelPoints(TracedScene& traced, std::uint32_t wanted)
+Points pixelPoints(const TracedScene& traced, std::uint32_t wanted)
 {
-    KernelBench& b = traced.bench;
-    const SurfaceBuffers& f = traced.frame;
-    const std::size_t size = traced.layout.size;
-    return { traced.params, b.read(f.position), b.read(f.normal), b.read(f.origin), b.read(f.specular),
-        b.read(f.geometric), b.read(f.objectId), b.read(f.gloss), std::vector<std::uint32_t>(size),
-        std::vector<std::uint32_t>(size), std::vector<std::uint32_t>(size), std::vector<std::uint32_t>(size, wanted) };
+    const auto floats = [&](const char* name) { return traced.found.read<float>(name); };
+    const auto counts = [&](const char* name) { return traced.found.read<std::uint32_t>(name); };
+    const std::vector<std::uint32_t> none(traced.layout.size), all(traced.layout.size, wanted);
+    return { traced.params, floats("position"), floats("normal"), floats("origin"), floats("specular"),
+        counts("geometric"), counts("objectId"), counts("gloss"), none, none, none, all };
 }
 
-/// Receivers of a wave, any number to a pixel, each with samples of its own or none.
-Points wavePoints(const Points& pixels, const render::PlaneLayout& layout)
+/// Receivers of a wave in lists of that size, any number to a pixel, each with samples of its own or none.
+Points wavePoints(const Points& pixels, const render::PlaneLayout& layout, std::size_t size)
 {
-    constexpr std::uint32_t count = 777, size = count + 5;
+    constexpr std::uint32_t count = 777;
+    REQUIRE(size > count);
     std::mt19937 random(3);
     Points out { pixels.frame, std::vector<float>(3 * size), std::vector<float>(3 * size), std::vector<float>(3 * size),
         std::vector<float>(3 * size), std::vector<std::uint32_t>(size), std::vector<std::uint32_t>(size),
         std::vector<std::uint32_t>(size), std::vector<std::uint32_t>(size), std::vector<std::uint32_t>(size),
         std::vector<std::uint32_t>(size), std::vector<std::uint32_t>(size) };
     out.frame.receivers = count;
-    out.frame.planeSize = size;
+    out.frame.planeSize = static_cast<std::uint32_t>(size);
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t x = static_cast<std::uint32_t>(random()) % layout.width;
         const std::uint32_t y = static_cast<std::uint32_t>(random()) % layout.height;
@@ -101,163 +93,92 @@ Points wavePoints(const Points& pixels, const render::PlaneLayout& layout)
     return out;
 }
 
-struct Listed { };
-
-/// What a run leaves behind; of sinks that there are not, zeros.
+/// What a run leaves behind; of sinks that there are not, nothing.
 struct Result {
     std::vector<float> sums, stored;
     std::vector<std::uint32_t> counts, taken;
 };
 
-/// Kernels that sample, run by graphs that declare what becomes of the samples.
+/// Kernels that sample, of frames whose pixels are the receivers and of frames in waves, with any sinks.
 class Sampler {
 public:
-    explicit Sampler(TracedScene& traced)
-        : traced_(traced)
-        , library_(traced.bench.device, { { { "WEDGE_SPECULAR", "1" } }, false, WEDGE_TEST_KERNELS })
-        , kernels_(library_)
-        , memory_(traced.bench.device)
+    explicit Sampler(const device::Device& device)
+        : pixels(glossyScene(), device, 31, 23, settingsOf(false), withOwnSinks())
+        , waves(device, glossyScene(), sized(settingsOf(true), 31, 23), false, withOwnSinks())
     {
+    }
+    Points ofWave(const Points& points)
+    {
+        return wavePoints(points, pixels.layout, PassBench(waves, "samplePaths").elements("position"));
     }
 
     /// Points on a light, in two launches.
     Result lights(const Points& points, const shared::SampleParams& params, const shared::AreaLight& light,
         const std::vector<graph::Sink>& becoming)
     {
-        return run({ "light/area_light.cl", "sampleShadows", becoming },
-            { graph::value("frame", points.frame), graph::value("params", params), graph::value("light", light) }, {},
-            false, points);
+        PassBench pass(frameOf(points), "sampleShadows");
+        pass.value("params", params);
+        pass.value("light", light);
+        return run(pass, points, becoming);
     }
     Result paths(const Points& points, const shared::PathParams& params, const std::vector<graph::Sink>& becoming)
     {
-        const render::DeviceScene& s = traced_.onDevice;
-        std::vector<graph::Argument> surfaces;
-        std::apply([&](const auto&... buffer) { (surfaces.push_back(graph::outside("", "", buffer.cl())), ...); },
-            surfaceArguments(s));
-        surfaces.push_back(graph::outside("", "", s.areaLights.cl()));
-        surfaces.push_back(graph::outside("", "", s.deltaLights.cl()));
-        surfaces.push_back(graph::outside("", "", s.emitters.cl()));
-        surfaces.push_back(graph::outside("", "", s.emitterPicks.cl()));
-        surfaces.push_back(graph::outside("", "", s.environment.cl()));
-        surfaces.push_back(graph::outside("", "", s.environmentTable.cl()));
-        return run({ "paths/indirect.cl", "samplePaths", becoming },
-            { graph::value("frame", points.frame), graph::value("params", params) }, surfaces, true, points);
+        PassBench pass(frameOf(points), "samplePaths");
+        pass.value("params", params);
+        pass.plane("specular", points.specular);
+        return run(pass, points, becoming);
     }
+
+    TracedScene pixels;
+    DeclaredFrame waves;
 
 private:
-    Result run(const graph::KernelName& kernel, const std::vector<graph::Argument>& params,
-        const std::vector<graph::Argument>& surfaces, bool ofPaths, const Points& points)
+    static render::Settings settingsOf(bool ofWaves)
     {
-        KernelBench& b = traced_.bench;
+        render::Settings settings = render::monteCarlo(1);
+        settings.bounces = 1;
+        settings.antialias = ofWaves;
+        return settings;
+    }
+    static render::Options withOwnSinks()
+    {
+        render::Options options;
+        options.kernelDir = WEDGE_TEST_KERNELS;
+        return options;
+    }
+    DeclaredFrame& frameOf(const Points& points) { return points.frame.receivers > 0 ? waves : pixels; }
+
+    static Result run(PassBench& pass, const Points& points, const std::vector<graph::Sink>& becoming)
+    {
         const std::size_t size = points.size();
-        graph::Graph graph(1, 1, 1);
-        auto taken = graph.list<Listed>("taken", graph::counts, size);
-        auto rays = graph.list<Listed>("rays", graph::counts, size);
-        auto pathRays = graph.list<Listed>("path rays", graph::counts, size);
-        auto counts = graph.list<Listed>("counts", graph::counts, size);
-        auto sums = graph.list<Listed>("sums", graph::floats, sumPlanes * size);
-        auto samples = graph.list<Listed>("samples", graph::floats, room * storedPlanes * size);
-        for (graph::Handle<Listed>* list : { &rays, &pathRays, &counts, &sums, &samples })
-            fill(graph, *list, {});
-        fill(graph, taken, points.first);
-        const auto outside = [&](const auto& values) { return graph::outside("", "", b.buffer(values).cl()); };
-        // Of waves, and of pixels that do not look at them.
-        const auto ofWave = [&](const char* name, const graph::Format& format, const auto& values) {
-            return graph::reads(name, graph.imported<Listed>(name, format, b.buffer(values).cl(), size));
-        };
-        std::vector<graph::Argument> own = params;
-        own.push_back(graph::outside("", "", traced_.onDevice.nodes.cl()));
-        own.push_back(graph::outside("", "", traced_.onDevice.blocks.cl()));
-        own.insert(own.end(), surfaces.begin(), surfaces.end());
-        own.insert(own.end(),
-            { outside(points.position), outside(points.normal), outside(points.origin), outside(points.geometric),
-                outside(points.objectId), outside(points.gloss) });
-        if (ofPaths)
-            own.push_back(outside(points.specular));
-        own.push_back(outside(points.wanted));
-        nameAs(kernel, own);
-        own.insert(own.end(),
-            { ofWave("pixelOf", graph::counts, points.pixelOf), ofWave("view", graph::counts, points.view),
-                ofWave("time", graph::floats, std::vector<float>(size, 0.0f)) });
-        if (ofPaths)
-            own.push_back(graph::absent("environmentSamples"));
+        pass.sinks(becoming, { graph::value("room", room) },
+            { { "stored", graph::floats, room * storedPlanes * size }, { "storedCounts", graph::counts, size },
+                { "sums", graph::floats, sumPlanes * size } });
+        pass.value("frame", points.frame);
+        pass.plane("position", points.position);
+        pass.plane("normal", points.normal);
+        pass.plane("origin", points.origin);
+        pass.plane("geometric", points.geometric);
+        pass.plane("objectId", points.objectId);
+        pass.plane("gloss", points.gloss);
+        pass.plane("wanted", points.wanted);
+        pass.plane("taken", points.first);
+        if (points.frame.receivers > 0) {
+            pass.plane("pixelOf", points.pixelOf);
+            pass.plane("view", points.view);
+            pass.items((points.frame.receivers + WEDGE_TILE_PIXELS - 1) / WEDGE_TILE_PIXELS);
+        }
         for (const std::uint32_t last : { 6u, 1000u }) {
-            std::vector<graph::Argument> all = own;
-            all.insert(all.end(),
-                { graph::value("lastSample", last), graph::updates("taken", taken), graph::updates("rays", rays) });
-            if (ofPaths)
-                all.push_back(graph::updates("pathRays", pathRays));
-            for (const graph::Sink& sink : kernel.sinks) {
-                if (sink.name == "Sums")
-                    all.push_back(graph::updates("sums", sums));
-                else
-                    all.insert(all.end(),
-                        { graph::value("room", room), graph::updates("stored", samples),
-                            graph::updates("storedCounts", counts) });
-            }
-            const std::size_t tiles = points.frame.receivers == 0
-                ? points.frame.tileCount
-                : (points.frame.receivers + WEDGE_TILE_PIXELS - 1) / WEDGE_TILE_PIXELS;
-            graph.add({ .name = "samples",
-                .kernel = kernel,
-                .arguments = all,
-                .domain = graph::Domain::Tiles,
-                .count = [tiles](const graph::Launch&) { return tiles; },
-                .itemsOfTile = WEDGE_TILE_PIXELS / render::packetSize(render::Traversal::Wide) });
+            pass.value("lastSample", last);
+            pass.run();
         }
-        for (const graph::Handle<Listed>* list : { &taken, &sums, &samples, &counts })
-            graph.want(*list, graph.image());
-        const graph::Plan plan(graph, device::partAlignment, graph::slabRulesOf(b.device.info()));
-        graph::Execution execution(plan, memory_, kernels_, b.queue);
-        REQUIRE(execution.run());
-        const auto floats = [&](const graph::Version& list) {
-            return execution.output<float>(list).downloadAll(b.queue);
+        const auto floats = [&](const char* name) {
+            return pass.has(name) ? pass.read<float>(name) : std::vector<float>();
         };
-        const auto numbers = [&](const graph::Version& list) {
-            return execution.output<std::uint32_t>(list).downloadAll(b.queue);
-        };
-        return { floats(sums), floats(samples), numbers(counts), numbers(taken) };
+        return { floats("sums"), floats("stored"),
+            pass.has("storedCounts") ? pass.read<std::uint32_t>("storedCounts") : std::vector<std::uint32_t>(),
+            pass.read<std::uint32_t>("taken") };
     }
-
-    /// Gives arguments the names and types that they have in the product's frames.
-    void nameAs(const graph::KernelName& kernel, std::vector<graph::Argument>& arguments) const
-    {
-        const std::string text =
-            productProgram(traced_.bench.device, kernel.file, kernel.name).generated.at("pass/" + kernel.name + ".h");
-        static const std::regex parameter(
-            "(?:const )?(__global const \\w+ \\*|__global \\w+ \\*|\\w+ )(?:restrict )?(\\w+)");
-        const auto from = text.find("#define PARAMETERS ") + std::string("#define PARAMETERS ").size();
-        const std::string list = text.substr(from, text.find('\n', from) - from);
-        std::sregex_iterator next(list.begin(), list.end(), parameter);
-        for (graph::Argument& argument : arguments) {
-            REQUIRE(next != std::sregex_iterator());
-            argument.name = (*next)[2];
-            if (argument.type.starts_with("__global"))
-                argument.type = (*next)[1];
-            ++next;
-        }
-    }
-
-    static void fill(graph::Graph& graph, graph::Version& list, const std::vector<std::uint32_t>& values)
-    {
-        const graph::Argument use = graph::writes("list", list);
-        const graph::Version resource = list;
-        graph.add({ .name = "fill",
-            .arguments = { use },
-            .domain = graph::Domain::Host,
-            .step = [resource, values](graph::Run& run) {
-                auto buffer = run.buffer<std::uint32_t>(resource);
-                if (values.empty())
-                    buffer.fill(run.queue(), 0u);
-                else
-                    buffer.upload(run.queue(), std::span<const std::uint32_t>(values));
-            } });
-    }
-
-    TracedScene& traced_;
-    device::ProgramLibrary library_;
-    graph::Kernels kernels_;
-    graph::Memory memory_;
 };
 
 /// Checks that each sink gets the same samples, alone or beside another, and calls visit(i, direction, values) for each
@@ -347,15 +268,13 @@ void checkIndependence(const Points& pixels, const Sample& sample)
 TEST_CASE("points on lights: a sink that stores each sample gets what the sums are made of")
 {
     onEveryDevice([](const device::Device& device) {
-        TracedScene traced(glossyScene(), device, 31, 23, { { "WEDGE_SPECULAR", "1" } });
-        traced.primary();
-        Sampler sampler(traced);
-        const Points pixels = pixelPoints(traced, 12), wave = wavePoints(pixels, traced.layout);
+        Sampler sampler(device);
+        const Points pixels = pixelPoints(sampler.pixels, 12), wave = sampler.ofWave(pixels);
         for (const Points* points : { &pixels, &wave })
             // Points alone, or with directions of both parts: the light is made so large that these are as dense.
             for (const std::uint32_t finding : { WEDGE_LIGHTS_SAMPLED, WEDGE_LIGHTS_BOTH }) {
                 const shared::SampleParams params { WEDGE_SHADING_INSIDE, WEDGE_SAMPLER_SOBOL, 1, 0, finding, 0, {} };
-                shared::AreaLight light = traced.onDevice.areaLightList[1];
+                shared::AreaLight light = sampler.pixels.light(1);
                 const float scale = finding == WEDGE_LIGHTS_BOTH ? 20.0f : 1.0f;
                 light.halfU = shared::vecScale(light.halfU, scale);
                 light.halfV = shared::vecScale(light.halfV, scale);
@@ -407,14 +326,12 @@ TEST_CASE("points on lights: a sink that stores each sample gets what the sums a
 TEST_CASE("paths: a sink that stores each sample gets what the sums are made of")
 {
     onEveryDevice([](const device::Device& device) {
-        TracedScene traced(glossyScene(), device, 31, 23, { { "WEDGE_SPECULAR", "1" } });
-        traced.primary();
-        Sampler sampler(traced);
-        const Points pixels = pixelPoints(traced, 12), wave = wavePoints(pixels, traced.layout);
+        Sampler sampler(device);
+        const Points pixels = pixelPoints(sampler.pixels, 12), wave = sampler.ofWave(pixels);
         shared::PathParams params {};
         params.bounces = 2;
-        params.areaLights = static_cast<std::uint32_t>(traced.onDevice.areaLightList.size());
-        params.sceneDiameter = traced.onDevice.diameter;
+        params.areaLights = static_cast<std::uint32_t>(sampler.pixels.onDevice.areaLightList.size());
+        params.sceneDiameter = sampler.pixels.onDevice.diameter;
         params.ambientDistance = std::numeric_limits<float>::infinity();
         for (const Points* points : { &pixels, &wave })
             for (const std::uint32_t component : { WEDGE_COMPONENT_DIFFUSE, WEDGE_COMPONENT_GLOSSY }) {
@@ -435,13 +352,11 @@ TEST_CASE("paths: a sink that stores each sample gets what the sums are made of"
 TEST_CASE("samples and sums of a receiver do not depend on what others of its packet want")
 {
     onEveryDevice([](const device::Device& device) {
-        TracedScene traced(glossyScene(), device, 31, 23, { { "WEDGE_SPECULAR", "1" } });
-        traced.primary();
-        Sampler sampler(traced);
-        const Points pixels = pixelPoints(traced, room);
+        Sampler sampler(device);
+        const Points pixels = pixelPoints(sampler.pixels, room);
         for (const std::uint32_t finding : { WEDGE_LIGHTS_SAMPLED, WEDGE_LIGHTS_BOTH }) {
             const shared::SampleParams params { WEDGE_SHADING_INSIDE, WEDGE_SAMPLER_SOBOL, 1, 0, finding, 0, {} };
-            shared::AreaLight light = traced.onDevice.areaLightList[1];
+            shared::AreaLight light = sampler.pixels.light(1);
             const float scale = finding == WEDGE_LIGHTS_BOTH ? 20.0f : 1.0f;
             light.halfU = shared::vecScale(light.halfU, scale);
             light.halfV = shared::vecScale(light.halfV, scale);
@@ -452,8 +367,8 @@ TEST_CASE("samples and sums of a receiver do not depend on what others of its pa
         }
         shared::PathParams params {};
         params.bounces = 2;
-        params.areaLights = static_cast<std::uint32_t>(traced.onDevice.areaLightList.size());
-        params.sceneDiameter = traced.onDevice.diameter;
+        params.areaLights = static_cast<std::uint32_t>(sampler.pixels.onDevice.areaLightList.size());
+        params.sceneDiameter = sampler.pixels.onDevice.diameter;
         params.component = WEDGE_COMPONENT_DIFFUSE;
         checkIndependence(pixels, [&](const Points& points) {
             return sampler.paths(points, params, { stored(), sinks::sums() });

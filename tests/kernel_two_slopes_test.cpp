@@ -12,6 +12,8 @@ using namespace wedge::test;
 
 namespace {
 
+const render::Settings twoSlopes = render::multipleAxisAligned(render::Maaf::TwoSlope, 16);
+
 /// A share of light on a floor, a polynomial of fourth order, and its derivatives along x, z, xx, xz, zz.
 std::array<double, 6> fieldAt(double x, double z)
 {
@@ -199,12 +201,8 @@ TEST_CASE("NaN of moments that are not gathered stays there")
 TEST_CASE("moments that samples tell are how what is seen changes where the light moves, twice")
 {
     onEveryDevice([](const device::Device& device) {
-        TracedScene traced(smallScene(), device, 40, 30);
-        traced.primary();
-        const device::ProgramSource program = withSinks(device, "light/area_light.cl", "sampleShadows",
-            { render::sinks::sums(), render::sinks::moments() }, { "sums", "moments" },
-            { graph::value("scores", shared::LightMoments {}) });
-        shared::AreaLight light = traced.onDevice.areaLightList[0];
+        TracedScene traced(smallScene(), device, 40, 30, twoSlopes);
+        shared::AreaLight light = traced.light(0);
         light.cut = 3; // its ends are next to nothing
         // Turned, so that shadows of boxes have mixed derivatives.
         light.halfU = shared::vec3(0.4f, 0, 0.3f);
@@ -213,24 +211,21 @@ TEST_CASE("moments that samples tell are how what is seen changes where the ligh
         shared::SampleParams params {};
         params.shading = WEDGE_SHADING_RATIO;
         params.sampler = WEDGE_SAMPLER_SOBOL;
-        auto moments = traced.bench.filled(3 * traced.layout.size, 0.0f);
-        const auto seen = [&](const shared::AreaLight& at) {
-            traced.sums.fill(traced.bench.queue, 0.0f);
-            traced.taken.fill(traced.bench.queue, 0u);
-            traced.wanted.fill(traced.bench.queue, 16384u);
-            moments.fill(traced.bench.queue, 0.0f);
+        const auto sampled = [&](const shared::AreaLight& at) {
+            Samples samples(traced, "sampleShadows", "second pass");
+            samples.value("params", params);
+            samples.value("light", at);
+            samples.value("scores", render::momentsOf(at));
             for (const std::uint32_t last : { 1024u, 16384u })
-                traced.bench.passes.tiles("samples", device::PassKind::Trace,
-                    traced.bench.passes.find(program, "sampleShadows"), traced.params, 1.0, params, at,
-                    traced.onDevice.nodes, traced.onDevice.blocks, traced.frame.receivers(), traced.wanted, last,
-                    traced.taken, traced.frame.rays, render::momentsOf(at), traced.sums, moments);
-            return traced.read(traced.sums);
+                samples.upTo(last, 16384);
+            return samples;
         };
-        const Planes<float> sums = seen(light), found = ofShorts(traced.layout, 5, traced.bench.read(moments));
+        const Samples own = sampled(light);
+        const auto sums = own.pixels<float>("sums"), found = own.pixels<float>("moments");
         const auto moved = [&](float u, float v) {
             shared::AreaLight at = light;
             at.centre = vecAdd(light.centre, vecAdd(vecScale(light.halfU, u), vecScale(light.halfV, v)));
-            return seen(at);
+            return sampled(at).pixels<float>("sums");
         };
         constexpr float step = 0.25f; // of local coordinates
         const Planes<float> plusU = moved(step, 0), minusU = moved(-step, 0), plusV = moved(0, step),
@@ -288,8 +283,8 @@ TEST_CASE("slopes, ratios and widths are what their definitions make of them")
 {
     onEveryDevice([](const device::Device& device) {
         for (const int radius : { 1, 2 }) {
-            KernelBench bench(device);
-            const render::PlaneLayout layout(21, 9);
+            DeclaredFrame frame(device, smallScene(), sized(twoSlopes, 21, 9));
+            const render::PlaneLayout& layout = frame.layout;
             const shared::AnalysisParams p = paramsOf(layout);
             Planes<float> slopes(layout, 2, 0.0f), logs(layout, 3, 0.0f), spread(layout, 3, 0.0f),
                 beta(layout, 1, 0.0f);
@@ -309,20 +304,26 @@ TEST_CASE("slopes, ratios and widths are what their definitions make of them")
                         spread.at(x, y, 0) + spread.at(x, y, 1) * static_cast<float>(uniform(random, -1, 3));
                     beta.at(x, y) = y == 0 ? -1.0f : 0.1f * static_cast<float>(y);
                 }
-            const auto onDevice = bench.buffer(logs.values), ratios = bench.filled(layout.size, -7.0f),
-                       width = bench.buffer(beta.values), slopeWidth = bench.buffer(inShorts(beta));
-            const std::string file = "analysis/two_slopes.cl";
-            const auto kind = device::PassKind::Analysis;
-            bench.passes.rows("widths", kind, file, "smoothLargest", p, WEDGE_BLOCK_PIXELS, radius,
-                bench.buffer(slopes.values), bench.buffer(objectId.values), onDevice);
-            const Planes<float> smoothed = planesOf(layout, bench.read(onDevice));
-            bench.passes.rows("widths", kind, file, "slopeRatios", p, WEDGE_BLOCK_PIXELS, onDevice,
-                bench.buffer(spread.values), ratios);
-            bench.passes.rows("widths", kind, file, "widenBetweenSlopes", p, 1, ratios, width);
-            bench.passes.rows("widths", kind, file, "widthOfMeanSlope", p, 1, ratios, slopeWidth);
-            const Planes<float> ratio = ofShorts(layout, 1, bench.read(ratios)),
-                                wider = planesOf(layout, bench.read(width)),
-                                ofMean = ofShorts(layout, 1, bench.read(slopeWidth));
+            PassBench smooth(frame, "smoothLargest"), ratios(frame, "slopeRatios"), widen(frame, "widenBetweenSlopes"),
+                slopeWidths(frame, "widthOfMeanSlope");
+            smooth.value("radius", radius);
+            smooth.plane("slopes", slopes);
+            smooth.plane("objectId", objectId);
+            smooth.plane("logSlopes", logs);
+            ratios.plane("spread", spread);
+            widen.plane("beta", beta);
+            slopeWidths.plane("slopeWidth", beta);
+            const auto run = [&](PassBench& pass, const PassBench& after) {
+                pass.take(after);
+                pass.value("p", p);
+                pass.run();
+            };
+            run(smooth, smooth);
+            run(ratios, smooth);
+            run(widen, ratios);
+            run(slopeWidths, ratios);
+            const auto smoothed = smooth.pixels<float>("logSlopes"), ratio = ratios.pixels<float>("ratio"),
+                       wider = widen.pixels<float>("beta"), ofMean = slopeWidths.pixels<float>("slopeWidth");
             for (int y = 0; y < 9; ++y)
                 for (int x = 0; x < 21; ++x) {
                     CAPTURE(x);
@@ -356,8 +357,8 @@ TEST_CASE("moments become the factors of a polynomial")
 {
     onEveryDevice([](const device::Device& device) {
         for (const std::uint32_t channels : { 1u, 2u }) {
-            KernelBench bench(device, channels == 2 ? Defines { { "WEDGE_SPECULAR", "1" } } : Defines {});
-            const render::PlaneLayout layout(19, 5);
+            DeclaredFrame frame(device, channels == 2 ? glossyScene() : smallScene(), sized(twoSlopes, 19, 5));
+            const render::PlaneLayout& layout = frame.layout;
             Planes<float> sums(layout, 2 * channels, 0.0f), moments(layout, 5 * channels, 0.0f);
             std::mt19937 random(2);
             for (float& v : moments.values)
@@ -366,11 +367,11 @@ TEST_CASE("moments become the factors of a polynomial")
                 for (int x = 1; x < 19; ++x) // pixels of the first column see nothing of the light
                     for (std::uint32_t c = 0; c < channels; ++c)
                         sums.at(x, y, 2 * c) = static_cast<float>(uniform(random, 1, 20));
-            const auto onDevice = bench.buffer(inShorts(moments));
-            bench.passes.rows("filter", device::PassKind::Filter, "analysis/shear.cl", "shadowGradients",
-                paramsOf(layout), WEDGE_BLOCK_PIXELS, WEDGE_MOMENTS, -WEDGE_ORDER1, WEDGE_ORDER2,
-                bench.buffer(sums.values), onDevice);
-            const Planes<float> found = ofShorts(layout, 5 * channels, bench.read(onDevice));
+            PassBench pass(frame, "shadowGradients");
+            pass.plane("sums", sums);
+            pass.plane("gradients", moments);
+            pass.run();
+            const auto found = pass.pixels<float>("gradients");
             for (int y = 0; y < 5; ++y)
                 for (int x = 0; x < 19; ++x)
                     for (std::uint32_t k = 0; k < 5 * channels; ++k) {

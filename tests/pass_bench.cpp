@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 namespace wedge::test {
@@ -15,6 +16,19 @@ namespace {
 struct Anything { }; ///< what planes hold
 
 [[noreturn]] void refuse(const std::string& what) { throw std::logic_error(what); }
+
+/// The arguments of sinks, each once.
+std::vector<std::string> handed(const std::vector<graph::Sink>& sinks)
+{
+    std::vector<std::string> out;
+    for (const graph::Sink& sink : sinks) {
+        for (const auto* names : { &sink.begin, &sink.take, &sink.finish }) {
+            std::ranges::copy_if(*names, std::back_inserter(out),
+                [&](const std::string& name) { return !std::ranges::count(out, name); });
+        }
+    }
+    return out;
+}
 
 /// Memory between words that nobody may touch.
 class Guarded {
@@ -50,14 +64,14 @@ private:
 
 } // namespace
 
-DeclaredFrame::DeclaredFrame(
-    const device::Device& device, const scene::Scene& scene, const render::Settings& settings, bool keepLayers)
-    : renderer(scene, device, renderOptions())
+DeclaredFrame::DeclaredFrame(const device::Device& device, const scene::Scene& scene, const render::Settings& settings,
+    bool keepLayers, const render::Options& options)
+    : renderer(scene, device, options)
     , layout(settings.width, settings.height)
-    , hierarchy_(render::buildHierarchy(renderer.scene(), renderer.bvhMode(), renderer.traversal()))
-    , deviceScene_(renderer.scene(), hierarchy_, renderer.device(), renderer.queue())
+    , tree(render::buildHierarchy(renderer.scene(), renderer.bvhMode(), renderer.traversal()))
+    , onDevice(renderer.scene(), tree, renderer.device(), renderer.queue())
     , memories_ { render::SampleMemory(&renderer.device()), render::SampleMemory(&renderer.device()) }
-    , declared_(declareFrame(renderer, &deviceScene_, settings, keepLayers, memories_))
+    , declared_(declareFrame(renderer, &onDevice, settings, keepLayers, memories_))
 {
 }
 
@@ -129,6 +143,21 @@ void PassBench::plane(const std::string& name, const std::vector<std::uint64_t>&
     contents_[name] = encoded(planeOf(name), name, values);
 }
 
+void PassBench::take(const PassBench& from)
+{
+    for (auto& [name, contents] : contents_) {
+        if (!from.has(name)) {
+            continue;
+        }
+        const graph::Resource &own = planes_.at(name), &there = from.planes_.at(name);
+        if (!(own.format == there.format) || own.elements != there.elements) {
+            refuse(fmt::format("plane \"{}\" of kernel {} is another than kernel {}'s", name, pass_.kernel.name,
+                from.pass_.kernel.name));
+        }
+        contents = from.contents_.at(name);
+    }
+}
+
 template <>
 std::vector<float> PassBench::read(const std::string& name) const
 {
@@ -159,6 +188,33 @@ void PassBench::setValue(const std::string& name, std::string_view type, std::sp
 {
     valueOf(name, type);
     values_[name].assign(bytes.begin(), bytes.end());
+}
+
+void PassBench::sinks(const std::vector<graph::Sink>& becoming, const std::vector<graph::Argument>& values,
+    const std::vector<List>& lists)
+{
+    for (const std::string& name : handed(pass_.kernel.sinks)) {
+        std::erase_if(pass_.arguments, [&](const graph::Argument& each) { return each.name == name; });
+        contents_.erase(name);
+    }
+    pass_.kernel.sinks = becoming;
+    for (const std::string& name : handed(becoming)) {
+        const auto named = [&](const auto& each) { return each.name == name; };
+        if (const auto value = std::ranges::find_if(values, named); value != values.end()) {
+            pass_.arguments.push_back(*value);
+            continue;
+        }
+        const auto list = std::ranges::find_if(lists, named);
+        if (list == lists.end()) {
+            refuse(fmt::format("sinks are handed \"{}\", and there is none", name));
+        }
+        pass_.arguments.push_back({ .name = name, .access = graph::Access::Update });
+        graph::Resource& of = planes_[name] = {};
+        of.name = name;
+        of.format = list->format;
+        of.elements = list->elements;
+        contents_[name].assign(static_cast<std::size_t>(of.bytes()), std::byte { 0 });
+    }
 }
 
 Window PassBench::covered() const

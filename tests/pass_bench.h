@@ -26,17 +26,17 @@ namespace wedge::test {
 class DeclaredFrame {
 public:
     DeclaredFrame(const device::Device& device, const scene::Scene& scene, const render::Settings& settings,
-        bool keepLayers = false);
+        bool keepLayers = false, const render::Options& options = renderOptions());
 
     const graph::Graph& graph() const { return declared_->graph(); }
     const render::PreparedScene& scene() const { return renderer.scene(); }
 
     render::Renderer renderer; ///< of its programs and its queue
     render::PlaneLayout layout;
+    const render::Hierarchy tree;
+    const render::DeviceScene onDevice;
 
 private:
-    render::Hierarchy hierarchy_;
-    render::DeviceScene deviceScene_;
     render::HalfMemories memories_;
     std::unique_ptr<render::FrameGraph> declared_;
 };
@@ -70,6 +70,8 @@ public:
     {
         plane(name, planes.values);
     }
+    /// Fills all planes that `from` has by the same names with what they hold there.
+    void take(const PassBench& from);
     /// What a plane holds: as it was filled, or after run().
     template <class T>
     std::vector<T> read(const std::string& name) const;
@@ -96,6 +98,16 @@ public:
         std::memcpy(&out, bytes.data(), sizeof(T));
         return out;
     }
+
+    struct List {
+        std::string name;
+        graph::Format format;
+        std::uint64_t elements;
+    };
+    /// Has other sinks take the samples of a kernel that takes some. Of these values, and of these lists, which are 0
+    /// at first, it is handed what the sinks are.
+    void sinks(const std::vector<graph::Sink>& becoming, const std::vector<graph::Argument>& values,
+        const std::vector<List>& lists);
 
     /// The pixels that are covered; else all.
     void window(const Window& pixels) { window_ = pixels; }

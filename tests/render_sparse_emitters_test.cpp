@@ -3,9 +3,7 @@
 #include "host/render/emitter_texture.h"
 #include "host/render/emitters.h"
 #include "tests/lamp_room.h"
-#include "tests/trace_support.h"
-
-#include <tuple>
+#include "tests/render_support.h"
 
 using namespace wedge;
 using namespace wedge::test;
@@ -137,11 +135,9 @@ Places places(const SceneBuilder& b, const device::Device& device, const std::ve
     const auto met = bench.filled(2 * std::size_t { count }, 0.0f);
     const auto run = [&](const char* name, const auto&... more) {
         device::Kernel kernel = bench.library.kernel("emitter_points.cl", name);
-        std::apply(
-            [&](const auto&... surfaces) {
-                kernel.setArgs(surfaces..., scene.emitters, scene.emitterPicks, scene.emitterCount, more...);
-            },
-            surfaceArguments(scene));
+        kernel.setArgs(scene.positions, scene.normals, scene.texcoords, scene.indices, scene.materialIds,
+            scene.materials, scene.textures, scene.texels, scene.srgbToLinear, scene.positionsAtClose,
+            scene.normalsAtClose, scene.emitters, scene.emitterPicks, scene.emitterCount, more...);
         bench.queue.launch(name, device::PassKind::Trace, kernel, count, 16);
     };
     run("choosePlaces", numberBuffer, count, chosen);

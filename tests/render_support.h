@@ -301,6 +301,15 @@ inline scene::Scene smallScene()
     return b.scene;
 }
 
+/// The same with a lobe of that exponent on everything.
+inline scene::Scene glossyScene(float exponent = 20)
+{
+    scene::Scene out = smallScene();
+    out.materials[0].specular = glm::vec3(0.3f);
+    out.materials[0].exponent = exponent;
+    return out;
+}
+
 /// Renders one scene with one device's default and WEDGE_TEST_KERNEL_DIR's kernels.
 inline render::Options renderOptions()
 {
