@@ -2,7 +2,6 @@
 #pragma once
 
 #include "kernels/shared/camera.h"
-#include "tests/declared_kernel.h"
 #include "tests/packed_support.h"
 #include "tests/wave_support.h"
 

@@ -10,7 +10,6 @@ using namespace wedge::test;
 namespace {
 
 constexpr const char* file = "filter/temporal.cl";
-constexpr auto filterPass = device::PassKind::Filter;
 
 shared::TemporalParams temporalParamsOf(const render::PlaneLayout& layout)
 {
@@ -357,14 +356,14 @@ TEST_CASE("temporal: blocks are weighed by Student's t of differences and by the
         const shared::TemporalParams p = temporalParamsOf(layout);
         const std::uint32_t blocks = p.blocksX * p.blocksY;
         const auto sums = bench.filled(4 * std::size_t { blocks }, 7.0f), weights = bench.filled(blocks, 7.0f);
-        const auto run = [&](const char* kernel, const auto&... args) {
-            device::Kernel& k = bench.passes.find(file, kernel);
-            k.setArgs(p, blocks, args...);
-            bench.queue.launch("filter over time", filterPass, k, blocks, 1);
+        const auto run = [&](const char* kernel, std::vector<Handed> handed) {
+            handed.insert(handed.begin(), { value("p", p), value("blocks", blocks) });
+            launchDeclared(bench, { file, kernel }, blocks, handed);
         };
-        const auto shares = bench.buffer(share.values);
-        run("sumBlocks", bench.buffer(noise.values), bench.buffer(variations.values), shares, sums);
-        run("weighBlocks", sums, weights);
+        run("sumBlocks",
+            { plane("noise", bench.buffer(noise.values)), plane("variations", bench.buffer(variations.values)),
+                plane("share", bench.buffer(share.values)), plane("sums", sums, graph::floatPlanes(4)) });
+        run("weighBlocks", { plane("sums", sums, graph::floatPlanes(4)), plane("weights", weights) });
         const std::vector<float> found = bench.read(weights);
         std::vector<double> expected(blocks);
         struct Sum {
@@ -414,8 +413,8 @@ TEST_CASE("temporal: blocks are weighed by Student's t of differences and by the
         const auto add = [&](const shared::TemporalParams& how, const Handed& weighed, const auto& to,
                              const auto& seen) {
             launchDeclared(bench, { file, "addFrame" }, layout, how,
-                { vectors("difference", bench.buffer(difference.values)), plane("share", shares), weighed,
-                    vectors("sum", to), plane("counts", seen) });
+                { vectors("difference", bench.buffer(difference.values)), plane("share", bench.buffer(share.values)),
+                    weighed, vectors("sum", to), plane("counts", seen) });
         };
         add(p, plane("weights", weights), sum, counts);
         // As published it counts whatever has changed.

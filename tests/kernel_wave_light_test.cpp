@@ -1,11 +1,9 @@
 // wave_light.cl alone: the unshadowed shading of a wave's receivers, against means over the light in double.
-#include "host/render/device_scene.h"
-#include "host/render/quadrature.h"
 #include "kernels/shared/bsdf.h"
 #include "kernels/shared/wave.h"
 #include "tests/lamp.h"
+#include "tests/pass_bench.h"
 #include "tests/render_oracles.h"
-#include "tests/render_support.h"
 
 using namespace wedge;
 using namespace wedge::test;
@@ -140,20 +138,45 @@ double lobesAcross(const scene::AreaLight& light, const ReceiverPoint& p)
 /// About the geometry term of a light that faces a receiver, 1/m^2: lamp()'s larger half extent is 0.6 m.
 double unclipped(double extent) { return extent * extent / 0.36; }
 
-/// The kernel's planes: diffuse, and where the program has it specular.
-std::vector<float> unshadowed(
-    KernelBench& bench, const scene::AreaLight& light, const std::vector<ReceiverPoint>& points, std::size_t count)
+/// What there is in the scene besides diffuse reflection, which programs hang on.
+enum class Reflects { Nothing, Lobes, Microfacets };
+
+/// Of a frame in waves under one light.
+DeclaredFrame frameUnder(const device::Device& device, const scene::AreaLight& light, Reflects reflects)
 {
-    const auto planes = [&](std::size_t n, const auto& value) {
-        std::vector<float> out(n * planeSize, std::nanf(""));
-        for (std::size_t c = 0; c < n; ++c)
+    SceneBuilder b;
+    b.quad({ 0, 0, 0 }, { 0, 0, 4 }, { 4, 0, 0 });
+    b.camera({ 0, 2, 3 }, { 0, 0, 0 });
+    b.scene.areaLights = { light };
+    if (reflects != Reflects::Nothing)
+        b.scene.materials[0].specular = glm::vec3(0.3f);
+    if (reflects == Reflects::Microfacets)
+        b.scene.materials[0].specularModel = scene::SpecularModel::Ggx;
+    render::Settings settings = sized(render::axisAligned(16), 16, 16);
+    settings.antialias = true;
+    return { device, b.scene, settings };
+}
+
+/// What the kernel finds: diffuse, and where the program has it specular.
+std::vector<float> unshadowed(const device::Device& device, const scene::AreaLight& light,
+    const std::vector<ReceiverPoint>& points, std::size_t count, Reflects reflects = Reflects::Lobes)
+{
+    DeclaredFrame frame = frameUnder(device, light, reflects);
+    PassBench pass(frame, "unshadowedReceivers");
+    const std::size_t size = pass.elements("objectId");
+    REQUIRE(size >= planeSize);
+    const auto fill = [&](const char* name, const auto& value) {
+        std::vector<float> out(3 * size, std::nanf(""));
+        for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t r = 0; r < points.size(); ++r)
-                out[c * planeSize + r] = static_cast<float>(value(points[r], static_cast<int>(c)));
-        return bench.buffer(out);
+                out[c * size + r] = static_cast<float>(value(points[r], static_cast<int>(c)));
+        pass.plane(name, out);
     };
+    fill("position", [](const ReceiverPoint& p, int c) { return p.position[c]; });
+    fill("normal", [](const ReceiverPoint& p, int c) { return p.normal[c]; });
+    fill("specular", [](const ReceiverPoint& p, int) { return p.specular; });
     // One pixel's receivers, the first to the last.
-    std::vector<std::uint32_t> objects(planeSize, 0), views(planeSize, 0), glosses(planeSize, 0), pixels(planeSize, 7),
-        samples(planeSize, 0);
+    std::vector<std::uint32_t> objects(size, 0), views(size, 0), glosses(size, 0), samples(size, 0);
     std::iota(samples.begin(), samples.end(), 0u);
     for (std::size_t r = 0; r < points.size(); ++r) {
         objects[r] = points[r].surface ? 5 : 0;
@@ -167,23 +190,27 @@ std::vector<float> unshadowed(
         glosses[r] = shared::packGloss(gloss);
         views[r] = shared::packDirection(shared::vec3(v.x, v.y, v.z));
     }
-    shared::FrameParams frame {};
-    frame.tileCount = 1;
+    pass.plane("objectId", objects);
+    pass.plane("view", views);
+    pass.plane("gloss", glosses);
+    pass.plane("sampleOf", samples);
+    pass.plane("pixelOf", std::vector<std::uint32_t>(size, 7));
+    pass.plane("unshadowed", std::vector(2 * size, untouched));
+    shared::FrameParams params {};
+    params.tileCount = 1;
     shared::WaveParams wave {};
     wave.receivers = static_cast<std::uint32_t>(count);
-    wave.planeSize = planeSize;
-    const auto out = bench.filled(2 * planeSize, untouched);
-    bench.passes.list("unshadowed shading", device::PassKind::Trace, "light/wave_light.cl", "unshadowedReceivers",
-        (count + WEDGE_BLOCK_PIXELS - 1) / WEDGE_BLOCK_PIXELS, frame, wave, render::deviceLight(light),
-        bench.buffer(render::lightNodes(light)), bench.buffer(pixels), bench.buffer(samples),
-        planes(3, [](const ReceiverPoint& p, int c) { return p.position[c]; }),
-        planes(3, [](const ReceiverPoint& p, int c) { return p.normal[c]; }), bench.buffer(objects),
-        planes(3, [](const ReceiverPoint& p, int) { return p.specular; }), bench.buffer(glosses), bench.buffer(views),
-        out);
-    return bench.read(out);
+    wave.planeSize = static_cast<std::uint32_t>(size);
+    pass.value("frame", params);
+    pass.value("wave", wave);
+    pass.items((count + WEDGE_BLOCK_PIXELS - 1) / WEDGE_BLOCK_PIXELS);
+    pass.run();
+    const auto read = pass.read<float>("unshadowed");
+    std::vector<float> out(2 * planeSize);
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = read[i / planeSize * size + i % planeSize];
+    return out;
 }
-
-const Defines shiny = { { "WEDGE_SPECULAR", "1" } };
 
 /// Of its lobe, normalized.
 double peakOf(const ReceiverPoint& p) { return (p.exponent + 2) * (p.phong ? 1 : 0.25) / (2 * 3.14159265358979); }
@@ -221,7 +248,6 @@ void everyLight(const Visit& visit)
 TEST_CASE("receivers that hit nothing get no shading, and nothing is written beyond the wave's blocks")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench plain(device), bench(device, shiny);
         const scene::AreaLight light = lamp(scene::LightProfile::Uniform, true);
         std::mt19937 random(1);
         std::vector<ReceiverPoint> points;
@@ -230,15 +256,15 @@ TEST_CASE("receivers that hit nothing get no shading, and nothing is written bey
             points.back().surface = r == 3;
         }
         for (const std::size_t count : { std::size_t { 1 }, std::size_t { 16 }, std::size_t { 37 } })
-            for (KernelBench* on : { &plain, &bench }) {
-                const std::vector<float> found = unshadowed(*on, light, points, count);
+            for (const Reflects reflects : { Reflects::Nothing, Reflects::Lobes }) {
+                const std::vector<float> found = unshadowed(device, light, points, count, reflects);
                 const std::size_t written = (count + 15) / 16 * 16;
                 for (std::size_t r = 0; r < planeSize; ++r) {
                     if (r >= written)
                         REQUIRE(found[r] == untouched);
                     else if (r != 3)
                         REQUIRE(found[r] == 0);
-                    REQUIRE((on == &bench && r < written) == (found[planeSize + r] != untouched));
+                    REQUIRE((reflects == Reflects::Lobes && r < written) == (found[planeSize + r] != untouched));
                 }
             }
     });
@@ -247,14 +273,13 @@ TEST_CASE("receivers that hit nothing get no shading, and nothing is written bey
 TEST_CASE("diffuse: the mean geometry term over the light, near, far and partly below the horizon")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
         unsigned seed = 10;
         const auto check = [&](const scene::AreaLight& light) {
             std::mt19937 random(++seed);
             std::vector<ReceiverPoint> points;
             while (points.size() < receiverCount)
                 points.push_back(randomReceiver(light, 10, random));
-            const std::vector<float> found = unshadowed(bench, light, points, receiverCount);
+            const std::vector<float> found = unshadowed(device, light, points, receiverCount, Reflects::Nothing);
             int lit = 0, horizons = 0, close = 0, far = 0;
             for (std::size_t r = 0; r < receiverCount; ++r) {
                 const Shading expected = overLight(light, points[r]);
@@ -293,7 +318,6 @@ TEST_CASE("receivers of a pixel that see one point share out the lobe's directio
 {
     // What stands still, and in focus, while something else moves.
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device, shiny);
         const scene::AreaLight light = lamp(scene::LightProfile::Gaussian, false);
         std::mt19937 random(5);
         for (int k = 0; k < 12; ++k) {
@@ -301,7 +325,7 @@ TEST_CASE("receivers of a pixel that see one point share out the lobe's directio
             while (!p.surface || p.specular == 0 || lobesAcross(light, p) < 41 || overLight(light, p).horizon)
                 p = randomReceiver(light, 1000, random);
             const std::vector<ReceiverPoint> same(receiverCount, p);
-            const std::vector<float> found = unshadowed(bench, light, same, receiverCount);
+            const std::vector<float> found = unshadowed(device, light, same, receiverCount);
             double mean = 0;
             for (std::size_t r = 0; r < receiverCount; ++r)
                 mean += found[planeSize + r] / receiverCount;
@@ -318,7 +342,6 @@ TEST_CASE("receivers of a pixel that see one point share out the lobe's directio
 TEST_CASE("specular: the mean of lobe times geometry term, of both models, by a rule or by directions of the lobe")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device, shiny);
         unsigned seed = 20;
         everyLight([&](const scene::AreaLight& light) {
             for (const double sharpest : { 20.0, 1000.0 }) {
@@ -328,7 +351,7 @@ TEST_CASE("specular: the mean of lobe times geometry term, of both models, by a 
                 while (points.size() < receiverCount)
                     points.push_back(points.size() % 2 == 0 ? randomReceiver(light, sharpest, random)
                                                             : grazingReceiver(light, sharpest, random));
-                const std::vector<float> found = unshadowed(bench, light, points, receiverCount);
+                const std::vector<float> found = unshadowed(device, light, points, receiverCount);
                 int sharp = 0, bright = 0, few = 0, medium = 0, fine = 0;
                 double error = 0, total = 0;
                 for (std::size_t r = 0; r < receiverCount; ++r) {
@@ -376,7 +399,6 @@ TEST_CASE("specular: the mean of lobe times geometry term, of both models, by a 
 TEST_CASE("highlights of lights cut by the horizon: as good as their rule, whatever the profile")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device, shiny);
         for (const auto& [profile, cut] : { std::pair(scene::LightProfile::Uniform, 2.0f),
                  { scene::LightProfile::Gaussian, 2.0f }, { scene::LightProfile::Gaussian, 3.0f } }) {
             scene::AreaLight light = lamp(profile, true);
@@ -396,7 +418,7 @@ TEST_CASE("highlights of lights cut by the horizon: as good as their rule, whate
                     points.push_back(p);
             }
             points.resize(receiverCount, points.back());
-            const std::vector<float> found = unshadowed(bench, light, points, receiverCount);
+            const std::vector<float> found = unshadowed(device, light, points, receiverCount);
             int ruled = 0;
             for (std::size_t r = 0; r < different; ++r) {
                 const ReceiverPoint& p = points[r];
@@ -420,7 +442,6 @@ TEST_CASE("highlights of lights cut by the horizon: as good as their rule, whate
 TEST_CASE("specular: the mean of a microfacet lobe times geometry term, by a rule or by directions of the lobe")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device, { { "WEDGE_SPECULAR", "1" }, { "WEDGE_GGX", "1" } });
         unsigned seed = 40;
         everyLight([&](const scene::AreaLight& light) {
             std::mt19937 random(++seed);
@@ -434,7 +455,7 @@ TEST_CASE("specular: the mean of a microfacet lobe times geometry term, by a rul
                 p.exponent = p.phong ? p.exponent : 4 / std::pow(uniform(random, 0.2, 1), 4);
                 p.rise = p.phong ? 0 : uniform(random, 0, 20);
             }
-            const std::vector<float> found = unshadowed(bench, light, points, receiverCount);
+            const std::vector<float> found = unshadowed(device, light, points, receiverCount, Reflects::Microfacets);
             int sharp = 0, bright = 0;
             double error = 0, squares = 0, total = 0, worst = 0;
             for (std::size_t r = 0; r < receiverCount; ++r) {

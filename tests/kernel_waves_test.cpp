@@ -138,8 +138,9 @@ TEST_CASE("limitTiles: a tile's new samples fit into a wave, and no pixel is cut
                 for (int x = 0; x < 24; ++x)
                     counts.wanted.at(x, y) = x < 8 || (x == 9 && y == 3) ? 16384u : counts.wanted.at(x, y) % 3;
             const auto wanted = bench.bench.buffer(counts.wanted.values);
-            bench.bench.passes.list("counts", device::PassKind::Analysis, "waves/waves.cl", "limitTiles",
-                bench.params.tileCount, bench.params, capacity, bench.bench.buffer(counts.taken.values), wanted);
+            bench.launch("limitTiles", bench.params.tileCount,
+                { value("capacity", capacity), plane("taken", bench.bench.buffer(counts.taken.values)),
+                    plane("wanted", wanted) });
             const Planes<std::uint32_t> found = planesOf(bench.layout, bench.bench.read(wanted));
             int cut = 0, whole = 0;
             for (int y0 = 0; y0 < 40; y0 += 8)
@@ -242,9 +243,12 @@ TEST_CASE("shareSamples: a term's new samples follow each other over the pixel's
             const std::size_t size = l.wave.planeSize;
             const auto first = bench.bench.filled(size, untouched), last = bench.bench.filled(size, untouched);
             const auto sums = bench.bench.filled(4 * size, -7.0f), extremes = bench.bench.filled(3 * size, -7.0f);
-            bench.launch("shareSamples", l.wave.receivers, l.wave, l.pixelOf, l.shareOf,
-                bench.bench.buffer(term.taken.values), bench.bench.buffer(term.wanted.values), sumPlanes, extremePlanes,
-                first, last, sums, extremes);
+            bench.launch("shareSamples", l.wave.receivers,
+                { value("wave", l.wave), plane("pixelOf", l.pixelOf), plane("shareOf", l.shareOf),
+                    plane("taken", bench.bench.buffer(term.taken.values)),
+                    plane("wanted", bench.bench.buffer(term.wanted.values)), value("sumPlanes", sumPlanes),
+                    value("extremePlanes", extremePlanes), plane("first", first), plane("last", last),
+                    plane("sums", sums), plane("extremes", extremes) });
             const std::vector<std::uint32_t> from = bench.bench.read(first), to = bench.bench.read(last);
             std::uint32_t uneven = 0, none = 0;
             for (std::uint32_t slot = 0; slot < l.wave.tiles * WEDGE_TILE_PIXELS; ++slot) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernels/shared/wave.h"
-#include "tests/render_support.h"
+#include "tests/declared_kernel.h"
 
 #include <vector>
 
@@ -37,7 +37,9 @@ public:
         const Planes<std::uint32_t>& taken, const Planes<std::uint32_t>& wanted, const shared::WaveParams& wave)
     {
         const auto out = bench.filled(params.tileCount, untouched);
-        launch("countReceivers", params.tileCount, wave, bench.buffer(taken.values), bench.buffer(wanted.values), out);
+        launch("countReceivers", params.tileCount,
+            { value("wave", wave), plane("taken", bench.buffer(taken.values)),
+                plane("wanted", bench.buffer(wanted.values)), plane("tileReceivers", out) });
         return bench.read(out);
     }
 
@@ -49,8 +51,11 @@ public:
         WaveLists out { wave, bench.filled(receivers, untouched), bench.filled(receivers, untouched),
             bench.filled(receivers, untouched), bench.filled(pixels, untouched), bench.filled(pixels, untouched), {},
             {}, {}, {}, {} };
-        launch("listReceivers", wave.tiles, wave, bench.buffer(taken.values), bench.buffer(wanted.values),
-            bench.buffer(tileFirst), out.pixelOf, out.sampleOf, out.shareOf, out.pixelFirst, out.pixelCount);
+        launch("listReceivers", wave.tiles,
+            { value("wave", wave), plane("taken", bench.buffer(taken.values)),
+                plane("wanted", bench.buffer(wanted.values)), plane("tileFirst", bench.buffer(tileFirst)),
+                plane("pixelOf", out.pixelOf), plane("sampleOf", out.sampleOf), plane("shareOf", out.shareOf),
+                plane("pixelFirst", out.pixelFirst), plane("pixelCount", out.pixelCount) });
         out.pixels = bench.read(out.pixelOf);
         out.samples = bench.read(out.sampleOf);
         out.shares = bench.read(out.shareOf);
@@ -74,11 +79,11 @@ public:
         return lists(taken, wanted, first, wave);
     }
 
-    /// Launches a kernel of waves.cl over that many items.
-    template <class... Args>
-    void launch(const std::string& kernel, std::size_t items, const Args&... args)
+    /// Launches a kernel of waves.cl over that many items. It is handed the frame, too.
+    void launch(const std::string& kernel, std::size_t items, std::vector<Handed> handed)
     {
-        bench.passes.list("lists", device::PassKind::Trace, "waves/waves.cl", kernel, items, params, args...);
+        handed.insert(handed.begin(), value("frame", params));
+        launchDeclared(bench, { "waves/waves.cl", kernel }, items, handed);
     }
 
     template <class Visit>
