@@ -2,8 +2,7 @@
 #include "effects/area_lights/maaf.h"
 #include "kernels/shared/wedge.h"
 #include "tests/component_basis.h"
-#include "tests/declared_kernel.h"
-#include "tests/filter_oracle.h"
+#include "tests/filter_run.h"
 
 #include <nlohmann/json.hpp>
 
@@ -134,36 +133,42 @@ ComponentImage randomComponents(const FilterImage& base, int components, Sees se
 }
 
 /// parts: what pairs of components have of the first channel, if they are asked for
-FilterResult filterBoth(KernelBench& bench, const ComponentImage& in, Planes<float>* parts = nullptr)
+FilterResult filterBoth(render::Renderer& renderer, const ComponentImage& in, Planes<float>* parts = nullptr)
 {
+    using namespace render;
     const FilterImage& image = in.image;
-    const auto pairs = static_cast<std::size_t>(in.count + 1) / 2;
-    const auto ofPairs = bench.filled(pairs * pairs * image.value.layout.size, -7.0f);
-    const auto out = bench.filled(image.value.values.size(), -7.0f),
-               effective = bench.filled(image.value.layout.size, -7.0f);
-    const auto shorts = [&](const char* name, const Planes<float>& numbers) {
-        return plane(name, bench.buffer(inShorts(numbers)), render::shortFloats);
-    };
-    launchDeclared(bench,
-        { "filter/components.cl", "filterComponents", {}, { { "WEDGE_COMPONENTS", std::to_string(in.count) } } },
-        image.value.layout, image.params,
-        { value("light", in.axes), value("slopesPerWidth", in.slopesPerWidth), value("floorPerPixel", in.floorPerPixel),
-            value("refitted", in.refitted ? 1u : 0u), plane("value", bench.buffer(image.value.values)),
-            plane("beta", bench.buffer(image.beta.values)), shorts("slopeWidth", image.slopeWidth),
-            shorts("ratio", in.ratio), vectors("position", bench.buffer(image.position.values)),
-            vectors("normal", bench.buffer(image.normal.values)),
-            plane("pixelSize", bench.buffer(image.pixelSize.values)),
-            plane("objectId", bench.buffer(image.objectId.values)), plane("sums", bench.buffer(in.sums.values)),
-            plane("components", bench.buffer(inShorts(in.sinks))), plane("filtered", out),
-            plane("effective", effective), onlyIf(parts != nullptr, plane("parts", ofPairs)) },
-        graph::Domain::Blocks);
-    const Planes<float> kept = planesOf(image.value.layout, bench.read(ofPairs));
+    FilterGraph declared(renderer, image, false);
+    declared.settings.components = in.count;
+    declared.settings.maaf = in.refitted ? Maaf::Refitted : Maaf::Printed;
+    const auto pairs = static_cast<std::uint32_t>(in.count + 1) / 2;
+    auto ofPairs = declared.there<Value>("pairs", graph::floatPlanes(pairs * pairs));
+    Gathered out = filteredPlanes(declared.builder, declared.channels);
+    componentFilter(declared.builder, image.params, paramsOf(image.value.layout),
+        deviceLight(renderer.scene().areaLights[0]),
+        declared.there<Value>("value", graph::floatPlanes(declared.channels)),
+        declared.there<Metres>("beta", graph::floats),
+        { declared.there<Sums>("sums", graph::floatPlanes(2 * declared.channels)),
+            declared.there<Value>("components", componentsFormat(in.count, declared.channels)),
+            declared.there<Metres>("slopeWidth", shortFloats), declared.there<Share>("ratio", shortFloats) },
+        out, parts != nullptr ? &ofPairs : nullptr);
+    PassBench pass = passOf(renderer, declared, "filterComponents", image);
+    pass.value("light", in.axes);
+    pass.value("slopesPerWidth", in.slopesPerWidth);
+    pass.value("floorPerPixel", in.floorPerPixel);
+    pass.plane("value", image.value);
+    pass.plane("slopeWidth", image.slopeWidth);
+    pass.plane("ratio", in.ratio);
+    pass.plane("sums", in.sums);
+    pass.plane("components", in.sinks);
     if (parts != nullptr)
-        *parts = kept;
-    return { planesOf(image.value.layout, bench.read(out)), planesOf(image.value.layout, bench.read(effective)) };
+        pass.plane("parts", std::vector(pass.read<float>("parts").size(), -7.0f));
+    pass.run();
+    if (parts != nullptr)
+        *parts = pass.pixels<float>("parts");
+    return { pass.pixels<float>("filtered"), pass.pixels<float>("effective") };
 }
 
-Planes<float> filtered(KernelBench& bench, const ComponentImage& in) { return filterBoth(bench, in).value; }
+Planes<float> filtered(render::Renderer& renderer, const ComponentImage& in) { return filterBoth(renderer, in).value; }
 
 /// What 16 bits keep of the width of slope s under that light, where a pixel is so large.
 float slopeWidthOf(double s, float pixelSize)
@@ -265,10 +270,10 @@ Expected oracle(const ComponentImage& in, int x, int y, std::size_t channel = 0)
 }
 
 /// Holds what the device makes of it against the definition.
-void checkAgainstOracle(KernelBench& bench, const ComponentImage& in)
+void checkAgainstOracle(render::Renderer& renderer, const ComponentImage& in)
 {
     Planes<float> parts(in.image.value.layout, 1, 0.0f);
-    const FilterResult found = filterBoth(bench, in, &parts);
+    const FilterResult found = filterBoth(renderer, in, &parts);
     for (std::size_t channel = 0; channel < in.channels; ++channel) {
         CAPTURE(channel);
         int wrong = 0, left = 0, changed = 0;
@@ -299,7 +304,7 @@ void checkAgainstOracle(KernelBench& bench, const ComponentImage& in)
 TEST_CASE("the filter of components is what its definition in double is")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        render::Renderer renderer(smallScene(), device, renderOptions());
         for (const bool refitted : { false, true })
             for (const int count : { 1, 3, 5, 7 })
                 for (const Shape shape : { Shape::Flat, Shape::Steps, Shape::Tilted })
@@ -312,7 +317,7 @@ TEST_CASE("the filter of components is what its definition in double is")
                         CAPTURE(static_cast<int>(sees));
                         ComponentImage in = randomComponents(wideFilters(shape), count, sees);
                         in.refitted = refitted;
-                        checkAgainstOracle(bench, in);
+                        checkAgainstOracle(renderer, in);
                     }
     });
 }
@@ -320,14 +325,14 @@ TEST_CASE("the filter of components is what its definition in double is")
 TEST_CASE("and so are both numbers of pixels that lobes reflect, too")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device, { { "WEDGE_SPECULAR", "1" } });
+        render::Renderer renderer(glossyScene(), device, renderOptions());
         for (const bool refitted : { false, true })
             for (const int count : { 3, 5 }) {
                 CAPTURE(refitted);
                 CAPTURE(count);
                 ComponentImage in = randomComponents(wideFilters(Shape::Steps, 2), count, Sees::AlongV);
                 in.refitted = refitted;
-                checkAgainstOracle(bench, in);
+                checkAgainstOracle(renderer, in);
             }
     });
 }
@@ -335,7 +340,7 @@ TEST_CASE("and so are both numbers of pixels that lobes reflect, too")
 TEST_CASE("nothing is gathered where a deviation of the light spans less than a pixel in shadows")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        render::Renderer renderer(smallScene(), device, renderOptions());
         FilterImage base = wideFilters(Shape::Flat);
         Planes<float> slope(base.value.layout, 1, 0.0f);
         std::mt19937 random(12);
@@ -346,7 +351,7 @@ TEST_CASE("nothing is gathered where a deviation of the light spans less than a 
                 base.slopeWidth.at(x, y) = slopeWidthOf(slope.at(x, y), base.pixelSize.at(x, y));
             }
         const ComponentImage in = randomComponents(base, 3);
-        const FilterResult found = filterBoth(bench, in);
+        const FilterResult found = filterBoth(renderer, in);
         int narrow = 0, wide = 0;
         for (int y = 0; y < base.height(); ++y)
             for (int x = 0; x < base.width(); ++x) {
@@ -370,7 +375,7 @@ TEST_CASE("nothing is gathered where a deviation of the light spans less than a 
 TEST_CASE("what is the same everywhere stays so, whatever the samples and the neighbours that are left out")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        render::Renderer renderer(smallScene(), device, renderOptions());
         for (const int count : { 3, 5, 7 })
             for (const float value : { 0.0f, 0.5f, 1.0f })
                 for (const Shape shape : { Shape::Steps, Shape::Rough }) {
@@ -381,7 +386,7 @@ TEST_CASE("what is the same everywhere stays so, whatever the samples and the ne
                             for (std::size_t k = 0; k < in.products(); ++k)
                                 in.sinks.at(x, y, k + in.products()) = value * in.sinks.at(x, y, k);
                         }
-                    const Planes<float> found = filtered(bench, in);
+                    const Planes<float> found = filtered(renderer, in);
                     for (int y = 0; y < in.image.height(); ++y)
                         for (int x = 0; x < in.image.width(); ++x)
                             REQUIRE(found.at(x, y) == doctest::Approx(value).epsilon(1e-5));
@@ -392,7 +397,7 @@ TEST_CASE("what is the same everywhere stays so, whatever the samples and the ne
 TEST_CASE("one component is the axis-aligned filter of the same width")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        render::Renderer renderer(smallScene(), device, renderOptions());
         FilterImage base = wideFilters(Shape::Steps);
         base.params.narrower = 0;
         base.params.surface = 0;
@@ -413,7 +418,7 @@ TEST_CASE("one component is the axis-aligned filter of the same width")
                 in.sums.at(x, y, 0) = in.sinks.at(x, y, 0) = 8.0f;
                 in.sums.at(x, y, 1) = in.sinks.at(x, y, 1) = 8.0f * in.image.value.at(x, y);
             }
-        const Planes<float> found = filtered(bench, in);
+        const Planes<float> found = filtered(renderer, in);
         const std::vector<double> expected = oracleSquare(in.image);
         for (int y = 0; y < base.height(); ++y)
             for (int x = 0; x < base.width(); ++x)
@@ -425,9 +430,9 @@ TEST_CASE("one component is the axis-aligned filter of the same width")
 TEST_CASE("a component and its mirror image are one: turning both the light's axes and the ways around changes nothing")
 {
     onEveryDevice([](const device::Device& device) {
-        KernelBench bench(device);
+        render::Renderer renderer(smallScene(), device, renderOptions());
         ComponentImage in = randomComponents(wideFilters(Shape::Tilted), 5);
-        const Planes<float> found = filtered(bench, in);
+        const Planes<float> found = filtered(renderer, in);
         in.axes.alongU = shared::vecScale(in.axes.alongU, -1.0f);
         for (std::size_t i = 2; i < 5; i += 2) // sines along u
             for (std::size_t k = 0; k < 5; ++k)
@@ -435,7 +440,7 @@ TEST_CASE("a component and its mirror image are one: turning both the light's ax
                     for (int x = 0; x < in.image.width(); ++x)
                         for (const std::size_t part : { std::size_t { 0 }, in.products() })
                             in.sinks.at(x, y, part + 5 * i + k) *= -1.0f;
-        const Planes<float> turned = filtered(bench, in);
+        const Planes<float> turned = filtered(renderer, in);
         for (int y = 0; y < in.image.height(); ++y)
             for (int x = 0; x < in.image.width(); ++x)
                 REQUIRE(found.at(x, y) == doctest::Approx(turned.at(x, y)).epsilon(1e-5));
