@@ -6,12 +6,10 @@
 #include "host/render/pixel_frame.h"
 #include "host/render/progressive.h"
 #include "host/scene/scene.h"
-#include "kernels/embedded_kernels.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <vector>
 
 namespace wedge::test {
@@ -168,29 +166,6 @@ void everyProgram(const device::Device& device, const std::function<bool(const P
             visit({ renderer.programOptions(), source });
         }
     });
-}
-
-device::ProgramSource productProgram(const device::Device& device, const std::string& file, const std::string& kernel)
-{
-    static std::map<std::pair<std::string, std::string>, std::string> known; // the same on all devices
-    device::ProgramSource out(file);
-    const std::pair wanted(file, "pass/" + kernel + ".h");
-    const auto embedded = embeddedKernels();
-    if (std::ranges::none_of(embedded, [&](const EmbeddedKernel& each) { return each.path == file; })) {
-        return out;
-    }
-    if (!known.contains(wanted)) {
-        everyProgram(device, [&](const ProductProgram& program) {
-            for (const auto& [interface, text] : program.source.generated) {
-                known.emplace(std::pair(program.source.file, interface), text);
-            }
-            return !known.contains(wanted);
-        });
-    }
-    if (const auto found = known.find(wanted); found != known.end()) {
-        out.generated.emplace(wanted.second, found->second);
-    }
-    return out;
 }
 
 } // namespace wedge::test

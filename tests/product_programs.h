@@ -32,8 +32,4 @@ void everyGraph(const device::Device& device, const std::function<void(const gra
 /// Calls visit(program) for those of the same frames on a device, until it returns false.
 void everyProgram(const device::Device& device, const std::function<bool(const ProductProgram&)>& visit);
 
-/// The first program of that file in which there is the kernel; without interfaces where no frame has it, as of
-/// kernels of the tests' own.
-device::ProgramSource productProgram(const device::Device& device, const std::string& file, const std::string& kernel);
-
 } // namespace wedge::test

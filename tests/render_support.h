@@ -11,7 +11,6 @@
 #include "kernels/shared/filter_params.h"
 #include "kernels/shared/packed.h"
 #include "tests/device_testing.h"
-#include "tests/passes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,18 +35,6 @@ inline std::string kernelDir()
     return folder != nullptr ? folder : "";
 }
 
-/// Whether the name is among the defines.
-inline bool isDefined(const Defines& defines, const std::string& name)
-{
-    return std::ranges::any_of(defines, [&](const auto& define) { return define.first == name; });
-}
-
-/// The family of traversals that kernels built with these defines walk.
-inline render::Traversal familyOf(const Defines& defines)
-{
-    return isDefined(defines, "WEDGE_TRAVERSAL_SCALAR") ? render::Traversal::Scalar : render::Traversal::Wide;
-}
-
 /// Calls test(device) for every usable device.
 template <class Test>
 void onEveryDevice(const Test& test)
@@ -58,14 +45,13 @@ void onEveryDevice(const Test& test)
     }
 }
 
-/// A device with a queue and the means to launch kernels as the renderer does.
+/// A device with a queue and kernels, compiled with these defines.
 class KernelBench {
 public:
     explicit KernelBench(const device::Device& on, const Defines& defines = {}, const std::string& folder = kernelDir())
         : device(on)
         , queue(on)
         , library(on, { defines, false, folder })
-        , passes(library, queue, render::packetSize(familyOf(defines)))
     {
     }
 
@@ -95,7 +81,6 @@ public:
     device::Device device;
     device::TimedQueue queue;
     device::ProgramLibrary library;
-    Passes passes;
 };
 
 /// Planes of one value a pixel in the layout of kernels/shared/frame.h, padding included.
@@ -142,17 +127,6 @@ inline std::vector<float> inShorts(const Planes<float>& planes)
         planes.values, shorts.begin(), [](float v) { return static_cast<std::uint16_t>(shared::packShort(v)); });
     std::vector<float> out(shorts.size() / 2);
     std::memcpy(out.data(), shorts.data(), shorts.size() * sizeof(std::uint16_t));
-    return out;
-}
-
-/// And back.
-inline Planes<float> ofShorts(const render::PlaneLayout& layout, std::size_t count, const std::vector<float>& buffer)
-{
-    std::vector<std::uint16_t> shorts(2 * buffer.size());
-    std::memcpy(shorts.data(), buffer.data(), buffer.size() * sizeof(float));
-    Planes<float> out(layout, count, 0.0f);
-    std::transform(shorts.begin(), shorts.begin() + static_cast<std::ptrdiff_t>(out.values.size()), out.values.begin(),
-        [](std::uint16_t v) { return shared::unpackShort(v); });
     return out;
 }
 
