@@ -11,8 +11,6 @@
 
 namespace wedge::test {
 
-inline double luminanceOf(glm::dvec3 c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
-
 /// What one primary sample of a pixel sees.
 struct SeenPoint {
     std::uint32_t object; ///< 0: nothing

@@ -114,8 +114,6 @@ void onEveryRegion(unsigned seed, const Test& test)
         onEveryRegion(seed, kept, test);
 }
 
-inline double luminanceOf(glm::dvec3 c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
-
 template <class Visit>
 void everyPixel(const image::Window& window, const Visit& visit)
 {

@@ -54,12 +54,6 @@ enum class Shape {
     Rough, ///< positions, normals and objects at random
 };
 
-inline glm::dvec3 toGlm(shared::Vec3 v) { return { v.x, v.y, v.z }; }
-inline shared::Vec3 toShared(glm::dvec3 v)
-{
-    return shared::vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
-}
-
 inline glm::dvec3 rayOf(const shared::FilterParams& p, int x, int y)
 {
     return toGlm(p.forward) + (x + 0.5 - 0.5 * p.width) * toGlm(p.right) + (y + 0.5 - 0.5 * p.height) * toGlm(p.down);
@@ -74,11 +68,11 @@ inline FilterImage randomImage(int width, int height, Shape shape, unsigned seed
     p.eye = shared::vec3(0.2f, 3, 0.1f);
     const glm::dvec3 forward = glm::normalize(glm::dvec3(0.15, -1, -0.1)),
                      right = glm::normalize(glm::cross(forward, glm::dvec3(0, 0, -1)));
-    p.forward = toShared(forward);
-    p.right = toShared(right * 0.0173);
-    p.down = toShared(-glm::cross(right, forward) * 0.0173);
+    p.forward = toVec3(forward);
+    p.right = toVec3(right * 0.0173);
+    p.down = toVec3(-glm::cross(right, forward) * 0.0173);
     p.lightCentre = shared::vec3(0.7f, 4, -0.5f);
-    p.lightNormal = toShared(glm::normalize(glm::dvec3(0.1, -1, 0.2)));
+    p.lightNormal = toVec3(glm::normalize(glm::dvec3(0.1, -1, 0.2)));
     p.normalCosine = 0.9848f;
     p.cut = 3;
     p.oblique = p.narrower = p.surface = 1;

@@ -144,7 +144,7 @@ private:
 inline FilterImage keptLean(FilterImage image)
 {
     everyPixel(image.value.layout, [&](int x, int y) {
-        const std::uint32_t bits = shared::packNormal(toShared(image.normal.vector(x, y)));
+        const std::uint32_t bits = shared::packNormal(toVec3(image.normal.vector(x, y)));
         image.normal.setVector(x, y, toGlm(shared::unpackNormal(bits)));
         image.pixelSize.at(x, y) = shared::unpackShort(shared::packShort(image.pixelSize.at(x, y)));
     });
@@ -175,6 +175,27 @@ inline double compare(
         }
     CHECK(wrong == 0);
     return static_cast<double>(uncertain) / (width * height);
+}
+
+/// Of an image whose neighbours have gradients: NaN of a column of another object reaches no other pixel.
+inline void checkThatNaNStays(const device::Device& device, FilterImage image)
+{
+    FilterRun filter(device);
+    const FilterResult clean = filter(image);
+    for (int y = 0; y < image.height(); ++y) {
+        image.objectId.at(20, y) = 2;
+        image.value.at(20, y) = 0.5f;
+    }
+    const FilterResult apart = filter(image);
+    for (int y = 0; y < image.height(); ++y)
+        for (std::size_t k = 0; k < image.gradients->values.size() / image.value.layout.size; ++k)
+            image.gradients->at(20, y, k) = std::numeric_limits<float>::quiet_NaN();
+    const FilterResult result = filter(image);
+    everyPixel(image.value.layout, [&](int x, int y) {
+        if (x != 20)
+            REQUIRE(result.value.at(x, y) == apart.value.at(x, y));
+    });
+    CHECK(clean.value.at(19, 9) != apart.value.at(19, 9));
 }
 
 } // namespace wedge::test

@@ -76,8 +76,8 @@ struct ComponentImage {
         axes.centre = base.params.lightCentre;
         // Along the light, 0.5 and 0.4 m a standard deviation.
         const glm::dvec3 n = toGlm(base.params.lightNormal), u = glm::normalize(glm::cross(n, glm::dvec3(0.2, 0, 1)));
-        axes.alongU = toShared(u / 0.5);
-        axes.alongV = toShared(glm::cross(n, u) / 0.4);
+        axes.alongU = toVec3(u / 0.5);
+        axes.alongV = toVec3(glm::cross(n, u) / 0.4);
     }
     std::size_t products() const { return static_cast<std::size_t>(count) * static_cast<std::size_t>(count); }
 

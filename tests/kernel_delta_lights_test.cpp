@@ -13,12 +13,6 @@ namespace {
 constexpr int width = 45, height = 31;
 const glm::dvec3 lamp(0.4, 1.9, 1.1), intensity(4, 3, 2), sunward(0.48, 0.6, 0.64), irradiance(1, 2, 3);
 
-glm::dvec3 toGlm(shared::Vec3 v) { return { v.x, v.y, v.z }; }
-shared::Vec3 toVec3(glm::dvec3 v)
-{
-    return shared::vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
-}
-
 constexpr float exponent = 12;
 
 /// Of what reflects at most all that arrives, docs/materials.md; for the half vector's cosine.

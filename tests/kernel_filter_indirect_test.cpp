@@ -8,8 +8,6 @@ using namespace wedge::test;
 
 namespace {
 
-const float notANumber = std::numeric_limits<float>::quiet_NaN();
-
 /// Calls test(filter, planes) for each number of planes on every device.
 template <class Test>
 void withEach(const Test& test)
@@ -82,21 +80,6 @@ FilterImage smoothImage(int width, int height, unsigned seed)
 
 } // namespace
 
-TEST_CASE("without a light: degenerate sizes gather what the definition in double gathers")
-{
-    withEach([](FilterRun& filter, int planes) {
-        for (const std::pair<int, int>& size : { std::pair(1, 1), { 1, 23 }, { 23, 1 }, { 17, 2 } }) {
-            const int width = size.first, height = size.second;
-            CAPTURE(width);
-            CAPTURE(height);
-            const FilterImage image = unlit(width, height, Shape::Tilted, 3, planes);
-            const OracleResult rows = oracleRows(image);
-            compare(image, filter(image, true), rows, planes);
-            compare(image, filter(image), oracleColumns(image, rows), planes);
-        }
-    });
-}
-
 TEST_CASE("without a light: both passes gather over plain distances, all planes with the same weights")
 {
     withEach([](FilterRun& filter, int planes) {
@@ -143,61 +126,6 @@ TEST_CASE("along the axes: pairs have the mean of both squared bandwidths, and r
                 }
             CHECK(uncertain / runs < 0.1);
         }
-    });
-}
-
-TEST_CASE("without a light: a constant field comes out unchanged to rounding")
-{
-    withEach([](FilterRun& filter, int planes) {
-        for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough }) {
-            FilterImage image = unlit(50, 33, shape, 77, planes);
-            everyPixel(image, [&](int x, int y) {
-                for (int c = 0; c < planes; ++c)
-                    image.value.at(x, y, static_cast<std::size_t>(c)) = 0.7f + static_cast<float>(c);
-            });
-            const FilterResult result = filter(image);
-            double worst = 0;
-            everyPixel(image, [&](int x, int y) {
-                for (int c = 0; c < planes; ++c)
-                    worst =
-                        std::max(worst, std::fabs(result.value.at(x, y, static_cast<std::size_t>(c)) / (0.7 + c) - 1));
-            });
-            CHECK(worst < 3e-6);
-        }
-    });
-}
-
-TEST_CASE("without a light: NaN of another object, of another normal or of a pixel without a term does not spread")
-{
-    withEach([](FilterRun& filter, int planes) {
-        FilterImage image = unlit(40, 24, Shape::Flat, 19, planes);
-        std::vector<std::pair<int, int>> bad;
-        std::mt19937 random(2);
-        for (int i = 0; i < 40; ++i) {
-            const int x = static_cast<int>(random() % 40), y = static_cast<int>(random() % 24);
-            bad.emplace_back(x, y);
-            if (i % 3 == 0)
-                image.objectId.at(x, y) = 99;
-            else if (i % 3 == 1)
-                image.beta.at(x, y) = -1.0f;
-            else
-                image.normal.setVector(x, y, { 0, -1, 0 });
-        }
-        FilterImage poisoned = image;
-        for (const auto& [x, y] : bad)
-            for (int c = 0; c < planes; ++c)
-                poisoned.value.at(x, y, static_cast<std::size_t>(c)) = notANumber;
-        const FilterResult expected = filter(image), found = filter(poisoned);
-        unsigned leaks = 0;
-        everyPixel(image, [&](int x, int y) {
-            if (std::ranges::find(bad, std::pair(x, y)) != bad.end())
-                return;
-            for (int c = 0; c < planes; ++c) {
-                const std::size_t plane = static_cast<std::size_t>(c);
-                leaks += found.value.at(x, y, plane) == expected.value.at(x, y, plane) ? 0 : 1;
-            }
-        });
-        CHECK(leaks == 0);
     });
 }
 

@@ -10,27 +10,100 @@ namespace {
 
 const float notANumber = std::numeric_limits<float>::quiet_NaN();
 
+/// Calls test(filter, make, planes) for filters of a light's planes, and of others over plain distances. make(width,
+/// height, shape, seed): such an image.
+template <class Test>
+void ofEachKind(const Test& test)
+{
+    onEveryDevice([&](const device::Device& device) {
+        FilterRun filter(device);
+        for (const std::pair<int, bool>& kind : { std::pair(1, true), { 1, false }, { 3, false }, { 4, false } }) {
+            const int planes = kind.first;
+            const bool light = kind.second;
+            CAPTURE(planes);
+            CAPTURE(light);
+            const auto make = [&](int width, int height, Shape shape, unsigned seed) {
+                const FilterImage image = randomImage(width, height, shape, seed, static_cast<std::size_t>(planes));
+                return light ? image : withoutLight(image);
+            };
+            test(filter, make, planes);
+        }
+    });
+}
+
 } // namespace
 
 TEST_CASE("degenerate sizes: one pixel, one row, one column")
 {
-    onEveryDevice([](const device::Device& device) {
-        FilterRun filter(device);
+    ofEachKind([](FilterRun& filter, const auto& make, int planes) {
         for (const std::pair<int, int>& size : { std::pair(1, 1), { 1, 23 }, { 23, 1 }, { 17, 2 } }) {
             const int width = size.first, height = size.second;
             CAPTURE(width);
             CAPTURE(height);
-            const FilterImage image = randomImage(width, height, Shape::Tilted, 3);
+            const FilterImage image = make(width, height, Shape::Tilted, 3);
             const OracleResult rows = oracleRows(image);
-            compare(image, filter(image, true), rows);
-            compare(image, filter(image), oracleColumns(image, rows));
+            compare(image, filter(image, true), rows, planes);
+            compare(image, filter(image), oracleColumns(image, rows), planes);
         }
         // A single pixel has itself alone to gather.
-        FilterImage one = randomImage(1, 1, Shape::Flat, 1);
+        FilterImage one = make(1, 1, Shape::Flat, 1);
         one.beta.at(0, 0) = 1.0f;
         const FilterResult result = filter(one);
         CHECK(result.value.at(0, 0) == one.value.at(0, 0));
         CHECK(result.effective.at(0, 0) == 1.0f);
+    });
+}
+
+TEST_CASE("weights sum to 1: a constant field comes out unchanged to rounding")
+{
+    ofEachKind([](FilterRun& filter, const auto& make, int planes) {
+        for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough }) {
+            FilterImage image = make(50, 33, shape, 77);
+            for (std::size_t i = 0; i < image.value.values.size(); ++i)
+                image.value.values[i] = 0.7f + static_cast<float>(i / image.value.layout.size);
+            const FilterResult result = filter(image);
+            double worst = 0;
+            everyPixel(image.value.layout, [&](int x, int y) {
+                for (int c = 0; c < planes; ++c)
+                    worst =
+                        std::max(worst, std::fabs(result.value.at(x, y, static_cast<std::size_t>(c)) / (0.7 + c) - 1));
+            });
+            CHECK(worst < 2.8e-6);
+        }
+    });
+}
+
+TEST_CASE("what is not gathered does not leak: NaN of another object, of another normal, of a pixel without light")
+{
+    ofEachKind([](FilterRun& filter, const auto& make, int planes) {
+        FilterImage image = make(40, 24, Shape::Flat, 19);
+        std::vector<std::pair<int, int>> bad;
+        std::mt19937 random(2);
+        for (int i = 0; i < 40; ++i) {
+            const int x = static_cast<int>(random() % 40), y = static_cast<int>(random() % 24);
+            bad.emplace_back(x, y);
+            if (i % 3 == 0)
+                image.objectId.at(x, y) = 99;
+            else if (i % 3 == 1)
+                image.beta.at(x, y) = -1.0f;
+            else
+                image.normal.setVector(x, y, { 0, -1, 0 });
+        }
+        FilterImage poisoned = image;
+        for (const auto& [x, y] : bad)
+            for (int c = 0; c < planes; ++c)
+                poisoned.value.at(x, y, static_cast<std::size_t>(c)) = notANumber;
+        const FilterResult expected = filter(image), found = filter(poisoned);
+        unsigned leaks = 0;
+        everyPixel(image.value.layout, [&](int x, int y) {
+            if (std::ranges::find(bad, std::pair(x, y)) != bad.end())
+                return;
+            for (int c = 0; c < planes; ++c) {
+                const std::size_t plane = static_cast<std::size_t>(c);
+                leaks += found.value.at(x, y, plane) == expected.value.at(x, y, plane) ? 0 : 1;
+            }
+        });
+        CHECK(leaks == 0);
     });
 }
 
@@ -68,24 +141,6 @@ TEST_CASE("with a specular term both channels are gathered with the same weights
         const FilterImage image = randomImage(35, 20, Shape::Tilted, 5, 2);
         const OracleResult rows = oracleRows(image);
         compare(image, filter(image), oracleColumns(image, rows), 2);
-    });
-}
-
-TEST_CASE("weights sum to 1: a constant field comes out unchanged to rounding")
-{
-    onEveryDevice([](const device::Device& device) {
-        FilterRun filter(device);
-        for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough }) {
-            FilterImage image = randomImage(50, 33, shape, 77);
-            for (float& v : image.value.values)
-                v = 0.7f;
-            const FilterResult result = filter(image);
-            float worst = 0;
-            for (int y = 0; y < image.height(); ++y)
-                for (int x = 0; x < image.width(); ++x)
-                    worst = std::max(worst, std::fabs(result.value.at(x, y) - 0.7f));
-            CHECK(worst < 2e-6f);
-        }
     });
 }
 
@@ -315,38 +370,6 @@ TEST_CASE("a window of the image has the pixels of the whole, bit by bit")
                 REQUIRE(part.value.at(x, y) == whole.value.at(x, y));
         CHECK(part.value.at(31, 7) == -7.0f);
         CHECK(part.value.at(64, 7) == -7.0f);
-    });
-}
-
-TEST_CASE("what is not gathered does not leak: NaN of another object, of another normal, of a pixel without light")
-{
-    onEveryDevice([](const device::Device& device) {
-        FilterRun filter(device);
-        const FilterImage clean = randomImage(40, 24, Shape::Flat, 19);
-        FilterImage image = clean;
-        std::vector<std::pair<int, int>> bad;
-        std::mt19937 random(2);
-        for (int i = 0; i < 40; ++i) {
-            const int x = static_cast<int>(random() % 40), y = static_cast<int>(random() % 24);
-            bad.emplace_back(x, y);
-            if (i % 3 == 0)
-                image.objectId.at(x, y) = 99;
-            else if (i % 3 == 1)
-                image.beta.at(x, y) = -1.0f;
-            else
-                image.normal.setVector(x, y, { 0, -1, 0 });
-        }
-        FilterImage poisoned = image;
-        for (const auto& [x, y] : bad)
-            poisoned.value.at(x, y) = notANumber;
-        const FilterResult expected = filter(image), found = filter(poisoned);
-        unsigned leaks = 0;
-        for (int y = 0; y < 24; ++y)
-            for (int x = 0; x < 40; ++x)
-                if (std::ranges::find(bad, std::pair(x, y)) == bad.end()
-                    && !(found.value.at(x, y) == expected.value.at(x, y)))
-                    ++leaks;
-        CHECK(leaks == 0);
     });
 }
 

@@ -14,7 +14,6 @@ using namespace wedge::test;
 namespace {
 
 constexpr int width = 37, height = 21;
-constexpr glm::dvec3 weights(0.2126, 0.7152, 0.0722);
 
 /// A frame that is filtered over time: of filtered light, and indirect light; else of Monte Carlo's. Of one with
 /// mirrors pixels that reflect nothing diffusely are looked at.
@@ -61,8 +60,6 @@ void inAllFrames(const std::string& kernel, const Test& test)
     });
 }
 
-double luminance(glm::dvec3 c) { return glm::dot(weights, c); }
-
 bool nearShort(double found, double expected)
 {
     return std::fabs(found - expected) <= std::fabs(expected) / 256 + 1e-6;
@@ -75,8 +72,6 @@ bool nearColour(glm::dvec3 found, glm::dvec3 expected)
     const glm::dvec3 off = glm::abs(found - expected);
     return std::max({ off.x, off.y, off.z }) <= largest / 4096;
 }
-
-glm::dvec3 toGlm(shared::Vec3 v) { return { v.x, v.y, v.z }; }
 
 /// Fills what keepFrame() reads with anything; every sixth pixel reflects nothing, and every fourth has no object.
 void fillFrame(PassBench& bench, const Kind& kind)
@@ -151,8 +146,8 @@ TEST_CASE("keepFrame: depths, normals, objects, and light over what reflects it"
                 REQUIRE(nearColour(light.vector(x, y), seen * direct.vector(x, y) / k));
                 REQUIRE(nearColour(lightB.vector(x, y), seen * indirect.vector(x, y) / k));
                 const glm::dvec3 all = noisyDirect.vector(x, y) + noisyIndirect.vector(x, y);
-                REQUIRE(nearShort(noisy.at(x, y), seen * luminance(all / k)));
-                const double own = seen * (deviationA.at(x, y) + deviationB.at(x, y)) / luminance(k);
+                REQUIRE(nearShort(noisy.at(x, y), seen * luminanceOf(all / k)));
+                const double own = seen * (deviationA.at(x, y) + deviationB.at(x, y)) / luminanceOf(k);
                 REQUIRE(nearShort(variation.at(x, y), own * own));
             });
         }

@@ -17,8 +17,6 @@ namespace {
 constexpr int width = 40, height = 6;
 const render::PlaneLayout layout(width, height);
 
-double luminanceOf(glm::dvec3 c) { return glm::dot(c, glm::dvec3(0.2126, 0.7152, 0.0722)); }
-
 /// Radiance that is smooth over the sphere.
 glm::dvec3 radianceTowards(glm::dvec3 d) { return { 1.2 + d.x, 1.0 + 0.8 * d.y * d.z, std::exp(d.z - d.x) }; }
 
@@ -60,8 +58,8 @@ glm::dvec3 reflectedOf(shared::Gloss gloss, glm::dvec3 n, glm::dvec3 v)
             const glm::dvec3 l = std::cos(polar) * r + std::sin(polar) * (std::cos(turn) * s + std::sin(turn) * t);
             const double cosine = glm::dot(n, l);
             if (cosine > 0)
-                sum += double { shared::lobeValue(lobe, toShared(n), toShared(v), toShared(l)) } * cosine
-                    * std::sin(polar) * radianceTowards(l);
+                sum += double { shared::lobeValue(lobe, toVec3(n), toVec3(v), toVec3(l)) } * cosine * std::sin(polar)
+                    * radianceTowards(l);
         }
     return sum * (pi / rings * 2 * pi / spokes);
 }

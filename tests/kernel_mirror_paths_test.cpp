@@ -16,12 +16,6 @@ constexpr double refraction = 1.5;
 const glm::vec3 above(0.1f, 0.2f, 0.3f), below(3, 2, 1), mirrorColour(0.9f, 0.5f, 0.7f);
 const glm::dvec3 lamp(0.4, 1.7, 0.8), intensity(4, 3, 2);
 
-glm::dvec3 toGlm(shared::Vec3 v) { return { v.x, v.y, v.z }; }
-shared::Vec3 toVec3(glm::dvec3 v)
-{
-    return shared::vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
-}
-
 scene::Material emitting(glm::vec3 radiance)
 {
     scene::Material m;

@@ -47,17 +47,15 @@ TEST_CASE("sampleVariance is the variance of the samples' luminance as the image
                     for (unsigned i = 0; i < n; ++i) {
                         const glm::dvec3 sample = colour * (1 + spread * uniform(random));
                         sum += sample;
-                        luminances.push_back(glm::dot(sample, glm::dvec3(0.2126, 0.7152, 0.0722)));
+                        luminances.push_back(luminanceOf(sample));
                         squares += luminances.back() * luminances.back();
                     }
                     sums.setVector(x, y, sum);
                     sums.at(x, y, 3) = static_cast<float>(squares);
                     taken.at(x, y) = n;
                     reflectance.setVector(x, y, { uniform(random), uniform(random), uniform(random) });
-                    const double k = component == WEDGE_COMPONENT_AMBIENT
-                        ? 1
-                        : glm::dot(reflectance.vector(x, y), glm::dvec3(0.2126, 0.7152, 0.0722));
-                    const double mean = glm::dot(sum, glm::dvec3(0.2126, 0.7152, 0.0722)) / std::max(n, 1u);
+                    const double k = component == WEDGE_COMPONENT_AMBIENT ? 1 : luminanceOf(reflectance.vector(x, y));
+                    const double mean = luminanceOf(sum) / std::max(n, 1u);
                     for (const double l : luminances)
                         exact.at(x, y) += n > 1 ? (l - mean) * (l - mean) / (n - 1) * k * k : 0.0;
                     scale.at(x, y) = n > 1 ? squares / (n - 1) * k * k : 0.0;

@@ -10,18 +10,6 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-glm::vec3 corner(const scene::Geometry& g, std::uint32_t triangle, std::size_t which)
-{
-    const std::size_t v = 3 * std::size_t { g.indices[3 * triangle + which] };
-    return { g.positions[v], g.positions[v + 1], g.positions[v + 2] };
-}
-
-glm::dvec3 faceNormal(const scene::Geometry& g, std::uint32_t triangle)
-{
-    const glm::dvec3 a = corner(g, triangle, 0), b = corner(g, triangle, 1), c = corner(g, triangle, 2);
-    return glm::normalize(glm::cross(b - a, c - a));
-}
-
 double linear(std::uint32_t byte)
 {
     const double v = byte / 255.0;

@@ -18,12 +18,6 @@ constexpr int width = 40, height = 28;
 constexpr float unknown = 0, ofPixel = 1, ofLens = 2; ///< how a share is known, seen_lights.cl
 constexpr auto uniformProfile = scene::LightProfile::Uniform, gaussian = scene::LightProfile::Gaussian;
 
-glm::dvec3 toGlm(shared::Vec3 v) { return { v.x, v.y, v.z }; }
-shared::Vec3 toVec3(glm::dvec3 v)
-{
-    return shared::vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
-}
-
 /// A camera that lights are seen by: of a lens of that radius, or a pinhole, 4 metres before z = 0, with the plane in
 /// focus at `focus`. antialias: through all of the pixels, else through their centres.
 struct Seeing {

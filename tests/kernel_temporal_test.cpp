@@ -33,11 +33,6 @@ struct Camera {
     }
 };
 
-shared::Vec3 toVec3(glm::dvec3 v)
-{
-    return shared::vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
-}
-
 void setCamera(shared::TemporalParams& p, const Camera& c)
 {
     p.eye = toVec3(c.eye);
@@ -109,8 +104,6 @@ std::vector<float> packed(const render::PlaneLayout& layout, const Planes<float>
 
 /// Where the disk was, against where it is.
 const glm::dvec3 diskNow { 0.1, 0.2, 1.0 }, diskThen { -0.25, 0.05, 1.2 };
-
-double luminance(glm::dvec3 c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
 bool sees(const Seen& then, const Camera& camera, std::uint32_t id, glm::dvec3 at, glm::dvec3 n, int x, int y)
 {
@@ -269,7 +262,7 @@ TEST_CASE("temporal: differences are those of the four pixels around where a poi
                 const glm::dvec3 looked = sum / weight,
                                  curved = all * (fx * (1 - fx) * across.bend + fy * (1 - fy) * down.bend);
                 expected = looked - glm::clamp(curved, -0.5 * looked, 0.5 * looked) - own.light.vector(x, y);
-                moved = (nearby.x - px) * luminance(across.slope) + (nearby.y - py) * luminance(down.slope);
+                moved = (nearby.x - px) * luminanceOf(across.slope) + (nearby.y - py) * luminanceOf(down.slope);
                 bends += glm::length(curved) > 0.01 ? 1 : 0;
                 bounded += glm::any(glm::greaterThan(glm::abs(curved), 0.5 * looked)) ? 1 : 0;
             }

@@ -10,7 +10,6 @@ using namespace wedge::test;
 namespace {
 
 constexpr int width = 37, height = 21;
-constexpr glm::dvec3 weights(0.2126, 0.7152, 0.0722);
 
 render::Settings antialiased()
 {
@@ -49,8 +48,6 @@ std::vector<float> someColours(std::mt19937& random, std::size_t count, double m
             out[k * count + i] *= i % 11 == 3 || (i % 7 == 2 && k != i % 3) ? 0.0f : 1.0f;
     return out;
 }
-
-double luminance(glm::dvec3 c) { return glm::dot(weights, c); }
 
 /// A pixel of a filtered value, of one channel or three.
 glm::dvec3 filteredAt(const Planes<float>& planes, std::uint32_t values, int x, int y)
@@ -91,12 +88,12 @@ TEST_CASE("fallbackDifferences of a term: what filters are off, and its noise, a
             everyPixel(frame.layout, [&](int x, int y) {
                 const double counts = beta.at(x, y) >= 0 ? 1 : 0;
                 const glm::dvec3 k = texture.vector(x, y), f = filteredAt(filtered, kind.values, x, y);
-                const double v = luminance(k) * deviation.at(x, y);
-                REQUIRE(nearShort(found.at(x, y, 0), counts * luminance(k * (noisy.vector(x, y) - f))));
+                const double v = luminanceOf(k) * deviation.at(x, y);
+                REQUIRE(nearShort(found.at(x, y, 0), counts * luminanceOf(k * (noisy.vector(x, y) - f))));
                 REQUIRE(nearShort(found.at(x, y, 1), counts * v * v));
-                REQUIRE(nearShort(found.at(x, y, 2), counts * luminance(k * f)));
+                REQUIRE(nearShort(found.at(x, y, 2), counts * luminanceOf(k * f)));
                 if (gathered)
-                    REQUIRE(nearShort(found.at(x, y, 3), counts * luminance(k) * luminance(k) * variance.at(x, y)));
+                    REQUIRE(nearShort(found.at(x, y, 3), counts * luminanceOf(k) * luminanceOf(k) * variance.at(x, y)));
             });
         }
     });

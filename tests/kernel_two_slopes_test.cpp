@@ -145,57 +145,9 @@ TEST_CASE("both passes of the filter pass polynomials on as their definition in 
     });
 }
 
-TEST_CASE("fitted lines, narrower pairs and what is left out are as in the filter of gradients")
-{
-    onEveryDevice([](const device::Device& device) {
-        FilterRun filter(device);
-        for (const std::size_t channels : { 1u, 2u }) {
-            double left = 0;
-            unsigned images = 0;
-            for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough })
-                for (const std::uint32_t fitted : { 0u, 2u }) {
-                    FilterImage image = randomImage(37, 21, shape, 11 + fitted, channels);
-                    image.params.fitted = std::min<std::uint32_t>(fitted, static_cast<std::uint32_t>(channels));
-                    image.params.shearU = shared::vec3(0.02f, 0.003f, -0.001f);
-                    image.params.shearV = shared::vec3(-0.004f, 0.001f, 0.017f);
-                    image.moments = 5;
-                    image.gradients.emplace(image.value.layout, 5 * channels, 0.0f);
-                    std::mt19937 random(5);
-                    for (float& g : image.gradients->values)
-                        g = shared::unpackShort(shared::packShort(static_cast<float>(uniform(random, -1, 1))));
-                    for (float& w : image.slopeWidth.values)
-                        w = static_cast<float>(uniform(random, 0.03, 0.3));
-                    CAPTURE(static_cast<int>(shape));
-                    CAPTURE(fitted);
-                    const OracleResult rows = oracleRows(image);
-                    left += compare(image, filter(image, true), rows, static_cast<int>(channels));
-                    left += compare(image, filter(image), oracleColumns(image, rows), static_cast<int>(channels));
-                    images += 2;
-                }
-            CHECK(left / images < 0.1);
-        }
-    });
-}
-
 TEST_CASE("NaN of moments that are not gathered stays there")
 {
-    onEveryDevice([](const device::Device& device) {
-        FilterRun filter(device);
-        FilterImage image = curvedField();
-        const FilterResult clean = filter(image);
-        for (int y = 0; y < image.height(); ++y)
-            image.objectId.at(20, y) = 2;
-        const FilterResult apart = filter(image);
-        for (int y = 0; y < image.height(); ++y)
-            for (std::size_t k = 0; k < 5; ++k)
-                image.gradients->at(20, y, k) = std::numeric_limits<float>::quiet_NaN();
-        const FilterResult result = filter(image);
-        for (int y = 0; y < image.height(); ++y)
-            for (int x = 0; x < image.width(); ++x)
-                if (x != 20)
-                    REQUIRE(result.value.at(x, y) == apart.value.at(x, y));
-        CHECK(clean.value.at(19, 9) != apart.value.at(19, 9));
-    });
+    onEveryDevice([](const device::Device& device) { checkThatNaNStays(device, curvedField()); });
 }
 
 TEST_CASE("moments that samples tell are how what is seen changes where the light moves, twice")

@@ -17,12 +17,6 @@ constexpr int width = 20, height = 14, samples = 16;
 constexpr std::size_t receivers = width * height * samples - 5; // not all lanes of the last packet
 const glm::dvec3 lightRadiance(3, 2, 1), motion(0.3, -0.2, 0.1);
 
-glm::dvec3 toGlm(shared::Vec3 v) { return { v.x, v.y, v.z }; }
-shared::Vec3 toVec3(glm::dvec3 v)
-{
-    return shared::vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
-}
-
 /// The small scene with a light that the camera sees, in part behind other things.
 scene::Scene litScene()
 {
@@ -144,15 +138,6 @@ double meetsLight(const scene::Scene& scene, glm::dvec3 from, glm::dvec3 directi
     // u and v are across each other.
     const bool inside = std::fabs(glm::dot(at, u)) < glm::dot(u, u) && std::fabs(glm::dot(at, v)) < glm::dot(v, v);
     return t > 0 && inside && glm::dot(direction, n) < 0 ? t : INFINITY;
-}
-
-glm::dvec3 faceNormal(const scene::Geometry& g, std::uint32_t triangle)
-{
-    const auto corner = [&](std::uint32_t k) {
-        const std::size_t v = 3 * std::size_t { g.indices[3 * triangle + k] };
-        return glm::dvec3(g.positions[v], g.positions[v + 1], g.positions[v + 2]);
-    };
-    return glm::normalize(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
 }
 
 /// Root of the area that a pixel's square, with the image point in its middle, has on the plane of a surface.

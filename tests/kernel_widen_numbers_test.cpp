@@ -73,9 +73,8 @@ TEST_CASE("widen: of a light and of paths one number, its noise and what it is w
             light.run();
             const auto reflected = [&](int x, int y, std::size_t c) {
                 const double n = std::max(1u, taken.at(x, y));
-                const auto luminance = [](glm::dvec3 k) { return 0.2126 * k.x + 0.7152 * k.y + 0.0722 * k.z; };
-                return c == 0 ? luminance(kd.vector(x, y)) / std::numbers::pi * sums.at(x, y) / n
-                              : luminance(ks.vector(x, y)) * sums.at(x, y, 2) / n;
+                return c == 0 ? luminanceOf(kd.vector(x, y)) / std::numbers::pi * sums.at(x, y) / n
+                              : luminanceOf(ks.vector(x, y)) * sums.at(x, y, 2) / n;
             };
             check(
                 light, "visibility", WEDGE_FIRST_PASS_RAYS,

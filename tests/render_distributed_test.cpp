@@ -4,17 +4,11 @@
 
 #include <atomic>
 #include <cmath>
-#include <cstring>
 
 using namespace wedge;
 using namespace wedge::test;
 
 namespace {
-
-bool sameBits(const std::vector<float>& a, const std::vector<float>& b)
-{
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
-}
 
 enum class Moves { Nothing, Camera, Geometry };
 

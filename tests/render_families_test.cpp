@@ -1,8 +1,6 @@
 // Frames traced by either family of traversals, and through other hierarchies, are the same to the last bit.
 #include "tests/render_support.h"
 
-#include <cstring>
-
 using namespace wedge;
 using namespace wedge::test;
 
@@ -25,11 +23,6 @@ scene::Scene richScene()
     scene.pointLights.push_back({ { 1, 3, 2 }, { 2, 2, 2 } });
     scene.directionalLights.push_back({ { 0.2f, -1, 0.1f }, { 0.5f, 0.5f, 0.4f } });
     return scene;
-}
-
-bool sameBits(const std::vector<float>& a, const std::vector<float>& b)
-{
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
 } // namespace

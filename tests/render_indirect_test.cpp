@@ -3,7 +3,6 @@
 #include "tests/render_support.h"
 
 #include <algorithm>
-#include <cstring>
 #include <functional>
 
 using namespace wedge;
@@ -36,11 +35,6 @@ render::Settings ambient(render::Settings settings)
     settings.integrator = render::Integrator::AmbientOcclusion;
     settings.bounces = 0;
     return settings;
-}
-
-bool sameBits(const std::vector<float>& a, const std::vector<float>& b)
-{
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
 /// smallScene() with gloss, a texture and lights of every sort.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstring>
 #include <numeric>
 
 using namespace wedge;
@@ -29,11 +28,6 @@ std::vector<Named> methods()
     for (Named& m : out)
         m.settings = sized(m.settings, width, height);
     return out;
-}
-
-bool sameBits(const std::vector<float>& a, const std::vector<float>& b)
-{
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
 std::size_t pixelAt(int x, int y) { return static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x); }

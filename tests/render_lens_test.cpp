@@ -5,7 +5,6 @@
 #include "tests/render_path_support.h"
 
 #include <algorithm>
-#include <cstring>
 
 using namespace wedge;
 using namespace wedge::test;
@@ -107,11 +106,6 @@ void checkColumns(const Edge& edge, const device::Device& device)
     CHECK(c.worst < 4.5);
     CHECK(c.error < 0.02);
     CHECK(c.partial >= 8);
-}
-
-bool sameBits(const std::vector<float>& a, const std::vector<float>& b)
-{
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
 bool hasPass(const render::FrameStatistics& s, const std::string& name)

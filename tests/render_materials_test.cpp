@@ -23,8 +23,6 @@ scene::Material ggx(float roughness, glm::vec3 diffuse, glm::vec3 specular)
     return m;
 }
 
-shared::Vec3 toVec3(glm::vec3 v) { return shared::vec3(v.x, v.y, v.z); }
-
 shared::Lobe lobeOf(const scene::Material& m)
 {
     return shared::lobeOf(shared::microfacetGloss(m.roughness, toVec3(m.diffuse), toVec3(m.specular)));

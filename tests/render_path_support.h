@@ -96,11 +96,6 @@ inline void checkAgreement(const Moments& a, const Moments& b, double relative =
 /// Every triangle with its own normal.
 inline void flatten(scene::Scene& scene) { std::ranges::fill(scene.geometry.normals, 0.0f); }
 
-inline shared::Vec3 toShared(glm::dvec3 v)
-{
-    return shared::vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
-}
-
 inline std::uint32_t modelOf(const scene::Material& m)
 {
     return m.specularModel == scene::SpecularModel::Phong ? WEDGE_PHONG : WEDGE_BLINN_PHONG;

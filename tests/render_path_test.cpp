@@ -125,8 +125,8 @@ Moments glossyFurnace(render::Renderer& renderer, const render::Settings& settin
         const double own = albedo.at(glm::dot(n, view));
         glm::dvec3 reflected = kd + ks * own;
         if (settings.bounces == 1) {
-            const shared::Vec3 sharedNormal = toShared(n), sharedView = toShared(view);
-            const LobeGrid grid(toShared(2 * glm::dot(n, view) * n - view));
+            const shared::Vec3 sharedNormal = toVec3(n), sharedView = toVec3(view);
+            const LobeGrid grid(toVec3(2 * glm::dot(n, view) * n - view));
             const auto overHemisphere = [&](const auto& f) { // of f x cosine x the albedo where the direction leads
                 const auto integrand = [&](shared::Vec3 l) {
                     const double cosine = shared::vecDot(sharedNormal, l);

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <atomic>
-#include <cstring>
 #include <limits>
 
 using namespace wedge;
@@ -60,11 +59,6 @@ std::vector<Step> steps(render::Renderer& renderer, const render::Settings& sett
 }
 
 std::uint64_t raysOf(const render::FrameStatistics& s) { return s.primaryRays + s.shadowRays + s.indirectRays; }
-
-bool sameBits(const std::vector<float>& a, const std::vector<float>& b)
-{
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
-}
 
 /// Two images by plain Monte Carlo that know nothing of each other.
 using References = std::array<std::vector<float>, 2>;

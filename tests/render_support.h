@@ -145,6 +145,27 @@ inline glm::dvec3 unitVector(std::mt19937& random)
     }
 }
 
+inline glm::dvec3 toGlm(shared::Vec3 v) { return { v.x, v.y, v.z }; }
+inline shared::Vec3 toVec3(glm::dvec3 v)
+{
+    return shared::vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
+}
+inline double luminanceOf(glm::dvec3 c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+
+inline glm::dvec3 faceNormal(const scene::Geometry& g, std::uint32_t triangle)
+{
+    const auto corner = [&](std::uint32_t k) {
+        const std::size_t v = 3 * std::size_t { g.indices[3 * std::size_t { triangle } + k] };
+        return glm::dvec3(g.positions[v], g.positions[v + 1], g.positions[v + 2]);
+    };
+    return glm::normalize(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+}
+
+inline bool sameBits(const std::vector<float>& a, const std::vector<float>& b)
+{
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
 /// A scene put together in code. Objects are numbered from 1, in the order of newObject().
 class SceneBuilder {
 public:
