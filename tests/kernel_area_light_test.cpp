@@ -57,7 +57,8 @@ public:
         const std::uint32_t seed =
             shared::hashCombine(order, static_cast<std::uint32_t>(y) * f.width + static_cast<std::uint32_t>(x));
         HostSum sum;
-        shared::LightPart part = shared::partAboveHorizon(light, at(position_, x, y), at(normal_, x, y));
+        shared::LightPart part =
+            shared::partAboveHorizon(light, toVec3(position_.vector(x, y)), toVec3(normal_.vector(x, y)));
         part.cut = p.shading == WEDGE_SHADING_SEPARATE ? 0 : part.cut;
         if (part.cut == 0) {
             part.first = 0;
@@ -72,12 +73,12 @@ public:
             const shared::PartSample sample = shared::samplePart(light, part, u);
             const shared::Vec3 point = shared::lightPoint(light.centre, light.halfU, light.halfV, sample.a, sample.b);
             const float g = sample.mass
-                * shared::geometryTerm(
-                    at(normal_, x, y), shared::vecSub(point, at(position_, x, y)), light.normal, light.twoSided);
+                * shared::geometryTerm(toVec3(normal_.vector(x, y)),
+                    shared::vecSub(point, toVec3(position_.vector(x, y))), light.normal, light.twoSided);
             if (!(g > 0))
                 continue;
             const double weight = p.shading == WEDGE_SHADING_SEPARATE ? 1.0 : g;
-            const shared::Vec3 origin = at(origin_, x, y);
+            const shared::Vec3 origin = toVec3(origin_.vector(x, y));
             ++sum.rays;
             sum.weights += weight;
             sum.visible +=
@@ -89,11 +90,6 @@ public:
     }
 
 private:
-    static shared::Vec3 at(const Planes<float>& planes, int x, int y)
-    {
-        return shared::vec3(planes.at(x, y), planes.at(x, y, 1), planes.at(x, y, 2));
-    }
-
     const TracedScene& traced_;
     Planes<float> position_, normal_, origin_;
 };

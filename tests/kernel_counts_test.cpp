@@ -13,11 +13,7 @@ namespace {
 
 shared::AnalysisParams paramsFor(const render::PlaneLayout& layout)
 {
-    shared::AnalysisParams p {};
-    p.x1 = p.width = layout.width;
-    p.y1 = p.height = layout.height;
-    p.stride = layout.stride;
-    p.planeSize = static_cast<std::uint32_t>(layout.size);
+    shared::AnalysisParams p = paramsOf(layout);
     p.countCap = 256;
     p.leastCount = 9;
     p.countExponent = 0.4f;

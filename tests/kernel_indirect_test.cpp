@@ -144,11 +144,6 @@ HostAmbient hostAmbient(
     return out;
 }
 
-shared::Vec3 vectorOf(const Planes<float>& planes, int x, int y)
-{
-    return shared::vec3(planes.at(x, y), planes.at(x, y, 1), planes.at(x, y, 2));
-}
-
 } // namespace
 
 TEST_CASE("ambient: hits and their distances are those of the host's traversal along the same directions")
@@ -174,8 +169,8 @@ TEST_CASE("ambient: hits and their distances are those of the host's traversal a
                     return;
                 }
                 ++surfaces;
-                const HostAmbient host = hostAmbient(run, x, y, vectorOf(origin, x, y), vectorOf(normal, x, y),
-                    shared::unpackDirection(geometric.at(x, y)), count);
+                const HostAmbient host = hostAmbient(run, x, y, toVec3(origin.vector(x, y)),
+                    toVec3(normal.vector(x, y)), shared::unpackDirection(geometric.at(x, y)), count);
                 const double occluded = host.hits + host.below;
                 below += host.below > 0 ? 1 : 0;
                 partly += host.hits > 0 && host.hits < count ? 1 : 0;
@@ -257,9 +252,9 @@ TEST_CASE("with a first pass, what the first part of the samples alone would be 
             int differs = 0;
             run.traced.everyPixel([&](int x, int y) {
                 const bool surface = expected.at(x, y) != -7.0f;
-                const shared::Vec3 kept = vectorOf(found.parts, x, y);
+                const shared::Vec3 kept = toVec3(found.parts.vector(x, y));
                 const auto rounded = [&](const Planes<float>& of) {
-                    return shared::unpackColour(shared::packColour(vectorOf(of, x, y)));
+                    return shared::unpackColour(shared::packColour(toVec3(of.vector(x, y))));
                 };
                 const shared::Vec3 whole = rounded(found.value);
                 const shared::Vec3 same = surface ? rounded(expected) : shared::vec3(0, 0, 0);

@@ -23,8 +23,9 @@ double texel(const scene::Texture& t, double u, double v, int channel, double (*
 {
     const double x = (u - std::floor(u)) * t.width - 0.5, y = (v - std::floor(v)) * t.height - 0.5;
     const auto at = [&](double i, double k) {
-        const int px = (static_cast<int>(i) + t.width) % t.width, py = (static_cast<int>(k) + t.height) % t.height;
-        return decode((t.rgba[static_cast<std::size_t>(py * t.width + px)] >> (8 * channel)) & 255u);
+        const auto px = static_cast<std::size_t>((static_cast<int>(i) + t.width) % t.width),
+                   py = static_cast<std::size_t>((static_cast<int>(k) + t.height) % t.height);
+        return decode((t.rgba[py * static_cast<std::size_t>(t.width) + px] >> (8 * channel)) & 255u);
     };
     const double fx = x - std::floor(x), fy = y - std::floor(y);
     const double low = at(std::floor(x), std::floor(y)) * (1 - fx) + at(std::floor(x) + 1, std::floor(y)) * fx;
@@ -195,8 +196,8 @@ TEST_CASE("textures are bilinear, repeated, and linear: colours after the sRGB c
         b.scene.materials[0].exponentTexture = 1;
         for (const float offset : { 0.0f, -1.3f, 1000.5f }) {
             scene::Scene scene = b.scene;
-            for (std::size_t i = 0; i < scene.geometry.texcoords.size(); ++i)
-                scene.geometry.texcoords[i] = scene.geometry.texcoords[i] * 3 + offset;
+            for (float& texcoord : scene.geometry.texcoords)
+                texcoord = texcoord * 3 + offset;
             TracedScene traced(scene, device, 33, 25);
             const auto diffuse = traced.floats("diffuse"), emission = traced.floats("emission");
             const auto position = traced.floats("position");

@@ -13,11 +13,7 @@ constexpr const char* file = "filter/temporal.cl";
 
 shared::TemporalParams temporalParamsOf(const render::PlaneLayout& layout)
 {
-    shared::TemporalParams p {};
-    p.x1 = p.width = layout.width;
-    p.y1 = p.height = layout.height;
-    p.stride = layout.stride;
-    p.planeSize = static_cast<std::uint32_t>(layout.size);
+    shared::TemporalParams p = paramsOf<shared::TemporalParams>(layout);
     p.blocksX = (p.width + 3) / 4;
     p.blocksY = (p.height + 3) / 4;
     p.normalCosine = 0.9f;

@@ -11,11 +11,7 @@ namespace wedge::test {
 /// Parameters over a whole image.
 inline shared::ReflectorParams paramsFor(const render::PlaneLayout& layout)
 {
-    shared::ReflectorParams p {};
-    p.x1 = p.width = layout.width;
-    p.y1 = p.height = layout.height;
-    p.stride = layout.stride;
-    p.planeSize = static_cast<std::uint32_t>(layout.size);
+    shared::ReflectorParams p = paramsOf<shared::ReflectorParams>(layout);
     p.mu = 0.9f;
     p.alpha = 0.3f;
     p.widthScale = 0.5f;

@@ -14,17 +14,6 @@ render::Options optionsOf(render::Traversal traversal, bvh::Mode mode = bvh::Mod
     return options;
 }
 
-/// smallScene() with gloss and lights of every sort.
-scene::Scene richScene()
-{
-    scene::Scene scene = smallScene();
-    scene.materials[0].specular = { 0.1f, 0.2f, 0.1f };
-    scene.materials[0].exponent = 15;
-    scene.pointLights.push_back({ { 1, 3, 2 }, { 2, 2, 2 } });
-    scene.directionalLights.push_back({ { 0.2f, -1, 0.1f }, { 0.5f, 0.5f, 0.4f } });
-    return scene;
-}
-
 } // namespace
 
 TEST_CASE("frames of both families, and of another hierarchy, have the same bits")

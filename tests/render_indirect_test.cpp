@@ -37,19 +37,6 @@ render::Settings ambient(render::Settings settings)
     return settings;
 }
 
-/// smallScene() with gloss, a texture and lights of every sort.
-scene::Scene richScene()
-{
-    scene::Scene scene = smallScene();
-    scene.materials[0].specular = { 0.1f, 0.2f, 0.1f };
-    scene.materials[0].exponent = 15;
-    scene.textures.push_back({ "", 2, 2, { 0xff8040u, 0xffffffu, 0x306090u, 0xc0c0c0u } });
-    scene.materials[0].diffuseTexture = 0;
-    scene.pointLights.push_back({ { 1, 3, 2 }, { 2, 2, 2 } });
-    scene.directionalLights.push_back({ { 0.2f, -1, 0.1f }, { 0.5f, 0.5f, 0.4f } });
-    return scene;
-}
-
 image::Window all(const render::Settings& settings) { return { 0, 0, settings.width, settings.height }; }
 
 /// What is indirect of the frame of these settings.

@@ -32,18 +32,6 @@ std::vector<Named> methods()
 
 std::size_t pixelAt(int x, int y) { return static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x); }
 
-/// smallScene() with gloss, a texture, and a point light.
-scene::Scene richScene()
-{
-    scene::Scene scene = smallScene();
-    scene.materials[0].specular = { 0.1f, 0.2f, 0.1f };
-    scene.materials[0].exponent = 15;
-    scene.textures.push_back({ "", 2, 2, { 0xff8040u, 0xffffffu, 0x306090u, 0xc0c0c0u } });
-    scene.materials[0].diffuseTexture = 0;
-    scene.pointLights.push_back({ { 1, 3, 2 }, { 2, 2, 2 } });
-    return scene;
-}
-
 } // namespace
 
 TEST_CASE("two runs, other frames in between, and another renderer give the same bits")
