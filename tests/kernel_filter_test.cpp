@@ -59,8 +59,10 @@ TEST_CASE("weights sum to 1: a constant field comes out unchanged to rounding")
     ofEachKind([](FilterRun& filter, const auto& make, int planes) {
         for (const Shape shape : { Shape::Flat, Shape::Tilted, Shape::Steps, Shape::Rough }) {
             FilterImage image = make(50, 33, shape, 77);
-            for (std::size_t i = 0; i < image.value.values.size(); ++i)
-                image.value.values[i] = 0.7f + static_cast<float>(i / image.value.layout.size);
+            everyPixel(image.value.layout, [&](int x, int y) {
+                for (int c = 0; c < planes; ++c)
+                    image.value.at(x, y, static_cast<std::size_t>(c)) = 0.7f + static_cast<float>(c);
+            });
             const FilterResult result = filter(image);
             double worst = 0;
             everyPixel(image.value.layout, [&](int x, int y) {
