@@ -209,10 +209,12 @@ void PassBench::sinks(const std::vector<graph::Sink>& becoming, const std::vecto
             refuse(fmt::format("sinks are handed \"{}\", and there is none", name));
         }
         pass_.arguments.push_back({ .name = name, .access = graph::Access::Update });
-        graph::Resource& of = planes_[name] = {};
+        graph::Resource of;
         of.name = name;
         of.format = list->format;
         of.elements = list->elements;
+        planes_.erase(name);
+        planes_.emplace(name, of);
         contents_[name].assign(static_cast<std::size_t>(of.bytes()), std::byte { 0 });
     }
 }
