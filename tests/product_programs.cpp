@@ -96,16 +96,17 @@ bool everyFrame(const device::Device& device, const OfFrame& visit)
     return true;
 }
 
-/// Calls visit() for frames that are filtered over time.
+/// Calls visit() for frames that are filtered over time; one that is not antialiased sees no mirrors.
 void overTime(const device::Device& device,
     const std::function<void(const render::Renderer&, const Settings&, render::FrameFilter&)>& visit)
 {
-    render::Renderer renderer(scene::loadScene(WEDGE_SOURCE_DATA "/scenes/penumbra.toml"), device);
-    const auto filter = std::make_shared<filters::TemporalFilter>(device);
-    renderer.filterFrames(filter);
-    for (const render::Temporal temporal : { render::Temporal::On, render::Temporal::Published }) {
-        for (const int bounces : { 1, 0 }) {
-            for (const bool antialias : { false, true }) {
+    for (const bool antialias : { false, true }) {
+        const char* scene = antialias ? "mirrors" : "penumbra";
+        render::Renderer renderer(scene::loadScene(fmt::format("{}/scenes/{}.toml", WEDGE_SOURCE_DATA, scene)), device);
+        const auto filter = std::make_shared<filters::TemporalFilter>(device);
+        renderer.filterFrames(filter);
+        for (const render::Temporal temporal : { render::Temporal::On, render::Temporal::Published }) {
+            for (const int bounces : { 1, 0 }) {
                 Settings settings = render::axisAligned(16);
                 settings.width = settings.height = 8;
                 settings.bounces = bounces;

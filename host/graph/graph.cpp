@@ -89,7 +89,11 @@ std::vector<Argument> group(const std::string& name, std::vector<Argument> argum
 void Graph::add(Pass pass)
 {
     assert((pass.domain == Domain::Host) == static_cast<bool>(pass.step));
-    const auto counted = std::ranges::find_if(pass.arguments, [](const Argument& use) { return use.mostItems > 0; });
+    const auto isCounted = [](const Argument& use) { return use.mostItems > 0; };
+    const auto counted = std::ranges::find_if(pass.arguments, isCounted);
+    // WEDGE_ITEM has one name, and goes by a parameter.
+    assert(std::ranges::count_if(pass.arguments, isCounted) <= 1);
+    assert(counted == pass.arguments.end() || !counted->member);
     const bool items = pass.domain == Domain::Items && counted != pass.arguments.end();
     assert((pass.domain == Domain::Tiles || pass.domain == Domain::Items) == (pass.count || items));
     if (items && !pass.count) {

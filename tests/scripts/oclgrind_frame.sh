@@ -159,4 +159,5 @@ check mirrors "$scenes/mirrors.toml" --traversal wide --size 9x7 --method mc --s
 check mirrors_scalar "$scenes/mirrors.toml" --traversal scalar --size 9x5 --method aaf --spp 16 --bounces 1
 check mirrors_waves "$scenes/mirrors.toml" --traversal wide --size 7x3 --method aaf --spp 16 --bounces 1 --antialias
 check over_time_%d "$scenes/motion.toml" --traversal wide --size 9x5 --method aaf --spp 10 --frames 0:1 --temporal on
+check over_time_%d_image "$work/bumps.toml" --traversal wide --size 7x3 --method aaf --spp 10 --antialias --frames 0:1 --temporal on
 check bounced_over_time_%d "$scenes/penumbra.toml" --traversal wide --size 9x5 --method aaf --spp 16 --bounces 1 --frames 0:1 --temporal on
