@@ -117,7 +117,7 @@ TEST_CASE("all layers of a frame fit together")
         "normal.Z", "position.X", "position.Y", "position.Z", "depth.Z", "emission.R", "emission.G", "emission.B",
         "direct.R", "direct.G", "direct.B", "directNoisy.R", "directNoisy.G", "directNoisy.B", "samples.Y", "rays.Y",
         "filterWidth1.world", "filterWidth1.pixels", "filterWidth2.world", "filterWidth2.pixels",
-        "filterWidthLens.pixels", "filterWidthMotion.pixels", "motion.U", "motion.V", "primarySamples.Y",
+        "filterWidthLens.pixels", "filterWidthMotion.pixels", "motion.U", "motion.V", "primarySamples.Y", "pixelSize.Y",
         "objectId.I" };
     std::set<std::string> found;
     for (const image::Channel& channel : image.channels) {

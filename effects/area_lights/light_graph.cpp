@@ -223,7 +223,7 @@ void LightGraph::samples(const char* pass, std::uint32_t from, std::uint32_t sli
 
 void LightGraph::widthsAndCounts()
 {
-    lightWidths(f_, analysisParams(), light_,
+    lightWidths(f_, analysisParams(),
         { extremes_, [this]() -> graph::Version { return sums_; }, reflectedSums(f_, sums_) }, beta_, wanted_,
         filter_->bothSlopes());
     if (takesFirstPassOnly()) {

@@ -88,9 +88,9 @@ void LightWaves::sample(
 
 void LightWaves::widths()
 {
-    lightWidths(f_, analysisParams(), light_,
+    lightWidths(f_, analysisParams(),
         { wholeExtremes(), [this]() -> graph::Version { return weights("widths", PassKind::Analysis); },
-            reflectedTexture(means.texture) },
+            reflectedTexture(light_, means.texture) },
         means.beta, means.wanted);
 }
 

@@ -83,8 +83,8 @@ void publishedWidths(FrameBuilder& frame, const shared::AnalysisParams& params, 
             writes("beta", beta), writes("wanted", wanted) });
 }
 
-void narrowForLobes(FrameBuilder& frame, const shared::AnalysisParams& params, const shared::AreaLight& light,
-    const Arguments& reflected, graph::Handle<Metres>& beta)
+void narrowForLobes(
+    FrameBuilder& frame, const shared::AnalysisParams& params, const Arguments& reflected, graph::Handle<Metres>& beta)
 {
     // With shading apart from visibility samples know nothing of the lobe.
     const Settings& settings = frame.settings;
@@ -93,7 +93,7 @@ void narrowForLobes(FrameBuilder& frame, const shared::AnalysisParams& params, c
     }
     const Surfaces& s = frame.surfaces;
     frame.pixels("widths", PassKind::Analysis, { "analysis/analysis.cl", "narrowForLobes" },
-        joined({ frame.rectangle(params), value("frame", frame.wholeFrame()), value("light", light) }, reflected,
+        joined({ frame.rectangle(params), value("frame", frame.wholeFrame()) }, reflected,
             Arguments { reads("position", s.position), reads("gloss", s.gloss), reads("objectId", s.objectId),
                 updates("beta", beta) }));
 }
@@ -107,15 +107,15 @@ Arguments reflectedSums(const FrameBuilder& frame, const graph::Handle<Sums>& su
             graph::absent("texture", graph::vectors) });
 }
 
-Arguments reflectedTexture(const graph::Handle<Texture>& texture)
+Arguments reflectedTexture(const shared::AreaLight& light, const graph::Handle<Texture>& texture)
 {
     return graph::together("reflected",
         { graph::absent("sums"), graph::absent("diffuse", graph::vectors), graph::absent("specular", graph::vectors),
-            reads("texture", texture) });
+            reads("texture", texture), value("light", light) });
 }
 
-void lightWidths(FrameBuilder& frame, const shared::AnalysisParams& params, const shared::AreaLight& light,
-    const LightMeasures& of, graph::Handle<Metres>& beta, graph::Handle<Count>& wanted, const BothSlopes* both)
+void lightWidths(FrameBuilder& frame, const shared::AnalysisParams& params, const LightMeasures& of,
+    graph::Handle<Metres>& beta, graph::Handle<Count>& wanted, const BothSlopes* both)
 {
     const Settings& settings = frame.settings;
     const bool spectrum = settings.sampling == Sampling::Adaptive && settings.counts == Counts::Spectrum;
@@ -124,7 +124,7 @@ void lightWidths(FrameBuilder& frame, const shared::AnalysisParams& params, cons
     }
     if (settings.slopes == Slopes::Smoothed) {
         smoothedWidths(frame, params, of, both, beta);
-        narrowForLobes(frame, params, light, of.reflected, beta);
+        narrowForLobes(frame, params, of.reflected, beta);
     }
 }
 

@@ -23,7 +23,7 @@ struct LightMeasures {
 };
 /// What pixels reflect of the light, diffusely and specularly: the sums of their own samples, or one texture.
 Arguments reflectedSums(const FrameBuilder& frame, const graph::Handle<Sums>& sums);
-Arguments reflectedTexture(const graph::Handle<Texture>& texture);
+Arguments reflectedTexture(const shared::AreaLight& light, const graph::Handle<Texture>& texture);
 
 /// Of filters by both slopes of occluders (kernels/analysis/two_slopes.cl): where the largest, smoothed and spread as
 /// the least is, over that goes, and whether widths follow from both.
@@ -36,8 +36,7 @@ struct BothSlopes {
 /// Declares how the widths of a light's filter, metres, follow from slopes of occluders as the settings say: from the
 /// least one, smoothed and spread, narrowed where a lobe reflects; or as published, then or where counts follow from
 /// the spectrum with those, `wanted` (kernels/analysis/analysis.cl). both: null: of the least slope alone
-void lightWidths(FrameBuilder& frame, const shared::AnalysisParams& params, const shared::AreaLight& light,
-    const LightMeasures& of, graph::Handle<Metres>& beta, graph::Handle<Count>& wanted,
-    const BothSlopes* both = nullptr);
+void lightWidths(FrameBuilder& frame, const shared::AnalysisParams& params, const LightMeasures& of,
+    graph::Handle<Metres>& beta, graph::Handle<Count>& wanted, const BothSlopes* both = nullptr);
 
 } // namespace wedge::render
