@@ -152,16 +152,6 @@ WEDGE_FN float narrowed(AnalysisParams p, Vec3 toLight, Vec3 toEye, Gloss lobe, 
     return rsqrt(1.0f / (wide * wide) + share / (ofLobe * ofLobe));
 }
 
-/// Of what a surface reflects of a light the part that is its lobe's, at least: what a white matt one that faced all of
-/// the light, as near as its nearest corner may be, would not reflect.
-WEDGE_FN float highlightShare(AreaLight light, Vec3 toLight, float reflected)
-{
-    const float reach = vecLength(light.halfU) + vecLength(light.halfV);
-    const float nearest = fmax(vecLength(toLight) - reach, 0.0f);
-    const float white = WEDGE_INV_PI * luminance(light.power) / fmax(nearest * nearest, 1e-20f);
-    return reflected > white ? 1.0f - white / reflected : 0.0f;
-}
-
 /// narrowed(), by the part of what a pixel reflects of the light that is lobes'.
 /// in      sums: of the light's samples, see light_sampling.h, with the specular ones; or, of pixels that keep what
 ///         they reflect of the light as one, texture
@@ -182,7 +172,13 @@ __kernel void narrowForLobes(PARAMETERS)
     const float matt = luminance(LOAD_diffuse(n, i)) * WEDGE_INV_PI * PLANE_sums[i];
     const float share = lobes > 0.0f ? lobes / (lobes + matt) : 0.0f;
 #else
-    const float share = highlightShare(light, toLight, luminance(LOAD_texture(n, i)));
+    // At least what a white matt surface that faced all of the light, as near as its nearest corner may be, would not
+    // reflect.
+    const float reach = vecLength(light.halfU) + vecLength(light.halfV);
+    const float nearest = fmax(vecLength(toLight) - reach, 0.0f);
+    const float white = WEDGE_INV_PI * luminance(light.power) / fmax(nearest * nearest, 1e-20f);
+    const float reflected = luminance(LOAD_texture(n, i));
+    const float share = reflected > white ? 1.0f - white / reflected : 0.0f;
 #endif
     if (share > 0.0f) {
         beta[i] = narrowed(p, toLight, vecSub(frame.eye, at), LOAD_gloss(n, i), share, wide);
