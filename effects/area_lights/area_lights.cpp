@@ -1,6 +1,6 @@
 #include "effects/area_lights/area_lights.h"
 
-#include "effects/area_lights/light_graph.h"
+#include "effects/area_lights/light_pixels.h"
 #include "effects/area_lights/light_waves.h"
 #include "effects/area_lights/maaf.h"
 
@@ -20,9 +20,8 @@ public:
             out.push_back({ .name = light.name,
                 .part = Part::Direct,
                 .workUnits = static_cast<double>(settings.spp),
-                .ofPixels = [light](FrameBuilder& frame, const std::shared_ptr<TermState>& state,
-                                graph::Handle<Metres>& beta) { addAreaLight(frame, light, state, beta); },
-                .ofWaves =
+                .inPixels = [light](FrameBuilder& frame) { return std::make_unique<LightPixels>(frame, light); },
+                .inWaves =
                     [light](FrameBuilder& frame, const SampleShape& shape) {
                         return std::make_unique<LightWaves>(frame, shape, light);
                     } });

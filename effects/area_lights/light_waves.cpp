@@ -48,7 +48,7 @@ void LightWaves::sample(
     Waves& waves, const Adding& adding, const PrimaryCounts& counts, const graph::Handle<Count>& hits)
 {
     const Receivers& r = waves.receivers();
-    const auto params = value("params", sampleParams()), light = value("light", light_);
+    const auto light = value("light", light_);
     Shared own = share(waves, adding, counts, 2 * channels_, shape_.geometryMoves ? 6 : 2);
     std::vector<graph::Sink> becoming { sinks::sums() };
     Arguments sunk { updates("sums", own.sums) };
@@ -61,23 +61,21 @@ void LightWaves::sample(
         }
     }
     waves.tiles(adding.first ? "first pass" : "shadow rays", { "light/area_light.cl", "sampleShadows", becoming },
-        joined({ waves.receiverParams(), params, light }, f_.hierarchy(), waves.receiverArguments(),
+        joined(shadowSamples(f_, waves, sampleParams(), light_),
             sampleCounts(own.last, value("lastSample", allSamples), own.first, { waves.tallyRays() }), sunk));
     const bool exact = settings().method == Method::AxisAligned && !shape_.published;
     auto unshadowed = waves.list<Value>("unshadowed shading", graph::pairs);
     if (exact) {
         waves.list("unshadowed shading", { "light/wave_light.cl", "unshadowedReceivers" }, WEDGE_BLOCK_PIXELS,
-            joined(
-                { waves.receiverParams(), waves.params(), light,
-                    f_.outside("nodes", "float", f_.scene != nullptr ? &f_.scene->quadratures[index_].cl() : nullptr),
-                    reads("pixelOf", r.pixelOf), reads("sampleOf", r.sampleOf) },
+            joined({ waves.frame(), waves.params(), light, quadratureOf(f_, index_), reads("pixelOf", r.pixelOf),
+                       waves.sampleOf() },
                 places(r),
                 Arguments { reads("specular", r.specular), reads("gloss", r.gloss), reads("view", r.view),
                     writes("unshadowed", unshadowed) }));
     }
     waves.pixels("accumulateLight",
         joined({ waves.pixelParams(), waves.params(), light }, waves.pixelLists(reads("taken", counts.taken)),
-            Arguments { reads("hits", hits) }, waves.receiverArguments(),
+            Arguments { reads("hits", hits) }, waves.arguments(),
             Arguments { reads("diffuse", r.diffuse), reads("specular", r.specular) },
             graph::together("sampled",
                 { reads("sums", own.sums),

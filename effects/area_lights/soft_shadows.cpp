@@ -111,4 +111,16 @@ shared::AnalysisParams lightParams(shared::AnalysisParams p, const Settings& set
     return p;
 }
 
+Arguments shadowSamples(const FrameBuilder& frame, const ReceiverSet& at, const shared::SampleParams& params,
+    const shared::AreaLight& light)
+{
+    return joined({ at.frame(), graph::value("params", params), graph::value("light", light) }, frame.hierarchy(),
+        at.arguments());
+}
+
+graph::Argument quadratureOf(const FrameBuilder& frame, std::uint32_t index)
+{
+    return frame.outside("nodes", "float", frame.scene != nullptr ? &frame.scene->quadratures[index].cl() : nullptr);
+}
+
 } // namespace wedge::render

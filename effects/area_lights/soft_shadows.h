@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/render/receiver_set.h"
 #include "host/render/settings.h"
 #include "kernels/shared/filter_params.h"
 #include "kernels/shared/light.h"
@@ -42,6 +43,13 @@ shared::FilterParams withShear(
 
 /// How a light is sampled where the pixels are the receivers. index: of the light
 shared::SampleParams lightSampleParams(const Settings& settings, std::uint32_t index);
+
+/// What sampleShadows takes of a light and of receivers; next come counts of samples, and what these become.
+Arguments shadowSamples(const FrameBuilder& frame, const ReceiverSet& at, const shared::SampleParams& params,
+    const shared::AreaLight& light);
+
+/// Nodes of its quadratures. index: of the light
+graph::Argument quadratureOf(const FrameBuilder& frame, std::uint32_t index);
 
 /// Directions of a pixel's lobe that no quadrature rule resolves, in proportion to its samples: whatever stood still
 /// would be what the error ends at.

@@ -3,10 +3,8 @@
 namespace wedge::render {
 
 using graph::reads;
-using graph::tallies;
 using graph::updates;
 using graph::value;
-using graph::writes;
 
 namespace {
 
@@ -21,28 +19,13 @@ std::vector<graph::Argument> lights(const FrameBuilder& f)
             value("sceneDiameter", f.scene != nullptr ? f.scene->diameter : 0.0f) });
 }
 
-void ofPixels(FrameBuilder& f, graph::Handle<Radiance>* /*own*/)
+void sample(FrameBuilder& f, ReceiverSet& at, graph::Handle<Radiance>& radiance)
 {
-    Totals& t = f.totals;
-    auto rays = f.graph.plane<Count>("rays of light", graph::counts);
-    f.zero(rays);
-    f.trace("point lights", { program, "deltaLights" },
-        joined({ f.frame() }, lights(f), f.hierarchy(), f.receivers(),
-            Arguments { reads("diffuse", f.surfaces.diffuse), reads("specular", f.surfaces.specular),
-                updates("direct", t.direct.filtered), updates("directNoisy", t.direct.noisy), tallies("rays", rays) }),
-        false, [](const graph::Launch&) { return 1.0; });
-    f.count(rays, true, t.tallies.rays, &t.rays);
-}
-
-void ofWaves(FrameBuilder& f, Waves& waves, graph::Handle<Radiance>& radiance)
-{
-    const Receivers& r = waves.receivers();
-    auto noisy = waves.list<Radiance>("unfiltered radiance", graph::vectors); // the same once more
-    waves.tiles("point and directional lights", { program, "deltaLights" },
-        joined({ waves.receiverParams() }, lights(f), f.hierarchy(), waves.receiverArguments(),
-            Arguments { reads("diffuse", r.diffuse), reads("specular", r.specular), updates("direct", radiance),
-                writes("directNoisy", noisy), waves.tallyRays() }),
-        false);
+    at.trace("point lights", { program, "deltaLights" },
+        joined({ at.frame() }, lights(f), f.hierarchy(), at.arguments(),
+            Arguments { reads("diffuse", at.surfaces().diffuse), reads("specular", at.surfaces().specular),
+                updates("lit", radiance), at.tallyRays() }),
+        [](const graph::Launch&) { return 1.0; });
 }
 
 class DeltaLights : public Effect {
@@ -54,7 +37,7 @@ public:
         if (settings.integrator != Integrator::Path || (scene.pointLights.empty() && scene.directionalLights.empty())) {
             return std::nullopt;
         }
-        return Unfiltered { .name = "point lights", .workUnits = 1, .ofPixels = ofPixels, .ofWaves = ofWaves };
+        return Unfiltered { .name = "point lights", .workUnits = 1, .sample = sample };
     }
 };
 

@@ -235,4 +235,11 @@ void reflectorCounts(FrameBuilder& frame, const shared::ReflectorParams& params,
         joined(found(frame, params, reflectors, taken), Arguments { writes("wanted", wanted) }));
 }
 
+Arguments pathSamples(
+    const FrameBuilder& frame, const ReceiverSet& at, const shared::PathParams& params, Component component)
+{
+    return joined({ at.frame(), graph::value("params", params) }, frame.hierarchy(), frame.geometry(),
+        sceneLights(frame, component), at.arguments(), Arguments { graph::reads("specular", at.surfaces().specular) });
+}
+
 } // namespace wedge::render

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/render/frame_builder.h"
+#include "host/render/receiver_set.h"
 #include "kernels/shared/curvature.h"
 #include "kernels/shared/filter_params.h"
 #include "kernels/shared/indirect.h"
@@ -77,6 +77,10 @@ shared::ReflectorParams reflectorParams(const FrameBuilder& frame, Component com
 
 /// The lights that a component's samples see, kernels/paths/indirect.cl.
 std::vector<graph::Argument> sceneLights(const FrameBuilder& frame, Component component);
+
+/// What samplePaths takes of a component and of receivers; next come counts of samples, and what these become.
+Arguments pathSamples(
+    const FrameBuilder& frame, const ReceiverSet& at, const shared::PathParams& params, Component component);
 
 /// How paths are traced where the pixels are the receivers.
 shared::PathParams pathParams(const FrameBuilder& frame, Component component);

@@ -1,6 +1,6 @@
 #include "effects/indirect/path_term.h"
 
-#include "effects/indirect/path_graph.h"
+#include "effects/indirect/path_pixels.h"
 #include "effects/indirect/path_waves.h"
 
 #include <algorithm>
@@ -15,9 +15,8 @@ Term pathTerm(Component component, const char* name, const Settings& settings)
         .workUnits = static_cast<double>(settings.spp) * (direct ? 1 : std::max(1, settings.bounces)),
         .gathersVariance = true,
         .ofLobes = isGlossy(component),
-        .ofPixels = [component](FrameBuilder& frame, const std::shared_ptr<TermState>& state,
-                        graph::Handle<Metres>& beta) { addPaths(frame, component, state, beta); },
-        .ofWaves = [component](FrameBuilder& frame,
+        .inPixels = [component](FrameBuilder& frame) { return std::make_unique<PathPixels>(frame, component); },
+        .inWaves = [component](FrameBuilder& frame,
                        const SampleShape& shape) { return std::make_unique<PathWaves>(frame, shape, component); } };
 }
 

@@ -39,8 +39,7 @@ void PathWaves::sample(
     const Receivers& r = waves.receivers();
     Shared own = share(waves, adding, counts, 4, 3);
     waves.tiles("paths", { "paths/indirect.cl", "samplePaths", { sinks::sums(), sinks::distances() } },
-        joined({ waves.receiverParams(), value("params", pathParams()) }, f_.hierarchy(), f_.geometry(),
-            sceneLights(f_, component_), waves.receiverArguments(), Arguments { reads("specular", r.specular) },
+        joined(pathSamples(f_, waves, pathParams(), component_),
             sampleCounts(own.last, value("lastSample", std::numeric_limits<std::uint32_t>::max()), own.first,
                 { waves.tallyRays(), waves.tallyPathRays() }),
             Arguments { updates("sums", own.sums), updates("reflectors", own.extremes) }));
@@ -48,7 +47,7 @@ void PathWaves::sample(
     if (isRelative(component_, settings())) {
         reflectance = waves.list<Reflectance>("reflectance times unshadowed light", graph::vectors);
         waves.list("paths", { "light/unshadowed_environment.cl", "environmentOfReceivers" }, WEDGE_BLOCK_PIXELS,
-            joined({ waves.receiverParams(), waves.params() }, f_.beyond(),
+            joined({ waves.frame(), waves.params() }, f_.beyond(),
                 Arguments {
                     reads("normal", r.normal), reads("diffuse", r.diffuse), writes("unshadowed", reflectance) }));
     }

@@ -4,11 +4,13 @@
 #include "host/render/sample_slices.h"
 
 #include <algorithm>
+#include <functional>
+#include <optional>
+#include <utility>
 
 namespace wedge::render {
 
 using graph::reads;
-using graph::tallies;
 using graph::updates;
 using graph::value;
 
@@ -31,40 +33,36 @@ std::vector<graph::Argument> scene(const FrameBuilder& f)
     return joined({ value("params", p) }, f.hierarchy(), f.geometry(), sceneLights(f, Component::Diffuse));
 }
 
-void ofPixels(FrameBuilder& f, graph::Handle<Radiance>* /*own*/)
+/// sampleMirrors. taken: samples that there are; absent where each receiver is one
+void trace(FrameBuilder& f, ReceiverSet& at, graph::Argument last, graph::Argument taken, graph::Argument sums,
+    const std::function<double(const graph::Launch&)>& workUnits)
 {
-    Totals& t = f.totals;
-    auto rays = f.graph.plane<Count>("rays of light", graph::counts);
-    auto pathRays = f.graph.plane<Count>("rays of paths", graph::counts);
-    auto taken = f.graph.plane<Count>("samples taken", graph::counts);
-    auto sums = f.graph.plane<Sums>("sums", graph::vectors);
-    f.zero(rays, pathRays, taken, sums);
-    const auto spp = static_cast<std::uint32_t>(f.settings.spp);
-    const auto slice = static_cast<std::uint32_t>(std::max(1, sliceVertices / vertices(f.settings)));
-    const SampleSlices slices(0, spp, slice, f.settings.spp);
-    f.graph.loop("slices", slices.counter(), [&] {
-        f.trace("mirrors", { program, "sampleMirrors" },
-            joined({ f.frame() }, scene(f), f.receivers(),
-                Arguments { graph::absent("sampleOf", graph::counts), slices.last(), updates("taken", taken),
-                    tallies("rays", rays), tallies("pathRays", pathRays), updates("sums", sums) }),
-            false, slices.workUnits(static_cast<double>(f.settings.spp) * vertices(f.settings)));
-    });
-    f.trace("mirrors", { program, "addMirrored" },
-        { f.frame(), reads("taken", taken), reads("sums", sums), updates("direct", t.direct.filtered),
-            updates("directNoisy", t.direct.noisy) },
-        false, [](const graph::Launch&) { return 0.0; });
-    f.count(rays, true, t.tallies.rays, &t.rays);
-    f.count(pathRays, true, t.tallies.pathRays);
+    at.trace("mirrors", { program, "sampleMirrors" },
+        joined({ at.frame() }, scene(f), at.arguments(),
+            Arguments { at.sampleOf(), std::move(last), std::move(taken), at.tallyRays(), at.tallyPathRays(),
+                std::move(sums) }),
+        workUnits);
 }
 
-void ofWaves(FrameBuilder& f, Waves& waves, graph::Handle<Radiance>& radiance)
+void sample(FrameBuilder& f, ReceiverSet& at, graph::Handle<Radiance>& radiance)
 {
-    waves.tiles("mirrors", { program, "sampleMirrors" },
-        joined({ waves.receiverParams() }, scene(f), waves.receiverArguments(),
-            Arguments { reads("sampleOf", waves.receivers().sampleOf), value("lastSample", 0u),
-                graph::absent("taken", graph::counts), waves.tallyRays(), waves.tallyPathRays(),
-                updates("sums", radiance) }),
-        false);
+    const std::optional<std::uint32_t> spp = at.samples();
+    const auto none = [](const graph::Launch&) { return 0.0; };
+    if (!spp) {
+        trace(f, at, value("lastSample", 0u), graph::absent("taken", graph::counts), updates("sums", radiance), none);
+        return;
+    }
+    auto taken = f.graph.plane<Count>("samples taken", graph::counts);
+    auto sums = f.graph.plane<Sums>("sums", graph::vectors);
+    f.zero(taken, sums);
+    const auto slice = static_cast<std::uint32_t>(std::max(1, sliceVertices / vertices(f.settings)));
+    const SampleSlices slices(0, *spp, slice, *spp);
+    f.graph.loop("slices", slices.counter(), [&] {
+        trace(f, at, slices.last(), updates("taken", taken), updates("sums", sums),
+            slices.workUnits(static_cast<double>(*spp) * vertices(f.settings)));
+    });
+    at.trace("mirrors", { program, "addMirrored" },
+        { at.frame(), reads("taken", taken), reads("sums", sums), updates("lit", radiance) }, none);
 }
 
 class Mirrors : public Effect {
@@ -76,10 +74,9 @@ public:
         if (settings.integrator != Integrator::Path || !scene.traits().mirrors) {
             return std::nullopt;
         }
-        return Unfiltered { .name = "mirrors",
-            .workUnits = static_cast<double>(settings.spp) * vertices(settings),
-            .ofPixels = ofPixels,
-            .ofWaves = ofWaves };
+        return Unfiltered {
+            .name = "mirrors", .workUnits = static_cast<double>(settings.spp) * vertices(settings), .sample = sample
+        };
     }
 };
 

@@ -63,7 +63,7 @@ DistributedSamples::DistributedSamples(FrameBuilder& frame, const SampleShape& s
     f_.precomputeDirections();
     const std::vector<Term> terms = frameTerms(frame.settings, frame.description);
     for (const Term& term : terms) {
-        terms_.push_back(term.ofWaves(frame, shape));
+        terms_.push_back(term.inWaves(frame, shape));
     }
     direct_ = countOf(Part::Direct, terms);
     const auto demand = [&](const char* name) {
@@ -355,7 +355,7 @@ void DistributedSamples::addUnfiltered(Waves& waves)
     for (Added& added : added_) {
         auto radiance = waves.list<Radiance>("radiance", graph::vectors);
         f_.zero(radiance);
-        added.of.ofWaves(f_, waves, radiance);
+        added.of.sample(f_, waves, radiance);
         waves.pixels("accumulateDelta",
             joined({ waves.pixelParams(), waves.params() }, waves.pixelLists(reads("taken", waves.counts().taken)),
                 Arguments { reads("objectId", waves.receivers().objectId), reads("lit", radiance),

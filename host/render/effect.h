@@ -3,7 +3,9 @@
 #include "host/device/source.h"
 #include "host/render/environment_table.h"
 #include "host/render/frame_builder.h"
+#include "host/render/pixel_term.h"
 #include "host/render/prepared_scene.h"
+#include "host/render/receiver_set.h"
 #include "host/render/wave_term.h"
 
 #include <functional>
@@ -24,11 +26,9 @@ struct Term {
     double workUnits = 0; ///< of a pixel, about as many as it has rays
     bool gathersVariance = false; ///< it adds to Sum::variance of its part
     bool ofLobes = false; ///< where the pixels are the receivers, those that reflect nothing specularly have none of it
-    /// Declares its passes where the pixels are the receivers: samples, widths, filter, and what they add to the sum.
-    /// The state is filled in while the graph runs; the widths, metres, are written where it says so.
-    std::function<void(FrameBuilder&, const std::shared_ptr<TermState>&, graph::Handle<Metres>&)> ofPixels;
-    /// The same where pixels have several receivers.
-    std::function<std::unique_ptr<WaveTerm>(FrameBuilder&, const SampleShape&)> ofWaves;
+    /// What it is where the pixels are the receivers, and where pixels have several.
+    std::function<std::unique_ptr<PixelTerm>(FrameBuilder&)> inPixels;
+    std::function<std::unique_ptr<WaveTerm>(FrameBuilder&, const SampleShape&)> inWaves;
 };
 
 /// A layer that wedge can write: what a frame shows by its name (outputs.h).
@@ -46,11 +46,9 @@ struct Unfiltered {
     std::string name; ///< of its planes
     std::string layer = {}; ///< one of its effect's; "" where it has none
     double workUnits = 0;
-    /// Declares its passes where the pixels are the receivers, which add to both images of totals.direct, and to `own`,
-    /// which is null where nobody wants it.
-    std::function<void(FrameBuilder&, graph::Handle<Radiance>* own)> ofPixels;
-    /// The same of a wave's receivers, which add to their radiance.
-    std::function<void(FrameBuilder&, Waves&, graph::Handle<Radiance>&)> ofWaves;
+    /// Declares its passes, which add to the radiance that the receivers reflect, 0 before. They tally their rays as
+    /// the receivers say.
+    std::function<void(FrameBuilder&, ReceiverSet&, graph::Handle<Radiance>&)> sample;
 };
 
 /// What rays see that leave the scene, the camera's and those of paths: OpenCL C.

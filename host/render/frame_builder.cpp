@@ -102,14 +102,6 @@ void FrameBuilder::precomputeDirections()
     environmentSamples = samples;
 }
 
-std::vector<graph::Argument> FrameBuilder::receivers() const
-{
-    return graph::together("receivers",
-        joined(readBy(ReadBy::Samplers, surfaces),
-            Arguments { graph::absent("pixelOf", graph::counts), graph::absent("view", graph::counts),
-                graph::absent("time") }));
-}
-
 void FrameBuilder::trace(std::string name, graph::KernelName kernel, std::vector<graph::Argument> arguments,
     bool everywhere, const std::function<double(const Launch&)>& workUnits)
 {

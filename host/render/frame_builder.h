@@ -208,8 +208,6 @@ struct FrameBuilder {
         });
         return out;
     }
-    /// By the names of WEDGE_RECEIVER_ARGUMENTS, the pixels being the receivers.
-    std::vector<graph::Argument> receivers() const;
     /// A buffer that outlives the frame; null where the graph is not run.
     graph::Argument outside(std::string name, std::string_view type, const cl::Buffer* memory) const;
     /// One of the scene's.

@@ -26,14 +26,7 @@ PixelFrame::PixelFrame(const PreparedScene& scene, const DeviceScene* deviceScen
     f_.layers = keepLayers ? &outputs_ : nullptr;
     addTerms(Part::Direct);
     for (const Unfiltered& added : unfiltered_) {
-        if (keepLayers && !added.layer.empty()) {
-            auto own = graph_.plane<Radiance>(added.layer, graph::vectors);
-            f_.zero(own);
-            added.ofPixels(f_, &own);
-            outputs_.add(added.layer, own, Where::OnSurfaces);
-        } else {
-            added.ofPixels(f_, nullptr);
-        }
+        addUnfiltered(added);
     }
     const bool fallsBack = usesFallback(settings), reflects = countOf(Part::Indirect, terms_) > 0;
     // Two planes become one before paths are traced.
@@ -125,14 +118,28 @@ void PixelFrame::addTerms(Part part)
     }
     for (const Term& term : terms_) {
         if (term.part == part) {
-            const auto state = std::make_shared<TermState>();
-            auto beta = graph_.plane<Metres>("filter width", graph::floats);
-            f_.host("term", [state](Run&) { *state = {}; });
-            term.ofPixels(f_, state, beta);
+            const std::unique_ptr<PixelTerm> declared = term.inPixels(f_);
+            declared->declare();
             if (keepsLayers_ && f_.analysed()) {
-                showWidths(f_, term, state, beta, f_.surfaces.pixelSize);
+                showWidths(f_, term, declared->state(), declared->beta(), f_.surfaces.pixelSize);
             }
         }
+    }
+}
+
+void PixelFrame::addUnfiltered(const Unfiltered& added)
+{
+    auto radiance = graph_.plane<Radiance>("radiance of " + added.name, graph::vectors);
+    f_.zero(radiance);
+    PixelReceivers pixels(f_);
+    added.sample(f_, pixels, radiance);
+    pixels.countRays();
+    Sum& sum = f_.totals.direct;
+    f_.pixels("composite", PassKind::Composite, { "frame/unfiltered.cl", "addUnfiltered" },
+        { f_.rectangle(f_.analysisParams()), reads("radiance", radiance), updates("direct", sum.filtered),
+            updates("directNoisy", sum.noisy) });
+    if (keepsLayers_ && !added.layer.empty()) {
+        outputs_.add(added.layer, radiance, Where::OnSurfaces);
     }
 }
 

@@ -19,6 +19,7 @@ private:
     void primary(bool lit);
     /// Terms of the one part, of all those of the frame.
     void addTerms(Part part);
+    void addUnfiltered(const Unfiltered& added);
     /// out = below + what surfaces reflect, which, where it fallsBack, falls back to the pixel's own samples. Where the
     /// light is read apart the sum becomes that.
     void addReflected(const graph::Handle<Radiance>& below, Sum& sum, bool fallsBack, graph::Handle<Radiance>& out);

@@ -94,7 +94,7 @@ std::function<std::size_t(Run&)> Waves::counter() const
 
 graph::Argument Waves::pixelParams() const { return f_.frame(); }
 
-graph::Argument Waves::receiverParams() const
+graph::Argument Waves::frame() const
 {
     return made("frame",
         [state = state_, &scene = f_.description, layout = f_.layout, seed = frameSeed(f_.settings)](
@@ -113,7 +113,7 @@ graph::Argument Waves::params() const
     return made("wave", [state = state_](const Launch& launch) { return state->wave(launch.run); });
 }
 
-std::vector<graph::Argument> Waves::receiverArguments() const
+Arguments Waves::arguments() const
 {
     return graph::together(
         "receivers", joined(f_.readBy(ReadBy::Samplers, r_), Arguments { reads("pixelOf", r_.pixelOf) }));
@@ -215,7 +215,7 @@ void Waves::schedule()
         .everywhere = sampling_.everywhere });
 }
 
-void Waves::trace(bool lit)
+void Waves::traceReceivers(bool lit)
 {
     r_.pixelOf = list<Listed>("pixels", graph::counts);
     r_.sampleOf = list<Listed>("samples", graph::counts);

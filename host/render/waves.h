@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/render/frame_builder.h"
+#include "host/render/receiver_set.h"
 #include "kernels/shared/camera.h"
 #include "kernels/shared/wave.h"
 
@@ -44,7 +44,7 @@ struct PrimaryCounts {
 
 /// Samples of the image in waves of receivers: in a graph, a loop over rounds, and in each over waves. What passes in
 /// them take for arguments, and how they are declared.
-class Waves {
+class Waves : public ReceiverSet {
 public:
     /// One sampling of the image.
     struct Sampling {
@@ -72,7 +72,7 @@ public:
             [&] {
                 schedule();
                 f_.graph.loop("waves", counter(), [&] {
-                    trace(lit);
+                    traceReceivers(lit);
                     body();
                 });
             });
@@ -90,30 +90,36 @@ public:
         return f_.graph.list<Quantity>("receivers' " + name, format, settings_.planeSize);
     }
 
-    /// FrameParams: of the pixels; of passes over receivers.
+    graph::Argument params() const; ///< WaveParams
+    /// FrameParams of the pixels, and of the wave's receivers.
     graph::Argument pixelParams() const;
-    graph::Argument receiverParams() const;
-    graph::Argument params() const;
+    graph::Argument frame() const override;
+    const Surfaces& surfaces() const override { return r_; }
+    Arguments arguments() const override;
+    graph::Argument sampleOf() const override { return graph::reads("sampleOf", r_.sampleOf); }
+    std::optional<std::uint32_t> samples() const override { return std::nullopt; }
     /// What accumulateSurfaces reads of the receivers.
     std::vector<graph::Argument> receiverSurfaces() const
     {
         return graph::together("surfaces", f_.readBy(ReadBy::Pixels, r_));
     }
-    /// By the names of WEDGE_RECEIVER_ARGUMENTS.
-    std::vector<graph::Argument> receiverArguments() const;
     /// Of wavePixel() of accumulate.h; taken: counts().taken, read or updated.
     std::vector<graph::Argument> pixelLists(graph::Argument taken) const;
 
     /// A pass over tiles of receivers; rays: whether it has a share in the work.
     void tiles(std::string name, graph::KernelName kernel, std::vector<graph::Argument> arguments, bool rays = true);
+    void trace(std::string name, graph::KernelName kernel, Arguments arguments,
+        const std::function<double(const graph::Launch&)>& /*workUnits*/) override
+    {
+        tiles(std::move(name), std::move(kernel), std::move(arguments), false);
+    }
     /// One over blocks of `across` receivers.
     void list(std::string name, graph::KernelName kernel, std::uint32_t across, std::vector<graph::Argument> arguments);
     /// One over the pixels of the wave's tiles, of accumulate.cl.
     void pixels(std::string kernel, std::vector<graph::Argument> arguments);
 
-    /// Counts of the rays that are traced for receivers.
-    graph::Argument tallyRays() { return graph::tallies("rays", r_.rays); }
-    graph::Argument tallyPathRays() { return graph::tallies("pathRays", r_.pathRays); }
+    graph::Argument tallyRays() override { return graph::tallies("rays", r_.rays); }
+    graph::Argument tallyPathRays() override { return graph::tallies("pathRays", r_.pathRays); }
 
 private:
     struct State {
@@ -126,7 +132,7 @@ private:
     std::size_t tilesOfWave() const; ///< at most
     std::function<std::size_t(graph::Run&)> counter() const;
     void schedule();
-    void trace(bool lit);
+    void traceReceivers(bool lit);
 
     FrameBuilder& f_;
     shared::WaveParams settings_;

@@ -1,7 +1,7 @@
 // Point and directional lights: one shadow ray each, nothing to filter.
 //
 // in      frame, BVH, the lights, G-buffer
-// in out  direct, directNoisy (3 planes each, radiance), rays
+// in out  lit (3 planes, radiance), rays
 #include "light/light_packet.h"
 #include "trace/packet.h"
 
@@ -50,8 +50,7 @@ __kernel void deltaLights(PARAMETERS)
         const uint i = receivers.pixel[lane];
         if (i != WEDGE_NO_PIXEL) {
             rays[i] += traced[lane];
-            storeVec(direct, frame.planeSize, i, vecAdd(loadVec(direct, frame.planeSize, i), radiance[lane]));
-            storeVec(directNoisy, frame.planeSize, i, vecAdd(loadVec(directNoisy, frame.planeSize, i), radiance[lane]));
+            storeVec(lit, frame.planeSize, i, vecAdd(loadVec(lit, frame.planeSize, i), radiance[lane]));
         }
     }
 }

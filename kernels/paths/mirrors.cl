@@ -311,8 +311,7 @@ __kernel void sampleMirrors(PARAMETERS)
 }
 #endif
 
-/// Adds the means of what mirrors show to both images of direct light, where the pixels are the receivers (3 planes
-/// each).
+/// Adds the means of what mirrors show to what is lit (3 planes), where the pixels are the receivers.
 #include "pass/addMirrored.h"
 #ifdef PASS_addMirrored
 __kernel void addMirrored(PARAMETERS)
@@ -325,8 +324,7 @@ __kernel void addMirrored(PARAMETERS)
         const uint i = pixelIndex(x, y, frame.stride), n = frame.planeSize;
         if (taken[i] > 0u) {
             const Vec3 mean = vecScale(loadVec(sums, n, i), 1.0f / (float)taken[i]);
-            storeVec(direct, n, i, vecAdd(loadVec(direct, n, i), mean));
-            storeVec(directNoisy, n, i, vecAdd(loadVec(directNoisy, n, i), mean));
+            storeVec(lit, n, i, vecAdd(loadVec(lit, n, i), mean));
         }
     }
 }

@@ -12,7 +12,6 @@
 namespace wedge::test {
 
 using graph::reads;
-using graph::tallies;
 using graph::updates;
 using graph::value;
 using render::FrameBuilder;
@@ -29,41 +28,16 @@ glm::vec3 radianceOf(const scene::Scene& scene)
     return sky == scene.extensions.end() ? glm::vec3(0.0f) : std::any_cast<glm::vec3>(sky->second);
 }
 
-graph::Argument sampling(const FrameBuilder& f)
+void sample(FrameBuilder& f, render::ReceiverSet& at, graph::Handle<Radiance>& radiance)
 {
-    return value("sampling", static_cast<std::uint32_t>(f.settings.lightSampling));
-}
-
-/// As many samples as a term has.
-void ofPixels(FrameBuilder& f, graph::Handle<Radiance>* own)
-{
-    render::Totals& t = f.totals;
-    auto rays = f.graph.plane<render::Count>("rays of the sky", graph::counts);
-    f.zero(rays);
-    f.trace("sky", kernel,
-        render::joined({ f.frame(), sampling(f), value("samples", static_cast<std::uint32_t>(f.settings.spp)) },
-            f.hierarchy(), f.receivers(),
-            render::Arguments { graph::absent("sampleOf", graph::counts), reads("diffuse", f.surfaces.diffuse),
-                reads("specular", f.surfaces.specular), updates("direct", t.direct.filtered),
-                updates("directNoisy", t.direct.noisy),
-                own != nullptr ? updates("own", *own) : graph::absent("own", graph::vectors), tallies("rays", rays) }),
-        false, [spp = f.settings.spp](const graph::Launch&) { return static_cast<double>(spp); });
-    f.count(rays, true, t.tallies.rays, &t.rays);
-}
-
-/// One sample a receiver.
-void ofWaves(FrameBuilder& f, render::Waves& waves, graph::Handle<Radiance>& radiance)
-{
-    const render::Receivers& r = waves.receivers();
-    auto noisy = waves.list<Radiance>("the sky's radiance", graph::vectors); // the same once more
-    f.zero(noisy);
-    waves.tiles("sky", kernel,
-        render::joined({ waves.receiverParams(), sampling(f), value("samples", 1u) }, f.hierarchy(),
-            waves.receiverArguments(),
-            render::Arguments { reads("sampleOf", r.sampleOf), reads("diffuse", r.diffuse),
-                reads("specular", r.specular), updates("direct", radiance), updates("directNoisy", noisy),
-                graph::absent("own", graph::vectors), waves.tallyRays() }),
-        false);
+    const std::uint32_t samples = at.samples().value_or(1);
+    at.trace("sky", kernel,
+        render::joined({ at.frame(), value("sampling", static_cast<std::uint32_t>(f.settings.lightSampling)),
+                           value("samples", samples) },
+            f.hierarchy(), at.arguments(),
+            render::Arguments { at.sampleOf(), reads("diffuse", at.surfaces().diffuse),
+                reads("specular", at.surfaces().specular), updates("lit", radiance), at.tallyRays() }),
+        [samples](const graph::Launch&) { return static_cast<double>(samples); });
 }
 
 /// "0.5": a grey.
@@ -88,11 +62,9 @@ public:
         if (settings.integrator != render::Integrator::Path || radianceOf(scene) == glm::vec3(0.0f)) {
             return std::nullopt;
         }
-        return render::Unfiltered { .name = "sky",
-            .layer = "sky",
-            .workUnits = static_cast<double>(settings.spp),
-            .ofPixels = ofPixels,
-            .ofWaves = ofWaves };
+        return render::Unfiltered {
+            .name = "sky", .layer = "sky", .workUnits = static_cast<double>(settings.spp), .sample = sample
+        };
     }
 
     std::vector<render::LayerInfo> layers(

@@ -217,4 +217,47 @@ TEST_CASE("the sky has a layer, and is seen where nothing is hit")
     });
 }
 
+TEST_CASE("lights that are added as they are sampled add up, in crops, too, whatever lay in the memory")
+{
+    onEveryDevice([](const device::Device& device) {
+        const auto floorUnder = [](bool lamp, const glm::vec3& above) {
+            SceneBuilder b = openFloor();
+            setSky(b.scene, above);
+            if (lamp)
+                b.scene.pointLights.push_back({ { 0.5f, 1, 0.5f }, { 2, 3, 4 } });
+            return b.scene;
+        };
+        render::Options poisoned = renderOptions();
+        poisoned.poison = true;
+        render::Renderer lamp(floorUnder(true, glm::vec3(0)), device, renderOptions()),
+            above(floorUnder(false, sky), device, renderOptions()), both(floorUnder(true, sky), device, poisoned);
+        const image::Window whole { 0, 0, 24, 24 }, crop { 5, 3, 19, 22 };
+        const auto shown = [&](render::Renderer& by, const char* plane, const image::Window& window) {
+            render::Settings s = settings(false, 4);
+            s.crop = window == whole ? image::Window {} : window;
+            by.render(s, {}, true);
+            return pixels(by, plane, window);
+        };
+        for (const image::Window& window : { whole, crop }) {
+            CAPTURE(window.x0);
+            const std::vector<float> ofLamp = shown(lamp, "direct", window), ofSky = shown(above, "direct", window);
+            CHECK(meanOf(ofLamp, 0).value > 0.01);
+            for (const char* image : { "direct", "directNoisy" }) {
+                CAPTURE(image);
+                const std::vector<float> sum = shown(both, image, window);
+                REQUIRE(sum.size() == ofLamp.size());
+                bool same = true;
+                for (std::size_t i = 0; i < sum.size(); ++i)
+                    same = same && sum[i] == ofLamp[i] + ofSky[i];
+                CHECK(same);
+            }
+            CHECK(shown(both, "sky", window) == ofSky);
+        }
+        // Who tallies no path rays counts none.
+        const render::FrameStatistics statistics = both.render(settings(false, 4), {}, true);
+        CHECK(statistics.shadowRays == 24u * 24u * (4u * 2u + 1u));
+        CHECK(statistics.indirectRays == 0);
+    });
+}
+
 } // namespace wedge::test

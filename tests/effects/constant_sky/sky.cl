@@ -2,7 +2,7 @@
 // surface reflects, combined by the power heuristic.
 //
 // in      frame, BVH, receivers; sampling: WEDGE_LIGHTS_*; samples of each technique a receiver; sampleOf: of a wave
-// in out  direct, directNoisy and, where it is kept, own (3 planes each, radiance), rays
+// in out  lit (3 planes, radiance), rays
 #include "light/light_packet.h"
 #include "light/scene_light.h"
 #include "trace/environment.h"
@@ -118,11 +118,7 @@ __kernel void skyLight(PARAMETERS)
             continue;
         }
         const Vec3 radiance = vecScale(sum[lane], 1.0f / (float)samples);
-        addTo(direct, size, i, radiance);
-        addTo(directNoisy, size, i, radiance);
-#if HAS_own
-        addTo(own, size, i, radiance);
-#endif
+        addTo(lit, size, i, radiance);
         rays[i] += traced[lane];
     }
 }
