@@ -7,6 +7,8 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
+
 using namespace wedge;
 using namespace wedge::test;
 
@@ -245,6 +247,45 @@ TEST_CASE("mirrors and glass in an even sky cannot be seen, in every kind of fra
                     REQUIRE(image[i] > even[static_cast<int>(i % 3)] * (isGlass ? 0.98f : 0.999f));
                 }
             }
+        }
+    });
+}
+
+TEST_CASE("a frame that is stopped shows what mirrors were sampled for, as bright as it is")
+{
+    onEveryDevice([](const device::Device& device) {
+        SceneBuilder b;
+        b.sphere({ 0, 0, 0 }, 1, 16, addMaterial(b, mirror()));
+        b.triangle({ 0, -50, 0 }, { 0.1f, -50, 0 }, { 0, -50, 0.1f });
+        b.camera({ 0.3f, 0.9f, 4 }, { -0.2f, 0, 0 });
+        addSky(b.scene, { even });
+        render::Renderer renderer(b.scene, device, renderOptions());
+        render::Settings s = sized(render::monteCarlo(256), 24, 18);
+        s.maxSurfaces = 4096; // no roulette
+        renderer.queue().setTargetMilliseconds(0.01);
+        const auto looksUntil = [&](int last) {
+            std::atomic<bool> cancel { false };
+            int looks = 0;
+            render::Control control;
+            control.cancel = &cancel;
+            control.progress = [&](double) { cancel = ++looks >= last; };
+            renderer.render(s, control);
+            return looks;
+        };
+        const int all = looksUntil(1 << 30);
+        for (const int last : { all / 2, all - 2 }) {
+            CAPTURE(all);
+            CAPTURE(last);
+            looksUntil(last);
+            const std::vector<float> image = pixels(renderer, "beauty", { 0, 0, s.width, s.height });
+            const std::vector<int> ofMirror = showing(renderer, 1);
+            unsigned shown = 0;
+            for (std::size_t i = 0; i < image.size(); ++i) {
+                const float whole = even[static_cast<int>(i % 3)];
+                REQUIRE((image[i] == 0.0f || std::abs(image[i] - whole) < 1e-3f * whole));
+                shown += ofMirror[i] == 1 && image[i] > 0.0f ? 1 : 0;
+            }
+            CHECK(shown > 0);
         }
     });
 }

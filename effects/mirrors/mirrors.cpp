@@ -47,22 +47,22 @@ void trace(FrameBuilder& f, ReceiverSet& at, graph::Argument last, graph::Argume
 void sample(FrameBuilder& f, ReceiverSet& at, graph::Handle<Radiance>& radiance)
 {
     const std::optional<std::uint32_t> spp = at.samples();
-    const auto none = [](const graph::Launch&) { return 0.0; };
     if (!spp) {
-        trace(f, at, value("lastSample", 0u), graph::absent("taken", graph::counts), updates("sums", radiance), none);
+        trace(f, at, value("lastSample", 0u), graph::absent("taken", graph::counts), updates("sums", radiance),
+            [](const graph::Launch&) { return 0.0; });
         return;
     }
     auto taken = f.graph.plane<Count>("samples taken", graph::counts);
-    auto sums = f.graph.plane<Sums>("sums", graph::vectors);
-    f.zero(taken, sums);
+    f.zero(taken);
     const auto slice = static_cast<std::uint32_t>(std::max(1, sliceVertices / vertices(f.settings)));
     const SampleSlices slices(0, *spp, slice, *spp);
     f.graph.loop("slices", slices.counter(), [&] {
-        trace(f, at, slices.last(), updates("taken", taken), updates("sums", sums),
+        trace(f, at, slices.last(), updates("taken", taken), updates("sums", radiance),
             slices.workUnits(static_cast<double>(*spp) * vertices(f.settings)));
     });
-    at.trace("mirrors", { program, "addMirrored" },
-        { at.frame(), reads("taken", taken), reads("sums", sums), updates("lit", radiance) }, none);
+    // Of frames that are stopped, too: what was sampled is shown.
+    f.pixels("composite", device::PassKind::Composite, { program, "meanOfMirrored" },
+        { f.rectangle(f.analysisParams()), reads("taken", taken), updates("sums", radiance) });
 }
 
 class Mirrors : public Effect {

@@ -9,6 +9,7 @@
 #include "core/deal.h"
 #include "light/seen_light.h"
 #include "paths/path_packet.h"
+#include "shared/filter_params.h"
 
 // Programs of scenes that have none are empty.
 #ifdef WEDGE_MIRRORS
@@ -311,22 +312,14 @@ __kernel void sampleMirrors(PARAMETERS)
 }
 #endif
 
-/// Adds the means of what mirrors show to what is lit (3 planes), where the pixels are the receivers.
-#include "pass/addMirrored.h"
-#ifdef PASS_addMirrored
-__kernel void addMirrored(PARAMETERS)
+/// Makes means of the sums of what mirrors show (3 planes), where the pixels are the receivers.
+#include "pass/meanOfMirrored.h"
+#ifdef PASS_meanOfMirrored
+__kernel void meanOfMirrored(PARAMETERS)
 {
-    for (uint lane = 0u; lane < WEDGE_PACKET_SIZE; ++lane) {
-        uint x, y;
-        if (!tilePixel(frame, firstGroup, lane, &x, &y)) {
-            continue;
-        }
-        const uint i = pixelIndex(x, y, frame.stride), n = frame.planeSize;
-        if (taken[i] > 0u) {
-            const Vec3 mean = vecScale(loadVec(sums, n, i), 1.0f / (float)taken[i]);
-            storeVec(lit, n, i, vecAdd(loadVec(lit, n, i), mean));
-        }
-    }
+    WEDGE_PIXEL(p, x, y, i);
+    const float n = fmax((float)taken[i], 1.0f);
+    storeVec(sums, p.planeSize, i, vecScale(loadVec(sums, p.planeSize, i), 1.0f / n));
 }
 #endif
 #endif
