@@ -3,6 +3,7 @@
 #include "filters/temporal/temporal.h"
 #include "host/error.h"
 #include "host/render/distributed_frame.h"
+#include "host/render/image_filter.h"
 #include "host/render/pixel_frame.h"
 #include "host/render/progressive.h"
 #include "host/scene/scene.h"
@@ -16,6 +17,19 @@ namespace wedge::test {
 namespace {
 
 using render::Settings;
+
+/// All that are registered, with their defaults, but for a colour, which has no pass with those.
+std::vector<render::ChosenFilter> everyImageFilter()
+{
+    std::vector<render::ChosenFilter> out;
+    for (const auto& filter : render::imageFilters()) {
+        out.push_back({ filter->name(), {} });
+        for (const render::FilterParameter& parameter : filter->parameters()) {
+            out.back().values.push_back(parameter.name == "red" ? 0.5f : parameter.standard);
+        }
+    }
+    return out;
+}
 
 /// Of every kind that reports tell apart; which of them a scene allows is found by trying.
 std::vector<Settings> manySettings()
@@ -49,6 +63,7 @@ std::vector<Settings> manySettings()
         s.maaf = render::Maaf::Refitted;
         s.components = 3;
     });
+    add(1, [](Settings& s) { s.imageFilters = everyImageFilter(); });
     return out;
 }
 

@@ -1,3 +1,4 @@
+#include "filters/image/filter_section.h"
 #include "host/app/commands.h"
 #include "host/app/console.h"
 #include "host/app/render_options.h"
@@ -5,6 +6,7 @@
 #include "host/app/values.h"
 #include "host/device/memory_plan.h"
 #include "host/render/effect.h"
+#include "host/render/image_filter.h"
 #include "host/render/renderer.h"
 #include "host/render/report.h"
 #include "host/scene/scene.h"
@@ -77,6 +79,9 @@ void printJson(const Facts& f)
     if (const auto picture = f.scene.picture()) {
         json["environment"] = render::environmentReport(*picture);
     }
+    if (const auto filters = filters::filtersOf(f.scene); !filters.empty()) {
+        json["filters"] = render::describe(filters);
+    }
     addCamera(f, json);
     json["width"] = f.settings.width;
     json["height"] = f.settings.height;
@@ -109,6 +114,9 @@ void printText(const Facts& f)
                 100.0 * sun.share, sun.towards.x, sun.towards.y, sun.towards.z, render::degreesAcross(sun.halfU),
                 render::degreesAcross(sun.halfV));
         }
+    }
+    if (const auto filters = filters::filtersOf(f.scene); !filters.empty()) {
+        say("filters    {}\n", render::describe(filters));
     }
     printCamera(f);
     if (!s.bounds.empty()) {

@@ -1,10 +1,13 @@
 #include "host/app/render_options.h"
 
+#include "host/app/filter_calls.h"
 #include "host/app/values.h"
 #include "host/render/layers.h"
 #include "host/scene/scene.h"
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
 #include <limits>
 
 #include <CLI/CLI.hpp>
@@ -89,6 +92,19 @@ void addFrameOptions(CLI::App& parser, RenderOptions& o)
         "How PNGs show radiance: clipped, the default; by a film's curve; by AgX, in which bright colours fade to "
         "white",
         o.view);
+    parser
+        .add_option_function<std::vector<std::string>>(
+            "--add-filter",
+            [&o](const std::vector<std::string>& texts) {
+                o.imageFilters.clear();
+                std::ranges::transform(texts, std::back_inserter(o.imageFilters), filterCall);
+            },
+            "Filter the finished image, listed below: median, bilateral:sigma=2,tolerance=0.5; several are done in the "
+            "order given, after the scene's")
+        ->type_name("FILTER")
+        ->allow_extra_args(false)
+        ->group(whatGroup);
+    parser.add_flag("--no-filters", o.noFilters, "Leave out the scene's filters")->group(whatGroup);
     addValue(parser, whatGroup, "--reference", "FILE", "Compare with this image (.exr, .png or .hdr) of the same size",
         [&o](const std::string& text) { o.reference = text; });
     addValue(parser, whatGroup, "--report", "FILE", "Write a report as JSON",
@@ -272,7 +288,7 @@ std::string footer()
         text += fmt::format(
             "  {:<17} {}\n", layer.name, fmt::format("{}: {}", fmt::join(layer.channels, " "), layer.meaning));
     }
-    return text
+    return text + "\nFilters of the image, and their parameters:\n" + filterList()
         + "\nExit status: 0 done, 1 failure, 2 wrong call, 130 interrupted by a signal (what was there is "
           "written).\n";
 }

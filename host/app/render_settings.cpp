@@ -1,6 +1,7 @@
 #include "host/app/render_settings.h"
 
 #include "effects/area_lights/maaf.h"
+#include "filters/image/filter_section.h"
 #include "host/app/render_counts.h"
 #include "host/app/values.h"
 #include "host/error.h"
@@ -289,6 +290,10 @@ render::Settings resolveSettings(const RenderOptions& o, const render::PreparedS
     s.sampler = o.sampler.value_or(s.sampler);
     s.progressive = o.progressive;
     s.temporal = o.temporal.value_or(render::Temporal::Off);
+    if (!o.noFilters) {
+        s.imageFilters = filters::filtersOf(scene);
+    }
+    s.imageFilters.insert(s.imageFilters.end(), o.imageFilters.begin(), o.imageFilters.end());
     applyIntegrator(o, scene, s);
     s.antialias = o.antialias.value_or(file.antialias);
     refuse(o.pixelFilter && !s.antialias, "without antialiasing", "--pixel-filter", "add --antialias");

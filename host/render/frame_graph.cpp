@@ -1,6 +1,7 @@
 #include "host/render/frame_graph.h"
 
 #include "host/render/distributed_samples.h"
+#include "host/render/image_filter.h"
 
 namespace wedge::render {
 
@@ -76,6 +77,8 @@ void FrameGraph::showTally(FrameBuilder& frame, const std::string& name, const s
 
 void FrameGraph::finish(FrameBuilder& frame)
 {
+    outputs_.replace("beauty",
+        filteredImage(frame, graph::Handle<Radiance> { graph::Version { outputs_.find("beauty")->version } }));
     if (distributed_) {
         showTally(frame, "samplesTally", "samples", Within::Surfaces);
         showTally(frame, "indirectTally", "indirectSamples", Within::Surfaces);

@@ -42,8 +42,8 @@ protected:
         const graph::Handle<Metres>& beta, const graph::Handle<Metres>& pixelSize);
     /// The same of all terms, where frames are analysed.
     void showWidths(FrameBuilder& frame, const DistributedSamples& samples, const graph::Handle<Metres>& pixelSize);
-    /// Once all of outputs_ are there: wants them, and shows what statistics are made of, sums over pixels by the names
-    /// that Renderer::countWork() knows.
+    /// Once all of outputs_ are there: filters the beauty as the settings say, wants them, and shows what statistics
+    /// are made of, sums over pixels by the names that Renderer::countWork() knows.
     void finish(FrameBuilder& frame);
 
 private:

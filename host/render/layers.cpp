@@ -38,7 +38,9 @@ std::vector<LayerInfo> layersOf(const Settings& settings, const PreparedScene* s
         { "position", xyz, "point hit in world space, metres, 0 on a miss" },
         { "depth", { "Z" }, "distance along the ray, metres, to a surface or a visible light; +inf on a miss" },
         { "emission", rgb, "radiance of emitting surfaces, lights and background seen directly" },
-        { "direct", rgb, "radiance reflected from lights, filtered; beauty = emission + direct + indirect" },
+        { "direct", rgb,
+            "radiance reflected from lights, filtered; beauty = emission + direct + indirect, before filters of the "
+            "image" },
         { "directNoisy", rgb, "the same before the filter" },
         { "indirect", rgb, "radiance reflected from other surfaces, filtered; of ambient occlusion what is open" },
         { "indirectNoisy", rgb, "the same before the filter" },

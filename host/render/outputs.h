@@ -45,6 +45,8 @@ public:
     {
         add({ layer, {}, version, where, join });
     }
+    /// Shows another version in the place of one that there is.
+    void replace(const std::string& name, const graph::Version& version);
     const std::vector<Output>& all() const { return all_; }
     /// Of that name; null where there is none.
     const Output* find(const std::string& name) const;

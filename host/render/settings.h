@@ -103,6 +103,14 @@ enum class Temporal {
     Published, ///< of the frame before, whatever lights it: (6.24) to (6.26) of thesis chapter 6
 };
 
+/// A filter of the finished image, by its name, and its parameters' values in their order (image_filter.h).
+struct ChosenFilter {
+    std::string name;
+    std::vector<float> values;
+
+    bool operator==(const ChosenFilter&) const = default;
+};
+
 /// Indirect light and ambient occlusion; docs/indirect.md has the equations.
 struct IndirectSettings {
     float mu = 1.0f; ///< sampling beyond the critical rate, (4.15), (4.21)
@@ -210,6 +218,7 @@ struct Settings {
     bool antialias = false; ///< pixels are what pixelFilter makes of their surroundings, not their centres
     PixelFilter pixelFilter = PixelFilter::Box;
     DistributedSettings distributed;
+    std::vector<ChosenFilter> imageFilters; ///< what is done to the finished image, one after the other
 
     Sampler sampler = Sampler::Sobol;
     Shading shading = Shading::Ratio;

@@ -1,4 +1,5 @@
 // Settings as names and values, for metadata and reports.
+#include "host/render/image_filter.h"
 #include "host/render/settings.h"
 
 #include <fmt/format.h>
@@ -121,6 +122,9 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
         constexpr const char* pixelFilters[] = { "box", "gaussian", "blackman-harris" };
         out.emplace_back("antialias", "true");
         out.emplace_back("pixelFilter", pixelFilters[static_cast<int>(s.pixelFilter)]);
+    }
+    if (!s.imageFilters.empty()) {
+        out.emplace_back("imageFilters", describe(s.imageFilters));
     }
     if (s.filtering == Filtering::Fixed) {
         out.emplace_back("fixedWidth", number(s.fixedWidth));

@@ -217,7 +217,16 @@ void readLights(TableReader& root, Scene& scene, Warnings& warnings)
 void readExtensions(TableReader& root, Scene& scene, Warnings& warnings)
 {
     for (const Section& section : sections()) {
-        if (auto table = root.table(section.key)) {
+        if (section.list) {
+            std::vector<std::any> all;
+            for (TableReader& table : root.tables(section.key)) {
+                all.push_back(section.read(table, warnings));
+                table.finish();
+            }
+            if (!all.empty()) {
+                scene.extensions[section.key] = std::move(all);
+            }
+        } else if (auto table = root.table(section.key)) {
             scene.extensions[section.key] = section.read(*table, warnings);
             table->finish();
         }

@@ -161,3 +161,6 @@ check mirrors_waves "$scenes/mirrors.toml" --traversal wide --size 7x3 --method 
 check over_time_%d "$scenes/motion.toml" --traversal wide --size 9x5 --method aaf --spp 10 --frames 0:1 --temporal on
 check over_time_%d_image "$work/bumps.toml" --traversal wide --size 7x3 --method aaf --spp 10 --antialias --frames 0:1 --temporal on
 check bounced_over_time_%d "$scenes/penumbra.toml" --traversal wide --size 9x5 --method aaf --spp 16 --bounces 1 --frames 0:1 --temporal on
+# All filters of the image. With its defaults colour has nothing to do.
+mapfile -t filters < <("$wedge" render --help | sed -n '/^Filters of the image/,/^$/ s/^  \([a-z][a-z-]*\) .*/--add-filter=\1/p' | sed 's/=colour$/=colour:red=0.5/')
+check image_filters "$scenes/penumbra.toml" --traversal wide --size 19x13 --method mc --spp 1 "${filters[@]}"

@@ -1,0 +1,60 @@
+#include "filters/image/filter_section.h"
+
+#include "host/render/image_filter.h"
+#include "host/scene/sections.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <string>
+
+namespace wedge::filters {
+
+using render::ChosenFilter;
+
+namespace {
+
+const bool registered = [] {
+    scene::registerSection({ .key = filterSection, .read = readFilter, .list = true });
+    return true;
+}();
+
+} // namespace
+
+std::any readFilter(scene::TableReader& table, scene::Warnings& /*warnings*/)
+{
+    std::vector<std::string> types;
+    std::ranges::transform(
+        render::imageFilters(), std::back_inserter(types), [](const auto& filter) { return filter->name(); });
+    ChosenFilter chosen { table.require("type", table.choice("type", types)), {} };
+    for (const render::FilterParameter& parameter : render::imageFilter(chosen.name)->parameters()) {
+        const auto value = [&]() -> std::optional<double> {
+            if (!parameter.whole) {
+                return table.number(parameter.name, parameter.least, parameter.most);
+            }
+            const auto whole = table.integer(
+                parameter.name, static_cast<std::int64_t>(parameter.least), static_cast<std::int64_t>(parameter.most));
+            return whole ? std::optional(static_cast<double>(*whole)) : std::nullopt;
+        }();
+        chosen.values.push_back(static_cast<float>(value.value_or(parameter.standard)));
+    }
+    const bool on = table.boolean("on").value_or(true);
+    return on ? std::optional(std::move(chosen)) : std::optional<ChosenFilter>();
+}
+
+std::vector<ChosenFilter> filtersOf(const scene::Scene& scene)
+{
+    std::vector<ChosenFilter> out;
+    const auto found = scene.extensions.find(filterSection);
+    if (found == scene.extensions.end()) {
+        return out;
+    }
+    for (const std::any& each : std::any_cast<const std::vector<std::any>&>(found->second)) {
+        if (const auto& chosen = std::any_cast<const std::optional<ChosenFilter>&>(each)) {
+            out.push_back(*chosen);
+        }
+    }
+    return out;
+}
+
+} // namespace wedge::filters

@@ -1,0 +1,109 @@
+// Filters of the finished image, by options and by scene files.
+#include "tests/app_testing.h"
+
+#include <fstream>
+
+namespace wedge::app::test {
+namespace {
+
+/// A scene file of the place: that one with more tables at its end.
+void writeScene(const Workplace& place, const std::string& more)
+{
+    std::ofstream(place.path() / "scene.toml") << readAll(WEDGE_SOURCE_DATA "/scenes/penumbra.toml") << more;
+    std::filesystem::copy(WEDGE_SOURCE_DATA "/scenes/meshes", place.path() / "meshes",
+        std::filesystem::copy_options::recursive | std::filesystem::copy_options::skip_existing);
+}
+
+/// The beauty of a small render with these arguments.
+std::vector<float> beauty(const Workplace& place, const std::string& scene, const Arguments& more)
+{
+    Arguments arguments = { "render", scene, "--method", "mc", "--spp", "2", "--size", "32x24", "-o", "a.exr" };
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = place.run(arguments);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.status == 0);
+    const image::LayeredImage image = image::readExr((place.path() / "a.exr").string());
+    std::vector<float> out;
+    for (const char* channel : { "R", "G", "B" }) {
+        const std::vector<float> one = values(image, channel);
+        out.insert(out.end(), one.begin(), one.end());
+    }
+    return out;
+}
+
+std::string appliedFilters(const Workplace& place)
+{
+    const auto metadata = image::readExr((place.path() / "a.exr").string()).metadata;
+    const auto found = metadata.find("method.imageFilters");
+    return found == metadata.end() ? "" : std::get<std::string>(found->second);
+}
+
+TEST_CASE("a scene's filters and --add-filter do the same, and the image says which were applied")
+{
+    const Workplace place;
+    writeScene(place, "");
+    const std::vector<float> plain = beauty(place, "scene.toml", {});
+    CHECK(appliedFilters(place).empty());
+    const std::vector<float> added =
+        beauty(place, "scene.toml", { "--add-filter", "median", "--add-filter", "colour:red=0.5,density=0.5" });
+    CHECK(added != plain);
+    const std::string both = "median:radius=1 colour:red=0.5,green=1,blue=1,density=0.5";
+    CHECK(appliedFilters(place) == both);
+    writeScene(place,
+        "\n[[filter]]\ntype = \"median\"\n[[filter]]\ntype = \"gaussian\"\non = false\n"
+        "[[filter]]\ntype = \"colour\"\nred = 0.5\ndensity = 0.5\n");
+    CHECK(beauty(place, "scene.toml", {}) == added);
+    CHECK(appliedFilters(place) == both);
+    CHECK(contains(place.run({ "info", "scene.toml" }).out, "filters    " + both));
+    CHECK(beauty(place, "scene.toml", { "--no-filters" }) == plain);
+    // The scene's come first.
+    const std::vector<float> more = beauty(place, "scene.toml", { "--add-filter", "sharpen:amount=1" });
+    CHECK(more != added);
+    CHECK(appliedFilters(place) == both + " sharpen:sigma=1,amount=1");
+    CHECK(beauty(place, "scene.toml", { "--no-filters", "--add-filter", "median" }) != plain);
+    CHECK(appliedFilters(place) == "median:radius=1");
+}
+
+TEST_CASE("what is wrong with filters is said in one line, with the nearest name or the range")
+{
+    const Workplace place;
+    const auto refused = [&](const std::string& filter, const std::string& says) {
+        const Outcome outcome = place.run({ "render", box, "--add-filter", filter, "-o", "a.exr" });
+        CAPTURE(filter);
+        CAPTURE(outcome.err);
+        CHECK(outcome.status == wrongCall);
+        CHECK(contains(outcome.err, says));
+        CHECK(std::ranges::count(outcome.err, '\n') == 1);
+        CHECK_FALSE(place.has("a.exr"));
+    };
+    refused("medan", "write median");
+    refused("", "has no value");
+    refused("blur", "choose among: bilateral, bloom");
+    refused("median,gaussian", "once for each");
+    refused("median:radus=1", "write radius");
+    refused("median:radius", "write median:radius=1");
+    refused("median:", "no name");
+    refused("median:radius=1,", "no name");
+    refused("gaussian:=3", "no name");
+    refused("median:radius=1.5", "whole number from 0 to 3");
+    refused("median:radius=1,radius=2", "twice");
+    refused("gaussian:sigma=nan", "number from 0 to 32");
+    refused("gaussian:sigma=1e9", "number from 0 to 32");
+    refused("gaussian:sigma=", "number from 0 to 32");
+    const auto refusedScene = [&](const std::string& table, const std::string& says) {
+        writeScene(place, table);
+        const Outcome outcome = place.run({ "render", "scene.toml", "-o", "a.exr" });
+        CAPTURE(table);
+        CAPTURE(outcome.err);
+        CHECK(outcome.status == failure);
+        CHECK(contains(outcome.err, says));
+        CHECK(std::ranges::count(outcome.err, '\n') == 1);
+    };
+    refusedScene("\n[[filter]]\ntype = \"medan\"\n", "use one of: gaussian, bilateral, median");
+    refusedScene("\n[[filter]]\nradius = 1\n", "add 'type = ...'");
+    refusedScene("\n[[filter]]\ntype = \"median\"\nradus = 1\n", "did you mean 'radius'");
+    refusedScene("\n[[filter]]\ntype = \"median\"\nradius = 7\n", "0 to 3");
+}
+
+} // namespace
+} // namespace wedge::app::test
