@@ -39,7 +39,7 @@ render::Settings everyFilter()
     render::Settings s = sized(render::monteCarlo(4), 45, 31);
     s.imageFilters = { { "gaussian", { 2.0f } }, { "bilateral", { 2.0f, 1.0f } }, { "median", { 1.0f } },
         { "mad-median", { 1.0f, 4.45f } }, { "sharpen", { 1.5f, 0.5f } }, { "bloom", { 1.0f, 0.1f, 3.0f } },
-        { "colour", { 1.0f, 0.5f, 0.25f, 0.6f } } };
+        { "colour", { 1.0f, 0.5f, 0.25f, 0.6f } }, { "box", { 1.0f } } };
     return s;
 }
 
@@ -199,6 +199,25 @@ void setValues(PassBench& bench, const std::string& kernel, float factor)
 }
 
 } // namespace
+
+TEST_CASE("imageBox: the mean of the finite pixels in the square")
+{
+    inEveryArea("imageBox", [&](PassBench& bench, const Area& area, std::mt19937& random) {
+        for (const std::uint32_t radius : { 1u, 2u, 8u })
+            for (const bool broken : { false, true }) {
+                CAPTURE(radius);
+                const auto image = someImage(bench, area, random, 6, broken);
+                bench.value("radius", radius);
+                const auto found = made(bench, area, { { "image", image } });
+                const int reach = static_cast<int>(radius);
+                everyPixelOf(area.window, [&](int x, int y) {
+                    const glm::dvec3 expected =
+                        weightedMean(image, area, x, y, reach, reach, [](auto&&...) { return 1.0; });
+                    requireNear(found, x, y, expected, roundingOf(expected, image, x, y));
+                });
+            }
+    });
+}
 
 TEST_CASE("imageRows, imageColumns: the Gaussian over the finite pixels of the row, and of the column")
 {

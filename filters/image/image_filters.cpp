@@ -27,6 +27,7 @@ constexpr const char* pass = "filters of the image";
 constexpr const char* file = "filter/image.cl";
 /// Of Gaussians along rows and columns, and of those that look at a square of pixels.
 constexpr double mostSigma = 32.0, mostBilateralSigma = 4.0;
+constexpr double mostBoxRadius = 8.0;
 /// How much wider the second and the third of a bloom's Gaussians are than the first.
 constexpr float middleOfBloom = 2.0f, farOfBloom = 4.0f;
 
@@ -53,9 +54,9 @@ FilterParameter sigmaParameter(double most, float standard)
 {
     return { "sigma", 0.0, most, standard, "standard deviation, pixels" };
 }
-FilterParameter radiusParameter()
+FilterParameter radiusParameter(double most = WEDGE_IMAGE_MEDIAN_RADIUS)
 {
-    return { "radius", 0.0, WEDGE_IMAGE_MEDIAN_RADIUS, 1.0f, "of the square, pixels", true };
+    return { "radius", 0.0, most, 1.0f, "of the square, pixels", true };
 }
 
 class Gaussian : public render::ImageFilter {
@@ -192,7 +193,22 @@ public:
 };
 
 // In the order in which help lists them.
-const bool registered = render::registerImageFilters<Gaussian, Bilateral, Median, MadMedian, Sharpen, Bloom, Colour>();
+class Box : public render::ImageFilter {
+public:
+    std::string name() const override { return "box"; }
+    std::string meaning() const override { return "the mean over a square"; }
+    std::vector<FilterParameter> parameters() const override { return { radiusParameter(mostBoxRadius) }; }
+    Image declare(FrameBuilder& f, const Values& values, const Image& image) const override
+    {
+        const auto radius = static_cast<std::uint32_t>(values[0]);
+        return radius > 0 ? made(f, "imageBox",
+                   { value("radius", radius), reads("image", image, graph::around(static_cast<int>(radius))) })
+                          : image;
+    }
+};
+
+const bool registered =
+    render::registerImageFilters<Gaussian, Bilateral, Median, MadMedian, Sharpen, Bloom, Colour, Box>();
 
 } // namespace
 } // namespace wedge::filters

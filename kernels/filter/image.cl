@@ -144,6 +144,31 @@ __kernel void imageBilateral(PARAMETERS)
 }
 #endif
 
+/// The mean of the finite pixels in the square around the pixel.
+/// in   image, radius: pixels
+/// out  out
+#include "pass/imageBox.h"
+#ifdef PASS_imageBox
+__kernel void imageBox(PARAMETERS)
+{
+    WEDGE_PIXEL(p, x, y, i);
+    const uint n = p.planeSize;
+    const int reach = (int)radius;
+    const int left = -min(reach, (int)x), right = min(reach, (int)(p.width - 1u - x));
+    const int top = -min(reach, (int)y), bottom = min(reach, (int)(p.height - 1u - y));
+    ImageMean mean = meanFrom(loadVec(image, n, i));
+    for (int dy = top; dy <= bottom; ++dy) {
+        for (int dx = left; dx <= right; ++dx) {
+            const Vec3 v = loadVec(image, n, (uint)((int)i + dy * (int)p.stride + dx));
+            if ((dx != 0 || dy != 0) && finiteVec(v)) {
+                addToMean(&mean, v, 1.0f);
+            }
+        }
+    }
+    storeVec(out, n, i, meanOf(mean));
+}
+#endif
+
 #include "pass/imageMedian.h"
 #ifdef PASS_imageMedian
 /// Adds v to so many sorted numbers, which have room for it.
