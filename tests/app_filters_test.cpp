@@ -34,7 +34,7 @@ std::vector<float> beauty(const Workplace& place, const std::string& scene, cons
 std::string appliedFilters(const Workplace& place)
 {
     const auto metadata = image::readExr((place.path() / "a.exr").string()).metadata;
-    const auto found = metadata.find("method.imageFilters");
+    const auto found = metadata.find("method.filters");
     return found == metadata.end() ? "" : std::get<std::string>(found->second);
 }
 
@@ -80,6 +80,10 @@ TEST_CASE("what is wrong with filters is said in one line, with the nearest name
     refused("", "has no value");
     refused("blur", "choose among: bilateral, bloom");
     refused("median,gaussian", "once for each");
+    refused("path-densty:k=3", "write path-density");
+    refused("path-density:k=0", "whole number from 1 to 256");
+    refused("path-density:low=5", "number from 0 to 4");
+    refused("trim", "add --bounces 1 or more");
     refused("median:radus=1", "write radius");
     refused("median:radius", "write median:radius=1");
     refused("median:", "no name");
@@ -90,6 +94,23 @@ TEST_CASE("what is wrong with filters is said in one line, with the nearest name
     refused("gaussian:sigma=nan", "number from 0 to 32");
     refused("gaussian:sigma=1e9", "number from 0 to 32");
     refused("gaussian:sigma=", "number from 0 to 32");
+    const auto refusedCall = [&](const Arguments& more, const std::string& says) {
+        Arguments arguments = { "render", box, "--bounces", "1", "--spp", "16", "-o", "a.exr" };
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = place.run(arguments);
+        CAPTURE(outcome.err);
+        CHECK(outcome.status == wrongCall);
+        CHECK(contains(outcome.err, says));
+        CHECK(std::ranges::count(outcome.err, '\n') == 1);
+    };
+    refusedCall({ "--add-filter", "median", "--add-filter", "clamp" }, "give clamp before median");
+    refusedCall({ "--add-filter", "gmon", "--add-filter", "clamp" }, "gmon and clamp: leave one out");
+    refusedCall({ "--add-filter", "gmon", "--antialias" }, "neither antialiased nor progressive: gmon");
+    refusedCall({ "--add-filter", "gmon", "--progressive" }, "neither antialiased nor progressive: gmon");
+    const Outcome tight = place.run({ "render", box, "--bounces", "1", "--method", "mc", "--spp", "1048576",
+        "--add-filter", "trim", "-o", "a.exr" });
+    CHECK(tight.status == failure);
+    CHECK(contains(tight.err, "take fewer samples with --spp"));
     const auto refusedScene = [&](const std::string& table, const std::string& says) {
         writeScene(place, table);
         const Outcome outcome = place.run({ "render", "scene.toml", "-o", "a.exr" });
@@ -99,7 +120,8 @@ TEST_CASE("what is wrong with filters is said in one line, with the nearest name
         CHECK(contains(outcome.err, says));
         CHECK(std::ranges::count(outcome.err, '\n') == 1);
     };
-    refusedScene("\n[[filter]]\ntype = \"medan\"\n", "use one of: gaussian, bilateral, median");
+    refusedScene("\n[[filter]]\ntype = \"medan\"\n", "use one of: path-density, clamp, trim");
+    refusedScene("\n[[filter]]\ntype = \"median\"\n[[filter]]\ntype = \"trim\"\n", "give trim before median");
     refusedScene("\n[[filter]]\nradius = 1\n", "add 'type = ...'");
     refusedScene("\n[[filter]]\ntype = \"median\"\nradus = 1\n", "did you mean 'radius'");
     refusedScene("\n[[filter]]\ntype = \"median\"\nradius = 7\n", "0 to 3");

@@ -1,5 +1,5 @@
-// What holds of every filter of finished images, over whole frames (host/render/image_filter.h).
-#include "host/render/image_filter.h"
+// What holds of every filter, of samples and of finished images, over whole frames (host/render/filter_chain.h).
+#include "host/render/filter_chain.h"
 #include "tests/image_means.h"
 #include "tests/render_support.h"
 
@@ -20,11 +20,13 @@ constexpr int width = 45, height = 34;
 /// Values of each filter that change an image.
 const std::map<std::string, std::vector<float>> effective = { { "gaussian", { 1.7f } }, { "bilateral", { 1.2f, 0.7f } },
     { "median", { 1 } }, { "mad-median", { 1, 2 } }, { "sharpen", { 1.3f, 0.6f } }, { "bloom", { 0.2f, 0.3f, 0.4f } },
-    { "colour", { 0.5f, 1.5f, 1, 0.7f } }, { "box", { 2 } } };
+    { "colour", { 0.5f, 1.5f, 1, 0.7f } }, { "box", { 2 } }, { "path-density", { 10, 0.2f, 1, 2, 0 } },
+    { "clamp", { 0.3f, 0, 0 } }, { "trim", { 0.3f, 1 } }, { "gmon", { 3, 1 } }, { "reweight", { 4, 0, 0 } } };
 /// And values that do not.
 const std::map<std::string, std::vector<float>> neutral = { { "gaussian", { 0 } }, { "bilateral", { 0, 1 } },
     { "median", { 0 } }, { "mad-median", { 0, 2 } }, { "sharpen", { 1, 0 } }, { "bloom", { 0.2f, 0, 2 } },
-    { "colour", { 0.5f, 2, 3, 0 } }, { "box", { 0 } } };
+    { "colour", { 0.5f, 2, 3, 0 } }, { "box", { 0 } }, { "path-density", { 10, 4, 4, 2, 0 } },
+    { "clamp", { 1e9f, 0, 0 } }, { "trim", { 0, 1 } }, { "gmon", { 1, 1 } }, { "reweight", { 0, 0, 0 } } };
 
 render::Settings plain(bool filtered = false)
 {
@@ -37,15 +39,26 @@ render::Settings with(render::Settings settings, const std::vector<std::string>&
     const std::map<std::string, std::vector<float>>& values = effective)
 {
     for (const std::string& name : filters)
-        settings.imageFilters.push_back({ name, values.at(name) });
+        settings.filters.push_back({ name, values.at(name) });
     return settings;
 }
 
-std::vector<std::string> registered()
+/// Names of all filters of that stage.
+std::vector<std::string> registered(render::Stage stage = render::Stage::Image)
 {
     std::vector<std::string> names;
-    for (const auto& filter : render::imageFilters())
-        names.push_back(filter->name());
+    for (const auto& filter : render::registeredFilters())
+        if (filter->stage() == stage)
+            names.push_back(filter->name());
+    return names;
+}
+
+/// Of every stage.
+std::vector<std::string> all()
+{
+    std::vector<std::string> names = registered(render::Stage::Samples);
+    for (std::string& name : registered())
+        names.push_back(std::move(name));
     return names;
 }
 
@@ -70,10 +83,10 @@ float medianAt(const std::vector<float>& image, int x, int y, const At& at)
 
 } // namespace
 
-TEST_CASE("every filter of images has values here, within its ranges, and changes an image or does not")
+TEST_CASE("every filter has values here, within its ranges, and changes an image or does not")
 {
-    CHECK(registered().size() == effective.size());
-    for (const auto& filter : render::imageFilters()) {
+    CHECK(all().size() == effective.size());
+    for (const auto& filter : render::registeredFilters()) {
         CAPTURE(filter->name());
         const std::vector<render::FilterParameter> parameters = filter->parameters();
         for (const auto* values : { &effective, &neutral }) {
@@ -90,7 +103,7 @@ TEST_CASE("every filter of images has values here, within its ranges, and change
         const scene::Scene scene = richScene();
         render::Renderer renderer(scene, device, renderOptions());
         const std::vector<float> before = rendered(renderer, plain());
-        for (const std::string& name : registered()) {
+        for (const std::string& name : all()) {
             CAPTURE(name);
             CHECK(sameBits(rendered(renderer, with(plain(), { name }, neutral)), before));
             const std::vector<float> after = rendered(renderer, with(plain(), { name }));
@@ -135,14 +148,15 @@ TEST_CASE("a crop of a filtered image has the bits of the whole, whatever lay in
         poisoned.poison = true;
         render::Renderer renderer(scene, device, renderOptions()), other(scene, device, poisoned);
         std::vector<std::vector<std::string>> chains;
-        for (const std::string& name : registered())
+        for (const std::string& name : all())
             chains.push_back({ name });
         chains.push_back({ "median", "gaussian" });
         chains.push_back(registered());
+        chains.push_back({ "path-density", "median" });
         for (const bool distributed : { false, true }) {
             for (const std::vector<std::string>& chain : chains) {
-                if (distributed && chain.size() == 1)
-                    continue; // one after the other is enough
+                if (distributed && (chain.size() == 1 || chain.front() == "path-density"))
+                    continue; // one after the other is enough; and those of samples are of frames through a pinhole
                 CAPTURE(distributed);
                 CAPTURE(chain.front());
                 render::Settings s = with(plain(), chain);
@@ -174,9 +188,9 @@ TEST_CASE("filters are done in the order that they are given, one over what the 
         CHECK_FALSE(sameBits(of({ "median", "gaussian" }), of({ "gaussian", "median" })));
         // Of a colour that is everywhere the same the order does not matter but for rounding; twice it is squared.
         render::Settings twice = plain();
-        twice.imageFilters = { { "colour", { 0.5f, 2, 1, 1 } }, { "colour", { 0.5f, 2, 1, 1 } } };
+        twice.filters = { { "colour", { 0.5f, 2, 1, 1 } }, { "colour", { 0.5f, 2, 1, 1 } } };
         render::Settings once = plain();
-        once.imageFilters = { { "colour", { 0.25f, 4, 1, 1 } } };
+        once.filters = { { "colour", { 0.25f, 4, 1, 1 } } };
         CHECK(sameBits(rendered(renderer, twice), rendered(renderer, once)));
     });
 }

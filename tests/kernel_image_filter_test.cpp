@@ -37,7 +37,7 @@ const std::vector<Area>& areas()
 render::Settings everyFilter()
 {
     render::Settings s = sized(render::monteCarlo(4), 45, 31);
-    s.imageFilters = { { "gaussian", { 2.0f } }, { "bilateral", { 2.0f, 1.0f } }, { "median", { 1.0f } },
+    s.filters = { { "gaussian", { 2.0f } }, { "bilateral", { 2.0f, 1.0f } }, { "median", { 1.0f } },
         { "mad-median", { 1.0f, 4.45f } }, { "sharpen", { 1.5f, 0.5f } }, { "bloom", { 1.0f, 0.1f, 3.0f } },
         { "colour", { 1.0f, 0.5f, 0.25f, 0.6f } }, { "box", { 1.0f } } };
     return s;

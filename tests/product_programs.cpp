@@ -3,7 +3,7 @@
 #include "filters/temporal/temporal.h"
 #include "host/error.h"
 #include "host/render/distributed_frame.h"
-#include "host/render/image_filter.h"
+#include "host/render/filter_chain.h"
 #include "host/render/pixel_frame.h"
 #include "host/render/progressive.h"
 #include "host/scene/scene.h"
@@ -18,14 +18,23 @@ namespace {
 
 using render::Settings;
 
-/// All that are registered, with their defaults, but for a colour, which has no pass with those.
+/// With its defaults, but for a colour, which has no pass with those.
+render::ChosenFilter chosen(const render::Filter& filter)
+{
+    render::ChosenFilter out { filter.name(), {} };
+    for (const render::FilterParameter& parameter : filter.parameters()) {
+        out.values.push_back(parameter.name == "red" ? 0.5f : parameter.standard);
+    }
+    return out;
+}
+
+/// All of that stage that are registered.
 std::vector<render::ChosenFilter> everyImageFilter()
 {
     std::vector<render::ChosenFilter> out;
-    for (const auto& filter : render::imageFilters()) {
-        out.push_back({ filter->name(), {} });
-        for (const render::FilterParameter& parameter : filter->parameters()) {
-            out.back().values.push_back(parameter.name == "red" ? 0.5f : parameter.standard);
+    for (const auto& filter : render::registeredFilters()) {
+        if (filter->stage() == render::Stage::Image) {
+            out.push_back(chosen(*filter));
         }
     }
     return out;
@@ -63,7 +72,13 @@ std::vector<Settings> manySettings()
         s.maaf = render::Maaf::Refitted;
         s.components = 3;
     });
-    add(1, [](Settings& s) { s.imageFilters = everyImageFilter(); });
+    add(1, [](Settings& s) { s.filters = everyImageFilter(); });
+    for (const auto& filter : render::registeredFilters()) {
+        if (filter->stage() == render::Stage::Samples) {
+            add(6, [&](Settings& s) { s.filters = { chosen(*filter) }; }); // bounced, filtered
+            add(7, [&](Settings& s) { s.filters = { chosen(*filter) }; }); // and plain
+        }
+    }
     return out;
 }
 

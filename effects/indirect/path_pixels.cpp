@@ -64,7 +64,20 @@ PixelTerm::CountsFrom PathPixels::countsFrom() const
 
 std::uint32_t PathPixels::mostSamples() const
 {
-    return static_cast<std::uint32_t>(isUniform() ? s_.spp : std::max(s_.indirect.maxSpp, s_.spp));
+    const int most = isUniform() ? s_.spp : std::max(s_.indirect.maxSpp, s_.spp);
+    // Memory has room for as many of every pixel of a band.
+    constexpr std::int64_t mostOfStored = 4;
+    const bool stored = sampleFilter().filter != nullptr;
+    return static_cast<std::uint32_t>(stored ? std::min<std::int64_t>(most, mostOfStored * s_.spp) : most);
+}
+
+shared::AnalysisParams PathPixels::countParams() const
+{
+    shared::AnalysisParams p = pathCountParams(f_.analysisParams(), component_, s_);
+    if (sampleFilter().filter != nullptr) {
+        p.countCap = std::max(mostSamples(), p.leastCount);
+    }
+    return p;
 }
 
 void PathPixels::start()

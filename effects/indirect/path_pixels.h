@@ -21,6 +21,10 @@ private:
     std::uint32_t mostSamples() const override;
     CountsFrom countsFrom() const override;
     bool keepsParts() const override { return varies(); }
+    bool isOfSampleFilters() const override
+    {
+        return component_ == Component::Diffuse || component_ == Component::Glossy;
+    }
     void start() override;
     void widths() override;
     Uncertain uncertainty() override;
@@ -43,14 +47,14 @@ private:
     bool byCurvature() const { return isByCurvature(component_, s_); }
     bool widensHere() const { return widens(s_) && !byCurvature(); }
     shared::FilterParams filterParams() const { return pathFilterParams(f_, component_); }
-    shared::AnalysisParams countParams() const { return pathCountParams(f_.analysisParams(), component_, s_); }
+    shared::AnalysisParams countParams() const;
     shared::ReflectorParams reflectorParams() const { return render::reflectorParams(f_, component_); }
     graph::Argument component() const { return graph::value("component", static_cast<std::uint32_t>(component_)); }
 
     Component component_;
     graph::Handle<Reflectance> reflectance_;
     int vertices_; ///< of a path
-    AxisWidths axes_;
+    AxisWidths axes_; ///< where they follow from curvatures; beta_ is their mean then
     graph::Handle<Value> irradiance_;
     graph::Handle<Deviation> deviation_;
     graph::Handle<Share> weights_;

@@ -1,12 +1,15 @@
 #include "filters/image/filter_section.h"
 
-#include "host/render/image_filter.h"
+#include "host/error.h"
+#include "host/render/filter_chain.h"
 #include "host/scene/sections.h"
 
 #include <algorithm>
 #include <iterator>
 #include <optional>
 #include <string>
+
+#include <fmt/format.h>
 
 namespace wedge::filters {
 
@@ -25,9 +28,9 @@ std::any readFilter(scene::TableReader& table, scene::Warnings& /*warnings*/)
 {
     std::vector<std::string> types;
     std::ranges::transform(
-        render::imageFilters(), std::back_inserter(types), [](const auto& filter) { return filter->name(); });
+        render::registeredFilters(), std::back_inserter(types), [](const auto& filter) { return filter->name(); });
     ChosenFilter chosen { table.require("type", table.choice("type", types)), {} };
-    for (const render::FilterParameter& parameter : render::imageFilter(chosen.name)->parameters()) {
+    for (const render::FilterParameter& parameter : render::filterNamed(chosen.name)->parameters()) {
         const auto value = [&]() -> std::optional<double> {
             if (!parameter.whole) {
                 return table.number(parameter.name, parameter.least, parameter.most);
@@ -53,6 +56,9 @@ std::vector<ChosenFilter> filtersOf(const scene::Scene& scene)
         if (const auto& chosen = std::any_cast<const std::optional<ChosenFilter>&>(each)) {
             out.push_back(*chosen);
         }
+    }
+    if (const auto wrong = render::wrongOrder(out, "[[filter]]")) {
+        throw Error(fmt::format("scene file {}: {}", scene.path, wrong->what), wrong->value, wrong->remedy);
     }
     return out;
 }

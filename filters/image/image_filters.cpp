@@ -1,5 +1,5 @@
 // Filters of finished images (kernels/filter/image.cl, docs/image-filters.md).
-#include "host/render/image_filter.h"
+#include "host/render/filter_chain.h"
 #include "kernels/shared/image_filter.h"
 
 #include <algorithm>
@@ -207,8 +207,7 @@ public:
     }
 };
 
-const bool registered =
-    render::registerImageFilters<Gaussian, Bilateral, Median, MadMedian, Sharpen, Bloom, Colour, Box>();
+const bool registered = render::registerFilters<Gaussian, Bilateral, Median, MadMedian, Sharpen, Bloom, Colour, Box>();
 
 } // namespace
 } // namespace wedge::filters

@@ -2,7 +2,7 @@
 
 #include "host/app/values.h"
 #include "host/error.h"
-#include "host/render/image_filter.h"
+#include "host/render/filter_chain.h"
 #include "host/scene/nearest.h"
 
 #include <algorithm>
@@ -60,13 +60,14 @@ render::ChosenFilter filterCall(const std::string& text)
 {
     const std::size_t colon = text.find(':');
     const std::string name = text.substr(0, colon);
-    const render::ImageFilter* filter = render::imageFilter(name);
+    const render::Filter* filter = render::filterNamed(name);
     if (filter == nullptr) {
         const bool several = name.find(',') != std::string::npos;
         throw UsageError(several ? "filters are given one by one" : "unknown filter",
             fmt::format("{} {}", option, text),
-            several ? fmt::format("give {} once for each", option)
-                    : remedy(name, namesOf(render::imageFilters(), [](const auto& each) { return each->name(); })));
+            several
+                ? fmt::format("give {} once for each", option)
+                : remedy(name, namesOf(render::registeredFilters(), [](const auto& each) { return each->name(); })));
     }
     const std::vector<render::FilterParameter> parameters = filter->parameters();
     render::ChosenFilter chosen { name, {} };
@@ -102,7 +103,14 @@ render::ChosenFilter filterCall(const std::string& text)
 std::string filterList()
 {
     std::string out;
-    for (const auto& filter : render::imageFilters()) {
+    const render::Filter* before = nullptr;
+    for (const auto& filter : render::registeredFilters()) {
+        if (before == nullptr || before->stage() != filter->stage()) {
+            out += filter->stage() == render::Stage::Samples
+                ? "\nFilters of samples of indirect light, and their parameters; a frame has one at most:\n"
+                : "\nFilters of the image, and their parameters:\n";
+        }
+        before = filter.get();
         out += fmt::format("  {:<17} {}\n", filter->name(), filter->meaning());
         for (const render::FilterParameter& each : filter->parameters()) {
             out += fmt::format("    {:<15} {:g} to {:g}, default {:g}: {}\n", each.name, each.least, each.most,

@@ -6,7 +6,7 @@
 #include "host/app/values.h"
 #include "host/device/memory_plan.h"
 #include "host/render/effect.h"
-#include "host/render/image_filter.h"
+#include "host/render/filter_chain.h"
 #include "host/render/renderer.h"
 #include "host/render/report.h"
 #include "host/scene/scene.h"

@@ -96,11 +96,12 @@ void addFrameOptions(CLI::App& parser, RenderOptions& o)
         .add_option_function<std::vector<std::string>>(
             "--add-filter",
             [&o](const std::vector<std::string>& texts) {
-                o.imageFilters.clear();
-                std::ranges::transform(texts, std::back_inserter(o.imageFilters), filterCall);
+                o.filters.clear();
+                std::ranges::transform(texts, std::back_inserter(o.filters), filterCall);
             },
-            "Filter the finished image, listed below: median, bilateral:sigma=2,tolerance=0.5; several are done in the "
-            "order given, after the scene's")
+            "Filter samples or the finished image, listed below: path-density, bilateral:sigma=2,tolerance=0.5; "
+            "several "
+            "are done in the order given, after the scene's")
         ->type_name("FILTER")
         ->allow_extra_args(false)
         ->group(whatGroup);
@@ -288,7 +289,7 @@ std::string footer()
         text += fmt::format(
             "  {:<17} {}\n", layer.name, fmt::format("{}: {}", fmt::join(layer.channels, " "), layer.meaning));
     }
-    return text + "\nFilters of the image, and their parameters:\n" + filterList()
+    return text + filterList()
         + "\nExit status: 0 done, 1 failure, 2 wrong call, 130 interrupted by a signal (what was there is "
           "written).\n";
 }

@@ -62,7 +62,7 @@ struct RenderOptions {
     std::vector<std::string> changeTexts; ///< the same as they were given
     std::optional<FrameRange> frames; ///< of a sequence
     std::optional<double> fps; ///< frames in one unit of the keys' time
-    std::vector<render::ChosenFilter> imageFilters; ///< after the scene's
+    std::vector<render::ChosenFilter> filters; ///< after the scene's
     bool noFilters = false; ///< without the scene's
     std::optional<render::Temporal> temporal; ///< likewise
 

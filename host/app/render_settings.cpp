@@ -237,6 +237,20 @@ void refuseUndistributed(const RenderOptions& o, const std::string& method)
     }
 }
 
+/// Filters of samples are of indirect light: where a call asks for one there has to be some. A scene file's waits for
+/// it.
+void refuseIdleSampleFilter(const RenderOptions& o, const render::Settings& s)
+{
+    const bool indirect = s.integrator == Integrator::Path && s.bounces > 0;
+    render::Settings called = s;
+    called.filters = o.filters;
+    if (!indirect && render::sampleFilterOf(called).filter != nullptr) {
+        throw UsageError("filter of samples has no effect without indirect light",
+            fmt::format("--add-filter {}", o.filters.front().name),
+            s.integrator == Integrator::Path ? "add --bounces 1 or more" : "add --integrator path --bounces 1");
+    }
+}
+
 /// What goes with --progressive alone, and what does not go with it.
 void checkProgressive(const RenderOptions& o)
 {
@@ -290,10 +304,11 @@ render::Settings resolveSettings(const RenderOptions& o, const render::PreparedS
     s.sampler = o.sampler.value_or(s.sampler);
     s.progressive = o.progressive;
     s.temporal = o.temporal.value_or(render::Temporal::Off);
-    if (!o.noFilters) {
-        s.imageFilters = filters::filtersOf(scene);
+    if (const auto wrong = render::wrongOrder(o.filters, "--add-filter")) {
+        throw UsageError(wrong->what, wrong->value, wrong->remedy);
     }
-    s.imageFilters.insert(s.imageFilters.end(), o.imageFilters.begin(), o.imageFilters.end());
+    s.filters =
+        render::inStages(o.noFilters ? std::vector<render::ChosenFilter>() : filters::filtersOf(scene), o.filters);
     applyIntegrator(o, scene, s);
     s.antialias = o.antialias.value_or(file.antialias);
     refuse(o.pixelFilter && !s.antialias, "without antialiasing", "--pixel-filter", "add --antialias");
@@ -311,6 +326,7 @@ render::Settings resolveSettings(const RenderOptions& o, const render::PreparedS
         applyAblations(o, scene, distributed, s);
         applyCounts(o, scene, distributed, s);
     }
+    refuseIdleSampleFilter(o, s);
     render::validate(s, distributed);
     return s;
 }

@@ -88,17 +88,18 @@ void MemoryPlan::check(const DeviceInfo& device, std::uint64_t userLimitBytes) c
     }
     const Part& part = largest();
     const auto [limit, limitedByUser] = limitOf(device, userLimitBytes);
+    const std::string remedy = otherWayOut_.empty() ? wayOut : fmt::format("{}, {}", otherWayOut_, wayOut);
     const std::string needed =
         fmt::format("{}, the most of it for {} ({})", mebibytes(total()), part.name, mebibytes(part.bytes));
     if (total() > limit) {
         throw Error(fmt::format("memory needed on {} exceeds the {} {}", device.name, mebibytes(limit),
                         limitedByUser ? "that are allowed" : "that it has to give"),
-            needed, wayOut);
+            needed, remedy);
     }
     if (part.bytes > device.maxAllocation) {
         throw Error(fmt::format("memory needed on {} has a buffer above its limit of {}", device.name,
                         mebibytes(device.maxAllocation)),
-            needed, wayOut);
+            needed, remedy);
     }
 }
 

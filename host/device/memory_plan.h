@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wedge::device {
@@ -16,6 +17,9 @@ public:
     void add(std::string name, std::uint64_t bytes);
     /// One buffer of count elements.
     void addItems(std::string name, std::uint64_t count, std::uint64_t bytesEach);
+
+    /// What users may do besides a smaller image and another device: "take fewer samples with --spp".
+    void otherWayOut(std::string way) { otherWayOut_ = std::move(way); }
 
     /// Bytes of all buffers.
     std::uint64_t total() const;
@@ -39,6 +43,7 @@ private:
     const Part& largest() const;
 
     std::vector<Part> parts_;
+    std::string otherWayOut_;
 };
 
 /// "12.3 MiB", for messages.

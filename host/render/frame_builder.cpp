@@ -27,11 +27,11 @@ shared::AnalysisParams FrameBuilder::analysisParams() const
     return p;
 }
 
-graph::Argument FrameBuilder::frame() const
+graph::Argument FrameBuilder::frame(const RowsOf& rows) const
 {
     return graph::made(
-        "frame", [&scene = description, layout = layout, seed = frameSeed(settings)](const Launch& launch) {
-            return frameParams(scene, layout, launch.window, seed);
+        "frame", [&scene = description, layout = layout, seed = frameSeed(settings), rows](const Launch& launch) {
+            return frameParams(scene, layout, rows ? rows(launch) : launch.window, seed);
         });
 }
 
@@ -103,10 +103,10 @@ void FrameBuilder::precomputeDirections()
 }
 
 void FrameBuilder::trace(std::string name, graph::KernelName kernel, std::vector<graph::Argument> arguments,
-    bool everywhere, const std::function<double(const Launch&)>& workUnits)
+    bool everywhere, const std::function<double(const Launch&)>& workUnits, const RowsOf& rows)
 {
-    const auto tiles = [&scene = description, layout = layout](const Launch& launch) -> std::size_t {
-        return frameParams(scene, layout, launch.window, 0).tileCount;
+    const auto tiles = [&scene = description, layout = layout, rows](const Launch& launch) -> std::size_t {
+        return frameParams(scene, layout, rows ? rows(launch) : launch.window, 0).tileCount;
     };
     graph.add({ .name = std::move(name),
         .kind = PassKind::Trace,

@@ -106,6 +106,9 @@ struct TermState {
     bool analysed = false; ///< its first pass was completed: it has widths
 };
 
+/// Which of the pixels that a launch covers a pass is to do: null, all.
+using RowsOf = std::function<Window(const graph::Launch&)>;
+
 /// What effects and filters declare their passes with. Its device memory may be absent for a graph that is planned and
 /// not run.
 struct FrameBuilder {
@@ -140,7 +143,7 @@ struct FrameBuilder {
     shared::AnalysisParams analysisParams() const;
 
     /// FrameParams of the launch's pixels.
-    graph::Argument frame() const;
+    graph::Argument frame(const RowsOf& rows = {}) const;
     /// Those parameters with the launch's rectangle.
     template <class Params>
     graph::Argument rectangle(const Params& params) const
@@ -217,9 +220,10 @@ struct FrameBuilder {
         return outside(std::move(name), type, scene != nullptr ? &(scene->*member).cl() : nullptr);
     }
 
-    /// A pass over tiles of pixels that traces rays, which the user may stop in its middle.
+    /// A pass over tiles of pixels that traces rays, which the user may stop in its middle. rows: as its frame() has
+    /// them.
     void trace(std::string name, graph::KernelName kernel, std::vector<graph::Argument> arguments, bool everywhere,
-        const std::function<double(const graph::Launch&)>& workUnits);
+        const std::function<double(const graph::Launch&)>& workUnits, const RowsOf& rows = {});
     /// A pass over the 16-pixel blocks of rows, or over pixels.
     void blocks(std::string_view name, device::PassKind kind, graph::KernelName kernel,
         std::vector<graph::Argument> arguments, const std::function<bool(const graph::Run&)>& condition = {});

@@ -1,7 +1,7 @@
 #include "host/render/frame_graph.h"
 
 #include "host/render/distributed_samples.h"
-#include "host/render/image_filter.h"
+#include "host/render/filter_chain.h"
 
 namespace wedge::render {
 

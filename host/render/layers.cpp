@@ -2,6 +2,7 @@
 
 #include "host/error.h"
 #include "host/render/effect.h"
+#include "host/render/filter_chain.h"
 #include "host/render/metadata.h"
 
 #include <algorithm>
@@ -31,6 +32,7 @@ std::string widthLayers()
 /// All layers, in their order; those of effects last. Frames show each by its name (Outputs).
 std::vector<LayerInfo> layersOf(const Settings& settings, const PreparedScene* scene)
 {
+    const SampleFilter* samples = sampleFilterOf(settings).filter;
     const std::vector<std::string> rgb { "R", "G", "B" }, xyz { "X", "Y", "Z" };
     std::vector<LayerInfo> out = {
         { "albedo", rgb, "diffuse reflectance with its texture, 0 on a miss" },
@@ -57,6 +59,14 @@ std::vector<LayerInfo> layersOf(const Settings& settings, const PreparedScene* s
             "pixels to the right and down that the surface moves while the shutter is open, 0 on a miss", "", 0.0f },
         { "primarySamples", { "Y" }, "rays from the camera, 1 without lens, shutter and antialiasing", "", 1.0f },
         { "pixelSize", { "Y" }, "side of the pixel as it projects to the surface, metres, 0 on a miss" },
+        { "rejected", rgb,
+            "of terms that a filter of samples goes over, what their means lost by it, as it arrives, before it is "
+            "spread: rejectedIndirect, rejectedGlossy",
+            samples != nullptr ? "" : "the frame has no filter of samples (--add-filter path-density)", 0.0f },
+        { "pathDensity", { "Y" },
+            "of the same terms how alone their samples are, for filter path-density: their mean distance to the "
+            "nearest, 0 to 4 pixels",
+            samples != nullptr && samples->measuresDensity() ? "" : "the frame has no filter path-density", 0.0f },
         { "objectId", { "I" }, "number of the object hit, from 1; 0 on a miss, 4294967295 where several are" },
     };
     for (const auto& effect : effects()) {

@@ -120,6 +120,12 @@ void PixelFrame::addTerms(Part part)
         if (term.part == part) {
             const std::unique_ptr<PixelTerm> declared = term.inPixels(f_);
             declared->declare();
+            if (declared->rejected().graph != 0) {
+                outputs_.add({ "rejected", term.name, declared->rejected(), Where::OnSurfaces });
+            }
+            if (declared->density().graph != 0) {
+                outputs_.add({ "pathDensity", term.name, declared->density(), Where::OnSurfaces });
+            }
             if (keepsLayers_ && f_.analysed()) {
                 showWidths(f_, term, declared->state(), declared->beta(), f_.surfaces.pixelSize);
             }

@@ -3,6 +3,7 @@
 #include "host/render/filters/filter_graph.h"
 #include "host/render/frame_builder.h"
 #include "host/render/receiver_set.h"
+#include "host/render/stored_samples.h"
 
 #include <cstdint>
 #include <functional>
@@ -28,6 +29,10 @@ public:
     const std::shared_ptr<TermState>& state() const { return state_; }
     /// Widths of the filter, metres, which are written where the state says that it is analysed.
     const graph::Handle<Metres>& beta() const { return beta_; }
+    /// Of terms whose samples a filter has gone over, and layers: what their means lost, and their mean isolation; else
+    /// of no graph.
+    const graph::Handle<Radiance>& rejected() const { return rejected_; }
+    const graph::Handle<Share>& density() const { return density_; }
 
 protected:
     /// What its stages and its passes of samples are called.
@@ -68,6 +73,10 @@ protected:
     virtual CountsFrom countsFrom() const = 0;
     /// Whether samples leave the mean of a part of them, and means() makes that of all; else they leave the latter.
     virtual bool keepsParts() const = 0;
+    /// Whether filters of samples (filter_chain.h) are of this term.
+    virtual bool isOfSampleFilters() const { return false; }
+    /// The settings' filter of samples, of terms that have one.
+    ChosenSampleFilter sampleFilter() const;
     /// Adds what else becomes of samples, and what that is handed.
     virtual void keepMore(std::vector<graph::Sink>& /*sinks*/, Arguments& /*sunk*/) { }
 
@@ -99,13 +108,39 @@ protected:
     graph::Handle<Count> taken_, wanted_;
 
 private:
+    /// Samples `from` up to `most`, as far as pixels want them; mean: of what they want.
+    struct Draw {
+        const std::string& pass;
+        std::uint32_t from, most;
+        double mean;
+        bool measures = false; ///< what the analysis asks for
+        bool everywhere = false; ///< in the whole image
+    };
+
     void plain();
-    /// Takes samples `from` up to `most`, as far as pixels want them. first: those of the analysis, in the whole image.
-    void sample(const std::string& pass, bool first, std::uint32_t from, std::uint32_t most);
+    /// The samples of the analysis in the whole image, and then those that it asks for.
+    void sampleInPasses();
+    Draw firstPass() const;
+    Draw secondPass() const;
+    /// Says in the state whether the samples of the analysis are complete.
+    void analysable();
+    /// Takes samples for what terms without filters of samples keep.
+    void sample(const Draw& draw);
+    /// Takes samples for those sinks, which are handed `sunk`; taken: what counts them.
+    void sample(const Draw& draw, const graph::Handle<Count>& wanted, graph::Handle<Count>& taken,
+        std::vector<graph::Sink> becoming, Arguments sunk);
+    /// All samples, through the filter of samples: those of the analysis; and where counts follow from what is kept of
+    /// them, these once more with all others.
+    void filterSamples();
+    /// Samples up to `most`, band by band. measures: those of the analysis among them.
+    void sampleBands(StoredSamples& stored, std::uint32_t most, bool measures);
+    void exposeSamples(StoredSamples& stored);
     void counts();
     void countSamples();
 
     Names names_;
+    graph::Handle<Radiance> rejected_;
+    graph::Handle<Share> density_;
     std::shared_ptr<TermState> state_ = std::make_shared<TermState>();
 };
 

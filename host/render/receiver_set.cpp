@@ -39,7 +39,7 @@ graph::Argument PixelReceivers::tallyPathRays()
 void PixelReceivers::trace(std::string name, graph::KernelName kernel, Arguments arguments,
     const std::function<double(const graph::Launch&)>& workUnits)
 {
-    f_.trace(std::move(name), std::move(kernel), std::move(arguments), false, workUnits);
+    f_.trace(std::move(name), std::move(kernel), std::move(arguments), false, workUnits, rows_);
 }
 
 void PixelReceivers::countRays()

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace wedge::render {
 
@@ -43,7 +44,7 @@ class PixelReceivers : public ReceiverSet {
 public:
     explicit PixelReceivers(FrameBuilder& frame);
 
-    graph::Argument frame() const override { return f_.frame(); }
+    graph::Argument frame() const override { return f_.frame(rows_); }
     const Surfaces& surfaces() const override { return f_.surfaces; }
     Arguments arguments() const override;
     graph::Argument sampleOf() const override { return graph::absent("sampleOf", graph::counts); }
@@ -53,6 +54,10 @@ public:
     void trace(std::string name, graph::KernelName kernel, Arguments arguments,
         const std::function<double(const graph::Launch&)>& workUnits) override;
 
+    /// Has passes after it sample those of a launch's pixels alone.
+    void limit(RowsOf rows) { rows_ = std::move(rows); }
+    const RowsOf& rows() const { return rows_; }
+
     /// Adds what was tallied to the frame's totals, after a pass that traced some; and begins anew, so that nothing of
     /// it takes memory until there are more.
     void countRays();
@@ -61,6 +66,7 @@ private:
     void begin();
 
     FrameBuilder& f_;
+    RowsOf rows_;
     graph::Handle<Count> rays_, pathRays_;
     bool tallied_ = false, pathsTallied_ = false; ///< by a pass: counting alone has nobody clear a plane
 };

@@ -6,6 +6,7 @@
 #include "host/render/compilers.h"
 #include "host/render/distributed_frame.h"
 #include "host/render/effect.h"
+#include "host/render/filter_chain.h"
 #include "host/render/glass.h"
 #include "host/render/halves.h"
 #include "host/render/pixel_frame.h"
@@ -195,6 +196,9 @@ void Renderer::addLasting(device::MemoryPlan& plan, const PreparedScene& scene, 
     const Settings& settings, const FrameFilter* filter)
 {
     DeviceScene::plan(plan, scene, hierarchy);
+    if (sampleFilterOf(settings).filter != nullptr) {
+        plan.otherWayOut("take fewer samples with --spp, which filters of samples keep"); // of a band of rows
+    }
     if (filter != nullptr) {
         filter->addTo(plan, settings, scene);
     }

@@ -1,6 +1,7 @@
 #include "host/render/settings.h"
 
 #include "host/error.h"
+#include "host/render/filter_chain.h"
 #include "kernels/shared/camera.h"
 #include "kernels/shared/frame.h"
 #include "kernels/shared/indirect.h"
@@ -102,6 +103,26 @@ void validateCounts(const Settings& s, bool distributed)
     requireRange(!distributed || s.progressive || s.spp <= mostDistributedSpp, "samples a pixel",
         fmt::format("{}", s.spp),
         fmt::format("{} or less through a lens or shutter, or with antialiasing", mostDistributedSpp));
+}
+
+/// Of filters of samples.
+void validateSampleFilter(const Settings& s, bool distributed)
+{
+    const auto filter = std::ranges::find_if(
+        s.filters, [](const ChosenFilter& chosen) { return filterNamed(chosen.name)->stage() == Stage::Samples; });
+    if (sampleFilterOf(s).filter == nullptr) {
+        return;
+    }
+    if (distributed) {
+        throw UsageError("filters of samples are of frames through a pinhole where nothing moves, neither antialiased "
+                         "nor progressive",
+            filter->name, "leave it out, a scene's with --no-filters, or choose a filter of the image");
+    }
+    if (s.method == Method::AxisAligned && s.sampling == Sampling::Adaptive
+        && s.indirect.counts == IndirectCounts::Spectrum) {
+        throw UsageError("filters of samples do not go with counts from the spectrum, which know no samples",
+            filter->name, "add --counts variance or --sampling uniform, or leave it out");
+    }
 }
 
 } // namespace
@@ -248,6 +269,7 @@ void validate(const Settings& s, bool distributed)
     requireRange(std::isfinite(in.ambientDistance) && in.ambientDistance >= 0, "ambient occlusion distance",
         text(in.ambientDistance), "metres above 0");
     validateDistributed(s.distributed);
+    validateSampleFilter(s, distributed);
     requireRange(
         !s.progressive || !s.published, "progressive render", "as published", "counts that are not the published ones");
     requireRange(!s.progressive || s.method == Method::MonteCarlo || s.spp >= leastProgressiveSpp,

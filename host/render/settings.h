@@ -103,7 +103,7 @@ enum class Temporal {
     Published, ///< of the frame before, whatever lights it: (6.24) to (6.26) of thesis chapter 6
 };
 
-/// A filter of the finished image, by its name, and its parameters' values in their order (image_filter.h).
+/// A filter, by its name, and its parameters' values in their order (filter_chain.h).
 struct ChosenFilter {
     std::string name;
     std::vector<float> values;
@@ -218,7 +218,7 @@ struct Settings {
     bool antialias = false; ///< pixels are what pixelFilter makes of their surroundings, not their centres
     PixelFilter pixelFilter = PixelFilter::Box;
     DistributedSettings distributed;
-    std::vector<ChosenFilter> imageFilters; ///< what is done to the finished image, one after the other
+    std::vector<ChosenFilter> filters; ///< of samples and of the finished image, in the order of their stages
 
     Sampler sampler = Sampler::Sobol;
     Shading shading = Shading::Ratio;

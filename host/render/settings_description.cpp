@@ -1,5 +1,5 @@
 // Settings as names and values, for metadata and reports.
-#include "host/render/image_filter.h"
+#include "host/render/filter_chain.h"
 #include "host/render/settings.h"
 
 #include <fmt/format.h>
@@ -123,8 +123,8 @@ std::vector<std::pair<std::string, std::string>> describe(const Settings& s)
         out.emplace_back("antialias", "true");
         out.emplace_back("pixelFilter", pixelFilters[static_cast<int>(s.pixelFilter)]);
     }
-    if (!s.imageFilters.empty()) {
-        out.emplace_back("imageFilters", describe(s.imageFilters));
+    if (!s.filters.empty()) {
+        out.emplace_back("filters", describe(s.filters));
     }
     if (s.filtering == Filtering::Fixed) {
         out.emplace_back("fixedWidth", number(s.fixedWidth));

@@ -1,0 +1,111 @@
+#pragma once
+
+#include "host/render/frame_builder.h"
+#include "host/render/settings.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wedge::render {
+
+/// A number that a filter takes.
+struct FilterParameter {
+    std::string name;
+    double least = 0, most = 0; ///< its range
+    float standard = 0; ///< what it is where nobody says
+    std::string meaning; ///< one line, units
+    bool whole = false; ///< whole numbers alone
+};
+
+/// Where in a frame a filter acts, in the order in which frames come there.
+enum class Stage {
+    Samples, ///< of a term, before anything is made of them
+    Image, ///< finished
+};
+
+/// What users choose by name, of any stage.
+class Filter {
+public:
+    Filter() = default;
+    virtual ~Filter() = default;
+    Filter(const Filter&) = delete;
+    Filter& operator=(const Filter&) = delete;
+
+    virtual Stage stage() const = 0;
+    virtual std::string name() const = 0; ///< no other filter's
+    virtual std::string meaning() const = 0; ///< one line
+    virtual std::vector<FilterParameter> parameters() const = 0;
+};
+
+/// Something that is done to the finished image, linear radiance, whatever it shows: passes over the beauty alone,
+/// after all others of the frame. It traces nothing, and knows neither samples nor what came before.
+class ImageFilter : public Filter {
+public:
+    Stage stage() const final { return Stage::Image; }
+    /// Declares its passes over `image` and returns what they make of it; of values that change nothing the image
+    /// itself. values: of the parameters, in their order and ranges.
+    virtual graph::Handle<Radiance> declare(
+        FrameBuilder& frame, const std::vector<float>& values, const graph::Handle<Radiance>& image) const = 0;
+};
+
+/// Something that says what of a pixel's samples of indirect light is kept, before means, variances and counts are made
+/// of them: a kernel over stored samples (kernels/filter/kept.h, stored_samples.h). It traces nothing.
+class SampleFilter : public Filter {
+public:
+    Stage stage() const final { return Stage::Samples; }
+    /// Whether these values keep all samples: then none is stored.
+    virtual bool keepsAll(const std::vector<float>& values) const = 0;
+    /// The kernel, and what it is handed besides samples and sums. filtered: whether the image is filtered afterwards,
+    /// by what the analysis says (method aaf).
+    virtual graph::KernelName kernel() const = 0;
+    virtual std::vector<graph::Argument> arguments(const std::vector<float>& values, bool filtered) const = 0;
+    /// Standard deviation, pixels, of the Gaussian by which what is left out is spread over its surface; 0: it is lost.
+    virtual float spread(const std::vector<float>& values) const = 0;
+    /// Whether its kernel tells the mean isolation of pixels' samples, `density`.
+    virtual bool measuresDensity() const { return false; }
+    /// What colours are multiplied by before they are compared; 0: as the frame's median says.
+    virtual float exposure(const std::vector<float>& values) const = 0;
+};
+
+/// All that there are, by what they are registered as: those of samples first.
+const std::vector<std::unique_ptr<const Filter>>& registeredFilters();
+/// Of that name; null where there is none.
+const Filter* filterNamed(const std::string& name);
+
+/// Adds one. Not while anybody renders.
+void registerFilter(std::unique_ptr<const Filter> filter);
+/// Adds filters of these types before the program starts: the initial value of a constant, true.
+template <class... Filters>
+bool registerFilters()
+{
+    (registerFilter(std::make_unique<Filters>()), ...);
+    return true;
+}
+
+/// "path-density:k=10 colour:density=0.5", as --add-filter takes them, of registered filters.
+std::string describe(const std::vector<ChosenFilter>& filters);
+
+/// A list in the order of stages: those of `more` come after those of `first` in each. Throws UsageError for two
+/// filters of samples, which frames have one of.
+std::vector<ChosenFilter> inStages(std::vector<ChosenFilter> first, const std::vector<ChosenFilter>& more);
+/// What is wrong with a list where a filter comes after one of a later stage, and names both: what, the value, the way
+/// out. call: how a user writes a filter.
+struct WrongOrder {
+    std::string what, value, remedy;
+};
+std::optional<WrongOrder> wrongOrder(const std::vector<ChosenFilter>& filters, const std::string& call);
+
+/// The settings' filter of samples and its values; a null filter where there is none, or it keeps all.
+struct ChosenSampleFilter {
+    const SampleFilter* filter = nullptr;
+    std::vector<float> values;
+};
+ChosenSampleFilter sampleFilterOf(const Settings& settings);
+
+/// Declares the settings' filters of the image over a frame's, one after the other. Throws std::logic_error for a
+/// filter that is not registered.
+graph::Handle<Radiance> filteredImage(FrameBuilder& frame, graph::Handle<Radiance> image);
+
+} // namespace wedge::render

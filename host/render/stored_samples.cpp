@@ -1,0 +1,211 @@
+#include "host/render/stored_samples.h"
+
+#include "host/graph/execution.h"
+#include "kernels/shared/frame.h"
+#include "kernels/shared/sample_filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace wedge::render {
+
+using device::PassKind;
+using graph::Launch;
+using graph::reads;
+using graph::readsAsIs;
+using graph::tallies;
+using graph::updates;
+using graph::value;
+using graph::writes;
+
+namespace {
+
+constexpr const char* pass = "filters of samples";
+constexpr int reach = WEDGE_SAMPLE_REACH;
+constexpr std::uint32_t channels = 3;
+
+/// Rows of a band: whole tiles, and as many as there is memory for that is no more than other planes of a large frame
+/// have; at least one row of tiles, whatever that takes.
+int rowsOfBand(const PlaneLayout& layout, std::uint32_t perPixel)
+{
+    constexpr std::uint64_t budget = 32u << 20; // bytes
+    const std::uint64_t ofRow =
+        std::uint64_t { layout.stride } * perPixel * channels * (sizeof(float) + sizeof(std::uint16_t));
+    const std::uint64_t rows = std::max<std::uint64_t>(budget / ofRow, 2 * reach + WEDGE_TILE) - 2 * reach;
+    const std::uint64_t image = (layout.height + WEDGE_TILE - 1) / WEDGE_TILE * WEDGE_TILE;
+    return static_cast<int>(std::min(rows / WEDGE_TILE * WEDGE_TILE, image));
+}
+
+/// Rows first to before last of a window.
+Window rowsFrom(const Window& window, std::int64_t first, std::int64_t last)
+{
+    const auto row = [&](std::int64_t y) {
+        return static_cast<int>(std::clamp<std::int64_t>(y, window.y0, window.y1));
+    };
+    return { window.x0, row(first), window.x1, row(last) };
+}
+
+} // namespace
+
+StoredSamples::StoredSamples(
+    FrameBuilder& frame, ChosenSampleFilter chosen, std::uint32_t perPixel, std::uint32_t first)
+    : excess(frame.graph.plane<Radiance>("light of rejected samples", graph::vectors))
+    , frame_(frame)
+    , chosen_(std::move(chosen))
+    , perPixel_(perPixel)
+    , first_(first)
+    , exposure_(frame.graph.list<Share>("exposure of stored samples", graph::floats, 1))
+{
+    frame.zero(excess);
+    declareLists();
+    if (!probed()) {
+        frame.fill("exposure", exposure_, chosen_.filter->exposure(chosen_.values));
+    }
+}
+
+void StoredSamples::declareLists()
+{
+    graph::Graph& g = frame_.graph;
+    rows_ = rowsOfBand(frame_.layout, perPixel_);
+    // The last band has its own pixels filtered, and needs no band after it.
+    const auto rows = static_cast<std::uint32_t>(rows_);
+    count_ = (frame_.layout.height + reach + rows - 1) / rows;
+    slots_ = (rows + 2 * reach) * frame_.layout.stride;
+    const std::uint64_t numbers = std::uint64_t { slots_ } * perPixel_ * channels;
+    drawn = g.plane<Count>("samples drawn", graph::counts);
+    radiance_ = g.list<Radiance>("radiance of stored samples", graph::floats, numbers);
+    // Sixteen are read at once, some beyond a pixel's last.
+    colours_ = g.list<Packed>("colours of stored samples", shortCounts, numbers + 16);
+    ranges_ = g.list<Extremes>("ranges of stored samples", graph::floats, std::uint64_t { 2 } * slots_);
+    frame_.zero(drawn, radiance_, colours_, ranges_);
+}
+
+StoredSamples StoredSamples::ofMore(std::uint32_t perPixel) const
+{
+    StoredSamples out = *this;
+    out.perPixel_ = perPixel;
+    out.replaces_ = true;
+    out.declareLists();
+    return out;
+}
+
+void StoredSamples::takeKept(const StoredSamples& other)
+{
+    sums = other.sums;
+    taken = other.taken;
+    parts = other.parts;
+    excess = other.excess;
+    density = other.density;
+}
+
+graph::Handle<Count> StoredSamples::probes()
+{
+    auto wanted = frame_.graph.plane<Count>("samples of probes wanted", graph::counts);
+    frame_.pixels("exposure of samples", PassKind::Analysis, { "filter/exposure.cl", "probeCounts" },
+        { frame_.rectangle(frame_.analysisParams()), reads("objectId", frame_.surfaces.objectId),
+            writes("wanted", wanted) });
+    return wanted;
+}
+
+void StoredSamples::expose(const graph::Handle<Sums>& ofProbes, const graph::Handle<Count>& takenByProbes)
+{
+    auto bins = frame_.graph.list<Count>("bins of luminances", graph::counts, WEDGE_PROBE_BINS);
+    frame_.items("exposure of samples", PassKind::Analysis, { "filter/exposure.cl", "exposureOfProbes" }, 1,
+        { frame_.rectangle(frame_.analysisParams()), reads("sums", ofProbes), reads("taken", takenByProbes),
+            writes("bins", bins), writes("exposure", exposure_) });
+}
+
+RowsOf StoredSamples::rows() const
+{
+    return [rows = rows_](const Launch& launch) {
+        const auto band = static_cast<std::int64_t>(launch.run.iteration(1));
+        return rowsFrom(launch.window, band * rows, (band + 1) * rows);
+    };
+}
+
+graph::Sink StoredSamples::sink() const
+{
+    return { .file = "sinks/band_samples.h",
+        .name = "BandSamples",
+        .begin = { "slots", "exposure", "ranges" },
+        .take = { "slots", "perPixel", "radiance", "colours" },
+        .finish = { "slots", "ranges" } };
+}
+
+Arguments StoredSamples::sunk()
+{
+    return graph::together("stored",
+        { value("slots", slots_), value("perPixel", perPixel_), reads("exposure", exposure_),
+            tallies("ranges", ranges_), tallies("radiance", radiance_), tallies("colours", colours_) });
+}
+
+void StoredSamples::keep()
+{
+    const shared::AnalysisParams whole = frame_.analysisParams();
+    const auto rows = [rows = rows_](const Launch& launch) {
+        const auto first = static_cast<std::int64_t>(launch.run.iteration()) * rows - reach;
+        return rowsFrom(launch.window, first, first + rows);
+    };
+    const auto p = graph::made("p", [whole, rows](const Launch& launch) {
+        shared::AnalysisParams out = whole;
+        setRectangle(out, rows(launch));
+        return out;
+    });
+    const std::size_t most = std::size_t { frame_.layout.width } * static_cast<std::size_t>(rows_);
+    frame_.graph.add({ .name = pass,
+        .kind = PassKind::Filter,
+        .kernel = chosen_.filter->kernel(),
+        .arguments = joined({ p, value("firstPass", first_) },
+            graph::together("stored",
+                { value("slots", slots_), value("perPixel", perPixel_), reads("drawn", drawn, graph::around(reach)),
+                    readsAsIs("radiance", radiance_), readsAsIs("colours", colours_), readsAsIs("ranges", ranges_),
+                    reads("exposure", exposure_) }),
+            chosen_.filter->arguments(chosen_.values, frame_.analysed()),
+            graph::together("kept",
+                { updates("sums", sums), updates("excess", excess), updates("taken", taken),
+                    parts.graph != 0 ? updates("parts", parts) : graph::absent("parts", packedColours),
+                    density.graph != 0 ? updates("density", density) : graph::absent("density") })),
+        .domain = graph::Domain::Items,
+        .count =
+            [rows](const Launch& launch) {
+                const Window window = rows(launch);
+                return window.empty()
+                    ? 0
+                    : static_cast<std::size_t>(window.width()) * static_cast<std::size_t>(window.height());
+            },
+        .mostItems = most,
+        .mostOfGroup = WEDGE_TILE,
+        .condition =
+            replaces_ ? [](const graph::Run& run) { return !run.cut(); } : std::function<bool(const graph::Run&)>() });
+}
+
+void StoredSamples::spread()
+{
+    const float sigma = chosen_.filter->spread(chosen_.values);
+    if (sigma <= 0.0f) {
+        return;
+    }
+    const graph::Reach far = graph::around(static_cast<int>(std::ceil(WEDGE_SPREAD_CUT * sigma)));
+    auto per = frame_.graph.plane<Share>("shares of rejected light", graph::floats);
+    const auto surface = [&] {
+        return Arguments { frame_.rectangle(frame_.analysisParams()), value("sigma", sigma),
+            reads("objectId", frame_.surfaces.objectId, far), reads("normal", frame_.surfaces.normal, far),
+            reads("taken", taken, far) };
+    };
+    frame_.pixels(pass, PassKind::Filter, { "filter/spread.cl", "spreadSums" },
+        joined(surface(), Arguments { reads("excess", excess), writes("per", per) }));
+    frame_.pixels(pass, PassKind::Filter, { "filter/spread.cl", "spreadExcess" },
+        joined(surface(),
+            Arguments { reads("excess", excess, far), reads("per", per, far), updates("sums", sums),
+                parts.graph != 0 ? updates("parts", parts) : graph::absent("parts", packedColours) }));
+}
+
+void StoredSamples::means(graph::Handle<Value>& mean) const
+{
+    frame_.pixels(pass, PassKind::Filter, { "filter/spread.cl", "meanOfKept" },
+        { frame_.rectangle(frame_.analysisParams()), reads("sums", sums), reads("taken", taken),
+            updates("value", mean) });
+}
+
+} // namespace wedge::render

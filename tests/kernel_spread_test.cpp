@@ -1,0 +1,297 @@
+// filter/spread.cl, kernel by kernel, against their definitions in double.
+#include "tests/stored_samples_support.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <vector>
+
+using namespace wedge;
+using namespace wedge::test;
+
+namespace {
+
+/// An image, no larger than the frame, and the pixels of it that are made.
+struct Area {
+    int width, height;
+    image::Window window;
+};
+
+const std::vector<Area>& areas()
+{
+    static const std::vector<Area> all { { 29, 27, { 0, 0, 29, 27 } }, { 29, 27, { 7, 3, 25, 20 } },
+        { 1, 1, { 0, 0, 1, 1 } }, { 29, 2, { 0, 0, 29, 2 } } };
+    return all;
+}
+
+/// What pixels lose and the surfaces that they see. Beside images, what would get and give light if it were looked at.
+struct Lost {
+    explicit Lost(const render::PlaneLayout& layout)
+        : objectId(layout, 1, 1u)
+        , taken(layout, 1, 1u)
+        , normal(layout, 3, 0.0f)
+        , excess(layout, 3, 1e3f)
+    {
+        std::fill_n(normal.values.begin() + static_cast<std::ptrdiff_t>(2 * layout.size), layout.size, 1.0f);
+    }
+    Planes<std::uint32_t> objectId, taken;
+    Planes<float> normal, excess;
+};
+
+/// Objects in patches, each with faces whose normals are 20, 30 and more degrees apart; pixels that lose nothing, and
+/// pixels without samples.
+Lost someLoss(const render::PlaneLayout& layout, const Area& area, std::mt19937& random)
+{
+    Lost out(layout);
+    everyPixelOf({ 0, 0, area.width, area.height }, [&](int x, int y) {
+        const double angle = std::numbers::pi / 180 * (std::array { 0, 20, 50, 24, 51 })[random() % 5];
+        out.objectId.at(x, y) = 1 + static_cast<std::uint32_t>(x / 8 + y / 10) % 3;
+        out.normal.setVector(x, y, { std::sin(angle), 0, std::cos(angle) });
+        out.taken.at(x, y) = random() % 9 == 0 ? 0 : 1 + static_cast<std::uint32_t>(random()) % 30;
+        out.excess.setVector(x, y,
+            random() % 3 == 0
+                ? glm::dvec3(0)
+                : glm::dvec3(uniform(random), uniform(random), uniform(random)) * std::pow(10, uniform(random, -2, 2)));
+    });
+    return out;
+}
+
+/// Whether what one pixel loses may go to another.
+bool spreads(const Lost& of, glm::ivec2 from, glm::ivec2 to)
+{
+    const glm::dvec3 a = of.normal.vector(from.x, from.y), b = of.normal.vector(to.x, to.y);
+    return of.taken.at(from.x, from.y) > 0 && of.taken.at(to.x, to.y) > 0
+        && of.objectId.at(from.x, from.y) == of.objectId.at(to.x, to.y) && glm::dot(a, b) >= 0.9;
+}
+
+/// The weight of two pixels, a Gaussian that ends at two standard deviations, either way.
+double gaussianOf(glm::ivec2 a, glm::ivec2 b, double sigma)
+{
+    const int reach = static_cast<int>(std::ceil(2 * sigma));
+    const glm::dvec2 d(a - b);
+    if (std::abs(a.x - b.x) > reach || std::abs(a.y - b.y) > reach)
+        return 0;
+    return std::exp(-glm::dot(d, d) / (2 * sigma * sigma));
+}
+
+/// Calls visit(to, share) for all pixels that get some of what a pixel loses; shares add up to 1.
+template <class Visit>
+void sharesOf(const Lost& of, const Area& area, glm::ivec2 from, double sigma, const Visit& visit)
+{
+    double sum = 0;
+    std::vector<std::pair<glm::ivec2, double>> weights;
+    everyPixelOf({ 0, 0, area.width, area.height }, [&](int x, int y) {
+        const double weight = spreads(of, from, { x, y }) ? gaussianOf(from, { x, y }, sigma) : 0;
+        if (weight > 0)
+            weights.emplace_back(glm::ivec2(x, y), weight);
+        sum += weight;
+    });
+    for (const auto& to : weights)
+        visit(to.first, to.second / sum);
+}
+
+/// What pixels get.
+struct Gained {
+    Planes<float> sums, parts;
+};
+
+/// Both kernels, the first over all pixels that the second reads.
+class Spread {
+public:
+    explicit Spread(const device::Device& device, bool parts)
+        : frame_(device, smallScene(),
+            keptSettings(
+                parts ? render::axisAligned(16) : render::monteCarlo(16), { "path-density", { 10, 2, 3, 3, 0 } }))
+        , sums_(frame_, "spreadSums")
+        , excess_(frame_, "spreadExcess")
+    {
+        REQUIRE(excess_.has("parts") == parts);
+    }
+    const render::PlaneLayout& layout() const { return sums_.layout; }
+
+    Gained operator()(const Lost& lost, const Area& area, float sigma, const Planes<float>& before)
+    {
+        set(sums_, lost, area, { 0, 0, area.width, area.height }, sigma);
+        sums_.plane("per", Planes<float>(layout(), 1, untouched));
+        sums_.run();
+        set(excess_, lost, area, area.window, sigma);
+        excess_.plane("per", sums_.pixels<float>("per"));
+        excess_.plane("sums", before);
+        if (excess_.has("parts"))
+            excess_.plane("parts", Planes<float>(layout(), 3, 1.0f));
+        excess_.run();
+        return { excess_.pixels<float>("sums"),
+            excess_.has("parts") ? excess_.pixels<float>("parts") : Planes<float>(layout(), 0, 0) };
+    }
+    Planes<float> per() const { return sums_.pixels<float>("per"); }
+
+private:
+    static void set(PassBench& bench, const Lost& lost, const Area& area, const image::Window& window, float sigma)
+    {
+        auto p = paramsOf(bench.layout);
+        p.width = static_cast<std::uint32_t>(area.width);
+        p.height = static_cast<std::uint32_t>(area.height);
+        render::setRectangle(p, window);
+        bench.value("p", p);
+        bench.window(window);
+        bench.value("sigma", sigma);
+        bench.plane("objectId", lost.objectId);
+        bench.plane("normal", lost.normal);
+        bench.plane("taken", lost.taken);
+        bench.plane("excess", lost.excess);
+    }
+
+    DeclaredFrame frame_;
+    PassBench sums_, excess_;
+};
+
+template <class Test>
+void onEverySpread(const Test& test)
+{
+    onEveryDevice([&](const device::Device& device) {
+        for (const bool parts : { false, true }) {
+            CAPTURE(parts);
+            Spread spread(device, parts);
+            test(spread);
+        }
+    });
+}
+
+/// What pixels of an area gain, in double.
+std::vector<glm::dvec3> gainsOf(const Lost& lost, const Area& area, double sigma)
+{
+    std::vector<glm::dvec3> out(static_cast<std::size_t>(area.width * area.height), glm::dvec3(0));
+    everyPixelOf({ 0, 0, area.width, area.height }, [&](int x, int y) {
+        sharesOf(lost, area, { x, y }, sigma, [&](glm::ivec2 to, double share) {
+            out[static_cast<std::size_t>(to.y * area.width + to.x)] += share * lost.excess.vector(x, y);
+        });
+    });
+    return out;
+}
+
+} // namespace
+
+TEST_CASE("spreadSums, spreadExcess: what is lost goes to pixels of the same object that face about the same way")
+{
+    std::mt19937 random(1);
+    onEverySpread([&](Spread& spread) {
+        for (const Area& area : areas())
+            for (const float sigma : { 0.4f, 1.0f, 3.0f, 8.0f }) {
+                CAPTURE(&area - areas().data());
+                CAPTURE(sigma);
+                const Lost lost = someLoss(spread.layout(), area, random);
+                const auto before = planesOf(spread.layout(), someNumbers(random, 4 * spread.layout().size, 0, 10));
+                const Gained found = spread(lost, area, sigma, before);
+                const std::vector<glm::dvec3> gains = gainsOf(lost, area, sigma);
+                everyPixelOf(area.window, [&](int x, int y) {
+                    CAPTURE(x);
+                    CAPTURE(y);
+                    const glm::dvec3 gain = gains[static_cast<std::size_t>(y * area.width + x)];
+                    const double n = lost.taken.at(x, y);
+                    for (int k = 0; k < 3; ++k) {
+                        const double expected = before.vector(x, y)[k] + n * gain[k];
+                        REQUIRE(found.sums.vector(x, y)[k] == doctest::Approx(expected).epsilon(1e-5));
+                        if (!found.parts.values.empty())
+                            REQUIRE(std::fabs(found.parts.vector(x, y)[k] - (1 + gain[k]))
+                                <= 2e-4 * (1 + std::max({ gain.x, gain.y, gain.z })));
+                    }
+                    REQUIRE(found.sums.at(x, y, 3) == before.at(x, y, 3));
+                });
+            }
+    });
+}
+
+TEST_CASE("spreadSums, spreadExcess: no object gains or loses light, and what has no samples has no part in it")
+{
+    std::mt19937 random(2);
+    onEverySpread([&](Spread& spread) {
+        const Area& area = areas()[0];
+        for (const float sigma : { 0.7f, 3.0f, 8.0f }) {
+            CAPTURE(sigma);
+            const Lost lost = someLoss(spread.layout(), area, random);
+            const Planes<float> none(spread.layout(), 4, 0.0f);
+            const Gained found = spread(lost, area, sigma, none);
+            const Planes<float> per = spread.per();
+            std::map<std::uint32_t, glm::dvec3> balance, all;
+            everyPixelOf(area.window, [&](int x, int y) {
+                const std::uint32_t n = lost.taken.at(x, y), object = lost.objectId.at(x, y);
+                if (n == 0) {
+                    REQUIRE(found.sums.vector(x, y) == glm::dvec3(0));
+                    REQUIRE(per.at(x, y) == 0);
+                    return;
+                }
+                REQUIRE((per.at(x, y) > 0) == (lost.excess.vector(x, y) != glm::dvec3(0)));
+                balance[object] +=
+                    found.sums.vector(x, y) / double { static_cast<double>(n) } - lost.excess.vector(x, y);
+                all[object] += lost.excess.vector(x, y);
+            });
+            CHECK(all.size() == 3);
+            for (const auto& object : all)
+                REQUIRE(glm::length(balance[object.first]) <= 1e-5 * glm::length(object.second));
+        }
+    });
+}
+
+TEST_CASE("spreadSums, spreadExcess: the same loss everywhere is the same gain inside, and an edge is no way out")
+{
+    onEverySpread([&](Spread& spread) {
+        const Area& area = areas()[0];
+        constexpr float sigma = 1.5f;
+        constexpr int twice = 2 * 3;
+        for (const bool byNormal : { false, true }) {
+            CAPTURE(byNormal);
+            Lost lost(spread.layout());
+            everyPixelOf(area.window, [&](int x, int y) {
+                const bool left = x < 20;
+                lost.objectId.at(x, y) = byNormal || left ? 1 : 2;
+                // 27 degrees between both sides, where 25.8 are the limit.
+                const double angle = byNormal && !left ? std::numbers::pi / 180 * 27 : 0;
+                lost.normal.setVector(x, y, { 0, std::sin(angle), std::cos(angle) });
+                lost.excess.setVector(x, y, left ? glm::dvec3(0.5, 2, 3) : glm::dvec3(0));
+                lost.taken.at(x, y) = 4;
+            });
+            const Gained found = spread(lost, area, sigma, Planes<float>(spread.layout(), 4, 0.0f));
+            everyPixelOf(area.window, [&](int x, int y) {
+                CAPTURE(x);
+                CAPTURE(y);
+                const glm::dvec3 gain = found.sums.vector(x, y) / 4.0;
+                if (x >= 20)
+                    REQUIRE(gain == glm::dvec3(0));
+                const bool inside = x >= twice && x < 20 - twice && y >= twice && y < area.height - twice;
+                if (inside)
+                    REQUIRE(glm::length(gain - glm::dvec3(0.5, 2, 3)) <= 1e-5);
+            });
+        }
+    });
+}
+
+TEST_CASE("meanOfKept: sums over samples, and black without")
+{
+    std::mt19937 random(3);
+    onEveryDevice([&](const device::Device& device) {
+        DeclaredFrame frame(
+            device, smallScene(), keptSettings(render::monteCarlo(16), { "path-density", { 10, 2, 3, 3, 0 } }));
+        PassBench bench(frame, "meanOfKept");
+        for (const Area& area : areas()) {
+            auto p = paramsOf(bench.layout);
+            render::setRectangle(p, area.window);
+            bench.value("p", p);
+            bench.window(area.window);
+            const auto sums = planesOf(bench.layout, someNumbers(random, 4 * bench.layout.size, 0, 10));
+            const auto taken = planesOf(bench.layout, someCounts(random, bench.layout.size, 5));
+            bench.plane("sums", sums);
+            bench.plane("taken", taken);
+            bench.plane("value", Planes<float>(bench.layout, 3, untouched));
+            bench.run();
+            const auto found = bench.pixels<float>("value");
+            everyPixelOf(area.window, [&](int x, int y) {
+                const std::uint32_t n = taken.at(x, y);
+                for (int k = 0; k < 3; ++k)
+                    REQUIRE(found.vector(x, y)[k]
+                        == doctest::Approx(n == 0 ? 0 : sums.vector(x, y)[k] / static_cast<double>(n)).epsilon(1e-6));
+            });
+        }
+    });
+}
