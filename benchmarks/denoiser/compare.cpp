@@ -17,20 +17,6 @@ constexpr std::uint32_t referenceSeed = 0x2e5eed;
 
 constexpr const char* program = "denoiser";
 
-image::RgbImage colours(const image::LayeredImage& frame, const std::array<const char*, 3>& channels)
-{
-    image::RgbImage out { frame.width, frame.height, {} };
-    const std::size_t pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
-    out.rgb.resize(3 * pixels);
-    for (std::size_t c = 0; c < 3; ++c) {
-        const std::vector<float>& values = frame.find(channels[c])->values;
-        for (std::size_t i = 0; i < pixels; ++i) {
-            out.rgb[3 * i + c] = values[i];
-        }
-    }
-    return out;
-}
-
 class DenoiserLab {
 public:
     DenoiserLab(const SceneSource& source, const device::Device& device, const DenoiserPlan& plan)
@@ -64,9 +50,7 @@ public:
             const render::Settings settings = sized(render::monteCarlo(spp), seed);
             const render::FrameStatistics frame = renderer_.render(settings, {}, true);
             const image::LayeredImage layers = render::readLayers(renderer_, settings, frame, { "albedo", "normal" });
-            const Denoised found =
-                oidn.denoise({ image::beauty(layers), colours(layers, { "albedo.R", "albedo.G", "albedo.B" }),
-                    colours(layers, { "normal.X", "normal.Y", "normal.Z" }) });
+            const Denoised found = oidn.denoise(guidedImage(layers));
             images.push_back(found.image);
             times.push_back(found.milliseconds);
         }

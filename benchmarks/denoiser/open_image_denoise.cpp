@@ -79,7 +79,27 @@ void write(const std::string& path, const image::RgbImage& image)
     }
 }
 
+image::RgbImage colours(const image::LayeredImage& frame, const std::array<const char*, 3>& channels)
+{
+    image::RgbImage out { frame.width, frame.height, {} };
+    const std::size_t pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
+    out.rgb.resize(3 * pixels);
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::vector<float>& values = frame.find(channels[c])->values;
+        for (std::size_t i = 0; i < pixels; ++i) {
+            out.rgb[3 * i + c] = values[i];
+        }
+    }
+    return out;
+}
+
 } // namespace
+
+GuidedImage guidedImage(const image::LayeredImage& frame)
+{
+    return { image::beauty(frame), colours(frame, { "albedo.R", "albedo.G", "albedo.B" }),
+        colours(frame, { "normal.X", "normal.Y", "normal.Z" }) };
+}
 
 bool OpenImageDenoise::available() const
 {

@@ -12,6 +12,9 @@ struct GuidedImage {
     image::RgbImage color, albedo, normal;
 };
 
+/// Of a frame that has the layers albedo and normal.
+GuidedImage guidedImage(const image::LayeredImage& frame);
+
 /// A denoised image, and what that took: milliseconds of the host's clock, the median of three, without loading.
 struct Denoised {
     image::RgbImage image;

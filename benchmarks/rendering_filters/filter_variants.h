@@ -1,0 +1,35 @@
+#pragma once
+
+#include "host/render/settings.h"
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace wedge::benchmark {
+
+/// One way to make an image of samples: a filter, written as --add-filter takes it, or none.
+struct FilterVariant {
+    std::string text;
+    std::vector<render::ChosenFilter> filters; ///< none or one
+    int mostSpp = std::numeric_limits<int>::max(); ///< it is not measured at more samples
+};
+
+/// The plain mean, which all others are compared with.
+inline constexpr const char* plainMean = "mean";
+/// The filter that claims are about, as it comes, and those that it is held against.
+inline constexpr const char* densityVariant = "path-density";
+inline constexpr const char* reweightVariant = "reweight";
+inline constexpr const char* gmonVariant = "gmon";
+
+/// Follows the text of a variant whose image is denoised.
+inline constexpr const char* denoisedSuffix = ", denoised";
+
+/// What is measured where nobody chooses: of filters that are registered. The others' texts go to `skipped`.
+std::vector<FilterVariant> allVariants(std::vector<std::string>& skipped);
+
+/// From "NAME:KEY=VALUE,...", or of plainMean. Throws UsageError for unknown filters and parameters and for values out
+/// of range.
+FilterVariant variantOf(const std::string& text);
+
+} // namespace wedge::benchmark

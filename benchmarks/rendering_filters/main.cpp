@@ -1,0 +1,154 @@
+// rendering_filters: filters of samples and of images against plain means of path-traced light; docs/benchmarks.md.
+#include "benchmarks/common/arguments.h"
+#include "benchmarks/common/program.h"
+#include "benchmarks/rendering_filters/filter_lab.h"
+#include "benchmarks/rendering_filters/results.h"
+#include "host/image/atomic_file.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdio>
+
+namespace {
+
+using namespace wedge;
+using namespace wedge::benchmark;
+
+struct Call {
+    FilterPlan plan;
+    std::vector<std::string> scenes, variants;
+    std::string device, json, size, python = "python3";
+};
+
+/// One of data/scenes/filters.
+SceneSource filterScene(const std::string& name, const std::string& origin)
+{
+    SceneSource out = shippedScene("filters/" + name, origin);
+    out.name = name;
+    return out;
+}
+
+std::vector<SceneSource> knownScenes()
+{
+    return { shippedScene("mirrors", "mirrors and glass in a box"),
+        shippedScene("materials", "kinds of material under four lights"),
+        filterScene("room_small_lamp", "mirror, glass and gloss under a small bright lamp"),
+        filterScene("two_lamps", "a large yellow lamp, a small strong blue one, mirrors"),
+        shippedScene("cornell", "matt, no outliers"), filterScene("grid_floor", "matt, tiles, no outliers") };
+}
+
+std::vector<FilterVariant> variantsOf(const Call& call, std::vector<std::string>& skipped)
+{
+    if (call.variants.empty()) {
+        return allVariants(skipped);
+    }
+    std::vector<FilterVariant> out { variantOf(plainMean) };
+    for (const std::string& text : call.variants) {
+        if (text != plainMean) {
+            out.push_back(variantOf(text));
+        }
+    }
+    return out;
+}
+
+FilterPlan planOf(const Call& call)
+{
+    FilterPlan plan = call.plan;
+    plan.referenceSpp = plan.referenceSpp / 2 * 2;
+    std::erase(plan.filteredSpp, 0);
+    if (!call.size.empty()) {
+        setSize(plan, call.size);
+    }
+    return plan;
+}
+
+Json skeleton(const FilterPlan& plan, const std::vector<FilterVariant>& variants,
+    const std::vector<std::string>& skipped, const device::DeviceInfo& device)
+{
+    Json all = resultSkeleton("rendering_filters", device);
+    all["plan"] = { { "width", plan.width }, { "height", plan.height }, { "bounces", plan.bounces },
+        { "spp", plan.spp }, { "aaf_spp", plan.filteredSpp }, { "seeds", plan.seeds },
+        { "reference_spp", plan.referenceSpp } };
+    all["variants"] = Json::array();
+    for (const FilterVariant& variant : variants) {
+        all["variants"].push_back(variant.text);
+    }
+    all["skipped"] = skipped;
+    all["denoiser"] = plan.denoiser != nullptr ? Json("Open Image Denoise") : Json();
+    all["scenes"] = Json::array();
+    return all;
+}
+
+int run(const Call& call)
+{
+    FilterPlan plan = planOf(call);
+    if (!call.json.empty()) {
+        image::checkWritable(call.json);
+    }
+    std::vector<std::string> skipped, missing;
+    const std::vector<FilterVariant> variants = variantsOf(call, skipped);
+    if (!skipped.empty()) {
+        fmt::print("skipped, for want of their filters: {}\n", fmt::join(skipped, " "));
+    }
+    const std::vector<SceneSource> sources = chooseScenes(knownScenes(), call.scenes, missing);
+    const OpenImageDenoise denoiser(call.python);
+    if (denoiser.available()) {
+        plan.denoiser = &denoiser;
+    } else {
+        fmt::print("skipped denoising: {} has no pyoidn; install it (pip install pyoidn), or name one that has it by "
+                   "--python\n",
+            call.python);
+    }
+    const device::Device device = device::Device::open(call.device);
+    Json all = skeleton(plan, variants, skipped, device.info());
+    for (const SceneSource& source : sources) {
+        FilterLab lab(source, device, plan);
+        const FilteredScene scene { source.name, source.origin, lab.beauty().reference().noise,
+            lab.indirect().reference().noise, lab.beauty().exposure(), lab.measureAll(variants) };
+        addClaims(all, claimsOf(scene));
+        all["scenes"].push_back(dataOf(scene));
+        fmt::print("{}\n", tableOf(scene));
+        std::fflush(stdout);
+        if (!call.json.empty()) {
+            writeJson(call.json, all);
+        }
+    }
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    CLI::App parser("Measures filters of samples and of images against plain means.", "rendering_filters");
+    Call call;
+    call.plan.referenceFolder = defaultReferenceFolder();
+    parser.add_option("--scene", call.scenes, "a scene's name or a scene file; again for more (all there are)")
+        ->expected(1)
+        ->take_all();
+    parser
+        .add_option("--variant", call.variants,
+            "a filter as --add-filter of wedge render takes it; again for more (all in the table)")
+        ->expected(1)
+        ->take_all();
+    parser.add_option("--spp", call.plan.spp, "samples a pixel of method mc (8,64,256,1024)")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 1 << 20));
+    parser.add_option("--aaf-spp", call.plan.filteredSpp, "samples a pixel of method aaf (16,64); 0: none")
+        ->delimiter(',')
+        ->check(CLI::Range(0, 1 << 20));
+    parser.add_option("--bounces", call.plan.bounces, "of indirect light (3)")
+        ->check(CLI::Range(1, render::mostBounces));
+    parser.add_option("--repeats", call.plan.seeds, "images of each setting, with seeds of their own (1)")
+        ->check(CLI::Range(1, 1000));
+    parser.add_option("--size", call.size, "WxH (96x72)");
+    parser.add_option("--reference-spp", call.plan.referenceSpp, "samples of the references (8192)")
+        ->check(CLI::Range(2, 1 << 20));
+    parser.add_option("--reference-dir", call.plan.referenceFolder, "where references are kept (beside this program)");
+    parser.add_option("--python", call.python, "an interpreter that has pyoidn, for denoised images (python3)");
+    parser.add_option("--device", call.device, "cpu, gpu, an index, or part of a name");
+    parser.add_option("--json", call.json, "where the results go, rewritten after each scene");
+    return runProgram(parser, argc, argv, [&] { return run(call); });
+}

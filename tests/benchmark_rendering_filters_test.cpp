@@ -1,0 +1,167 @@
+// The benchmark of filters of samples and of images, run as its users do but tiny: the form of what it writes, and what
+// holds of its numbers whatever a machine is like; never a time.
+#include "tests/benchmark_testing.h"
+
+#include <cmath>
+
+namespace wedge::app::test {
+namespace {
+
+std::vector<std::string> tiny(const std::vector<std::string>& more)
+{
+    std::vector<std::string> out = { "--size", "24x18", "--spp", "4,8", "--aaf-spp", "16", "--reference-spp", "64",
+        "--reference-dir", "references", "--json", "results.json", "--python", "no-such-python" };
+    out.insert(out.end(), more.begin(), more.end());
+    return out;
+}
+
+void checkErrors(const Json& errors, bool plain)
+{
+    CHECK(keys(errors)
+        == std::set<std::string> { "colour", "display", "display_vs_mean", "energy", "flip", "flip_vs_mean", "rmse",
+            "rmse_corrected", "rmse_vs_mean" });
+    for (const auto& [key, value] : errors.items()) {
+        INFO(key);
+        REQUIRE(value.is_number());
+        CHECK(std::isfinite(value.get<double>()));
+        CHECK((key == "energy" || value.get<double>() >= 0));
+        if (plain && key.ends_with("_vs_mean")) {
+            CHECK(value == 1.0);
+        }
+    }
+    CHECK(errors["rmse"].get<double>() > 0);
+    CHECK(errors["rmse_corrected"].get<double>() < errors["rmse"].get<double>());
+    CHECK(errors["flip"].get<double>() <= 1);
+    CHECK(errors["colour"].get<double>() > 0);
+    CHECK(std::abs(errors["energy"].get<double>()) < 1); // of an image twice as bright or black
+}
+
+const Json& pointOf(const Json& scene, const std::string& method, int spp, const std::string& variant)
+{
+    const auto found = std::ranges::find_if(scene["points"],
+        [&](const Json& p) { return p["method"] == method && p["spp"] == spp && p["variant"] == variant; });
+    REQUIRE_MESSAGE(found != scene["points"].end(), variant);
+    return *found;
+}
+
+TEST_CASE("results have all that docs/benchmarks.md says")
+{
+    const Workplace place;
+    const Outcome outcome = place.run(tiny({ "--scene", "two_lamps", "--variant", "path-density", "--variant", "median",
+        "--variant", "path-density:low=4,high=4" }));
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    CHECK(contains(outcome.out, "two_lamps"));
+    CHECK(contains(outcome.out, "skipped denoising: no-such-python has no pyoidn"));
+    const Json all = Json::parse(place.text("results.json"));
+    CHECK(all["benchmark"] == "rendering_filters");
+    CHECK(all["variants"] == Json({ "mean", "path-density", "median", "path-density:low=4,high=4" }));
+    CHECK(all["skipped"].empty());
+    CHECK(all["plan"]["spp"] == Json({ 4, 8 }));
+    REQUIRE(all["scenes"].size() == 1);
+    const Json& scene = all["scenes"][0];
+    CHECK(scene["name"] == "two_lamps");
+    CHECK(scene["reference_noise"]["beauty"].get<double>() > 0);
+    CHECK(scene["reference_noise"]["indirect"].get<double>() > 0);
+    CHECK(scene["exposure"].get<double>() > 0);
+    REQUIRE(scene["points"].size() == 2 * 4 + 2);
+    for (const Json& point : scene["points"]) {
+        CAPTURE(point["variant"]);
+        const bool plain = point["variant"] == "mean";
+        checkErrors(point["beauty"], plain);
+        checkErrors(point["indirect"], plain);
+        CHECK(point["tracing_ms"].get<double>() > 0);
+        CHECK(point["total_ms"].get<double>() > point["tracing_ms"].get<double>());
+        CHECK(point["memory_bytes"].get<double>() > 0);
+        CHECK(point["denoise_ms"] == 0);
+        CHECK((point["filter_ms"].get<double>() > 0) == (point["variant"] == "path-density"));
+    }
+    for (const int spp : { 4, 8 }) {
+        CAPTURE(spp);
+        const Json& plain = pointOf(scene, "mc", spp, "mean");
+        // Filters of images leave layers alone, and a filter that keeps all samples leaves the mean.
+        CHECK(pointOf(scene, "mc", spp, "median")["indirect"] == plain["indirect"]);
+        CHECK(pointOf(scene, "mc", spp, "median")["beauty"] != plain["beauty"]);
+        CHECK(pointOf(scene, "mc", spp, "path-density:low=4,high=4")["beauty"] == plain["beauty"]);
+        CHECK(pointOf(scene, "mc", spp, "path-density")["indirect"] != plain["indirect"]);
+        CHECK(pointOf(scene, "mc", spp, "path-density")["memory_bytes"] > plain["memory_bytes"]);
+    }
+    CHECK(pointOf(scene, "mc", 8, "mean")["beauty"]["rmse"] < pointOf(scene, "mc", 4, "mean")["beauty"]["rmse"]);
+    pointOf(scene, "aaf", 16, "path-density");
+    checkClaims(all["claims"], "rendering_filters.path_density_two_lamps.",
+        { "error_vs_unfiltered", "display_vs_unfiltered", "energy_error", "time_vs_tracing" });
+    const Json& ratio = claim(all["claims"], "rendering_filters.path_density_two_lamps.error_vs_unfiltered");
+    CHECK(ratio["value"] == pointOf(scene, "mc", 8, "path-density")["beauty"]["rmse_vs_mean"]);
+    CHECK(place.has("references"));
+}
+
+/// An interpreter whose denoiser leaves the image as it is.
+constexpr const char* stillImage = R"sh(#!/bin/sh
+[ $# -eq 1 ] && exit 0
+cp "$4" "$7" && echo 1.5
+)sh";
+
+TEST_CASE("the plain mean and path-density are denoised where there is a denoiser")
+{
+    const Workplace place;
+    place.write("still.sh", stillImage);
+    std::filesystem::permissions(place.path() / "still.sh", std::filesystem::perms::owner_all);
+    const Outcome outcome = place.run({ "--scene", box, "--size", "16x12", "--spp", "4", "--aaf-spp", "16",
+        "--reference-spp", "16", "--variant", "path-density", "--variant", "median", "--reference-dir", "references",
+        "--json", "results.json", "--python", (place.path() / "still.sh").string() });
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    const Json all = Json::parse(place.text("results.json"));
+    CHECK(all["denoiser"] == "Open Image Denoise");
+    const Json& scene = all["scenes"][0];
+    REQUIRE(scene["points"].size() == 5 + 4);
+    for (const char* method : { "mc", "aaf" }) {
+        for (const std::string variant : { "mean", "path-density" }) {
+            const int spp = std::string(method) == "mc" ? 4 : 16;
+            const Json& denoised = pointOf(scene, method, spp, variant + ", denoised");
+            const Json& before = pointOf(scene, method, spp, variant);
+            CHECK(denoised["beauty"] == before["beauty"]);
+            CHECK(denoised["indirect"] == before["indirect"]);
+            CHECK(denoised["denoise_ms"] == 1.5);
+            CHECK(before["denoise_ms"] == 0);
+        }
+    }
+}
+
+TEST_CASE("all variants are measured of a scene file, and there are filters for all")
+{
+    const Workplace place;
+    const Outcome outcome = place.run(
+        { "--scene", box, "--size", "16x12", "--spp", "4", "--aaf-spp", "0", "--reference-spp", "16", "--repeats", "2",
+            "--reference-dir", "references", "--json", "results.json", "--python", "no-such-python" });
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    const Json all = Json::parse(place.text("results.json"));
+    CHECK(all["variants"][0] == "mean");
+    CHECK(all["variants"].size() == 13);
+    CHECK(all["skipped"].empty());
+    const Json& points = all["scenes"][0]["points"];
+    REQUIRE(points.size() == all["variants"].size());
+    for (const Json& point : points) {
+        CHECK(point["method"] == "mc");
+        CHECK(contains(outcome.out, point["variant"].get<std::string>()));
+    }
+}
+
+TEST_CASE("wrong calls end in one line")
+{
+    const Workplace place;
+    checkWrongCalls(place, "rendering_filters",
+        {
+            { { "--scene", "atlantis" }, 2, "mirrors, materials, room_small_lamp, two_lamps, cornell, grid_floor" },
+            { { "--variant", "magic" }, 2, "unknown filter: magic: choose among: mean, path-density" },
+            { { "--variant", "path-density:size=3" }, 2, "path-density:size=3: choose among: k, low, high" },
+            { { "--variant", "path-density:k" }, 2, "give a whole number from 1" },
+            { { "--variant", "path-density:k=0.5" }, 2, "give a whole number from 1" },
+            { { "--variant", "path-density:low=-1" }, 2, "give a number from 0" },
+            { { "--variant", "path-density:" }, 2, "unknown parameter" },
+            { { "--size", "24" }, 2, "--size" },
+            { { "--bounces", "0" }, 2, "--bounces" },
+            { { "--scene", box, "--json", "gone/r.json" }, 1, "gone/r.json" },
+        });
+}
+
+} // namespace
+} // namespace wedge::app::test
