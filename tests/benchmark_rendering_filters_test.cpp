@@ -20,7 +20,9 @@ void checkErrors(const Json& errors, bool plain)
     CHECK(keys(errors)
         == std::set<std::string> { "colour", "display", "display_vs_mean", "energy", "flip", "flip_vs_mean", "rmse",
             "rmse_corrected", "rmse_vs_mean" });
-    for (const auto& [key, value] : errors.items()) {
+    for (const auto& entry : errors.items()) {
+        const std::string& key = entry.key();
+        const Json& value = entry.value();
         INFO(key);
         REQUIRE(value.is_number());
         CHECK(std::isfinite(value.get<double>()));

@@ -219,7 +219,7 @@ TEST_CASE("keepByDensity: samples go by their mean distance to the k nearest of 
                     const KeptPlanes found = keep(bench, field, window, rows, 70, kind.firstPass);
                     everyPixelOf({ 0, 0, 29, 27 }, [&](int x, int y) {
                         const bool inside = x >= window.x0 && x < window.x1 && y >= window.y0 && y < window.y1;
-                        const Isolations& own = isolations[static_cast<std::size_t>(y * 29 + x)];
+                        const Isolations& own = isolations[indexOf(x, y, 29)];
                         if (!inside || own.empty()) {
                             requireUntouched(found, x, y);
                             return;
@@ -250,7 +250,7 @@ TEST_CASE("keepByDensity: in images smaller than what is looked at, k beyond all
                 set(bench, of);
                 const KeptPlanes found = keep(bench, field, { 0, 0, size.x, size.y }, 8, 5, kind.firstPass);
                 everyPixelOf({ 0, 0, size.x, size.y }, [&](int x, int y) {
-                    const Isolations& own = isolations[static_cast<std::size_t>(y * size.x + x)];
+                    const Isolations& own = isolations[indexOf(x, y, size.x)];
                     if (own.empty())
                         return requireUntouched(found, x, y);
                     checkPixel(found, field, x, y, own, of, kind.firstPass, seen);

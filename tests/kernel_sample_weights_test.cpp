@@ -74,7 +74,8 @@ Weighed medianOracle(const Samples& samples, std::size_t groups)
     const std::size_t m = std::min(groups, samples.size());
     const Weights means = groupMeans(samples, m);
     const bool finite = std::ranges::all_of(means, [](double v) { return std::isfinite(v); });
-    const auto most = static_cast<double>((m - 1) / 2);
+    const std::size_t atEitherEnd = (m - 1) / 2;
+    const auto most = static_cast<double>(atEitherEnd);
     const double exact = finite ? giniOf(means) * most : most;
     const auto ends = static_cast<std::size_t>(std::round(exact));
     const std::vector<std::size_t> order = byBrightness(means);

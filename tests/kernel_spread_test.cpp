@@ -165,7 +165,7 @@ std::vector<glm::dvec3> gainsOf(const Lost& lost, const Area& area, double sigma
     std::vector<glm::dvec3> out(static_cast<std::size_t>(area.width * area.height), glm::dvec3(0));
     everyPixelOf({ 0, 0, area.width, area.height }, [&](int x, int y) {
         sharesOf(lost, area, { x, y }, sigma, [&](glm::ivec2 to, double share) {
-            out[static_cast<std::size_t>(to.y * area.width + to.x)] += share * lost.excess.vector(x, y);
+            out[indexOf(to.x, to.y, area.width)] += share * lost.excess.vector(x, y);
         });
     });
     return out;
@@ -188,7 +188,7 @@ TEST_CASE("spreadSums, spreadExcess: what is lost goes to pixels of the same obj
                 everyPixelOf(area.window, [&](int x, int y) {
                     CAPTURE(x);
                     CAPTURE(y);
-                    const glm::dvec3 gain = gains[static_cast<std::size_t>(y * area.width + x)];
+                    const glm::dvec3 gain = gains[indexOf(x, y, area.width)];
                     const double n = lost.taken.at(x, y);
                     for (int k = 0; k < 3; ++k) {
                         const double expected = before.vector(x, y)[k] + n * gain[k];

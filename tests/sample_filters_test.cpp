@@ -144,7 +144,11 @@ TEST_CASE("a crop has the bits of the whole, of one band and of several, whateve
             for (int y = s.crop.y0; y < s.crop.y1; ++y)
                 for (int x = s.crop.x0; x < s.crop.x1; ++x)
                     for (int c = 0; c < 3; ++c, ++k)
-                        differ += crop[k] == whole[static_cast<std::size_t>(3 * (y * width + x) + c)] ? 0u : 1u;
+                        differ += crop[k]
+                                == whole[3 * (static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x))
+                                    + static_cast<std::size_t>(c)]
+                            ? 0u
+                            : 1u;
             CHECK(differ == 0);
         }
     });

@@ -32,6 +32,12 @@ inline double inShort(double x) { return shared::unpackShort(shared::packShort(s
 
 inline bool isFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
+/// Where a pixel is in rows that lie one after another.
+inline std::size_t indexOf(int x, int y, int width)
+{
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+}
+
 struct StoredSample {
     glm::dvec3 radiance; ///< floats
     glm::dvec3 colour; ///< in pixels, as 16 bits have it; what is no number is as far as can be
@@ -54,8 +60,8 @@ struct SampleField {
         , pixels(static_cast<std::size_t>(w * h))
     {
     }
-    std::vector<StoredSample>& at(int x, int y) { return pixels[static_cast<std::size_t>(y * width + x)]; }
-    const std::vector<StoredSample>& at(int x, int y) const { return pixels[static_cast<std::size_t>(y * width + x)]; }
+    std::vector<StoredSample>& at(int x, int y) { return pixels[indexOf(x, y, width)]; }
+    const std::vector<StoredSample>& at(int x, int y) const { return pixels[indexOf(x, y, width)]; }
     bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height; }
 
     int width, height;
@@ -170,7 +176,8 @@ inline KeptPlanes keep(PassBench& bench, const SampleField& field, const image::
         memory.handTo(bench);
         render::setRectangle(p, covered);
         bench.value("p", p);
-        bench.items(static_cast<std::size_t>((covered.x1 - covered.x0) * (covered.y1 - covered.y0)));
+        bench.items(
+            static_cast<std::size_t>(covered.x1 - covered.x0) * static_cast<std::size_t>(covered.y1 - covered.y0));
         bench.run();
     }
     const auto floats = [&](const char* name) {

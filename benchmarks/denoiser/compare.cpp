@@ -76,6 +76,7 @@ public:
         reference.image = cut(reference_.image);
         reference.deviation = cut(reference_.deviation);
         std::vector<image::RgbImage> parts;
+        parts.reserve(images.size());
         for (const image::RgbImage& image : images) {
             parts.push_back(cut(image));
         }
