@@ -90,6 +90,7 @@ TEST_CASE("what is wrong with filters is said in one line, with the nearest name
     refused("median:radius=1,", "no name");
     refused("gaussian:=3", "no name");
     refused("median:radius=1.5", "whole number from 0 to 3");
+    refused("median:radius=1.0", "whole number from 0 to 3");
     refused("median:radius=1,radius=2", "twice");
     refused("gaussian:sigma=nan", "number from 0 to 32");
     refused("gaussian:sigma=1e9", "number from 0 to 32");

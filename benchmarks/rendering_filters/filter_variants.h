@@ -28,8 +28,7 @@ inline constexpr const char* denoisedSuffix = ", denoised";
 /// What is measured where nobody chooses: of filters that are registered. The others' texts go to `skipped`.
 std::vector<FilterVariant> allVariants(std::vector<std::string>& skipped);
 
-/// From "NAME:KEY=VALUE,...", or of plainMean. Throws UsageError for unknown filters and parameters and for values out
-/// of range.
+/// From a filter as --add-filter takes it, or of plainMean. Throws UsageError as filterCall() does.
 FilterVariant variantOf(const std::string& text);
 
 } // namespace wedge::benchmark

@@ -1,7 +1,7 @@
 #include "host/app/render_options.h"
 
-#include "host/app/filter_calls.h"
 #include "host/app/values.h"
+#include "host/render/filter_call.h"
 #include "host/render/layers.h"
 #include "host/scene/scene.h"
 
@@ -97,7 +97,8 @@ void addFrameOptions(CLI::App& parser, RenderOptions& o)
             "--add-filter",
             [&o](const std::vector<std::string>& texts) {
                 o.filters.clear();
-                std::ranges::transform(texts, std::back_inserter(o.filters), filterCall);
+                std::ranges::transform(texts, std::back_inserter(o.filters),
+                    [](const std::string& text) { return render::filterCall("--add-filter", text); });
             },
             "Filter samples or the finished image, listed below: path-density, bilateral:sigma=2,tolerance=0.5; "
             "several "
@@ -289,7 +290,7 @@ std::string footer()
         text += fmt::format(
             "  {:<17} {}\n", layer.name, fmt::format("{}: {}", fmt::join(layer.channels, " "), layer.meaning));
     }
-    return text + filterList()
+    return text + render::filterList()
         + "\nExit status: 0 done, 1 failure, 2 wrong call, 130 interrupted by a signal (what was there is "
           "written).\n";
 }

@@ -1,21 +1,21 @@
-#include "host/app/filter_calls.h"
+#include "host/render/filter_call.h"
 
-#include "host/app/values.h"
 #include "host/error.h"
 #include "host/render/filter_chain.h"
 #include "host/scene/nearest.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <iterator>
 #include <set>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace wedge::app {
+namespace wedge::render {
 namespace {
-
-constexpr const char* option = "--add-filter";
 
 /// All that are known, and first the one that is probably meant.
 std::string remedy(const std::string& word, const std::set<std::string>& known)
@@ -46,32 +46,42 @@ std::vector<std::string> parts(const std::string& text)
     return out;
 }
 
-float valueOf(const std::string& filter, const render::FilterParameter& parameter, const std::string& text)
+/// what: whose value it is
+float valueOf(const std::string& what, const FilterParameter& parameter, const std::string& text)
 {
-    const std::string what = fmt::format("{} {}:{}", option, filter, parameter.name);
-    return parameter.whole ? static_cast<float>(wholeNumber(
-               what, text, static_cast<std::int64_t>(parameter.least), static_cast<std::int64_t>(parameter.most)))
-                           : static_cast<float>(finiteNumber(what, text, parameter.least, parameter.most));
+    double value = 0;
+    std::int64_t whole = 0;
+    const char* end = text.data() + text.size();
+    const auto read =
+        parameter.whole ? std::from_chars(text.data(), end, whole) : std::from_chars(text.data(), end, value);
+    value = parameter.whole ? static_cast<double>(whole) : value;
+    const bool number =
+        read.ec == std::errc() && read.ptr == end && value >= parameter.least && value <= parameter.most;
+    if (!number) {
+        throw UsageError(what, text.empty() ? "(empty)" : text,
+            fmt::format(
+                "give a {}number from {:g} to {:g}", parameter.whole ? "whole " : "", parameter.least, parameter.most));
+    }
+    return static_cast<float>(value);
 }
 
 } // namespace
 
-render::ChosenFilter filterCall(const std::string& text)
+ChosenFilter filterCall(const std::string& option, const std::string& text)
 {
     const std::size_t colon = text.find(':');
     const std::string name = text.substr(0, colon);
-    const render::Filter* filter = render::filterNamed(name);
+    const Filter* filter = filterNamed(name);
     if (filter == nullptr) {
         const bool several = name.find(',') != std::string::npos;
         throw UsageError(several ? "filters are given one by one" : "unknown filter",
             fmt::format("{} {}", option, text),
-            several
-                ? fmt::format("give {} once for each", option)
-                : remedy(name, namesOf(render::registeredFilters(), [](const auto& each) { return each->name(); })));
+            several ? fmt::format("give {} once for each", option)
+                    : remedy(name, namesOf(registeredFilters(), [](const auto& each) { return each->name(); })));
     }
-    const std::vector<render::FilterParameter> parameters = filter->parameters();
-    render::ChosenFilter chosen { name, {} };
-    std::ranges::transform(parameters, std::back_inserter(chosen.values), &render::FilterParameter::standard);
+    const std::vector<FilterParameter> parameters = filter->parameters();
+    ChosenFilter chosen { name, {} };
+    std::ranges::transform(parameters, std::back_inserter(chosen.values), &FilterParameter::standard);
     std::set<std::string> given;
     const std::string call = fmt::format("{} {}", option, text);
     const std::string example =
@@ -83,10 +93,10 @@ render::ChosenFilter filterCall(const std::string& text)
         if (key.empty()) {
             throw UsageError("filter parameter has no name", call, example);
         }
-        const auto found = std::ranges::find(parameters, key, &render::FilterParameter::name);
+        const auto found = std::ranges::find(parameters, key, &FilterParameter::name);
         if (found == parameters.end()) {
             throw UsageError(fmt::format("unknown parameter of filter {}: {}", name, key), call,
-                remedy(key, namesOf(parameters, [](const render::FilterParameter& each) { return each.name; })));
+                remedy(key, namesOf(parameters, [](const FilterParameter& each) { return each.name; })));
         }
         if (equals == std::string::npos) {
             throw UsageError("filter parameter has no value: " + key, call, example);
@@ -95,7 +105,7 @@ render::ChosenFilter filterCall(const std::string& text)
             throw UsageError("filter parameter is given twice: " + key, call, "leave one out");
         }
         chosen.values[static_cast<std::size_t>(found - parameters.begin())] =
-            valueOf(name, *found, part.substr(equals + 1));
+            valueOf(fmt::format("{} {}:{}", option, name, key), *found, part.substr(equals + 1));
     }
     return chosen;
 }
@@ -103,16 +113,16 @@ render::ChosenFilter filterCall(const std::string& text)
 std::string filterList()
 {
     std::string out;
-    const render::Filter* before = nullptr;
-    for (const auto& filter : render::registeredFilters()) {
+    const Filter* before = nullptr;
+    for (const auto& filter : registeredFilters()) {
         if (before == nullptr || before->stage() != filter->stage()) {
-            out += filter->stage() == render::Stage::Samples
+            out += filter->stage() == Stage::Samples
                 ? "\nFilters of samples of indirect light, and their parameters; a frame has one at most:\n"
                 : "\nFilters of the image, and their parameters:\n";
         }
         before = filter.get();
         out += fmt::format("  {:<17} {}\n", filter->name(), filter->meaning());
-        for (const render::FilterParameter& each : filter->parameters()) {
+        for (const FilterParameter& each : filter->parameters()) {
             out += fmt::format("    {:<15} {:g} to {:g}, default {:g}: {}\n", each.name, each.least, each.most,
                 each.standard, each.meaning);
         }
@@ -120,4 +130,4 @@ std::string filterList()
     return out;
 }
 
-} // namespace wedge::app
+} // namespace wedge::render
