@@ -411,9 +411,11 @@ inline void accumulateLight(
         term.planes(a));
 }
 
-/// Launches accumulatePaths for the wave; mean: of the samples of a receiver, in each channel.
+/// Launches accumulatePaths for the wave; mean: of the samples of a receiver, in each channel; bins: what samples by
+/// brightness are handed as, or nothing.
 template <class Reflectance, class Mean>
-void accumulatePaths(Accumulation& a, TermPixels& term, bool ambient, const Reflectance& reflectance, const Mean& mean)
+void accumulatePaths(Accumulation& a, TermPixels& term, bool ambient, const Reflectance& reflectance, const Mean& mean,
+    const std::vector<Handed>& bins = {})
 {
     a.launch("accumulatePaths",
         std::vector { value("ambient", ambient ? 1u : 0u), plane("hits", a.hits, a.hitCounts()),
@@ -423,7 +425,7 @@ void accumulatePaths(Accumulation& a, TermPixels& term, bool ambient, const Refl
                     [&](const SeenPoint& p, std::size_t c) { return c < 3 ? mean(p)[static_cast<int>(c)] : 1.0; })),
             plane("reflectors",
                 a.receiverBuffer<float>(3, [](const SeenPoint& p, std::size_t k) { return p.reflectors[k]; })) },
-        term.planes(a));
+        bins, term.planes(a));
 }
 
 } // namespace wedge::test

@@ -34,6 +34,29 @@ TEST_CASE("probeCounts: sixteen samples of each fourth pixel of each fourth row 
     });
 }
 
+TEST_CASE("probeCounts: where it is not known what pixels see, of each fourth pixel of each fourth row")
+{
+    onEveryDevice([&](const device::Device& device) {
+        render::Settings settings = keptSettings(render::monteCarlo(16), { "path-density", { 10, 2, 3, 3, 0 } });
+        settings.antialias = true;
+        DeclaredFrame frame(device, smallScene(), settings);
+        PassBench bench(frame, "probeCounts");
+        REQUIRE(!bench.has("objectId"));
+        for (const image::Window& window :
+            { image::Window { 0, 0, 29, 27 }, image::Window { 7, 3, 25, 20 }, image::Window { 0, 0, 1, 1 } }) {
+            auto p = paramsOf(bench.layout);
+            render::setRectangle(p, window);
+            bench.value("p", p);
+            bench.window(window);
+            bench.plane("wanted", Planes<std::uint32_t>(bench.layout, 1, 99u));
+            bench.run();
+            const auto found = bench.pixels<std::uint32_t>("wanted");
+            everyPixelOf(
+                window, [&](int x, int y) { REQUIRE(found.at(x, y) == (x % 4 == 0 && y % 4 == 0 ? 16u : 0u)); });
+        }
+    });
+}
+
 namespace {
 
 /// Sums of probes, and what the kernel makes of them.

@@ -283,9 +283,9 @@ TEST_CASE("meanOfKept: sums over samples, and black without")
             const auto taken = planesOf(bench.layout, someCounts(random, bench.layout.size, 5));
             bench.plane("sums", sums);
             bench.plane("taken", taken);
-            bench.plane("value", Planes<float>(bench.layout, 3, untouched));
+            bench.plane("mean", Planes<float>(bench.layout, 3, untouched));
             bench.run();
-            const auto found = bench.pixels<float>("value");
+            const auto found = bench.pixels<float>("mean");
             everyPixelOf(area.window, [&](int x, int y) {
                 const std::uint32_t n = taken.at(x, y);
                 for (int k = 0; k < 3; ++k)

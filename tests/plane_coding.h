@@ -109,7 +109,7 @@ inline std::optional<Coding<float>> codingOf(const graph::Format& format, float)
     if (name.starts_with("float")) {
         return plain<float>(format.bytes / 4);
     }
-    if (name.starts_with("short")) {
+    if (name.starts_with("short") || name == "shares") {
         return numbers<float, std::uint16_t>(format.bytes / 2, shared::packShort, shared::unpackShort);
     }
     if (name == "colour48") {
@@ -157,6 +157,9 @@ inline std::optional<Coding<std::uint32_t>> codingOf(const graph::Format& format
     }
     if (format.name == "ushort1") {
         return numbers<std::uint32_t, std::uint16_t>(1, same, same);
+    }
+    if (format.name == "bins") { // as they are stored
+        return numbers<std::uint32_t, std::uint16_t>(format.bytes / 2, same, same);
     }
     if (format.name == "gloss16") { // what unpackGloss() takes
         return numbers<std::uint32_t, std::uint16_t>(

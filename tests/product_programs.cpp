@@ -77,6 +77,14 @@ std::vector<Settings> manySettings()
         if (filter->stage() == render::Stage::Samples) {
             add(6, [&](Settings& s) { s.filters = { chosen(*filter) }; }); // bounced, filtered
             add(7, [&](Settings& s) { s.filters = { chosen(*filter) }; }); // and plain
+            if (static_cast<const render::SampleFilter&>(*filter).kernelOfBins()) {
+                for (const int kind : { 6, 7 }) {
+                    add(kind, [&](Settings& s) {
+                        s.filters = { chosen(*filter) };
+                        s.antialias = true;
+                    });
+                }
+            }
         }
     }
     return out;

@@ -231,9 +231,18 @@ TEST_CASE("two filters of samples, ones after filters of images, and ones of oth
     CHECK(wrong->remedy == "give path-density before median");
     CHECK(render::inStages({ median }, { density }) == std::vector<render::ChosenFilter> { density, median });
     CHECK_FALSE(render::wrongOrder({ density, median }, "--add-filter"));
-    render::Settings s = with(plain(4), density);
+    render::Settings s = with(plain(4), { "trim", { 0.1f, 0 } });
     CHECK_NOTHROW(render::validate(s, false));
-    CHECK_THROWS_AS(render::validate(s, true), UsageError);
-    s.filters = { { "path-density", { 10, 4, 4, 3, 0 } } }; // keeps all
+    CHECK_THROWS_WITH_AS(render::validate(s, true),
+        "this filter of samples is of frames through a pinhole where nothing moves, neither antialiased nor "
+        "progressive: trim: choose path-density, clamp or reweight, or leave it out, a scene's with --no-filters",
+        UsageError);
+    s.filters = { { "trim", { 0, 0 } } }; // keeps all
     CHECK_NOTHROW(render::validate(s, true));
+    for (const render::ChosenFilter& filter : { density, kept, render::ChosenFilter { "reweight", { 1, 0, 0 } } })
+        CHECK_NOTHROW(render::validate(with(plain(4), filter), true));
+    render::Settings published = with(render::axisAligned(16), density);
+    published.bounces = 1;
+    published.distributed.published = true;
+    CHECK_THROWS_AS(render::validate(published, true), UsageError);
 }

@@ -33,16 +33,28 @@ shared::PathParams PathWaves::pathParams() const
     return p;
 }
 
-void PathWaves::sample(
-    Waves& waves, const Adding& adding, const PrimaryCounts& counts, const graph::Handle<Count>& hits)
+PathWaves::Shared PathWaves::samplePaths(Waves& waves, const Adding& adding, const PrimaryCounts& counts) const
 {
-    const Receivers& r = waves.receivers();
     Shared own = share(waves, adding, counts, 4, 3);
     waves.tiles("paths", { "paths/indirect.cl", "samplePaths", { sinks::sums(), sinks::distances() } },
         joined(pathSamples(f_, waves, pathParams(), component_),
             sampleCounts(own.last, value("lastSample", std::numeric_limits<std::uint32_t>::max()), own.first,
                 { waves.tallyRays(), waves.tallyPathRays() }),
             Arguments { updates("sums", own.sums), updates("reflectors", own.extremes) }));
+    return own;
+}
+
+graph::Handle<Sums> PathWaves::probe(Waves& waves, const PrimaryCounts& counts)
+{
+    means.wanted = counts.wanted;
+    return samplePaths(waves, {}, counts).sums;
+}
+
+void PathWaves::sample(
+    Waves& waves, const Adding& adding, const PrimaryCounts& counts, const graph::Handle<Count>& hits)
+{
+    const Receivers& r = waves.receivers();
+    const Shared own = samplePaths(waves, adding, counts);
     graph::Handle<Reflectance> reflectance = isGlossy(component_) ? r.specular : r.diffuse;
     if (isRelative(component_, settings())) {
         reflectance = waves.list<Reflectance>("reflectance times unshadowed light", graph::vectors);
@@ -54,9 +66,9 @@ void PathWaves::sample(
     waves.pixels("accumulatePaths",
         joined({ waves.pixelParams(), waves.params(), value("ambient", component_ == Component::Ambient ? 1u : 0u) },
             waves.pixelLists(reads("taken", counts.taken)),
-            Arguments { reads("hits", hits), reads("objectId", r.objectId), reads("reflectance", reflectance),
-                reads("sums", own.sums), reads("reflectors", own.extremes) },
-            accumulated(adding, counts)));
+            Arguments { reads("hits", hits), reads("objectId", r.objectId), reads("reflectance", reflectance) },
+            graph::together("samples of receivers", { reads("sums", own.sums), reads("reflectors", own.extremes) }),
+            bins ? bins->sunk() : SampleBins::notSunk(), accumulated(adding, counts)));
 }
 
 void PathWaves::widths()

@@ -12,6 +12,11 @@ public:
 
     void sample(
         Waves& waves, const Adding& adding, const PrimaryCounts& counts, const graph::Handle<Count>& hits) override;
+    bool isOfSampleFilters() const override
+    {
+        return component_ == Component::Diffuse || component_ == Component::Glossy;
+    }
+    graph::Handle<Sums> probe(Waves& waves, const PrimaryCounts& counts) override;
     void widths() override;
     std::uint32_t publishedSamples() const override;
     void publishedWidths(const shared::DistributedParams& params, const graph::Handle<Share>& flags,
@@ -22,6 +27,8 @@ public:
 
 private:
     shared::PathParams pathParams() const;
+    /// Samples of a wave's receivers.
+    Shared samplePaths(Waves& waves, const Adding& adding, const PrimaryCounts& counts) const;
 
     Component component_;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,10 @@ public:
     }
     bool keepsAll(const Values& values) const override { return values[1] >= WEDGE_SAMPLE_REACH; }
     graph::KernelName kernel() const override { return { "filter/path_density.cl", "keepByDensity" }; }
+    std::optional<graph::KernelName> kernelOfBins() const override
+    {
+        return graph::KernelName { "filter/path_density.cl", "keepBinsByDensity" };
+    }
     std::vector<graph::Argument> arguments(const Values& values, bool filtered) const override
     {
         // What the image's filter smooths anyway is left to it: it loses less than is left out wrongly.

@@ -3,6 +3,7 @@
 #include "kernels/shared/sample_filter.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,11 @@ public:
     }
     bool keepsAll(const Values& values) const override { return values[0] >= 1e9f; }
     graph::KernelName kernel() const override { return { "filter/sample_weights.cl", "keepClamped" }; }
+    std::optional<graph::KernelName> kernelOfBins() const override
+    {
+        return graph::KernelName { "filter/sample_weights.cl", "keepBinsClamped" };
+    }
+    bool losesLight() const override { return true; }
     render::Arguments arguments(const Values& values, bool) const override { return { value("level", values[0]) }; }
     float spread(const Values& values) const override { return values[1]; }
     float exposure(const Values& values) const override { return values[2]; }
@@ -84,6 +90,11 @@ public:
     }
     bool keepsAll(const Values& values) const override { return values[0] <= 0.0f; }
     graph::KernelName kernel() const override { return { "filter/sample_weights.cl", "keepReweighted" }; }
+    std::optional<graph::KernelName> kernelOfBins() const override
+    {
+        return graph::KernelName { "filter/sample_weights.cl", "keepBinsReweighted" };
+    }
+    bool losesLight() const override { return true; }
     render::Arguments arguments(const Values& values, bool) const override { return { value("kappa", values[0]) }; }
     float spread(const Values& values) const override { return values[1]; }
     float exposure(const Values& values) const override { return values[2]; }

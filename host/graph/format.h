@@ -24,7 +24,9 @@ inline constexpr Format pairs { .name = "float2", .bytes = 8, .storage = "float"
 /// As many floats, each in a plane of its own, of which kernels take those that they need.
 constexpr Format floatPlanes(std::uint32_t count)
 {
-    return count == 1 ? floats : Format { .name = "floats", .bytes = 4 * count, .storage = "float", .whole = false };
+    return count == 1 ? floats
+        : count == 3  ? vectors
+                      : Format { .name = "floats", .bytes = 4 * count, .storage = "float", .whole = false };
 }
 
 } // namespace wedge::graph

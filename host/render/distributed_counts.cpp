@@ -47,16 +47,17 @@ void DistributedSamples::publishedCounts()
     }
 }
 
-void DistributedSamples::widths()
+void DistributedSamples::widths(const std::vector<TermMeans>& all)
 {
     const int reach = f_.settings.distributed.factoringRadius;
-    for (const std::unique_ptr<WaveTerm>& term : terms_) {
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+        const std::unique_ptr<WaveTerm>& term = terms_[i];
         TermMeans& m = term->means;
         graph::Version error = m.error;
         if (!f_.lean) {
             auto made = f_.graph.plane<Value>("error of taking apart", graph::floats);
             f_.pixels("widths", PassKind::Analysis, { "waves/distributed.cl", "factoringError" },
-                { pixels(), reads("texture", m.texture), reads("value", m.value), reads("plain", m.plain),
+                { pixels(), reads("texture", m.texture), reads("value", all[i].value), reads("plain", m.plain),
                     writes("error", made) });
             error = made;
         }

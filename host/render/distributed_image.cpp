@@ -1,6 +1,7 @@
 // The image of a frame of several receivers a pixel, of what its pixels keep of their samples.
 #include "host/render/distributed_samples.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace wedge::render {
@@ -88,11 +89,22 @@ void DistributedSamples::startSums()
     for (const Added& added : added_) {
         addImage(added.radiance, beauty);
     }
-    if (before_.memory != nullptr) {
-        plain_ = copyOf("image before filters", beauty);
-        for (const std::unique_ptr<WaveTerm>& term : terms_) {
-            addOwn(*term, plain_, false);
-        }
+}
+
+void DistributedSamples::addPlain(const std::vector<TermMeans>& all)
+{
+    const bool kept =
+        std::ranges::any_of(terms_, [](const std::unique_ptr<WaveTerm>& term) { return term->bins.has_value(); });
+    if (shape_.apart && !kept) {
+        plain_ = sumOfAll("image before filters", f_.totals.direct.noisy, f_.totals.indirect.noisy);
+        return;
+    }
+    plain_ = copyOf("image before filters", shape_.apart ? f_.surfaces.emission : f_.totals.beauty);
+    for (std::size_t i = 0; shape_.apart && i < added_.size(); ++i) {
+        addImage(added_[i].radiance, plain_);
+    }
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+        addOwn(*terms_[i], all[i], plain_, false);
     }
 }
 
@@ -115,10 +127,7 @@ void DistributedSamples::startParts()
         }
     }
     for (const std::unique_ptr<WaveTerm>& term : terms_) {
-        addOwn(*term, term->sum().noisy, false);
-    }
-    if (before_.memory != nullptr) {
-        plain_ = sumOfAll("image before filters", t.direct.noisy, t.indirect.noisy);
+        addOwn(*term, term->means, term->sum().noisy, false);
     }
 }
 
@@ -132,13 +141,13 @@ graph::Handle<Radiance> DistributedSamples::sumOfAll(
     return sum;
 }
 
-void DistributedSamples::addOwn(WaveTerm& term, graph::Handle<Radiance>& radiance, bool unlessAnalysed)
+void DistributedSamples::addOwn(
+    WaveTerm& term, const TermMeans& means, graph::Handle<Radiance>& radiance, bool unlessAnalysed)
 {
     const auto condition = [state = state_](const Run&) { return !state->analysed; };
     f_.pixels("composite", PassKind::Composite, { "waves/distributed.cl", "addTerm" },
-        { f_.rectangle(term.of(params())), reads("texture", term.means.texture), reads("value", term.means.value),
-            shape_.published ? reads("termRadiance", term.means.radiance)
-                             : graph::absent("termRadiance", graph::vectors),
+        { f_.rectangle(term.of(params())), reads("texture", means.texture), reads("value", means.value),
+            shape_.published ? reads("termRadiance", means.radiance) : graph::absent("termRadiance", graph::vectors),
             updates("radiance", radiance) },
         unlessAnalysed ? condition : std::function<bool(const Run&)>());
 }
@@ -185,10 +194,14 @@ void DistributedSamples::compose()
     if (!shape_.layers) {
         countSamples();
     }
+    const std::vector<TermMeans> all = keepSamples();
     if (shape_.apart) {
         startParts();
     } else {
         startSums();
+    }
+    if (before_.memory != nullptr) {
+        addPlain(all);
     }
     Blurs own { f_.graph.plane<Pixels>("lens filter width", graph::floats),
         f_.graph.plane<Pixels>("motion filter width", graph::floats),
@@ -211,7 +224,7 @@ void DistributedSamples::compose()
         });
     }
     for (const std::unique_ptr<WaveTerm>& term : terms_) {
-        addOwn(*term, sumOf(*term), filters());
+        addOwn(*term, term->means, sumOf(*term), filters());
     }
     lens_ = own.lens;
     along_ = own.along;
@@ -272,6 +285,14 @@ void DistributedSamples::show(Outputs& to)
     for (const Added& added : added_) {
         if (!added.of.layer.empty()) {
             to.add(added.of.layer, added.radiance, Where::Everywhere, Join::Mean);
+        }
+    }
+    for (const std::unique_ptr<WaveTerm>& term : terms_) {
+        if (term->bins) {
+            to.add({ "rejected", term->termName, term->bins->rejected(), Where::OnSurfaces, Join::Mean });
+            if (term->bins->density().graph != 0) {
+                to.add({ "pathDensity", term->termName, term->bins->density(), Where::OnSurfaces, Join::Mean });
+            }
         }
     }
     to.add("motion", motion_);

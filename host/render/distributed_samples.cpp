@@ -64,6 +64,7 @@ DistributedSamples::DistributedSamples(FrameBuilder& frame, const SampleShape& s
     const std::vector<Term> terms = frameTerms(frame.settings, frame.description);
     for (const Term& term : terms) {
         terms_.push_back(term.inWaves(frame, shape));
+        terms_.back()->termName = term.name;
     }
     direct_ = countOf(Part::Direct, terms);
     const auto demand = [&](const char* name) {
@@ -73,6 +74,7 @@ DistributedSamples::DistributedSamples(FrameBuilder& frame, const SampleShape& s
     demand_ = demand("primary demand");
     for (const std::unique_ptr<WaveTerm>& term : terms_) {
         keepTerm(*term);
+        keepBins(*term);
         term->means.demand = demand("demand");
     }
 }
@@ -182,6 +184,15 @@ void DistributedSamples::keepTerm(WaveTerm& term)
     }
 }
 
+void DistributedSamples::keepBins(WaveTerm& term)
+{
+    const ChosenSampleFilter chosen = term.isOfSampleFilters() ? sampleFilterOf(f_.settings) : ChosenSampleFilter {};
+    if (chosen.filter != nullptr) {
+        const auto bins = kept<Packed>("samples by brightness", sampleBins);
+        term.bins.emplace(f_, chosen, bins, kept<Share>("exposure of samples", graph::floats, 1));
+    }
+}
+
 std::function<bool(const Run&)> DistributedSamples::analysed() const
 {
     return [state = state_](const Run&) { return state->analysed; };
@@ -230,6 +241,7 @@ void DistributedSamples::take(const DistributedSamples* guide)
     if (shape_.analysed && !shape_.published && lit_) {
         seenLights_ = seenLights(f_, camera_);
     }
+    exposeBins();
     if (shape_.analysed) {
         adaptive(guide);
     } else {
@@ -301,8 +313,10 @@ void DistributedSamples::adaptive(const DistributedSamples* guide)
         if (shape_.published) {
             publishedCounts();
         } else {
-            widths();
+            const std::vector<TermMeans> all = keepSamples();
+            widths(all);
             counts(guide != nullptr ? *guide : *this);
+            goOnWith(all);
         }
         limitTiles(f_, counts_, roomOfWaves(f_.layout, mostNew()));
     });

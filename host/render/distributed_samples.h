@@ -72,6 +72,7 @@ private:
     graph::Handle<Quantity> kept(const std::string& name, const graph::Format& format, std::uint64_t elements = 0);
     void keepPixels();
     void keepTerm(WaveTerm& term);
+    void keepBins(WaveTerm& term);
     std::uint32_t firstPaths() const; ///< samples of the first pass
     /// Whether counts are chapter 6's, of antialiased frames that nothing else lights or blurs, whatever is found: four
     /// primary samples, and of each as many of a term as make it WaveTerm::publishedSamples().
@@ -86,9 +87,16 @@ private:
     double raysOfPath() const;
     /// Primary samples after the first of a pixel at most, in the mean over tiles.
     double mostNew() const;
+    /// What samples by brightness are exposed by, of a few samples of the whole image.
+    void exposeBins();
+    /// Terms' means become what a filter of samples keeps of them; returns them as they were.
+    std::vector<TermMeans> keepSamples();
+    /// Terms' means are all samples' again, for more to be added.
+    void goOnWith(const std::vector<TermMeans>& all);
     void addUnfiltered(Waves& waves);
     void accumulateSurfaces(Waves& waves, const Adding& adding);
-    void widths();
+    /// all: terms' means of all samples, where a filter of samples has left some out of the terms' own.
+    void widths(const std::vector<TermMeans>& all);
     void publishedCounts();
     void demands();
     void counts(const DistributedSamples& guide);
@@ -104,12 +112,14 @@ private:
     void countSamples();
     void startSums();
     void startParts();
+    /// The image before any filter, of terms' means of all samples.
+    void addPlain(const std::vector<TermMeans>& all);
     graph::Handle<Radiance> copyOf(const std::string& name, const graph::Handle<Radiance>& image);
     void addImage(const graph::Handle<Radiance>& image, graph::Handle<Radiance>& sum);
     /// Emission, direct and indirect light.
     graph::Handle<Radiance> sumOfAll(
         const char* name, const graph::Handle<Radiance>& direct, const graph::Handle<Radiance>& indirect);
-    void addOwn(WaveTerm& term, graph::Handle<Radiance>& radiance, bool unlessAnalysed);
+    void addOwn(WaveTerm& term, const TermMeans& means, graph::Handle<Radiance>& radiance, bool unlessAnalysed);
     /// own: blurs of the pixels.
     void addFiltered(WaveTerm& term, const FilteredTerm& filtered, const Blurs& own, graph::Handle<Radiance>& radiance);
     void blur(graph::Handle<Radiance>& image);

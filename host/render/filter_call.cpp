@@ -121,7 +121,9 @@ std::string filterList()
                 : "\nFilters of the image, and their parameters:\n";
         }
         before = filter.get();
-        out += fmt::format("  {:<17} {}\n", filter->name(), filter->meaning());
+        const bool few = filter->stage() == Stage::Samples && !static_cast<const SampleFilter&>(*filter).kernelOfBins();
+        out += fmt::format("  {:<17} {}{}\n", filter->name(), filter->meaning(),
+            few ? "; not antialiased, through a lens or shutter, or progressive" : "");
         for (const FilterParameter& each : filter->parameters()) {
             out += fmt::format("    {:<15} {:g} to {:g}, default {:g}: {}\n", each.name, each.least, each.most,
                 each.standard, each.meaning);

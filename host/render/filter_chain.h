@@ -61,6 +61,11 @@ public:
     /// by what the analysis says (method aaf).
     virtual graph::KernelName kernel() const = 0;
     virtual std::vector<graph::Argument> arguments(const std::vector<float>& values, bool filtered) const = 0;
+    /// The kernel over samples that are known by their brightness alone (kernels/sinks/sample_bins.h), which is handed
+    /// the same; none: in frames that know no more it cannot be.
+    virtual std::optional<graph::KernelName> kernelOfBins() const { return std::nullopt; }
+    /// Whether what is left out is missing; else the rest makes up for it.
+    virtual bool losesLight() const { return false; }
     /// Standard deviation, pixels, of the Gaussian by which what is left out is spread over its surface; 0: it is lost.
     virtual float spread(const std::vector<float>& values) const = 0;
     /// Whether its kernel tells the mean isolation of pixels' samples, `density`.

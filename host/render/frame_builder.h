@@ -9,6 +9,7 @@
 #include "host/render/prepared_scene.h"
 #include "host/render/settings.h"
 #include "kernels/shared/filter_params.h"
+#include "kernels/shared/sample_filter.h"
 
 #include <memory>
 #include <optional>
@@ -59,6 +60,11 @@ inline constexpr graph::Format shortRanges { .name = "range16", .bytes = 2, .sto
 inline constexpr graph::Format shortReflectors { .name = "reflectors32", .bytes = 4, .storage = "float" };
 inline constexpr graph::Format wholeGloss { .name = "gloss32", .bytes = 4, .storage = "uint" };
 inline constexpr graph::Format shortGloss { .name = "gloss16", .bytes = 2, .storage = "ushort" };
+/// A pixel's samples by brightness (kernels/sinks/sample_bins.h), and shares of each bin.
+inline constexpr graph::Format sampleBins {
+    .name = "bins", .bytes = 2 * WEDGE_SAMPLE_BINS * WEDGE_BIN_NUMBERS, .storage = "ushort", .whole = false
+};
+inline constexpr graph::Format binShares = shortPlanes("shares", WEDGE_SAMPLE_BINS);
 inline constexpr graph::Format tallySums { .name = "ulong1", .bytes = 8, .storage = "ulong", .whole = false };
 /// Normals, alone or with those without their maps behind, in parts of 32 bits and of 10.
 inline constexpr graph::Format normalPairs { .name = "normal192", .bytes = 24, .storage = "float", .blocks = true };

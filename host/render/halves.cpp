@@ -54,10 +54,12 @@ HalvesFrame::HalvesFrame(const PreparedScene& scene, const DeviceScene* deviceSc
 graph::Version HalvesFrame::mean(const graph::Version& one, const graph::Version& other)
 {
     FrameBuilder& f = *halves_[0].frame;
-    auto out = graph_.plane<Radiance>("mean of halves", graph::vectors);
+    const graph::Format format = graph_.resources()[one.resource].format;
+    auto out = graph_.plane<Radiance>("mean of halves", format);
     f.pixels(pass, PassKind::Composite, { file, "meanOfHalves" },
-        { f.rectangle(halves_[0].samples->params()), value("planes", 3u), reads("takenA", halves_[0].samples->taken()),
-            reads("takenB", halves_[1].samples->taken()), reads("a", one), reads("b", other), writes("mean", out) });
+        { f.rectangle(halves_[0].samples->params()), value("planes", format == graph::vectors ? 3u : 1u),
+            reads("takenA", halves_[0].samples->taken()), reads("takenB", halves_[1].samples->taken()), reads("a", one),
+            reads("b", other), writes("mean", out) });
     return out;
 }
 
@@ -175,8 +177,10 @@ void HalvesFrame::estimateError(bool analysed)
     FrameBuilder& f = *halves_[0].frame;
     noise_ = graph_.plane<Squares>("noise", graph::floats);
     bias_ = graph_.plane<Squares>("bias", graph::floats);
-    const auto filtered = [analysed, state = halves_[0].samples->state()](
-                              const graph::Launch&) -> std::uint32_t { return analysed && state->analysed ? 1 : 0; };
+    const bool kept = sampleFilterOf(settings_).filter != nullptr;
+    const auto filtered = [analysed, kept, state = halves_[0].samples->state()](const graph::Launch&) -> std::uint32_t {
+        return kept || (analysed && state->analysed) ? 1 : 0;
+    };
     std::vector<graph::Argument> arguments { f.rectangle(halves_[0].samples->params()), made("filtered", filtered) };
     arguments.push_back(reads("beautyA", halves_[0].frame->totals.beauty));
     arguments.push_back(reads("plainA", halves_[0].samples->plainImage()));

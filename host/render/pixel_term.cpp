@@ -1,6 +1,7 @@
 #include "host/render/pixel_term.h"
 
 #include "host/render/filters/count_scale.h"
+#include "host/render/sample_passes.h"
 #include "host/render/sample_slices.h"
 #include "host/render/sinks.h"
 #include "kernels/shared/sample_filter.h"
@@ -195,8 +196,8 @@ void PixelTerm::exposeSamples(StoredSamples& stored)
     constexpr std::uint32_t each = WEDGE_PROBE_SAMPLES;
     const double mean = double { WEDGE_PROBE_SAMPLES } / (WEDGE_PROBE_STEP * WEDGE_PROBE_STEP);
     const std::string pass = "probes of " + names_.stages;
-    sample({ .pass = pass, .from = 0, .most = each, .mean = mean, .everywhere = true }, stored.probes(), taken,
-        { sinks::sums() }, { updates("sums", sums) });
+    sample({ .pass = pass, .from = 0, .most = each, .mean = mean, .everywhere = true },
+        probeCounts(f_, f_.surfaces.objectId), taken, { sinks::sums() }, { updates("sums", sums) });
     stored.expose(sums, taken);
 }
 

@@ -196,7 +196,7 @@ void Renderer::addLasting(device::MemoryPlan& plan, const PreparedScene& scene, 
     const Settings& settings, const FrameFilter* filter)
 {
     DeviceScene::plan(plan, scene, hierarchy);
-    if (sampleFilterOf(settings).filter != nullptr) {
+    if (sampleFilterOf(settings).filter != nullptr && !isDistributed(settings, scene)) {
         plan.otherWayOut("take fewer samples with --spp, which filters of samples keep"); // of a band of rows
     }
     if (filter != nullptr) {

@@ -105,6 +105,22 @@ void validateCounts(const Settings& s, bool distributed)
         fmt::format("{} or less through a lens or shutter, or with antialiasing", mostDistributedSpp));
 }
 
+/// Names of the filters of samples that frames of several receivers a pixel can have: "a, b or c".
+std::string filtersOfBins()
+{
+    std::vector<std::string> names;
+    for (const std::unique_ptr<const Filter>& filter : registeredFilters()) {
+        if (filter->stage() == Stage::Samples && static_cast<const SampleFilter&>(*filter).kernelOfBins()) {
+            names.push_back(filter->name());
+        }
+    }
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
+    }
+    return text;
+}
+
 /// Of filters of samples.
 void validateSampleFilter(const Settings& s, bool distributed)
 {
@@ -113,10 +129,14 @@ void validateSampleFilter(const Settings& s, bool distributed)
     if (sampleFilterOf(s).filter == nullptr) {
         return;
     }
-    if (distributed) {
-        throw UsageError("filters of samples are of frames through a pinhole where nothing moves, neither antialiased "
-                         "nor progressive",
-            filter->name, "leave it out, a scene's with --no-filters, or choose a filter of the image");
+    if (distributed && !sampleFilterOf(s).filter->kernelOfBins()) {
+        throw UsageError("this filter of samples is of frames through a pinhole where nothing moves, neither "
+                         "antialiased nor progressive",
+            filter->name, fmt::format("choose {}, or leave it out, a scene's with --no-filters", filtersOfBins()));
+    }
+    if (distributed && s.method == Method::AxisAligned && s.distributed.published) {
+        throw UsageError("filters of samples do not go with published frames through a lens or shutter, or antialiased",
+            filter->name, "leave it out, a scene's with --no-filters");
     }
     if (s.method == Method::AxisAligned && s.sampling == Sampling::Adaptive
         && s.indirect.counts == IndirectCounts::Spectrum) {

@@ -1,11 +1,11 @@
 #include "host/render/stored_samples.h"
 
 #include "host/graph/execution.h"
+#include "host/render/sample_passes.h"
 #include "kernels/shared/frame.h"
 #include "kernels/shared/sample_filter.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace wedge::render {
@@ -17,7 +17,6 @@ using graph::readsAsIs;
 using graph::tallies;
 using graph::updates;
 using graph::value;
-using graph::writes;
 
 namespace {
 
@@ -99,21 +98,9 @@ void StoredSamples::takeKept(const StoredSamples& other)
     density = other.density;
 }
 
-graph::Handle<Count> StoredSamples::probes()
-{
-    auto wanted = frame_.graph.plane<Count>("samples of probes wanted", graph::counts);
-    frame_.pixels("exposure of samples", PassKind::Analysis, { "filter/exposure.cl", "probeCounts" },
-        { frame_.rectangle(frame_.analysisParams()), reads("objectId", frame_.surfaces.objectId),
-            writes("wanted", wanted) });
-    return wanted;
-}
-
 void StoredSamples::expose(const graph::Handle<Sums>& ofProbes, const graph::Handle<Count>& takenByProbes)
 {
-    auto bins = frame_.graph.list<Count>("bins of luminances", graph::counts, WEDGE_PROBE_BINS);
-    frame_.items("exposure of samples", PassKind::Analysis, { "filter/exposure.cl", "exposureOfProbes" }, 1,
-        { frame_.rectangle(frame_.analysisParams()), reads("sums", ofProbes), reads("taken", takenByProbes),
-            writes("bins", bins), writes("exposure", exposure_) });
+    exposureOfProbes(frame_, ofProbes, takenByProbes, exposure_);
 }
 
 RowsOf StoredSamples::rows() const
@@ -182,30 +169,9 @@ void StoredSamples::keep()
 
 void StoredSamples::spread()
 {
-    const float sigma = chosen_.filter->spread(chosen_.values);
-    if (sigma <= 0.0f) {
-        return;
-    }
-    const graph::Reach far = graph::around(static_cast<int>(std::ceil(WEDGE_SPREAD_CUT * sigma)));
-    auto per = frame_.graph.plane<Share>("shares of rejected light", graph::floats);
-    const auto surface = [&] {
-        return Arguments { frame_.rectangle(frame_.analysisParams()), value("sigma", sigma),
-            reads("objectId", frame_.surfaces.objectId, far), reads("normal", frame_.surfaces.normal, far),
-            reads("taken", taken, far) };
-    };
-    frame_.pixels(pass, PassKind::Filter, { "filter/spread.cl", "spreadSums" },
-        joined(surface(), Arguments { reads("excess", excess), writes("per", per) }));
-    frame_.pixels(pass, PassKind::Filter, { "filter/spread.cl", "spreadExcess" },
-        joined(surface(),
-            Arguments { reads("excess", excess, far), reads("per", per, far), updates("sums", sums),
-                parts.graph != 0 ? updates("parts", parts) : graph::absent("parts", packedColours) }));
+    render::spread(frame_, chosen_.filter->spread(chosen_.values), { excess, taken, sums, parts });
 }
 
-void StoredSamples::means(graph::Handle<Value>& mean) const
-{
-    frame_.pixels(pass, PassKind::Filter, { "filter/spread.cl", "meanOfKept" },
-        { frame_.rectangle(frame_.analysisParams()), reads("sums", sums), reads("taken", taken),
-            updates("value", mean) });
-}
+void StoredSamples::means(graph::Handle<Value>& mean) const { meansOfKept(frame_, sums, taken, mean); }
 
 } // namespace wedge::render

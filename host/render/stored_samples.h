@@ -21,8 +21,7 @@ public:
     /// What is kept is that of `other`.
     void takeKept(const StoredSamples& other);
 
-    /// Declares how the exposure follows from what samples of some pixels add up to (WEDGE_PROBE_STEP).
-    graph::Handle<Count> probes();
+    /// Declares how the exposure follows from what samples of some pixels add up to (probeCounts()).
     void expose(const graph::Handle<Sums>& ofProbes, const graph::Handle<Count>& takenByProbes);
     /// Whether the exposure is asked for, and not given by the filter's values: then there is nothing to probe.
     bool probed() const { return chosen_.filter->exposure(chosen_.values) == 0.0f; }

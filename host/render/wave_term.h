@@ -1,11 +1,13 @@
 #pragma once
 
 #include "host/render/frame_builder.h"
+#include "host/render/sample_bins.h"
 #include "host/render/waves.h"
 #include "kernels/shared/distributed.h"
 #include "kernels/shared/filter_params.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace wedge::render {
@@ -93,6 +95,10 @@ public:
     /// The samples of a wave's receivers, added to their pixels. counts, hits: of primary samples.
     virtual void sample(
         Waves& waves, const Adding& adding, const PrimaryCounts& counts, const graph::Handle<Count>& hits) = 0;
+    /// Whether filters of samples (filter_chain.h) are of this term; of those that are, samples of probes, whose counts
+    /// are the wave's: sums of receivers, as lists.
+    virtual bool isOfSampleFilters() const { return false; }
+    virtual graph::Handle<Sums> probe(Waves& /*waves*/, const PrimaryCounts& /*counts*/) { return {}; }
     /// means.beta, metres, from what was measured.
     virtual void widths() = 0;
     /// Samples that antialiased pixels take of it as published; 0: what the analysis says.
@@ -117,6 +123,8 @@ public:
 
     const float rays;
     TermMeans means;
+    std::string termName = {}; ///< Term::name
+    std::optional<SampleBins> bins = {}; ///< where a filter of samples is of the term
 
 protected:
     const Settings& settings() const { return f_.settings; }

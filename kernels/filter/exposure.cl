@@ -7,14 +7,17 @@
 #include "shared/sample_filter.h"
 
 /// Samples of the pixels that are looked at.
-/// in   objectId
+/// in   objectId: where it is known
 /// out  wanted
 #include "pass/probeCounts.h"
 #ifdef PASS_probeCounts
 __kernel void probeCounts(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
-    const bool probe = x % WEDGE_PROBE_STEP == 0u && y % WEDGE_PROBE_STEP == 0u && objectId[i] != 0u;
+    bool probe = x % WEDGE_PROBE_STEP == 0u && y % WEDGE_PROBE_STEP == 0u;
+#if HAS_objectId
+    probe = probe && objectId[i] != 0u;
+#endif
     wanted[i] = probe ? WEDGE_PROBE_SAMPLES : 0u;
 }
 #endif

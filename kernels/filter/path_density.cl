@@ -6,6 +6,7 @@
 #include "filter/kept.h"
 #include "shared/filter_params.h"
 #include "shared/wedge.h"
+#include "sinks/sample_bins.h"
 
 /// Pixels around one by their distance, nearest first: all that are nearer than WEDGE_SAMPLE_REACH. x, y.
 __constant char densityOffsets[] = { 0, 0, -1, 0, 0, -1, 0, 1, 1, 0, -1, -1, -1, 1, 1, -1, 1, 1, -2, 0, 0, -2, 0, 2, 2,
@@ -193,6 +194,102 @@ __kernel void keepByDensity(PARAMETERS)
     taken[i] = count;
 #if HAS_density
     density[i] = isolations / (float)count;
+#else
+    (void)isolations;
+#endif
+}
+#endif
+
+/// The same where samples are known by bins of brightness: all of a bin are as far from others as its mean is, and no
+/// distance from each other.
+typedef struct {
+    __global const ushort* bins;
+    uint size;
+    float exposure;
+} BinnedSamples;
+
+/// Colour of a bin's mean, in pixels.
+WEDGE_INLINE Vec3 binColour(const BinnedSamples* s, SampleBin bin)
+{
+    return vecScale(labOf(vecScale(bin.mean, s->exposure)), 1.0f / WEDGE_LAB_PIXEL);
+}
+
+/// Adds a pixel's bins, `far` pixels away, to the nearest of a sample whose colour is `own`. self: its bin, where it is
+/// of that pixel; else WEDGE_SAMPLE_BINS
+WEDGE_FN void addBinsOf(const BinnedSamples* s, uint pixel, float far, Vec3 own, uint self, Nearest* nearest)
+{
+    for (uint b = 0u; b < WEDGE_SAMPLE_BINS; ++b) {
+        // No bin is nearer than its ends are, but for rounding.
+        const float begin = b > 0u ? sampleBinEnds[b - 1u] : -INFINITY;
+        const float end = b + 1u < WEDGE_SAMPLE_BINS ? sampleBinEnds[b] : INFINITY;
+        if (far + 0.99f * fmax(begin - own.x, own.x - end) >= nearest->largest) {
+            continue;
+        }
+        const SampleBin bin = loadSampleBin(s->bins, s->size, pixel, b);
+        uint count = bin.count - (b == self ? 1u : 0u);
+        if (count == 0u) {
+            continue;
+        }
+        const float d = b == self ? far : far + vecLength(vecSub(binColour(s, bin), own));
+        for (; count > 0u && d < nearest->largest; --count) {
+            addNear(nearest, d);
+        }
+    }
+}
+
+/// The isolation of the samples of a pixel's bin; anything up to `enough` where it is no more than that.
+WEDGE_FN float isolationOfBin(
+    const BinnedSamples* s, AnalysisParams p, uint x, uint y, uint bin, Vec3 own, uint k, float enough)
+{
+    Nearest nearest;
+    nothingNear(&nearest, k);
+    for (uint o = 0u; o < WEDGE_DENSITY_PIXELS; ++o) {
+        const int dx = densityOffsets[2u * o], dy = densityOffsets[2u * o + 1u];
+        const float far = sqrt((float)(dx * dx + dy * dy));
+        if (far >= nearest.largest || nearest.sum <= enough * (float)k) {
+            break;
+        }
+        const int u = (int)x + dx, v = (int)y + dy;
+        if (u >= 0 && v >= 0 && u < (int)p.width && v < (int)p.height) {
+            addBinsOf(s, pixelIndex((uint)u, (uint)v, p.stride), far, own, o == 0u ? bin : WEDGE_SAMPLE_BINS, &nearest);
+        }
+    }
+    return fmax(nearest.sum / (float)k, 0.0f);
+}
+
+/// What is kept of the samples of each of a pixel's bins, as keepByDensity keeps them.
+/// in   bins; exposure; k, low, high
+/// out  shares: of each bin (kept_bins.cl); density: mean isolation
+#include "pass/keepBinsByDensity.h"
+#ifdef PASS_keepBinsByDensity
+__kernel void keepBinsByDensity(PARAMETERS)
+{
+    WEDGE_PIXEL(p, x, y, i);
+    const uint size = p.planeSize;
+    const BinnedSamples binned = { bins, size, exposure[0] };
+    float isolations = 0.0f, least = INFINITY, weight = 0.0f;
+    uint count = 0u, plainest = 0u;
+    for (uint b = 0u; b < WEDGE_SAMPLE_BINS; ++b) {
+        const SampleBin bin = loadSampleBin(bins, size, i, b);
+        float share = 1.0f;
+        if (bin.count > 0u) {
+            const float isolation = bin.count > k
+                ? 0.0f
+                : isolationOfBin(&binned, p, x, y, b, binColour(&binned, bin), k, HAS_density ? 0.0f : low);
+            share = isolation <= low ? 1.0f : fmax(0.0f, (high - isolation) / (high - low));
+            plainest = isolation < least ? b : plainest;
+            least = fmin(least, isolation);
+            isolations += isolation * (float)bin.count;
+            count += bin.count;
+            weight += share * (float)bin.count;
+        }
+        storeShort(shares, size, i, b, share);
+    }
+    if (weight < WEDGE_LEAST_KEPT && count > 0u) {
+        storeShort(shares, size, i, plainest, 1.0f);
+    }
+#if HAS_density
+    density[i] = count > 0u ? isolations / (float)count : 0.0f;
 #else
     (void)isolations;
 #endif

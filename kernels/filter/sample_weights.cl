@@ -5,6 +5,7 @@
 #include "shared/filter_params.h"
 #include "shared/maths.h"
 #include "shared/wedge.h"
+#include "sinks/sample_bins.h"
 
 #define WEDGE_STORE_KEPT(kept)                                                                                         \
     storeKept(&(kept), p.planeSize, i, count, sums, excess, HAS_parts ? (__global float*)PLANE_parts : 0);             \
@@ -113,8 +114,6 @@ __kernel void keepMedianOfMeans(PARAMETERS)
 }
 #endif
 
-#include "pass/keepReweighted.h"
-#ifdef PASS_keepReweighted
 /// Brightness falls into cascades, each so many times as bright as the one before it, from 1 in exposed radiance on.
 #define WEDGE_CASCADE_BASE 8.0f
 #define WEDGE_CASCADES 6u
@@ -133,19 +132,37 @@ WEDGE_INLINE float shareOfCascade(float l, uint* cascade)
     return clamp(share, 0.0f, 1.0f);
 }
 
-/// Adds a pixel's luminances to cascades, in samples of their brightness.
-WEDGE_FN void addCascades(const StoredSamples* s, uint pixel, float scale, float* cascades)
+/// Light of a pixel, or of several, by cascades.
+typedef struct {
+    float light[WEDGE_CASCADES]; ///< exposed luminances
+} Cascades;
+
+WEDGE_FN Cascades noCascades(void)
+{
+    Cascades none;
+    for (uint c = 0u; c < WEDGE_CASCADES; ++c) {
+        none.light[c] = 0.0f;
+    }
+    return none;
+}
+
+/// Adds `count` samples of exposed luminance l.
+WEDGE_FN void addToCascades(Cascades* cascades, float l, float count)
+{
+    uint cascade;
+    const float lower = shareOfCascade(l, &cascade);
+    cascades->light[cascade] += count * (lower * l);
+    cascades->light[cascade + 1u] += count * ((1.0f - lower) * l);
+}
+
+/// Adds a pixel's stored samples.
+WEDGE_FN void addCascades(const StoredSamples* s, uint pixel, float scale, Cascades* cascades)
 {
     for (uint j = 0u; j < s->drawn[pixel]; ++j) {
         const Vec3 radiance = storedRadiance(s, pixel, j);
-        if (!storesFinite(radiance)) {
-            continue;
+        if (storesFinite(radiance)) {
+            addToCascades(cascades, scale * luminance(radiance), 1.0f);
         }
-        const float l = scale * luminance(radiance);
-        uint cascade;
-        const float lower = shareOfCascade(l, &cascade);
-        cascades[cascade] += lower * l;
-        cascades[cascade + 1u] += (1.0f - lower) * l;
     }
 }
 
@@ -158,31 +175,15 @@ WEDGE_FN float besideCascade(const float* cascades, uint c)
 /// Re-weighting of bright samples (Zirr, Hanika, Dachsbacher, Re-weighting Firefly Samples for Improved Finite-Sample
 /// Monte Carlo Estimates, 2018): how far a cascade of brightness is trusted goes by how many samples of about that
 /// brightness there are in the pixel, or in 3x3 where those are few, and by how bright the pixel is without it.
-/// kappa: samples of a brightness that are asked for
-__kernel void keepReweighted(PARAMETERS)
+/// n: samples of the pixel; kappa: samples of a brightness that are asked for; trust: of each cascade
+WEDGE_FN void trustCascades(const Cascades* own, const Cascades* around, float n, float kappa, float* trust)
 {
-    WEDGE_KEPT_PIXEL(p, x, y, i, count)
-    const StoredSamples stored = { radiance, colours, ranges, drawn, slots, perPixel };
-    const uint ofPart = firstPart(count, firstPass);
-    float own[WEDGE_CASCADES], around[WEDGE_CASCADES], trust[WEDGE_CASCADES];
-    for (uint c = 0u; c < WEDGE_CASCADES; ++c) {
-        own[c] = around[c] = 0.0f;
-    }
-    addCascades(&stored, i, exposure[0], own);
-    for (int dy = -1; dy <= 1; ++dy) {
-        for (int dx = -1; dx <= 1; ++dx) {
-            const int u = (int)x + dx, v = (int)y + dy;
-            if (u >= 0 && v >= 0 && u < (int)p.width && v < (int)p.height) {
-                addCascades(&stored, pixelIndex((uint)u, (uint)v, p.stride), exposure[0], around);
-            }
-        }
-    }
-    const float n = (float)count, perOfKappa = 1.0f / kappa;
+    const float perOfKappa = 1.0f / kappa;
     float brightness = 1.0f, level = 1.0f, light = 0.0f;
     float ownCounts[WEDGE_CASCADES], aroundCounts[WEDGE_CASCADES];
     for (uint c = 0u; c < WEDGE_CASCADES; ++c) {
-        ownCounts[c] = own[c] / level;
-        aroundCounts[c] = around[c] / (9.0f * level);
+        ownCounts[c] = own->light[c] / level;
+        aroundCounts[c] = around->light[c] / (9.0f * level);
         level *= WEDGE_CASCADE_BASE;
     }
     level = 1.0f;
@@ -193,20 +194,99 @@ __kernel void keepReweighted(PARAMETERS)
         const float more = WEDGE_CASCADE_BASE + (1.0f - WEDGE_CASCADE_BASE) * fmin(perOfKappa, 1.0f);
         trust[c] = clamp(0.5f * ((samples + n * brightness / level * more) * perOfKappa - perOfKappa), 0.0f, 1.0f);
         trust[c] = c == 0u ? 1.0f : trust[c];
-        light += own[c] * trust[c];
+        light += own->light[c] * trust[c];
         level *= WEDGE_CASCADE_BASE;
     }
+}
+
+/// What counts of a sample of exposed luminance l.
+WEDGE_FN float trustOf(const float* trust, float l)
+{
+    uint cascade;
+    const float lower = shareOfCascade(l, &cascade);
+    return trust[cascade] == 1.0f && trust[cascade + 1u] == 1.0f
+        ? 1.0f
+        : lower * trust[cascade] + (1.0f - lower) * trust[cascade + 1u];
+}
+
+/// kappa: as trustCascades has it
+#include "pass/keepReweighted.h"
+#ifdef PASS_keepReweighted
+__kernel void keepReweighted(PARAMETERS)
+{
+    WEDGE_KEPT_PIXEL(p, x, y, i, count)
+    const StoredSamples stored = { radiance, colours, ranges, drawn, slots, perPixel };
+    const uint ofPart = firstPart(count, firstPass);
+    Cascades own = noCascades(), around = noCascades();
+    addCascades(&stored, i, exposure[0], &own);
+    for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+            const int u = (int)x + dx, v = (int)y + dy;
+            if (u >= 0 && v >= 0 && u < (int)p.width && v < (int)p.height) {
+                addCascades(&stored, pixelIndex((uint)u, (uint)v, p.stride), exposure[0], &around);
+            }
+        }
+    }
+    float trust[WEDGE_CASCADES];
+    trustCascades(&own, &around, (float)count, kappa, trust);
     Kept kept = nothingKept();
     for (uint j = 0u; j < count; ++j) {
         const Vec3 sample = storedRadiance(&stored, i, j);
-        uint cascade;
-        const float lower = shareOfCascade(exposure[0] * luminance(sample), &cascade);
-        const float weight = trust[cascade] == 1.0f && trust[cascade + 1u] == 1.0f
-            ? 1.0f
-            : lower * trust[cascade] + (1.0f - lower) * trust[cascade + 1u];
-        keepSample(&kept, sample, weight, j < ofPart);
+        keepSample(&kept, sample, trustOf(trust, exposure[0] * luminance(sample)), j < ofPart);
     }
     countWhole(&kept);
     WEDGE_STORE_KEPT(kept);
+}
+#endif
+
+/// Adds a pixel's bins (sinks/sample_bins.h), whose samples are as bright as their mean. Returns how many there are.
+WEDGE_FN float addBinCascades(__global const ushort* bins, uint size, uint pixel, float scale, Cascades* cascades)
+{
+    float samples = 0.0f;
+    for (uint b = 0u; b < WEDGE_SAMPLE_BINS; ++b) {
+        const SampleBin bin = loadSampleBin(bins, size, pixel, b);
+        if (bin.count > 0u) {
+            addToCascades(cascades, scale * luminance(bin.mean), (float)bin.count);
+            samples += (float)bin.count;
+        }
+    }
+    return samples;
+}
+
+/// The same over bins.
+/// out  shares: of each bin, that is kept (kept_bins.cl)
+#include "pass/keepBinsReweighted.h"
+#ifdef PASS_keepBinsReweighted
+__kernel void keepBinsReweighted(PARAMETERS)
+{
+    WEDGE_PIXEL(p, x, y, i);
+    const uint size = p.planeSize;
+    Cascades own = noCascades(), around = noCascades();
+    const float count = addBinCascades(bins, size, i, exposure[0], &own);
+    for (int dy = -min(1, (int)y); dy <= min(1, (int)(p.height - 1u - y)); ++dy) {
+        for (int dx = -min(1, (int)x); dx <= min(1, (int)(p.width - 1u - x)); ++dx) {
+            addBinCascades(bins, size, (uint)((int)i + dy * (int)p.stride + dx), exposure[0], &around);
+        }
+    }
+    float trust[WEDGE_CASCADES];
+    trustCascades(&own, &around, fmax(count, 1.0f), kappa, trust);
+    for (uint b = 0u; b < WEDGE_SAMPLE_BINS; ++b) {
+        const SampleBin bin = loadSampleBin(bins, size, i, b);
+        storeShort(shares, size, i, b, bin.count > 0u ? trustOf(trust, exposure[0] * luminance(bin.mean)) : 1.0f);
+    }
+}
+#endif
+
+/// keepClamped over bins, all of whose samples are as bright as their mean.
+/// out  shares: of each bin, that is kept (kept_bins.cl)
+#include "pass/keepBinsClamped.h"
+#ifdef PASS_keepBinsClamped
+__kernel void keepBinsClamped(PARAMETERS)
+{
+    WEDGE_PIXEL(p, x, y, i);
+    for (uint b = 0u; b < WEDGE_SAMPLE_BINS; ++b) {
+        const float l = exposure[0] * luminance(loadSampleBin(bins, p.planeSize, i, b).mean);
+        storeShort(shares, p.planeSize, i, b, l > level ? level / l : 1.0f);
+    }
 }
 #endif

@@ -88,13 +88,13 @@ __kernel void spreadExcess(PARAMETERS)
 
 /// Means of the sums, what is filtered or shown.
 /// in   sums (3 planes), taken
-/// out  value: 3 planes
+/// out  mean: colours
 #include "pass/meanOfKept.h"
 #ifdef PASS_meanOfKept
 __kernel void meanOfKept(PARAMETERS)
 {
     WEDGE_PIXEL(p, x, y, i);
     const float per = taken[i] != 0u ? 1.0f / (float)taken[i] : 0.0f;
-    storeVec(value, p.planeSize, i, vecScale(loadVec(sums, p.planeSize, i), per));
+    STORE_mean(p.planeSize, i, vecScale(loadVec(sums, p.planeSize, i), per));
 }
 #endif

@@ -11,6 +11,9 @@
 #define WEDGE_MOST_NEAREST 256
 /// Groups of samples whose means are compared, at most.
 #define WEDGE_MOST_GROUPS 63
+/// Bins of brightness into which samples fall where they are not stored one by one, and numbers of 16 bits of each.
+#define WEDGE_SAMPLE_BINS 8
+#define WEDGE_BIN_NUMBERS 5
 /// Gaussians that spread what is left out end at this many standard deviations.
 #define WEDGE_SPREAD_CUT 2.0f
 /// Of the brightness that samples have before any filter: in each direction one pixel of so many is looked at, with so

@@ -3,6 +3,7 @@
 // radiance and in textures, and not at all in irradiances, positions and normals. What a pixel keeps of a term:
 // accumulate.h; what receivers add to it: light_receivers.h; and to surfaces: surface_sums.h.
 #include "shared/indirect.h"
+#include "sinks/sample_bins.h"
 #include "waves/accumulate.h"
 #include "waves/light_receivers.h"
 #include "waves/surface_sums.h"
@@ -111,8 +112,9 @@ __kernel void accumulateDelta(PARAMETERS)
 /// One component of indirect light.
 /// in      ambient: 1 for ambient occlusion: the irradiance is what is open of the hemisphere, the texture white
 ///         wave's planes: objectId, reflectance (3), sums (path_sampling.h), reflectors (distances.h); hits, as
-///         of a light
-/// in out  as of a light; extremes: reflectors of pixels, like those of receivers; indirectSamples
+///         of a light; exposure: what bins of samples are of
+/// in out  as of a light; extremes: reflectors of pixels, like those of receivers; indirectSamples; bins: samples by
+///         their brightness (sinks/sample_bins.h): all of a receiver count as one
 #include "pass/accumulatePaths.h"
 #ifdef PASS_accumulatePaths
 __kernel void accumulatePaths(PARAMETERS)
@@ -138,9 +140,18 @@ __kernel void accumulatePaths(PARAMETERS)
         const Vec3 e = ambient != 0u ? vecSub(white, mean) : mean;
         ReceiverTerm t;
         t.texture = ambient != 0u ? white : loadVec(reflectance, size, r);
+        t.weights = vecScale(vecMad(floors, t.texture, own), wave.published != 0u ? 1.0f : (float)n);
+#if HAS_bins
+        if (!storesFinite(e)) {
+            addTexture(&sum, t.texture); // and nothing else: what is no number is left out
+            continue;
+        }
+        if (n > 0u) {
+            binSample(bins, pixels, p.i, exposure, e, luminance(t.weights));
+        }
+#endif
         t.radiance = vecMul(t.texture, e);
         t.irradiance = luminance(e);
-        t.weights = vecScale(vecMad(floors, t.texture, own), wave.published != 0u ? 1.0f : (float)n);
         t.weighted = vecMul(t.weights, e);
         addReceiver(&sum, p, k, total, t);
         if (n == 0u) {
@@ -167,6 +178,37 @@ __kernel void accumulatePaths(PARAMETERS)
     STORE_samples(pixels, p.i, LOAD_samples(pixels, p.i) + total);
     STORE_indirectSamples(pixels, p.i, LOAD_indirectSamples(pixels, p.i) + total);
     STORE_termTaken(pixels, p.i, had + total);
+}
+#endif
+
+/// What samples of probes find, for the exposure (filter/exposure.cl), which is of their mean.
+/// in      wave's planes: objectId, sums (3 of them, of one sample); rays, pathRays
+/// in out  of pixels: found: their sum; seen: surfaces; kept_rays, kept_pathRays: as of surfaces, where they count
+#include "pass/accumulateProbes.h"
+#ifdef PASS_accumulateProbes
+__kernel void accumulateProbes(PARAMETERS)
+{
+    WavePixel p;
+    if (!wavePixel(frame, wave, pixelFirst, pixelCount, taken, &p)) {
+        return;
+    }
+    Vec3 sum = vec3(0.0f, 0.0f, 0.0f);
+    uint count = 0u;
+    for (uint r = p.first; r < p.first + p.count; ++r) {
+        if (objectId[r] != 0u) {
+            sum = vecAdd(sum, loadVec(sums, wave.planeSize, r));
+            ++count;
+        }
+    }
+    storeVec(found, frame.planeSize, p.i, vecAdd(loadVec(found, frame.planeSize, p.i), sum));
+    seen[p.i] += count;
+#if HAS_rays
+    const uint counted = raysOfImage != 0u ? p.i : p.slot;
+    kept_rays[counted] += sumOfCounts(p, rays);
+    kept_pathRays[counted] += sumOfCounts(p, pathRays);
+#else
+    (void)raysOfImage;
+#endif
 }
 #endif
 

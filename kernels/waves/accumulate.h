@@ -114,11 +114,16 @@ WEDGE_FN uint samplesOfReceiver(WavePixel p, uint k, uint total)
     return sharedSamples(k + 1u, p.count, total) - sharedSamples(k, p.count, total);
 }
 
+WEDGE_FN void addTexture(TermSums* s, Vec3 texture)
+{
+    s->texture = vecAdd(s->texture, texture);
+    s->textureSquared += luminance(texture) * luminance(texture);
+}
+
 /// Adds a pixel's receiver number k. total: the pixel's samples in the wave
 WEDGE_FN void addReceiver(TermSums* s, WavePixel p, uint k, uint total, ReceiverTerm t)
 {
-    s->texture = vecAdd(s->texture, t.texture);
-    s->textureSquared += luminance(t.texture) * luminance(t.texture);
+    addTexture(s, t.texture);
     if (samplesOfReceiver(p, k, total) == 0u) {
         return;
     }
