@@ -147,6 +147,21 @@ TEST_CASE("all variants are measured of a scene file, and there are filters for 
     }
 }
 
+TEST_CASE("antialiased, filters that need samples themselves are left out by name")
+{
+    const Workplace place;
+    const Outcome outcome =
+        place.run({ "--scene", box, "--size", "16x12", "--spp", "4", "--aaf-spp", "16", "--reference-spp", "16",
+            "--antialias", "--reference-dir", "references", "--json", "results.json", "--python", "no-such-python" });
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    const Json all = Json::parse(place.text("results.json"));
+    CHECK(all["plan"]["antialias"] == true);
+    CHECK(all["skipped"] == Json({ "trim:share=0.01", "trim:share=0.1", "trim:share=0.5", "gmon" }));
+    const Json& scene = all["scenes"][0];
+    CHECK(pointOf(scene, "mc", 4, "path-density")["indirect"] != pointOf(scene, "mc", 4, "mean")["indirect"]);
+    CHECK(pointOf(scene, "aaf", 16, "path-density")["filter_ms"] > 0);
+}
+
 TEST_CASE("wrong calls end in one line")
 {
     const Workplace place;

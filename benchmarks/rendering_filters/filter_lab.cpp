@@ -66,6 +66,7 @@ render::Settings FilterLab::sized(render::Settings settings, std::uint32_t seed)
     settings.width = plan_.width;
     settings.height = plan_.height;
     settings.bounces = plan_.bounces;
+    settings.antialias = plan_.antialias;
     settings.seed = seed;
     return settings;
 }

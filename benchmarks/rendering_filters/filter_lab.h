@@ -24,6 +24,7 @@ struct FilterPlan : MeasurePlan {
         seeds = 1;
     }
     int bounces = 3;
+    bool antialias = false; ///< samples lie all over their pixels, and are filtered by their brightness
     std::vector<int> spp { 8, 64, 256, 1024 }; ///< of method mc
     std::vector<int> filteredSpp { 16, 64 }; ///< of method aaf, without a filter of samples and with path-density
     const OpenImageDenoise* denoiser = nullptr; ///< what the same images are denoised by as well; null: they are not

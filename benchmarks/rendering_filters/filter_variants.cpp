@@ -21,20 +21,22 @@ const std::vector<TableRow>& measuredVariants()
     return all;
 }
 
-/// Whether its filter is registered.
-bool isThere(const std::string& text)
+/// Whether its filter is registered, and frames of that kind may have it.
+bool isThere(const std::string& text, bool antialiased)
 {
     const render::Filter* filter = render::filterNamed(text.substr(0, text.find(':')));
-    return filter != nullptr;
+    return filter != nullptr
+        && (!antialiased || filter->stage() != render::Stage::Samples
+            || static_cast<const render::SampleFilter*>(filter)->kernelOfBins());
 }
 
 } // namespace
 
-std::vector<FilterVariant> allVariants(std::vector<std::string>& skipped)
+std::vector<FilterVariant> allVariants(bool antialiased, std::vector<std::string>& skipped)
 {
     std::vector<FilterVariant> out { variantOf(plainMean) };
     for (const auto& [text, mostSpp] : measuredVariants()) {
-        if (!isThere(text)) {
+        if (!isThere(text, antialiased)) {
             skipped.push_back(text);
         } else {
             out.push_back(variantOf(text));

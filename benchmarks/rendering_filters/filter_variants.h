@@ -25,8 +25,9 @@ inline constexpr const char* gmonVariant = "gmon";
 /// Follows the text of a variant whose image is denoised.
 inline constexpr const char* denoisedSuffix = ", denoised";
 
-/// What is measured where nobody chooses: of filters that are registered. The others' texts go to `skipped`.
-std::vector<FilterVariant> allVariants(std::vector<std::string>& skipped);
+/// What is measured where nobody chooses: of filters that are registered and that such frames may have. The others'
+/// texts go to `skipped`.
+std::vector<FilterVariant> allVariants(bool antialiased, std::vector<std::string>& skipped);
 
 /// From a filter as --add-filter takes it, or of plainMean. Throws UsageError as filterCall() does.
 FilterVariant variantOf(const std::string& text);

@@ -42,7 +42,7 @@ std::vector<SceneSource> knownScenes()
 std::vector<FilterVariant> variantsOf(const Call& call, std::vector<std::string>& skipped)
 {
     if (call.variants.empty()) {
-        return allVariants(skipped);
+        return allVariants(call.plan.antialias, skipped);
     }
     std::vector<FilterVariant> out { variantOf(plainMean) };
     for (const std::string& text : call.variants) {
@@ -69,7 +69,7 @@ Json skeleton(const FilterPlan& plan, const std::vector<FilterVariant>& variants
 {
     Json all = resultSkeleton("rendering_filters", device);
     all["plan"] = { { "width", plan.width }, { "height", plan.height }, { "bounces", plan.bounces },
-        { "spp", plan.spp }, { "aaf_spp", plan.filteredSpp }, { "seeds", plan.seeds },
+        { "antialias", plan.antialias }, { "spp", plan.spp }, { "aaf_spp", plan.filteredSpp }, { "seeds", plan.seeds },
         { "reference_spp", plan.referenceSpp } };
     all["variants"] = Json::array();
     for (const FilterVariant& variant : variants) {
@@ -90,7 +90,7 @@ int run(const Call& call)
     std::vector<std::string> skipped, missing;
     const std::vector<FilterVariant> variants = variantsOf(call, skipped);
     if (!skipped.empty()) {
-        fmt::print("skipped, for want of their filters: {}\n", fmt::join(skipped, " "));
+        fmt::print("skipped, since such frames have no such filters: {}\n", fmt::join(skipped, " "));
     }
     const std::vector<SceneSource> sources = chooseScenes(knownScenes(), call.scenes, missing);
     const OpenImageDenoise denoiser(call.python);
@@ -141,6 +141,7 @@ int main(int argc, char** argv)
         ->check(CLI::Range(0, 1 << 20));
     parser.add_option("--bounces", call.plan.bounces, "of indirect light (3)")
         ->check(CLI::Range(1, render::mostBounces));
+    parser.add_flag("--antialias", call.plan.antialias, "samples lie all over their pixels");
     parser.add_option("--repeats", call.plan.seeds, "images of each setting, with seeds of their own (1)")
         ->check(CLI::Range(1, 1000));
     parser.add_option("--size", call.size, "WxH (96x72)");
